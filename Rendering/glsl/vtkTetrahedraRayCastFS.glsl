@@ -1,0 +1,5 @@
+//VTK::System::Dec
+//VTK::Output::Dec
+void main()
+{
+}
