@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/MembraneNormals.h"
 
-// OpenMesh fills new properties with default-constructed vectors, which are uninitialised by design:
-// gcc 12 warns at -O2 and above. Nothing reads them before they are set.
+// OpenMesh fills new properties with default-constructed vectors, which are uninitialised by
+// design: gcc 12 warns at -O2 and above. Nothing reads them before they are set.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"

@@ -37,8 +37,10 @@ bool IsOpen(double cosine, double squaredMean)
   return cosine > 0.0 && cosine * cosine > SmallestCosine * SmallestCosine * squaredMean;
 }
 
+}
+
 /// The triangle in which the plane through a point cuts the rays of a cell, relative to the point.
-struct CrossSection
+struct RefractionCells::CrossSection
 {
   glm::dvec3 toCorner[3];
   glm::dvec3 cut[3];
@@ -96,8 +98,6 @@ struct CrossSection
       area.z >= -std::max(tolerance * std::sqrt(edge[2]), wallArea);
   }
 };
-
-}
 
 //------------------------------------------------------------------------------
 EyeStatus RefractionCells::Update(const Membrane& membrane, const glm::dvec3& eye, double exterior,
@@ -185,6 +185,12 @@ bool RefractionCells::IsEyeOnFacet(const Membrane::Facet& facet) const
 }
 
 //------------------------------------------------------------------------------
+double RefractionCells::GetLargestStretch()
+{
+  return 1.0 + 1.0 / SmallestCosine;
+}
+
+//------------------------------------------------------------------------------
 void RefractionCells::CountRays(const std::vector<RayKind>& kinds)
 {
   this->Report = RayReport();
@@ -237,8 +243,7 @@ bool RefractionCells::Contains(
     return false;
   }
   hit.weights = area / (sign * sum);
-  const glm::dvec3 depth(cross.depth[0], cross.depth[1], cross.depth[2]);
-  if (!(glm::dot(hit.weights, depth) >= -cross.GetTolerance()))
+  if (!this->IsBehind(corner, cross, hit.weights))
   {
     return false;
   }
@@ -247,6 +252,31 @@ bool RefractionCells::Contains(
       corner[1]->position - corner[0]->position, corner[2]->position - corner[0]->position));
   hit.orientation = upright * sign >= 0.0 ? 1 : -1;
   return true;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionCells::IsBehind(
+  const CornerTriple& corner, const CrossSection& cross, const glm::dvec3& weights) const
+{
+  const double tolerance = cross.GetTolerance();
+  const glm::dvec3 depth(cross.depth[0], cross.depth[1], cross.depth[2]);
+  if (glm::dot(weights, depth) >= -tolerance)
+  {
+    return true;
+  }
+  // Just behind a facet the plane cuts some rays in front of their corners, and the sight point
+  // that follows may lie behind the point by a second-order amount. The facet itself decides then,
+  // as long as the plane does not pass in front of all of it.
+  if (!(std::max({ depth.x, depth.y, depth.z }) >= -tolerance))
+  {
+    return false;
+  }
+  const glm::dvec3 normal = glm::cross(
+    corner[1]->position - corner[0]->position, corner[2]->position - corner[0]->position);
+  const double eyeSide = glm::dot(this->Eye - corner[0]->position, normal);
+  const double pointSide = -glm::dot(cross.toCorner[0], normal);
+  return (eyeSide < 0.0 ? -pointSide : pointSide) <=
+    CornerRounding * glm::length(cross.toCorner[0]) * glm::length(normal);
 }
 
 //------------------------------------------------------------------------------

@@ -64,6 +64,9 @@ public:
   /// A tube around everything that Contains accepts for `facet` without wall.
   TubeBounds GetBounds(std::int32_t facet) const;
 
+  /// How many times farther from a point than the corner of a cell its ray may cut the plane.
+  static double GetLargestStretch();
+
   const glm::dvec3& GetEye() const { return this->Eye; }
   const RayReport& GetReport() const { return this->Report; }
 
@@ -76,7 +79,11 @@ private:
 
   using CornerTriple = std::array<const Corner*, 3>;
 
+  struct CrossSection;
+
   CornerTriple GetCorners(std::int32_t facet) const;
+  bool IsBehind(
+    const CornerTriple& corner, const CrossSection& cross, const glm::dvec3& weights) const;
   bool IsEyeOnFacet(const Membrane::Facet& facet) const;
   void CountRays(const std::vector<RayKind>& kinds);
 

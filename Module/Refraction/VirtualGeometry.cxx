@@ -120,13 +120,22 @@ VirtualVertex VirtualGeometry::SolvePointByBruteForce(const glm::dvec3& point) c
 bool VirtualGeometry::HasOneCell(const glm::dvec3& point, double wall) const
 {
   const glm::dvec3 local = point - this->Surface.GetOrigin();
-  const auto facets = static_cast<std::int32_t>(this->Surface.GetFacets().size());
-  int count = 0;
-  for (std::int32_t facet = 0; count < 2 && this->IsInReach(local) && facet < facets; ++facet)
+  if (!this->IsInReach(local))
   {
-    CellHit hit;
-    count += this->Cells.Contains(facet, local, wall, hit);
+    return false;
   }
+  // A point that is outside by `wall` in each coordinate is at most 2 wall edges away from the
+  // cell.
+  const double edge = 2.0 * RefractionCells::GetLargestStretch() *
+    (glm::length(local) + std::sqrt(3.0) * this->Surface.GetRadius());
+  int count = 0;
+  this->Tree.Visit(local, 2.0 * wall * edge,
+    [this, &local, wall, &count](std::int32_t facet)
+    {
+      CellHit hit;
+      count += this->Cells.Contains(facet, local, wall, hit);
+      return count < 2 ? std::numeric_limits<std::int32_t>::max() : 0;
+    });
   return count == 1;
 }
 

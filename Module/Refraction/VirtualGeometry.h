@@ -62,7 +62,7 @@ public:
   VirtualVertex SolvePointByBruteForce(const glm::dvec3& point) const;
 
   /// Whether exactly one cell holds `point` with walls widened by `wall`, in barycentric
-  /// coordinates: the thesis leaves all other points out of its statistics. A loop over all facets.
+  /// coordinates: the thesis leaves all other points out of its statistics.
   bool HasOneCell(const glm::dvec3& point, double wall) const;
 
 private:
