@@ -109,7 +109,6 @@ private:
   vtkSmartPointer<vtkTextureObject> StatisticsImage;
   int Size[2] = { 0, 0 };
   int Tiles[2] = { 0, 0 };
-  int TileSize = 0;
   RayStatistics Statistics;
   bool StatisticsStale = false;
   std::int64_t UploadedBytes = 0;
