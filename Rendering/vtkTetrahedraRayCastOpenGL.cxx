@@ -1,0 +1,464 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTetrahedraRayCastOpenGL.h"
+
+#include "vtkTetrahedraComposeFS.h"
+#include "vtkTetrahedraEntryTilesFS.h"
+#include "vtkTetrahedraRayCastFS.h"
+#include "vtkTetrahedraRays.h"
+
+#include "vtkOpenGLError.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLQuadHelper.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkPixelBufferObject.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Texels of four faces that list a tile's entries; also in vtkTetrahedraEntryTilesFS. */
+constexpr unsigned int TileLayers = 8;
+/** Pixels along a tile's side: 8 overflows the lists of 7-14 % of the tiles of meshes of 200k
+ * cells. */
+constexpr int TileSize = 4;
+
+/**
+ * Draws to the first `count` color attachments of the bound target. VTK 9.1 skips the OpenGL call
+ * if another framebuffer drew to attachments of the same numbers before, which leaves this one with
+ * its default, the first attachment alone (seen by the counters: no steps).
+ */
+void DrawToAttachments(vtkOpenGLFramebufferObject* target, unsigned int count)
+{
+  target->ActivateDrawBuffers(count);
+  std::vector<GLenum> attachments(count);
+  std::iota(attachments.begin(), attachments.end(), GLenum{ GL_COLOR_ATTACHMENT0 });
+  glDrawBuffers(static_cast<GLsizei>(count), attachments.data());
+}
+
+}
+
+//------------------------------------------------------------------------------
+RayCastOpenGL::RayCastOpenGL() = default;
+
+//------------------------------------------------------------------------------
+RayCastOpenGL::~RayCastOpenGL() = default;
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
+{
+  if (window != this->Window)
+  {
+    this->Release();
+    this->Window = window;
+  }
+  GLint version[2] = { 0, 0 };
+  glGetIntegerv(GL_MAJOR_VERSION, &version[0]);
+  glGetIntegerv(GL_MINOR_VERSION, &version[1]);
+  if (version[0] < 3 || (version[0] == 3 && version[1] < 2))
+  {
+    return "OpenGL 3.2 is needed, the window has " + std::to_string(version[0]) + "." +
+      std::to_string(version[1]);
+  }
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+bool RayCastOpenGL::HasMesh() const
+{
+  return this->Cells.IsFilled() && this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
+}
+
+//------------------------------------------------------------------------------
+bool RayCastOpenGL::HasVertices() const
+{
+  return this->Vertices.IsFilled();
+}
+
+//------------------------------------------------------------------------------
+bool RayCastOpenGL::HasIntervals() const
+{
+  return this->Intervals.IsFilled();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::Count(OpenGLTable& table, const std::string& error)
+{
+  this->UploadedBytes += table.GetBytes();
+  return error;
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const BoundaryTree& tree)
+{
+  // A node's indices travel as floats, which are whole up to 2^24.
+  const std::int64_t largestIndex =
+    static_cast<std::int64_t>(std::max(tree.GetNodes().size(), tree.GetFaces().size()));
+  if (largestIndex > (std::int64_t{ 1 } << 24))
+  {
+    return "a mesh with " + std::to_string(tree.GetFaces().size()) +
+      " boundary faces exceeds the limit of 16777216";
+  }
+  const auto* cellValues = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
+  const std::vector<std::int32_t> cells(cellValues, cellValues + 8 * mesh.GetNumberOfCells());
+  std::string error = this->Cells.Upload(this->Window, cells, 1, 8);
+  if (!this->Count(this->Cells, error).empty())
+  {
+    return error;
+  }
+
+  std::vector<float> nodes;
+  nodes.reserve(8 * tree.GetNodes().size());
+  for (const auto& node : tree.GetNodes())
+  {
+    nodes.insert(nodes.end(),
+      { node.Center.x, node.Center.y, node.Center.z, static_cast<float>(node.Skip), node.Half.x,
+        node.Half.y, node.Half.z, static_cast<float>(node.Face) });
+  }
+  error = this->TreeNodes.Upload(this->Window, nodes, 4, 2);
+  if (!this->Count(this->TreeNodes, error).empty())
+  {
+    return error;
+  }
+
+  std::vector<std::int32_t> faces;
+  faces.reserve(4 * tree.GetFaces().size());
+  for (const auto& face : tree.GetFaces())
+  {
+    const auto& v = face.Vertices;
+    faces.insert(faces.end(), { face.Outward > 0 ? v[0] : ~v[0], v[1], v[2], face.CellFace });
+  }
+  error = this->TreeFaces.Upload(this->Window, faces, 4, 1);
+  return this->Count(this->TreeFaces, error);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadVertices(
+  const TetrahedralMesh& mesh, const std::vector<float>& scalars)
+{
+  std::vector<float> values;
+  values.reserve(4 * scalars.size());
+  for (std::size_t v = 0; v < scalars.size(); ++v)
+  {
+    const glm::vec3& p = mesh.GetPositions()[v];
+    values.insert(values.end(), { p.x, p.y, p.z, scalars[v] });
+  }
+  const std::string error = this->Vertices.Upload(this->Window, values, 4, 1);
+  return this->Count(this->Vertices, error);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadIntervals(const std::vector<TransferFunctionInterval>& intervals)
+{
+  std::vector<float> values;
+  values.reserve(12 * intervals.size());
+  for (const auto& i : intervals)
+  {
+    values.insert(values.end(),
+      { i.Lower, i.Upper, i.Attenuation, i.AttenuationSlope, i.Color.r, i.Color.g, i.Color.b, 0.0f,
+        i.ColorSlope.r, i.ColorSlope.g, i.ColorSlope.b, 0.0f });
+  }
+  const std::string error = this->Intervals.Upload(this->Window, values, 4, 3);
+  return this->Count(this->Intervals, error);
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::GetViewport(int viewport[4]) const
+{
+  this->Window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState::ScopedglViewport viewportScope(state);
+  vtkOpenGLState::ScopedglScissor scissorScope(state);
+  vtkOpenGLState::ScopedglEnableDisable scissorTestScope(state, GL_SCISSOR_TEST);
+  vtkOpenGLState::ScopedglEnableDisable depthTestScope(state, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable blendScope(state, GL_BLEND);
+  vtkOpenGLState::ScopedglEnableDisable cullScope(state, GL_CULL_FACE);
+  vtkOpenGLState::ScopedglDepthMask depthMaskScope(state);
+  vtkOpenGLState::ScopedglColorMask colorMaskScope(state);
+  vtkOpenGLState::ScopedglBlendFuncSeparate blendFuncScope(state);
+  vtkOpenGLState::ScopedglActiveTexture activeTextureScope(state);
+
+  int viewport[4];
+  this->GetViewport(viewport);
+  this->Depth.Update(this->Window, viewport);
+  std::string error = this->Resize(viewport[2], viewport[3]);
+  if (!error.empty())
+  {
+    return error;
+  }
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglDepthMask(GL_FALSE);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+
+  state->PushFramebufferBindings();
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDisable(GL_BLEND);
+  error = this->ListEntries(frame);
+  if (error.empty())
+  {
+    error = this->CastRays(frame);
+  }
+  state->PopFramebufferBindings();
+  return error.empty() ? this->Blend(viewport) : error;
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::Resize(int width, int height)
+{
+  if (width == this->Size[0] && height == this->Size[1])
+  {
+    return std::string();
+  }
+  this->Image = vtkSmartPointer<vtkTextureObject>::New();
+  this->StatisticsImage = vtkSmartPointer<vtkTextureObject>::New();
+  this->EntryTiles = vtkSmartPointer<vtkTextureObject>::New();
+  for (const auto& texture : { this->Image, this->StatisticsImage, this->EntryTiles })
+  {
+    texture->SetContext(this->Window);
+    texture->SetMinificationFilter(vtkTextureObject::Nearest);
+    texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  }
+  this->Tiles[0] = (width + TileSize - 1) / TileSize;
+  this->Tiles[1] = (height + TileSize - 1) / TileSize;
+  if (!this->Image->Allocate2D(width, height, 4, VTK_FLOAT) ||
+    !this->StatisticsImage->Allocate2D(width, height, 2, VTK_FLOAT) ||
+    !this->EntryTiles->Allocate3D(this->Tiles[0], this->Tiles[1], TileLayers, 4, VTK_FLOAT))
+  {
+    this->Size[0] = this->Size[1] = 0;
+    return "no float image of " + std::to_string(width) + " x " + std::to_string(height) +
+      " pixels can be made on the graphics device";
+  }
+  this->Size[0] = width;
+  this->Size[1] = height;
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::ReadyQuad(
+  std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragmentShader)
+{
+  if (!quad)
+  {
+    std::string source(fragmentShader);
+    vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
+    quad = std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, source.c_str(), "");
+  }
+  else
+  {
+    this->Window->GetShaderCache()->ReadyShaderProgram(quad->Program);
+  }
+  const bool ready = quad->Program && quad->Program->GetCompiled();
+  return ready ? std::string() : "a shader does not compile on this graphics device";
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame)
+{
+  if (!this->TileTarget)
+  {
+    this->TileTarget = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+    this->TileTarget->SetContext(this->Window);
+  }
+  this->TileTarget->Bind();
+  for (unsigned int layer = 0; layer < TileLayers; ++layer)
+  {
+    this->TileTarget->AddColorAttachment(layer, this->EntryTiles, layer);
+  }
+  DrawToAttachments(this->TileTarget, TileLayers);
+  this->Window->GetState()->vtkglViewport(0, 0, this->Tiles[0], this->Tiles[1]);
+
+  const std::string error = this->ReadyQuad(this->TileLister, vtkTetrahedraEntryTilesFS);
+  if (!error.empty())
+  {
+    return error;
+  }
+  vtkShaderProgram* program = this->TileLister->Program;
+  this->ActivateRays(program, frame.Rays);
+  const float tiles[2] = { static_cast<float>(this->Tiles[0]), static_cast<float>(this->Tiles[1]) };
+  program->SetUniform2f("tileCount", tiles);
+  this->TileLister->Render();
+  this->DeactivateRays();
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
+{
+  if (!this->ImageTarget)
+  {
+    this->ImageTarget = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+    this->ImageTarget->SetContext(this->Window);
+  }
+  this->ImageTarget->Bind();
+  this->ImageTarget->AddColorAttachment(0, this->Image);
+  this->ImageTarget->AddColorAttachment(1, this->StatisticsImage);
+  DrawToAttachments(this->ImageTarget, 2);
+  this->Window->GetState()->vtkglViewport(0, 0, this->Size[0], this->Size[1]);
+
+  const std::string error = this->ReadyQuad(this->RayCaster, vtkTetrahedraRayCastFS);
+  if (!error.empty())
+  {
+    return error;
+  }
+  vtkShaderProgram* program = this->RayCaster->Program;
+  this->ActivateRays(program, frame.Rays);
+  this->Cells.Activate(program, "cells");
+  this->Intervals.Activate(program, "intervals");
+  this->EntryTiles->Activate();
+  program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
+  this->Depth.GetTexture()->Activate();
+  program->SetUniformi("opaqueDepth", this->Depth.GetTexture()->GetTextureUnit());
+  this->SetCastUniforms(program, frame);
+  this->RayCaster->Render();
+  this->Depth.GetTexture()->Deactivate();
+  this->EntryTiles->Deactivate();
+  this->Intervals.Deactivate();
+  this->Cells.Deactivate();
+  this->DeactivateRays();
+  this->StatisticsStale = true;
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::ActivateRays(vtkShaderProgram* program, const RayFrame& rays)
+{
+  const auto set2 = [program](const char* name, const glm::dvec2& value)
+  { program->SetUniform2f(name, glm::value_ptr(glm::vec2(value))); };
+  const auto set3 = [program](const char* name, const glm::dvec3& value)
+  { program->SetUniform3f(name, glm::value_ptr(glm::vec3(value))); };
+
+  this->Vertices.Activate(program, "vertices");
+  this->TreeNodes.Activate(program, "treeNodes");
+  this->TreeFaces.Activate(program, "treeFaces");
+  program->SetUniformi("numberOfNodes", static_cast<int>(this->TreeNodes.GetNumberOfRows()));
+  program->SetUniformf("tileSize", static_cast<float>(TileSize));
+  set2("imageCenter", 0.5 * glm::dvec2(this->Size[0], this->Size[1]));
+  set3("rowX", rays.RowX);
+  set3("rowY", rays.RowY);
+  set3("rowDepth", rays.RowDepth);
+  set2("originBase", rays.Origin.Base);
+  set2("originPerColumn", rays.Origin.PerColumn);
+  set2("originPerRow", rays.Origin.PerRow);
+  set2("slopeBase", rays.Slope.Base);
+  set2("slopePerColumn", rays.Slope.PerColumn);
+  set2("slopePerRow", rays.Slope.PerRow);
+  program->SetUniformi("enteringSign", rays.Handedness);
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::DeactivateRays()
+{
+  this->TreeFaces.Deactivate();
+  this->TreeNodes.Deactivate();
+  this->Vertices.Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFrame& frame)
+{
+  const RayFrame& rays = frame.Rays;
+  program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
+  program->SetUniformi("numberOfIntervals", static_cast<int>(this->Intervals.GetNumberOfRows()));
+  glm::mat3 viewToWorld(rays.ViewToWorld);
+  program->SetUniformMatrix3x3("viewToWorld", glm::value_ptr(viewToWorld));
+  program->SetUniformf("nearDepth", static_cast<float>(rays.NearDepth));
+  program->SetUniform2f("depthNumerator", glm::value_ptr(glm::vec2(rays.DepthNumerator)));
+  program->SetUniform2f("depthDenominator", glm::value_ptr(glm::vec2(rays.DepthDenominator)));
+  program->SetUniformf(
+    "terminationTransmittance", static_cast<float>(1.0 - frame.EarlyTerminationOpacity));
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::Blend(const int viewport[4])
+{
+  vtkOpenGLState* state = this->Window->GetState();
+  state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  const std::string error = this->ReadyQuad(this->Composer, vtkTetrahedraComposeFS);
+  if (!error.empty())
+  {
+    return error;
+  }
+  this->Image->Activate();
+  this->Composer->Program->SetUniformi("image", this->Image->GetTextureUnit());
+  this->Composer->Render();
+  this->Image->Deactivate();
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+RayStatistics RayCastOpenGL::GetStatistics()
+{
+  if (!this->StatisticsStale || !this->Window || !this->StatisticsImage)
+  {
+    return this->Statistics;
+  }
+  this->Window->MakeCurrent();
+  unsigned int size[2] = { this->StatisticsImage->GetWidth(), this->StatisticsImage->GetHeight() };
+  vtkIdType increments[2] = { 0, 0 };
+  std::vector<float> values(std::size_t{ 2 } * size[0] * size[1]);
+  vtkSmartPointer<vtkPixelBufferObject> pixels;
+  pixels.TakeReference(this->StatisticsImage->Download());
+  if (!pixels || !pixels->Download2D(VTK_FLOAT, values.data(), size, 2, increments))
+  {
+    return this->Statistics;
+  }
+  this->Statistics = RayStatistics();
+  for (std::size_t i = 0; i < values.size(); i += 2)
+  {
+    this->Statistics.Steps += static_cast<std::int64_t>(values[i]);
+    this->Statistics.Rays += values[i] > 0.0f ? 1 : 0;
+    this->Statistics.Lost += static_cast<std::int64_t>(values[i + 1]);
+  }
+  this->StatisticsStale = false;
+  return this->Statistics;
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::Release()
+{
+  if (this->Window)
+  {
+    this->Window->MakeCurrent();
+    this->GetStatistics();
+  }
+  for (OpenGLTable* table :
+    { &this->Vertices, &this->Cells, &this->TreeNodes, &this->TreeFaces, &this->Intervals })
+  {
+    table->Release();
+  }
+  if (this->Window)
+  {
+    this->Depth.Release(this->Window);
+  }
+  this->TileLister.reset();
+  this->RayCaster.reset();
+  this->Composer.reset();
+  this->TileTarget = nullptr;
+  this->ImageTarget = nullptr;
+  this->EntryTiles = nullptr;
+  this->Image = nullptr;
+  this->StatisticsImage = nullptr;
+  this->Size[0] = this->Size[1] = 0;
+  this->StatisticsStale = false;
+  this->Window = nullptr;
+}
+
+}

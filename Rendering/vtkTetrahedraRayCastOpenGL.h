@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkTetrahedraRayCastOpenGL_h
+#define vtkTetrahedraRayCastOpenGL_h
+
+#include "Volume/BoundaryTree.h"
+#include "Volume/RayFrame.h"
+#include "Volume/TetrahedralMesh.h"
+#include "Volume/TransferFunction.h"
+
+#include "vtkOpenGLDepthCopy.h"
+#include "vtkOpenGLTable.h"
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkOpenGLFramebufferObject;
+class vtkOpenGLQuadHelper;
+class vtkOpenGLRenderWindow;
+class vtkOpenGLState;
+class vtkShaderProgram;
+class vtkTextureObject;
+
+namespace meniscus
+{
+
+/** What a frame needs beside the tables. */
+struct RayCastFrame
+{
+  RayFrame Rays;
+  double EarlyTerminationOpacity;
+};
+
+/** Sums over the rays of a frame. */
+struct RayStatistics
+{
+  std::int64_t Steps = 0;
+  std::int64_t Rays = 0;
+  std::int64_t Lost = 0;
+};
+
+/**
+ * The ray caster on OpenGL 3.2: tables in texture buffers; a pass that lists the possible entries
+ * of each tile of the image, one that casts the rays into a float image of the viewport's size, and
+ * one that blends it into the framebuffer. All calls want the window's context to be current.
+ * Errors are texts, empty if there is none.
+ */
+class RayCastOpenGL
+{
+public:
+  RayCastOpenGL();
+  ~RayCastOpenGL();
+  RayCastOpenGL(const RayCastOpenGL&) = delete;
+  void operator=(const RayCastOpenGL&) = delete;
+
+  /** Binds to a window; on a change of window all tables are gone. */
+  std::string SetWindow(vtkOpenGLRenderWindow* window);
+  bool HasMesh() const;
+  bool HasVertices() const;
+  bool HasIntervals() const;
+
+  std::string UploadMesh(const TetrahedralMesh& mesh, const BoundaryTree& tree);
+  /** @param scalars  one normalised scalar per vertex. */
+  std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
+  std::string UploadIntervals(const std::vector<TransferFunctionInterval>& intervals);
+
+  /** Viewport of the current framebuffer: x, y, width, height. */
+  void GetViewport(int viewport[4]) const;
+
+  /** Casts the rays of the current viewport and blends them into the current framebuffer. */
+  std::string Draw(const RayCastFrame& frame);
+
+  /** Of the last frame; read back on the first call after it. */
+  RayStatistics GetStatistics();
+
+  std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
+
+  void Release();
+
+private:
+  std::string Count(OpenGLTable& table, const std::string& error);
+  std::string Resize(int width, int height);
+  std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragmentShader);
+  std::string ListEntries(const RayCastFrame& frame);
+  std::string CastRays(const RayCastFrame& frame);
+  std::string Blend(const int viewport[4]);
+  void ActivateRays(vtkShaderProgram* program, const RayFrame& rays);
+  void DeactivateRays();
+  void SetCastUniforms(vtkShaderProgram* program, const RayCastFrame& frame);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  OpenGLTable Vertices;
+  OpenGLTable Cells;
+  OpenGLTable TreeNodes;
+  OpenGLTable TreeFaces;
+  OpenGLTable Intervals;
+  OpenGLDepthCopy Depth;
+  std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
+  std::unique_ptr<vtkOpenGLQuadHelper> RayCaster;
+  std::unique_ptr<vtkOpenGLQuadHelper> Composer;
+  vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;
+  vtkSmartPointer<vtkOpenGLFramebufferObject> ImageTarget;
+  vtkSmartPointer<vtkTextureObject> EntryTiles;
+  vtkSmartPointer<vtkTextureObject> Image;
+  vtkSmartPointer<vtkTextureObject> StatisticsImage;
+  int Size[2] = { 0, 0 };
+  int Tiles[2] = { 0, 0 };
+  RayStatistics Statistics;
+  bool StatisticsStale = false;
+  std::int64_t UploadedBytes = 0;
+};
+
+}
+
+#endif
