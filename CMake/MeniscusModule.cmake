@@ -31,6 +31,10 @@ vtk_module_scan(
 # being configured. Point it to the folder of the body instead (private property, stable 9.1 to 9.5).
 set_property(GLOBAL PROPERTY "_vtk_module_Meniscus::Meniscus_file"
   "${CMAKE_CURRENT_SOURCE_DIR}/Module/vtk.module")
+if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
+  # The plugin's target must be called Meniscus, as the plugin is (likewise a private property).
+  set_property(GLOBAL PROPERTY "_vtk_module_Meniscus::Meniscus_target_name" MeniscusModule)
+endif ()
 
 vtk_module_build(
   MODULES   ${_meniscus_modules}
