@@ -91,8 +91,9 @@ configure_and_build()
   cmake --build --preset "$preset" --parallel "$JOBS"
 }
 
-# with_display COMMAND...: VTK 9.1 and ParaView need an X display, also off screen.
+# with_display COMMAND...: VTK 9.1 and ParaView need an X display, also off screen. Without
+# -noreset the server starts anew whenever its last client leaves, and refuses those who come then.
 with_display()
 {
-  xvfb-run -a -s "-screen 0 1280x1024x24" "$@"
+  xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$@"
 }

@@ -23,6 +23,9 @@ def run(test):
     except BaseException:
         traceback.print_exc()
         status = 1
+    # ParaView crashes if the process exits while a view has a window.
+    for view in simple.GetRenderViews():
+        simple.Delete(view)
     sys.stdout.flush()
     sys.stderr.flush()
     sys.exit(status)

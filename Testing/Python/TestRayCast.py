@@ -36,7 +36,7 @@ class TestRayCast(unittest.TestCase):
     def count_drawn(self):
         self.window.Render()
         pixels = vtkUnsignedCharArray()
-        self.window.GetPixelData(0, 0, SIZE - 1, SIZE - 1, 0, pixels)
+        self.window.GetPixelData(0, 0, SIZE - 1, SIZE - 1, 0, pixels, 0)
         return sum(max(pixels.GetTuple3(i)) > 2 for i in range(SIZE * SIZE))
 
     def test_draws(self):
