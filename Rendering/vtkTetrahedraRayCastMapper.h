@@ -2,7 +2,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTetrahedraRayCastMapper
- * @brief   ray casts a tetrahedral vtkUnstructuredGrid
+ * @brief   volume-renders a tetrahedral vtkUnstructuredGrid by exact ray casting
+ *
+ * Casts one ray per pixel through the mesh, from cell to cell across shared faces, and integrates
+ * the density-emitter model in closed form. The image does not depend on a sampling distance.
+ *
+ * Input: a vtkUnstructuredGrid of tetrahedra with a point array of one component, chosen by the
+ * scalar mode and array selection of vtkAbstractVolumeMapper. Any mesh of tetrahedra is accepted:
+ * non-convex, disconnected, cyclic, with inverted cells, cells of zero volume, duplicate points and
+ * faces of more than two cells. Cells that vtkGhostType marks as duplicate or hidden are left out.
+ * Cells with a point index out of range, a repeated point or a point that is not finite are left
+ * out and counted. Cells with a vertex whose scalar is not finite are transparent.
+ *
+ * Optical model: colour and opacity come from the vtkVolumeProperty. Opacity becomes an attenuation
+ * coefficient as SetOpacityModel() says, per ScalarOpacityUnitDistance, lengths measured in world
+ * coordinates. Emitted colour is weighted by the attenuation, output is premultiplied RGBA, blended
+ * over what is in the framebuffer; rays end at the opaque geometry there. A transfer function that
+ * is not piecewise linear (HSV, Lab or diverging space, logarithmic scale, midpoint, sharpness,
+ * OPACITY_PER_UNIT_DISTANCE) is sampled between its nodes until linear interpolation is off by less
+ * than 1/4096 of the full range of colour and of alpha over the unit distance.
+ *
+ * Method:
+ * 1. Vertices and cells are ordered along a Morton curve; cells are linked across faces. Once per
+ *    mesh. 32 bytes per cell, 16 per vertex, about 28 per boundary face of GPU memory.
+ * 2. The entries of a ray are found in a bounding volume hierarchy over the boundary faces.
+ * 3. In the projection along the ray the exit of a cell follows from the signs of its edges, which
+ *    are exact (vertices are rounded to a grid of 2^-22 of the mesh's radius about the ray). A ray
+ *    through an edge or a vertex counts as displaced by (e, e^2) for an arbitrarily small e. A walk
+ *    that begins on the boundary therefore ends on the boundary: no ray is lost, none runs for
+ * ever.
+ * 4. Within a cell the scalar is linear along the ray. The segment is split at the transfer
+ *    function's nodes; every piece has linear attenuation and colour and is integrated in closed
+ *    form up to an error of 2e-6.
+ *
+ * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first
+ * counts up to its exit.
+ *
+ * After: M. Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral
+ * Meshes", IEEE Visualization 2003. Deviations: one pass with a loop instead of one pass per cell;
+ * edge signs instead of plane equations (Eq. 1); closed-form integration (K. Moreland, E. Angel, "A
+ * Fast High Accuracy Volume Renderer for Unstructured Data", 2004) instead of pre-integrated tables
+ * (Eqs. 3, 4); boundary entries instead of imaginary cells.
+ *
+ * Needs OpenGL 3.2. Work is done where its input changes: see the counters.
+ *
+ * @note Limits of this version: composite blending; one component; no shading, gradient opacity or
+ * clipping planes (a warning says so once); not drawn in hardware selection passes; up to 2^29
+ * cells, and tables within GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
+ *
+ * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
 #ifndef vtkTetrahedraRayCastMapper_h
 #define vtkTetrahedraRayCastMapper_h
@@ -12,6 +60,9 @@
 
 #include <memory> // For std::unique_ptr
 
+class vtkDataArray;
+class vtkUnstructuredGrid;
+
 class VTKMENISCUS_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
 {
 public:
@@ -19,7 +70,114 @@ public:
   vtkTypeMacro(vtkTetrahedraRayCastMapper, vtkUnstructuredGridVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  enum OpacityModels
+  {
+    ATTENUATION_COEFFICIENT = 0,
+    OPACITY_PER_UNIT_DISTANCE = 1
+  };
+
+  ///@{
+  /**
+   * What an opacity of the transfer function means over a length L, with the property's
+   * ScalarOpacityUnitDistance as unit. ATTENUATION_COEFFICIENT, the default, is what VTK's
+   * unstructured grid mappers do: alpha = 1 - exp(-L * opacity / unit). OPACITY_PER_UNIT_DISTANCE
+   * is what its image data mappers do: alpha = 1 - (1 - opacity)^(L / unit); there, opacities above
+   * 1 - 2^-24 count as that.
+   */
+  vtkSetClampMacro(OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
+  vtkGetMacro(OpacityModel, int);
+  ///@}
+
+  enum Backends
+  {
+    AUTOMATIC = 0,
+    OPENGL = 1,
+    NATIVE = 2
+  };
+
+  ///@{
+  /**
+   * What runs the ray caster: OPENGL, a fragment shader; NATIVE, the CPU; AUTOMATIC, the default,
+   * the fastest that the window's context allows. NATIVE is not available in this version: asking
+   * for it warns once and renders with OPENGL.
+   */
+  vtkSetClampMacro(Backend, int, AUTOMATIC, NATIVE);
+  vtkGetMacro(Backend, int);
+  ///@}
+
+  /** The backend of the last Render(); AUTOMATIC if nothing has been rendered. */
+  vtkGetMacro(ActiveBackend, int);
+
+  enum Integrations
+  {
+    EXACT = 0,
+    PRE_INTEGRATED = 1
+  };
+
+  ///@{
+  /**
+   * How ray segments are integrated: EXACT, the default, in closed form; PRE_INTEGRATED, by the
+   * tables of the paper. PRE_INTEGRATED is not available in this version: asking for it warns once
+   * and renders with EXACT.
+   */
+  vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
+  vtkGetMacro(Integration, int);
+  ///@}
+
+  ///@{
+  /**
+   * Opacity at which a ray ends, in [0, 1]. A pixel is off by at most 1 minus this. Default
+   * 1 - 2^-17; 1 integrates every ray to its end.
+   */
+  vtkSetClampMacro(EarlyTerminationOpacity, double, 0.0, 1.0);
+  vtkGetMacro(EarlyTerminationOpacity, double);
+  ///@}
+
+  ///@{
+  /**
+   * Work done since construction: builds of the mesh tables, updates of vertex scalars, reductions
+   * of the volume property to control points, builds of the set of active cells (all cells, once
+   * per mesh, in this version).
+   */
+  vtkTypeInt64 GetNumberOfMeshBuilds();
+  vtkTypeInt64 GetNumberOfScalarUpdates();
+  vtkTypeInt64 GetNumberOfTransferFunctionBuilds();
+  vtkTypeInt64 GetNumberOfActiveSetBuilds();
+  ///@}
+
+  /**
+   * Bytes of mesh, scalar and transfer function tables sent to the graphics device since
+   * construction. A camera move sends none.
+   */
+  vtkTypeInt64 GetUploadedBytes();
+
+  ///@{
+  /**
+   * Of the current mesh: cells that rays can visit, and input cells left out because of a point
+   * index out of range, a repeated point or a point that is not finite.
+   */
+  vtkTypeInt64 GetNumberOfActiveCells();
+  vtkTypeInt64 GetNumberOfRejectedCells();
+  ///@}
+
+  ///@{
+  /**
+   * Of the last frame: cells crossed, rays that entered the mesh, and rays whose walk did not end
+   * on the boundary (0, as long as the graphics driver computes what the shader says). Read back
+   * from the graphics device when first asked for after a frame; 0 without one.
+   */
+  vtkTypeInt64 GetNumberOfTraversalSteps();
+  vtkTypeInt64 GetNumberOfRays();
+  vtkTypeInt64 GetNumberOfLostRays();
+  ///@}
+
+  /**
+   * Draws the volume into the current framebuffer and viewport. Input that cannot be drawn gives an
+   * error and leaves the picture as it is.
+   */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
+
+  /** Frees all graphics resources; the next Render() makes them again. */
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
 protected:
@@ -29,6 +187,20 @@ protected:
 private:
   vtkTetrahedraRayCastMapper(const vtkTetrahedraRayCastMapper&) = delete;
   void operator=(const vtkTetrahedraRayCastMapper&) = delete;
+
+  vtkUnstructuredGrid* ValidateInput();
+  vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
+  void WarnAboutUnavailable(vtkVolume* volume);
+  bool UpdateMesh(vtkUnstructuredGrid* grid);
+  void UpdateScalars(vtkDataArray* scalars);
+  void UpdateTransferFunction(vtkVolume* volume);
+  bool Draw(vtkRenderer* renderer, vtkVolume* volume);
+
+  int OpacityModel = ATTENUATION_COEFFICIENT;
+  int Backend = AUTOMATIC;
+  int ActiveBackend = AUTOMATIC;
+  int Integration = EXACT;
+  double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

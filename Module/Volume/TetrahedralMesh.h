@@ -1,10 +1,140 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Tables of a tetrahedral mesh for ray casting: renumbered vertices and cells, neighbours across
+ * faces, and the oriented boundary. Built once per mesh, independent of scalars and camera.
+ *
+ * Method:
+ * 1. Cells with an index out of range, a repeated vertex or a vertex that is not finite are
+ *    rejected and counted. Zero-volume and inverted cells are kept: the mesh needs them to be
+ *    conforming.
+ * 2. Vertices and cells are renumbered along a Morton curve, so that neighbours on a ray are
+ *    neighbours in memory. The vertices of a cell are stored in ascending order; the local index of
+ *    a vertex is its rank, which gives every tie in the walk one answer in all cells.
+ * 3. Cells are linked across faces that exactly two cells share. A face of three or more cells is
+ *    boundary on all sides, and rays cross it as a gap of length zero.
+ * 4. Orientation is combinatorial: a flood fill over linked faces, not the sign of each volume. A
+ *    link that contradicts the flood fill (a non-orientable ring of cells) is cut. The sign of a
+ *    component is that of the sum of its volumes.
+ */
 #ifndef meniscus_Volume_TetrahedralMesh_h
 #define meniscus_Volume_TetrahedralMesh_h
 
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace meniscus
 {
+
+/** A mesh as plain arrays, which stay the caller's. */
+struct TetrahedraView
+{
+  /** xyz triples, NumberOfPoints of them. */
+  const double* Points = nullptr;
+  std::int64_t NumberOfPoints = 0;
+  /** Point indices, four per cell, in either orientation. */
+  const std::int64_t* Cells = nullptr;
+  std::int64_t NumberOfCells = 0;
+};
+
+enum class MeshStatus
+{
+  Ok,
+  /** No cell is left after validation; the tables are empty. */
+  Empty,
+  /** More cells or points than 32-bit tables can index. */
+  TooLarge
+};
+
+/** Cells left out, by reason; a cell is counted once, for the first reason that holds. */
+struct RejectedCells
+{
+  std::int64_t IndexOutOfRange = 0;
+  std::int64_t RepeatedVertex = 0;
+  std::int64_t PointNotFinite = 0;
+
+  std::int64_t Total() const { return IndexOutOfRange + RepeatedVertex + PointNotFinite; }
+};
+
+/** A face that only one cell owns. */
+struct BoundaryFace
+{
+  /** Mesh vertices in ascending order. */
+  std::array<std::int32_t, 3> Vertices;
+  /** +1 if the triangle, in that order, has its normal (right-hand rule) out of the mesh, else -1.
+   */
+  std::int32_t Outward;
+  /** Cell * 4 + index of the cell's vertex opposite to the face. */
+  std::int32_t CellFace;
+};
+
+class TetrahedralMesh
+{
+public:
+  /** Largest number of cells: a link stores 4 * cell + face in 31 bits. */
+  static constexpr std::int64_t MaximumNumberOfCells = std::int64_t{ 1 } << 29;
+  /** The link of a face without a neighbour. */
+  static constexpr std::int32_t NoNeighbor = -1;
+
+  /** Builds all tables; earlier contents are replaced. */
+  MeshStatus Build(const TetrahedraView& input);
+
+  std::int64_t GetNumberOfCells() const { return static_cast<std::int64_t>(this->Cells.size()); }
+  std::int64_t GetNumberOfVertices() const
+  {
+    return static_cast<std::int64_t>(this->Positions.size());
+  }
+
+  struct Cell
+  {
+    /** Mesh vertices in ascending order. */
+    std::array<std::int32_t, 4> Vertices;
+    /** Across the face opposite to vertex i: 4 * cell + face of the neighbour, or NoNeighbor. */
+    std::array<std::int32_t, 4> Links;
+  };
+
+  const std::vector<Cell>& GetCells() const { return this->Cells; }
+  /** Vertex positions relative to GetCenter() in units of GetRadius(), rounded once to float. */
+  const std::vector<glm::vec3>& GetPositions() const { return this->Positions; }
+  /** Input point of each vertex. */
+  const std::vector<std::int64_t>& GetSourcePoints() const { return this->SourcePoints; }
+  /** Input cell of each cell. */
+  const std::vector<std::int64_t>& GetSourceCells() const { return this->SourceCells; }
+  const std::vector<BoundaryFace>& GetBoundary() const { return this->Boundary; }
+  const RejectedCells& GetRejectedCells() const { return this->Rejected; }
+  /** Links cut because they contradict the flood fill. */
+  std::int64_t GetNumberOfCutLinks() const { return this->CutLinks; }
+  /** Centre of the bounding box of the used points. */
+  const glm::dvec3& GetCenter() const { return this->Center; }
+  /** Largest distance of a vertex from the centre; 0 if all vertices coincide or there are none. */
+  double GetRadius() const { return this->Radius; }
+
+private:
+  void Clear();
+  void ValidateCells(const TetrahedraView& input);
+  void NumberVertices(const TetrahedraView& input);
+  void NumberCells(const TetrahedraView& input);
+  void LinkCells();
+  void OrientCells();
+  void CollectBoundary();
+  void CutLink(std::int32_t cell, int face);
+
+  std::vector<Cell> Cells;
+  std::vector<glm::vec3> Positions;
+  std::vector<std::int64_t> SourcePoints;
+  std::vector<std::int64_t> SourceCells;
+  std::vector<BoundaryFace> Boundary;
+  /** Per cell, +1 if its ascending vertices form a positively oriented tetrahedron, else -1. */
+  std::vector<std::int8_t> Orientation;
+  RejectedCells Rejected;
+  std::int64_t CutLinks = 0;
+  glm::dvec3 Center{ 0.0 };
+  double Radius = 0.0;
+};
+
 }
 
 #endif

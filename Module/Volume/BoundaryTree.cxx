@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/BoundaryTree.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+
+struct BoundaryTree::Item
+{
+  glm::vec3 Lower;
+  glm::vec3 Upper;
+  std::int32_t Face;
+
+  glm::vec3 Twice() const { return this->Lower + this->Upper; }
+};
+
+namespace
+{
+
+constexpr float Infinity = std::numeric_limits<float>::infinity();
+
+/** Smallest float half extent whose box around `center` holds [lower, upper] in exact arithmetic.
+ */
+float HalfExtent(float center, float lower, float upper)
+{
+  const double half =
+    std::max(static_cast<double>(upper) - center, static_cast<double>(center) - lower);
+  const float rounded = static_cast<float>(half);
+  return rounded < half ? std::nextafter(rounded, Infinity) : rounded;
+}
+
+}
+
+//------------------------------------------------------------------------------
+void BoundaryTree::Build(const TetrahedralMesh& mesh)
+{
+  this->Nodes.clear();
+  this->Faces.clear();
+  const auto& boundary = mesh.GetBoundary();
+  if (boundary.empty())
+  {
+    return;
+  }
+  std::vector<Item> items(boundary.size());
+  for (std::size_t f = 0; f < boundary.size(); ++f)
+  {
+    const auto& positions = mesh.GetPositions();
+    const glm::vec3& a = positions[boundary[f].Vertices[0]];
+    const glm::vec3& b = positions[boundary[f].Vertices[1]];
+    const glm::vec3& c = positions[boundary[f].Vertices[2]];
+    items[f] = { glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)),
+      static_cast<std::int32_t>(f) };
+  }
+  this->Faces.reserve(items.size() + items.size() / 2);
+  this->BuildSubtree(mesh, items, 0, items.size());
+}
+
+//------------------------------------------------------------------------------
+void BoundaryTree::BuildSubtree(
+  const TetrahedralMesh& mesh, std::vector<Item>& items, std::size_t first, std::size_t last)
+{
+  glm::vec3 lower(Infinity);
+  glm::vec3 upper(-Infinity);
+  glm::vec3 lowerTwice(Infinity);
+  glm::vec3 upperTwice(-Infinity);
+  for (std::size_t i = first; i < last; ++i)
+  {
+    lower = glm::min(lower, items[i].Lower);
+    upper = glm::max(upper, items[i].Upper);
+    lowerTwice = glm::min(lowerTwice, items[i].Twice());
+    upperTwice = glm::max(upperTwice, items[i].Twice());
+  }
+  const std::size_t node = this->Nodes.size();
+  const glm::vec3 center = 0.5f * (lower + upper);
+  glm::vec3 half;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    half[axis] = HalfExtent(center[axis], lower[axis], upper[axis]);
+  }
+  this->Nodes.push_back({ center, half, 0, -1 });
+
+  if (last - first <= FacesPerLeaf)
+  {
+    this->Nodes[node].FirstFace = static_cast<std::int32_t>(this->Faces.size());
+    this->FillLeaf(mesh, items, first, last);
+  }
+  else
+  {
+    const glm::vec3 extent = upperTwice - lowerTwice;
+    const int axis =
+      extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
+    // Halves of whole leaves, so that every leaf but the last is full. Ties by index keep the tree
+    // the same on every machine.
+    const std::size_t leaves = (last - first + FacesPerLeaf - 1) / FacesPerLeaf;
+    const std::size_t middle = first + leaves / 2 * FacesPerLeaf;
+    std::nth_element(items.begin() + first, items.begin() + middle, items.begin() + last,
+      [axis](const Item& a, const Item& b)
+      {
+        const float da = a.Lower[axis] + a.Upper[axis];
+        const float db = b.Lower[axis] + b.Upper[axis];
+        return da != db ? da < db : a.Face < b.Face;
+      });
+    this->BuildSubtree(mesh, items, first, middle);
+    this->BuildSubtree(mesh, items, middle, last);
+  }
+  this->Nodes[node].Skip = static_cast<std::int32_t>(this->Nodes.size());
+}
+
+//------------------------------------------------------------------------------
+void BoundaryTree::FillLeaf(
+  const TetrahedralMesh& mesh, const std::vector<Item>& items, std::size_t first, std::size_t last)
+{
+  for (std::size_t i = first; i < last; ++i)
+  {
+    this->Faces.push_back(mesh.GetBoundary()[items[i].Face]);
+  }
+  // A triangle of one vertex contains no ray.
+  const std::int32_t vertex = this->Faces.back().Vertices[0];
+  this->Faces.resize(this->Faces.size() + FacesPerLeaf - (last - first),
+    BoundaryFace{ { vertex, vertex, vertex }, 1, this->Faces.back().CellFace });
+}
+
+}
