@@ -77,4 +77,4 @@ TEST_P(TetrahedraRayCastDataMeshes, MatchReference)
 
 INSTANTIATE_TEST_SUITE_P(, TetrahedraRayCastDataMeshes,
   testing::Values("blunt_fin", "combustor", "crushed_can"),
-  [](const testing::TestParamInfo<const char*>& info) { return std::string(info.param); });
+  [](const testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });
