@@ -523,5 +523,6 @@ int main(int argc, char* argv[])
     std::cerr << "no display: run under xvfb-run\n";
     return EXIT_FAILURE;
   }
+  const DisplayHold hold;
   return runAll(options, kind);
 }

@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <iostream>
+#include <memory>
 
 // VTK's skip code.
 constexpr int Skipped = 125;
@@ -22,6 +23,11 @@ int main(int argc, char* argv[])
   {
     std::cout << "no display: skipped\n";
     return Skipped;
+  }
+  std::unique_ptr<meniscus::test::DisplayHold> hold;
+  if (!listing)
+  {
+    hold = std::make_unique<meniscus::test::DisplayHold>();
   }
   const int result = RUN_ALL_TESTS();
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();

@@ -166,10 +166,12 @@ TEST(TetrahedraRayCastMeshes, FoldedMesh)
 TEST(TetrahedraRayCastMeshes, OpacityPerUnitDistance)
 {
   // The mapper samples the logarithm between nodes to 1/4096 of alpha over the unit distance (its
-  // header), so the float picture is held to that bound instead.
+  // header); a ray is up to a diagonal long.
   const Grid grid = makeBlock(8, wavyField(3.0));
   RayCastScene scene(grid, propertyFor(grid, FunctionKind::Smooth), Size, Size);
-  scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(0.8);
+  constexpr double Unit = 0.8;
+  const double tolerance = diagonalOf(grid->GetBounds()) / Unit / 4096.0;
+  scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(Unit);
   scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
   lookAt(scene.renderer(), grid->GetBounds(), 25.0, 30.0);
   scene.window()->Render();

@@ -200,14 +200,14 @@ TEST(TetrahedraRayCastScenes, ColoredBackground)
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size);
   lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  scene.renderer()->SetBackground(0.3, 0.5, 0.9);
+  scene.renderer()->SetBackground(0.2, 0.4, 0.8);
   const SceneTruth truth = [&]
   {
     scene.window()->Render();
     return makeTruth(scene);
   }();
   expectMatch(compareToReference(scene.renderBytes(), truth.Image, *truth.Integrator, truth.RayOf,
-                { 0.3, 0.5, 0.9 }),
+                { 0.2, 0.4, 0.8 }),
     "coloured background");
 }
 
@@ -287,7 +287,7 @@ TEST(TetrahedraRayCastScenes, SeveralRenderersShareAMapper)
   lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   vtkNew<vtkRenderer> second;
   second->SetViewport(0.5, 0.1, 1.0, 0.7);
-  second->SetBackground(0.1, 0.2, 0.3);
+  second->SetBackground(0.2, 0.4, 0.6);
   second->AddVolume(scene.volume());
   scene.window()->AddRenderer(second);
   lookAt(second, block.Mesh->GetBounds(), 110.0, -35.0, 1.3, true);

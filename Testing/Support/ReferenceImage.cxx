@@ -24,7 +24,7 @@ namespace test
 namespace
 {
 
-// One grey level of an 8-bit image, and what rounding to it adds to an exact picture.
+// One grey level of an 8-bit image.
 constexpr double GreyLevel = 1.0 / 255.0;
 
 // Wrong pixels beyond this number are counted without asking whether they are silhouettes.
@@ -276,10 +276,9 @@ Comparison compareToReference(const ByteImage& image, const ReferenceImage& trut
       pair.Image[3] = pair.Reference[3] = exact[3];
       for (int c = 0; c < 3; ++c)
       {
-        // The exact picture rounded to 8 bits, so that one grey level is one grey level.
         const double value = exact[c] + (1.0 - exact[3]) * background[c];
         pair.Image[c] = GreyLevel * drawn[c];
-        pair.Reference[c] = GreyLevel * std::round(255.0 * std::min(std::max(value, 0.0), 1.0));
+        pair.Reference[c] = std::min(std::max(value, 0.0), 1.0);
       }
       pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
       pair.Drawn = false; // cannot be told from the background

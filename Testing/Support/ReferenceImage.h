@@ -80,8 +80,8 @@ Comparison compareToReference(const FloatImage& image, const ReferenceImage& tru
   double tolerance = FloatTolerance);
 
 /**
- * The same for an 8-bit image over an opaque background; a window may be larger than the viewport,
- * whose lower left corner is given.
+ * The same for an 8-bit image over an opaque background of whole grey levels, to 1/255; a window
+ * may be larger than the viewport, whose lower left corner is given.
  */
 Comparison compareToReference(const ByteImage& image, const ReferenceImage& truth,
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,

@@ -34,6 +34,17 @@ bool hasDisplay()
 }
 
 //------------------------------------------------------------------------------
+DisplayHold::DisplayHold()
+{
+  this->Window->SetOffScreenRendering(1);
+  this->Window->SetSize(8, 8);
+  this->Window->Render();
+}
+
+//------------------------------------------------------------------------------
+DisplayHold::~DisplayHold() = default;
+
+//------------------------------------------------------------------------------
 VolumeScene::VolumeScene(int width, int height, int multiSamples)
 {
   this->Window->SetOffScreenRendering(1);

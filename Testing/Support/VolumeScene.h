@@ -53,6 +53,21 @@ struct ByteImage
 /// Whether a window can be opened (VTK 9.1 aborts without a display).
 bool hasDisplay();
 
+/**
+ * Keeps a connection to the display. An X server that is left by its last client resets (Xvfb
+ * without -noreset does), and a window opened at that moment fails; so a program that opens one
+ * window after the other holds one of these.
+ */
+class DisplayHold
+{
+public:
+  DisplayHold();
+  ~DisplayHold();
+
+private:
+  vtkNew<vtkRenderWindow> Window;
+};
+
 /// An off-screen window with one renderer (black, transparent background) and one volume.
 class VolumeScene
 {

@@ -48,9 +48,16 @@ bool meetsBox(const RayFrame& ray, const std::array<double, 6>& box)
 
 //------------------------------------------------------------------------------
 ReferenceCellTree::ReferenceCellTree(const ReferenceMesh& mesh)
-  : Order(mesh.contributingCells())
-  , Padding(BoxPadding * mesh.diagonal())
+  : Padding(BoxPadding * mesh.diagonal())
 {
+  for (std::size_t id = 0; id < mesh.numberOfCells(); ++id)
+  {
+    if (mesh.kind(id) == ReferenceMesh::CellKind::Contributing ||
+      mesh.kind(id) == ReferenceMesh::CellKind::Inverted)
+    {
+      this->Order.push_back(static_cast<std::int64_t>(id));
+    }
+  }
   std::vector<Vector3> centroids(mesh.numberOfCells());
   for (const std::int64_t id : this->Order)
   {

@@ -73,7 +73,7 @@ FaceKey makeFaceKey(const std::int64_t* cell, std::int64_t cellId, int face)
 
 struct Neighbor
 {
-  std::int64_t Cell = -1;
+  std::int64_t CellFace = -1;
   int Orientation = 1;
 };
 
@@ -94,8 +94,8 @@ std::vector<Neighbor> linkFaces(std::vector<FaceKey>& keys, std::size_t cells, s
       continue;
     }
     const int same = keys[i].Parity == keys[i + 1].Parity ? -1 : 1;
-    neighbors[keys[i].CellFace] = { keys[i + 1].CellFace / 4, same };
-    neighbors[keys[i + 1].CellFace] = { keys[i].CellFace / 4, same };
+    neighbors[keys[i].CellFace] = { keys[i + 1].CellFace, same };
+    neighbors[keys[i + 1].CellFace] = { keys[i].CellFace, same };
     i += 2;
   }
   return neighbors;
@@ -115,13 +115,15 @@ ReferenceMesh::ReferenceMesh(
   for (std::size_t id = 0; id < usable.size(); ++id)
   {
     usable[id] = this->isUsable(id);
-    this->RejectedCells += !usable[id];
   }
   this->findBounds(usable);
-  this->findContributing(this->volumeSigns(usable));
-  for (const std::int64_t id : this->Contributing)
+  this->findKinds(this->volumeSigns(usable));
+  for (std::size_t id = 0; id < this->Kinds.size(); ++id)
   {
-    this->findPlanes(static_cast<std::size_t>(id));
+    if (this->Kinds[id] == CellKind::Contributing || this->Kinds[id] == CellKind::Inverted)
+    {
+      this->findPlanes(id);
+    }
   }
 }
 
@@ -147,7 +149,7 @@ bool ReferenceMesh::isUsable(std::size_t id) const
 
 //------------------------------------------------------------------------------
 // Sign of each cell's volume; 0 for a flat cell, 2 for one that cannot be used at all.
-std::vector<int> ReferenceMesh::volumeSigns(const std::vector<char>& usable)
+std::vector<int> ReferenceMesh::volumeSigns(const std::vector<char>& usable) const
 {
   std::vector<int> signs(this->numberOfCells(), 2);
   for (std::size_t id = 0; id < signs.size(); ++id)
@@ -165,7 +167,6 @@ std::vector<int> ReferenceMesh::volumeSigns(const std::vector<char>& usable)
     const Exact longestSquared = std::max({ dot(a, a), dot(b, b), dot(c, c) });
     const Exact flat = FlatHeight * this->Diagonal * longestSquared;
     signs[id] = volume > flat ? 1 : (volume < -flat ? -1 : 0);
-    this->ZeroVolumeCells += signs[id] == 0;
   }
   return signs;
 }
@@ -184,6 +185,11 @@ std::vector<int> ReferenceMesh::orient(const std::vector<int>& signs)
     }
   }
   const std::vector<Neighbor> neighbors = linkFaces(keys, signs.size(), this->BoundaryFaces);
+  this->Neighbors.reserve(neighbors.size());
+  for (const Neighbor& neighbor : neighbors)
+  {
+    this->Neighbors.push_back(neighbor.CellFace);
+  }
 
   std::vector<int> orientation(signs.size(), 0);
   std::vector<std::size_t> component;
@@ -203,10 +209,11 @@ std::vector<int> ReferenceMesh::orient(const std::vector<int>& signs)
       for (int face = 0; face < 4; ++face)
       {
         const Neighbor& neighbor = neighbors[4 * id + face];
-        if (neighbor.Cell >= 0 && orientation[neighbor.Cell] == 0)
+        const std::int64_t other = neighbor.CellFace / 4;
+        if (neighbor.CellFace >= 0 && orientation[other] == 0)
         {
-          orientation[neighbor.Cell] = orientation[id] * neighbor.Orientation;
-          component.push_back(static_cast<std::size_t>(neighbor.Cell));
+          orientation[other] = orientation[id] * neighbor.Orientation;
+          component.push_back(static_cast<std::size_t>(other));
         }
       }
     }
@@ -219,22 +226,24 @@ std::vector<int> ReferenceMesh::orient(const std::vector<int>& signs)
 }
 
 //------------------------------------------------------------------------------
-void ReferenceMesh::findContributing(const std::vector<int>& signs)
+void ReferenceMesh::findKinds(const std::vector<int>& signs)
 {
   const std::vector<int> orientation = this->orient(signs);
+  this->Kinds.reserve(signs.size());
   for (std::size_t id = 0; id < signs.size(); ++id)
   {
-    if (signs[id] == 2 || signs[id] == 0)
-    {
-      continue;
-    }
-    if (signs[id] * orientation[id] > 0)
+    const bool inverted = signs[id] * orientation[id] < 0;
+    const CellKind kind = signs[id] == 2 ? CellKind::Rejected
+      : signs[id] == 0                   ? CellKind::Flat
+      : inverted                         ? CellKind::Inverted
+                                         : CellKind::Contributing;
+    this->Kinds.push_back(kind);
+    this->RejectedCells += kind == CellKind::Rejected;
+    this->ZeroVolumeCells += kind == CellKind::Flat;
+    this->InvertedCells += kind == CellKind::Inverted;
+    if (kind == CellKind::Contributing)
     {
       this->Contributing.push_back(static_cast<std::int64_t>(id));
-    }
-    else
-    {
-      ++this->InvertedCells;
     }
   }
 }

@@ -48,6 +48,18 @@ public:
   double scalar(std::int64_t id) const { return this->Scalars[id]; }
   const CellPlanes& planes(std::size_t id) const { return this->Planes[id]; }
 
+  enum class CellKind : signed char
+  {
+    Inverted = -1,
+    Flat = 0,
+    Contributing = 1,
+    Rejected = 2
+  };
+  CellKind kind(std::size_t id) const { return this->Kinds[id]; }
+
+  /// Cell and face (4 * cell + face) on the other side of a face, -1 on the boundary.
+  std::int64_t neighbor(std::int64_t cellFace) const { return this->Neighbors[cellFace]; }
+
   /// Ids of the cells that contribute, in increasing order.
   const std::vector<std::int64_t>& contributingCells() const { return this->Contributing; }
   std::size_t numberOfInvertedCells() const { return this->InvertedCells; }
@@ -61,9 +73,9 @@ public:
 
 private:
   void findBounds(const std::vector<char>& usable);
-  std::vector<int> volumeSigns(const std::vector<char>& usable);
+  std::vector<int> volumeSigns(const std::vector<char>& usable) const;
   bool isUsable(std::size_t id) const;
-  void findContributing(const std::vector<int>& signs);
+  void findKinds(const std::vector<int>& signs);
   std::vector<int> orient(const std::vector<int>& signs);
   void findPlanes(std::size_t id);
 
@@ -71,6 +83,8 @@ private:
   std::vector<std::int64_t> Cells;
   std::vector<double> Scalars;
   std::vector<CellPlanes> Planes;
+  std::vector<CellKind> Kinds;
+  std::vector<std::int64_t> Neighbors;
   std::vector<std::int64_t> Contributing;
   std::size_t InvertedCells = 0;
   std::size_t ZeroVolumeCells = 0;

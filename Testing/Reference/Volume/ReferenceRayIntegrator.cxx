@@ -167,9 +167,18 @@ ReferenceRayIntegrator::ReferenceRayIntegrator(
 namespace
 {
 
+// A cell crossed, with the faces at its two ends.
+struct Crossing
+{
+  RaySegment Segment;
+  int NearFace;
+  int FarFace;
+  bool Inverted;
+};
+
 // Clips the ray against the four widened half-spaces of a cell.
 bool clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vector3& origin,
-  RaySegment& segment)
+  Crossing& crossing)
 {
   const CellPlanes& planes = mesh.planes(static_cast<std::size_t>(id));
   double begin = ray.Begin;
@@ -181,24 +190,24 @@ bool clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vect
     offset[i] = dot(planes.Gradient[i], origin) + planes.Offset[i];
     slope[i] = dot(planes.Gradient[i], ray.Direction);
     const double widened = offset[i] + planes.Slack[i];
-    if (slope[i] > 0.0)
+    const double at = -widened / slope[i];
+    if (slope[i] > 0.0 && at > begin)
     {
-      begin = std::max(begin, -widened / slope[i]);
+      begin = at;
+      crossing.NearFace = i;
     }
-    else if (slope[i] < 0.0)
+    else if (slope[i] < 0.0 && at < end)
     {
-      end = std::min(end, -widened / slope[i]);
+      end = at;
+      crossing.FarFace = i;
     }
-    else if (widened < 0.0)
-    {
-      return false;
-    }
-    if (!(begin < end))
+    if ((slope[i] == 0.0 && widened < 0.0) || !(begin < end))
     {
       return false;
     }
   }
   const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(id));
+  RaySegment& segment = crossing.Segment;
   segment = RaySegment{ begin, end, 0.0, 0.0, id };
   double low = mesh.scalar(ids[0]);
   double high = low;
@@ -213,35 +222,221 @@ bool clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vect
   // The widening extrapolates in very flat cells.
   segment.ScalarBegin = std::min(std::max(segment.ScalarBegin, low), high);
   segment.ScalarEnd = std::min(std::max(segment.ScalarEnd, low), high);
+  crossing.Inverted = mesh.kind(static_cast<std::size_t>(id)) == ReferenceMesh::CellKind::Inverted;
   return true;
 }
 
-Vector3 relativeOrigin(const ReferenceMesh& mesh, const Ray& ray)
-{
-  return { ray.Origin[0] - mesh.center()[0], ray.Origin[1] - mesh.center()[1],
-    ray.Origin[2] - mesh.center()[2] };
-}
-
 // Cells crossed, each found on its own, in order of entry.
-void findCrossedCells(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
-  std::vector<RaySegment>& segments)
+void findCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
+  std::vector<Crossing>& crossings)
 {
   static thread_local std::vector<std::int64_t> candidates;
   candidates.clear();
   tree.candidates(ray, candidates);
-  const Vector3 origin = relativeOrigin(mesh, ray);
-  segments.clear();
-  RaySegment segment;
+  const Vector3 origin{ ray.Origin[0] - mesh.center()[0], ray.Origin[1] - mesh.center()[1],
+    ray.Origin[2] - mesh.center()[2] };
+  crossings.clear();
+  Crossing crossing;
   for (const std::int64_t id : candidates)
   {
-    if (clip(mesh, id, ray, origin, segment))
+    if (clip(mesh, id, ray, origin, crossing))
     {
-      segments.push_back(segment);
+      crossings.push_back(crossing);
     }
   }
-  std::sort(segments.begin(), segments.end(),
-    [](const RaySegment& a, const RaySegment& b)
-    { return a.Begin != b.Begin ? a.Begin < b.Begin : a.Cell < b.Cell; });
+  std::sort(crossings.begin(), crossings.end(),
+    [](const Crossing& crossingA, const Crossing& crossingB)
+    {
+      const RaySegment& a = crossingA.Segment;
+      const RaySegment& b = crossingB.Segment;
+      return a.Begin != b.Begin ? a.Begin < b.Begin : a.Cell < b.Cell;
+    });
+}
+
+// Whether two cells have an edge in common: a ray in it is in both, without any real overlap.
+bool shareAnEdge(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
+{
+  int shared = 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(b));
+    shared += std::count(ids, ids + 4, mesh.cell(static_cast<std::size_t>(a))[i]) > 0;
+  }
+  return shared >= 2;
+}
+
+// Whether the depth of entry does not settle the order.
+bool needsOrder(
+  const ReferenceMesh& mesh, const std::vector<Crossing>& crossings, double negligible)
+{
+  const RaySegment* furthest = nullptr;
+  for (const Crossing& crossing : crossings)
+  {
+    const RaySegment& segment = crossing.Segment;
+    if (crossing.Inverted)
+    {
+      return true;
+    }
+    if (furthest && std::min(furthest->End, segment.End) - segment.Begin > negligible &&
+      !shareAnEdge(mesh, furthest->Cell, segment.Cell))
+    {
+      return true;
+    }
+    furthest = furthest && furthest->End >= segment.End ? furthest : &segment;
+  }
+  return false;
+}
+
+// Puts crossings in the order in which paths across shared faces meet them.
+class FaceOrder
+{
+public:
+  FaceOrder(const ReferenceMesh& mesh, const std::vector<Crossing>& crossings)
+    : Mesh(mesh)
+    , Crossings(crossings)
+    , Visited(crossings.size(), 0)
+  {
+    for (std::size_t i = 0; i < crossings.size(); ++i)
+    {
+      this->IndexOf.emplace_back(crossings[i].Segment.Cell, i);
+    }
+    std::sort(this->IndexOf.begin(), this->IndexOf.end());
+  }
+
+  std::vector<std::size_t> order()
+  {
+    const std::size_t count = this->Crossings.size();
+    std::vector<char> follows(count, 0);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::size_t next = this->successor(i);
+      if (next < count)
+      {
+        follows[next] = 1;
+      }
+    }
+    std::vector<std::size_t> starts;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (!follows[i])
+      {
+        starts.push_back(i);
+      }
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+      [this](std::size_t a, std::size_t b) { return this->entryDepth(a) < this->entryDepth(b); });
+    std::vector<std::size_t> sorted;
+    for (const std::size_t start : starts)
+    {
+      this->append(start, sorted);
+    }
+    // Only a ray in an edge or face leaves some over.
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->append(i, sorted);
+    }
+    return sorted;
+  }
+
+private:
+  double entryDepth(std::size_t i) const
+  {
+    const Crossing& crossing = this->Crossings[i];
+    return crossing.Inverted ? crossing.Segment.End : crossing.Segment.Begin;
+  }
+
+  void append(std::size_t i, std::vector<std::size_t>& sorted)
+  {
+    for (; i < this->Crossings.size() && !this->Visited[i]; i = this->successor(i))
+    {
+      this->Visited[i] = 1;
+      sorted.push_back(i);
+    }
+  }
+
+  // A path leaves an inverted cell at its near end.
+  std::size_t successor(std::size_t i) const
+  {
+    const Crossing& crossing = this->Crossings[i];
+    const int face = crossing.Inverted ? crossing.NearFace : crossing.FarFace;
+    return this->across(4 * crossing.Segment.Cell + face, MostFlatCells);
+  }
+
+  // The crossing behind a face, through flat cells, which are never crossed themselves.
+  std::size_t across(std::int64_t cellFace, int flatCells) const
+  {
+    const std::int64_t other = this->Mesh.neighbor(cellFace);
+    if (other < 0)
+    {
+      return this->Crossings.size();
+    }
+    const std::int64_t cell = other / 4;
+    const auto found = std::lower_bound(
+      this->IndexOf.begin(), this->IndexOf.end(), std::make_pair(cell, std::size_t(0)));
+    if (found != this->IndexOf.end() && found->first == cell)
+    {
+      return found->second;
+    }
+    const bool flat =
+      this->Mesh.kind(static_cast<std::size_t>(cell)) == ReferenceMesh::CellKind::Flat;
+    for (int face = 0; flat && flatCells > 0 && face < 4; ++face)
+    {
+      const std::size_t behind = 4 * cell + face == other
+        ? this->Crossings.size()
+        : this->across(4 * cell + face, flatCells - 1);
+      if (behind < this->Crossings.size())
+      {
+        return behind;
+      }
+    }
+    return this->Crossings.size();
+  }
+
+  static constexpr int MostFlatCells = 4;
+
+  const ReferenceMesh& Mesh;
+  const std::vector<Crossing>& Crossings;
+  std::vector<char> Visited;
+  std::vector<std::pair<std::int64_t, std::size_t>> IndexOf;
+};
+
+// All crossings of the whole line, in face order.
+void findOrderedCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
+  std::vector<Crossing>& crossings)
+{
+  Ray whole = ray;
+  whole.Begin = -std::numeric_limits<double>::max();
+  whole.End = std::numeric_limits<double>::max();
+  std::vector<Crossing> found;
+  findCrossings(mesh, tree, whole, found);
+  crossings.clear();
+  for (const std::size_t i : FaceOrder(mesh, found).order())
+  {
+    crossings.push_back(found[i]);
+  }
+}
+
+// The part of a segment from a position on.
+RaySegment tail(RaySegment segment, double from)
+{
+  if (from > segment.Begin)
+  {
+    const double u = (from - segment.Begin) / (segment.End - segment.Begin);
+    segment.ScalarBegin += u * (segment.ScalarEnd - segment.ScalarBegin);
+    segment.Begin = from;
+  }
+  return segment;
+}
+
+RaySegment head(RaySegment segment, double to)
+{
+  if (to < segment.End)
+  {
+    const double u = (to - segment.Begin) / (segment.End - segment.Begin);
+    segment.ScalarEnd = segment.ScalarBegin + u * (segment.ScalarEnd - segment.ScalarBegin);
+    segment.End = to;
+  }
+  return segment;
 }
 
 } // anonymous namespace
@@ -250,37 +445,43 @@ void findCrossedCells(const ReferenceMesh& mesh, const ReferenceCellTree& tree, 
 RayReport ReferenceRayIntegrator::findSegments(
   const Ray& ray, std::vector<RaySegment>& segments) const
 {
-  findCrossedCells(this->Mesh, this->Tree, ray, segments);
+  static thread_local std::vector<Crossing> crossings;
+  findCrossings(this->Mesh, this->Tree, ray, crossings);
   const double lengthPerUnit = length(ray.Direction);
   const double negligible = NegligibleLength * this->Mesh.diagonal() / lengthPerUnit;
   RayReport report;
-  double cursor = -std::numeric_limits<double>::infinity();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < segments.size(); ++i)
+  report.Ordered = needsOrder(this->Mesh, crossings, negligible);
+  if (report.Ordered)
   {
-    RaySegment segment = segments[i];
-    report.Gaps += kept > 0 && segment.Begin > cursor + negligible;
-    const double clipped = std::min(cursor, segment.End) - segment.Begin;
+    findOrderedCrossings(this->Mesh, this->Tree, ray, crossings);
+  }
+  segments.clear();
+  double cursor = -std::numeric_limits<double>::max();
+  for (const Crossing& crossing : crossings)
+  {
+    const RaySegment& whole = crossing.Segment;
+    if (crossing.Inverted)
+    {
+      // A path enters it at its far end, which it has then reached.
+      cursor = std::max(cursor, whole.End);
+      continue;
+    }
+    report.Gaps += !segments.empty() && whole.Begin > cursor + negligible;
+    const double clipped = std::min(cursor, whole.End) - whole.Begin;
     if (clipped > negligible)
     {
       ++report.Overlaps;
       report.OverlapLength += clipped * lengthPerUnit;
     }
-    if (segment.End <= cursor)
+    const double begin = std::max({ cursor, whole.Begin, ray.Begin });
+    const double end = std::min(whole.End, ray.End);
+    cursor = std::max(cursor, whole.End);
+    if (begin < end)
     {
-      continue;
+      segments.push_back(head(tail(whole, begin), end));
     }
-    if (cursor > segment.Begin)
-    {
-      const double u = (cursor - segment.Begin) / (segment.End - segment.Begin);
-      segment.ScalarBegin += u * (segment.ScalarEnd - segment.ScalarBegin);
-      segment.Begin = cursor;
-    }
-    cursor = segment.End;
-    segments[kept++] = segment;
   }
-  segments.resize(kept);
-  report.Cells = kept;
+  report.Cells = segments.size();
   return report;
 }
 

@@ -10,9 +10,11 @@
  * Model: density emitter. dC = tau(s) c(s) T dt, T = exp(-integral of tau), with t in world length.
  * The result is premultiplied, alpha = 1 - T.
  *
- * Overlap: the cell entered first keeps on until its exit; then the one entered earliest among
- * those that cover that point takes over, clipped. This is what a walk does that steps t_exit =
- * max(t_entry, t_exit). Inverted and flat cells do not contribute (see ReferenceMesh).
+ * Overlap: inverted and flat cells do not contribute (see ReferenceMesh). On a ray that crosses an
+ * inverted cell or overlapping parts, the cells found are put in the order in which a path across
+ * shared faces meets them, parts in the order of their entries; each then counts from the largest
+ * depth reached before it to its own exit. This only orders: the cells and their ends stay those of
+ * clipping.
  */
 #ifndef meniscus_ReferenceRayIntegrator_h
 #define meniscus_ReferenceRayIntegrator_h
@@ -53,6 +55,7 @@ struct RayReport
   std::size_t Gaps = 0;       // breaks between the first entry and the last exit
   std::size_t Overlaps = 0;   // cells clipped by the overlap rule by more than rounding
   double OverlapLength = 0.0; // world length that was clipped away
+  bool Ordered = false;       // order taken from shared faces, not from the depth of entry
 };
 
 enum class RayClass
