@@ -176,7 +176,7 @@ TEST(TetrahedraRayCastMeshes, OpacityPerUnitDistance)
   lookAt(scene.renderer(), grid->GetBounds(), 25.0, 30.0);
   scene.window()->Render();
   const SceneTruth truth = makeTruth(scene);
-  expectMatch(compareToReference(
-                scene.renderFloat(), truth.Image, *truth.Integrator, truth.RayOf, 1.0 / 4096.0),
+  expectMatch(
+    compareToReference(scene.renderFloat(), truth.Image, *truth.Integrator, truth.RayOf, tolerance),
     "opacity per unit distance");
 }

@@ -81,8 +81,12 @@ std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegra
 {
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
   ReferenceImage blank{ width, height, std::vector<std::array<double, 4>>(pixels),
-    std::vector<char>(pixels, 0) };
+    std::vector<char>(pixels, 0), {} };
   std::vector<ReferenceImage> images(functions.size(), blank);
+  for (std::size_t f = 0; f < functions.size(); ++f)
+  {
+    images[f].Function = functions[f];
+  }
 
   std::atomic<int> nextRow{ 0 };
   const auto work = [&]()
@@ -183,6 +187,12 @@ public:
   Comparison result() const
   {
     Comparison done = this->Result;
+    if (done.Wrong > 0)
+    {
+      done.WorstSensitivity =
+        this->Integrator.sensitivity(this->RayOf(done.WorstPixel[0], done.WorstPixel[1]),
+          1e-7 * this->Integrator.mesh().diagonal(), this->Function);
+    }
     done.Rms = this->Counted ? std::sqrt(this->SumOfSquares / this->Counted) : 0.0;
     return done;
   }
@@ -195,11 +205,12 @@ private:
       return false;
     }
     ++this->Classified;
-    return this->Integrator.classify(this->RayOf(x, y), this->Integrator.silhouetteDistance()) ==
-      reference::RayClass::Silhouette;
+    return this->Integrator.classify(this->RayOf(x, y), this->Integrator.silhouetteDistance(),
+             this->Function) == reference::RayClass::Silhouette;
   }
 
   const reference::ReferenceRayIntegrator& Integrator;
+  const reference::ReferenceTransferFunction& Function;
   const RayOfPixel& RayOf;
   double Tolerance;
   Comparison Result;
@@ -209,14 +220,6 @@ private:
 };
 
 } // anonymous namespace
-
-//------------------------------------------------------------------------------
-bool Comparison::passes() const
-{
-  return this->Wrong == 0 && this->CoverageMismatches == 0 &&
-    static_cast<double>(this->Silhouettes) <=
-    std::max(1.0, LargestSilhouetteShare * static_cast<double>(this->Covered));
-}
 
 //------------------------------------------------------------------------------
 std::string Comparison::text() const
@@ -235,6 +238,10 @@ std::string Comparison::text() const
   {
     out << ' ' << value;
   }
+  if (this->Wrong > 0)
+  {
+    out << ", sensitivity " << this->WorstSensitivity;
+  }
   return out.str();
 }
 
@@ -242,7 +249,7 @@ std::string Comparison::text() const
 Comparison compareToReference(const FloatImage& image, const ReferenceImage& truth,
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf, double tolerance)
 {
-  Comparer comparer(integrator, rayOf, tolerance);
+  Comparer comparer(integrator, truth.Function, rayOf, tolerance);
   for (int y = 0; y < truth.Height; ++y)
   {
     for (int x = 0; x < truth.Width; ++x)
@@ -265,7 +272,7 @@ Comparison compareToReference(const ByteImage& image, const ReferenceImage& trut
   const std::array<double, 3>& background, int left, int bottom)
 {
   // One grey level and the rounding of doubles.
-  Comparer comparer(integrator, rayOf, GreyLevel * (1.0 + 1e-9));
+  Comparer comparer(integrator, truth.Function, rayOf, GreyLevel * (1.0 + 1e-9));
   for (int y = 0; y < truth.Height; ++y)
   {
     for (int x = 0; x < truth.Width; ++x)

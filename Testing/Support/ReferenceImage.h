@@ -29,6 +29,7 @@ struct ReferenceImage
   int Height = 0;
   std::vector<std::array<double, 4>> Rgba;
   std::vector<char> Covered;
+  reference::ReferenceTransferFunction Function;
 
   const std::array<double, 4>& pixel(int x, int y) const
   {
@@ -69,8 +70,10 @@ struct Comparison
   int WorstPixel[2] = { -1, -1 };
   std::array<double, 4> WorstImage{};
   std::array<double, 4> WorstReference{};
+  // Change of the exact result at the worst pixel when its ray moves by 1e-7 of the diagonal, which
+  // is what float rounding of the vertices does. Only for a wrong pixel.
+  double WorstSensitivity = 0.0;
 
-  bool passes() const;
   std::string text() const;
 };
 

@@ -558,6 +558,16 @@ Ray moved(const Ray& ray, const Vector3& by, double distance)
   return result;
 }
 
+double largestDifference(const std::array<double, 4>& a, const std::array<double, 4>& b)
+{
+  double largest = 0.0;
+  for (int c = 0; c < 4; ++c)
+  {
+    largest = std::max(largest, std::fabs(a[c] - b[c]));
+  }
+  return largest;
+}
+
 // Two unit vectors across the ray.
 std::array<Vector3, 2> acrossRay(const Vector3& direction)
 {
@@ -573,35 +583,79 @@ std::array<Vector3, 2> acrossRay(const Vector3& direction)
     Vector3{ w[1] * u[2] - w[2] * u[1], w[2] * u[0] - w[0] * u[2], w[0] * u[1] - w[1] * u[0] } };
 }
 
+// Unit vectors across the ray in 8 directions.
+std::array<Vector3, 8> directionsAcross(const Vector3& direction)
+{
+  const std::array<Vector3, 2> across = acrossRay(direction);
+  std::array<Vector3, 8> result;
+  for (int i = 0; i < 8; ++i)
+  {
+    const double angle = i * 0.78539816339744830962;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      result[i][axis] = std::cos(angle) * across[0][axis] + std::sin(angle) * across[1][axis];
+    }
+  }
+  return result;
+}
+
+// Part of the distance at which a change is looked at again.
+constexpr double Fraction = 0.125;
+
+// Whether a change above the threshold fails to shrink with the distance.
+bool isJump(double near, double far, double threshold)
+{
+  const bool proportional = near > 0.5 * Fraction * far && near < 2.0 * Fraction * far;
+  return std::max(near, far) > threshold && !proportional;
+}
+
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-RayClass ReferenceRayIntegrator::classify(const Ray& ray, double distance) const
+RayClass ReferenceRayIntegrator::classify(
+  const Ray& ray, double distance, const ReferenceTransferFunction& function) const
 {
   // A face met at a slope below this moves a span's end in proportion; a jump over a silhouette
   // edge exceeds it and does not shrink with the distance.
   constexpr double SteepestSlope = 20.0;
-  constexpr double Fraction = 0.125;
+  // A jump of the result below this cannot be what makes a pixel wrong.
+  constexpr double SmallestJump = 1e-5;
+  const double steep = SteepestSlope * distance / length(ray.Direction);
   const std::vector<CoveredSpan> here = this->coveredSpans(ray);
-  const std::array<Vector3, 2> across = acrossRay(ray.Direction);
-  for (int i = 0; i < 8; ++i)
+  std::vector<RaySegment> segments;
+  const bool ordered = this->findSegments(ray, segments).Ordered;
+  const std::array<double, 4> result = integrate(ray, segments, function);
+  for (const Vector3& by : directionsAcross(ray.Direction))
   {
-    const double angle = i * 0.78539816339744830962;
-    Vector3 by;
-    for (int axis = 0; axis < 3; ++axis)
+    const Ray farRay = moved(ray, by, distance);
+    const Ray nearRay = moved(ray, by, Fraction * distance);
+    if (isJump(spanChange(here, this->coveredSpans(nearRay)),
+          spanChange(here, this->coveredSpans(farRay)), steep))
     {
-      by[axis] = std::cos(angle) * across[0][axis] + std::sin(angle) * across[1][axis];
+      return RayClass::Silhouette;
     }
-    const double far = spanChange(here, this->coveredSpans(moved(ray, by, distance)));
-    const double near = spanChange(here, this->coveredSpans(moved(ray, by, Fraction * distance)));
-    const double steep = SteepestSlope * distance / length(ray.Direction);
-    const bool proportional = near > 0.5 * Fraction * far && near < 2.0 * Fraction * far;
-    if (std::max(far, near) > steep && !proportional)
+    if (ordered &&
+      isJump(largestDifference(result, this->trace(nearRay, function)),
+        largestDifference(result, this->trace(farRay, function)), SmallestJump))
     {
       return RayClass::Silhouette;
     }
   }
   return here.empty() ? RayClass::Missed : RayClass::Covered;
+}
+
+//------------------------------------------------------------------------------
+double ReferenceRayIntegrator::sensitivity(
+  const Ray& ray, double distance, const ReferenceTransferFunction& function) const
+{
+  const std::array<double, 4> result = this->trace(ray, function);
+  double largest = 0.0;
+  for (const Vector3& by : directionsAcross(ray.Direction))
+  {
+    largest =
+      std::max(largest, largestDifference(result, this->trace(moved(ray, by, distance), function)));
+  }
+  return largest;
 }
 
 } // namespace reference

@@ -85,9 +85,16 @@ public:
   /**
    * Silhouette: the covered spans change by a jump (not in proportion) when the ray is moved
    * sideways by the distance, in any of 8 directions. Rounding of the vertices to float then
-   * decides what the ray meets, so such rays are counted apart.
+   * decides what the ray meets, so such rays are counted apart. In folded or overlapping parts a
+   * jump of the result itself counts too: there the order of cells changes at edges inside the
+   * mesh.
    */
-  RayClass classify(const Ray& ray, double distance) const;
+  RayClass classify(
+    const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
+
+  /// Largest change of the result when the ray is moved sideways by a distance, in 8 directions.
+  double sensitivity(
+    const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
 
   /// Distance for classify: float rounding of positions and directions seen from a few diagonals
   /// away is 3e-7 of the diagonal; the margin is about 3.

@@ -262,16 +262,38 @@ TEST(ReferenceRayIntegrator, TwoOverlappingCellsExactly)
     { first, second, 0.0, first + second }, Widening);
 }
 
-TEST(ReferenceRayIntegrator, InvertedCellDoesNotContribute)
+TEST(ReferenceRayIntegrator, FoldOutwardCountsNowhere)
 {
-  // As in a folded mesh: the vertex below the shared face is pulled above it. The stretched cell
-  // keeps on until its exit, what it covers twice counts once.
-  const Mesh mesh{ { -1, -1, 0, 3, -1, 0, -1, 3, 0, 0, 0, 1, 0, 0, 0.5, 0, 0, -9 },
-    { 0, 1, 2, 3, 0, 1, 2, 4 }, { 1, 1, 1, 1, 1, 1 } };
+  // The vertex below the shared face is pulled above it: the path enters the inverted cell at its
+  // far end, 0.5, so only what the other cell covers beyond that counts.
+  const Mesh mesh{ { -1, -1, 0, 3, -1, 0, -1, 3, 0, 0, 0, 1, 0, 0, 0.5 },
+    { 0, 1, 2, 3, 0, 1, 2, 4 }, { 1, 1, 1, 1, 1 } };
   const ReferenceRayIntegrator integrator = mesh.integrator();
   EXPECT_EQ(integrator.mesh().numberOfInvertedCells(), 1u);
   EXPECT_NEAR(
-    integrator.trace(alongZ(0.0, 0.0), constantOptics(1.0))[3], -std::expm1(-1.0), Widening);
+    integrator.trace(alongZ(0.0, 0.0), constantOptics(1.0))[3], -std::expm1(-0.5), Widening);
+}
+
+TEST(ReferenceRayIntegrator, FoldInsideFollowsThePathAcrossFaces)
+{
+  // A column of three cells along z over one triangle; the vertex ring between the second and the
+  // third is folded below that between the first and the second: [0, 2], back to 1, on to 4.
+  const Mesh mesh{ { -1, -1, 0, 3, -1, 0, -1, 3, 0, -1, -1, 2, 3, -1, 2, -1, 3, 2, -1, -1, 1, 3, -1,
+                     1, -1, 3, 1, -1, -1, 4, 3, -1, 4, -1, 3, 4 },
+    { 0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5, 3, 4, 5, 6, 4, 5, 6, 7, 5, 6, 7, 8, 6, 7, 8, 9, 7, 8, 9,
+      10, 8, 9, 10, 11 },
+    { 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1 } };
+  const ReferenceRayIntegrator integrator = mesh.integrator();
+  EXPECT_EQ(integrator.mesh().numberOfInvertedCells(), 3u);
+  // Attenuation 1 on [0, 2] where the scalar is 0, and 3 on [2, 4] where it is 1.
+  const ReferenceTransferFunction function(
+    Nodes{ { 0.0, { 1.0, { 1, 0, 0 } } }, { 1.0, { 3.0, { 0, 1, 0 } } } });
+  const double first = -std::expm1(-2.0);
+  const double second = std::exp(-2.0) * -std::expm1(-6.0);
+  std::vector<RaySegment> segments;
+  EXPECT_TRUE(integrator.findSegments(alongZ(0.11, 0.07), segments).Ordered);
+  expectNear(integrator.trace(alongZ(0.11, 0.07), function), { first, second, 0.0, first + second },
+    Widening);
 }
 
 TEST(ReferenceRayIntegrator, GapAndReentry)
@@ -313,7 +335,8 @@ TEST(ReferenceRayIntegrator, EmptyMeshAndEmptyFunction)
 {
   const Mesh empty;
   expectNear(empty.integrator().trace(alongZ(0.0, 0.0), constantOptics(1.0)), Rgba{}, 0.0);
-  EXPECT_EQ(empty.integrator().classify(alongZ(0.0, 0.0), 1e-6), RayClass::Missed);
+  EXPECT_EQ(
+    empty.integrator().classify(alongZ(0.0, 0.0), 1e-6, constantOptics(1.0)), RayClass::Missed);
   Mesh mesh;
   appendBox(mesh, -1.0, 1.0, 1, [](double, double, double) { return 0.0; });
   expectNear(mesh.integrator().trace(alongZ(0.1, 0.2), ReferenceTransferFunction()), Rgba{}, 0.0);
@@ -335,13 +358,20 @@ TEST(ReferenceRayIntegrator, ClassifiesSilhouettes)
   appendBox(mesh, -1.0, 1.0, 4, [](double, double, double) { return 0.0; });
   const ReferenceRayIntegrator integrator = mesh.integrator();
   const double distance = integrator.silhouetteDistance();
-  EXPECT_EQ(integrator.classify(alongZ(0.1, 0.2), distance), RayClass::Covered);
-  EXPECT_EQ(integrator.classify(alongZ(0.5, 0.5), distance), RayClass::Covered);
-  EXPECT_EQ(integrator.classify(alongZ(1.0 - 10.0 * distance, 0.2), distance), RayClass::Covered);
-  EXPECT_EQ(integrator.classify(alongZ(1.0 - 0.5 * distance, 0.2), distance), RayClass::Silhouette);
-  EXPECT_EQ(integrator.classify(alongZ(1.0 + 0.5 * distance, 0.2), distance), RayClass::Silhouette);
-  EXPECT_EQ(integrator.classify(alongZ(1.0, 1.0), distance), RayClass::Silhouette);
-  EXPECT_EQ(integrator.classify(alongZ(1.0 + 10.0 * distance, 0.2), distance), RayClass::Missed);
+  EXPECT_EQ(
+    integrator.classify(alongZ(0.1, 0.2), distance, constantOptics(1.0)), RayClass::Covered);
+  EXPECT_EQ(
+    integrator.classify(alongZ(0.5, 0.5), distance, constantOptics(1.0)), RayClass::Covered);
+  EXPECT_EQ(integrator.classify(alongZ(1.0 - 10.0 * distance, 0.2), distance, constantOptics(1.0)),
+    RayClass::Covered);
+  EXPECT_EQ(integrator.classify(alongZ(1.0 - 0.5 * distance, 0.2), distance, constantOptics(1.0)),
+    RayClass::Silhouette);
+  EXPECT_EQ(integrator.classify(alongZ(1.0 + 0.5 * distance, 0.2), distance, constantOptics(1.0)),
+    RayClass::Silhouette);
+  EXPECT_EQ(
+    integrator.classify(alongZ(1.0, 1.0), distance, constantOptics(1.0)), RayClass::Silhouette);
+  EXPECT_EQ(integrator.classify(alongZ(1.0 + 10.0 * distance, 0.2), distance, constantOptics(1.0)),
+    RayClass::Missed);
 }
 
 TEST(ReferenceRayIntegrator, SteepFaceIsNotASilhouette)
@@ -349,5 +379,5 @@ TEST(ReferenceRayIntegrator, SteepFaceIsNotASilhouette)
   // A ray across a face tilted by 45 degrees, well inside it: the span moves in proportion.
   const Mesh mesh{ { 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4 }, { 0, 1, 2, 3 }, { 0, 0, 0, 0 } };
   const ReferenceRayIntegrator integrator = mesh.integrator();
-  EXPECT_EQ(integrator.classify(alongZ(1.0, 1.0), 1e-5), RayClass::Covered);
+  EXPECT_EQ(integrator.classify(alongZ(1.0, 1.0), 1e-5, constantOptics(1.0)), RayClass::Covered);
 }
