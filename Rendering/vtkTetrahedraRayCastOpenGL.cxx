@@ -3,9 +3,10 @@
 #include "vtkTetrahedraRayCastOpenGL.h"
 
 #include "vtkTetrahedraComposeFS.h"
+#include "vtkTetrahedraEntryTilesFS.h"
 #include "vtkTetrahedraRayCastFS.h"
+#include "vtkTetrahedraRays.h"
 
-#include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
@@ -19,227 +20,36 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <array>
+#include <numeric>
 
 namespace meniscus
 {
-
-//------------------------------------------------------------------------------
-class OpenGLTable
+namespace
 {
-public:
-  ~OpenGLTable() { this->Release(); }
 
-  bool IsFilled() const { return this->Filled; }
-  std::int64_t GetNumberOfTuples() const { return this->Tuples; }
-  std::int64_t GetBytes() const { return this->Bytes; }
+/** Texels of four faces that list a tile's entries; also in vtkTetrahedraEntryTilesFS. */
+constexpr unsigned int TileLayers = 8;
+/** Pixels along a tile's side: 8 overflows the lists of 7-14 % of the tiles of meshes of 200k
+ * cells. */
+constexpr int TileSize = 4;
 
-  /** Replaces the contents by rows of `components` values; returns an error or nothing. */
-  template <typename T>
-  std::string Upload(
-    vtkOpenGLRenderWindow* window, const std::vector<T>& values, int components, int vtkType)
-  {
-    this->Release();
-    const std::int64_t tuples = static_cast<std::int64_t>(values.size()) / components;
-    GLint limit = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-    if (tuples > limit)
-    {
-      return "a table of " + std::to_string(tuples) +
-        " texels exceeds this graphics device's GL_MAX_TEXTURE_BUFFER_SIZE of " +
-        std::to_string(limit);
-    }
-    this->Buffer->SetType(vtkOpenGLBufferObject::TextureBuffer);
-    this->Texture->SetContext(window);
-    if (vtkType == VTK_INT)
-    {
-      // VTK 9.1 has no default format for a texture buffer of integers.
-      this->Texture->SetInternalFormat(components == 1 ? GL_R32I : GL_RGBA32I);
-      this->Texture->SetFormat(components == 1 ? GL_RED_INTEGER : GL_RGBA_INTEGER);
-      this->Texture->SetDataType(GL_INT);
-    }
-    if (!this->Buffer->Upload(values, vtkOpenGLBufferObject::TextureBuffer) ||
-      !this->Texture->CreateTextureBuffer(
-        static_cast<unsigned int>(tuples), components, vtkType, this->Buffer))
-    {
-      return "a table of " + std::to_string(values.size() * sizeof(T)) +
-        " bytes could not be created on the graphics device";
-    }
-    this->Filled = true;
-    this->Tuples = tuples;
-    this->Bytes = static_cast<std::int64_t>(values.size() * sizeof(T));
-    return std::string();
-  }
-
-  void Activate(vtkShaderProgram* program, const char* name)
-  {
-    this->Texture->Activate();
-    program->SetUniformi(name, this->Texture->GetTextureUnit());
-  }
-  void Deactivate() { this->Texture->Deactivate(); }
-
-  void Release()
-  {
-    if (this->Filled)
-    {
-      this->Texture->ReleaseGraphicsResources(this->Texture->GetContext());
-      this->Buffer->ReleaseGraphicsResources();
-    }
-    this->Filled = false;
-    this->Tuples = 0;
-    this->Bytes = 0;
-  }
-
-private:
-  vtkNew<vtkOpenGLBufferObject> Buffer;
-  vtkNew<vtkTextureObject> Texture;
-  bool Filled = false;
-  std::int64_t Tuples = 0;
-  std::int64_t Bytes = 0;
-};
-
-//------------------------------------------------------------------------------
-/** The depth buffer of the framebuffer being drawn to, as a texture of the viewport's size. */
-class RayCastOpenGL::DepthCopy
+/**
+ * Draws to the first `count` color attachments of the bound target. VTK 9.1 skips the OpenGL call
+ * if another framebuffer drew to attachments of the same numbers before, which leaves this one with
+ * its default, the first attachment alone (seen by the counters: no steps).
+ */
+void DrawToAttachments(vtkOpenGLFramebufferObject* target, unsigned int count)
 {
-public:
-  vtkTextureObject* GetTexture() { return this->Texture; }
-
-  /** Copies the viewport; multisampled depth is resolved. Without a depth buffer all is far. */
-  std::string Update(vtkOpenGLRenderWindow* window, const int viewport[4])
-  {
-    vtkOpenGLState* state = window->GetState();
-    state->PushFramebufferBindings();
-    GLint source = 0;
-    GLint samples = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &source);
-    glGetIntegerv(GL_SAMPLES, &samples);
-    state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<unsigned int>(source));
-    const Format format = ReadFormat(source);
-    this->Allocate(window, format, viewport[2], viewport[3]);
-    if (format.DepthBits == 0 || samples > 1)
-    {
-      this->Target->SetContext(window);
-      this->Target->Bind(GL_DRAW_FRAMEBUFFER);
-      this->Target->AddDepthAttachment(this->Texture);
-      if (format.DepthBits == 0)
-      {
-        vtkOpenGLState::ScopedglDepthMask depthMask(state);
-        state->vtkglDepthMask(GL_TRUE);
-        state->vtkglClearDepth(1.0);
-        state->vtkglClear(GL_DEPTH_BUFFER_BIT);
-      }
-      else
-      {
-        const int right = viewport[0] + viewport[2];
-        const int top = viewport[1] + viewport[3];
-        vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-        state->vtkglDisable(GL_SCISSOR_TEST);
-        state->vtkglBlitFramebuffer(viewport[0], viewport[1], right, top, 0, 0, viewport[2],
-          viewport[3], GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-      }
-    }
-    else
-    {
-      this->Texture->CopyFromFrameBuffer(viewport[0], viewport[1], 0, 0, viewport[2], viewport[3]);
-    }
-    state->PopFramebufferBindings();
-    return std::string();
-  }
-
-  void Release(vtkWindow* window)
-  {
-    this->Texture->ReleaseGraphicsResources(window);
-    this->Target->ReleaseGraphicsResources(window);
-    this->Allocated = Format();
-    this->Width = 0;
-    this->Height = 0;
-  }
-
-private:
-  struct Format
-  {
-    GLint DepthBits = 0;
-    GLint StencilBits = 0;
-    GLint ComponentType = GL_UNSIGNED_NORMALIZED;
-
-    bool operator==(const Format& other) const
-    {
-      return this->DepthBits == other.DepthBits && this->StencilBits == other.StencilBits &&
-        this->ComponentType == other.ComponentType;
-    }
-  };
-
-  /** Format of the read framebuffer's depth attachment; 0 bits if there is none. */
-  static Format ReadFormat(GLint framebuffer)
-  {
-    Format format;
-    const GLenum depth = framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
-    const GLenum stencil = framebuffer == 0 ? GL_STENCIL : GL_STENCIL_ATTACHMENT;
-    GLint type = GL_NONE;
-    const auto get = [](GLenum attachment, GLenum name, GLint* value)
-    { glGetFramebufferAttachmentParameteriv(GL_READ_FRAMEBUFFER, attachment, name, value); };
-    get(depth, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
-    if (type == GL_NONE)
-    {
-      return format;
-    }
-    get(depth, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE, &format.DepthBits);
-    get(depth, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE, &format.ComponentType);
-    get(stencil, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
-    if (type != GL_NONE)
-    {
-      get(stencil, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE, &format.StencilBits);
-    }
-    return format;
-  }
-
-  /** A texture of the same depth format: a multisampled blit demands it. */
-  void Allocate(vtkOpenGLRenderWindow* window, const Format& format, int width, int height)
-  {
-    if (this->Width == width && this->Height == height && this->Allocated == format)
-    {
-      return;
-    }
-    this->Release(window);
-    this->Texture->SetContext(window);
-    this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
-    this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-    if (format.StencilBits > 0)
-    {
-      this->Texture->AllocateDepthStencil(width, height);
-    }
-    else
-    {
-      const int depthFormat = format.ComponentType == GL_FLOAT
-        ? vtkTextureObject::Float32
-        : (format.DepthBits == 16
-              ? vtkTextureObject::Fixed16
-              : (format.DepthBits == 32 ? vtkTextureObject::Fixed32 : vtkTextureObject::Fixed24));
-      this->Texture->AllocateDepth(width, height, depthFormat);
-    }
-    this->Allocated = format;
-    this->Width = width;
-    this->Height = height;
-  }
-
-  vtkNew<vtkTextureObject> Texture;
-  vtkNew<vtkOpenGLFramebufferObject> Target;
-  Format Allocated;
-  int Width = 0;
-  int Height = 0;
-};
-
-//------------------------------------------------------------------------------
-RayCastOpenGL::RayCastOpenGL()
-  : Vertices(new OpenGLTable)
-  , Cells(new OpenGLTable)
-  , TreeNodes(new OpenGLTable)
-  , TreeFaces(new OpenGLTable)
-  , Intervals(new OpenGLTable)
-  , Depth(new DepthCopy)
-{
+  target->ActivateDrawBuffers(count);
+  std::vector<GLenum> attachments(count);
+  std::iota(attachments.begin(), attachments.end(), GLenum{ GL_COLOR_ATTACHMENT0 });
+  glDrawBuffers(static_cast<GLsizei>(count), attachments.data());
 }
+
+}
+
+//------------------------------------------------------------------------------
+RayCastOpenGL::RayCastOpenGL() = default;
 
 //------------------------------------------------------------------------------
 RayCastOpenGL::~RayCastOpenGL() = default;
@@ -266,19 +76,19 @@ std::string RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
 //------------------------------------------------------------------------------
 bool RayCastOpenGL::HasMesh() const
 {
-  return this->Cells->IsFilled() && this->TreeNodes->IsFilled() && this->TreeFaces->IsFilled();
+  return this->Cells.IsFilled() && this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
 }
 
 //------------------------------------------------------------------------------
 bool RayCastOpenGL::HasVertices() const
 {
-  return this->Vertices->IsFilled();
+  return this->Vertices.IsFilled();
 }
 
 //------------------------------------------------------------------------------
 bool RayCastOpenGL::HasIntervals() const
 {
-  return this->Intervals->IsFilled();
+  return this->Intervals.IsFilled();
 }
 
 //------------------------------------------------------------------------------
@@ -301,8 +111,8 @@ std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const Boundar
   }
   const auto* cellValues = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
   const std::vector<std::int32_t> cells(cellValues, cellValues + 8 * mesh.GetNumberOfCells());
-  std::string error = this->Cells->Upload(this->Window, cells, 1, VTK_INT);
-  if (!this->Count(*this->Cells, error).empty())
+  std::string error = this->Cells.Upload(this->Window, cells, 1, 8);
+  if (!this->Count(this->Cells, error).empty())
   {
     return error;
   }
@@ -313,10 +123,10 @@ std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const Boundar
   {
     nodes.insert(nodes.end(),
       { node.Center.x, node.Center.y, node.Center.z, static_cast<float>(node.Skip), node.Half.x,
-        node.Half.y, node.Half.z, static_cast<float>(node.FirstFace) });
+        node.Half.y, node.Half.z, static_cast<float>(node.Face) });
   }
-  error = this->TreeNodes->Upload(this->Window, nodes, 4, VTK_FLOAT);
-  if (!this->Count(*this->TreeNodes, error).empty())
+  error = this->TreeNodes.Upload(this->Window, nodes, 4, 2);
+  if (!this->Count(this->TreeNodes, error).empty())
   {
     return error;
   }
@@ -328,8 +138,8 @@ std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const Boundar
     const auto& v = face.Vertices;
     faces.insert(faces.end(), { face.Outward > 0 ? v[0] : ~v[0], v[1], v[2], face.CellFace });
   }
-  error = this->TreeFaces->Upload(this->Window, faces, 4, VTK_INT);
-  return this->Count(*this->TreeFaces, error);
+  error = this->TreeFaces.Upload(this->Window, faces, 4, 1);
+  return this->Count(this->TreeFaces, error);
 }
 
 //------------------------------------------------------------------------------
@@ -343,8 +153,8 @@ std::string RayCastOpenGL::UploadVertices(
     const glm::vec3& p = mesh.GetPositions()[v];
     values.insert(values.end(), { p.x, p.y, p.z, scalars[v] });
   }
-  const std::string error = this->Vertices->Upload(this->Window, values, 4, VTK_FLOAT);
-  return this->Count(*this->Vertices, error);
+  const std::string error = this->Vertices.Upload(this->Window, values, 4, 1);
+  return this->Count(this->Vertices, error);
 }
 
 //------------------------------------------------------------------------------
@@ -358,8 +168,8 @@ std::string RayCastOpenGL::UploadIntervals(const std::vector<TransferFunctionInt
       { i.Lower, i.Upper, i.Attenuation, i.AttenuationSlope, i.Color.r, i.Color.g, i.Color.b, 0.0f,
         i.ColorSlope.r, i.ColorSlope.g, i.ColorSlope.b, 0.0f });
   }
-  const std::string error = this->Intervals->Upload(this->Window, values, 4, VTK_FLOAT);
-  return this->Count(*this->Intervals, error);
+  const std::string error = this->Intervals.Upload(this->Window, values, 4, 3);
+  return this->Count(this->Intervals, error);
 }
 
 //------------------------------------------------------------------------------
@@ -379,16 +189,14 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
   vtkOpenGLState::ScopedglEnableDisable blendScope(state, GL_BLEND);
   vtkOpenGLState::ScopedglEnableDisable cullScope(state, GL_CULL_FACE);
   vtkOpenGLState::ScopedglDepthMask depthMaskScope(state);
+  vtkOpenGLState::ScopedglColorMask colorMaskScope(state);
   vtkOpenGLState::ScopedglBlendFuncSeparate blendFuncScope(state);
   vtkOpenGLState::ScopedglActiveTexture activeTextureScope(state);
 
   int viewport[4];
   this->GetViewport(viewport);
-  std::string error = this->Depth->Update(this->Window, viewport);
-  if (error.empty())
-  {
-    error = this->Resize(viewport[2], viewport[3]);
-  }
+  this->Depth.Update(this->Window, viewport);
+  std::string error = this->Resize(viewport[2], viewport[3]);
   if (!error.empty())
   {
     return error;
@@ -396,9 +204,16 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
   state->vtkglDisable(GL_DEPTH_TEST);
   state->vtkglDisable(GL_CULL_FACE);
   state->vtkglDepthMask(GL_FALSE);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 
   state->PushFramebufferBindings();
-  error = this->CastRays(frame, viewport[2], viewport[3]);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDisable(GL_BLEND);
+  error = this->ListEntries(frame);
+  if (error.empty())
+  {
+    error = this->CastRays(frame);
+  }
   state->PopFramebufferBindings();
   return error.empty() ? this->Blend(viewport) : error;
 }
@@ -406,100 +221,134 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
 //------------------------------------------------------------------------------
 std::string RayCastOpenGL::Resize(int width, int height)
 {
-  const unsigned int w = static_cast<unsigned int>(width);
-  const unsigned int h = static_cast<unsigned int>(height);
-  if (this->Image && this->Image->GetWidth() == w && this->Image->GetHeight() == h)
+  if (width == this->Size[0] && height == this->Size[1])
   {
     return std::string();
   }
-  const auto allocate = [&](int components)
+  this->Image = vtkSmartPointer<vtkTextureObject>::New();
+  this->StatisticsImage = vtkSmartPointer<vtkTextureObject>::New();
+  this->EntryTiles = vtkSmartPointer<vtkTextureObject>::New();
+  for (const auto& texture : { this->Image, this->StatisticsImage, this->EntryTiles })
   {
-    auto texture = vtkSmartPointer<vtkTextureObject>::New();
     texture->SetContext(this->Window);
     texture->SetMinificationFilter(vtkTextureObject::Nearest);
     texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-    return texture->Allocate2D(w, h, components, VTK_FLOAT) ? texture : nullptr;
-  };
-  this->Image = allocate(4);
-  this->StatisticsImage = allocate(2);
-  if (!this->Image || !this->StatisticsImage)
+  }
+  this->Tiles[0] = (width + TileSize - 1) / TileSize;
+  this->Tiles[1] = (height + TileSize - 1) / TileSize;
+  if (!this->Image->Allocate2D(width, height, 4, VTK_FLOAT) ||
+    !this->StatisticsImage->Allocate2D(width, height, 2, VTK_FLOAT) ||
+    !this->EntryTiles->Allocate3D(this->Tiles[0], this->Tiles[1], TileLayers, 4, VTK_FLOAT))
   {
+    this->Size[0] = this->Size[1] = 0;
     return "no float image of " + std::to_string(width) + " x " + std::to_string(height) +
       " pixels can be made on the graphics device";
   }
+  this->Size[0] = width;
+  this->Size[1] = height;
   return std::string();
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::CastRays(const RayCastFrame& frame, int width, int height)
+std::string RayCastOpenGL::ReadyQuad(
+  std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragmentShader)
 {
-  vtkOpenGLState* state = this->Window->GetState();
-  if (!this->Framebuffer)
+  if (!quad)
   {
-    this->Framebuffer = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
-    this->Framebuffer->SetContext(this->Window);
-  }
-  this->Framebuffer->Bind();
-  this->Framebuffer->AddColorAttachment(0, this->Image);
-  this->Framebuffer->AddColorAttachment(1, this->StatisticsImage);
-  this->Framebuffer->ActivateDrawBuffers(2);
-  state->vtkglViewport(0, 0, width, height);
-  state->vtkglDisable(GL_SCISSOR_TEST);
-  state->vtkglDisable(GL_BLEND);
-
-  if (!this->RayCaster)
-  {
-    this->RayCaster =
-      std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, vtkTetrahedraRayCastFS, "");
+    std::string source(fragmentShader);
+    vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
+    quad = std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, source.c_str(), "");
   }
   else
   {
-    this->Window->GetShaderCache()->ReadyShaderProgram(this->RayCaster->Program);
+    this->Window->GetShaderCache()->ReadyShaderProgram(quad->Program);
+  }
+  const bool ready = quad->Program && quad->Program->GetCompiled();
+  return ready ? std::string() : "a shader does not compile on this graphics device";
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame)
+{
+  if (!this->TileTarget)
+  {
+    this->TileTarget = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+    this->TileTarget->SetContext(this->Window);
+  }
+  this->TileTarget->Bind();
+  for (unsigned int layer = 0; layer < TileLayers; ++layer)
+  {
+    this->TileTarget->AddColorAttachment(layer, this->EntryTiles, layer);
+  }
+  DrawToAttachments(this->TileTarget, TileLayers);
+  this->Window->GetState()->vtkglViewport(0, 0, this->Tiles[0], this->Tiles[1]);
+
+  const std::string error = this->ReadyQuad(this->TileLister, vtkTetrahedraEntryTilesFS);
+  if (!error.empty())
+  {
+    return error;
+  }
+  vtkShaderProgram* program = this->TileLister->Program;
+  this->ActivateRays(program, frame.Rays);
+  const float tiles[2] = { static_cast<float>(this->Tiles[0]), static_cast<float>(this->Tiles[1]) };
+  program->SetUniform2f("tileCount", tiles);
+  this->TileLister->Render();
+  this->DeactivateRays();
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
+{
+  if (!this->ImageTarget)
+  {
+    this->ImageTarget = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+    this->ImageTarget->SetContext(this->Window);
+  }
+  this->ImageTarget->Bind();
+  this->ImageTarget->AddColorAttachment(0, this->Image);
+  this->ImageTarget->AddColorAttachment(1, this->StatisticsImage);
+  DrawToAttachments(this->ImageTarget, 2);
+  this->Window->GetState()->vtkglViewport(0, 0, this->Size[0], this->Size[1]);
+
+  const std::string error = this->ReadyQuad(this->RayCaster, vtkTetrahedraRayCastFS);
+  if (!error.empty())
+  {
+    return error;
   }
   vtkShaderProgram* program = this->RayCaster->Program;
-  if (!program || !program->GetCompiled())
-  {
-    return "the ray casting shader does not compile on this graphics device";
-  }
-  const std::array<std::pair<OpenGLTable*, const char*>, 5> tables = { {
-    { this->Vertices.get(), "vertices" },
-    { this->Cells.get(), "cells" },
-    { this->TreeNodes.get(), "treeNodes" },
-    { this->TreeFaces.get(), "treeFaces" },
-    { this->Intervals.get(), "intervals" },
-  } };
-  for (const auto& table : tables)
-  {
-    table.first->Activate(program, table.second);
-  }
-  this->Depth->GetTexture()->Activate();
-  program->SetUniformi("opaqueDepth", this->Depth->GetTexture()->GetTextureUnit());
-  this->SetUniforms(program, frame, width, height);
+  this->ActivateRays(program, frame.Rays);
+  this->Cells.Activate(program, "cells");
+  this->Intervals.Activate(program, "intervals");
+  this->EntryTiles->Activate();
+  program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
+  this->Depth.GetTexture()->Activate();
+  program->SetUniformi("opaqueDepth", this->Depth.GetTexture()->GetTextureUnit());
+  this->SetCastUniforms(program, frame);
   this->RayCaster->Render();
-  this->Depth->GetTexture()->Deactivate();
-  for (const auto& table : tables)
-  {
-    table.first->Deactivate();
-  }
+  this->Depth.GetTexture()->Deactivate();
+  this->EntryTiles->Deactivate();
+  this->Intervals.Deactivate();
+  this->Cells.Deactivate();
+  this->DeactivateRays();
   this->StatisticsStale = true;
   return std::string();
 }
 
 //------------------------------------------------------------------------------
-void RayCastOpenGL::SetUniforms(
-  vtkShaderProgram* program, const RayCastFrame& frame, int width, int height)
+void RayCastOpenGL::ActivateRays(vtkShaderProgram* program, const RayFrame& rays)
 {
-  const RayFrame& rays = frame.Rays;
   const auto set2 = [program](const char* name, const glm::dvec2& value)
   { program->SetUniform2f(name, glm::value_ptr(glm::vec2(value))); };
   const auto set3 = [program](const char* name, const glm::dvec3& value)
   { program->SetUniform3f(name, glm::value_ptr(glm::vec3(value))); };
 
-  program->SetUniformi("numberOfNodes", static_cast<int>(this->TreeNodes->GetNumberOfTuples() / 2));
-  program->SetUniformi("numberOfCells", static_cast<int>(this->Cells->GetNumberOfTuples() / 8));
-  program->SetUniformi(
-    "numberOfIntervals", static_cast<int>(this->Intervals->GetNumberOfTuples() / 3));
-  set2("imageCenter", 0.5 * glm::dvec2(width, height));
+  this->Vertices.Activate(program, "vertices");
+  this->TreeNodes.Activate(program, "treeNodes");
+  this->TreeFaces.Activate(program, "treeFaces");
+  program->SetUniformi("numberOfNodes", static_cast<int>(this->TreeNodes.GetNumberOfRows()));
+  program->SetUniformf("tileSize", static_cast<float>(TileSize));
+  set2("imageCenter", 0.5 * glm::dvec2(this->Size[0], this->Size[1]));
   set3("rowX", rays.RowX);
   set3("rowY", rays.RowY);
   set3("rowDepth", rays.RowDepth);
@@ -509,12 +358,28 @@ void RayCastOpenGL::SetUniforms(
   set2("slopeBase", rays.Slope.Base);
   set2("slopePerColumn", rays.Slope.PerColumn);
   set2("slopePerRow", rays.Slope.PerRow);
+  program->SetUniformi("enteringSign", rays.Handedness);
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::DeactivateRays()
+{
+  this->TreeFaces.Deactivate();
+  this->TreeNodes.Deactivate();
+  this->Vertices.Deactivate();
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFrame& frame)
+{
+  const RayFrame& rays = frame.Rays;
+  program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
+  program->SetUniformi("numberOfIntervals", static_cast<int>(this->Intervals.GetNumberOfRows()));
   glm::mat3 viewToWorld(rays.ViewToWorld);
   program->SetUniformMatrix3x3("viewToWorld", glm::value_ptr(viewToWorld));
-  program->SetUniformi("enteringSign", rays.Handedness);
   program->SetUniformf("nearDepth", static_cast<float>(rays.NearDepth));
-  set2("depthNumerator", rays.DepthNumerator);
-  set2("depthDenominator", rays.DepthDenominator);
+  program->SetUniform2f("depthNumerator", glm::value_ptr(glm::vec2(rays.DepthNumerator)));
+  program->SetUniform2f("depthDenominator", glm::value_ptr(glm::vec2(rays.DepthDenominator)));
   program->SetUniformf(
     "terminationTransmittance", static_cast<float>(1.0 - frame.EarlyTerminationOpacity));
 }
@@ -526,22 +391,13 @@ std::string RayCastOpenGL::Blend(const int viewport[4])
   state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (!this->Composer)
+  const std::string error = this->ReadyQuad(this->Composer, vtkTetrahedraComposeFS);
+  if (!error.empty())
   {
-    this->Composer =
-      std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, vtkTetrahedraComposeFS, "");
-  }
-  else
-  {
-    this->Window->GetShaderCache()->ReadyShaderProgram(this->Composer->Program);
-  }
-  vtkShaderProgram* program = this->Composer->Program;
-  if (!program || !program->GetCompiled())
-  {
-    return "the blending shader does not compile on this graphics device";
+    return error;
   }
   this->Image->Activate();
-  program->SetUniformi("image", this->Image->GetTextureUnit());
+  this->Composer->Program->SetUniformi("image", this->Image->GetTextureUnit());
   this->Composer->Render();
   this->Image->Deactivate();
   return std::string();
@@ -583,20 +439,24 @@ void RayCastOpenGL::Release()
     this->Window->MakeCurrent();
     this->GetStatistics();
   }
-  for (OpenGLTable* table : { this->Vertices.get(), this->Cells.get(), this->TreeNodes.get(),
-         this->TreeFaces.get(), this->Intervals.get() })
+  for (OpenGLTable* table :
+    { &this->Vertices, &this->Cells, &this->TreeNodes, &this->TreeFaces, &this->Intervals })
   {
     table->Release();
   }
   if (this->Window)
   {
-    this->Depth->Release(this->Window);
+    this->Depth.Release(this->Window);
   }
+  this->TileLister.reset();
   this->RayCaster.reset();
   this->Composer.reset();
-  this->Framebuffer = nullptr;
+  this->TileTarget = nullptr;
+  this->ImageTarget = nullptr;
+  this->EntryTiles = nullptr;
   this->Image = nullptr;
   this->StatisticsImage = nullptr;
+  this->Size[0] = this->Size[1] = 0;
   this->StatisticsStale = false;
   this->Window = nullptr;
 }

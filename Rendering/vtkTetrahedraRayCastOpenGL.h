@@ -8,7 +8,8 @@
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
-#include "vtkNew.h"
+#include "vtkOpenGLDepthCopy.h"
+#include "vtkOpenGLTable.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -27,9 +28,6 @@ class vtkTextureObject;
 namespace meniscus
 {
 
-/** A table in a buffer, seen by shaders as a texture. */
-class OpenGLTable;
-
 /** What a frame needs beside the tables. */
 struct RayCastFrame
 {
@@ -46,9 +44,10 @@ struct RayStatistics
 };
 
 /**
- * The ray caster on OpenGL 3.2: tables in texture buffers, one pass of a fragment shader into a
- * float image of the viewport's size, and a second one that blends it into the framebuffer.
- * All calls want the window's context to be current. Errors are texts, empty if there is none.
+ * The ray caster on OpenGL 3.2: tables in texture buffers; a pass that lists the possible entries
+ * of each tile of the image, one that casts the rays into a float image of the viewport's size, and
+ * one that blends it into the framebuffer. All calls want the window's context to be current.
+ * Errors are texts, empty if there is none.
  */
 class RayCastOpenGL
 {
@@ -83,26 +82,33 @@ public:
   void Release();
 
 private:
-  class DepthCopy;
-
-  std::string Resize(int width, int height);
-  std::string CastRays(const RayCastFrame& frame, int width, int height);
-  void SetUniforms(vtkShaderProgram* program, const RayCastFrame& frame, int width, int height);
-  std::string Blend(const int viewport[4]);
   std::string Count(OpenGLTable& table, const std::string& error);
+  std::string Resize(int width, int height);
+  std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragmentShader);
+  std::string ListEntries(const RayCastFrame& frame);
+  std::string CastRays(const RayCastFrame& frame);
+  std::string Blend(const int viewport[4]);
+  void ActivateRays(vtkShaderProgram* program, const RayFrame& rays);
+  void DeactivateRays();
+  void SetCastUniforms(vtkShaderProgram* program, const RayCastFrame& frame);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  std::unique_ptr<OpenGLTable> Vertices;
-  std::unique_ptr<OpenGLTable> Cells;
-  std::unique_ptr<OpenGLTable> TreeNodes;
-  std::unique_ptr<OpenGLTable> TreeFaces;
-  std::unique_ptr<OpenGLTable> Intervals;
-  std::unique_ptr<DepthCopy> Depth;
+  OpenGLTable Vertices;
+  OpenGLTable Cells;
+  OpenGLTable TreeNodes;
+  OpenGLTable TreeFaces;
+  OpenGLTable Intervals;
+  OpenGLDepthCopy Depth;
+  std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
   std::unique_ptr<vtkOpenGLQuadHelper> RayCaster;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
-  vtkSmartPointer<vtkOpenGLFramebufferObject> Framebuffer;
+  vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;
+  vtkSmartPointer<vtkOpenGLFramebufferObject> ImageTarget;
+  vtkSmartPointer<vtkTextureObject> EntryTiles;
   vtkSmartPointer<vtkTextureObject> Image;
   vtkSmartPointer<vtkTextureObject> StatisticsImage;
+  int Size[2] = { 0, 0 };
+  int Tiles[2] = { 0, 0 };
   RayStatistics Statistics;
   bool StatisticsStale = false;
   std::int64_t UploadedBytes = 0;

@@ -57,7 +57,8 @@ void BoundaryTree::Build(const TetrahedralMesh& mesh)
     items[f] = { glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)),
       static_cast<std::int32_t>(f) };
   }
-  this->Faces.reserve(items.size() + items.size() / 2);
+  this->Nodes.reserve(2 * items.size());
+  this->Faces.reserve(items.size());
   this->BuildSubtree(mesh, items, 0, items.size());
 }
 
@@ -85,20 +86,18 @@ void BoundaryTree::BuildSubtree(
   }
   this->Nodes.push_back({ center, half, 0, -1 });
 
-  if (last - first <= FacesPerLeaf)
+  if (last - first == 1)
   {
-    this->Nodes[node].FirstFace = static_cast<std::int32_t>(this->Faces.size());
-    this->FillLeaf(mesh, items, first, last);
+    this->Nodes[node].Face = static_cast<std::int32_t>(this->Faces.size());
+    this->Faces.push_back(mesh.GetBoundary()[items[first].Face]);
   }
   else
   {
     const glm::vec3 extent = upperTwice - lowerTwice;
     const int axis =
       extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-    // Halves of whole leaves, so that every leaf but the last is full. Ties by index keep the tree
-    // the same on every machine.
-    const std::size_t leaves = (last - first + FacesPerLeaf - 1) / FacesPerLeaf;
-    const std::size_t middle = first + leaves / 2 * FacesPerLeaf;
+    const std::size_t middle = first + (last - first) / 2;
+    // Ties by index: the tree is the same on every machine.
     std::nth_element(items.begin() + first, items.begin() + middle, items.begin() + last,
       [axis](const Item& a, const Item& b)
       {
@@ -110,20 +109,6 @@ void BoundaryTree::BuildSubtree(
     this->BuildSubtree(mesh, items, middle, last);
   }
   this->Nodes[node].Skip = static_cast<std::int32_t>(this->Nodes.size());
-}
-
-//------------------------------------------------------------------------------
-void BoundaryTree::FillLeaf(
-  const TetrahedralMesh& mesh, const std::vector<Item>& items, std::size_t first, std::size_t last)
-{
-  for (std::size_t i = first; i < last; ++i)
-  {
-    this->Faces.push_back(mesh.GetBoundary()[items[i].Face]);
-  }
-  // A triangle of one vertex contains no ray.
-  const std::int32_t vertex = this->Faces.back().Vertices[0];
-  this->Faces.resize(this->Faces.size() + FacesPerLeaf - (last - first),
-    BoundaryFace{ { vertex, vertex, vertex }, 1, this->Faces.back().CellFace });
 }
 
 }

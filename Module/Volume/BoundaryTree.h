@@ -27,25 +27,20 @@ public:
     glm::vec3 Half;
     /** The node that follows this node's subtree. */
     std::int32_t Skip;
-    /** A leaf's first face in GetFaces(); -1 for an inner node. */
-    std::int32_t FirstFace;
+    /** A leaf's face in GetFaces(); -1 for an inner node. */
+    std::int32_t Face;
   };
-
-  /** Faces of a leaf; the last leaf is filled up with triangles of one vertex. */
-  static constexpr int FacesPerLeaf = 4;
 
   void Build(const TetrahedralMesh& mesh);
 
   const std::vector<Node>& GetNodes() const { return this->Nodes; }
-  /** Boundary faces in leaf order; the faces of a leaf are consecutive. */
+  /** Boundary faces in leaf order. */
   const std::vector<BoundaryFace>& GetFaces() const { return this->Faces; }
 
 private:
   struct Item;
   void BuildSubtree(
     const TetrahedralMesh& mesh, std::vector<Item>& items, std::size_t first, std::size_t last);
-  void FillLeaf(const TetrahedralMesh& mesh, const std::vector<Item>& items, std::size_t first,
-    std::size_t last);
 
   std::vector<Node> Nodes;
   std::vector<BoundaryFace> Faces;

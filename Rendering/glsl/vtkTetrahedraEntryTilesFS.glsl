@@ -1,0 +1,106 @@
+//VTK::System::Dec
+#extension GL_ARB_gpu_shader5 : enable
+
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Lists, for each tile of the image, the boundary faces by which a ray of the tile may enter the
+// mesh: up to 32 faces in 8 targets, filled up with -1. The list of a tile with more begins with -2.
+// Works with the tile's central ray, in its grid units, and bounds the difference to the others.
+
+in vec2 texCoord;
+
+//VTK::Output::Dec
+
+//VTK::TetrahedraRays::Dec
+
+uniform float tileSize;
+uniform vec2 tileCount;
+
+const int CAPACITY = 32;
+// Bounds rounding of a sum of three edge areas, each to 2^24.
+const float AREA_MARGIN = 67108864.0;
+
+// By how much (u, v) of a vertex at depth 0, and more per unit of depth, differs among the rays.
+vec2 reach;
+vec2 reachPerDepth;
+
+// By how much the area of (ray, p, q) differs among the rays: with p and q displaced by d and
+// d + t (q.z - p.z), it changes by d x (q - p) + t (q.z - p.z) x p and the product of the two.
+float areaReach(RayVertex p, RayVertex q)
+{
+  vec2 d = reach + reachPerDepth * abs(p.z);
+  vec2 t = reachPerDepth * abs(q.z - p.z);
+  vec2 edge = abs(q.xy - p.xy);
+  vec2 from = abs(p.xy) + d;
+  return d.x * edge.y + d.y * edge.x + t.x * from.y + t.y * from.x + AREA_MARGIN;
+}
+
+// By how much the area of (p, q, r) seen along the rays differs: by the slopes only.
+float faceAreaReach(RayVertex p, RayVertex q, RayVertex r)
+{
+  vec3 e = abs(q.xyz - p.xyz);
+  vec3 f = abs(r.xyz - p.xyz);
+  vec2 te = reachPerDepth * e.z;
+  vec2 tf = reachPerDepth * f.z;
+  return te.x * (f.y + tf.y) + te.y * (f.x + tf.x) + tf.x * e.y + tf.y * e.x + AREA_MARGIN;
+}
+
+// Whether some ray of the tile may enter the mesh by the face.
+bool mayEnter(int index)
+{
+  ivec4 record = texelFetch(treeFaces, index);
+  RayVertex p = fetchVertex(record.x < 0 ? ~record.x : record.x);
+  RayVertex q = fetchVertex(record.y);
+  RayVertex r = fetchVertex(record.z);
+  float entering = float((record.x < 0 ? -1 : 1) * enteringSign);
+  vec3 areas = entering * vec3(edgeArea(p, q), edgeArea(q, r), edgeArea(r, p));
+  vec3 reaches = vec3(areaReach(p, q), areaReach(q, r), areaReach(r, p));
+  return all(greaterThanEqual(areas + reaches, vec3(0.0))) &&
+    areas.x + areas.y + areas.z + faceAreaReach(p, q, r) >= 0.0;
+}
+
+void main()
+{
+  vec2 pixel = (floor(texCoord * tileCount) + vec2(0.5)) * tileSize - imageCenter;
+  setUpRay(pixel, vec2(0.0));
+  vec2 originReach = 0.5 * tileSize * (abs(originPerColumn) + abs(originPerRow));
+  vec2 slopeReach = 0.5 * tileSize * (abs(slopePerColumn) + abs(slopePerRow));
+  reach = originReach * gridScale;
+  reachPerDepth = slopeReach * gridScale;
+  bool nearMesh = all(lessThanEqual(
+    abs(rayOrigin), vec2(GRID_RADIUS + BOX_MARGIN) + reach + 2.0 * reachPerDepth));
+
+  vec4 list[8];
+  for (int i = 0; i < 8; ++i)
+  {
+    list[i] = vec4(-1.0);
+  }
+  int count = 0;
+  int node = nearMesh ? 0 : numberOfNodes;
+  while (node < numberOfNodes && count <= CAPACITY)
+  {
+    int leaf;
+    meetsBox(node, reach, reachPerDepth, vec2(-1.0e+30, 1.0e+30), node, leaf);
+    if (leaf >= 0 && mayEnter(leaf))
+    {
+      if (count < CAPACITY)
+      {
+        list[count / 4][count % 4] = float(leaf);
+      }
+      ++count;
+    }
+  }
+  if (count > CAPACITY)
+  {
+    list[0].x = -2.0;
+  }
+  gl_FragData[0] = list[0];
+  gl_FragData[1] = list[1];
+  gl_FragData[2] = list[2];
+  gl_FragData[3] = list[3];
+  gl_FragData[4] = list[4];
+  gl_FragData[5] = list[5];
+  gl_FragData[6] = list[6];
+  gl_FragData[7] = list[7];
+}

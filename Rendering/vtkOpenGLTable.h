@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkOpenGLTable_h
+#define vtkOpenGLTable_h
+
+#include "vtkNew.h"
+#include "vtkOpenGLBufferObject.h"
+#include "vtkTextureObject.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace meniscus
+{
+
+/** Rows of floats or 32-bit integers in a buffer that shaders read as a texture. */
+class OpenGLTable
+{
+public:
+  OpenGLTable() = default;
+  ~OpenGLTable() { this->Release(); }
+  OpenGLTable(const OpenGLTable&) = delete;
+  void operator=(const OpenGLTable&) = delete;
+
+  bool IsFilled() const { return this->Bytes > 0; }
+  std::int64_t GetNumberOfRows() const { return this->Rows; }
+  std::int64_t GetBytes() const { return this->Bytes; }
+
+  /**
+   * Replaces the contents by texels of 1 or 4 values. Returns an error or nothing.
+   * @param texelsPerRow  only for GetNumberOfRows().
+   */
+  std::string Upload(vtkOpenGLRenderWindow* window, const std::vector<float>& values,
+    int components, int texelsPerRow);
+  std::string Upload(vtkOpenGLRenderWindow* window, const std::vector<std::int32_t>& values,
+    int components, int texelsPerRow);
+
+  void Activate(vtkShaderProgram* program, const char* name);
+  void Deactivate() { this->Texture->Deactivate(); }
+  void Release();
+
+private:
+  template <typename T>
+  std::string UploadValues(vtkOpenGLRenderWindow* window, const std::vector<T>& values,
+    int components, int texelsPerRow, int vtkType);
+
+  vtkNew<vtkOpenGLBufferObject> Buffer;
+  vtkNew<vtkTextureObject> Texture;
+  std::int64_t Rows = 0;
+  std::int64_t Bytes = 0;
+};
+
+}
+
+#endif
