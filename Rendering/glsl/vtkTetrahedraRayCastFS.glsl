@@ -246,48 +246,81 @@ bool walk(inout int steps)
 
 //--- Entry -----------------------------------------------------------------------------------------
 
-// Whether the ray enters the mesh through a face after (lastDepth, lastFace) and before (depth, face
-// number) `best`, in the order of depth, then number; if so, puts the walk there.
-bool enterFace(int index, float lastDepth, int lastFace, float bestDepth, int bestFace)
+// A boundary face as seen by the ray.
+struct SeenFace
 {
+  RayVertex p;
+  RayVertex q;
+  RayVertex r;
+  vec3 areas;
+  vec2 point;   // depth and scalar where the ray meets it
+  bool left;    // counter-clockwise if entered
+  bool entered;
+  int cellFace;
+};
+
+SeenFace seeFace(int index)
+{
+  SeenFace f;
   ivec4 record = texelFetch(treeFaces, index);
-  bool left = (record.x < 0 ? -1 : 1) * enteringSign > 0;
-  RayVertex p = fetchVertex(record.x < 0 ? ~record.x : record.x);
-  RayVertex q = fetchVertex(record.y);
-  RayVertex r = fetchVertex(record.z);
-  vec3 areas = vec3(edgeArea(p, q), edgeArea(q, r), edgeArea(r, p));
-  bool enters = edgeTurnsLeft(p, q, areas.x, true) == left &&
-    edgeTurnsLeft(q, r, areas.y, true) == left && edgeTurnsLeft(r, p, areas.z, false) == left;
-  areas = abs(areas);
-  float total = areas.x + areas.y + areas.z;
-  // A face without projected area is entered at its first vertex.
-  vec2 point = total > 0.0 ? (areas.y * p.zw + areas.z * q.zw + areas.x * r.zw) / total : p.zw;
-  bool after = point.x > lastDepth || (point.x == lastDepth && index > lastFace);
-  bool best = point.x < bestDepth || (point.x == bestDepth && index < bestFace);
-  if (!(enters && after && best))
-  {
-    return false;
-  }
-  a = p;
-  b = q;
-  c = r;
-  edges = areas;
-  turnsLeft = left;
-  cell = record.w >> 2;
-  face = record.w & 3;
-  faceDepth = point.x;
-  faceScalar = point.y;
-  return true;
+  f.left = (record.x < 0 ? -1 : 1) * enteringSign > 0;
+  f.cellFace = record.w;
+  f.p = fetchVertex(record.x < 0 ? ~record.x : record.x);
+  f.q = fetchVertex(record.y);
+  f.r = fetchVertex(record.z);
+  f.areas = vec3(edgeArea(f.p, f.q), edgeArea(f.q, f.r), edgeArea(f.r, f.p));
+  f.entered = edgeTurnsLeft(f.p, f.q, f.areas.x, true) == f.left &&
+    edgeTurnsLeft(f.q, f.r, f.areas.y, true) == f.left &&
+    edgeTurnsLeft(f.r, f.p, f.areas.z, false) == f.left;
+  f.areas = abs(f.areas);
+  float total = f.areas.x + f.areas.y + f.areas.z;
+  // A face without projected area is met at its first vertex.
+  f.point = total > 0.0
+    ? (f.areas.y * f.p.zw + f.areas.z * f.q.zw + f.areas.x * f.r.zw) / total
+    : f.p.zw;
+  return f;
 }
 
-// Moves to the next entry after (entryDepth, entryNumber) and yields that; false if there is none.
-// Candidates are the faces listed for the fragment's tile; those of the tree if they do not fit.
-bool enterNext(inout float entryDepth, inout int entryNumber)
+// The next entries of the ray in the order of depth, then number; -1 where there are none.
+vec4 entryDepths;
+ivec4 entryFaces;
+bool moreEntries;
+
+bool isBefore(float depth, int number, float otherDepth, int otherNumber)
+{
+  return depth < otherDepth || (depth == otherDepth && number < otherNumber);
+}
+
+void insertEntry(float depth, int number)
+{
+  moreEntries = moreEntries || entryFaces.w >= 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    if (entryFaces[i] < 0 || isBefore(depth, number, entryDepths[i], entryFaces[i]))
+    {
+      float otherDepth = entryDepths[i];
+      int otherNumber = entryFaces[i];
+      entryDepths[i] = depth;
+      entryFaces[i] = number;
+      depth = otherDepth;
+      number = otherNumber;
+      if (number < 0)
+      {
+        return;
+      }
+    }
+  }
+}
+
+// Finds the next entries after (lastDepth, lastFace) among the faces listed for the fragment's tile,
+// or among those of the tree if they did not fit.
+void collectEntries(float lastDepth, int lastFace)
 {
   ivec2 tile = ivec2(gl_FragCoord.xy / tileSize);
   bool listed = texelFetch(entryTiles, ivec3(tile, 0), 0).x > -1.5;
-  vec2 depthRange = vec2(entryDepth, endDepth);
-  int bestFace = -1;
+  entryFaces = ivec4(-1);
+  entryDepths = vec4(0.0);
+  moreEntries = false;
   int at = 0;
   int end = listed ? TILE_CAPACITY : numberOfNodes;
   while (at < end)
@@ -300,18 +333,36 @@ bool enterNext(inout float entryDepth, inout int entryNumber)
     }
     else
     {
-      meetsBox(at, vec2(0.0), vec2(0.0), depthRange, at, candidate);
+      meetsBox(at, vec2(0.0), vec2(0.0), vec2(lastDepth, endDepth), at, candidate);
     }
-    if (candidate >= 0 &&
-      enterFace(candidate, entryDepth, entryNumber, depthRange.y, bestFace))
+    if (candidate >= 0)
     {
-      depthRange.y = faceDepth;
-      bestFace = candidate;
+      SeenFace f = seeFace(candidate);
+      if (f.entered && f.point.x < endDepth &&
+        isBefore(lastDepth, lastFace, f.point.x, candidate))
+      {
+        insertEntry(f.point.x, candidate);
+      }
     }
   }
-  entryDepth = depthRange.y;
-  entryNumber = bestFace;
-  return bestFace >= 0;
+}
+
+// Puts the walk on the first of the entries found, and removes it from them.
+void enterFirst()
+{
+  SeenFace f = seeFace(entryFaces.x);
+  a = f.p;
+  b = f.q;
+  c = f.r;
+  edges = f.areas;
+  turnsLeft = f.left;
+  cell = f.cellFace >> 2;
+  face = f.cellFace & 3;
+  faceDepth = f.point.x;
+  faceScalar = f.point.y;
+  depthNow = max(depthNow, faceDepth);
+  entryFaces = ivec4(entryFaces.yzw, -1);
+  entryDepths = vec4(entryDepths.yzw, 0.0);
 }
 
 void main()
@@ -328,12 +379,23 @@ void main()
 
   int steps = 0;
   int lost = 0;
-  float entryDepth = BEFORE_EVERYTHING;
-  int entryNumber = -1;
-  while (meetsMesh && transmittance > terminationTransmittance && depthNow < endDepth &&
-    enterNext(entryDepth, entryNumber))
+  float lastDepth = BEFORE_EVERYTHING;
+  int lastFace = -1;
+  entryFaces = ivec4(-1);
+  moreEntries = meetsMesh;
+  while (transmittance > terminationTransmittance && depthNow < endDepth)
   {
-    depthNow = max(depthNow, entryDepth);
+    if (entryFaces.x < 0 && moreEntries)
+    {
+      collectEntries(lastDepth, lastFace);
+    }
+    if (entryFaces.x < 0)
+    {
+      break;
+    }
+    lastFace = entryFaces.x;
+    enterFirst();
+    lastDepth = faceDepth;
     findInterval(faceScalar);
     lost += walk(steps) ? 0 : 1;
   }

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkTetrahedraRayCastOpenGL_h
-#define vtkTetrahedraRayCastOpenGL_h
+#ifndef RayCastOpenGL_h
+#define RayCastOpenGL_h
 
 #include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
-#include "vtkOpenGLDepthCopy.h"
-#include "vtkOpenGLTable.h"
+#include "OpenGLDepthCopy.h"
+#include "OpenGLTable.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -109,7 +109,6 @@ private:
   vtkSmartPointer<vtkTextureObject> StatisticsImage;
   int Size[2] = { 0, 0 };
   int Tiles[2] = { 0, 0 };
-  int TileSize = 0;
   RayStatistics Statistics;
   bool StatisticsStale = false;
   std::int64_t UploadedBytes = 0;

@@ -1,0 +1,662 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReferenceRayIntegrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace meniscus
+{
+namespace reference
+{
+
+namespace
+{
+
+// Breaks and clipped lengths below this share of the diagonal are rounding, not geometry:
+// half-spaces are widened by 1e-13, and a face met at 1e-4 radian stretches that by 1e4.
+constexpr double NegligibleLength = 1e-9;
+
+// Light behind this transmittance cannot change a result in double by 1e-15.
+constexpr double DarkTransmittance = 1e-16;
+
+// Optical depth of a piece up to which 4 points are exact to 1e-12, and of a piece for 8 points
+// (error term of Gauss-Legendre with the derivatives of a quadratic times exp(-quadratic)).
+constexpr double ThinDepth = 0.02;
+constexpr double ThickDepth = 1.0;
+
+// Gauss-Legendre on [-1, 1], positive half.
+constexpr double Points4[2] = { 0.33998104358485626480, 0.86113631159405257522 };
+constexpr double Weights4[2] = { 0.65214515486254614263, 0.34785484513745385737 };
+constexpr double Points8[4] = { 0.18343464249564980494, 0.52553240991632898582,
+  0.79666647741362673959, 0.96028985649753623168 };
+constexpr double Weights8[4] = { 0.36268378337836198297, 0.31370664587788728734,
+  0.22238103445337447054, 0.10122853629037625915 };
+
+double dot(const Vector3& a, const Vector3& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double length(const Vector3& a)
+{
+  return std::sqrt(dot(a, a));
+}
+
+struct Accumulator
+{
+  std::array<double, 3> Color{ 0.0, 0.0, 0.0 };
+  double Transmittance = 1.0;
+};
+
+// Adds the weighted emission at one abscissa, u in [0, 1] along a piece of the given length.
+void addSample(const OpticalSample& begin, const OpticalSample& end, double pieceLength, double u,
+  double weight, Accumulator& sum)
+{
+  const double slope = end.Attenuation - begin.Attenuation;
+  const double attenuation = begin.Attenuation + u * slope;
+  const double depth = pieceLength * u * (begin.Attenuation + 0.5 * u * slope);
+  const double emission = weight * pieceLength * attenuation * std::exp(-depth);
+  for (int c = 0; c < 3; ++c)
+  {
+    sum.Color[c] += emission * (begin.Color[c] + u * (end.Color[c] - begin.Color[c]));
+  }
+}
+
+// One piece in which attenuation and colour are linear, of optical depth at most ThickDepth.
+template <int Half>
+void addPiece(const OpticalSample& begin, const OpticalSample& end, double pieceLength,
+  const double (&points)[Half], const double (&weights)[Half], Accumulator& total)
+{
+  Accumulator sum;
+  for (int i = 0; i < Half; ++i)
+  {
+    addSample(begin, end, pieceLength, 0.5 * (1.0 - points[i]), 0.5 * weights[i], sum);
+    addSample(begin, end, pieceLength, 0.5 * (1.0 + points[i]), 0.5 * weights[i], sum);
+  }
+  const double depth = 0.5 * pieceLength * (begin.Attenuation + end.Attenuation);
+  for (int c = 0; c < 3; ++c)
+  {
+    total.Color[c] += total.Transmittance * sum.Color[c];
+  }
+  total.Transmittance *= std::exp(-depth);
+}
+
+OpticalSample mix(const OpticalSample& a, const OpticalSample& b, double u)
+{
+  OpticalSample sample;
+  sample.Attenuation = a.Attenuation + u * (b.Attenuation - a.Attenuation);
+  for (int c = 0; c < 3; ++c)
+  {
+    sample.Color[c] = a.Color[c] + u * (b.Color[c] - a.Color[c]);
+  }
+  return sample;
+}
+
+// Splits a piece of linear optics until Gauss-Legendre is exact to the target.
+void addLinearPiece(
+  const OpticalSample& begin, const OpticalSample& end, double pieceLength, Accumulator& total)
+{
+  const double depth = 0.5 * pieceLength * (begin.Attenuation + end.Attenuation);
+  if (depth <= 0.0)
+  {
+    return;
+  }
+  if (depth <= ThinDepth)
+  {
+    addPiece(begin, end, pieceLength, Points4, Weights4, total);
+    return;
+  }
+  const int parts = static_cast<int>(std::min(std::ceil(depth / ThickDepth), 1e6));
+  for (int i = 0; i < parts && total.Transmittance > DarkTransmittance; ++i)
+  {
+    addPiece(mix(begin, end, static_cast<double>(i) / parts),
+      mix(begin, end, static_cast<double>(i + 1) / parts), pieceLength / parts, Points8, Weights8,
+      total);
+  }
+}
+
+// Splits one segment at the nodes of the transfer function that lie inside its scalar range.
+void addSegment(const RaySegment& segment, double lengthPerUnit,
+  const ReferenceTransferFunction& function, Accumulator& total)
+{
+  const double s0 = segment.ScalarBegin;
+  const double s1 = segment.ScalarEnd;
+  const double segmentLength = (segment.End - segment.Begin) * lengthPerUnit;
+  const auto add = [&](double from, double to)
+  {
+    const double a = s0 + from * (s1 - s0);
+    const double b = s0 + to * (s1 - s0);
+    const std::size_t piece = function.pieceOf(0.5 * (a + b));
+    addLinearPiece(function.valueInPiece(piece, a), function.valueInPiece(piece, b),
+      (to - from) * segmentLength, total);
+  };
+
+  const auto& nodes = function.nodes();
+  const std::size_t first = function.pieceOf(std::min(s0, s1));
+  const std::size_t last = function.pieceOf(std::max(s0, s1));
+  double from = 0.0;
+  for (std::size_t k = first; k < last && s0 != s1; ++k)
+  {
+    const std::size_t node = s0 < s1 ? k : last - 1 - (k - first);
+    const double to = std::min(std::max((nodes[node].Scalar - s0) / (s1 - s0), from), 1.0);
+    if (to > from)
+    {
+      add(from, to);
+      from = to;
+    }
+  }
+  if (from < 1.0)
+  {
+    add(from, 1.0);
+  }
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+ReferenceRayIntegrator::ReferenceRayIntegrator(
+  std::vector<double> points, std::vector<std::int64_t> cells, std::vector<double> scalars)
+  : Mesh(std::move(points), std::move(cells), std::move(scalars))
+  , Tree(this->Mesh)
+{
+}
+
+namespace
+{
+
+// A cell crossed, with the faces at its two ends.
+struct Crossing
+{
+  RaySegment Segment;
+  int NearFace;
+  int FarFace;
+  bool Inverted;
+};
+
+// Clips the ray against the four widened half-spaces of a cell.
+bool clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vector3& origin,
+  Crossing& crossing)
+{
+  const CellPlanes& planes = mesh.planes(static_cast<std::size_t>(id));
+  double begin = ray.Begin;
+  double end = ray.End;
+  double offset[4];
+  double slope[4];
+  for (int i = 0; i < 4; ++i)
+  {
+    offset[i] = dot(planes.Gradient[i], origin) + planes.Offset[i];
+    slope[i] = dot(planes.Gradient[i], ray.Direction);
+    const double widened = offset[i] + planes.Slack[i];
+    const double at = -widened / slope[i];
+    if (slope[i] > 0.0 && at > begin)
+    {
+      begin = at;
+      crossing.NearFace = i;
+    }
+    else if (slope[i] < 0.0 && at < end)
+    {
+      end = at;
+      crossing.FarFace = i;
+    }
+    if ((slope[i] == 0.0 && widened < 0.0) || !(begin < end))
+    {
+      return false;
+    }
+  }
+  const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(id));
+  RaySegment& segment = crossing.Segment;
+  segment = RaySegment{ begin, end, 0.0, 0.0, id };
+  double low = mesh.scalar(ids[0]);
+  double high = low;
+  for (int i = 0; i < 4; ++i)
+  {
+    const double scalar = mesh.scalar(ids[i]);
+    low = std::min(low, scalar);
+    high = std::max(high, scalar);
+    segment.ScalarBegin += scalar * (offset[i] + begin * slope[i]);
+    segment.ScalarEnd += scalar * (offset[i] + end * slope[i]);
+  }
+  // The widening extrapolates in very flat cells.
+  segment.ScalarBegin = std::min(std::max(segment.ScalarBegin, low), high);
+  segment.ScalarEnd = std::min(std::max(segment.ScalarEnd, low), high);
+  crossing.Inverted = mesh.kind(static_cast<std::size_t>(id)) == ReferenceMesh::CellKind::Inverted;
+  return true;
+}
+
+// Cells crossed, each found on its own, in order of entry.
+void findCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
+  std::vector<Crossing>& crossings)
+{
+  static thread_local std::vector<std::int64_t> candidates;
+  candidates.clear();
+  tree.candidates(ray, candidates);
+  const Vector3 origin{ ray.Origin[0] - mesh.center()[0], ray.Origin[1] - mesh.center()[1],
+    ray.Origin[2] - mesh.center()[2] };
+  crossings.clear();
+  Crossing crossing;
+  for (const std::int64_t id : candidates)
+  {
+    if (clip(mesh, id, ray, origin, crossing))
+    {
+      crossings.push_back(crossing);
+    }
+  }
+  std::sort(crossings.begin(), crossings.end(),
+    [](const Crossing& crossingA, const Crossing& crossingB)
+    {
+      const RaySegment& a = crossingA.Segment;
+      const RaySegment& b = crossingB.Segment;
+      return a.Begin != b.Begin ? a.Begin < b.Begin : a.Cell < b.Cell;
+    });
+}
+
+// Whether two cells have an edge in common: a ray in it is in both, without any real overlap.
+bool shareAnEdge(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
+{
+  int shared = 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(b));
+    shared += std::count(ids, ids + 4, mesh.cell(static_cast<std::size_t>(a))[i]) > 0;
+  }
+  return shared >= 2;
+}
+
+// Whether the depth of entry does not settle the order.
+bool needsOrder(
+  const ReferenceMesh& mesh, const std::vector<Crossing>& crossings, double negligible)
+{
+  const RaySegment* furthest = nullptr;
+  for (const Crossing& crossing : crossings)
+  {
+    const RaySegment& segment = crossing.Segment;
+    if (crossing.Inverted)
+    {
+      return true;
+    }
+    if (furthest && std::min(furthest->End, segment.End) - segment.Begin > negligible &&
+      !shareAnEdge(mesh, furthest->Cell, segment.Cell))
+    {
+      return true;
+    }
+    furthest = furthest && furthest->End >= segment.End ? furthest : &segment;
+  }
+  return false;
+}
+
+// Puts crossings in the order in which paths across shared faces meet them.
+class FaceOrder
+{
+public:
+  FaceOrder(const ReferenceMesh& mesh, const std::vector<Crossing>& crossings)
+    : Mesh(mesh)
+    , Crossings(crossings)
+    , Visited(crossings.size(), 0)
+  {
+    for (std::size_t i = 0; i < crossings.size(); ++i)
+    {
+      this->IndexOf.emplace_back(crossings[i].Segment.Cell, i);
+    }
+    std::sort(this->IndexOf.begin(), this->IndexOf.end());
+  }
+
+  std::vector<std::size_t> order()
+  {
+    const std::size_t count = this->Crossings.size();
+    std::vector<char> follows(count, 0);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const std::size_t next = this->successor(i);
+      if (next < count)
+      {
+        follows[next] = 1;
+      }
+    }
+    std::vector<std::size_t> starts;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (!follows[i])
+      {
+        starts.push_back(i);
+      }
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+      [this](std::size_t a, std::size_t b) { return this->entryDepth(a) < this->entryDepth(b); });
+    std::vector<std::size_t> sorted;
+    for (const std::size_t start : starts)
+    {
+      this->append(start, sorted);
+    }
+    // Only a ray in an edge or face leaves some over.
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->append(i, sorted);
+    }
+    return sorted;
+  }
+
+private:
+  double entryDepth(std::size_t i) const
+  {
+    const Crossing& crossing = this->Crossings[i];
+    return crossing.Inverted ? crossing.Segment.End : crossing.Segment.Begin;
+  }
+
+  void append(std::size_t i, std::vector<std::size_t>& sorted)
+  {
+    for (; i < this->Crossings.size() && !this->Visited[i]; i = this->successor(i))
+    {
+      this->Visited[i] = 1;
+      sorted.push_back(i);
+    }
+  }
+
+  // A path leaves an inverted cell at its near end.
+  std::size_t successor(std::size_t i) const
+  {
+    const Crossing& crossing = this->Crossings[i];
+    const int face = crossing.Inverted ? crossing.NearFace : crossing.FarFace;
+    return this->across(4 * crossing.Segment.Cell + face, MostFlatCells);
+  }
+
+  // The crossing behind a face, through flat cells, which are never crossed themselves.
+  std::size_t across(std::int64_t cellFace, int flatCells) const
+  {
+    const std::int64_t other = this->Mesh.neighbor(cellFace);
+    if (other < 0)
+    {
+      return this->Crossings.size();
+    }
+    const std::int64_t cell = other / 4;
+    const auto found = std::lower_bound(
+      this->IndexOf.begin(), this->IndexOf.end(), std::make_pair(cell, std::size_t(0)));
+    if (found != this->IndexOf.end() && found->first == cell)
+    {
+      return found->second;
+    }
+    const bool flat =
+      this->Mesh.kind(static_cast<std::size_t>(cell)) == ReferenceMesh::CellKind::Flat;
+    for (int face = 0; flat && flatCells > 0 && face < 4; ++face)
+    {
+      const std::size_t behind = 4 * cell + face == other
+        ? this->Crossings.size()
+        : this->across(4 * cell + face, flatCells - 1);
+      if (behind < this->Crossings.size())
+      {
+        return behind;
+      }
+    }
+    return this->Crossings.size();
+  }
+
+  static constexpr int MostFlatCells = 4;
+
+  const ReferenceMesh& Mesh;
+  const std::vector<Crossing>& Crossings;
+  std::vector<char> Visited;
+  std::vector<std::pair<std::int64_t, std::size_t>> IndexOf;
+};
+
+// All crossings of the whole line, in face order.
+void findOrderedCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
+  std::vector<Crossing>& crossings)
+{
+  Ray whole = ray;
+  whole.Begin = -std::numeric_limits<double>::max();
+  whole.End = std::numeric_limits<double>::max();
+  std::vector<Crossing> found;
+  findCrossings(mesh, tree, whole, found);
+  crossings.clear();
+  for (const std::size_t i : FaceOrder(mesh, found).order())
+  {
+    crossings.push_back(found[i]);
+  }
+}
+
+// The part of a segment from a position on.
+RaySegment tail(RaySegment segment, double from)
+{
+  if (from > segment.Begin)
+  {
+    const double u = (from - segment.Begin) / (segment.End - segment.Begin);
+    segment.ScalarBegin += u * (segment.ScalarEnd - segment.ScalarBegin);
+    segment.Begin = from;
+  }
+  return segment;
+}
+
+RaySegment head(RaySegment segment, double to)
+{
+  if (to < segment.End)
+  {
+    const double u = (to - segment.Begin) / (segment.End - segment.Begin);
+    segment.ScalarEnd = segment.ScalarBegin + u * (segment.ScalarEnd - segment.ScalarBegin);
+    segment.End = to;
+  }
+  return segment;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+RayReport ReferenceRayIntegrator::findSegments(
+  const Ray& ray, std::vector<RaySegment>& segments) const
+{
+  static thread_local std::vector<Crossing> crossings;
+  findCrossings(this->Mesh, this->Tree, ray, crossings);
+  const double lengthPerUnit = length(ray.Direction);
+  const double negligible = NegligibleLength * this->Mesh.diagonal() / lengthPerUnit;
+  RayReport report;
+  report.Ordered = needsOrder(this->Mesh, crossings, negligible);
+  if (report.Ordered)
+  {
+    findOrderedCrossings(this->Mesh, this->Tree, ray, crossings);
+  }
+  segments.clear();
+  double cursor = -std::numeric_limits<double>::max();
+  for (const Crossing& crossing : crossings)
+  {
+    const RaySegment& whole = crossing.Segment;
+    if (crossing.Inverted)
+    {
+      // A path enters it at its far end, which it has then reached.
+      cursor = std::max(cursor, whole.End);
+      continue;
+    }
+    report.Gaps += !segments.empty() && whole.Begin > cursor + negligible;
+    const double clipped = std::min(cursor, whole.End) - whole.Begin;
+    if (clipped > negligible)
+    {
+      ++report.Overlaps;
+      report.OverlapLength += clipped * lengthPerUnit;
+    }
+    const double begin = std::max({ cursor, whole.Begin, ray.Begin });
+    const double end = std::min(whole.End, ray.End);
+    cursor = std::max(cursor, whole.End);
+    if (begin < end)
+    {
+      segments.push_back(head(tail(whole, begin), end));
+    }
+  }
+  report.Cells = segments.size();
+  return report;
+}
+
+//------------------------------------------------------------------------------
+std::array<double, 4> ReferenceRayIntegrator::integrate(const Ray& ray,
+  const std::vector<RaySegment>& segments, const ReferenceTransferFunction& function)
+{
+  const double lengthPerUnit = length(ray.Direction);
+  Accumulator total;
+  for (const RaySegment& segment : segments)
+  {
+    if (total.Transmittance <= DarkTransmittance)
+    {
+      break;
+    }
+    addSegment(segment, lengthPerUnit, function, total);
+  }
+  return { total.Color[0], total.Color[1], total.Color[2], 1.0 - total.Transmittance };
+}
+
+//------------------------------------------------------------------------------
+std::array<double, 4> ReferenceRayIntegrator::trace(
+  const Ray& ray, const ReferenceTransferFunction& function) const
+{
+  std::vector<RaySegment> segments;
+  this->findSegments(ray, segments);
+  return integrate(ray, segments, function);
+}
+
+//------------------------------------------------------------------------------
+std::vector<CoveredSpan> ReferenceRayIntegrator::coveredSpans(const Ray& ray) const
+{
+  std::vector<RaySegment> segments;
+  this->findSegments(ray, segments);
+  const double negligible = NegligibleLength * this->Mesh.diagonal() / length(ray.Direction);
+  std::vector<CoveredSpan> spans;
+  for (const RaySegment& segment : segments)
+  {
+    if (spans.empty() || segment.Begin > spans.back().End + negligible)
+    {
+      spans.push_back(CoveredSpan{ segment.Begin, segment.End });
+    }
+    spans.back().End = segment.End;
+  }
+  return spans;
+}
+
+namespace
+{
+
+// Largest move of an end of a span, infinite if their number differs.
+double spanChange(const std::vector<CoveredSpan>& a, const std::vector<CoveredSpan>& b)
+{
+  if (a.size() != b.size())
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  double change = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    change =
+      std::max({ change, std::fabs(a[i].Begin - b[i].Begin), std::fabs(a[i].End - b[i].End) });
+  }
+  return change;
+}
+
+Ray moved(const Ray& ray, const Vector3& by, double distance)
+{
+  Ray result = ray;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result.Origin[axis] += distance * by[axis];
+  }
+  return result;
+}
+
+double largestDifference(const std::array<double, 4>& a, const std::array<double, 4>& b)
+{
+  double largest = 0.0;
+  for (int c = 0; c < 4; ++c)
+  {
+    largest = std::max(largest, std::fabs(a[c] - b[c]));
+  }
+  return largest;
+}
+
+// Two unit vectors across the ray.
+std::array<Vector3, 2> acrossRay(const Vector3& direction)
+{
+  const double size = length(direction);
+  const Vector3 w{ direction[0] / size, direction[1] / size, direction[2] / size };
+  const int least = std::fabs(w[0]) < std::fabs(w[1]) ? (std::fabs(w[0]) < std::fabs(w[2]) ? 0 : 2)
+                                                      : (std::fabs(w[1]) < std::fabs(w[2]) ? 1 : 2);
+  Vector3 u{ -w[least] * w[0], -w[least] * w[1], -w[least] * w[2] };
+  u[least] += 1.0;
+  const double scale = 1.0 / length(u);
+  u = { scale * u[0], scale * u[1], scale * u[2] };
+  return { u,
+    Vector3{ w[1] * u[2] - w[2] * u[1], w[2] * u[0] - w[0] * u[2], w[0] * u[1] - w[1] * u[0] } };
+}
+
+// Unit vectors across the ray in 8 directions.
+std::array<Vector3, 8> directionsAcross(const Vector3& direction)
+{
+  const std::array<Vector3, 2> across = acrossRay(direction);
+  std::array<Vector3, 8> result;
+  for (int i = 0; i < 8; ++i)
+  {
+    const double angle = i * 0.78539816339744830962;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      result[i][axis] = std::cos(angle) * across[0][axis] + std::sin(angle) * across[1][axis];
+    }
+  }
+  return result;
+}
+
+// Part of the distance at which a change is looked at again.
+constexpr double Fraction = 0.125;
+
+// Whether a change above the threshold fails to shrink with the distance.
+bool isJump(double near, double far, double threshold)
+{
+  const bool proportional = near > 0.5 * Fraction * far && near < 2.0 * Fraction * far;
+  return std::max(near, far) > threshold && !proportional;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+RayClass ReferenceRayIntegrator::classify(
+  const Ray& ray, double distance, const ReferenceTransferFunction& function) const
+{
+  // A face met at a slope below this moves a span's end in proportion; a jump over a silhouette
+  // edge exceeds it and does not shrink with the distance.
+  constexpr double SteepestSlope = 20.0;
+  // A jump of the result below this cannot be what makes a pixel wrong.
+  constexpr double SmallestJump = 1e-5;
+  const double steep = SteepestSlope * distance / length(ray.Direction);
+  const std::vector<CoveredSpan> here = this->coveredSpans(ray);
+  std::vector<RaySegment> segments;
+  const bool ordered = this->findSegments(ray, segments).Ordered;
+  const std::array<double, 4> result = integrate(ray, segments, function);
+  for (const Vector3& by : directionsAcross(ray.Direction))
+  {
+    const Ray farRay = moved(ray, by, distance);
+    const Ray nearRay = moved(ray, by, Fraction * distance);
+    if (isJump(spanChange(here, this->coveredSpans(nearRay)),
+          spanChange(here, this->coveredSpans(farRay)), steep))
+    {
+      return RayClass::Silhouette;
+    }
+    if (ordered &&
+      isJump(largestDifference(result, this->trace(nearRay, function)),
+        largestDifference(result, this->trace(farRay, function)), SmallestJump))
+    {
+      return RayClass::Silhouette;
+    }
+  }
+  return here.empty() ? RayClass::Missed : RayClass::Covered;
+}
+
+//------------------------------------------------------------------------------
+double ReferenceRayIntegrator::sensitivity(
+  const Ray& ray, double distance, const ReferenceTransferFunction& function) const
+{
+  const std::array<double, 4> result = this->trace(ray, function);
+  double largest = 0.0;
+  for (const Vector3& by : directionsAcross(ray.Direction))
+  {
+    largest =
+      std::max(largest, largestDifference(result, this->trace(moved(ray, by, distance), function)));
+  }
+  return largest;
+}
+
+} // namespace reference
+} // namespace meniscus

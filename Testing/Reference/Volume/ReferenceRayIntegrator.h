@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Double-precision truth for the tetrahedral ray caster.
+ *
+ * It shares neither code nor method with the kernel's walk: every cell that a ray crosses is found
+ * on its own (box tree, then clipping against the cell's four half-spaces), so a wrong neighbour
+ * table, a wrong entry or a lost ray cannot be wrong in the same way here.
+ *
+ * Model: density emitter. dC = tau(s) c(s) T dt, T = exp(-integral of tau), with t in world length.
+ * The result is premultiplied, alpha = 1 - T.
+ *
+ * Overlap: inverted and flat cells do not contribute (see ReferenceMesh). On a ray that crosses an
+ * inverted cell or overlapping parts, the cells found are put in the order in which a path across
+ * shared faces meets them, parts in the order of their entries; each then counts from the largest
+ * depth reached before it to its own exit. This only orders: the cells and their ends stay those of
+ * clipping.
+ */
+#ifndef meniscus_ReferenceRayIntegrator_h
+#define meniscus_ReferenceRayIntegrator_h
+
+#include "ReferenceCellTree.h"
+#include "ReferenceMesh.h"
+#include "ReferenceTransferFunction.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+namespace reference
+{
+
+/// Part of a ray inside one cell; the scalar is linear between its ends.
+struct RaySegment
+{
+  double Begin;
+  double End;
+  double ScalarBegin;
+  double ScalarEnd;
+  std::int64_t Cell;
+};
+
+/// Part of a ray inside the mesh without a break.
+struct CoveredSpan
+{
+  double Begin;
+  double End;
+};
+
+struct RayReport
+{
+  std::size_t Cells = 0;      // segments that contribute
+  std::size_t Gaps = 0;       // breaks between the first entry and the last exit
+  std::size_t Overlaps = 0;   // cells clipped by the overlap rule by more than rounding
+  double OverlapLength = 0.0; // world length that was clipped away
+  bool Ordered = false;       // order taken from shared faces, not from the depth of entry
+};
+
+enum class RayClass
+{
+  Missed,
+  Covered,
+  Silhouette
+};
+
+class ReferenceRayIntegrator
+{
+public:
+  ReferenceRayIntegrator(
+    std::vector<double> points, std::vector<std::int64_t> cells, std::vector<double> scalars);
+
+  const ReferenceMesh& mesh() const { return this->Mesh; }
+
+  /// Segments in order along the ray, without overlap. The vector is reused by the caller.
+  RayReport findSegments(const Ray& ray, std::vector<RaySegment>& segments) const;
+
+  /// Premultiplied RGBA along the segments that findSegments returned for the same ray.
+  static std::array<double, 4> integrate(const Ray& ray, const std::vector<RaySegment>& segments,
+    const ReferenceTransferFunction& function);
+
+  std::array<double, 4> trace(const Ray& ray, const ReferenceTransferFunction& function) const;
+
+  /**
+   * Silhouette: the covered spans change by a jump (not in proportion) when the ray is moved
+   * sideways by the distance, in any of 8 directions. Rounding of the vertices to float then
+   * decides what the ray meets, so such rays are counted apart. In folded or overlapping parts a
+   * jump of the result itself counts too: there the order of cells changes at edges inside the
+   * mesh.
+   */
+  RayClass classify(
+    const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
+
+  /// Largest change of the result when the ray is moved sideways by a distance, in 8 directions.
+  double sensitivity(
+    const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
+
+  /// Distance for classify: float rounding of positions and directions seen from a few diagonals
+  /// away is 3e-7 of the diagonal; the margin is about 3.
+  double silhouetteDistance() const { return 1e-6 * this->Mesh.diagonal(); }
+
+  std::vector<CoveredSpan> coveredSpans(const Ray& ray) const;
+
+private:
+  ReferenceMesh Mesh;
+  ReferenceCellTree Tree;
+};
+
+} // namespace reference
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RayCastScene.h"
+
+#include <vtkMatrix4x4.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+
+namespace meniscus
+{
+namespace test
+{
+
+//------------------------------------------------------------------------------
+RayCastScene::RayCastScene(
+  vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int width, int height, int multiSamples)
+  : VolumeScene(width, height, multiSamples)
+  , Grid(grid)
+{
+  if (grid)
+  {
+    this->RayCaster->SetInputDataObject(grid);
+  }
+  this->setMapper(this->RayCaster);
+  this->setProperty(property);
+}
+
+//------------------------------------------------------------------------------
+void expectMatch(
+  const Comparison& comparison, const std::string& what, const SilhouetteAllowance& allowance)
+{
+  SCOPED_TRACE(what + ": " + comparison.text());
+  EXPECT_GT(comparison.Covered, 0u);
+  EXPECT_EQ(comparison.Wrong, 0u);
+  EXPECT_EQ(comparison.CoverageMismatches, 0u);
+  const double share = allowance.Share * static_cast<double>(comparison.Covered);
+  EXPECT_LE(static_cast<double>(comparison.Silhouettes),
+    std::max(share, static_cast<double>(allowance.Pixels)));
+}
+
+//------------------------------------------------------------------------------
+SceneTruth makeTruth(const RayCastScene& scene)
+{
+  scene.volume()->ComputeMatrix();
+  SceneTruth truth;
+  truth.Integrator = makeReference(scene.grid(), scene.volume()->GetMatrix());
+  const PixelRays rays(scene.renderer());
+  truth.RayOf = [rays](int x, int y) { return rays.ray(x, y); };
+  const auto model =
+    scene.rayCaster()->GetOpacityModel() == vtkTetrahedraRayCastMapper::ATTENUATION_COEFFICIENT
+    ? OpacityModel::AttenuationCoefficient
+    : OpacityModel::OpacityPerUnitDistance;
+  truth.Image = renderReference(*truth.Integrator, rays.width(), rays.height(), truth.RayOf,
+    { toReference(scene.volume()->GetProperty(), model) })[0];
+  return truth;
+}
+
+//------------------------------------------------------------------------------
+void expectMatchesReference(
+  RayCastScene& scene, const std::string& what, const SilhouetteAllowance& allowance)
+{
+  // The window must have its size before pixels have rays.
+  scene.window()->Render();
+  const SceneTruth truth = makeTruth(scene);
+  const FloatImage floats = scene.renderFloat();
+  ASSERT_EQ(floats.Width, truth.Image.Width);
+  ASSERT_EQ(floats.Height, truth.Image.Height);
+  expectMatch(compareToReference(floats, truth.Image, *truth.Integrator, truth.RayOf),
+    what + " (float)", allowance);
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << what;
+
+  double background[3];
+  scene.renderer()->GetBackground(background);
+  const ByteImage bytes = scene.renderBytes();
+  ASSERT_EQ(bytes.Width, truth.Image.Width);
+  expectMatch(compareToReference(bytes, truth.Image, *truth.Integrator, truth.RayOf,
+                { background[0], background[1], background[2] }),
+    what + " (8 bits)", allowance);
+}
+
+//------------------------------------------------------------------------------
+void ErrorObserver::Execute(vtkObject* vtkNotUsed(caller), unsigned long event, void* data)
+{
+  const char* message = static_cast<const char*>(data);
+  (event == vtkCommand::WarningEvent ? this->Warnings : this->Errors)
+    .emplace_back(message ? message : "");
+}
+
+//------------------------------------------------------------------------------
+void ErrorObserver::observe(vtkObject* object)
+{
+  object->AddObserver(vtkCommand::ErrorEvent, this);
+  object->AddObserver(vtkCommand::WarningEvent, this);
+}
+
+//------------------------------------------------------------------------------
+std::string ErrorObserver::text() const
+{
+  std::string all;
+  for (const std::string& error : this->Errors)
+  {
+    all += error + "\n";
+  }
+  return all;
+}
+
+} // namespace test
+} // namespace meniscus

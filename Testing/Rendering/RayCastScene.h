@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_RayCastScene_h
+#define meniscus_RayCastScene_h
+
+#include "ReferenceImage.h"
+#include "TestMeshes.h"
+#include "TestTransferFunctions.h"
+#include "VolumeScene.h"
+
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkTetrahedraRayCastMapper.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkUnstructuredGrid;
+class vtkVolumeProperty;
+
+namespace meniscus
+{
+namespace test
+{
+
+/// A scene whose volume is a mesh drawn by vtkTetrahedraRayCastMapper.
+class RayCastScene : public VolumeScene
+{
+public:
+  RayCastScene(vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int width, int height,
+    int multiSamples = 0);
+
+  vtkTetrahedraRayCastMapper* rayCaster() const { return this->RayCaster; }
+  vtkUnstructuredGrid* grid() const { return this->Grid; }
+
+private:
+  vtkNew<vtkTetrahedraRayCastMapper> RayCaster;
+  vtkSmartPointer<vtkUnstructuredGrid> Grid;
+};
+
+/// Share of covered pixels that may be excused as silhouettes, or a number of pixels if larger.
+struct SilhouetteAllowance
+{
+  double Share = LargestSilhouetteShare;
+  std::size_t Pixels = 1;
+};
+
+void expectMatch(const Comparison& comparison, const std::string& what,
+  const SilhouetteAllowance& allowance = SilhouetteAllowance());
+
+/// What the reference says of a scene's volume in its present view.
+struct SceneTruth
+{
+  std::unique_ptr<reference::ReferenceRayIntegrator> Integrator;
+  RayOfPixel RayOf;
+  ReferenceImage Image;
+};
+
+SceneTruth makeTruth(const RayCastScene& scene);
+
+/**
+ * Renders in float and in 8 bits and expects every pixel to match the reference; no ray may be
+ * lost. The scene must hold nothing but the volume, its renderer fill the window.
+ */
+void expectMatchesReference(RayCastScene& scene, const std::string& what,
+  const SilhouetteAllowance& allowance = SilhouetteAllowance());
+
+/// Collects error and warning events of objects, and what reaches VTK's output window.
+class ErrorObserver : public vtkCommand
+{
+public:
+  static ErrorObserver* New() { return new ErrorObserver; }
+  void Execute(vtkObject* caller, unsigned long event, void* data) override;
+  void observe(vtkObject* object);
+
+  std::vector<std::string> Errors;
+  std::vector<std::string> Warnings;
+
+  std::string text() const;
+};
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The strict comparison itself: it must see what VTK's own lets pass.
+#include "StrictImage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Threshold = 1;
+
+// A smooth picture, in which a shift by one pixel changes little.
+ByteImage ramp()
+{
+  ByteImage image;
+  image.Width = 40;
+  image.Height = 30;
+  for (int y = 0; y < image.Height; ++y)
+  {
+    for (int x = 0; x < image.Width; ++x)
+    {
+      for (const int value : { 5 * x, 7 * y, 2 * x + 3 * y })
+      {
+        image.Rgb.push_back(static_cast<unsigned char>(value));
+      }
+    }
+  }
+  return image;
+}
+
+bool passes(const ByteImage& image)
+{
+  const StrictDifference difference = compareStrictly(ramp(), image, Threshold);
+  return difference.SameSize && difference.PixelsBeyond == 0;
+}
+
+} // anonymous namespace
+
+TEST(StrictImage, EqualImagesPass)
+{
+  EXPECT_TRUE(passes(ramp()));
+  EXPECT_EQ(compareStrictly(ramp(), ramp(), 0).Largest, 0);
+}
+
+TEST(StrictImage, DifferenceWithinTheThresholdPasses)
+{
+  ByteImage image = ramp();
+  image.Rgb[777] = static_cast<unsigned char>(image.Rgb[777] + Threshold);
+  EXPECT_TRUE(passes(image));
+  EXPECT_EQ(compareStrictly(ramp(), image, Threshold).Largest, Threshold);
+}
+
+TEST(StrictImage, OneLevelBeyondTheThresholdInOnePixelFails)
+{
+  ByteImage image = ramp();
+  image.Rgb[777] = static_cast<unsigned char>(image.Rgb[777] + Threshold + 1);
+  EXPECT_FALSE(passes(image));
+  EXPECT_EQ(compareStrictly(ramp(), image, Threshold).PixelsBeyond, 1u);
+}
+
+TEST(StrictImage, ShiftByOnePixelFails)
+{
+  ByteImage image = ramp();
+  std::rotate(image.Rgb.begin(), image.Rgb.begin() + 3, image.Rgb.end());
+  EXPECT_FALSE(passes(image));
+}
+
+TEST(StrictImage, OffsetOfTheWholeImageFails)
+{
+  // VTK's default comparison accepts an offset of 50.
+  ByteImage image = ramp();
+  for (unsigned char& value : image.Rgb)
+  {
+    value = static_cast<unsigned char>(std::min(255, value + 2));
+  }
+  EXPECT_FALSE(passes(image));
+}
+
+TEST(StrictImage, OtherSizeFails)
+{
+  ByteImage image = ramp();
+  image.Height -= 1;
+  image.Rgb.resize(image.Rgb.size() - 3 * static_cast<std::size_t>(image.Width));
+  EXPECT_FALSE(passes(image));
+}
+
+TEST(StrictImage, MissingBaselineFails)
+{
+  const BaselineResult result = compareToBaseline(ramp(), "NoSuchBaseline", Threshold);
+  EXPECT_FALSE(result.Passed);
+  EXPECT_NE(result.Message.find("NoSuchBaseline"), std::string::npos);
+}

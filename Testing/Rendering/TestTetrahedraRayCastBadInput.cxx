@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Bad input: an error or a counted skip, and the picture of the scene without the volume (or
+// without the cells that were left out). Never a crash.
+#include "RayCastScene.h"
+
+#include <vtkActor.h>
+#include <vtkCellType.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkCubeSource.h>
+#include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
+#include <vtkOutputWindow.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 100;
+constexpr double Bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+constexpr double Range[2] = { -1.5, 1.5 };
+
+vtkSmartPointer<vtkVolumeProperty> smooth()
+{
+  return makeProperty(FunctionKind::Smooth, Range, 3.5);
+}
+
+// Two frames of a scene with an opaque cube; the errors that they raised.
+struct Outcome
+{
+  bool PictureIsTheCube;
+  vtkSmartPointer<ErrorObserver> Errors;
+};
+
+Outcome render(RayCastScene& scene)
+{
+  vtkNew<vtkCubeSource> cube;
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(cube->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  scene.renderer()->AddActor(actor);
+  scene.renderer()->SetBackground(0.2, 0.3, 0.4);
+  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
+
+  scene.volume()->SetVisibility(false);
+  const ByteImage without = scene.renderBytes();
+  scene.volume()->SetVisibility(true);
+  Outcome outcome;
+  outcome.Errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  outcome.Errors->observe(scene.rayCaster());
+  outcome.Errors->observe(scene.rayCaster()->GetExecutive());
+  const ByteImage first = scene.renderBytes();
+  const ByteImage second = scene.renderBytes();
+  outcome.PictureIsTheCube = first.Rgb == without.Rgb && second.Rgb == without.Rgb;
+  return outcome;
+}
+
+void expectError(RayCastScene& scene, const std::vector<std::string>& words)
+{
+  const Outcome outcome = render(scene);
+  EXPECT_TRUE(outcome.PictureIsTheCube);
+  EXPECT_FALSE(outcome.Errors->Errors.empty());
+  for (const std::string& word : words)
+  {
+    EXPECT_NE(outcome.Errors->text().find(word), std::string::npos)
+      << "no \"" << word << "\" in: " << outcome.Errors->text();
+  }
+}
+
+// The rejected cells are counted, the rest of the picture is right.
+void expectRest(const Grid& grid, vtkTypeInt64 rejected, const std::string& what)
+{
+  RayCastScene scene(grid, smooth(), Size, Size);
+  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
+  expectMatchesReference(scene, what);
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfRejectedCells(), rejected) << what;
+}
+
+vtkIdType middlePoint(const Grid& grid)
+{
+  double middle[3] = { 0.0, 0.0, 0.0 };
+  return grid->FindPoint(middle);
+}
+
+vtkIdType cellsAt(const Grid& grid, vtkIdType point)
+{
+  vtkNew<vtkIdList> cells;
+  grid->BuildLinks();
+  grid->GetPointCells(point, cells);
+  return cells->GetNumberOfIds();
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastBadInput, NoInput)
+{
+  RayCastScene scene(nullptr, smooth(), Size, Size);
+  const Outcome outcome = render(scene);
+  EXPECT_TRUE(outcome.PictureIsTheCube);
+  EXPECT_FALSE(outcome.Errors->Errors.empty());
+}
+
+TEST(TetrahedraRayCastBadInput, EmptyGrid)
+{
+  // A rank without cells is no mistake: nothing is drawn, and no error is due.
+  const Grid grid = Grid::New();
+  RayCastScene scene(grid, smooth(), Size, Size);
+  EXPECT_TRUE(render(scene).PictureIsTheCube);
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 0);
+}
+
+TEST(TetrahedraRayCastBadInput, PointsWithoutCells)
+{
+  const Grid grid = makeGrid({ 0, 0, 0, 1, 0, 0 }, {}, constantField(1.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  EXPECT_TRUE(render(scene).PictureIsTheCube);
+}
+
+TEST(TetrahedraRayCastBadInput, NoScalars)
+{
+  const Grid grid = makeBlock(2, wavyField(1.0));
+  grid->GetPointData()->Initialize();
+  RayCastScene scene(grid, smooth(), Size, Size);
+  expectError(scene, {});
+}
+
+TEST(TetrahedraRayCastBadInput, WrongArrayName)
+{
+  const Grid grid = makeBlock(2, wavyField(1.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  scene.rayCaster()->SetScalarModeToUsePointFieldData();
+  scene.rayCaster()->SelectScalarArray("NoSuchArray");
+  expectError(scene, { "NoSuchArray" });
+}
+
+TEST(TetrahedraRayCastBadInput, TooFewScalars)
+{
+  const Grid grid = makeBlock(2, wavyField(1.0));
+  grid->GetPointData()->GetScalars()->SetNumberOfTuples(3);
+  RayCastScene scene(grid, smooth(), Size, Size);
+  expectError(scene, {});
+}
+
+TEST(TetrahedraRayCastBadInput, OtherCellTypes)
+{
+  const Grid grid = makeBlock(2, wavyField(1.0));
+  const vtkIdType hexahedron[8] = { 0, 1, 4, 3, 9, 10, 13, 12 };
+  grid->InsertNextCell(VTK_HEXAHEDRON, 8, hexahedron);
+  RayCastScene scene(grid, smooth(), Size, Size);
+  expectError(scene, { "exahedr", "vtkDataSetTriangleFilter" });
+}
+
+TEST(TetrahedraRayCastBadInput, ScalarsThatAreNotFinite)
+{
+  for (const double bad : { std::numeric_limits<double>::quiet_NaN(),
+         std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() })
+  {
+    const Grid grid = makeBlock(4, wavyField(2.0));
+    vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetScalars())
+      ->SetValue(middlePoint(grid), bad);
+    // Transparent, not left out of the mesh.
+    expectRest(grid, 0, "scalar " + std::to_string(bad));
+  }
+}
+
+TEST(TetrahedraRayCastBadInput, ScalarsAllNan)
+{
+  const Grid grid = makeBlock(2, constantField(std::numeric_limits<double>::quiet_NaN()));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  EXPECT_TRUE(render(scene).PictureIsTheCube);
+}
+
+TEST(TetrahedraRayCastBadInput, PointsThatAreNotFinite)
+{
+  for (const double bad :
+    { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+  {
+    const Grid grid = makeBlock(4, wavyField(2.0));
+    const vtkIdType middle = middlePoint(grid);
+    const double x[3] = { 0.0, bad, 0.0 };
+    const vtkIdType cells = cellsAt(grid, middle);
+    grid->GetPoints()->SetPoint(middle, x);
+    expectRest(grid, cells, "coordinate " + std::to_string(bad));
+  }
+}
+
+TEST(TetrahedraRayCastBadInput, PointIndexOutOfRange)
+{
+  const Grid grid = makeBlock(3, wavyField(2.0));
+  for (const vtkIdType bad : { vtkIdType(1000000), vtkIdType(-1), grid->GetNumberOfPoints() })
+  {
+    const vtkIdType ids[4] = { 0, 1, 5, bad };
+    grid->InsertNextCell(VTK_TETRA, 4, ids);
+  }
+  expectRest(grid, 3, "index out of range");
+}
+
+TEST(TetrahedraRayCastBadInput, RepeatedPointsInACell)
+{
+  const Grid grid = makeBlock(3, wavyField(2.0));
+  const vtkIdType ids[2][4] = { { 0, 1, 1, 5 }, { 2, 2, 2, 2 } };
+  grid->InsertNextCell(VTK_TETRA, 4, ids[0]);
+  grid->InsertNextCell(VTK_TETRA, 4, ids[1]);
+  expectRest(grid, 2, "repeated points");
+}
+
+TEST(TetrahedraRayCastBadInput, ZeroVolumeCells)
+{
+  // Four points of a face of the block's boundary make a flat cell that is glued to nothing.
+  const Grid grid = makeBlock(3, wavyField(2.0));
+  const vtkIdType flat[4] = { 0, 1, 4, 5 };
+  grid->InsertNextCell(VTK_TETRA, 4, flat);
+  expectRest(grid, 0, "flat cell");
+}
+
+TEST(TetrahedraRayCastBadInput, FlattenedMesh)
+{
+  const Grid grid = makeBlock(4, wavyField(2.0));
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    grid->GetPoint(i, x);
+    x[2] = 0.0;
+    grid->GetPoints()->SetPoint(i, x);
+  }
+  RayCastScene scene(grid, smooth(), Size, Size);
+  EXPECT_TRUE(render(scene).PictureIsTheCube);
+}
+
+TEST(TetrahedraRayCastBadInput, CellGivenTwice)
+{
+  // The same cell twice covers the same space: it counts once.
+  const Grid grid = makeBlock(3, wavyField(2.0));
+  vtkNew<vtkIdList> ids;
+  grid->GetCellPoints(17, ids);
+  grid->InsertNextCell(VTK_TETRA, ids);
+  expectRest(grid, 0, "cell given twice");
+}
+
+TEST(TetrahedraRayCastBadInput, TransferFunctionWithoutNodes)
+{
+  const Grid grid = makeBlock(2, wavyField(1.0));
+  vtkNew<vtkVolumeProperty> property;
+  vtkNew<vtkPiecewiseFunction> opacity;
+  vtkNew<vtkColorTransferFunction> color;
+  property->SetScalarOpacity(opacity);
+  property->SetColor(color);
+  RayCastScene scene(grid, property, Size, Size);
+  EXPECT_TRUE(render(scene).PictureIsTheCube);
+}
+
+TEST(TetrahedraRayCastBadInput, RecoversFromAnError)
+{
+  const Grid grid = makeBlock(3, wavyField(2.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  scene.rayCaster()->SetScalarModeToUsePointFieldData();
+  scene.rayCaster()->SelectScalarArray("NoSuchArray");
+  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
+  vtkNew<ErrorObserver> errors;
+  errors->observe(scene.rayCaster());
+  scene.window()->Render();
+  EXPECT_FALSE(errors->Errors.empty());
+  scene.rayCaster()->SelectScalarArray(ScalarName);
+  expectMatchesReference(scene, "after an error");
+}

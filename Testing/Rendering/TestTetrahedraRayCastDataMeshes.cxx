@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The real meshes at 512 x 512, two views each, against the double-precision reference. Skipped
+// with a message where the data folder is not there.
+#include "RayCastScene.h"
+
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolumeProperty.h>
+
+#include <iostream>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 512;
+
+class TetrahedraRayCastDataMeshes : public testing::TestWithParam<const char*>
+{
+};
+
+// One view with both functions: the reference finds the cells of a ray once.
+void expectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& name)
+{
+  double range[2];
+  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
+  const double diagonal = diagonalOf(grid->GetBounds());
+  const std::vector<vtkSmartPointer<vtkVolumeProperty>> properties{
+    makeProperty(FunctionKind::Smooth, range, diagonal),
+    makeProperty(FunctionKind::Peaked, range, diagonal)
+  };
+  RayCastScene scene(grid, properties[0], Size, Size);
+  const auto angles = viewAngles(view);
+  lookAt(scene.renderer(), grid->GetBounds(), angles[0], angles[1], 1.0, view % 2 == 1);
+  scene.window()->Render();
+
+  const auto integrator = makeReference(grid);
+  const PixelRays rays(scene.renderer());
+  const RayOfPixel rayOf = [&rays](int x, int y) { return rays.ray(x, y); };
+  const auto truth = renderReference(*integrator, rays.width(), rays.height(), rayOf,
+    { toReference(properties[0]), toReference(properties[1]) });
+  for (std::size_t f = 0; f < properties.size(); ++f)
+  {
+    const std::string what =
+      name + ", view " + std::to_string(view) + (f == 0 ? ", smooth" : ", peaked");
+    scene.setProperty(properties[f]);
+    const Comparison floats = compareToReference(scene.renderFloat(), truth[f], *integrator, rayOf);
+    EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << what;
+    const Comparison bytes =
+      compareToReference(scene.renderBytes(), truth[f], *integrator, rayOf, { 0.0, 0.0, 0.0 });
+    std::cout << what << ", float: " << floats.text() << '\n'
+              << what << ", 8 bits: " << bytes.text() << std::endl;
+    expectMatch(floats, what + " (float)");
+    expectMatch(bytes, what + " (8 bits)");
+  }
+}
+
+} // anonymous namespace
+
+TEST_P(TetrahedraRayCastDataMeshes, MatchReference)
+{
+  const Grid grid = readDataMesh(GetParam());
+  if (!grid)
+  {
+    GTEST_SKIP() << GetParam() << ".vtu not found: set MENISCUS_DATA_DIR";
+  }
+  for (const int view : { 0, 1 })
+  {
+    expectViewMatches(grid, view, GetParam());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, TetrahedraRayCastDataMeshes,
+  testing::Values("blunt_fin", "combustor", "crushed_can"),
+  [](const testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });

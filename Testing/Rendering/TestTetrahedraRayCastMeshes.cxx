@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Generated meshes against the double-precision reference.
+#include "RayCastScene.h"
+
+#include <vtkCamera.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 160;
+
+const std::vector<FunctionKind> AllKinds{ FunctionKind::Smooth, FunctionKind::Peaked,
+  FunctionKind::Opaque, FunctionKind::Sparse };
+
+vtkSmartPointer<vtkVolumeProperty> propertyFor(vtkUnstructuredGrid* grid, FunctionKind kind)
+{
+  double range[2];
+  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
+  return makeProperty(kind, range, diagonalOf(grid->GetBounds()));
+}
+
+// All kinds of functions in one perspective and one parallel view.
+void expectMeshMatches(const Grid& grid, const std::string& name)
+{
+  for (const FunctionKind kind : AllKinds)
+  {
+    for (const bool parallel : { false, true })
+    {
+      RayCastScene scene(grid, propertyFor(grid, kind), Size, Size);
+      const auto angles = viewAngles(parallel ? 3 : 1);
+      lookAt(scene.renderer(), grid->GetBounds(), angles[0], angles[1], 1.1, parallel);
+      expectMatchesReference(scene,
+        name + (parallel ? ", parallel" : ", perspective") + ", function " +
+          std::to_string(static_cast<int>(kind)));
+    }
+  }
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastMeshes, SingleTetrahedron)
+{
+  expectMeshMatches(makeSingleTetrahedron(linearField(1, 2, 3)), "tetrahedron");
+}
+
+TEST(TetrahedraRayCastMeshes, CubesOfFiveAndSix)
+{
+  expectMeshMatches(makeCubeOfFive(radialField()), "cube of five");
+  expectMeshMatches(makeCubeOfSix(radialField()), "cube of six");
+}
+
+TEST(TetrahedraRayCastMeshes, StructuredBlock)
+{
+  expectMeshMatches(makeBlock(10, wavyField(3.0)), "block");
+}
+
+TEST(TetrahedraRayCastMeshes, JitteredBlock)
+{
+  // A tenth of a cube's side moves no vertex through a face.
+  const Grid grid = makeBlock(10, wavyField(3.0));
+  jitter(grid, 0.02, 4711);
+  expectMeshMatches(grid, "jittered block, seed 4711");
+}
+
+TEST(TetrahedraRayCastMeshes, LShape)
+{
+  expectMeshMatches(makeBlock(8, radialField(), lShape()), "L shape");
+}
+
+TEST(TetrahedraRayCastMeshes, Shell)
+{
+  expectMeshMatches(makeBlock(14, wavyField(2.0), shell(0.5, 1.0)), "shell");
+}
+
+TEST(TetrahedraRayCastMeshes, Torus)
+{
+  expectMeshMatches(makeBlock(16, wavyField(2.0), torus(0.65, 0.3)), "torus");
+}
+
+TEST(TetrahedraRayCastMeshes, TwoBlocks)
+{
+  expectMeshMatches(makeBlock(9, wavyField(3.0), twoBlocks(0.5)), "two blocks");
+}
+
+TEST(TetrahedraRayCastMeshes, FarFromTheOrigin)
+{
+  const Grid grid = makeBlock(8, wavyField(3.0));
+  transformPoints(grid, { 1e6, -2e6, 1.5e6 }, 1.0);
+  expectMeshMatches(grid, "offset by 1e6");
+}
+
+TEST(TetrahedraRayCastMeshes, VerySmallAndVeryLarge)
+{
+  for (const double scale : { 1e-6, 1e6 })
+  {
+    const Grid grid = makeBlock(6, wavyField(3.0));
+    transformPoints(grid, { 0.0, 0.0, 0.0 }, scale);
+    expectMeshMatches(grid, "scaled by " + std::to_string(scale));
+  }
+}
+
+TEST(TetrahedraRayCastMeshes, RaysThroughVerticesAndEdges)
+{
+  // Pixel centres lie on multiples of 1/16 in both directions, vertices on multiples of 1/4, so
+  // rays run along edges and faces. The outermost lie on the boundary: up to 4 * 33 silhouettes.
+  constexpr int Odd = 65;
+  constexpr double Pitch = 0.0625;
+  const Grid grid = makeBlock(8, wavyField(3.0));
+  for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      RayCastScene scene(grid, propertyFor(grid, kind), Odd, Odd);
+      lookAlongAxis(scene.renderer(), grid->GetBounds(), axis);
+      scene.renderer()->GetActiveCamera()->SetParallelScale(0.5 * Odd * Pitch);
+      expectMatchesReference(
+        scene, "along axis " + std::to_string(axis), SilhouetteAllowance{ 0.0, 4 * 33 });
+    }
+  }
+}
+
+TEST(TetrahedraRayCastMeshes, OverlappingParts)
+{
+  // Two blocks that interpenetrate: the cell entered first counts up to its exit.
+  const Grid grid = makeBlock(1, constantField(0.0));
+  std::vector<double> points;
+  std::vector<vtkIdType> cells;
+  for (int part = 0; part < 2; ++part)
+  {
+    for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+    {
+      const double* x = grid->GetPoint(i);
+      points.insert(points.end(), { x[0] + 0.31 * part, x[1] + 0.17 * part, x[2] + 0.53 * part });
+    }
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType id = 0; id < grid->GetNumberOfCells(); ++id)
+    {
+      grid->GetCellPoints(id, ids);
+      for (const vtkIdType pointId : *ids)
+      {
+        cells.push_back(pointId + part * grid->GetNumberOfPoints());
+      }
+    }
+  }
+  expectMeshMatches(makeGrid(points, cells, wavyField(2.0)), "overlapping blocks");
+}
+
+TEST(TetrahedraRayCastMeshes, FoldedMesh)
+{
+  // Vertices move through faces: some cells are inverted.
+  const Grid grid = makeBlock(6, wavyField(2.0));
+  jitter(grid, 0.22, 99);
+  expectMeshMatches(grid, "folded block, seed 99");
+}
+
+TEST(TetrahedraRayCastMeshes, OpacityPerUnitDistance)
+{
+  // The mapper samples the logarithm between nodes to 1/4096 of alpha over the unit distance (its
+  // header); a ray is up to a diagonal long.
+  const Grid grid = makeBlock(8, wavyField(3.0));
+  RayCastScene scene(grid, propertyFor(grid, FunctionKind::Smooth), Size, Size);
+  constexpr double Unit = 0.8;
+  const double tolerance = diagonalOf(grid->GetBounds()) / Unit / 4096.0;
+  scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(Unit);
+  scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
+  lookAt(scene.renderer(), grid->GetBounds(), 25.0, 30.0);
+  scene.window()->Render();
+  const SceneTruth truth = makeTruth(scene);
+  expectMatch(
+    compareToReference(scene.renderFloat(), truth.Image, *truth.Integrator, truth.RayOf, tolerance),
+    "opacity per unit distance");
+}

@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The volume among other things: camera inside it, opaque geometry, several renderers, resized and
+// multisampled windows.
+#include "RayCastScene.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkDataArray.h>
+#include <vtkMath.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace meniscus::test;
+using meniscus::reference::Ray;
+using meniscus::reference::Vector3;
+
+namespace
+{
+
+constexpr int Size = 160;
+
+struct Block
+{
+  Grid Mesh = makeBlock(8, wavyField(3.0));
+  vtkSmartPointer<vtkVolumeProperty> Property;
+
+  Block()
+  {
+    double range[2];
+    this->Mesh->GetPointData()->GetScalars()->GetFiniteRange(range);
+    this->Property = makeProperty(FunctionKind::Smooth, range, diagonalOf(this->Mesh->GetBounds()));
+  }
+};
+
+// An opaque rectangle across the viewing direction, so that its depth is the same in every pixel
+// and the device's rounding of vertex positions does not move it.
+class OpaqueRectangle
+{
+public:
+  OpaqueRectangle(vtkRenderer* renderer, double depth, double halfWidth, double halfHeight)
+    : Depth(depth)
+    , Half{ halfWidth, halfHeight }
+  {
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->GetPosition(this->Eye.data());
+    camera->GetDirectionOfProjection(this->Forward.data());
+    double up[3];
+    camera->GetViewUp(up);
+    vtkMath::Cross(this->Forward.data(), up, this->Right.data());
+    vtkMath::Normalize(this->Right.data());
+    vtkMath::Cross(this->Right.data(), this->Forward.data(), this->Up.data());
+    vtkNew<vtkPlaneSource> source;
+    source->SetOrigin(this->corner(-1, -1).data());
+    source->SetPoint1(this->corner(1, -1).data());
+    source->SetPoint2(this->corner(-1, 1).data());
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(source->GetOutputPort());
+    this->Actor->SetMapper(mapper);
+    this->Actor->GetProperty()->SetLighting(false);
+    this->Actor->GetProperty()->SetColor(Color[0], Color[1], Color[2]);
+    renderer->AddActor(this->Actor);
+  }
+
+  // Whether a ray hits it; ends the ray there.
+  bool shorten(Ray& ray) const
+  {
+    Vector3 fromEye;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      fromEye[axis] = ray.Origin[axis] - this->Eye[axis];
+    }
+    const double t = (this->Depth - vtkMath::Dot(fromEye.data(), this->Forward.data())) /
+      vtkMath::Dot(ray.Direction.data(), this->Forward.data());
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      fromEye[axis] += t * ray.Direction[axis];
+    }
+    if (std::fabs(vtkMath::Dot(fromEye.data(), this->Right.data())) > this->Half[0] ||
+      std::fabs(vtkMath::Dot(fromEye.data(), this->Up.data())) > this->Half[1])
+    {
+      return false;
+    }
+    ray.End = t;
+    return true;
+  }
+
+  static constexpr double Color[3] = { 0.2, 0.8, 0.4 };
+
+private:
+  Vector3 corner(int right, int up) const
+  {
+    Vector3 x;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = this->Eye[axis] + this->Depth * this->Forward[axis] +
+        right * this->Half[0] * this->Right[axis] + up * this->Half[1] * this->Up[axis];
+    }
+    return x;
+  }
+
+  vtkNew<vtkActor> Actor;
+  Vector3 Eye;
+  Vector3 Forward;
+  Vector3 Right;
+  Vector3 Up;
+  double Depth;
+  double Half[2];
+};
+
+// A rasteriser places vertices on a grid of 1/256 pixel: nearer to the rectangle's edge than this
+// (in pixels, with a factor of 4) a pixel may or may not be covered.
+constexpr double EdgeUncertainty = 4.0 / 256.0;
+
+bool nearEdge(const OpaqueRectangle& rectangle, const PixelRays& rays, int x, int y)
+{
+  int hits = 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    Ray ray = rays.rayAt(
+      x + 0.5 + (i % 2 ? 1 : -1) * EdgeUncertainty, y + 0.5 + (i / 2 ? 1 : -1) * EdgeUncertainty);
+    hits += rectangle.shorten(ray);
+  }
+  return hits != 0 && hits != 4;
+}
+
+void expectMatchesWithRectangle(RayCastScene& scene, double depth, const std::string& what)
+{
+  const OpaqueRectangle rectangle(scene.renderer(), depth, 0.55, 0.4);
+  scene.window()->Render();
+  const auto integrator = makeReference(scene.grid());
+  const PixelRays rays(scene.renderer());
+  const RayOfPixel rayOf = [&](int x, int y)
+  {
+    Ray ray = rays.ray(x, y);
+    rectangle.shorten(ray);
+    return ray;
+  };
+  ReferenceImage truth = renderReference(*integrator, rays.width(), rays.height(), rayOf,
+    { toReference(scene.volume()->GetProperty()) })[0];
+  FloatImage image = scene.renderFloat();
+  std::size_t uncertain = 0;
+  for (int y = 0; y < truth.Height; ++y)
+  {
+    for (int x = 0; x < truth.Width; ++x)
+    {
+      const std::size_t at = static_cast<std::size_t>(y) * truth.Width + x;
+      std::array<double, 4>& rgba = truth.Rgba[at];
+      Ray ray = rays.ray(x, y);
+      if (rectangle.shorten(ray))
+      {
+        for (int c = 0; c < 3; ++c)
+        {
+          rgba[c] += (1.0 - rgba[3]) * OpaqueRectangle::Color[c];
+        }
+        rgba[3] = 1.0;
+        truth.Covered[at] = 1;
+      }
+      if (nearEdge(rectangle, rays, x, y))
+      {
+        ++uncertain;
+        std::copy(rgba.begin(), rgba.end(), image.Rgba.begin() + 4 * static_cast<long>(at));
+      }
+    }
+  }
+  EXPECT_LT(uncertain, 200u) << what;
+  expectMatch(compareToReference(image, truth, *integrator, rayOf), what);
+}
+
+// The part of a window that a renderer draws, in 8 bits against the reference.
+void expectViewportMatches(const RayCastScene& scene, vtkRenderer* renderer,
+  const ByteImage& window, const std::string& what)
+{
+  const PixelRays rays(renderer);
+  const auto integrator = makeReference(scene.grid());
+  const RayOfPixel rayOf = [&rays](int x, int y) { return rays.ray(x, y); };
+  const ReferenceImage truth = renderReference(*integrator, rays.width(), rays.height(), rayOf,
+    { toReference(scene.volume()->GetProperty()) })[0];
+  double background[3];
+  renderer->GetBackground(background);
+  expectMatch(compareToReference(window, truth, *integrator, rayOf,
+                { background[0], background[1], background[2] }, rays.left(), rays.bottom()),
+    what);
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastScenes, ColoredBackground)
+{
+  const Block block;
+  RayCastScene scene(block.Mesh, block.Property, Size, Size);
+  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  scene.renderer()->SetBackground(0.2, 0.4, 0.8);
+  const SceneTruth truth = [&]
+  {
+    scene.window()->Render();
+    return makeTruth(scene);
+  }();
+  expectMatch(compareToReference(scene.renderBytes(), truth.Image, *truth.Integrator, truth.RayOf,
+                { 0.2, 0.4, 0.8 }),
+    "coloured background");
+}
+
+TEST(TetrahedraRayCastScenes, CameraInsideTheMesh)
+{
+  const Block block;
+  for (const double x : { 0.0, 0.31 })
+  {
+    RayCastScene scene(block.Mesh, block.Property, Size, Size);
+    vtkCamera* camera = scene.renderer()->GetActiveCamera();
+    camera->SetPosition(x, 0.12 * (x > 0.0), 0.07 * (x > 0.0));
+    camera->SetFocalPoint(1.0, 0.4, -0.3);
+    camera->SetViewUp(0.0, 0.0, 1.0);
+    camera->SetViewAngle(70.0);
+    camera->SetClippingRange(0.001, 10.0);
+    expectMatchesReference(scene, "camera inside at " + std::to_string(x));
+  }
+}
+
+TEST(TetrahedraRayCastScenes, ClippingRangeThroughTheMesh)
+{
+  const Block block;
+  for (const bool parallel : { false, true })
+  {
+    RayCastScene scene(block.Mesh, block.Property, Size, Size);
+    lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0, 1.0, parallel);
+    vtkCamera* camera = scene.renderer()->GetActiveCamera();
+    const double distance = camera->GetDistance();
+    camera->SetClippingRange(distance - 0.4, distance + 0.3);
+    expectMatchesReference(scene, parallel ? "cut, parallel" : "cut, perspective");
+  }
+}
+
+TEST(TetrahedraRayCastScenes, OpaqueGeometryInFrontInsideAndBehind)
+{
+  const Block block;
+  for (const bool parallel : { false, true })
+  {
+    for (const double offset : { -1.75, -0.6, 0.1, 0.7, 1.75 })
+    {
+      RayCastScene scene(block.Mesh, block.Property, Size, Size);
+      lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0, 1.0, parallel);
+      const double depth = scene.renderer()->GetActiveCamera()->GetDistance() + offset;
+      expectMatchesWithRectangle(scene, depth,
+        "rectangle at " + std::to_string(offset) + (parallel ? ", parallel" : ", perspective"));
+    }
+  }
+}
+
+TEST(TetrahedraRayCastScenes, ViewportInPartOfTheWindow)
+{
+  const Block block;
+  RayCastScene scene(block.Mesh, block.Property, 300, 240);
+  scene.renderer()->SetViewport(0.35, 0.2, 0.9, 0.85);
+  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  const ByteImage window = scene.renderBytes();
+  expectViewportMatches(scene, scene.renderer(), window, "offset viewport");
+  const PixelRays rays(scene.renderer());
+  for (int y = 0; y < window.Height; ++y)
+  {
+    for (int x = 0; x < window.Width; ++x)
+    {
+      const bool inside = x >= rays.left() && x < rays.left() + rays.width() &&
+        y >= rays.bottom() && y < rays.bottom() + rays.height();
+      ASSERT_TRUE(
+        inside || (window.pixel(x, y)[0] | window.pixel(x, y)[1] | window.pixel(x, y)[2]) == 0)
+        << "drawn outside the viewport at " << x << ", " << y;
+    }
+  }
+}
+
+TEST(TetrahedraRayCastScenes, SeveralRenderersShareAMapper)
+{
+  const Block block;
+  RayCastScene scene(block.Mesh, block.Property, 320, 200);
+  scene.renderer()->SetViewport(0.0, 0.0, 0.45, 1.0);
+  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  vtkNew<vtkRenderer> second;
+  second->SetViewport(0.5, 0.1, 1.0, 0.7);
+  second->SetBackground(0.2, 0.4, 0.6);
+  second->AddVolume(scene.volume());
+  scene.window()->AddRenderer(second);
+  lookAt(second, block.Mesh->GetBounds(), 110.0, -35.0, 1.3, true);
+  const ByteImage window = scene.renderBytes();
+  expectViewportMatches(scene, scene.renderer(), window, "first renderer");
+  expectViewportMatches(scene, second, window, "second renderer");
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfMeshBuilds(), 1);
+}
+
+TEST(TetrahedraRayCastScenes, ResizedWindow)
+{
+  const Block block;
+  RayCastScene scene(block.Mesh, block.Property, Size, Size);
+  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  const int sizes[4][2] = { { 160, 160 }, { 160, 230 }, { 240, 100 }, { 33, 57 } };
+  for (const auto& size : sizes)
+  {
+    scene.window()->SetSize(size[0], size[1]);
+    expectMatchesReference(
+      scene, "resized to " + std::to_string(size[0]) + " x " + std::to_string(size[1]));
+  }
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfMeshBuilds(), 1);
+}
+
+TEST(TetrahedraRayCastScenes, MultisampledWindow)
+{
+  const Block block;
+  RayCastScene scene(block.Mesh, block.Property, Size, Size, 4);
+  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  expectMatchesReference(scene, "four samples");
+}

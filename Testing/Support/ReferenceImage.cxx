@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReferenceImage.h"
+
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <thread>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+// One grey level of an 8-bit image.
+constexpr double GreyLevel = 1.0 / 255.0;
+
+// Wrong pixels beyond this number are counted without asking whether they are silhouettes.
+constexpr std::size_t MostClassified = 4000;
+
+std::vector<double> worldPoints(vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix)
+{
+  std::vector<double> points;
+  points.reserve(3 * static_cast<std::size_t>(grid->GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    double x[4] = { 0.0, 0.0, 0.0, 1.0 };
+    grid->GetPoint(i, x);
+    if (matrix)
+    {
+      matrix->MultiplyPoint(x, x);
+    }
+    points.insert(points.end(), x, x + 3);
+  }
+  return points;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::unique_ptr<reference::ReferenceRayIntegrator> makeReference(
+  vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix)
+{
+  std::vector<std::int64_t> cells;
+  cells.reserve(4 * static_cast<std::size_t>(grid->GetNumberOfCells()));
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType id = 0; id < grid->GetNumberOfCells(); ++id)
+  {
+    grid->GetCellPoints(id, ids);
+    if (ids->GetNumberOfIds() == 4)
+    {
+      cells.insert(cells.end(), ids->begin(), ids->end());
+    }
+  }
+  vtkDataArray* array = grid->GetPointData()->GetScalars();
+  std::vector<double> scalars(static_cast<std::size_t>(grid->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < scalars.size(); ++i)
+  {
+    scalars[i] = array->GetComponent(static_cast<vtkIdType>(i), 0);
+  }
+  return std::make_unique<reference::ReferenceRayIntegrator>(
+    worldPoints(grid, matrix), std::move(cells), std::move(scalars));
+}
+
+//------------------------------------------------------------------------------
+std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegrator& integrator,
+  int width, int height, const RayOfPixel& rayOf,
+  const std::vector<reference::ReferenceTransferFunction>& functions)
+{
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  ReferenceImage blank{ width, height, std::vector<std::array<double, 4>>(pixels),
+    std::vector<char>(pixels, 0), {} };
+  std::vector<ReferenceImage> images(functions.size(), blank);
+  for (std::size_t f = 0; f < functions.size(); ++f)
+  {
+    images[f].Function = functions[f];
+  }
+
+  std::atomic<int> nextRow{ 0 };
+  const auto work = [&]()
+  {
+    std::vector<reference::RaySegment> segments;
+    for (int y = nextRow++; y < height; y = nextRow++)
+    {
+      for (int x = 0; x < width; ++x)
+      {
+        const reference::Ray ray = rayOf(x, y);
+        integrator.findSegments(ray, segments);
+        const std::size_t at = static_cast<std::size_t>(y) * width + x;
+        for (std::size_t f = 0; f < functions.size(); ++f)
+        {
+          images[f].Covered[at] = !segments.empty();
+          images[f].Rgba[at] = integrator.integrate(ray, segments, functions[f]);
+        }
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned int i = 1; i < std::thread::hardware_concurrency(); ++i)
+  {
+    threads.emplace_back(work);
+  }
+  work();
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  return images;
+}
+
+namespace
+{
+
+struct PixelPair
+{
+  std::array<double, 4> Image;
+  std::array<double, 4> Reference;
+  bool Covered;
+  bool Drawn;
+};
+
+double difference(const PixelPair& pair)
+{
+  double largest = 0.0;
+  for (int c = 0; c < 4; ++c)
+  {
+    const double d = std::fabs(pair.Image[c] - pair.Reference[c]);
+    largest = d <= largest ? largest : d; // lets NaN through
+  }
+  return largest;
+}
+
+// Adds up the pixels of one comparison.
+class Comparer
+{
+public:
+  Comparer(
+    const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf, double tolerance)
+    : Integrator(integrator)
+    , RayOf(rayOf)
+    , Tolerance(tolerance)
+  {
+  }
+
+  void add(int x, int y, const PixelPair& pair)
+  {
+    Comparison& result = this->Result;
+    result.Covered += pair.Covered;
+    const double d = difference(pair);
+    result.OffByTwoLevels += !(d <= 2.0 * GreyLevel);
+    const bool wrong = !(d <= this->Tolerance);
+    const bool mismatch = pair.Drawn && !pair.Covered;
+    if ((wrong || mismatch) && this->isSilhouette(x, y))
+    {
+      ++result.Silhouettes;
+      return;
+    }
+    result.Wrong += wrong;
+    result.CoverageMismatches += mismatch;
+    if (!(d <= result.Largest))
+    {
+      result.Largest = d;
+      result.WorstPixel[0] = x;
+      result.WorstPixel[1] = y;
+      result.WorstImage = pair.Image;
+      result.WorstReference = pair.Reference;
+    }
+    if (pair.Covered)
+    {
+      this->SumOfSquares += d * d;
+      ++this->Counted;
+    }
+  }
+
+  Comparison result() const
+  {
+    Comparison done = this->Result;
+    if (done.Wrong > 0)
+    {
+      done.WorstSensitivity =
+        this->Integrator.sensitivity(this->RayOf(done.WorstPixel[0], done.WorstPixel[1]),
+          1e-7 * this->Integrator.mesh().diagonal(), this->Function);
+    }
+    done.Rms = this->Counted ? std::sqrt(this->SumOfSquares / this->Counted) : 0.0;
+    return done;
+  }
+
+private:
+  bool isSilhouette(int x, int y)
+  {
+    if (this->Classified >= MostClassified)
+    {
+      return false;
+    }
+    ++this->Classified;
+    return this->Integrator.classify(this->RayOf(x, y), this->Integrator.silhouetteDistance(),
+             this->Function) == reference::RayClass::Silhouette;
+  }
+
+  const reference::ReferenceRayIntegrator& Integrator;
+  const reference::ReferenceTransferFunction& Function;
+  const RayOfPixel& RayOf;
+  double Tolerance;
+  Comparison Result;
+  double SumOfSquares = 0.0;
+  std::size_t Counted = 0;
+  std::size_t Classified = 0;
+};
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::string Comparison::text() const
+{
+  std::ostringstream out;
+  out << "covered " << this->Covered << ", wrong " << this->Wrong << ", coverage mismatches "
+      << this->CoverageMismatches << ", silhouettes " << this->Silhouettes << ", max "
+      << this->Largest << ", rms " << this->Rms << ", worst pixel (" << this->WorstPixel[0] << ", "
+      << this->WorstPixel[1] << ") is";
+  for (const double value : this->WorstImage)
+  {
+    out << ' ' << value;
+  }
+  out << ", reference";
+  for (const double value : this->WorstReference)
+  {
+    out << ' ' << value;
+  }
+  if (this->Wrong > 0)
+  {
+    out << ", sensitivity " << this->WorstSensitivity;
+  }
+  return out.str();
+}
+
+//------------------------------------------------------------------------------
+Comparison compareToReference(const FloatImage& image, const ReferenceImage& truth,
+  const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf, double tolerance)
+{
+  Comparer comparer(integrator, truth.Function, rayOf, tolerance);
+  for (int y = 0; y < truth.Height; ++y)
+  {
+    for (int x = 0; x < truth.Width; ++x)
+    {
+      const float* drawn = image.pixel(x, y);
+      PixelPair pair;
+      std::copy(drawn, drawn + 4, pair.Image.begin());
+      pair.Reference = truth.pixel(x, y);
+      pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
+      pair.Drawn = drawn[3] != 0.0f;
+      comparer.add(x, y, pair);
+    }
+  }
+  return comparer.result();
+}
+
+//------------------------------------------------------------------------------
+Comparison compareToReference(const ByteImage& image, const ReferenceImage& truth,
+  const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
+  const std::array<double, 3>& background, int left, int bottom)
+{
+  // One grey level and the rounding of doubles.
+  Comparer comparer(integrator, truth.Function, rayOf, GreyLevel * (1.0 + 1e-9));
+  for (int y = 0; y < truth.Height; ++y)
+  {
+    for (int x = 0; x < truth.Width; ++x)
+    {
+      const unsigned char* drawn = image.pixel(left + x, bottom + y);
+      const std::array<double, 4>& exact = truth.pixel(x, y);
+      PixelPair pair;
+      pair.Image[3] = pair.Reference[3] = exact[3];
+      for (int c = 0; c < 3; ++c)
+      {
+        const double value = exact[c] + (1.0 - exact[3]) * background[c];
+        pair.Image[c] = GreyLevel * drawn[c];
+        pair.Reference[c] = std::min(std::max(value, 0.0), 1.0);
+      }
+      pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
+      pair.Drawn = false; // cannot be told from the background
+      comparer.add(x, y, pair);
+    }
+  }
+  return comparer.result();
+}
+
+} // namespace test
+} // namespace meniscus

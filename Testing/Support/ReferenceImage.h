@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_ReferenceImage_h
+#define meniscus_ReferenceImage_h
+
+#include "PixelRays.h"
+#include "ReferenceRayIntegrator.h"
+#include "ReferenceTransferFunction.h"
+#include "VolumeScene.h"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkMatrix4x4;
+class vtkUnstructuredGrid;
+
+namespace meniscus
+{
+namespace test
+{
+
+/// What the reference says about the pixels of a viewport, premultiplied, rows from the bottom up.
+struct ReferenceImage
+{
+  int Width = 0;
+  int Height = 0;
+  std::vector<std::array<double, 4>> Rgba;
+  std::vector<char> Covered;
+  reference::ReferenceTransferFunction Function;
+
+  const std::array<double, 4>& pixel(int x, int y) const
+  {
+    return this->Rgba[static_cast<std::size_t>(y) * this->Width + x];
+  }
+};
+
+/// The reference on a grid's active point scalars, in world coordinates (matrix may be null).
+std::unique_ptr<reference::ReferenceRayIntegrator> makeReference(
+  vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix = nullptr);
+
+/// The ray of a pixel (counted from the viewport's lower left corner); may be shortened by a scene.
+using RayOfPixel = std::function<reference::Ray(int, int)>;
+
+/**
+ * Traces all pixels on all processors, for several transfer functions at once (cells are found
+ * once). The step leaves out pixels: only those with x and y divisible by it are traced.
+ */
+std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegrator& integrator,
+  int width, int height, const RayOfPixel& rayOf,
+  const std::vector<reference::ReferenceTransferFunction>& functions);
+
+/// Largest difference between image and reference that counts as equal in float.
+constexpr double FloatTolerance = 1e-4;
+
+/// Share of a mesh's covered pixels that may be excused as silhouette before a test fails.
+constexpr double LargestSilhouetteShare = 1e-3;
+
+struct Comparison
+{
+  double Largest = 0.0;               // over all pixels but silhouettes
+  double Rms = 0.0;                   // over covered pixels but silhouettes
+  std::size_t Covered = 0;            // pixels that the reference covers
+  std::size_t Wrong = 0;              // off by more than the tolerance, silhouettes apart
+  std::size_t Silhouettes = 0;        // off by more than the tolerance, on a silhouette
+  std::size_t CoverageMismatches = 0; // drawn where the reference misses, silhouettes apart
+  std::size_t OffByTwoLevels = 0;     // off by more than 2/255, silhouettes included
+  int WorstPixel[2] = { -1, -1 };
+  std::array<double, 4> WorstImage{};
+  std::array<double, 4> WorstReference{};
+  // Change of the exact result at the worst pixel when its ray moves by 1e-7 of the diagonal, which
+  // is what float rounding of the vertices does. Only for a wrong pixel.
+  double WorstSensitivity = 0.0;
+
+  std::string text() const;
+};
+
+/// Compares a float image with the reference pixel by pixel.
+Comparison compareToReference(const FloatImage& image, const ReferenceImage& truth,
+  const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
+  double tolerance = FloatTolerance);
+
+/**
+ * The same for an 8-bit image over an opaque background of whole grey levels, to 1/255; a window
+ * may be larger than the viewport, whose lower left corner is given.
+ */
+Comparison compareToReference(const ByteImage& image, const ReferenceImage& truth,
+  const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
+  const std::array<double, 3>& background, int left = 0, int bottom = 0);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

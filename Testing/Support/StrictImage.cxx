@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StrictImage.h"
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+#include <vtkPNGWriter.h>
+#include <vtksys/SystemTools.hxx>
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+namespace meniscus
+{
+namespace test
+{
+
+//------------------------------------------------------------------------------
+StrictDifference compareStrictly(const ByteImage& a, const ByteImage& b, int threshold)
+{
+  constexpr int Visible = 32;
+  StrictDifference result;
+  result.SameSize = a.Width == b.Width && a.Height == b.Height && a.Rgb.size() == b.Rgb.size();
+  if (!result.SameSize)
+  {
+    return result;
+  }
+  result.Image = a;
+  for (std::size_t i = 0; i < a.Rgb.size(); i += 3)
+  {
+    int pixel = 0;
+    for (std::size_t c = i; c < i + 3; ++c)
+    {
+      const int difference = std::abs(int(a.Rgb[c]) - int(b.Rgb[c]));
+      pixel = std::max(pixel, difference);
+      result.Image.Rgb[c] = static_cast<unsigned char>(std::min(255, Visible * difference));
+    }
+    result.Largest = std::max(result.Largest, pixel);
+    result.PixelsBeyond += pixel > threshold;
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+ByteImage readPng(const std::string& path)
+{
+  ByteImage image;
+  if (!vtksys::SystemTools::FileExists(path))
+  {
+    return image;
+  }
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkImageData* data = reader->GetOutput();
+  const int* size = data->GetDimensions();
+  if (data->GetScalarType() != VTK_UNSIGNED_CHAR || data->GetNumberOfScalarComponents() != 3)
+  {
+    return image;
+  }
+  image.Width = size[0];
+  image.Height = size[1];
+  const auto* pixels = static_cast<const unsigned char*>(data->GetScalarPointer());
+  image.Rgb.assign(pixels, pixels + 3 * static_cast<std::size_t>(size[0]) * size[1]);
+  return image;
+}
+
+//------------------------------------------------------------------------------
+void writePng(const ByteImage& image, const std::string& path)
+{
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(image.Width, image.Height, 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  std::copy(
+    image.Rgb.begin(), image.Rgb.end(), static_cast<unsigned char*>(data->GetScalarPointer()));
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetInputData(data);
+  writer->Write();
+}
+
+//------------------------------------------------------------------------------
+BaselineResult compareToBaseline(const ByteImage& image, const std::string& name, int threshold)
+{
+  const ByteImage baseline = readPng(std::string(MENISCUS_BASELINE_DIR) + "/" + name + ".png");
+  const StrictDifference difference = compareStrictly(image, baseline, threshold);
+  BaselineResult result;
+  result.Passed = difference.SameSize && difference.PixelsBeyond == 0;
+  if (result.Passed)
+  {
+    return result;
+  }
+  const std::string folder = MENISCUS_TEMPORARY_DIR;
+  vtksys::SystemTools::MakeDirectory(folder);
+  writePng(image, folder + "/" + name + ".png");
+  std::ostringstream message;
+  if (difference.SameSize)
+  {
+    writePng(difference.Image, folder + "/" + name + "-difference.png");
+    message << difference.PixelsBeyond << " pixels of " << name << " differ by more than "
+            << threshold << " of 255 (largest " << difference.Largest << ")";
+  }
+  else
+  {
+    message << "no baseline of the size " << image.Width << " x " << image.Height << " for "
+            << name;
+  }
+  message << "; see " << folder << "/" << name << "*.png";
+  result.Message = message.str();
+  return result;
+}
+
+} // namespace test
+} // namespace meniscus

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestMeshes.h"
+
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+
+namespace meniscus
+{
+namespace test
+{
+
+const char* const ScalarName = "Scalar";
+
+//------------------------------------------------------------------------------
+Field constantField(double value)
+{
+  return [value](double, double, double) { return value; };
+}
+
+//------------------------------------------------------------------------------
+Field linearField(double x, double y, double z)
+{
+  return [=](double px, double py, double pz) { return x * px + y * py + z * pz; };
+}
+
+//------------------------------------------------------------------------------
+Field radialField()
+{
+  return [](double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); };
+}
+
+//------------------------------------------------------------------------------
+Field wavyField(double frequency)
+{
+  return [frequency](double x, double y, double z)
+  { return std::sin(frequency * x) * std::cos(frequency * y) + 0.5 * std::sin(2 * z + x); };
+}
+
+//------------------------------------------------------------------------------
+Grid makeGrid(
+  const std::vector<double>& points, const std::vector<vtkIdType>& cells, const Field& field)
+{
+  const auto numberOfPoints = static_cast<vtkIdType>(points.size() / 3);
+  vtkNew<vtkPoints> coordinates;
+  coordinates->SetDataTypeToDouble();
+  coordinates->SetNumberOfPoints(numberOfPoints);
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->SetName(ScalarName);
+  scalars->SetNumberOfTuples(numberOfPoints);
+  for (vtkIdType i = 0; i < numberOfPoints; ++i)
+  {
+    const double* x = &points[3 * i];
+    coordinates->SetPoint(i, x);
+    scalars->SetValue(i, field(x[0], x[1], x[2]));
+  }
+  Grid grid = Grid::New();
+  grid->SetPoints(coordinates);
+  grid->GetPointData()->SetScalars(scalars);
+  grid->Allocate(static_cast<vtkIdType>(cells.size() / 4));
+  for (std::size_t i = 0; i + 3 < cells.size(); i += 4)
+  {
+    grid->InsertNextCell(VTK_TETRA, 4, &cells[i]);
+  }
+  return grid;
+}
+
+//------------------------------------------------------------------------------
+Grid makeSingleTetrahedron(const Field& field)
+{
+  return makeGrid({ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 1, 2, 3 }, field);
+}
+
+namespace
+{
+
+const std::vector<double> CubeCorners{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, //
+  0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1 };
+
+// Paths from corner (0,0,0) to (1,1,1) of a cube along its axes: one tetrahedron each. Neighbouring
+// cubes split in this way match face to face.
+constexpr int Paths[6][3] = { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
+  { 2, 1, 0 } };
+
+template <typename CornerId>
+void appendCube(const CornerId& cornerId, std::vector<vtkIdType>& cells)
+{
+  for (const auto& path : Paths)
+  {
+    int corner[3] = { 0, 0, 0 };
+    vtkIdType ids[4];
+    ids[0] = cornerId(0, 0, 0);
+    for (int i = 0; i < 3; ++i)
+    {
+      corner[path[i]] = 1;
+      ids[i + 1] = cornerId(corner[0], corner[1], corner[2]);
+    }
+    // Odd paths have a negative volume: swap two vertices.
+    const bool odd = (path[1] - path[0] + 3) % 3 != 1;
+    cells.insert(cells.end(), { ids[0], ids[odd ? 2 : 1], ids[odd ? 1 : 2], ids[3] });
+  }
+}
+
+// Leaves out points that no cell uses, so that bounds are those of the region.
+Grid makeCompactGrid(
+  const std::vector<double>& points, std::vector<vtkIdType> cells, const Field& field)
+{
+  std::vector<vtkIdType> newId(points.size() / 3, -1);
+  std::vector<double> used;
+  for (vtkIdType& id : cells)
+  {
+    if (newId[id] < 0)
+    {
+      newId[id] = static_cast<vtkIdType>(used.size() / 3);
+      used.insert(used.end(), points.begin() + 3 * id, points.begin() + 3 * id + 3);
+    }
+    id = newId[id];
+  }
+  return makeGrid(used, cells, field);
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+Grid makeCubeOfFive(const Field& field)
+{
+  return makeGrid(
+    CubeCorners, { 0, 1, 2, 4, 3, 2, 1, 7, 5, 4, 7, 1, 6, 7, 4, 2, 1, 2, 4, 7 }, field);
+}
+
+//------------------------------------------------------------------------------
+Grid makeCubeOfSix(const Field& field)
+{
+  std::vector<vtkIdType> cells;
+  appendCube([](int x, int y, int z) { return vtkIdType(x + 2 * y + 4 * z); }, cells);
+  return makeGrid(CubeCorners, cells, field);
+}
+
+//------------------------------------------------------------------------------
+Grid makeBlock(int n, const Field& field, const Region& region)
+{
+  std::vector<double> points;
+  points.reserve(3 * static_cast<std::size_t>(n + 1) * (n + 1) * (n + 1));
+  const auto at = [n](double i) { return -1.0 + 2.0 * i / n; };
+  for (int k = 0; k <= n; ++k)
+  {
+    for (int j = 0; j <= n; ++j)
+    {
+      for (int i = 0; i <= n; ++i)
+      {
+        points.insert(points.end(), { at(i), at(j), at(k) });
+      }
+    }
+  }
+  std::vector<vtkIdType> cells;
+  for (int cube = 0; cube < n * n * n; ++cube)
+  {
+    const int i = cube % n;
+    const int j = cube / n % n;
+    const int k = cube / (n * n);
+    if (!region || region(at(i + 0.5), at(j + 0.5), at(k + 0.5)))
+    {
+      appendCube([=](int x, int y, int z)
+        { return vtkIdType(i + x) + vtkIdType(n + 1) * (j + y + vtkIdType(n + 1) * (k + z)); },
+        cells);
+    }
+  }
+  return makeCompactGrid(points, cells, field);
+}
+
+//------------------------------------------------------------------------------
+Region lShape()
+{
+  return [](double x, double y, double) { return x < 0.0 || y < 0.0; };
+}
+
+//------------------------------------------------------------------------------
+Region shell(double inner, double outer)
+{
+  return [=](double x, double y, double z)
+  {
+    const double r = std::sqrt(x * x + y * y + z * z);
+    return r >= inner && r <= outer;
+  };
+}
+
+//------------------------------------------------------------------------------
+Region torus(double ringRadius, double tubeRadius)
+{
+  return [=](double x, double y, double z)
+  { return std::hypot(std::hypot(x, y) - ringRadius, z) <= tubeRadius; };
+}
+
+//------------------------------------------------------------------------------
+Region twoBlocks(double gap)
+{
+  return [gap](double x, double, double) { return std::fabs(x) > 0.5 * gap; };
+}
+
+//------------------------------------------------------------------------------
+void jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed)
+{
+  // Not uniform_real_distribution: its values may differ between libraries.
+  std::mt19937 random(seed);
+  const auto draw = [&random, amount]() { return amount * (random() / 2147483648.0 - 1.0); };
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    grid->GetPoint(i, x);
+    for (double& value : x)
+    {
+      value += draw();
+    }
+    grid->GetPoints()->SetPoint(i, x);
+  }
+  grid->GetPoints()->Modified();
+}
+
+//------------------------------------------------------------------------------
+void transformPoints(vtkUnstructuredGrid* grid, const std::array<double, 3>& offset, double scale)
+{
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    grid->GetPoint(i, x);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = scale * (x[axis] + offset[axis]);
+    }
+    grid->GetPoints()->SetPoint(i, x);
+  }
+  grid->GetPoints()->Modified();
+}
+
+//------------------------------------------------------------------------------
+Grid readMesh(const std::string& path)
+{
+  if (!std::ifstream(path).good())
+  {
+    return nullptr;
+  }
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  Grid grid = reader->GetOutput();
+  vtkPointData* data = grid->GetPointData();
+  if (!data->GetScalars() && data->GetNumberOfArrays() > 0)
+  {
+    data->SetActiveScalars(data->GetArrayName(0));
+  }
+  return grid->GetNumberOfCells() > 0 ? grid : nullptr;
+}
+
+//------------------------------------------------------------------------------
+Grid readDataMesh(const std::string& name)
+{
+  const char* folder = std::getenv("MENISCUS_DATA_DIR");
+  return readMesh(std::string(folder ? folder : MENISCUS_DEFAULT_DATA_DIR) + "/" + name + ".vtu");
+}
+
+} // namespace test
+} // namespace meniscus

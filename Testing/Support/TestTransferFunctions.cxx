@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TestTransferFunctions.h"
+
+#include <vtkColorTransferFunction.h>
+#include <vtkNew.h>
+#include <vtkPiecewiseFunction.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+void addColors(vtkColorTransferFunction* color, const double range[2])
+{
+  const auto at = [range](double u) { return range[0] + u * (range[1] - range[0]); };
+  color->AddRGBPoint(at(0.0), 0.10, 0.15, 0.70);
+  color->AddRGBPoint(at(0.25), 0.10, 0.75, 0.85);
+  color->AddRGBPoint(at(0.5), 0.95, 0.90, 0.30);
+  color->AddRGBPoint(at(0.8), 0.90, 0.20, 0.10);
+  color->AddRGBPoint(at(1.0), 1.00, 0.85, 0.80);
+}
+
+// Opacity nodes (u, opacity) with u as a share of the range, and unit distance as a share of the
+// diagonal.
+struct OpacityShape
+{
+  std::vector<std::pair<double, double>> Nodes;
+  double Unit;
+};
+
+OpacityShape shapeOf(FunctionKind kind)
+{
+  switch (kind)
+  {
+    case FunctionKind::Peaked:
+    {
+      OpacityShape shape{ { { 0.0, 0.0 } }, 0.01 };
+      for (const double u : { 0.12, 0.31, 0.52, 0.77 })
+      {
+        shape.Nodes.insert(
+          shape.Nodes.end(), { { u - 0.01, 0.0 }, { u, 0.5 + 0.5 * u }, { u + 0.01, 0.0 } });
+      }
+      shape.Nodes.push_back({ 1.0, 0.0 });
+      return shape;
+    }
+    case FunctionKind::Opaque:
+      return { { { 0.0, 0.8 }, { 1.0, 1.0 } }, 0.005 };
+    case FunctionKind::Sparse:
+      return { { { 0.0, 0.0 }, { 0.55, 0.0 }, { 0.6, 0.6 }, { 0.7, 0.4 }, { 0.72, 0.0 },
+                 { 1.0, 0.0 } },
+        0.02 };
+    default:
+      return { { { 0.0, 0.02 }, { 0.3, 0.2 }, { 0.65, 0.15 }, { 1.0, 0.9 } }, 0.1 };
+  }
+}
+
+// One-sided values at a node: a function that does not clamp jumps to 0 at its ends.
+struct OneSided
+{
+  double Below;
+  double Above;
+};
+
+OneSided limitsOf(vtkPiecewiseFunction* function, double scalar)
+{
+  const double value = function->GetValue(scalar);
+  OneSided limits{ value, value };
+  if (!function->GetClamping())
+  {
+    const double* range = function->GetRange();
+    limits.Below = scalar <= range[0] ? 0.0 : value;
+    limits.Above = scalar >= range[1] ? 0.0 : value;
+  }
+  return limits;
+}
+
+double attenuationOf(double opacity, double unit, OpacityModel model)
+{
+  if (model == OpacityModel::AttenuationCoefficient)
+  {
+    return opacity / unit;
+  }
+  // Full opacity stands for the largest one below 1 that a float holds.
+  return -std::log1p(-std::min(opacity, 1.0 - 5.9604644775390625e-8)) / unit;
+}
+
+std::vector<double> sortedNodes(vtkVolumeProperty* property, OpacityModel model)
+{
+  std::vector<double> scalars;
+  vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
+  for (int i = 0; i < opacity->GetSize(); ++i)
+  {
+    double node[4];
+    opacity->GetNodeValue(i, node);
+    scalars.push_back(node[0]);
+  }
+  const bool gray = property->GetColorChannels() == 1;
+  const int colors = gray ? property->GetGrayTransferFunction()->GetSize()
+                          : property->GetRGBTransferFunction()->GetSize();
+  for (int i = 0; i < colors; ++i)
+  {
+    double node[6];
+    gray ? property->GetGrayTransferFunction()->GetNodeValue(i, node)
+         : property->GetRGBTransferFunction()->GetNodeValue(i, node);
+    scalars.push_back(node[0]);
+  }
+  std::sort(scalars.begin(), scalars.end());
+  scalars.erase(std::unique(scalars.begin(), scalars.end()), scalars.end());
+  if (model == OpacityModel::OpacityPerUnitDistance)
+  {
+    constexpr int Parts = 512;
+    const std::vector<double> coarse = scalars;
+    for (std::size_t i = 0; i + 1 < coarse.size(); ++i)
+    {
+      for (int part = 1; part < Parts; ++part)
+      {
+        scalars.push_back(coarse[i] + (coarse[i + 1] - coarse[i]) * part / Parts);
+      }
+    }
+    std::sort(scalars.begin(), scalars.end());
+  }
+  return scalars;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkVolumeProperty> makeProperty(
+  FunctionKind kind, const double range[2], double diagonal)
+{
+  const OpacityShape shape = shapeOf(kind);
+  vtkNew<vtkPiecewiseFunction> opacity;
+  for (const auto& node : shape.Nodes)
+  {
+    opacity->AddPoint(range[0] + node.first * (range[1] - range[0]), node.second);
+  }
+  vtkNew<vtkColorTransferFunction> color;
+  addColors(color, range);
+  auto property = vtkSmartPointer<vtkVolumeProperty>::New();
+  property->SetScalarOpacity(opacity);
+  property->SetColor(color);
+  property->SetScalarOpacityUnitDistance(shape.Unit * diagonal);
+  property->SetInterpolationTypeToLinear();
+  return property;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkVolumeProperty> makeConstantProperty(
+  double opacity, double red, double green, double blue, double unitDistance)
+{
+  vtkNew<vtkPiecewiseFunction> opacityFunction;
+  vtkNew<vtkColorTransferFunction> color;
+  for (const double scalar : { -1e3, 1e3 })
+  {
+    opacityFunction->AddPoint(scalar, opacity);
+    color->AddRGBPoint(scalar, red, green, blue);
+  }
+  auto property = vtkSmartPointer<vtkVolumeProperty>::New();
+  property->SetScalarOpacity(opacityFunction);
+  property->SetColor(color);
+  property->SetScalarOpacityUnitDistance(unitDistance);
+  property->SetInterpolationTypeToLinear();
+  return property;
+}
+
+//------------------------------------------------------------------------------
+reference::ReferenceTransferFunction toReference(vtkVolumeProperty* property, OpacityModel model)
+{
+  const double unit = property->GetScalarOpacityUnitDistance();
+  std::vector<reference::TransferFunctionNode> nodes;
+  for (const double scalar : sortedNodes(property, model))
+  {
+    const OneSided opacity = limitsOf(property->GetScalarOpacity(), scalar);
+    reference::TransferFunctionNode node;
+    node.Scalar = scalar;
+    if (property->GetColorChannels() == 1)
+    {
+      node.Value.Color.fill(property->GetGrayTransferFunction()->GetValue(scalar));
+    }
+    else
+    {
+      property->GetRGBTransferFunction()->GetColor(scalar, node.Value.Color.data());
+    }
+    node.Value.Attenuation = attenuationOf(opacity.Below, unit, model);
+    nodes.push_back(node);
+    if (opacity.Above != opacity.Below)
+    {
+      node.Value.Attenuation = attenuationOf(opacity.Above, unit, model);
+      nodes.push_back(node);
+    }
+  }
+  return reference::ReferenceTransferFunction(nodes);
+}
+
+} // namespace test
+} // namespace meniscus

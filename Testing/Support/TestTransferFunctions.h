@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_TestTransferFunctions_h
+#define meniscus_TestTransferFunctions_h
+
+#include "ReferenceTransferFunction.h"
+
+#include <vtkSmartPointer.h>
+#include <vtkVolumeProperty.h>
+
+namespace meniscus
+{
+namespace test
+{
+
+enum class FunctionKind
+{
+  Smooth, ///< wide ramps, moderately transparent
+  Peaked, ///< narrow opacity peaks in transparent surroundings
+  Opaque, ///< the first tenth of the mesh hides the rest
+  Sparse  ///< one window of the range, transparent elsewhere
+};
+
+/// Transfer function over a scalar range; the unit distance is a share of the mesh's diagonal.
+vtkSmartPointer<vtkVolumeProperty> makeProperty(
+  FunctionKind kind, const double range[2], double diagonal);
+
+/// One colour and opacity everywhere.
+vtkSmartPointer<vtkVolumeProperty> makeConstantProperty(
+  double opacity, double red, double green, double blue, double unitDistance);
+
+/// How opacity becomes attenuation per world length (see vtkTetrahedraRayCastMapper).
+enum class OpacityModel
+{
+  AttenuationCoefficient, ///< tau = opacity / unit
+  OpacityPerUnitDistance  ///< tau = -log(1 - opacity) / unit
+};
+
+/**
+ * The reference's nodes for the first component of a property with piecewise linear RGB colour and
+ * opacity. Per unit distance, attenuation is not linear in opacity: pieces are split finely.
+ */
+reference::ReferenceTransferFunction toReference(
+  vtkVolumeProperty* property, OpacityModel model = OpacityModel::AttenuationCoefficient);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_VolumeScene_h
+#define meniscus_VolumeScene_h
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+class vtkDataSet;
+class vtkFramebufferPass;
+class vtkRenderer;
+class vtkRenderWindow;
+class vtkUnstructuredGridVolumeMapper;
+class vtkVolume;
+class vtkVolumeProperty;
+
+namespace meniscus
+{
+namespace test
+{
+
+/// Premultiplied float RGBA, rows from the bottom up.
+struct FloatImage
+{
+  int Width = 0;
+  int Height = 0;
+  std::vector<float> Rgba;
+
+  const float* pixel(int x, int y) const
+  {
+    return &this->Rgba[4 * (static_cast<std::size_t>(y) * this->Width + x)];
+  }
+};
+
+/// 8-bit RGB, rows from the bottom up.
+struct ByteImage
+{
+  int Width = 0;
+  int Height = 0;
+  std::vector<unsigned char> Rgb;
+
+  const unsigned char* pixel(int x, int y) const
+  {
+    return &this->Rgb[3 * (static_cast<std::size_t>(y) * this->Width + x)];
+  }
+};
+
+/// Whether a window can be opened (VTK 9.1 aborts without a display).
+bool hasDisplay();
+
+/**
+ * Keeps a connection to the display. An X server that is left by its last client resets (Xvfb
+ * without -noreset does), and a window opened at that moment fails; so a program that opens one
+ * window after the other holds one of these.
+ */
+class DisplayHold
+{
+public:
+  DisplayHold();
+  ~DisplayHold();
+
+private:
+  vtkNew<vtkRenderWindow> Window;
+};
+
+/// An off-screen window with one renderer (black, transparent background) and one volume.
+class VolumeScene
+{
+public:
+  VolumeScene(int width, int height, int multiSamples = 0);
+  ~VolumeScene();
+  VolumeScene(const VolumeScene&) = delete;
+  VolumeScene& operator=(const VolumeScene&) = delete;
+
+  vtkRenderWindow* window() const { return this->Window; }
+  vtkRenderer* renderer() const { return this->Renderer; }
+  vtkVolume* volume() const { return this->Volume; }
+  vtkUnstructuredGridVolumeMapper* mapper() const;
+
+  void setMapper(vtkUnstructuredGridVolumeMapper* mapper);
+  void setProperty(vtkVolumeProperty* property);
+
+  /// Renders through a float framebuffer and reads it back (only the renderer's viewport).
+  FloatImage renderFloat();
+
+  /// Renders the window as a user would and reads back all of it.
+  ByteImage renderBytes();
+
+private:
+  vtkNew<vtkRenderWindow> Window;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkVolume> Volume;
+  vtkNew<vtkFramebufferPass> FloatPass;
+};
+
+/// Reads the window's front result without rendering.
+ByteImage readBytes(vtkRenderWindow* window);
+
+/**
+ * Looks at the middle of a bounding box from a direction given by angles in degrees. The box fills
+ * the view for zoom 1; the clipping range holds all of it.
+ */
+void lookAt(vtkRenderer* renderer, const double bounds[6], double azimuth, double elevation,
+  double zoom = 1.0, bool parallel = false);
+
+/// Looks along an axis (0, 1, 2), without perspective, so that rays are parallel to it.
+void lookAlongAxis(vtkRenderer* renderer, const double bounds[6], int axis, double zoom = 1.0);
+
+/// Angles (azimuth, elevation) of the i-th of a set of views that avoid symmetry.
+std::array<double, 2> viewAngles(int i);
+
+/// OpenGL renderer and version of a window that has rendered.
+std::string deviceName(vtkRenderWindow* window);
+
+double diagonalOf(const double bounds[6]);
+
+} // namespace test
+} // namespace meniscus
+
+#endif
