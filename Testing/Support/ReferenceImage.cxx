@@ -146,9 +146,10 @@ double difference(const PixelPair& pair)
 class Comparer
 {
 public:
-  Comparer(
-    const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf, double tolerance)
+  Comparer(const reference::ReferenceRayIntegrator& integrator,
+    const reference::ReferenceTransferFunction& function, const RayOfPixel& rayOf, double tolerance)
     : Integrator(integrator)
+    , Function(function)
     , RayOf(rayOf)
     , Tolerance(tolerance)
   {
