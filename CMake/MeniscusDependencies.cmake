@@ -1,14 +1,43 @@
-# Scans vtk.module and finds the packages that it and the kernel need.
+# Finds VTK (or ParaView, which brings its own VTK) with the modules that vtk.module names, and the
+# libraries of the kernel.
 
-if (NOT DEFINED MENISCUS_VTK_COMPONENTS)
-  set(MENISCUS_VTK_COMPONENTS
-    CommonCore CommonDataModel CommonExecutionModel CommonMath CommonTransforms FiltersCore
-    FiltersGeneral RenderingCore RenderingVolume RenderingOpenGL2)
+# VTK's wrappers load into one Python only. Debian's VTK is built for the system's, which is not
+# always the first in PATH.
+find_program(Python3_EXECUTABLE NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+
+# Reads the VTK component names that follow the given keywords of the top-level vtk.module, so that
+# they are listed in one place only.
+function (meniscus_module_components output)
+  file(STRINGS "${CMAKE_CURRENT_SOURCE_DIR}/vtk.module" lines)
+  set(components)
+  set(keyword)
+  foreach (line IN LISTS lines)
+    if (line MATCHES "^([A-Z_]+)$")
+      set(keyword "${line}")
+    elseif (keyword IN_LIST ARGN AND line MATCHES "^ +VTK::([A-Za-z0-9]+)$")
+      list(APPEND components "${CMAKE_MATCH_1}")
+    endif ()
+  endforeach ()
+  set("${output}" "${components}" PARENT_SCOPE)
+endfunction ()
+
+meniscus_module_components(MENISCUS_VTK_COMPONENTS DEPENDS PRIVATE_DEPENDS)
+meniscus_module_components(_meniscus_test_components TEST_DEPENDS)
+
+if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
+  # ParaView's package uses Python's targets without finding them.
+  find_package(Python3 REQUIRED COMPONENTS Interpreter Development)
+  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingViews WrapClientServer ProcessXML)
+  find_package(VTK REQUIRED COMPONENTS ${MENISCUS_VTK_COMPONENTS}
+    PATHS "${ParaView_DIR}/vtk" NO_DEFAULT_PATH)
+else ()
+  find_package(VTK 9.1 REQUIRED COMPONENTS ${MENISCUS_VTK_COMPONENTS}
+    OPTIONAL_COMPONENTS ${_meniscus_test_components} WrappingTools Python WrappingPythonCore)
+  option(MENISCUS_WRAP_PYTHON "Build the Python package" "${VTK_WRAP_PYTHON}")
 endif ()
-set(_meniscus_test_components
-  FiltersSources ImagingCore InteractionStyle IOImage IOXML RenderingVolumeOpenGL2 TestingCore
-  TestingRendering)
-find_package(VTK 9.1 REQUIRED COMPONENTS ${MENISCUS_VTK_COMPONENTS}
-  OPTIONAL_COMPONENTS ${_meniscus_test_components})
 find_package(glm REQUIRED)
 find_package(OpenMesh REQUIRED)
+if (MENISCUS_BUILD_TESTING AND NOT MENISCUS_BUILD_PARAVIEW_PLUGIN)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif ()

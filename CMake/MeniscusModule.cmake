@@ -1,23 +1,44 @@
-# The VTK module. Its description is the top-level vtk.module; its body is Module/CMakeLists.txt.
+# The VTK modules: Meniscus, described by the top-level vtk.module with Module/CMakeLists.txt as its
+# body, and for ParaView a second one with the representation.
 
 set(_meniscus_module_files "${CMAKE_CURRENT_SOURCE_DIR}/vtk.module")
+if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
+  list(APPEND _meniscus_module_files
+    "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/Representations/vtk.module")
+  # Beside the plugin, under a name that cannot be taken for the library for plain VTK.
+  set(MENISCUS_PLUGIN_DIR "${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}")
+  list(PREPEND CMAKE_INSTALL_RPATH "$ORIGIN")
+  set(_meniscus_host_arguments
+    INSTALL_HEADERS     OFF
+    LIBRARY_DESTINATION "${MENISCUS_PLUGIN_DIR}/Meniscus"
+    LIBRARY_NAME_SUFFIX "pv${ParaView_VERSION_SIMPLE}")
+else ()
+  set(_meniscus_host_arguments
+    INSTALL_EXPORT      Meniscus
+    INSTALL_HEADERS     ON
+    HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/meniscus"
+    CMAKE_DESTINATION   "${MENISCUS_CMAKE_DIR}"
+    LIBRARY_NAME_SUFFIX "")
+endif ()
+
 vtk_module_scan(
-  MODULE_FILES     ${_meniscus_module_files}
-  REQUEST_MODULES  Meniscus::Meniscus
-  PROVIDES_MODULES _meniscus_modules)
+  MODULE_FILES            ${_meniscus_module_files}
+  REQUEST_MODULES         Meniscus::Meniscus Meniscus::Representations
+  PROVIDES_MODULES        _meniscus_modules
+  HIDE_MODULES_FROM_CACHE ON)
 
 # vtk_module_build adds the folder of vtk.module as a subdirectory, which is the source root that is
 # being configured. Point it to the folder of the body instead (private property, stable 9.1 to 9.5).
 set_property(GLOBAL PROPERTY "_vtk_module_Meniscus::Meniscus_file"
   "${CMAKE_CURRENT_SOURCE_DIR}/Module/vtk.module")
+if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
+  # The plugin's target must be called Meniscus, as the plugin is (likewise a private property).
+  set_property(GLOBAL PROPERTY "_vtk_module_Meniscus::Meniscus_target_name" MeniscusModule)
+endif ()
 
 vtk_module_build(
-  MODULES             ${_meniscus_modules}
-  PACKAGE             Meniscus
-  INSTALL_EXPORT      Meniscus
-  INSTALL_HEADERS     ON
-  HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/meniscus"
-  CMAKE_DESTINATION   "${CMAKE_INSTALL_LIBDIR}/cmake/Meniscus"
-  LIBRARY_NAME_SUFFIX ""
-  VERSION             "${PROJECT_VERSION}"
-  SOVERSION           "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}")
+  MODULES   ${_meniscus_modules}
+  PACKAGE   Meniscus
+  VERSION   "${PROJECT_VERSION}"
+  SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}"
+  ${_meniscus_host_arguments})

@@ -12,13 +12,23 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
+set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
+set(MENISCUS_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Meniscus")
 
 option(MENISCUS_WARNINGS_AS_ERRORS "Treat warnings in our own code as errors" OFF)
 set(MENISCUS_SANITIZER "" CACHE STRING "Sanitizer for our own targets: address, undefined or thread")
+option(MENISCUS_CLANG_TIDY "Run clang-tidy on our own targets while they compile" OFF)
+if (MENISCUS_CLANG_TIDY)
+  find_program(MENISCUS_CLANG_TIDY_EXECUTABLE NAMES clang-tidy clang-tidy-14 REQUIRED)
+endif ()
 
 # Applies the project's warning and sanitizer flags to a target of ours. The flags are private:
 # nothing reaches a consumer.
 function (meniscus_target_flags target)
+  get_target_property(aliased "${target}" ALIASED_TARGET)
+  if (aliased)
+    set(target "${aliased}")
+  endif ()
   target_compile_options("${target}" PRIVATE -Wall -Wextra -Wshadow -Wno-unused-parameter)
   if (MENISCUS_WARNINGS_AS_ERRORS)
     target_compile_options("${target}" PRIVATE -Werror)
@@ -28,4 +38,14 @@ function (meniscus_target_flags target)
       -fsanitize=${MENISCUS_SANITIZER} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options("${target}" PRIVATE -fsanitize=${MENISCUS_SANITIZER})
   endif ()
+  if (MENISCUS_CLANG_TIDY)
+    set_property(TARGET "${target}" PROPERTY CXX_CLANG_TIDY "${MENISCUS_CLANG_TIDY_EXECUTABLE}")
+  endif ()
 endfunction ()
+
+# Tests also run on real meshes where they find them.
+set(MENISCUS_DATA_DIR "$ENV{MENISCUS_DATA_DIR}" CACHE PATH
+  "Folder with blunt_fin.vtu, combustor.vtu, crushed_can.vtu")
+if (NOT MENISCUS_DATA_DIR AND EXISTS "${CMAKE_CURRENT_SOURCE_DIR}/../shared/data")
+  get_filename_component(MENISCUS_DATA_DIR "${CMAKE_CURRENT_SOURCE_DIR}/../shared/data" ABSOLUTE)
+endif ()

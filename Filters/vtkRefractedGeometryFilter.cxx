@@ -2,12 +2,181 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractedGeometryFilter.h"
 
+#include "MembraneExtraction.h"
+#include "Refraction/VirtualGeometry.h"
+#include "VirtualPolyData.h"
+
+#include "vtkCamera.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkWeakPointer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <list>
+#include <vector>
+
+namespace
+{
+
+// Points or facets that a thread takes at once: tens of microseconds of work.
+constexpr vtkIdType Grain = 512;
+
+// Progress is reported and abort checked this often while points are solved, but not for fewer
+// points than keep all threads of a large machine busy.
+constexpr vtkIdType ProgressSteps = 100;
+constexpr vtkIdType SmallestStep = 64 * Grain;
+
+void ThreadedLoop(std::size_t count, const meniscus::RangeBody& body)
+{
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), Grain,
+    [&body](vtkIdType begin, vtkIdType end)
+    { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
+}
+
+/// The virtual vertices of one block of geometry, and what they were computed from.
+struct SolvedBlock
+{
+  vtkWeakPointer<vtkPolyData> source;
+  vtkMTimeType sourceTime = 0;
+  std::vector<double> points;
+  std::vector<meniscus::VirtualVertex> vertices;
+  vtkTypeInt64 eyeUpdate = -1;
+};
+
+/// Values that the refraction rays depend on, beside the membrane.
+struct EyeKey
+{
+  std::array<double, 5> values{}; ///< position, exterior and interior index
+  vtkTypeInt64 membraneBuild = -1;
+
+  bool operator==(const EyeKey& other) const
+  {
+    return this->values == other.values && this->membraneBuild == other.membraneBuild;
+  }
+};
+
+std::vector<double> CopyPoints(vtkPolyData* input)
+{
+  const vtkIdType count = input->GetNumberOfPoints();
+  std::vector<double> points(3 * static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    input->GetPoint(i, points.data() + 3 * i);
+  }
+  return points;
+}
+
+// Bit by bit, so that a NaN equals itself.
+bool SameValues(const std::vector<double>& a, const std::vector<double>& b)
+{
+  return a.size() == b.size() &&
+    (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+}
+
+//------------------------------------------------------------------------------
+class vtkRefractedGeometryFilter::vtkInternals
+{
+public:
+  SolvedBlock& GetBlock(vtkPolyData* input);
+  bool Solve(vtkRefractedGeometryFilter* self, SolvedBlock& block);
+
+  meniscus::VirtualGeometry Geometry;
+
+  vtkWeakPointer<vtkPolyData> MembraneSource;
+  vtkMTimeType MembraneTime = 0;
+  meniscus::MembraneArrays MembraneArrays;
+  bool MembraneKnown = false;
+  bool MembraneReady = false;
+  EyeKey Eye;
+  std::list<SolvedBlock> Blocks;
+
+  vtkTypeInt64 PatchBuilds = 0;
+  vtkTypeInt64 EyeUpdates = 0;
+  vtkTypeInt64 SolvedVertices = 0;
+  vtkTypeInt64 FailedSolves = 0;
+  vtkTypeInt64 VerticesWithoutImage = 0;
+  vtkTypeInt64 SkippedCells = 0;
+  bool WarnedOfModes = false;
+  bool WarnedOfParallelProjection = false;
+};
+
+//------------------------------------------------------------------------------
+// The cache of a block lives as long as its data object: composite data of any number of blocks
+// stays cached, and what a pipeline has replaced goes.
+SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPolyData* input)
+{
+  this->Blocks.remove_if([](const SolvedBlock& block) { return !block.source; });
+  auto block = std::find_if(this->Blocks.begin(), this->Blocks.end(),
+    [input](const SolvedBlock& candidate) { return candidate.source == input; });
+  if (block == this->Blocks.end())
+  {
+    block = this->Blocks.emplace(this->Blocks.end());
+    block->source = input;
+  }
+  if (block->sourceTime != input->GetMTime())
+  {
+    std::vector<double> points = CopyPoints(input);
+    if (!SameValues(points, block->points))
+    {
+      block->points = std::move(points);
+      block->eyeUpdate = -1;
+    }
+    block->sourceTime = input->GetMTime();
+  }
+  return *block;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::vtkInternals::Solve(
+  vtkRefractedGeometryFilter* self, SolvedBlock& block)
+{
+  if (block.eyeUpdate == this->EyeUpdates)
+  {
+    return true;
+  }
+  const auto count = static_cast<vtkIdType>(block.points.size() / 3);
+  block.vertices.resize(static_cast<std::size_t>(count));
+  block.eyeUpdate = -1;
+  const vtkIdType step = std::max(count / ProgressSteps + 1, SmallestStep);
+  for (vtkIdType first = 0; first < count; first += step)
+  {
+    const vtkIdType last = std::min(first + step, count);
+    vtkSMPTools::For(first, last, Grain,
+      [this, &block](vtkIdType begin, vtkIdType end)
+      {
+        this->Geometry.Solve(block.points.data(), static_cast<std::size_t>(begin),
+          static_cast<std::size_t>(end), block.vertices.data());
+      });
+    self->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
+    if (self->GetAbortExecute())
+    {
+      return false;
+    }
+  }
+  this->SolvedVertices += count;
+  for (const meniscus::VirtualVertex& vertex : block.vertices)
+  {
+    this->FailedSolves += vertex.state == meniscus::ImageState::NotFinite;
+    this->VerticesWithoutImage += vertex.state == meniscus::ImageState::NoImage;
+  }
+  block.eyeUpdate = this->EyeUpdates;
+  return true;
+}
 
 vtkStandardNewMacro(vtkRefractedGeometryFilter);
 
 //------------------------------------------------------------------------------
 vtkRefractedGeometryFilter::vtkRefractedGeometryFilter()
+  : Internals(new vtkInternals)
 {
   this->SetNumberOfInputPorts(2);
 }
@@ -16,7 +185,286 @@ vtkRefractedGeometryFilter::vtkRefractedGeometryFilter()
 vtkRefractedGeometryFilter::~vtkRefractedGeometryFilter() = default;
 
 //------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::SetCamera(vtkCamera* camera)
+{
+  if (this->Camera != camera)
+  {
+    this->Camera = camera;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkCamera* vtkRefractedGeometryFilter::GetCamera()
+{
+  return this->Camera;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::SetMembraneData(vtkPolyData* membrane)
+{
+  this->SetInputData(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->Camera ? std::max(own, this->Camera->GetMTime()) : own;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfPatchBuilds() const
+{
+  return this->Internals->PatchBuilds;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
+{
+  return this->Internals->EyeUpdates;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSolvedVertices() const
+{
+  return this->Internals->SolvedVertices;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfFailedSolves() const
+{
+  return this->Internals->FailedSolves;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfVerticesWithoutImage() const
+{
+  return this->Internals->VerticesWithoutImage;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedCells() const
+{
+  return this->Internals->SkippedCells;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
+{
+  return static_cast<vtkTypeInt64>(this->Internals->Geometry.GetMembrane().GetReport().Skipped());
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractedGeometryFilter::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// The geometry comes in the pieces that are asked for, the membrane always whole.
+int vtkRefractedGeometryFilter::RequestUpdateExtent(
+  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* output = outputs->GetInformationObject(0);
+  if (vtkInformation* geometry = inputs[0]->GetInformationObject(0))
+  {
+    geometry->CopyEntry(output, Pipeline::UPDATE_PIECE_NUMBER());
+    geometry->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_PIECES());
+    geometry->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
+    geometry->Set(Pipeline::EXACT_EXTENT(), 1);
+  }
+  if (vtkInformation* membrane = inputs[1]->GetInformationObject(0))
+  {
+    membrane->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    membrane->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    membrane->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractedGeometryFilter::RequestData(
+  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* membrane = vtkPolyData::GetData(inputs[1]);
+  vtkPolyData* output = vtkPolyData::GetData(outputs);
+  if (!input || !membrane || !output)
+  {
+    vtkErrorMacro("Geometry or membrane is missing or no vtkPolyData; the output is empty.");
+    return 0;
+  }
+  this->WarnOfMissingModes();
+  if (!this->UpdateMembrane(membrane))
+  {
+    return 1;
+  }
+  if (!this->UpdateEye())
+  {
+    return 0;
+  }
+  SolvedBlock& block = this->Internals->GetBlock(input);
+  if (!this->Internals->Solve(this, block))
+  {
+    return 1;
+  }
+
+  const auto report = meniscus::BuildVirtualPolyData(input, block.vertices,
+    this->Internals->Geometry.GetMembrane(), this->OutputPointsPrecision, output);
+  this->Internals->SkippedCells += report.skippedCells + report.brokenCells;
+  if (report.brokenCells > 0)
+  {
+    vtkErrorMacro(<< report.brokenCells << " of " << input->GetNumberOfCells()
+                  << " cells name points that do not exist; left out.");
+  }
+  if (report.arraysOfWrongSize > 0)
+  {
+    vtkWarningMacro(
+      << report.arraysOfWrongSize
+      << " point or cell arrays do not have one tuple per point or cell; not passed.");
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::WarnOfMissingModes()
+{
+  if (!this->Internals->WarnedOfModes &&
+    (this->MembraneModel == CURVED || this->Images == ALL_IMAGES))
+  {
+    this->Internals->WarnedOfModes = true;
+    vtkWarningMacro(
+      "Membrane model CURVED and images ALL_IMAGES are not available yet; the result is "
+      "that of FLAT_FACETS and FIRST_IMAGE.");
+  }
+  if (!this->Internals->WarnedOfParallelProjection && this->Camera &&
+    this->Camera->GetParallelProjection())
+  {
+    this->Internals->WarnedOfParallelProjection = true;
+    vtkWarningMacro("A camera in parallel projection has no eye; its position is used as one.");
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
+{
+  vtkInternals& internals = *this->Internals;
+  if (internals.MembraneKnown && internals.MembraneSource == membrane &&
+    internals.MembraneTime == membrane->GetMTime() && internals.MembraneReady)
+  {
+    return true;
+  }
+  meniscus::MembraneArrays arrays = meniscus::ExtractMembrane(membrane);
+  internals.MembraneSource = membrane;
+  internals.MembraneTime = membrane->GetMTime();
+  if (internals.MembraneKnown && internals.MembraneReady && arrays == internals.MembraneArrays)
+  {
+    return true;
+  }
+  internals.MembraneArrays = std::move(arrays);
+  internals.MembraneKnown = true;
+  const auto status = internals.Geometry.SetMembrane(internals.MembraneArrays.AsInput());
+  internals.MembraneReady = status == meniscus::MembraneStatus::Ready;
+  ++internals.PatchBuilds;
+
+  const meniscus::MembraneReport& report = internals.Geometry.GetMembrane().GetReport();
+  const std::size_t triangles = internals.MembraneArrays.triangles.size() / 3;
+  if (!internals.MembraneReady)
+  {
+    vtkErrorMacro(<< (status == meniscus::MembraneStatus::TooLarge
+                         ? "The membrane has more points or triangles than 32-bit indices can name"
+                         : "The membrane has no usable triangle")
+                  << " (" << report.Skipped() << " of " << triangles
+                  << " triangles skipped); the output is empty.");
+    return false;
+  }
+  if (report.Skipped() > 0)
+  {
+    vtkWarningMacro(<< report.Skipped() << " of " << triangles << " membrane triangles skipped: "
+                    << report.zeroArea << " without area, " << report.notFinite
+                    << " with coordinates that are not finite, " << report.outOfRange
+                    << " with points that do not exist, " << report.duplicated << " repeated.");
+  }
+  if (internals.MembraneArrays.normalsRejected)
+  {
+    vtkWarningMacro("The membrane's normals do not have 3 components for each of its "
+      << membrane->GetNumberOfPoints() << " points; normals are computed.");
+  }
+  else if (report.computedNormals > 0 && !internals.MembraneArrays.normals.empty())
+  {
+    vtkWarningMacro(<< report.computedNormals << " of " << membrane->GetNumberOfPoints()
+                    << " membrane normals are zero or not finite; these are computed.");
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::UpdateEye()
+{
+  vtkInternals& internals = *this->Internals;
+  double position[3];
+  std::copy(this->EyePosition, this->EyePosition + 3, position);
+  if (this->Camera)
+  {
+    this->Camera->GetPosition(position);
+  }
+  EyeKey key;
+  key.values = { position[0], position[1], position[2], this->ExteriorIndexOfRefraction,
+    this->InteriorIndexOfRefraction };
+  key.membraneBuild = internals.PatchBuilds;
+  if (key == internals.Eye)
+  {
+    return true;
+  }
+  internals.Eye = EyeKey(); // stale until the update succeeds
+  const meniscus::EyeStatus status =
+    internals.Geometry.SetEye(glm::dvec3(position[0], position[1], position[2]),
+      this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction, ThreadedLoop);
+  switch (status)
+  {
+    case meniscus::EyeStatus::Ready:
+      internals.Eye = key;
+      ++internals.EyeUpdates;
+      return true;
+    case meniscus::EyeStatus::BadIndex:
+      vtkErrorMacro("Indices of refraction must be positive and finite, not "
+        << this->ExteriorIndexOfRefraction << " and " << this->InteriorIndexOfRefraction
+        << "; the output is empty.");
+      return false;
+    case meniscus::EyeStatus::NotFinite:
+      vtkErrorMacro("The eye (" << position[0] << ", " << position[1] << ", " << position[2]
+                                << ") is not finite; the output is empty.");
+      return false;
+    case meniscus::EyeStatus::OnTheMembrane:
+      vtkErrorMacro("The eye (" << position[0] << ", " << position[1] << ", " << position[2]
+                                << ") lies on the membrane; the output is empty.");
+      return false;
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
+     << this->EyePosition[2] << ")\n";
+  os << indent << "Camera: " << this->Camera.Get() << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
+     << "\n";
+  os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "NumberOfPatchBuilds: " << this->GetNumberOfPatchBuilds() << "\n";
+  os << indent << "NumberOfEyeUpdates: " << this->GetNumberOfEyeUpdates() << "\n";
+  os << indent << "NumberOfSolvedVertices: " << this->GetNumberOfSolvedVertices() << "\n";
+  os << indent << "NumberOfFailedSolves: " << this->GetNumberOfFailedSolves() << "\n";
+  os << indent << "NumberOfVerticesWithoutImage: " << this->GetNumberOfVerticesWithoutImage()
+     << "\n";
+  os << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n";
+  os << indent << "NumberOfSkippedFacets: " << this->GetNumberOfSkippedFacets() << "\n";
 }

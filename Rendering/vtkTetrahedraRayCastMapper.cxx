@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "RayCastOpenGL.h"
 #include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
-#include "vtkTetrahedraRayCastOpenGL.h"
-#include "vtkVolumePropertyPoints.h"
+#include "VolumePropertyPoints.h"
 
 #include "vtkCamera.h"
 #include "vtkCellArray.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkVolumePropertyPoints.h"
+#include "VolumePropertyPoints.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkPiecewiseFunction.h"

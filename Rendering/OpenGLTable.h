@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkOpenGLTable_h
-#define vtkOpenGLTable_h
+#ifndef OpenGLTable_h
+#define OpenGLTable_h
 
 #include "vtkNew.h"
 #include "vtkOpenGLBufferObject.h"

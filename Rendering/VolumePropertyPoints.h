@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkVolumePropertyPoints_h
-#define vtkVolumePropertyPoints_h
+#ifndef VolumePropertyPoints_h
+#define VolumePropertyPoints_h
 
 #include "Volume/TransferFunction.h"
 

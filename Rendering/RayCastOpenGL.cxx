@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkTetrahedraRayCastOpenGL.h"
+#include "RayCastOpenGL.h"
 
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"

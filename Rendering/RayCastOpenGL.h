@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkTetrahedraRayCastOpenGL_h
-#define vtkTetrahedraRayCastOpenGL_h
+#ifndef RayCastOpenGL_h
+#define RayCastOpenGL_h
 
 #include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
-#include "vtkOpenGLDepthCopy.h"
-#include "vtkOpenGLTable.h"
+#include "OpenGLDepthCopy.h"
+#include "OpenGLTable.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 

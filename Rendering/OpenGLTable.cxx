@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkOpenGLTable.h"
+#include "OpenGLTable.h"
 
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"

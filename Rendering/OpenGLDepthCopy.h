@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkOpenGLDepthCopy_h
-#define vtkOpenGLDepthCopy_h
+#ifndef OpenGLDepthCopy_h
+#define OpenGLDepthCopy_h
 
 #include "vtkNew.h"
 #include "vtkOpenGLFramebufferObject.h"

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Filters_VirtualPolyData_h
+#define meniscus_Filters_VirtualPolyData_h
+
+#include "Refraction/VirtualGeometry.h"
+
+#include "vtkType.h"
+
+#include <vector>
+
+class vtkPolyData;
+
+namespace meniscus
+{
+
+/// What did not make it to the output.
+struct VirtualPolyDataReport
+{
+  vtkIdType skippedCells = 0; ///< cells that need a point without an image
+  vtkIdType brokenCells = 0;  ///< cells that name a point that does not exist
+  int arraysOfWrongSize = 0;  ///< attribute arrays that do not fit the input, not passed on
+};
+
+/**
+ * Fills `output` with the cells of `input` at the virtual points, and with the arrays of
+ * vtkRefractedGeometryFilter. `vertices` has one entry per point of `input`, solved with
+ * `membrane`.
+ */
+VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
+  const std::vector<VirtualVertex>& vertices, const Membrane& membrane, int pointsPrecision,
+  vtkPolyData* output);
+
+}
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Uses both classes of an installed Meniscus: one refracts a sphere, the other draws a volume.
+#include <vtkDataSetTriangleFilter.h>
+#include <vtkNew.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyData.h>
+#include <vtkRTAnalyticSource.h>
+#include <vtkRefractedGeometryFilter.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSphereSource.h>
+#include <vtkTetrahedraRayCastMapper.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+#include <cstdlib>
+#include <iostream>
+
+namespace
+{
+bool Refract()
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetCenter(0, 0, -1);
+  vtkNew<vtkPlaneSource> membrane;
+  membrane->SetOrigin(-2, -2, 0);
+  membrane->SetPoint1(2, -2, 0);
+  membrane->SetPoint2(-2, 2, 0);
+  vtkNew<vtkRefractedGeometryFilter> filter;
+  filter->SetInputConnection(0, sphere->GetOutputPort());
+  filter->SetInputConnection(1, membrane->GetOutputPort());
+  filter->SetEyePosition(0, 0, 3);
+  filter->Update();
+  const auto count = filter->GetOutput()->GetNumberOfPoints();
+  std::cout << filter->GetClassName() << ": " << count << " virtual points\n";
+  return count > 0;
+}
+
+bool Draw()
+{
+  vtkNew<vtkRTAnalyticSource> field;
+  field->SetWholeExtent(-4, 4, -4, 4, -4, 4);
+  vtkNew<vtkDataSetTriangleFilter> tetrahedra;
+  tetrahedra->SetInputConnection(field->GetOutputPort());
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  mapper->SetInputConnection(tetrahedra->GetOutputPort());
+  vtkNew<vtkVolume> volume;
+  volume->SetMapper(mapper);
+  volume->GetProperty()->GetScalarOpacity()->AddSegment(0, 0, 300, 1);
+  volume->GetProperty()->SetColor(volume->GetProperty()->GetScalarOpacity());
+  vtkNew<vtkRenderer> renderer;
+  renderer->AddVolume(volume);
+  vtkNew<vtkRenderWindow> window;
+  window->SetSize(200, 200);
+  window->AddRenderer(renderer);
+  window->Render();
+  vtkNew<vtkUnsignedCharArray> pixels;
+  window->GetPixelData(0, 0, 199, 199, 0, pixels);
+  const double brightest = pixels->GetMaxNorm();
+  std::cout << mapper->GetClassName() << ": brightest pixel " << brightest << " of 442\n";
+  return brightest > 100;
+}
+}
+
+int main()
+{
+  return Refract() && Draw() ? EXIT_SUCCESS : EXIT_FAILURE;
+}

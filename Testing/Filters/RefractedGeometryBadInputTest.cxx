@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Input that is missing, empty or wrong: an error or a counted skip, a defined output, no crash.
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+using namespace meniscus::testing;
+
+const double NaN = std::numeric_limits<double>::quiet_NaN();
+const double Infinity = std::numeric_limits<double>::infinity();
+
+bool HasNoGeometry(vtkPolyData* data)
+{
+  return data->GetNumberOfPoints() == 0 && data->GetNumberOfCells() == 0;
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryBadInput, NoInputAtAll)
+{
+  vtkNew<vtkRefractedGeometryFilter> filter;
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_GE(messages->errors, 1);
+  EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
+}
+
+TEST(RefractedGeometryBadInput, NoMembraneConnection)
+{
+  vtkNew<vtkRefractedGeometryFilter> filter;
+  filter->SetInputData(0, MakeGrid(3, 10.0, -5.0));
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_GE(messages->errors, 1);
+  EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
+}
+
+TEST(RefractedGeometryBadInput, EmptyGeometry)
+{
+  vtkNew<vtkPolyData> empty;
+  const auto filter = MakeFilter(empty, MakeFlatMembrane());
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors, 0) << messages->text;
+  EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
+  EXPECT_NE(filter->GetOutput()->GetPointData()->GetArray("SightPoint"), nullptr);
+}
+
+TEST(RefractedGeometryBadInput, MembraneWithoutTriangles)
+{
+  vtkNew<vtkPolyData> empty;
+  const auto pointsOnly = MakePoints({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 } });
+  for (vtkPolyData* membrane : { empty.Get(), pointsOnly.Get() })
+  {
+    const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), membrane);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->errors, 1) << messages->text;
+    EXPECT_NE(messages->text.find("no usable triangle"), std::string::npos);
+    EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
+  }
+}
+
+TEST(RefractedGeometryBadInput, MembraneWithoutArea)
+{
+  const auto line = MakePoints({ { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 } });
+  vtkNew<vtkCellArray> polys;
+  const vtkIdType ids[3] = { 0, 1, 2 };
+  polys->InsertNextCell(3, ids);
+  line->SetPolys(polys);
+  const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), line);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors, 1) << messages->text;
+  EXPECT_EQ(filter->GetNumberOfSkippedFacets(), 1);
+  EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryBadInput, BadFacetsAreSkippedAndCounted)
+{
+  const auto membrane = MakeFlatMembrane();
+  const vtkIdType bad = membrane->GetPoints()->InsertNextPoint(NaN, 0.0, 0.0);
+  membrane->GetPointData()->GetNormals()->InsertNextTuple3(0.0, 1.0, 0.0);
+  const vtkIdType notFinite[3] = { 0, 1, bad };
+  const vtkIdType outOfRange[3] = { 0, 1, 100000 };
+  const vtkIdType negative[4] = { 0, 1, 10, -1 };
+  const vtkIdType notFiniteQuad[4] = { 0, 1, 10, bad };
+  const vtkIdType noArea[3] = { 0, 1, 2 };
+  const vtkIdType noAreaQuad[4] = { 0, 1, 2, 3 };
+  const vtkIdType two[2] = { 0, 1 };
+  vtkCellArray* polys = membrane->GetPolys();
+  polys->InsertNextCell(3, notFinite);
+  polys->InsertNextCell(3, outOfRange);
+  polys->InsertNextCell(4, negative);
+  polys->InsertNextCell(4, notFiniteQuad);
+  polys->InsertNextCell(3, noArea);
+  polys->InsertNextCell(4, noAreaQuad);
+  polys->InsertNextCell(2, two);
+  vtkNew<vtkCellArray> strips;
+  const vtkIdType strip[4] = { 0, 1, 100000, 2 };
+  strips->InsertNextCell(4, strip);
+  membrane->SetStrips(strips);
+  const auto filter = MakeFilter(MakeGrid(5, 80.0, -50.0), membrane);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors, 0) << messages->text;
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  // The quad without area makes one or two triangles, the strip two.
+  EXPECT_GE(filter->GetNumberOfSkippedFacets(), 9);
+  EXPECT_LE(filter->GetNumberOfSkippedFacets(), 10);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 25);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryBadInput, PointsThatAreNotFinite)
+{
+  auto grid = MakeGrid(3, 10.0, -5.0);
+  grid->GetPoints()->SetPoint(0, NaN, -5.0, 0.0);
+  grid->GetPoints()->SetPoint(2, 0.0, -Infinity, 0.0);
+  const auto filter = MakeFilter(grid, MakeFlatMembrane());
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  EXPECT_EQ(filter->GetNumberOfFailedSolves(), 2);
+  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 0);
+  EXPECT_EQ(output->GetNumberOfPoints(), 7);
+  EXPECT_EQ(output->GetNumberOfPolys(), 2);
+  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 2);
+  for (vtkIdType i = 0; i < 7; ++i)
+  {
+    double p[3];
+    output->GetPoint(i, p);
+    EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
+  }
+}
+
+TEST(RefractedGeometryBadInput, CellsThatNamePointsThatDoNotExist)
+{
+  auto grid = MakeGrid(3, 10.0, -5.0);
+  const vtkIdType high[3] = { 0, 1, 9 };
+  const vtkIdType negative[3] = { 0, -5, 1 };
+  grid->GetPolys()->InsertNextCell(3, high);
+  vtkNew<vtkCellArray> verts;
+  verts->InsertNextCell(3, negative);
+  grid->SetVerts(verts);
+  grid->GetCellData()->Initialize();
+  const auto filter = MakeFilter(grid, MakeFlatMembrane());
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors, 1) << messages->text;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 4);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfVerts(), 2);
+  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 2);
+}
+
+TEST(RefractedGeometryBadInput, ArraysOfTheWrongSizeAreNotPassed)
+{
+  auto grid = MakeGrid(3, 10.0, -5.0);
+  vtkNew<vtkFloatArray> array;
+  array->SetName("Short");
+  array->SetNumberOfTuples(2);
+  array->Fill(1.0);
+  grid->GetPointData()->AddArray(array);
+  grid->GetPoints()->SetPoint(0, 0.0, 50.0, 0.0); // no image: arrays are copied tuple by tuple
+  const auto filter = MakeFilter(grid, MakeFlatMembrane());
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Short"), nullptr);
+  EXPECT_NE(filter->GetOutput()->GetPointData()->GetArray("Rank"), nullptr);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryBadInput, IndicesOfRefraction)
+{
+  for (const double index : { 0.0, -1.333, NaN, Infinity })
+  {
+    for (const bool exterior : { true, false })
+    {
+      const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
+      const auto messages = Observe(filter);
+      filter->SetExteriorIndexOfRefraction(exterior ? index : 1.0);
+      filter->SetInteriorIndexOfRefraction(exterior ? 1.0 : index);
+      filter->Update();
+      EXPECT_GE(messages->errors, 1) << index;
+      EXPECT_TRUE(HasNoGeometry(filter->GetOutput())) << index;
+      // And it recovers.
+      filter->SetExteriorIndexOfRefraction(1.0);
+      filter->SetInteriorIndexOfRefraction(1.333);
+      filter->Update();
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9) << index;
+    }
+  }
+}
+
+TEST(RefractedGeometryBadInput, EyesOnTheMembraneOrNowhere)
+{
+  const double eyes[][3] = { { 0.0, 0.0, 0.0 }, { 12.5, 0.0, 0.0 }, { 7.0, 0.0, 3.0 },
+    { NaN, 1.0, 0.0 }, { 0.0, Infinity, 0.0 } };
+  for (const auto& eye : eyes)
+  {
+    const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
+    const auto messages = Observe(filter);
+    filter->SetEyePosition(eye[0], eye[1], eye[2]);
+    filter->Update();
+    EXPECT_GE(messages->errors, 1) << eye[0] << " " << eye[1] << " " << eye[2];
+    EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
+    filter->SetEyePosition(0.0, 100.0, 0.0);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryBadInput, NormalsOfTheWrongSizeAreComputed)
+{
+  const auto membrane = MakeFlatMembrane();
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(7);
+  normals->Fill(0.3);
+  membrane->GetPointData()->SetNormals(normals);
+  const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), membrane);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+
+  const auto reference = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
+  reference->Update();
+  double a[3];
+  double b[3];
+  filter->GetOutput()->GetPoint(4, a);
+  reference->GetOutput()->GetPoint(4, b);
+  EXPECT_NEAR(a[1], b[1], 1e-12);
+}
+
+TEST(RefractedGeometryBadInput, NormalsOfNoLengthAreComputed)
+{
+  const auto membrane = MakeFlatMembrane();
+  vtkDataArray* normals = membrane->GetPointData()->GetNormals();
+  normals->SetTuple3(40, 0.0, 0.0, 0.0);
+  normals->SetTuple3(41, NaN, 0.0, 0.0);
+  const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), membrane);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_NE(messages->text.find("2 of 81"), std::string::npos) << messages->text;
+
+  const auto reference = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
+  reference->Update();
+  for (vtkIdType i = 0; i < 9; ++i)
+  {
+    double a[3];
+    double b[3];
+    filter->GetOutput()->GetPoint(i, a);
+    reference->GetOutput()->GetPoint(i, b);
+    EXPECT_NEAR(a[1], b[1], 1e-12);
+  }
+}
+
+TEST(RefractedGeometryBadInput, EyeBehindTheMembrane)
+{
+  const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
+  filter->SetEyePosition(0.0, -100.0, 0.0);
+  filter->Update(); // extrapolated by Eq. 3.1; must only be defined
+  for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    filter->GetOutput()->GetPoint(i, p);
+    EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
+  }
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 9);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryBadInput, MissingModesWarnOnce)
+{
+  const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->warnings, 0) << messages->text;
+  filter->SetMembraneModelToCurved();
+  filter->Update();
+  EXPECT_EQ(messages->warnings, 1);
+  EXPECT_NE(messages->text.find("FLAT_FACETS"), std::string::npos);
+  filter->SetImagesToAllImages();
+  filter->Update();
+  EXPECT_EQ(messages->warnings, 1);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9);
+}
+
+}

@@ -1,0 +1,360 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What is computed again after a change, shown by the counters; eye, camera, composite data, abort.
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTrivialProducer.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace meniscus::testing;
+
+struct Counters
+{
+  vtkTypeInt64 patches;
+  vtkTypeInt64 eyes;
+  vtkTypeInt64 vertices;
+  bool operator==(const Counters& o) const
+  {
+    return this->patches == o.patches && this->eyes == o.eyes && this->vertices == o.vertices;
+  }
+};
+
+std::ostream& operator<<(std::ostream& os, const Counters& c)
+{
+  return os << c.patches << " patch builds, " << c.eyes << " eye updates, " << c.vertices
+            << " vertices";
+}
+
+Counters Read(vtkRefractedGeometryFilter* filter)
+{
+  return { filter->GetNumberOfPatchBuilds(), filter->GetNumberOfEyeUpdates(),
+    filter->GetNumberOfSolvedVertices() };
+}
+
+class RefractedGeometryCache : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Grid = MakeGrid(9, 80.0, -50.0);
+    this->Membrane = MakeFlatMembrane();
+    this->Filter = MakeFilter(this->Grid, this->Membrane);
+    this->Filter->Update();
+    ASSERT_EQ(Read(this->Filter), (Counters{ 1, 1, 81 }));
+  }
+
+  void ExpectAfterUpdate(const Counters& expected)
+  {
+    const vtkMTimeType before = this->Filter->GetOutput()->GetMTime();
+    this->Filter->Update();
+    EXPECT_EQ(Read(this->Filter), expected);
+    this->Executed = this->Filter->GetOutput()->GetMTime() != before;
+  }
+
+  vtkSmartPointer<vtkPolyData> Grid;
+  vtkSmartPointer<vtkPolyData> Membrane;
+  vtkSmartPointer<vtkRefractedGeometryFilter> Filter;
+  bool Executed = false;
+};
+
+//------------------------------------------------------------------------------
+TEST_F(RefractedGeometryCache, NothingChangedNothingRuns)
+{
+  this->ExpectAfterUpdate({ 1, 1, 81 });
+  EXPECT_FALSE(this->Executed);
+}
+
+TEST_F(RefractedGeometryCache, MovedObjectKeepsTheCells)
+{
+  this->Grid->GetPoints()->SetPoint(0, 1.0, -20.0, 3.0);
+  this->Grid->GetPoints()->Modified();
+  this->ExpectAfterUpdate({ 1, 1, 162 });
+}
+
+TEST_F(RefractedGeometryCache, MovedObjectIsNoticedByTheDataSetsTimeAlone)
+{
+  double before[3];
+  this->Filter->GetOutput()->GetPoint(0, before);
+  this->Grid->GetPoints()->SetPoint(0, 1.0, -20.0, 3.0);
+  this->Grid->Modified();
+  this->ExpectAfterUpdate({ 1, 1, 162 });
+  double after[3];
+  this->Filter->GetOutput()->GetPoint(0, after);
+  EXPECT_NE(before[1], after[1]);
+}
+
+TEST_F(RefractedGeometryCache, RecolouredObjectKeepsItsVirtualVertices)
+{
+  vtkNew<vtkFloatArray> colour;
+  colour->SetName("Colour");
+  colour->SetNumberOfTuples(81);
+  colour->Fill(0.5);
+  this->Grid->GetPointData()->AddArray(colour);
+  this->ExpectAfterUpdate({ 1, 1, 81 });
+  EXPECT_TRUE(this->Executed);
+  EXPECT_NE(this->Filter->GetOutput()->GetPointData()->GetArray("Colour"), nullptr);
+}
+
+TEST_F(RefractedGeometryCache, ChangedConnectivityKeepsTheVirtualVertices)
+{
+  vtkNew<vtkCellArray> polys;
+  const vtkIdType ids[3] = { 0, 1, 2 };
+  polys->InsertNextCell(3, ids);
+  this->Grid->SetPolys(polys);
+  this->Grid->GetCellData()->Initialize();
+  this->ExpectAfterUpdate({ 1, 1, 81 });
+  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPolys(), 1);
+}
+
+TEST_F(RefractedGeometryCache, MovedEyeKeepsTheMembrane)
+{
+  this->Filter->SetEyePosition(0.0, 250.0, 0.0);
+  this->ExpectAfterUpdate({ 1, 2, 162 });
+}
+
+TEST_F(RefractedGeometryCache, ChangedIndexIsANewEye)
+{
+  this->Filter->SetInteriorIndexOfRefraction(1.5);
+  this->ExpectAfterUpdate({ 1, 2, 162 });
+  this->Filter->SetExteriorIndexOfRefraction(1.1);
+  this->ExpectAfterUpdate({ 1, 3, 243 });
+}
+
+TEST_F(RefractedGeometryCache, ChangedMembraneRebuildsEverything)
+{
+  this->Membrane->GetPoints()->SetPoint(40, 0.0, 1.0, 0.0);
+  this->Membrane->GetPoints()->Modified();
+  this->ExpectAfterUpdate({ 2, 2, 162 });
+}
+
+TEST_F(RefractedGeometryCache, ChangedMembraneNormalsRebuildEverything)
+{
+  this->Membrane->GetPointData()->GetNormals()->SetTuple3(40, 0.1, 1.0, 0.0);
+  this->Membrane->GetPointData()->GetNormals()->Modified();
+  this->ExpectAfterUpdate({ 2, 2, 162 });
+}
+
+TEST_F(RefractedGeometryCache, TouchedMembraneOfTheSameShapeRebuildsNothing)
+{
+  this->Membrane->Modified();
+  this->ExpectAfterUpdate({ 1, 1, 81 });
+  const auto copy = MakeFlatMembrane();
+  this->Filter->SetMembraneData(copy);
+  this->ExpectAfterUpdate({ 1, 1, 81 });
+}
+
+TEST_F(RefractedGeometryCache, BrokenMembraneIsNotRemembered)
+{
+  const auto messages = Observe(this->Filter);
+  vtkNew<vtkPolyData> empty;
+  this->Filter->SetMembraneData(empty);
+  this->Filter->Update();
+  EXPECT_GE(messages->errors, 1);
+  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+  this->Filter->SetMembraneData(this->Membrane);
+  this->Filter->Update();
+  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 81);
+}
+
+//------------------------------------------------------------------------------
+TEST_F(RefractedGeometryCache, EyeFollowsTheCamera)
+{
+  vtkNew<vtkCamera> camera;
+  camera->SetPosition(20.0, 300.0, 10.0); // where the eye already is
+  this->Filter->SetCamera(camera);
+  EXPECT_EQ(this->Filter->GetCamera(), camera);
+  this->ExpectAfterUpdate({ 1, 1, 81 });
+  camera->SetPosition(0.0, 250.0, 0.0);
+  this->ExpectAfterUpdate({ 1, 2, 162 });
+  // The same as by SetEyePosition.
+  const auto other = MakeFilter(this->Grid, this->Membrane);
+  other->SetEyePosition(0.0, 250.0, 0.0);
+  other->Update();
+  double a[3];
+  double b[3];
+  this->Filter->GetOutput()->GetPoint(5, a);
+  other->GetOutput()->GetPoint(5, b);
+  EXPECT_TRUE(a[0] == b[0] && a[1] == b[1] && a[2] == b[2]);
+  // Turned, not moved: nothing is solved again.
+  camera->SetFocalPoint(10.0, 0.0, 0.0);
+  camera->Zoom(2.0);
+  this->ExpectAfterUpdate({ 1, 2, 162 });
+  this->Filter->SetCamera(nullptr);
+  this->ExpectAfterUpdate({ 1, 3, 243 });
+}
+
+TEST_F(RefractedGeometryCache, ParallelProjectionWarnsOnce)
+{
+  const auto messages = Observe(this->Filter);
+  vtkNew<vtkCamera> camera;
+  camera->SetPosition(0.0, 250.0, 0.0);
+  camera->ParallelProjectionOn();
+  this->Filter->SetCamera(camera);
+  this->Filter->Update();
+  camera->SetPosition(0.0, 240.0, 0.0);
+  this->Filter->Update();
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryPipeline, MultiBlockBuildsTheMembraneOnce)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  std::vector<vtkSmartPointer<vtkPolyData>> leaves;
+  for (unsigned int i = 0; i < 5; ++i)
+  {
+    leaves.push_back(MakeGrid(5, 80.0, -20.0 - 10.0 * i));
+    blocks->SetBlock(i, leaves.back());
+  }
+  vtkNew<vtkRefractedGeometryFilter> filter;
+  filter->SetMembraneModelToFlatFacets();
+  filter->SetImagesToFirstImage();
+  filter->SetEyePosition(20.0, 300.0, 10.0);
+  filter->SetInputDataObject(0, blocks);
+  filter->SetMembraneData(MakeFlatMembrane());
+  filter->Update();
+  EXPECT_EQ(Read(filter), (Counters{ 1, 1, 125 }));
+
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_NE(output, nullptr);
+  ASSERT_EQ(output->GetNumberOfBlocks(), 5u);
+  for (unsigned int i = 0; i < 5; ++i)
+  {
+    auto* leaf = vtkPolyData::SafeDownCast(output->GetBlock(i));
+    ASSERT_NE(leaf, nullptr);
+    EXPECT_EQ(leaf->GetNumberOfPoints(), 25);
+    EXPECT_EQ(leaf->GetNumberOfPolys(), 16);
+    double p[3];
+    leaf->GetPoint(0, p);
+    EXPECT_NEAR(p[1], -(20.0 + 10.0 * i) / 1.333, 4.0); // about the apparent depth
+  }
+
+  // One block moves: only its points are solved again.
+  leaves[2]->GetPoints()->SetPoint(0, 1.0, -20.0, 3.0);
+  leaves[2]->GetPoints()->Modified();
+  blocks->Modified();
+  filter->Update();
+  EXPECT_EQ(Read(filter), (Counters{ 1, 1, 150 }));
+
+  filter->SetEyePosition(0.0, 250.0, 0.0);
+  filter->Update();
+  EXPECT_EQ(Read(filter), (Counters{ 1, 2, 275 }));
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryPipeline, CachesGoWithTheirData)
+{
+  const auto filter = MakeFilter(MakeGrid(5, 80.0, -20.0), MakeFlatMembrane());
+  filter->Update();
+  for (int i = 0; i < 20; ++i)
+  {
+    filter->SetInputData(0, MakeGrid(5, 80.0, -21.0 - i)); // the one before is deleted here
+    filter->Update();
+  }
+  EXPECT_EQ(Read(filter), (Counters{ 1, 1, 21 * 25 }));
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 25);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryPipeline, ProgressRisesToTheEndAndAbortLeavesNothing)
+{
+  struct Observed
+  {
+    double last = 0.0;
+    int calls = 0;
+    bool falls = false;
+    bool abort = false;
+  } observed;
+  const auto filter = MakeFilter(MakeGrid(400, 150.0, -60.0), MakeFlatMembrane());
+  vtkNew<vtkCallbackCommand> callback;
+  callback->SetClientData(&observed);
+  callback->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      auto* o = static_cast<Observed*>(data);
+      auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+      o->falls = o->falls || algorithm->GetProgress() < o->last;
+      o->last = algorithm->GetProgress();
+      if (o->last > 0.0 && ++o->calls == 2 && o->abort)
+      {
+        algorithm->SetAbortExecute(1);
+      }
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, callback);
+  observed.abort = true;
+  filter->Update();
+  EXPECT_LT(observed.calls, 5);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 0);
+
+  observed = Observed();
+  filter->SetAbortExecute(0);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 160000);
+  EXPECT_GE(observed.calls, 4);
+  EXPECT_FALSE(observed.falls);
+  EXPECT_EQ(observed.last, 1.0);
+}
+
+//------------------------------------------------------------------------------
+// A producer that records which piece it is asked for.
+class PieceRecorder : public vtkTrivialProducer
+{
+public:
+  static PieceRecorder* New();
+  vtkTypeMacro(PieceRecorder, vtkTrivialProducer);
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override
+  {
+    using Pipeline = vtkStreamingDemandDrivenPipeline;
+    vtkInformation* info = outputs->GetInformationObject(0);
+    if (request->Has(Pipeline::REQUEST_UPDATE_EXTENT()))
+    {
+      this->piece = info->Get(Pipeline::UPDATE_PIECE_NUMBER());
+      this->pieces = info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
+    }
+    return this->Superclass::ProcessRequest(request, inputs, outputs);
+  }
+  int piece = -1;
+  int pieces = -1;
+};
+vtkStandardNewMacro(PieceRecorder);
+
+TEST(RefractedGeometryPipeline, MembraneIsAskedForWhole)
+{
+  vtkNew<PieceRecorder> geometry;
+  vtkNew<PieceRecorder> membrane;
+  geometry->SetOutput(MakeGrid(5, 80.0, -20.0));
+  membrane->SetOutput(MakeFlatMembrane());
+  vtkNew<vtkRefractedGeometryFilter> filter;
+  filter->SetMembraneModelToFlatFacets();
+  filter->SetImagesToFirstImage();
+  filter->SetEyePosition(20.0, 300.0, 10.0);
+  filter->SetInputConnection(0, geometry->GetOutputPort());
+  filter->SetMembraneConnection(membrane->GetOutputPort());
+  filter->UpdatePiece(1, 3, 0);
+  EXPECT_EQ(geometry->piece, 1);
+  EXPECT_EQ(geometry->pieces, 3);
+  EXPECT_EQ(membrane->piece, 0);
+  EXPECT_EQ(membrane->pieces, 1);
+}
+
+}

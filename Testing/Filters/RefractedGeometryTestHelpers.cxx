@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkExecutive.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+
+namespace meniscus::testing
+{
+
+//------------------------------------------------------------------------------
+void MessageCounter::Execute(vtkObject*, unsigned long event, void* message)
+{
+  ++(event == vtkCommand::ErrorEvent ? this->errors : this->warnings);
+  this->text += static_cast<const char*>(message);
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter)
+{
+  auto counter = vtk::TakeSmartPointer(MessageCounter::New());
+  filter->AddObserver(vtkCommand::ErrorEvent, counter);
+  filter->AddObserver(vtkCommand::WarningEvent, counter);
+  filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, counter);
+  return counter;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeMembrane(
+  const meniscus::reference::MembraneMesh& mesh, bool withNormals)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetName("Normals");
+  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  {
+    points->InsertNextPoint(mesh.points.data() + i);
+    normals->InsertNextTuple(mesh.normals.data() + i);
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+  {
+    const vtkIdType ids[3] = { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] };
+    triangles->InsertNextCell(3, ids);
+  }
+  auto membrane = vtkSmartPointer<vtkPolyData>::New();
+  membrane->SetPoints(points);
+  membrane->SetPolys(triangles);
+  if (withNormals)
+  {
+    membrane->GetPointData()->SetNormals(normals);
+  }
+  return membrane;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeFlatMembrane()
+{
+  return MakeMembrane(meniscus::reference::MakeSquare(200.0, 8, 0.0));
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakePoints(const std::vector<Point>& positions)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Point& p : positions)
+  {
+    points->InsertNextPoint(p.data());
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeGrid(int count, double size, double y)
+{
+  std::vector<Point> positions;
+  vtkNew<vtkIdTypeArray> rank;
+  rank->SetName("Rank");
+  for (int i = 0; i < count * count; ++i)
+  {
+    positions.push_back({ size * (static_cast<double>(i % count) / (count - 1) - 0.5), y,
+      size * (static_cast<double>(i / count) / (count - 1) - 0.5) });
+    rank->InsertNextValue(i);
+  }
+  auto grid = MakePoints(positions);
+  vtkNew<vtkCellArray> quads;
+  vtkNew<vtkDoubleArray> label;
+  label->SetName("Label");
+  for (vtkIdType j = 0; j + 1 < count; ++j)
+  {
+    for (vtkIdType i = 0; i + 1 < count; ++i)
+    {
+      const vtkIdType a = j * count + i;
+      const vtkIdType ids[4] = { a, a + count, a + count + 1, a + 1 };
+      label->InsertNextValue(10.0 * static_cast<double>(quads->InsertNextCell(4, ids)));
+    }
+  }
+  grid->SetPolys(quads);
+  grid->GetPointData()->AddArray(rank);
+  grid->GetCellData()->AddArray(label);
+  return grid;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(vtkPolyData* geometry, vtkPolyData* membrane)
+{
+  auto filter = vtkSmartPointer<vtkRefractedGeometryFilter>::New();
+  filter->SetMembraneModelToFlatFacets();
+  filter->SetImagesToFirstImage();
+  filter->SetEyePosition(20.0, 300.0, 10.0);
+  filter->SetInputData(0, geometry);
+  filter->SetInputData(1, membrane);
+  return filter;
+}
+
+}

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_RefractedGeometryTestHelpers_h
+#define meniscus_RefractedGeometryTestHelpers_h
+
+#include "MembraneMeshes.h"
+
+#include "vtkCommand.h"
+#include "vtkPolyData.h"
+#include "vtkRefractedGeometryFilter.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace meniscus::testing
+{
+
+using Point = std::array<double, 3>;
+
+/// Counts errors and warnings, keeps their text, and lets nothing through to the output window.
+class MessageCounter : public vtkCommand
+{
+public:
+  static MessageCounter* New() { return new MessageCounter; }
+  void Execute(vtkObject* caller, unsigned long event, void* text) override;
+
+  int errors = 0;
+  int warnings = 0;
+  std::string text;
+};
+
+/// Observes a filter and its executive.
+vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter);
+
+/// A membrane of the references as data set, with or without its normals.
+vtkSmartPointer<vtkPolyData> MakeMembrane(
+  const meniscus::reference::MembraneMesh& mesh, bool withNormals = true);
+
+/// A flat membrane of side 200, eight cells a side.
+vtkSmartPointer<vtkPolyData> MakeFlatMembrane();
+
+/// Points without cells.
+vtkSmartPointer<vtkPolyData> MakePoints(const std::vector<Point>& points);
+
+/// `count` points a side of a horizontal grid of quads, at height `y`, with side `size`. Has the
+/// point array "Rank" (the point's index) and the cell array "Label" (10 times the cell's index).
+vtkSmartPointer<vtkPolyData> MakeGrid(int count, double size, double y);
+
+/// A filter with FLAT_FACETS, FIRST_IMAGE and the eye at (20, 300, 10).
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(
+  vtkPolyData* geometry, vtkPolyData* membrane);
+
+}
+
+#endif

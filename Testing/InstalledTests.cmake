@@ -1,0 +1,31 @@
+# Installs into a prefix inside the build tree (with a space in its name, as users have them) and
+# builds Testing/Consumer against it: a project that knows nothing but find_package(Meniscus).
+set(MENISCUS_TEST_PREFIX "${CMAKE_BINARY_DIR}/Testing/installed prefix")
+set(_consumer_dir "${CMAKE_BINARY_DIR}/Testing/Consumer")
+
+add_test(
+  NAME Installed.Install
+  COMMAND "${CMAKE_COMMAND}"
+    "-DBUILD_DIR=${CMAKE_BINARY_DIR}"
+    "-DPREFIX=${MENISCUS_TEST_PREFIX}"
+    -P "${CMAKE_CURRENT_SOURCE_DIR}/InstallFresh.cmake")
+set_tests_properties(Installed.Install PROPERTIES
+  LABELS         consumer
+  FIXTURES_SETUP installed)
+
+add_test(
+  NAME Installed.Consumer
+  COMMAND "${CMAKE_CTEST_COMMAND}"
+    --build-and-test "${CMAKE_CURRENT_SOURCE_DIR}/Consumer" "${_consumer_dir}"
+    --build-generator "${CMAKE_GENERATOR}"
+    --build-options
+      "-DCMAKE_PREFIX_PATH=${MENISCUS_TEST_PREFIX}"
+      "-DVTK_DIR=${VTK_DIR}"
+      "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
+      "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}"
+      "-DREADME=${PROJECT_SOURCE_DIR}/README.md"
+    --test-command "${CMAKE_CTEST_COMMAND}" --output-on-failure --no-tests=error)
+set_tests_properties(Installed.Consumer PROPERTIES
+  LABELS            consumer
+  FIXTURES_REQUIRED installed
+  TIMEOUT           600)

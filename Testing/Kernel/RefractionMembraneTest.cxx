@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// What a membrane accepts, what it skips and counts, and the normals that it computes.
+#include "MembraneMeshes.h"
+#include "Refraction/Membrane.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+using meniscus::Membrane;
+using meniscus::MembraneInput;
+using meniscus::MembraneStatus;
+using meniscus::reference::MembraneMesh;
+
+const double NaN = std::numeric_limits<double>::quiet_NaN();
+
+TEST(RefractionMembrane, ThesisDiscHasItsCounts)
+{
+  const MembraneMesh mesh = meniscus::reference::MakeDisc(141.5, 5, 0.0);
+  EXPECT_EQ(mesh.points.size(), 3u * 125u);
+  EXPECT_EQ(mesh.GetNumberOfFacets(), 184u);
+  Membrane membrane;
+  EXPECT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
+  EXPECT_EQ(membrane.GetReport().Skipped(), 0u);
+  EXPECT_EQ(membrane.GetReport().computedNormals, 0u);
+}
+
+TEST(RefractionMembrane, SkipsAndCountsEveryBadFacet)
+{
+  MembraneMesh mesh = meniscus::reference::MakeSquare(2.0, 2, 0.0); // 9 points, 8 facets
+  mesh.AddPoint({ NaN, 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
+  mesh.AddPoint({ std::numeric_limits<double>::infinity(), 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
+  mesh.AddTriangle(0, 1, 9);  // NaN
+  mesh.AddTriangle(0, 10, 1); // infinite
+  mesh.AddTriangle(0, 1, 11); // out of range
+  mesh.AddTriangle(-1, 1, 2); // out of range
+  mesh.AddTriangle(0, 1, 2);  // collinear
+  mesh.AddTriangle(4, 4, 5);  // repeated corner
+  const auto& t = mesh.triangles;
+  mesh.AddTriangle(t[1], t[2], t[0]); // the first again, turned
+  mesh.AddTriangle(t[2], t[1], t[0]); // the first again, flipped
+
+  Membrane membrane;
+  ASSERT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
+  EXPECT_EQ(membrane.GetFacets().size(), 8u);
+  EXPECT_EQ(membrane.GetReport().notFinite, 2u);
+  EXPECT_EQ(membrane.GetReport().outOfRange, 2u);
+  EXPECT_EQ(membrane.GetReport().zeroArea, 2u);
+  EXPECT_EQ(membrane.GetReport().duplicated, 2u);
+  EXPECT_EQ(membrane.GetReport().Skipped(), 8u);
+}
+
+TEST(RefractionMembrane, CellIdsFollowTheFacetsThatStay)
+{
+  MembraneMesh mesh = meniscus::reference::MakeSquare(2.0, 1, 0.0);
+  const std::vector<std::int64_t> ids = { 7, 70, 5 };
+  mesh.triangles.insert(mesh.triangles.begin(), { 0, 0, 1 });
+  MembraneInput input = mesh.AsInput();
+  input.cellIds = ids.data();
+  Membrane membrane;
+  ASSERT_EQ(membrane.Build(input), MembraneStatus::Ready);
+  ASSERT_EQ(membrane.GetFacets().size(), 2u);
+  EXPECT_EQ(membrane.GetCellId(0), 70);
+  EXPECT_EQ(membrane.GetCellId(1), 5);
+}
+
+TEST(RefractionMembrane, NothingUsableIsEmpty)
+{
+  Membrane membrane;
+  EXPECT_EQ(membrane.Build(MembraneInput()), MembraneStatus::Empty);
+  MembraneMesh flat;
+  for (int i = 0; i < 3; ++i)
+  {
+    flat.AddPoint({ 1.0 * i, 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
+  }
+  flat.AddTriangle(0, 1, 2);
+  EXPECT_EQ(membrane.Build(flat.AsInput()), MembraneStatus::Empty);
+  EXPECT_EQ(membrane.GetReport().zeroArea, 1u);
+  EXPECT_TRUE(membrane.GetFacets().empty());
+}
+
+TEST(RefractionMembrane, ExtremeScalesKeepTheirFacets)
+{
+  for (const double scale : { 1e-150, 1e-6, 1.0, 1e6, 1e150 })
+  {
+    const MembraneMesh mesh = meniscus::reference::MakeSquare(scale, 3, 0.0);
+    Membrane membrane;
+    ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready) << scale;
+    EXPECT_EQ(membrane.GetFacets().size(), 18u) << scale;
+    EXPECT_EQ(membrane.GetNormals()[5], glm::dvec3(0.0, 1.0, 0.0)) << scale;
+  }
+}
+
+TEST(RefractionMembrane, ComputedNormalsOfAPlaneAreExact)
+{
+  const MembraneMesh mesh = meniscus::reference::MakeDisc(3.0, 4, 0.0);
+  Membrane membrane;
+  ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
+  EXPECT_EQ(membrane.GetReport().computedNormals, membrane.GetPositions().size());
+  for (const glm::dvec3& normal : membrane.GetNormals())
+  {
+    EXPECT_EQ(normal, glm::dvec3(0.0, 1.0, 0.0));
+  }
+}
+
+TEST(RefractionMembrane, ComputedNormalsOfASphereConverge)
+{
+  double coarse = 0.0;
+  for (const int cells : { 8, 16, 32 })
+  {
+    const MembraneMesh mesh = meniscus::reference::MakeSquare(1.0, cells, 2.0);
+    Membrane membrane;
+    ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
+    double worst = 0.0;
+    for (int j = 1; j < cells; ++j)
+    {
+      for (int i = 1; i < cells; ++i)
+      {
+        const auto v = static_cast<std::size_t>(j * (cells + 1) + i);
+        const glm::dvec3 exact(
+          mesh.normals[3 * v], mesh.normals[3 * v + 1], mesh.normals[3 * v + 2]);
+        worst = std::max(worst, glm::length(membrane.GetNormals()[v] - exact));
+      }
+    }
+    // First order at least: half the size, half the error. Facets of 1/8 on radius 2 turn by 1/16.
+    EXPECT_LT(worst, coarse > 0.0 ? 0.55 * coarse : 1.0 / 16.0);
+    coarse = worst;
+  }
+}
+
+TEST(RefractionMembrane, ReplacesOnlyBadNormals)
+{
+  MembraneMesh mesh = meniscus::reference::MakeSquare(2.0, 2, 0.0);
+  const glm::dvec3 given = glm::normalize(glm::dvec3(0.1, 1.0, 0.2));
+  for (std::size_t i = 0; i < 9; ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      mesh.normals[3 * i + static_cast<std::size_t>(k)] = 5.0 * given[k];
+    }
+  }
+  std::fill(mesh.normals.begin(), mesh.normals.begin() + 3, 0.0);
+  mesh.normals[3 * 4] = NaN;
+  Membrane membrane;
+  ASSERT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
+  EXPECT_EQ(membrane.GetReport().computedNormals, 2u);
+  EXPECT_EQ(membrane.GetNormals()[0], glm::dvec3(0.0, 1.0, 0.0));
+  EXPECT_EQ(membrane.GetNormals()[4], glm::dvec3(0.0, 1.0, 0.0));
+  EXPECT_LT(glm::length(membrane.GetNormals()[1] - given), 1e-15);
+}
+
+TEST(RefractionMembrane, NonManifoldAndInconsistentFacetsStillGetNormals)
+{
+  MembraneMesh mesh;
+  mesh.AddPoint({ 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 });
+  mesh.AddPoint({ 1.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 });
+  mesh.AddPoint({ 0.0, 0.0, 1.0 }, { 0.0, 0.0, 0.0 });
+  mesh.AddPoint({ 0.0, 0.0, -1.0 }, { 0.0, 0.0, 0.0 });
+  mesh.AddPoint({ 0.0, 1.0, 0.0 }, { 0.0, 0.0, 0.0 });
+  mesh.AddTriangle(0, 2, 1);
+  mesh.AddTriangle(0, 1, 3);
+  mesh.AddTriangle(0, 1, 4); // third facet on the edge 0-1
+  Membrane membrane;
+  ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
+  EXPECT_EQ(membrane.GetReport().nonManifoldFacets, 1u);
+  EXPECT_EQ(membrane.GetFacets().size(), 3u);
+  for (const glm::dvec3& normal : membrane.GetNormals())
+  {
+    EXPECT_NEAR(glm::length(normal), 1.0, 1e-15);
+  }
+  EXPECT_EQ(membrane.GetNormals()[2], glm::dvec3(0.0, 1.0, 0.0));
+}
+
+TEST(RefractionMembrane, FacetsThatCancelOutTakeTheFirstNormal)
+{
+  MembraneMesh mesh;
+  mesh.AddPoint({ 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 });
+  mesh.AddPoint({ 0.0, 0.0, 1.0 }, { 0.0, 0.0, 0.0 });
+  mesh.AddPoint({ 1.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 });
+  mesh.AddPoint({ 0.0, 0.0, -1.0 }, { 0.0, 0.0, 0.0 });
+  mesh.AddTriangle(0, 1, 2); // up
+  mesh.AddTriangle(0, 2, 3); // up; below the same angle downwards
+  mesh.triangles[4] = 3;
+  mesh.triangles[5] = 2;
+  Membrane membrane;
+  ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
+  EXPECT_EQ(membrane.GetNormals()[0], glm::dvec3(0.0, 1.0, 0.0));
+}
+
+}

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Snell's law, its extrapolations and Fresnel's equations against closed forms.
+#include "Refraction/Optics.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace
+{
+
+using meniscus::ComputeRefractionRay;
+using meniscus::FresnelReflectance;
+using meniscus::RayKind;
+using meniscus::SchlickReflectance;
+
+const glm::dvec3 Up(0.0, 1.0, 0.0);
+
+// A dozen roundings of numbers below 2.
+constexpr double Rounding = 24.0 * std::numeric_limits<double>::epsilon();
+
+glm::dvec3 Sight(double angle)
+{
+  return { std::sin(angle), -std::cos(angle), 0.0 };
+}
+
+TEST(RefractionOptics, ObeysSnellsLaw)
+{
+  for (const double ratio : { 1.0 / 2.2, 1.0 / 1.333, 1.0, 1.333, 2.2 })
+  {
+    for (double angle = 0.0; angle < 1.55; angle += 0.05)
+    {
+      const double sine = ratio * std::sin(angle);
+      if (sine >= 1.0)
+      {
+        continue;
+      }
+      const auto ray = ComputeRefractionRay(Sight(angle), Up, ratio);
+      EXPECT_EQ(ray.kind, RayKind::Refracted);
+      EXPECT_NEAR(ray.direction.x, sine, Rounding) << angle << " " << ratio;
+      // The cosine loses accuracy near the critical angle as 1 / cosine.
+      const double cosine = std::sqrt(1.0 - sine * sine);
+      EXPECT_NEAR(ray.direction.y, -cosine, Rounding / cosine) << angle << " " << ratio;
+      EXPECT_EQ(ray.direction.z, 0.0);
+    }
+  }
+}
+
+TEST(RefractionOptics, EqualIndicesDoNotBend)
+{
+  const auto ray = ComputeRefractionRay(Sight(0.7), Up, 1.0);
+  EXPECT_NEAR(glm::length(ray.direction - Sight(0.7)), 0.0, Rounding);
+}
+
+TEST(RefractionOptics, BackFacingCountsAsGrazing)
+{
+  const glm::dvec3 sight = glm::normalize(glm::dvec3(0.8, 0.6, 0.0));
+  const auto ray = ComputeRefractionRay(sight, Up, 0.5);
+  EXPECT_EQ(ray.kind, RayKind::BackFacing);
+  // Eq. 3.1: D n1 / n2 - N sqrt(1 - n1^2 / n2^2), normalised.
+  const glm::dvec3 expected = glm::normalize(0.5 * sight - std::sqrt(0.75) * Up);
+  EXPECT_NEAR(glm::length(ray.direction - expected), 0.0, Rounding);
+}
+
+TEST(RefractionOptics, TotalReflectionFlipsTheRoot)
+{
+  const double angle = 1.2;
+  const double ratio = 1.5;
+  const auto ray = ComputeRefractionRay(Sight(angle), Up, ratio);
+  EXPECT_EQ(ray.kind, RayKind::TotallyReflected);
+  const double sine = ratio * std::sin(angle);
+  const glm::dvec3 expected = glm::normalize(glm::dvec3(sine, std::sqrt(sine * sine - 1.0), 0.0));
+  EXPECT_NEAR(glm::length(ray.direction - expected), 0.0, Rounding);
+  EXPECT_GT(ray.direction.y, 0.0);
+}
+
+TEST(RefractionOptics, ExtrapolationJoinsAtTheCriticalAngle)
+{
+  const double ratio = 1.5;
+  const double critical = std::asin(1.0 / ratio);
+  const double step = 1e-9;
+  const auto below = ComputeRefractionRay(Sight(critical - step), Up, ratio);
+  const auto above = ComputeRefractionRay(Sight(critical + step), Up, ratio);
+  EXPECT_EQ(below.kind, RayKind::Refracted);
+  EXPECT_EQ(above.kind, RayKind::TotallyReflected);
+  // Near the critical angle the cosine is sqrt(2 tan(critical) step).
+  EXPECT_LT(glm::length(below.direction - above.direction),
+    3.0 * std::sqrt(2.0 * std::tan(critical) * step));
+}
+
+TEST(RefractionOptics, FresnelAtNormalIncidence)
+{
+  EXPECT_NEAR(FresnelReflectance(1.0, 1.0, 1.5), 0.04, Rounding);
+  EXPECT_NEAR(FresnelReflectance(1.0, 1.5, 1.0), 0.04, Rounding);
+  EXPECT_NEAR(SchlickReflectance(1.0, 1.0, 1.5), 0.04, Rounding);
+}
+
+TEST(RefractionOptics, FresnelIsTheMeanOfBothPolarisations)
+{
+  for (const double n : { 1.1, 1.333, 1.51, 2.2, 1.0 / 1.333 })
+  {
+    for (double angle = 0.0; angle < 1.57; angle += 0.05)
+    {
+      const double sine = std::sin(angle) / n;
+      if (sine >= 1.0)
+      {
+        EXPECT_EQ(FresnelReflectance(std::cos(angle), 1.0, n), 1.0);
+        continue;
+      }
+      const double ci = std::cos(angle);
+      const double ct = std::sqrt(1.0 - sine * sine);
+      const double s = (ci - n * ct) / (ci + n * ct);
+      const double p = (n * ci - ct) / (n * ci + ct);
+      EXPECT_NEAR(FresnelReflectance(ci, 1.0, n), 0.5 * (s * s + p * p), 1e-12)
+        << n << " " << angle;
+    }
+  }
+}
+
+TEST(RefractionOptics, BrewsterAngleLeavesHalfOfOnePolarisation)
+{
+  const double n = 1.5;
+  const double sine = (n * n - 1.0) / (n * n + 1.0);
+  EXPECT_NEAR(FresnelReflectance(std::cos(std::atan(n)), 1.0, n), 0.5 * sine * sine, Rounding);
+}
+
+TEST(RefractionOptics, FresnelLimits)
+{
+  EXPECT_NEAR(FresnelReflectance(0.0, 1.0, 1.5), 1.0, Rounding);
+  EXPECT_EQ(FresnelReflectance(0.0, 1.5, 1.0), 1.0);
+  EXPECT_EQ(FresnelReflectance(0.0, 1.333, 1.333), 0.0);
+  EXPECT_EQ(FresnelReflectance(-0.5, 1.0, 1.5), FresnelReflectance(0.0, 1.0, 1.5));
+  EXPECT_NEAR(SchlickReflectance(0.0, 1.0, 1.5), 1.0, Rounding);
+}
+
+}

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The thesis's own measurements, repeated.
+#include "ThesisTables.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+
+using meniscus::reference::GetThesisRows;
+using meniscus::reference::MeasureThesisRow;
+
+// Acceptance: 40 of the 46 rows within 3 % in the mean.
+constexpr double AcceptedPercent = 3.0;
+constexpr int AcceptedRows = 40;
+
+TEST(RefractionThesis, ReproducesTheTables)
+{
+  int close = 0;
+  int counted = 0;
+  for (const auto& row : GetThesisRows())
+  {
+    if (!meniscus::reference::IsReproducible(row))
+    {
+      continue;
+    }
+    ++counted;
+    const double percent = 100.0 * (MeasureThesisRow(row).mean / row.mean - 1.0);
+    close += std::fabs(percent) <= AcceptedPercent;
+    if (std::fabs(percent) > AcceptedPercent)
+    {
+      std::printf("Table %s, h=%g offset=%g, %d cells: %+.2f %%\n", row.table, row.eyeHeight,
+        row.eyeOffset, row.squareCells, percent);
+    }
+  }
+  EXPECT_EQ(counted, 46);
+  EXPECT_GE(close, AcceptedRows);
+  RecordProperty("rows_within_3_percent", close);
+}
+
+// Bowls on the axis have no unexplained rule in their set-up: mean, deviation and number of points.
+TEST(RefractionThesis, ReproducesTheBowlsInEveryColumn)
+{
+  int rows = 0;
+  for (const auto& row : GetThesisRows())
+  {
+    if (std::strcmp(row.table, "4.2") == 0 && row.sphereRatio > 0.0)
+    {
+      const auto ours = MeasureThesisRow(row);
+      EXPECT_NEAR(ours.mean / row.mean, 1.0, 0.002) << row.sphereRatio;
+      EXPECT_NEAR(ours.deviation / row.deviation, 1.0, 0.01) << row.sphereRatio;
+      EXPECT_NEAR(static_cast<double>(ours.points) / row.points, 1.0, 0.001) << row.sphereRatio;
+      ++rows;
+    }
+  }
+  EXPECT_EQ(rows, 5);
+}
+
+}

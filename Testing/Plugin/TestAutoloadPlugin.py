@@ -1,0 +1,8 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""ParaView finds the plugin by PV_PLUGIN_PATH, with no LoadPlugin in the script."""
+import PluginTesting
+import TestLoadPlugin
+
+if __name__ == "__main__":
+    PluginTesting.run(TestLoadPlugin.check_plugin)

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin loads, also twice, and offers the filter in the menu and the representation."""
+import PluginTesting
+from paraview import simple
+
+PROPERTIES = {
+    "ExteriorIndexOfRefraction": 1.0,
+    "InteriorIndexOfRefraction": 1.333,
+    "MembraneModel": "Curved",
+    "Images": "All images",
+}
+
+
+def check_plugin():
+    filter_proxy = simple.RefractedGeometry(Geometry=simple.Sphere(), Membrane=simple.Plane())
+    for name, default in PROPERTIES.items():
+        value = getattr(filter_proxy, name)
+        assert value == default, "%s is %r, not %r" % (name, value, default)
+    assert filter_proxy.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
+
+    grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-2, 2] * 3))
+    display = simple.Show(grid, PluginTesting.make_view())
+    available = display.GetProperty("Representation").Available
+    assert "Tetrahedra Ray Cast" in available, available
+
+
+def test():
+    PluginTesting.load_plugin()
+    PluginTesting.load_plugin()
+    check_plugin()
+
+
+if __name__ == "__main__":
+    PluginTesting.run(test)

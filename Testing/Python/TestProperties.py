@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every public name exists in Python, setters and getters agree, counters begin at 0."""
+import unittest
+
+from meniscus import vtkRefractedGeometryFilter, vtkTetrahedraRayCastMapper
+from vtkmodules.vtkRenderingCore import vtkCamera
+
+
+class PropertyTest(unittest.TestCase):
+    def check_pair(self, thing, name, values):
+        for value in values:
+            getattr(thing, "Set" + name)(value)
+            self.assertEqual(getattr(thing, "Get" + name)(), value, name)
+
+    def check_mode(self, thing, name, constants, default):
+        self.assertEqual(getattr(thing, "Get" + name)(), getattr(thing, default), name)
+        values = [getattr(thing, constant) for constant in constants]
+        self.assertEqual(len(set(values)), len(values), name)
+        self.check_pair(thing, name, values)
+
+    def check_counters(self, thing, names):
+        for name in names:
+            self.assertEqual(getattr(thing, "Get" + name)(), 0, name)
+
+
+class TestMapper(PropertyTest):
+    def setUp(self):
+        self.mapper = vtkTetrahedraRayCastMapper()
+
+    def test_modes(self):
+        models = ["ATTENUATION_COEFFICIENT", "OPACITY_PER_UNIT_DISTANCE"]
+        self.check_mode(self.mapper, "OpacityModel", models, "ATTENUATION_COEFFICIENT")
+        self.check_mode(self.mapper, "Backend", ["AUTOMATIC", "OPENGL", "NATIVE"], "AUTOMATIC")
+        self.check_mode(self.mapper, "Integration", ["EXACT", "PRE_INTEGRATED"], "EXACT")
+        self.check_pair(self.mapper, "BlendMode", range(6))
+        self.mapper.GetActiveBackend()
+
+    def test_early_termination(self):
+        self.check_pair(self.mapper, "EarlyTerminationOpacity", [0.5, 1.0])
+
+    def test_counters(self):
+        self.check_counters(self.mapper, [
+            "NumberOfMeshBuilds", "NumberOfScalarUpdates", "NumberOfTransferFunctionBuilds",
+            "NumberOfActiveSetBuilds", "UploadedBytes", "NumberOfActiveCells",
+            "NumberOfTraversalSteps", "NumberOfRays", "NumberOfLostRays",
+            "NumberOfRejectedCells"])
+
+    def test_prints_itself(self):
+        self.assertIn("Integration", str(self.mapper))
+
+
+class TestFilter(PropertyTest):
+    def setUp(self):
+        self.filter = vtkRefractedGeometryFilter()
+
+    def test_eye(self):
+        self.filter.SetEyePosition(1, 2, 3)
+        self.assertEqual(self.filter.GetEyePosition(), (1, 2, 3))
+        camera = vtkCamera()
+        self.filter.SetCamera(camera)
+        self.assertIs(self.filter.GetCamera(), camera)
+        before = self.filter.GetMTime()
+        camera.SetPosition(4, 5, 6)
+        self.assertGreater(self.filter.GetMTime(), before)
+        self.filter.SetCamera(None)
+
+    def test_indices(self):
+        self.assertEqual(self.filter.GetExteriorIndexOfRefraction(), 1.0)
+        self.assertEqual(self.filter.GetInteriorIndexOfRefraction(), 1.333)
+        self.check_pair(self.filter, "ExteriorIndexOfRefraction", [1.333])
+        self.check_pair(self.filter, "InteriorIndexOfRefraction", [1.0])
+
+    def test_modes(self):
+        self.check_mode(self.filter, "MembraneModel", ["FLAT_FACETS", "CURVED"], "CURVED")
+        self.check_mode(self.filter, "Images", ["FIRST_IMAGE", "ALL_IMAGES"], "ALL_IMAGES")
+
+    def test_counters(self):
+        self.check_counters(self.filter, [
+            "NumberOfPatchBuilds", "NumberOfEyeUpdates", "NumberOfSolvedVertices",
+            "NumberOfFailedSolves"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ThesisTables.h"
+
+#include "AnalyticMembrane.h"
+#include "MembraneMeshes.h"
+#include "Refraction/VirtualGeometry.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <cstring>
+
+namespace meniscus::reference
+{
+namespace
+{
+
+constexpr double DiscRadius = 141.5;
+
+// Side of a square membrane, whose corners just lie on the hemisphere of DiscRadius.
+constexpr double SquareSide = 200.0;
+
+// Samples of the error volume: 40 a side, 20 units apart.
+constexpr int Samples = 40;
+constexpr double Spacing = 20.0;
+
+// Two cells whose walls are this close count as several answers, in barycentric coordinates.
+constexpr double Wall = 1e-7;
+
+// On the flat disc sight points beyond this part of the radius have no exact point. The thesis does
+// not say so, but its numbers of points do.
+constexpr double FlatDiscPart = 0.9;
+
+constexpr auto Disc = MembraneShape::Disc;
+constexpr auto Square = MembraneShape::Square;
+
+const std::vector<ThesisRow> Rows = {
+  { "4.1", Disc, 0, 0.0, 900.0, 0.0, 1.0, 1.51, 0.0154, 0.0085, 6988 },
+  { "4.1", Disc, 0, 0.0, 900.0, 142.0, 1.0, 1.51, 0.0262, 0.0186, 8046 },
+  { "4.1", Disc, 0, 0.0, 900.0, 400.0, 1.0, 1.51, 0.0529, 0.0308, 7712 },
+  { "4.1", Disc, 0, 0.0, 900.0, 800.0, 1.0, 1.51, 0.0523, 0.0290, 6244 },
+  { "4.1", Disc, 0, 0.0, 450.0, 0.0, 1.0, 1.51, 0.0928, 0.0319, 11348 },
+  { "4.1", Disc, 0, 0.0, 450.0, 142.0, 1.0, 1.51, 0.1364, 0.0963, 12144 },
+  { "4.1", Disc, 0, 0.0, 450.0, 400.0, 1.0, 1.51, 0.1626, 0.0972, 8620 },
+  { "4.1", Disc, 0, 0.0, 450.0, 800.0, 1.0, 1.51, 0.0670, 0.0363, 4880 },
+  { "4.1", Disc, 0, 0.0, 150.0, 0.0, 1.0, 1.51, 1.2789, 0.6813, 30297 },
+  { "4.1", Disc, 0, 0.0, 150.0, 142.0, 1.0, 1.51, 1.0994, 0.7749, 22030 },
+  { "4.1", Disc, 0, 0.0, 150.0, 400.0, 1.0, 1.51, 0.2441, 0.1575, 5964 },
+  { "4.1", Disc, 0, 0.0, 150.0, 800.0, 1.0, 1.51, 0.0568, 0.0372, 3616 },
+  { "4.2", Disc, 0, 0.0, 450.0, 0.0, 1.0, 1.51, 0.0928, 0.0519, 11348 },
+  { "4.2", Disc, 0, 5.0, 450.0, 0.0, 1.0, 1.51, 0.1107, 0.0413, 19856 },
+  { "4.2", Disc, 0, 5.0 / 2.0, 450.0, 0.0, 1.0, 1.51, 0.2082, 0.0811, 27412 },
+  { "4.2", Disc, 0, 5.0 / 3.0, 450.0, 0.0, 1.0, 1.51, 0.4558, 0.1599, 35476 },
+  { "4.2", Disc, 0, 5.0 / 4.0, 450.0, 0.0, 1.0, 1.51, 1.1152, 0.5790, 43599 },
+  { "4.2", Disc, 0, 1.0, 450.0, 0.0, 1.0, 1.51, 7.5567, 9.2816, 56890 },
+  { "4.3", Disc, 0, 0.0, 450.0, 0.0, 1.0, 2.2, 0.0616, 0.0351, 8356 },
+  { "4.3", Disc, 0, 0.0, 450.0, 0.0, 1.0, 1.8, 0.0771, 0.0433, 9708 },
+  { "4.3", Disc, 0, 0.0, 450.0, 0.0, 1.0, 1.4, 0.1003, 0.0562, 12144 },
+  { "4.3", Disc, 0, 0.0, 450.0, 0.0, 1.0, 1.1, 0.1248, 0.0715, 15668 },
+  { "4.3", Disc, 0, 0.0, 450.0, 0.0, 1.1, 1.0, 0.1418, 0.0859, 19492 },
+  { "4.3", Disc, 0, 0.0, 450.0, 0.0, 1.4, 1.0, 0.1522, 0.0949, 26263 },
+  { "4.3", Disc, 0, 0.0, 450.0, 0.0, 1.8, 1.0, 0.1737, 0.0920, 34788 },
+  { "4.3", Disc, 0, 0.0, 450.0, 0.0, 2.2, 1.0, 0.3478, 0.1927, 40984 },
+  { "4.3", Disc, 0, 1.0, 200.0, 0.0, 1.0, 2.2, 3.1553, 3.3497, 58879 },
+  { "4.3", Disc, 0, 1.0, 200.0, 0.0, 1.0, 1.8, 2.6512, 3.1855, 58807 },
+  { "4.3", Disc, 0, 1.0, 200.0, 0.0, 1.0, 1.4, 2.3332, 3.2306, 58766 },
+  { "4.3", Disc, 0, 1.0, 200.0, 0.0, 1.0, 1.1, 2.3664, 3.4804, 58720 },
+  { "4.3", Disc, 0, 1.0, 200.0, 0.0, 1.1, 1.0, 2.6125, 3.7218, 58596 },
+  { "4.3", Disc, 0, 1.0, 200.0, 0.0, 1.4, 1.0, 3.1449, 4.0903, 57825 },
+  { "4.3", Disc, 0, 1.0, 200.0, 0.0, 1.8, 1.0, 3.8490, 4.4570, 54940 },
+  { "4.3", Disc, 0, 1.0, 200.0, 0.0, 2.2, 1.0, 3.5148, 3.3500, 47982 },
+  { "4.4", Disc, 0, 1.0, 450.0, 0.0, 1.0, 2.2, 7.3738, 9.3400, 58629 },
+  { "4.4", Disc, 0, 1.0, 450.0, 0.0, 1.0, 1.8, 7.3426, 9.2394, 58124 },
+  { "4.4", Disc, 0, 1.0, 450.0, 0.0, 1.0, 1.4, 7.7039, 9.2890, 55898 },
+  { "4.4", Disc, 0, 1.0, 450.0, 0.0, 1.0, 1.1, 7.3889, 7.9385, 49003 },
+  { "4.4", Disc, 0, 1.0, 450.0, 0.0, 1.1, 1.0, 0.4687, 2.7173, 5745 },
+  { "4.4", Disc, 0, 1.0, 450.0, 0.0, 1.4, 1.0, 21.375, 29.218, 376 },
+  { "4.4", Disc, 0, 1.0, 450.0, 0.0, 1.8, 1.0, 131.761, 50.943, 31298 },
+  { "4.4", Disc, 0, 1.0, 450.0, 0.0, 2.2, 1.0, 33.489, 20.780, 26832 },
+  { "4.5", Square, 6, 0.0, 450.0, 0.0, 1.0, 1.51, 0.1116, 0.0726, 0 },
+  { "4.5", Square, 10, 0.0, 450.0, 0.0, 1.0, 1.51, 0.0406, 0.0270, 0 },
+  { "4.5", Square, 15, 0.0, 450.0, 0.0, 1.0, 1.51, 0.0174, 0.0118, 0 },
+  { "4.5", Square, 6, 0.0, 150.0, 0.0, 1.0, 1.51, 1.6858, 0.9680, 0 },
+  { "4.5", Square, 10, 0.0, 150.0, 0.0, 1.0, 1.51, 0.6104, 0.3509, 0 },
+  { "4.5", Square, 15, 0.0, 150.0, 0.0, 1.0, 1.51, 0.2641, 0.1560, 0 },
+  { "4.5", Square, 6, 1.0, 450.0, 0.0, 1.0, 1.51, 4.4397, 6.3253, 0 },
+  { "4.5", Square, 10, 1.0, 450.0, 0.0, 1.0, 1.51, 1.4803, 2.4649, 0 },
+  { "4.5", Square, 15, 1.0, 450.0, 0.0, 1.0, 1.51, 0.6129, 1.0942, 0 },
+  { "4.5", Square, 6, 1.0, 150.0, 0.0, 1.0, 1.51, 1.0636, 0.9138, 0 },
+  { "4.5", Square, 10, 1.0, 150.0, 0.0, 1.0, 1.51, 0.3464, 0.2782, 0 },
+  { "4.5", Square, 15, 1.0, 150.0, 0.0, 1.0, 1.51, 0.1449, 0.1006, 0 },
+};
+
+}
+
+//------------------------------------------------------------------------------
+const std::vector<ThesisRow>& GetThesisRows()
+{
+  return Rows;
+}
+
+//------------------------------------------------------------------------------
+bool IsReproducible(const ThesisRow& row)
+{
+  return std::strcmp(row.table, "4.4") != 0;
+}
+
+//------------------------------------------------------------------------------
+ErrorStatistics MeasureThesisRow(const ThesisRow& row)
+{
+  const double sphereRadius = row.sphereRatio * DiscRadius;
+  const MembraneMesh mesh = row.shape == Disc
+    ? MakeDisc(DiscRadius, 5, sphereRadius)
+    : MakeSquare(SquareSide, row.squareCells, sphereRadius);
+  const AnalyticMembrane exact{ sphereRadius, row.exterior, row.interior };
+  const glm::dvec3 eye(row.eyeOffset, row.eyeHeight, 0.0);
+
+  VirtualGeometry geometry;
+  geometry.SetMembrane(mesh.AsInput());
+  geometry.SetEye(eye, row.exterior, row.interior);
+
+  double sum = 0.0;
+  double squares = 0.0;
+  ErrorStatistics result;
+  for (int i = 0; i < Samples * Samples * Samples; ++i)
+  {
+    const int ix = i % Samples;
+    const int iy = i / Samples % Samples;
+    const int iz = i / (Samples * Samples);
+    const glm::dvec3 point(
+      Spacing * (ix - Samples / 2), -Spacing * (iy + 1), Spacing * (iz - Samples / 2));
+    if (!geometry.HasOneCell(point, Wall))
+    {
+      continue;
+    }
+    const VirtualVertex vertex = geometry.SolvePoint(point);
+    if (vertex.state != ImageState::Found ||
+      (row.shape == Disc && sphereRadius == 0.0 &&
+        glm::length(vertex.sightPoint) > FlatDiscPart * DiscRadius))
+    {
+      continue;
+    }
+    const auto computed = exact.FindTruePoint(eye, vertex.position);
+    if (computed)
+    {
+      const double error = glm::length(*computed - point);
+      sum += error;
+      squares += error * error;
+      ++result.points;
+    }
+  }
+  const auto count = static_cast<double>(result.points);
+  result.mean = result.points > 0 ? sum / count : 0.0;
+  result.deviation =
+    result.points > 0 ? std::sqrt(std::max(squares / count - result.mean * result.mean, 0.0)) : 0.0;
+  return result;
+}
+
+}

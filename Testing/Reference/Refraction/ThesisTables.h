@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The error measurements of the thesis's Tables 4.1 to 4.5: what it printed, and a way to measure
+ * the same rows again. Documentation/refraction.md describes the set-up.
+ */
+#ifndef meniscus_ThesisTables_h
+#define meniscus_ThesisTables_h
+
+#include <cstddef>
+#include <vector>
+
+namespace meniscus::reference
+{
+
+enum class MembraneShape
+{
+  Disc,  ///< radius 141.5, five rings
+  Square ///< side 200
+};
+
+/// One row of a table: its set-up and the printed numbers.
+struct ThesisRow
+{
+  const char* table;
+  MembraneShape shape;
+  int squareCells;    ///< facets per side / 2 of a square
+  double sphereRatio; ///< sphere radius / 141.5; 0: planar
+  double eyeHeight;   ///< above the apex
+  double eyeOffset;   ///< from the axis
+  double exterior;
+  double interior;
+  double mean;
+  double deviation;
+  int points; ///< 0: not printed
+};
+
+struct ErrorStatistics
+{
+  double mean = 0.0;
+  double deviation = 0.0;
+  std::size_t points = 0;
+};
+
+/// The 54 rows of Tables 4.1, 4.2, 4.3, 4.4 and 4.5, in the order of the thesis.
+const std::vector<ThesisRow>& GetThesisRows();
+
+/// Whether a row belongs to Tables 4.1, 4.2, 4.3 or 4.5, the 46 that count for the acceptance.
+bool IsReproducible(const ThesisRow& row);
+
+/// Samples the error volume of a row: distance between each true point and the exact point behind
+/// its computed virtual vertex.
+ErrorStatistics MeasureThesisRow(const ThesisRow& row);
+
+}
+
+#endif

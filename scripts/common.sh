@@ -1,0 +1,99 @@
+# Shell functions shared by the scripts of this folder. Source it; it changes to the project's root.
+# shellcheck shell=bash
+
+ROOT="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+cd "$ROOT"
+JOBS="${MENISCUS_JOBS:-$(nproc)}"
+export DEBIAN_FRONTEND=noninteractive
+
+# What a fresh Debian 12 lacks, per purpose.
+PACKAGES_BUILD=(g++ cmake ninja-build libvtk9-dev python3 python3-vtk9 libpython3-dev libglm-dev
+  libopenmesh-dev libgtest-dev libbenchmark-dev)
+PACKAGES_DISPLAY=(xvfb xauth libgl1-mesa-dri)
+PACKAGES_LINT=(clang-format-14 codespell git)
+PACKAGES_TIDY=(clang-tidy-14)
+# paraview-dev does not declare what its CMake files look for; python3-paraview conflicts with
+# python3-vtk9 and is unpacked by scripts/paraview-prefix instead.
+PACKAGES_PARAVIEW=(paraview paraview-dev libutfcpp-dev libpng-dev libx11-dev libopenmpi-dev
+  openmpi-bin libgl-dev libopengl-dev libglew-dev libfreetype-dev libjpeg-dev liblz4-dev liblzma-dev
+  libtiff-dev libdouble-conversion-dev libexpat1-dev libxml2-dev zlib1g-dev libpython3-dev
+  libqt5svg5-dev qttools5-dev qtxmlpatterns5-dev-tools)
+
+say()
+{
+  printf '\n== %s\n' "$*"
+}
+
+die()
+{
+  printf 'error: %s\n' "$*" >&2
+  exit 1
+}
+
+# as_root COMMAND...: runs it as root, through sudo only if this is a plain user.
+as_root()
+{
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  elif command -v sudo > /dev/null; then
+    sudo "$@"
+  else
+    die "root is needed for: $* (no sudo here; run this command as root and start again)"
+  fi
+}
+
+# missing_packages NAME...: prints those that are not installed.
+missing_packages()
+{
+  local package
+  for package in "$@"; do
+    if [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null)" != installed ]; then
+      printf '%s\n' "$package"
+    fi
+  done
+}
+
+update_package_lists()
+{
+  if [ -z "${MENISCUS_APT_UPDATED:-}" ]; then
+    as_root apt-get update -q
+    export MENISCUS_APT_UPDATED=1
+  fi
+}
+
+# install_packages NAME...: installs what is missing and does nothing when all is there.
+install_packages()
+{
+  local missing
+  mapfile -t missing < <(missing_packages "$@")
+  if [ "${#missing[@]}" -eq 0 ]; then
+    return 0
+  fi
+  command -v apt-get > /dev/null ||
+    die "apt-get not found; install what corresponds to: ${missing[*]}"
+  say "Installing ${missing[*]}"
+  update_package_lists
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
+}
+
+# configure_and_build PRESET [CMAKE-ARGUMENT...]
+configure_and_build()
+{
+  local preset="$1"
+  shift
+  local launcher=()
+  if command -v ccache > /dev/null; then
+    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  fi
+  say "Configuring preset $preset"
+  cmake --preset "$preset" "${launcher[@]}" "$@"
+  say "Building preset $preset"
+  cmake --build --preset "$preset" --parallel "$JOBS"
+}
+
+# with_display COMMAND...: VTK 9.1 and ParaView need an X display, also off screen. Without
+# -noreset the server starts anew whenever its last client leaves, and refuses those who come then.
+with_display()
+{
+  xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$@"
+}
