@@ -24,7 +24,21 @@ class TetrahedraRayCastDataMeshes : public testing::TestWithParam<const char*>
 {
 };
 
-// One view with both functions: the reference finds the cells of a ray once.
+// Share of pixels at which a sharp function may show rounding of the vertices.
+constexpr double LargestRoundingShare = 1e-3;
+
+// At a function so sharp that the exact result moves by more than the tolerance when float rounding
+// moves a vertex, no pixel may be off by more than that.
+void expectMatchesUpToRounding(const Comparison& comparison, const std::string& what)
+{
+  SCOPED_TRACE(what + ": " + comparison.text());
+  EXPECT_EQ(comparison.BeyondRounding, 0u);
+  EXPECT_EQ(comparison.CoverageMismatches, 0u);
+  EXPECT_LE(static_cast<double>(comparison.Wrong),
+    LargestRoundingShare * static_cast<double>(comparison.Covered));
+}
+
+// One view with all functions: the reference finds the cells of a ray once.
 void expectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& name)
 {
   double range[2];
@@ -32,8 +46,10 @@ void expectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& n
   const double diagonal = diagonalOf(grid->GetBounds());
   const std::vector<vtkSmartPointer<vtkVolumeProperty>> properties{
     makeProperty(FunctionKind::Smooth, range, diagonal),
-    makeProperty(FunctionKind::Peaked, range, diagonal)
+    makeProperty(FunctionKind::Peaked, range, diagonal),
+    makeProperty(FunctionKind::Sharp, range, diagonal)
   };
+  const char* const names[3] = { "smooth", "peaked", "sharp" };
   RayCastScene scene(grid, properties[0], Size, Size);
   const auto angles = viewAngles(view);
   lookAt(scene.renderer(), grid->GetBounds(), angles[0], angles[1], 1.0, view % 2 == 1);
@@ -43,11 +59,10 @@ void expectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& n
   const PixelRays rays(scene.renderer());
   const RayOfPixel rayOf = [&rays](int x, int y) { return rays.ray(x, y); };
   const auto truth = renderReference(*integrator, rays.width(), rays.height(), rayOf,
-    { toReference(properties[0]), toReference(properties[1]) });
+    { toReference(properties[0]), toReference(properties[1]), toReference(properties[2]) });
   for (std::size_t f = 0; f < properties.size(); ++f)
   {
-    const std::string what =
-      name + ", view " + std::to_string(view) + (f == 0 ? ", smooth" : ", peaked");
+    const std::string what = name + ", view " + std::to_string(view) + ", " + names[f];
     scene.setProperty(properties[f]);
     const Comparison floats = compareToReference(scene.renderFloat(), truth[f], *integrator, rayOf);
     EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << what;
@@ -55,7 +70,14 @@ void expectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& n
       compareToReference(scene.renderBytes(), truth[f], *integrator, rayOf, { 0.0, 0.0, 0.0 });
     std::cout << what << ", float: " << floats.text() << '\n'
               << what << ", 8 bits: " << bytes.text() << std::endl;
-    expectMatch(floats, what + " (float)");
+    if (f == 2)
+    {
+      expectMatchesUpToRounding(floats, what + " (float)");
+    }
+    else
+    {
+      expectMatch(floats, what + " (float)");
+    }
     expectMatch(bytes, what + " (8 bits)");
   }
 }

@@ -146,9 +146,10 @@ double difference(const PixelPair& pair)
 class Comparer
 {
 public:
-  Comparer(
-    const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf, double tolerance)
+  Comparer(const reference::ReferenceRayIntegrator& integrator,
+    const reference::ReferenceTransferFunction& function, const RayOfPixel& rayOf, double tolerance)
     : Integrator(integrator)
+    , Function(function)
     , RayOf(rayOf)
     , Tolerance(tolerance)
   {
@@ -167,11 +168,14 @@ public:
       ++result.Silhouettes;
       return;
     }
+    const double sensitivity = wrong ? this->sensitivity(x, y) : 0.0;
     result.Wrong += wrong;
+    result.BeyondRounding += wrong && d > sensitivity;
     result.CoverageMismatches += mismatch;
     if (!(d <= result.Largest))
     {
       result.Largest = d;
+      result.WorstSensitivity = sensitivity;
       result.WorstPixel[0] = x;
       result.WorstPixel[1] = y;
       result.WorstImage = pair.Image;
@@ -187,17 +191,19 @@ public:
   Comparison result() const
   {
     Comparison done = this->Result;
-    if (done.Wrong > 0)
-    {
-      done.WorstSensitivity =
-        this->Integrator.sensitivity(this->RayOf(done.WorstPixel[0], done.WorstPixel[1]),
-          1e-7 * this->Integrator.mesh().diagonal(), this->Function);
-    }
     done.Rms = this->Counted ? std::sqrt(this->SumOfSquares / this->Counted) : 0.0;
     return done;
   }
 
 private:
+  double sensitivity(int x, int y) const
+  {
+    return this->Classified >= MostClassified
+      ? 0.0
+      : this->Integrator.sensitivity(
+          this->RayOf(x, y), RoundingDistance * this->Integrator.mesh().diagonal(), this->Function);
+  }
+
   bool isSilhouette(int x, int y)
   {
     if (this->Classified >= MostClassified)
@@ -225,10 +231,10 @@ private:
 std::string Comparison::text() const
 {
   std::ostringstream out;
-  out << "covered " << this->Covered << ", wrong " << this->Wrong << ", coverage mismatches "
-      << this->CoverageMismatches << ", silhouettes " << this->Silhouettes << ", max "
-      << this->Largest << ", rms " << this->Rms << ", worst pixel (" << this->WorstPixel[0] << ", "
-      << this->WorstPixel[1] << ") is";
+  out << "covered " << this->Covered << ", wrong " << this->Wrong << " (beyond rounding "
+      << this->BeyondRounding << "), coverage mismatches " << this->CoverageMismatches
+      << ", silhouettes " << this->Silhouettes << ", max " << this->Largest << ", rms " << this->Rms
+      << ", worst pixel (" << this->WorstPixel[0] << ", " << this->WorstPixel[1] << ") is";
   for (const double value : this->WorstImage)
   {
     out << ' ' << value;
@@ -271,8 +277,11 @@ Comparison compareToReference(const ByteImage& image, const ReferenceImage& trut
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
   const std::array<double, 3>& background, int left, int bottom)
 {
-  // One grey level and the rounding of doubles.
-  Comparer comparer(integrator, truth.Function, rayOf, GreyLevel * (1.0 + 1e-9));
+  // An 8-bit framebuffer rounds the source and the product of blending, and takes the source's
+  // alpha in 8 bits: up to half a level each, the last times the background. At least one level.
+  const double brightest = std::max({ background[0], background[1], background[2] });
+  const double tolerance = GreyLevel * (1.0 + 0.5 * brightest) * (1.0 + 1e-9);
+  Comparer comparer(integrator, truth.Function, rayOf, tolerance);
   for (int y = 0; y < truth.Height; ++y)
   {
     for (int x = 0; x < truth.Width; ++x)

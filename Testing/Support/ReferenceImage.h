@@ -55,6 +55,10 @@ std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegra
 /// Largest difference between image and reference that counts as equal in float.
 constexpr double FloatTolerance = 1e-4;
 
+/// What float rounding of the vertices moves a mesh by, relative to its diagonal: 2^-24 of twice
+/// the half diagonal in each direction, and the same again from the ray's direction.
+constexpr double RoundingDistance = 1e-7;
+
 /// Share of a mesh's covered pixels that may be excused as silhouette before a test fails.
 constexpr double LargestSilhouetteShare = 1e-3;
 
@@ -64,14 +68,15 @@ struct Comparison
   double Rms = 0.0;                   // over covered pixels but silhouettes
   std::size_t Covered = 0;            // pixels that the reference covers
   std::size_t Wrong = 0;              // off by more than the tolerance, silhouettes apart
+  std::size_t BeyondRounding = 0;     // wrong, and by more than rounding of the vertices explains
   std::size_t Silhouettes = 0;        // off by more than the tolerance, on a silhouette
   std::size_t CoverageMismatches = 0; // drawn where the reference misses, silhouettes apart
   std::size_t OffByTwoLevels = 0;     // off by more than 2/255, silhouettes included
   int WorstPixel[2] = { -1, -1 };
   std::array<double, 4> WorstImage{};
   std::array<double, 4> WorstReference{};
-  // Change of the exact result at the worst pixel when its ray moves by 1e-7 of the diagonal, which
-  // is what float rounding of the vertices does. Only for a wrong pixel.
+  // Change of the exact result at the worst pixel when its ray moves by RoundingDistance. Only for
+  // a wrong pixel.
   double WorstSensitivity = 0.0;
 
   std::string text() const;
@@ -83,7 +88,8 @@ Comparison compareToReference(const FloatImage& image, const ReferenceImage& tru
   double tolerance = FloatTolerance);
 
 /**
- * The same for an 8-bit image over an opaque background of whole grey levels, to 1/255; a window
+ * The same for an 8-bit image over an opaque background of whole grey levels, to 1/255 and what
+ * 8-bit blending over that background adds; a window
  * may be larger than the viewport, whose lower left corner is given.
  */
 Comparison compareToReference(const ByteImage& image, const ReferenceImage& truth,

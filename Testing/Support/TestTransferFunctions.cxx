@@ -42,8 +42,9 @@ OpacityShape shapeOf(FunctionKind kind)
   switch (kind)
   {
     case FunctionKind::Peaked:
+    case FunctionKind::Sharp:
     {
-      OpacityShape shape{ { { 0.0, 0.0 } }, 0.01 };
+      OpacityShape shape{ { { 0.0, 0.0 } }, kind == FunctionKind::Sharp ? 0.01 : 0.1 };
       for (const double u : { 0.12, 0.31, 0.52, 0.77 })
       {
         shape.Nodes.insert(
@@ -53,7 +54,7 @@ OpacityShape shapeOf(FunctionKind kind)
       return shape;
     }
     case FunctionKind::Opaque:
-      return { { { 0.0, 0.8 }, { 1.0, 1.0 } }, 0.005 };
+      return { { { 0.0, 0.8 }, { 1.0, 1.0 } }, 0.02 };
     case FunctionKind::Sparse:
       return { { { 0.0, 0.0 }, { 0.55, 0.0 }, { 0.6, 0.6 }, { 0.7, 0.4 }, { 0.72, 0.0 },
                  { 1.0, 0.0 } },

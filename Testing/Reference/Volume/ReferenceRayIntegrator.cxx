@@ -330,11 +330,8 @@ public:
     {
       this->append(start, sorted);
     }
-    // Only a ray in an edge or face leaves some over.
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      this->append(i, sorted);
-    }
+    // What is left are closed paths: they have no entry, and each of their inverted cells takes back
+    // what another one covers.
     return sorted;
   }
 
