@@ -91,6 +91,20 @@ void OpenGLDepthCopy::Resolve(vtkOpenGLRenderWindow* window, const int viewport[
 }
 
 //------------------------------------------------------------------------------
+std::vector<float> OpenGLDepthCopy::Read(vtkOpenGLRenderWindow* window)
+{
+  std::vector<float> depths(static_cast<std::size_t>(this->Width) * this->Height);
+  vtkOpenGLState* state = window->GetState();
+  state->PushFramebufferBindings();
+  this->Target->SetContext(window);
+  this->Target->Bind();
+  this->Target->AddDepthAttachment(this->Texture);
+  glReadPixels(0, 0, this->Width, this->Height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+  state->PopFramebufferBindings();
+  return depths;
+}
+
+//------------------------------------------------------------------------------
 void OpenGLDepthCopy::Allocate(
   vtkOpenGLRenderWindow* window, const Format& format, int width, int height)
 {

@@ -7,6 +7,8 @@
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkTextureObject.h"
 
+#include <vector>
+
 class vtkOpenGLRenderWindow;
 class vtkWindow;
 
@@ -24,6 +26,9 @@ public:
    * without depth buffer counts as infinitely far.
    */
   void Update(vtkOpenGLRenderWindow* window, const int viewport[4]);
+
+  /** Window depths of the last copy, rows from below. */
+  std::vector<float> Read(vtkOpenGLRenderWindow* window);
 
   void Release(vtkWindow* window);
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastOpenGL.h"
 
+#include "RayCastNative.h"
+
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
 #include "vtkTetrahedraRayCastFS.h"
@@ -179,7 +181,8 @@ void RayCastOpenGL::GetViewport(int viewport[4]) const
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
+template <typename Function>
+std::string RayCastOpenGL::DrawImage(Function&& makeImage)
 {
   vtkOpenGLState* state = this->Window->GetState();
   vtkOpenGLState::ScopedglViewport viewportScope(state);
@@ -205,17 +208,42 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
   state->vtkglDisable(GL_CULL_FACE);
   state->vtkglDepthMask(GL_FALSE);
   state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-
-  state->PushFramebufferBindings();
-  state->vtkglDisable(GL_SCISSOR_TEST);
-  state->vtkglDisable(GL_BLEND);
-  error = this->ListEntries(frame);
-  if (error.empty())
   {
-    error = this->CastRays(frame);
+    vtkOpenGLState::ScopedglEnableDisable imageScissorScope(state, GL_SCISSOR_TEST);
+    state->vtkglDisable(GL_SCISSOR_TEST);
+    state->vtkglDisable(GL_BLEND);
+    state->PushFramebufferBindings();
+    error = makeImage();
+    state->PopFramebufferBindings();
   }
-  state->PopFramebufferBindings();
   return error.empty() ? this->Blend(viewport) : error;
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
+{
+  return this->DrawImage(
+    [this, &frame]()
+    {
+      const std::string error = this->ListEntries(frame);
+      return error.empty() ? this->CastRays(frame) : error;
+    });
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::DrawNative(const RayCastScene& scene)
+{
+  return this->DrawImage(
+    [this, &scene]() -> std::string
+    {
+      const std::vector<float> depths = this->Depth.Read(this->Window);
+      std::vector<float> image;
+      this->Statistics = CastRaysNative(scene, this->Size[0], this->Size[1], depths, image);
+      this->StatisticsStale = false;
+      const bool made =
+        this->Image->Create2DFromRaw(this->Size[0], this->Size[1], 4, VTK_FLOAT, image.data());
+      return made ? std::string() : "the image could not be sent to the graphics device";
+    });
 }
 
 //------------------------------------------------------------------------------

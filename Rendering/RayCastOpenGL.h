@@ -5,11 +5,13 @@
 
 #include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
+#include "Volume/RayWalk.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
 #include "OpenGLDepthCopy.h"
 #include "OpenGLTable.h"
+#include "RayStatistics.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -33,14 +35,6 @@ struct RayCastFrame
 {
   RayFrame Rays;
   double EarlyTerminationOpacity;
-};
-
-/** Sums over the rays of a frame. */
-struct RayStatistics
-{
-  std::int64_t Steps = 0;
-  std::int64_t Rays = 0;
-  std::int64_t Lost = 0;
 };
 
 /**
@@ -74,6 +68,9 @@ public:
   /** Casts the rays of the current viewport and blends them into the current framebuffer. */
   std::string Draw(const RayCastFrame& frame);
 
+  /** The same with rays cast on the CPU; needs no tables. */
+  std::string DrawNative(const RayCastScene& scene);
+
   /** Of the last frame; read back on the first call after it. */
   RayStatistics GetStatistics();
 
@@ -83,6 +80,8 @@ public:
 
 private:
   std::string Count(OpenGLTable& table, const std::string& error);
+  template <typename Function>
+  std::string DrawImage(Function&& makeImage);
   std::string Resize(int width, int height);
   std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragmentShader);
   std::string ListEntries(const RayCastFrame& frame);

@@ -150,6 +150,7 @@ public:
   std::vector<float> Scalars;
   meniscus::ScalarNormalization Normalization;
   std::vector<meniscus::TransferFunctionPoint> Points;
+  std::vector<meniscus::TransferFunctionInterval> Intervals;
   meniscus::RayCastOpenGL OpenGL;
 
   MeshVersion BuiltMesh;
@@ -160,18 +161,21 @@ public:
   bool MeshUploadStale = true;
   bool VertexUploadStale = true;
   bool IntervalUploadStale = true;
+  bool IntervalsStale = true;
 
   vtkTypeInt64 MeshBuilds = 0;
   vtkTypeInt64 ScalarUpdates = 0;
   vtkTypeInt64 TransferFunctionBuilds = 0;
 
-  bool WarnedBackend = false;
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedShading = false;
   bool WarnedClipping = false;
 
+  void UpdateIntervals();
   std::string Upload();
+  std::string DrawOpenGL(const meniscus::RayFrame& frame, double terminationOpacity);
+  std::string DrawNative(const meniscus::RayFrame& frame, double terminationOpacity);
   std::string ComputeFrame(
     vtkRenderer* renderer, vtkVolume* volume, const int viewport[4], meniscus::RayFrame& frame);
 };
@@ -192,11 +196,37 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload()
   }
   if (error.empty() && (this->IntervalUploadStale || !this->OpenGL.HasIntervals()))
   {
-    error =
-      this->OpenGL.UploadIntervals(meniscus::BuildIntervals(this->Points, this->Normalization));
+    error = this->OpenGL.UploadIntervals(this->Intervals);
     this->IntervalUploadStale = !error.empty();
   }
   return error;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::vtkInternals::UpdateIntervals()
+{
+  if (this->IntervalsStale)
+  {
+    this->Intervals = meniscus::BuildIntervals(this->Points, this->Normalization);
+    this->IntervalsStale = false;
+    this->IntervalUploadStale = true;
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
+  const meniscus::RayFrame& frame, double terminationOpacity)
+{
+  const std::string error = this->Upload();
+  return error.empty() ? this->OpenGL.Draw({ frame, terminationOpacity }) : error;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
+  const meniscus::RayFrame& frame, double terminationOpacity)
+{
+  return this->OpenGL.DrawNative({ &this->Mesh, &this->Tree, &this->Scalars, &this->Intervals,
+    frame, static_cast<float>(1.0 - terminationOpacity) });
 }
 
 //------------------------------------------------------------------------------
@@ -306,8 +336,6 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable(vtkVolume* volume)
     }
   };
   vtkInternals& internals = *this->Internals;
-  warnOnce(this->Backend == NATIVE, internals.WarnedBackend,
-    "The native backend is not available; rendering with OpenGL.");
   warnOnce(this->Integration == PRE_INTEGRATED, internals.WarnedIntegration,
     "Pre-integration is not available; integrating exactly.");
   warnOnce(this->BlendMode != COMPOSITE_BLEND, internals.WarnedBlendMode,
@@ -407,7 +435,7 @@ void vtkTetrahedraRayCastMapper::UpdateScalars(vtkDataArray* scalars)
   const auto normalization = notFinite == static_cast<vtkTypeInt64>(values.size())
     ? meniscus::ScalarNormalization()
     : meniscus::NormalizeRange(minimum, maximum);
-  internals.IntervalUploadStale = internals.IntervalUploadStale ||
+  internals.IntervalsStale = internals.IntervalsStale ||
     normalization.Offset != internals.Normalization.Offset ||
     normalization.Scale != internals.Normalization.Scale;
   internals.Normalization = normalization;
@@ -444,7 +472,7 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
     meniscus::ReducePropertyToPoints(property, this->OpacityModel == OPACITY_PER_UNIT_DISTANCE);
   internals.BuiltProperty = version;
   internals.BuiltOpacityModel = this->OpacityModel;
-  internals.IntervalUploadStale = true;
+  internals.IntervalsStale = true;
   ++internals.TransferFunctionBuilds;
 }
 
@@ -459,22 +487,20 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
     return false;
   }
   vtkOpenGLClearErrorMacro();
+  internals.UpdateIntervals();
+  const int backend = this->Backend == NATIVE ? NATIVE : OPENGL;
+  meniscus::RayFrame frame;
   std::string error = internals.OpenGL.SetWindow(window);
-  if (error.empty())
-  {
-    error = internals.Upload();
-  }
-  meniscus::RayCastFrame frame;
-  frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
   if (error.empty())
   {
     int viewport[4];
     internals.OpenGL.GetViewport(viewport);
-    error = internals.ComputeFrame(renderer, volume, viewport, frame.Rays);
+    error = internals.ComputeFrame(renderer, volume, viewport, frame);
   }
   if (error.empty())
   {
-    error = internals.OpenGL.Draw(frame);
+    error = backend == NATIVE ? internals.DrawNative(frame, this->EarlyTerminationOpacity)
+                              : internals.DrawOpenGL(frame, this->EarlyTerminationOpacity);
   }
   if (!error.empty())
   {
@@ -482,7 +508,7 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
     return false;
   }
   vtkOpenGLCheckErrorMacro("failed after Render");
-  this->ActiveBackend = OPENGL;
+  this->ActiveBackend = backend;
   return true;
 }
 

@@ -24,7 +24,7 @@
  *
  * Method:
  * 1. Vertices and cells are ordered along a Morton curve; cells are linked across faces. Once per
- *    mesh. 32 bytes per cell, 16 per vertex, about 28 per boundary face of GPU memory.
+ *    mesh. 32 bytes per cell, 16 per vertex, 80 per boundary face of GPU memory.
  * 2. The entries of a ray are found in a bounding volume hierarchy over the boundary faces.
  * 3. In the projection along the ray the exit of a cell follows from the signs of its edges, which
  *    are exact (vertices are rounded to a grid of 2^-22 of the mesh's radius about the ray). A ray
@@ -44,7 +44,8 @@
  * Fast High Accuracy Volume Renderer for Unstructured Data", 2004) instead of pre-integrated tables
  * (Eqs. 3, 4); boundary entries instead of imaginary cells.
  *
- * Needs OpenGL 3.2. Work is done where its input changes: see the counters.
+ * Needs OpenGL 3.2; the native backend casts rays on the CPU and needs it to show the image. Work
+ * is done where its input changes: see the counters.
  *
  * @note Limits of this version: composite blending; one component; no shading, gradient opacity or
  * clipping planes (a warning says so once); not drawn in hardware selection passes; up to 2^29
@@ -97,9 +98,9 @@ public:
 
   ///@{
   /**
-   * What runs the ray caster: OPENGL, a fragment shader; NATIVE, the CPU; AUTOMATIC, the default,
-   * the fastest that the window's context allows. NATIVE is not available in this version: asking
-   * for it warns once and renders with OPENGL.
+   * What runs the ray caster: OPENGL, a fragment shader; NATIVE, the CPU, one ray at a time on all
+   * threads of vtkSMPTools, the same algorithm decision for decision; AUTOMATIC, the default,
+   * OPENGL.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, NATIVE);
   vtkGetMacro(Backend, int);
