@@ -10,10 +10,10 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
+#include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <random>
@@ -88,9 +88,10 @@ Options Parse(int argc, char* argv[])
   return options;
 }
 
+// Processor time: the program has one thread, and others may run beside it.
 double Seconds()
 {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 //------------------------------------------------------------------------------

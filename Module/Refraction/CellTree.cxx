@@ -71,14 +71,14 @@ void CellTree::Build(const std::vector<glm::dvec3>& centroids, double unit)
 {
   this->Scale = 1.0 / unit;
   this->Nodes.clear();
-  this->Order.resize(centroids.size());
-  std::iota(this->Order.begin(), this->Order.end(), 0);
-  if (!this->Order.empty())
+  std::vector<std::int32_t> order(centroids.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (!order.empty())
   {
     // A node of the bottom has two leaves at least, a node above four children: 2/3 per leaf at
     // most.
-    this->Nodes.reserve(this->Order.size() + 1);
-    this->BuildNode(this->Order.begin(), this->Order.end(), centroids);
+    this->Nodes.reserve(order.size() + 1);
+    this->BuildNode(order.begin(), order.end(), centroids);
     this->Nodes.shrink_to_fit();
   }
 }
@@ -89,29 +89,19 @@ std::int32_t CellTree::BuildNode(
 {
   const std::size_t index = this->Nodes.size();
   this->Nodes.emplace_back();
-  const Iterator middle =
-    static_cast<std::size_t>(end - begin) > LeafSize ? SplitInHalf(begin, end, centroids) : end;
-  const auto half = [&centroids](Iterator from, Iterator to) {
-    return static_cast<std::size_t>(to - from) > LeafSize ? SplitInHalf(from, to, centroids) : to;
-  };
+  const auto half = [&centroids](Iterator from, Iterator to)
+  { return to - from > 1 ? SplitInHalf(from, to, centroids) : to; };
+  const Iterator middle = half(begin, end);
   const std::array<Iterator, Width + 1> cut = { begin, half(begin, middle), middle,
     half(middle, end), end };
   for (std::size_t child = 0; child < Width; ++child)
   {
     const Iterator from = cut[child];
     const Iterator to = cut[child + 1];
-    const auto count = static_cast<std::size_t>(to - from);
-    std::int32_t link = -1;
-    if (count > 0)
-    {
-      link = count > LeafSize ? this->BuildNode(from, to, centroids)
-                              : static_cast<std::int32_t>(from - this->Order.begin());
-    }
+    const std::int32_t link = to - from > 1 ? this->BuildNode(from, to, centroids) : NoNode;
     Node& node = this->Nodes[index]; // only now: BuildNode may move the nodes
     node.link[child] = link;
-    node.size[child] = static_cast<std::uint8_t>(count > LeafSize ? 0 : count);
-    node.firstFacet[child] =
-      count > 0 ? *std::min_element(from, to) : std::numeric_limits<std::int32_t>::max();
+    node.firstFacet[child] = from != to ? *std::min_element(from, to) : NoFacet;
     ClearBounds(node, static_cast<int>(child));
   }
   return static_cast<std::int32_t>(index);
@@ -129,18 +119,10 @@ void CellTree::Refit(const std::function<TubeBounds(std::int32_t)>& bounds, cons
         for (int child = 0; child < Width; ++child)
         {
           ClearBounds(node, child);
-          TubeBounds merged;
-          for (int k = 0; k < node.size[child]; ++k)
+          if (node.link[child] == NoNode && node.firstFacet[child] != NoFacet)
           {
-            const TubeBounds facet =
-              bounds(this->Order[static_cast<std::size_t>(node.link[child] + k)]);
-            if (facet.IsValid())
-            {
-              merged.Add(facet.startLow, facet.directionLow);
-              merged.Add(facet.startHigh, facet.directionHigh);
-            }
+            this->StoreBounds(node, child, bounds(node.firstFacet[child]));
           }
-          this->StoreBounds(node, child, merged);
         }
       }
     });
@@ -150,7 +132,7 @@ void CellTree::Refit(const std::function<TubeBounds(std::int32_t)>& bounds, cons
     Node& node = this->Nodes[i];
     for (int child = 0; child < Width; ++child)
     {
-      if (node.size[child] == 0 && node.link[child] >= 0)
+      if (node.link[child] != NoNode)
       {
         MergeChild(node, child, this->Nodes[static_cast<std::size_t>(node.link[child])]);
       }

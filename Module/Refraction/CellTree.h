@@ -66,25 +66,23 @@ public:
 
 private:
   static constexpr int Width = 4;
-  // One facet a leaf: a test of bounds reads less memory than a test of a cell, and memory decides
-  // beyond 1e5 facets.
-  static constexpr std::size_t LeafSize = 1;
-
+  static constexpr std::int32_t NoNode = -1;
+  static constexpr std::int32_t NoFacet = std::numeric_limits<std::int32_t>::max();
   // The ranges are halved by count, so 2^31 facets need at most 16 levels of four children, each of
   // which leaves at most three more entries on the stack.
   static constexpr std::size_t StackSize = 64;
 
-  /// Four children side by side, so that one test of all four is one loop over lanes. Rates are
-  /// never zero and the lower ones are negated, so that all six constraints read a + t b >= 0.
+  /// Four children, each a node or one facet, side by side, so that one test of all four is one
+  /// loop over lanes. Rates are never zero and the lower ones are negated, so that all six
+  /// constraints read a + t b >= 0.
   struct Node
   {
     float startHigh[3][Width];
     float negatedStartLow[3][Width];
     float directionHigh[3][Width];
     float negatedDirectionLow[3][Width];
-    std::int32_t link[Width];       ///< inner child: node; leaf: first place in Order
-    std::int32_t firstFacet[Width]; ///< smallest facet index below
-    std::uint8_t size[Width];       ///< leaf: number of facets; 0: inner child or none
+    std::int32_t link[Width];       ///< inner child: node; otherwise NoNode
+    std::int32_t firstFacet[Width]; ///< smallest facet below; leaf: the facet; none: NoFacet
   };
 
   struct Query
@@ -98,12 +96,28 @@ private:
   void StoreBounds(Node& node, int child, const TubeBounds& bounds) const;
   static void MergeChild(Node& node, int child, const Node& from);
   static void ClearBounds(Node& node, int child);
+  void Prefetch(std::int32_t node) const;
   static unsigned Overlaps(const Node& node, const Query& query);
 
   double Scale = 1.0;
-  std::vector<std::int32_t> Order;
   std::vector<Node> Nodes;
 };
+
+//------------------------------------------------------------------------------
+// Children are far apart in memory: the ones that wait on the stack are fetched meanwhile.
+inline void CellTree::Prefetch(std::int32_t node) const
+{
+#if defined(__GNUC__)
+  constexpr std::size_t line = 64;
+  const auto* first = reinterpret_cast<const char*>(&this->Nodes[static_cast<std::size_t>(node)]);
+  for (std::size_t offset = 0; offset < sizeof(Node); offset += line)
+  {
+    __builtin_prefetch(first + offset);
+  }
+#else
+  static_cast<void>(node);
+#endif
+}
 
 //------------------------------------------------------------------------------
 inline unsigned CellTree::Overlaps(const Node& node, const Query& query)
@@ -167,7 +181,7 @@ void CellTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit) c
     std::int32_t node;
     std::int32_t firstFacet;
   };
-  std::int32_t limit = std::numeric_limits<std::int32_t>::max();
+  std::int32_t limit = NoFacet;
   std::array<Entry, StackSize> stack;
   std::size_t depth = 0;
   stack[depth++] = { 0, 0 };
@@ -186,18 +200,14 @@ void CellTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit) c
       {
         continue;
       }
-      if (node.size[child] == 0)
+      if (node.link[child] == NoNode)
       {
-        stack[depth++] = { node.link[child], node.firstFacet[child] };
-        continue;
+        limit = visit(node.firstFacet[child]);
       }
-      const auto first = static_cast<std::size_t>(node.link[child]);
-      for (std::size_t i = first; i < first + node.size[child]; ++i)
+      else
       {
-        if (this->Order[i] < limit)
-        {
-          limit = visit(this->Order[i]);
-        }
+        this->Prefetch(node.link[child]);
+        stack[depth++] = { node.link[child], node.firstFacet[child] };
       }
     }
   }
