@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeTestMeshes.h"
+
+#include "Volume/MortonOrder.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+using namespace meniscus;
+using namespace meniscus::test;
+
+namespace
+{
+
+/** Volume enclosed by the oriented boundary, in units of the radius cubed. */
+double EnclosedVolume(const TetrahedralMesh& mesh)
+{
+  double volume = 0.0;
+  for (const BoundaryFace& face : mesh.GetBoundary())
+  {
+    const glm::dvec3 a(mesh.GetPositions()[face.Vertices[0]]);
+    const glm::dvec3 b(mesh.GetPositions()[face.Vertices[1]]);
+    const glm::dvec3 c(mesh.GetPositions()[face.Vertices[2]]);
+    volume += face.Outward * glm::dot(a, glm::cross(b, c)) / 6.0;
+  }
+  return volume;
+}
+
+/** Links lead there and back, across the same three vertices. */
+void ExpectConsistentLinks(const TetrahedralMesh& mesh)
+{
+  const auto& cells = mesh.GetCells();
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    EXPECT_TRUE(std::is_sorted(cells[c].Vertices.begin(), cells[c].Vertices.end()));
+    for (int face = 0; face < 4; ++face)
+    {
+      const std::int32_t link = cells[c].Links[face];
+      if (link == TetrahedralMesh::NoNeighbor)
+      {
+        continue;
+      }
+      const auto& other = cells[link / 4];
+      EXPECT_EQ(other.Links[link % 4], static_cast<std::int32_t>(4 * c + face));
+      std::multiset<std::int32_t> mine(cells[c].Vertices.begin(), cells[c].Vertices.end());
+      std::multiset<std::int32_t> theirs(other.Vertices.begin(), other.Vertices.end());
+      mine.erase(mine.find(cells[c].Vertices[face]));
+      theirs.erase(theirs.find(other.Vertices[link % 4]));
+      EXPECT_EQ(mine, theirs);
+    }
+  }
+}
+
+}
+
+TEST(TetrahedralMesh, LinksAndBoundaryOfAGrid)
+{
+  const int n = 4;
+  const MeshArrays arrays = KuhnGrid(n);
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  EXPECT_EQ(mesh.GetNumberOfCells(), 6 * n * n * n);
+  EXPECT_EQ(mesh.GetNumberOfVertices(), (n + 1) * (n + 1) * (n + 1));
+  EXPECT_EQ(mesh.GetBoundary().size(), std::size_t(6 * 2 * n * n));
+  EXPECT_EQ(mesh.GetNumberOfCutLinks(), 0);
+  EXPECT_EQ(mesh.GetRejectedCells().Total(), 0);
+  ExpectConsistentLinks(mesh);
+  const double radius = mesh.GetRadius();
+  EXPECT_NEAR(radius, std::sqrt(0.75), 1e-15);
+  EXPECT_NEAR(EnclosedVolume(mesh) * radius * radius * radius, 1.0, 1e-6);
+}
+
+TEST(TetrahedralMesh, OrientationOfTheInputDoesNotMatter)
+{
+  MeshArrays arrays = KuhnGrid(3);
+  for (std::size_t c = 0; c < arrays.Cells.size(); c += 8) // every other cell
+  {
+    std::swap(arrays.Cells[c], arrays.Cells[c + 1]);
+  }
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  EXPECT_GT(EnclosedVolume(mesh), 0.0);
+  EXPECT_EQ(mesh.GetNumberOfCutLinks(), 0);
+}
+
+TEST(TetrahedralMesh, OrientationIsThatOfTheWholeNotOfEachCell)
+{
+  MeshArrays arrays = KuhnGrid(6);
+  Jitter(arrays, 0.12, 7); // inverts many cells
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  EXPECT_EQ(mesh.GetNumberOfCutLinks(), 0);
+  EXPECT_GT(EnclosedVolume(mesh), 0.0);
+  ExpectConsistentLinks(mesh);
+}
+
+TEST(TetrahedralMesh, RejectsAndCountsBadCells)
+{
+  MeshArrays arrays = KuhnGrid(2);
+  const std::size_t good = arrays.Cells.size() / 4;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::int64_t bad = static_cast<std::int64_t>(arrays.Points.size() / 3);
+  arrays.Points.insert(arrays.Points.end(), { 0.5, nan, 0.5 });
+  arrays.Cells.insert(arrays.Cells.end(), { 0, 1, 2, 27 + 1 }); // beyond the last point
+  arrays.Cells.insert(arrays.Cells.end(), { 0, 1, 2, -1 });
+  arrays.Cells.insert(arrays.Cells.end(), { 0, 1, 1, 2 });
+  arrays.Cells.insert(arrays.Cells.end(), { 0, 1, 2, bad });
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  EXPECT_EQ(mesh.GetRejectedCells().IndexOutOfRange, 2);
+  EXPECT_EQ(mesh.GetRejectedCells().RepeatedVertex, 1);
+  EXPECT_EQ(mesh.GetRejectedCells().PointNotFinite, 1);
+  EXPECT_EQ(mesh.GetNumberOfCells(), static_cast<std::int64_t>(good));
+}
+
+TEST(TetrahedralMesh, EmptyAndRebuilt)
+{
+  TetrahedralMesh mesh;
+  EXPECT_EQ(mesh.Build(TetrahedraView()), MeshStatus::Empty);
+  EXPECT_EQ(mesh.Build(SingleTetrahedron().View()), MeshStatus::Ok);
+  EXPECT_EQ(mesh.GetBoundary().size(), 4u);
+  EXPECT_EQ(mesh.Build(TetrahedraView()), MeshStatus::Empty);
+  EXPECT_TRUE(mesh.GetBoundary().empty());
+  EXPECT_TRUE(mesh.GetPositions().empty());
+}
+
+TEST(TetrahedralMesh, RefusesMoreThanItsIndicesHold)
+{
+  TetrahedraView view;
+  view.NumberOfCells = TetrahedralMesh::MaximumNumberOfCells + 1;
+  TetrahedralMesh mesh;
+  EXPECT_EQ(mesh.Build(view), MeshStatus::TooLarge);
+}
+
+TEST(TetrahedralMesh, FaceOfThreeCellsIsBoundaryOnAllSides)
+{
+  const MeshArrays arrays = { { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 1, 1, 1 },
+    { 0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5 } };
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  EXPECT_EQ(mesh.GetBoundary().size(), 12u);
+}
+
+TEST(BoundaryTree, HoldsEveryFaceOnceAndInItsBoxes)
+{
+  MeshArrays arrays = KuhnGrid(5);
+  Jitter(arrays, 0.05, 3);
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  BoundaryTree tree;
+  tree.Build(mesh);
+  const auto& nodes = tree.GetNodes();
+  ASSERT_EQ(tree.GetFaces().size(), mesh.GetBoundary().size());
+  ASSERT_EQ(nodes.size(), 2 * tree.GetFaces().size() - 1);
+  std::set<std::int32_t> owners;
+  for (const BoundaryFace& face : tree.GetFaces())
+  {
+    owners.insert(face.CellFace);
+  }
+  EXPECT_EQ(owners.size(), mesh.GetBoundary().size());
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+  {
+    for (std::size_t leaf = n; leaf < static_cast<std::size_t>(nodes[n].Skip); ++leaf)
+    {
+      if (nodes[leaf].Face < 0)
+      {
+        continue;
+      }
+      for (const std::int32_t v : tree.GetFaces()[nodes[leaf].Face].Vertices)
+      {
+        const glm::dvec3 offset =
+          glm::abs(glm::dvec3(mesh.GetPositions()[v]) - glm::dvec3(nodes[n].Center));
+        EXPECT_TRUE(offset.x <= nodes[n].Half.x && offset.y <= nodes[n].Half.y &&
+          offset.z <= nodes[n].Half.z);
+      }
+    }
+  }
+}
+
+TEST(MortonOrder, SortsStablyAndClampsToTheBox)
+{
+  const std::vector<std::uint32_t> codes = { 5, 1u << 29, 5, 0, 40000 };
+  EXPECT_EQ(SortedOrder(codes), (std::vector<std::int64_t>{ 3, 0, 2, 4, 1 }));
+  const MortonCurve curve(glm::dvec3(0.0), glm::dvec3(1.0, 1.0, 0.0));
+  EXPECT_EQ(curve.Code(glm::dvec3(-5.0)), 0u);
+  EXPECT_EQ(curve.Code(glm::dvec3(9.0, 9.0, 9.0)), 0x1B6DB6DBu); // x and y full, z flat
+}

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef VolumeTestMeshes_h
+#define VolumeTestMeshes_h
+
+#include "Volume/BoundaryTree.h"
+#include "Volume/RayFrame.h"
+#include "Volume/TetrahedralMesh.h"
+#include "Volume/TransferFunction.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+/** Points and tetrahedra as a mesh's caller holds them. */
+struct MeshArrays
+{
+  std::vector<double> Points;
+  std::vector<std::int64_t> Cells;
+
+  TetrahedraView View() const
+  {
+    return { this->Points.data(), static_cast<std::int64_t>(this->Points.size() / 3),
+      this->Cells.data(), static_cast<std::int64_t>(this->Cells.size() / 4) };
+  }
+  glm::dvec3 PointAt(std::int64_t index) const
+  {
+    return { this->Points[3 * index], this->Points[3 * index + 1], this->Points[3 * index + 2] };
+  }
+};
+
+/** The unit tetrahedron, its vertices in positive orientation. */
+MeshArrays SingleTetrahedron();
+
+/** n^3 cubes of edge 1 / n that fill [0, 1]^3, each cut into the 6 tetrahedra of Kuhn. */
+MeshArrays KuhnGrid(int n);
+
+/** Moves every point by up to `amount` in each axis, from a fixed seed; large amounts invert cells.
+ */
+void Jitter(MeshArrays& mesh, double amount, unsigned int seed);
+
+/** Orthographic rays along -z over the square of half side `extent` about (x, y) = (0.5, 0.5). */
+RayFrame FrameAlongZ(const TetrahedralMesh& mesh, double extent, int pixels);
+
+/** One interval of constant attenuation and colour. */
+std::vector<TransferFunctionInterval> ConstantFunction(double attenuation);
+
+}
+}
+
+#endif
