@@ -75,8 +75,8 @@ install_packages()
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
 }
 
-# configure_and_build PRESET [CMAKE-ARGUMENT...]
-configure_and_build()
+# configure PRESET [CMAKE-ARGUMENT...]
+configure()
 {
   local preset="$1"
   shift
@@ -86,8 +86,21 @@ configure_and_build()
   fi
   say "Configuring preset $preset"
   cmake --preset "$preset" "${launcher[@]}" "$@"
+}
+
+# build PRESET [CMAKE-ARGUMENT...]
+build()
+{
+  local preset="$1"
+  shift
   say "Building preset $preset"
-  cmake --build --preset "$preset" --parallel "$JOBS"
+  cmake --build --preset "$preset" --parallel "$JOBS" "$@"
+}
+
+configure_and_build()
+{
+  configure "$@"
+  build "$1"
 }
 
 # with_display COMMAND...: VTK 9.1 and ParaView need an X display, also off screen. Without
