@@ -16,8 +16,7 @@ PACKAGES_TIDY=(clang-tidy-14)
 # python3-vtk9 and is unpacked by scripts/paraview-prefix instead.
 PACKAGES_PARAVIEW=(paraview paraview-dev libutfcpp-dev libpng-dev libx11-dev libopenmpi-dev
   openmpi-bin libgl-dev libopengl-dev libglew-dev libfreetype-dev libjpeg-dev liblz4-dev liblzma-dev
-  libtiff-dev libdouble-conversion-dev libexpat1-dev libxml2-dev zlib1g-dev libpython3-dev
-  libqt5svg5-dev qttools5-dev qtxmlpatterns5-dev-tools)
+  libtiff-dev libdouble-conversion-dev libexpat1-dev libxml2-dev zlib1g-dev libpython3-dev)
 
 say()
 {

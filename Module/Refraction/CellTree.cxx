@@ -75,8 +75,9 @@ void CellTree::Build(const std::vector<glm::dvec3>& centroids, double unit)
   std::iota(this->Order.begin(), this->Order.end(), 0);
   if (!this->Order.empty())
   {
-    // Leaves hold at least LeafSize / 2 facets and nodes have four children but for the bottom.
-    this->Nodes.reserve(2 * this->Order.size() / LeafSize + 1);
+    // A node of the bottom has two leaves at least, a node above four children: 2/3 per leaf at
+    // most.
+    this->Nodes.reserve(this->Order.size() + 1);
     this->BuildNode(this->Order.begin(), this->Order.end(), centroids);
     this->Nodes.shrink_to_fit();
   }

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin loads, also twice, and offers the filter in the menu and the representation."""
+"""The plugin loads and offers the filter in the menu and the representation."""
 import PluginTesting
 from paraview import simple
 
@@ -26,7 +26,6 @@ def check_plugin():
 
 
 def test():
-    PluginTesting.load_plugin()
     PluginTesting.load_plugin()
     check_plugin()
 

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// meniscus_demo [MESH.vtu] [--output FOLDER]: pictures of both main jobs, of data that the demo
+// makes or of the user's mesh.
+#include "DemoVolumeInput.h"
+#include "RefractionDemo.h"
+#include "VolumeDemo.h"
+
+#include "vtkUnstructuredGrid.h"
+
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+#include <vtksys/SystemTools.hxx>
+
+int main(int argc, char* argv[])
+{
+  std::string mesh;
+  std::string folder = "demo-output";
+  for (int i = 1; i < argc; ++i)
+  {
+    if (std::strcmp(argv[i], "--output") == 0 && i + 1 < argc)
+    {
+      folder = argv[++i];
+    }
+    else if (argv[i][0] != '-' && mesh.empty())
+    {
+      mesh = argv[i];
+    }
+    else
+    {
+      std::printf("usage: %s [MESH.vtu] [--output FOLDER]\n", argv[0]);
+      return std::strcmp(argv[i], "--help") == 0 ? 0 : 2;
+    }
+  }
+  if (!vtksys::SystemTools::MakeDirectory(folder))
+  {
+    std::fprintf(stderr, "error: the folder %s cannot be made\n", folder.c_str());
+    return 1;
+  }
+  const auto grid = mesh.empty() ? MakeDemoMesh() : ReadDemoMesh(mesh);
+  if (!grid)
+  {
+    return 1;
+  }
+  const bool volume = RunVolumeDemo(grid, folder);
+  const bool refraction = RunRefractionDemo(folder);
+  return volume && refraction ? 0 : 1;
+}

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DemoPictures_h
+#define DemoPictures_h
+
+#include "vtkNew.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+
+#include <string>
+
+/** An off-screen window whose pictures go to a folder, each with its size and time printed. */
+class DemoPictures
+{
+public:
+  explicit DemoPictures(const std::string& folder);
+
+  vtkRenderer* GetRenderer() { return this->Renderer; }
+
+  /** Renders twice, for the first and the steady time, and writes NAME.png. False if it cannot. */
+  bool Write(const std::string& name, const std::string& caption);
+
+private:
+  std::string Folder;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkRenderWindow> Window;
+};
+
+#endif

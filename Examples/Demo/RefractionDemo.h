@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RefractionDemo_h
+#define RefractionDemo_h
+
+#include <string>
+
+/** Pictures of a pool with a waved surface and objects in it. False if one could not be written. */
+bool RunRefractionDemo(const std::string& folder);
+
+#endif
