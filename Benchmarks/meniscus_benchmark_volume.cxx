@@ -407,13 +407,15 @@ void printTable(const std::vector<Figures>& all)
   for (std::size_t i = 0; i + 1 < all.size(); ++i)
   {
     std::cout << std::fixed << std::setprecision(2) << "against " << all[i].Name << ": "
-              << all[i].SteadyMs / ours.SteadyMs << " x the frame rate, " << std::setprecision(4)
-              << ours.Bytes.Rms / all[i].Bytes.Rms << " of the 8-bit RMS error, "
-              << ours.Float.Rms / all[i].Bytes.Rms << " in float\n";
+              << all[i].SteadyMs / ours.SteadyMs << " x the frame rate, "
+              << all[i].CpuMs / ours.CpuMs << " x less CPU time; RMS error " << std::setprecision(4)
+              << ours.Bytes.Rms / all[i].Bytes.Rms << " of its in 8 bits, " << std::scientific
+              << std::setprecision(1) << ours.Float.Rms / all[i].Bytes.Rms << " in float\n";
   }
   std::cout
     << "Errors: 8-bit picture against the double reference. Bunyk samples at pixel corners: "
-       "half a pixel of its error is displacement.\n";
+       "half a pixel of its error is displacement. Rounding to 8 bits alone gives "
+       "an RMS of about 0.0015 (largest of three channels).\n";
 }
 
 //------------------------------------------------------------------------------

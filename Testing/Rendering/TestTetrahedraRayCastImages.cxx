@@ -47,13 +47,13 @@ TEST(TetrahedraRayCastImages, SmoothBlock)
   expectBaseline(scene, "TetrahedraRayCastSmoothBlock");
 }
 
-TEST(TetrahedraRayCastImages, PeakedTorus)
+TEST(TetrahedraRayCastImages, SharpTorus)
 {
   const Grid grid = makeBlock(24, wavyField(3.0), torus(0.65, 0.3));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Peaked, Range, 3.5), Size, Size);
+  RayCastScene scene(grid, makeProperty(FunctionKind::Sharp, Range, 3.5), Size, Size);
   lookAt(scene.renderer(), grid->GetBounds(), 25.0, 35.0, 1.2);
   scene.renderer()->SetBackground(1.0, 1.0, 1.0);
-  expectBaseline(scene, "TetrahedraRayCastPeakedTorus");
+  expectBaseline(scene, "TetrahedraRayCastSharpTorus");
 }
 
 TEST(TetrahedraRayCastImages, OpaqueSphereInTwoBlocks)
