@@ -330,8 +330,8 @@ public:
     {
       this->append(start, sorted);
     }
-    // What is left are closed paths: they have no entry, and each of their inverted cells takes back
-    // what another one covers.
+    // What is left are closed paths: they have no entry, and each of their inverted cells takes
+    // back what another one covers.
     return sorted;
   }
 

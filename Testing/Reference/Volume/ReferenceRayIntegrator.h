@@ -13,8 +13,8 @@
  * Overlap: inverted and flat cells do not contribute (see ReferenceMesh). On a ray that crosses an
  * inverted cell or overlapping parts, the cells found are put in the order in which a path across
  * shared faces meets them, parts in the order of their entries; each then counts from the largest
- * depth reached before it to its own exit. Closed paths, which no entry leads to, do not count. This only orders: the cells and their ends stay those of
- * clipping.
+ * depth reached before it to its own exit. Closed paths, which no entry leads to, do not count.
+ * This only orders: the cells and their ends stay those of clipping.
  */
 #ifndef meniscus_ReferenceRayIntegrator_h
 #define meniscus_ReferenceRayIntegrator_h
