@@ -44,7 +44,10 @@ void OpenGLDepthCopy::Update(vtkOpenGLRenderWindow* window, const int viewport[4
   GLint samples = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &source);
   glGetIntegerv(GL_SAMPLES, &samples);
+  // Twice: inside a vtkFramebufferPass in a multisampled window, VTK 9.1 believes this framebuffer to
+  // be bound for reading while it is not, and skips the call (test MultisampledWindow).
   state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<unsigned int>(source));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(source));
   const Format format = ReadFormat(source);
   this->Allocate(window, format, viewport[2], viewport[3]);
   if (format.DepthBits == 0)

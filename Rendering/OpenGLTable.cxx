@@ -14,7 +14,7 @@ template <typename T>
 std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const std::vector<T>& values,
   int components, int texelsPerRow, int vtkType)
 {
-  this->Release();
+  this->Release(window);
   const std::int64_t texels = static_cast<std::int64_t>(values.size()) / components;
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
@@ -67,11 +67,11 @@ void OpenGLTable::Activate(vtkShaderProgram* program, const char* name)
 }
 
 //------------------------------------------------------------------------------
-void OpenGLTable::Release()
+void OpenGLTable::Release(vtkWindow* window)
 {
   if (this->IsFilled())
   {
-    this->Texture->ReleaseGraphicsResources(this->Texture->GetContext());
+    this->Texture->ReleaseGraphicsResources(window);
     this->Buffer->ReleaseGraphicsResources();
   }
   this->Rows = 0;

@@ -13,6 +13,7 @@
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
+class vtkWindow;
 
 namespace meniscus
 {
@@ -22,7 +23,7 @@ class OpenGLTable
 {
 public:
   OpenGLTable() = default;
-  ~OpenGLTable() { this->Release(); }
+  ~OpenGLTable() = default;
   OpenGLTable(const OpenGLTable&) = delete;
   void operator=(const OpenGLTable&) = delete;
 
@@ -41,7 +42,8 @@ public:
 
   void Activate(vtkShaderProgram* program, const char* name);
   void Deactivate() { this->Texture->Deactivate(); }
-  void Release();
+  /** Wants the window's context to be current. */
+  void Release(vtkWindow* window);
 
 private:
   template <typename T>

@@ -54,15 +54,19 @@ void DrawToAttachments(vtkOpenGLFramebufferObject* target, unsigned int count)
 RayCastOpenGL::RayCastOpenGL() = default;
 
 //------------------------------------------------------------------------------
-RayCastOpenGL::~RayCastOpenGL() = default;
+RayCastOpenGL::~RayCastOpenGL()
+{
+  this->Release(nullptr);
+}
 
 //------------------------------------------------------------------------------
 std::string RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
 {
   if (window != this->Window)
   {
-    this->Release();
+    this->Release(nullptr);
     this->Window = window;
+    window->MakeCurrent();
   }
   GLint version[2] = { 0, 0 };
   glGetIntegerv(GL_MAJOR_VERSION, &version[0]);
@@ -438,7 +442,16 @@ RayStatistics RayCastOpenGL::GetStatistics()
   {
     return this->Statistics;
   }
-  this->Window->MakeCurrent();
+  this->Window->PushContext();
+  const bool read = this->ReadStatistics();
+  this->Window->PopContext();
+  this->StatisticsStale = !read;
+  return this->Statistics;
+}
+
+//------------------------------------------------------------------------------
+bool RayCastOpenGL::ReadStatistics()
+{
   unsigned int size[2] = { this->StatisticsImage->GetWidth(), this->StatisticsImage->GetHeight() };
   vtkIdType increments[2] = { 0, 0 };
   std::vector<float> values(std::size_t{ 2 } * size[0] * size[1]);
@@ -446,7 +459,7 @@ RayStatistics RayCastOpenGL::GetStatistics()
   pixels.TakeReference(this->StatisticsImage->Download());
   if (!pixels || !pixels->Download2D(VTK_FLOAT, values.data(), size, 2, increments))
   {
-    return this->Statistics;
+    return false;
   }
   this->Statistics = RayStatistics();
   for (std::size_t i = 0; i < values.size(); i += 2)
@@ -455,27 +468,25 @@ RayStatistics RayCastOpenGL::GetStatistics()
     this->Statistics.Rays += values[i] > 0.0f ? 1 : 0;
     this->Statistics.Lost += static_cast<std::int64_t>(values[i + 1]);
   }
-  this->StatisticsStale = false;
-  return this->Statistics;
+  return true;
 }
 
 //------------------------------------------------------------------------------
-void RayCastOpenGL::Release()
+void RayCastOpenGL::Release(vtkWindow* window)
 {
-  if (this->Window)
+  vtkOpenGLRenderWindow* owner =
+    window ? vtkOpenGLRenderWindow::SafeDownCast(window) : this->Window.Get();
+  if (owner)
   {
-    this->Window->MakeCurrent();
-    this->GetStatistics();
+    owner->PushContext();
   }
+  this->GetStatistics();
   for (OpenGLTable* table :
     { &this->Vertices, &this->Cells, &this->TreeNodes, &this->TreeFaces, &this->Intervals })
   {
-    table->Release();
+    table->Release(owner);
   }
-  if (this->Window)
-  {
-    this->Depth.Release(this->Window);
-  }
+  this->Depth.Release(owner);
   this->TileLister.reset();
   this->RayCaster.reset();
   this->Composer.reset();
@@ -487,6 +498,10 @@ void RayCastOpenGL::Release()
   this->Size[0] = this->Size[1] = 0;
   this->StatisticsStale = false;
   this->Window = nullptr;
+  if (owner)
+  {
+    owner->PopContext();
+  }
 }
 
 }

@@ -26,6 +26,7 @@ class vtkOpenGLRenderWindow;
 class vtkOpenGLState;
 class vtkShaderProgram;
 class vtkTextureObject;
+class vtkWindow;
 
 namespace meniscus
 {
@@ -76,9 +77,14 @@ public:
 
   std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
 
-  void Release();
+  /**
+   * Frees all graphics resources in the context of their window; null for the window last drawn to.
+   * A window that is being destroyed must be given, weak pointers to it are empty by then.
+   */
+  void Release(vtkWindow* window);
 
 private:
+  bool ReadStatistics();
   std::string Count(OpenGLTable& table, const std::string& error);
   template <typename Function>
   std::string DrawImage(Function&& makeImage);

@@ -541,9 +541,9 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::ReleaseGraphicsResources(vtkWindow*)
+void vtkTetrahedraRayCastMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
-  this->Internals->OpenGL.Release();
+  this->Internals->OpenGL.Release(window);
 }
 
 //------------------------------------------------------------------------------
