@@ -44,10 +44,7 @@ void OpenGLDepthCopy::Update(vtkOpenGLRenderWindow* window, const int viewport[4
   GLint samples = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &source);
   glGetIntegerv(GL_SAMPLES, &samples);
-  // Twice: inside a vtkFramebufferPass in a multisampled window, VTK 9.1 believes this framebuffer to
-  // be bound for reading while it is not, and skips the call (test MultisampledWindow).
   state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<unsigned int>(source));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(source));
   const Format format = ReadFormat(source);
   this->Allocate(window, format, viewport[2], viewport[3]);
   if (format.DepthBits == 0)
@@ -60,7 +57,11 @@ void OpenGLDepthCopy::Update(vtkOpenGLRenderWindow* window, const int viewport[4
   }
   else
   {
-    this->Texture->CopyFromFrameBuffer(viewport[0], viewport[1], 0, 0, viewport[2], viewport[3]);
+    // Not CopyFromFrameBuffer(), which goes by the window's samples, not by the framebuffer's (VTK
+    // 9.1; test MultisampledWindow).
+    this->Texture->Activate();
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, viewport[0], viewport[1], viewport[2], viewport[3]);
+    this->Texture->Deactivate();
   }
   state->PopFramebufferBindings();
 }
@@ -116,6 +117,8 @@ void OpenGLDepthCopy::Allocate(
     return;
   }
   this->Release(window);
+  // A new object: a released one still remembers its format (VTK 9.1; test MultisampledWindow).
+  this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);
   this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
   this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
@@ -139,7 +142,10 @@ void OpenGLDepthCopy::Allocate(
 //------------------------------------------------------------------------------
 void OpenGLDepthCopy::Release(vtkWindow* window)
 {
-  this->Texture->ReleaseGraphicsResources(window);
+  if (this->Texture)
+  {
+    this->Texture->ReleaseGraphicsResources(window);
+  }
   this->Target->ReleaseGraphicsResources(window);
   this->Allocated = Format();
   this->Width = 0;

@@ -5,6 +5,7 @@
 
 #include "vtkNew.h"
 #include "vtkOpenGLFramebufferObject.h"
+#include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
 
 #include <vector>
@@ -51,7 +52,7 @@ private:
   void Clear(vtkOpenGLRenderWindow* window);
   void Resolve(vtkOpenGLRenderWindow* window, const int viewport[4]);
 
-  vtkNew<vtkTextureObject> Texture;
+  vtkSmartPointer<vtkTextureObject> Texture;
   vtkNew<vtkOpenGLFramebufferObject> Target;
   Format Allocated;
   int Width = 0;
