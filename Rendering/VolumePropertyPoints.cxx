@@ -18,7 +18,7 @@ namespace
 {
 
 /** Largest accepted deviation of linear interpolation, in colour and in alpha per unit distance. */
-constexpr double SamplingBound = 1.0 / 4096.0;
+constexpr double SamplingBound = 1.0 / 32768.0;
 /** Halvings of an interval: 2^12 samples resolve a unit step of a smooth function to the bound. */
 constexpr int MaximumHalvings = 12;
 /** The largest opacity below 1 that a float can tell from it. */

@@ -20,7 +20,7 @@
  * over what is in the framebuffer; rays end at the opaque geometry there. A transfer function that
  * is not piecewise linear (HSV, Lab or diverging space, logarithmic scale, midpoint, sharpness,
  * OPACITY_PER_UNIT_DISTANCE) is sampled between its nodes until linear interpolation is off by less
- * than 1/4096 of the full range of colour and of alpha over the unit distance.
+ * than 1/32768 of the full range of colour and of alpha over the unit distance.
  *
  * Method:
  * 1. Vertices and cells are ordered along a Morton curve; cells are linked across faces. Once per

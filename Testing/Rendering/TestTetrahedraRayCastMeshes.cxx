@@ -165,12 +165,12 @@ TEST(TetrahedraRayCastMeshes, FoldedMesh)
 
 TEST(TetrahedraRayCastMeshes, OpacityPerUnitDistance)
 {
-  // The mapper samples the logarithm between nodes to 1/4096 of alpha over the unit distance (its
+  // The mapper samples the logarithm between nodes to 1/32768 of alpha over the unit distance (its
   // header); a ray is up to a diagonal long.
   const Grid grid = makeBlock(8, wavyField(3.0));
   RayCastScene scene(grid, propertyFor(grid, FunctionKind::Smooth), Size, Size);
   constexpr double Unit = 0.8;
-  const double tolerance = diagonalOf(grid->GetBounds()) / Unit / 4096.0;
+  const double tolerance = diagonalOf(grid->GetBounds()) / Unit / 32768.0;
   scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(Unit);
   scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
   lookAt(scene.renderer(), grid->GetBounds(), 25.0, 30.0);
