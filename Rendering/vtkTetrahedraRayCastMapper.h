@@ -33,7 +33,7 @@
  * ever.
  * 4. Within a cell the scalar is linear along the ray. The segment is split at the transfer
  *    function's nodes; every piece has linear attenuation and colour and is integrated in closed
- *    form up to an error of 2e-6.
+ *    form up to an error of 3e-7.
  *
  * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first
  * counts up to its exit.

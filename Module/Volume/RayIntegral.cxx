@@ -10,11 +10,6 @@ namespace meniscus
 namespace
 {
 
-/** Nodes and weights of Gauss-Legendre quadrature on [0, 1]. */
-constexpr float Nodes[4] = { 0.06943184420297f, 0.33000947820757f, 0.66999052179243f,
-  0.93056815579703f };
-constexpr float Weights[4] = { 0.17392742256873f, 0.32607257743127f, 0.32607257743127f,
-  0.17392742256873f };
 /** Optical depth of a piece beyond which nothing can be told apart; keeps infinities out. */
 constexpr float LargestDepth = 1.0e+30f;
 /** Normalised scalars are in [-1, 1]: a larger change is that of a vertex without a scalar. */
@@ -32,6 +27,25 @@ float Absorbed(float x)
               x *
                 (-0.04164684931339f +
                   x * (0.00827550484353f + x * (-0.00130077495785f + x * 0.00012907631016f))))));
+}
+
+/**
+ * 1 - psi, the mean over a piece of what has been absorbed up to a place: the integral over [0, 1]
+ * of 1 - exp(-(a x + (t - a) x^2)), with density a at the front and optical depth t <= 1. A
+ * polynomial of degree 5, exact to first order, fitted to 3e-7 for all densities that are nowhere
+ * negative.
+ */
+float AbsorbedOnAverage(float t, float a)
+{
+  const float p0 = t *
+    (0.3333333333f +
+      t * (-0.0999792881f + t * (0.0236830118f + t * (-0.0043518064f + t * 0.0004903571f))));
+  const float p1 = 0.1666666667f +
+    t * (-0.0500173281f + t * (0.0119526605f + t * (-0.0023320093f + t * 0.0003181505f)));
+  const float p2 = -0.0166512718f + t * (0.0047084626f + t * (-0.0008994605f + t * 0.0000935654f));
+  const float p3 = 0.0011768438f + t * (-0.0003058993f + t * 0.0000410537f);
+  const float p4 = -0.0000596959f + t * 0.0000104829f;
+  return p0 + a * (p1 + a * (p2 + a * (p3 + a * (p4 + a * 0.0000017222f))));
 }
 
 }
@@ -116,13 +130,7 @@ float RayIntegral::AddPart(
     depth = 1.0f;
   }
   const float gone = Absorbed(depth);
-  float front = 0.0f;
-  for (int i = 0; i < 4; ++i)
-  {
-    const float x = part * Nodes[i];
-    front +=
-      Weights[i] * Absorbed(std::min(std::max(x * (density + 0.5f * x * slope), 0.0f), 1.0f));
-  }
+  const float front = AbsorbedOnAverage(depth, part * density);
   const glm::vec3 colorFront = interval.Color + offset0 * interval.ColorSlope;
   const glm::vec3 colorChange = part * (offset1 - offset0) * interval.ColorSlope;
   this->Color +=

@@ -89,25 +89,36 @@ void findInterval(float s)
 }
 
 // 1 - exp(-x) for x in [0, 1], to 2e-9: x times a Chebyshev interpolant of (1 - exp(-x)) / x.
-vec4 absorbed(vec4 x)
+float absorbed(float x)
 {
   return x * (0.99999999793357 + x * (-0.49999979725212 + x * (0.16666340311502 +
     x * (-0.04164684931339 + x * (0.00827550484353 +
     x * (-0.00130077495785 + x * 0.00012907631016))))));
 }
 
+// 1 - psi, the mean over a piece of what has been absorbed up to a place: the integral over [0, 1] of
+// 1 - exp(-(a x + (t - a) x^2)), with density a at the front and optical depth t <= 1. A polynomial of
+// degree 5, exact to first order, fitted to 3e-7 for all densities that are nowhere negative.
+float absorbedOnAverage(float t, float a)
+{
+  float p0 = t * (0.3333333333 + t * (-0.0999792881 + t * (0.0236830118 +
+    t * (-0.0043518064 + t * 0.0004903571))));
+  float p1 = 0.1666666667 + t * (-0.0500173281 + t * (0.0119526605 +
+    t * (-0.0023320093 + t * 0.0003181505)));
+  float p2 = -0.0166512718 + t * (0.0047084626 + t * (-0.0008994605 + t * 0.0000935654));
+  float p3 = 0.0011768438 + t * (-0.0003058993 + t * 0.0000410537);
+  float p4 = -0.0000596959 + t * 0.0000104829;
+  return p0 + a * (p1 + a * (p2 + a * (p3 + a * (p4 + a * 0.0000017222))));
+}
+
 // Integrates the next piece of the pending segment: up to the end of the segment, to that of the
 // transfer function's interval or to an optical depth of 1. Returns whether the segment is done.
 //
 // Density-emitter integral with linear attenuation and colour: Moreland and Angel, "A Fast High
-// Accuracy Volume Renderer for Unstructured Data" (2004), with psi by Gauss-Legendre quadrature of 4
-// points (error below 2e-6 up to optical depth 1). Their cf - cb zeta + (cb - cf) psi is written
+// Accuracy Volume Renderer for Unstructured Data" (2004). Their cf - cb zeta + (cb - cf) psi is written
 // cf (1 - psi) + cb (psi - zeta), free of cancellation.
 bool integratePiece()
 {
-  const vec4 nodes = vec4(0.06943184420297, 0.33000947820757, 0.66999052179243, 0.93056815579703);
-  const vec4 weights = vec4(0.17392742256873, 0.32607257743127, 0.32607257743127, 0.17392742256873);
-
   // A segment that begins outside of the interval first moves the interval, by an empty piece.
   bool inside = segmentScalar >= intervalRange.x && segmentScalar <= intervalRange.y;
   float target = inside ? segmentEnd : segmentScalar;
@@ -134,9 +145,8 @@ bool integratePiece()
     part = min(1.0, 2.0 / (densities.x + sqrt(max(0.0, densities.x * densities.x + 2.0 * slope))));
     depth = 1.0;
   }
-  vec4 depths = part * nodes * (densities.x + 0.5 * part * nodes * slope);
-  float gone = absorbed(vec4(depth)).x;
-  float front = dot(weights, absorbed(clamp(depths, 0.0, 1.0)));
+  float gone = absorbed(depth);
+  float front = absorbedOnAverage(depth, part * densities.x);
   vec3 colorStart = intervalColor + offsets.x * intervalColorSlope;
   vec3 colorChange = part * (offsets.y - offsets.x) * intervalColorSlope;
   color += transmittance * (colorStart * gone + colorChange * max(0.0, gone - front));
@@ -195,7 +205,7 @@ bool stepThroughCell(out int link)
 
   // A face without projected area keeps depth and scalar.
   float total = areaPQ + areaP + areaQ;
-  vec2 exit = total > 0.0 ? (areaPQ * x.zw + areaQ * p.zw + areaP * q.zw) / total
+  vec2 exit = total > 0.0 ? (areaPQ * x.zw + areaQ * p.zw + areaP * q.zw) * (1.0 / total)
                           : vec2(faceDepth, faceScalar);
   bool pending = advance(exit.x, exit.y);
 
