@@ -35,12 +35,12 @@ const float LARGEST_DEPTH = 1.0e+30;
 float rayLengthPerDepth;
 float endDepth;
 
-// Where the walk is: the face just entered by, ascending vertices.
+// Where the walk is: the face just entered by, its vertices counter-clockwise about the ray.
 RayVertex a;
 RayVertex b;
 RayVertex c;
+ivec3 corners;       // their numbers
 vec3 edges;          // twice the areas that edges ab, bc, ca span with the ray
-bool turnsLeft;      // abc is counter-clockwise about the ray
 int cell;
 int face;
 float faceDepth;     // where the ray meets that face
@@ -186,38 +186,38 @@ bool advance(float exitDepth, float exitScalar)
 // Crosses `cell` from `face`. Yields the link to follow; returns whether a segment is pending.
 bool stepThroughCell(out int link)
 {
-  int base = 8 * cell;
-  RayVertex x = fetchVertex(texelFetch(cells, base + face).r);
+  int number = texelFetch(cells, 8 * cell + face).r;
+  RayVertex x = fetchVertex(number);
   vec3 areas = vec3(edgeArea(x, a), edgeArea(x, b), edgeArea(x, c));
-  bool withA = edgeTurnsLeft(x, a, areas.x, face <= 0) == turnsLeft;
-  bool withB = edgeTurnsLeft(x, b, areas.y, face <= 1) == turnsLeft;
-  bool withC = edgeTurnsLeft(x, c, areas.z, face <= 2) == turnsLeft;
+  bool leftOfA = edgeTurnsLeft(x, a, areas.x, number < corners.x);
+  bool leftOfB = edgeTurnsLeft(x, b, areas.y, number < corners.y);
+  bool leftOfC = edgeTurnsLeft(x, c, areas.z, number < corners.z);
   areas = abs(areas);
 
-  // The ray leaves between the consecutive edges xp, xq of which it is left of one, right of the other.
-  int dropped = withA && !withB ? 2 : (withB && !withC ? 0 : 1);
-  RayVertex p = dropped == 0 ? b : a;
-  RayVertex q = dropped == 2 ? b : c;
-  float areaP = dropped == 0 ? areas.y : areas.x;
-  float areaQ = dropped == 2 ? areas.y : areas.z;
-  float areaPQ = dropped == 0 ? edges.y : (dropped == 1 ? edges.z : edges.x);
-  link = texelFetch(cells, base + 4 + dropped + (dropped >= face ? 1 : 0)).r;
+  // The ray leaves between two consecutive edges from x, left of one and right of the next. The third
+  // vertex drops out; its rank among the cell's is where the link to follow stands.
+  bool dropC = leftOfA && !leftOfB;
+  bool dropA = !dropC && leftOfB && !leftOfC;
+  bool dropB = !dropC && !dropA;
+  int dropped = dropA ? corners.x : (dropB ? corners.y : corners.z);
+  int rank = int(number < dropped) + int(corners.x < dropped) + int(corners.y < dropped) +
+    int(corners.z < dropped);
+  link = texelFetch(cells, 8 * cell + 4 + rank).r;
+
+  // The exit face: x takes the dropped vertex's place, which keeps the sense of rotation.
+  edges = vec3(dropC ? edges.x : (dropA ? areas.y : areas.x),
+    dropA ? edges.y : (dropB ? areas.z : areas.y), dropB ? edges.z : (dropA ? areas.z : areas.x));
+  a = dropA ? x : a;
+  b = dropB ? x : b;
+  c = dropC ? x : c;
+  corners = ivec3(
+    dropA ? number : corners.x, dropB ? number : corners.y, dropC ? number : corners.z);
 
   // A face without projected area keeps depth and scalar.
-  float total = areaPQ + areaP + areaQ;
-  vec2 exit = total > 0.0 ? (areaPQ * x.zw + areaQ * p.zw + areaP * q.zw) * (1.0 / total)
+  float total = edges.x + edges.y + edges.z;
+  vec2 exit = total > 0.0 ? (edges.y * a.zw + edges.z * b.zw + edges.x * c.zw) * (1.0 / total)
                           : vec2(faceDepth, faceScalar);
-  bool pending = advance(exit.x, exit.y);
-
-  // The exit face, ascending: x in place of the dropped vertex, moved to its rank.
-  int place = face - (dropped < face ? 1 : 0);
-  a = place == 0 ? x : p;
-  b = place == 1 ? x : (place == 0 ? p : q);
-  c = place == 2 ? x : q;
-  edges = place == 0 ? vec3(areaP, areaPQ, areaQ)
-                     : (place == 1 ? vec3(areaP, areaQ, areaPQ) : vec3(areaPQ, areaQ, areaP));
-  turnsLeft = turnsLeft != (((place - dropped) & 1) != 0);
-  return pending;
+  return advance(exit.x, exit.y);
 }
 
 // Walks from the boundary to the boundary, or until the ray ends. Adds to the number of steps; false
@@ -262,9 +262,10 @@ struct SeenFace
   RayVertex p;
   RayVertex q;
   RayVertex r;
+  ivec3 numbers;
   vec3 areas;
   vec2 point;   // depth and scalar where the ray meets it
-  bool left;    // counter-clockwise if entered
+  bool left;    // pqr is counter-clockwise if entered
   bool entered;
   int cellFace;
 };
@@ -274,10 +275,11 @@ SeenFace seeFace(int index)
   SeenFace f;
   ivec4 record = texelFetch(treeFaces, index);
   f.left = (record.x < 0 ? -1 : 1) * enteringSign > 0;
+  f.numbers = ivec3(record.x < 0 ? ~record.x : record.x, record.yz);
   f.cellFace = record.w;
-  f.p = fetchVertex(record.x < 0 ? ~record.x : record.x);
-  f.q = fetchVertex(record.y);
-  f.r = fetchVertex(record.z);
+  f.p = fetchVertex(f.numbers.x);
+  f.q = fetchVertex(f.numbers.y);
+  f.r = fetchVertex(f.numbers.z);
   f.areas = vec3(edgeArea(f.p, f.q), edgeArea(f.q, f.r), edgeArea(f.r, f.p));
   f.entered = edgeTurnsLeft(f.p, f.q, f.areas.x, true) == f.left &&
     edgeTurnsLeft(f.q, f.r, f.areas.y, true) == f.left &&
@@ -361,11 +363,11 @@ void collectEntries(float lastDepth, int lastFace)
 void enterFirst()
 {
   SeenFace f = seeFace(entryFaces.x);
-  a = f.p;
-  b = f.q;
+  a = f.left ? f.p : f.q;
+  b = f.left ? f.q : f.p;
   c = f.r;
-  edges = f.areas;
-  turnsLeft = f.left;
+  corners = f.left ? f.numbers : f.numbers.yxz;
+  edges = f.left ? f.areas : f.areas.xzy;
   cell = f.cellFace >> 2;
   face = f.cellFace & 3;
   faceDepth = f.point.x;
