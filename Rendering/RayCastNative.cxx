@@ -2,85 +2,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastNative.h"
 
+#include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
 #include "vtkType.h"
 
-#include <algorithm>
+#include <cstddef>
 
 namespace meniscus
 {
-namespace
+
+//------------------------------------------------------------------------------
+RayCastNative::RayCastNative()
+  : Set(BestInstructionSet())
 {
-
-/** Rows of an image; every row notes its own sums. */
-class RowCaster
-{
-public:
-  RowCaster(const RayCastScene& scene, int width, int height, const std::vector<float>& opaqueDepth,
-    std::vector<float>& image)
-    : Scene(scene)
-    , Width(width)
-    , Height(height)
-    , OpaqueDepth(opaqueDepth)
-    , Image(image)
-    , RowStatistics(height)
-  {
-  }
-
-  void operator()(vtkIdType first, vtkIdType last)
-  {
-    RayWalk walk(this->Scene);
-    for (vtkIdType row = first; row < last; ++row)
-    {
-      for (int column = 0; column < this->Width; ++column)
-      {
-        const std::size_t pixel = static_cast<std::size_t>(row) * this->Width + column;
-        const double clipDepth = 2.0 * this->OpaqueDepth[pixel] - 1.0;
-        const glm::vec2 fromCenter(
-          column + 0.5f - 0.5f * this->Width, row + 0.5f - 0.5f * this->Height);
-        const RayResult result =
-          walk.Cast(fromCenter, static_cast<float>(this->Scene.Frame.DepthAt(clipDepth)));
-        std::copy_n(&result.Color[0], 4, this->Image.begin() + 4 * pixel);
-        RayStatistics& sums = this->RowStatistics[row];
-        sums.Steps += result.Steps;
-        sums.Rays += result.Steps > 0 ? 1 : 0;
-        sums.Lost += result.Lost ? 1 : 0;
-      }
-    }
-  }
-
-  RayStatistics Sum() const
-  {
-    RayStatistics total;
-    for (const RayStatistics& row : this->RowStatistics)
-    {
-      total.Steps += row.Steps;
-      total.Rays += row.Rays;
-      total.Lost += row.Lost;
-    }
-    return total;
-  }
-
-private:
-  const RayCastScene& Scene;
-  int Width;
-  int Height;
-  const std::vector<float>& OpaqueDepth;
-  std::vector<float>& Image;
-  std::vector<RayStatistics> RowStatistics;
-};
-
 }
 
 //------------------------------------------------------------------------------
-RayStatistics CastRaysNative(const RayCastScene& scene, int width, int height,
-  const std::vector<float>& opaqueDepth, std::vector<float>& image)
+void RayCastNative::UpdateVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars)
 {
-  image.resize(std::size_t{ 4 } * width * height);
-  RowCaster caster(scene, width, height, opaqueDepth, image);
-  // Rows differ in cost: small grains let threads share it.
-  vtkSMPTools::For(0, height, 4, caster);
-  return caster.Sum();
+  this->Tables.Vertices = PackVertices(mesh, scalars);
+}
+
+//------------------------------------------------------------------------------
+void RayCastNative::UpdateIntervals(const std::vector<TransferFunctionInterval>& intervals)
+{
+  this->Tables.Intervals = PackIntervals(intervals);
+}
+
+//------------------------------------------------------------------------------
+RayStatistics RayCastNative::Cast(
+  TileCaster::Scene scene, const std::vector<float>& opaqueDepth, std::vector<float>& image)
+{
+  scene.Tables = &this->Tables;
+  scene.Set = this->Set;
+  image.assign(std::size_t{ 4 } * scene.Width * scene.Height, 0.0f);
+  const TileCaster caster(scene);
+  std::vector<RayStatistics> ofTile(caster.GetNumberOfTiles());
+  vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
+  // Tiles differ in cost: small grains let threads share it.
+  vtkSMPTools::For(0, caster.GetNumberOfTiles(), 1,
+    [&](vtkIdType first, vtkIdType last)
+    {
+      TileCaster::Workspace& workspace = workspaces.Local();
+      for (vtkIdType tile = first; tile < last; ++tile)
+      {
+        ofTile[tile] =
+          caster.Cast(static_cast<int>(tile), opaqueDepth.data(), image.data(), workspace);
+      }
+    });
+  RayStatistics total;
+  for (const RayStatistics& tile : ofTile)
+  {
+    total.Steps += tile.Steps;
+    total.Rays += tile.Rays;
+    total.Lost += tile.Lost;
+  }
+  return total;
 }
 
 }

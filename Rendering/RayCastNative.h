@@ -3,8 +3,8 @@
 #ifndef RayCastNative_h
 #define RayCastNative_h
 
-#include "RayStatistics.h"
-#include "Volume/RayWalk.h"
+#include "Volume/RayStatistics.h"
+#include "Volume/TileCaster.h"
 
 #include <vector>
 
@@ -12,13 +12,37 @@ namespace meniscus
 {
 
 /**
- * Casts the rays of an image on the CPU, rows in parallel by vtkSMPTools. The image does not depend
- * on the number of threads.
- * @param opaqueDepth  window depths in [0, 1], one per pixel, rows from below.
- * @param image        premultiplied RGBA per pixel; resized.
+ * The ray caster on the CPU: SIMD packets of the widest instruction set there is, tiles in parallel
+ * by vtkSMPTools. The image does not depend on the number of threads.
  */
-RayStatistics CastRaysNative(const RayCastScene& scene, int width, int height,
-  const std::vector<float>& opaqueDepth, std::vector<float>& image);
+class RayCastNative
+{
+public:
+  RayCastNative();
+
+  void UpdateVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
+  void UpdateIntervals(const std::vector<TransferFunctionInterval>& intervals);
+  /** Marks what UpdateVertices() and UpdateIntervals() were given as changed. */
+  void InvalidateVertices() { this->Tables.Vertices.clear(); }
+  void InvalidateIntervals() { this->Tables.Intervals.clear(); }
+  bool HasVertices() const { return !this->Tables.Vertices.empty(); }
+  bool HasIntervals() const { return !this->Tables.Intervals.empty(); }
+
+  /**
+   * Casts the rays of an image.
+   * @param scene        its Tables and Set are filled in here.
+   * @param opaqueDepth  window depths in [0, 1], one per pixel, rows from below.
+   * @param image        premultiplied RGBA per pixel; resized.
+   */
+  RayStatistics Cast(
+    TileCaster::Scene scene, const std::vector<float>& opaqueDepth, std::vector<float>& image);
+
+  InstructionSet GetInstructionSet() const { return this->Set; }
+
+private:
+  PacketTables Tables;
+  InstructionSet Set;
+};
 
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastOpenGL.h"
 
-#include "RayCastNative.h"
 
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
@@ -156,7 +155,7 @@ std::string RayCastOpenGL::UploadVertices(
   values.reserve(4 * scalars.size());
   for (std::size_t v = 0; v < scalars.size(); ++v)
   {
-    const glm::vec3& p = mesh.GetPositions()[v];
+    const glm::vec3 p(mesh.GetPosition(static_cast<std::int64_t>(v)));
     values.insert(values.end(), { p.x, p.y, p.z, scalars[v] });
   }
   const std::string error = this->Vertices.Upload(this->Window, values, 4, 1);
@@ -235,14 +234,14 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::DrawNative(const RayCastScene& scene)
+std::string RayCastOpenGL::DrawImageOf(const ImageMaker& maker)
 {
   return this->DrawImage(
-    [this, &scene]() -> std::string
+    [this, &maker]() -> std::string
     {
       const std::vector<float> depths = this->Depth.Read(this->Window);
       std::vector<float> image;
-      this->Statistics = CastRaysNative(scene, this->Size[0], this->Size[1], depths, image);
+      this->Statistics = maker(this->Size[0], this->Size[1], depths, image);
       this->StatisticsStale = false;
       const bool made =
         this->Image->Create2DFromRaw(this->Size[0], this->Size[1], 4, VTK_FLOAT, image.data());

@@ -5,17 +5,17 @@
 
 #include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
-#include "Volume/RayWalk.h"
+#include "Volume/RayStatistics.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
 #include "OpenGLDepthCopy.h"
 #include "OpenGLTable.h"
-#include "RayStatistics.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -69,8 +69,11 @@ public:
   /** Casts the rays of the current viewport and blends them into the current framebuffer. */
   std::string Draw(const RayCastFrame& frame);
 
-  /** The same with rays cast on the CPU; needs no tables. */
-  std::string DrawNative(const RayCastScene& scene);
+  /** Makes an image of width x height premultiplied RGBA from as many window depths. */
+  using ImageMaker = std::function<RayStatistics(
+    int width, int height, const std::vector<float>& opaqueDepth, std::vector<float>& image)>;
+  /** The same with rays cast elsewhere; needs no tables. */
+  std::string DrawImageOf(const ImageMaker& maker);
 
   /** Of the last frame; read back on the first call after it. */
   RayStatistics GetStatistics();

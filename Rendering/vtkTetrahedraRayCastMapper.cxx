@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "RayCastNative.h"
 #include "RayCastOpenGL.h"
 #include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
@@ -152,6 +153,7 @@ public:
   std::vector<meniscus::TransferFunctionPoint> Points;
   std::vector<meniscus::TransferFunctionInterval> Intervals;
   meniscus::RayCastOpenGL OpenGL;
+  meniscus::RayCastNative Native;
 
   MeshVersion BuiltMesh;
   Version BuiltScalars;
@@ -210,6 +212,7 @@ void vtkTetrahedraRayCastMapper::vtkInternals::UpdateIntervals()
     this->Intervals = meniscus::BuildIntervals(this->Points, this->Normalization);
     this->IntervalsStale = false;
     this->IntervalUploadStale = true;
+    this->Native.InvalidateIntervals();
   }
 }
 
@@ -225,8 +228,27 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
 std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
   const meniscus::RayFrame& frame, double terminationOpacity)
 {
-  return this->OpenGL.DrawNative({ &this->Mesh, &this->Tree, &this->Scalars, &this->Intervals,
-    frame, static_cast<float>(1.0 - terminationOpacity) });
+  if (!this->Native.HasVertices())
+  {
+    this->Native.UpdateVertices(this->Mesh, this->Scalars);
+  }
+  if (!this->Native.HasIntervals())
+  {
+    this->Native.UpdateIntervals(this->Intervals);
+  }
+  meniscus::TileCaster::Scene scene;
+  scene.Mesh = &this->Mesh;
+  scene.Boundary = &this->Mesh.GetBoundary();
+  scene.Frame = frame;
+  scene.TerminationTransmittance = static_cast<float>(1.0 - terminationOpacity);
+  return this->OpenGL.DrawImageOf(
+    [this, &scene](
+      int width, int height, const std::vector<float>& depths, std::vector<float>& image)
+    {
+      scene.Width = width;
+      scene.Height = height;
+      return this->Native.Cast(scene, depths, image);
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -445,6 +467,7 @@ void vtkTetrahedraRayCastMapper::UpdateScalars(vtkDataArray* scalars)
     { return static_cast<float>((value - normalization.Offset) * normalization.Scale); });
   internals.BuiltScalars = version;
   internals.VertexUploadStale = true;
+  internals.Native.InvalidateVertices();
   ++internals.ScalarUpdates;
 }
 

@@ -50,10 +50,9 @@ void BoundaryTree::Build(const TetrahedralMesh& mesh)
   std::vector<Item> items(boundary.size());
   for (std::size_t f = 0; f < boundary.size(); ++f)
   {
-    const auto& positions = mesh.GetPositions();
-    const glm::vec3& a = positions[boundary[f].Vertices[0]];
-    const glm::vec3& b = positions[boundary[f].Vertices[1]];
-    const glm::vec3& c = positions[boundary[f].Vertices[2]];
+    const glm::vec3 a(mesh.GetPosition(boundary[f].Vertices[0]));
+    const glm::vec3 b(mesh.GetPosition(boundary[f].Vertices[1]));
+    const glm::vec3 c(mesh.GetPosition(boundary[f].Vertices[2]));
     items[f] = { glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)),
       static_cast<std::int32_t>(f) };
   }

@@ -50,12 +50,12 @@ int FaceParity(int face)
 }
 
 /** Six times the signed volume of the ascending vertices. */
-double SixfoldVolume(const TetrahedralMesh::Cell& cell, const std::vector<glm::vec3>& positions)
+double SixfoldVolume(const TetrahedralMesh::Cell& cell, const TetrahedralMesh& mesh)
 {
-  const glm::dvec3 origin(positions[cell.Vertices[0]]);
-  const glm::dvec3 a = glm::dvec3(positions[cell.Vertices[1]]) - origin;
-  const glm::dvec3 b = glm::dvec3(positions[cell.Vertices[2]]) - origin;
-  const glm::dvec3 c = glm::dvec3(positions[cell.Vertices[3]]) - origin;
+  const glm::dvec3 origin = mesh.GetPosition(cell.Vertices[0]);
+  const glm::dvec3 a = mesh.GetPosition(cell.Vertices[1]) - origin;
+  const glm::dvec3 b = mesh.GetPosition(cell.Vertices[2]) - origin;
+  const glm::dvec3 c = mesh.GetPosition(cell.Vertices[3]) - origin;
   return glm::dot(glm::cross(a, b), c);
 }
 
@@ -196,13 +196,13 @@ void TetrahedralMesh::NumberVertices(const TetrahedraView& input)
   {
     this->Radius = std::max(this->Radius, glm::length(PointAt(input, p) - this->Center));
   }
-  const double scale = this->Radius > 0.0 ? 1.0 / this->Radius : 0.0;
+  const double scale = this->Radius > 0.0 ? 1.0 / PositionUnit / this->Radius : 0.0;
   this->SourcePoints.reserve(points.size());
   this->Positions.reserve(points.size());
   for (const std::int64_t i : SortedOrder(codes))
   {
     this->SourcePoints.push_back(points[i]);
-    this->Positions.emplace_back((PointAt(input, points[i]) - this->Center) * scale);
+    this->Positions.emplace_back(glm::round((PointAt(input, points[i]) - this->Center) * scale));
   }
 }
 
@@ -224,7 +224,7 @@ void TetrahedralMesh::NumberCells(const TetrahedraView& input)
     for (int k = 0; k < 4; ++k)
     {
       const std::int64_t point = input.Cells[4 * this->SourceCells[i] + k];
-      centroid += 0.25 * glm::dvec3(this->Positions[vertexOfPoint[point]]);
+      centroid += 0.25 * this->GetPosition(vertexOfPoint[point]);
     }
     codes[i] = curve.Code(centroid);
   }
@@ -300,7 +300,7 @@ void TetrahedralMesh::OrientCells()
     for (std::size_t next = 0; next < component.size(); ++next)
     {
       const std::int32_t cell = component[next];
-      volume += this->Orientation[cell] * SixfoldVolume(this->Cells[cell], this->Positions);
+      volume += this->Orientation[cell] * SixfoldVolume(this->Cells[cell], *this);
       for (int face = 0; face < 4; ++face)
       {
         const std::int32_t link = this->Cells[cell].Links[face];

@@ -76,6 +76,8 @@ class TetrahedralMesh
 public:
   /** Largest number of cells: a link stores 4 * cell + face in 31 bits. */
   static constexpr std::int64_t MaximumNumberOfCells = std::int64_t{ 1 } << 29;
+  /** Positions are rounded once, to fixed point of this unit: within 2^-31 of the radius. */
+  static constexpr double PositionUnit = 1.0 / (std::int64_t{ 1 } << 30);
   /** The link of a face without a neighbour. */
   static constexpr std::int32_t NoNeighbor = -1;
 
@@ -97,8 +99,13 @@ public:
   };
 
   const std::vector<Cell>& GetCells() const { return this->Cells; }
-  /** Vertex positions relative to GetCenter() in units of GetRadius(), rounded once to float. */
-  const std::vector<glm::vec3>& GetPositions() const { return this->Positions; }
+  /** Vertex positions relative to GetCenter(), in units of GetRadius() * PositionUnit. */
+  const std::vector<glm::ivec3>& GetFixedPositions() const { return this->Positions; }
+  /** Vertex position relative to GetCenter(), in units of GetRadius(). */
+  glm::dvec3 GetPosition(std::int64_t vertex) const
+  {
+    return PositionUnit * glm::dvec3(this->Positions[vertex]);
+  }
   /** Input point of each vertex. */
   const std::vector<std::int64_t>& GetSourcePoints() const { return this->SourcePoints; }
   /** Input cell of each cell. */
@@ -123,7 +130,7 @@ private:
   void CutLink(std::int32_t cell, int face);
 
   std::vector<Cell> Cells;
-  std::vector<glm::vec3> Positions;
+  std::vector<glm::ivec3> Positions;
   std::vector<std::int64_t> SourcePoints;
   std::vector<std::int64_t> SourceCells;
   std::vector<BoundaryFace> Boundary;

@@ -25,9 +25,9 @@ double EnclosedVolume(const TetrahedralMesh& mesh)
   double volume = 0.0;
   for (const BoundaryFace& face : mesh.GetBoundary())
   {
-    const glm::dvec3 a(mesh.GetPositions()[face.Vertices[0]]);
-    const glm::dvec3 b(mesh.GetPositions()[face.Vertices[1]]);
-    const glm::dvec3 c(mesh.GetPositions()[face.Vertices[2]]);
+    const glm::dvec3 a = mesh.GetPosition(face.Vertices[0]);
+    const glm::dvec3 b = mesh.GetPosition(face.Vertices[1]);
+    const glm::dvec3 c = mesh.GetPosition(face.Vertices[2]);
     volume += face.Outward * glm::dot(a, glm::cross(b, c)) / 6.0;
   }
   return volume;
@@ -128,7 +128,7 @@ TEST(TetrahedralMesh, EmptyAndRebuilt)
   EXPECT_EQ(mesh.GetBoundary().size(), 4u);
   EXPECT_EQ(mesh.Build(TetrahedraView()), MeshStatus::Empty);
   EXPECT_TRUE(mesh.GetBoundary().empty());
-  EXPECT_TRUE(mesh.GetPositions().empty());
+  EXPECT_TRUE(mesh.GetFixedPositions().empty());
 }
 
 TEST(TetrahedralMesh, RefusesMoreThanItsIndicesHold)
@@ -176,7 +176,7 @@ TEST(BoundaryTree, HoldsEveryFaceOnceAndInItsBoxes)
       for (const std::int32_t v : tree.GetFaces()[nodes[leaf].Face].Vertices)
       {
         const glm::dvec3 offset =
-          glm::abs(glm::dvec3(mesh.GetPositions()[v]) - glm::dvec3(nodes[n].Center));
+          glm::abs(glm::dvec3(glm::vec3(mesh.GetPosition(v))) - glm::dvec3(nodes[n].Center));
         EXPECT_TRUE(offset.x <= nodes[n].Half.x && offset.y <= nodes[n].Half.y &&
           offset.z <= nodes[n].Half.z);
       }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef RayStatistics_h
-#define RayStatistics_h
+#ifndef meniscus_Volume_RayStatistics_h
+#define meniscus_Volume_RayStatistics_h
 
 #include <cstdint>
 

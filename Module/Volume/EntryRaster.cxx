@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/EntryRaster.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace meniscus
+{
+namespace
+{
+
+/**
+ * By what rounding to the grid can change an edge's area: half a unit in each of four numbers, each
+ * the factor of another of at most 2^30 + 2, and the double arithmetic, much less.
+ */
+constexpr double Margin = 4294967296.0; // 2^32
+
+/** Whether the ray is left of the edge pq: RayWalk's rule for exact coordinates. */
+bool TurnsLeft(const glm::dvec2& p, const glm::dvec2& q, bool ascending, double& area)
+{
+  const std::int64_t exact =
+    std::int64_t(p.x) * std::int64_t(q.y) - std::int64_t(p.y) * std::int64_t(q.x);
+  area = static_cast<double>(exact);
+  if (exact != 0)
+  {
+    return exact > 0;
+  }
+  if (p.y != q.y)
+  {
+    return q.y < p.y;
+  }
+  return p.x != q.x ? q.x > p.x : ascending;
+}
+
+glm::dvec3 Coefficients(const PixelRays::AffineRow& row, const glm::dvec4& position)
+{
+  return { glm::dot(row.Base, position), glm::dot(row.PerColumn, position),
+    glm::dot(row.PerRow, position) };
+}
+
+/** The affine function u_p v_q - v_p u_q of the pixel, whose second-order terms vanish. */
+glm::dvec3 EdgeFunction(const glm::dvec3& up, const glm::dvec3& vp, const glm::dvec3& uq,
+  const glm::dvec3& vq)
+{
+  return { up[0] * vq[0] - vp[0] * uq[0],
+    up[0] * vq[1] + up[1] * vq[0] - vp[0] * uq[1] - vp[1] * uq[0],
+    up[0] * vq[2] + up[2] * vq[0] - vp[0] * uq[2] - vp[2] * uq[0] };
+}
+
+/** Pixels of a row, from a first one on. */
+struct PixelSpan
+{
+  int First;
+  int Last; // exclusive
+};
+
+/** The part of `count` pixels from `first` on where no edge is below -Margin, or a little more. */
+PixelSpan SpanOf(const glm::dvec3 (&edges)[3], const glm::dvec2& first, int count)
+{
+  double begin = 0.0;
+  double end = count;
+  for (const glm::dvec3& edge : edges)
+  {
+    const double excess = edge[0] + first.x * edge[1] + first.y * edge[2] + Margin;
+    if (edge[1] != 0.0)
+    {
+      const double root = -excess / edge[1];
+      begin = edge[1] > 0.0 ? std::max(begin, root - 1.0) : begin;
+      end = edge[1] < 0.0 ? std::min(end, root + 2.0) : end;
+    }
+    else if (excess < 0.0)
+    {
+      return { 0, 0 };
+    }
+  }
+  return begin < end ? PixelSpan{ static_cast<int>(begin), static_cast<int>(end) }
+                     : PixelSpan{ 0, 0 };
+}
+
+}
+
+/** A face, its vertices counter-clockwise about the rays that enter by it. */
+struct EntryRaster::SeenFace
+{
+  std::int32_t Ids[3];
+  SeenVertex Vertices[3];
+  /** Of edges 01, 12, 20. */
+  glm::dvec3 Edges[3];
+};
+
+//------------------------------------------------------------------------------
+EntryRaster::SeenVertex EntryRaster::See(std::int32_t vertex) const
+{
+  const glm::dvec4 position(glm::dvec3(this->Mesh->GetFixedPositions()[vertex]), 1.0);
+  return { Coefficients(this->Rays.GetU(), position), Coefficients(this->Rays.GetV(), position),
+    glm::dot(this->Rays.GetDepth(), position) };
+}
+
+//------------------------------------------------------------------------------
+EntryRaster::SeenFace EntryRaster::See(const BoundaryFace& face) const
+{
+  const bool counterClockwise = face.Outward * this->Rays.GetFrame().Handedness > 0;
+  SeenFace seen;
+  seen.Ids[0] = face.Vertices[counterClockwise ? 0 : 1];
+  seen.Ids[1] = face.Vertices[counterClockwise ? 1 : 0];
+  seen.Ids[2] = face.Vertices[2];
+  for (int i = 0; i < 3; ++i)
+  {
+    seen.Vertices[i] = this->See(seen.Ids[i]);
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    const SeenVertex& p = seen.Vertices[i];
+    const SeenVertex& q = seen.Vertices[(i + 1) % 3];
+    seen.Edges[i] = EdgeFunction(p.U, p.V, q.U, q.V);
+  }
+  return seen;
+}
+
+//------------------------------------------------------------------------------
+/** Where the face may be entered: empty if it can be told to face away. */
+EntryRaster::PixelBox EntryRaster::BoxOf(const SeenFace& face) const
+{
+  const PixelBox whole{ 0, this->Rays.GetWidth(), 0, this->Rays.GetHeight() };
+  glm::dvec2 lower(1.0e30);
+  glm::dvec2 upper(-1.0e30);
+  bool facesAway = true;
+  double firstSide = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    // The pixel whose ray passes through the vertex: u = v = 0.
+    const SeenVertex& vertex = face.Vertices[k];
+    const double side = vertex.U[1] * vertex.V[2] - vertex.U[2] * vertex.V[1];
+    firstSide = k == 0 ? side : firstSide;
+    const glm::dvec2 pixel = glm::dvec2(vertex.U[2] * vertex.V[0] - vertex.U[0] * vertex.V[2],
+                               vertex.U[0] * vertex.V[1] - vertex.U[1] * vertex.V[0]) /
+      side;
+    if (!(side * firstSide > 0.0) || !(std::abs(pixel.x) < 1.0e9) || !(std::abs(pixel.y) < 1.0e9))
+    {
+      return whole; // about the plane of the eye, where the face is seen without bounds
+    }
+    lower = glm::dvec2(std::min(lower.x, pixel.x), std::min(lower.y, pixel.y));
+    upper = glm::dvec2(std::max(upper.x, pixel.x), std::max(upper.y, pixel.y));
+    const glm::dvec3& opposite = face.Edges[(k + 1) % 3];
+    // Within a face that turns the other way, one edge is below a third of its value at the vertex
+    // opposite.
+    facesAway = facesAway &&
+      opposite[0] + pixel.x * opposite[1] + pixel.y * opposite[2] < -3.0 * Margin;
+  }
+  if (facesAway)
+  {
+    return { 0, 0, 0, 0 };
+  }
+  const auto clamped = [](double value, int size)
+  { return static_cast<int>(std::min(std::max(value, 0.0), static_cast<double>(size))); };
+  const glm::dvec2 center(0.5 * whole.Right, 0.5 * whole.Top);
+  // Pixel p has its centre at p + 0.5; one more on each side for rounding.
+  return { clamped(lower.x + center.x - 1.5, whole.Right),
+    clamped(upper.x + center.x + 1.5, whole.Right), clamped(lower.y + center.y - 1.5, whole.Top),
+    clamped(upper.y + center.y + 1.5, whole.Top) };
+}
+
+//------------------------------------------------------------------------------
+void EntryRaster::Build(const TetrahedralMesh& mesh, const std::vector<BoundaryFace>& faces,
+  const PixelRays& rays, InstructionSet set)
+{
+  this->Mesh = &mesh;
+  this->Faces = &faces;
+  this->Rays = rays;
+  this->Fused = set != InstructionSet::Portable;
+  this->Columns = (this->Rays.GetWidth() + TileSize - 1) / TileSize;
+  this->Rows = (this->Rays.GetHeight() + TileSize - 1) / TileSize;
+
+  std::vector<PixelBox> boxes(faces.size());
+  this->TileBegin.assign(this->GetNumberOfTiles() + 1, 0);
+  const auto forTilesOf = [this](const PixelBox& box, const auto& body)
+  {
+    if (box.Left >= box.Right || box.Bottom >= box.Top)
+    {
+      return;
+    }
+    for (int row = box.Bottom / TileSize; row <= (box.Top - 1) / TileSize; ++row)
+    {
+      for (int column = box.Left / TileSize; column <= (box.Right - 1) / TileSize; ++column)
+      {
+        body(row * this->Columns + column);
+      }
+    }
+  };
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    boxes[f] = this->BoxOf(this->See(faces[f]));
+    forTilesOf(boxes[f], [this](int tile) { ++this->TileBegin[tile + 1]; });
+  }
+  for (int tile = 0; tile < this->GetNumberOfTiles(); ++tile)
+  {
+    this->TileBegin[tile + 1] += this->TileBegin[tile];
+  }
+  this->FaceOfSlot.resize(this->TileBegin.back());
+  std::vector<std::int32_t> next(this->TileBegin.begin(), this->TileBegin.end() - 1);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    forTilesOf(boxes[f],
+      [&](int tile) { this->FaceOfSlot[next[tile]++] = static_cast<std::int32_t>(f); });
+  }
+}
+
+//------------------------------------------------------------------------------
+EntryRaster::PixelBox EntryRaster::BoxOfTile(int tile) const
+{
+  const int left = tile % this->Columns * TileSize;
+  const int bottom = tile / this->Columns * TileSize;
+  return { left, std::min(left + TileSize, this->Rays.GetWidth()), bottom,
+    std::min(bottom + TileSize, this->Rays.GetHeight()) };
+}
+
+//------------------------------------------------------------------------------
+double EntryRaster::OnGrid(const glm::dvec4& row, const glm::ivec3& position) const
+{
+  // Operation by operation what Simd::Fma does in PacketWalk::Transform.
+  const auto fma = [this](double a, double b, double c)
+  { return this->Fused ? std::fma(a, b, c) : a * b + c; };
+  return std::nearbyint(
+    fma(position.x, row.x, fma(position.y, row.y, fma(position.z, row.z, row.w))));
+}
+
+//------------------------------------------------------------------------------
+bool EntryRaster::EntersExactly(
+  const SeenFace& face, const glm::dvec2& pixel, double (&areas)[3]) const
+{
+  const glm::dvec4 u = this->Rays.GetU().At(pixel.x, pixel.y);
+  const glm::dvec4 v = this->Rays.GetV().At(pixel.x, pixel.y);
+  if (!(std::abs(u.w) <= PixelRays::LargestOffset) || !(std::abs(v.w) <= PixelRays::LargestOffset))
+  {
+    return false; // too far away to meet the mesh
+  }
+  glm::dvec2 grid[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    const glm::ivec3& position = this->Mesh->GetFixedPositions()[face.Ids[k]];
+    grid[k] = { this->OnGrid(u, position), this->OnGrid(v, position) };
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    const int next = (k + 1) % 3;
+    if (!TurnsLeft(grid[k], grid[next], face.Ids[k] < face.Ids[next], areas[k]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/** Where the ray meets the face; one without projected area is met at its first vertex. */
+double EntryRaster::DepthAt(const SeenFace& face, const double (&areas)[3])
+{
+  const double total = areas[0] + areas[1] + areas[2];
+  return total > 0.0 ? (areas[1] * face.Vertices[0].Depth + areas[2] * face.Vertices[1].Depth +
+                         areas[0] * face.Vertices[2].Depth) /
+      total
+                     : face.Vertices[0].Depth;
+}
+
+//------------------------------------------------------------------------------
+void EntryRaster::CollectFace(
+  const BoundaryFace& boundary, const PixelBox& tile, std::vector<Hit>& hits) const
+{
+  const SeenFace face = this->See(boundary);
+  const PixelBox box = this->BoxOf(face);
+  for (int row = std::max(box.Bottom, tile.Bottom); row < std::min(box.Top, tile.Top); ++row)
+  {
+    const int left = std::max(box.Left, tile.Left);
+    const int right = std::min(box.Right, tile.Right);
+    const PixelSpan span = SpanOf(face.Edges, this->Rays.FromCenter(left, row), right - left);
+    for (int column = left + span.First; column < left + span.Last; ++column)
+    {
+      const glm::dvec2 pixel = this->Rays.FromCenter(column, row);
+      double areas[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        areas[k] = face.Edges[k][0] + pixel.x * face.Edges[k][1] + pixel.y * face.Edges[k][2];
+      }
+      const double least = std::min(areas[0], std::min(areas[1], areas[2]));
+      if (!(least > Margin) && (least < -Margin || !this->EntersExactly(face, pixel, areas)))
+      {
+        continue;
+      }
+      hits.push_back({ (row - tile.Bottom) * TileSize + column - tile.Left,
+        { { face.Ids[0], face.Ids[1], face.Ids[2] }, boundary.CellFace,
+          static_cast<float>(DepthAt(face, areas)) } });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void EntryRaster::CollectHits(int tile, std::vector<Hit>& hits) const
+{
+  hits.clear();
+  const PixelBox box = this->BoxOfTile(tile);
+  for (std::int32_t slot = this->TileBegin[tile]; slot < this->TileBegin[tile + 1]; ++slot)
+  {
+    this->CollectFace((*this->Faces)[this->FaceOfSlot[slot]], box, hits);
+  }
+  std::sort(hits.begin(), hits.end(),
+    [](const Hit& a, const Hit& b)
+    {
+      return std::tie(a.Pixel, a.Entry.Depth, a.Entry.CellFace) <
+        std::tie(b.Pixel, b.Entry.Depth, b.Entry.CellFace);
+    });
+}
+
+}

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Rays through a tetrahedral mesh in SIMD packets, one ray per lane.
+ *
+ * Plain data only: the caster is compiled once per instruction set, and what such a file shares
+ * with others must not bring inline functions that the linker could merge.
+ */
+#ifndef meniscus_Volume_Packet_Packet_h
+#define meniscus_Volume_Packet_Packet_h
+
+#include <cstdint>
+
+namespace meniscus
+{
+
+/** A vertex about which rays pass: 16 bytes. */
+struct PacketVertex
+{
+  /** Fixed point, TetrahedralMesh::PositionUnit. */
+  std::int32_t Position[3];
+  /** Normalised; NaN makes the vertex's cells transparent. */
+  float Scalar;
+};
+
+/** A TransferFunctionInterval in three groups of four. */
+struct PacketInterval
+{
+  float Lower;
+  float Upper;
+  float Attenuation;
+  float AttenuationSlope;
+  float Color[4];
+  float ColorSlope[4];
+};
+
+/**
+ * A ray and the frame about it. With p the fixed-point position of a vertex, a row's value is
+ * row[0] p.x + row[1] p.y + row[2] p.z + row[3].
+ */
+struct PacketRay
+{
+  /** Where the ray is the origin, in grid units: |u|, |v| < 2^31 for all vertices of the mesh. */
+  double U[4];
+  double V[4];
+  /** Along the ray, ascending; float holds the differences within the mesh. */
+  double Depth[4];
+  /** World length of a unit of depth. */
+  float LengthPerDepth;
+  /** Where the ray begins and ends to count. */
+  float StartDepth;
+  float EndDepth;
+  /** Its entries: [FirstEntry, EndEntry) of the job's, ascending depth. */
+  std::int32_t FirstEntry;
+  std::int32_t EndEntry;
+};
+
+/** A boundary face by which a ray enters the mesh. */
+struct PacketEntry
+{
+  /** Counter-clockwise about the ray. */
+  std::int32_t Vertices[3];
+  /** Cell * 4 + index of the cell's vertex opposite to the face. */
+  std::int32_t CellFace;
+  float Depth;
+};
+
+struct PacketResult
+{
+  /** Premultiplied RGBA. */
+  float Color[4];
+  /** Cells crossed. */
+  std::int32_t Steps;
+  /** 1 if a walk did not end on the boundary: never, if arithmetic is IEEE's. */
+  std::int32_t Lost;
+};
+
+struct PacketJob
+{
+  const PacketVertex* Vertices;
+  /** Per cell, 4 ascending vertices, then 4 links (TetrahedralMesh::Cell). */
+  const std::int32_t* Cells;
+  std::int64_t NumberOfCells;
+  const PacketInterval* Intervals;
+  std::int32_t NumberOfIntervals;
+  /** Rays end when their transmittance is not above it. */
+  float TerminationTransmittance;
+  const PacketRay* Rays;
+  std::int32_t NumberOfRays;
+  const PacketEntry* Entries;
+  /** One per ray. */
+  PacketResult* Results;
+};
+
+enum class InstructionSet
+{
+  Portable,
+  AVX2,
+  AVX512
+};
+
+/** The widest instruction set that this processor and this build have. */
+InstructionSet BestInstructionSet();
+
+/** Whether this processor and this build have it. */
+bool HasInstructionSet(InstructionSet set);
+
+/** "AVX-512", "AVX2" or "portable". */
+const char* NameOf(InstructionSet set);
+
+/** Casts all rays of the job on the calling thread. @pre HasInstructionSet(set) */
+void CastPackets(const PacketJob& job, InstructionSet set);
+
+}
+
+#endif

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Packet/PacketSets.h"
+#include "Volume/Packet/PacketWalk.h"
+#include "Volume/Packet/SimdAVX512.h"
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+void CastPacketsAVX512(const PacketJob& job)
+{
+  PacketWalk<SimdAVX512>(job).Run();
+}
+
+}

@@ -1,0 +1,363 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Packet_PacketIntegral_h
+#define meniscus_Volume_Packet_PacketIntegral_h
+
+#include "Volume/Packet/Packet.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace meniscus
+{
+
+/**
+ * The density-emitter integral along rays, front to back, over segments whose scalar is linear:
+ * dC = attenuation * color * T ds, dT = -attenuation * T ds. One ray per lane.
+ *
+ * A segment is split at the transfer function's points and into parts of optical depth <= 1. For a
+ * part with linear attenuation and colour, K. Moreland and E. Angel, "A Fast High Accuracy Volume
+ * Renderer for Unstructured Data" (2004), give cf - cb zeta + (cb - cf) psi; it is written
+ * cf (1 - psi) + cb (psi - zeta), free of cancellation, with psi by a polynomial (Coefficients).
+ */
+template <class Simd>
+class PacketIntegral
+{
+public:
+  using Float = typename Simd::Float;
+  using Int = typename Simd::Int;
+  using Mask = typename Simd::Mask;
+
+  PacketIntegral(const PacketInterval* intervals, std::int32_t numberOfIntervals, float termination);
+
+  /** Nothing passed yet. */
+  void Reset(Mask lanes)
+  {
+    for (Float& channel : this->Color)
+    {
+      channel = Simd::Select(lanes, Simd::Splat(0.0f), channel);
+    }
+    this->Transmittance = Simd::Select(lanes, Simd::Splat(1.0f), this->Transmittance);
+  }
+
+  /**
+   * Gives lanes a segment each; returns those that have one to integrate. A segment with a scalar
+   * that is not finite, or of no length, is none.
+   */
+  Mask Begin(Mask lanes, Float from, Float to, Float length)
+  {
+    // Normalised scalars are in [-1, 1]: a larger change is that of a vertex without a scalar.
+    const Mask valid = lanes & (Simd::Abs(to - from) < Simd::Splat(4.0f)) &
+      (length > Simd::Splat(0.0f));
+    this->From = Simd::Select(valid, from, this->From);
+    this->To = Simd::Select(valid, to, this->To);
+    this->Remaining = Simd::Select(valid, length, this->Remaining);
+    return valid;
+  }
+
+  /** Integrates one part of the segments of `lanes`; returns those that have more. */
+  Mask Advance(Mask lanes);
+
+  /** Where the ray has not been terminated. */
+  Mask IsOn() const { return this->Transmittance > this->Termination; }
+  /** Premultiplied. */
+  Float GetColor(int channel) const { return this->Color[channel]; }
+  Float GetTransmittance() const { return this->Transmittance; }
+
+private:
+  /** Of the intervals that lanes are in: the members of PacketInterval. */
+  struct Fields
+  {
+    Float Lower;
+    Float Upper;
+    Float Attenuation;
+    Float AttenuationSlope;
+    Float Color[4];
+    Float ColorSlope[4];
+  };
+  static constexpr int NumberOfFields = sizeof(PacketInterval) / sizeof(float);
+  static constexpr int LargestTable = 2 * Simd::LookupBlock;
+  /**
+   * Polynomials of the optical depth t of a part and the density a at its front, lowest power
+   * first: 1 - exp(-t), divided by t; and, by power of a, 1 - psi, the mean over the part of what
+   * has been absorbed up to a place: the integral over [0, 1] of 1 - exp(-(a x + (t - a) x^2)).
+   * Fitted for all densities that are nowhere negative. Thin: t <= 1/8, to 3e-8 and 4e-8. Thick:
+   * t <= 1, to 2e-9 and 3e-7.
+   */
+  struct Coefficients
+  {
+    Float ThinAbsorbed[4];
+    Float ThinMean[4][3];
+    Float ThickAbsorbed[7];
+    Float ThickMean[6][5];
+  };
+
+  template <int Blocks>
+  void Lookup(Fields& fields) const;
+  void Fetch(Fields& fields) const;
+  void FindIntervals(Mask lanes);
+  template <std::size_t Size>
+  static Float Polynomial(Float x, const Float (&coefficients)[Size], int terms = Size);
+  void Absorb(Float depth, Float density, Float& gone, Float& mean) const;
+  void SetCoefficients();
+
+  const PacketInterval* Intervals;
+  std::int32_t NumberOfIntervals;
+  Float Termination;
+  /** Interval of each lane. */
+  Int At;
+  Float From;
+  Float To;
+  /** Length still to integrate; 0 where there is none. */
+  Float Remaining;
+  Float Color[3];
+  Float Transmittance;
+  Coefficients Fit;
+  /** The intervals by field, where they fit. */
+  float Table[NumberOfFields][LargestTable];
+};
+
+//------------------------------------------------------------------------------
+template <class Simd>
+PacketIntegral<Simd>::PacketIntegral(
+  const PacketInterval* intervals, std::int32_t numberOfIntervals, float termination)
+  : Intervals(intervals)
+  , NumberOfIntervals(numberOfIntervals)
+  , Termination(Simd::Splat(termination))
+  , At(Simd::Splat(0))
+  , From(Simd::Splat(0.0f))
+  , To(Simd::Splat(0.0f))
+  , Remaining(Simd::Splat(0.0f))
+  , Transmittance(Simd::Splat(1.0f))
+{
+  for (Float& channel : this->Color)
+  {
+    channel = Simd::Splat(0.0f);
+  }
+  this->SetCoefficients();
+  const float* values = &intervals->Lower;
+  for (int field = 0; field < NumberOfFields; ++field)
+  {
+    for (int i = 0; i < LargestTable; ++i)
+    {
+      this->Table[field][i] = i < numberOfIntervals ? values[i * NumberOfFields + field] : 0.0f;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+void PacketIntegral<Simd>::SetCoefficients()
+{
+  static const float thinAbsorbed[4] = { 0.999999972267f, -0.499995547289f, 0.166505568729f,
+    -0.039642346780f };
+  static const float thinMean[4][3] = { { 0.3333348310f, -0.0999958838f, 0.0231317024f },
+    { 0.1666630304f, -0.0499135420f, 0.0111462326f }, { -0.0166403724f, 0.0044698893f, 0.0f },
+    { 0.0011184650f, 0.0f, 0.0f } };
+  static const float thickAbsorbed[7] = { 0.99999999793357f, -0.49999979725212f,
+    0.16666340311502f, -0.04164684931339f, 0.00827550484353f, -0.00130077495785f,
+    0.00012907631016f };
+  static const float thickMean[6][5] = {
+    { 0.3333333333f, -0.0999792881f, 0.0236830118f, -0.0043518064f, 0.0004903571f },
+    { 0.1666666667f, -0.0500173281f, 0.0119526605f, -0.0023320093f, 0.0003181505f },
+    { -0.0166512718f, 0.0047084626f, -0.0008994605f, 0.0000935654f, 0.0f },
+    { 0.0011768438f, -0.0003058993f, 0.0000410537f, 0.0f, 0.0f },
+    { -0.0000596959f, 0.0000104829f, 0.0f, 0.0f, 0.0f }, { 0.0000017222f, 0.0f, 0.0f, 0.0f, 0.0f }
+  };
+  const auto splat = [](const float* from, Float* to, int count)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      to[i] = Simd::Splat(from[i]);
+    }
+  };
+  splat(thinAbsorbed, this->Fit.ThinAbsorbed, 4);
+  splat(thinMean[0], this->Fit.ThinMean[0], 12);
+  splat(thickAbsorbed, this->Fit.ThickAbsorbed, 7);
+  splat(thickMean[0], this->Fit.ThickMean[0], 30);
+}
+
+//------------------------------------------------------------------------------
+/** Horner's scheme with the first `terms` coefficients. */
+template <class Simd>
+template <std::size_t Size>
+inline auto PacketIntegral<Simd>::Polynomial(
+  Float x, const Float (&coefficients)[Size], int terms) -> Float
+{
+  Float sum = coefficients[terms - 1];
+  for (int i = terms - 2; i >= 0; --i)
+  {
+    sum = Simd::Fma(x, sum, coefficients[i]);
+  }
+  return sum;
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+inline void PacketIntegral<Simd>::Absorb(Float depth, Float density, Float& gone, Float& mean) const
+{
+  const auto& fit = this->Fit;
+  if (Simd::Bits(depth > Simd::Splat(0.125f)) == 0)
+  {
+    gone = depth * Polynomial(depth, fit.ThinAbsorbed);
+    const Float p1 = Polynomial(depth, fit.ThinMean[1]);
+    const Float p2 = Polynomial(depth, fit.ThinMean[2], 2);
+    const Float byDensity = Simd::Fma(density, Simd::Fma(density, fit.ThinMean[3][0], p2), p1);
+    mean = Simd::Fma(density, byDensity, depth * Polynomial(depth, fit.ThinMean[0]));
+    return;
+  }
+  gone = depth * Polynomial(depth, fit.ThickAbsorbed);
+  Float byDensity = fit.ThickMean[5][0];
+  byDensity = Simd::Fma(density, byDensity, Polynomial(depth, fit.ThickMean[4], 2));
+  byDensity = Simd::Fma(density, byDensity, Polynomial(depth, fit.ThickMean[3], 3));
+  byDensity = Simd::Fma(density, byDensity, Polynomial(depth, fit.ThickMean[2], 4));
+  byDensity = Simd::Fma(density, byDensity, Polynomial(depth, fit.ThickMean[1]));
+  mean = Simd::Fma(density, byDensity, depth * Polynomial(depth, fit.ThickMean[0]));
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+void PacketIntegral<Simd>::FindIntervals(Mask lanes)
+{
+  float scalars[Simd::Width];
+  std::int32_t at[Simd::Width];
+  Simd::Store(scalars, this->From);
+  Simd::Store(at, this->At);
+  const unsigned int bits = Simd::Bits(lanes);
+  for (int lane = 0; lane < Simd::Width; ++lane)
+  {
+    if (bits >> lane & 1u)
+    {
+      // The first interval whose upper end is not below the scalar.
+      std::int32_t first = 0;
+      std::int32_t last = this->NumberOfIntervals - 1;
+      while (first < last)
+      {
+        const std::int32_t middle = (first + last) / 2;
+        const bool below = this->Intervals[middle].Upper < scalars[lane];
+        first = below ? middle + 1 : first;
+        last = below ? last : middle;
+      }
+      at[lane] = first;
+    }
+  }
+  this->At = Simd::Load(at);
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+template <int Blocks>
+inline void PacketIntegral<Simd>::Lookup(Fields& fields) const
+{
+  const auto& table = this->Table;
+  fields.Lower = Simd::template Lookup<Blocks>(table[0], this->At);
+  fields.Upper = Simd::template Lookup<Blocks>(table[1], this->At);
+  fields.Attenuation = Simd::template Lookup<Blocks>(table[2], this->At);
+  fields.AttenuationSlope = Simd::template Lookup<Blocks>(table[3], this->At);
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    fields.Color[channel] = Simd::template Lookup<Blocks>(table[4 + channel], this->At);
+    fields.ColorSlope[channel] = Simd::template Lookup<Blocks>(table[8 + channel], this->At);
+  }
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+inline void PacketIntegral<Simd>::Fetch(Fields& fields) const
+{
+  if (this->NumberOfIntervals <= Simd::LookupBlock)
+  {
+    this->template Lookup<1>(fields);
+    return;
+  }
+  if (this->NumberOfIntervals <= LargestTable)
+  {
+    this->template Lookup<2>(fields);
+    return;
+  }
+  const float* first = &this->Intervals->Lower;
+  const Int offset = Simd::Times12(this->At);
+  Simd::GatherQuads(
+    first, offset, fields.Lower, fields.Upper, fields.Attenuation, fields.AttenuationSlope);
+  Simd::GatherQuads(
+    first + 4, offset, fields.Color[0], fields.Color[1], fields.Color[2], fields.Color[3]);
+  Simd::GatherQuads(first + 8, offset, fields.ColorSlope[0], fields.ColorSlope[1],
+    fields.ColorSlope[2], fields.ColorSlope[3]);
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
+{
+  const Float zero = Simd::Splat(0.0f);
+  const Float one = Simd::Splat(1.0f);
+  Fields fields;
+  this->Fetch(fields);
+  const Mask outside = lanes & ((this->From < fields.Lower) | (this->From > fields.Upper));
+  if (Simd::Bits(outside) != 0)
+  {
+    this->FindIntervals(outside);
+    this->Fetch(fields);
+  }
+
+  // The part of the segment that is in the interval. Without a change of scalar the share is 0 / 0,
+  // which Min() makes 1; lanes without a segment get something finite.
+  Mask upward = this->To > fields.Upper;
+  Mask downward = this->To < fields.Lower;
+  Float to = Simd::Min(Simd::Max(this->To, fields.Lower), fields.Upper);
+  const Float share = (to - this->From) / (this->To - this->From);
+  Float length = Simd::Max(Simd::Min(share, one), zero) * this->Remaining;
+  const Float offset = this->From - fields.Lower;
+  const auto densityAt = [&](Float fromLower)
+  {
+    return length *
+      Simd::Max(Simd::Fma(fromLower, fields.AttenuationSlope, fields.Attenuation), zero);
+  };
+  Float density = densityAt(offset);
+  Float densityTo = densityAt(to - fields.Lower);
+  Float depth = Simd::Splat(0.5f) * (density + densityTo);
+  Mask thick = depth > one;
+  if (Simd::Bits(thick) != 0)
+  {
+    // part (density + part (densityTo - density) / 2) = 1, the root without cancellation. Beyond
+    // a depth of 1e30 nothing can be told apart; the bound keeps infinities out.
+    const Float largest = Simd::Splat(1.0e+30f);
+    density = Simd::Min(density, largest);
+    densityTo = Simd::Min(densityTo, largest);
+    const Float root = Simd::Sqrt(
+      Simd::Max(Simd::Fma(density, density, (densityTo - density) + (densityTo - density)), zero));
+    const Float part =
+      Simd::Select(thick, Simd::Min(Simd::Splat(2.0f) / (density + root), one), one);
+    to = Simd::Select(thick, Simd::Fma(part, to - this->From, this->From), to);
+    length = length * part;
+    density = density * part;
+    depth = Simd::Min(depth, one);
+    upward = Simd::AndNot(upward, thick);
+    downward = Simd::AndNot(downward, thick);
+  }
+
+  Float gone;
+  Float mean;
+  this->Absorb(depth, density, gone, mean);
+  const Float weight = this->Transmittance * gone;
+  const Float weightOfChange =
+    this->Transmittance * Simd::Max(gone - mean, zero) * (to - this->From);
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    const Float slope = fields.ColorSlope[channel];
+    const Float color = Simd::Fma(offset, slope, fields.Color[channel]);
+    this->Color[channel] =
+      Simd::Fma(weightOfChange, slope, Simd::Fma(weight, color, this->Color[channel]));
+  }
+  this->Transmittance = this->Transmittance - weight;
+  const Mask more =
+    lanes & (upward | downward | thick) & (this->Transmittance > this->Termination);
+  this->Remaining = Simd::Select(more, this->Remaining - length, zero);
+  this->From = to;
+  this->At = Simd::Decrement(downward, Simd::Increment(upward, this->At));
+  return more;
+}
+
+}
+
+#endif

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Packet/PacketSets.h"
+#include "Volume/Packet/PacketWalk.h"
+#include "Volume/Packet/SimdPortable.h"
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+void CastPacketsPortable(const PacketJob& job)
+{
+  PacketWalk<SimdPortable>(job).Run();
+}
+
+}

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/TileCaster.h"
+
+#include <algorithm>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+std::vector<PacketVertex> PackVertices(
+  const TetrahedralMesh& mesh, const std::vector<float>& scalars)
+{
+  std::vector<PacketVertex> vertices(scalars.size());
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+  {
+    const glm::ivec3& position = mesh.GetFixedPositions()[v];
+    vertices[v] = { { position.x, position.y, position.z }, scalars[v] };
+  }
+  return vertices;
+}
+
+//------------------------------------------------------------------------------
+std::vector<PacketInterval> PackIntervals(const std::vector<TransferFunctionInterval>& intervals)
+{
+  std::vector<PacketInterval> packed;
+  packed.reserve(intervals.size());
+  for (const TransferFunctionInterval& interval : intervals)
+  {
+    const glm::vec3& color = interval.Color;
+    const glm::vec3& slope = interval.ColorSlope;
+    packed.push_back({ interval.Lower, interval.Upper, interval.Attenuation,
+      interval.AttenuationSlope, { color.r, color.g, color.b, 0.0f },
+      { slope.r, slope.g, slope.b, 0.0f } });
+  }
+  return packed;
+}
+
+//------------------------------------------------------------------------------
+TileCaster::TileCaster(const Scene& scene)
+  : Input(scene)
+{
+  const PixelRays rays(scene.Frame, scene.Width, scene.Height);
+  this->Raster.Build(*scene.Mesh, *scene.Boundary, rays, scene.Set);
+}
+
+//------------------------------------------------------------------------------
+/** One ray for each pixel with a hit. */
+void TileCaster::TakeHits(int tile, const float* opaqueDepth, Workspace& workspace) const
+{
+  constexpr float endless = 1.0e+30f;
+  const EntryRaster::PixelBox box = this->Raster.BoxOfTile(tile);
+  workspace.Entries.clear();
+  workspace.Rays.clear();
+  workspace.Pixels.clear();
+  std::int32_t lastPixel = -1;
+  for (const EntryRaster::Hit& hit : workspace.Hits)
+  {
+    if (hit.Pixel != lastPixel)
+    {
+      lastPixel = hit.Pixel;
+      const int column = box.Left + hit.Pixel % EntryRaster::TileSize;
+      const int row = box.Bottom + hit.Pixel / EntryRaster::TileSize;
+      const std::int64_t pixel = std::int64_t{ row } * this->Input.Width + column;
+      const float end = opaqueDepth
+        ? static_cast<float>(this->Input.Frame.DepthAt(2.0 * opaqueDepth[pixel] - 1.0))
+        : endless;
+      workspace.Pixels.push_back(pixel);
+      workspace.Rays.push_back(this->Raster.GetRays().RayOf(column, row, end));
+      workspace.Rays.back().FirstEntry = static_cast<std::int32_t>(workspace.Entries.size());
+    }
+    workspace.Entries.push_back(hit.Entry);
+    workspace.Rays.back().EndEntry = static_cast<std::int32_t>(workspace.Entries.size());
+  }
+}
+
+//------------------------------------------------------------------------------
+RayStatistics TileCaster::Cast(
+  int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
+{
+  this->Raster.CollectHits(tile, workspace.Hits);
+  this->TakeHits(tile, opaqueDepth, workspace);
+  RayStatistics sums;
+  if (workspace.Rays.empty())
+  {
+    return sums;
+  }
+  workspace.Results.resize(workspace.Rays.size());
+  const TetrahedralMesh& mesh = *this->Input.Mesh;
+  PacketJob job;
+  job.Vertices = this->Input.Tables->Vertices.data();
+  job.Cells = mesh.GetCells().front().Vertices.data();
+  job.NumberOfCells = mesh.GetNumberOfCells();
+  job.Intervals = this->Input.Tables->Intervals.data();
+  job.NumberOfIntervals = static_cast<std::int32_t>(this->Input.Tables->Intervals.size());
+  job.TerminationTransmittance = this->Input.TerminationTransmittance;
+  job.Rays = workspace.Rays.data();
+  job.NumberOfRays = static_cast<std::int32_t>(workspace.Rays.size());
+  job.Entries = workspace.Entries.data();
+  job.Results = workspace.Results.data();
+  CastPackets(job, this->Input.Set);
+  for (std::size_t i = 0; i < workspace.Results.size(); ++i)
+  {
+    const PacketResult& result = workspace.Results[i];
+    std::copy_n(result.Color, 4, image + 4 * workspace.Pixels[i]);
+    sums.Steps += result.Steps;
+    sums.Rays += result.Steps > 0 ? 1 : 0;
+    sums.Lost += result.Lost;
+  }
+  return sums;
+}
+
+}
