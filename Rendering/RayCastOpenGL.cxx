@@ -407,7 +407,12 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
   const RayFrame& rays = frame.Rays;
   program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
   program->SetUniformi("numberOfIntervals", static_cast<int>(this->Intervals.GetNumberOfRows()));
-  glm::mat3 viewToWorld(rays.ViewToWorld);
+  // Apart from its size, whose square may be beyond single precision.
+  const glm::dmat3& toWorld = rays.ViewToWorld;
+  const double unit =
+    std::max({ glm::length(toWorld[0]), glm::length(toWorld[1]), glm::length(toWorld[2]) });
+  glm::mat3 viewToWorld(toWorld / unit);
+  program->SetUniformf("viewToWorldUnit", static_cast<float>(unit));
   program->SetUniformMatrix3x3("viewToWorld", glm::value_ptr(viewToWorld));
   program->SetUniformf("nearDepth", static_cast<float>(rays.NearDepth));
   program->SetUniform2f("depthNumerator", glm::value_ptr(glm::vec2(rays.DepthNumerator)));
