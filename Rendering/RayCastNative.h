@@ -22,10 +22,7 @@ public:
 
   void UpdateVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
   void UpdateIntervals(const std::vector<TransferFunctionInterval>& intervals);
-  /** Marks what UpdateVertices() and UpdateIntervals() were given as changed. */
-  void InvalidateVertices() { this->Tables.Vertices.clear(); }
   void InvalidateIntervals() { this->Tables.Intervals.clear(); }
-  bool HasVertices() const { return !this->Tables.Vertices.empty(); }
   bool HasIntervals() const { return !this->Tables.Intervals.empty(); }
 
   /**

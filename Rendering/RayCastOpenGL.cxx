@@ -79,9 +79,15 @@ std::string RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
-bool RayCastOpenGL::HasMesh() const
+bool RayCastOpenGL::HasCells() const
 {
-  return this->Cells.IsFilled() && this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
+  return this->Cells.IsFilled();
+}
+
+//------------------------------------------------------------------------------
+bool RayCastOpenGL::HasBoundary() const
+{
+  return this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
 }
 
 //------------------------------------------------------------------------------
@@ -104,7 +110,17 @@ std::string RayCastOpenGL::Count(OpenGLTable& table, const std::string& error)
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const BoundaryTree& tree)
+std::string RayCastOpenGL::UploadCells(const TetrahedralMesh& mesh)
+{
+  static_assert(sizeof(TetrahedralMesh::Cell) == 8 * sizeof(std::int32_t), "8 integers per cell");
+  const auto* values = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
+  const std::string error = this->Cells.Upload(
+    this->Window, values, 8 * static_cast<std::size_t>(mesh.GetNumberOfCells()), 1, 8);
+  return this->Count(this->Cells, error);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadBoundary(const BoundaryTree& tree)
 {
   // A node's indices travel as floats, which are whole up to 2^24.
   const std::int64_t largestIndex =
@@ -112,16 +128,8 @@ std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const Boundar
   if (largestIndex > (std::int64_t{ 1 } << 24))
   {
     return "a mesh with " + std::to_string(tree.GetFaces().size()) +
-      " boundary faces exceeds the limit of 16777216";
+      " boundary faces exceeds the limit of 8388608";
   }
-  const auto* cellValues = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
-  const std::vector<std::int32_t> cells(cellValues, cellValues + 8 * mesh.GetNumberOfCells());
-  std::string error = this->Cells.Upload(this->Window, cells, 1, 8);
-  if (!this->Count(this->Cells, error).empty())
-  {
-    return error;
-  }
-
   std::vector<float> nodes;
   nodes.reserve(8 * tree.GetNodes().size());
   for (const auto& node : tree.GetNodes())
@@ -130,7 +138,7 @@ std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const Boundar
       { node.Center.x, node.Center.y, node.Center.z, static_cast<float>(node.Skip), node.Half.x,
         node.Half.y, node.Half.z, static_cast<float>(node.Face) });
   }
-  error = this->TreeNodes.Upload(this->Window, nodes, 4, 2);
+  std::string error = this->TreeNodes.Upload(this->Window, nodes.data(), nodes.size(), 4, 2);
   if (!this->Count(this->TreeNodes, error).empty())
   {
     return error;
@@ -143,7 +151,7 @@ std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const Boundar
     const auto& v = face.Vertices;
     faces.insert(faces.end(), { face.Outward > 0 ? v[0] : ~v[0], v[1], v[2], face.CellFace });
   }
-  error = this->TreeFaces.Upload(this->Window, faces, 4, 1);
+  error = this->TreeFaces.Upload(this->Window, faces.data(), faces.size(), 4, 1);
   return this->Count(this->TreeFaces, error);
 }
 
@@ -158,7 +166,7 @@ std::string RayCastOpenGL::UploadVertices(
     const glm::vec3 p(mesh.GetPosition(static_cast<std::int64_t>(v)));
     values.insert(values.end(), { p.x, p.y, p.z, scalars[v] });
   }
-  const std::string error = this->Vertices.Upload(this->Window, values, 4, 1);
+  const std::string error = this->Vertices.Upload(this->Window, values.data(), values.size(), 4, 1);
   return this->Count(this->Vertices, error);
 }
 
@@ -173,7 +181,8 @@ std::string RayCastOpenGL::UploadIntervals(const std::vector<TransferFunctionInt
       { i.Lower, i.Upper, i.Attenuation, i.AttenuationSlope, i.Color.r, i.Color.g, i.Color.b, 0.0f,
         i.ColorSlope.r, i.ColorSlope.g, i.ColorSlope.b, 0.0f });
   }
-  const std::string error = this->Intervals.Upload(this->Window, values, 4, 3);
+  const std::string error =
+    this->Intervals.Upload(this->Window, values.data(), values.size(), 4, 3);
   return this->Count(this->Intervals, error);
 }
 
@@ -220,6 +229,21 @@ std::string RayCastOpenGL::DrawImage(Function&& makeImage)
     state->PopFramebufferBindings();
   }
   return error.empty() ? this->Blend(viewport) : error;
+}
+
+//------------------------------------------------------------------------------
+bool RayCastOpenGL::IsSoftware() const
+{
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string renderer(name ? name : "");
+  for (const char* software : { "llvmpipe", "softpipe", "swrast", "SWR" })
+  {
+    if (renderer.find(software) != std::string::npos)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 //------------------------------------------------------------------------------
@@ -406,7 +430,12 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
   const RayFrame& rays = frame.Rays;
   program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
   program->SetUniformi("numberOfIntervals", static_cast<int>(this->Intervals.GetNumberOfRows()));
-  glm::mat3 viewToWorld(rays.ViewToWorld);
+  // Apart from its size, whose square may be beyond single precision.
+  const glm::dmat3& toWorld = rays.ViewToWorld;
+  const double unit =
+    std::max({ glm::length(toWorld[0]), glm::length(toWorld[1]), glm::length(toWorld[2]) });
+  glm::mat3 viewToWorld(toWorld / unit);
+  program->SetUniformf("viewToWorldUnit", static_cast<float>(unit));
   program->SetUniformMatrix3x3("viewToWorld", glm::value_ptr(viewToWorld));
   program->SetUniformf("nearDepth", static_cast<float>(rays.NearDepth));
   program->SetUniform2f("depthNumerator", glm::value_ptr(glm::vec2(rays.DepthNumerator)));
@@ -468,6 +497,13 @@ bool RayCastOpenGL::ReadStatistics()
     this->Statistics.Lost += static_cast<std::int64_t>(values[i + 1]);
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::ClearStatistics()
+{
+  this->Statistics = RayStatistics();
+  this->StatisticsStale = false;
 }
 
 //------------------------------------------------------------------------------

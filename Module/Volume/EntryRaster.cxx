@@ -20,7 +20,7 @@ namespace
  */
 constexpr double Margin = 4294967296.0; // 2^32
 
-/** Whether the ray is left of the edge pq: RayWalk's rule for exact coordinates. */
+/** Whether the ray is left of the edge pq: PacketWalk's rule for exact coordinates. */
 bool TurnsLeft(const glm::dvec2& p, const glm::dvec2& q, bool ascending, double& area)
 {
   const std::int64_t exact =

@@ -21,7 +21,8 @@ uniform sampler2D opaqueDepth;
 uniform int numberOfCells;
 uniform int numberOfIntervals;
 uniform float tileSize;
-uniform mat3 viewToWorld;
+uniform mat3 viewToWorld; // in units of viewToWorldUnit
+uniform float viewToWorldUnit;
 uniform float nearDepth;
 uniform vec2 depthNumerator;
 uniform vec2 depthDenominator;
@@ -383,7 +384,7 @@ void main()
   transmittance = 1.0;
   depthNow = BEFORE_EVERYTHING;
   bool meetsMesh = setUpRay(gl_FragCoord.xy - imageCenter, vec2(0.0));
-  rayLengthPerDepth = length(viewToWorld * vec3(raySlope, 1.0));
+  rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * vec3(raySlope, 1.0));
   float opaque = 2.0 * texture(opaqueDepth, texCoord).r - 1.0;
   vec2 fraction = opaque * vec2(depthNumerator.x, depthDenominator.x) +
     vec2(depthNumerator.y, depthDenominator.y);

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Volume/RayIntegral.h"
+#include "Volume/Packet/PacketIntegral.h"
+#include "Volume/Packet/SimdPortable.h"
+#include "Volume/TileCaster.h"
 #include "VolumeTestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -33,6 +35,39 @@ glm::dvec2 Reference(double t0, double t1, double c0, double c1, double length)
   }
   return { color, 1.0 - std::exp(-depth) };
 }
+
+/** One ray's integral: a lane of a packet whose other lanes are idle. */
+class RayIntegral
+{
+public:
+  RayIntegral(const std::vector<TransferFunctionInterval>& intervals, float termination)
+    : Intervals(PackIntervals(intervals))
+    , Packet(this->Intervals.data(), static_cast<std::int32_t>(intervals.size()), termination)
+  {
+  }
+
+  void AddSegment(float from, float to, float length)
+  {
+    SimdPortable::Mask pending =
+      this->Packet.Begin(SimdPortable::FromBits(1u << Lane), SimdPortable::Splat(from),
+        SimdPortable::Splat(to), SimdPortable::Splat(length));
+    while (SimdPortable::Bits(pending) != 0)
+    {
+      pending = this->Packet.Advance(pending);
+    }
+  }
+  glm::vec3 GetColor() const
+  {
+    return { this->Packet.GetColor(0).Of[Lane], this->Packet.GetColor(1).Of[Lane],
+      this->Packet.GetColor(2).Of[Lane] };
+  }
+  float GetTransmittance() const { return this->Packet.GetTransmittance().Of[Lane]; }
+
+private:
+  static constexpr int Lane = 1;
+  std::vector<PacketInterval> Intervals;
+  PacketIntegral<SimdPortable> Packet;
+};
 
 std::vector<TransferFunctionInterval> Ramp(double t0, double t1, double c0, double c1)
 {

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Volume/RayWalk.h"
 #include "VolumeTestMeshes.h"
+#include "VolumeTestPicture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 using namespace meniscus;
 using namespace meniscus::test;
@@ -16,100 +19,95 @@ using namespace meniscus::test;
 namespace
 {
 
-constexpr float Far = 1e30f;
-
-/** A mesh ready for rays; the scalar is z, normalised. */
-struct Scene
+/** The scalar is z, normalised; attenuation and colour are the same everywhere. */
+PictureScene MakeScene(const MeshArrays& arrays, double attenuation)
 {
-  TetrahedralMesh Mesh;
-  BoundaryTree Tree;
-  std::vector<float> Scalars;
-  std::vector<TransferFunctionInterval> Intervals;
-  RayCastScene Cast;
-
-  Scene(const MeshArrays& arrays, double attenuation)
-    : Intervals(ConstantFunction(attenuation))
+  PictureScene scene;
+  scene.Mesh.Build(arrays.View());
+  scene.Intervals = ConstantFunction(attenuation);
+  for (const std::int64_t point : scene.Mesh.GetSourcePoints())
   {
-    this->Mesh.Build(arrays.View());
-    this->Tree.Build(this->Mesh);
-    for (const std::int64_t point : this->Mesh.GetSourcePoints())
+    const double z = arrays.PointAt(point).z - scene.Mesh.GetCenter().z;
+    scene.Scalars.push_back(static_cast<float>(z / scene.Mesh.GetRadius()));
+  }
+  return scene;
+}
+
+/** Each test with every instruction set that this processor has. */
+class PacketWalkTest : public testing::TestWithParam<InstructionSet>
+{
+protected:
+  void SetUp() override
+  {
+    if (!HasInstructionSet(GetParam()))
     {
-      const double z = arrays.PointAt(point).z - this->Mesh.GetCenter().z;
-      this->Scalars.push_back(static_cast<float>(z / this->Mesh.GetRadius()));
+      GTEST_SKIP() << "this processor has no " << NameOf(GetParam());
     }
-    this->Cast = { &this->Mesh, &this->Tree, &this->Scalars, &this->Intervals, RayFrame(), 0.0f };
   }
 };
 
+INSTANTIATE_TEST_SUITE_P(Sets, PacketWalkTest,
+  testing::Values(InstructionSet::Portable, InstructionSet::AVX2, InstructionSet::AVX512),
+  [](const testing::TestParamInfo<InstructionSet>& info)
+  {
+    return std::string(info.param == InstructionSet::AVX512 ? "AVX512" : NameOf(info.param));
+  });
+
 }
 
-TEST(RayWalk, ConstantFieldGivesTheChord)
+TEST_P(PacketWalkTest, ConstantFieldGivesTheChord)
 {
-  Scene scene(KuhnGrid(3), 0.7);
-  scene.Cast.Frame = FrameAlongZ(scene.Mesh, 0.75, 150);
-  RayWalk walk(scene.Cast);
-  int hits = 0;
+  PictureScene scene = MakeScene(KuhnGrid(3), 0.7);
+  scene.Frame = FrameAlongZ(scene.Mesh, 0.75, 150);
+  const Picture picture = CastPicture(scene, 150, GetParam());
+  EXPECT_EQ(picture.Statistics.Lost, 0);
+  EXPECT_EQ(picture.Statistics.Rays, 100 * 100);
   for (int j = 0; j < 150; ++j)
   {
     for (int i = 0; i < 150; ++i)
     {
-      const glm::vec2 pixel(i - 74.5f, j - 74.5f);
-      const bool inside = std::abs(pixel.x) < 50.0f && std::abs(pixel.y) < 50.0f;
-      const RayResult result = walk.Cast(pixel, Far);
-      ASSERT_FALSE(result.Lost);
-      ASSERT_NEAR(result.Color.a, inside ? 1.0 - std::exp(-0.7) : 0.0, 1e-6) << i << " " << j;
-      hits += inside ? 1 : 0;
+      const bool inside = std::abs(i - 74.5) < 50.0 && std::abs(j - 74.5) < 50.0;
+      ASSERT_NEAR(picture.Alpha(i, j), inside ? 1.0 - std::exp(-0.7) : 0.0, 1e-6) << i << " " << j;
     }
   }
-  EXPECT_EQ(hits, 100 * 100);
 }
 
-TEST(RayWalk, RaysThroughVerticesAndEdgesOfAnAlignedGrid)
+TEST_P(PacketWalkTest, RaysThroughVerticesAndEdgesOfAnAlignedGrid)
 {
   // Pixels of 1/24 on a grid of 1/4: many rays run along edges and through vertices, all others in
   // planes of faces. A ray on the outer boundary may count as in or out, but as one of them.
-  Scene scene(KuhnGrid(4), 1.0);
-  scene.Cast.Frame = FrameAlongZ(scene.Mesh, 0.5, 24);
-  RayWalk walk(scene.Cast);
-  for (int j = 0; j <= 24; ++j)
+  PictureScene scene = MakeScene(KuhnGrid(4), 1.0);
+  scene.Frame = FrameAlongZ(scene.Mesh, 0.5, 24);
+  const Picture picture = CastPicture(scene, 25, GetParam());
+  EXPECT_EQ(picture.Statistics.Lost, 0);
+  const double full = 1.0 - std::exp(-1.0);
+  for (int j = 0; j < 25; ++j)
   {
-    for (int i = 0; i <= 24; ++i)
+    for (int i = 0; i < 25; ++i)
     {
-      const RayResult result = walk.Cast(glm::vec2(i - 12, j - 12), Far);
-      ASSERT_FALSE(result.Lost);
       const bool border = i == 0 || j == 0 || i == 24 || j == 24;
-      const double full = 1.0 - std::exp(-1.0);
-      const double expected = border && result.Color.a < 0.5 * full ? 0.0 : full;
-      ASSERT_NEAR(result.Color.a, expected, 1e-6) << i << " " << j;
+      const float alpha = picture.Alpha(i, j);
+      ASSERT_NEAR(alpha, border && alpha < 0.5 * full ? 0.0 : full, 1e-6) << i << " " << j;
     }
   }
 }
 
-TEST(RayWalk, TangledMeshesEndOnTheBoundary)
+TEST_P(PacketWalkTest, TangledMeshesEndOnTheBoundary)
 {
   for (unsigned int seed = 1; seed <= 5; ++seed)
   {
     MeshArrays arrays = KuhnGrid(8);
     Jitter(arrays, 0.06, seed); // about a fifth of the cells inverted
-    Scene scene(arrays, 1.0);
-    scene.Cast.Frame = FrameAlongZ(scene.Mesh, 0.6, 100);
-    RayWalk walk(scene.Cast);
-    std::int64_t steps = 0;
-    for (int j = 0; j < 100; ++j)
-    {
-      for (int i = 0; i < 100; ++i)
-      {
-        const RayResult result = walk.Cast(glm::vec2(i - 49.5f, j - 49.5f), Far);
-        ASSERT_FALSE(result.Lost) << "seed " << seed << " pixel " << i << " " << j;
-        steps += result.Steps;
-      }
-    }
-    EXPECT_GT(steps, 100000);
-    EXPECT_LT(steps, 100 * 100 * 200);
+    PictureScene scene = MakeScene(arrays, 1.0);
+    scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 100);
+    const Picture picture = CastPicture(scene, 100, GetParam());
+    EXPECT_EQ(picture.Statistics.Lost, 0) << "seed " << seed;
+    EXPECT_GT(picture.Statistics.Steps, 100000);
+    EXPECT_LT(picture.Statistics.Steps, 100 * 100 * 200);
   }
 }
 
-TEST(RayWalk, FlatAndTinyAndHugeMeshes)
+TEST_P(PacketWalkTest, TinyAndHugeMeshes)
 {
   for (const double scale : { 1e-30, 1e-6, 1e6, 1e30 })
   {
@@ -118,54 +116,91 @@ TEST(RayWalk, FlatAndTinyAndHugeMeshes)
     {
       coordinate = scale * (coordinate - 0.5);
     }
-    Scene scene(arrays, 1.0 / scale);
+    PictureScene scene = MakeScene(arrays, 1.0 / scale);
     RayFrameInput input;
     input.WorldToView = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, -10.0 * scale));
     input.ViewToClip = glm::perspective(0.2, 1.0, scale, 30.0 * scale);
     input.Center = scene.Mesh.GetCenter();
     input.Radius = scene.Mesh.GetRadius();
     input.ImageSize = glm::dvec2(64.0);
-    ASSERT_EQ(ComputeRayFrame(input, scene.Cast.Frame), RayFrameStatus::Ok) << scale;
-    RayWalk walk(scene.Cast);
-    const RayResult result = walk.Cast(glm::vec2(0.5f, 0.5f), Far);
-    EXPECT_FALSE(result.Lost);
-    EXPECT_NEAR(result.Color.a, 1.0 - std::exp(-1.0), 1e-5) << scale;
+    ASSERT_EQ(ComputeRayFrame(input, scene.Frame), RayFrameStatus::Ok) << scale;
+    const Picture picture = CastPicture(scene, 64, GetParam());
+    EXPECT_EQ(picture.Statistics.Lost, 0);
+    EXPECT_NEAR(picture.Alpha(32, 32), 1.0 - std::exp(-1.0), 1e-5) << scale;
   }
+}
+
+TEST_P(PacketWalkTest, FlatMeshesHaveNothingToShow)
+{
   MeshArrays flat = KuhnGrid(3);
   for (std::size_t i = 1; i < flat.Points.size(); i += 3)
   {
     flat.Points[i] = 0.5;
   }
-  Scene scene(flat, 1.0);
-  scene.Cast.Frame = FrameAlongZ(scene.Mesh, 0.6, 64);
-  RayWalk walk(scene.Cast);
-  for (int i = 0; i < 64; ++i)
-  {
-    EXPECT_FALSE(walk.Cast(glm::vec2(i - 32.0f, 0.0f), Far).Lost);
-  }
+  PictureScene scene = MakeScene(flat, 1.0);
+  scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 64);
+  const Picture picture = CastPicture(scene, 65, GetParam());
+  EXPECT_EQ(picture.Statistics.Lost, 0);
+  EXPECT_EQ(picture.Alpha(32, 40), 0.0f);
 }
 
-TEST(RayWalk, EndDepthAndNearPlaneCutTheRay)
+TEST_P(PacketWalkTest, OpaqueDepthAndNearPlaneCutTheRay)
 {
-  Scene scene(KuhnGrid(2), 1.0);
-  scene.Cast.Frame = FrameAlongZ(scene.Mesh, 0.6, 60);
-  RayWalk walk(scene.Cast);
-  // Depth 0 is the mesh's centre: half of the cube.
-  EXPECT_NEAR(walk.Cast(glm::vec2(3.3f, 1.7f), 0.0f).Color.a, 1.0 - std::exp(-0.5), 1e-6);
-  scene.Cast.Frame.NearDepth = 0.0;
-  RayWalk inside(scene.Cast);
-  EXPECT_NEAR(inside.Cast(glm::vec2(3.3f, 1.7f), Far).Color.a, 1.0 - std::exp(-0.5), 1e-6);
+  PictureScene scene = MakeScene(KuhnGrid(2), 1.0);
+  scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 60);
+  // The window depth of the mesh's centre, where depth is 0: half of the cube.
+  const double clipDepth = -scene.Frame.DepthNumerator.y / scene.Frame.DepthNumerator.x;
+  const auto half = static_cast<float>(0.5 * clipDepth + 0.5);
+  const double expected = 1.0 - std::exp(-0.5);
+  EXPECT_NEAR(CastPicture(scene, 60, GetParam(), half).Alpha(33, 31), expected, 1e-6);
+  scene.Frame.NearDepth = 0.0;
+  EXPECT_NEAR(CastPicture(scene, 60, GetParam()).Alpha(33, 31), expected, 1e-6);
 }
 
-TEST(RayWalk, CellsWithoutScalarAreTransparent)
+TEST_P(PacketWalkTest, CellsWithoutScalarAreTransparent)
 {
-  Scene scene(KuhnGrid(1), 1.0);
-  scene.Cast.Frame = FrameAlongZ(scene.Mesh, 0.6, 60);
+  PictureScene scene = MakeScene(KuhnGrid(1), 1.0);
+  scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 60);
   std::fill(scene.Scalars.begin(), scene.Scalars.end(), std::numeric_limits<float>::quiet_NaN());
-  RayWalk walk(scene.Cast);
-  const RayResult result = walk.Cast(glm::vec2(3.3f, 1.7f), Far);
-  EXPECT_EQ(result.Color.a, 0.0f);
-  EXPECT_GT(result.Steps, 0);
+  const Picture picture = CastPicture(scene, 60, GetParam());
+  EXPECT_EQ(picture.Alpha(33, 31), 0.0f);
+  EXPECT_GT(picture.Statistics.Steps, 0);
+}
+
+TEST_P(PacketWalkTest, OneRayAndManyInAPacketAgree)
+{
+  PictureScene scene = MakeScene(KuhnGrid(6), 1.0);
+  scene.Frame = FrameAlongZ(scene.Mesh, 0.4, 40);
+  const Picture all = CastPicture(scene, 41, GetParam());
+  const Picture one = CastPicture(scene, 1, GetParam());
+  EXPECT_GT(one.Alpha(0, 0), 0.5f);
+  EXPECT_EQ(all.Alpha(20, 20), one.Alpha(0, 0));
+}
+
+TEST_P(PacketWalkTest, LengthOfTheTransferFunctionDoesNotMatter)
+{
+  // The same ramp with few, some and many points, which are looked up in different ways.
+  PictureScene scene = MakeScene(KuhnGrid(3), 1.0);
+  scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 48);
+  std::vector<Picture> pictures;
+  for (const int count : { 2, 12, 28, 200 })
+  {
+    std::vector<TransferFunctionPoint> points;
+    for (int i = 0; i < count; ++i)
+    {
+      const double x = i / (count - 1.0);
+      points.push_back({ 2.0 * x - 1.0, 3.0 * x, glm::dvec3(x, 1.0 - x, 0.5) });
+    }
+    scene.Intervals = BuildIntervals(points, ScalarNormalization());
+    pictures.push_back(CastPicture(scene, 48, GetParam()));
+  }
+  for (std::size_t i = 0; i < pictures[0].Rgba.size(); ++i)
+  {
+    for (std::size_t p = 1; p < pictures.size(); ++p)
+    {
+      ASSERT_NEAR(pictures[0].Rgba[i], pictures[p].Rgba[i], 2e-6);
+    }
+  }
 }
 
 TEST(RayFrame, RejectsWhatIsNoCamera)

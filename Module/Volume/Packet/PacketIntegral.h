@@ -276,12 +276,9 @@ inline void PacketIntegral<Simd>::Fetch(Fields& fields) const
     return;
   }
   const float* first = &this->Intervals->Lower;
-  const Int offset = Simd::Times12(this->At);
-  Simd::GatherQuads(
-    first, offset, fields.Lower, fields.Upper, fields.Attenuation, fields.AttenuationSlope);
-  Simd::GatherQuads(
-    first + 4, offset, fields.Color[0], fields.Color[1], fields.Color[2], fields.Color[3]);
-  Simd::GatherQuads(first + 8, offset, fields.ColorSlope[0], fields.ColorSlope[1],
+  Simd::template GatherQuads<NumberOfFields>(first, this->At, fields.Lower, fields.Upper, fields.Attenuation, fields.AttenuationSlope);
+  Simd::template GatherQuads<NumberOfFields>(first + 4, this->At, fields.Color[0], fields.Color[1], fields.Color[2], fields.Color[3]);
+  Simd::template GatherQuads<NumberOfFields>(first + 8, this->At, fields.ColorSlope[0], fields.ColorSlope[1],
     fields.ColorSlope[2], fields.ColorSlope[3]);
 }
 

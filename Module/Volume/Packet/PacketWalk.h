@@ -212,9 +212,8 @@ template <class Simd>
 void PacketWalk<Simd>::Project(Int id, Corner& corner) const
 {
   Float vertex[4];
-  const Int twice = id + id;
-  Simd::GatherQuads(
-    this->VertexTable, twice + twice, vertex[0], vertex[1], vertex[2], vertex[3]);
+  Simd::template GatherQuads<4>(
+    this->VertexTable, id, vertex[0], vertex[1], vertex[2], vertex[3]);
   this->Place(vertex, corner);
   corner.Id = id;
 }
@@ -228,8 +227,7 @@ void PacketWalk<Simd>::ProjectOnGrid(Int id, Int& u, Int& v) const
   Float y;
   Float z;
   Float scalar;
-  const Int twice = id + id;
-  Simd::GatherQuads(this->VertexTable, twice + twice, x, y, z, scalar);
+  Simd::template GatherQuads<4>(this->VertexTable, id, x, y, z, scalar);
   u = Simd::Round(this->Transform(this->U, Simd::AsInt(x), Simd::AsInt(y), Simd::AsInt(z)));
   v = Simd::Round(this->Transform(this->V, Simd::AsInt(x), Simd::AsInt(y), Simd::AsInt(z)));
 }

@@ -135,6 +135,7 @@ struct SimdAVX2
     return { _mm256_set_m128i(_mm256_cvtpd_epi32(a.High), _mm256_cvtpd_epi32(a.Low)) };
   }
 
+  template <int Stride>
   static void GatherQuads(const float* from, Int index, Float& x, Float& y, Float& z, Float& w)
   {
     std::int32_t at[Width];
@@ -142,7 +143,7 @@ struct SimdAVX2
     const float* rows[Width];
     for (int i = 0; i < Width; ++i)
     {
-      rows[i] = from + at[i];
+      rows[i] = from + std::int64_t{ Stride } * at[i];
     }
     Transpose(rows, x, y, z, w);
   }
@@ -209,10 +210,6 @@ struct SimdAVX2
     // Bit 3 of the index, moved to where the blend looks.
     const __m256 second = _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 28));
     return { _mm256_blendv_ps(low, high, second) };
-  }
-  static Int Times12(Int a)
-  {
-    return { _mm256_add_epi32(_mm256_slli_epi32(a.V, 3), _mm256_slli_epi32(a.V, 2)) };
   }
   static Mask Equal(Int a, Int b)
   {

@@ -126,6 +126,7 @@ struct SimdAVX512
       _mm512_castsi256_si512(_mm512_cvtpd_epi32(a.Low)), _mm512_cvtpd_epi32(a.High), 1) };
   }
 
+  template <int Stride>
   static void GatherQuads(const float* from, Int index, Float& x, Float& y, Float& z, Float& w)
   {
     std::int32_t at[Width];
@@ -133,7 +134,7 @@ struct SimdAVX512
     const float* rows[Width];
     for (int i = 0; i < Width; ++i)
     {
-      rows[i] = from + at[i];
+      rows[i] = from + std::int64_t{ Stride } * at[i];
     }
     Transpose(rows, x, y, z, w);
   }
@@ -199,10 +200,6 @@ struct SimdAVX512
     }
     return { _mm512_permutex2var_ps(
       _mm512_loadu_ps(table), index.V, _mm512_loadu_ps(table + 16)) };
-  }
-  static Int Times12(Int a)
-  {
-    return { _mm512_add_epi32(_mm512_slli_epi32(a.V, 3), _mm512_slli_epi32(a.V, 2)) };
   }
   static Mask Equal(Int a, Int b) { return { _mm512_cmpeq_epi32_mask(a.V, b.V) }; }
   static Int AsInt(Float a) { return { _mm512_castps_si512(a.V) }; }

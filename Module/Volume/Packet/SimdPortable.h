@@ -196,13 +196,14 @@ struct SimdPortable
       [](double x) { return static_cast<std::int32_t>(std::lrint(x)); }, a);
   }
 
-  /** Per lane, the four floats from `from + index`, index a multiple of 4. */
+  /** Per lane, the four floats from `from + Stride * index`. */
+  template <int Stride>
   static void GatherQuads(
     const float* from, const Int& index, Float& x, Float& y, Float& z, Float& w)
   {
     for (int i = 0; i < Width; ++i)
     {
-      const float* quad = from + index.Of[i];
+      const float* quad = from + std::int64_t{ Stride } * index.Of[i];
       x.Of[i] = quad[0];
       y.Of[i] = quad[1];
       z.Of[i] = quad[2];
@@ -235,10 +236,6 @@ struct SimdPortable
   static Float Lookup(const float* table, const Int& index)
   {
     return EachLane<float>([table](std::int32_t i) { return table[i]; }, index);
-  }
-  static Int Times12(const Int& a)
-  {
-    return EachLane<std::int32_t>([](std::int32_t x) { return 12 * x; }, a);
   }
   static Mask Equal(const Int& a, const Int& b)
   {

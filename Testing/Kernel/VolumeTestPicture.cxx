@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeTestPicture.h"
+
+namespace meniscus
+{
+namespace test
+{
+
+//------------------------------------------------------------------------------
+Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, float windowDepth)
+{
+  PacketTables tables;
+  tables.Vertices = PackVertices(scene.Mesh, scene.Scalars);
+  tables.Intervals = PackIntervals(scene.Intervals);
+  TileCaster::Scene cast;
+  cast.Mesh = &scene.Mesh;
+  cast.Boundary = &scene.Mesh.GetBoundary();
+  cast.Tables = &tables;
+  cast.Frame = scene.Frame;
+  cast.Width = cast.Height = size;
+  cast.Set = set;
+
+  const std::size_t pixels = static_cast<std::size_t>(size) * size;
+  Picture picture{ size, std::vector<float>(4 * pixels, 0.0f), RayStatistics() };
+  const std::vector<float> depths(pixels, windowDepth);
+  const TileCaster caster(cast);
+  TileCaster::Workspace workspace;
+  for (int tile = 0; tile < caster.GetNumberOfTiles(); ++tile)
+  {
+    const RayStatistics sums = caster.Cast(tile, depths.data(), picture.Rgba.data(), workspace);
+    picture.Statistics.Steps += sums.Steps;
+    picture.Statistics.Rays += sums.Rays;
+    picture.Statistics.Lost += sums.Lost;
+  }
+  return picture;
+}
+
+}
+}

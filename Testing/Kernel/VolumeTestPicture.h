@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef VolumeTestPicture_h
+#define VolumeTestPicture_h
+
+#include "Volume/TileCaster.h"
+
+#include <glm/vec4.hpp>
+
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+/** A mesh ready for rays; the caller fills in what is to be seen. */
+struct PictureScene
+{
+  TetrahedralMesh Mesh;
+  std::vector<float> Scalars;
+  std::vector<TransferFunctionInterval> Intervals;
+  RayFrame Frame;
+};
+
+struct Picture
+{
+  int Size = 0;
+  std::vector<float> Rgba;
+  RayStatistics Statistics;
+
+  float Alpha(int column, int row) const
+  {
+    return this->Rgba[4 * (row * this->Size + column) + 3];
+  }
+};
+
+/**
+ * The size x size pixels about the image's centre, every ray integrated to its end.
+ * @param windowDepth  where all rays end; 1 is the far plane.
+ */
+Picture CastPicture(
+  const PictureScene& scene, int size, InstructionSet set, float windowDepth = 1.0f);
+
+}
+}
+
+#endif
