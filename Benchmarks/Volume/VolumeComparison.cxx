@@ -185,6 +185,11 @@ void VolumeComparison::timeRound(int view)
 void VolumeComparison::measureTimes()
 {
   std::vector<double> steps(this->Arenas.size(), 0.0);
+  for (Figures& figures : this->Results)
+  {
+    figures.Frames.clear();
+    figures.ViewMs.clear();
+  }
   for (int view = 0; view < this->Settings.Views; ++view)
   {
     for (Arena& arena : this->Arenas)
