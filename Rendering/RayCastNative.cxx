@@ -21,12 +21,16 @@ RayCastNative::RayCastNative()
 void RayCastNative::UpdateVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars)
 {
   this->Tables.Vertices = PackVertices(mesh, scalars);
+  this->TableBytes +=
+    static_cast<std::int64_t>(this->Tables.Vertices.size() * sizeof(PacketVertex));
 }
 
 //------------------------------------------------------------------------------
 void RayCastNative::UpdateIntervals(const std::vector<TransferFunctionInterval>& intervals)
 {
   this->Tables.Intervals = PackIntervals(intervals);
+  this->TableBytes +=
+    static_cast<std::int64_t>(this->Tables.Intervals.size() * sizeof(PacketInterval));
 }
 
 //------------------------------------------------------------------------------

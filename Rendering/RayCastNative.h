@@ -6,6 +6,7 @@
 #include "Volume/RayStatistics.h"
 #include "Volume/TileCaster.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace meniscus
@@ -35,10 +36,13 @@ public:
     TileCaster::Scene scene, const std::vector<float>& opaqueDepth, std::vector<float>& image);
 
   InstructionSet GetInstructionSet() const { return this->Set; }
+  /** Bytes of tables made, ever. */
+  std::int64_t GetTableBytes() const { return this->TableBytes; }
 
 private:
   PacketTables Tables;
   InstructionSet Set;
+  std::int64_t TableBytes = 0;
 };
 
 }

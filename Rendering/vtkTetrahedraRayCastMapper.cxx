@@ -450,7 +450,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 {
-  return this->Internals->OpenGL.GetUploadedBytes();
+  return this->Internals->OpenGL.GetUploadedBytes() + this->Internals->Native.GetTableBytes();
 }
 
 //------------------------------------------------------------------------------

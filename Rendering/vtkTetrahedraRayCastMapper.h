@@ -99,9 +99,9 @@ public:
 
   ///@{
   /**
-   * What runs the ray caster: OPENGL, a fragment shader; NATIVE, the CPU, one ray at a time on all
-   * threads of vtkSMPTools, the same algorithm decision for decision; AUTOMATIC, the default,
-   * OPENGL.
+   * What runs the ray caster: OPENGL, a fragment shader; NATIVE, the CPU, in SIMD packets (AVX-512,
+   * AVX2 or what there is) on all threads of vtkSMPTools; AUTOMATIC, the default, OPENGL, or NATIVE
+   * where OpenGL is a software rasteriser.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, NATIVE);
   vtkGetMacro(Backend, int);
@@ -148,8 +148,8 @@ public:
   ///@}
 
   /**
-   * Bytes of mesh, scalar and transfer function tables sent to the graphics device since
-   * construction. A camera move sends none.
+   * Bytes of mesh, scalar and transfer function tables sent to the graphics device, or made for the
+   * native backend, since construction. A camera move sends none.
    */
   vtkTypeInt64 GetUploadedBytes();
 

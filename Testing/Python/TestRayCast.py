@@ -41,7 +41,7 @@ class TestRayCast(unittest.TestCase):
 
     def test_draws(self):
         self.assertGreater(self.count_drawn(), 0.1 * SIZE * SIZE)
-        self.assertEqual(self.mapper.GetActiveBackend(), self.mapper.OPENGL)
+        self.assertIn(self.mapper.GetActiveBackend(), (self.mapper.OPENGL, self.mapper.NATIVE))
         self.assertEqual(self.mapper.GetNumberOfLostRays(), 0)
         self.volume.VisibilityOff()
         self.assertEqual(self.count_drawn(), 0)

@@ -9,6 +9,7 @@
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 
+#include <cstdlib>
 #include <algorithm>
 
 namespace meniscus
@@ -26,8 +27,20 @@ RayCastScene::RayCastScene(
   {
     this->RayCaster->SetInputDataObject(grid);
   }
+  this->RayCaster->SetBackend(backendUnderTest());
   this->setMapper(this->RayCaster);
   this->setProperty(property);
+}
+
+//------------------------------------------------------------------------------
+int backendUnderTest()
+{
+  const char* name = std::getenv("MENISCUS_TEST_BACKEND");
+  const std::string backend(name ? name : "");
+  return backend == "Native"
+    ? int(vtkTetrahedraRayCastMapper::NATIVE)
+    : (backend == "OpenGL" ? int(vtkTetrahedraRayCastMapper::OPENGL)
+                           : int(vtkTetrahedraRayCastMapper::AUTOMATIC));
 }
 
 //------------------------------------------------------------------------------

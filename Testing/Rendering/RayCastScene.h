@@ -41,6 +41,9 @@ private:
   vtkSmartPointer<vtkUnstructuredGrid> Grid;
 };
 
+/// What the environment variable MENISCUS_TEST_BACKEND says: OpenGL, Native; else automatic.
+int backendUnderTest();
+
 /// Share of covered pixels that may be excused as silhouettes, or a number of pixels if larger.
 struct SilhouetteAllowance
 {
