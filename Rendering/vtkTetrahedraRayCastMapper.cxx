@@ -3,98 +3,31 @@
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include "RayCastOpenGL.h"
-#include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
-#include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
+#include "VolumeInput.h"
 #include "VolumePropertyPoints.h"
 
 #include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkPlaneCollection.h"
-#include "vtkPoints.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace
 {
-
-/** An object and its modification time: equal as long as it is the same object, unmodified. */
-struct Version
-{
-  const vtkObject* Object = nullptr;
-  vtkMTimeType Time = 0;
-
-  Version() = default;
-  explicit Version(vtkObject* object)
-    : Object(object)
-    , Time(object ? object->GetMTime() : 0)
-  {
-  }
-  bool operator==(const Version& other) const
-  {
-    return this->Object == other.Object && this->Time == other.Time;
-  }
-};
-
-/** What the mesh tables were built from. Another grid that shares these objects has the same mesh.
- */
-struct MeshVersion
-{
-  Version Points;
-  Version Coordinates;
-  Version Cells;
-  Version Ghosts;
-
-  bool operator==(const MeshVersion& other) const
-  {
-    return this->Points == other.Points && this->Coordinates == other.Coordinates &&
-      this->Cells == other.Cells && this->Ghosts == other.Ghosts;
-  }
-};
-
-/** Cell types other than tetrahedra with their numbers, as text; empty if there are none. */
-std::string DescribeOtherCells(vtkUnstructuredGrid* grid)
-{
-  std::map<int, vtkIdType> others;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const int type = grid->GetCellType(c);
-    if (type != VTK_TETRA)
-    {
-      ++others[type];
-    }
-  }
-  std::ostringstream text;
-  for (const auto& other : others)
-  {
-    const char* name = vtkCellTypes::GetClassNameFromTypeId(other.first);
-    text << (text.tellp() > 0 ? ", " : "") << other.second << " " << (name ? name : "unknown");
-  }
-  return text.str();
-}
 
 glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
 {
@@ -109,62 +42,27 @@ glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
   return result;
 }
 
-/** Points and tetrahedra of a grid as plain arrays. */
-struct GridArrays
-{
-  std::vector<double> Points;
-  std::vector<std::int64_t> Cells;
-
-  explicit GridArrays(vtkUnstructuredGrid* grid)
-    : Points(3 * static_cast<std::size_t>(grid->GetNumberOfPoints()))
-  {
-    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-    {
-      grid->GetPoint(p, this->Points.data() + 3 * p);
-    }
-    vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-    const unsigned char leftOut =
-      vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
-    this->Cells.reserve(4 * static_cast<std::size_t>(grid->GetNumberOfCells()));
-    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-    {
-      if (ghosts && (ghosts->GetValue(c) & leftOut))
-      {
-        continue;
-      }
-      vtkIdType size = 0;
-      const vtkIdType* ids = nullptr;
-      grid->GetCells()->GetCellAtId(c, size, ids);
-      this->Cells.insert(this->Cells.end(), ids, ids + 4);
-    }
-  }
-};
-
 }
 
 class vtkTetrahedraRayCastMapper::vtkInternals
 {
 public:
-  meniscus::TetrahedralMesh Mesh;
-  meniscus::BoundaryTree Tree;
-  std::vector<float> Scalars;
-  meniscus::ScalarNormalization Normalization;
+  meniscus::VolumeInput Input;
   std::vector<meniscus::TransferFunctionPoint> Points;
   std::vector<meniscus::TransferFunctionInterval> Intervals;
   meniscus::RayCastOpenGL OpenGL;
 
-  MeshVersion BuiltMesh;
-  Version BuiltScalars;
-  Version BuiltProperty;
+  meniscus::ObjectVersion BuiltProperty;
   int BuiltOpacityModel = -1;
-
-  bool MeshUploadStale = true;
-  bool VertexUploadStale = true;
-  bool IntervalUploadStale = true;
+  meniscus::ScalarNormalization IntervalNormalization;
   bool IntervalsStale = true;
 
-  vtkTypeInt64 MeshBuilds = 0;
-  vtkTypeInt64 ScalarUpdates = 0;
+  /** What the tables on the graphics device were made of, by the input's counters. */
+  std::int64_t UploadedLinks = 0;
+  std::int64_t UploadedMesh = 0;
+  std::int64_t UploadedScalars = 0;
+  bool IntervalUploadStale = true;
+
   vtkTypeInt64 TransferFunctionBuilds = 0;
 
   bool WarnedIntegration = false;
@@ -173,6 +71,7 @@ public:
   bool WarnedClipping = false;
 
   void UpdateIntervals();
+  void UpdateActiveCells();
   std::string Upload();
   std::string DrawOpenGL(const meniscus::RayFrame& frame, double terminationOpacity);
   std::string DrawNative(const meniscus::RayFrame& frame, double terminationOpacity);
@@ -183,16 +82,22 @@ public:
 //------------------------------------------------------------------------------
 std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload()
 {
+  meniscus::VolumeInput& input = this->Input;
   std::string error;
-  if (this->MeshUploadStale || !this->OpenGL.HasMesh())
+  const bool linksStale = this->UploadedLinks != input.GetLinkChanges();
+  if (linksStale || !this->OpenGL.HasCells() || !this->OpenGL.HasBoundary())
   {
-    error = this->OpenGL.UploadMesh(this->Mesh, this->Tree);
-    this->MeshUploadStale = !error.empty();
+    error = this->OpenGL.UploadCells(input.GetMesh());
+    error = error.empty() ? this->OpenGL.UploadBoundary(input.GetBoundaryTree()) : error;
+    this->UploadedLinks = error.empty() ? input.GetLinkChanges() : 0;
   }
-  if (error.empty() && (this->VertexUploadStale || !this->OpenGL.HasVertices()))
+  const bool verticesStale = this->UploadedMesh != input.GetMeshBuilds() ||
+    this->UploadedScalars != input.GetScalarUpdates();
+  if (error.empty() && (verticesStale || !this->OpenGL.HasVertices()))
   {
-    error = this->OpenGL.UploadVertices(this->Mesh, this->Scalars);
-    this->VertexUploadStale = !error.empty();
+    error = this->OpenGL.UploadVertices(input.GetMesh(), input.GetScalars());
+    this->UploadedMesh = error.empty() ? input.GetMeshBuilds() : 0;
+    this->UploadedScalars = input.GetScalarUpdates();
   }
   if (error.empty() && (this->IntervalUploadStale || !this->OpenGL.HasIntervals()))
   {
@@ -205,12 +110,22 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload()
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::vtkInternals::UpdateIntervals()
 {
-  if (this->IntervalsStale)
+  const meniscus::ScalarNormalization& normalization = this->Input.GetNormalization();
+  if (this->IntervalsStale || normalization != this->IntervalNormalization)
   {
-    this->Intervals = meniscus::BuildIntervals(this->Points, this->Normalization);
+    this->Intervals = meniscus::BuildIntervals(this->Points, normalization);
+    this->IntervalNormalization = normalization;
     this->IntervalsStale = false;
     this->IntervalUploadStale = true;
   }
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::vtkInternals::UpdateActiveCells()
+{
+  meniscus::VisibleScalars visible;
+  visible.AddAttenuation(this->Intervals);
+  this->Input.UpdateActiveCells(visible);
 }
 
 //------------------------------------------------------------------------------
@@ -225,8 +140,9 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
 std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
   const meniscus::RayFrame& frame, double terminationOpacity)
 {
-  return this->OpenGL.DrawNative({ &this->Mesh, &this->Tree, &this->Scalars, &this->Intervals,
-    frame, static_cast<float>(1.0 - terminationOpacity) });
+  return this->OpenGL.DrawNative(
+    { &this->Input.GetMesh(), &this->Input.GetBoundaryTree(), &this->Input.GetScalars(),
+      &this->Intervals, frame, static_cast<float>(1.0 - terminationOpacity) });
 }
 
 //------------------------------------------------------------------------------
@@ -239,8 +155,8 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(
   input.WorldToView = ToGlm(camera->GetModelViewTransformMatrix());
   input.ViewToClip =
     ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
-  input.Center = this->Mesh.GetCenter();
-  input.Radius = this->Mesh.GetRadius();
+  input.Center = this->Input.GetMesh().GetCenter();
+  input.Radius = this->Input.GetMesh().GetRadius();
   input.ImageSize = glm::dvec2(viewport[2], viewport[3]);
   switch (meniscus::ComputeRayFrame(input, frame))
   {
@@ -348,104 +264,23 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable(vtkVolume* volume)
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::UpdateMesh(vtkUnstructuredGrid* grid)
+bool vtkTetrahedraRayCastMapper::UpdateInput(vtkUnstructuredGrid* grid, vtkDataArray* scalars)
 {
-  vtkInternals& internals = *this->Internals;
-  MeshVersion version;
-  version.Points = Version(grid->GetPoints());
-  version.Coordinates = Version(grid->GetPoints() ? grid->GetPoints()->GetData() : nullptr);
-  version.Cells = Version(grid->GetCells());
-  version.Ghosts = Version(grid->GetCellGhostArray());
-  if (internals.MeshBuilds > 0 && version == internals.BuiltMesh)
+  meniscus::VolumeInput& input = this->Internals->Input;
+  const auto tell = [this](const meniscus::InputReport& report)
   {
-    return internals.Mesh.GetNumberOfCells() > 0;
-  }
-
-  const std::string others = DescribeOtherCells(grid);
-  if (!others.empty())
-  {
-    vtkErrorMacro("Only tetrahedra can be rendered, the input also has "
-      << others << ". Put a vtkDataSetTriangleFilter with TetrahedraOnlyOn before the mapper. "
-      << "Nothing is rendered.");
-    return false;
-  }
-  const GridArrays arrays(grid);
-  const meniscus::TetrahedraView view{ arrays.Points.data(), grid->GetNumberOfPoints(),
-    arrays.Cells.data(), static_cast<std::int64_t>(arrays.Cells.size() / 4) };
-  const meniscus::MeshStatus status = internals.Mesh.Build(view);
-  internals.Tree.Build(internals.Mesh);
-  internals.BuiltMesh = version;
-  internals.BuiltScalars = Version();
-  internals.MeshUploadStale = true;
-  ++internals.MeshBuilds;
-
-  if (status == meniscus::MeshStatus::TooLarge)
-  {
-    vtkErrorMacro("A mesh of " << view.NumberOfCells << " cells and " << view.NumberOfPoints
-                               << " points exceeds the limit of "
-                               << meniscus::TetrahedralMesh::MaximumNumberOfCells
-                               << " cells and 2^31 points. Nothing is rendered.");
-    return false;
-  }
-  const meniscus::RejectedCells& rejected = internals.Mesh.GetRejectedCells();
-  if (rejected.Total() > 0)
-  {
-    vtkWarningMacro(<< rejected.Total() << " of " << view.NumberOfCells << " cells are left out: "
-                    << rejected.IndexOutOfRange << " with a point index out of range, "
-                    << rejected.RepeatedVertex << " with a repeated point, "
-                    << rejected.PointNotFinite << " with a point that is not finite.");
-  }
-  return status == meniscus::MeshStatus::Ok;
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::UpdateScalars(vtkDataArray* scalars)
-{
-  vtkInternals& internals = *this->Internals;
-  const Version version(scalars);
-  if (version == internals.BuiltScalars)
-  {
-    return;
-  }
-  const std::vector<std::int64_t>& points = internals.Mesh.GetSourcePoints();
-  std::vector<double> values(points.size());
-  double minimum = std::numeric_limits<double>::infinity();
-  double maximum = -minimum;
-  vtkTypeInt64 notFinite = 0;
-  for (std::size_t v = 0; v < points.size(); ++v)
-  {
-    values[v] = scalars->GetComponent(points[v], 0);
-    if (std::isfinite(values[v]))
+    if (!report.Error.empty())
     {
-      minimum = std::min(minimum, values[v]);
-      maximum = std::max(maximum, values[v]);
+      vtkErrorMacro(<< report.Error << " Nothing is rendered.");
     }
-    else
+    if (!report.Warning.empty())
     {
-      values[v] = std::numeric_limits<double>::quiet_NaN();
-      ++notFinite;
+      vtkWarningMacro(<< report.Warning);
     }
-  }
-  if (notFinite > 0)
-  {
-    vtkWarningMacro(<< notFinite << " of " << values.size()
-                    << " scalars are not finite; cells that use them are transparent.");
-  }
-
-  const auto normalization = notFinite == static_cast<vtkTypeInt64>(values.size())
-    ? meniscus::ScalarNormalization()
-    : meniscus::NormalizeRange(minimum, maximum);
-  internals.IntervalsStale = internals.IntervalsStale ||
-    normalization.Offset != internals.Normalization.Offset ||
-    normalization.Scale != internals.Normalization.Scale;
-  internals.Normalization = normalization;
-  internals.Scalars.resize(values.size());
-  std::transform(values.begin(), values.end(), internals.Scalars.begin(),
-    [&normalization](double value)
-    { return static_cast<float>((value - normalization.Offset) * normalization.Scale); });
-  internals.BuiltScalars = version;
-  internals.VertexUploadStale = true;
-  ++internals.ScalarUpdates;
+    return report.Error.empty();
+  };
+  return tell(input.UpdateMesh(grid)) && input.GetMesh().GetNumberOfCells() > 0 &&
+    tell(input.UpdateScalars(scalars));
 }
 
 //------------------------------------------------------------------------------
@@ -463,7 +298,7 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
   {
     property->GetRGBTransferFunction(0);
   }
-  const Version version(property);
+  const meniscus::ObjectVersion version(property);
   if (version == internals.BuiltProperty && internals.BuiltOpacityModel == this->OpacityModel)
   {
     return;
@@ -486,9 +321,16 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
     vtkErrorMacro("The renderer has no OpenGL window; nothing is rendered.");
     return false;
   }
-  vtkOpenGLClearErrorMacro();
-  internals.UpdateIntervals();
   const int backend = this->Backend == NATIVE ? NATIVE : OPENGL;
+  const meniscus::TetrahedralMesh& mesh = internals.Input.GetMesh();
+  // A mesh without extent has no cell that a ray could cross.
+  if (mesh.GetNumberOfActiveCells() == 0 || mesh.GetRadius() == 0.0)
+  {
+    internals.OpenGL.ClearStatistics();
+    this->ActiveBackend = backend;
+    return true;
+  }
+  vtkOpenGLClearErrorMacro();
   meniscus::RayFrame frame;
   std::string error = internals.OpenGL.SetWindow(window);
   if (error.empty())
@@ -526,15 +368,15 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
     return;
   }
   vtkDataArray* scalars = this->ValidateScalars(grid);
-  if (!scalars || !this->UpdateMesh(grid))
+  if (!scalars || !this->UpdateInput(grid, scalars))
   {
     return;
   }
   this->WarnAboutUnavailable(volume);
-  this->UpdateScalars(scalars);
   this->UpdateTransferFunction(volume);
-  // A mesh without extent has no cell that a ray could cross.
-  if (this->Internals->Mesh.GetRadius() > 0.0 && this->Draw(renderer, volume))
+  this->Internals->UpdateIntervals();
+  this->Internals->UpdateActiveCells();
+  if (this->Draw(renderer, volume))
   {
     this->TimeToDraw = std::max(vtkTimerLog::GetUniversalTime() - start, 1.0e-9);
   }
@@ -549,13 +391,13 @@ void vtkTetrahedraRayCastMapper::ReleaseGraphicsResources(vtkWindow* window)
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMeshBuilds()
 {
-  return this->Internals->MeshBuilds;
+  return this->Internals->Input.GetMeshBuilds();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfScalarUpdates()
 {
-  return this->Internals->ScalarUpdates;
+  return this->Internals->Input.GetScalarUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -567,7 +409,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransferFunctionBuilds()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 {
-  return this->Internals->MeshBuilds;
+  return this->Internals->Input.GetActiveSetBuilds();
 }
 
 //------------------------------------------------------------------------------
@@ -579,13 +421,13 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveCells()
 {
-  return this->Internals->Mesh.GetNumberOfCells();
+  return this->Internals->Input.GetMesh().GetNumberOfActiveCells();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRejectedCells()
 {
-  return this->Internals->Mesh.GetRejectedCells().Total();
+  return this->Internals->Input.GetMesh().GetRejectedCells().Total();
 }
 
 //------------------------------------------------------------------------------

@@ -36,7 +36,8 @@
  *    form up to an error of 3e-7.
  *
  * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first
- * counts up to its exit.
+ * counts up to its exit. Cells that cannot be seen, because the transfer function has no opacity
+ * anywhere in their range of scalars, are not visited and hide nothing.
  *
  * After: M. Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral
  * Meshes", IEEE Visualization 2003. Deviations: one pass with a loop instead of one pass per cell;
@@ -48,8 +49,8 @@
  * is done where its input changes: see the counters.
  *
  * @note Limits of this version: composite blending; one component; no shading, gradient opacity or
- * clipping planes (a warning says so once); not drawn in hardware selection passes; up to 2^29
- * cells, and tables within GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
+ * clipping planes (a warning says so once); not drawn in hardware selection passes; fewer than
+ * 2^29 cells, and tables within GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -137,8 +138,8 @@ public:
   ///@{
   /**
    * Work done since construction: builds of the mesh tables, updates of vertex scalars, reductions
-   * of the volume property to control points, builds of the set of active cells (all cells, once
-   * per mesh, in this version).
+   * of the volume property to control points, builds of the set of active cells (on a new mesh,
+   * new scalars, or when other scalars become visible).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
@@ -154,7 +155,8 @@ public:
 
   ///@{
   /**
-   * Of the current mesh: cells that rays can visit, and input cells left out because of a point
+   * Of the current mesh: cells that rays can visit, which are those that the transfer function lets
+   * be seen and whose scalars are finite, and input cells left out because of a point
    * index out of range, a repeated point or a point that is not finite.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
@@ -192,8 +194,7 @@ private:
   vtkUnstructuredGrid* ValidateInput();
   vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
   void WarnAboutUnavailable(vtkVolume* volume);
-  bool UpdateMesh(vtkUnstructuredGrid* grid);
-  void UpdateScalars(vtkDataArray* scalars);
+  bool UpdateInput(vtkUnstructuredGrid* grid, vtkDataArray* scalars);
   void UpdateTransferFunction(vtkVolume* volume);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);
 
