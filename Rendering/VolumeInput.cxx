@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeInput.h"
 
+#include "GridView.h"
+#include "Volume/BlockLoop.h"
+
 #include "vtkCellArray.h"
-#include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkPoints.h"
 #include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <sstream>
 
 namespace meniscus
@@ -31,55 +30,41 @@ void ThreadedLoop(std::size_t count, const RangeBody& body)
     { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
 }
 
-/** Cell types other than tetrahedra with their numbers, as text; empty if there are none. */
-std::string DescribeOtherCells(vtkUnstructuredGrid* grid)
+/** Length of a tuple, without overflow on the way. */
+double LengthOf(vtkDataArray* array, vtkIdType tuple)
 {
-  std::map<int, vtkIdType> others;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  double length = 0.0;
+  for (int component = 0; component < array->GetNumberOfComponents(); ++component)
   {
-    const int type = grid->GetCellType(c);
-    if (type != VTK_TETRA)
-    {
-      ++others[type];
-    }
+    length = std::hypot(length, array->GetComponent(tuple, component));
   }
-  std::ostringstream text;
-  for (const auto& other : others)
-  {
-    const char* name = vtkCellTypes::GetClassNameFromTypeId(other.first);
-    text << (text.tellp() > 0 ? ", " : "") << other.second << " " << (name ? name : "unknown");
-  }
-  return text.str();
+  return length;
 }
 
-/** Points and tetrahedra of a grid as plain arrays. */
-struct GridArrays
+/** The range of the finite values among some, and how many others there are. */
+struct ValueRange
 {
-  std::vector<double> Points;
-  std::vector<std::int64_t> Cells;
+  double Lowest = std::numeric_limits<double>::infinity();
+  double Highest = -std::numeric_limits<double>::infinity();
+  std::int64_t NotFinite = 0;
 
-  explicit GridArrays(vtkUnstructuredGrid* grid)
-    : Points(3 * static_cast<std::size_t>(grid->GetNumberOfPoints()))
+  void Add(double value)
   {
-    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    if (std::isfinite(value))
     {
-      grid->GetPoint(p, this->Points.data() + 3 * p);
+      this->Lowest = std::min(this->Lowest, value);
+      this->Highest = std::max(this->Highest, value);
     }
-    vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-    const unsigned char leftOut =
-      vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
-    this->Cells.reserve(4 * static_cast<std::size_t>(grid->GetNumberOfCells()));
-    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+    else
     {
-      if (ghosts && (ghosts->GetValue(c) & leftOut))
-      {
-        continue;
-      }
-      vtkIdType size = 0;
-      const vtkIdType* ids = nullptr;
-      grid->GetCells()->GetCellAtId(c, size, ids);
-      this->Cells.insert(this->Cells.end(), ids, ids + 4);
+      ++this->NotFinite;
     }
+  }
+  void Add(const ValueRange& other)
+  {
+    this->Lowest = std::min(this->Lowest, other.Lowest);
+    this->Highest = std::max(this->Highest, other.Highest);
+    this->NotFinite += other.NotFinite;
   }
 };
 
@@ -100,7 +85,8 @@ bool VolumeInput::MeshVersion::operator==(const MeshVersion& other) const
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::UpdateMesh(vtkUnstructuredGrid* grid)
+InputReport VolumeInput::UpdateMesh(
+  vtkUnstructuredGrid* grid, const std::function<bool(double)>& progress)
 {
   InputReport report;
   MeshVersion version;
@@ -114,19 +100,14 @@ InputReport VolumeInput::UpdateMesh(vtkUnstructuredGrid* grid)
   }
 
   std::ostringstream text;
-  const std::string others = DescribeOtherCells(grid);
-  if (!others.empty())
-  {
-    text << "Only tetrahedra can be rendered, the input also has " << others
-         << ". Put a vtkDataSetTriangleFilter with TetrahedraOnlyOn before the mapper.";
-    report.Error = text.str();
-    return report;
-  }
-  const GridArrays arrays(grid);
-  const TetrahedraView view{ arrays.Points.data(), grid->GetNumberOfPoints(), arrays.Cells.data(),
-    static_cast<std::int64_t>(arrays.Cells.size() / 4) };
-  const MeshStatus status = this->Mesh.Build(view);
-  this->BuiltMesh = version;
+  const GridView gridView(grid);
+  const TetrahedraView& view = gridView.GetView();
+  MeshBuildControl control;
+  control.Loop = ThreadedLoop;
+  control.Progress = progress;
+  const MeshStatus status = this->Mesh.Build(view, control);
+  // What was aborted is begun again at the next call.
+  this->BuiltMesh = status == MeshStatus::Aborted ? MeshVersion() : version;
   this->BuiltScalars = ObjectVersion();
   this->ActiveSetStale = true;
   ++this->MeshBuilds;
@@ -139,6 +120,12 @@ InputReport VolumeInput::UpdateMesh(vtkUnstructuredGrid* grid)
          << " cells and 2^31 points.";
     report.Error = text.str();
     return report;
+  }
+  const std::string omitted = gridView.DescribeOmitted();
+  if (!omitted.empty())
+  {
+    text << "Cells that are not drawn, because of their type: " << omitted << ". ";
+    report.Warning = text.str();
   }
   const RejectedCells& rejected = this->Mesh.GetRejectedCells();
   if (rejected.Total() > 0)
@@ -154,47 +141,58 @@ InputReport VolumeInput::UpdateMesh(vtkUnstructuredGrid* grid)
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars)
+InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
 {
   InputReport report;
   const ObjectVersion version(scalars);
-  if (version == this->BuiltScalars)
+  if (version == this->BuiltScalars && component == this->BuiltComponent)
   {
     return report;
   }
-  const std::vector<std::int64_t>& points = this->Mesh.GetSourcePoints();
+  const std::vector<std::int32_t>& points = this->Mesh.GetSourcePoints();
   std::vector<double> values(points.size());
-  double minimum = std::numeric_limits<double>::infinity();
-  double maximum = -minimum;
-  vtkTypeInt64 notFinite = 0;
-  for (std::size_t v = 0; v < points.size(); ++v)
+  std::vector<ValueRange> ranges(NumberOfBlocks(values.size()));
+  ForEachBlock(values.size(), ThreadedLoop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      ValueRange range;
+      for (std::size_t v = first; v < last; ++v)
+      {
+        values[v] = component == Magnitude ? LengthOf(scalars, points[v])
+                                           : scalars->GetComponent(points[v], component);
+        range.Add(values[v]);
+      }
+      ranges[block] = range;
+    });
+  ValueRange range;
+  for (const ValueRange& part : ranges)
   {
-    values[v] = scalars->GetComponent(points[v], 0);
-    if (std::isfinite(values[v]))
-    {
-      minimum = std::min(minimum, values[v]);
-      maximum = std::max(maximum, values[v]);
-    }
-    else
-    {
-      values[v] = std::numeric_limits<double>::quiet_NaN();
-      ++notFinite;
-    }
+    range.Add(part);
   }
+  const std::int64_t notFinite = range.NotFinite;
   if (notFinite > 0)
   {
     report.Warning = std::to_string(notFinite) + " of " + std::to_string(values.size()) +
       " scalars are not finite; cells that use them are transparent.";
   }
 
-  this->Normalization = notFinite == static_cast<vtkTypeInt64>(values.size())
+  this->Normalization = notFinite == static_cast<std::int64_t>(values.size())
     ? ScalarNormalization()
-    : NormalizeRange(minimum, maximum);
+    : NormalizeRange(range.Lowest, range.Highest);
   this->Scalars.resize(values.size());
-  const ScalarNormalization& n = this->Normalization;
-  std::transform(values.begin(), values.end(), this->Scalars.begin(),
-    [&n](double value) { return static_cast<float>((value - n.Offset) * n.Scale); });
+  ForEachBlock(values.size(), ThreadedLoop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      const ScalarNormalization& n = this->Normalization;
+      for (std::size_t v = first; v < last; ++v)
+      {
+        this->Scalars[v] = std::isfinite(values[v])
+          ? static_cast<float>((values[v] - n.Offset) * n.Scale)
+          : std::numeric_limits<float>::quiet_NaN();
+      }
+    });
   this->BuiltScalars = version;
+  this->BuiltComponent = component;
   this->ActiveSetStale = true;
   ++this->ScalarUpdates;
   return report;

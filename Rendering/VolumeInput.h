@@ -11,6 +11,7 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,11 +52,18 @@ struct InputReport
 class VolumeInput
 {
 public:
-  /** The mesh of a grid. Another grid that shares its points and cells is the same mesh. */
-  InputReport UpdateMesh(vtkUnstructuredGrid* grid);
+  /**
+   * The mesh of a grid. Another grid that shares its points and cells is the same mesh.
+   * @param progress  told the fraction done; false aborts, which leaves no mesh and no report.
+   */
+  InputReport UpdateMesh(vtkUnstructuredGrid* grid, const std::function<bool(double)>& progress);
 
-  /** The scalars of that mesh: one component, one value for each point. */
-  InputReport UpdateScalars(vtkDataArray* scalars);
+  /**
+   * The scalars of that mesh, one tuple for each point.
+   * @param component  which component; Magnitude for the length of the tuple.
+   */
+  InputReport UpdateScalars(vtkDataArray* scalars, int component);
+  static constexpr int Magnitude = -1;
 
   /** The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same. */
   void UpdateActiveCells(const VisibleScalars& visible);
@@ -94,6 +102,7 @@ private:
 
   MeshVersion BuiltMesh;
   ObjectVersion BuiltScalars;
+  int BuiltComponent = 0;
   bool ActiveSetStale = true;
   std::int64_t TreeOf = 0;
 

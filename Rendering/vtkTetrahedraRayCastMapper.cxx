@@ -258,10 +258,18 @@ vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* g
                                    "vtkCellDataToPointData). Nothing is rendered.");
     return nullptr;
   }
-  if (scalars->GetNumberOfComponents() != 1)
+  const int components = scalars->GetNumberOfComponents();
+  if (this->VectorMode == DISABLED && components != 1)
   {
-    vtkErrorMacro("The array '" << name << "' has " << scalars->GetNumberOfComponents()
-                                << " components; 1 is needed. Nothing is rendered.");
+    vtkErrorMacro(
+      "The array '" << name << "' has " << components
+                    << " components; 1 is needed, or a VectorMode. Nothing is rendered.");
+    return nullptr;
+  }
+  if (this->VectorMode == COMPONENT && this->VectorComponent >= components)
+  {
+    vtkErrorMacro("The array '" << name << "' has " << components << " components, none of number "
+                                << this->VectorComponent << ". Nothing is rendered.");
     return nullptr;
   }
   if (scalars->GetNumberOfTuples() != grid->GetNumberOfPoints())
@@ -298,7 +306,8 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable(vtkVolume* volume)
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::UpdateInput(vtkUnstructuredGrid* grid, vtkDataArray* scalars)
+bool vtkTetrahedraRayCastMapper::UpdateInput(
+  vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars)
 {
   meniscus::VolumeInput& input = this->Internals->Input;
   const auto tell = [this](const meniscus::InputReport& report)
@@ -313,8 +322,17 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(vtkUnstructuredGrid* grid, vtkDataA
     }
     return report.Error.empty();
   };
-  return tell(input.UpdateMesh(grid)) && input.GetMesh().GetNumberOfCells() > 0 &&
-    tell(input.UpdateScalars(scalars));
+  const int component = this->VectorMode == MAGNITUDE
+    ? meniscus::VolumeInput::Magnitude
+    : (this->VectorMode == COMPONENT ? this->VectorComponent : 0);
+  this->SetAbortExecute(0);
+  const auto goOn = [this, window](double fraction)
+  {
+    this->UpdateProgress(fraction);
+    return !this->GetAbortExecute() && !window->CheckAbortStatus();
+  };
+  return tell(input.UpdateMesh(grid, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
+    tell(input.UpdateScalars(scalars, component));
 }
 
 //------------------------------------------------------------------------------
@@ -403,7 +421,7 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
     return;
   }
   vtkDataArray* scalars = this->ValidateScalars(grid);
-  if (!scalars || !this->UpdateInput(grid, scalars))
+  if (!scalars || !this->UpdateInput(renderer->GetRenderWindow(), grid, scalars))
   {
     return;
   }
@@ -487,6 +505,8 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfLostRays()
 void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "VectorMode: " << this->VectorMode << "\n";
+  os << indent << "VectorComponent: " << this->VectorComponent << "\n";
   os << indent << "OpacityModel: " << this->OpacityModel << "\n";
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "ActiveBackend: " << this->ActiveBackend << "\n";
