@@ -53,6 +53,7 @@ private:
     Unknown
   };
 
+  bool IsFar() const;
   void Search(const Triangle& triangle, int depth);
   void Divide(const Triangle& triangle, int depth);
   bool TakeRoot(const Triangle& triangle);
