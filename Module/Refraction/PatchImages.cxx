@@ -22,6 +22,10 @@ constexpr double Border = 1e-8;
 // Newton's method decides.
 constexpr int DeepestLevel = 14;
 
+// Isolated roots take a dozen divisions each at most, a few near a caustic. A ring of roots would
+// take one for every triangle that it crosses, on every level.
+constexpr int MostDivisions = 1000;
+
 // Newton's method starts at the root of a nearly linear map.
 constexpr int NewtonSteps = 12;
 
@@ -105,6 +109,7 @@ void PatchImages::Find()
   whole.b = { glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
     glm::dvec2(0.5, 0.5), glm::dvec2(0.0, 0.5), glm::dvec2(0.5, 0.0) };
   this->Count = 0;
+  this->Divisions = 0;
   for (std::size_t i = 0; i < 3; ++i)
   {
     whole.f[i] = this->Equation.GetResidual(this->Patch, whole.b[i]);
@@ -170,7 +175,7 @@ void PatchImages::Search(const Triangle& triangle, int depth)
   {
     return;
   }
-  const bool last = depth == DeepestLevel;
+  const bool last = depth == DeepestLevel || this->Divisions >= MostDivisions;
   if ((verdict == Verdict::AtMostOne || last) && (this->TakeRoot(triangle) || last))
   {
     return;
@@ -216,6 +221,7 @@ bool PatchImages::TakeRoot(const Triangle& triangle)
 //------------------------------------------------------------------------------
 void PatchImages::Divide(const Triangle& t, int depth)
 {
+  ++this->Divisions;
   const auto evaluate = [this](const glm::dvec2& b)
   { return this->Equation.GetResidual(this->Patch, b); };
   // Three children at the corners, one in the middle with the middles of the edges as corners.
