@@ -63,6 +63,7 @@
 #include <memory> // For std::unique_ptr
 
 class vtkDataArray;
+class vtkRenderWindow;
 class vtkUnstructuredGrid;
 
 class VTKMENISCUS_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
@@ -176,7 +177,9 @@ public:
 
   /**
    * Draws the volume into the current framebuffer and viewport. Input that cannot be drawn gives an
-   * error and leaves the picture as it is.
+   * error and leaves the picture as it is. While a mesh's tables are built, ProgressEvent is
+   * invoked; AbortExecuteOn(), called by an observer, or the window's abort status ends that. Then
+   * nothing is drawn, and the next call begins again.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
@@ -194,7 +197,7 @@ private:
   vtkUnstructuredGrid* ValidateInput();
   vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
   void WarnAboutUnavailable(vtkVolume* volume);
-  bool UpdateInput(vtkUnstructuredGrid* grid, vtkDataArray* scalars);
+  bool UpdateInput(vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars);
   void UpdateTransferFunction(vtkVolume* volume);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);
 
