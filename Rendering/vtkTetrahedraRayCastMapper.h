@@ -7,12 +7,16 @@
  * Casts one ray per pixel through the mesh, from cell to cell across shared faces, and integrates
  * the density-emitter model in closed form. The image does not depend on a sampling distance.
  *
- * Input: a vtkUnstructuredGrid of tetrahedra with a point array of one component, chosen by the
- * scalar mode and array selection of vtkAbstractVolumeMapper. Any mesh of tetrahedra is accepted:
- * non-convex, disconnected, cyclic, with inverted cells, cells of zero volume, duplicate points and
- * faces of more than two cells. Cells that vtkGhostType marks as duplicate or hidden are left out.
- * Cells with a point index out of range, a repeated point or a point that is not finite are left
- * out and counted. Cells with a vertex whose scalar is not finite are transparent.
+ * Input: a vtkUnstructuredGrid with a point array, chosen by the scalar mode and array selection of
+ * vtkAbstractVolumeMapper, of one component or as SetVectorMode() says. Tetrahedra are drawn as
+ * they are; voxels, hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells as
+ * tetrahedra that have the same points and fit across shared faces, whatever the cells (each cell
+ * is pulled to its point of the smallest number). Other cells are left out with a warning. Any mesh
+ * is accepted: non-convex, disconnected, cyclic, with inverted cells, cells of zero volume,
+ * duplicate points and faces of more than two cells. Cells that vtkGhostType marks as duplicate or
+ * hidden are left out. Cells with a point index out of range, a repeated point or a point that is
+ * not finite are left out and counted. Cells with a vertex whose scalar is not finite are
+ * transparent.
  *
  * Optical model: colour and opacity come from the vtkVolumeProperty. Opacity becomes an attenuation
  * coefficient as SetOpacityModel() says, per ScalarOpacityUnitDistance, lengths measured in world
@@ -48,7 +52,7 @@
  * Needs OpenGL 3.2; the native backend casts rays on the CPU and needs it to show the image. Work
  * is done where its input changes: see the counters.
  *
- * @note Limits of this version: composite blending; one component; no shading, gradient opacity or
+ * @note Limits of this version: composite blending; point data; no shading, gradient opacity or
  * clipping planes (a warning says so once); not drawn in hardware selection passes; fewer than
  * 2^29 cells, and tables within GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
@@ -72,6 +76,25 @@ public:
   static vtkTetrahedraRayCastMapper* New();
   vtkTypeMacro(vtkTetrahedraRayCastMapper, vtkUnstructuredGridVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum VectorModes
+  {
+    DISABLED = -1,
+    MAGNITUDE = 0,
+    COMPONENT = 1
+  };
+
+  ///@{
+  /**
+   * What is drawn of an array of several components, as in vtkSmartVolumeMapper: MAGNITUDE, the
+   * length of the vector; COMPONENT, the one of number VectorComponent (from 0, the default).
+   * DISABLED, the default, draws arrays of one component only.
+   */
+  vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
+  vtkGetMacro(VectorMode, int);
+  vtkSetClampMacro(VectorComponent, int, 0, VTK_INT_MAX);
+  vtkGetMacro(VectorComponent, int);
+  ///@}
 
   enum OpacityModels
   {
@@ -201,6 +224,8 @@ private:
   void UpdateTransferFunction(vtkVolume* volume);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);
 
+  int VectorMode = DISABLED;
+  int VectorComponent = 0;
   int OpacityModel = ATTENUATION_COEFFICIENT;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
