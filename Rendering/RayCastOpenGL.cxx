@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastOpenGL.h"
 
-
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
 #include "vtkTetrahedraRayCastFS.h"

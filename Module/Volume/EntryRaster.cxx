@@ -44,8 +44,8 @@ glm::dvec3 Coefficients(const PixelRays::AffineRow& row, const glm::dvec4& posit
 }
 
 /** The affine function u_p v_q - v_p u_q of the pixel, whose second-order terms vanish. */
-glm::dvec3 EdgeFunction(const glm::dvec3& up, const glm::dvec3& vp, const glm::dvec3& uq,
-  const glm::dvec3& vq)
+glm::dvec3 EdgeFunction(
+  const glm::dvec3& up, const glm::dvec3& vp, const glm::dvec3& uq, const glm::dvec3& vq)
 {
   return { up[0] * vq[0] - vp[0] * uq[0],
     up[0] * vq[1] + up[1] * vq[0] - vp[0] * uq[1] - vp[1] * uq[0],
@@ -149,8 +149,8 @@ EntryRaster::PixelBox EntryRaster::BoxOf(const SeenFace& face) const
     const glm::dvec3& opposite = face.Edges[(k + 1) % 3];
     // Within a face that turns the other way, one edge is below a third of its value at the vertex
     // opposite.
-    facesAway = facesAway &&
-      opposite[0] + pixel.x * opposite[1] + pixel.y * opposite[2] < -3.0 * Margin;
+    facesAway =
+      facesAway && opposite[0] + pixel.x * opposite[1] + pixel.y * opposite[2] < -3.0 * Margin;
   }
   if (facesAway)
   {
@@ -205,8 +205,8 @@ void EntryRaster::Build(const TetrahedralMesh& mesh, const std::vector<BoundaryF
   std::vector<std::int32_t> next(this->TileBegin.begin(), this->TileBegin.end() - 1);
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
-    forTilesOf(boxes[f],
-      [&](int tile) { this->FaceOfSlot[next[tile]++] = static_cast<std::int32_t>(f); });
+    forTilesOf(
+      boxes[f], [&](int tile) { this->FaceOfSlot[next[tile]++] = static_cast<std::int32_t>(f); });
   }
 }
 

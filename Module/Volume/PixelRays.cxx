@@ -78,8 +78,8 @@ PacketRay PixelRays::RayOf(int column, int row, float endDepth) const
     ray.V[k] = v[k];
     ray.Depth[k] = this->Depth[k];
   }
-  ray.LengthPerDepth = static_cast<float>(
-    glm::length(this->Frame.ViewToWorld * glm::dvec3(slope.x, slope.y, 1.0)));
+  ray.LengthPerDepth =
+    static_cast<float>(glm::length(this->Frame.ViewToWorld * glm::dvec3(slope.x, slope.y, 1.0)));
   ray.StartDepth = static_cast<float>(this->Frame.NearDepth);
   ray.EndDepth = endDepth;
   ray.FirstEntry = 0;

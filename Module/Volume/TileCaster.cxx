@@ -29,9 +29,9 @@ std::vector<PacketInterval> PackIntervals(const std::vector<TransferFunctionInte
   {
     const glm::vec3& color = interval.Color;
     const glm::vec3& slope = interval.ColorSlope;
-    packed.push_back({ interval.Lower, interval.Upper, interval.Attenuation,
-      interval.AttenuationSlope, { color.r, color.g, color.b, 0.0f },
-      { slope.r, slope.g, slope.b, 0.0f } });
+    packed.push_back(
+      { interval.Lower, interval.Upper, interval.Attenuation, interval.AttenuationSlope,
+        { color.r, color.g, color.b, 0.0f }, { slope.r, slope.g, slope.b, 0.0f } });
   }
   return packed;
 }

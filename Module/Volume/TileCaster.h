@@ -65,8 +65,7 @@ public:
    * @param opaqueDepth  window depth in [0, 1] per pixel, where rays end; null: nowhere.
    * @param image        premultiplied RGBA per pixel; pixels whose rays miss the mesh are left.
    */
-  RayStatistics Cast(
-    int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
+  RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
 
 private:
   void TakeHits(int tile, const float* opaqueDepth, Workspace& workspace) const;

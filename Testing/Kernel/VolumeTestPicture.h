@@ -29,10 +29,7 @@ struct Picture
   std::vector<float> Rgba;
   RayStatistics Statistics;
 
-  float Alpha(int column, int row) const
-  {
-    return this->Rgba[4 * (row * this->Size + column) + 3];
-  }
+  float Alpha(int column, int row) const { return this->Rgba[4 * (row * this->Size + column) + 3]; }
 };
 
 /**

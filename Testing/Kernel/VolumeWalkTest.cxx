@@ -48,9 +48,8 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Sets, PacketWalkTest,
   testing::Values(InstructionSet::Portable, InstructionSet::AVX2, InstructionSet::AVX512),
-  [](const testing::TestParamInfo<InstructionSet>& info)
-  {
-    return std::string(info.param == InstructionSet::AVX512 ? "AVX512" : NameOf(info.param));
+  [](const testing::TestParamInfo<InstructionSet>& tested) {
+    return std::string(tested.param == InstructionSet::AVX512 ? "AVX512" : NameOf(tested.param));
   });
 
 }

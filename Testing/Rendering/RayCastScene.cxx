@@ -9,8 +9,8 @@
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 
-#include <cstdlib>
 #include <algorithm>
+#include <cstdlib>
 
 namespace meniscus
 {
@@ -37,10 +37,9 @@ int backendUnderTest()
 {
   const char* name = std::getenv("MENISCUS_TEST_BACKEND");
   const std::string backend(name ? name : "");
-  return backend == "Native"
-    ? int(vtkTetrahedraRayCastMapper::NATIVE)
-    : (backend == "OpenGL" ? int(vtkTetrahedraRayCastMapper::OPENGL)
-                           : int(vtkTetrahedraRayCastMapper::AUTOMATIC));
+  return backend == "Native" ? int(vtkTetrahedraRayCastMapper::NATIVE)
+                             : (backend == "OpenGL" ? int(vtkTetrahedraRayCastMapper::OPENGL)
+                                                    : int(vtkTetrahedraRayCastMapper::AUTOMATIC));
 }
 
 //------------------------------------------------------------------------------

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StressCasters.h"
 
-#include "Volume/TileCaster.h"
 #include "Volume/TetrahedralMesh.h"
+#include "Volume/TileCaster.h"
 #include "Volume/TransferFunction.h"
 #include "Volume/VisibleScalars.h"
 

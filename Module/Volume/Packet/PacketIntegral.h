@@ -28,7 +28,8 @@ public:
   using Int = typename Simd::Int;
   using Mask = typename Simd::Mask;
 
-  PacketIntegral(const PacketInterval* intervals, std::int32_t numberOfIntervals, float termination);
+  PacketIntegral(
+    const PacketInterval* intervals, std::int32_t numberOfIntervals, float termination);
 
   /** Nothing passed yet. */
   void Reset(Mask lanes)
@@ -47,8 +48,8 @@ public:
   Mask Begin(Mask lanes, Float from, Float to, Float length)
   {
     // Normalised scalars are in [-1, 1]: a larger change is that of a vertex without a scalar.
-    const Mask valid = lanes & (Simd::Abs(to - from) < Simd::Splat(4.0f)) &
-      (length > Simd::Splat(0.0f));
+    const Mask valid =
+      lanes & (Simd::Abs(to - from) < Simd::Splat(4.0f)) & (length > Simd::Splat(0.0f));
     this->From = Simd::Select(valid, from, this->From);
     this->To = Simd::Select(valid, to, this->To);
     this->Remaining = Simd::Select(valid, length, this->Remaining);
@@ -154,9 +155,8 @@ void PacketIntegral<Simd>::SetCoefficients()
   static const float thinMean[4][3] = { { 0.3333348310f, -0.0999958838f, 0.0231317024f },
     { 0.1666630304f, -0.0499135420f, 0.0111462326f }, { -0.0166403724f, 0.0044698893f, 0.0f },
     { 0.0011184650f, 0.0f, 0.0f } };
-  static const float thickAbsorbed[7] = { 0.99999999793357f, -0.49999979725212f,
-    0.16666340311502f, -0.04164684931339f, 0.00827550484353f, -0.00130077495785f,
-    0.00012907631016f };
+  static const float thickAbsorbed[7] = { 0.99999999793357f, -0.49999979725212f, 0.16666340311502f,
+    -0.04164684931339f, 0.00827550484353f, -0.00130077495785f, 0.00012907631016f };
   static const float thickMean[6][5] = {
     { 0.3333333333f, -0.0999792881f, 0.0236830118f, -0.0043518064f, 0.0004903571f },
     { 0.1666666667f, -0.0500173281f, 0.0119526605f, -0.0023320093f, 0.0003181505f },
@@ -181,8 +181,8 @@ void PacketIntegral<Simd>::SetCoefficients()
 /** Horner's scheme with the first `terms` coefficients. */
 template <class Simd>
 template <std::size_t Size>
-inline auto PacketIntegral<Simd>::Polynomial(
-  Float x, const Float (&coefficients)[Size], int terms) -> Float
+inline auto PacketIntegral<Simd>::Polynomial(Float x, const Float (&coefficients)[Size], int terms)
+  -> Float
 {
   Float sum = coefficients[terms - 1];
   for (int i = terms - 2; i >= 0; --i)
@@ -276,10 +276,12 @@ inline void PacketIntegral<Simd>::Fetch(Fields& fields) const
     return;
   }
   const float* first = &this->Intervals->Lower;
-  Simd::template GatherQuads<NumberOfFields>(first, this->At, fields.Lower, fields.Upper, fields.Attenuation, fields.AttenuationSlope);
-  Simd::template GatherQuads<NumberOfFields>(first + 4, this->At, fields.Color[0], fields.Color[1], fields.Color[2], fields.Color[3]);
-  Simd::template GatherQuads<NumberOfFields>(first + 8, this->At, fields.ColorSlope[0], fields.ColorSlope[1],
-    fields.ColorSlope[2], fields.ColorSlope[3]);
+  Simd::template GatherQuads<NumberOfFields>(
+    first, this->At, fields.Lower, fields.Upper, fields.Attenuation, fields.AttenuationSlope);
+  Simd::template GatherQuads<NumberOfFields>(
+    first + 4, this->At, fields.Color[0], fields.Color[1], fields.Color[2], fields.Color[3]);
+  Simd::template GatherQuads<NumberOfFields>(first + 8, this->At, fields.ColorSlope[0],
+    fields.ColorSlope[1], fields.ColorSlope[2], fields.ColorSlope[3]);
 }
 
 //------------------------------------------------------------------------------
@@ -347,8 +349,7 @@ inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
       Simd::Fma(weightOfChange, slope, Simd::Fma(weight, color, this->Color[channel]));
   }
   this->Transmittance = this->Transmittance - weight;
-  const Mask more =
-    lanes & (upward | downward | thick) & (this->Transmittance > this->Termination);
+  const Mask more = lanes & (upward | downward | thick) & (this->Transmittance > this->Termination);
   this->Remaining = Simd::Select(more, this->Remaining - length, zero);
   this->From = to;
   this->At = Simd::Decrement(downward, Simd::Increment(upward, this->At));

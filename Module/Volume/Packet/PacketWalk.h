@@ -168,11 +168,10 @@ void PacketWalk<Simd>::Run()
     Ahead ahead;
     this->Fetch(ahead);
     this->Pending = this->Integral.Advance(this->Pending);
-    const Mask on = Simd::AndNot(this->DepthNow < this->EndDepth, this->CellFace < zero) &
-      this->Integral.IsOn();
-    const unsigned int ended =
-      busy & ~Simd::Bits((this->Steps < Simd::Splat(this->StepLimit)) & on) &
-      ~Simd::Bits(this->Pending);
+    const Mask on =
+      Simd::AndNot(this->DepthNow < this->EndDepth, this->CellFace < zero) & this->Integral.IsOn();
+    const unsigned int ended = busy &
+      ~Simd::Bits((this->Steps < Simd::Splat(this->StepLimit)) & on) & ~Simd::Bits(this->Pending);
     if (ended == busy ||
       (this->NextRay < this->Job.NumberOfRays && __builtin_popcount(ended) >= enough))
     {
@@ -212,8 +211,7 @@ template <class Simd>
 void PacketWalk<Simd>::Project(Int id, Corner& corner) const
 {
   Float vertex[4];
-  Simd::template GatherQuads<4>(
-    this->VertexTable, id, vertex[0], vertex[1], vertex[2], vertex[3]);
+  Simd::template GatherQuads<4>(this->VertexTable, id, vertex[0], vertex[1], vertex[2], vertex[3]);
   this->Place(vertex, corner);
   corner.Id = id;
 }
@@ -253,8 +251,7 @@ template <class Simd>
 bool PacketWalk<Simd>::TurnsLeft(
   const std::int32_t (&p)[3], const std::int32_t (&q)[3], float& area)
 {
-  const std::int64_t exact =
-    std::int64_t{ p[0] } * q[1] - std::int64_t{ p[1] } * q[0];
+  const std::int64_t exact = std::int64_t{ p[0] } * q[1] - std::int64_t{ p[1] } * q[0];
   area = static_cast<float>(exact);
   if (exact != 0)
   {
@@ -312,8 +309,7 @@ inline void PacketWalk<Simd>::Fetch(Ahead& ahead) const
   const Int zero = Simd::Splat(0);
   const Int cellFace = Simd::Select(this->CellFace < zero, zero, this->CellFace);
   Float vertex[4];
-  Simd::GatherCells(
-    this->Job.Cells, this->VertexTable, cellFace, ahead.Ids, ahead.Links, vertex);
+  Simd::GatherCells(this->Job.Cells, this->VertexTable, cellFace, ahead.Ids, ahead.Links, vertex);
   this->Place(vertex, ahead.X);
   ahead.X.Id = PickByRank(Simd::And(cellFace, Simd::Splat(3)), ahead.Ids);
 }
@@ -349,8 +345,7 @@ inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
   const Mask dropC = Simd::AndNot(left[0], left[1]);
   const Mask dropA = Simd::AndNot(Simd::AndNot(left[1], left[2]), dropC);
   const Mask keepB = dropC | dropA;
-  const Int dropped =
-    Simd::Select(dropA, this->A.Id, Simd::Select(dropC, this->C.Id, this->B.Id));
+  const Int dropped = Simd::Select(dropA, this->A.Id, Simd::Select(dropC, this->C.Id, this->B.Id));
   Int link = ahead.Links[0];
   for (int rank = 1; rank < 4; ++rank)
   {
@@ -365,12 +360,9 @@ inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
   {
     area = Simd::Abs(area);
   }
-  this->AreaAB =
-    Simd::Select(replaceA, areas[1], Simd::Select(replaceB, areas[0], this->AreaAB));
-  this->AreaBC =
-    Simd::Select(replaceB, areas[2], Simd::Select(replaceC, areas[1], this->AreaBC));
-  this->AreaCA =
-    Simd::Select(replaceA, areas[2], Simd::Select(replaceC, areas[0], this->AreaCA));
+  this->AreaAB = Simd::Select(replaceA, areas[1], Simd::Select(replaceB, areas[0], this->AreaAB));
+  this->AreaBC = Simd::Select(replaceB, areas[2], Simd::Select(replaceC, areas[1], this->AreaBC));
+  this->AreaCA = Simd::Select(replaceA, areas[2], Simd::Select(replaceC, areas[0], this->AreaCA));
   ReplaceCorner(replaceA, x, this->A);
   ReplaceCorner(replaceB, x, this->B);
   ReplaceCorner(replaceC, x, this->C);
@@ -423,13 +415,12 @@ inline void PacketWalk<Simd>::Pass(Mask lanes)
   if (Simd::Bits(lanes & (late | early)) != 0)
   {
     const Float perDepth = (scalar - this->FaceScalar) / (depth - this->FaceDepth);
-    from = Simd::Select(
-      late, Simd::Fma(start - this->FaceDepth, perDepth, this->FaceScalar), from);
+    from = Simd::Select(late, Simd::Fma(start - this->FaceDepth, perDepth, this->FaceScalar), from);
     to = Simd::Select(early, Simd::Fma(end - this->FaceDepth, perDepth, this->FaceScalar), to);
   }
   const Mask segment = lanes & (end > start);
-  this->Pending = this->Pending |
-    this->Integral.Begin(segment, from, to, (end - start) * this->LengthPerDepth);
+  this->Pending =
+    this->Pending | this->Integral.Begin(segment, from, to, (end - start) * this->LengthPerDepth);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
   this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
   this->FaceScalar = Simd::Select(lanes, scalar, this->FaceScalar);

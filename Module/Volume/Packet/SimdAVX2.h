@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** Packets of 8 lanes for processors with AVX2 and FMA; see SimdPortable.h for what each name does. */
+/** Packets of 8 lanes for processors with AVX2 and FMA; see SimdPortable.h for what each name does.
+ */
 #ifndef meniscus_Volume_Packet_SimdAVX2_h
 #define meniscus_Volume_Packet_SimdAVX2_h
 
@@ -95,8 +96,8 @@ struct SimdAVX2
   }
   static Int Select(Mask mask, Int yes, Int no)
   {
-    return { _mm256_castps_si256(_mm256_blendv_ps(
-      _mm256_castsi256_ps(no.V), _mm256_castsi256_ps(yes.V), mask.Bits)) };
+    return { _mm256_castps_si256(
+      _mm256_blendv_ps(_mm256_castsi256_ps(no.V), _mm256_castsi256_ps(yes.V), mask.Bits)) };
   }
   static Int One(Mask mask) { return { _mm256_srli_epi32(_mm256_castps_si256(mask.Bits), 31) }; }
   static Mask AndNot(Mask a, Mask b) { return { _mm256_andnot_ps(b.Bits, a.Bits) }; }
@@ -211,10 +212,7 @@ struct SimdAVX2
     const __m256 second = _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 28));
     return { _mm256_blendv_ps(low, high, second) };
   }
-  static Mask Equal(Int a, Int b)
-  {
-    return { _mm256_castsi256_ps(_mm256_cmpeq_epi32(a.V, b.V)) };
-  }
+  static Mask Equal(Int a, Int b) { return { _mm256_castsi256_ps(_mm256_cmpeq_epi32(a.V, b.V)) }; }
   static Int AsInt(Float a) { return { _mm256_castps_si256(a.V) }; }
 };
 

@@ -29,14 +29,8 @@ struct SimdAVX512
     friend Float operator-(Float a, Float b) { return { _mm512_sub_ps(a.V, b.V) }; }
     friend Float operator*(Float a, Float b) { return { _mm512_mul_ps(a.V, b.V) }; }
     friend Float operator/(Float a, Float b) { return { _mm512_div_ps(a.V, b.V) }; }
-    friend Mask operator<(Float a, Float b)
-    {
-      return { _mm512_cmp_ps_mask(a.V, b.V, _CMP_LT_OQ) };
-    }
-    friend Mask operator>(Float a, Float b)
-    {
-      return { _mm512_cmp_ps_mask(a.V, b.V, _CMP_GT_OQ) };
-    }
+    friend Mask operator<(Float a, Float b) { return { _mm512_cmp_ps_mask(a.V, b.V, _CMP_LT_OQ) }; }
+    friend Mask operator>(Float a, Float b) { return { _mm512_cmp_ps_mask(a.V, b.V, _CMP_GT_OQ) }; }
   };
 
   struct Int
@@ -198,8 +192,7 @@ struct SimdAVX512
     {
       return { _mm512_permutexvar_ps(index.V, _mm512_loadu_ps(table)) };
     }
-    return { _mm512_permutex2var_ps(
-      _mm512_loadu_ps(table), index.V, _mm512_loadu_ps(table + 16)) };
+    return { _mm512_permutex2var_ps(_mm512_loadu_ps(table), index.V, _mm512_loadu_ps(table + 16)) };
   }
   static Mask Equal(Int a, Int b) { return { _mm512_cmpeq_epi32_mask(a.V, b.V) }; }
   static Int AsInt(Float a) { return { _mm512_castps_si512(a.V) }; }
