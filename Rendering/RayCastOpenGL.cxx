@@ -3,11 +3,11 @@
 #include "RayCastOpenGL.h"
 
 #include "RayCastNative.h"
+#include "RayCastShader.h"
 
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
 #include "vtkTetrahedraRayCastFS.h"
-#include "vtkTetrahedraRays.h"
 
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -92,12 +92,6 @@ bool RayCastOpenGL::HasVertices() const
 }
 
 //------------------------------------------------------------------------------
-bool RayCastOpenGL::HasIntervals() const
-{
-  return this->Intervals.IsFilled();
-}
-
-//------------------------------------------------------------------------------
 std::string RayCastOpenGL::Count(OpenGLTable& table, const std::string& error)
 {
   this->UploadedBytes += table.GetBytes();
@@ -164,18 +158,54 @@ std::string RayCastOpenGL::UploadVertices(
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadIntervals(const std::vector<TransferFunctionInterval>& intervals)
+std::string RayCastOpenGL::UploadGradients(const std::vector<glm::vec3>& gradients)
 {
   std::vector<float> values;
-  values.reserve(12 * intervals.size());
-  for (const auto& i : intervals)
+  values.reserve(4 * gradients.size());
+  for (const glm::vec3& g : gradients)
   {
-    values.insert(values.end(),
-      { i.Lower, i.Upper, i.Attenuation, i.AttenuationSlope, i.Color.r, i.Color.g, i.Color.b, 0.0f,
-        i.ColorSlope.r, i.ColorSlope.g, i.ColorSlope.b, 0.0f });
+    values.insert(values.end(), { g.x, g.y, g.z, 0.0f });
   }
-  const std::string error = this->Intervals.Upload(this->Window, values, 4, 3);
-  return this->Count(this->Intervals, error);
+  const std::string error = this->VertexGradients.Upload(this->Window, values, 4, 1);
+  return this->Count(this->VertexGradients, error);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadProperty(const VolumePropertyTables& tables)
+{
+  std::vector<float> values;
+  const auto append = [&values](const std::vector<TransferFunctionInterval>& intervals)
+  {
+    for (const auto& i : intervals)
+    {
+      values.insert(values.end(),
+        { i.Lower, i.Upper, i.Attenuation, i.AttenuationSlope, i.Color.r, i.Color.g, i.Color.b,
+          0.0f, i.ColorSlope.r, i.ColorSlope.g, i.ColorSlope.b, 0.0f });
+    }
+  };
+  append(tables.GetIntervals());
+  append(tables.GetGradientIntervals());
+  this->NumberOfScalarIntervals = static_cast<int>(tables.GetIntervals().size());
+  std::string error = this->Intervals.Upload(this->Window, values, 4, 3);
+  if (!this->Count(this->Intervals, error).empty())
+  {
+    return error;
+  }
+
+  this->Isosurfaces.Release(this->Window);
+  if (tables.GetIsosurfaces().empty())
+  {
+    return std::string();
+  }
+  values.clear();
+  for (const Isosurface& surface : tables.GetIsosurfaces())
+  {
+    const glm::vec3& color = surface.Color;
+    values.insert(values.end(),
+      { surface.Scalar, surface.Opacity, 0.0f, 0.0f, color.r, color.g, color.b, 0.0f });
+  }
+  error = this->Isosurfaces.Upload(this->Window, values, 4, 2);
+  return this->Count(this->Isosurfaces, error);
 }
 
 //------------------------------------------------------------------------------
@@ -282,13 +312,13 @@ std::string RayCastOpenGL::Resize(int width, int height)
 }
 
 //------------------------------------------------------------------------------
+template <typename Function>
 std::string RayCastOpenGL::ReadyQuad(
-  std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragmentShader)
+  std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader)
 {
   if (!quad)
   {
-    std::string source(fragmentShader);
-    vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
+    const std::string source = makeFragmentShader();
     quad = std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, source.c_str(), "");
   }
   else
@@ -315,7 +345,8 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame)
   DrawToAttachments(this->TileTarget, TileLayers);
   this->Window->GetState()->vtkglViewport(0, 0, this->Tiles[0], this->Tiles[1]);
 
-  const std::string error = this->ReadyQuad(this->TileLister, vtkTetrahedraEntryTilesFS);
+  const std::string error = this->ReadyQuad(this->TileLister,
+    []() { return RayCastShaderSource(vtkTetrahedraEntryTilesFS, RayCastOptics()); });
   if (!error.empty())
   {
     return error;
@@ -343,28 +374,56 @@ std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
   DrawToAttachments(this->ImageTarget, 2);
   this->Window->GetState()->vtkglViewport(0, 0, this->Size[0], this->Size[1]);
 
-  const std::string error = this->ReadyQuad(this->RayCaster, vtkTetrahedraRayCastFS);
+  std::unique_ptr<vtkOpenGLQuadHelper>& caster =
+    this->RayCasters[RayCastShaderOptions(frame.Optics)];
+  const std::string error = this->ReadyQuad(
+    caster, [&frame]() { return RayCastShaderSource(vtkTetrahedraRayCastFS, frame.Optics); });
   if (!error.empty())
   {
     return error;
   }
-  vtkShaderProgram* program = this->RayCaster->Program;
+  vtkShaderProgram* program = caster->Program;
   this->ActivateRays(program, frame.Rays);
-  this->Cells.Activate(program, "cells");
-  this->Intervals.Activate(program, "intervals");
+  const std::vector<OpenGLTable*> tables = this->ActivateTables(program, frame.Optics);
   this->EntryTiles->Activate();
   program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
   this->Depth.GetTexture()->Activate();
   program->SetUniformi("opaqueDepth", this->Depth.GetTexture()->GetTextureUnit());
   this->SetCastUniforms(program, frame);
-  this->RayCaster->Render();
+  SetOpticsUniforms(program, frame.Optics);
+  caster->Render();
   this->Depth.GetTexture()->Deactivate();
   this->EntryTiles->Deactivate();
-  this->Intervals.Deactivate();
-  this->Cells.Deactivate();
+  for (OpenGLTable* table : tables)
+  {
+    table->Deactivate();
+  }
   this->DeactivateRays();
   this->StatisticsStale = true;
   return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::vector<OpenGLTable*> RayCastOpenGL::ActivateTables(
+  vtkShaderProgram* program, const RayCastOptics& optics)
+{
+  std::vector<OpenGLTable*> active;
+  const auto activate = [&active, program](OpenGLTable& table, const char* name)
+  {
+    table.Activate(program, name);
+    active.push_back(&table);
+  };
+  activate(this->Cells, "cells");
+  activate(this->Intervals, "intervals");
+  if (optics.VertexGradients)
+  {
+    activate(this->VertexGradients, "vertexGradients");
+  }
+  if (this->Isosurfaces.IsFilled())
+  {
+    activate(this->Isosurfaces, "surfaces");
+  }
+  return active;
 }
 
 //------------------------------------------------------------------------------
@@ -406,7 +465,11 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
 {
   const RayFrame& rays = frame.Rays;
   program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
-  program->SetUniformi("numberOfIntervals", static_cast<int>(this->Intervals.GetNumberOfRows()));
+  const int intervals = static_cast<int>(this->Intervals.GetNumberOfRows());
+  program->SetUniformi("numberOfIntervals", this->NumberOfScalarIntervals);
+  program->SetUniformi("firstGradientInterval", this->NumberOfScalarIntervals);
+  program->SetUniformi("numberOfGradientIntervals", intervals - this->NumberOfScalarIntervals);
+  program->SetUniformi("numberOfSurfaces", static_cast<int>(this->Isosurfaces.GetNumberOfRows()));
   glm::mat3 viewToWorld(rays.ViewToWorld);
   program->SetUniformMatrix3x3("viewToWorld", glm::value_ptr(viewToWorld));
   program->SetUniformf("nearDepth", static_cast<float>(rays.NearDepth));
@@ -423,7 +486,8 @@ std::string RayCastOpenGL::Blend(const int viewport[4])
   state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const std::string error = this->ReadyQuad(this->Composer, vtkTetrahedraComposeFS);
+  const std::string error =
+    this->ReadyQuad(this->Composer, []() { return std::string(vtkTetrahedraComposeFS); });
   if (!error.empty())
   {
     return error;
@@ -481,14 +545,14 @@ void RayCastOpenGL::Release(vtkWindow* window)
     owner->PushContext();
   }
   this->GetStatistics();
-  for (OpenGLTable* table :
-    { &this->Vertices, &this->Cells, &this->TreeNodes, &this->TreeFaces, &this->Intervals })
+  for (OpenGLTable* table : { &this->Vertices, &this->Cells, &this->TreeNodes, &this->TreeFaces,
+         &this->VertexGradients, &this->Intervals, &this->Isosurfaces })
   {
     table->Release(owner);
   }
   this->Depth.Release(owner);
   this->TileLister.reset();
-  this->RayCaster.reset();
+  this->RayCasters.clear();
   this->Composer.reset();
   this->TileTarget = nullptr;
   this->ImageTarget = nullptr;

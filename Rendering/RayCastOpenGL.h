@@ -11,11 +11,14 @@
 
 #include "OpenGLDepthCopy.h"
 #include "OpenGLTable.h"
+#include "RayCastOptics.h"
 #include "RayStatistics.h"
+#include "VolumePropertyTables.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +39,7 @@ struct RayCastFrame
 {
   RayFrame Rays;
   double EarlyTerminationOpacity;
+  RayCastOptics Optics;
 };
 
 /**
@@ -56,12 +60,15 @@ public:
   std::string SetWindow(vtkOpenGLRenderWindow* window);
   bool HasMesh() const;
   bool HasVertices() const;
-  bool HasIntervals() const;
+  bool HasGradients() const { return this->VertexGradients.IsFilled(); }
+  bool HasProperty() const { return this->Intervals.IsFilled(); }
 
   std::string UploadMesh(const TetrahedralMesh& mesh, const BoundaryTree& tree);
   /** @param scalars  one normalised scalar per vertex. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
-  std::string UploadIntervals(const std::vector<TransferFunctionInterval>& intervals);
+  /** One gradient per vertex. Needed for optics with VertexGradients. */
+  std::string UploadGradients(const std::vector<glm::vec3>& gradients);
+  std::string UploadProperty(const VolumePropertyTables& tables);
 
   /** Viewport of the current framebuffer: x, y, width, height. */
   void GetViewport(int viewport[4]) const;
@@ -89,23 +96,30 @@ private:
   template <typename Function>
   std::string DrawImage(Function&& makeImage);
   std::string Resize(int width, int height);
-  std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragmentShader);
+  template <typename Function>
+  std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
   std::string ListEntries(const RayCastFrame& frame);
   std::string CastRays(const RayCastFrame& frame);
   std::string Blend(const int viewport[4]);
   void ActivateRays(vtkShaderProgram* program, const RayFrame& rays);
   void DeactivateRays();
   void SetCastUniforms(vtkShaderProgram* program, const RayCastFrame& frame);
+  std::vector<OpenGLTable*> ActivateTables(vtkShaderProgram* program, const RayCastOptics& optics);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   OpenGLTable Vertices;
   OpenGLTable Cells;
   OpenGLTable TreeNodes;
   OpenGLTable TreeFaces;
+  OpenGLTable VertexGradients;
+  /** Of the scalar, then of the gradient's magnitude. */
   OpenGLTable Intervals;
+  int NumberOfScalarIntervals = 0;
+  OpenGLTable Isosurfaces;
   OpenGLDepthCopy Depth;
   std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
-  std::unique_ptr<vtkOpenGLQuadHelper> RayCaster;
+  /** By RayCastShaderOptions(). */
+  std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
   vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;
   vtkSmartPointer<vtkOpenGLFramebufferObject> ImageTarget;

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "ObjectVersion.h"
 #include "RayCastOpenGL.h"
+#include "RayCastOptics.h"
+#include "RayCastShader.h"
 #include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
-#include "VolumePropertyPoints.h"
+#include "Volume/VertexGradients.h"
+#include "VolumePropertyTables.h"
 
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
@@ -27,6 +31,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
+#include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
@@ -41,23 +46,7 @@
 namespace
 {
 
-/** An object and its modification time: equal as long as it is the same object, unmodified. */
-struct Version
-{
-  const vtkObject* Object = nullptr;
-  vtkMTimeType Time = 0;
-
-  Version() = default;
-  explicit Version(vtkObject* object)
-    : Object(object)
-    , Time(object ? object->GetMTime() : 0)
-  {
-  }
-  bool operator==(const Version& other) const
-  {
-    return this->Object == other.Object && this->Time == other.Time;
-  }
-};
+using Version = meniscus::ObjectVersion;
 
 /** What the mesh tables were built from. Another grid that shares these objects has the same mesh.
  */
@@ -149,39 +138,37 @@ public:
   meniscus::BoundaryTree Tree;
   std::vector<float> Scalars;
   meniscus::ScalarNormalization Normalization;
-  std::vector<meniscus::TransferFunctionPoint> Points;
-  std::vector<meniscus::TransferFunctionInterval> Intervals;
+  std::vector<glm::vec3> Gradients;
+  meniscus::VolumePropertyTables Property;
   meniscus::RayCastOpenGL OpenGL;
 
   MeshVersion BuiltMesh;
   Version BuiltScalars;
-  Version BuiltProperty;
-  int BuiltOpacityModel = -1;
 
   bool MeshUploadStale = true;
   bool VertexUploadStale = true;
-  bool IntervalUploadStale = true;
-  bool IntervalsStale = true;
+  bool GradientsStale = true;
+  bool GradientUploadStale = true;
+  vtkTypeInt64 UploadedProperty = -1;
 
   vtkTypeInt64 MeshBuilds = 0;
   vtkTypeInt64 ScalarUpdates = 0;
-  vtkTypeInt64 TransferFunctionBuilds = 0;
+  vtkTypeInt64 GradientBuilds = 0;
 
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
-  bool WarnedShading = false;
-  bool WarnedClipping = false;
+  bool WarnedNative = false;
 
-  void UpdateIntervals();
-  std::string Upload();
-  std::string DrawOpenGL(const meniscus::RayFrame& frame, double terminationOpacity);
-  std::string DrawNative(const meniscus::RayFrame& frame, double terminationOpacity);
+  void UpdateGradients();
+  std::string Upload(bool gradients);
+  std::string DrawOpenGL(const meniscus::RayCastFrame& frame);
+  std::string DrawNative(const meniscus::RayCastFrame& frame);
   std::string ComputeFrame(
-    vtkRenderer* renderer, vtkVolume* volume, const int viewport[4], meniscus::RayFrame& frame);
+    vtkRenderer* renderer, vtkVolume* volume, const int viewport[4], meniscus::OpticsPlace& place);
 };
 
 //------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload()
+std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
 {
   std::string error;
   if (this->MeshUploadStale || !this->OpenGL.HasMesh())
@@ -194,44 +181,56 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload()
     error = this->OpenGL.UploadVertices(this->Mesh, this->Scalars);
     this->VertexUploadStale = !error.empty();
   }
-  if (error.empty() && (this->IntervalUploadStale || !this->OpenGL.HasIntervals()))
+  if (error.empty() && gradients && (this->GradientUploadStale || !this->OpenGL.HasGradients()))
   {
-    error = this->OpenGL.UploadIntervals(this->Intervals);
-    this->IntervalUploadStale = !error.empty();
+    error = this->OpenGL.UploadGradients(this->Gradients);
+    this->GradientUploadStale = !error.empty();
+  }
+  if (error.empty() &&
+    (this->UploadedProperty != this->Property.GetVersion() || !this->OpenGL.HasProperty()))
+  {
+    error = this->OpenGL.UploadProperty(this->Property);
+    this->UploadedProperty = error.empty() ? this->Property.GetVersion() : -1;
   }
   return error;
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::vtkInternals::UpdateIntervals()
+void vtkTetrahedraRayCastMapper::vtkInternals::UpdateGradients()
 {
-  if (this->IntervalsStale)
+  if (this->GradientsStale)
   {
-    this->Intervals = meniscus::BuildIntervals(this->Points, this->Normalization);
-    this->IntervalsStale = false;
-    this->IntervalUploadStale = true;
+    this->Gradients = meniscus::ComputeVertexGradients(this->Mesh, this->Scalars);
+    this->GradientsStale = false;
+    this->GradientUploadStale = true;
+    ++this->GradientBuilds;
   }
 }
 
 //------------------------------------------------------------------------------
 std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
-  const meniscus::RayFrame& frame, double terminationOpacity)
+  const meniscus::RayCastFrame& frame)
 {
-  const std::string error = this->Upload();
-  return error.empty() ? this->OpenGL.Draw({ frame, terminationOpacity }) : error;
+  if (frame.Optics.VertexGradients)
+  {
+    this->UpdateGradients();
+  }
+  const std::string error = this->Upload(frame.Optics.VertexGradients);
+  return error.empty() ? this->OpenGL.Draw(frame) : error;
 }
 
 //------------------------------------------------------------------------------
 std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
-  const meniscus::RayFrame& frame, double terminationOpacity)
+  const meniscus::RayCastFrame& frame)
 {
-  return this->OpenGL.DrawNative({ &this->Mesh, &this->Tree, &this->Scalars, &this->Intervals,
-    frame, static_cast<float>(1.0 - terminationOpacity) });
+  return this->OpenGL.DrawNative(
+    { &this->Mesh, &this->Tree, &this->Scalars, &this->Property.GetIntervals(), frame.Rays,
+      static_cast<float>(1.0 - frame.EarlyTerminationOpacity) });
 }
 
 //------------------------------------------------------------------------------
 std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(
-  vtkRenderer* renderer, vtkVolume* volume, const int viewport[4], meniscus::RayFrame& frame)
+  vtkRenderer* renderer, vtkVolume* volume, const int viewport[4], meniscus::OpticsPlace& place)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   meniscus::RayFrameInput input;
@@ -242,7 +241,10 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(
   input.Center = this->Mesh.GetCenter();
   input.Radius = this->Mesh.GetRadius();
   input.ImageSize = glm::dvec2(viewport[2], viewport[3]);
-  switch (meniscus::ComputeRayFrame(input, frame))
+  place.CenterInWorld = glm::dvec3(input.ModelToWorld * glm::dvec4(input.Center, 1.0));
+  place.WorldToView = input.WorldToView;
+  place.ScalarScale = this->Normalization.Scale;
+  switch (meniscus::ComputeRayFrame(input, place.Frame))
   {
     case meniscus::RayFrameStatus::Ok:
       return std::string();
@@ -325,7 +327,7 @@ vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* g
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::WarnAboutUnavailable(vtkVolume* volume)
+void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 {
   const auto warnOnce = [this](bool condition, bool& warned, const char* text)
   {
@@ -338,13 +340,8 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable(vtkVolume* volume)
   vtkInternals& internals = *this->Internals;
   warnOnce(this->Integration == PRE_INTEGRATED, internals.WarnedIntegration,
     "Pre-integration is not available; integrating exactly.");
-  warnOnce(this->BlendMode != COMPOSITE_BLEND, internals.WarnedBlendMode,
-    "This blend mode is not available; rendering with composite blending.");
-  vtkVolumeProperty* property = volume->GetProperty();
-  warnOnce(property->GetShade() != 0 || property->HasGradientOpacity(), internals.WarnedShading,
-    "Shading and gradient opacity are not available; rendering without.");
-  warnOnce(this->ClippingPlanes && this->ClippingPlanes->GetNumberOfItems() > 0,
-    internals.WarnedClipping, "Clipping planes are not available; rendering without.");
+  warnOnce(this->GetUsedBlendMode() != this->BlendMode, internals.WarnedBlendMode,
+    "There is no such blend mode for meshes; rendering with composite blending.");
 }
 
 //------------------------------------------------------------------------------
@@ -435,9 +432,6 @@ void vtkTetrahedraRayCastMapper::UpdateScalars(vtkDataArray* scalars)
   const auto normalization = notFinite == static_cast<vtkTypeInt64>(values.size())
     ? meniscus::ScalarNormalization()
     : meniscus::NormalizeRange(minimum, maximum);
-  internals.IntervalsStale = internals.IntervalsStale ||
-    normalization.Offset != internals.Normalization.Offset ||
-    normalization.Scale != internals.Normalization.Scale;
   internals.Normalization = normalization;
   internals.Scalars.resize(values.size());
   std::transform(values.begin(), values.end(), internals.Scalars.begin(),
@@ -445,35 +439,37 @@ void vtkTetrahedraRayCastMapper::UpdateScalars(vtkDataArray* scalars)
     { return static_cast<float>((value - normalization.Offset) * normalization.Scale); });
   internals.BuiltScalars = version;
   internals.VertexUploadStale = true;
+  internals.GradientsStale = true;
   ++internals.ScalarUpdates;
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayCastMapper::GetUsedBlendMode()
+{
+  const bool known = this->BlendMode >= vtkVolumeMapper::COMPOSITE_BLEND &&
+    this->BlendMode <= vtkVolumeMapper::ISOSURFACE_BLEND;
+  return known ? this->BlendMode : vtkVolumeMapper::COMPOSITE_BLEND;
 }
 
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
 {
   vtkInternals& internals = *this->Internals;
-  vtkVolumeProperty* property = volume->GetProperty();
-  // A property without functions makes default ones when asked: ask before taking its time.
-  property->GetScalarOpacity(0);
-  if (property->GetColorChannels(0) == 1)
+  internals.Property.Update(volume->GetProperty(), this->GetUsedBlendMode(),
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Normalization);
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
+{
+  bool& warned = this->Internals->WarnedNative;
+  if (this->Backend == NATIVE && !plainOptics && !warned)
   {
-    property->GetGrayTransferFunction(0);
+    warned = true;
+    vtkWarningMacro("The native backend has composite blending only, without shading, gradient "
+                    "opacity and clipping planes; rendering with OpenGL.");
   }
-  else
-  {
-    property->GetRGBTransferFunction(0);
-  }
-  const Version version(property);
-  if (version == internals.BuiltProperty && internals.BuiltOpacityModel == this->OpacityModel)
-  {
-    return;
-  }
-  internals.Points =
-    meniscus::ReducePropertyToPoints(property, this->OpacityModel == OPACITY_PER_UNIT_DISTANCE);
-  internals.BuiltProperty = version;
-  internals.BuiltOpacityModel = this->OpacityModel;
-  internals.IntervalsStale = true;
-  ++internals.TransferFunctionBuilds;
+  return this->Backend == NATIVE && plainOptics ? NATIVE : OPENGL;
 }
 
 //------------------------------------------------------------------------------
@@ -487,20 +483,31 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
     return false;
   }
   vtkOpenGLClearErrorMacro();
-  internals.UpdateIntervals();
-  const int backend = this->Backend == NATIVE ? NATIVE : OPENGL;
-  meniscus::RayFrame frame;
+  meniscus::OpticsPlace place;
+  meniscus::RayCastFrame frame;
   std::string error = internals.OpenGL.SetWindow(window);
   if (error.empty())
   {
     int viewport[4];
     internals.OpenGL.GetViewport(viewport);
-    error = internals.ComputeFrame(renderer, volume, viewport, frame);
+    error = internals.ComputeFrame(renderer, volume, viewport, place);
+  }
+  int backend = OPENGL;
+  if (error.empty())
+  {
+    frame.Rays = place.Frame;
+    frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
+    frame.Optics.BlendMode = this->GetUsedBlendMode();
+    meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
+    meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
+    frame.Optics.VertexGradients =
+      frame.Optics.UsesGradients() && this->Gradients == VERTEX_GRADIENTS;
+    error = meniscus::DescribeExcess(frame.Optics);
   }
   if (error.empty())
   {
-    error = backend == NATIVE ? internals.DrawNative(frame, this->EarlyTerminationOpacity)
-                              : internals.DrawOpenGL(frame, this->EarlyTerminationOpacity);
+    backend = this->ChooseBackend(frame.Optics.IsPlain());
+    error = backend == NATIVE ? internals.DrawNative(frame) : internals.DrawOpenGL(frame);
   }
   if (!error.empty())
   {
@@ -530,7 +537,7 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   {
     return;
   }
-  this->WarnAboutUnavailable(volume);
+  this->WarnAboutUnavailable();
   this->UpdateScalars(scalars);
   this->UpdateTransferFunction(volume);
   // A mesh without extent has no cell that a ray could cross.
@@ -561,7 +568,13 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfScalarUpdates()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransferFunctionBuilds()
 {
-  return this->Internals->TransferFunctionBuilds;
+  return this->Internals->Property.GetNumberOfBuilds();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfGradientBuilds()
+{
+  return this->Internals->GradientBuilds;
 }
 
 //------------------------------------------------------------------------------
@@ -614,11 +627,13 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "ActiveBackend: " << this->ActiveBackend << "\n";
   os << indent << "Integration: " << this->Integration << "\n";
+  os << indent << "Gradients: " << this->Gradients << "\n";
   os << indent << "EarlyTerminationOpacity: " << this->EarlyTerminationOpacity << "\n";
   os << indent << "NumberOfMeshBuilds: " << this->GetNumberOfMeshBuilds() << "\n";
   os << indent << "NumberOfScalarUpdates: " << this->GetNumberOfScalarUpdates() << "\n";
   os << indent << "NumberOfTransferFunctionBuilds: " << this->GetNumberOfTransferFunctionBuilds()
      << "\n";
+  os << indent << "NumberOfGradientBuilds: " << this->GetNumberOfGradientBuilds() << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";

@@ -14,13 +14,26 @@
  * Cells with a point index out of range, a repeated point or a point that is not finite are left
  * out and counted. Cells with a vertex whose scalar is not finite are transparent.
  *
- * Optical model: colour and opacity come from the vtkVolumeProperty. Opacity becomes an attenuation
- * coefficient as SetOpacityModel() says, per ScalarOpacityUnitDistance, lengths measured in world
- * coordinates. Emitted colour is weighted by the attenuation, output is premultiplied RGBA, blended
- * over what is in the framebuffer; rays end at the opaque geometry there. A transfer function that
- * is not piecewise linear (HSV, Lab or diverging space, logarithmic scale, midpoint, sharpness,
- * OPACITY_PER_UNIT_DISTANCE) is sampled between its nodes until linear interpolation is off by less
- * than 1/32768 of the full range of colour and of alpha over the unit distance.
+ * Optical model, by SetBlendMode() with the numbers of vtkVolumeMapper::BlendModes:
+ * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity becomes an
+ *   attenuation coefficient as SetOpacityModel() says, per ScalarOpacityUnitDistance. Emitted
+ * colour is weighted by the attenuation. Shade and the property's material light the colour
+ * (Phong's model, two-sided, by the renderer's lights); the gradient opacity function, of the
+ * gradient's length in scalar per world length, multiplies the attenuation. See SetGradients().
+ * - MAXIMUM_INTENSITY_BLEND, MINIMUM_INTENSITY_BLEND, AVERAGE_INTENSITY_BLEND: the largest or
+ *   smallest scalar of the ray, or its mean over the length, shown by colour and opacity of the
+ *   property; lengths do not count.
+ * - ADDITIVE_BLEND: the integral of opacity / ScalarOpacityUnitDistance times the scalar's place in
+ *   the data's range [0, 1], as an opaque grey level.
+ * - ISOSURFACE_BLEND: surfaces at the property's IsoSurfaceValues, with its colour and opacity at
+ *   these values; lit if Shade is on.
+ *
+ * Lengths are measured in world coordinates. Output is premultiplied RGBA, blended over what is in
+ * the framebuffer; rays end at the opaque geometry there. Clipping planes cut cells exactly. A
+ * transfer function that is not piecewise linear (HSV, Lab or diverging space, logarithmic scale,
+ * midpoint, sharpness, OPACITY_PER_UNIT_DISTANCE) is sampled between its nodes until linear
+ * interpolation is off by less than 1/32768 of the full range of colour and of alpha over the unit
+ * distance.
  *
  * Method:
  * 1. Vertices and cells are ordered along a Morton curve; cells are linked across faces. Once per
@@ -47,8 +60,8 @@
  * Needs OpenGL 3.2; the native backend casts rays on the CPU and needs it to show the image. Work
  * is done where its input changes: see the counters.
  *
- * @note Limits of this version: composite blending; one component; no shading, gradient opacity or
- * clipping planes (a warning says so once); not drawn in hardware selection passes; up to 2^29
+ * @note Limits of this version: one component; up to 32 clipping planes and 16 lights; the native
+ * backend has plain composite blending only; not drawn in hardware selection passes; up to 2^29
  * cells, and tables within GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
@@ -100,7 +113,7 @@ public:
   /**
    * What runs the ray caster: OPENGL, a fragment shader; NATIVE, the CPU, one ray at a time on all
    * threads of vtkSMPTools, the same algorithm decision for decision; AUTOMATIC, the default,
-   * OPENGL.
+   * OPENGL. What NATIVE does not have (see the limits) warns once and is drawn by OPENGL.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, NATIVE);
   vtkGetMacro(Backend, int);
@@ -125,6 +138,23 @@ public:
   vtkGetMacro(Integration, int);
   ///@}
 
+  enum GradientLocations
+  {
+    CELL_GRADIENTS = 0,
+    VERTEX_GRADIENTS = 1
+  };
+
+  ///@{
+  /**
+   * Which gradients shading and gradient opacity use: CELL_GRADIENTS, that of each cell (flat), or
+   * VERTEX_GRADIENTS, the default, means around each vertex, interpolated (smooth). They are
+   * computed when first needed and after a change of mesh or scalars. Lengths are measured in world
+   * coordinates.
+   */
+  vtkSetClampMacro(Gradients, int, CELL_GRADIENTS, VERTEX_GRADIENTS);
+  vtkGetMacro(Gradients, int);
+  ///@}
+
   ///@{
   /**
    * Opacity at which a ray ends, in [0, 1]. A pixel is off by at most 1 minus this. Default
@@ -138,12 +168,13 @@ public:
   /**
    * Work done since construction: builds of the mesh tables, updates of vertex scalars, reductions
    * of the volume property to control points, builds of the set of active cells (all cells, once
-   * per mesh, in this version).
+   * per mesh, in this version), computations of vertex gradients.
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
   vtkTypeInt64 GetNumberOfTransferFunctionBuilds();
   vtkTypeInt64 GetNumberOfActiveSetBuilds();
+  vtkTypeInt64 GetNumberOfGradientBuilds();
   ///@}
 
   /**
@@ -191,16 +222,19 @@ private:
 
   vtkUnstructuredGrid* ValidateInput();
   vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
-  void WarnAboutUnavailable(vtkVolume* volume);
+  void WarnAboutUnavailable();
   bool UpdateMesh(vtkUnstructuredGrid* grid);
   void UpdateScalars(vtkDataArray* scalars);
   void UpdateTransferFunction(vtkVolume* volume);
+  int GetUsedBlendMode();
+  int ChooseBackend(bool plainOptics);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);
 
   int OpacityModel = ATTENUATION_COEFFICIENT;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
   int Integration = EXACT;
+  int Gradients = VERTEX_GRADIENTS;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
 
   class vtkInternals;
