@@ -3,6 +3,7 @@
 #include "vtkRefractedGeometryFilter.h"
 
 #include "MembraneExtraction.h"
+#include "Refraction/CurvedGeometry.h"
 #include "Refraction/VirtualGeometry.h"
 #include "VirtualPolyData.h"
 
@@ -32,6 +33,8 @@ constexpr vtkIdType Grain = 512;
 // points than keep all threads of a large machine busy.
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 64 * Grain;
+constexpr auto Chain = static_cast<vtkIdType>(meniscus::CurvedGeometry::Chain);
+static_assert(Grain % Chain == 0, "Steps and ranges are made of whole chains");
 
 void ThreadedLoop(std::size_t count, const meniscus::RangeBody& body)
 {
@@ -88,8 +91,19 @@ class vtkRefractedGeometryFilter::vtkInternals
 public:
   SolvedBlock& GetBlock(vtkPolyData* input);
   bool Solve(vtkRefractedGeometryFilter* self, SolvedBlock& block);
+  void SolveRange(SolvedBlock& block, vtkIdType begin, vtkIdType end) const;
 
-  meniscus::VirtualGeometry Geometry;
+  const meniscus::Membrane& GetMembrane() const
+  {
+    return this->IsCurved ? this->Curved.GetMembrane() : this->Flat.GetMembrane();
+  }
+  meniscus::MembraneStatus SetMembrane(bool curved);
+  meniscus::EyeStatus SetEye(const EyeKey& key);
+
+  /// Only the one that IsCurved names has the membrane.
+  meniscus::VirtualGeometry Flat;
+  meniscus::CurvedGeometry Curved;
+  bool IsCurved = false;
 
   vtkWeakPointer<vtkPolyData> MembraneSource;
   vtkMTimeType MembraneTime = 0;
@@ -146,16 +160,15 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
   const auto count = static_cast<vtkIdType>(block.points.size() / 3);
   block.vertices.resize(static_cast<std::size_t>(count));
   block.eyeUpdate = -1;
-  const vtkIdType step = std::max(count / ProgressSteps + 1, SmallestStep);
+  const vtkIdType step = std::max((count / ProgressSteps / Chain + 1) * Chain, SmallestStep);
   for (vtkIdType first = 0; first < count; first += step)
   {
     const vtkIdType last = std::min(first + step, count);
-    vtkSMPTools::For(first, last, Grain,
-      [this, &block](vtkIdType begin, vtkIdType end)
-      {
-        this->Geometry.Solve(block.points.data(), static_cast<std::size_t>(begin),
-          static_cast<std::size_t>(end), block.vertices.data());
-      });
+    // Threads get whole chains, so that the chains do not depend on the threads.
+    const vtkIdType chains = (last - first + Chain - 1) / Chain;
+    vtkSMPTools::For(0, chains, Grain / Chain,
+      [this, &block, first, last](vtkIdType begin, vtkIdType end)
+      { this->SolveRange(block, first + begin * Chain, std::min(first + end * Chain, last)); });
     self->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
     if (self->GetAbortExecute())
     {
@@ -170,6 +183,43 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
   }
   block.eyeUpdate = this->EyeUpdates;
   return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::vtkInternals::SolveRange(
+  SolvedBlock& block, vtkIdType begin, vtkIdType end) const
+{
+  const auto from = static_cast<std::size_t>(begin);
+  const auto to = static_cast<std::size_t>(end);
+  if (this->IsCurved)
+  {
+    this->Curved.Solve(block.points.data(), from, to, block.vertices.data());
+  }
+  else
+  {
+    this->Flat.Solve(block.points.data(), from, to, block.vertices.data());
+  }
+}
+
+//------------------------------------------------------------------------------
+meniscus::MembraneStatus vtkRefractedGeometryFilter::vtkInternals::SetMembrane(bool curved)
+{
+  if (curved != this->IsCurved)
+  {
+    this->Flat = meniscus::VirtualGeometry();
+    this->Curved.Clear();
+    this->IsCurved = curved;
+  }
+  const meniscus::MembraneInput input = this->MembraneArrays.AsInput();
+  return curved ? this->Curved.SetMembrane(input, ThreadedLoop) : this->Flat.SetMembrane(input);
+}
+
+//------------------------------------------------------------------------------
+meniscus::EyeStatus vtkRefractedGeometryFilter::vtkInternals::SetEye(const EyeKey& key)
+{
+  const glm::dvec3 eye(key.values[0], key.values[1], key.values[2]);
+  return this->IsCurved ? this->Curved.SetEye(eye, key.values[3], key.values[4], ThreadedLoop)
+                        : this->Flat.SetEye(eye, key.values[3], key.values[4], ThreadedLoop);
 }
 
 vtkStandardNewMacro(vtkRefractedGeometryFilter);
@@ -252,7 +302,7 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedCells() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
 {
-  return static_cast<vtkTypeInt64>(this->Internals->Geometry.GetMembrane().GetReport().Skipped());
+  return static_cast<vtkTypeInt64>(this->Internals->GetMembrane().GetReport().Skipped());
 }
 
 //------------------------------------------------------------------------------
@@ -312,8 +362,8 @@ int vtkRefractedGeometryFilter::RequestData(
     return 1;
   }
 
-  const auto report = meniscus::BuildVirtualPolyData(input, block.vertices,
-    this->Internals->Geometry.GetMembrane(), this->OutputPointsPrecision, output);
+  const auto report = meniscus::BuildVirtualPolyData(
+    input, block.vertices, this->Internals->GetMembrane(), this->OutputPointsPrecision, output);
   this->Internals->SkippedCells += report.skippedCells + report.brokenCells;
   if (report.brokenCells > 0)
   {
@@ -332,13 +382,10 @@ int vtkRefractedGeometryFilter::RequestData(
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::WarnOfMissingModes()
 {
-  if (!this->Internals->WarnedOfModes &&
-    (this->MembraneModel == CURVED || this->Images == ALL_IMAGES))
+  if (!this->Internals->WarnedOfModes && this->Images == ALL_IMAGES)
   {
     this->Internals->WarnedOfModes = true;
-    vtkWarningMacro(
-      "Membrane model CURVED and images ALL_IMAGES are not available yet; the result is "
-      "that of FLAT_FACETS and FIRST_IMAGE.");
+    vtkWarningMacro("Images ALL_IMAGES is not available yet; the result is that of FIRST_IMAGE.");
   }
   if (!this->Internals->WarnedOfParallelProjection && this->Camera &&
     this->Camera->GetParallelProjection())
@@ -352,25 +399,28 @@ void vtkRefractedGeometryFilter::WarnOfMissingModes()
 bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
 {
   vtkInternals& internals = *this->Internals;
-  if (internals.MembraneKnown && internals.MembraneSource == membrane &&
-    internals.MembraneTime == membrane->GetMTime() && internals.MembraneReady)
+  const bool curved = this->MembraneModel == CURVED;
+  const bool known =
+    internals.MembraneKnown && internals.MembraneReady && internals.IsCurved == curved;
+  if (known && internals.MembraneSource == membrane &&
+    internals.MembraneTime == membrane->GetMTime())
   {
     return true;
   }
   meniscus::MembraneArrays arrays = meniscus::ExtractMembrane(membrane);
   internals.MembraneSource = membrane;
   internals.MembraneTime = membrane->GetMTime();
-  if (internals.MembraneKnown && internals.MembraneReady && arrays == internals.MembraneArrays)
+  if (known && arrays == internals.MembraneArrays)
   {
     return true;
   }
   internals.MembraneArrays = std::move(arrays);
   internals.MembraneKnown = true;
-  const auto status = internals.Geometry.SetMembrane(internals.MembraneArrays.AsInput());
+  const meniscus::MembraneStatus status = internals.SetMembrane(curved);
   internals.MembraneReady = status == meniscus::MembraneStatus::Ready;
   ++internals.PatchBuilds;
 
-  const meniscus::MembraneReport& report = internals.Geometry.GetMembrane().GetReport();
+  const meniscus::MembraneReport& report = internals.GetMembrane().GetReport();
   const std::size_t triangles = internals.MembraneArrays.triangles.size() / 3;
   if (!internals.MembraneReady)
   {
@@ -420,9 +470,7 @@ bool vtkRefractedGeometryFilter::UpdateEye()
     return true;
   }
   internals.Eye = EyeKey(); // stale until the update succeeds
-  const meniscus::EyeStatus status =
-    internals.Geometry.SetEye(glm::dvec3(position[0], position[1], position[2]),
-      this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction, ThreadedLoop);
+  const meniscus::EyeStatus status = internals.SetEye(key);
   switch (status)
   {
     case meniscus::EyeStatus::Ready:

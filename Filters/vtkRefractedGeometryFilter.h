@@ -53,8 +53,8 @@
  * The counters prove it. Memory: about 400 bytes per facet of the membrane and 100 per point of the
  * geometry.
  *
- * @note Membrane model CURVED and images ALL_IMAGES, the defaults, are not there yet: a warning
- * says once that FLAT_FACETS and FIRST_IMAGE are computed in their place.
+ * @note Images ALL_IMAGES, the default, is not there yet: a warning says once that FIRST_IMAGE is
+ * computed in its place.
  * @note A camera in parallel projection has no eye position; its position is used with a warning.
  * @note Between the rays of the vertices FLAT_FACETS interpolates linearly. The error is of second
  * order in the size of the facets; Documentation/refraction.md has measurements. Cells of
@@ -135,8 +135,7 @@ public:
 
   ///@{
   /**
-   * Set/Get the membrane model, FLAT_FACETS or CURVED. Default is CURVED, for which FLAT_FACETS is
-   * computed with a warning until it exists.
+   * Set/Get the membrane model, FLAT_FACETS or CURVED. Default is CURVED.
    */
   vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
   vtkGetMacro(MembraneModel, int);

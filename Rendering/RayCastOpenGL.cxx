@@ -470,7 +470,12 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
   program->SetUniformi("firstGradientInterval", this->NumberOfScalarIntervals);
   program->SetUniformi("numberOfGradientIntervals", intervals - this->NumberOfScalarIntervals);
   program->SetUniformi("numberOfSurfaces", static_cast<int>(this->Isosurfaces.GetNumberOfRows()));
-  glm::mat3 viewToWorld(rays.ViewToWorld);
+  // Apart from its size, whose square may be beyond single precision.
+  const glm::dmat3& toWorld = rays.ViewToWorld;
+  const double unit =
+    std::max({ glm::length(toWorld[0]), glm::length(toWorld[1]), glm::length(toWorld[2]) });
+  glm::mat3 viewToWorld(toWorld / unit);
+  program->SetUniformf("viewToWorldUnit", static_cast<float>(unit));
   program->SetUniformMatrix3x3("viewToWorld", glm::value_ptr(viewToWorld));
   program->SetUniformf("nearDepth", static_cast<float>(rays.NearDepth));
   program->SetUniform2f("depthNumerator", glm::value_ptr(glm::vec2(rays.DepthNumerator)));

@@ -53,6 +53,9 @@ public:
   /// `unit` is the length that becomes 1 inside.
   void Build(const std::vector<glm::dvec3>& centroids, double unit);
 
+  /// Another unit for the same topology; Refit must follow.
+  void SetUnit(double unit) { this->Scale = 1.0 / unit; }
+
   /// Fits all bounds. `bounds(facet)` is called once per facet, from the threads of `loop`.
   void Refit(const std::function<TubeBounds(std::int32_t)>& bounds, const RangeLoop& loop);
 

@@ -100,17 +100,26 @@ struct RefractionCells::CrossSection
 };
 
 //------------------------------------------------------------------------------
-EyeStatus RefractionCells::Update(const Membrane& membrane, const glm::dvec3& eye, double exterior,
-  double interior, const RangeLoop& loop)
+EyeStatus CheckEye(const glm::dvec3& eye, double exterior, double interior)
 {
   if (!(exterior > 0.0) || !(interior > 0.0) || !std::isfinite(exterior / interior) ||
     !std::isfinite(interior / exterior))
   {
     return EyeStatus::BadIndex;
   }
-  if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !std::isfinite(eye.z))
+  return std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z)
+    ? EyeStatus::Ready
+    : EyeStatus::NotFinite;
+}
+
+//------------------------------------------------------------------------------
+EyeStatus RefractionCells::Update(const Membrane& membrane, const glm::dvec3& eye, double exterior,
+  double interior, const RangeLoop& loop)
+{
+  const EyeStatus status = CheckEye(eye, exterior, interior);
+  if (status != EyeStatus::Ready)
   {
-    return EyeStatus::NotFinite;
+    return status;
   }
   this->Surface = &membrane;
   this->Eye = eye;

@@ -30,6 +30,9 @@ enum class EyeStatus
   OnTheMembrane ///< the eye lies on a facet, so there is no sight ray
 };
 
+/// What can be said of an eye and two indices without a membrane: never OnTheMembrane.
+EyeStatus CheckEye(const glm::dvec3& eye, double exterior, double interior);
+
 /// How the rays of the vertices that facets use came about.
 struct RayReport
 {

@@ -8,7 +8,8 @@ uniform isamplerBuffer cells;        // per cell: 4 vertices, 4 links
 uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetrahedraEntryTilesFS
 uniform int numberOfCells;
 uniform float tileSize;
-uniform mat3 viewToWorld;
+uniform mat3 viewToWorld;            // in units of viewToWorldUnit
+uniform float viewToWorldUnit;
 uniform float nearDepth;
 uniform vec2 depthNumerator;
 uniform vec2 depthDenominator;
@@ -358,7 +359,7 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   steps = 0;
   lost = 0;
   bool meetsMesh = setUpRay(rayPixel, vec2(0.0));
-  rayLengthPerDepth = length(viewToWorld * vec3(raySlope, 1.0));
+  rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * vec3(raySlope, 1.0));
   limitRay(opaque);
   startRay();
 

@@ -422,6 +422,37 @@ TEST(RefractedGeometryOutput, LargeOffsetsInDoubleAreHarmless)
 }
 
 //------------------------------------------------------------------------------
+// Between the rays of the vertices as well: flat facets are off by half a unit here.
+TEST(RefractedGeometryOutput, CurvedPatchesAreExactOnAPlane)
+{
+  const auto grid = MakeGrid(9, 80.0, -50.0);
+  const auto filter = MakeFilter(grid, MakeFlatMembrane());
+  filter->SetMembraneModelToCurved();
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
+  const meniscus::reference::AnalyticMembrane exact{ 0.0, 1.0, 1.333 };
+  for (vtkIdType i = 0; i < 81; ++i)
+  {
+    double p[3];
+    double s[3];
+    grid->GetPoint(i, p);
+    PointArray(filter->GetOutput(), "SightPoint")->GetTuple(i, s);
+    const auto truth = exact.FindSightPoints({ 20.0, 300.0, 10.0 }, { p[0], p[1], p[2] });
+    ASSERT_EQ(truth.size(), 1u);
+    EXPECT_LT(glm::length(truth[0] - glm::dvec3(s[0], s[1], s[2])), 1e-9);
+  }
+  // The other model takes the membrane in anew, the same model does not.
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
+  filter->SetMembraneModelToFlatFacets();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 2);
+  EXPECT_EQ(filter->GetNumberOfEyeUpdates(), 2);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
+}
+
+//------------------------------------------------------------------------------
 TEST(RefractedGeometryOutput, PrintsItsState)
 {
   vtkNew<vtkRefractedGeometryFilter> filter;

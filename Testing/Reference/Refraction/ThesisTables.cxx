@@ -4,10 +4,12 @@
 
 #include "AnalyticMembrane.h"
 #include "MembraneMeshes.h"
+#include "Refraction/CurvedGeometry.h"
 #include "Refraction/VirtualGeometry.h"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -92,6 +94,57 @@ const std::vector<ThesisRow> Rows = {
   { "4.5", Square, 15, 1.0, 150.0, 0.0, 1.0, 1.51, 0.1449, 0.1006, 0 },
 };
 
+MembraneMesh MakeMesh(const ThesisRow& row)
+{
+  const double sphereRadius = row.sphereRatio * DiscRadius;
+  return row.shape == Disc ? MakeDisc(DiscRadius, 5, sphereRadius)
+                           : MakeSquare(SquareSide, row.squareCells, sphereRadius);
+}
+
+glm::dvec3 GetEye(const ThesisRow& row)
+{
+  return { row.eyeOffset, row.eyeHeight, 0.0 };
+}
+
+/// `solve(point, vertex)` returns whether the one image of a point was found.
+template <typename Solve>
+ErrorStatistics MeasureRow(const ThesisRow& row, const Solve& solve)
+{
+  const AnalyticMembrane exact{ row.sphereRatio * DiscRadius, row.exterior, row.interior };
+  const bool flatDisc = row.shape == Disc && row.sphereRatio == 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  ErrorStatistics result;
+  for (int i = 0; i < Samples * Samples * Samples; ++i)
+  {
+    const int ix = i % Samples;
+    const int iy = i / Samples % Samples;
+    const int iz = i / (Samples * Samples);
+    const glm::dvec3 point(
+      Spacing * (ix - Samples / 2), -Spacing * (iy + 1), Spacing * (iz - Samples / 2));
+    VirtualVertex vertex;
+    if (!solve(point, vertex) ||
+      (flatDisc && glm::length(vertex.sightPoint) > FlatDiscPart * DiscRadius))
+    {
+      continue;
+    }
+    const auto computed = exact.FindTruePoint(GetEye(row), vertex.position);
+    if (computed)
+    {
+      const double error = glm::length(*computed - point);
+      sum += error;
+      squares += error * error;
+      result.largest = std::max(result.largest, error);
+      ++result.points;
+    }
+  }
+  const auto count = static_cast<double>(result.points);
+  result.mean = result.points > 0 ? sum / count : 0.0;
+  result.deviation =
+    result.points > 0 ? std::sqrt(std::max(squares / count - result.mean * result.mean, 0.0)) : 0.0;
+  return result;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -109,52 +162,39 @@ bool IsReproducible(const ThesisRow& row)
 //------------------------------------------------------------------------------
 ErrorStatistics MeasureThesisRow(const ThesisRow& row)
 {
-  const double sphereRadius = row.sphereRatio * DiscRadius;
-  const MembraneMesh mesh = row.shape == Disc
-    ? MakeDisc(DiscRadius, 5, sphereRadius)
-    : MakeSquare(SquareSide, row.squareCells, sphereRadius);
-  const AnalyticMembrane exact{ sphereRadius, row.exterior, row.interior };
-  const glm::dvec3 eye(row.eyeOffset, row.eyeHeight, 0.0);
-
   VirtualGeometry geometry;
-  geometry.SetMembrane(mesh.AsInput());
-  geometry.SetEye(eye, row.exterior, row.interior);
+  geometry.SetMembrane(MakeMesh(row).AsInput());
+  geometry.SetEye(GetEye(row), row.exterior, row.interior);
+  return MeasureRow(row,
+    [&geometry](const glm::dvec3& point, VirtualVertex& vertex)
+    {
+      if (!geometry.HasOneCell(point, Wall))
+      {
+        return false;
+      }
+      vertex = geometry.SolvePoint(point);
+      return vertex.state == ImageState::Found;
+    });
+}
 
-  double sum = 0.0;
-  double squares = 0.0;
-  ErrorStatistics result;
-  for (int i = 0; i < Samples * Samples * Samples; ++i)
-  {
-    const int ix = i % Samples;
-    const int iy = i / Samples % Samples;
-    const int iz = i / (Samples * Samples);
-    const glm::dvec3 point(
-      Spacing * (ix - Samples / 2), -Spacing * (iy + 1), Spacing * (iz - Samples / 2));
-    if (!geometry.HasOneCell(point, Wall))
+//------------------------------------------------------------------------------
+ErrorStatistics MeasureThesisRowCurved(const ThesisRow& row)
+{
+  CurvedGeometry geometry;
+  geometry.SetMembrane(MakeMesh(row).AsInput());
+  geometry.SetEye(GetEye(row), row.exterior, row.interior);
+  std::vector<VirtualVertex> images;
+  return MeasureRow(row,
+    [&geometry, &images](const glm::dvec3& point, VirtualVertex& vertex)
     {
-      continue;
-    }
-    const VirtualVertex vertex = geometry.SolvePoint(point);
-    if (vertex.state != ImageState::Found ||
-      (row.shape == Disc && sphereRadius == 0.0 &&
-        glm::length(vertex.sightPoint) > FlatDiscPart * DiscRadius))
-    {
-      continue;
-    }
-    const auto computed = exact.FindTruePoint(eye, vertex.position);
-    if (computed)
-    {
-      const double error = glm::length(*computed - point);
-      sum += error;
-      squares += error * error;
-      ++result.points;
-    }
-  }
-  const auto count = static_cast<double>(result.points);
-  result.mean = result.points > 0 ? sum / count : 0.0;
-  result.deviation =
-    result.points > 0 ? std::sqrt(std::max(squares / count - result.mean * result.mean, 0.0)) : 0.0;
-  return result;
+      geometry.FindImages(point, images);
+      if (images.size() != 1)
+      {
+        return false;
+      }
+      vertex = images.front();
+      return true;
+    });
 }
 
 }

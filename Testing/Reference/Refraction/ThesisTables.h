@@ -39,6 +39,7 @@ struct ErrorStatistics
 {
   double mean = 0.0;
   double deviation = 0.0;
+  double largest = 0.0;
   std::size_t points = 0;
 };
 
@@ -49,8 +50,11 @@ const std::vector<ThesisRow>& GetThesisRows();
 bool IsReproducible(const ThesisRow& row);
 
 /// Samples the error volume of a row: distance between each true point and the exact point behind
-/// its computed virtual vertex.
+/// its computed virtual vertex, with the thesis's flat facets.
 ErrorStatistics MeasureThesisRow(const ThesisRow& row);
+
+/// The same with curved patches, over the points with exactly one image.
+ErrorStatistics MeasureThesisRowCurved(const ThesisRow& row);
 
 }
 

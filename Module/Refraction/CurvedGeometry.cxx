@@ -1,0 +1,360 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/CurvedGeometry.h"
+
+#include "Refraction/Optics.h"
+#include "Refraction/PatchImages.h"
+#include "Refraction/PatchTube.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// A root on an edge is found in both of its facets, up to what Newton's method leaves.
+constexpr double Border = 1e-9;
+
+// Newton steps in one patch while the answers before are followed, how far a step may leave the
+// patch before another one takes over, and how often that may happen.
+constexpr int FollowSteps = 8;
+constexpr double FollowReach = 0.3;
+constexpr int LongestChase = 8;
+
+// Facets to cross on the way from the last answer. Farther away the tree is faster.
+constexpr int LongestWalk = 64;
+
+// Points go on as before, and their sight points as well, if the step differs by no more than this
+// part of itself.
+constexpr double SameStep = 0.5;
+
+constexpr int FirstSteps = 10;
+constexpr double FirstReach = 1.5;
+
+// Images of one point in two patches are one if their sight points are this close, in units of
+// the patch's size: images on a common edge, up to what Newton's method leaves.
+constexpr double SamePlace = 1e-7;
+
+constexpr std::int32_t AllFacets = std::numeric_limits<std::int32_t>::max();
+
+double GetSize(const CurvedPatch& patch)
+{
+  const auto squared = [&patch](int i, int j)
+  {
+    const glm::dvec3 edge = patch.corner[j] - patch.corner[i];
+    return glm::dot(edge, edge);
+  };
+  return std::sqrt(std::max({ squared(0, 1), squared(1, 2), squared(2, 0) }));
+}
+
+// Barycentric coordinates of the foot of `point` in the facet's plane.
+glm::dvec2 Project(const CurvedPatch& patch, const glm::dvec3& point)
+{
+  const glm::dvec3 u = patch.corner[1] - patch.corner[0];
+  const glm::dvec3 v = patch.corner[2] - patch.corner[0];
+  const glm::dvec3 w = point - patch.corner[0];
+  const glm::dvec3 normal = glm::cross(u, v);
+  const double squared = glm::dot(normal, normal);
+  return { glm::dot(glm::cross(w, v), normal) / squared,
+    glm::dot(glm::cross(u, w), normal) / squared };
+}
+
+}
+
+//------------------------------------------------------------------------------
+MembraneStatus CurvedGeometry::SetMembrane(const MembraneInput& input, const RangeLoop& loop)
+{
+  const std::vector<Membrane::Facet> before = this->Surface.GetFacets();
+  const std::size_t pointsBefore = this->Surface.GetPositions().size();
+  const MembraneStatus status = this->Surface.Build(input);
+  const auto& facets = this->Surface.GetFacets();
+  const auto& positions = this->Surface.GetPositions();
+  if (facets == before && positions.size() == pointsBefore && !facets.empty())
+  {
+    this->Patches.Refit(loop);
+    this->Tree.SetUnit(this->Surface.GetRadius());
+    return status;
+  }
+  this->Patches.Build(this->Surface, loop);
+  std::vector<glm::dvec3> centroids;
+  centroids.reserve(facets.size());
+  for (const Membrane::Facet& facet : facets)
+  {
+    glm::dvec3 sum(0.0);
+    for (const std::int32_t vertex : facet)
+    {
+      sum += positions[static_cast<std::size_t>(vertex)];
+    }
+    centroids.push_back(sum / 3.0);
+  }
+  this->Tree.Build(centroids, status == MembraneStatus::Ready ? this->Surface.GetRadius() : 1.0);
+  return status;
+}
+
+//------------------------------------------------------------------------------
+void CurvedGeometry::Clear()
+{
+  this->Surface = Membrane();
+  this->Patches = CurvedPatches();
+  this->Tree = CellTree();
+}
+
+//------------------------------------------------------------------------------
+EyeStatus CurvedGeometry::SetEye(
+  const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop)
+{
+  const EyeStatus status = CheckEye(eye, exterior, interior);
+  if (status != EyeStatus::Ready)
+  {
+    return status;
+  }
+  this->Eye = eye - this->Surface.GetOrigin();
+  this->Exterior = exterior;
+  this->Interior = interior;
+  std::atomic<bool> touched{ false };
+  this->Tree.Refit(
+    [this, &touched](std::int32_t facet)
+    {
+      if (this->IsEyeOnPatch(facet))
+      {
+        touched = true;
+      }
+      return BoundRefractedRays(
+        this->Patches.GetPatch(facet), this->Eye, this->Exterior / this->Interior);
+    },
+    loop);
+  return touched ? EyeStatus::OnTheMembrane : EyeStatus::Ready;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedGeometry::IsEyeOnPatch(std::int32_t facet) const
+{
+  const CurvedPatch patch = this->Patches.GetPatch(facet);
+  const glm::dvec3 away = this->Eye - patch.corner[0];
+  const double size = GetSize(patch);
+  // The patch bulges by less than half of its longest edge.
+  if (glm::dot(away, away) > 4.0 * size * size)
+  {
+    return false;
+  }
+  // The foot on the facet, moved by what its point on the patch is away from the eye along the
+  // facet; the surface is close to the facet, so this settles.
+  glm::dvec2 b = Project(patch, this->Eye);
+  for (int i = 0; i < FirstSteps; ++i)
+  {
+    b += Project(patch, patch.corner[0] + this->Eye - patch.Evaluate(b).position);
+  }
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  return FindOutside(b).least >= -Border &&
+    glm::length(patch.Evaluate(b).position - this->Eye) <=
+    rounding * std::max(this->Surface.GetRadius(), glm::length(this->Eye));
+}
+
+//------------------------------------------------------------------------------
+bool CurvedGeometry::IsInReach(const glm::dvec3& local) const
+{
+  const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
+  // Written so that a NaN fails: it may hide from max() in one component but not in the sum.
+  return reach / this->Surface.GetRadius() < CellTree::FarthestRadii &&
+    std::isfinite(local.x + local.y + local.z);
+}
+
+//------------------------------------------------------------------------------
+void CurvedGeometry::Solve(
+  const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const
+{
+  Memory memory;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    if (i % Chain == 0)
+    {
+      memory = Memory();
+    }
+    const double* p = points + 3 * i;
+    vertices[i] = this->SolvePoint(glm::dvec3(p[0], p[1], p[2]), memory);
+  }
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex CurvedGeometry::SolvePoint(const glm::dvec3& point, Memory& memory) const
+{
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  VirtualVertex vertex;
+  vertex.position = point;
+  if (!this->IsInReach(local))
+  {
+    vertex.state = ImageState::NotFinite;
+    return vertex;
+  }
+  const SightEquation equation(this->Eye, local, this->Exterior, this->Interior);
+  SightPlace place;
+  if (!this->Follow(equation, local, memory, place) && !this->FindFirst(equation, local, place))
+  {
+    return vertex;
+  }
+  const bool first = memory.place.facet == CurvedPatches::NoFacet;
+  memory.pointStep = first ? glm::dvec3(0.0) : local - memory.point;
+  memory.sightStep =
+    first ? glm::dvec3(0.0) : place.root.at.position - memory.place.root.at.position;
+  memory.point = local;
+  memory.place = place;
+  return this->MakeVertex(local, this->Patches.GetPatch(place.facet), place);
+}
+
+//------------------------------------------------------------------------------
+// Newton's method across patches, from where the answers of the points before point to.
+bool CurvedGeometry::Follow(const SightEquation& equation, const glm::dvec3& local,
+  const Memory& memory, SightPlace& place) const
+{
+  place = memory.place;
+  if (place.facet == CurvedPatches::NoFacet)
+  {
+    return false;
+  }
+  glm::dvec3 target = place.root.at.position;
+  const glm::dvec3 turn = local - memory.point - memory.pointStep;
+  if (glm::dot(turn, turn) < SameStep * SameStep * glm::dot(memory.pointStep, memory.pointStep))
+  {
+    target += memory.sightStep;
+  }
+  for (int i = 0; i < LongestChase; ++i)
+  {
+    place.facet = this->Patches.Walk(place.facet, target, place.root.at.normal, LongestWalk);
+    const CurvedPatch patch = this->Patches.GetPatch(place.facet);
+    const glm::dvec2 start = Project(patch, target);
+    if (FindOutside(start).least < -FollowReach)
+    {
+      return false;
+    }
+    place.root = equation.Solve(patch, start, FollowSteps, FollowReach);
+    if (place.root.end == SightRoot::End::Failed)
+    {
+      return false;
+    }
+    if (place.root.end == SightRoot::End::Converged && FindOutside(place.root.b).least >= -Border)
+    {
+      return equation.IsImage(place.root.at);
+    }
+    target = patch.GetFlatPoint(place.root.b);
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedGeometry::FindFirst(
+  const SightEquation& equation, const glm::dvec3& local, SightPlace& place) const
+{
+  // First what costs little: Newton's method from the middle of each patch that may show the
+  // point.
+  place.facet = CurvedPatches::NoFacet;
+  this->Tree.Visit(local, 0.0,
+    [this, &equation, &place](std::int32_t facet)
+    {
+      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      const SightRoot root = equation.Solve(patch, glm::dvec2(1.0 / 3.0), FirstSteps, FirstReach);
+      if (root.end == SightRoot::End::Converged && FindOutside(root.b).least >= -Border &&
+        equation.IsImage(root.at))
+      {
+        place = { facet, root };
+        return std::int32_t(0);
+      }
+      return AllFacets;
+    });
+  if (place.facet == CurvedPatches::NoFacet)
+  {
+    std::vector<SightPlace> places;
+    this->FindPlaces(equation, local, places);
+    if (!places.empty())
+    {
+      place = places.front();
+    }
+  }
+  return place.facet != CurvedPatches::NoFacet;
+}
+
+//------------------------------------------------------------------------------
+void CurvedGeometry::FindPlaces(
+  const SightEquation& equation, const glm::dvec3& local, std::vector<SightPlace>& places) const
+{
+  places.clear();
+  this->Tree.Visit(local, 0.0,
+    [this, &equation, &places](std::int32_t facet)
+    {
+      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      PatchImages images(equation, patch);
+      images.Find();
+      for (const SightRoot& root : images)
+      {
+        if (equation.IsImage(root.at))
+        {
+          places.push_back({ facet, root });
+        }
+      }
+      return AllFacets;
+    });
+  std::sort(places.begin(), places.end(),
+    [](const SightPlace& a, const SightPlace& b)
+    {
+      const glm::dvec2& first = a.root.b;
+      const glm::dvec2& second = b.root.b;
+      return a.facet != b.facet ? a.facet < b.facet
+                                : (first.x != second.x ? first.x < second.x : first.y < second.y);
+    });
+}
+
+//------------------------------------------------------------------------------
+ImageState CurvedGeometry::FindImages(
+  const glm::dvec3& point, std::vector<VirtualVertex>& images) const
+{
+  images.clear();
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  if (!this->IsInReach(local))
+  {
+    return ImageState::NotFinite;
+  }
+  const SightEquation equation(this->Eye, local, this->Exterior, this->Interior);
+  std::vector<SightPlace> places;
+  this->FindPlaces(equation, local, places);
+  for (const SightPlace& place : places)
+  {
+    const CurvedPatch patch = this->Patches.GetPatch(place.facet);
+    const VirtualVertex vertex = this->MakeVertex(local, patch, place);
+    const double same = SamePlace * GetSize(patch);
+    const bool known = std::any_of(images.begin(), images.end(),
+      [&vertex, same](const VirtualVertex& other)
+      { return glm::length(other.sightPoint - vertex.sightPoint) < same; });
+    if (!known)
+    {
+      images.push_back(vertex);
+    }
+  }
+  return images.empty() ? ImageState::NoImage : ImageState::Found;
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex CurvedGeometry::MakeVertex(
+  const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const
+{
+  const PatchPoint& at = place.root.at;
+  const glm::dvec3 sight = glm::normalize(at.position - this->Eye);
+  VirtualVertex vertex;
+  vertex.depth = glm::length(local - at.position);
+  vertex.sightPoint = at.position + this->Surface.GetOrigin();
+  // Eq. 2.4; the identity where nothing is refracted.
+  const glm::dvec3 virtualPoint = this->Exterior == this->Interior
+    ? local
+    : at.position + sight * (vertex.depth * this->Exterior / this->Interior);
+  vertex.position = virtualPoint + this->Surface.GetOrigin();
+  vertex.reflectance = FresnelReflectance(
+    -glm::dot(sight, at.normal) / glm::length(at.normal), this->Exterior, this->Interior);
+  vertex.facet = place.facet;
+  vertex.state = ImageState::Found;
+  vertex.orientation = static_cast<signed char>(SightEquation::GetOrientation(patch, place.root));
+  return vertex;
+}
+
+}

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/PatchTube.h"
+
+#include <glm/common.hpp>
+
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+/// Values within `half` of `middle`, component by component.
+struct Box
+{
+  glm::dvec3 middle{ 0.0 };
+  glm::dvec3 half{ 0.0 };
+};
+
+const Box AnyDirection{ glm::dvec3(0.0), glm::dvec3(1.0) };
+
+// The largest of |b_i b_j (b_i - b_j)| is 1 / (6 sqrt 3), of b_i b_j 1 / 4.
+constexpr double LargestAsymmetric = 0.0962250448649377;
+
+// Longest distance between the facet's points and those of the patch: 2 |q| / (1 + |n|) with the
+// shortest |n| that counts.
+double BoundBulge(const CurvedPatch& patch)
+{
+  double q = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    q += 0.25 * std::fabs(patch.symmetric[k]) + LargestAsymmetric * std::fabs(patch.asymmetric[k]);
+  }
+  return 2.0 * q / (1.0 + CurvedPatch::ShortestNormal);
+}
+
+// Unit vectors along n + d for |d| within `ball` and d within `half`: n / |n| + (d - u (u.d)) / |n|
+// and a rest below (|d| / |n|)^2 as long as |d| < |n| / 2.
+Box BoundDirections(const glm::dvec3& n, const glm::dvec3& half, double ball)
+{
+  const double length = glm::length(n);
+  const double part = ball / length;
+  if (!(part < 0.5))
+  {
+    return AnyDirection;
+  }
+  Box box;
+  box.middle = n / length;
+  box.half = half / length + glm::dvec3(part * part);
+  return box;
+}
+
+Box BoundSightRays(const CurvedPatch& patch, const glm::dvec3& eye, double bulge)
+{
+  const glm::dvec3 middle = (patch.corner[0] + patch.corner[1] + patch.corner[2]) / 3.0;
+  const glm::dvec3 toMiddle = middle - eye;
+  const glm::dvec3 direction = glm::normalize(toMiddle);
+  glm::dvec3 half(0.0);
+  double ball = 0.0;
+  for (const glm::dvec3& corner : patch.corner)
+  {
+    const glm::dvec3 d = corner - middle;
+    half = glm::max(half, glm::abs(d - direction * glm::dot(d, direction)));
+    ball = std::max(ball, glm::dot(d, d));
+  }
+  return BoundDirections(toMiddle, half + glm::dvec3(bulge), std::sqrt(ball) + bulge);
+}
+
+// The normal is a Bezier triangle of second degree: inside the hull of its six control points.
+Box BoundNormals(const CurvedPatch& patch)
+{
+  glm::dvec3 control[6];
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
+  for (int k = 0; k < 3; ++k)
+  {
+    control[k] = patch.normal[k];
+    control[k + 3] = 0.5 * (patch.normal[(k + 1) % 3] + patch.normal[(k + 2) % 3] + patch.bend[k]);
+  }
+  for (const glm::dvec3& c : control)
+  {
+    low = glm::min(low, c);
+    high = glm::max(high, c);
+  }
+  const glm::dvec3 middle = 0.5 * (low + high);
+  const glm::dvec3 direction = glm::normalize(middle);
+  glm::dvec3 half(0.0);
+  double ball = 0.0;
+  for (const glm::dvec3& c : control)
+  {
+    const glm::dvec3 d = c - middle;
+    half = glm::max(half, glm::abs(d - direction * glm::dot(d, direction)));
+    ball = std::max(ball, glm::dot(d, d));
+  }
+  return BoundDirections(middle, half, std::sqrt(ball));
+}
+
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, double ratio)
+{
+  const double bulge = BoundBulge(patch);
+  const Box sight = BoundSightRays(patch, eye, bulge);
+  const Box normal = BoundNormals(patch);
+
+  const double middle = glm::dot(sight.middle, normal.middle);
+  const glm::dvec3 sightReach = glm::abs(sight.middle) + sight.half;
+  const double half =
+    glm::dot(glm::abs(normal.middle), sight.half) + glm::dot(sightReach, normal.half);
+  const double least = std::max(middle - half, -1.0);
+  const double most = std::min(middle + half, 0.0);
+  const auto radicand = [ratio](double c) { return 1.0 - ratio * ratio * (1.0 - c * c); };
+  if (!(least < 0.0) || !(radicand(least) > 0.0))
+  {
+    return TubeBounds();
+  }
+  const auto factor = [ratio, &radicand](double c)
+  { return -ratio * c - std::sqrt(std::max(radicand(c), 0.0)); };
+  // At the critical angle the root is zero and c = -sqrt(1 - 1 / ratio^2).
+  const double last =
+    radicand(most) > 0.0 ? most : -std::sqrt(std::max(1.0 - 1.0 / (ratio * ratio), 0.0));
+  const double ends[2] = { factor(least), factor(last) };
+  const double g = 0.5 * (ends[0] + ends[1]);
+  const double gHalf = 0.5 * std::fabs(ends[0] - ends[1]);
+
+  const glm::dvec3 direction = ratio * sight.middle + g * normal.middle;
+  const glm::dvec3 spread = ratio * sight.half + std::fabs(g) * normal.half +
+    gHalf * (glm::abs(normal.middle) + normal.half);
+  // The rays are unit vectors.
+  const glm::dvec3 lowest = glm::max(direction - spread, glm::dvec3(-1.0));
+  const glm::dvec3 highest = glm::min(direction + spread, glm::dvec3(1.0));
+  TubeBounds bounds;
+  for (const glm::dvec3& corner : patch.corner)
+  {
+    bounds.Add(corner - glm::dvec3(bulge), lowest);
+    bounds.Add(corner + glm::dvec3(bulge), highest);
+  }
+  return bounds;
+}
+
+}

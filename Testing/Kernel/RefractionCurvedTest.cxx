@@ -1,0 +1,488 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Curved patches and the sight points on them: closed forms, analytic membranes, a dense search.
+#include "HeightField.h"
+#include "MembraneMeshes.h"
+#include "Refraction/CurvedGeometry.h"
+#include "Refraction/Optics.h"
+#include "Refraction/PatchTube.h"
+#include "ThesisTables.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+namespace
+{
+
+using meniscus::CurvedGeometry;
+using meniscus::CurvedPatch;
+using meniscus::CurvedPatches;
+using meniscus::EyeStatus;
+using meniscus::ImageState;
+using meniscus::MembraneStatus;
+using meniscus::VirtualVertex;
+using meniscus::reference::HeightField;
+using meniscus::reference::MembraneMesh;
+
+class Random
+{
+public:
+  explicit Random(unsigned seed)
+    : Engine(seed)
+  {
+  }
+  double operator()(double low, double high)
+  {
+    return low + (high - low) * (this->Engine() / 4294967296.0);
+  }
+
+private:
+  std::mt19937 Engine;
+};
+
+void Set(CurvedGeometry& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
+  double exterior = 1.0, double interior = 1.333)
+{
+  ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+  ASSERT_EQ(geometry.SetEye(eye, exterior, interior), EyeStatus::Ready);
+}
+
+VirtualVertex SolveOne(const CurvedGeometry& geometry, const glm::dvec3& point)
+{
+  VirtualVertex vertex;
+  geometry.Solve(&point.x, 0, 1, &vertex);
+  return vertex;
+}
+
+const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * std::acos(-1.0), 1.0,
+  1.333 };
+
+//------------------------------------------------------------------------------
+// The acceptance of issue 4: planes 1e-8, bowls, hemisphere from 450. Patches reproduce planes and
+// spheres, so what is left is rounding and Newton's rest of 1e-12 of a facet, magnified by
+// focusing.
+TEST(RefractionCurved, ReachesTheTargetsOfTheThesisTables)
+{
+  for (const auto& row : meniscus::reference::GetThesisRows())
+  {
+    if (row.sphereRatio > 0.0 && row.exterior > row.interior)
+    {
+      continue; // minutes; the benchmark has them
+    }
+    const auto ours = meniscus::reference::MeasureThesisRowCurved(row);
+    EXPECT_LT(ours.mean, 1e-8) << row.table << " " << row.sphereRatio << " " << row.eyeHeight;
+    EXPECT_LT(ours.largest, 1e-6) << row.table << " " << row.sphereRatio << " " << row.eyeHeight;
+    EXPECT_GE(ours.points, static_cast<std::size_t>(0.98 * row.points)) << row.table;
+  }
+}
+
+//------------------------------------------------------------------------------
+double MeasureWaves(int cells)
+{
+  const glm::dvec3 eye(20.0, 300.0, 10.0);
+  CurvedGeometry geometry;
+  Set(geometry, Waves.MakeMesh(cells), eye);
+  Random random(5);
+  double sum = 0.0;
+  constexpr int points = 4000;
+  for (int i = 0; i < points; ++i)
+  {
+    const glm::dvec3 point(random(-60.0, 60.0), random(-60.0, -10.0), random(-60.0, 60.0));
+    const VirtualVertex vertex = SolveOne(geometry, point);
+    EXPECT_EQ(vertex.state, ImageState::Found);
+    const glm::dvec3 sight = vertex.sightPoint - eye;
+    const glm::dvec3 exact = Waves.Intersect(eye, glm::normalize(sight), glm::length(sight));
+    const auto computed = Waves.Refract(eye, exact, glm::length(vertex.position - exact) * 1.333);
+    EXPECT_TRUE(computed);
+    sum += glm::length(*computed - point);
+  }
+  return sum / points;
+}
+
+TEST(RefractionCurved, ConvergesOnWavesWithThirdOrder)
+{
+  const double coarse = MeasureWaves(40);
+  const double middle = MeasureWaves(80);
+  const double fine = MeasureWaves(160);
+  EXPECT_LT(fine, 1e-5); // 51,200 facets
+  EXPECT_GT(std::log2(coarse / middle), 2.8);
+  EXPECT_GT(std::log2(middle / fine), 2.8);
+  RecordProperty("mean_error_51200_facets", std::to_string(fine));
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionCurved, DerivativesOfAPatchAgreeWithDifferences)
+{
+  meniscus::Membrane membrane;
+  membrane.Build(meniscus::reference::MakeRandom(200.0, 12, 4.0, 0.3, 71).AsInput());
+  CurvedPatches patches;
+  patches.Build(membrane, meniscus::SerialLoop);
+  Random random(73);
+  for (std::int32_t facet = 0; facet < 288; ++facet)
+  {
+    const CurvedPatch patch = patches.GetPatch(facet);
+    const glm::dvec2 b(random(0.0, 0.5), random(0.0, 0.5));
+    meniscus::PatchJet jet;
+    patch.Evaluate(b, jet);
+    const meniscus::PatchPoint at = patch.Evaluate(b);
+    EXPECT_LT(glm::length(at.position - jet.position), 1e-13 * 200.0);
+    for (int k = 0; k < 2; ++k)
+    {
+      const double h = 1e-6;
+      glm::dvec2 step(0.0);
+      step[k] = h;
+      const meniscus::PatchPoint after = patch.Evaluate(b + step);
+      const meniscus::PatchPoint before = patch.Evaluate(b - step);
+      // Second-order differences: h^2 and rounding / h.
+      EXPECT_LT(
+        glm::length((after.position - before.position) / (2.0 * h) - jet.positionBy[k]), 1e-6);
+      EXPECT_LT(glm::length((after.normal - before.normal) / (2.0 * h) - jet.normalBy[k]), 1e-8);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Whatever the surface: smooth, rough beyond all fallbacks, with borders, or non-manifold.
+TEST(RefractionCurved, PatchesShareTheirEdges)
+{
+  MembraneMesh fan = meniscus::reference::MakeRandom(200.0, 6, 40.0, 2.0, 5);
+  fan.AddTriangle(0, 8, 20); // a third facet on the edge from 0 to 8
+  for (const MembraneMesh& mesh :
+    { Waves.MakeMesh(12), meniscus::reference::MakeDisc(100, 4, 101.0),
+      meniscus::reference::MakeRandom(200.0, 12, 60.0, 3.0, 77), fan })
+  {
+    meniscus::Membrane membrane;
+    membrane.Build(mesh.AsInput());
+    CurvedPatches patches;
+    patches.Build(membrane, meniscus::SerialLoop);
+    const auto& facets = membrane.GetFacets();
+    int shared = 0;
+    for (std::size_t i = 0; i < facets.size(); ++i)
+    {
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        for (int k = 0; k < 9; ++k)
+        {
+          const auto a = static_cast<std::size_t>(k / 3);
+          const auto b = static_cast<std::size_t>(k % 3);
+          if (facets[i][(a + 1) % 3] != facets[j][(b + 2) % 3] ||
+            facets[i][(a + 2) % 3] != facets[j][(b + 1) % 3])
+          {
+            continue;
+          }
+          ++shared;
+          glm::dvec3 first(0.0);
+          glm::dvec3 second(0.0);
+          first[static_cast<int>(a + 1) % 3] = second[static_cast<int>(b + 2) % 3] = 0.3;
+          first[static_cast<int>(a + 2) % 3] = second[static_cast<int>(b + 1) % 3] = 0.7;
+          const auto p = patches.GetPatch(static_cast<int>(i)).Evaluate({ first.y, first.z });
+          const auto q = patches.GetPatch(static_cast<int>(j)).Evaluate({ second.y, second.z });
+          EXPECT_LT(glm::length(p.position - q.position), 1e-13 * 200.0);
+          EXPECT_LT(glm::length(p.normal - q.normal), 1e-14);
+        }
+      }
+    }
+    EXPECT_GE(shared, static_cast<int>(facets.size()));
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionCurved, TubesHoldEveryRefractedRay)
+{
+  Random random(79);
+  const MembraneMesh meshes[] = { Waves.MakeMesh(10),
+    meniscus::reference::MakeRandom(200.0, 10, 30.0, 1.0, 81) };
+  const glm::dvec3 eyes[] = { { 20, 300, 10 }, { 400, 1, 10 }, { 1, 35, 2 }, { 50, 1e5, -1e4 } };
+  int rays = 0;
+  for (const MembraneMesh& mesh : meshes)
+  {
+    meniscus::Membrane membrane;
+    membrane.Build(mesh.AsInput());
+    CurvedPatches patches;
+    patches.Build(membrane, meniscus::SerialLoop);
+    for (int i = 0; i < 40000; ++i)
+    {
+      const glm::dvec3 eye = eyes[i % 4] - membrane.GetOrigin();
+      const double ratio = i % 8 < 4 ? 0.75 : 1.5;
+      const CurvedPatch patch = patches.GetPatch(i % 200);
+      double u = random(0.0, 1.0);
+      double v = random(0.0, 1.0);
+      if (u + v > 1.0)
+      {
+        u = 1.0 - u;
+        v = 1.0 - v;
+      }
+      const auto at = patch.Evaluate({ u, v });
+      const auto ray = meniscus::ComputeRefractionRay(
+        glm::normalize(at.position - eye), glm::normalize(at.normal), ratio);
+      if (ray.kind != meniscus::RayKind::Refracted ||
+        glm::length(at.normal) < CurvedPatch::ShortestNormal)
+      {
+        continue;
+      }
+      ++rays;
+      const meniscus::TubeBounds tube = meniscus::BoundRefractedRays(patch, eye, ratio);
+      ASSERT_TRUE(tube.IsValid());
+      for (int k = 0; k < 3; ++k)
+      {
+        ASSERT_GE(at.position[k], tube.startLow[k] - 1e-12);
+        ASSERT_LE(at.position[k], tube.startHigh[k] + 1e-12);
+        ASSERT_GE(ray.direction[k], tube.directionLow[k] - 1e-14);
+        ASSERT_LE(ray.direction[k], tube.directionHigh[k] + 1e-14);
+      }
+    }
+  }
+  EXPECT_GT(rays, 20000);
+}
+
+//------------------------------------------------------------------------------
+struct OracleCase
+{
+  const char* name;
+  HeightField field;
+  glm::dvec3 eye;
+  int cells;
+  double depth; ///< of the deepest point
+  double reach; ///< of the points aside
+};
+
+// Points closer to a caustic than the two surfaces differ may gain or lose a pair of images: they
+// show as two of the oracle's or of ours, close together. What is left may move by a part of that.
+bool HasClosePair(const std::vector<glm::dvec3>& points, double distance)
+{
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      if (glm::length(points[i] - points[j]) < distance)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+TEST(RefractionCurved, FindsAllImagesAndNoOthers)
+{
+  const double pi = std::acos(-1.0);
+  const OracleCase cases[] = {
+    { "waves", { HeightField::Shape::Waves, 200.0, 5.0, 0.03 * pi, 1.0, 1.333 },
+      { 20.0, 300.0, 10.0 }, 64, 250.0, 80.0 },
+    { "into the thinner medium", { HeightField::Shape::Waves, 200.0, 5.0, 0.03 * pi, 1.333, 1.0 },
+      { 20.0, 300.0, 10.0 }, 64, 250.0, 80.0 },
+    { "dome", { HeightField::Shape::Dome, 200.0, 30.0, 0.025, 1.0, 1.5 }, { 5.0, 400.0, 3.0 }, 64,
+      300.0, 20.0 },
+    { "low eye", { HeightField::Shape::Waves, 200.0, 3.0, 0.04 * pi, 1.0, 1.333 },
+      { 120.0, 90.0, 20.0 }, 96, 250.0, 80.0 },
+  };
+  for (const OracleCase& test : cases)
+  {
+    CurvedGeometry geometry;
+    Set(geometry, test.field.MakeMesh(test.cells), test.eye, test.field.exterior,
+      test.field.interior);
+    Random random(83);
+    int images = 0;
+    int several = 0;
+    int close = 0;
+    constexpr int points = 300;
+    std::vector<VirtualVertex> found;
+    for (int i = 0; i < points; ++i)
+    {
+      const glm::dvec3 point(random(-test.reach, test.reach), random(-test.depth, -40.0),
+        random(-test.reach, test.reach));
+      const auto exact = test.field.FindSightPoints(test.eye, point);
+      geometry.FindImages(point, found);
+      std::vector<glm::dvec3> ours;
+      for (const VirtualVertex& vertex : found)
+      {
+        ours.push_back(vertex.sightPoint);
+      }
+      const double pair = 0.5 * test.field.side / test.cells;
+      const bool atBorder = std::any_of(exact.begin(), exact.end(),
+        [](const glm::dvec3& s)
+        { return std::max(std::fabs(s.x), std::fabs(s.z)) > 100.0 - 1e-3; });
+      if (HasClosePair(exact, pair) || HasClosePair(ours, pair) || atBorder)
+      {
+        ++close;
+        continue;
+      }
+      ASSERT_EQ(ours.size(), exact.size()) << test.name << " point " << i << " (" << point.x << ", "
+                                           << point.y << ", " << point.z << ")";
+      for (const glm::dvec3& s : exact)
+      {
+        const bool has = std::any_of(ours.begin(), ours.end(),
+          [&s, pair](const glm::dvec3& other) { return glm::length(other - s) < 0.25 * pair; });
+        EXPECT_TRUE(has) << test.name << " point " << i;
+      }
+      images += static_cast<int>(exact.size());
+      several += exact.size() > 1;
+    }
+    EXPECT_GT(images, points / 2) << test.name;
+    EXPECT_GT(several, points / 20) << test.name;
+    EXPECT_LT(close, points / 10) << test.name;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionCurved, TheOneImageIsOneOfAll)
+{
+  CurvedGeometry geometry;
+  Set(geometry, meniscus::reference::MakeWaves(200.0, 40, 5.0, 3.0), { 20.0, 300.0, 10.0 });
+  std::vector<double> points;
+  Random random(89);
+  for (int i = 0; i < 3000; ++i)
+  {
+    points.insert(points.end(), { random(-90, 90), random(-250, -10), random(-90, 90) });
+  }
+  std::vector<VirtualVertex> one(1000);
+  geometry.Solve(points.data(), 0, 1000, one.data());
+  std::vector<VirtualVertex> all;
+  int several = 0;
+  for (std::size_t i = 0; i < one.size(); ++i)
+  {
+    const double* p = points.data() + 3 * i;
+    EXPECT_EQ(geometry.FindImages({ p[0], p[1], p[2] }, all), one[i].state);
+    const bool known = std::any_of(all.begin(), all.end(),
+      [&one, i](const VirtualVertex& vertex)
+      { return glm::length(vertex.sightPoint - one[i].sightPoint) < 1e-6; });
+    EXPECT_EQ(known, one[i].state == ImageState::Found) << i;
+    several += all.size() > 1;
+  }
+  EXPECT_GT(several, 50);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionCurved, ResultsDoNotDependOnTheRanges)
+{
+  CurvedGeometry geometry;
+  Set(geometry, meniscus::reference::MakeWaves(200.0, 40, 5.0, 3.0), { 20.0, 300.0, 10.0 });
+  constexpr std::size_t count = 5 * CurvedGeometry::Chain;
+  std::vector<double> points;
+  Random random(91);
+  for (std::size_t i = 0; i < 3 * count; ++i)
+  {
+    points.push_back(random(-90.0, 90.0));
+  }
+  std::vector<VirtualVertex> a(count);
+  std::vector<VirtualVertex> b(count);
+  geometry.Solve(points.data(), 0, count, a.data());
+  for (std::size_t k = 5; k-- > 0;)
+  {
+    geometry.Solve(
+      points.data(), k * CurvedGeometry::Chain, (k + 1) * CurvedGeometry::Chain, b.data());
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    EXPECT_EQ(a[i].position, b[i].position) << i;
+    EXPECT_EQ(a[i].state, b[i].state) << i;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionCurved, ADeformedMembraneIsAsGoodAsANewOne)
+{
+  const glm::dvec3 eye(20.0, 300.0, 10.0);
+  CurvedGeometry moved;
+  Set(moved, meniscus::reference::MakeWaves(200.0, 24, 1.0, 2.0), eye);
+  Set(moved, meniscus::reference::MakeWaves(200.0, 24, 4.0, 3.0), eye);
+  CurvedGeometry fresh;
+  Set(fresh, meniscus::reference::MakeWaves(200.0, 24, 4.0, 3.0), eye);
+  Random random(97);
+  std::vector<VirtualVertex> a;
+  std::vector<VirtualVertex> b;
+  for (int i = 0; i < 500; ++i)
+  {
+    const glm::dvec3 point(random(-80, 80), random(-200, -10), random(-80, 80));
+    moved.FindImages(point, a);
+    fresh.FindImages(point, b);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k)
+    {
+      EXPECT_EQ(a[k].position, b[k].position);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionCurved, EqualIndicesAreTheIdentity)
+{
+  CurvedGeometry geometry;
+  Set(
+    geometry, meniscus::reference::MakeWaves(200.0, 24, 3.0, 2.0), { 20.0, 300.0, 10.0 }, 1.5, 1.5);
+  Random random(101);
+  for (int i = 0; i < 500; ++i)
+  {
+    const glm::dvec3 point(random(-60, 60), random(-50, -10), random(-60, 60));
+    const VirtualVertex vertex = SolveOne(geometry, point);
+    ASSERT_EQ(vertex.state, ImageState::Found);
+    EXPECT_LE(glm::length(vertex.position - point), 1e-13 * 200.0);
+    EXPECT_EQ(vertex.reflectance, 0.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionCurved, OffsetsAndScalesDoNotMatter)
+{
+  const MembraneMesh mesh = meniscus::reference::MakeWaves(200.0, 16, 3.0, 2.0);
+  const glm::dvec3 eye(20.0, 300.0, 10.0);
+  CurvedGeometry here;
+  Set(here, mesh, eye);
+  for (const double scale : { 0x1p-20, 1.0, 0x1p20 })
+  {
+    for (const double shift : { 0.0, 1e7 })
+    {
+      const glm::dvec3 offset = scale * shift * glm::dvec3(1.0, -2.0, 0.5);
+      MembraneMesh other = mesh;
+      for (double& x : other.points)
+      {
+        x *= scale;
+      }
+      other.Translate(offset);
+      CurvedGeometry there;
+      Set(there, other, scale * eye + offset);
+      Random random(103);
+      for (int i = 0; i < 200; ++i)
+      {
+        const glm::dvec3 point(random(-70, 70), random(-90, -10), random(-70, 70));
+        const VirtualVertex a = SolveOne(here, point);
+        const VirtualVertex b = SolveOne(there, scale * point + offset);
+        ASSERT_EQ(a.state, b.state);
+        // Coordinates of 2e7 have a rounding of 4e-9; curvatures and depths magnify it.
+        EXPECT_LT(glm::length((b.position - offset) / scale - a.position), 1e-10 + 1e-13 * shift);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionCurved, BadPointsAndEyes)
+{
+  CurvedGeometry geometry;
+  const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
+  Set(geometry, mesh, { 0.0, 100.0, 0.0 });
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double value : { nan, std::numeric_limits<double>::infinity(), 1e300 })
+  {
+    EXPECT_EQ(SolveOne(geometry, { 0.0, value, 0.0 }).state, ImageState::NotFinite);
+  }
+  EXPECT_EQ(SolveOne(geometry, { 0.0, 5.0, 0.0 }).state, ImageState::NoImage);
+  EXPECT_EQ(SolveOne(geometry, { 0.0, 0.0, 0.0 }).state, ImageState::NoImage);
+  EXPECT_EQ(geometry.SetEye({ 7.0, 0.0, 3.0 }, 1.0, 1.3), EyeStatus::OnTheMembrane);
+  EXPECT_EQ(geometry.SetEye({ 12.5, 0.0, 0.0 }, 1.0, 1.3), EyeStatus::OnTheMembrane);
+  EXPECT_EQ(geometry.SetEye({ 7.0, 1e-9, 3.0 }, 1.0, 1.3), EyeStatus::Ready);
+  EXPECT_EQ(geometry.SetEye({ nan, 1.0, 3.0 }, 1.0, 1.3), EyeStatus::NotFinite);
+  EXPECT_EQ(geometry.SetEye({ 7.0, 1.0, 3.0 }, 1.0, -1.3), EyeStatus::BadIndex);
+  EXPECT_EQ(geometry.SetEye({ 7.0, -50.0, 3.0 }, 1.0, 1.3), EyeStatus::Ready);
+  EXPECT_EQ(SolveOne(geometry, { 0.0, -10.0, 0.0 }).state, ImageState::NoImage); // from behind
+  CurvedGeometry empty;
+  EXPECT_EQ(empty.SetMembrane(meniscus::MembraneInput()), MembraneStatus::Empty);
+}
+
+}

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Refraction at an analytic height field y = f(x, z) over a square, the eye above it. Sight points
+ * are the stationary points of the optical path n1 |S - E| + n2 |P - S| (Fermat), found by a dense
+ * search in double: nothing of the kernel's patches, trees or equations.
+ */
+#ifndef meniscus_HeightField_h
+#define meniscus_HeightField_h
+
+#include "MembraneMeshes.h"
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace meniscus::reference
+{
+
+struct HeightField
+{
+  enum class Shape
+  {
+    Waves, ///< amplitude sin(k x) sin(k z)
+    Dome   ///< amplitude exp(-(k k (x x + z z))), convex to the eye for a positive amplitude
+  };
+  Shape shape = Shape::Waves;
+  double side = 200.0;
+  double amplitude = 0.0;
+  double k = 0.0;
+  double exterior = 1.0;
+  double interior = 1.333;
+
+  double GetHeight(double x, double z) const;
+  /// df / dx and df / dz.
+  void GetSlopes(double x, double z, double& dx, double& dz) const;
+  glm::dvec3 GetNormal(double x, double z) const;
+
+  /// `cells` x `cells` x 2 facets with exact normals.
+  MembraneMesh MakeMesh(int cells) const;
+
+  /// Every sight point of `point`. Pairs closer than about 1 / `grid` of the side may be missed.
+  std::vector<glm::dvec3> FindSightPoints(
+    const glm::dvec3& eye, const glm::dvec3& point, int grid = 200) const;
+
+  /// Where the sight ray of `direction` meets the surface, starting near `distance`.
+  glm::dvec3 Intersect(const glm::dvec3& eye, const glm::dvec3& direction, double distance) const;
+
+  /// The point at `length` behind `onSurface` on the refracted ray, by n1 sin a = n2 sin b; nothing
+  /// under total internal reflection.
+  std::optional<glm::dvec3> Refract(
+    const glm::dvec3& eye, const glm::dvec3& onSurface, double length) const;
+};
+
+}
+
+#endif

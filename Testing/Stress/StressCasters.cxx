@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StressCasters.h"
+
+#include "Volume/BoundaryTree.h"
+#include "Volume/RayWalk.h"
+#include "Volume/TetrahedralMesh.h"
+#include "Volume/TransferFunction.h"
+
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkTetrahedraRayCastMapper.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+/// The kernel alone, without VTK's pipeline and without a window.
+class KernelCaster : public StressCaster
+{
+public:
+  void take(const StressCase& stress) override
+  {
+    this->Size = stress.Size;
+    this->buildMesh(stress.Mesh);
+    vtkDataArray* scalars = stress.Mesh->GetPointData()->GetScalars();
+    double range[2];
+    scalars->GetFiniteRange(range);
+    const ScalarNormalization normalization = NormalizeRange(range[0], range[1]);
+    this->Scalars.clear();
+    for (const std::int64_t point : this->Mesh.GetSourcePoints())
+    {
+      const double scalar = scalars->GetComponent(point, 0);
+      this->Scalars.push_back(
+        static_cast<float>((scalar - normalization.Offset) * normalization.Scale));
+    }
+    std::vector<TransferFunctionPoint> points;
+    for (const auto& node : stress.Function)
+    {
+      const auto& c = node.Value.Color;
+      points.push_back({ node.Scalar, node.Value.Attenuation, { c[0], c[1], c[2] } });
+    }
+    this->Intervals = BuildIntervals(points, normalization);
+  }
+
+  StressImage cast(const StressView& view) override
+  {
+    StressImage result;
+    result.Image.Width = result.Image.Height = this->Size;
+    result.Image.Rgba.assign(std::size_t{ 4 } * this->Size * this->Size, 0.0f);
+    RayCastScene scene{ &this->Mesh, &this->Tree, &this->Scalars, &this->Intervals, RayFrame(),
+      Transmittance };
+    RayFrameInput input = view.frameInput(this->Size);
+    input.Center = this->Mesh.GetCenter();
+    input.Radius = this->Mesh.GetRadius();
+    if (this->Mesh.GetNumberOfCells() == 0 || this->Mesh.GetRadius() == 0.0 ||
+      ComputeRayFrame(input, scene.Frame) != RayFrameStatus::Ok)
+    {
+      return result;
+    }
+    RayWalk walk(scene);
+    const auto farDepth = static_cast<float>(scene.Frame.DepthAt(1.0));
+    for (int pixel = 0; pixel < this->Size * this->Size; ++pixel)
+    {
+      const glm::vec2 fromCenter(pixel % this->Size + 0.5f - 0.5f * this->Size,
+        pixel / this->Size + 0.5f - 0.5f * this->Size);
+      const RayResult ray = walk.Cast(fromCenter, farDepth);
+      std::copy_n(&ray.Color[0], 4, result.Image.Rgba.begin() + std::ptrdiff_t{ 4 } * pixel);
+      result.Steps += ray.Steps;
+      result.Rays += ray.Steps > 0;
+      result.Lost += ray.Lost;
+    }
+    return result;
+  }
+
+private:
+  // The mapper's default.
+  static constexpr float Transmittance = 1.0f / 131072.0f;
+
+  void buildMesh(vtkUnstructuredGrid* grid)
+  {
+    std::vector<double> points;
+    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    {
+      const double* x = grid->GetPoint(p);
+      points.insert(points.end(), x, x + 3);
+    }
+    std::vector<std::int64_t> cells;
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+    {
+      grid->GetCellPoints(c, ids);
+      cells.insert(cells.end(), ids->begin(), ids->end());
+    }
+    this->Mesh.Build({ points.data(), grid->GetNumberOfPoints(), cells.data(),
+      static_cast<std::int64_t>(cells.size() / 4) });
+    this->Tree.Build(this->Mesh);
+  }
+
+  int Size = 0;
+  TetrahedralMesh Mesh;
+  BoundaryTree Tree;
+  std::vector<float> Scalars;
+  std::vector<TransferFunctionInterval> Intervals;
+};
+
+/// The mapper in an off-screen window, read back in float.
+class MapperCaster : public StressCaster
+{
+public:
+  explicit MapperCaster(int backend)
+    : Scene(8, 8)
+  {
+    // Soups make the mapper warn about every mesh.
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
+    this->Mapper->SetBackend(backend);
+    this->Scene.setMapper(this->Mapper);
+  }
+
+  void take(const StressCase& stress) override
+  {
+    this->Mapper->SetInputDataObject(stress.Mesh);
+    this->Scene.setProperty(toProperty(stress.Function));
+    this->Scene.window()->SetSize(stress.Size, stress.Size);
+  }
+
+  StressImage cast(const StressView& view) override
+  {
+    view.applyTo(this->Scene.renderer());
+    StressImage result;
+    result.Image = this->Scene.renderFloat();
+    result.Steps = this->Mapper->GetNumberOfTraversalSteps();
+    result.Rays = this->Mapper->GetNumberOfRays();
+    result.Lost = this->Mapper->GetNumberOfLostRays();
+    return result;
+  }
+
+private:
+  DisplayHold Hold;
+  VolumeScene Scene;
+  vtkNew<vtkTetrahedraRayCastMapper> Mapper;
+};
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::unique_ptr<StressCaster> makeStressCaster(const std::string& name)
+{
+  if (name == "kernel")
+  {
+    return std::make_unique<KernelCaster>();
+  }
+  if (name == "opengl")
+  {
+    return std::make_unique<MapperCaster>(vtkTetrahedraRayCastMapper::OPENGL);
+  }
+  if (name == "native")
+  {
+    return std::make_unique<MapperCaster>(vtkTetrahedraRayCastMapper::NATIVE);
+  }
+  return nullptr;
+}
+
+} // namespace test
+} // namespace meniscus

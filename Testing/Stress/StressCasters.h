@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The only places where the stress programme touches what it tests.
+ */
+#ifndef meniscus_StressCasters_h
+#define meniscus_StressCasters_h
+
+#include "StressCase.h"
+#include "VolumeScene.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace meniscus
+{
+namespace test
+{
+
+struct StressImage
+{
+  FloatImage Image;
+  std::int64_t Steps = 0;
+  std::int64_t Rays = 0;
+  std::int64_t Lost = 0;
+};
+
+/// Draws one case after the other, each in all of its views.
+class StressCaster
+{
+public:
+  virtual ~StressCaster() = default;
+  virtual void take(const StressCase& stress) = 0;
+  virtual StressImage cast(const StressView& view) = 0;
+};
+
+/// "kernel", "opengl" or "native" (the last two: the mapper with that backend); null for others.
+std::unique_ptr<StressCaster> makeStressCaster(const std::string& name);
+
+} // namespace test
+} // namespace meniscus
+
+#endif
