@@ -11,11 +11,11 @@ namespace meniscus
 
 //------------------------------------------------------------------------------
 template <typename T>
-std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const std::vector<T>& values,
-  int components, int texelsPerRow, int vtkType)
+std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const T* values,
+  std::size_t count, int components, int texelsPerRow, int vtkType)
 {
   this->Release(window);
-  const std::int64_t texels = static_cast<std::int64_t>(values.size()) / components;
+  const std::int64_t texels = static_cast<std::int64_t>(count) / components;
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
   if (texels > limit)
@@ -33,30 +33,30 @@ std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const std::
     this->Texture->SetFormat(components == 1 ? GL_RED_INTEGER : GL_RGBA_INTEGER);
     this->Texture->SetDataType(GL_INT);
   }
-  if (!this->Buffer->Upload(values, vtkOpenGLBufferObject::TextureBuffer) ||
+  if (!this->Buffer->Upload(values, count, vtkOpenGLBufferObject::TextureBuffer) ||
     !this->Texture->CreateTextureBuffer(
       static_cast<unsigned int>(texels), components, vtkType, this->Buffer))
   {
-    return "a table of " + std::to_string(values.size() * sizeof(T)) +
+    return "a table of " + std::to_string(count * sizeof(T)) +
       " bytes could not be created on the graphics device";
   }
   this->Rows = texels / texelsPerRow;
-  this->Bytes = static_cast<std::int64_t>(values.size() * sizeof(T));
+  this->Bytes = static_cast<std::int64_t>(count * sizeof(T));
   return std::string();
 }
 
 //------------------------------------------------------------------------------
-std::string OpenGLTable::Upload(
-  vtkOpenGLRenderWindow* window, const std::vector<float>& values, int components, int texelsPerRow)
+std::string OpenGLTable::Upload(vtkOpenGLRenderWindow* window, const float* values,
+  std::size_t count, int components, int texelsPerRow)
 {
-  return this->UploadValues(window, values, components, texelsPerRow, VTK_FLOAT);
+  return this->UploadValues(window, values, count, components, texelsPerRow, VTK_FLOAT);
 }
 
 //------------------------------------------------------------------------------
-std::string OpenGLTable::Upload(vtkOpenGLRenderWindow* window,
-  const std::vector<std::int32_t>& values, int components, int texelsPerRow)
+std::string OpenGLTable::Upload(vtkOpenGLRenderWindow* window, const std::int32_t* values,
+  std::size_t count, int components, int texelsPerRow)
 {
-  return this->UploadValues(window, values, components, texelsPerRow, VTK_INT);
+  return this->UploadValues(window, values, count, components, texelsPerRow, VTK_INT);
 }
 
 //------------------------------------------------------------------------------

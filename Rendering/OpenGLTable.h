@@ -7,9 +7,9 @@
 #include "vtkOpenGLBufferObject.h"
 #include "vtkTextureObject.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 class vtkOpenGLRenderWindow;
 class vtkShaderProgram;
@@ -32,12 +32,12 @@ public:
   std::int64_t GetBytes() const { return this->Bytes; }
 
   /**
-   * Replaces the contents by texels of 1 or 4 values. Returns an error or nothing.
+   * Replaces the contents by `count` values in texels of 1 or 4. Returns an error or nothing.
    * @param texelsPerRow  only for GetNumberOfRows().
    */
-  std::string Upload(vtkOpenGLRenderWindow* window, const std::vector<float>& values,
+  std::string Upload(vtkOpenGLRenderWindow* window, const float* values, std::size_t count,
     int components, int texelsPerRow);
-  std::string Upload(vtkOpenGLRenderWindow* window, const std::vector<std::int32_t>& values,
+  std::string Upload(vtkOpenGLRenderWindow* window, const std::int32_t* values, std::size_t count,
     int components, int texelsPerRow);
 
   void Activate(vtkShaderProgram* program, const char* name);
@@ -47,7 +47,7 @@ public:
 
 private:
   template <typename T>
-  std::string UploadValues(vtkOpenGLRenderWindow* window, const std::vector<T>& values,
+  std::string UploadValues(vtkOpenGLRenderWindow* window, const T* values, std::size_t count,
     int components, int texelsPerRow, int vtkType);
 
   vtkNew<vtkOpenGLBufferObject> Buffer;

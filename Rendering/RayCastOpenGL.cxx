@@ -80,9 +80,15 @@ std::string RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
-bool RayCastOpenGL::HasMesh() const
+bool RayCastOpenGL::HasCells() const
 {
-  return this->Cells.IsFilled() && this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
+  return this->Cells.IsFilled();
+}
+
+//------------------------------------------------------------------------------
+bool RayCastOpenGL::HasBoundary() const
+{
+  return this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
 }
 
 //------------------------------------------------------------------------------
@@ -99,7 +105,17 @@ std::string RayCastOpenGL::Count(OpenGLTable& table, const std::string& error)
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const BoundaryTree& tree)
+std::string RayCastOpenGL::UploadCells(const TetrahedralMesh& mesh)
+{
+  static_assert(sizeof(TetrahedralMesh::Cell) == 8 * sizeof(std::int32_t), "8 integers per cell");
+  const auto* values = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
+  const std::string error = this->Cells.Upload(
+    this->Window, values, 8 * static_cast<std::size_t>(mesh.GetNumberOfCells()), 1, 8);
+  return this->Count(this->Cells, error);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadBoundary(const BoundaryTree& tree)
 {
   // A node's indices travel as floats, which are whole up to 2^24.
   const std::int64_t largestIndex =
@@ -107,16 +123,8 @@ std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const Boundar
   if (largestIndex > (std::int64_t{ 1 } << 24))
   {
     return "a mesh with " + std::to_string(tree.GetFaces().size()) +
-      " boundary faces exceeds the limit of 16777216";
+      " boundary faces exceeds the limit of 8388608";
   }
-  const auto* cellValues = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
-  const std::vector<std::int32_t> cells(cellValues, cellValues + 8 * mesh.GetNumberOfCells());
-  std::string error = this->Cells.Upload(this->Window, cells, 1, 8);
-  if (!this->Count(this->Cells, error).empty())
-  {
-    return error;
-  }
-
   std::vector<float> nodes;
   nodes.reserve(8 * tree.GetNodes().size());
   for (const auto& node : tree.GetNodes())
@@ -125,7 +133,7 @@ std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const Boundar
       { node.Center.x, node.Center.y, node.Center.z, static_cast<float>(node.Skip), node.Half.x,
         node.Half.y, node.Half.z, static_cast<float>(node.Face) });
   }
-  error = this->TreeNodes.Upload(this->Window, nodes, 4, 2);
+  std::string error = this->TreeNodes.Upload(this->Window, nodes.data(), nodes.size(), 4, 2);
   if (!this->Count(this->TreeNodes, error).empty())
   {
     return error;
@@ -138,7 +146,7 @@ std::string RayCastOpenGL::UploadMesh(const TetrahedralMesh& mesh, const Boundar
     const auto& v = face.Vertices;
     faces.insert(faces.end(), { face.Outward > 0 ? v[0] : ~v[0], v[1], v[2], face.CellFace });
   }
-  error = this->TreeFaces.Upload(this->Window, faces, 4, 1);
+  error = this->TreeFaces.Upload(this->Window, faces.data(), faces.size(), 4, 1);
   return this->Count(this->TreeFaces, error);
 }
 
@@ -153,7 +161,7 @@ std::string RayCastOpenGL::UploadVertices(
     const glm::vec3& p = mesh.GetPositions()[v];
     values.insert(values.end(), { p.x, p.y, p.z, scalars[v] });
   }
-  const std::string error = this->Vertices.Upload(this->Window, values, 4, 1);
+  const std::string error = this->Vertices.Upload(this->Window, values.data(), values.size(), 4, 1);
   return this->Count(this->Vertices, error);
 }
 
@@ -166,7 +174,7 @@ std::string RayCastOpenGL::UploadGradients(const std::vector<glm::vec3>& gradien
   {
     values.insert(values.end(), { g.x, g.y, g.z, 0.0f });
   }
-  const std::string error = this->VertexGradients.Upload(this->Window, values, 4, 1);
+  const std::string error = this->VertexGradients.Upload(this->Window, values.data(), values.size(), 4, 1);
   return this->Count(this->VertexGradients, error);
 }
 
@@ -186,7 +194,7 @@ std::string RayCastOpenGL::UploadProperty(const VolumePropertyTables& tables)
   append(tables.GetIntervals());
   append(tables.GetGradientIntervals());
   this->NumberOfScalarIntervals = static_cast<int>(tables.GetIntervals().size());
-  std::string error = this->Intervals.Upload(this->Window, values, 4, 3);
+  std::string error = this->Intervals.Upload(this->Window, values.data(), values.size(), 4, 3);
   if (!this->Count(this->Intervals, error).empty())
   {
     return error;
@@ -204,7 +212,7 @@ std::string RayCastOpenGL::UploadProperty(const VolumePropertyTables& tables)
     values.insert(values.end(),
       { surface.Scalar, surface.Opacity, 0.0f, 0.0f, color.r, color.g, color.b, 0.0f });
   }
-  error = this->Isosurfaces.Upload(this->Window, values, 4, 2);
+  error = this->Isosurfaces.Upload(this->Window, values.data(), values.size(), 4, 2);
   return this->Count(this->Isosurfaces, error);
 }
 
@@ -538,6 +546,13 @@ bool RayCastOpenGL::ReadStatistics()
     this->Statistics.Lost += static_cast<std::int64_t>(values[i + 1]);
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::ClearStatistics()
+{
+  this->Statistics = RayStatistics();
+  this->StatisticsStale = false;
 }
 
 //------------------------------------------------------------------------------

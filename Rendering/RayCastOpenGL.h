@@ -58,12 +58,14 @@ public:
 
   /** Binds to a window; on a change of window all tables are gone. */
   std::string SetWindow(vtkOpenGLRenderWindow* window);
-  bool HasMesh() const;
+  bool HasCells() const;
+  bool HasBoundary() const;
   bool HasVertices() const;
   bool HasGradients() const { return this->VertexGradients.IsFilled(); }
   bool HasProperty() const { return this->Intervals.IsFilled(); }
 
-  std::string UploadMesh(const TetrahedralMesh& mesh, const BoundaryTree& tree);
+  std::string UploadCells(const TetrahedralMesh& mesh);
+  std::string UploadBoundary(const BoundaryTree& tree);
   /** @param scalars  one normalised scalar per vertex. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
   /** One gradient per vertex. Needed for optics with VertexGradients. */
@@ -81,6 +83,8 @@ public:
 
   /** Of the last frame; read back on the first call after it. */
   RayStatistics GetStatistics();
+  /** Notes a frame without rays. */
+  void ClearStatistics();
 
   std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
 

@@ -62,8 +62,7 @@ void VolumePropertyTables::Update(vtkVolumeProperty* property, int blendMode, bo
     this->BuiltMeaning = meaning;
     this->BuiltBlendMode = blendMode;
   }
-  if (!reduced || normalization.Offset != this->BuiltNormalization.Offset ||
-    normalization.Scale != this->BuiltNormalization.Scale)
+  if (!reduced || normalization != this->BuiltNormalization)
   {
     this->NormalizeTables(normalization);
     this->BuiltNormalization = normalization;
@@ -118,6 +117,26 @@ void VolumePropertyTables::NormalizeTables(const ScalarNormalization& normalizat
   const auto end = std::unique(this->Isosurfaces.begin(), this->Isosurfaces.end(),
     [](const Isosurface& a, const Isosurface& b) { return a.Scalar == b.Scalar; });
   this->Isosurfaces.erase(end, this->Isosurfaces.end());
+}
+
+//------------------------------------------------------------------------------
+VisibleScalars VolumePropertyTables::GetVisibleScalars() const
+{
+  VisibleScalars visible;
+  switch (this->BuiltBlendMode)
+  {
+    case vtkVolumeMapper::COMPOSITE_BLEND:
+      visible.AddAttenuation(this->Intervals);
+      return visible;
+    case vtkVolumeMapper::ISOSURFACE_BLEND:
+      for (const Isosurface& surface : this->Isosurfaces)
+      {
+        visible.AddIsovalue(surface.Scalar);
+      }
+      return visible;
+    default:
+      return VisibleScalars::All();
+  }
 }
 
 }

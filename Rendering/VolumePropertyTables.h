@@ -3,8 +3,9 @@
 #ifndef VolumePropertyTables_h
 #define VolumePropertyTables_h
 
-#include "ObjectVersion.h"
 #include "Volume/TransferFunction.h"
+#include "Volume/VisibleScalars.h"
+#include "VolumeInput.h"
 #include "VolumePropertyPoints.h"
 
 #include <glm/vec3.hpp>
@@ -46,6 +47,9 @@ public:
   }
   /** Ascending; empty unless blending isosurfaces. */
   const std::vector<Isosurface>& GetIsosurfaces() const { return this->Isosurfaces; }
+
+  /** The scalars that a ray must visit. */
+  VisibleScalars GetVisibleScalars() const;
 
   /** Changes with the tables. */
   std::int64_t GetVersion() const { return this->Version; }

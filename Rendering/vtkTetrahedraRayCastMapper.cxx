@@ -2,33 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
-#include "ObjectVersion.h"
 #include "RayCastOpenGL.h"
 #include "RayCastOptics.h"
 #include "RayCastShader.h"
-#include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
-#include "Volume/TetrahedralMesh.h"
-#include "Volume/TransferFunction.h"
 #include "Volume/VertexGradients.h"
+#include "VolumeInput.h"
 #include "VolumePropertyTables.h"
 
 #include "vtkCamera.h"
-#include "vtkCellArray.h"
-#include "vtkCellData.h"
-#include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
+#include "vtkHardwareSelector.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkPlaneCollection.h"
-#include "vtkPoints.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
 #include "vtkVolumeMapper.h"
@@ -37,53 +27,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace
 {
-
-using Version = meniscus::ObjectVersion;
-
-/** What the mesh tables were built from. Another grid that shares these objects has the same mesh.
- */
-struct MeshVersion
-{
-  Version Points;
-  Version Coordinates;
-  Version Cells;
-  Version Ghosts;
-
-  bool operator==(const MeshVersion& other) const
-  {
-    return this->Points == other.Points && this->Coordinates == other.Coordinates &&
-      this->Cells == other.Cells && this->Ghosts == other.Ghosts;
-  }
-};
-
-/** Cell types other than tetrahedra with their numbers, as text; empty if there are none. */
-std::string DescribeOtherCells(vtkUnstructuredGrid* grid)
-{
-  std::map<int, vtkIdType> others;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const int type = grid->GetCellType(c);
-    if (type != VTK_TETRA)
-    {
-      ++others[type];
-    }
-  }
-  std::ostringstream text;
-  for (const auto& other : others)
-  {
-    const char* name = vtkCellTypes::GetClassNameFromTypeId(other.first);
-    text << (text.tellp() > 0 ? ", " : "") << other.second << " " << (name ? name : "unknown");
-  }
-  return text.str();
-}
 
 glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
 {
@@ -98,62 +46,30 @@ glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
   return result;
 }
 
-/** Points and tetrahedra of a grid as plain arrays. */
-struct GridArrays
-{
-  std::vector<double> Points;
-  std::vector<std::int64_t> Cells;
-
-  explicit GridArrays(vtkUnstructuredGrid* grid)
-    : Points(3 * static_cast<std::size_t>(grid->GetNumberOfPoints()))
-  {
-    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
-    {
-      grid->GetPoint(p, this->Points.data() + 3 * p);
-    }
-    vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-    const unsigned char leftOut =
-      vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
-    this->Cells.reserve(4 * static_cast<std::size_t>(grid->GetNumberOfCells()));
-    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-    {
-      if (ghosts && (ghosts->GetValue(c) & leftOut))
-      {
-        continue;
-      }
-      vtkIdType size = 0;
-      const vtkIdType* ids = nullptr;
-      grid->GetCells()->GetCellAtId(c, size, ids);
-      this->Cells.insert(this->Cells.end(), ids, ids + 4);
-    }
-  }
-};
-
 }
 
 class vtkTetrahedraRayCastMapper::vtkInternals
 {
 public:
-  meniscus::TetrahedralMesh Mesh;
-  meniscus::BoundaryTree Tree;
-  std::vector<float> Scalars;
-  meniscus::ScalarNormalization Normalization;
-  std::vector<glm::vec3> Gradients;
+  meniscus::VolumeInput Input;
   meniscus::VolumePropertyTables Property;
+  std::vector<glm::vec3> Gradients;
   meniscus::RayCastOpenGL OpenGL;
 
-  MeshVersion BuiltMesh;
-  Version BuiltScalars;
+  /** What the gradients were computed from, by the input's counters. */
+  std::int64_t GradientsOfMesh = 0;
+  std::int64_t GradientsOfScalars = 0;
 
-  bool MeshUploadStale = true;
-  bool VertexUploadStale = true;
-  bool GradientsStale = true;
-  bool GradientUploadStale = true;
-  vtkTypeInt64 UploadedProperty = -1;
+  /** What the tables on the graphics device were made of, by counters. */
+  std::int64_t UploadedLinks = 0;
+  std::int64_t UploadedMesh = 0;
+  std::int64_t UploadedScalars = 0;
+  std::int64_t UploadedGradients = 0;
+  std::int64_t UploadedProperty = 0;
 
-  vtkTypeInt64 MeshBuilds = 0;
-  vtkTypeInt64 ScalarUpdates = 0;
   vtkTypeInt64 GradientBuilds = 0;
+  /** Seconds that the last frame would have taken with a ray per pixel; 0 before it. */
+  double FullImageTime = 0.0;
 
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
@@ -163,34 +79,41 @@ public:
   std::string Upload(bool gradients);
   std::string DrawOpenGL(const meniscus::RayCastFrame& frame);
   std::string DrawNative(const meniscus::RayCastFrame& frame);
-  std::string ComputeFrame(
-    vtkRenderer* renderer, vtkVolume* volume, const int viewport[4], meniscus::OpticsPlace& place);
+  std::string ComputeFrame(vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2],
+    meniscus::OpticsPlace& place);
 };
 
 //------------------------------------------------------------------------------
 std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
 {
+  meniscus::VolumeInput& input = this->Input;
   std::string error;
-  if (this->MeshUploadStale || !this->OpenGL.HasMesh())
+  const bool linksStale = this->UploadedLinks != input.GetLinkChanges();
+  if (linksStale || !this->OpenGL.HasCells() || !this->OpenGL.HasBoundary())
   {
-    error = this->OpenGL.UploadMesh(this->Mesh, this->Tree);
-    this->MeshUploadStale = !error.empty();
+    error = this->OpenGL.UploadCells(input.GetMesh());
+    error = error.empty() ? this->OpenGL.UploadBoundary(input.GetBoundaryTree()) : error;
+    this->UploadedLinks = error.empty() ? input.GetLinkChanges() : 0;
   }
-  if (error.empty() && (this->VertexUploadStale || !this->OpenGL.HasVertices()))
+  const bool verticesStale = this->UploadedMesh != input.GetMeshBuilds() ||
+    this->UploadedScalars != input.GetScalarUpdates();
+  if (error.empty() && (verticesStale || !this->OpenGL.HasVertices()))
   {
-    error = this->OpenGL.UploadVertices(this->Mesh, this->Scalars);
-    this->VertexUploadStale = !error.empty();
+    error = this->OpenGL.UploadVertices(input.GetMesh(), input.GetScalars());
+    this->UploadedMesh = error.empty() ? input.GetMeshBuilds() : 0;
+    this->UploadedScalars = input.GetScalarUpdates();
   }
-  if (error.empty() && gradients && (this->GradientUploadStale || !this->OpenGL.HasGradients()))
+  const bool gradientsStale = this->UploadedGradients != this->GradientBuilds;
+  if (error.empty() && gradients && (gradientsStale || !this->OpenGL.HasGradients()))
   {
     error = this->OpenGL.UploadGradients(this->Gradients);
-    this->GradientUploadStale = !error.empty();
+    this->UploadedGradients = error.empty() ? this->GradientBuilds : 0;
   }
-  if (error.empty() &&
-    (this->UploadedProperty != this->Property.GetVersion() || !this->OpenGL.HasProperty()))
+  const bool propertyStale = this->UploadedProperty != this->Property.GetVersion();
+  if (error.empty() && (propertyStale || !this->OpenGL.HasProperty()))
   {
     error = this->OpenGL.UploadProperty(this->Property);
-    this->UploadedProperty = error.empty() ? this->Property.GetVersion() : -1;
+    this->UploadedProperty = error.empty() ? this->Property.GetVersion() : 0;
   }
   return error;
 }
@@ -198,11 +121,13 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::vtkInternals::UpdateGradients()
 {
-  if (this->GradientsStale)
+  const meniscus::VolumeInput& input = this->Input;
+  if (this->GradientsOfMesh != input.GetMeshBuilds() ||
+    this->GradientsOfScalars != input.GetScalarUpdates())
   {
-    this->Gradients = meniscus::ComputeVertexGradients(this->Mesh, this->Scalars);
-    this->GradientsStale = false;
-    this->GradientUploadStale = true;
+    this->Gradients = meniscus::ComputeVertexGradients(input.GetMesh(), input.GetScalars());
+    this->GradientsOfMesh = input.GetMeshBuilds();
+    this->GradientsOfScalars = input.GetScalarUpdates();
     ++this->GradientBuilds;
   }
 }
@@ -224,13 +149,15 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
   const meniscus::RayCastFrame& frame)
 {
   return this->OpenGL.DrawNative(
-    { &this->Mesh, &this->Tree, &this->Scalars, &this->Property.GetIntervals(), frame.Rays,
-      static_cast<float>(1.0 - frame.EarlyTerminationOpacity) });
+    { &this->Input.GetMesh(), &this->Input.GetBoundaryTree(), &this->Input.GetScalars(),
+      &this->Property.GetIntervals(), frame.Rays,
+      static_cast<float>(1.0 - frame.EarlyTerminationOpacity) },
+    frame.Output);
 }
 
 //------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(
-  vtkRenderer* renderer, vtkVolume* volume, const int viewport[4], meniscus::OpticsPlace& place)
+std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(vtkRenderer* renderer,
+  vtkVolume* volume, const int imageSize[2], meniscus::OpticsPlace& place)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   meniscus::RayFrameInput input;
@@ -238,12 +165,12 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(
   input.WorldToView = ToGlm(camera->GetModelViewTransformMatrix());
   input.ViewToClip =
     ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
-  input.Center = this->Mesh.GetCenter();
-  input.Radius = this->Mesh.GetRadius();
-  input.ImageSize = glm::dvec2(viewport[2], viewport[3]);
+  input.Center = this->Input.GetMesh().GetCenter();
+  input.Radius = this->Input.GetMesh().GetRadius();
+  input.ImageSize = glm::dvec2(imageSize[0], imageSize[1]);
   place.CenterInWorld = glm::dvec3(input.ModelToWorld * glm::dvec4(input.Center, 1.0));
   place.WorldToView = input.WorldToView;
-  place.ScalarScale = this->Normalization.Scale;
+  place.ScalarScale = this->Input.GetNormalization().Scale;
   switch (meniscus::ComputeRayFrame(input, place.Frame))
   {
     case meniscus::RayFrameStatus::Ok:
@@ -345,102 +272,23 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::UpdateMesh(vtkUnstructuredGrid* grid)
+bool vtkTetrahedraRayCastMapper::UpdateInput(vtkUnstructuredGrid* grid, vtkDataArray* scalars)
 {
-  vtkInternals& internals = *this->Internals;
-  MeshVersion version;
-  version.Points = Version(grid->GetPoints());
-  version.Coordinates = Version(grid->GetPoints() ? grid->GetPoints()->GetData() : nullptr);
-  version.Cells = Version(grid->GetCells());
-  version.Ghosts = Version(grid->GetCellGhostArray());
-  if (internals.MeshBuilds > 0 && version == internals.BuiltMesh)
+  meniscus::VolumeInput& input = this->Internals->Input;
+  const auto tell = [this](const meniscus::InputReport& report)
   {
-    return internals.Mesh.GetNumberOfCells() > 0;
-  }
-
-  const std::string others = DescribeOtherCells(grid);
-  if (!others.empty())
-  {
-    vtkErrorMacro("Only tetrahedra can be rendered, the input also has "
-      << others << ". Put a vtkDataSetTriangleFilter with TetrahedraOnlyOn before the mapper. "
-      << "Nothing is rendered.");
-    return false;
-  }
-  const GridArrays arrays(grid);
-  const meniscus::TetrahedraView view{ arrays.Points.data(), grid->GetNumberOfPoints(),
-    arrays.Cells.data(), static_cast<std::int64_t>(arrays.Cells.size() / 4) };
-  const meniscus::MeshStatus status = internals.Mesh.Build(view);
-  internals.Tree.Build(internals.Mesh);
-  internals.BuiltMesh = version;
-  internals.BuiltScalars = Version();
-  internals.MeshUploadStale = true;
-  ++internals.MeshBuilds;
-
-  if (status == meniscus::MeshStatus::TooLarge)
-  {
-    vtkErrorMacro("A mesh of " << view.NumberOfCells << " cells and " << view.NumberOfPoints
-                               << " points exceeds the limit of "
-                               << meniscus::TetrahedralMesh::MaximumNumberOfCells
-                               << " cells and 2^31 points. Nothing is rendered.");
-    return false;
-  }
-  const meniscus::RejectedCells& rejected = internals.Mesh.GetRejectedCells();
-  if (rejected.Total() > 0)
-  {
-    vtkWarningMacro(<< rejected.Total() << " of " << view.NumberOfCells << " cells are left out: "
-                    << rejected.IndexOutOfRange << " with a point index out of range, "
-                    << rejected.RepeatedVertex << " with a repeated point, "
-                    << rejected.PointNotFinite << " with a point that is not finite.");
-  }
-  return status == meniscus::MeshStatus::Ok;
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::UpdateScalars(vtkDataArray* scalars)
-{
-  vtkInternals& internals = *this->Internals;
-  const Version version(scalars);
-  if (version == internals.BuiltScalars)
-  {
-    return;
-  }
-  const std::vector<std::int64_t>& points = internals.Mesh.GetSourcePoints();
-  std::vector<double> values(points.size());
-  double minimum = std::numeric_limits<double>::infinity();
-  double maximum = -minimum;
-  vtkTypeInt64 notFinite = 0;
-  for (std::size_t v = 0; v < points.size(); ++v)
-  {
-    values[v] = scalars->GetComponent(points[v], 0);
-    if (std::isfinite(values[v]))
+    if (!report.Error.empty())
     {
-      minimum = std::min(minimum, values[v]);
-      maximum = std::max(maximum, values[v]);
+      vtkErrorMacro(<< report.Error << " Nothing is rendered.");
     }
-    else
+    if (!report.Warning.empty())
     {
-      values[v] = std::numeric_limits<double>::quiet_NaN();
-      ++notFinite;
+      vtkWarningMacro(<< report.Warning);
     }
-  }
-  if (notFinite > 0)
-  {
-    vtkWarningMacro(<< notFinite << " of " << values.size()
-                    << " scalars are not finite; cells that use them are transparent.");
-  }
-
-  const auto normalization = notFinite == static_cast<vtkTypeInt64>(values.size())
-    ? meniscus::ScalarNormalization()
-    : meniscus::NormalizeRange(minimum, maximum);
-  internals.Normalization = normalization;
-  internals.Scalars.resize(values.size());
-  std::transform(values.begin(), values.end(), internals.Scalars.begin(),
-    [&normalization](double value)
-    { return static_cast<float>((value - normalization.Offset) * normalization.Scale); });
-  internals.BuiltScalars = version;
-  internals.VertexUploadStale = true;
-  internals.GradientsStale = true;
-  ++internals.ScalarUpdates;
+    return report.Error.empty();
+  };
+  return tell(input.UpdateMesh(grid)) && input.GetMesh().GetNumberOfCells() > 0 &&
+    tell(input.UpdateScalars(scalars));
 }
 
 //------------------------------------------------------------------------------
@@ -456,7 +304,8 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
 {
   vtkInternals& internals = *this->Internals;
   internals.Property.Update(volume->GetProperty(), this->GetUsedBlendMode(),
-    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Normalization);
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Input.GetNormalization());
+  internals.Input.UpdateActiveCells(internals.Property.GetVisibleScalars());
 }
 
 //------------------------------------------------------------------------------
@@ -473,6 +322,62 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
 }
 
 //------------------------------------------------------------------------------
+double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
+{
+  if (!this->AutoAdjustSampleDistances)
+  {
+    return this->ImageSampleDistance;
+  }
+  // Time goes with the number of rays, the inverse square of the distance.
+  const double allocated = volume->GetAllocatedRenderTime();
+  const double full = this->Internals->FullImageTime;
+  const double distance = allocated > 0.0 && full > allocated ? std::sqrt(full / allocated) : 1.0;
+  return std::min(distance, static_cast<double>(this->MaximumImageSampleDistance));
+}
+
+//------------------------------------------------------------------------------
+std::string vtkTetrahedraRayCastMapper::PrepareFrame(
+  vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame)
+{
+  vtkInternals& internals = *this->Internals;
+  vtkHardwareSelector* selector = renderer->GetSelector();
+  const double sampleDistance = selector ? 1.0 : this->ChooseImageSampleDistance(volume);
+  int viewport[4];
+  internals.OpenGL.GetViewport(viewport);
+  for (int i = 0; i < 2; ++i)
+  {
+    frame.Output.ImageSize[i] =
+      std::max(1, static_cast<int>(std::ceil(viewport[2 + i] / sampleDistance)));
+  }
+  this->UsedImageSampleDistance = sampleDistance;
+  if (selector)
+  {
+    // Other passes tell parts of a prop apart: this one has one part, of id 0.
+    const bool propPass = selector->GetCurrentPass() == vtkHardwareSelector::ACTOR_PASS;
+    const float* value = selector->GetPropColorValue();
+    frame.Output.Selecting = true;
+    frame.Output.SelectionValue =
+      propPass ? glm::vec3(value[0], value[1], value[2]) : glm::vec3(0.0f);
+  }
+
+  meniscus::OpticsPlace place;
+  const std::string error =
+    internals.ComputeFrame(renderer, volume, frame.Output.ImageSize, place);
+  if (!error.empty())
+  {
+    return error;
+  }
+  frame.Rays = place.Frame;
+  frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
+  frame.Optics.BlendMode = this->GetUsedBlendMode();
+  meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
+  meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
+  frame.Optics.VertexGradients =
+    frame.Optics.UsesGradients() && this->Gradients == VERTEX_GRADIENTS;
+  return meniscus::DescribeExcess(frame.Optics);
+}
+
+//------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
 {
   vtkInternals& internals = *this->Internals;
@@ -482,28 +387,22 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
     vtkErrorMacro("The renderer has no OpenGL window; nothing is rendered.");
     return false;
   }
+  const meniscus::TetrahedralMesh& mesh = internals.Input.GetMesh();
+  // A mesh without extent has no cell that a ray could cross.
+  if (mesh.GetNumberOfActiveCells() == 0 || mesh.GetRadius() == 0.0)
+  {
+    internals.OpenGL.ClearStatistics();
+    this->ActiveBackend = this->Backend == NATIVE ? NATIVE : OPENGL;
+    return true;
+  }
   vtkOpenGLClearErrorMacro();
-  meniscus::OpticsPlace place;
   meniscus::RayCastFrame frame;
   std::string error = internals.OpenGL.SetWindow(window);
   if (error.empty())
   {
-    int viewport[4];
-    internals.OpenGL.GetViewport(viewport);
-    error = internals.ComputeFrame(renderer, volume, viewport, place);
+    error = this->PrepareFrame(renderer, volume, frame);
   }
   int backend = OPENGL;
-  if (error.empty())
-  {
-    frame.Rays = place.Frame;
-    frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
-    frame.Optics.BlendMode = this->GetUsedBlendMode();
-    meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
-    meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
-    frame.Optics.VertexGradients =
-      frame.Optics.UsesGradients() && this->Gradients == VERTEX_GRADIENTS;
-    error = meniscus::DescribeExcess(frame.Optics);
-  }
   if (error.empty())
   {
     backend = this->ChooseBackend(frame.Optics.IsPlain());
@@ -522,28 +421,34 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
-  if (renderer->GetSelector())
-  {
-    return;
-  }
-  const double start = vtkTimerLog::GetUniversalTime();
   vtkUnstructuredGrid* grid = this->ValidateInput();
   if (!grid || grid->GetNumberOfCells() == 0)
   {
     return;
   }
   vtkDataArray* scalars = this->ValidateScalars(grid);
-  if (!scalars || !this->UpdateMesh(grid))
+  if (!scalars || !this->UpdateInput(grid, scalars))
   {
     return;
   }
   this->WarnAboutUnavailable();
-  this->UpdateScalars(scalars);
   this->UpdateTransferFunction(volume);
-  // A mesh without extent has no cell that a ray could cross.
-  if (this->Internals->Mesh.GetRadius() > 0.0 && this->Draw(renderer, volume))
+  vtkHardwareSelector* selector = renderer->GetSelector();
+  if (selector)
   {
+    selector->BeginRenderProp();
+    this->Draw(renderer, volume);
+    selector->EndRenderProp();
+    return;
+  }
+  const double start = vtkTimerLog::GetUniversalTime();
+  if (this->Draw(renderer, volume))
+  {
+    // Drawing is over when the device says so, not when the commands are sent.
+    this->Internals->OpenGL.Finish();
     this->TimeToDraw = std::max(vtkTimerLog::GetUniversalTime() - start, 1.0e-9);
+    this->Internals->FullImageTime =
+      this->TimeToDraw * this->UsedImageSampleDistance * this->UsedImageSampleDistance;
   }
 }
 
@@ -556,13 +461,13 @@ void vtkTetrahedraRayCastMapper::ReleaseGraphicsResources(vtkWindow* window)
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMeshBuilds()
 {
-  return this->Internals->MeshBuilds;
+  return this->Internals->Input.GetMeshBuilds();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfScalarUpdates()
 {
-  return this->Internals->ScalarUpdates;
+  return this->Internals->Input.GetScalarUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -580,7 +485,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfGradientBuilds()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 {
-  return this->Internals->MeshBuilds;
+  return this->Internals->Input.GetActiveSetBuilds();
 }
 
 //------------------------------------------------------------------------------
@@ -592,13 +497,13 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveCells()
 {
-  return this->Internals->Mesh.GetNumberOfCells();
+  return this->Internals->Input.GetMesh().GetNumberOfActiveCells();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRejectedCells()
 {
-  return this->Internals->Mesh.GetRejectedCells().Total();
+  return this->Internals->Input.GetMesh().GetRejectedCells().Total();
 }
 
 //------------------------------------------------------------------------------
@@ -628,6 +533,10 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ActiveBackend: " << this->ActiveBackend << "\n";
   os << indent << "Integration: " << this->Integration << "\n";
   os << indent << "Gradients: " << this->Gradients << "\n";
+  os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
+  os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
+  os << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << "\n";
+  os << indent << "UsedImageSampleDistance: " << this->UsedImageSampleDistance << "\n";
   os << indent << "EarlyTerminationOpacity: " << this->EarlyTerminationOpacity << "\n";
   os << indent << "NumberOfMeshBuilds: " << this->GetNumberOfMeshBuilds() << "\n";
   os << indent << "NumberOfScalarUpdates: " << this->GetNumberOfScalarUpdates() << "\n";

@@ -49,7 +49,8 @@
  *    form up to an error of 3e-7.
  *
  * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first
- * counts up to its exit.
+ * counts up to its exit. Cells that cannot be seen, because the transfer function has no opacity
+ * anywhere in their range of scalars, are not visited and hide nothing.
  *
  * After: M. Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral
  * Meshes", IEEE Visualization 2003. Deviations: one pass with a loop instead of one pass per cell;
@@ -61,8 +62,8 @@
  * is done where its input changes: see the counters.
  *
  * @note Limits of this version: one component; up to 32 clipping planes and 16 lights; the native
- * backend has plain composite blending only; not drawn in hardware selection passes; up to 2^29
- * cells, and tables within GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
+ * backend has plain composite blending only; fewer
+ * than 2^29 cells, and tables within GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -73,9 +74,15 @@
 #include "vtkUnstructuredGridVolumeMapper.h"
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 
 class vtkDataArray;
 class vtkUnstructuredGrid;
+
+namespace meniscus
+{
+struct RayCastFrame;
+}
 
 class VTKMENISCUS_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
 {
@@ -166,9 +173,34 @@ public:
 
   ///@{
   /**
+   * Pixels between neighbouring rays, along each axis, >= 1; pixels between are interpolated.
+   * Default 1. Only without AutoAdjustSampleDistances.
+   */
+  vtkSetClampMacro(ImageSampleDistance, float, 1.0f, 100.0f);
+  vtkGetMacro(ImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the distance between rays follows from the time that the volume is allocated (the
+   * window's desired update rate) and that the last frame took: rays are apart during interaction,
+   * by up to MaximumImageSampleDistance (default 8), and one per pixel when still. Default on.
+   */
+  vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkBooleanMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkSetClampMacro(MaximumImageSampleDistance, float, 1.0f, 100.0f);
+  vtkGetMacro(MaximumImageSampleDistance, float);
+  ///@}
+
+  /** Pixels between neighbouring rays in the last frame. */
+  vtkGetMacro(UsedImageSampleDistance, double);
+
+  ///@{
+  /**
    * Work done since construction: builds of the mesh tables, updates of vertex scalars, reductions
-   * of the volume property to control points, builds of the set of active cells (all cells, once
-   * per mesh, in this version), computations of vertex gradients.
+   * of the volume property to control points, builds of the set of active cells (on a new mesh,
+   * new scalars, or when other scalars become visible), computations of vertex gradients.
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
@@ -185,7 +217,8 @@ public:
 
   ///@{
   /**
-   * Of the current mesh: cells that rays can visit, and input cells left out because of a point
+   * Of the current mesh: cells that rays can visit, which are those that the transfer function lets
+   * be seen and whose scalars are finite, and input cells left out because of a point
    * index out of range, a repeated point or a point that is not finite.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
@@ -204,7 +237,8 @@ public:
   ///@}
 
   /**
-   * Draws the volume into the current framebuffer and viewport. Input that cannot be drawn gives an
+   * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, the
+   * prop's id wherever the volume is visible. Input that cannot be drawn gives an
    * error and leaves the picture as it is.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
@@ -223,11 +257,13 @@ private:
   vtkUnstructuredGrid* ValidateInput();
   vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
   void WarnAboutUnavailable();
-  bool UpdateMesh(vtkUnstructuredGrid* grid);
-  void UpdateScalars(vtkDataArray* scalars);
+  bool UpdateInput(vtkUnstructuredGrid* grid, vtkDataArray* scalars);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
   int ChooseBackend(bool plainOptics);
+  double ChooseImageSampleDistance(vtkVolume* volume);
+  std::string PrepareFrame(
+    vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);
 
   int OpacityModel = ATTENUATION_COEFFICIENT;
@@ -236,6 +272,10 @@ private:
   int Integration = EXACT;
   int Gradients = VERTEX_GRADIENTS;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
+  float ImageSampleDistance = 1.0f;
+  float MaximumImageSampleDistance = 8.0f;
+  vtkTypeBool AutoAdjustSampleDistances = 1;
+  double UsedImageSampleDistance = 1.0;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -215,8 +215,7 @@ bool RayWalk::Walk(
     cellFace = this->Step(cellFace, face);
     ++steps;
     this->Advance(from, face, endDepth, integral);
-    if (cellFace == TetrahedralMesh::NoNeighbor || this->DepthNow >= endDepth ||
-      integral.IsTerminated())
+    if (cellFace < 0 || this->DepthNow >= endDepth || integral.IsTerminated())
     {
       return true;
     }

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/TetrahedralMesh.h"
 
+#include "Volume/BlockLoop.h"
 #include "Volume/MortonOrder.h"
+#include "Volume/VisibleScalars.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <numeric>
 
 namespace meniscus
 {
@@ -65,6 +69,13 @@ struct FiledFace
   std::int32_t Middle;
   std::int32_t Highest;
   std::int32_t CellFace;
+};
+
+/** What a block of cells adds to the sums over all. */
+struct BlockCount
+{
+  std::int64_t Active = 0;
+  std::int64_t Changed = 0;
 };
 
 /** All faces, grouped by lowest vertex: First[v] is where the group of vertex v begins. */
@@ -127,7 +138,8 @@ MeshStatus TetrahedralMesh::Build(const TetrahedraView& input)
   this->NumberCells(input);
   this->LinkCells();
   this->OrientCells();
-  this->CollectBoundary();
+  this->ActiveCells = this->GetNumberOfCells();
+  this->CollectBoundary(SerialLoop);
   return MeshStatus::Ok;
 }
 
@@ -333,19 +345,104 @@ void TetrahedralMesh::OrientCells()
 }
 
 //------------------------------------------------------------------------------
-void TetrahedralMesh::CollectBoundary()
+bool TetrahedralMesh::UpdateActiveCells(
+  const std::vector<float>& scalars, const VisibleScalars& visible, const RangeLoop& loop)
 {
-  for (std::size_t c = 0; c < this->Cells.size(); ++c)
-  {
-    for (int face = 0; face < 4; ++face)
+  std::vector<std::uint8_t> active(this->Cells.size());
+  std::vector<BlockCount> counts(NumberOfBlocks(this->Cells.size()));
+  ForEachBlock(this->Cells.size(), loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
     {
-      if (this->Cells[c].Links[face] == NoNeighbor)
+      BlockCount count;
+      for (std::size_t c = first; c < last; ++c)
       {
-        this->Boundary.push_back({ FaceVertices(this->Cells[c], face),
-          FaceParity(face) * this->Orientation[c], static_cast<std::int32_t>(4 * c + face) });
+        const auto& v = this->Cells[c].Vertices;
+        const float s[4] = { scalars[v[0]], scalars[v[1]], scalars[v[2]], scalars[v[3]] };
+        // The sum of normalised scalars is NaN if one of them is.
+        const bool known = !std::isnan(s[0] + s[1] + s[2] + s[3]);
+        active[c] = known &&
+          visible.Meets(std::min(std::min(s[0], s[1]), std::min(s[2], s[3])),
+            std::max(std::max(s[0], s[1]), std::max(s[2], s[3])));
+        count.Active += active[c];
+        count.Changed += active[c] != (std::abs(this->Orientation[c]) == 1);
       }
-    }
+      counts[block] = count;
+    });
+  BlockCount total;
+  for (const BlockCount& count : counts)
+  {
+    total.Active += count.Active;
+    total.Changed += count.Changed;
   }
+  if (total.Changed == 0)
+  {
+    return false;
+  }
+  this->ActiveCells = total.Active;
+  this->MarkLinks(active, loop);
+  this->CollectBoundary(loop);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void TetrahedralMesh::MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop)
+{
+  ForEachBlock(this->Cells.size(), loop,
+    [this, &active](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const int sign = this->Orientation[c] > 0 ? 1 : -1;
+        this->Orientation[c] = static_cast<std::int8_t>(active[c] ? sign : 2 * sign);
+        for (std::int32_t& link : this->Cells[c].Links)
+        {
+          if (link != NoNeighbor)
+          {
+            const std::int32_t neighbor = link < NoNeighbor ? MarkedLink(link) : link;
+            link = active[neighbor / 4] ? neighbor : MarkedLink(neighbor);
+          }
+        }
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+void TetrahedralMesh::CollectBoundary(const RangeLoop& loop)
+{
+  const auto isBoundary = [this](std::size_t c, int face)
+  { return std::abs(this->Orientation[c]) == 1 && this->Cells[c].Links[face] < 0; };
+
+  // Counted before they are written, so that the order is that of the cells on any threads.
+  std::vector<std::size_t> starts(NumberOfBlocks(this->Cells.size()) + 1, 0);
+  ForEachBlock(this->Cells.size(), loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        for (int face = 0; face < 4; ++face)
+        {
+          starts[block + 1] += isBoundary(c, face);
+        }
+      }
+    });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  this->Boundary.resize(starts.back());
+  ForEachBlock(this->Cells.size(), loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      std::size_t next = starts[block];
+      for (std::size_t c = first; c < last; ++c)
+      {
+        for (int face = 0; face < 4; ++face)
+        {
+          if (isBoundary(c, face))
+          {
+            this->Boundary[next++] = { FaceVertices(this->Cells[c], face),
+              FaceParity(face) * this->Orientation[c], static_cast<std::int32_t>(4 * c + face) };
+          }
+        }
+      }
+    });
 }
 
 }

@@ -16,9 +16,15 @@
  * 4. Orientation is combinatorial: a flood fill over linked faces, not the sign of each volume. A
  *    link that contradicts the flood fill (a non-orientable ring of cells) is cut. The sign of a
  *    component is that of the sum of its volumes.
+ *
+ * Cells that cannot be seen can be made inactive: links to them read as negative, like the
+ * boundary, and GetBoundary() is that of the active cells. So rays enter, and leave, where the
+ * active cells do.
  */
 #ifndef meniscus_Volume_TetrahedralMesh_h
 #define meniscus_Volume_TetrahedralMesh_h
+
+#include "Refraction/RangeLoop.h"
 
 #include <glm/vec3.hpp>
 
@@ -59,7 +65,9 @@ struct RejectedCells
   std::int64_t Total() const { return IndexOutOfRange + RepeatedVertex + PointNotFinite; }
 };
 
-/** A face that only one cell owns. */
+class VisibleScalars;
+
+/** A face of an active cell without an active cell on the other side. */
 struct BoundaryFace
 {
   /** Mesh vertices in ascending order. */
@@ -74,8 +82,8 @@ struct BoundaryFace
 class TetrahedralMesh
 {
 public:
-  /** Largest number of cells: a link stores 4 * cell + face in 31 bits. */
-  static constexpr std::int64_t MaximumNumberOfCells = std::int64_t{ 1 } << 29;
+  /** Largest number of cells: a link stores 4 * cell + face and its mark in 32 bits. */
+  static constexpr std::int64_t MaximumNumberOfCells = (std::int64_t{ 1 } << 29) - 1;
   /** The link of a face without a neighbour. */
   static constexpr std::int32_t NoNeighbor = -1;
 
@@ -92,9 +100,25 @@ public:
   {
     /** Mesh vertices in ascending order. */
     std::array<std::int32_t, 4> Vertices;
-    /** Across the face opposite to vertex i: 4 * cell + face of the neighbour, or NoNeighbor. */
+    /**
+     * Across the face opposite to vertex i: 4 * cell + face of the neighbour, or NoNeighbor. If the
+     * neighbour is inactive, MarkedLink() of that, which is less than NoNeighbor.
+     */
     std::array<std::int32_t, 4> Links;
   };
+
+  /** Marks a link as leading to an inactive neighbour, and takes the mark away again. */
+  static constexpr std::int32_t MarkedLink(std::int32_t link) { return NoNeighbor - 1 - link; }
+
+  /**
+   * Makes those cells active whose scalars can be seen; all cells are after Build(). One with a
+   * vertex that has no scalar (NaN) is inactive. Returns whether a cell changed.
+   * @param scalars  one normalised scalar per vertex.
+   */
+  bool UpdateActiveCells(const std::vector<float>& scalars, const VisibleScalars& visible,
+    const RangeLoop& loop = SerialLoop);
+
+  std::int64_t GetNumberOfActiveCells() const { return this->ActiveCells; }
 
   const std::vector<Cell>& GetCells() const { return this->Cells; }
   /** Vertex positions relative to GetCenter() in units of GetRadius(), rounded once to float. */
@@ -119,7 +143,8 @@ private:
   void NumberCells(const TetrahedraView& input);
   void LinkCells();
   void OrientCells();
-  void CollectBoundary();
+  void MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop);
+  void CollectBoundary(const RangeLoop& loop);
   void CutLink(std::int32_t cell, int face);
 
   std::vector<Cell> Cells;
@@ -127,10 +152,14 @@ private:
   std::vector<std::int64_t> SourcePoints;
   std::vector<std::int64_t> SourceCells;
   std::vector<BoundaryFace> Boundary;
-  /** Per cell, +1 if its ascending vertices form a positively oriented tetrahedron, else -1. */
+  /**
+   * Per cell, positive if its ascending vertices form a positively oriented tetrahedron, else
+   * negative. 1 if the cell is active, 2 if not.
+   */
   std::vector<std::int8_t> Orientation;
   RejectedCells Rejected;
   std::int64_t CutLinks = 0;
+  std::int64_t ActiveCells = 0;
   glm::dvec3 Center{ 0.0 };
   double Radius = 0.0;
 };

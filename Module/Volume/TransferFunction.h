@@ -36,6 +36,12 @@ struct ScalarNormalization
 {
   double Offset = 0.0;
   double Scale = 1.0;
+
+  bool operator==(const ScalarNormalization& other) const
+  {
+    return this->Offset == other.Offset && this->Scale == other.Scale;
+  }
+  bool operator!=(const ScalarNormalization& other) const { return !(*this == other); }
 };
 
 ScalarNormalization NormalizeRange(double minimum, double maximum);

@@ -6,6 +6,7 @@
 #include "Volume/RayWalk.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
+#include "Volume/VisibleScalars.h"
 
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
@@ -53,6 +54,10 @@ public:
       points.push_back({ node.Scalar, node.Value.Attenuation, { c[0], c[1], c[2] } });
     }
     this->Intervals = BuildIntervals(points, normalization);
+    VisibleScalars visible;
+    visible.AddAttenuation(this->Intervals);
+    this->Mesh.UpdateActiveCells(this->Scalars, visible);
+    this->Tree.Build(this->Mesh);
   }
 
   StressImage cast(const StressView& view) override
@@ -106,7 +111,6 @@ private:
     }
     this->Mesh.Build({ points.data(), grid->GetNumberOfPoints(), cells.data(),
       static_cast<std::int64_t>(cells.size() / 4) });
-    this->Tree.Build(this->Mesh);
   }
 
   int Size = 0;

@@ -97,11 +97,17 @@ std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegra
       for (int x = 0; x < width; ++x)
       {
         const reference::Ray ray = rayOf(x, y);
-        integrator.findSegments(ray, segments);
+        const reference::RayReport report = integrator.findSegments(ray, segments);
+        const bool overlap = report.Ordered || report.Overlaps > 0;
+        const bool covered = !segments.empty();
         const std::size_t at = static_cast<std::size_t>(y) * width + x;
         for (std::size_t f = 0; f < functions.size(); ++f)
         {
-          images[f].Covered[at] = !segments.empty();
+          if (overlap)
+          {
+            integrator.findVisibleSegments(ray, functions[f], segments);
+          }
+          images[f].Covered[at] = covered;
           images[f].Rgba[at] = integrator.integrate(ray, segments, functions[f]);
         }
       }

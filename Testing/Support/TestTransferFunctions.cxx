@@ -77,9 +77,9 @@ OneSided limitsOf(vtkPiecewiseFunction* function, double scalar)
   OneSided limits{ value, value };
   if (!function->GetClamping())
   {
-    const double* range = function->GetRange();
-    limits.Below = scalar <= range[0] ? 0.0 : value;
-    limits.Above = scalar >= range[1] ? 0.0 : value;
+    // At its first node itself such a function is 0: ask beside.
+    limits.Below = function->GetValue(std::nextafter(scalar, -HUGE_VAL));
+    limits.Above = function->GetValue(std::nextafter(scalar, HUGE_VAL));
   }
   return limits;
 }

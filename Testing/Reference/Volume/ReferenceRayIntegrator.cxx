@@ -226,9 +226,36 @@ bool clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vect
   return true;
 }
 
-// Cells crossed, each found on its own, in order of entry.
+// Whether a function attenuates anywhere in a cell's range of scalars.
+bool canBeSeen(
+  const ReferenceMesh& mesh, std::int64_t id, const ReferenceTransferFunction& function)
+{
+  const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(id));
+  double low = mesh.scalar(ids[0]);
+  double high = low;
+  for (int i = 1; i < 4; ++i)
+  {
+    low = std::min(low, mesh.scalar(ids[i]));
+    high = std::max(high, mesh.scalar(ids[i]));
+  }
+  const auto& nodes = function.nodes();
+  for (std::size_t piece = function.pieceOf(low); piece <= function.pieceOf(high); ++piece)
+  {
+    const double from = piece > 0 ? std::max(low, nodes[piece - 1].Scalar) : low;
+    const double to = piece < nodes.size() ? std::min(high, nodes[piece].Scalar) : high;
+    if ((from < to || low == high) &&
+      (function.valueInPiece(piece, from).Attenuation > 0.0 ||
+        function.valueInPiece(piece, to).Attenuation > 0.0))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Cells crossed, each found on its own, in order of entry; with a function, those it lets be seen.
 void findCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
-  std::vector<Crossing>& crossings)
+  const ReferenceTransferFunction* function, std::vector<Crossing>& crossings)
 {
   static thread_local std::vector<std::int64_t> candidates;
   candidates.clear();
@@ -239,7 +266,7 @@ void findCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, con
   Crossing crossing;
   for (const std::int64_t id : candidates)
   {
-    if (clip(mesh, id, ray, origin, crossing))
+    if ((!function || canBeSeen(mesh, id, *function)) && clip(mesh, id, ray, origin, crossing))
     {
       crossings.push_back(crossing);
     }
@@ -399,13 +426,13 @@ private:
 
 // All crossings of the whole line, in face order.
 void findOrderedCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
-  std::vector<Crossing>& crossings)
+  const ReferenceTransferFunction* function, std::vector<Crossing>& crossings)
 {
   Ray whole = ray;
   whole.Begin = -std::numeric_limits<double>::max();
   whole.End = std::numeric_limits<double>::max();
   std::vector<Crossing> found;
-  findCrossings(mesh, tree, whole, found);
+  findCrossings(mesh, tree, whole, function, found);
   crossings.clear();
   for (const std::size_t i : FaceOrder(mesh, found).order())
   {
@@ -442,15 +469,32 @@ RaySegment head(RaySegment segment, double to)
 RayReport ReferenceRayIntegrator::findSegments(
   const Ray& ray, std::vector<RaySegment>& segments) const
 {
+  return this->findSegments(ray, nullptr, segments);
+}
+
+//------------------------------------------------------------------------------
+RayReport ReferenceRayIntegrator::findVisibleSegments(const Ray& ray,
+  const ReferenceTransferFunction& function, std::vector<RaySegment>& segments) const
+{
+  const RayReport report = this->findSegments(ray, nullptr, segments);
+  // Without overlap, segments that cannot be seen are only superfluous.
+  return report.Ordered || report.Overlaps > 0 ? this->findSegments(ray, &function, segments)
+                                               : report;
+}
+
+//------------------------------------------------------------------------------
+RayReport ReferenceRayIntegrator::findSegments(const Ray& ray,
+  const ReferenceTransferFunction* function, std::vector<RaySegment>& segments) const
+{
   static thread_local std::vector<Crossing> crossings;
-  findCrossings(this->Mesh, this->Tree, ray, crossings);
+  findCrossings(this->Mesh, this->Tree, ray, function, crossings);
   const double lengthPerUnit = length(ray.Direction);
   const double negligible = NegligibleLength * this->Mesh.diagonal() / lengthPerUnit;
   RayReport report;
   report.Ordered = needsOrder(this->Mesh, crossings, negligible);
   if (report.Ordered)
   {
-    findOrderedCrossings(this->Mesh, this->Tree, ray, crossings);
+    findOrderedCrossings(this->Mesh, this->Tree, ray, function, crossings);
   }
   segments.clear();
   double cursor = -std::numeric_limits<double>::max();
@@ -504,7 +548,7 @@ std::array<double, 4> ReferenceRayIntegrator::trace(
   const Ray& ray, const ReferenceTransferFunction& function) const
 {
   std::vector<RaySegment> segments;
-  this->findSegments(ray, segments);
+  this->findVisibleSegments(ray, function, segments);
   return integrate(ray, segments, function);
 }
 
@@ -621,6 +665,7 @@ RayClass ReferenceRayIntegrator::classify(
   const std::vector<CoveredSpan> here = this->coveredSpans(ray);
   std::vector<RaySegment> segments;
   const bool ordered = this->findSegments(ray, segments).Ordered;
+  this->findVisibleSegments(ray, function, segments);
   const std::array<double, 4> result = integrate(ray, segments, function);
   for (const Vector3& by : directionsAcross(ray.Direction))
   {

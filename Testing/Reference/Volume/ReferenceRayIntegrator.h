@@ -14,7 +14,8 @@
  * inverted cell or overlapping parts, the cells found are put in the order in which a path across
  * shared faces meets them, parts in the order of their entries; each then counts from the largest
  * depth reached before it to its own exit. Closed paths, which no entry leads to, do not count.
- * This only orders: the cells and their ends stay those of clipping.
+ * This only orders: the cells and their ends stay those of clipping. A cell that the transfer
+ * function makes invisible in all of its range of scalars hides nothing.
  */
 #ifndef meniscus_ReferenceRayIntegrator_h
 #define meniscus_ReferenceRayIntegrator_h
@@ -76,7 +77,11 @@ public:
   /// Segments in order along the ray, without overlap. The vector is reused by the caller.
   RayReport findSegments(const Ray& ray, std::vector<RaySegment>& segments) const;
 
-  /// Premultiplied RGBA along the segments that findSegments returned for the same ray.
+  /// The same without the cells that the function makes invisible, wherever cells overlap.
+  RayReport findVisibleSegments(const Ray& ray, const ReferenceTransferFunction& function,
+    std::vector<RaySegment>& segments) const;
+
+  /// Premultiplied RGBA along the segments that one of them returned for the same ray.
   static std::array<double, 4> integrate(const Ray& ray, const std::vector<RaySegment>& segments,
     const ReferenceTransferFunction& function);
 
@@ -103,6 +108,9 @@ public:
   std::vector<CoveredSpan> coveredSpans(const Ray& ray) const;
 
 private:
+  RayReport findSegments(const Ray& ray, const ReferenceTransferFunction* function,
+    std::vector<RaySegment>& segments) const;
+
   ReferenceMesh Mesh;
   ReferenceCellTree Tree;
 };

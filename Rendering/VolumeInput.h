@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef VolumeInput_h
+#define VolumeInput_h
+
+#include "Volume/BoundaryTree.h"
+#include "Volume/TetrahedralMesh.h"
+#include "Volume/TransferFunction.h"
+#include "Volume/VisibleScalars.h"
+
+#include "vtkType.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkObject;
+class vtkUnstructuredGrid;
+
+namespace meniscus
+{
+
+/** An object and its modification time: equal as long as it is the same object, unmodified. */
+struct ObjectVersion
+{
+  const vtkObject* Object = nullptr;
+  vtkMTimeType Time = 0;
+
+  ObjectVersion() = default;
+  explicit ObjectVersion(vtkObject* object);
+  bool operator==(const ObjectVersion& other) const
+  {
+    return this->Object == other.Object && this->Time == other.Time;
+  }
+};
+
+/** What is to be told about an input; empty texts if nothing is. */
+struct InputReport
+{
+  /** Why nothing can be drawn. */
+  std::string Error;
+  /** What is left out of the picture. */
+  std::string Warning;
+};
+
+/**
+ * What is drawn, as the kernel's tables: mesh, normalised scalars, active cells. Each is remade
+ * when its own input changed. The counters say how often that was, and so whether a copy is stale.
+ */
+class VolumeInput
+{
+public:
+  /** The mesh of a grid. Another grid that shares its points and cells is the same mesh. */
+  InputReport UpdateMesh(vtkUnstructuredGrid* grid);
+
+  /** The scalars of that mesh: one component, one value for each point. */
+  InputReport UpdateScalars(vtkDataArray* scalars);
+
+  /** The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same. */
+  void UpdateActiveCells(const VisibleScalars& visible);
+
+  const TetrahedralMesh& GetMesh() const { return this->Mesh; }
+  /** One normalised scalar per vertex; NaN where the input's is not finite. */
+  const std::vector<float>& GetScalars() const { return this->Scalars; }
+  const ScalarNormalization& GetNormalization() const { return this->Normalization; }
+  /** Over the boundary of the active cells; built when first asked for. */
+  const BoundaryTree& GetBoundaryTree();
+
+  std::int64_t GetMeshBuilds() const { return this->MeshBuilds; }
+  std::int64_t GetScalarUpdates() const { return this->ScalarUpdates; }
+  /** Times that it was found out which cells are active. */
+  std::int64_t GetActiveSetBuilds() const { return this->ActiveSetBuilds; }
+  /** Times that the mesh's links and boundary became others. */
+  std::int64_t GetLinkChanges() const { return this->LinkChanges; }
+
+private:
+  /** What the mesh was built from. */
+  struct MeshVersion
+  {
+    ObjectVersion Points;
+    ObjectVersion Coordinates;
+    ObjectVersion Cells;
+    ObjectVersion Ghosts;
+
+    bool operator==(const MeshVersion& other) const;
+  };
+
+  TetrahedralMesh Mesh;
+  BoundaryTree Tree;
+  std::vector<float> Scalars;
+  ScalarNormalization Normalization;
+  VisibleScalars Visible;
+
+  MeshVersion BuiltMesh;
+  ObjectVersion BuiltScalars;
+  bool ActiveSetStale = true;
+  std::int64_t TreeOf = 0;
+
+  std::int64_t MeshBuilds = 0;
+  std::int64_t ScalarUpdates = 0;
+  std::int64_t ActiveSetBuilds = 0;
+  std::int64_t LinkChanges = 0;
+};
+
+}
+
+#endif
