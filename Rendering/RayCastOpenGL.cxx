@@ -8,6 +8,7 @@
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
 #include "vtkTetrahedraRayCastFS.h"
+#include "vtkTetrahedraSelectFS.h"
 
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -174,7 +175,8 @@ std::string RayCastOpenGL::UploadGradients(const std::vector<glm::vec3>& gradien
   {
     values.insert(values.end(), { g.x, g.y, g.z, 0.0f });
   }
-  const std::string error = this->VertexGradients.Upload(this->Window, values.data(), values.size(), 4, 1);
+  const std::string error =
+    this->VertexGradients.Upload(this->Window, values.data(), values.size(), 4, 1);
   return this->Count(this->VertexGradients, error);
 }
 
@@ -224,7 +226,7 @@ void RayCastOpenGL::GetViewport(int viewport[4]) const
 
 //------------------------------------------------------------------------------
 template <typename Function>
-std::string RayCastOpenGL::DrawImage(Function&& makeImage)
+std::string RayCastOpenGL::DrawImage(const RayCastOutput& output, Function&& makeImage)
 {
   vtkOpenGLState* state = this->Window->GetState();
   vtkOpenGLState::ScopedglViewport viewportScope(state);
@@ -241,7 +243,7 @@ std::string RayCastOpenGL::DrawImage(Function&& makeImage)
   int viewport[4];
   this->GetViewport(viewport);
   this->Depth.Update(this->Window, viewport);
-  std::string error = this->Resize(viewport[2], viewport[3]);
+  std::string error = this->Resize(output.ImageSize[0], output.ImageSize[1]);
   if (!error.empty())
   {
     return error;
@@ -258,13 +260,13 @@ std::string RayCastOpenGL::DrawImage(Function&& makeImage)
     error = makeImage();
     state->PopFramebufferBindings();
   }
-  return error.empty() ? this->Blend(viewport) : error;
+  return error.empty() ? this->Blend(output, viewport) : error;
 }
 
 //------------------------------------------------------------------------------
 std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
 {
-  return this->DrawImage(
+  return this->DrawImage(frame.Output,
     [this, &frame]()
     {
       const std::string error = this->ListEntries(frame);
@@ -273,12 +275,12 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::DrawNative(const RayCastScene& scene)
+std::string RayCastOpenGL::DrawNative(const RayCastScene& scene, const RayCastOutput& output)
 {
-  return this->DrawImage(
+  return this->DrawImage(output,
     [this, &scene]() -> std::string
     {
-      const std::vector<float> depths = this->Depth.Read(this->Window);
+      const std::vector<float> depths = this->ReadDepths();
       std::vector<float> image;
       this->Statistics = CastRaysNative(scene, this->Size[0], this->Size[1], depths, image);
       this->StatisticsStale = false;
@@ -286,6 +288,35 @@ std::string RayCastOpenGL::DrawNative(const RayCastScene& scene)
         this->Image->Create2DFromRaw(this->Size[0], this->Size[1], 4, VTK_FLOAT, image.data());
       return made ? std::string() : "the image could not be sent to the graphics device";
     });
+}
+
+//------------------------------------------------------------------------------
+std::vector<float> RayCastOpenGL::ReadDepths()
+{
+  const std::vector<float> all = this->Depth.Read(this->Window);
+  const int width = static_cast<int>(this->Depth.GetTexture()->GetWidth());
+  const int height = static_cast<int>(this->Depth.GetTexture()->GetHeight());
+  if (width == this->Size[0] && height == this->Size[1])
+  {
+    return all;
+  }
+  std::vector<float> depths;
+  depths.reserve(static_cast<std::size_t>(this->Size[0]) * this->Size[1]);
+  for (int y = 0; y < this->Size[1]; ++y)
+  {
+    const std::size_t row = static_cast<std::size_t>((y + 0.5) * height / this->Size[1]) * width;
+    for (int x = 0; x < this->Size[0]; ++x)
+    {
+      depths.push_back(all[row + static_cast<std::size_t>((x + 0.5) * width / this->Size[0])]);
+    }
+  }
+  return depths;
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::Finish()
+{
+  glFinish();
 }
 
 //------------------------------------------------------------------------------
@@ -493,21 +524,33 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::Blend(const int viewport[4])
+std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport[4])
 {
   vtkOpenGLState* state = this->Window->GetState();
   state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
-  state->vtkglEnable(GL_BLEND);
-  state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const std::string error =
-    this->ReadyQuad(this->Composer, []() { return std::string(vtkTetrahedraComposeFS); });
+  std::unique_ptr<vtkOpenGLQuadHelper>& drawer = output.Selecting ? this->Selector : this->Composer;
+  const std::string error = this->ReadyQuad(drawer,
+    [&output]()
+    { return std::string(output.Selecting ? vtkTetrahedraSelectFS : vtkTetrahedraComposeFS); });
   if (!error.empty())
   {
     return error;
   }
+  if (output.Selecting)
+  {
+    state->vtkglDisable(GL_BLEND);
+    drawer->Program->SetUniform3f("selectionValue", glm::value_ptr(output.SelectionValue));
+  }
+  else
+  {
+    state->vtkglEnable(GL_BLEND);
+    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  }
+  const bool whole = this->Size[0] == viewport[2] && this->Size[1] == viewport[3];
+  this->Image->SetMagnificationFilter(whole ? vtkTextureObject::Nearest : vtkTextureObject::Linear);
   this->Image->Activate();
-  this->Composer->Program->SetUniformi("image", this->Image->GetTextureUnit());
-  this->Composer->Render();
+  drawer->Program->SetUniformi("image", this->Image->GetTextureUnit());
+  drawer->Render();
   this->Image->Deactivate();
   return std::string();
 }
@@ -574,6 +617,7 @@ void RayCastOpenGL::Release(vtkWindow* window)
   this->TileLister.reset();
   this->RayCasters.clear();
   this->Composer.reset();
+  this->Selector.reset();
   this->TileTarget = nullptr;
   this->ImageTarget = nullptr;
   this->EntryTiles = nullptr;

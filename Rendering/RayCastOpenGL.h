@@ -34,12 +34,23 @@ class vtkWindow;
 namespace meniscus
 {
 
+/** How an image gets into the framebuffer. */
+struct RayCastOutput
+{
+  /** Rays of the image; fewer than the viewport's pixels are interpolated. */
+  int ImageSize[2] = { 0, 0 };
+  /** Hardware selection: a value where the image is visible, in place of its colour. */
+  bool Selecting = false;
+  glm::vec3 SelectionValue{ 0.0f };
+};
+
 /** What a frame needs beside the tables. */
 struct RayCastFrame
 {
   RayFrame Rays;
   double EarlyTerminationOpacity;
   RayCastOptics Optics;
+  RayCastOutput Output;
 };
 
 /**
@@ -79,7 +90,10 @@ public:
   std::string Draw(const RayCastFrame& frame);
 
   /** The same with rays cast on the CPU; needs no tables. */
-  std::string DrawNative(const RayCastScene& scene);
+  std::string DrawNative(const RayCastScene& scene, const RayCastOutput& output);
+
+  /** Waits until the device has drawn what it was told to. */
+  void Finish();
 
   /** Of the last frame; read back on the first call after it. */
   RayStatistics GetStatistics();
@@ -98,13 +112,14 @@ private:
   bool ReadStatistics();
   std::string Count(OpenGLTable& table, const std::string& error);
   template <typename Function>
-  std::string DrawImage(Function&& makeImage);
+  std::string DrawImage(const RayCastOutput& output, Function&& makeImage);
+  std::vector<float> ReadDepths();
   std::string Resize(int width, int height);
   template <typename Function>
   std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
   std::string ListEntries(const RayCastFrame& frame);
   std::string CastRays(const RayCastFrame& frame);
-  std::string Blend(const int viewport[4]);
+  std::string Blend(const RayCastOutput& output, const int viewport[4]);
   void ActivateRays(vtkShaderProgram* program, const RayFrame& rays);
   void DeactivateRays();
   void SetCastUniforms(vtkShaderProgram* program, const RayCastFrame& frame);
@@ -125,6 +140,7 @@ private:
   /** By RayCastShaderOptions(). */
   std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
+  std::unique_ptr<vtkOpenGLQuadHelper> Selector;
   vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;
   vtkSmartPointer<vtkOpenGLFramebufferObject> ImageTarget;
   vtkSmartPointer<vtkTextureObject> EntryTiles;

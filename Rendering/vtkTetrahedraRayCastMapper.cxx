@@ -79,8 +79,8 @@ public:
   std::string Upload(bool gradients);
   std::string DrawOpenGL(const meniscus::RayCastFrame& frame);
   std::string DrawNative(const meniscus::RayCastFrame& frame);
-  std::string ComputeFrame(vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2],
-    meniscus::OpticsPlace& place);
+  std::string ComputeFrame(
+    vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], meniscus::OpticsPlace& place);
 };
 
 //------------------------------------------------------------------------------
@@ -156,8 +156,8 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
 }
 
 //------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(vtkRenderer* renderer,
-  vtkVolume* volume, const int imageSize[2], meniscus::OpticsPlace& place)
+std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(
+  vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], meniscus::OpticsPlace& place)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   meniscus::RayFrameInput input;
@@ -361,8 +361,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   }
 
   meniscus::OpticsPlace place;
-  const std::string error =
-    internals.ComputeFrame(renderer, volume, frame.Output.ImageSize, place);
+  const std::string error = internals.ComputeFrame(renderer, volume, frame.Output.ImageSize, place);
   if (!error.empty())
   {
     return error;

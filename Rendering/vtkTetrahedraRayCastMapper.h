@@ -262,8 +262,7 @@ private:
   int GetUsedBlendMode();
   int ChooseBackend(bool plainOptics);
   double ChooseImageSampleDistance(vtkVolume* volume);
-  std::string PrepareFrame(
-    vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
+  std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);
 
   int OpacityModel = ATTENUATION_COEFFICIENT;

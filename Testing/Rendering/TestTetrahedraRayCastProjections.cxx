@@ -3,6 +3,7 @@
 // Maximum, minimum, average and additive blending.
 #include "OpticsTruth.h"
 
+#include <vtkContourValues.h>
 #include <vtkDataArray.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
@@ -200,13 +201,38 @@ TEST(TetrahedraRayCastProjections, EveryModeWalksTheSameCells)
   scene.window()->Render();
   const vtkTypeInt64 steps = scene.rayCaster()->GetNumberOfTraversalSteps();
   EXPECT_GT(steps, 0);
-  for (const int mode : { 1, 2, 3, 4, 5 })
+  // The function shows every scalar, so no cell is skipped.
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
+  for (const int mode : { 1, 2, 3, 4 })
   {
     scene.rayCaster()->SetBlendMode(mode);
     scene.window()->Render();
     EXPECT_EQ(scene.rayCaster()->GetNumberOfTraversalSteps(), steps) << mode;
     EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << mode;
   }
+}
+
+TEST(TetrahedraRayCastProjections, SkipOnlyWhatTheModeCannotShow)
+{
+  const Grid grid = makeBlock(8, linearField(1.0, 0.0, 0.0));
+  const double range[2] = { -1.0, 1.0 };
+  auto property = makeProperty(FunctionKind::Sparse, range, 3.4);
+  property->GetIsoSurfaceValues()->SetValue(0, 0.1);
+  RayCastScene scene(grid, property, Size, Size);
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  scene.window()->Render();
+  EXPECT_LT(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 2);
+  for (const int mode : { 1, 2, 3, 4 })
+  {
+    scene.rayCaster()->SetBlendMode(mode);
+    scene.window()->Render();
+    EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells()) << mode;
+  }
+  // x = 0.1 runs through one of 8 layers.
+  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  scene.window()->Render();
+  EXPECT_LE(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 8);
+  EXPECT_GT(scene.rayCaster()->GetNumberOfActiveCells(), 0);
 }
 
 TEST(TetrahedraRayCastProjections, NativeBackendLeavesThemToOpenGL)
