@@ -1,0 +1,364 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeComparison.h"
+
+#include "PixelRays.h"
+
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTetrahedraRayCastMapper.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+using namespace meniscus::test;
+
+namespace
+{
+
+//------------------------------------------------------------------------------
+double cpuMilliseconds()
+{
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return 1e3 * (usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+    1e-3 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+//------------------------------------------------------------------------------
+// Adds up |image - truth| over the pixels of several views.
+class ErrorSum
+{
+public:
+  void add(double difference, bool covered)
+  {
+    this->Largest = std::max(this->Largest, difference);
+    if (covered)
+    {
+      this->Squares += difference * difference;
+      this->Off += difference > 2.0 / 255.0;
+      ++this->Covered;
+    }
+  }
+
+  PictureError result() const
+  {
+    const double covered = std::max<double>(1.0, static_cast<double>(this->Covered));
+    return { this->Largest, std::sqrt(this->Squares / covered),
+      static_cast<double>(this->Off) / covered };
+  }
+
+private:
+  double Largest = 0.0;
+  double Squares = 0.0;
+  std::size_t Covered = 0;
+  std::size_t Off = 0;
+};
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+Spread spreadOf(std::vector<double> values)
+{
+  if (values.empty())
+  {
+    return {};
+  }
+  std::sort(values.begin(), values.end());
+  const auto at = [&values](double share)
+  {
+    const double place = share * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+  };
+  return { at(0.5), at(0.25), at(0.75) };
+}
+
+//------------------------------------------------------------------------------
+Spread ratioOf(const Figures& slow, const Figures& fast, bool cpu)
+{
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < std::min(slow.Frames.size(), fast.Frames.size()); ++i)
+  {
+    ratios.push_back(cpu ? slow.Frames[i].CpuMs / fast.Frames[i].CpuMs
+                         : slow.Frames[i].WallMs / fast.Frames[i].WallMs);
+  }
+  return spreadOf(ratios);
+}
+
+//------------------------------------------------------------------------------
+VolumeComparison::VolumeComparison(const VolumeOptions& options, vtkUnstructuredGrid* grid)
+  : Settings(options)
+  , Grid(grid)
+{
+}
+
+//------------------------------------------------------------------------------
+VolumeComparison::~VolumeComparison() = default;
+
+//------------------------------------------------------------------------------
+void VolumeComparison::look(VolumeScene& scene, int view) const
+{
+  const auto angles = viewAngles(view);
+  lookAt(scene.renderer(), this->Grid->GetBounds(), angles[0], angles[1]);
+}
+
+//------------------------------------------------------------------------------
+FrameTime VolumeComparison::timeFrame(Arena& arena) const
+{
+  const double cpu = cpuMilliseconds();
+  const auto begin = std::chrono::steady_clock::now();
+  arena.Scene->window()->Render();
+  arena.Scene->window()->WaitForCompletion();
+  const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - begin;
+  return { wall.count(), cpuMilliseconds() - cpu };
+}
+
+//------------------------------------------------------------------------------
+// A new camera time makes every mapper do what a moving camera asks for.
+FrameTime VolumeComparison::timeSteady(Arena& arena, int view) const
+{
+  this->look(*arena.Scene, view + 1);
+  this->look(*arena.Scene, view);
+  return this->timeFrame(arena);
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkVolumeProperty> VolumeComparison::propertyOf(FunctionKind kind) const
+{
+  double range[2];
+  this->Grid->GetPointData()->GetScalars()->GetFiniteRange(range);
+  return makeProperty(kind, range, diagonalOf(this->Grid->GetBounds()));
+}
+
+//------------------------------------------------------------------------------
+void VolumeComparison::enter(const std::vector<Contestant>& contestants)
+{
+  this->Arenas.clear();
+  this->Results.clear();
+  for (const Contestant& contestant : contestants)
+  {
+    Arena arena{ contestant, contestant.Make(),
+      std::make_unique<VolumeScene>(this->Settings.Size, this->Settings.Size) };
+    this->look(*arena.Scene, 0);
+    arena.Scene->volume()->SetVisibility(false);
+    this->timeFrame(arena); // opens the window
+    this->Device = deviceName(arena.Scene->window());
+    Figures figures;
+    figures.Name = contestant.Name;
+    figures.HasFloat = contestant.HasFloat;
+    arena.Mapper->SetInputDataObject(this->Grid);
+    arena.Scene->setMapper(arena.Mapper);
+    arena.Scene->setProperty(this->propertyOf(contestant.Function));
+    arena.Scene->volume()->SetVisibility(true);
+    figures.ColdMs = this->timeFrame(arena).WallMs;
+    this->Arenas.push_back(std::move(arena));
+    this->Results.push_back(figures);
+  }
+}
+
+//------------------------------------------------------------------------------
+void VolumeComparison::timeRound(int view)
+{
+  for (std::size_t i = 0; i < this->Arenas.size(); ++i)
+  {
+    this->Results[i].Frames.push_back(this->timeSteady(this->Arenas[i], view));
+  }
+}
+
+//------------------------------------------------------------------------------
+void VolumeComparison::measureTimes()
+{
+  std::vector<double> steps(this->Arenas.size(), 0.0);
+  for (Figures& figures : this->Results)
+  {
+    figures.Frames.clear();
+    figures.ViewMs.clear();
+  }
+  for (int view = 0; view < this->Settings.Views; ++view)
+  {
+    for (Arena& arena : this->Arenas)
+    {
+      this->timeSteady(arena, view); // warm-up
+    }
+    for (int round = 0; round < this->Settings.Repetitions; ++round)
+    {
+      this->timeRound(view);
+    }
+    for (std::size_t i = 0; i < this->Arenas.size(); ++i)
+    {
+      if (auto* mapper = this->ours(i))
+      {
+        steps[i] += static_cast<double>(mapper->GetNumberOfTraversalSteps());
+      }
+    }
+  }
+  for (std::size_t i = 0; i < this->Arenas.size(); ++i)
+  {
+    Figures& figures = this->Results[i];
+    std::vector<double> cpu;
+    double sum = 0.0;
+    for (int view = 0; view < this->Settings.Views; ++view)
+    {
+      std::vector<double> rounds;
+      for (int round = 0; round < this->Settings.Repetitions; ++round)
+      {
+        const FrameTime& frame =
+          figures.Frames[static_cast<std::size_t>(view) * this->Settings.Repetitions + round];
+        rounds.push_back(frame.WallMs);
+        cpu.push_back(frame.CpuMs);
+      }
+      figures.ViewMs.push_back(spreadOf(rounds).Median);
+      sum += figures.ViewMs.back();
+    }
+    figures.SteadyMs = spreadOf(figures.ViewMs).Median;
+    figures.CpuMs = spreadOf(cpu).Median;
+    figures.StepsPerSecond = steps[i] / (1e-3 * sum);
+    figures.SetUpMs = spreadOf(this->measureSetUp(i, 3).ChangedMs).Median;
+  }
+}
+
+//------------------------------------------------------------------------------
+VolumeComparison::Change VolumeComparison::measureChange(
+  std::size_t contestant, int times, const std::function<void(Arena&, int)>& change)
+{
+  Arena& arena = this->Arenas[contestant];
+  Change result;
+  for (int i = 0; i < times; ++i)
+  {
+    this->timeSteady(arena, i % this->Settings.Views);
+    result.SteadyMs.push_back(this->timeSteady(arena, i % this->Settings.Views).WallMs);
+    change(arena, i);
+    result.ChangedMs.push_back(this->timeFrame(arena).WallMs);
+  }
+  arena.Mapper->SetInputDataObject(this->Grid);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+VolumeComparison::Change VolumeComparison::measureEdit(std::size_t contestant, int times)
+{
+  return this->measureChange(contestant, times,
+    [](Arena& arena, int i)
+    {
+      vtkPiecewiseFunction* opacity = arena.Scene->volume()->GetProperty()->GetScalarOpacity();
+      double node[4];
+      opacity->GetNodeValue(opacity->GetSize() / 2, node);
+      node[1] *= i % 2 ? 1.25 : 0.8;
+      opacity->SetNodeValue(opacity->GetSize() / 2, node);
+    });
+}
+
+//------------------------------------------------------------------------------
+VolumeComparison::Change VolumeComparison::measureScalars(std::size_t contestant, int times)
+{
+  std::vector<vtkSmartPointer<vtkUnstructuredGrid>> grids;
+  for (int i = 0; i < times; ++i)
+  {
+    auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    grid->ShallowCopy(this->Grid);
+    vtkDataArray* old = this->Grid->GetPointData()->GetScalars();
+    auto scalars = vtkSmartPointer<vtkDataArray>::Take(old->NewInstance());
+    scalars->DeepCopy(old);
+    grid->GetPointData()->SetScalars(scalars);
+    grids.push_back(grid);
+  }
+  return this->measureChange(contestant, times,
+    [&grids](Arena& arena, int i)
+    { arena.Mapper->SetInputDataObject(grids[static_cast<std::size_t>(i)]); });
+}
+
+//------------------------------------------------------------------------------
+VolumeComparison::Change VolumeComparison::measureSetUp(std::size_t contestant, int times)
+{
+  vtkSmartPointer<vtkUnstructuredGrid> grid; // one at a time: they may be large
+  return this->measureChange(contestant, times,
+    [this, &grid](Arena& arena, int)
+    {
+      grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+      grid->DeepCopy(this->Grid);
+      arena.Mapper->SetInputDataObject(grid);
+    });
+}
+
+//------------------------------------------------------------------------------
+vtkTetrahedraRayCastMapper* VolumeComparison::ours(std::size_t contestant) const
+{
+  return vtkTetrahedraRayCastMapper::SafeDownCast(this->Arenas[contestant].Mapper);
+}
+
+//------------------------------------------------------------------------------
+void VolumeComparison::measureErrors()
+{
+  if (this->Settings.ErrorViews < 1 || this->Arenas.empty())
+  {
+    return;
+  }
+  const auto integrator = makeReference(this->Grid);
+  FunctionKind kind = FunctionKind::Smooth;
+  findFunctionKind(this->Settings.Function, kind);
+  std::vector<ReferenceImage> truth;
+  VolumeScene& scene = *this->Arenas.front().Scene;
+  for (int view = 0; view < this->Settings.ErrorViews; ++view)
+  {
+    this->look(scene, view);
+    const PixelRays rays(scene.renderer());
+    truth.push_back(renderReference(*integrator, rays.width(), rays.height(),
+      [&rays](int x, int y) { return rays.ray(x, y); },
+      { toReference(this->propertyOf(kind)) })[0]);
+  }
+  for (std::size_t i = 0; i < this->Arenas.size(); ++i)
+  {
+    this->findError(this->Arenas[i], truth, this->Results[i]);
+  }
+}
+
+//------------------------------------------------------------------------------
+void VolumeComparison::findError(
+  Arena& arena, const std::vector<ReferenceImage>& truth, Figures& figures)
+{
+  ErrorSum bytes;
+  ErrorSum floats;
+  for (std::size_t view = 0; view < truth.size(); ++view)
+  {
+    this->look(*arena.Scene, static_cast<int>(view));
+    const ByteImage byteImage = arena.Scene->renderBytes();
+    const FloatImage floatImage = figures.HasFloat ? arena.Scene->renderFloat() : FloatImage{};
+    for (std::size_t pixel = 0; pixel < truth[view].Rgba.size(); ++pixel)
+    {
+      double byteError = 0.0;
+      double floatError = 0.0;
+      for (int c = 0; c < 3; ++c)
+      {
+        const double exact = truth[view].Rgba[pixel][c];
+        byteError = std::max(byteError, std::fabs(byteImage.Rgb[3 * pixel + c] / 255.0 - exact));
+        floatError = figures.HasFloat
+          ? std::max(floatError, std::fabs(floatImage.Rgba[4 * pixel + c] - exact))
+          : 0.0;
+      }
+      const bool covered = truth[view].Covered[pixel] != 0;
+      bytes.add(byteError, covered);
+      floats.add(floatError, covered);
+    }
+  }
+  figures.Bytes = bytes.result();
+  figures.Float = floats.result();
+}
+
+} // namespace benchmark
+} // namespace meniscus

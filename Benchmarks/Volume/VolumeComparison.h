@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Several mappers on one mesh. Every mapper has a window of its own; in each round of a view every
+ * mapper draws one frame, so that whatever else the machine does meets all of them alike and ratios
+ * of frames of one round can be trusted more than the times.
+ */
+#ifndef meniscus_VolumeComparison_h
+#define meniscus_VolumeComparison_h
+
+#include "ReferenceImage.h"
+#include "VolumeContestants.h"
+#include "VolumeScene.h"
+
+#include <vtkVolumeProperty.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkTetrahedraRayCastMapper;
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+struct FrameTime
+{
+  double WallMs = 0.0;
+  double CpuMs = 0.0; // user and system, all threads of the process
+};
+
+/// |picture - reference|, largest of three channels.
+struct PictureError
+{
+  double Largest = 0.0;
+  double Rms = 0.0;      // over the pixels that the reference covers
+  double OffShare = 0.0; // of these, off by more than 2/255
+};
+
+struct Figures
+{
+  std::string Name;
+  bool Survives = true;
+  std::string Fate;          // if it does not
+  double BytesPerCell = 0.0; // resident memory that the mesh costs, graphics memory of a software
+                             // rasteriser included
+  double ColdMs = 0.0;       // first frame in a new window: shaders are compiled, too
+  double SetUpMs = 0.0;      // first frame of a new mesh, all else made
+  std::vector<FrameTime> Frames; // by view, then round
+  std::vector<double> ViewMs;    // medians of rounds
+  double SteadyMs = 0.0;         // median of views
+  double CpuMs = 0.0;
+  double StepsPerSecond = 0.0; // 0: unknown
+  PictureError Bytes;
+  PictureError Float;
+  bool HasFloat = false;
+};
+
+/// Middle value, and first and third quartile.
+struct Spread
+{
+  double Median = 0.0;
+  double Low = 0.0;
+  double High = 0.0;
+};
+
+Spread spreadOf(std::vector<double> values);
+
+/// How many times as long a frame of `slow` takes as the frame of `fast` in the same round.
+Spread ratioOf(const Figures& slow, const Figures& fast, bool cpu = false);
+
+class VolumeComparison
+{
+public:
+  VolumeComparison(const VolumeOptions& options, vtkUnstructuredGrid* grid);
+  ~VolumeComparison();
+
+  /// Opens a window for each; draws the first frames.
+  void enter(const std::vector<Contestant>& contestants);
+
+  /// Steady frames and set-up of all.
+  void measureTimes();
+  /// Errors against the reference of the run's function.
+  void measureErrors();
+
+  const std::vector<Figures>& figures() const { return this->Results; }
+  std::string device() const { return this->Device; }
+
+  /// Frames after a change, each beside a steady frame of the same view.
+  struct Change
+  {
+    std::vector<double> ChangedMs;
+    std::vector<double> SteadyMs;
+  };
+  /// One opacity node moved.
+  Change measureEdit(std::size_t contestant, int times);
+  /// A new scalar array on the same points and cells.
+  Change measureScalars(std::size_t contestant, int times);
+  /// A new mesh: other points and cells objects of the same contents.
+  Change measureSetUp(std::size_t contestant, int times);
+
+  vtkTetrahedraRayCastMapper* ours(std::size_t contestant) const;
+
+private:
+  struct Arena
+  {
+    Contestant Player;
+    MapperPointer Mapper;
+    std::unique_ptr<test::VolumeScene> Scene;
+  };
+
+  /// A new property each time: some measurements change it.
+  vtkSmartPointer<vtkVolumeProperty> propertyOf(test::FunctionKind kind) const;
+  void look(test::VolumeScene& scene, int view) const;
+  void timeRound(int view);
+  FrameTime timeFrame(Arena& arena) const;
+  FrameTime timeSteady(Arena& arena, int view) const;
+  void findError(Arena& arena, const std::vector<test::ReferenceImage>& truth, Figures& figures);
+  Change measureChange(
+    std::size_t contestant, int times, const std::function<void(Arena&, int)>& change);
+
+  VolumeOptions Settings;
+  vtkUnstructuredGrid* Grid;
+  std::vector<Arena> Arenas;
+  std::vector<Figures> Results;
+  std::string Device;
+};
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif

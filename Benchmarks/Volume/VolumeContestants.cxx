@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeContestants.h"
+
+#include "TestMeshes.h"
+#include "VolumeScene.h"
+
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkProjectedTetrahedraMapper.h>
+#include <vtkRenderWindow.h>
+#include <vtkTetrahedraRayCastMapper.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridHomogeneousRayIntegrator.h>
+#include <vtkUnstructuredGridLinearRayIntegrator.h>
+#include <vtkUnstructuredGridPartialPreIntegration.h>
+#include <vtkUnstructuredGridPreIntegration.h>
+#include <vtkUnstructuredGridVolumeRayCastMapper.h>
+#include <vtkUnstructuredGridVolumeZSweepMapper.h>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+namespace
+{
+
+template <typename Integrator>
+Contestant makeRayCast(const std::string& name, int threads)
+{
+  return { "raycast/" + name,
+    [threads]()
+    {
+      // One ray per pixel, as ours.
+      auto mapper = vtkSmartPointer<vtkUnstructuredGridVolumeRayCastMapper>::New();
+      mapper->SetImageSampleDistance(1.0);
+      mapper->AutoAdjustSampleDistancesOff();
+      if (threads > 0)
+      {
+        mapper->SetNumberOfThreads(threads);
+      }
+      vtkNew<Integrator> integrator;
+      mapper->SetRayIntegrator(integrator);
+      return MapperPointer(mapper);
+    },
+    false };
+}
+
+Contestant makeZSweep()
+{
+  return { "zsweep",
+    []()
+    {
+      auto mapper = vtkSmartPointer<vtkUnstructuredGridVolumeZSweepMapper>::New();
+      mapper->SetImageSampleDistance(1.0);
+      mapper->AutoAdjustSampleDistancesOff();
+      return MapperPointer(mapper);
+    },
+    false };
+}
+
+std::vector<Contestant> makePeers(const VolumeOptions& options)
+{
+  std::vector<Contestant> peers{ { "projected",
+    []() { return MapperPointer(vtkSmartPointer<vtkProjectedTetrahedraMapper>::New()); }, false } };
+  const int threads = options.Threads;
+  // The first one is what the mapper takes by itself for point data.
+  peers.push_back(makeRayCast<vtkUnstructuredGridPreIntegration>("pre-integration", threads));
+  peers.push_back(makeRayCast<vtkUnstructuredGridPartialPreIntegration>("partial", threads));
+  peers.push_back(makeRayCast<vtkUnstructuredGridLinearRayIntegrator>("linear", threads));
+  peers.push_back(makeRayCast<vtkUnstructuredGridHomogeneousRayIntegrator>("homogeneous", threads));
+  if (options.ZSweep)
+  {
+    peers.push_back(makeZSweep());
+  }
+  return peers;
+}
+
+struct OurSettings
+{
+  int Backend;
+  int Integration;
+  double TerminationOpacity; // negative: the default
+};
+
+MapperPointer makeOurMapper(const OurSettings& settings)
+{
+  auto mapper = vtkSmartPointer<vtkTetrahedraRayCastMapper>::New();
+  mapper->SetBackend(settings.Backend);
+  mapper->SetIntegration(settings.Integration);
+  if (settings.TerminationOpacity >= 0.0)
+  {
+    mapper->SetEarlyTerminationOpacity(settings.TerminationOpacity);
+  }
+  return mapper;
+}
+
+// Whether a small picture comes out with these settings, and without a complaint.
+bool isAvailable(const OurSettings& settings)
+{
+  const test::Grid grid = test::makeCubeOfFive(test::radialField());
+  const MapperPointer mapper = makeOurMapper(settings);
+  bool complained = false;
+  vtkNew<vtkCallbackCommand> listener;
+  listener->SetClientData(&complained);
+  listener->SetCallback(
+    [](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
+  mapper->AddObserver(vtkCommand::WarningEvent, listener);
+  mapper->AddObserver(vtkCommand::ErrorEvent, listener);
+  mapper->SetInputDataObject(grid);
+  test::VolumeScene scene(32, 32);
+  scene.setMapper(mapper);
+  const double range[2] = { 0.0, 2.0 };
+  scene.setProperty(test::makeProperty(test::FunctionKind::Smooth, range, 2.0));
+  test::lookAt(scene.renderer(), grid->GetBounds(), 20.0, 30.0);
+  scene.window()->Render();
+  auto* ours = vtkTetrahedraRayCastMapper::SafeDownCast(mapper);
+  return !complained && ours->GetActiveBackend() == settings.Backend;
+}
+
+std::string backendName(int backend)
+{
+  return backend == vtkTetrahedraRayCastMapper::OPENGL ? "opengl"
+    : backend == vtkTetrahedraRayCastMapper::NATIVE    ? "native"
+                                                       : "backend-" + std::to_string(backend);
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+Contestant makeOurs(int backend, const std::string& name)
+{
+  return { name,
+    [backend]() {
+      return makeOurMapper({ backend, vtkTetrahedraRayCastMapper::EXACT, -1.0 });
+    },
+    true };
+}
+
+//------------------------------------------------------------------------------
+std::vector<Contestant> makeContestants(const VolumeOptions& options)
+{
+  std::vector<Contestant> all = makePeers(options);
+  vtkNew<vtkTetrahedraRayCastMapper> ours;
+  for (int backend = 1; backend <= ours->GetBackendMaxValue(); ++backend)
+  {
+    for (int integration = 0; integration <= ours->GetIntegrationMaxValue(); ++integration)
+    {
+      const OurSettings settings{ backend, integration, -1.0 };
+      if (!isAvailable(settings))
+      {
+        continue;
+      }
+      const std::string integrationName = integration == vtkTetrahedraRayCastMapper::EXACT ? "exact"
+        : integration == vtkTetrahedraRayCastMapper::PRE_INTEGRATED
+        ? "pre-integrated"
+        : "integration-" + std::to_string(integration);
+      const std::string name = "meniscus/" + backendName(backend) + "/" + integrationName;
+      all.push_back({ name, [settings]() { return makeOurMapper(settings); }, true });
+      const OurSettings early{ backend, integration, 0.99 };
+      all.push_back({ name + "/0.99", [early]() { return makeOurMapper(early); }, true });
+    }
+  }
+  test::FunctionKind kind = test::FunctionKind::Smooth;
+  findFunctionKind(options.Function, kind);
+  for (Contestant& contestant : all)
+  {
+    contestant.Function = kind;
+  }
+  return all;
+}
+
+//------------------------------------------------------------------------------
+std::vector<Contestant> selectContestants(
+  const std::vector<Contestant>& all, const std::vector<std::string>& words)
+{
+  std::vector<Contestant> selected;
+  for (const Contestant& contestant : all)
+  {
+    bool wanted = words.empty();
+    for (const std::string& word : words)
+    {
+      wanted = wanted || contestant.Name.find(word) != std::string::npos;
+    }
+    if (wanted)
+    {
+      selected.push_back(contestant);
+    }
+  }
+  return selected;
+}
+
+} // namespace benchmark
+} // namespace meniscus

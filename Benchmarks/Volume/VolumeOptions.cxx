@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeOptions.h"
+
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+const char* const VolumeUsage =
+  "meniscus_benchmark_volume [options]\n"
+  "  --mesh FILE        tetrahedral .vtu file, first point array (default: a generated block)\n"
+  "  --cubes N          the generated block has 6 N^3 tetrahedra less a hollow (default 32)\n"
+  "  --size N           window of N x N pixels (default 512)\n"
+  "  --views N          views timed (default 8)\n"
+  "  --repetitions N    rounds per view, after a warm-up; in each, every mapper draws one frame\n"
+  "                     (default 3)\n"
+  "  --error-views N    views compared with the reference (default 2)\n"
+  "  --function KIND    smooth, peaked, sharp, opaque or sparse (default smooth)\n"
+  "  --mappers LIST     only mappers whose names contain one of the words, e.g.\n"
+  "                     projected,meniscus/native (default: all)\n"
+  "  --zsweep           VTK's Z sweep, too: it may take minutes a frame\n"
+  "  --probe-seconds N  every mapper is tried in a process of its own first, since some crash or\n"
+  "                     do not end on some meshes; N seconds at most (default 60)\n"
+  "  --threads N        threads of vtkSMPTools, of VTK's ray cast mapper and of llvmpipe\n"
+  "  --json FILE        write the figures to a file\n"
+  "  --plot FILE.png    draw time against error, one point per mapper\n"
+  "  --growth           ms per frame for generated blocks of 10k to 5M tetrahedra\n"
+  "  --growth-limit N   up to N thousand tetrahedra (default 5000)\n"
+  "  --report           the goals of the mapper, each beside what is measured\n"
+  "  --row NAME         only this row of the report: native, native-1024, opengl, sparse, opaque,\n"
+  "                     setup, edit, scalars, memory, growth, error\n"
+  "  --help             this text\n";
+
+namespace
+{
+
+//------------------------------------------------------------------------------
+bool readNumber(const std::string& text, int& value)
+{
+  char* end = nullptr;
+  const long number = std::strtol(text.c_str(), &end, 10);
+  value = static_cast<int>(number);
+  return end && *end == '\0' && !text.empty() && number >= 0 && number <= 16384;
+}
+
+//------------------------------------------------------------------------------
+std::vector<std::string> split(const std::string& text)
+{
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; std::getline(in, word, ',');)
+  {
+    words.push_back(word);
+  }
+  return words;
+}
+
+//------------------------------------------------------------------------------
+bool readFlag(const std::string& key, VolumeOptions& options)
+{
+  const std::map<std::string, bool*> flags{ { "--help", &options.Help }, { "-h", &options.Help },
+    { "--zsweep", &options.ZSweep }, { "--growth", &options.Growth },
+    { "--report", &options.Report } };
+  const auto flag = flags.find(key);
+  if (flag != flags.end())
+  {
+    *flag->second = true;
+  }
+  return flag != flags.end();
+}
+
+//------------------------------------------------------------------------------
+bool readValue(const std::string& key, const std::string& value, VolumeOptions& options)
+{
+  const std::map<std::string, int*> numbers{ { "--size", &options.Size },
+    { "--views", &options.Views }, { "--error-views", &options.ErrorViews },
+    { "--repetitions", &options.Repetitions }, { "--cubes", &options.Cubes },
+    { "--threads", &options.Threads }, { "--probe-seconds", &options.ProbeSeconds },
+    { "--growth-limit", &options.GrowthLimit } };
+  const std::map<std::string, std::string*> texts{ { "--mesh", &options.Mesh },
+    { "--json", &options.Json }, { "--plot", &options.Plot }, { "--function", &options.Function },
+    { "--row", &options.Row }, { "--probe", &options.Probe } };
+  const auto number = numbers.find(key);
+  if (number != numbers.end())
+  {
+    return readNumber(value, *number->second);
+  }
+  if (key == "--mappers")
+  {
+    options.Mappers = split(value);
+    return true;
+  }
+  const auto text = texts.find(key);
+  if (text != texts.end())
+  {
+    *text->second = value;
+  }
+  return text != texts.end();
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+VolumeOptions parseVolumeOptions(int argc, char* argv[])
+{
+  VolumeOptions options;
+  for (int i = 1; i < argc && !options.Help; ++i)
+  {
+    const std::string key = argv[i];
+    if (readFlag(key, options))
+    {
+      continue;
+    }
+    const std::string value = i + 1 < argc ? argv[i + 1] : "";
+    if (++i >= argc || !readValue(key, value, options))
+    {
+      options.Problem = "unknown option, or bad or missing value: " + key + " " + value;
+      return options;
+    }
+  }
+  test::FunctionKind kind;
+  if (!findFunctionKind(options.Function, kind))
+  {
+    options.Problem = "no such function: " + options.Function;
+  }
+  if (options.Size < 1 || options.Views < 1 || options.Repetitions < 1 || options.Cubes < 1)
+  {
+    options.Problem = "--size, --views, --repetitions and --cubes are at least 1";
+  }
+  options.ErrorViews = std::min(options.ErrorViews, options.Views);
+  return options;
+}
+
+//------------------------------------------------------------------------------
+bool findFunctionKind(const std::string& name, test::FunctionKind& kind)
+{
+  using test::FunctionKind;
+  const std::map<std::string, FunctionKind> kinds{ { "smooth", FunctionKind::Smooth },
+    { "peaked", FunctionKind::Peaked }, { "sharp", FunctionKind::Sharp },
+    { "opaque", FunctionKind::Opaque }, { "sparse", FunctionKind::Sparse } };
+  const auto found = kinds.find(name);
+  if (found != kinds.end())
+  {
+    kind = found->second;
+  }
+  return found != kinds.end();
+}
+
+//------------------------------------------------------------------------------
+test::Grid makeVolumeMesh(const VolumeOptions& options)
+{
+  const test::Grid grid = options.Mesh.empty()
+    ? test::makeBlock(options.Cubes, test::wavyField(3.0), test::shell(0.3, 1.3))
+    : test::readMesh(options.Mesh);
+  return grid && grid->GetPointData()->GetScalars() ? grid : nullptr;
+}
+
+} // namespace benchmark
+} // namespace meniscus

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_VolumeOptions_h
+#define meniscus_VolumeOptions_h
+
+#include "TestMeshes.h"
+#include "TestTransferFunctions.h"
+
+#include <string>
+#include <vector>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+/// What the command line asks for.
+struct VolumeOptions
+{
+  std::string Mesh; // file, or empty for the generated block
+  std::string Json;
+  std::string Plot;
+  std::string Function = "smooth";
+  std::vector<std::string> Mappers; // parts of names; empty: all
+  int Size = 512;
+  int Views = 8;
+  int Repetitions = 3;
+  int ErrorViews = 2;
+  int Cubes = 32; // per side of the generated block
+  int Threads = 0;
+  int ProbeSeconds = 60;
+  bool ZSweep = false;
+  bool Growth = false;
+  int GrowthLimit = 5000; // thousands of cells
+  bool Report = false;
+  std::string Row;
+  std::string Probe; // name of the mapper that this process is to try
+  bool Help = false;
+  std::string Problem;
+};
+
+extern const char* const VolumeUsage;
+
+VolumeOptions parseVolumeOptions(int argc, char* argv[]);
+
+/// By the name of a function: smooth, peaked, sharp, opaque, sparse. False if there is none.
+bool findFunctionKind(const std::string& name, test::FunctionKind& kind);
+
+/// The mesh asked for, null if it cannot be read.
+test::Grid makeVolumeMesh(const VolumeOptions& options);
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif

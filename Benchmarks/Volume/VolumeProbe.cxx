@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeProbe.h"
+
+#include "VolumeScene.h"
+
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+#include <malloc.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <vector>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+using namespace meniscus::test;
+
+namespace
+{
+
+//------------------------------------------------------------------------------
+std::vector<std::string> probeArguments(const std::string& name, const VolumeOptions& options)
+{
+  std::vector<std::string> arguments{ "--probe", name, "--size", std::to_string(options.Size),
+    "--views", std::to_string(options.Views), "--function", options.Function, "--cubes",
+    std::to_string(options.Cubes), "--threads", std::to_string(options.Threads) };
+  if (!options.Mesh.empty())
+  {
+    arguments.insert(arguments.end(), { "--mesh", options.Mesh });
+  }
+  if (options.ZSweep)
+  {
+    arguments.push_back("--zsweep");
+  }
+  return arguments;
+}
+
+//------------------------------------------------------------------------------
+[[noreturn]] void executeProbe(const std::string& name, const VolumeOptions& options, int out)
+{
+  dup2(out, STDOUT_FILENO);
+  std::vector<std::string> arguments = probeArguments(name, options);
+  std::vector<char*> pointers;
+  std::string program = "/proc/self/exe";
+  pointers.push_back(program.data());
+  for (std::string& argument : arguments)
+  {
+    pointers.push_back(argument.data());
+  }
+  pointers.push_back(nullptr);
+  execv(program.c_str(), pointers.data());
+  _exit(EXIT_FAILURE);
+}
+
+//------------------------------------------------------------------------------
+// All that comes until the other end closes; false if that takes too long.
+bool readAll(int in, int seconds, std::string& text)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
+  for (;;)
+  {
+    const auto left =
+      std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+    pollfd waiting{ in, POLLIN, 0 };
+    if (left.count() <= 0 || poll(&waiting, 1, static_cast<int>(left.count())) <= 0)
+    {
+      return false;
+    }
+    char buffer[256];
+    const ssize_t size = read(in, buffer, sizeof buffer);
+    if (size <= 0)
+    {
+      return true;
+    }
+    text.append(buffer, static_cast<std::size_t>(size));
+  }
+}
+
+//------------------------------------------------------------------------------
+double residentBytes()
+{
+  malloc_trim(0);
+  std::ifstream in("/proc/self/statm");
+  double total = 0.0;
+  double resident = 0.0;
+  in >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+ProbeResult probeContestant(const std::string& name, const VolumeOptions& options)
+{
+  ProbeResult result;
+  int ends[2];
+  if (pipe(ends) != 0)
+  {
+    result.Fate = "not tried";
+    return result;
+  }
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    close(ends[0]);
+    executeProbe(name, options, ends[1]);
+  }
+  close(ends[1]);
+  std::string text;
+  const bool inTime = child > 0 && readAll(ends[0], options.ProbeSeconds, text);
+  close(ends[0]);
+  if (!inTime && child > 0)
+  {
+    kill(child, SIGKILL);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  result.Survives = inTime && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS;
+  result.Fate = result.Survives ? ""
+    : inTime                    ? "crashed"
+                                : "no end in " + std::to_string(options.ProbeSeconds) + " s";
+  std::istringstream(text) >> result.BytesPerCell;
+  return result;
+}
+
+//------------------------------------------------------------------------------
+int runProbe(const Contestant& contestant, const VolumeOptions& options)
+{
+  // Large blocks go back to the system when they are freed.
+  mallopt(M_MMAP_THRESHOLD, 128 * 1024);
+  const test::Grid grid = makeVolumeMesh(options);
+  if (!grid)
+  {
+    return EXIT_FAILURE;
+  }
+  // A small mesh first: shaders, framebuffers and threads are not what a mesh costs.
+  const test::Grid small = makeCubeOfFive(radialField());
+  VolumeScene scene(options.Size, options.Size);
+  const MapperPointer mapper = contestant.Make();
+  mapper->SetInputDataObject(small);
+  scene.setMapper(mapper);
+  double range[2];
+  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
+  scene.setProperty(makeProperty(contestant.Function, range, diagonalOf(grid->GetBounds())));
+  lookAt(scene.renderer(), small->GetBounds(), 20.0, 30.0);
+  scene.window()->Render();
+  const double before = residentBytes();
+  mapper->SetInputDataObject(grid);
+  for (int view = 0; view < options.Views; ++view)
+  {
+    const auto angles = viewAngles(view);
+    lookAt(scene.renderer(), grid->GetBounds(), angles[0], angles[1]);
+    scene.window()->Render();
+    scene.window()->WaitForCompletion();
+    if (view == 0)
+    {
+      std::cout << (residentBytes() - before) / static_cast<double>(grid->GetNumberOfCells())
+                << std::endl;
+    }
+  }
+  return EXIT_SUCCESS;
+}
+
+} // namespace benchmark
+} // namespace meniscus

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_VolumeProbe_h
+#define meniscus_VolumeProbe_h
+
+#include "VolumeContestants.h"
+
+#include <string>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+struct ProbeResult
+{
+  bool Survives = false;
+  std::string Fate; // "crashed", "no end in 60 s"; empty if it survives
+  double BytesPerCell = 0.0;
+};
+
+/**
+ * Draws all views with one mapper in a process of its own (this program with --probe NAME), which
+ * may crash or be ended, and measures there what memory the mesh costs.
+ */
+ProbeResult probeContestant(const std::string& name, const VolumeOptions& options);
+
+/// What that process does; the result is its exit status.
+int runProbe(const Contestant& contestant, const VolumeOptions& options);
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif
