@@ -7,6 +7,7 @@
 
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
+#include "vtkTetrahedraRayCastCS.h"
 #include "vtkTetrahedraRayCastFS.h"
 #include "vtkTetrahedraSelectFS.h"
 
@@ -270,7 +271,11 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
     [this, &frame]()
     {
       const std::string error = this->ListEntries(frame);
-      return error.empty() ? this->CastRays(frame) : error;
+      if (!error.empty())
+      {
+        return error;
+      }
+      return frame.Compute ? this->DispatchRays(frame) : this->CastRays(frame);
     });
 }
 
@@ -421,7 +426,42 @@ std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
   {
     return error;
   }
-  vtkShaderProgram* program = caster->Program;
+  this->RunCaster(caster->Program, frame, [&caster]() { caster->Render(); });
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::DispatchRays(const RayCastFrame& frame)
+{
+  constexpr int GroupSize = 8; // as in the shader
+  vtkSmartPointer<OpenGLComputeProgram>& caster =
+    this->ComputeCasters[RayCastShaderOptions(frame.Optics)];
+  if (!caster)
+  {
+    const auto program = vtkSmartPointer<OpenGLComputeProgram>::New();
+    if (!program->Build(RayCastShaderSource(vtkTetrahedraRayCastCS, frame.Optics)))
+    {
+      return "a compute shader does not compile on this graphics device";
+    }
+    caster = program;
+  }
+  caster->Use(this->Window);
+  glBindImageTexture(0, this->Image->GetHandle(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+  glBindImageTexture(
+    1, this->StatisticsImage->GetHandle(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
+  this->RunCaster(caster, frame,
+    [this, &caster]()
+    {
+      caster->Dispatch(
+        (this->Size[0] + GroupSize - 1) / GroupSize, (this->Size[1] + GroupSize - 1) / GroupSize);
+    });
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+template <typename Function>
+void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& frame, Function&& run)
+{
   this->ActivateRays(program, frame.Rays);
   const std::vector<OpenGLTable*> tables = this->ActivateTables(program, frame.Optics);
   this->EntryTiles->Activate();
@@ -430,7 +470,7 @@ std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
   program->SetUniformi("opaqueDepth", this->Depth.GetTexture()->GetTextureUnit());
   this->SetCastUniforms(program, frame);
   SetOpticsUniforms(program, frame.Optics);
-  caster->Render();
+  run();
   this->Depth.GetTexture()->Deactivate();
   this->EntryTiles->Deactivate();
   for (OpenGLTable* table : tables)
@@ -439,7 +479,6 @@ std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
   }
   this->DeactivateRays();
   this->StatisticsStale = true;
-  return std::string();
 }
 
 //------------------------------------------------------------------------------
@@ -616,6 +655,14 @@ void RayCastOpenGL::Release(vtkWindow* window)
   this->Depth.Release(owner);
   this->TileLister.reset();
   this->RayCasters.clear();
+  for (auto& caster : this->ComputeCasters)
+  {
+    if (caster.second && owner)
+    {
+      caster.second->Free();
+    }
+  }
+  this->ComputeCasters.clear();
   this->Composer.reset();
   this->Selector.reset();
   this->TileTarget = nullptr;

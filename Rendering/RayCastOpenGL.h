@@ -9,6 +9,7 @@
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
+#include "OpenGLComputeProgram.h"
 #include "OpenGLDepthCopy.h"
 #include "OpenGLTable.h"
 #include "RayCastOptics.h"
@@ -51,13 +52,15 @@ struct RayCastFrame
   double EarlyTerminationOpacity;
   RayCastOptics Optics;
   RayCastOutput Output;
+  /** By a compute shader, not a fragment shader. */
+  bool Compute = false;
 };
 
 /**
  * The ray caster on OpenGL 3.2: tables in texture buffers; a pass that lists the possible entries
- * of each tile of the image, one that casts the rays into a float image of the viewport's size, and
- * one that blends it into the framebuffer. All calls want the window's context to be current.
- * Errors are texts, empty if there is none.
+ * of each tile of the image, one that casts the rays into a float image of the viewport's size (a
+ * fragment or a compute shader of the same functions), and one that blends it into the framebuffer.
+ * All calls want the window's context to be current. Errors are texts, empty if there is none.
  */
 class RayCastOpenGL
 {
@@ -82,6 +85,9 @@ public:
   /** One gradient per vertex. Needed for optics with VertexGradients. */
   std::string UploadGradients(const std::vector<glm::vec3>& gradients);
   std::string UploadProperty(const VolumePropertyTables& tables);
+
+  /** Whether the window's context has compute shaders (OpenGL 4.3). */
+  bool HasCompute() const { return OpenGLComputeProgram::IsSupported(); }
 
   /** Viewport of the current framebuffer: x, y, width, height. */
   void GetViewport(int viewport[4]) const;
@@ -119,6 +125,9 @@ private:
   std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
   std::string ListEntries(const RayCastFrame& frame);
   std::string CastRays(const RayCastFrame& frame);
+  std::string DispatchRays(const RayCastFrame& frame);
+  template <typename Function>
+  void RunCaster(vtkShaderProgram* program, const RayCastFrame& frame, Function&& run);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
   void ActivateRays(vtkShaderProgram* program, const RayFrame& rays);
   void DeactivateRays();
@@ -139,6 +148,7 @@ private:
   std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
   /** By RayCastShaderOptions(). */
   std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
+  std::map<std::string, vtkSmartPointer<OpenGLComputeProgram>> ComputeCasters;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
   std::unique_ptr<vtkOpenGLQuadHelper> Selector;
   vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;

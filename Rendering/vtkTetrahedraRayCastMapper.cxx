@@ -74,6 +74,7 @@ public:
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedNative = false;
+  bool WarnedCompute = false;
 
   void UpdateGradients();
   std::string Upload(bool gradients);
@@ -254,20 +255,22 @@ vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* g
 }
 
 //------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::WarnOnce(bool condition, bool& warned, const char* text)
+{
+  if (condition && !warned)
+  {
+    warned = true;
+    vtkWarningMacro(<< text);
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 {
-  const auto warnOnce = [this](bool condition, bool& warned, const char* text)
-  {
-    if (condition && !warned)
-    {
-      warned = true;
-      vtkWarningMacro(<< text);
-    }
-  };
   vtkInternals& internals = *this->Internals;
-  warnOnce(this->Integration == PRE_INTEGRATED, internals.WarnedIntegration,
+  this->WarnOnce(this->Integration == PRE_INTEGRATED, internals.WarnedIntegration,
     "Pre-integration is not available; integrating exactly.");
-  warnOnce(this->GetUsedBlendMode() != this->BlendMode, internals.WarnedBlendMode,
+  this->WarnOnce(this->GetUsedBlendMode() != this->BlendMode, internals.WarnedBlendMode,
     "There is no such blend mode for meshes; rendering with composite blending.");
 }
 
@@ -311,14 +314,14 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
 //------------------------------------------------------------------------------
 int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
 {
-  bool& warned = this->Internals->WarnedNative;
-  if (this->Backend == NATIVE && !plainOptics && !warned)
-  {
-    warned = true;
-    vtkWarningMacro("The native backend has composite blending only, without shading, gradient "
-                    "opacity and clipping planes; rendering with OpenGL.");
-  }
-  return this->Backend == NATIVE && plainOptics ? NATIVE : OPENGL;
+  const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
+  const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
+  this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
+    "The native backend has composite blending only, without shading, gradient opacity and "
+    "clipping planes; rendering with OpenGL.");
+  this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
+    "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
+  return this->Backend == AUTOMATIC || nativeLacks || computeLacks ? OPENGL : this->Backend;
 }
 
 //------------------------------------------------------------------------------
@@ -391,7 +394,7 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   if (mesh.GetNumberOfActiveCells() == 0 || mesh.GetRadius() == 0.0)
   {
     internals.OpenGL.ClearStatistics();
-    this->ActiveBackend = this->Backend == NATIVE ? NATIVE : OPENGL;
+    this->ActiveBackend = this->Backend == AUTOMATIC ? OPENGL : this->Backend;
     return true;
   }
   vtkOpenGLClearErrorMacro();
@@ -405,6 +408,7 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   if (error.empty())
   {
     backend = this->ChooseBackend(frame.Optics.IsPlain());
+    frame.Compute = backend == COMPUTE;
     error = backend == NATIVE ? internals.DrawNative(frame) : internals.DrawOpenGL(frame);
   }
   if (!error.empty())

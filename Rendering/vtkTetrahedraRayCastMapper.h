@@ -113,16 +113,19 @@ public:
   {
     AUTOMATIC = 0,
     OPENGL = 1,
-    NATIVE = 2
+    NATIVE = 2,
+    COMPUTE = 3
   };
 
   ///@{
   /**
-   * What runs the ray caster: OPENGL, a fragment shader; NATIVE, the CPU, one ray at a time on all
-   * threads of vtkSMPTools, the same algorithm decision for decision; AUTOMATIC, the default,
-   * OPENGL. What NATIVE does not have (see the limits) warns once and is drawn by OPENGL.
+   * What runs the ray caster: OPENGL, a fragment shader; COMPUTE, a compute shader of the same
+   * functions (OpenGL 4.3; on a window without, OPENGL after a warning); NATIVE, the CPU, one ray
+   * at a time on all threads of vtkSMPTools, the same algorithm decision for decision; AUTOMATIC,
+   * the default, OPENGL. What NATIVE does not have (see the limits) warns once and is drawn by
+   * OPENGL.
    */
-  vtkSetClampMacro(Backend, int, AUTOMATIC, NATIVE);
+  vtkSetClampMacro(Backend, int, AUTOMATIC, COMPUTE);
   vtkGetMacro(Backend, int);
   ///@}
 
@@ -256,6 +259,7 @@ private:
 
   vtkUnstructuredGrid* ValidateInput();
   vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
+  void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
   bool UpdateInput(vtkUnstructuredGrid* grid, vtkDataArray* scalars);
   void UpdateTransferFunction(vtkVolume* volume);
