@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractedGeometryFilter.h"
 
+#include "ImagePolyData.h"
 #include "MembraneExtraction.h"
 #include "Refraction/CurvedGeometry.h"
 #include "Refraction/VirtualGeometry.h"
@@ -11,6 +12,7 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
@@ -33,8 +35,9 @@ constexpr vtkIdType Grain = 512;
 // points than keep all threads of a large machine busy.
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 64 * Grain;
-constexpr auto Chain = static_cast<vtkIdType>(meniscus::CurvedGeometry::Chain);
-static_assert(Grain % Chain == 0, "Steps and ranges are made of whole chains");
+static_assert(
+  Grain % meniscus::CurvedGeometry::Chain == 0 && Grain % meniscus::ObjectImages::Chunk == 0,
+  "Ranges are made of whole chains and chunks");
 
 void ThreadedLoop(std::size_t count, const meniscus::RangeBody& body)
 {
@@ -49,8 +52,17 @@ struct SolvedBlock
   vtkWeakPointer<vtkPolyData> source;
   vtkMTimeType sourceTime = 0;
   std::vector<double> points;
+  vtkTypeInt64 eyeUpdate = -1; ///< for which the points are solved
+  bool all = false;            ///< all images, or the first
   std::vector<meniscus::VirtualVertex> vertices;
-  vtkTypeInt64 eyeUpdate = -1;
+
+  /// All images only.
+  double tolerance = 0.0;
+  vtkMTimeType topologyTime = 0;
+  bool cellsReady = false;
+  meniscus::ObjectTopology topology;
+  std::unique_ptr<meniscus::ObjectImages> images;
+  meniscus::AllImages cells;
 };
 
 /// Values that the refraction rays depend on, beside the membrane.
@@ -91,7 +103,12 @@ class vtkRefractedGeometryFilter::vtkInternals
 public:
   SolvedBlock& GetBlock(vtkPolyData* input);
   bool Solve(vtkRefractedGeometryFilter* self, SolvedBlock& block);
-  void SolveRange(SolvedBlock& block, vtkIdType begin, vtkIdType end) const;
+  bool SolveAll(vtkRefractedGeometryFilter* self, vtkPolyData* input, SolvedBlock& block);
+  bool SolveAllPoints(vtkRefractedGeometryFilter* self, SolvedBlock& block);
+  void SolveRange(SolvedBlock& block, std::size_t from, std::size_t to) const;
+  bool Run(vtkRefractedGeometryFilter* self, double from, double to, vtkIdType count,
+    vtkIdType grain, const meniscus::RangeBody& body);
+  void Count(meniscus::ImageState state);
 
   const meniscus::Membrane& GetMembrane() const
   {
@@ -150,36 +167,131 @@ SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPolyData* inp
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::vtkInternals::Solve(
-  vtkRefractedGeometryFilter* self, SolvedBlock& block)
+// Progress goes from `from` to `to`, abort is asked for in between.
+bool vtkRefractedGeometryFilter::vtkInternals::Run(vtkRefractedGeometryFilter* self, double from,
+  double to, vtkIdType count, vtkIdType grain, const meniscus::RangeBody& body)
 {
-  if (block.eyeUpdate == this->EyeUpdates)
-  {
-    return true;
-  }
-  const auto count = static_cast<vtkIdType>(block.points.size() / 3);
-  block.vertices.resize(static_cast<std::size_t>(count));
-  block.eyeUpdate = -1;
-  const vtkIdType step = std::max((count / ProgressSteps / Chain + 1) * Chain, SmallestStep);
+  const vtkIdType smallest = SmallestStep / Grain * grain;
+  const vtkIdType step = std::max((count / ProgressSteps / grain + 1) * grain, smallest);
   for (vtkIdType first = 0; first < count; first += step)
   {
     const vtkIdType last = std::min(first + step, count);
-    // Threads get whole chains, so that the chains do not depend on the threads.
-    const vtkIdType chains = (last - first + Chain - 1) / Chain;
-    vtkSMPTools::For(0, chains, Grain / Chain,
-      [this, &block, first, last](vtkIdType begin, vtkIdType end)
-      { this->SolveRange(block, first + begin * Chain, std::min(first + end * Chain, last)); });
-    self->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
+    // Threads get whole grains: what is in one does not depend on the threads.
+    vtkSMPTools::For(0, (last - first + grain - 1) / grain, 1,
+      [&body, first, last, grain](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType i = begin; i < end; ++i)
+        {
+          body(static_cast<std::size_t>(first + i * grain),
+            static_cast<std::size_t>(std::min(first + (i + 1) * grain, last)));
+        }
+      });
+    self->UpdateProgress(
+      from + (to - from) * static_cast<double>(last) / static_cast<double>(count));
     if (self->GetAbortExecute())
     {
       return false;
     }
   }
-  this->SolvedVertices += count;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::vtkInternals::Count(meniscus::ImageState state)
+{
+  ++this->SolvedVertices;
+  this->FailedSolves += state == meniscus::ImageState::NotFinite;
+  this->VerticesWithoutImage += state == meniscus::ImageState::NoImage;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::vtkInternals::Solve(
+  vtkRefractedGeometryFilter* self, SolvedBlock& block)
+{
+  if (block.eyeUpdate == this->EyeUpdates && !block.all)
+  {
+    return true;
+  }
+  const auto count = static_cast<vtkIdType>(block.points.size() / 3);
+  block.all = false;
+  block.images.reset();
+  block.eyeUpdate = -1;
+  block.vertices.resize(static_cast<std::size_t>(count));
+  if (!this->Run(self, 0.0, 1.0, count, Grain,
+        [this, &block](std::size_t begin, std::size_t end)
+        { this->SolveRange(block, begin, end); }))
+  {
+    return false;
+  }
   for (const meniscus::VirtualVertex& vertex : block.vertices)
   {
-    this->FailedSolves += vertex.state == meniscus::ImageState::NotFinite;
-    this->VerticesWithoutImage += vertex.state == meniscus::ImageState::NoImage;
+    this->Count(vertex.state);
+  }
+  block.eyeUpdate = this->EyeUpdates;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
+  vtkRefractedGeometryFilter* self, vtkPolyData* input, SolvedBlock& block)
+{
+  const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
+  if (block.topologyTime != input->GetMTime())
+  {
+    meniscus::ObjectTopology topology = meniscus::ExtractTopology(input);
+    block.cellsReady = block.cellsReady && topology == block.topology;
+    block.topology = std::move(topology);
+    block.topologyTime = input->GetMTime();
+  }
+  const bool pointsReady = block.eyeUpdate == this->EyeUpdates && block.all;
+  if (pointsReady && block.cellsReady && block.tolerance == tolerance)
+  {
+    return true;
+  }
+  block.cellsReady = false;
+  if (!pointsReady && !this->SolveAllPoints(self, block))
+  {
+    return false;
+  }
+  block.tolerance = tolerance;
+  block.cells = meniscus::AllImages();
+  block.images->SetTolerance(tolerance);
+  const auto loop = [this, self](std::size_t parts, const meniscus::RangeBody& body)
+  { return this->Run(self, 0.5, 1.0, static_cast<vtkIdType>(parts), 1, body); };
+  block.cellsReady = meniscus::MapCells(input, block.topology, *block.images, loop, block.cells);
+  return block.cellsReady;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
+  vtkRefractedGeometryFilter* self, SolvedBlock& block)
+{
+  const std::size_t count = block.points.size() / 3;
+  const glm::dvec3& origin = this->Curved.GetMembrane().GetOrigin();
+  bool mayCross = false;
+  for (std::size_t i = 0; i < count && !mayCross; ++i)
+  {
+    const double* p = block.points.data() + 3 * i;
+    mayCross = !this->Curved.IsBehindAll(glm::dvec3(p[0], p[1], p[2]) - origin);
+  }
+  if (mayCross)
+  {
+    this->Curved.PrepareSides();
+  }
+  block.all = true;
+  block.eyeUpdate = -1;
+  block.vertices.clear();
+  block.images = std::make_unique<meniscus::ObjectImages>(this->Curved);
+  block.images->SetPoints(block.points.data(), count, mayCross);
+  if (!this->Run(self, 0.0, 0.5, static_cast<vtkIdType>(count), Grain,
+        [&block](std::size_t begin, std::size_t end) { block.images->SolvePoints(begin, end); }))
+  {
+    return false;
+  }
+  block.images->FinishPoints();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    this->Count(block.images->GetState(i));
   }
   block.eyeUpdate = this->EyeUpdates;
   return true;
@@ -187,10 +299,8 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
 
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::vtkInternals::SolveRange(
-  SolvedBlock& block, vtkIdType begin, vtkIdType end) const
+  SolvedBlock& block, std::size_t from, std::size_t to) const
 {
-  const auto from = static_cast<std::size_t>(begin);
-  const auto to = static_cast<std::size_t>(end);
   if (this->IsCurved)
   {
     this->Curved.Solve(block.points.data(), from, to, block.vertices.data());
@@ -347,7 +457,7 @@ int vtkRefractedGeometryFilter::RequestData(
     vtkErrorMacro("Geometry or membrane is missing or no vtkPolyData; the output is empty.");
     return 0;
   }
-  this->WarnOfMissingModes();
+  this->WarnOfModes();
   if (!this->UpdateMembrane(membrane))
   {
     return 1;
@@ -357,13 +467,18 @@ int vtkRefractedGeometryFilter::RequestData(
     return 0;
   }
   SolvedBlock& block = this->Internals->GetBlock(input);
-  if (!this->Internals->Solve(this, block))
+  const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
+  if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
   {
     return 1;
   }
 
-  const auto report = meniscus::BuildVirtualPolyData(
-    input, block.vertices, this->Internals->GetMembrane(), this->OutputPointsPrecision, output);
+  const meniscus::Membrane& surface = this->Internals->GetMembrane();
+  const meniscus::VirtualPolyDataReport report = all
+    ? meniscus::BuildImagePolyData(input, block.topology, *block.images, block.cells, surface,
+        this->OutputPointsPrecision, output)
+    : meniscus::BuildVirtualPolyData(
+        input, block.vertices, surface, this->OutputPointsPrecision, output);
   this->Internals->SkippedCells += report.skippedCells + report.brokenCells;
   if (report.brokenCells > 0)
   {
@@ -380,12 +495,15 @@ int vtkRefractedGeometryFilter::RequestData(
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractedGeometryFilter::WarnOfMissingModes()
+void vtkRefractedGeometryFilter::WarnOfModes()
 {
-  if (!this->Internals->WarnedOfModes && this->Images == ALL_IMAGES)
+  if (!this->Internals->WarnedOfModes && this->Images == ALL_IMAGES &&
+    this->MembraneModel == FLAT_FACETS)
   {
     this->Internals->WarnedOfModes = true;
-    vtkWarningMacro("Images ALL_IMAGES is not available yet; the result is that of FIRST_IMAGE.");
+    vtkWarningMacro("Images ALL_IMAGES needs the membrane model CURVED: flat facets overlap, and "
+                    "extrapolated cells show images that do not exist. The result is that of "
+                    "FIRST_IMAGE.");
   }
   if (!this->Internals->WarnedOfParallelProjection && this->Camera &&
     this->Camera->GetParallelProjection())
@@ -506,6 +624,7 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
      << "\n";
   os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
+  os << indent << "AngularTolerance: " << this->AngularTolerance << "\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "NumberOfPatchBuilds: " << this->GetNumberOfPatchBuilds() << "\n";
   os << indent << "NumberOfEyeUpdates: " << this->GetNumberOfEyeUpdates() << "\n";

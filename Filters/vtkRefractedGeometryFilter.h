@@ -15,47 +15,66 @@
  * they are valid, others are computed from the facets' winding. Ghost levels of the membrane are
  * not asked for.
  *
- * The output has the cells of the input, with the same connectivity and all point and cell arrays,
- * at the virtual points. Each point of a vertex cell becomes a cell of its own. Point arrays added:
+ * The output shows every image of the geometry (ALL_IMAGES), or one per point with the input's own
+ * connectivity (FIRST_IMAGE), with all point and cell arrays. Each image of a point of a vertex
+ * cell is a cell of its own. With ALL_IMAGES a line or polygon whose points have one image each,
+ * and which is straight enough between them, keeps its points; any other becomes the pieces that
+ * the membrane shows of it, strips as triangles, and what it has on the eye's side of the membrane
+ * passes unchanged. Arrays are interpolated at the points that this makes. Point arrays added:
  * - `SightPoint` (3 doubles, world): where the light leaves the membrane towards the eye;
  * - `RefractionDepth` (1 double, world length, >= 0): from sight point to true point, the path in
  * the interior that attenuation should use;
  * - `Reflectance` (1 double, 0 to 1): unpolarised Fresnel reflectance at the sight point, 1 beyond
  *   the critical angle;
- * - `SightFacet` (1 id): the membrane's cell that holds the sight point;
- * - `SourcePointId` (1 id): the point of the input.
+ * - `SightFacet` (1 id): the membrane's cell that holds the sight point, -1 for a point on the
+ * eye's side that passed unchanged;
+ * - `SourcePointId` (1 id): the point of the input, -1 for a point that clipping made.
  *
  * Cell arrays added: `SourceCellId` (1 id), and `ImageOrientation` (1 signed char, +1 or -1): -1
- * where the image of the cell's first point is mirrored, as behind a caustic.
+ * where the image is mirrored, as behind a caustic; with FIRST_IMAGE that of the cell's first
+ * point.
  *
- * A point without an image (outside the visible volume, in front of the membrane, not finite) is no
- * point of the output: the field data array `PointsWithoutImage` lists its id. Lines, polygons and
- * strips that need such a point are left out whole. Both are counted.
+ * A point without an image (outside the visible volume, in front of the membrane with FIRST_IMAGE,
+ * not finite) is no point of the output: the field data array `PointsWithoutImage` lists its id.
+ * With FIRST_IMAGE, lines, polygons and strips that need such a point are left out whole. Both are
+ * counted.
  *
- * Method (Equations of the thesis "Refraction by geometric transforms"):
- * 1. A refraction ray at each vertex of the membrane, Eq. 2.2, extrapolated by Eq. 3.1 where the
- *    surface faces away and by Eq. 3.2 under total internal reflection.
- * 2. A cell per facet, bounded by the three rays at its corners. A tree of ray tubes finds the
- * first facet, in the order of the membrane's cells, whose cell holds a point: the plane through
- * the point, normal to the mean of the three rays, cuts them in a triangle around it.
- * 3. Barycentric coordinates in that triangle give the sight point in the facet.
+ * Method of CURVED (Documentation/refraction.md has the equations):
+ * 1. A patch per facet, from the vertices and their normals: cubic edges, a quadratic normal whose
+ *    value in the middle of an edge is fitted to the curvature at its ends. Planes and spheres are
+ *    reproduced, other surfaces met to third order.
+ * 2. A sight point is a root of Snell's law without the root of Eq. 2.2, found by Newton's method
+ *    from the answer of the point before (FIRST_IMAGE), or in every patch that a tree of ray tubes
+ *    names, by subdivision until there is one root at most (ALL_IMAGES).
+ * 3. Lines and polygons with several images are mapped from the membrane: rays of sub-cells of the
+ *    patches cut pieces out of them.
  * 4. The virtual vertex lies on the sight ray, behind the sight point by the true distance times
  *    n1 / n2, Eq. 2.4.
  *
- * Deviations from the thesis: the tree in place of a loop over facets (same result); points in
- * front of a facet are not in its cell; borders belong to a cell within derived rounding bounds;
- * Fresnel's equations are exact (Eq. 2.6) and evaluated at the sight point.
+ * Method of FLAT_FACETS (Equations of the thesis "Refraction by geometric transforms"):
+ * 1. A refraction ray at each vertex of the membrane, Eq. 2.2, extrapolated by Eq. 3.1 where the
+ *    surface faces away and by Eq. 3.2 under total internal reflection.
+ * 2. A cell per facet, bounded by the three rays at its corners. A tree of ray tubes finds the
+ *    first facet, in the order of the membrane's cells, whose cell holds a point: the plane through
+ *    the point, normal to the mean of the three rays, cuts them in a triangle around it.
+ * 3. Barycentric coordinates in that triangle give the sight point in the facet; Eq. 2.4.
+ *
+ * Deviations of FLAT_FACETS from the thesis: the tree in place of a loop over facets (same result);
+ * points in front of a facet are not in its cell; borders belong to a cell within derived rounding
+ * bounds; Fresnel's equations are exact (Eq. 2.6) and evaluated at the sight point.
  *
  * Work is kept as long as it holds: facets and tree as long as the membrane keeps its points,
  * triangles and normals, refraction rays as long as eye and indices keep their values, virtual
  * vertices as long as both hold and the points of the geometry keep their places. Values are
  * compared, not only modification times, and each block of composite data has a cache of its own.
  * The counters prove it. Memory: about 400 bytes per facet of the membrane and 100 per point of the
- * geometry.
+ * geometry, 150 per image.
  *
- * @note Images ALL_IMAGES, the default, is not there yet: a warning says once that FIRST_IMAGE is
- * computed in its place.
  * @note A camera in parallel projection has no eye position; its position is used with a warning.
+ * @note The membrane does not hide itself: a sight ray may cross it before its sight point, a
+ * refracted ray behind it. The normals decide where there is an image.
+ * @note A side is told along the mean of the membrane's normals: where the membrane overhangs along
+ * it (ALL_IMAGES, geometry on both sides) the side of a point may be wrong.
  * @note Between the rays of the vertices FLAT_FACETS interpolates linearly. The error is of second
  * order in the size of the facets; Documentation/refraction.md has measurements. Cells of
  * neighbouring facets may overlap or leave thin gaps, and zones of convergence show the first image
@@ -92,7 +111,8 @@ public:
   /// Which images of a point are made where the membrane shows several.
   enum ImageModes
   {
-    FIRST_IMAGE = 0, ///< that of the first facet, in the order of the membrane's cells
+    FIRST_IMAGE = 0, ///< one: with FLAT_FACETS that of the first facet, in the order of the
+                     ///< membrane's cells; with CURVED that which continues the last point's
     ALL_IMAGES = 1   ///< every one
   };
 
@@ -145,13 +165,23 @@ public:
 
   ///@{
   /**
-   * Set/Get which images are made, FIRST_IMAGE or ALL_IMAGES. Default is ALL_IMAGES, for which
-   * FIRST_IMAGE is computed with a warning until it exists.
+   * Set/Get which images are made, FIRST_IMAGE or ALL_IMAGES. Default is ALL_IMAGES; with
+   * FLAT_FACETS it warns and FIRST_IMAGE is computed.
    */
   vtkSetClampMacro(Images, int, FIRST_IMAGE, ALL_IMAGES);
   vtkGetMacro(Images, int);
   void SetImagesToFirstImage() { this->SetImages(FIRST_IMAGE); }
   void SetImagesToAllImages() { this->SetImages(ALL_IMAGES); }
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get the angle in degrees at the eye that an image may be off where lines and polygons are
+   * drawn straight between their points (ALL_IMAGES). A pixel of an image of 512 pixels and 30
+   * degrees is 0.06. Default is 0.005. Range 0.0001 to 10.
+   */
+  vtkSetClampMacro(AngularTolerance, double, 0.0001, 10.0);
+  vtkGetMacro(AngularTolerance, double);
   ///@}
 
   ///@{
@@ -212,7 +242,7 @@ private:
   vtkRefractedGeometryFilter(const vtkRefractedGeometryFilter&) = delete;
   void operator=(const vtkRefractedGeometryFilter&) = delete;
 
-  void WarnOfMissingModes();
+  void WarnOfModes();
   bool UpdateMembrane(vtkPolyData* membrane);
   bool UpdateEye();
 
@@ -221,6 +251,7 @@ private:
   double InteriorIndexOfRefraction = 1.333;
   int MembraneModel = CURVED;
   int Images = ALL_IMAGES;
+  double AngularTolerance = 0.005;
   int OutputPointsPrecision = DEFAULT_PRECISION;
   vtkSmartPointer<vtkCamera> Camera;
 

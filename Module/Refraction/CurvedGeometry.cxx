@@ -77,9 +77,20 @@ MembraneStatus CurvedGeometry::SetMembrane(const MembraneInput& input, const Ran
   {
     this->Patches.Refit(loop);
     this->Tree.SetUnit(this->Surface.GetRadius());
+    this->FindAxis();
     return status;
   }
   this->Patches.Build(this->Surface, loop);
+  this->BuildTree(this->Tree);
+  this->FindAxis();
+  return status;
+}
+
+//------------------------------------------------------------------------------
+void CurvedGeometry::BuildTree(CellTree& tree) const
+{
+  const auto& positions = this->Surface.GetPositions();
+  const auto& facets = this->Surface.GetFacets();
   std::vector<glm::dvec3> centroids;
   centroids.reserve(facets.size());
   for (const Membrane::Facet& facet : facets)
@@ -91,8 +102,94 @@ MembraneStatus CurvedGeometry::SetMembrane(const MembraneInput& input, const Ran
     }
     centroids.push_back(sum / 3.0);
   }
-  this->Tree.Build(centroids, status == MembraneStatus::Ready ? this->Surface.GetRadius() : 1.0);
-  return status;
+  tree.Build(centroids, facets.empty() ? 1.0 : this->Surface.GetRadius());
+}
+
+//------------------------------------------------------------------------------
+void CurvedGeometry::FindAxis()
+{
+  this->ColumnsReady = false;
+  glm::dvec3 sum(0.0);
+  for (const Membrane::Facet& facet : this->Surface.GetFacets())
+  {
+    for (const std::int32_t vertex : facet)
+    {
+      sum += this->Surface.GetNormals()[static_cast<std::size_t>(vertex)];
+    }
+  }
+  const double length = glm::length(sum);
+  this->Axis = length > 0.0 ? sum / length : glm::dvec3(0.0);
+  this->Lowest = std::numeric_limits<double>::max();
+  this->Highest = std::numeric_limits<double>::lowest();
+  for (std::size_t i = 0; i < this->Surface.GetFacets().size(); ++i)
+  {
+    const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
+    const double bulge = BoundBulge(patch);
+    for (const glm::dvec3& corner : patch.corner)
+    {
+      const double height = glm::dot(this->Axis, corner);
+      this->Lowest = std::min(this->Lowest, height - bulge);
+      this->Highest = std::max(this->Highest, height + bulge);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void CurvedGeometry::PrepareSides()
+{
+  if (this->ColumnsReady)
+  {
+    return;
+  }
+  this->BuildTree(this->Columns);
+  this->Columns.Refit(
+    [this](std::int32_t facet)
+    {
+      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      const glm::dvec3 bulge(BoundBulge(patch));
+      TubeBounds bounds;
+      for (const glm::dvec3& corner : patch.corner)
+      {
+        bounds.Add(corner - bulge, this->Axis);
+        bounds.Add(corner + bulge, this->Axis);
+      }
+      return bounds;
+    },
+    SerialLoop);
+  this->ColumnsReady = true;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedGeometry::IsInFront(const glm::dvec3& local) const
+{
+  // Rounding of a patch's point and of Newton's method.
+  constexpr double rounding = 1024.0 * std::numeric_limits<double>::epsilon();
+  const double slack = rounding * this->Surface.GetRadius();
+  double nearest = std::numeric_limits<double>::max();
+  bool faces = glm::dot(this->Axis, local) > this->Highest;
+  if (faces)
+  {
+    return true;
+  }
+  VisitTree(this->Columns, local, slack,
+    [this, &local, slack, &nearest, &faces](std::int32_t facet)
+    {
+      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      glm::dvec2 b = Project(patch, local);
+      double distance = 0.0;
+      for (int i = 0; i < FirstSteps; ++i)
+      {
+        const glm::dvec3 rest = local - patch.Evaluate(b).position;
+        distance = glm::dot(this->Axis, rest);
+        b += Project(patch, patch.corner[0] + rest - distance * this->Axis);
+      }
+      if (FindOutside(b).least >= -Border && distance >= -slack && distance < nearest)
+      {
+        nearest = distance;
+        faces = distance <= slack || glm::dot(this->Axis, patch.Evaluate(b).normal) > 0.0;
+      }
+    });
+  return faces;
 }
 
 //------------------------------------------------------------------------------
@@ -101,6 +198,7 @@ void CurvedGeometry::Clear()
   this->Surface = Membrane();
   this->Patches = CurvedPatches();
   this->Tree = CellTree();
+  this->ColumnsReady = false;
 }
 
 //------------------------------------------------------------------------------
@@ -112,9 +210,7 @@ EyeStatus CurvedGeometry::SetEye(
   {
     return status;
   }
-  this->Eye = eye - this->Surface.GetOrigin();
-  this->Exterior = exterior;
-  this->Interior = interior;
+  this->Optics = { eye - this->Surface.GetOrigin(), exterior, interior };
   std::atomic<bool> touched{ false };
   this->Tree.Refit(
     [this, &touched](std::int32_t facet)
@@ -123,8 +219,8 @@ EyeStatus CurvedGeometry::SetEye(
       {
         touched = true;
       }
-      return BoundRefractedRays(
-        this->Patches.GetPatch(facet), this->Eye, this->Exterior / this->Interior);
+      return BoundRefractedRays(this->Patches.GetPatch(facet), this->Optics.eye,
+        this->Optics.exterior / this->Optics.interior);
     },
     loop);
   return touched ? EyeStatus::OnTheMembrane : EyeStatus::Ready;
@@ -134,7 +230,7 @@ EyeStatus CurvedGeometry::SetEye(
 bool CurvedGeometry::IsEyeOnPatch(std::int32_t facet) const
 {
   const CurvedPatch patch = this->Patches.GetPatch(facet);
-  const glm::dvec3 away = this->Eye - patch.corner[0];
+  const glm::dvec3 away = this->Optics.eye - patch.corner[0];
   const double size = GetSize(patch);
   // The patch bulges by less than half of its longest edge.
   if (glm::dot(away, away) > 4.0 * size * size)
@@ -143,15 +239,15 @@ bool CurvedGeometry::IsEyeOnPatch(std::int32_t facet) const
   }
   // The foot on the facet, moved by what its point on the patch is away from the eye along the
   // facet; the surface is close to the facet, so this settles.
-  glm::dvec2 b = Project(patch, this->Eye);
+  glm::dvec2 b = Project(patch, this->Optics.eye);
   for (int i = 0; i < FirstSteps; ++i)
   {
-    b += Project(patch, patch.corner[0] + this->Eye - patch.Evaluate(b).position);
+    b += Project(patch, patch.corner[0] + this->Optics.eye - patch.Evaluate(b).position);
   }
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   return FindOutside(b).least >= -Border &&
-    glm::length(patch.Evaluate(b).position - this->Eye) <=
-    rounding * std::max(this->Surface.GetRadius(), glm::length(this->Eye));
+    glm::length(patch.Evaluate(b).position - this->Optics.eye) <=
+    rounding * std::max(this->Surface.GetRadius(), glm::length(this->Optics.eye));
 }
 
 //------------------------------------------------------------------------------
@@ -190,7 +286,7 @@ VirtualVertex CurvedGeometry::SolvePoint(const glm::dvec3& point, Memory& memory
     vertex.state = ImageState::NotFinite;
     return vertex;
   }
-  const SightEquation equation(this->Eye, local, this->Exterior, this->Interior);
+  const SightEquation equation = this->MakeEquation(local);
   SightPlace place;
   if (!this->Follow(equation, local, memory, place) && !this->FindFirst(equation, local, place))
   {
@@ -203,6 +299,22 @@ VirtualVertex CurvedGeometry::SolvePoint(const glm::dvec3& point, Memory& memory
   memory.point = local;
   memory.place = place;
   return this->MakeVertex(local, this->Patches.GetPatch(place.facet), place);
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex CurvedGeometry::SolveNear(const glm::dvec3& point, const VirtualVertex& known) const
+{
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  Memory memory;
+  memory.place.facet = known.facet;
+  memory.place.root.at.position = known.sightPoint - this->Surface.GetOrigin();
+  memory.place.root.at.normal = this->Optics.eye - memory.place.root.at.position;
+  memory.point = local;
+  SightPlace place;
+  VirtualVertex vertex;
+  return this->IsInReach(local) && this->Follow(this->MakeEquation(local), local, memory, place)
+    ? this->MakeVertex(local, this->Patches.GetPatch(place.facet), place)
+    : vertex;
 }
 
 //------------------------------------------------------------------------------
@@ -316,7 +428,7 @@ ImageState CurvedGeometry::FindImages(
   {
     return ImageState::NotFinite;
   }
-  const SightEquation equation(this->Eye, local, this->Exterior, this->Interior);
+  const SightEquation equation = this->MakeEquation(local);
   std::vector<SightPlace> places;
   this->FindPlaces(equation, local, places);
   for (const SightPlace& place : places)
@@ -340,20 +452,30 @@ VirtualVertex CurvedGeometry::MakeVertex(
   const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const
 {
   const PatchPoint& at = place.root.at;
-  const glm::dvec3 sight = glm::normalize(at.position - this->Eye);
+  const glm::dvec3 sight = glm::normalize(at.position - this->Optics.eye);
   VirtualVertex vertex;
   vertex.depth = glm::length(local - at.position);
   vertex.sightPoint = at.position + this->Surface.GetOrigin();
   // Eq. 2.4; the identity where nothing is refracted.
-  const glm::dvec3 virtualPoint = this->Exterior == this->Interior
+  const glm::dvec3 virtualPoint = this->Optics.exterior == this->Optics.interior
     ? local
-    : at.position + sight * (vertex.depth * this->Exterior / this->Interior);
+    : at.position + sight * (vertex.depth * this->Optics.exterior / this->Optics.interior);
   vertex.position = virtualPoint + this->Surface.GetOrigin();
-  vertex.reflectance = FresnelReflectance(
-    -glm::dot(sight, at.normal) / glm::length(at.normal), this->Exterior, this->Interior);
+  vertex.reflectance = FresnelReflectance(-glm::dot(sight, at.normal) / glm::length(at.normal),
+    this->Optics.exterior, this->Optics.interior);
   vertex.facet = place.facet;
   vertex.state = ImageState::Found;
   vertex.orientation = static_cast<signed char>(SightEquation::GetOrientation(patch, place.root));
+  return vertex;
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex CurvedGeometry::PassThrough(const glm::dvec3& local) const
+{
+  VirtualVertex vertex;
+  vertex.position = local + this->Surface.GetOrigin();
+  vertex.sightPoint = vertex.position;
+  vertex.state = ImageState::Found;
   return vertex;
 }
 

@@ -13,12 +13,14 @@
 
 #include "Refraction/CellTree.h"
 #include "Refraction/CurvedPatches.h"
+#include "Refraction/MappingPlace.h"
 #include "Refraction/Membrane.h"
 #include "Refraction/SightEquation.h"
 #include "Refraction/VirtualGeometry.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace meniscus
@@ -66,7 +68,61 @@ public:
   /// any.
   ImageState FindImages(const glm::dvec3& point, std::vector<VirtualVertex>& images) const;
 
+  /// The image of a point that continues a known image of a point nearby; NoImage if Newton's
+  /// method does not get there.
+  VirtualVertex SolveNear(const glm::dvec3& point, const VirtualVertex& known) const;
+
+  /// Eye and indices, in local coordinates: relative to the membrane's origin.
+  const Media& GetMedia() const { return this->Optics; }
+  SightEquation MakeEquation(const glm::dvec3& local) const
+  {
+    return { this->Optics.eye, local, this->Optics.exterior, this->Optics.interior };
+  }
+  bool IsInReach(const glm::dvec3& local) const;
+
+  /// Calls `visit(facet)` for every facet that may show a point of the cube of half side `padding`.
+  template <typename Visitor>
+  void VisitFacets(const glm::dvec3& local, double padding, Visitor&& visit) const
+  {
+    VisitTree(this->Tree, local, padding, visit);
+  }
+
+  /// The virtual vertex of a local point with the sight point `place`.
+  VirtualVertex MakeVertex(
+    const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const;
+
+  /// A local point that is its own image, on the eye's side of the membrane.
+  VirtualVertex PassThrough(const glm::dvec3& local) const;
+
+  ///@{
+  /**
+   * The eye's side of the membrane. Along an axis, the mean of the membrane's normals, it is a
+   * height field unless it overhangs: a point is in front if the membrane below it along the axis
+   * faces it, or if it lies on it within rounding. Beside the membrane, a point above all of it is
+   * in front. IsBehindAll is a first test that costs nothing; where it fails, IsInFront needs
+   * PrepareSides, a tree over the facets' columns that is built once per shape.
+   */
+  void PrepareSides();
+  bool IsBehindAll(const glm::dvec3& local) const
+  {
+    return glm::dot(this->Axis, local) < this->Lowest;
+  }
+  bool IsInFront(const glm::dvec3& local) const;
+  ///@}
+
 private:
+  template <typename Visitor>
+  static void VisitTree(
+    const CellTree& tree, const glm::dvec3& local, double padding, Visitor&& visit)
+  {
+    tree.Visit(local, padding,
+      [&visit](std::int32_t facet)
+      {
+        visit(facet);
+        return std::numeric_limits<std::int32_t>::max();
+      });
+  }
+
   /// What a chain remembers: the last two answers.
   struct Memory
   {
@@ -76,7 +132,8 @@ private:
     glm::dvec3 sightStep{ 0.0 };
   };
 
-  bool IsInReach(const glm::dvec3& local) const;
+  void FindAxis();
+  void BuildTree(CellTree& tree) const;
   bool IsEyeOnPatch(std::int32_t facet) const;
   VirtualVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
   bool Follow(const SightEquation& equation, const glm::dvec3& local, const Memory& memory,
@@ -84,15 +141,16 @@ private:
   bool FindFirst(const SightEquation& equation, const glm::dvec3& local, SightPlace& place) const;
   void FindPlaces(
     const SightEquation& equation, const glm::dvec3& local, std::vector<SightPlace>& places) const;
-  VirtualVertex MakeVertex(
-    const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const;
 
   Membrane Surface;
   CurvedPatches Patches;
   CellTree Tree;
-  glm::dvec3 Eye{ 0.0 };
-  double Exterior = 1.0;
-  double Interior = 1.0;
+  CellTree Columns;
+  bool ColumnsReady = false;
+  glm::dvec3 Axis{ 0.0 };
+  double Lowest = 0.0;
+  double Highest = 0.0;
+  Media Optics{ glm::dvec3(0.0), 1.0, 1.0 };
 };
 
 }

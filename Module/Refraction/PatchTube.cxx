@@ -23,18 +23,6 @@ const Box AnyDirection{ glm::dvec3(0.0), glm::dvec3(1.0) };
 // The largest of |b_i b_j (b_i - b_j)| is 1 / (6 sqrt 3), of b_i b_j 1 / 4.
 constexpr double LargestAsymmetric = 0.0962250448649377;
 
-// Longest distance between the facet's points and those of the patch: 2 |q| / (1 + |n|) with the
-// shortest |n| that counts.
-double BoundBulge(const CurvedPatch& patch)
-{
-  double q = 0.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    q += 0.25 * std::fabs(patch.symmetric[k]) + LargestAsymmetric * std::fabs(patch.asymmetric[k]);
-  }
-  return 2.0 * q / (1.0 + CurvedPatch::ShortestNormal);
-}
-
 // Unit vectors along n + d for |d| within `ball` and d within `half`: n / |n| + (d - u (u.d)) / |n|
 // and a rest below (|d| / |n|)^2 as long as |d| < |n| / 2.
 Box BoundDirections(const glm::dvec3& n, const glm::dvec3& half, double ball)
@@ -96,6 +84,18 @@ Box BoundNormals(const CurvedPatch& patch)
   return BoundDirections(middle, half, std::sqrt(ball));
 }
 
+}
+
+//------------------------------------------------------------------------------
+// 2 |q| / (1 + |n|) with the shortest |n| that counts.
+double BoundBulge(const CurvedPatch& patch)
+{
+  double q = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    q += 0.25 * std::fabs(patch.symmetric[k]) + LargestAsymmetric * std::fabs(patch.asymmetric[k]);
+  }
+  return 2.0 * q / (1.0 + CurvedPatch::ShortestNormal);
 }
 
 //------------------------------------------------------------------------------

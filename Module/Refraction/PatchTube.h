@@ -9,6 +9,9 @@
 namespace meniscus
 {
 
+/// Longest distance between the points of a patch and those of its facet.
+double BoundBulge(const CurvedPatch& patch);
+
 /**
  * A tube around every ray that Snell's law refracts at a point of `patch`, not valid where there is
  * none: where all of the patch faces away from the eye or reflects totally. `ratio` is n1 / n2.

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/FrontPart.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace meniscus
+{
+namespace
+{
+
+// A primitive that crosses the membrane is looked at this finely at least, and this finely along
+// the membrane.
+constexpr int FirstLevel = 2;
+constexpr int DeepestLevel = 5;
+
+// 2^-44 of a side: the rounding of its ends, nearly.
+constexpr int Bisections = 44;
+
+/// A place in the primitive, in barycentric coordinates.
+struct Place
+{
+  glm::dvec3 weight;
+  bool isInFront;
+};
+
+class Cutter
+{
+public:
+  Cutter(const CurvedGeometry& geometry, const MappedTriangle& primitive, std::int64_t sourceCell,
+    ImageMesh& images)
+    : Geometry(geometry)
+    , Primitive(primitive)
+    , SourceCell(sourceCell)
+    , Images(images)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      this->Corner[i] = primitive.corners[i] - geometry.GetMembrane().GetOrigin();
+    }
+  }
+
+  Place MakePlace(const glm::dvec3& weight) const
+  {
+    return { weight, this->Geometry.IsInFront(this->GetLocal(weight)) };
+  }
+
+  void CutTriangle(const std::array<Place, 3>& corner, int level) const
+  {
+    std::array<Place, 3> middle; // opposite to the corners
+    bool same =
+      corner[0].isInFront == corner[1].isInFront && corner[0].isInFront == corner[2].isInFront;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      middle[k] = this->MakePlace(0.5 * (corner[(k + 1) % 3].weight + corner[(k + 2) % 3].weight));
+      same = same && middle[k].isInFront == corner[0].isInFront;
+    }
+    if ((same && level >= FirstLevel) || level == DeepestLevel)
+    {
+      this->AddPolygon({ corner.begin(), corner.end() });
+      return;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      this->CutTriangle({ corner[k], middle[(k + 2) % 3], middle[(k + 1) % 3] }, level + 1);
+    }
+    this->CutTriangle(middle, level + 1);
+  }
+
+  void CutLine(const Place& from, const Place& to, int level) const
+  {
+    if (level < DeepestLevel)
+    {
+      const Place middle = this->MakePlace(0.5 * (from.weight + to.weight));
+      this->CutLine(from, middle, level + 1);
+      this->CutLine(middle, to, level + 1);
+      return;
+    }
+    const Place crossing = from.isInFront != to.isInFront ? this->Cross(from, to) : from;
+    const Place& begin = from.isInFront ? from : crossing;
+    const Place& end = to.isInFront ? to : crossing;
+    if (begin.isInFront && end.isInFront)
+    {
+      this->AddCell({ begin, end });
+    }
+  }
+
+private:
+  glm::dvec3 GetLocal(const glm::dvec3& w) const
+  {
+    return w.x * this->Corner[0] + w.y * this->Corner[1] + w.z * this->Corner[2];
+  }
+
+  // The last place in front on the way between two sides.
+  Place Cross(const Place& a, const Place& b) const
+  {
+    Place front = a.isInFront ? a : b;
+    Place behind = a.isInFront ? b : a;
+    for (int i = 0; i < Bisections; ++i)
+    {
+      const Place middle = this->MakePlace(0.5 * (front.weight + behind.weight));
+      (middle.isInFront ? front : behind) = middle;
+    }
+    return front;
+  }
+
+  void AddPolygon(const std::vector<Place>& polygon) const
+  {
+    std::vector<Place> front;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+    {
+      const Place& a = polygon[i];
+      const Place& b = polygon[(i + 1) % polygon.size()];
+      if (a.isInFront)
+      {
+        front.push_back(a);
+      }
+      if (a.isInFront != b.isInFront)
+      {
+        front.push_back(this->Cross(a, b));
+      }
+    }
+    if (front.size() > 2)
+    {
+      this->AddCell(front);
+    }
+  }
+
+  void AddCell(const std::vector<Place>& places) const
+  {
+    for (const Place& place : places)
+    {
+      ImagePoint point;
+      point.vertex = this->Geometry.PassThrough(this->GetLocal(place.weight));
+      point.SetSource(this->Primitive.ids, place.weight);
+      this->Images.connectivity.push_back(static_cast<std::int64_t>(this->Images.points.size()));
+      this->Images.points.push_back(point);
+    }
+    this->Images.EndCell(this->SourceCell, 1);
+  }
+
+  const CurvedGeometry& Geometry;
+  const MappedTriangle& Primitive;
+  std::int64_t SourceCell;
+  ImageMesh& Images;
+  std::array<glm::dvec3, 3> Corner;
+};
+
+}
+
+//------------------------------------------------------------------------------
+void AddFrontOfTriangle(const CurvedGeometry& geometry, const MappedTriangle& triangle,
+  std::int64_t sourceCell, ImageMesh& images)
+{
+  const Cutter cutter(geometry, triangle, sourceCell, images);
+  cutter.CutTriangle({ cutter.MakePlace({ 1.0, 0.0, 0.0 }), cutter.MakePlace({ 0.0, 1.0, 0.0 }),
+                       cutter.MakePlace({ 0.0, 0.0, 1.0 }) },
+    0);
+}
+
+//------------------------------------------------------------------------------
+void AddFrontOfLine(const CurvedGeometry& geometry, const MappedTriangle& line,
+  std::int64_t sourceCell, ImageMesh& images)
+{
+  const Cutter cutter(geometry, line, sourceCell, images);
+  cutter.CutLine(cutter.MakePlace({ 1.0, 0.0, 0.0 }), cutter.MakePlace({ 0.0, 1.0, 0.0 }), 0);
+}
+
+}

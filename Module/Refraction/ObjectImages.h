@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Every image of an object: of its points, and of its lines and polygons. A cell is simple, and
+ * keeps its points, if each of them has one image and if the virtual cell is where the images of
+ * the middles of its sides are, within a tolerance. All other cells are mapped from the membrane.
+ */
+#ifndef meniscus_Refraction_ObjectImages_h
+#define meniscus_Refraction_ObjectImages_h
+
+#include "Refraction/CurvedGeometry.h"
+#include "Refraction/ImageMesh.h"
+#include "Refraction/MembraneMapping.h"
+#include "Refraction/RangeLoop.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace meniscus
+{
+
+/// Cells of one kind, borrowed: cell i has the points connectivity[offsets[i]] up to
+/// connectivity[offsets[i + 1]], all of which exist.
+struct ObjectCells
+{
+  const std::int64_t* offsets = nullptr;
+  const std::int64_t* connectivity = nullptr;
+};
+
+/// What became of cells.
+struct CellReport
+{
+  std::size_t whole = 0;   ///< passed through with its points
+  std::size_t mapped = 0;  ///< mapped from the membrane, to any number of pieces
+  std::size_t without = 0; ///< no image at all
+};
+
+class ObjectImages
+{
+public:
+  /// Splits the polygon with these points into triangles, three indices into the polygon each.
+  using Triangulate = std::function<void(
+    const std::int64_t* ids, std::size_t count, std::vector<std::int64_t>& triangles)>;
+
+  /// Eye and membrane must not change afterwards.
+  explicit ObjectImages(const CurvedGeometry& geometry)
+    : Geometry(geometry)
+  {
+  }
+
+  /// An angle at the eye in radians.
+  void SetTolerance(double tolerance) { this->Tolerance = tolerance; }
+
+  /// Takes the object's points, x, y, z each, borrowed; `mayCross` if any of them is not behind all
+  /// of the membrane. Finds no image yet.
+  void SetPoints(const double* points, std::size_t count, bool mayCross);
+
+  /// Images of the points in [begin, end), whole chunks. Different ranges may run at once.
+  static constexpr std::size_t Chunk = 128;
+  void SolvePoints(std::size_t begin, std::size_t end);
+
+  /// Collects what SolvePoints found. Cells can be mapped afterwards.
+  void FinishPoints();
+
+  const std::vector<ImagePoint>& GetPointImages() const { return this->Images; }
+  std::size_t GetNumberOfImages(std::size_t point) const
+  {
+    return this->First[point + 1] - this->First[point];
+  }
+  ImageState GetState(std::size_t point) const { return this->States[point]; }
+
+  /// Adds the images of cells [begin, end), called `names`. Cells that pass whole go to `whole`,
+  /// which has no points of its own but names those of GetPointImages(); others go to `pieces`.
+  CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
+    std::size_t end, ImageMesh& pieces, ImageMesh& whole) const;
+  CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
+    std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole) const;
+
+private:
+  enum class Side
+  {
+    Behind,
+    InFront,
+    Both
+  };
+
+  glm::dvec3 GetPoint(std::int64_t id) const;
+  Side FindSide(const std::int64_t* ids, std::size_t count) const;
+  bool IsSimple(const std::int64_t* ids, std::size_t count, bool isClosed) const;
+  bool IsSideStraight(std::int64_t from, std::int64_t to) const;
+  void AddWhole(
+    const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const;
+
+  const CurvedGeometry& Geometry;
+  double Tolerance = 0.0;
+  double Nearest = 0.0;
+  double Farthest = 0.0;
+  const double* Points = nullptr;
+  bool MayCross = false;
+  std::vector<std::vector<VirtualVertex>> Chunks;
+  std::vector<ImageState> States;
+  std::vector<bool> InFront;
+  std::vector<std::size_t> First;
+  std::vector<ImagePoint> Images;
+};
+
+}
+
+#endif

@@ -1,0 +1,351 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// ALL_IMAGES in a pipeline: points, lines and polygons, objects that cross the membrane, caches.
+#include "HeightField.h"
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using meniscus::reference::HeightField;
+
+const double Pi = std::acos(-1.0);
+const HeightField Waves{ HeightField::Shape::Waves, 200.0, 5.0, 0.03 * Pi, 1.0, 1.333 };
+const glm::dvec3 Eye(20.0, 300.0, 10.0);
+
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
+  vtkPolyData* geometry, vtkPolyData* membrane)
+{
+  auto filter = MakeFilter(geometry, membrane);
+  filter->SetMembraneModelToCurved();
+  filter->SetImagesToAllImages();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  return filter;
+}
+
+glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
+{
+  double t[3] = { 0.0, 0.0, 0.0 };
+  array->GetTuple(i, t);
+  return { t[0], t[1], t[2] };
+}
+
+glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
+{
+  return GetTuple(data->GetPoints()->GetData(), i);
+}
+
+// The true position as a point array, so that interpolation can be checked.
+void AddTruth(vtkPolyData* data)
+{
+  vtkNew<vtkDoubleArray> truth;
+  truth->SetName("Truth");
+  truth->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    truth->InsertNextTuple(data->GetPoint(i));
+  }
+  data->GetPointData()->AddArray(truth);
+}
+
+/// A polygon that stands upright at x = 7, from `low` to `high`.
+vtkSmartPointer<vtkPolyData> MakeWall(double low, double high)
+{
+  auto wall = MakePoints(
+    { { 7.0, low, -30.0 }, { 7.0, high, -30.0 }, { 7.0, high, 40.0 }, { 7.0, low, 40.0 } });
+  vtkNew<vtkCellArray> polys;
+  const vtkIdType ids[4] = { 0, 1, 2, 3 };
+  polys->InsertNextCell(4, ids);
+  wall->SetPolys(polys);
+  AddTruth(wall);
+  return wall;
+}
+
+// Area of the true polygons behind the output's polygons with (or without) a sight facet.
+double GetTrueArea(vtkPolyData* output, bool inFront)
+{
+  vtkDataArray* truth = output->GetPointData()->GetArray("Truth");
+  vtkDataArray* facet = output->GetPointData()->GetArray("SightFacet");
+  double area = 0.0;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < output->GetNumberOfPolys(); ++cell)
+  {
+    output->GetPolys()->GetCellAtId(cell, ids);
+    glm::dvec3 sum(0.0);
+    for (vtkIdType k = 2; k < ids->GetNumberOfIds(); ++k)
+    {
+      const glm::dvec3 first = GetTuple(truth, ids->GetId(0));
+      sum += 0.5 *
+        glm::cross(
+          GetTuple(truth, ids->GetId(k - 1)) - first, GetTuple(truth, ids->GetId(k)) - first);
+    }
+    area += (facet->GetTuple1(ids->GetId(0)) < 0.0) == inFront ? glm::length(sum) : 0.0;
+  }
+  return area;
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryImages, VerticesAreOnePerImage)
+{
+  std::vector<Point> positions;
+  for (int i = 0; i < 200; ++i)
+  {
+    positions.push_back({ -70.0 + 0.7 * i, -60.0 - i % 7 * 25.0, -40.0 + i % 13 * 6.0 });
+  }
+  const auto points = MakePoints(positions);
+  vtkNew<vtkCellArray> verts;
+  for (vtkIdType i = 0; i < 200; ++i)
+  {
+    verts->InsertNextCell(1, &i);
+  }
+  points->SetVerts(verts);
+  AddTruth(points);
+  const auto filter = MakeAllImages(points, MakeMembrane(Waves.MakeMesh(64)));
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  vtkPolyData* output = filter->GetOutput();
+  EXPECT_EQ(output->GetNumberOfVerts(), output->GetNumberOfPoints());
+  std::vector<int> images(200, 0);
+  vtkDataArray* source = output->GetPointData()->GetArray("SourcePointId");
+  vtkDataArray* sight = output->GetPointData()->GetArray("SightPoint");
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(source->GetTuple1(i));
+    ++images[static_cast<std::size_t>(id)];
+    EXPECT_EQ(output->GetCellData()->GetArray("SourceCellId")->GetTuple1(i), id);
+    // Eq. 2.4.
+    EXPECT_NEAR(glm::length(GetPoint(output, i) - GetTuple(sight, i)) * 1.333,
+      glm::length(GetPoint(points, id) - GetTuple(sight, i)), 1e-9);
+  }
+  int several = 0;
+  int without = 0;
+  for (std::size_t i = 0; i < 200; ++i)
+  {
+    const glm::dvec3 p = GetPoint(points, static_cast<vtkIdType>(i));
+    const auto exact = Waves.FindSightPoints(Eye, p);
+    several += images[i] > 1;
+    without += images[i] == 0;
+    // A pair more or less near a caustic.
+    EXPECT_LE(std::abs(images[i] - static_cast<int>(exact.size())), 2) << i;
+  }
+  EXPECT_GT(several, 10);
+  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), without);
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 200);
+}
+
+//------------------------------------------------------------------------------
+// Behind a flat membrane every point has one image: the pieces of a tile cover it once.
+TEST(RefractedGeometryImages, PiecesCoverThePolygonOnce)
+{
+  const auto wall = MakeWall(-80.0, -20.0);
+  const auto filter = MakeAllImages(wall, MakeFlatMembrane());
+  const glm::dvec3 eye(150.0, 60.0, 10.0);
+  filter->SetEyePosition(eye.x, eye.y, eye.z);
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  EXPECT_GT(output->GetNumberOfPolys(), 10);
+  EXPECT_NEAR(GetTrueArea(output, false), 60.0 * 70.0, 1e-8);
+  vtkDataArray* truth = output->GetPointData()->GetArray("Truth");
+  vtkDataArray* sight = output->GetPointData()->GetArray("SightPoint");
+  vtkDataArray* depth = output->GetPointData()->GetArray("RefractionDepth");
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    // The made point is on the polygon, its sight point looks at it.
+    const glm::dvec3 t = GetTuple(truth, i);
+    EXPECT_NEAR(glm::length(t - GetTuple(sight, i)), depth->GetTuple1(i), 1e-9);
+    const glm::dvec3 a = glm::normalize(GetTuple(sight, i) - eye);
+    const glm::dvec3 b = glm::normalize(t - GetTuple(sight, i));
+    EXPECT_NEAR(a.x, 1.333 * b.x, 1e-7);
+    EXPECT_NEAR(a.z, 1.333 * b.z, 1e-7);
+  }
+  for (vtkIdType i = 0; i < output->GetNumberOfCells(); ++i)
+  {
+    EXPECT_EQ(output->GetCellData()->GetArray("ImageOrientation")->GetTuple1(i), 1.0);
+    EXPECT_EQ(output->GetCellData()->GetArray("SourceCellId")->GetTuple1(i), 0.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryImages, SimpleCellsPassWhole)
+{
+  const auto grid = MakeGrid(9, 20.0, -50.0);
+  const auto filter = MakeAllImages(grid, MakeFlatMembrane());
+  filter->SetAngularTolerance(1.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 64);
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Rank")->GetTuple1(40), 40.0);
+}
+
+//------------------------------------------------------------------------------
+// The part in front stays where it is, the part behind is refracted, nothing is lost or doubled.
+TEST(RefractedGeometryImages, PolygonsAreCutWhereTheyCrossAFlatMembrane)
+{
+  const auto filter = MakeAllImages(MakeWall(-25.0, 15.0), MakeFlatMembrane());
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  EXPECT_NEAR(GetTrueArea(output, true), 15.0 * 70.0, 1e-8);
+  EXPECT_NEAR(GetTrueArea(output, false), 25.0 * 70.0, 1e-8);
+  vtkDataArray* truth = output->GetPointData()->GetArray("Truth");
+  vtkDataArray* facet = output->GetPointData()->GetArray("SightFacet");
+  int crossing = 0;
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const glm::dvec3 t = GetTuple(truth, i);
+    if (facet->GetTuple1(i) < 0.0)
+    {
+      EXPECT_GE(t.y, -1e-9);
+      EXPECT_LT(glm::length(GetPoint(output, i) - t), 1e-9);
+    }
+    else
+    {
+      EXPECT_LE(t.y, 1e-9);
+    }
+    crossing += std::fabs(t.y) < 1e-9;
+  }
+  EXPECT_GT(crossing, 10);
+}
+
+TEST(RefractedGeometryImages, PolygonsAreCutWhereTheyCrossWaves)
+{
+  const auto filter = MakeAllImages(MakeWall(-8.0, 15.0), MakeMembrane(Waves.MakeMesh(96)));
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  double exact = 0.0; // area of the wall above the waves
+  constexpr int steps = 7000;
+  for (int i = 0; i < steps; ++i)
+  {
+    exact += (15.0 - Waves.GetHeight(7.0, -30.0 + 70.0 * (i + 0.5) / steps)) * 70.0 / steps;
+  }
+  // Straight cuts over facets of 2 units: sagitta 2^2 / 8 times a curvature of 0.04.
+  EXPECT_NEAR(GetTrueArea(output, true), exact, 0.02 * 70.0);
+  vtkDataArray* truth = output->GetPointData()->GetArray("Truth");
+  vtkDataArray* facet = output->GetPointData()->GetArray("SightFacet");
+  int wrong = 0;
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const glm::dvec3 t = GetTuple(truth, i);
+    const double height = t.y - Waves.GetHeight(t.x, t.z);
+    if (facet->GetTuple1(i) < 0.0)
+    {
+      EXPECT_GE(height, -0.01) << i;
+    }
+    // A ray that leaves through the membrane again sees up to the crest of the waves; what it sees
+    // in front is dropped piece by piece.
+    wrong += facet->GetTuple1(i) >= 0.0 && height > 0.1;
+  }
+  EXPECT_LT(wrong, output->GetNumberOfPoints() / 50);
+}
+
+TEST(RefractedGeometryImages, ObjectsInFrontPassUnchanged)
+{
+  const auto grid = MakeGrid(5, 40.0, 30.0);
+  const auto filter = MakeAllImages(grid, MakeMembrane(Waves.MakeMesh(32)));
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), 25);
+  EXPECT_EQ(output->GetNumberOfPolys(), 16);
+  for (vtkIdType i = 0; i < 25; ++i)
+  {
+    EXPECT_EQ(GetPoint(output, i), GetPoint(grid, i));
+    EXPECT_EQ(output->GetPointData()->GetArray("RefractionDepth")->GetTuple1(i), 0.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryImages, LinesAreDividedAndCut)
+{
+  const auto line = MakePoints({ { -40.0, -60.0, 5.0 }, { 30.0, 20.0, 8.0 } });
+  vtkNew<vtkCellArray> lines;
+  const vtkIdType ids[2] = { 0, 1 };
+  lines->InsertNextCell(2, ids);
+  line->SetLines(lines);
+  AddTruth(line);
+  const auto filter = MakeAllImages(line, MakeFlatMembrane());
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  double behind = 0.0;
+  double front = 0.0;
+  vtkDataArray* truth = output->GetPointData()->GetArray("Truth");
+  vtkDataArray* facet = output->GetPointData()->GetArray("SightFacet");
+  vtkNew<vtkIdList> points;
+  for (vtkIdType i = 0; i < output->GetNumberOfLines(); ++i)
+  {
+    output->GetLines()->GetCellAtId(i, points);
+    ASSERT_EQ(points->GetNumberOfIds(), 2);
+    const double length =
+      glm::length(GetTuple(truth, points->GetId(1)) - GetTuple(truth, points->GetId(0)));
+    (facet->GetTuple1(points->GetId(0)) < 0.0 ? front : behind) += length;
+  }
+  const double whole = glm::length(glm::dvec3(70.0, 80.0, 3.0));
+  EXPECT_NEAR(behind, 0.75 * whole, 1e-8);
+  EXPECT_NEAR(front, 0.25 * whole, 1e-8);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryImages, NothingIsComputedAgainWithoutNeed)
+{
+  const auto grid = MakeGrid(9, 80.0, -100.0);
+  const auto filter = MakeAllImages(grid, MakeMembrane(Waves.MakeMesh(32)));
+  filter->Update();
+  const auto expect = [&filter](vtkTypeInt64 patches, vtkTypeInt64 eyes, vtkTypeInt64 vertices)
+  {
+    filter->Update();
+    EXPECT_EQ(filter->GetNumberOfPatchBuilds(), patches);
+    EXPECT_EQ(filter->GetNumberOfEyeUpdates(), eyes);
+    EXPECT_EQ(filter->GetNumberOfSolvedVertices(), vertices);
+  };
+  expect(1, 1, 81);
+  vtkNew<vtkFloatArray> colour;
+  colour->SetName("Colour");
+  colour->SetNumberOfTuples(81);
+  colour->Fill(0.5);
+  grid->GetPointData()->AddArray(colour);
+  expect(1, 1, 81);
+  EXPECT_NE(filter->GetOutput()->GetPointData()->GetArray("Colour"), nullptr);
+  const vtkIdType cells = filter->GetOutput()->GetNumberOfCells();
+  filter->SetAngularTolerance(1.0);
+  expect(1, 1, 81); // cells only
+  EXPECT_LT(filter->GetOutput()->GetNumberOfCells(), cells);
+  grid->GetPolys()->Reset();
+  grid->GetCellData()->Initialize();
+  grid->Modified();
+  expect(1, 1, 81);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  filter->SetEyePosition(0.0, 250.0, 0.0);
+  expect(1, 2, 162);
+  filter->SetImagesToFirstImage();
+  expect(1, 2, 243);
+  filter->SetImagesToAllImages();
+  expect(1, 2, 324);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryImages, EyeFromBehindSeesNothingBehind)
+{
+  const auto filter = MakeAllImages(MakeGrid(5, 40.0, -30.0), MakeFlatMembrane());
+  filter->SetEyePosition(0.0, -100.0, 0.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 25);
+  EXPECT_EQ(filter->GetNumberOfSkippedCells(), 16);
+}
+
+}
