@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeInput.h"
 
+#include "Volume/BlockLoop.h"
+
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkCellTypes.h"
@@ -31,6 +34,33 @@ void ThreadedLoop(std::size_t count, const RangeBody& body)
     { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
 }
 
+/** The range of the finite values among some, and how many others there are. */
+struct ValueRange
+{
+  double Lowest = std::numeric_limits<double>::infinity();
+  double Highest = -std::numeric_limits<double>::infinity();
+  std::int64_t NotFinite = 0;
+
+  void Add(double value)
+  {
+    if (std::isfinite(value))
+    {
+      this->Lowest = std::min(this->Lowest, value);
+      this->Highest = std::max(this->Highest, value);
+    }
+    else
+    {
+      ++this->NotFinite;
+    }
+  }
+  void Add(const ValueRange& other)
+  {
+    this->Lowest = std::min(this->Lowest, other.Lowest);
+    this->Highest = std::max(this->Highest, other.Highest);
+    this->NotFinite += other.NotFinite;
+  }
+};
+
 /** Cell types other than tetrahedra with their numbers, as text; empty if there are none. */
 std::string DescribeOtherCells(vtkUnstructuredGrid* grid)
 {
@@ -52,35 +82,77 @@ std::string DescribeOtherCells(vtkUnstructuredGrid* grid)
   return text.str();
 }
 
-/** Points and tetrahedra of a grid as plain arrays. */
-struct GridArrays
+/** Points and tetrahedra of a grid where they are stored; copied only if stored otherwise. */
+class GridView
 {
-  std::vector<double> Points;
-  std::vector<std::int64_t> Cells;
-
-  explicit GridArrays(vtkUnstructuredGrid* grid)
-    : Points(3 * static_cast<std::size_t>(grid->GetNumberOfPoints()))
+public:
+  explicit GridView(vtkUnstructuredGrid* grid)
   {
-    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    this->View.NumberOfPoints = grid->GetNumberOfPoints();
+    this->View.NumberOfCells = grid->GetNumberOfCells();
+    this->ViewPoints(grid->GetPoints()->GetData());
+    this->ViewCells(grid->GetCells()->GetConnectivityArray());
+    if (vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray())
     {
-      grid->GetPoint(p, this->Points.data() + 3 * p);
-    }
-    vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-    const unsigned char leftOut =
-      vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
-    this->Cells.reserve(4 * static_cast<std::size_t>(grid->GetNumberOfCells()));
-    for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-    {
-      if (ghosts && (ghosts->GetValue(c) & leftOut))
-      {
-        continue;
-      }
-      vtkIdType size = 0;
-      const vtkIdType* ids = nullptr;
-      grid->GetCells()->GetCellAtId(c, size, ids);
-      this->Cells.insert(this->Cells.end(), ids, ids + 4);
+      this->View.CellFlags = ghosts->GetPointer(0);
+      this->View.LeftOutBits =
+        vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
     }
   }
+
+  TetrahedraView View;
+
+private:
+  void ViewPoints(vtkDataArray* points)
+  {
+    if (auto* doubles = vtkAOSDataArrayTemplate<double>::FastDownCast(points))
+    {
+      this->View.Points = doubles->GetPointer(0);
+    }
+    else if (auto* floats = vtkAOSDataArrayTemplate<float>::FastDownCast(points))
+    {
+      this->View.FloatPoints = floats->GetPointer(0);
+    }
+    else
+    {
+      this->Points = CopyValues<double>(points);
+      this->View.Points = this->Points.data();
+    }
+  }
+
+  void ViewCells(vtkDataArray* ids)
+  {
+    if (auto* longs = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
+    {
+      // VTK's 64-bit integer and the standard's may have two names.
+      static_assert(sizeof(vtkTypeInt64) == sizeof(std::int64_t), "both have 64 bits");
+      this->View.Cells = reinterpret_cast<const std::int64_t*>(longs->GetPointer(0));
+    }
+    else if (auto* ints = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
+    {
+      this->View.ShortCells = ints->GetPointer(0);
+    }
+    else
+    {
+      this->Ids = CopyValues<std::int64_t>(ids);
+      this->View.Cells = this->Ids.data();
+    }
+  }
+
+  template <typename T>
+  static std::vector<T> CopyValues(vtkDataArray* array)
+  {
+    const int components = array->GetNumberOfComponents();
+    std::vector<T> values(components * array->GetNumberOfTuples());
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      values[i] = static_cast<T>(array->GetComponent(i / components, i % components));
+    }
+    return values;
+  }
+
+  std::vector<double> Points;
+  std::vector<std::int64_t> Ids;
 };
 
 }
@@ -100,7 +172,8 @@ bool VolumeInput::MeshVersion::operator==(const MeshVersion& other) const
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::UpdateMesh(vtkUnstructuredGrid* grid)
+InputReport VolumeInput::UpdateMesh(
+  vtkUnstructuredGrid* grid, const std::function<bool(double)>& progress)
 {
   InputReport report;
   MeshVersion version;
@@ -122,11 +195,14 @@ InputReport VolumeInput::UpdateMesh(vtkUnstructuredGrid* grid)
     report.Error = text.str();
     return report;
   }
-  const GridArrays arrays(grid);
-  const TetrahedraView view{ arrays.Points.data(), grid->GetNumberOfPoints(), arrays.Cells.data(),
-    static_cast<std::int64_t>(arrays.Cells.size() / 4) };
-  const MeshStatus status = this->Mesh.Build(view);
-  this->BuiltMesh = version;
+  const GridView gridView(grid);
+  const TetrahedraView& view = gridView.View;
+  MeshBuildControl control;
+  control.Loop = ThreadedLoop;
+  control.Progress = progress;
+  const MeshStatus status = this->Mesh.Build(view, control);
+  // What was aborted is begun again at the next call.
+  this->BuiltMesh = status == MeshStatus::Aborted ? MeshVersion() : version;
   this->BuiltScalars = ObjectVersion();
   this->ActiveSetStale = true;
   ++this->MeshBuilds;
@@ -162,38 +238,47 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars)
   {
     return report;
   }
-  const std::vector<std::int64_t>& points = this->Mesh.GetSourcePoints();
+  const std::vector<std::int32_t>& points = this->Mesh.GetSourcePoints();
   std::vector<double> values(points.size());
-  double minimum = std::numeric_limits<double>::infinity();
-  double maximum = -minimum;
-  vtkTypeInt64 notFinite = 0;
-  for (std::size_t v = 0; v < points.size(); ++v)
+  std::vector<ValueRange> ranges(NumberOfBlocks(values.size()));
+  ForEachBlock(values.size(), ThreadedLoop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      ValueRange range;
+      for (std::size_t v = first; v < last; ++v)
+      {
+        values[v] = scalars->GetComponent(points[v], 0);
+        range.Add(values[v]);
+      }
+      ranges[block] = range;
+    });
+  ValueRange range;
+  for (const ValueRange& part : ranges)
   {
-    values[v] = scalars->GetComponent(points[v], 0);
-    if (std::isfinite(values[v]))
-    {
-      minimum = std::min(minimum, values[v]);
-      maximum = std::max(maximum, values[v]);
-    }
-    else
-    {
-      values[v] = std::numeric_limits<double>::quiet_NaN();
-      ++notFinite;
-    }
+    range.Add(part);
   }
+  const std::int64_t notFinite = range.NotFinite;
   if (notFinite > 0)
   {
     report.Warning = std::to_string(notFinite) + " of " + std::to_string(values.size()) +
       " scalars are not finite; cells that use them are transparent.";
   }
 
-  this->Normalization = notFinite == static_cast<vtkTypeInt64>(values.size())
+  this->Normalization = notFinite == static_cast<std::int64_t>(values.size())
     ? ScalarNormalization()
-    : NormalizeRange(minimum, maximum);
+    : NormalizeRange(range.Lowest, range.Highest);
   this->Scalars.resize(values.size());
-  const ScalarNormalization& n = this->Normalization;
-  std::transform(values.begin(), values.end(), this->Scalars.begin(),
-    [&n](double value) { return static_cast<float>((value - n.Offset) * n.Scale); });
+  ForEachBlock(values.size(), ThreadedLoop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      const ScalarNormalization& n = this->Normalization;
+      for (std::size_t v = first; v < last; ++v)
+      {
+        this->Scalars[v] = std::isfinite(values[v])
+          ? static_cast<float>((values[v] - n.Offset) * n.Scale)
+          : std::numeric_limits<float>::quiet_NaN();
+      }
+    });
   this->BuiltScalars = version;
   this->ActiveSetStale = true;
   ++this->ScalarUpdates;

@@ -11,6 +11,7 @@
 #include "vtkType.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,8 +52,11 @@ struct InputReport
 class VolumeInput
 {
 public:
-  /** The mesh of a grid. Another grid that shares its points and cells is the same mesh. */
-  InputReport UpdateMesh(vtkUnstructuredGrid* grid);
+  /**
+   * The mesh of a grid. Another grid that shares its points and cells is the same mesh.
+   * @param progress  told the fraction done; false aborts, which leaves no mesh and no report.
+   */
+  InputReport UpdateMesh(vtkUnstructuredGrid* grid, const std::function<bool(double)>& progress);
 
   /** The scalars of that mesh: one component, one value for each point. */
   InputReport UpdateScalars(vtkDataArray* scalars);

@@ -275,7 +275,8 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::UpdateInput(vtkUnstructuredGrid* grid, vtkDataArray* scalars)
+bool vtkTetrahedraRayCastMapper::UpdateInput(
+  vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars)
 {
   meniscus::VolumeInput& input = this->Internals->Input;
   const auto tell = [this](const meniscus::InputReport& report)
@@ -290,7 +291,13 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(vtkUnstructuredGrid* grid, vtkDataA
     }
     return report.Error.empty();
   };
-  return tell(input.UpdateMesh(grid)) && input.GetMesh().GetNumberOfCells() > 0 &&
+  this->SetAbortExecute(0);
+  const auto goOn = [this, window](double fraction)
+  {
+    this->UpdateProgress(fraction);
+    return !this->GetAbortExecute() && !window->CheckAbortStatus();
+  };
+  return tell(input.UpdateMesh(grid, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
     tell(input.UpdateScalars(scalars));
 }
 
@@ -430,7 +437,7 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
     return;
   }
   vtkDataArray* scalars = this->ValidateScalars(grid);
-  if (!scalars || !this->UpdateInput(grid, scalars))
+  if (!scalars || !this->UpdateInput(renderer->GetRenderWindow(), grid, scalars))
   {
     return;
   }

@@ -77,6 +77,7 @@
 #include <string> // For std::string
 
 class vtkDataArray;
+class vtkRenderWindow;
 class vtkUnstructuredGrid;
 
 namespace meniscus
@@ -241,8 +242,10 @@ public:
 
   /**
    * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, the
-   * prop's id wherever the volume is visible. Input that cannot be drawn gives an
-   * error and leaves the picture as it is.
+   * prop's id wherever the volume is visible. Input that cannot be drawn gives an error and leaves
+   * the picture as it is. While a mesh's tables are built, ProgressEvent is invoked;
+   * AbortExecuteOn(), called by an observer, or the window's abort status ends that. Then nothing is
+   * drawn, and the next call begins again.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
@@ -261,7 +264,7 @@ private:
   vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
-  bool UpdateInput(vtkUnstructuredGrid* grid, vtkDataArray* scalars);
+  bool UpdateInput(vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
   int ChooseBackend(bool plainOptics);

@@ -3,8 +3,6 @@
 #include "Volume/MortonOrder.h"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 
 namespace meniscus
 {
@@ -13,8 +11,10 @@ namespace
 
 constexpr int BitsPerAxis = 10;
 constexpr double CellsPerAxis = 1 << BitsPerAxis;
-constexpr int RadixBits = 15;
-constexpr std::uint32_t RadixSize = 1u << RadixBits;
+constexpr int RadixBits = 10;
+constexpr std::size_t RadixSize = std::size_t{ 1 } << RadixBits;
+/** Keys that one histogram is made of; many times RadixSize, so that histograms are cheap. */
+constexpr std::size_t Chunk = 32768;
 
 /** Spreads the 10 low bits so that two zeros follow each. */
 std::uint32_t SpreadBits(std::uint32_t v)
@@ -25,20 +25,45 @@ std::uint32_t SpreadBits(std::uint32_t v)
   return (v | (v << 2)) & 0x09249249u;
 }
 
-/** One stable counting pass on the digit at `shift`. */
-void RadixPass(const std::vector<std::uint32_t>& codes, int shift,
-  const std::vector<std::int64_t>& from, std::vector<std::int64_t>& to)
+std::size_t Digit(MortonKey key, int shift)
 {
-  std::vector<std::int64_t> first(RadixSize + 1, 0);
-  for (const std::uint32_t code : codes)
+  return (key >> shift) & (RadixSize - 1);
+}
+
+/** One stable counting pass on the digit at `shift`. */
+void RadixPass(const std::vector<MortonKey>& from, int shift, const RangeLoop& loop,
+  std::vector<std::size_t>& starts, std::vector<MortonKey>& to)
+{
+  const std::size_t chunks = (from.size() + Chunk - 1) / Chunk;
+  starts.assign(chunks * RadixSize, 0);
+  const auto forEachKey = [&](std::size_t first, std::size_t last, auto&& body)
   {
-    ++first[((code >> shift) & (RadixSize - 1)) + 1];
-  }
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  for (const std::int64_t index : from)
+    for (std::size_t chunk = first; chunk < last; ++chunk)
+    {
+      std::size_t* const ofChunk = starts.data() + chunk * RadixSize;
+      const std::size_t end = std::min(from.size(), (chunk + 1) * Chunk);
+      for (std::size_t i = chunk * Chunk; i < end; ++i)
+      {
+        body(ofChunk[Digit(from[i], shift)], from[i]);
+      }
+    }
+  };
+  loop(chunks,
+    [&](std::size_t first, std::size_t last)
+    { forEachKey(first, last, [](std::size_t& count, MortonKey) { ++count; }); });
+  std::size_t next = 0;
+  for (std::size_t digit = 0; digit < RadixSize; ++digit)
   {
-    to[first[(codes[index] >> shift) & (RadixSize - 1)]++] = index;
+    for (std::size_t chunk = 0; chunk < chunks; ++chunk)
+    {
+      const std::size_t count = starts[chunk * RadixSize + digit];
+      starts[chunk * RadixSize + digit] = next;
+      next += count;
+    }
   }
+  loop(chunks,
+    [&](std::size_t first, std::size_t last)
+    { forEachKey(first, last, [&to](std::size_t& at, MortonKey key) { to[at++] = key; }); });
 }
 
 }
@@ -68,14 +93,15 @@ std::uint32_t MortonCurve::Code(const glm::dvec3& position) const
 }
 
 //------------------------------------------------------------------------------
-std::vector<std::int64_t> SortedOrder(const std::vector<std::uint32_t>& codes)
+void SortByCode(std::vector<MortonKey>& keys, const RangeLoop& loop)
 {
-  std::vector<std::int64_t> order(codes.size());
-  std::vector<std::int64_t> scratch(codes.size());
-  std::iota(order.begin(), order.end(), std::int64_t{ 0 });
-  RadixPass(codes, 0, order, scratch);
-  RadixPass(codes, RadixBits, scratch, order);
-  return order;
+  std::vector<MortonKey> scratch(keys.size());
+  std::vector<std::size_t> starts;
+  for (int shift = 32; shift < 62; shift += RadixBits)
+  {
+    RadixPass(keys, shift, loop, starts, scratch);
+    keys.swap(scratch);
+  }
 }
 
 }

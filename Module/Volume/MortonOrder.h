@@ -3,8 +3,11 @@
 #ifndef meniscus_Volume_MortonOrder_h
 #define meniscus_Volume_MortonOrder_h
 
+#include "Refraction/RangeLoop.h"
+
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -25,8 +28,21 @@ private:
   glm::dvec3 Scale;
 };
 
-/** The permutation that sorts `codes` (at most 30 bits used) in ascending order, stably. */
-std::vector<std::int64_t> SortedOrder(const std::vector<std::uint32_t>& codes);
+/** A Morton code in the upper and an index in the lower 32 bits. */
+using MortonKey = std::uint64_t;
+
+inline MortonKey MakeMortonKey(std::uint32_t code, std::size_t index)
+{
+  return (MortonKey{ code } << 32) | static_cast<std::uint32_t>(index);
+}
+
+inline std::size_t IndexOf(MortonKey key)
+{
+  return static_cast<std::uint32_t>(key);
+}
+
+/** Sorts keys by their codes (30 bits), stably. */
+void SortByCode(std::vector<MortonKey>& keys, const RangeLoop& loop = SerialLoop);
 
 }
 

@@ -3,24 +3,36 @@
 #include "Volume/TetrahedralMesh.h"
 
 #include "Volume/BlockLoop.h"
+#include "Volume/CellFaces.h"
 #include "Volume/MortonOrder.h"
 #include "Volume/VisibleScalars.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <numeric>
+#include <utility>
 
 namespace meniscus
 {
 namespace
 {
 
-glm::dvec3 PointAt(const TetrahedraView& input, std::int64_t index)
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+glm::dvec3 PointAt(const TetrahedraView& input, std::size_t index)
 {
+  if (input.FloatPoints)
+  {
+    const float* p = input.FloatPoints + 3 * index;
+    return { p[0], p[1], p[2] };
+  }
   const double* p = input.Points + 3 * index;
   return { p[0], p[1], p[2] };
 }
@@ -30,47 +42,6 @@ bool IsFinite(const glm::dvec3& p)
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/** The three vertices of a cell other than number `face`, still ascending. */
-std::array<std::int32_t, 3> FaceVertices(const TetrahedralMesh::Cell& cell, int face)
-{
-  std::array<std::int32_t, 3> vertices{};
-  for (int i = 0, n = 0; i < 4; ++i)
-  {
-    if (i != face)
-    {
-      vertices[n++] = cell.Vertices[i];
-    }
-  }
-  return vertices;
-}
-
-/**
- * Orientation of the ascending face opposite to vertex `face`, relative to the cell's: with the
- * cell's vertices positively oriented, the face's normal points out for face 0 and 2.
- */
-int FaceParity(int face)
-{
-  return face % 2 == 0 ? 1 : -1;
-}
-
-/** Six times the signed volume of the ascending vertices. */
-double SixfoldVolume(const TetrahedralMesh::Cell& cell, const std::vector<glm::vec3>& positions)
-{
-  const glm::dvec3 origin(positions[cell.Vertices[0]]);
-  const glm::dvec3 a = glm::dvec3(positions[cell.Vertices[1]]) - origin;
-  const glm::dvec3 b = glm::dvec3(positions[cell.Vertices[2]]) - origin;
-  const glm::dvec3 c = glm::dvec3(positions[cell.Vertices[3]]) - origin;
-  return glm::dot(glm::cross(a, b), c);
-}
-
-/** A face filed under its lowest vertex. */
-struct FiledFace
-{
-  std::int32_t Middle;
-  std::int32_t Highest;
-  std::int32_t CellFace;
-};
-
 /** What a block of cells adds to the sums over all. */
 struct BlockCount
 {
@@ -78,40 +49,59 @@ struct BlockCount
   std::int64_t Changed = 0;
 };
 
-/** All faces, grouped by lowest vertex: First[v] is where the group of vertex v begins. */
-struct FaceFile
+/** Turns the counts of blocks into where each block's part starts; returns the sum. */
+std::size_t CountsToStarts(std::vector<std::size_t>& counts)
 {
-  std::vector<std::int64_t> First;
-  std::vector<FiledFace> Faces;
+  std::size_t next = 0;
+  for (std::size_t& count : counts)
+  {
+    next += std::exchange(count, next);
+  }
+  return next;
+}
+
+}
+
+/** The tables that only building needs. */
+class TetrahedralMesh::Builder
+{
+public:
+  Builder(TetrahedralMesh& mesh, const TetrahedraView& input, const RangeLoop& loop)
+    : Mesh(mesh)
+    , Input(input)
+    , Loop(loop)
+    , Corners(new Quad[input.NumberOfCells])
+    , CellStarts(NumberOfBlocks(input.NumberOfCells))
+    , Used(new std::atomic<std::uint8_t>[input.NumberOfPoints])
+  {
+  }
+
+  bool HasCells() const { return this->NumberOfCells > 0; }
+
+  void ValidateCells();
+  void NumberVertices();
+  void NumberCells();
+
+private:
+  using Quad = std::array<std::int32_t, 4>;
+
+  template <typename Id>
+  void ReadBlock(const Id* cells, std::size_t first, std::size_t last, RejectedCells& rejected,
+    std::size_t& accepted);
+  std::vector<MortonKey> KeysOfUsedPoints();
+
+  TetrahedralMesh& Mesh;
+  const TetrahedraView& Input;
+  const RangeLoop& Loop;
+  /** Per input cell: its points, then its vertices in ascending order; -1 first if rejected. */
+  std::unique_ptr<Quad[]> Corners;
+  /** Per block of input cells: how many are accepted in the blocks before it. */
+  std::vector<std::size_t> CellStarts;
+  std::size_t NumberOfCells = 0;
+  std::vector<std::uint8_t> Finite;
+  std::unique_ptr<std::atomic<std::uint8_t>[]> Used;
+  std::vector<std::int32_t> VertexOfPoint;
 };
-
-FaceFile FileFaces(const std::vector<TetrahedralMesh::Cell>& cells, std::size_t numberOfVertices)
-{
-  FaceFile file;
-  file.First.assign(numberOfVertices + 2, 0);
-  for (const auto& cell : cells)
-  {
-    // Three faces contain the cell's lowest vertex; the fourth begins with the second lowest.
-    file.First[cell.Vertices[0] + 2] += 3;
-    file.First[cell.Vertices[1] + 2] += 1;
-  }
-  for (std::size_t v = 2; v < file.First.size(); ++v)
-  {
-    file.First[v] += file.First[v - 1];
-  }
-  file.Faces.resize(4 * cells.size());
-  for (std::size_t c = 0; c < cells.size(); ++c)
-  {
-    for (int face = 0; face < 4; ++face)
-    {
-      const auto v = FaceVertices(cells[c], face);
-      file.Faces[file.First[v[0] + 1]++] = { v[1], v[2], static_cast<std::int32_t>(4 * c + face) };
-    }
-  }
-  return file;
-}
-
-}
 
 //------------------------------------------------------------------------------
 void TetrahedralMesh::Clear()
@@ -120,7 +110,7 @@ void TetrahedralMesh::Clear()
 }
 
 //------------------------------------------------------------------------------
-MeshStatus TetrahedralMesh::Build(const TetrahedraView& input)
+MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildControl& control)
 {
   this->Clear();
   // A vertex index is 31 bits, and so is a link.
@@ -129,219 +119,253 @@ MeshStatus TetrahedralMesh::Build(const TetrahedraView& input)
   {
     return MeshStatus::TooLarge;
   }
-  this->ValidateCells(input);
-  if (this->SourceCells.empty())
+  const auto goesOn = [this, &control](double fraction)
+  {
+    const bool on = !control.Progress || control.Progress(fraction);
+    if (!on)
+    {
+      this->Clear();
+    }
+    return on;
+  };
+  auto builder = std::make_unique<Builder>(*this, input, control.Loop);
+  builder->ValidateCells();
+  if (!builder->HasCells())
   {
     return MeshStatus::Empty;
   }
-  this->NumberVertices(input);
-  this->NumberCells(input);
-  this->LinkCells();
-  this->OrientCells();
+  // Fractions of the time, as measured for meshes of 200 thousand cells.
+  if (!goesOn(0.1))
+  {
+    return MeshStatus::Aborted;
+  }
+  builder->NumberVertices();
+  if (!goesOn(0.2))
+  {
+    return MeshStatus::Aborted;
+  }
+  builder->NumberCells();
+  builder.reset();
+  if (!goesOn(0.5))
+  {
+    return MeshStatus::Aborted;
+  }
+  this->LinkCells(control.Loop);
+  if (!goesOn(0.8))
+  {
+    return MeshStatus::Aborted;
+  }
+  this->OrientCells(control.Loop);
   this->ActiveCells = this->GetNumberOfCells();
-  this->CollectBoundary(SerialLoop);
+  this->CollectBoundary(control.Loop);
   return MeshStatus::Ok;
 }
 
 //------------------------------------------------------------------------------
-void TetrahedralMesh::ValidateCells(const TetrahedraView& input)
+void TetrahedralMesh::Builder::ValidateCells()
 {
-  this->SourceCells.reserve(input.NumberOfCells);
-  for (std::int64_t c = 0; c < input.NumberOfCells; ++c)
+  const auto numberOfPoints = static_cast<std::size_t>(this->Input.NumberOfPoints);
+  this->Finite.resize(numberOfPoints);
+  ForEachBlock(numberOfPoints, this->Loop,
+    [this](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t p = first; p < last; ++p)
+      {
+        this->Finite[p] = IsFinite(PointAt(this->Input, p));
+        this->Used[p].store(0, std::memory_order_relaxed);
+      }
+    });
+  std::vector<RejectedCells> rejected(this->CellStarts.size());
+  ForEachBlock(this->Input.NumberOfCells, this->Loop,
+    [this, &rejected](std::size_t block, std::size_t first, std::size_t last)
+    {
+      if (this->Input.ShortCells)
+      {
+        this->ReadBlock(
+          this->Input.ShortCells, first, last, rejected[block], this->CellStarts[block]);
+      }
+      else
+      {
+        this->ReadBlock(this->Input.Cells, first, last, rejected[block], this->CellStarts[block]);
+      }
+    });
+  for (const RejectedCells& part : rejected)
   {
-    const std::int64_t* ids = input.Cells + 4 * c;
-    const auto inRange = [&input](std::int64_t id) { return id >= 0 && id < input.NumberOfPoints; };
-    if (!std::all_of(ids, ids + 4, inRange))
+    this->Mesh.Rejected.IndexOutOfRange += part.IndexOutOfRange;
+    this->Mesh.Rejected.RepeatedVertex += part.RepeatedVertex;
+    this->Mesh.Rejected.PointNotFinite += part.PointNotFinite;
+  }
+  this->NumberOfCells = CountsToStarts(this->CellStarts);
+}
+
+//------------------------------------------------------------------------------
+template <typename Id>
+void TetrahedralMesh::Builder::ReadBlock(const Id* cells, std::size_t first, std::size_t last,
+  RejectedCells& rejected, std::size_t& accepted)
+{
+  const std::uint8_t* flags = this->Input.CellFlags;
+  for (std::size_t c = first; c < last; ++c)
+  {
+    const Id* ids = cells + 4 * c;
+    Quad& corners = this->Corners[c];
+    corners[0] = -1;
+    if (flags && (flags[c] & this->Input.LeftOutBits))
     {
-      ++this->Rejected.IndexOutOfRange;
       continue;
     }
-    std::array<std::int64_t, 4> sorted{ ids[0], ids[1], ids[2], ids[3] };
-    std::sort(sorted.begin(), sorted.end());
-    if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    const auto inRange = [this](Id id) { return id >= 0 && id < this->Input.NumberOfPoints; };
+    if (!(inRange(ids[0]) && inRange(ids[1]) && inRange(ids[2]) && inRange(ids[3])))
     {
-      ++this->Rejected.RepeatedVertex;
-      continue;
+      ++rejected.IndexOutOfRange;
     }
-    const auto finite = [&input](std::int64_t id) { return IsFinite(PointAt(input, id)); };
-    if (!std::all_of(ids, ids + 4, finite))
+    else if (ids[0] == ids[1] || ids[0] == ids[2] || ids[0] == ids[3] || ids[1] == ids[2] ||
+      ids[1] == ids[3] || ids[2] == ids[3])
     {
-      ++this->Rejected.PointNotFinite;
-      continue;
+      ++rejected.RepeatedVertex;
     }
-    this->SourceCells.push_back(c);
+    else if (!(this->Finite[ids[0]] && this->Finite[ids[1]] && this->Finite[ids[2]] &&
+               this->Finite[ids[3]]))
+    {
+      ++rejected.PointNotFinite;
+    }
+    else
+    {
+      for (int i = 0; i < 4; ++i)
+      {
+        corners[i] = static_cast<std::int32_t>(ids[i]);
+        // Reading first leaves the cache lines of points that are used already to all threads.
+        if (!this->Used[ids[i]].load(std::memory_order_relaxed))
+        {
+          this->Used[ids[i]].store(1, std::memory_order_relaxed);
+        }
+      }
+      ++accepted;
+    }
   }
 }
 
 //------------------------------------------------------------------------------
-void TetrahedralMesh::NumberVertices(const TetrahedraView& input)
+std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
 {
-  std::vector<std::uint8_t> used(input.NumberOfPoints, 0);
-  for (const std::int64_t c : this->SourceCells)
+  struct Part
   {
-    for (int i = 0; i < 4; ++i)
+    glm::dvec3 Lower{ Infinity };
+    glm::dvec3 Upper{ -Infinity };
+  };
+  const auto numberOfPoints = static_cast<std::size_t>(this->Input.NumberOfPoints);
+  std::vector<Part> parts(NumberOfBlocks(numberOfPoints));
+  std::vector<std::size_t> starts(parts.size());
+  ForEachBlock(numberOfPoints, this->Loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
     {
-      used[input.Cells[4 * c + i]] = 1;
-    }
-  }
-  std::vector<std::int64_t> points;
-  glm::dvec3 lower(std::numeric_limits<double>::infinity());
-  glm::dvec3 upper(-std::numeric_limits<double>::infinity());
-  for (std::int64_t p = 0; p < input.NumberOfPoints; ++p)
+      Part part;
+      for (std::size_t p = first; p < last; ++p)
+      {
+        if (this->Used[p].load(std::memory_order_relaxed))
+        {
+          const glm::dvec3 point = PointAt(this->Input, p);
+          part.Lower = glm::min(part.Lower, point);
+          part.Upper = glm::max(part.Upper, point);
+          ++starts[block];
+        }
+      }
+      parts[block] = part;
+    });
+  Part all;
+  for (const Part& part : parts)
   {
-    if (used[p])
-    {
-      points.push_back(p);
-      lower = glm::min(lower, PointAt(input, p));
-      upper = glm::max(upper, PointAt(input, p));
-    }
+    all.Lower = glm::min(all.Lower, part.Lower);
+    all.Upper = glm::max(all.Upper, part.Upper);
   }
-  this->Center = 0.5 * lower + 0.5 * upper;
+  this->Mesh.Center = 0.5 * all.Lower + 0.5 * all.Upper;
 
-  const MortonCurve curve(lower, upper);
-  std::vector<std::uint32_t> codes(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    codes[i] = curve.Code(PointAt(input, points[i]));
-  }
-  for (const std::int64_t p : points)
-  {
-    this->Radius = std::max(this->Radius, glm::length(PointAt(input, p) - this->Center));
-  }
-  const double scale = this->Radius > 0.0 ? 1.0 / this->Radius : 0.0;
-  this->SourcePoints.reserve(points.size());
-  this->Positions.reserve(points.size());
-  for (const std::int64_t i : SortedOrder(codes))
-  {
-    this->SourcePoints.push_back(points[i]);
-    this->Positions.emplace_back((PointAt(input, points[i]) - this->Center) * scale);
-  }
+  std::vector<MortonKey> keys(CountsToStarts(starts));
+  const MortonCurve curve(all.Lower, all.Upper);
+  std::vector<double> radii(parts.size(), 0.0);
+  ForEachBlock(numberOfPoints, this->Loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      std::size_t next = starts[block];
+      for (std::size_t p = first; p < last; ++p)
+      {
+        if (this->Used[p].load(std::memory_order_relaxed))
+        {
+          const glm::dvec3 point = PointAt(this->Input, p);
+          radii[block] = std::max(radii[block], glm::length(point - this->Mesh.Center));
+          keys[next++] = MakeMortonKey(curve.Code(point), p);
+        }
+      }
+    });
+  this->Mesh.Radius = *std::max_element(radii.begin(), radii.end());
+  return keys;
 }
 
 //------------------------------------------------------------------------------
-void TetrahedralMesh::NumberCells(const TetrahedraView& input)
+void TetrahedralMesh::Builder::NumberVertices()
 {
-  std::vector<std::int32_t> vertexOfPoint(input.NumberOfPoints, -1);
-  for (std::size_t v = 0; v < this->SourcePoints.size(); ++v)
-  {
-    vertexOfPoint[this->SourcePoints[v]] = static_cast<std::int32_t>(v);
-  }
+  std::vector<MortonKey> keys = this->KeysOfUsedPoints();
+  SortByCode(keys, this->Loop);
+  this->VertexOfPoint.resize(this->Input.NumberOfPoints);
+  this->Mesh.SourcePoints.resize(keys.size());
+  this->Mesh.Positions.resize(keys.size());
+  const double scale = this->Mesh.Radius > 0.0 ? 1.0 / this->Mesh.Radius : 0.0;
+  ForEachBlock(keys.size(), this->Loop,
+    [this, &keys, scale](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t v = first; v < last; ++v)
+      {
+        const std::size_t point = IndexOf(keys[v]);
+        this->VertexOfPoint[point] = static_cast<std::int32_t>(v);
+        this->Mesh.SourcePoints[v] = static_cast<std::int32_t>(point);
+        this->Mesh.Positions[v] = (PointAt(this->Input, point) - this->Mesh.Center) * scale;
+      }
+    });
+}
 
+//------------------------------------------------------------------------------
+void TetrahedralMesh::Builder::NumberCells()
+{
   const glm::dvec3 box(1.0); // positions are in units of the radius
   const MortonCurve curve(-box, box);
-  std::vector<std::uint32_t> codes(this->SourceCells.size());
-  for (std::size_t i = 0; i < codes.size(); ++i)
-  {
-    glm::dvec3 centroid(0.0);
-    for (int k = 0; k < 4; ++k)
+  std::vector<MortonKey> keys(this->NumberOfCells);
+  ForEachBlock(this->Input.NumberOfCells, this->Loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
     {
-      const std::int64_t point = input.Cells[4 * this->SourceCells[i] + k];
-      centroid += 0.25 * glm::dvec3(this->Positions[vertexOfPoint[point]]);
-    }
-    codes[i] = curve.Code(centroid);
-  }
-
-  const std::vector<std::int64_t> accepted = std::move(this->SourceCells);
-  this->SourceCells.clear();
-  this->SourceCells.reserve(accepted.size());
-  this->Cells.reserve(accepted.size());
-  for (const std::int64_t i : SortedOrder(codes))
-  {
-    Cell cell;
-    for (int k = 0; k < 4; ++k)
-    {
-      cell.Vertices[k] = vertexOfPoint[input.Cells[4 * accepted[i] + k]];
-    }
-    std::sort(cell.Vertices.begin(), cell.Vertices.end());
-    cell.Links.fill(NoNeighbor);
-    this->SourceCells.push_back(accepted[i]);
-    this->Cells.push_back(cell);
-  }
-}
-
-//------------------------------------------------------------------------------
-void TetrahedralMesh::LinkCells()
-{
-  FaceFile file = FileFaces(this->Cells, this->Positions.size());
-  const auto before = [](const FiledFace& a, const FiledFace& b)
-  { return a.Middle != b.Middle ? a.Middle < b.Middle : a.Highest < b.Highest; };
-  for (std::size_t v = 0; v < this->Positions.size(); ++v)
-  {
-    const auto first = file.Faces.begin() + file.First[v];
-    const auto last = file.Faces.begin() + file.First[v + 1];
-    std::sort(first, last, before);
-    for (auto group = first; group != last;)
-    {
-      const auto groupEnd =
-        std::find_if(group, last, [&](const FiledFace& f) { return before(*group, f); });
-      if (groupEnd - group == 2)
+      std::size_t next = this->CellStarts[block];
+      for (std::size_t c = first; c < last; ++c)
       {
-        const std::int32_t a = group[0].CellFace;
-        const std::int32_t b = group[1].CellFace;
-        this->Cells[a / 4].Links[a % 4] = b;
-        this->Cells[b / 4].Links[b % 4] = a;
-      }
-      group = groupEnd;
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
-void TetrahedralMesh::CutLink(std::int32_t cell, int face)
-{
-  const std::int32_t other = this->Cells[cell].Links[face];
-  this->Cells[other / 4].Links[other % 4] = NoNeighbor;
-  this->Cells[cell].Links[face] = NoNeighbor;
-  ++this->CutLinks;
-}
-
-//------------------------------------------------------------------------------
-void TetrahedralMesh::OrientCells()
-{
-  this->Orientation.assign(this->Cells.size(), 0);
-  std::vector<std::int32_t> component;
-  for (std::size_t seed = 0; seed < this->Cells.size(); ++seed)
-  {
-    if (this->Orientation[seed] != 0)
-    {
-      continue;
-    }
-    component.assign(1, static_cast<std::int32_t>(seed));
-    this->Orientation[seed] = 1;
-    double volume = 0.0;
-    for (std::size_t next = 0; next < component.size(); ++next)
-    {
-      const std::int32_t cell = component[next];
-      volume += this->Orientation[cell] * SixfoldVolume(this->Cells[cell], this->Positions);
-      for (int face = 0; face < 4; ++face)
-      {
-        const std::int32_t link = this->Cells[cell].Links[face];
-        if (link == NoNeighbor)
+        Quad& corners = this->Corners[c];
+        if (corners[0] < 0)
         {
           continue;
         }
-        // Two cells agree if they see their common face from opposite sides.
-        const int wanted = -this->Orientation[cell] * FaceParity(face) * FaceParity(link % 4);
-        std::int8_t& found = this->Orientation[link / 4];
-        if (found == 0)
+        glm::dvec3 centroid(0.0);
+        for (std::int32_t& corner : corners)
         {
-          found = static_cast<std::int8_t>(wanted);
-          component.push_back(link / 4);
+          corner = this->VertexOfPoint[corner];
+          centroid += 0.25 * this->Mesh.GetPosition(corner);
         }
-        else if (found != wanted)
-        {
-          this->CutLink(cell, face);
-        }
+        std::sort(corners.begin(), corners.end());
+        keys[next++] = MakeMortonKey(curve.Code(centroid), c);
       }
-    }
-    if (volume < 0.0)
+    });
+  SortByCode(keys, this->Loop);
+  this->Mesh.Cells.resize(keys.size());
+  this->Mesh.SourceCells.resize(this->Input.KeepSourceCells ? keys.size() : 0);
+  ForEachBlock(keys.size(), this->Loop,
+    [this, &keys](std::size_t, std::size_t first, std::size_t last)
     {
-      for (const std::int32_t cell : component)
+      for (std::size_t c = first; c < last; ++c)
       {
-        this->Orientation[cell] = static_cast<std::int8_t>(-this->Orientation[cell]);
+        const std::size_t source = IndexOf(keys[c]);
+        this->Mesh.Cells[c].Vertices = this->Corners[source];
+        this->Mesh.Cells[c].Links.fill(NoNeighbor);
+        if (this->Input.KeepSourceCells)
+        {
+          this->Mesh.SourceCells[c] = static_cast<std::int32_t>(source);
+        }
       }
-    }
-  }
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -437,7 +461,7 @@ void TetrahedralMesh::CollectBoundary(const RangeLoop& loop)
         {
           if (isBoundary(c, face))
           {
-            this->Boundary[next++] = { FaceVertices(this->Cells[c], face),
+            this->Boundary[next++] = { FaceVertices(this->Cells[c].Vertices, face),
               FaceParity(face) * this->Orientation[c], static_cast<std::int32_t>(4 * c + face) };
           }
         }

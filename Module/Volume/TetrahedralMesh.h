@@ -30,6 +30,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace meniscus
@@ -38,12 +39,27 @@ namespace meniscus
 /** A mesh as plain arrays, which stay the caller's. */
 struct TetrahedraView
 {
-  /** xyz triples, NumberOfPoints of them. */
+  /** xyz triples, NumberOfPoints of them; null if FloatPoints are given. */
   const double* Points = nullptr;
   std::int64_t NumberOfPoints = 0;
-  /** Point indices, four per cell, in either orientation. */
+  /** Point indices, four per cell, in either orientation; null if ShortCells are given. */
   const std::int64_t* Cells = nullptr;
   std::int64_t NumberOfCells = 0;
+  const float* FloatPoints = nullptr;
+  const std::int32_t* ShortCells = nullptr;
+  /** Per cell; one with a bit of LeftOutBits is left out, uncounted. Null for none. */
+  const std::uint8_t* CellFlags = nullptr;
+  std::uint8_t LeftOutBits = 0xFF;
+  /** Whether GetSourceCells() is wanted: 4 bytes per cell. */
+  bool KeepSourceCells = false;
+};
+
+/** How a mesh is built. */
+struct MeshBuildControl
+{
+  RangeLoop Loop = SerialLoop;
+  /** Told the fraction done, on the calling thread; false aborts. */
+  std::function<bool(double)> Progress;
 };
 
 enum class MeshStatus
@@ -52,7 +68,9 @@ enum class MeshStatus
   /** No cell is left after validation; the tables are empty. */
   Empty,
   /** More cells or points than 32-bit tables can index. */
-  TooLarge
+  TooLarge,
+  /** Given up on the caller's wish; the tables are empty. */
+  Aborted
 };
 
 /** Cells left out, by reason; a cell is counted once, for the first reason that holds. */
@@ -87,8 +105,9 @@ public:
   /** The link of a face without a neighbour. */
   static constexpr std::int32_t NoNeighbor = -1;
 
-  /** Builds all tables; earlier contents are replaced. */
-  MeshStatus Build(const TetrahedraView& input);
+  /** Builds all tables; earlier contents are replaced. They do not depend on the loop. */
+  MeshStatus Build(
+    const TetrahedraView& input, const MeshBuildControl& control = MeshBuildControl());
 
   std::int64_t GetNumberOfCells() const { return static_cast<std::int64_t>(this->Cells.size()); }
   std::int64_t GetNumberOfVertices() const
@@ -123,10 +142,12 @@ public:
   const std::vector<Cell>& GetCells() const { return this->Cells; }
   /** Vertex positions relative to GetCenter() in units of GetRadius(), rounded once to float. */
   const std::vector<glm::vec3>& GetPositions() const { return this->Positions; }
+  /** Vertex position relative to GetCenter(), in units of GetRadius(). */
+  glm::dvec3 GetPosition(std::int64_t vertex) const { return glm::dvec3(this->Positions[vertex]); }
   /** Input point of each vertex. */
-  const std::vector<std::int64_t>& GetSourcePoints() const { return this->SourcePoints; }
-  /** Input cell of each cell. */
-  const std::vector<std::int64_t>& GetSourceCells() const { return this->SourceCells; }
+  const std::vector<std::int32_t>& GetSourcePoints() const { return this->SourcePoints; }
+  /** Input cell of each cell, if wanted. */
+  const std::vector<std::int32_t>& GetSourceCells() const { return this->SourceCells; }
   const std::vector<BoundaryFace>& GetBoundary() const { return this->Boundary; }
   const RejectedCells& GetRejectedCells() const { return this->Rejected; }
   /** Links cut because they contradict the flood fill. */
@@ -137,20 +158,18 @@ public:
   double GetRadius() const { return this->Radius; }
 
 private:
+  class Builder;
+
   void Clear();
-  void ValidateCells(const TetrahedraView& input);
-  void NumberVertices(const TetrahedraView& input);
-  void NumberCells(const TetrahedraView& input);
-  void LinkCells();
-  void OrientCells();
+  void LinkCells(const RangeLoop& loop);
+  void OrientCells(const RangeLoop& loop);
   void MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop);
   void CollectBoundary(const RangeLoop& loop);
-  void CutLink(std::int32_t cell, int face);
 
   std::vector<Cell> Cells;
   std::vector<glm::vec3> Positions;
-  std::vector<std::int64_t> SourcePoints;
-  std::vector<std::int64_t> SourceCells;
+  std::vector<std::int32_t> SourcePoints;
+  std::vector<std::int32_t> SourceCells;
   std::vector<BoundaryFace> Boundary;
   /**
    * Per cell, positive if its ascending vertices form a positively oriented tetrahedron, else

@@ -10,8 +10,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
+#include <thread>
 
 using namespace meniscus;
 using namespace meniscus::test;
@@ -139,6 +143,138 @@ TEST(TetrahedralMesh, RefusesMoreThanItsIndicesHold)
   EXPECT_EQ(mesh.Build(view), MeshStatus::TooLarge);
 }
 
+TEST(TetrahedralMesh, DoesNotDependOnTheLoopNorOnTheTypesOfTheInput)
+{
+  MeshArrays arrays = KuhnGrid(15); // several blocks
+  Jitter(arrays, 0.06, 5);          // with inverted cells
+  for (double& coordinate : arrays.Points)
+  {
+    coordinate = static_cast<float>(coordinate);
+  }
+  TetrahedralMesh serial;
+  ASSERT_EQ(serial.Build(arrays.View()), MeshStatus::Ok);
+
+  const std::vector<float> points(arrays.Points.begin(), arrays.Points.end());
+  const std::vector<std::int32_t> cells(arrays.Cells.begin(), arrays.Cells.end());
+  TetrahedraView view = arrays.View();
+  view.Points = nullptr;
+  view.FloatPoints = points.data();
+  view.Cells = nullptr;
+  view.ShortCells = cells.data();
+  view.KeepSourceCells = true;
+  MeshBuildControl control;
+  control.Loop = [](std::size_t count, const RangeBody& body)
+  {
+    const auto work = [&body, count](std::size_t first)
+    {
+      for (std::size_t i = first; i < count; i += 3)
+      {
+        body(count - 1 - i, count - i);
+      }
+    };
+    std::thread a(work, 0);
+    std::thread b(work, 1);
+    work(2);
+    a.join();
+    b.join();
+  };
+  TetrahedralMesh parallel;
+  ASSERT_EQ(parallel.Build(view, control), MeshStatus::Ok);
+  EXPECT_EQ(parallel.GetSourcePoints(), serial.GetSourcePoints());
+  ASSERT_EQ(parallel.GetNumberOfCells(), serial.GetNumberOfCells());
+  for (std::size_t c = 0; c < serial.GetCells().size(); ++c)
+  {
+    EXPECT_EQ(parallel.GetCells()[c].Vertices, serial.GetCells()[c].Vertices);
+    EXPECT_EQ(parallel.GetCells()[c].Links, serial.GetCells()[c].Links);
+    const std::int64_t* source = arrays.Cells.data() + 4 * parallel.GetSourceCells()[c];
+    std::set<std::int64_t> points4(source, source + 4);
+    for (const std::int32_t vertex : serial.GetCells()[c].Vertices)
+    {
+      EXPECT_EQ(points4.count(serial.GetSourcePoints()[vertex]), 1u);
+    }
+  }
+  ASSERT_EQ(parallel.GetBoundary().size(), serial.GetBoundary().size());
+  for (std::size_t f = 0; f < serial.GetBoundary().size(); ++f)
+  {
+    EXPECT_EQ(parallel.GetBoundary()[f].CellFace, serial.GetBoundary()[f].CellFace);
+    EXPECT_EQ(parallel.GetBoundary()[f].Outward, serial.GetBoundary()[f].Outward);
+  }
+}
+
+TEST(TetrahedralMesh, LeavesOutFlaggedCells)
+{
+  const MeshArrays arrays = KuhnGrid(2);
+  TetrahedraView view = arrays.View();
+  std::vector<std::uint8_t> flags(view.NumberOfCells, 4);
+  flags[7] = 1;
+  flags[20] = 3;
+  view.CellFlags = flags.data();
+  view.LeftOutBits = 1;
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(view), MeshStatus::Ok);
+  EXPECT_EQ(mesh.GetNumberOfCells(), view.NumberOfCells - 2);
+  EXPECT_EQ(mesh.GetRejectedCells().Total(), 0);
+}
+
+TEST(TetrahedralMesh, TellsProgressAndCanBeAborted)
+{
+  const MeshArrays arrays = KuhnGrid(4);
+  std::vector<double> told;
+  MeshBuildControl control;
+  control.Progress = [&told](double fraction)
+  {
+    told.push_back(fraction);
+    return true;
+  };
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View(), control), MeshStatus::Ok);
+  EXPECT_GE(told.size(), 4u);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  for (const double last : told)
+  {
+    control.Progress = [last](double fraction) { return fraction < last; };
+    EXPECT_EQ(mesh.Build(arrays.View(), control), MeshStatus::Aborted);
+    EXPECT_EQ(mesh.GetNumberOfCells(), 0);
+    EXPECT_TRUE(mesh.GetPositions().empty());
+  }
+  EXPECT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+}
+
+TEST(TetrahedralMesh, LinkThatNoOrientationAllowsIsCut)
+{
+  // A Moebius ring of prisms, each in 3 tetrahedra: one twist of the square cross-section's sides.
+  // In 3D it shows as a ring of tetrahedra glued with a reversal; any cut makes it orientable.
+  const int n = 6;
+  MeshArrays arrays;
+  for (int i = 0; i < n; ++i)
+  {
+    const double angle = 2.0 * 3.14159265358979 * i / n;
+    for (const double side : { -0.2, 0.2 })
+    {
+      arrays.Points.insert(arrays.Points.end(),
+        { std::cos(angle) * (1.0 + side), std::sin(angle) * (1.0 + side), 0.3 * side });
+    }
+    arrays.Points.insert(arrays.Points.end(), { std::cos(angle), std::sin(angle), 0.3 });
+  }
+  for (std::int64_t i = 0; i < n; ++i)
+  {
+    const std::int64_t a[3] = { 3 * i, 3 * i + 1, 3 * i + 2 };
+    const std::int64_t next = 3 * ((i + 1) % n);
+    const bool twist = i == n - 1; // swaps two corners of the triangle
+    const std::int64_t b[3] = { next + (twist ? 1 : 0), next + (twist ? 0 : 1), next + 2 };
+    for (const auto& cell : { std::array<std::int64_t, 4>{ a[0], a[1], a[2], b[2] },
+           std::array<std::int64_t, 4>{ a[0], a[1], b[1], b[2] },
+           std::array<std::int64_t, 4>{ a[0], b[0], b[1], b[2] } })
+    {
+      arrays.Cells.insert(arrays.Cells.end(), cell.begin(), cell.end());
+    }
+  }
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  EXPECT_EQ(mesh.GetNumberOfCutLinks(), 1);
+  ExpectConsistentLinks(mesh);
+}
+
 TEST(TetrahedralMesh, FaceOfThreeCellsIsBoundaryOnAllSides)
 {
   const MeshArrays arrays = { { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 1, 1, 1 },
@@ -187,7 +323,15 @@ TEST(BoundaryTree, HoldsEveryFaceOnceAndInItsBoxes)
 TEST(MortonOrder, SortsStablyAndClampsToTheBox)
 {
   const std::vector<std::uint32_t> codes = { 5, 1u << 29, 5, 0, 40000 };
-  EXPECT_EQ(SortedOrder(codes), (std::vector<std::int64_t>{ 3, 0, 2, 4, 1 }));
+  std::vector<MortonKey> keys;
+  for (std::size_t i = 0; i < codes.size(); ++i)
+  {
+    keys.push_back(MakeMortonKey(codes[i], i));
+  }
+  SortByCode(keys);
+  std::vector<std::size_t> order;
+  std::transform(keys.begin(), keys.end(), std::back_inserter(order), IndexOf);
+  EXPECT_EQ(order, (std::vector<std::size_t>{ 3, 0, 2, 4, 1 }));
   const MortonCurve curve(glm::dvec3(0.0), glm::dvec3(1.0, 1.0, 0.0));
   EXPECT_EQ(curve.Code(glm::dvec3(-5.0)), 0u);
   EXPECT_EQ(curve.Code(glm::dvec3(9.0, 9.0, 9.0)), 0x1B6DB6DBu); // x and y full, z flat

@@ -5,6 +5,7 @@
 
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPointData.h>
@@ -175,6 +176,41 @@ TEST_F(TetrahedraRayCastPipeline, PointChangeRebuildsTheMesh)
   this->Scene->window()->Render();
   EXPECT_EQ(this->Scene->rayCaster()->GetNumberOfMeshBuilds(), before.MeshBuilds + 1);
   expectMatchesReference(*this->Scene, "points moved");
+}
+
+TEST_F(TetrahedraRayCastPipeline, SetUpTellsProgressAndCanBeAborted)
+{
+  class Observer : public vtkCommand
+  {
+  public:
+    static Observer* New() { return new Observer; }
+    void Execute(vtkObject* caller, unsigned long, void* data) override
+    {
+      ++this->Events;
+      if (*static_cast<double*>(data) >= this->AbortAt)
+      {
+        vtkTetrahedraRayCastMapper::SafeDownCast(caller)->AbortExecuteOn();
+      }
+    }
+    int Events = 0;
+    double AbortAt = 0.4;
+  };
+  vtkNew<Observer> observer;
+  vtkTetrahedraRayCastMapper* mapper = this->Scene->rayCaster();
+  mapper->AddObserver(vtkCommand::ProgressEvent, observer);
+  this->Scene->window()->Render();
+  EXPECT_EQ(observer->Events, 0); // nothing to set up
+
+  jitter(this->Mesh, 0.02, 7);
+  this->Mesh->Modified();
+  for (const float value : this->Scene->renderFloat().Rgba)
+  {
+    ASSERT_EQ(value, 0.0f);
+  }
+  EXPECT_GT(observer->Events, 0);
+  EXPECT_EQ(mapper->GetNumberOfActiveCells(), 0);
+  observer->AbortAt = 2.0;
+  expectMatchesReference(*this->Scene, "set up after an abort");
 }
 
 TEST_F(TetrahedraRayCastPipeline, NewInputRebuildsTheMesh)
