@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeInput.h"
 
+#include "GridView.h"
 #include "Volume/BlockLoop.h"
 
-#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
-#include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkDataArray.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkPoints.h"
 #include "vtkSMPTools.h"
 #include "vtkUnsignedCharArray.h"
@@ -18,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <sstream>
 
 namespace meniscus
@@ -32,6 +28,17 @@ void ThreadedLoop(std::size_t count, const RangeBody& body)
   vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1,
     [&body](vtkIdType begin, vtkIdType end)
     { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
+}
+
+/** Length of a tuple, without overflow on the way. */
+double LengthOf(vtkDataArray* array, vtkIdType tuple)
+{
+  double length = 0.0;
+  for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+  {
+    length = std::hypot(length, array->GetComponent(tuple, component));
+  }
+  return length;
 }
 
 /** The range of the finite values among some, and how many others there are. */
@@ -59,100 +66,6 @@ struct ValueRange
     this->Highest = std::max(this->Highest, other.Highest);
     this->NotFinite += other.NotFinite;
   }
-};
-
-/** Cell types other than tetrahedra with their numbers, as text; empty if there are none. */
-std::string DescribeOtherCells(vtkUnstructuredGrid* grid)
-{
-  std::map<int, vtkIdType> others;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const int type = grid->GetCellType(c);
-    if (type != VTK_TETRA)
-    {
-      ++others[type];
-    }
-  }
-  std::ostringstream text;
-  for (const auto& other : others)
-  {
-    const char* name = vtkCellTypes::GetClassNameFromTypeId(other.first);
-    text << (text.tellp() > 0 ? ", " : "") << other.second << " " << (name ? name : "unknown");
-  }
-  return text.str();
-}
-
-/** Points and tetrahedra of a grid where they are stored; copied only if stored otherwise. */
-class GridView
-{
-public:
-  explicit GridView(vtkUnstructuredGrid* grid)
-  {
-    this->View.NumberOfPoints = grid->GetNumberOfPoints();
-    this->View.NumberOfCells = grid->GetNumberOfCells();
-    this->ViewPoints(grid->GetPoints()->GetData());
-    this->ViewCells(grid->GetCells()->GetConnectivityArray());
-    if (vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray())
-    {
-      this->View.CellFlags = ghosts->GetPointer(0);
-      this->View.LeftOutBits =
-        vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
-    }
-  }
-
-  TetrahedraView View;
-
-private:
-  void ViewPoints(vtkDataArray* points)
-  {
-    if (auto* doubles = vtkAOSDataArrayTemplate<double>::FastDownCast(points))
-    {
-      this->View.Points = doubles->GetPointer(0);
-    }
-    else if (auto* floats = vtkAOSDataArrayTemplate<float>::FastDownCast(points))
-    {
-      this->View.FloatPoints = floats->GetPointer(0);
-    }
-    else
-    {
-      this->Points = CopyValues<double>(points);
-      this->View.Points = this->Points.data();
-    }
-  }
-
-  void ViewCells(vtkDataArray* ids)
-  {
-    if (auto* longs = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
-    {
-      // VTK's 64-bit integer and the standard's may have two names.
-      static_assert(sizeof(vtkTypeInt64) == sizeof(std::int64_t), "both have 64 bits");
-      this->View.Cells = reinterpret_cast<const std::int64_t*>(longs->GetPointer(0));
-    }
-    else if (auto* ints = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
-    {
-      this->View.ShortCells = ints->GetPointer(0);
-    }
-    else
-    {
-      this->Ids = CopyValues<std::int64_t>(ids);
-      this->View.Cells = this->Ids.data();
-    }
-  }
-
-  template <typename T>
-  static std::vector<T> CopyValues(vtkDataArray* array)
-  {
-    const int components = array->GetNumberOfComponents();
-    std::vector<T> values(components * array->GetNumberOfTuples());
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      values[i] = static_cast<T>(array->GetComponent(i / components, i % components));
-    }
-    return values;
-  }
-
-  std::vector<double> Points;
-  std::vector<std::int64_t> Ids;
 };
 
 }
@@ -187,16 +100,8 @@ InputReport VolumeInput::UpdateMesh(
   }
 
   std::ostringstream text;
-  const std::string others = DescribeOtherCells(grid);
-  if (!others.empty())
-  {
-    text << "Only tetrahedra can be rendered, the input also has " << others
-         << ". Put a vtkDataSetTriangleFilter with TetrahedraOnlyOn before the mapper.";
-    report.Error = text.str();
-    return report;
-  }
   const GridView gridView(grid);
-  const TetrahedraView& view = gridView.View;
+  const TetrahedraView& view = gridView.GetView();
   MeshBuildControl control;
   control.Loop = ThreadedLoop;
   control.Progress = progress;
@@ -216,6 +121,12 @@ InputReport VolumeInput::UpdateMesh(
     report.Error = text.str();
     return report;
   }
+  const std::string omitted = gridView.DescribeOmitted();
+  if (!omitted.empty())
+  {
+    text << "Cells that are not drawn, because of their type: " << omitted << ". ";
+    report.Warning = text.str();
+  }
   const RejectedCells& rejected = this->Mesh.GetRejectedCells();
   if (rejected.Total() > 0)
   {
@@ -230,11 +141,11 @@ InputReport VolumeInput::UpdateMesh(
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars)
+InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
 {
   InputReport report;
   const ObjectVersion version(scalars);
-  if (version == this->BuiltScalars)
+  if (version == this->BuiltScalars && component == this->BuiltComponent)
   {
     return report;
   }
@@ -247,7 +158,8 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars)
       ValueRange range;
       for (std::size_t v = first; v < last; ++v)
       {
-        values[v] = scalars->GetComponent(points[v], 0);
+        values[v] = component == Magnitude ? LengthOf(scalars, points[v])
+                                           : scalars->GetComponent(points[v], component);
         range.Add(values[v]);
       }
       ranges[block] = range;
@@ -280,6 +192,7 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars)
       }
     });
   this->BuiltScalars = version;
+  this->BuiltComponent = component;
   this->ActiveSetStale = true;
   ++this->ScalarUpdates;
   return report;

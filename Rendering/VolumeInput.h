@@ -58,8 +58,12 @@ public:
    */
   InputReport UpdateMesh(vtkUnstructuredGrid* grid, const std::function<bool(double)>& progress);
 
-  /** The scalars of that mesh: one component, one value for each point. */
-  InputReport UpdateScalars(vtkDataArray* scalars);
+  /**
+   * The scalars of that mesh, one tuple for each point.
+   * @param component  which component; Magnitude for the length of the tuple.
+   */
+  InputReport UpdateScalars(vtkDataArray* scalars, int component);
+  static constexpr int Magnitude = -1;
 
   /** The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same. */
   void UpdateActiveCells(const VisibleScalars& visible);
@@ -98,6 +102,7 @@ private:
 
   MeshVersion BuiltMesh;
   ObjectVersion BuiltScalars;
+  int BuiltComponent = 0;
   bool ActiveSetStale = true;
   std::int64_t TreeOf = 0;
 

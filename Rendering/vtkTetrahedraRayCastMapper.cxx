@@ -238,10 +238,18 @@ vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* g
                                    "vtkCellDataToPointData). Nothing is rendered.");
     return nullptr;
   }
-  if (scalars->GetNumberOfComponents() != 1)
+  const int components = scalars->GetNumberOfComponents();
+  if (this->VectorMode == DISABLED && components != 1)
   {
-    vtkErrorMacro("The array '" << name << "' has " << scalars->GetNumberOfComponents()
-                                << " components; 1 is needed. Nothing is rendered.");
+    vtkErrorMacro(
+      "The array '" << name << "' has " << components
+                    << " components; 1 is needed, or a VectorMode. Nothing is rendered.");
+    return nullptr;
+  }
+  if (this->VectorMode == COMPONENT && this->VectorComponent >= components)
+  {
+    vtkErrorMacro("The array '" << name << "' has " << components << " components, none of number "
+                                << this->VectorComponent << ". Nothing is rendered.");
     return nullptr;
   }
   if (scalars->GetNumberOfTuples() != grid->GetNumberOfPoints())
@@ -291,6 +299,9 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     }
     return report.Error.empty();
   };
+  const int component = this->VectorMode == MAGNITUDE
+    ? meniscus::VolumeInput::Magnitude
+    : (this->VectorMode == COMPONENT ? this->VectorComponent : 0);
   this->SetAbortExecute(0);
   const auto goOn = [this, window](double fraction)
   {
@@ -298,7 +309,7 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
   return tell(input.UpdateMesh(grid, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
-    tell(input.UpdateScalars(scalars));
+    tell(input.UpdateScalars(scalars, component));
 }
 
 //------------------------------------------------------------------------------
@@ -538,6 +549,8 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfLostRays()
 void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "VectorMode: " << this->VectorMode << "\n";
+  os << indent << "VectorComponent: " << this->VectorComponent << "\n";
   os << indent << "OpacityModel: " << this->OpacityModel << "\n";
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "ActiveBackend: " << this->ActiveBackend << "\n";

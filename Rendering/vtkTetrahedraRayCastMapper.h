@@ -7,19 +7,23 @@
  * Casts one ray per pixel through the mesh, from cell to cell across shared faces, and integrates
  * the density-emitter model in closed form. The image does not depend on a sampling distance.
  *
- * Input: a vtkUnstructuredGrid of tetrahedra with a point array of one component, chosen by the
- * scalar mode and array selection of vtkAbstractVolumeMapper. Any mesh of tetrahedra is accepted:
- * non-convex, disconnected, cyclic, with inverted cells, cells of zero volume, duplicate points and
- * faces of more than two cells. Cells that vtkGhostType marks as duplicate or hidden are left out.
- * Cells with a point index out of range, a repeated point or a point that is not finite are left
- * out and counted. Cells with a vertex whose scalar is not finite are transparent.
+ * Input: a vtkUnstructuredGrid with a point array, chosen by the scalar mode and array selection of
+ * vtkAbstractVolumeMapper, of one component or as SetVectorMode() says. Tetrahedra are drawn as
+ * they are; voxels, hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells as
+ * tetrahedra that have the same points and fit across shared faces, whatever the cells (each cell
+ * is pulled to its point of the smallest number). Other cells are left out with a warning. Any mesh
+ * is accepted: non-convex, disconnected, cyclic, with inverted cells, cells of zero volume,
+ * duplicate points and faces of more than two cells. Cells that vtkGhostType marks as duplicate or
+ * hidden are left out. Cells with a point index out of range, a repeated point or a point that is
+ * not finite are left out and counted. Cells with a vertex whose scalar is not finite are
+ * transparent.
  *
  * Optical model, by SetBlendMode() with the numbers of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity becomes an
  *   attenuation coefficient as SetOpacityModel() says, per ScalarOpacityUnitDistance. Emitted
- * colour is weighted by the attenuation. Shade and the property's material light the colour
- * (Phong's model, two-sided, by the renderer's lights); the gradient opacity function, of the
- * gradient's length in scalar per world length, multiplies the attenuation. See SetGradients().
+ *   colour is weighted by the attenuation. Shade and the property's material light the colour (by
+ *   Phong's model, two-sided, by the renderer's lights); the gradient opacity function, of the
+ *   gradient's length in scalar per world length, multiplies the attenuation. See SetGradients().
  * - MAXIMUM_INTENSITY_BLEND, MINIMUM_INTENSITY_BLEND, AVERAGE_INTENSITY_BLEND: the largest or
  *   smallest scalar of the ray, or its mean over the length, shown by colour and opacity of the
  *   property; lengths do not count.
@@ -61,9 +65,9 @@
  * Needs OpenGL 3.2; the native backend casts rays on the CPU and needs it to show the image. Work
  * is done where its input changes: see the counters.
  *
- * @note Limits of this version: one component; up to 32 clipping planes and 16 lights; the native
- * backend has plain composite blending only; fewer
- * than 2^29 cells, and tables within GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
+ * @note Limits of this version: point data; up to 32 clipping planes and 16 lights; the native
+ * backend has plain composite blending only; fewer than 2^29 cells, and tables within
+ * GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -91,6 +95,25 @@ public:
   static vtkTetrahedraRayCastMapper* New();
   vtkTypeMacro(vtkTetrahedraRayCastMapper, vtkUnstructuredGridVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum VectorModes
+  {
+    DISABLED = -1,
+    MAGNITUDE = 0,
+    COMPONENT = 1
+  };
+
+  ///@{
+  /**
+   * What is drawn of an array of several components, as in vtkSmartVolumeMapper: MAGNITUDE, the
+   * length of the vector; COMPONENT, the one of number VectorComponent (from 0, the default).
+   * DISABLED, the default, draws arrays of one component only.
+   */
+  vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
+  vtkGetMacro(VectorMode, int);
+  vtkSetClampMacro(VectorComponent, int, 0, VTK_INT_MAX);
+  vtkGetMacro(VectorComponent, int);
+  ///@}
 
   enum OpacityModels
   {
@@ -244,8 +267,8 @@ public:
    * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, the
    * prop's id wherever the volume is visible. Input that cannot be drawn gives an error and leaves
    * the picture as it is. While a mesh's tables are built, ProgressEvent is invoked;
-   * AbortExecuteOn(), called by an observer, or the window's abort status ends that. Then nothing is
-   * drawn, and the next call begins again.
+   * AbortExecuteOn(), called by an observer, or the window's abort status ends that. Then nothing
+   * is drawn, and the next call begins again.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
@@ -272,6 +295,8 @@ private:
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);
 
+  int VectorMode = DISABLED;
+  int VectorComponent = 0;
   int OpacityModel = ATTENUATION_COEFFICIENT;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;

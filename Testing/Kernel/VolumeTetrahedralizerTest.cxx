@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Tetrahedra in place of other cells: they fill the same volume and fit across shared faces.
+#include "Volume/TetrahedralMesh.h"
+#include "Volume/Tetrahedralizer.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <random>
+
+using namespace meniscus;
+
+namespace
+{
+
+using Ids = std::vector<std::int64_t>;
+
+/** Sum of the absolute volumes of tetrahedra. */
+double VolumeOf(const Ids& tetrahedra, const std::vector<double>& points)
+{
+  double volume = 0.0;
+  for (std::size_t t = 0; t < tetrahedra.size(); t += 4)
+  {
+    glm::dvec3 p[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      const double* x = points.data() + 3 * tetrahedra[t + i];
+      p[i] = { x[0], x[1], x[2] };
+    }
+    volume += std::abs(glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0])) / 6.0;
+  }
+  return volume;
+}
+
+/** n^3 cubes, their points in random order, each column of another kind of cells. */
+class MixedBlock
+{
+public:
+  std::vector<double> Points;
+  Tetrahedralizer Cells;
+
+  MixedBlock(int n, unsigned int seed)
+    : Size(n)
+    , Random(seed)
+  {
+    // Corners, then the centres of cubes, numbered at random.
+    const int total = (n + 1) * (n + 1) * (n + 1) + n * n * n;
+    this->Number.resize(total);
+    std::iota(this->Number.begin(), this->Number.end(), 0);
+    for (int i = total - 1; i > 0; --i)
+    {
+      std::swap(this->Number[i], this->Number[this->Random() % (i + 1)]);
+    }
+    this->Points.assign(3 * total, 0.0);
+    for (int k = 0; k < n; ++k)
+    {
+      for (int j = 0; j < n; ++j)
+      {
+        for (int i = 0; i < n; ++i)
+        {
+          this->AddCube(i, j, k, (i + 2 * j) % 5);
+        }
+      }
+    }
+  }
+
+private:
+  std::int64_t Place(std::size_t index, double x, double y, double z)
+  {
+    const std::int64_t id = this->Number[index];
+    this->Points[3 * id] = x;
+    this->Points[3 * id + 1] = y;
+    this->Points[3 * id + 2] = z;
+    return id;
+  }
+
+  std::int64_t Corner(int i, int j, int k)
+  {
+    const int m = this->Size + 1;
+    return this->Place((k * m + j) * m + i, i, j, k);
+  }
+
+  void AddCube(int i, int j, int k, int kind)
+  {
+    const std::int64_t p[8] = { this->Corner(i, j, k), this->Corner(i + 1, j, k),
+      this->Corner(i + 1, j + 1, k), this->Corner(i, j + 1, k), this->Corner(i, j, k + 1),
+      this->Corner(i + 1, j, k + 1), this->Corner(i + 1, j + 1, k + 1),
+      this->Corner(i, j + 1, k + 1) };
+    const int faces[6][4] = { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 }, { 3, 7, 6, 2 },
+      { 0, 3, 2, 1 }, { 4, 5, 6, 7 } };
+    const int n = this->Size;
+    if (kind == 0)
+    {
+      this->Cells.AddHexahedron(p);
+    }
+    else if (kind == 1)
+    {
+      const std::int64_t voxel[8] = { p[0], p[1], p[3], p[2], p[4], p[5], p[7], p[6] };
+      this->Cells.AddVoxel(voxel);
+    }
+    else if (kind == 2)
+    {
+      const std::int64_t a[6] = { p[0], p[1], p[2], p[4], p[5], p[6] };
+      const std::int64_t b[6] = { p[0], p[2], p[3], p[4], p[6], p[7] };
+      this->Cells.AddWedge(a);
+      this->Cells.AddWedge(b);
+    }
+    else if (kind == 3)
+    {
+      const std::int64_t center =
+        this->Place((n + 1) * (n + 1) * (n + 1) + (k * n + j) * n + i, i + 0.5, j + 0.5, k + 0.5);
+      for (const auto& face : faces)
+      {
+        const std::int64_t pyramid[5] = { p[face[0]], p[face[1]], p[face[2]], p[face[3]], center };
+        this->Cells.AddPyramid(pyramid);
+      }
+    }
+    else
+    {
+      Ids stream;
+      for (const auto& face : faces)
+      {
+        stream.insert(stream.end(), { 4, p[face[0]], p[face[1]], p[face[2]], p[face[3]] });
+      }
+      this->Cells.AddPolyhedron(stream.data(), 6);
+    }
+  }
+
+  int Size;
+  std::mt19937 Random;
+  std::vector<std::int64_t> Number;
+};
+
+TetrahedralMesh BuildMesh(const std::vector<double>& points, const Ids& tetrahedra)
+{
+  TetrahedralMesh mesh;
+  mesh.Build({ points.data(), static_cast<std::int64_t>(points.size() / 3), tetrahedra.data(),
+    static_cast<std::int64_t>(tetrahedra.size() / 4) });
+  return mesh;
+}
+
+}
+
+TEST(Tetrahedralizer, MixedCellsFitAcrossFacesWhateverTheNumbersOfPoints)
+{
+  const int n = 5;
+  for (unsigned int seed = 1; seed <= 20; ++seed)
+  {
+    const MixedBlock block(n, seed);
+    const Ids& tetrahedra = block.Cells.GetTetrahedra();
+    EXPECT_NEAR(VolumeOf(tetrahedra, block.Points), n * n * n, 1e-9);
+    const TetrahedralMesh mesh = BuildMesh(block.Points, tetrahedra);
+    // Were a square split in two ways, all four triangles would be boundary.
+    EXPECT_EQ(mesh.GetBoundary().size(), std::size_t(6 * 2 * n * n)) << "seed " << seed;
+    EXPECT_EQ(mesh.GetNumberOfCutLinks(), 0);
+    EXPECT_EQ(mesh.GetRejectedCells().Total(), 0);
+  }
+}
+
+TEST(Tetrahedralizer, MergedCornersGiveNoCellsWithoutVolume)
+{
+  // A hexahedron whose top is merged into an edge: a wedge.
+  const std::vector<double> points = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1 };
+  const std::int64_t hexahedron[8] = { 0, 1, 2, 3, 4, 5, 5, 4 };
+  Tetrahedralizer cells;
+  cells.AddHexahedron(hexahedron);
+  EXPECT_NEAR(VolumeOf(cells.GetTetrahedra(), points), 0.5, 1e-12);
+  const TetrahedralMesh mesh = BuildMesh(points, cells.GetTetrahedra());
+  EXPECT_EQ(mesh.GetRejectedCells().Total(), 0);
+  EXPECT_EQ(mesh.GetBoundary().size(), 8u);
+}
+
+TEST(Tetrahedralizer, QuadraticTetrahedron)
+{
+  std::vector<double> points = { 0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2 };
+  const int edges[6][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 3 }, { 2, 3 } };
+  for (const auto& edge : edges)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      points.push_back(0.5 * (points[3 * edge[0] + axis] + points[3 * edge[1] + axis]));
+    }
+  }
+  const std::int64_t ids[10] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 };
+  Tetrahedralizer cells;
+  cells.AddQuadraticTetrahedron(ids);
+  EXPECT_EQ(cells.GetTetrahedra().size(), 4u * 8u);
+  EXPECT_NEAR(VolumeOf(cells.GetTetrahedra(), points), 8.0 / 6.0, 1e-12);
+  EXPECT_EQ(BuildMesh(points, cells.GetTetrahedra()).GetBoundary().size(), 16u);
+}

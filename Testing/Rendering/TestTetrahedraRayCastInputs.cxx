@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Inputs other than tetrahedra with one scalar: the same picture as of tetrahedra with one scalar.
+#include "RayCastScene.h"
+
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkRenderWindow.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolumeProperty.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 100;
+constexpr double Range[2] = { -2.0, 2.0 };
+
+// A linear field is the same in any tetrahedra; only the walk's rounding differs.
+constexpr float Tolerance = 2e-5f;
+
+Field linear()
+{
+  return linearField(0.7, -0.4, 0.5);
+}
+
+vtkSmartPointer<vtkVolumeProperty> smooth()
+{
+  return makeProperty(FunctionKind::Smooth, Range, 3.5);
+}
+
+FloatImage pictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
+{
+  RayCastScene scene(grid, smooth(), Size, Size);
+  vtkNew<ErrorObserver> observer;
+  observer->observe(scene.rayCaster());
+  const double bounds[6] = { -1, 1, -1, 1, -1, 1 };
+  lookAt(scene.renderer(), bounds, 25.0, 15.0);
+  const FloatImage image = scene.renderFloat();
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
+  EXPECT_TRUE(observer->Errors.empty()) << observer->text();
+  if (warnings)
+  {
+    *warnings = static_cast<int>(observer->Warnings.size());
+  }
+  return image;
+}
+
+void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what)
+{
+  ASSERT_EQ(a.Rgba.size(), b.Rgba.size());
+  float largest = 0.0f;
+  float opacity = 0.0f;
+  for (std::size_t i = 0; i < a.Rgba.size(); ++i)
+  {
+    largest = std::max(largest, std::abs(a.Rgba[i] - b.Rgba[i]));
+    opacity = std::max(opacity, a.Rgba[i]);
+  }
+  EXPECT_LE(largest, Tolerance) << what;
+  EXPECT_GT(opacity, 0.1f) << what;
+}
+
+/// The cube [-1, 1]^3 in n^3 cells of a type that has the 8 corners of a cube in its order.
+Grid makeCubes(int n, int type, const Field& field)
+{
+  std::vector<double> points;
+  for (int k = 0; k <= n; ++k)
+  {
+    for (int j = 0; j <= n; ++j)
+    {
+      for (int i = 0; i <= n; ++i)
+      {
+        points.insert(points.end(), { 2.0 * i / n - 1.0, 2.0 * j / n - 1.0, 2.0 * k / n - 1.0 });
+      }
+    }
+  }
+  const Grid result = makeGrid(points, {}, field);
+  const vtkIdType step[3] = { 1, n + 1, vtkIdType(n + 1) * (n + 1) };
+  for (int k = 0; k < n; ++k)
+  {
+    for (int j = 0; j < n; ++j)
+    {
+      for (int i = 0; i < n; ++i)
+      {
+        const vtkIdType o = i + j * step[1] + k * step[2];
+        const vtkIdType q = o + step[1];
+        vtkIdType ids[8] = { o, o + 1, q + 1, q, o + step[2], o + 1 + step[2], q + 1 + step[2],
+          q + step[2] };
+        if (type == VTK_VOXEL)
+        {
+          std::swap(ids[2], ids[3]);
+          std::swap(ids[6], ids[7]);
+        }
+        if (type == VTK_POLYHEDRON)
+        {
+          const vtkIdType faces[30] = { 4, ids[0], ids[4], ids[7], ids[3], 4, ids[1], ids[2],
+            ids[6], ids[5], 4, ids[0], ids[1], ids[5], ids[4], 4, ids[3], ids[7], ids[6], ids[2], 4,
+            ids[0], ids[3], ids[2], ids[1], 4, ids[4], ids[5], ids[6], ids[7] };
+          result->InsertNextCell(VTK_POLYHEDRON, 8, ids, 6, faces);
+        }
+        else
+        {
+          result->InsertNextCell(type, 8, ids);
+        }
+      }
+    }
+  }
+  return result;
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastInputs, OtherCellsGiveThePictureOfTetrahedra)
+{
+  const FloatImage expected = pictureOf(makeBlock(4, linear()));
+  for (const int type : { VTK_HEXAHEDRON, VTK_VOXEL, VTK_POLYHEDRON })
+  {
+    expectSamePicture(
+      pictureOf(makeCubes(4, type, linear())), expected, "type " + std::to_string(type));
+  }
+}
+
+TEST(TetrahedraRayCastInputs, HiddenHexahedraAreLeftOut)
+{
+  const Grid grid = makeCubes(4, VTK_HEXAHEDRON, linear());
+  vtkUnsignedCharArray* ghosts = grid->AllocateCellGhostArray();
+  ghosts->SetValue(3, vtkDataSetAttributes::HIDDENCELL);
+  ghosts->SetValue(9, vtkDataSetAttributes::DUPLICATECELL);
+  RayCastScene scene(grid, smooth(), Size, Size);
+  scene.window()->Render();
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 6 * (4 * 4 * 4 - 2));
+}
+
+TEST(TetrahedraRayCastInputs, CellsWithoutVolumeAreLeftOutWithAWarning)
+{
+  const Grid grid = makeBlock(4, linear());
+  const FloatImage expected = pictureOf(grid);
+  const vtkIdType ids[3] = { 0, 1, 2 };
+  grid->InsertNextCell(VTK_TRIANGLE, 3, ids);
+  grid->InsertNextCell(VTK_VERTEX, 1, ids);
+  int warnings = 0;
+  expectSamePicture(pictureOf(grid, &warnings), expected, "with a triangle and a vertex");
+  EXPECT_EQ(warnings, 1);
+}
+
+TEST(TetrahedraRayCastInputs, StorageDoesNotMatter)
+{
+  const Grid grid = makeBlock(4, linear());
+  const FloatImage expected = pictureOf(grid);
+  grid->GetCells()->ConvertTo32BitStorage();
+  expectSamePicture(pictureOf(grid), expected, "32-bit cells");
+  grid->GetCells()->ConvertTo64BitStorage();
+  expectSamePicture(pictureOf(grid), expected, "64-bit cells");
+  vtkNew<vtkPoints> floats;
+  floats->SetDataTypeToFloat();
+  floats->DeepCopy(grid->GetPoints());
+  const auto single = Grid::New();
+  single->ShallowCopy(grid);
+  single->SetPoints(floats);
+  expectSamePicture(pictureOf(single), expected, "single precision points");
+  vtkNew<vtkPoints> integers;
+  integers->SetDataTypeToShort();
+  integers->DeepCopy(grid->GetPoints()); // the block's middle plane and its sides
+  single->SetPoints(integers);
+  const FloatImage coarse = pictureOf(single);
+  EXPECT_EQ(coarse.Width, Size);
+}
+
+TEST(TetrahedraRayCastInputs, VectorMagnitudeAndComponent)
+{
+  const Grid grid = makeBlock(4, linear());
+  const FloatImage expected = pictureOf(grid);
+  vtkDataArray* scalars = grid->GetPointData()->GetScalars();
+  vtkNew<vtkFloatArray> vectors;
+  vectors->SetName("Vectors");
+  vectors->SetNumberOfComponents(3);
+  vectors->SetNumberOfTuples(grid->GetNumberOfPoints());
+  vtkNew<vtkDoubleArray> lengths;
+  lengths->SetName("Lengths");
+  lengths->SetNumberOfTuples(grid->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    const double s = scalars->GetComponent(i, 0);
+    vectors->SetTuple3(i, 0.5, s, 0.25);
+    lengths->SetValue(i,
+      std::sqrt(
+        0.5 * 0.5 + vectors->GetComponent(i, 1) * vectors->GetComponent(i, 1) + 0.25 * 0.25));
+  }
+  grid->GetPointData()->AddArray(vectors);
+  grid->GetPointData()->AddArray(lengths);
+
+  RayCastScene scene(grid, smooth(), Size, Size);
+  const double bounds[6] = { -1, 1, -1, 1, -1, 1 };
+  lookAt(scene.renderer(), bounds, 25.0, 15.0);
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectScalarArray("Vectors");
+  mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
+  mapper->SetVectorComponent(1);
+  expectSamePicture(scene.renderFloat(), expected, "component 1");
+  mapper->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE);
+  const FloatImage magnitude = scene.renderFloat();
+  mapper->SelectScalarArray("Lengths");
+  expectSamePicture(magnitude, scene.renderFloat(), "magnitude");
+  EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
+
+  vtkNew<ErrorObserver> observer;
+  observer->observe(mapper);
+  mapper->SelectScalarArray("Vectors");
+  mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
+  mapper->SetVectorComponent(3);
+  scene.window()->Render();
+  EXPECT_EQ(observer->Errors.size(), 1u);
+}
