@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Accuracy of FLAT_FACETS against the thesis's tables, and its cost as the membrane grows. Nothing
- * is judged here: the program prints what it measured.
+ * Accuracy of FLAT_FACETS and CURVED against the thesis's tables, and their cost as the membrane
+ * grows. Nothing is judged here: the program prints what it measured.
  */
 #include "MembraneMeshes.h"
+#include "Refraction/CurvedGeometry.h"
 #include "Refraction/VirtualGeometry.h"
 #include "ThesisTables.h"
 
@@ -122,8 +123,9 @@ std::string RunThesis()
 {
   std::ostringstream json;
   json << "  \"thesis\": [\n";
-  std::printf("%-5s %-30s | %10s %10s %7s | %10s %10s %7s | %8s\n", "table", "set-up",
-    "thesis mean", "deviation", "points", "our mean", "deviation", "points", "mean");
+  std::printf("%-5s %-30s | %10s %10s %7s | %10s %10s %7s | %8s | %9s %9s %7s\n", "table", "set-up",
+    "thesis mean", "deviation", "points", "our mean", "deviation", "points", "mean", "curved",
+    "largest", "points");
   int close = 0;
   int counted = 0;
   const auto& rows = meniscus::reference::GetThesisRows();
@@ -131,20 +133,25 @@ std::string RunThesis()
   {
     const ThesisRow& row = rows[i];
     const ErrorStatistics ours = meniscus::reference::MeasureThesisRow(row);
+    const ErrorStatistics curved = meniscus::reference::MeasureThesisRowCurved(row);
     const double percent = 100.0 * (ours.mean / row.mean - 1.0);
     const bool accepted = std::fabs(percent) <= AcceptedPercent;
     const bool counts = meniscus::reference::IsReproducible(row);
     counted += counts;
     close += counts && accepted;
     const std::string points = row.points > 0 ? std::to_string(row.points) : "-";
-    std::printf("%-5s %-30s | %11.4f %10.4f %7s | %10.4f %10.4f %7zu | %+7.2f%%%s\n", row.table,
-      Describe(row).c_str(), row.mean, row.deviation, points.c_str(), ours.mean, ours.deviation,
-      ours.points, percent, accepted ? "" : " *");
+    std::printf(
+      "%-5s %-30s | %11.4f %10.4f %7s | %10.4f %10.4f %7zu | %+7.2f%%%s | %9.2e %9.2e %7zu\n",
+      row.table, Describe(row).c_str(), row.mean, row.deviation, points.c_str(), ours.mean,
+      ours.deviation, ours.points, percent, accepted ? " " : "*", curved.mean, curved.largest,
+      curved.points);
     std::fflush(stdout);
     json << "    { \"table\": \"" << row.table << "\", \"setup\": \"" << Describe(row)
          << "\", \"thesis_mean\": " << row.mean << ", \"thesis_deviation\": " << row.deviation
          << ", \"thesis_points\": " << row.points << ", \"mean\": " << ours.mean
-         << ", \"deviation\": " << ours.deviation << ", \"points\": " << ours.points << " }"
+         << ", \"deviation\": " << ours.deviation << ", \"points\": " << ours.points
+         << ", \"curved_mean\": " << curved.mean << ", \"curved_largest\": " << curved.largest
+         << ", \"curved_points\": " << curved.points << " }"
          << (i + 1 < rows.size() ? ",\n" : "\n");
   }
   json << "  ],\n  \"rows_within_3_percent\": " << close << ",\n  \"rows_counted\": " << counted;
@@ -163,7 +170,15 @@ struct GrowthResult
   double scattered = 0.0; ///< microseconds per vertex, random order
   double coherent = 0.0;  ///< microseconds per vertex, grid order
   double bruteForce = 0.0;
+  double curvedShapeSeconds = 0.0;  ///< a new topology
+  double curvedDeformSeconds = 0.0; ///< the same topology, other points
+  double curvedEyeSeconds = 0.0;
+  double curvedCoherent = 0.0; ///< microseconds per vertex, one image, grid order
+  double curvedAll = 0.0;      ///< microseconds per vertex, all images
 };
+
+void MeasureCurved(const MembraneMesh& mesh, const glm::dvec3& eye,
+  const std::vector<double>& points, GrowthResult& result);
 
 // Median of five runs after one warm-up.
 template <typename Work>
@@ -232,6 +247,8 @@ GrowthResult MeasureGrowth(int cells)
   result.coherent = perVertex(points);
   result.scattered = perVertex(shuffled);
 
+  MeasureCurved(mesh, eye, points, result);
+
   // About 4e6 cell tests in all.
   const std::size_t sample = std::max<std::size_t>(4000000 / result.facets, 4);
   const double start = Seconds();
@@ -244,23 +261,66 @@ GrowthResult MeasureGrowth(int cells)
   return result;
 }
 
+void MeasureCurved(const MembraneMesh& mesh, const glm::dvec3& eye,
+  const std::vector<double>& points, GrowthResult& result)
+{
+  meniscus::CurvedGeometry geometry;
+  result.curvedShapeSeconds = MedianSeconds(
+    [&geometry, &mesh]
+    {
+      geometry.Clear();
+      geometry.SetMembrane(mesh.AsInput());
+    });
+  MembraneMesh moved = mesh;
+  result.curvedDeformSeconds = MedianSeconds(
+    [&geometry, &moved]
+    {
+      moved.points[1] += 1e-6;
+      geometry.SetMembrane(moved.AsInput());
+    });
+  geometry.SetMembrane(mesh.AsInput());
+  result.curvedEyeSeconds = MedianSeconds([&geometry, &eye] { geometry.SetEye(eye, 1.0, 1.333); });
+  std::vector<meniscus::VirtualVertex> vertices(points.size() / 3);
+  const double micro = 1e6 / static_cast<double>(vertices.size());
+  result.curvedCoherent = micro *
+    MedianSeconds([&] { geometry.Solve(points.data(), 0, vertices.size(), vertices.data()); });
+  std::vector<meniscus::VirtualVertex> images;
+  result.curvedAll = micro *
+    MedianSeconds(
+      [&geometry, &points, &images]
+      {
+        for (std::size_t i = 0; i < points.size(); i += 3)
+        {
+          geometry.FindImages({ points[i], points[i + 1], points[i + 2] }, images);
+        }
+      });
+}
+
 std::string RunGrowth()
 {
   std::ostringstream json;
   json << "  \"growth\": [\n";
-  std::printf("%9s | %9s %9s | %12s %12s %12s\n", "facets", "shape s", "eye s", "us/v grid",
-    "us/v random", "us/v brute");
+  std::printf("%9s | %9s %9s | %12s %12s %12s | %9s %9s %9s %9s %9s\n", "facets", "shape s",
+    "eye s", "us/v grid", "us/v random", "us/v brute", "curved s", "deform s", "eye s", "us/v one",
+    "us/v all");
   const std::array<int, 7> sizes = { 8, 23, 64, 128, 226, 400, 708 };
   for (std::size_t i = 0; i < sizes.size(); ++i)
   {
     const GrowthResult r = MeasureGrowth(sizes[i]);
-    std::printf("%9zu | %9.4f %9.4f | %12.3f %12.3f %12.1f\n", r.facets, r.shapeSeconds,
-      r.eyeSeconds, r.coherent, r.scattered, r.bruteForce);
+    std::printf("%9zu | %9.4f %9.4f | %12.3f %12.3f %12.1f | %9.4f %9.4f %9.4f %9.3f %9.3f\n",
+      r.facets, r.shapeSeconds, r.eyeSeconds, r.coherent, r.scattered, r.bruteForce,
+      r.curvedShapeSeconds, r.curvedDeformSeconds, r.curvedEyeSeconds, r.curvedCoherent,
+      r.curvedAll);
     std::fflush(stdout);
     json << "    { \"facets\": " << r.facets << ", \"shape_s\": " << r.shapeSeconds
          << ", \"eye_s\": " << r.eyeSeconds << ", \"us_per_vertex_grid_order\": " << r.coherent
          << ", \"us_per_vertex_random_order\": " << r.scattered
-         << ", \"us_per_vertex_brute_force\": " << r.bruteForce << " }"
+         << ", \"us_per_vertex_brute_force\": " << r.bruteForce
+         << ", \"curved_shape_s\": " << r.curvedShapeSeconds
+         << ", \"curved_deform_s\": " << r.curvedDeformSeconds
+         << ", \"curved_eye_s\": " << r.curvedEyeSeconds
+         << ", \"curved_us_per_vertex_one_image\": " << r.curvedCoherent
+         << ", \"curved_us_per_vertex_all_images\": " << r.curvedAll << " }"
          << (i + 1 < sizes.size() ? ",\n" : "\n");
   }
   json << "  ]";

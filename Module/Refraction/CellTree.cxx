@@ -13,14 +13,15 @@ namespace
 
 using Iterator = std::vector<std::int32_t>::iterator;
 
-// The smallest float that is not below the value. Conversion rounds to nearest, so one step up is
-// enough; values beyond float become infinite, which bounds them as well.
+// A float that is not below the value, and at most two units in its last place above. Values beyond
+// float become infinite, which bounds them as well.
 float RoundUp(double value)
 {
   const auto rounded = static_cast<float>(value);
-  return static_cast<double>(rounded) >= value
-    ? rounded
-    : std::nextafter(rounded, std::numeric_limits<float>::infinity());
+  return static_cast<double>(rounded) >= value ? rounded
+                                               : rounded +
+      std::max(std::fabs(rounded) * std::numeric_limits<float>::epsilon(),
+        std::numeric_limits<float>::min());
 }
 
 // A rate of exactly zero would make 0 / 0 of a touching point; the next larger bound is as valid.

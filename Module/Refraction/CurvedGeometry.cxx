@@ -17,7 +17,7 @@ namespace
 {
 
 // A root on an edge is found in both of its facets, up to what Newton's method leaves.
-constexpr double Border = 1e-9;
+constexpr double Border = 1e-8;
 
 // Newton steps in one patch while the answers before are followed, how far a step may leave the
 // patch before another one takes over, and how often that may happen.
@@ -37,7 +37,7 @@ constexpr double FirstReach = 1.5;
 
 // Images of one point in two patches are one if their sight points are this close, in units of
 // the patch's size: images on a common edge, up to what Newton's method leaves.
-constexpr double SamePlace = 1e-7;
+constexpr double SamePlace = 1e-6;
 
 constexpr std::int32_t AllFacets = std::numeric_limits<std::int32_t>::max();
 
@@ -215,25 +215,26 @@ EyeStatus CurvedGeometry::SetEye(
   this->Tree.Refit(
     [this, &touched](std::int32_t facet)
     {
-      if (this->IsEyeOnPatch(facet))
+      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      if (this->IsEyeOnPatch(patch))
       {
         touched = true;
       }
-      return BoundRefractedRays(this->Patches.GetPatch(facet), this->Optics.eye,
-        this->Optics.exterior / this->Optics.interior);
+      return BoundRefractedRays(
+        patch, this->Optics.eye, this->Optics.exterior / this->Optics.interior);
     },
     loop);
   return touched ? EyeStatus::OnTheMembrane : EyeStatus::Ready;
 }
 
 //------------------------------------------------------------------------------
-bool CurvedGeometry::IsEyeOnPatch(std::int32_t facet) const
+bool CurvedGeometry::IsEyeOnPatch(const CurvedPatch& patch) const
 {
-  const CurvedPatch patch = this->Patches.GetPatch(facet);
   const glm::dvec3 away = this->Optics.eye - patch.corner[0];
-  const double size = GetSize(patch);
-  // The patch bulges by less than half of its longest edge.
-  if (glm::dot(away, away) > 4.0 * size * size)
+  const glm::dvec3 first = patch.corner[1] - patch.corner[0];
+  const glm::dvec3 second = patch.corner[2] - patch.corner[0];
+  // The patch bulges by less than half of its longest edge, which is below the sum of two.
+  if (glm::dot(away, away) > 8.0 * (glm::dot(first, first) + glm::dot(second, second)))
   {
     return false;
   }
@@ -429,7 +430,7 @@ ImageState CurvedGeometry::FindImages(
     return ImageState::NotFinite;
   }
   const SightEquation equation = this->MakeEquation(local);
-  std::vector<SightPlace> places;
+  thread_local std::vector<SightPlace> places; // kept from point to point for its memory alone
   this->FindPlaces(equation, local, places);
   for (const SightPlace& place : places)
   {

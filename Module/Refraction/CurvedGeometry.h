@@ -134,7 +134,7 @@ private:
 
   void FindAxis();
   void BuildTree(CellTree& tree) const;
-  bool IsEyeOnPatch(std::int32_t facet) const;
+  bool IsEyeOnPatch(const CurvedPatch& patch) const;
   VirtualVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
   bool Follow(const SightEquation& equation, const glm::dvec3& local, const Memory& memory,
     SightPlace& place) const;

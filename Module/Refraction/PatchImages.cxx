@@ -12,15 +12,19 @@ namespace
 {
 
 // Roots closer than this, in facets, are one: near a caustic two of them merge, and there Newton's
-// last step of 1e-6 leaves an error of that order.
-constexpr double SameRoot = 1e-6;
+// last step of 1e-5 leaves an error of that order.
+constexpr double SameRoot = 1e-5;
 
-// A root on the border of a triangle belongs to both sides. Newton's method leaves 1e-12.
-constexpr double Border = 1e-9;
+// A root on the border of a triangle belongs to both sides. Newton's method leaves 1e-10.
+constexpr double Border = 1e-8;
 
 // 2^-14 of a facet. A triangle that is still undecided there holds a double root, on a caustic, and
 // Newton's method decides.
 constexpr int DeepestLevel = 14;
+
+// Isolated roots take a dozen divisions each at most, a few near a caustic. A ring of roots would
+// take one for every triangle that it crosses, on every level.
+constexpr int MostDivisions = 1000;
 
 // Newton's method starts at the root of a nearly linear map.
 constexpr int NewtonSteps = 12;
@@ -67,6 +71,17 @@ bool IsSeparated(const Control& control, double margin)
   return false;
 }
 
+// Whether the corners alone keep the map away from zero, if its part of second degree is within
+// LargestBend: control points of edges are then within twice that from the edges' middles.
+bool IsFarFromZero(const Control& f)
+{
+  const double size =
+    std::max({ glm::length(f[1] - f[0]), glm::length(f[2] - f[1]), glm::length(f[0] - f[2]) });
+  Control corners = f;
+  std::copy(f.begin(), f.begin() + 3, corners.begin() + 3);
+  return IsSeparated(corners, (2.0 * LargestBend + HigherDegree) * size);
+}
+
 bool IsInjective(const Control& c)
 {
   const glm::dvec2 first[3] = { c[5] - c[0], c[1] - c[5], c[3] - c[4] };
@@ -93,12 +108,36 @@ void PatchImages::Find()
   Triangle whole;
   whole.b = { glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
     glm::dvec2(0.5, 0.5), glm::dvec2(0.0, 0.5), glm::dvec2(0.5, 0.0) };
-  for (std::size_t i = 0; i < 6; ++i)
+  this->Count = 0;
+  this->Divisions = 0;
+  for (std::size_t i = 0; i < 3; ++i)
   {
     whole.f[i] = this->Equation.GetResidual(this->Patch, whole.b[i]);
   }
-  this->Count = 0;
+  if (this->IsFar() && IsFarFromZero(whole.f))
+  {
+    return;
+  }
+  for (std::size_t i = 3; i < 6; ++i)
+  {
+    whole.f[i] = this->Equation.GetResidual(this->Patch, whole.b[i]);
+  }
   this->Search(whole, 0);
+}
+
+//------------------------------------------------------------------------------
+// Eye and point are so far that lines of sight turn by less than half a radian in the patch, and so
+// do its normals: the map bends by less than LargestBend.
+bool PatchImages::IsFar() const
+{
+  const glm::dvec3 first = this->Patch.corner[1] - this->Patch.corner[0];
+  const glm::dvec3 second = this->Patch.corner[2] - this->Patch.corner[0];
+  const double squared = 4.0 * (glm::dot(first, first) + glm::dot(second, second));
+  constexpr double smallest = 0.875; // cos 0.5
+  const auto turns = [this](int i, int j)
+  { return glm::dot(this->Patch.normal[i], this->Patch.normal[j]) < smallest; };
+  return this->Equation.GetSquaredDistance(this->Patch.corner[0]) > squared && !turns(0, 1) &&
+    !turns(1, 2) && !turns(2, 0);
 }
 
 //------------------------------------------------------------------------------
@@ -136,7 +175,7 @@ void PatchImages::Search(const Triangle& triangle, int depth)
   {
     return;
   }
-  const bool last = depth == DeepestLevel;
+  const bool last = depth == DeepestLevel || this->Divisions >= MostDivisions;
   if ((verdict == Verdict::AtMostOne || last) && (this->TakeRoot(triangle) || last))
   {
     return;
@@ -182,6 +221,7 @@ bool PatchImages::TakeRoot(const Triangle& triangle)
 //------------------------------------------------------------------------------
 void PatchImages::Divide(const Triangle& t, int depth)
 {
+  ++this->Divisions;
   const auto evaluate = [this](const glm::dvec2& b)
   { return this->Equation.GetResidual(this->Patch, b); };
   // Three children at the corners, one in the middle with the middles of the edges as corners.

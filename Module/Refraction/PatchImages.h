@@ -20,6 +20,10 @@ namespace meniscus
  * zero there is no root. If the determinants of all pairs of control vectors of its two derivatives
  * have one sign the map is injective, so there is one root at most and Newton's method finds it.
  * Otherwise the triangle is divided in four.
+ *
+ * Where the patch focuses on the point the roots are not isolated: a dome on whose axis eye and
+ * point lie shows a ring. The number of divisions is limited then, and what is found stands for the
+ * rest.
  */
 class PatchImages
 {
@@ -53,6 +57,7 @@ private:
     Unknown
   };
 
+  bool IsFar() const;
   void Search(const Triangle& triangle, int depth);
   void Divide(const Triangle& triangle, int depth);
   bool TakeRoot(const Triangle& triangle);
@@ -63,6 +68,7 @@ private:
   const CurvedPatch& Patch;
   std::array<SightRoot, Capacity> Roots;
   std::size_t Count = 0;
+  int Divisions = 0;
 };
 
 }

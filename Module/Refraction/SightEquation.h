@@ -59,6 +59,14 @@ public:
   /// Whether a root is an image: eye in front of the surface, point behind it.
   bool IsImage(const PatchPoint& at) const;
 
+  /// Of a place from the eye or from the point, whichever is nearer.
+  double GetSquaredDistance(const glm::dvec3& place) const
+  {
+    const glm::dvec3 a = place - this->Eye;
+    const glm::dvec3 p = place - this->Point;
+    return std::min(glm::dot(a, a), glm::dot(p, p));
+  }
+
   /// Which way round the image of a facet is: +1, or -1 where it is mirrored.
   static int GetOrientation(const CurvedPatch& patch, const SightRoot& root);
 
@@ -127,8 +135,8 @@ inline SightRoot SightEquation::Solve(
   const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const
 {
   // The error after a step is of the order of the step's square, in facets: what is left is below
-  // 1e-12 of a facet.
-  constexpr double lastStep = 1e-6;
+  // 1e-10 of a facet but near a caustic.
+  constexpr double lastStep = 1e-5;
   PatchJet jet;
   for (int i = 0; i < steps; ++i)
   {

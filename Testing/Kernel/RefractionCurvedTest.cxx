@@ -331,6 +331,29 @@ TEST(RefractionCurved, FindsAllImagesAndNoOthers)
 }
 
 //------------------------------------------------------------------------------
+// On the axis of a dome, beyond its focus, the images are a ring: an end to the search, and no
+// image that is none.
+TEST(RefractionCurved, RingsOfImagesDoNotHoldUp)
+{
+  const HeightField dome{ HeightField::Shape::Dome, 200.0, 30.0, 0.025, 1.0, 1.5 };
+  const glm::dvec3 eye(0.0, 400.0, 0.0);
+  const glm::dvec3 point(0.0, -200.0, 0.0);
+  CurvedGeometry geometry;
+  Set(geometry, dome.MakeMesh(32), eye, 1.0, 1.5);
+  std::vector<VirtualVertex> images;
+  EXPECT_EQ(geometry.FindImages(point, images), ImageState::Found);
+  EXPECT_GT(images.size(), 1u);
+  for (const VirtualVertex& image : images)
+  {
+    const auto seen = dome.Refract(eye, image.sightPoint, image.depth);
+    ASSERT_TRUE(seen);
+    // Where the rays of a ring meet, an error of the patch is not magnified.
+    EXPECT_LT(glm::length(*seen - point), 1.0);
+  }
+  EXPECT_EQ(SolveOne(geometry, point).state, ImageState::Found);
+}
+
+//------------------------------------------------------------------------------
 TEST(RefractionCurved, TheOneImageIsOneOfAll)
 {
   CurvedGeometry geometry;
