@@ -181,6 +181,14 @@ std::string RayCastOpenGL::UploadGradients(const std::vector<glm::vec3>& gradien
 }
 
 //------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadPreIntegration(const PreIntegrationTable& table)
+{
+  const std::string error = this->PreIntegration.Upload(this->Window, table);
+  this->UploadedBytes += this->PreIntegration.GetBytes();
+  return error;
+}
+
+//------------------------------------------------------------------------------
 std::string RayCastOpenGL::UploadProperty(const VolumePropertyTables& tables)
 {
   std::vector<float> values;
@@ -484,7 +492,15 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
   program->SetUniformi("opaqueDepth", this->Depth.GetTexture()->GetTextureUnit());
   this->SetCastUniforms(program, frame);
   SetOpticsUniforms(program, frame.Optics);
+  if (frame.Optics.PreIntegrated)
+  {
+    this->PreIntegration.Activate(program);
+  }
   run();
+  if (frame.Optics.PreIntegrated)
+  {
+    this->PreIntegration.Deactivate();
+  }
   this->Depth.GetTexture()->Deactivate();
   this->EntryTiles->Deactivate();
   for (OpenGLTable* table : tables)
@@ -506,7 +522,10 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateTables(
     active.push_back(&table);
   };
   activate(this->Cells, "cells");
-  activate(this->Intervals, "intervals");
+  if (!optics.PreIntegrated)
+  {
+    activate(this->Intervals, "intervals");
+  }
   if (optics.VertexGradients)
   {
     activate(this->VertexGradients, "vertexGradients");
@@ -666,6 +685,7 @@ void RayCastOpenGL::Release(vtkWindow* window)
   {
     table->Release(owner);
   }
+  this->PreIntegration.Release(owner);
   this->Depth.Release(owner);
   this->TileLister.reset();
   this->RayCasters.clear();

@@ -11,6 +11,7 @@
 
 #include "OpenGLComputeProgram.h"
 #include "OpenGLDepthCopy.h"
+#include "OpenGLPreIntegration.h"
 #include "OpenGLTable.h"
 #include "RayCastOptics.h"
 #include "VolumePropertyTables.h"
@@ -76,6 +77,7 @@ public:
   bool HasBoundary() const;
   bool HasVertices() const;
   bool HasGradients() const { return this->VertexGradients.IsFilled(); }
+  bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
   bool HasProperty() const { return this->Intervals.IsFilled(); }
 
   std::string UploadCells(const TetrahedralMesh& mesh);
@@ -84,6 +86,8 @@ public:
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
   /** One gradient per vertex. Needed for optics with VertexGradients. */
   std::string UploadGradients(const std::vector<glm::vec3>& gradients);
+  /** Needed for optics with PreIntegrated. */
+  std::string UploadPreIntegration(const PreIntegrationTable& table);
   std::string UploadProperty(const VolumePropertyTables& tables);
 
   /** Whether the window's context has compute shaders (OpenGL 4.3). */
@@ -150,6 +154,7 @@ private:
   OpenGLTable Intervals;
   int NumberOfScalarIntervals = 0;
   OpenGLTable Isosurfaces;
+  OpenGLPreIntegration PreIntegration;
   OpenGLDepthCopy Depth;
   std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
   /** By RayCastShaderOptions(). */

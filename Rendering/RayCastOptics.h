@@ -38,6 +38,8 @@ struct RayCastOptics
 {
   /** A number of vtkVolumeMapper::BlendModes up to ISOSURFACE_BLEND. */
   int BlendMode = 0;
+  /** Composite blending by a table of segments; neither shading nor gradient opacity. */
+  bool PreIntegrated = false;
   bool Shading = false;
   bool GradientOpacity = false;
   /** Gradients interpolated between vertices, not those of the cells; only with one of the above.
@@ -56,7 +58,9 @@ struct RayCastOptics
 
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
   /** Composite blending of the transfer function as it is. */
-  bool IsPlain() const { return this->BlendMode == 0 && !this->UsesGradients(); }
+  bool IsComposite() const { return this->BlendMode == 0 && !this->UsesGradients(); }
+  /** The same, integrated exactly. */
+  bool IsPlain() const { return this->IsComposite() && !this->PreIntegrated; }
 };
 
 /** Where the mesh lies for optics: its centre in world and view coordinates, and view coordinates.

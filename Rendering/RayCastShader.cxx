@@ -3,8 +3,10 @@
 #include "RayCastShader.h"
 
 #include "vtkTetrahedraComposite.h"
+#include "vtkTetrahedraFrontToBack.h"
 #include "vtkTetrahedraIsosurfaces.h"
 #include "vtkTetrahedraLights.h"
+#include "vtkTetrahedraPreIntegrated.h"
 #include "vtkTetrahedraProjection.h"
 #include "vtkTetrahedraRays.h"
 #include "vtkTetrahedraTransferFunction.h"
@@ -45,12 +47,17 @@ const char* BlendModeName(int blendMode)
 std::string ModelSource(const RayCastOptics& optics)
 {
   const std::string lights = optics.UsesGradients() ? vtkTetrahedraLights : "";
+  if (optics.PreIntegrated)
+  {
+    return std::string(vtkTetrahedraFrontToBack) + vtkTetrahedraPreIntegrated;
+  }
   switch (optics.BlendMode)
   {
     case vtkVolumeMapper::COMPOSITE_BLEND:
-      return vtkTetrahedraTransferFunction + lights + vtkTetrahedraComposite;
+      return std::string(vtkTetrahedraFrontToBack) + vtkTetrahedraTransferFunction + lights +
+        vtkTetrahedraComposite;
     case vtkVolumeMapper::ISOSURFACE_BLEND:
-      return lights + vtkTetrahedraIsosurfaces;
+      return vtkTetrahedraFrontToBack + lights + vtkTetrahedraIsosurfaces;
     default:
       return std::string(vtkTetrahedraTransferFunction) + vtkTetrahedraProjection;
   }
@@ -100,6 +107,7 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
     define(BlendModeName(mode), mode);
   }
   text << "#define BLEND_MODE " << BlendModeName(optics.BlendMode) << "\n";
+  define("PRE_INTEGRATED", optics.PreIntegrated ? 1 : 0);
   define("SHADING", optics.Shading ? 1 : 0);
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
   define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);

@@ -9,6 +9,7 @@
 #include "Volume/RayFrame.h"
 #include "Volume/VertexGradients.h"
 #include "VolumeInput.h"
+#include "VolumePreIntegration.h"
 #include "VolumePropertyTables.h"
 
 #include "vtkCamera.h"
@@ -54,6 +55,7 @@ class vtkTetrahedraRayCastMapper::vtkInternals
 public:
   meniscus::VolumeInput Input;
   meniscus::VolumePropertyTables Property;
+  meniscus::VolumePreIntegration PreIntegration;
   std::vector<glm::vec3> Gradients;
   meniscus::RayCastOpenGL OpenGL;
   meniscus::RayCastNative Native;
@@ -68,6 +70,7 @@ public:
   std::int64_t UploadedScalars = 0;
   std::int64_t UploadedGradients = 0;
   std::int64_t UploadedProperty = 0;
+  std::int64_t UploadedPreIntegration = 0;
   /** The same of the native backend's. */
   std::int64_t NativeMesh = 0;
   std::int64_t NativeScalars = 0;
@@ -83,7 +86,7 @@ public:
   bool WarnedCompute = false;
 
   void UpdateGradients();
-  std::string Upload(bool gradients);
+  std::string Upload(const meniscus::RayCastOptics& optics);
   void UpdateNative();
   std::string DrawOpenGL(const meniscus::RayCastFrame& frame);
   std::string DrawNative(const meniscus::RayCastFrame& frame);
@@ -92,7 +95,7 @@ public:
 };
 
 //------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
+std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(const meniscus::RayCastOptics& optics)
 {
   meniscus::VolumeInput& input = this->Input;
   std::string error;
@@ -112,7 +115,7 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
     this->UploadedScalars = input.GetScalarUpdates();
   }
   const bool gradientsStale = this->UploadedGradients != this->GradientBuilds;
-  if (error.empty() && gradients && (gradientsStale || !this->OpenGL.HasGradients()))
+  if (error.empty() && optics.VertexGradients && (gradientsStale || !this->OpenGL.HasGradients()))
   {
     error = this->OpenGL.UploadGradients(this->Gradients);
     this->UploadedGradients = error.empty() ? this->GradientBuilds : 0;
@@ -122,6 +125,13 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
   {
     error = this->OpenGL.UploadProperty(this->Property);
     this->UploadedProperty = error.empty() ? this->Property.GetVersion() : 0;
+  }
+  const std::int64_t table = this->PreIntegration.GetNumberOfBuilds();
+  if (error.empty() && optics.PreIntegrated &&
+    (this->UploadedPreIntegration != table || !this->OpenGL.HasPreIntegration()))
+  {
+    error = this->OpenGL.UploadPreIntegration(this->PreIntegration.GetTable());
+    this->UploadedPreIntegration = error.empty() ? table : 0;
   }
   return error;
 }
@@ -148,7 +158,7 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
   {
     this->UpdateGradients();
   }
-  const std::string error = this->Upload(frame.Optics.VertexGradients);
+  const std::string error = this->Upload(frame.Optics);
   return error.empty() ? this->OpenGL.Draw(frame) : error;
 }
 
@@ -311,8 +321,6 @@ void vtkTetrahedraRayCastMapper::WarnOnce(bool condition, bool& warned, const ch
 void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 {
   vtkInternals& internals = *this->Internals;
-  this->WarnOnce(this->Integration == PRE_INTEGRATED, internals.WarnedIntegration,
-    "Pre-integration is not available; integrating exactly.");
   this->WarnOnce(this->GetUsedBlendMode() != this->BlendMode, internals.WarnedBlendMode,
     "There is no such blend mode for meshes; rendering with composite blending.");
 }
@@ -374,11 +382,29 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
   const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
   const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
   this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
-    "The native backend has composite blending only, without shading and gradient opacity; "
-    "rendering with OpenGL.");
+    "The native backend has composite blending only, integrated exactly, without shading and "
+    "gradient opacity; rendering with OpenGL.");
   this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
     "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
   return nativeLacks || computeLacks ? OPENGL : this->Backend;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::ChooseIntegration(
+  vtkVolume* volume, meniscus::RayCastOptics& optics)
+{
+  const bool wanted = this->Integration == PRE_INTEGRATED &&
+    optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
+  this->WarnOnce(wanted && !optics.IsComposite(), this->Internals->WarnedIntegration,
+    "Pre-integration is not available with shading and gradient opacity; integrating exactly.");
+  optics.PreIntegrated = wanted && optics.IsComposite();
+  if (optics.PreIntegrated)
+  {
+    vtkInternals& internals = *this->Internals;
+    internals.PreIntegration.Update(internals.Input, internals.Property,
+      ToGlm(volume->GetMatrix()),
+      { this->PreIntegrationScalarSize, this->PreIntegrationLengthSize });
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -433,6 +459,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
   frame.Optics.VertexGradients =
     frame.Optics.UsesGradients() && this->Gradients == VERTEX_GRADIENTS;
+  this->ChooseIntegration(volume, frame.Optics);
   return meniscus::DescribeExcess(frame.Optics);
 }
 
@@ -542,6 +569,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfGradientBuilds()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfPreIntegrationBuilds()
+{
+  return this->Internals->PreIntegration.GetNumberOfBuilds();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 {
   return this->Internals->Input.GetActiveSetBuilds();
@@ -593,6 +626,8 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "ActiveBackend: " << this->ActiveBackend << "\n";
   os << indent << "Integration: " << this->Integration << "\n";
+  os << indent << "PreIntegrationScalarSize: " << this->PreIntegrationScalarSize << "\n";
+  os << indent << "PreIntegrationLengthSize: " << this->PreIntegrationLengthSize << "\n";
   os << indent << "Gradients: " << this->Gradients << "\n";
   os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
   os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
@@ -604,6 +639,8 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfTransferFunctionBuilds: " << this->GetNumberOfTransferFunctionBuilds()
      << "\n";
   os << indent << "NumberOfGradientBuilds: " << this->GetNumberOfGradientBuilds() << "\n";
+  os << indent << "NumberOfPreIntegrationBuilds: " << this->GetNumberOfPreIntegrationBuilds()
+     << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";

@@ -87,6 +87,7 @@ class vtkUnstructuredGrid;
 namespace meniscus
 {
 struct RayCastFrame;
+struct RayCastOptics;
 }
 
 class VTKMENISCUS_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
@@ -164,12 +165,29 @@ public:
 
   ///@{
   /**
-   * How ray segments are integrated: EXACT, the default, in closed form; PRE_INTEGRATED, by the
-   * tables of the paper. PRE_INTEGRATED is not available in this version: asking for it warns once
-   * and renders with EXACT.
+   * How ray segments are integrated: EXACT, the default, in closed form; PRE_INTEGRATED, by a table
+   * as in the paper, over the scalars at both ends of a segment and its length (SetPreIntegration-
+   * ScalarSize(), SetPreIntegrationLengthSize()). The table is made when the transfer function, a
+   * size or the longest edge of the volume in the world changed. It is there for composite blending
+   * without light and gradient opacity, with OpenGL; else segments are integrated exactly, after a
+   * warning where PRE_INTEGRATED would have made a difference.
    */
   vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
   vtkGetMacro(Integration, int);
+  ///@}
+
+  ///@{
+  /**
+   * Samples of the pre-integration table: of the range of the data's scalars, in [2, 1024], default
+   * 256, and of the length of a segment, in [1, 128], default 32. One length neglects what a
+   * segment absorbs of itself in its colour, not in its opacity. Where that is as good, because all
+   * that can be seen has one colour or because no segment is deeper than 1/64, the table has one
+   * length whatever is set. It takes 16 bytes times the lengths times the square of the scalars.
+   */
+  vtkSetClampMacro(PreIntegrationScalarSize, int, 2, 1024);
+  vtkGetMacro(PreIntegrationScalarSize, int);
+  vtkSetClampMacro(PreIntegrationLengthSize, int, 1, 128);
+  vtkGetMacro(PreIntegrationLengthSize, int);
   ///@}
 
   enum GradientLocations
@@ -227,13 +245,15 @@ public:
   /**
    * Work done since construction: builds of the mesh tables, updates of vertex scalars, reductions
    * of the volume property to control points, builds of the set of active cells (on a new mesh,
-   * new scalars, or when other scalars become visible), computations of vertex gradients.
+   * new scalars, or when other scalars become visible), computations of vertex gradients, builds of
+   * the pre-integration table.
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
   vtkTypeInt64 GetNumberOfTransferFunctionBuilds();
   vtkTypeInt64 GetNumberOfActiveSetBuilds();
   vtkTypeInt64 GetNumberOfGradientBuilds();
+  vtkTypeInt64 GetNumberOfPreIntegrationBuilds();
   ///@}
 
   /**
@@ -287,6 +307,7 @@ private:
   vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
+  void ChooseIntegration(vtkVolume* volume, meniscus::RayCastOptics& optics);
   bool UpdateInput(vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
@@ -301,6 +322,8 @@ private:
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
   int Integration = EXACT;
+  int PreIntegrationScalarSize = 256;
+  int PreIntegrationLengthSize = 32;
   int Gradients = VERTEX_GRADIENTS;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
   float ImageSampleDistance = 1.0f;

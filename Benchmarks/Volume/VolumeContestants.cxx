@@ -82,13 +82,23 @@ struct OurSettings
   int Backend;
   int Integration;
   double TerminationOpacity; // negative: the default
+  int TableScalars = 0;      // of a pre-integration table; 0: the default
+  int TableLengths = 0;
 };
+
+// Beside the default: coarse, without self-absorption (two dimensions), fine.
+constexpr int TableSizes[][2] = { { 64, 16 }, { 256, 1 }, { 512, 64 } };
 
 MapperPointer makeOurMapper(const OurSettings& settings)
 {
   auto mapper = vtkSmartPointer<vtkTetrahedraRayCastMapper>::New();
   mapper->SetBackend(settings.Backend);
   mapper->SetIntegration(settings.Integration);
+  if (settings.TableScalars > 0)
+  {
+    mapper->SetPreIntegrationScalarSize(settings.TableScalars);
+    mapper->SetPreIntegrationLengthSize(settings.TableLengths);
+  }
   if (settings.TerminationOpacity >= 0.0)
   {
     mapper->SetEarlyTerminationOpacity(settings.TerminationOpacity);
@@ -123,6 +133,7 @@ std::string backendName(int backend)
 {
   return backend == vtkTetrahedraRayCastMapper::OPENGL ? "opengl"
     : backend == vtkTetrahedraRayCastMapper::NATIVE    ? "native"
+    : backend == vtkTetrahedraRayCastMapper::COMPUTE   ? "compute"
                                                        : "backend-" + std::to_string(backend);
 }
 
@@ -160,6 +171,15 @@ std::vector<Contestant> makeContestants(const VolumeOptions& options)
       all.push_back({ name, [settings]() { return makeOurMapper(settings); }, true });
       const OurSettings early{ backend, integration, 0.99 };
       all.push_back({ name + "/0.99", [early]() { return makeOurMapper(early); }, true });
+      for (const auto& size : TableSizes)
+      {
+        if (integration == vtkTetrahedraRayCastMapper::PRE_INTEGRATED)
+        {
+          const OurSettings sized{ backend, integration, -1.0, size[0], size[1] };
+          all.push_back({ name + "/" + std::to_string(size[0]) + "x" + std::to_string(size[1]),
+            [sized]() { return makeOurMapper(sized); }, true });
+        }
+      }
     }
   }
   test::FunctionKind kind = test::FunctionKind::Smooth;

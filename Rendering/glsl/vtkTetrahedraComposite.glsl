@@ -3,33 +3,12 @@
 //
 // Composite blending: the density-emitter integral along the ray.
 
-uniform float terminationTransmittance;
-
 // Optical depth of a piece beyond which nothing can be told apart; keeps infinities out.
 const float LARGEST_DEPTH = 1.0e+30;
-
-vec3 color;
-float transmittance;
-
-void startRay()
-{
-  color = vec3(0.0);
-  transmittance = 1.0;
-}
 
 void startPart(float scalar)
 {
   findInterval(scalar);
-}
-
-bool isRayDone()
-{
-  return transmittance <= terminationTransmittance;
-}
-
-vec4 finishRay()
-{
-  return vec4(color, 1.0 - transmittance);
 }
 
 #if SHADING || GRADIENT_OPACITY

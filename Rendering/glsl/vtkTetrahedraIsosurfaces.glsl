@@ -7,31 +7,11 @@
 
 uniform samplerBuffer surfaces;      // ascending, 2 texels each: (isovalue, opacity), colour
 uniform int numberOfSurfaces;
-uniform float terminationTransmittance;
 
 const float BEYOND = 3.0e+38;
 
-vec3 color;
-float transmittance;
-
 int surfacesBelow;   // isovalues not above the scalar
 vec2 surfaceRange;   // the isovalues next to it
-
-void startRay()
-{
-  color = vec3(0.0);
-  transmittance = 1.0;
-}
-
-bool isRayDone()
-{
-  return transmittance <= terminationTransmittance;
-}
-
-vec4 finishRay()
-{
-  return vec4(color, 1.0 - transmittance);
-}
 
 void loadSurfaceRange()
 {

@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Entries of the pre-integration table against the integral that they stand for.
+#include "VolumeTestMeshes.h"
+
+#include "Volume/PreIntegration.h"
+
+#include <glm/common.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+using namespace meniscus;
+using namespace meniscus::test;
+
+namespace
+{
+
+std::vector<TransferFunctionInterval> Intervals(const std::vector<TransferFunctionPoint>& points)
+{
+  return BuildIntervals(points, ScalarNormalization());
+}
+
+/** Smooth, moderately dense and of many colours. */
+std::vector<TransferFunctionInterval> Ramps()
+{
+  return Intervals({ { -1.0, 0.5, { 1.0, 0.2, 0.0 } }, { -0.3, 2.0, { 0.1, 0.9, 0.3 } },
+    { 0.25, 1.0, { 0.2, 0.1, 1.0 } }, { 1.0, 4.0, { 1.0, 1.0, 0.2 } } });
+}
+
+const TransferFunctionInterval& IntervalOf(
+  const std::vector<TransferFunctionInterval>& intervals, double scalar)
+{
+  return *std::find_if(intervals.begin(), intervals.end(),
+    [scalar](const TransferFunctionInterval& i) { return scalar <= i.Upper; });
+}
+
+struct Segment
+{
+  glm::dvec3 Color{ 0.0 };
+  double Opacity = 0.0;
+};
+
+/** The integral by midpoints of many steps, in double. */
+Segment Integrate(const std::vector<TransferFunctionInterval>& intervals, double front,
+  double back, double length)
+{
+  constexpr int Steps = 20000;
+  Segment segment;
+  for (int i = 0; i < Steps; ++i)
+  {
+    const double scalar = front + (back - front) * (i + 0.5) / Steps;
+    const TransferFunctionInterval& interval = IntervalOf(intervals, scalar);
+    const double offset = scalar - interval.Lower;
+    const double depth =
+      (interval.Attenuation + offset * interval.AttenuationSlope) * length / Steps;
+    const double gone = (1.0 - segment.Opacity) * -std::expm1(-depth);
+    segment.Color +=
+      gone * (glm::dvec3(interval.Color) + offset * glm::dvec3(interval.ColorSlope));
+    segment.Opacity += gone;
+  }
+  return segment;
+}
+
+struct Errors
+{
+  double Color = 0.0;
+  double Opacity = 0.0;
+};
+
+/** The largest errors over some entries of a table, as the shader reads them. */
+Errors LargestErrors(const PreIntegrationTable& table,
+  const std::vector<TransferFunctionInterval>& intervals, int scalarStep, int lengthStep)
+{
+  Errors largest;
+  const int count = table.GetNumberOfScalars();
+  for (int k = 0; k < table.GetNumberOfLengths(); k += lengthStep)
+  {
+    const double length = table.GetLength(k);
+    for (int b = 0; b < count; b += scalarStep)
+    {
+      for (int f = 0; f < count; f += scalarStep)
+      {
+        const float* entry = &table.GetValues()[4 * ((std::size_t(k) * count + b) * count + f)];
+        const Segment truth = Integrate(
+          intervals, -1.0 + 2.0 * f / (count - 1), -1.0 + 2.0 * b / (count - 1), length);
+        const double opacity = -std::expm1(-entry[3] * length);
+        largest.Opacity = std::max(largest.Opacity, std::abs(opacity - truth.Opacity));
+        for (int c = 0; c < 3; ++c)
+        {
+          largest.Color = std::max(largest.Color, std::abs(opacity * entry[c] - truth.Color[c]));
+        }
+      }
+    }
+  }
+  return largest;
+}
+
+}
+
+TEST(VolumePreIntegration, OpacityIsExactAndColorConverges)
+{
+  const auto intervals = Ramps();
+  double last = 0.0;
+  for (const int scalars : { 17, 33, 65, 129 })
+  {
+    PreIntegrationTable table;
+    table.Build(intervals, 3.0, scalars, 16);
+    EXPECT_EQ(table.GetNumberOfLengths(), 16);
+    const Errors errors = LargestErrors(table, intervals, (scalars - 1) / 8, 5);
+    // The midpoints' own error is below 1e-8; entries are floats.
+    EXPECT_LT(errors.Opacity, 1e-6) << scalars;
+    // Nodes between samples are kinks, which interpolation meets with the first order of their
+    // distance at worst; elsewhere with the second.
+    EXPECT_TRUE(last == 0.0 || errors.Color < 0.6 * last) << scalars << ": " << errors.Color;
+    last = errors.Color;
+    RecordProperty("color error of " + std::to_string(scalars), std::to_string(errors.Color));
+  }
+  EXPECT_LT(last, 5e-4);
+}
+
+TEST(VolumePreIntegration, LinearColorInConstantMediumIsExact)
+{
+  // Without kinks the colour over opacity is linear in both scalars: interpolation is exact.
+  const auto intervals =
+    Intervals({ { -1.0, 2.0, { 0.0, 1.0, 0.5 } }, { 1.0, 2.0, { 1.0, 0.0, 0.5 } } });
+  PreIntegrationTable table;
+  table.Build(intervals, 2.0, 9, 12);
+  const Errors errors = LargestErrors(table, intervals, 1, 1);
+  EXPECT_LT(errors.Color, 1e-6);
+  EXPECT_LT(errors.Opacity, 1e-6);
+}
+
+TEST(VolumePreIntegration, LengthsAreZeroAndAGeometricSequence)
+{
+  PreIntegrationTable table;
+  table.Build(Ramps(), 5.0, 4, 20);
+  ASSERT_EQ(table.GetNumberOfLengths(), 20);
+  EXPECT_EQ(table.GetLength(0), 0.0);
+  EXPECT_EQ(table.GetLength(1), table.GetShortest());
+  EXPECT_NEAR(table.GetLength(19), 5.0, 1e-12);
+  EXPECT_EQ(table.GetLongest(), 5.0);
+  EXPECT_NEAR(table.GetLength(1 + table.GetLengthsPerOctave()), 2.0 * table.GetShortest(), 1e-12);
+  // Fine enough for a depth of 4 * 5 to begin at 1/16 or above.
+  EXPECT_GE(table.GetLengthsPerOctave(), 2);
+}
+
+TEST(VolumePreIntegration, OneLengthWhereTheModelAllowsIt)
+{
+  PreIntegrationTable table;
+  // One colour wherever there is attenuation.
+  const auto oneColor = Intervals({ { -1.0, 0.0, { 0.2, 0.4, 0.6 } },
+    { 0.0, 3.0, { 0.2, 0.4, 0.6 } }, { 1.0, 0.5, { 0.2, 0.4, 0.6 } } });
+  table.Build(oneColor, 4.0, 33, 16);
+  EXPECT_EQ(table.GetNumberOfLengths(), 1);
+  // Segments so short that they absorb nothing of themselves.
+  table.Build(Ramps(), 0.003, 33, 16);
+  EXPECT_EQ(table.GetNumberOfLengths(), 1);
+  const glm::dvec3 color(0.2, 0.4, 0.6);
+  table.Build(oneColor, 4.0, 33, 16);
+  for (const double length : { 0.01, 1.0, 4.0 })
+  {
+    const float* entry = &table.GetValues()[4 * (24 * 33 + 3)];
+    const Segment truth = Integrate(oneColor, -1.0 + 3 / 16.0, 0.5, length);
+    const double opacity = -std::expm1(-entry[3] * length);
+    EXPECT_NEAR(opacity, truth.Opacity, 1e-6);
+    EXPECT_NEAR(opacity * entry[0], truth.Color.r, 1e-6);
+    EXPECT_NEAR(opacity * entry[2], truth.Color.b, 1e-6);
+  }
+  EXPECT_EQ(table.GetLength(0), 0.0);
+}
+
+TEST(VolumePreIntegration, ExtremeFunctionsGiveFiniteTables)
+{
+  const double huge = 1e37;
+  const std::vector<std::vector<TransferFunctionPoint>> functions{ {},
+    { { 0.1, 0.0, { 1, 1, 1 } } },
+    { { 0.0, 0.0, { 1, 0, 0 } }, { 0.0, huge, { 0, 1, 0 } }, { 0.5, 1.0, { 0, 0, 1 } } },
+    { { -50.0, 3.0, { 1, 0, 0 } }, { -40.0, 0.0, { 0, 1, 0 } } },
+    { { 2.0, 1.0, { 1, 0, 0 } }, { 3.0, huge, { 0, 1, 0 } } } };
+  for (const auto& points : functions)
+  {
+    for (const int scalars : { 2, 3, 20 })
+    {
+      for (const int lengths : { 1, 2, 3, 9 })
+      {
+        PreIntegrationTable table;
+        table.Build(Intervals(points), 1e3, scalars, lengths);
+        EXPECT_LE(table.GetNumberOfLengths(), lengths);
+        EXPECT_EQ(table.GetValues().size(),
+          std::size_t(4) * scalars * scalars * table.GetNumberOfLengths());
+        for (const float value : table.GetValues())
+        {
+          ASSERT_TRUE(std::isfinite(value) && value >= 0.0f);
+        }
+      }
+    }
+  }
+}
+
+TEST(VolumePreIntegration, DoesNotDependOnTheThreads)
+{
+  const RangeLoop two = [](std::size_t count, const RangeBody& body)
+  {
+    std::thread half([&] { body(count / 2, count); });
+    body(0, count / 2);
+    half.join();
+  };
+  PreIntegrationTable serial;
+  PreIntegrationTable parallel;
+  serial.Build(Ramps(), 3.0, 40, 9);
+  parallel.Build(Ramps(), 3.0, 40, 9, two);
+  EXPECT_EQ(serial.GetValues(), parallel.GetValues());
+}
+
+TEST(VolumePreIntegration, LongestEdge)
+{
+  TetrahedralMesh mesh;
+  EXPECT_EQ(ComputeLongestEdge(mesh), 0.0);
+  const MeshArrays arrays = KuhnGrid(2); // 2^3 cubes, each split along a diagonal
+  mesh.Build(arrays.View());
+  // A grid's radius is half its diagonal, that of 2 cubes.
+  EXPECT_NEAR(ComputeLongestEdge(mesh), 1.0, 1e-8);
+}
