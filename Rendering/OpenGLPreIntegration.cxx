@@ -26,8 +26,8 @@ std::string OpenGLPreIntegration::Upload(
   if (std::max(scalars, lengths) > limit)
   {
     return "a pre-integration table of " + std::to_string(scalars) + " scalars and " +
-      std::to_string(lengths) + " lengths exceeds this graphics device's GL_MAX_3D_TEXTURE_SIZE of " +
-      std::to_string(limit);
+      std::to_string(lengths) +
+      " lengths exceeds this graphics device's GL_MAX_3D_TEXTURE_SIZE of " + std::to_string(limit);
   }
   auto texture = vtkSmartPointer<vtkTextureObject>::New();
   texture->SetContext(window);
@@ -40,7 +40,8 @@ std::string OpenGLPreIntegration::Upload(
   auto* values = const_cast<float*>(table.GetValues().data());
   if (!texture->Create3DFromRaw(scalars, scalars, lengths, 4, VTK_FLOAT, values))
   {
-    return "a pre-integration table of " + std::to_string(table.GetValues().size() * sizeof(float)) +
+    return "a pre-integration table of " +
+      std::to_string(table.GetValues().size() * sizeof(float)) +
       " bytes could not be created on the graphics device";
   }
   this->Texture = texture;

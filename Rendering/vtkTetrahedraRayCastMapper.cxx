@@ -393,16 +393,15 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
 void vtkTetrahedraRayCastMapper::ChooseIntegration(
   vtkVolume* volume, meniscus::RayCastOptics& optics)
 {
-  const bool wanted = this->Integration == PRE_INTEGRATED &&
-    optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
+  const bool wanted =
+    this->Integration == PRE_INTEGRATED && optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
   this->WarnOnce(wanted && !optics.IsComposite(), this->Internals->WarnedIntegration,
     "Pre-integration is not available with shading and gradient opacity; integrating exactly.");
   optics.PreIntegrated = wanted && optics.IsComposite();
   if (optics.PreIntegrated)
   {
     vtkInternals& internals = *this->Internals;
-    internals.PreIntegration.Update(internals.Input, internals.Property,
-      ToGlm(volume->GetMatrix()),
+    internals.PreIntegration.Update(internals.Input, internals.Property, ToGlm(volume->GetMatrix()),
       { this->PreIntegrationScalarSize, this->PreIntegrationLengthSize });
   }
 }

@@ -179,7 +179,7 @@ public:
   ///@{
   /**
    * Samples of the pre-integration table: of the range of the data's scalars, in [2, 1024], default
-   * 256, and of the length of a segment, in [1, 128], default 32. One length neglects what a
+   * 256, and of the length of a segment, in [1, 128], default 16. One length neglects what a
    * segment absorbs of itself in its colour, not in its opacity. Where that is as good, because all
    * that can be seen has one colour or because no segment is deeper than 1/64, the table has one
    * length whatever is set. It takes 16 bytes times the lengths times the square of the scalars.
@@ -323,7 +323,7 @@ private:
   int ActiveBackend = AUTOMATIC;
   int Integration = EXACT;
   int PreIntegrationScalarSize = 256;
-  int PreIntegrationLengthSize = 32;
+  int PreIntegrationLengthSize = 16;
   int Gradients = VERTEX_GRADIENTS;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
   float ImageSampleDistance = 1.0f;

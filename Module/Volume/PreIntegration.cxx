@@ -120,9 +120,8 @@ double ComputeLongestEdge(const TetrahedralMesh& mesh, const RangeLoop& loop)
 //------------------------------------------------------------------------------
 double PreIntegrationTable::GetLength(int k) const
 {
-  return k == 0
-    ? 0.0
-    : this->Shortest * std::exp2((k - 1) / static_cast<double>(this->LengthsPerOctave));
+  return k == 0 ? 0.0
+                : this->Shortest * std::exp2((k - 1) / static_cast<double>(this->LengthsPerOctave));
 }
 
 //------------------------------------------------------------------------------

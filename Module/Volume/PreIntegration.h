@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Pre-integrated ray segments: a table over the scalars at both ends and the length, after
- * M. Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral Meshes" (2003),
- * Eqs. 3 and 4.
+ * M. Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral Meshes"
+ * (2003), Eqs. 3 and 4.
  *
  * Opacity does not need the length as a dimension: it is 1 - exp(-length * mean attenuation), and
  * the mean depends on the two scalars only. What is tabulated over the length is the segment's

@@ -45,8 +45,8 @@ struct Segment
 };
 
 /** The integral by midpoints of many steps, in double. */
-Segment Integrate(const std::vector<TransferFunctionInterval>& intervals, double front,
-  double back, double length)
+Segment Integrate(
+  const std::vector<TransferFunctionInterval>& intervals, double front, double back, double length)
 {
   constexpr int Steps = 20000;
   Segment segment;
@@ -58,8 +58,7 @@ Segment Integrate(const std::vector<TransferFunctionInterval>& intervals, double
     const double depth =
       (interval.Attenuation + offset * interval.AttenuationSlope) * length / Steps;
     const double gone = (1.0 - segment.Opacity) * -std::expm1(-depth);
-    segment.Color +=
-      gone * (glm::dvec3(interval.Color) + offset * glm::dvec3(interval.ColorSlope));
+    segment.Color += gone * (glm::dvec3(interval.Color) + offset * glm::dvec3(interval.ColorSlope));
     segment.Opacity += gone;
   }
   return segment;
@@ -85,8 +84,8 @@ Errors LargestErrors(const PreIntegrationTable& table,
       for (int f = 0; f < count; f += scalarStep)
       {
         const float* entry = &table.GetValues()[4 * ((std::size_t(k) * count + b) * count + f)];
-        const Segment truth = Integrate(
-          intervals, -1.0 + 2.0 * f / (count - 1), -1.0 + 2.0 * b / (count - 1), length);
+        const Segment truth =
+          Integrate(intervals, -1.0 + 2.0 * f / (count - 1), -1.0 + 2.0 * b / (count - 1), length);
         const double opacity = -std::expm1(-entry[3] * length);
         largest.Opacity = std::max(largest.Opacity, std::abs(opacity - truth.Opacity));
         for (int c = 0; c < 3; ++c)

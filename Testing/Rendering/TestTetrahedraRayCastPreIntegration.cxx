@@ -73,8 +73,7 @@ TEST(TetrahedraRayCastPreIntegration, ConvergesWithTheSizeOfTheTable)
     {
       usePreIntegration(scene, size, size / 8);
       const Comparison result = compare(scene, truth);
-      RecordProperty(
-        (kind == FunctionKind::Smooth ? "smooth " : "opaque ") + std::to_string(size),
+      RecordProperty((kind == FunctionKind::Smooth ? "smooth " : "opaque ") + std::to_string(size),
         result.text());
       coarse = size == 16 ? result.Rms : coarse;
       fine = result.Rms;
