@@ -167,17 +167,28 @@ std::string RayCastOpenGL::UploadVertices(
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadGradients(const std::vector<glm::vec3>& gradients)
+std::string RayCastOpenGL::UploadVectors(
+  OpenGLTable& table, const std::vector<glm::vec3>& vectors)
 {
   std::vector<float> values;
-  values.reserve(4 * gradients.size());
-  for (const glm::vec3& g : gradients)
+  values.reserve(4 * vectors.size());
+  for (const glm::vec3& v : vectors)
   {
-    values.insert(values.end(), { g.x, g.y, g.z, 0.0f });
+    values.insert(values.end(), { v.x, v.y, v.z, 0.0f });
   }
-  const std::string error =
-    this->VertexGradients.Upload(this->Window, values.data(), values.size(), 4, 1);
-  return this->Count(this->VertexGradients, error);
+  return this->Count(table, table.Upload(this->Window, values.data(), values.size(), 4, 1));
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadGradients(const std::vector<glm::vec3>& gradients)
+{
+  return this->UploadVectors(this->VertexGradients, gradients);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadComponents(const std::vector<glm::vec3>& components)
+{
+  return this->UploadVectors(this->VertexComponents, components);
 }
 
 //------------------------------------------------------------------------------
@@ -192,8 +203,11 @@ std::string RayCastOpenGL::UploadPreIntegration(const PreIntegrationTable& table
 std::string RayCastOpenGL::UploadProperty(const VolumePropertyTables& tables)
 {
   std::vector<float> values;
-  const auto append = [&values](const std::vector<TransferFunctionInterval>& intervals)
+  this->FunctionStarts.assign(1, 0);
+  const auto append = [this, &values](const std::vector<TransferFunctionInterval>& intervals)
   {
+    const int start = this->FunctionStarts.back();
+    this->FunctionStarts.push_back(start + static_cast<int>(intervals.size()));
     for (const auto& i : intervals)
     {
       values.insert(values.end(),
@@ -202,8 +216,11 @@ std::string RayCastOpenGL::UploadProperty(const VolumePropertyTables& tables)
     }
   };
   append(tables.GetIntervals());
+  for (const auto& intervals : tables.GetOtherIntervals())
+  {
+    append(intervals);
+  }
   append(tables.GetGradientIntervals());
-  this->NumberOfScalarIntervals = static_cast<int>(tables.GetIntervals().size());
   std::string error = this->Intervals.Upload(this->Window, values.data(), values.size(), 4, 3);
   if (!this->Count(this->Intervals, error).empty())
   {
@@ -530,6 +547,10 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateTables(
   {
     activate(this->VertexGradients, "vertexGradients");
   }
+  if (optics.HasComponents())
+  {
+    activate(this->VertexComponents, "vertexComponents");
+  }
   if (this->Isosurfaces.IsFilled())
   {
     activate(this->Isosurfaces, "surfaces");
@@ -576,10 +597,7 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
 {
   const RayFrame& rays = frame.Rays;
   program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
-  const int intervals = static_cast<int>(this->Intervals.GetNumberOfRows());
-  program->SetUniformi("numberOfIntervals", this->NumberOfScalarIntervals);
-  program->SetUniformi("firstGradientInterval", this->NumberOfScalarIntervals);
-  program->SetUniformi("numberOfGradientIntervals", intervals - this->NumberOfScalarIntervals);
+  this->SetFunctionUniforms(program, frame.Optics);
   program->SetUniformi("numberOfSurfaces", static_cast<int>(this->Isosurfaces.GetNumberOfRows()));
   // Apart from its size, whose square may be beyond single precision.
   const glm::dmat3& toWorld = rays.ViewToWorld;
@@ -593,6 +611,23 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
   program->SetUniform2f("depthDenominator", glm::value_ptr(glm::vec2(rays.DepthDenominator)));
   program->SetUniformf(
     "terminationTransmittance", static_cast<float>(1.0 - frame.EarlyTerminationOpacity));
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::SetFunctionUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
+{
+  const std::vector<int>& starts = this->FunctionStarts;
+  const int first = starts[starts.size() - 2];
+  program->SetUniformi("firstGradientInterval", first);
+  program->SetUniformi("numberOfGradientIntervals", starts.back() - first);
+  program->SetUniformi("numberOfIntervals", starts[1]);
+  if (optics.HasComponents())
+  {
+    std::vector<int> sizes(starts.size());
+    std::adjacent_difference(starts.begin(), starts.end(), sizes.begin());
+    program->SetUniform1iv("functionStart", optics.NumberOfFunctions, starts.data());
+    program->SetUniform1iv("functionSize", optics.NumberOfFunctions, sizes.data() + 1);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -681,7 +716,7 @@ void RayCastOpenGL::Release(vtkWindow* window)
   }
   this->GetStatistics();
   for (OpenGLTable* table : { &this->Vertices, &this->Cells, &this->TreeNodes, &this->TreeFaces,
-         &this->VertexGradients, &this->Intervals, &this->Isosurfaces })
+         &this->VertexGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces })
   {
     table->Release(owner);
   }

@@ -77,6 +77,7 @@ public:
   bool HasBoundary() const;
   bool HasVertices() const;
   bool HasGradients() const { return this->VertexGradients.IsFilled(); }
+  bool HasComponents() const { return this->VertexComponents.IsFilled(); }
   bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
   bool HasProperty() const { return this->Intervals.IsFilled(); }
 
@@ -88,6 +89,8 @@ public:
   std::string UploadGradients(const std::vector<glm::vec3>& gradients);
   /** Needed for optics with PreIntegrated. */
   std::string UploadPreIntegration(const PreIntegrationTable& table);
+  /** Up to three further components per vertex. Needed for optics with components. */
+  std::string UploadComponents(const std::vector<glm::vec3>& components);
   std::string UploadProperty(const VolumePropertyTables& tables);
 
   /** Whether the window's context has compute shaders (OpenGL 4.3). */
@@ -127,6 +130,8 @@ public:
 private:
   bool ReadStatistics();
   std::string Count(OpenGLTable& table, const std::string& error);
+  std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
+  void SetFunctionUniforms(vtkShaderProgram* program, const RayCastOptics& optics);
   template <typename Function>
   std::string DrawImage(const RayCastOutput& output, Function&& makeImage);
   std::vector<float> ReadDepths();
@@ -150,9 +155,11 @@ private:
   OpenGLTable TreeNodes;
   OpenGLTable TreeFaces;
   OpenGLTable VertexGradients;
-  /** Of the scalar, then of the gradient's magnitude. */
+  OpenGLTable VertexComponents;
+  /** Of the scalar, of its other components, of the gradient's magnitude. */
   OpenGLTable Intervals;
-  int NumberOfScalarIntervals = 0;
+  /** Where the intervals of each function begin, the gradient's last, and where they end. */
+  std::vector<int> FunctionStarts;
   OpenGLTable Isosurfaces;
   OpenGLPreIntegration PreIntegration;
   OpenGLDepthCopy Depth;

@@ -3,6 +3,7 @@
 #ifndef RayCastOptics_h
 #define RayCastOptics_h
 
+#include "ComponentMixture.h"
 #include "Volume/ClippingPlanes.h"
 #include "Volume/RayFrame.h"
 
@@ -38,6 +39,10 @@ struct RayCastOptics
 {
   /** A number of vtkVolumeMapper::BlendModes up to ISOSURFACE_BLEND. */
   int BlendMode = 0;
+  /** Not None with composite blending only. */
+  ComponentMixture Components = ComponentMixture::None;
+  /** Of the scalars' components, the main one first. */
+  int NumberOfFunctions = 1;
   /** Composite blending by a table of segments; neither shading nor gradient opacity. */
   bool PreIntegrated = false;
   bool Shading = false;
@@ -56,9 +61,13 @@ struct RayCastOptics
   std::vector<RayCastLight> Lights;
   std::vector<RayClippingPlane> ClippingPlanes;
 
+  bool HasComponents() const { return this->Components != ComponentMixture::None; }
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
-  /** Composite blending of the transfer function as it is. */
-  bool IsComposite() const { return this->BlendMode == 0 && !this->UsesGradients(); }
+  /** Composite blending of one scalar by the transfer function as it is. */
+  bool IsComposite() const
+  {
+    return this->BlendMode == 0 && !this->UsesGradients() && !this->HasComponents();
+  }
   /** The same, integrated exactly. */
   bool IsPlain() const { return this->IsComposite() && !this->PreIntegrated; }
 };

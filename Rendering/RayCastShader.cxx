@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastShader.h"
 
+#include "vtkTetrahedraComponents.h"
 #include "vtkTetrahedraComposite.h"
 #include "vtkTetrahedraFrontToBack.h"
 #include "vtkTetrahedraIsosurfaces.h"
 #include "vtkTetrahedraLights.h"
+#include "vtkTetrahedraMedium.h"
 #include "vtkTetrahedraPreIntegrated.h"
 #include "vtkTetrahedraProjection.h"
 #include "vtkTetrahedraRays.h"
@@ -54,8 +56,10 @@ std::string ModelSource(const RayCastOptics& optics)
   switch (optics.BlendMode)
   {
     case vtkVolumeMapper::COMPOSITE_BLEND:
-      return std::string(vtkTetrahedraFrontToBack) + vtkTetrahedraTransferFunction + lights +
-        vtkTetrahedraComposite;
+      return vtkTetrahedraFrontToBack +
+        (optics.HasComponents() ? "" : std::string(vtkTetrahedraTransferFunction)) + lights +
+        vtkTetrahedraMedium +
+        (optics.HasComponents() ? vtkTetrahedraComponents : vtkTetrahedraComposite);
     case vtkVolumeMapper::ISOSURFACE_BLEND:
       return vtkTetrahedraFrontToBack + lights + vtkTetrahedraIsosurfaces;
     default:
@@ -111,6 +115,12 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("SHADING", optics.Shading ? 1 : 0);
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
   define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);
+  define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
+  define("VERTEX_VALUES", optics.VertexGradients || optics.HasComponents() ? 1 : 0);
+  define("INDEPENDENT", static_cast<int>(ComponentMixture::Independent));
+  define("COLOR_AND_OPACITY", static_cast<int>(ComponentMixture::ColorAndOpacity));
+  define("COMPONENT_MIXTURE", static_cast<int>(optics.Components));
+  define("NUMBER_OF_FUNCTIONS", optics.NumberOfFunctions);
   define("NEEDS_POSITION", optics.UsesGradients() ? 1 : 0);
   define("NUMBER_OF_LIGHTS", static_cast<int>(optics.Lights.size()));
   define("NUMBER_OF_CLIPPING_PLANES", static_cast<int>(optics.ClippingPlanes.size()));

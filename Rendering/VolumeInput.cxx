@@ -201,12 +201,58 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
 //------------------------------------------------------------------------------
 void VolumeInput::UpdateActiveCells(const VisibleScalars& visible)
 {
-  if (!this->ActiveSetStale && visible == this->Visible)
+  if (!this->ActiveSetStale && visible == this->Visible && this->OthersVersion == 0)
   {
     return;
   }
   this->LinkChanges += this->Mesh.UpdateActiveCells(this->Scalars, visible, ThreadedLoop) ? 1 : 0;
   this->Visible = visible;
+  this->VisibleOthers.clear();
+  this->OthersVersion = 0;
+  this->ActiveSetStale = false;
+  ++this->ActiveSetBuilds;
+}
+
+//------------------------------------------------------------------------------
+void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherValues& others)
+{
+  if (!this->ActiveSetStale && visible == this->Visible &&
+    others.Visible == this->VisibleOthers && others.Version == this->OthersVersion)
+  {
+    return;
+  }
+  const auto& cells = this->Mesh.GetCells();
+  const std::vector<glm::vec3>& values = *others.Values;
+  std::vector<std::uint8_t> active(cells.size());
+  ForEachBlock(cells.size(), ThreadedLoop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const auto& v = cells[c].Vertices;
+        const auto meets = [](const VisibleScalars& seen, float p, float q, float r, float s)
+        { return seen.Meets(std::min({ p, q, r, s }), std::max({ p, q, r, s })); };
+        const float* s = this->Scalars.data();
+        bool seen = meets(visible, s[v[0]], s[v[1]], s[v[2]], s[v[3]]);
+        for (std::size_t i = 0; i < others.Visible.size(); ++i)
+        {
+          const int at = static_cast<int>(i);
+          seen = seen ||
+            meets(others.Visible[i], values[v[0]][at], values[v[1]][at], values[v[2]][at],
+              values[v[3]][at]);
+        }
+        float sum = 0.0f;
+        for (const std::int32_t vertex : v)
+        {
+          sum += s[vertex] + values[vertex].x;
+        }
+        active[c] = seen && !std::isnan(sum);
+      }
+    });
+  this->LinkChanges += this->Mesh.SetActiveCells(active, ThreadedLoop) ? 1 : 0;
+  this->Visible = visible;
+  this->VisibleOthers = others.Visible;
+  this->OthersVersion = others.Version;
   this->ActiveSetStale = false;
   ++this->ActiveSetBuilds;
 }

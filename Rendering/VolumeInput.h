@@ -10,6 +10,8 @@
 
 #include "vtkType.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -68,6 +70,19 @@ public:
   /** The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same. */
   void UpdateActiveCells(const VisibleScalars& visible);
 
+  /** Values beside the scalars, of which some can be seen by themselves. */
+  struct OtherValues
+  {
+    /** Per vertex; one that is NaN makes its cells transparent. */
+    const std::vector<glm::vec3>* Values = nullptr;
+    /** Changes with the values. */
+    std::int64_t Version = 0;
+    /** Of the first values; the others cannot be seen. */
+    std::vector<VisibleScalars> Visible;
+  };
+  /** The same with values beside the scalars: a cell is visited if one of them can be seen. */
+  void UpdateActiveCells(const VisibleScalars& visible, const OtherValues& others);
+
   const TetrahedralMesh& GetMesh() const { return this->Mesh; }
   /** One normalised scalar per vertex; NaN where the input's is not finite. */
   const std::vector<float>& GetScalars() const { return this->Scalars; }
@@ -99,6 +114,9 @@ private:
   std::vector<float> Scalars;
   ScalarNormalization Normalization;
   VisibleScalars Visible;
+  std::vector<VisibleScalars> VisibleOthers;
+  /** Of the values beside the scalars; 0 without. */
+  std::int64_t OthersVersion = 0;
 
   MeshVersion BuiltMesh;
   ObjectVersion BuiltScalars;

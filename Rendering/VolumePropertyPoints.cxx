@@ -31,11 +31,13 @@ constexpr double SmallestJump = 1.0 / 1073741824.0;
 class PropertyCurve
 {
 public:
-  PropertyCurve(vtkVolumeProperty* property, OpacityMeaning meaning)
-    : Opacity(property->GetScalarOpacity(0))
-    , Gray(property->GetColorChannels(0) == 1 ? property->GetGrayTransferFunction(0) : nullptr)
-    , Color(this->Gray ? nullptr : property->GetRGBTransferFunction(0))
-    , Unit(property->GetScalarOpacityUnitDistance(0))
+  PropertyCurve(vtkVolumeProperty* property, int component, OpacityMeaning meaning)
+    : Opacity(property->GetScalarOpacity(component))
+    , Gray(property->GetColorChannels(component) == 1
+          ? property->GetGrayTransferFunction(component)
+          : nullptr)
+    , Color(this->Gray ? nullptr : property->GetRGBTransferFunction(component))
+    , Unit(property->GetScalarOpacityUnitDistance(component))
     , Meaning(meaning)
   {
   }
@@ -194,15 +196,15 @@ std::vector<TransferFunctionPoint> ReduceToPoints(const PropertyCurve& curve)
 
 //------------------------------------------------------------------------------
 std::vector<TransferFunctionPoint> ReducePropertyToPoints(
-  vtkVolumeProperty* property, OpacityMeaning meaning)
+  vtkVolumeProperty* property, int component, OpacityMeaning meaning)
 {
-  return ReduceToPoints(PropertyCurve(property, meaning));
+  return ReduceToPoints(PropertyCurve(property, component, meaning));
 }
 
 //------------------------------------------------------------------------------
 TransferFunctionPoint EvaluateProperty(vtkVolumeProperty* property, double scalar)
 {
-  return PropertyCurve(property, OpacityMeaning::Alpha).At(scalar);
+  return PropertyCurve(property, 0, OpacityMeaning::Alpha).At(scalar);
 }
 
 //------------------------------------------------------------------------------

@@ -24,13 +24,13 @@ enum class OpacityMeaning
 };
 
 /**
- * The transfer function of a property's first component as control points of attenuation (per world
+ * The transfer function of a property's component as control points of attenuation (per world
  * length, or alpha) and colour, ascending. Empty if nothing is visible: no opacity node. Where
  * property and points differ between two nodes, linear interpolation is off by less than 1/32768 in
  * colour and in alpha (over the unit distance).
  */
 std::vector<TransferFunctionPoint> ReducePropertyToPoints(
-  vtkVolumeProperty* property, OpacityMeaning meaning);
+  vtkVolumeProperty* property, int component, OpacityMeaning meaning);
 
 /** Colour and alpha of a property at a scalar. */
 TransferFunctionPoint EvaluateProperty(vtkVolumeProperty* property, double scalar);

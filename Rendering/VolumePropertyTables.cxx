@@ -29,53 +29,97 @@ OpacityMeaning MeaningOf(int blendMode, bool perUnitDistance)
 }
 
 /** A property without functions makes default ones when asked: ask before taking its time. */
-void MakeDefaultFunctions(vtkVolumeProperty* property)
+void MakeDefaultFunctions(vtkVolumeProperty* property, int components)
 {
-  property->GetScalarOpacity(0);
-  if (property->GetColorChannels(0) == 1)
+  for (int component = 0; component < components; ++component)
   {
-    property->GetGrayTransferFunction(0);
+    property->GetScalarOpacity(component);
+    if (property->GetColorChannels(component) == 1)
+    {
+      property->GetGrayTransferFunction(component);
+    }
+    else
+    {
+      property->GetRGBTransferFunction(component);
+    }
   }
-  else
+}
+
+/** Components whose functions are used. */
+int NumberOfUsedComponents(const VolumeComponents& components)
+{
+  return components.GetMixture() == ComponentMixture::Independent
+    ? components.GetNumberOfComponents()
+    : 1;
+}
+
+std::vector<TransferFunctionPoint> ReduceWeighted(
+  vtkVolumeProperty* property, int component, OpacityMeaning meaning)
+{
+  std::vector<TransferFunctionPoint> points = ReducePropertyToPoints(property, component, meaning);
+  for (TransferFunctionPoint& point : points)
   {
-    property->GetRGBTransferFunction(0);
+    point.Attenuation *= property->GetComponentWeight(component);
   }
+  return points;
 }
 
 }
 
 //------------------------------------------------------------------------------
 void VolumePropertyTables::Update(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
-  const ScalarNormalization& normalization)
+  const ScalarNormalization& normalization, const VolumeComponents& components)
 {
-  MakeDefaultFunctions(property);
+  MakeDefaultFunctions(property, NumberOfUsedComponents(components));
   const ObjectVersion version(property);
   const ObjectVersion isovalues(property->GetIsoSurfaceValues());
   const OpacityMeaning meaning = MeaningOf(blendMode, perUnitDistance);
   const bool reduced = version == this->BuiltProperty && isovalues == this->BuiltIsovalues &&
-    meaning == this->BuiltMeaning && blendMode == this->BuiltBlendMode;
+    meaning == this->BuiltMeaning && blendMode == this->BuiltBlendMode &&
+    components.GetMixture() == this->BuiltMixture &&
+    components.GetNumberOfComponents() == this->BuiltNumberOfComponents;
   if (!reduced)
   {
-    this->ReduceProperty(property, blendMode, meaning);
+    this->ReduceProperty(property, blendMode, meaning, components);
     this->BuiltProperty = version;
     this->BuiltIsovalues = isovalues;
     this->BuiltMeaning = meaning;
     this->BuiltBlendMode = blendMode;
+    this->BuiltMixture = components.GetMixture();
+    this->BuiltNumberOfComponents = components.GetNumberOfComponents();
   }
-  if (!reduced || normalization != this->BuiltNormalization)
+  if (!reduced || normalization != this->BuiltNormalization ||
+    components.GetVersion() != this->BuiltComponents)
   {
-    this->NormalizeTables(normalization);
+    this->NormalizeTables(normalization, components);
     this->BuiltNormalization = normalization;
+    this->BuiltComponents = components.GetVersion();
     ++this->Version;
   }
 }
 
 //------------------------------------------------------------------------------
-void VolumePropertyTables::ReduceProperty(
-  vtkVolumeProperty* property, int blendMode, OpacityMeaning meaning)
+void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, int blendMode,
+  OpacityMeaning meaning, const VolumeComponents& components)
 {
   ++this->Builds;
-  this->Points = ReducePropertyToPoints(property, meaning);
+  this->OtherPoints.clear();
+  switch (components.GetMixture())
+  {
+    case ComponentMixture::Independent:
+      this->Points = ReduceWeighted(property, 0, meaning);
+      for (int component = 1; component < components.GetNumberOfComponents(); ++component)
+      {
+        this->OtherPoints.push_back(ReduceWeighted(property, component, meaning));
+      }
+      break;
+    case ComponentMixture::ColorAndOpacity:
+      this->Points = ReducePropertyToPoints(property, 0, meaning);
+      this->OtherPoints.push_back(this->Points);
+      break;
+    default:
+      this->Points = ReducePropertyToPoints(property, 0, meaning);
+  }
   this->GradientPoints.clear();
   if (blendMode == vtkVolumeMapper::COMPOSITE_BLEND && UsesGradientOpacity(property))
   {
@@ -93,9 +137,16 @@ void VolumePropertyTables::ReduceProperty(
 }
 
 //------------------------------------------------------------------------------
-void VolumePropertyTables::NormalizeTables(const ScalarNormalization& normalization)
+void VolumePropertyTables::NormalizeTables(
+  const ScalarNormalization& normalization, const VolumeComponents& components)
 {
   this->Intervals = BuildIntervals(this->Points, normalization);
+  this->OtherIntervals.clear();
+  for (const auto& points : this->OtherPoints)
+  {
+    const int other = static_cast<int>(this->OtherIntervals.size());
+    this->OtherIntervals.push_back(BuildIntervals(points, components.GetNormalization(other)));
+  }
   this->GradientIntervals.clear();
   if (!this->GradientPoints.empty())
   {
@@ -117,6 +168,21 @@ void VolumePropertyTables::NormalizeTables(const ScalarNormalization& normalizat
   const auto end = std::unique(this->Isosurfaces.begin(), this->Isosurfaces.end(),
     [](const Isosurface& a, const Isosurface& b) { return a.Scalar == b.Scalar; });
   this->Isosurfaces.erase(end, this->Isosurfaces.end());
+}
+
+//------------------------------------------------------------------------------
+std::vector<VisibleScalars> VolumePropertyTables::GetVisibleOthers() const
+{
+  std::vector<VisibleScalars> visible;
+  for (const auto& intervals : this->OtherIntervals)
+  {
+    if (this->BuiltMixture == ComponentMixture::Independent)
+    {
+      visible.emplace_back();
+      visible.back().AddAttenuation(intervals);
+    }
+  }
+  return visible;
 }
 
 //------------------------------------------------------------------------------

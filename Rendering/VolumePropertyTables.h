@@ -5,6 +5,7 @@
 
 #include "Volume/TransferFunction.h"
 #include "Volume/VisibleScalars.h"
+#include "VolumeComponents.h"
 #include "VolumeInput.h"
 #include "VolumePropertyPoints.h"
 
@@ -33,13 +34,19 @@ public:
   /**
    * @param blendMode  a number of vtkVolumeMapper::BlendModes; says how opacity is meant.
    * @param perUnitDistance  for composite blending: opacity is the alpha of one unit distance.
+   * @param normalization  of the main scalar, the components have their own.
    */
   void Update(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
-    const ScalarNormalization& normalization);
+    const ScalarNormalization& normalization, const VolumeComponents& components);
 
   const std::vector<TransferFunctionPoint>& GetPoints() const { return this->Points; }
-  /** Of the scalar. */
+  /** Of the main scalar. */
   const std::vector<TransferFunctionInterval>& GetIntervals() const { return this->Intervals; }
+  /** Of the other components that are scalars. */
+  const std::vector<std::vector<TransferFunctionInterval>>& GetOtherIntervals() const
+  {
+    return this->OtherIntervals;
+  }
   /** Of the gradient's magnitude, per world length; empty without gradient opacity. */
   const std::vector<TransferFunctionInterval>& GetGradientIntervals() const
   {
@@ -50,6 +57,8 @@ public:
 
   /** The scalars that a ray must visit. */
   VisibleScalars GetVisibleScalars() const;
+  /** Those of each other component that has an opacity. */
+  std::vector<VisibleScalars> GetVisibleOthers() const;
 
   /** Changes with the tables. */
   std::int64_t GetVersion() const { return this->Version; }
@@ -57,13 +66,17 @@ public:
   std::int64_t GetNumberOfBuilds() const { return this->Builds; }
 
 private:
-  void ReduceProperty(vtkVolumeProperty* property, int blendMode, OpacityMeaning meaning);
-  void NormalizeTables(const ScalarNormalization& normalization);
+  void ReduceProperty(vtkVolumeProperty* property, int blendMode, OpacityMeaning meaning,
+    const VolumeComponents& components);
+  void NormalizeTables(
+    const ScalarNormalization& normalization, const VolumeComponents& components);
 
   std::vector<TransferFunctionPoint> Points;
+  std::vector<std::vector<TransferFunctionPoint>> OtherPoints;
   std::vector<TransferFunctionPoint> GradientPoints;
   std::vector<TransferFunctionPoint> SurfacePoints;
   std::vector<TransferFunctionInterval> Intervals;
+  std::vector<std::vector<TransferFunctionInterval>> OtherIntervals;
   std::vector<TransferFunctionInterval> GradientIntervals;
   std::vector<Isosurface> Isosurfaces;
   ObjectVersion BuiltProperty;
@@ -71,6 +84,9 @@ private:
   OpacityMeaning BuiltMeaning = OpacityMeaning::Attenuation;
   int BuiltBlendMode = -1;
   ScalarNormalization BuiltNormalization;
+  ComponentMixture BuiltMixture = ComponentMixture::None;
+  int BuiltNumberOfComponents = 1;
+  std::int64_t BuiltComponents = 0;
   std::int64_t Version = 0;
   std::int64_t Builds = 0;
 };

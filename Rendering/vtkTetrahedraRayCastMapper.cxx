@@ -8,6 +8,7 @@
 #include "RayCastShader.h"
 #include "Volume/RayFrame.h"
 #include "Volume/VertexGradients.h"
+#include "VolumeComponents.h"
 #include "VolumeInput.h"
 #include "VolumePreIntegration.h"
 #include "VolumePropertyTables.h"
@@ -54,6 +55,8 @@ class vtkTetrahedraRayCastMapper::vtkInternals
 {
 public:
   meniscus::VolumeInput Input;
+  meniscus::VolumeComponents Components;
+  meniscus::ComponentMixture Mixture = meniscus::ComponentMixture::None;
   meniscus::VolumePropertyTables Property;
   meniscus::VolumePreIntegration PreIntegration;
   std::vector<glm::vec3> Gradients;
@@ -69,6 +72,7 @@ public:
   std::int64_t UploadedMesh = 0;
   std::int64_t UploadedScalars = 0;
   std::int64_t UploadedGradients = 0;
+  std::int64_t UploadedComponents = 0;
   std::int64_t UploadedProperty = 0;
   std::int64_t UploadedPreIntegration = 0;
   /** The same of the native backend's. */
@@ -83,6 +87,7 @@ public:
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedNative = false;
+  bool WarnedComponents = false;
   bool WarnedCompute = false;
 
   void UpdateGradients();
@@ -119,6 +124,12 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(const meniscus::Ray
   {
     error = this->OpenGL.UploadGradients(this->Gradients);
     this->UploadedGradients = error.empty() ? this->GradientBuilds : 0;
+  }
+  const bool componentsStale = this->UploadedComponents != this->Components.GetVersion();
+  if (error.empty() && optics.HasComponents() && (componentsStale || !this->OpenGL.HasComponents()))
+  {
+    error = this->OpenGL.UploadComponents(this->Components.GetValues());
+    this->UploadedComponents = error.empty() ? this->Components.GetVersion() : 0;
   }
   const bool propertyStale = this->UploadedProperty != this->Property.GetVersion();
   if (error.empty() && (propertyStale || !this->OpenGL.HasProperty()))
@@ -284,13 +295,6 @@ vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* g
     return nullptr;
   }
   const int components = scalars->GetNumberOfComponents();
-  if (this->VectorMode == DISABLED && components != 1)
-  {
-    vtkErrorMacro(
-      "The array '" << name << "' has " << components
-                    << " components; 1 is needed, or a VectorMode. Nothing is rendered.");
-    return nullptr;
-  }
   if (this->VectorMode == COMPONENT && this->VectorComponent >= components)
   {
     vtkErrorMacro("The array '" << name << "' has " << components << " components, none of number "
@@ -305,6 +309,39 @@ vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* g
     return nullptr;
   }
   return scalars;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::ChooseMixture(vtkDataArray* scalars, vtkVolume* volume)
+{
+  using Mixture = meniscus::ComponentMixture;
+  Mixture& mixture = this->Internals->Mixture;
+  mixture = Mixture::None;
+  const int components = scalars->GetNumberOfComponents();
+  if (this->VectorMode != DISABLED || components == 1)
+  {
+    return true;
+  }
+  const std::string name = scalars->GetName() ? scalars->GetName() : "without a name";
+  const bool independent = volume->GetProperty()->GetIndependentComponents() != 0;
+  if (independent ? components > 4 : components != 2 && components != 4)
+  {
+    vtkErrorMacro("The array '" << name << "' has " << components << " components; "
+                                << (independent ? "1 to 4" : "1, 2 or 4")
+                                << " are needed, or a VectorMode. Nothing is rendered.");
+    return false;
+  }
+  if (this->GetUsedBlendMode() != vtkVolumeMapper::COMPOSITE_BLEND)
+  {
+    vtkErrorMacro("The array '" << name << "' has " << components
+                                << " components; other than composite blending needs 1, or a "
+                                   "VectorMode. Nothing is rendered.");
+    return false;
+  }
+  mixture = independent ? Mixture::Independent
+    : components == 2   ? Mixture::ColorAndOpacity
+                        : Mixture::RedGreenBlueOpacity;
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -342,17 +379,23 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     }
     return report.Error.empty();
   };
+  const meniscus::ComponentMixture mixture = this->Internals->Mixture;
   const int component = this->VectorMode == MAGNITUDE
     ? meniscus::VolumeInput::Magnitude
-    : (this->VectorMode == COMPONENT ? this->VectorComponent : 0);
+    : (this->VectorMode == COMPONENT ? this->VectorComponent : MainComponent(mixture));
   this->SetAbortExecute(0);
   const auto goOn = [this, window](double fraction)
   {
     this->UpdateProgress(fraction);
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
-  return tell(input.UpdateMesh(grid, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
-    tell(input.UpdateScalars(scalars, component));
+  const bool usable = tell(input.UpdateMesh(grid, goOn)) &&
+    input.GetMesh().GetNumberOfCells() > 0 && tell(input.UpdateScalars(scalars, component));
+  if (usable)
+  {
+    this->Internals->Components.Update(input, scalars, mixture);
+  }
+  return usable;
 }
 
 //------------------------------------------------------------------------------
@@ -368,8 +411,17 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
 {
   vtkInternals& internals = *this->Internals;
   internals.Property.Update(volume->GetProperty(), this->GetUsedBlendMode(),
-    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Input.GetNormalization());
-  internals.Input.UpdateActiveCells(internals.Property.GetVisibleScalars());
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Input.GetNormalization(),
+    internals.Components);
+  const meniscus::VisibleScalars visible = internals.Property.GetVisibleScalars();
+  if (internals.Mixture == meniscus::ComponentMixture::None)
+  {
+    internals.Input.UpdateActiveCells(visible);
+    return;
+  }
+  internals.Input.UpdateActiveCells(visible,
+    { &internals.Components.GetValues(), internals.Components.GetVersion(),
+      internals.Property.GetVisibleOthers() });
 }
 
 //------------------------------------------------------------------------------
@@ -382,8 +434,8 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
   const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
   const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
   this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
-    "The native backend has composite blending only, integrated exactly, without shading and "
-    "gradient opacity; rendering with OpenGL.");
+    "The native backend has composite blending of one component only, integrated exactly, without "
+    "shading and gradient opacity; rendering with OpenGL.");
   this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
     "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
   return nativeLacks || computeLacks ? OPENGL : this->Backend;
@@ -396,7 +448,8 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
   const bool wanted =
     this->Integration == PRE_INTEGRATED && optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
   this->WarnOnce(wanted && !optics.IsComposite(), this->Internals->WarnedIntegration,
-    "Pre-integration is not available with shading and gradient opacity; integrating exactly.");
+    "Pre-integration is not available with shading, gradient opacity and several components; "
+    "integrating exactly.");
   optics.PreIntegrated = wanted && optics.IsComposite();
   if (optics.PreIntegrated)
   {
@@ -454,7 +507,16 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   frame.Rays = place.Frame;
   frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
   frame.Optics.BlendMode = this->GetUsedBlendMode();
+  frame.Optics.Components = internals.Mixture;
+  frame.Optics.NumberOfFunctions =
+    1 + static_cast<int>(internals.Property.GetOtherIntervals().size());
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
+  this->WarnOnce(internals.Mixture == meniscus::ComponentMixture::Independent &&
+      (volume->GetProperty()->GetShade() != 0 ||
+        meniscus::UsesGradientOpacity(volume->GetProperty())),
+    internals.WarnedComponents,
+    "Shading and gradient opacity are not available with independent components; rendering "
+    "without.");
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
   frame.Optics.VertexGradients =
     frame.Optics.UsesGradients() && this->Gradients == VERTEX_GRADIENTS;
@@ -512,7 +574,8 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
     return;
   }
   vtkDataArray* scalars = this->ValidateScalars(grid);
-  if (!scalars || !this->UpdateInput(renderer->GetRenderWindow(), grid, scalars))
+  if (!scalars || !this->ChooseMixture(scalars, volume) ||
+    !this->UpdateInput(renderer->GetRenderWindow(), grid, scalars))
   {
     return;
   }

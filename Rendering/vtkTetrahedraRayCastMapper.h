@@ -305,6 +305,7 @@ private:
 
   vtkUnstructuredGrid* ValidateInput();
   vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
+  bool ChooseMixture(vtkDataArray* scalars, vtkVolume* volume);
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
   void ChooseIntegration(vtkVolume* volume, meniscus::RayCastOptics& optics);

@@ -111,18 +111,14 @@ vtkSmartPointer<vtkUnstructuredGrid> ReadDemoMesh(const std::string& file)
     std::fprintf(stderr, "error: no mesh in %s\n", file.c_str());
     return nullptr;
   }
-  vtkNew<vtkCellDataToPointData> toPoints;
-  toPoints->SetInputData(input);
-  toPoints->PassCellDataOn();
-  vtkNew<vtkDataSetTriangleFilter> tetrahedra;
-  tetrahedra->TetrahedraOnlyOn();
-  tetrahedra->SetInputData(input);
+  vtkSmartPointer<vtkUnstructuredGrid> mesh = input;
   if (!FirstScalars(input->GetPointData()))
   {
-    tetrahedra->SetInputConnection(toPoints->GetOutputPort());
+    vtkNew<vtkCellDataToPointData> toPoints;
+    toPoints->SetInputData(input);
+    UpdateWithProgress(toPoints, "Taking cell data to the points");
+    mesh = toPoints->GetUnstructuredGridOutput();
   }
-  UpdateWithProgress(tetrahedra, "Making tetrahedra of all cells");
-  vtkSmartPointer<vtkUnstructuredGrid> mesh = tetrahedra->GetOutput();
   vtkDataArray* scalars = FirstScalars(mesh->GetPointData());
   if (!scalars)
   {

@@ -7,16 +7,24 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkColorTransferFunction.h"
+#include "vtkContourValues.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetSurfaceFilter.h"
+#include "vtkMath.h"
 #include "vtkNew.h"
 #include "vtkPiecewiseFunction.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
 #include "vtkPointData.h"
+#include "vtkPointLocator.h"
+#include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkSphereSource.h"
 #include "vtkTetrahedraRayCastMapper.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
+#include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
@@ -66,15 +74,15 @@ void SetColors(vtkVolumeProperty* property, const Quantiles& quantiles)
   colors->AddRGBPoint(quantiles.At(1.00), 0.55, 0.05, 0.05);
 }
 
-/** Opacity that rises smoothly with the scalar. */
-void SetSmoothOpacity(vtkVolumeProperty* property, const Quantiles& quantiles)
+/** Opacity that rises smoothly with the scalar, times a factor. */
+void SetSmoothOpacity(vtkVolumeProperty* property, const Quantiles& quantiles, double factor)
 {
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
   opacity->RemoveAllPoints();
-  opacity->AddPoint(quantiles.At(0.0), 0.05);
-  opacity->AddPoint(quantiles.At(0.5), 0.12);
-  opacity->AddPoint(quantiles.At(0.9), 1.0);
-  opacity->AddPoint(quantiles.At(1.0), 3.0);
+  opacity->AddPoint(quantiles.At(0.0), factor * 0.05);
+  opacity->AddPoint(quantiles.At(0.5), factor * 0.12);
+  opacity->AddPoint(quantiles.At(0.9), factor * 1.0);
+  opacity->AddPoint(quantiles.At(1.0), factor * 3.0);
 }
 
 /** Narrow peaks: sharp shells about three values. */
@@ -92,6 +100,15 @@ void SetPeakedOpacity(vtkVolumeProperty* property, const Quantiles& quantiles)
   }
 }
 
+/** An opacity that is the same everywhere. */
+void SetEvenOpacity(vtkVolumeProperty* property, const Quantiles& quantiles, double value)
+{
+  vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
+  opacity->RemoveAllPoints();
+  opacity->AddPoint(quantiles.At(0.0), value);
+  opacity->AddPoint(quantiles.At(1.0), value);
+}
+
 void PrintCounters(vtkTetrahedraRayCastMapper* mapper)
 {
   std::printf(
@@ -107,6 +124,7 @@ void PrintCounters(vtkTetrahedraRayCastMapper* mapper)
 void LookFromOutside(vtkRenderer* renderer)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
+  camera->SetViewAngle(30.0);
   camera->SetViewUp(0.0, 0.0, 1.0);
   camera->SetPosition(1.0, -1.6, 1.1);
   camera->SetFocalPoint(0.0, 0.0, 0.0);
@@ -134,58 +152,195 @@ void LookFromInside(vtkRenderer* renderer, const double bounds[6])
   camera->SetViewAngle(70.0);
 }
 
-/** An opaque ball at the centre of the bounds. */
-vtkSmartPointer<vtkActor> MakeBall(const double bounds[6], double length)
+/** An opaque ball where the mesh is thickest, as wide as fits. */
+vtkSmartPointer<vtkActor> MakeBall(vtkUnstructuredGrid* mesh)
 {
+  vtkNew<vtkDataSetSurfaceFilter> surface;
+  surface->SetInputData(mesh);
+  surface->Update();
+  vtkNew<vtkPointLocator> outside;
+  outside->SetDataSet(surface->GetOutput());
+  outside->BuildLocator();
+  double center[3] = { 0.0, 0.0, 0.0 };
+  double radius = 0.0;
+  constexpr vtkIdType Tried = 2000;
+  const vtkIdType step = std::max<vtkIdType>(1, mesh->GetNumberOfPoints() / Tried);
+  for (vtkIdType p = 0; p < mesh->GetNumberOfPoints(); p += step)
+  {
+    double x[3];
+    double y[3];
+    mesh->GetPoint(p, x);
+    surface->GetOutput()->GetPoint(outside->FindClosestPoint(x), y);
+    const double distance = std::sqrt(vtkMath::Distance2BetweenPoints(x, y));
+    if (distance > radius)
+    {
+      radius = distance;
+      std::copy(x, x + 3, center);
+    }
+  }
   vtkNew<vtkSphereSource> sphere;
-  sphere->SetCenter(
-    0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]), 0.5 * (bounds[4] + bounds[5]));
-  sphere->SetRadius(0.045 * length);
-  sphere->SetThetaResolution(64);
-  sphere->SetPhiResolution(32);
+  sphere->SetCenter(center);
+  sphere->SetRadius(std::max(0.8 * radius, 0.02 * mesh->GetLength()));
+  sphere->SetThetaResolution(96);
+  sphere->SetPhiResolution(48);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(sphere->GetOutputPort());
   auto ball = vtkSmartPointer<vtkActor>::New();
   ball->SetMapper(mapper);
-  ball->GetProperty()->SetColor(0.2, 0.7, 0.3);
-  ball->GetProperty()->SetSpecular(0.4);
+  ball->GetProperty()->SetColor(0.25, 0.75, 0.35);
+  ball->GetProperty()->SetSpecular(0.5);
+  ball->GetProperty()->SetSpecularPower(30.0);
   return ball;
 }
+
+/** The pictures of one mesh. Each begins with the settings of the first. */
+class VolumePictures
+{
+public:
+  VolumePictures(vtkUnstructuredGrid* mesh, const std::string& folder)
+    : Mesh(mesh)
+    , Scalars(mesh->GetPointData()->GetScalars())
+    , Pictures(folder)
+    , Ball(MakeBall(mesh))
+  {
+    this->Mapper->SetInputData(mesh);
+    this->Volume->SetMapper(this->Mapper);
+    this->Renderer()->AddVolume(this->Volume);
+    this->Renderer()->AddActor(this->Ball);
+    LookFromOutside(this->Renderer());
+  }
+
+  bool WriteAll()
+  {
+    this->Begin();
+    this->Write("volume", "the mesh, smooth transfer function");
+
+    this->Begin();
+    SetPeakedOpacity(this->Property(), this->Scalars);
+    this->Write("volume-peaks", "narrow opacity peaks at three values");
+
+    this->Begin();
+    this->Light(0.35, 0.75, 0.35, 24.0);
+    SetSmoothOpacity(this->Property(), this->Scalars, 6.0);
+    this->Write("volume-shading", "light in the medium");
+
+    this->Begin();
+    this->ShowIsosurfaces();
+    this->Write("volume-isosurfaces", "four isosurfaces, translucent and lit");
+
+    this->Begin();
+    this->ShowMaximum();
+    this->Write("volume-maximum", "maximum intensity");
+
+    this->Begin();
+    this->Clip();
+    this->Write("volume-clipping", "a corner cut off by two clipping planes");
+
+    this->Begin();
+    this->Ball->VisibilityOn();
+    this->Light(0.5, 0.6, 0.2, 24.0);
+    SetSmoothOpacity(this->Property(), this->Scalars, 1.5);
+    this->Write("volume-opaque", "an opaque ball in the mesh");
+
+    this->Begin();
+    this->Ball->VisibilityOn();
+    LookFromInside(this->Renderer(), this->Mesh->GetBounds());
+    this->Write("volume-inside", "from inside its bounds, an opaque ball in it");
+    return this->Written;
+  }
+
+private:
+  vtkRenderer* Renderer() { return this->Pictures.GetRenderer(); }
+  vtkVolumeProperty* Property() { return this->Volume->GetProperty(); }
+
+  void Begin()
+  {
+    this->Mapper->SetBlendMode(vtkVolumeMapper::COMPOSITE_BLEND);
+    this->Mapper->RemoveAllClippingPlanes();
+    this->Property()->ShadeOff();
+    this->Property()->SetScalarOpacityUnitDistance(this->Mesh->GetLength() / 8.0);
+    SetColors(this->Property(), this->Scalars);
+    SetSmoothOpacity(this->Property(), this->Scalars, 1.0);
+    this->Ball->VisibilityOff();
+  }
+
+  void Light(double ambient, double diffuse, double specular, double power)
+  {
+    this->Property()->ShadeOn();
+    this->Property()->SetAmbient(ambient);
+    this->Property()->SetDiffuse(diffuse);
+    this->Property()->SetSpecular(specular);
+    this->Property()->SetSpecularPower(power);
+  }
+
+  void ShowIsosurfaces()
+  {
+    this->Mapper->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+    this->Light(0.25, 0.75, 0.5, 40.0);
+    vtkPiecewiseFunction* opacity = this->Property()->GetScalarOpacity();
+    opacity->RemoveAllPoints();
+    this->Property()->GetIsoSurfaceValues()->SetNumberOfContours(0);
+    int number = 0;
+    for (const double fraction : { 0.15, 0.45, 0.75, 0.97 })
+    {
+      const double value = this->Scalars.At(fraction);
+      this->Property()->GetIsoSurfaceValues()->SetValue(number++, value);
+      opacity->AddPoint(value, 0.25 + 0.75 * fraction * fraction);
+    }
+  }
+
+  void ShowMaximum()
+  {
+    this->Mapper->SetBlendMode(vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND);
+    vtkPiecewiseFunction* opacity = this->Property()->GetScalarOpacity();
+    opacity->RemoveAllPoints();
+    opacity->AddPoint(this->Scalars.At(0.0), 0.3);
+    opacity->AddPoint(this->Scalars.At(0.6), 1.0);
+  }
+
+  /** Keeps what is not on the viewer's side of both planes: two pictures' worth of a corner. */
+  void Clip()
+  {
+    this->Light(0.6, 0.5, 0.1, 10.0);
+    SetEvenOpacity(this->Property(), this->Scalars, 12.0);
+    const double* center = this->Mesh->GetCenter();
+    const double normals[2][3] = { { -0.35, 1.0, -0.1 }, { 0.0, 0.25, -1.0 } };
+    const double shifts[2] = { -0.08, -0.06 };
+    for (int i = 0; i < 2; ++i)
+    {
+      vtkNew<vtkPlane> plane;
+      const double along = shifts[i] * this->Mesh->GetLength();
+      plane->SetNormal(normals[i]);
+      plane->SetOrigin(center[0] + along * normals[i][0], center[1] + along * normals[i][1],
+        center[2] + along * normals[i][2]);
+      this->Mapper->AddClippingPlane(plane);
+    }
+  }
+
+  void Write(const std::string& name, const std::string& caption)
+  {
+    this->Written = this->Pictures.Write(name, caption) && this->Written;
+    PrintCounters(this->Mapper);
+  }
+
+  vtkUnstructuredGrid* Mesh;
+  Quantiles Scalars;
+  DemoPictures Pictures;
+  vtkNew<vtkTetrahedraRayCastMapper> Mapper;
+  vtkNew<vtkVolume> Volume;
+  vtkSmartPointer<vtkActor> Ball;
+  bool Written = true;
+};
 
 }
 
 //------------------------------------------------------------------------------
 bool RunVolumeDemo(vtkUnstructuredGrid* mesh, const std::string& folder)
 {
-  vtkDataArray* scalars = mesh->GetPointData()->GetScalars();
-  std::printf("Volume: %lld tetrahedra, %lld points, scalar '%s'\n",
+  std::printf("Volume: %lld cells, %lld points, scalar '%s'\n",
     static_cast<long long>(mesh->GetNumberOfCells()),
-    static_cast<long long>(mesh->GetNumberOfPoints()), scalars->GetName());
-  const Quantiles quantiles(scalars);
-  vtkNew<vtkTetrahedraRayCastMapper> mapper;
-  mapper->SetInputData(mesh);
-  vtkNew<vtkVolume> volume;
-  volume->SetMapper(mapper);
-  volume->GetProperty()->SetScalarOpacityUnitDistance(mesh->GetLength() / 8.0);
-  SetColors(volume->GetProperty(), quantiles);
-  SetSmoothOpacity(volume->GetProperty(), quantiles);
-
-  DemoPictures pictures(folder);
-  vtkRenderer* renderer = pictures.GetRenderer();
-  renderer->AddVolume(volume);
-  LookFromOutside(renderer);
-  bool written = pictures.Write("volume", "the mesh, smooth transfer function");
-  PrintCounters(mapper);
-
-  SetPeakedOpacity(volume->GetProperty(), quantiles);
-  written = pictures.Write("volume-peaks", "narrow opacity peaks at three values") && written;
-  PrintCounters(mapper);
-
-  SetSmoothOpacity(volume->GetProperty(), quantiles);
-  renderer->AddActor(MakeBall(mesh->GetBounds(), mesh->GetLength()));
-  LookFromInside(renderer, mesh->GetBounds());
-  written =
-    pictures.Write("volume-inside", "from inside its bounds, an opaque ball in it") && written;
-  PrintCounters(mapper);
-  return written;
+    static_cast<long long>(mesh->GetNumberOfPoints()),
+    mesh->GetPointData()->GetScalars()->GetName());
+  VolumePictures pictures(mesh, folder);
+  return pictures.WriteAll();
 }

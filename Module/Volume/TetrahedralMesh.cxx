@@ -410,6 +410,26 @@ bool TetrahedralMesh::UpdateActiveCells(
 }
 
 //------------------------------------------------------------------------------
+bool TetrahedralMesh::SetActiveCells(
+  const std::vector<std::uint8_t>& active, const RangeLoop& loop)
+{
+  std::int64_t number = 0;
+  bool changed = false;
+  for (std::size_t c = 0; c < this->Cells.size(); ++c)
+  {
+    number += active[c];
+    changed = changed || active[c] != (std::abs(this->Orientation[c]) == 1);
+  }
+  if (changed)
+  {
+    this->ActiveCells = number;
+    this->MarkLinks(active, loop);
+    this->CollectBoundary(loop);
+  }
+  return changed;
+}
+
+//------------------------------------------------------------------------------
 void TetrahedralMesh::MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop)
 {
   ForEachBlock(this->Cells.size(), loop,

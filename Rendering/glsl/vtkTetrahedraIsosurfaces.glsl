@@ -42,7 +42,7 @@ void addSurface(int index, float at)
   vec3 emitted = texelFetch(surfaces, 2 * index + 1).rgb;
 #if SHADING
 #if VERTEX_GRADIENTS
-  vec3 gradient = mix(segmentGradientStart, segmentGradientEnd, at);
+  vec3 gradient = mix(segmentValuesStart, segmentValuesEnd, at);
 #else
   vec3 gradient = cellGradient(cell);
 #endif

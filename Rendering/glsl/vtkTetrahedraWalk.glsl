@@ -22,6 +22,9 @@ uniform vec3 clippingPerDepth[NUMBER_OF_CLIPPING_PLANES];
 #if VERTEX_GRADIENTS
 uniform samplerBuffer vertexGradients;
 #endif
+#if VERTEX_COMPONENTS
+uniform samplerBuffer vertexComponents;
+#endif
 
 const float BEFORE_EVERYTHING = -1.0e+30;
 const int TILE_CAPACITY = 32;
@@ -50,13 +53,36 @@ float segmentStart;  // scalars
 float segmentEnd;
 float segmentDone;   // fraction integrated
 float segmentScalar; // scalar there
-#if VERTEX_GRADIENTS
-vec3 gradientA;      // at the face's vertices
-vec3 gradientB;
-vec3 gradientC;
-vec3 faceGradient;   // where the ray meets the face
-vec3 segmentGradientStart;
-vec3 segmentGradientEnd;
+#if VERTEX_VALUES
+// What is interpolated beside depth and scalar.
+#if VERTEX_GRADIENTS && VERTEX_COMPONENTS
+#define VertexValues mat2x3
+#define GRADIENT_OF(values) values[0]
+#define COMPONENTS_OF(values) values[1]
+#else
+#define VertexValues vec3
+#define GRADIENT_OF(values) values
+#define COMPONENTS_OF(values) values
+#endif
+VertexValues valuesA; // at the face's vertices
+VertexValues valuesB;
+VertexValues valuesC;
+VertexValues faceValues; // where the ray meets the face
+VertexValues segmentValuesStart;
+VertexValues segmentValuesEnd;
+bool segmentIsNew;
+
+VertexValues fetchValues(int vertex)
+{
+#if VERTEX_GRADIENTS && VERTEX_COMPONENTS
+  return mat2x3(
+    texelFetch(vertexGradients, vertex).xyz, texelFetch(vertexComponents, vertex).xyz);
+#elif VERTEX_GRADIENTS
+  return texelFetch(vertexGradients, vertex).xyz;
+#else
+  return texelFetch(vertexComponents, vertex).xyz;
+#endif
+}
 #endif
 #if NEEDS_POSITION
 float segmentStartDepth;
@@ -81,8 +107,8 @@ vec4 finishRay();
 // Advances to the exit of a cell and makes its segment the pending one; false if it is empty. What
 // lies before the largest depth reached, because of rounding, an inverted cell or cells that overlap,
 // has been passed already and does not count again. Nor does a cell with a vertex without scalar.
-#if VERTEX_GRADIENTS
-bool advance(float exitDepth, float exitScalar, vec3 exitGradient)
+#if VERTEX_VALUES
+bool advance(float exitDepth, float exitScalar, VertexValues exitValues)
 #else
 bool advance(float exitDepth, float exitScalar)
 #endif
@@ -99,13 +125,14 @@ bool advance(float exitDepth, float exitScalar)
   segmentStartDepth = from;
   segmentEndDepth = to;
 #endif
-#if VERTEX_GRADIENTS
-  vec3 gradientPerDepth = (exitGradient - faceGradient) / (exitDepth - faceDepth);
-  segmentGradientStart =
-    from > faceDepth ? faceGradient + (from - faceDepth) * gradientPerDepth : faceGradient;
-  segmentGradientEnd =
-    to < exitDepth ? faceGradient + (to - faceDepth) * gradientPerDepth : exitGradient;
-  faceGradient = exitGradient;
+#if VERTEX_VALUES
+  VertexValues valuesPerDepth = (exitValues - faceValues) / (exitDepth - faceDepth);
+  segmentValuesStart =
+    from > faceDepth ? faceValues + (from - faceDepth) * valuesPerDepth : faceValues;
+  segmentValuesEnd =
+    to < exitDepth ? faceValues + (to - faceDepth) * valuesPerDepth : exitValues;
+  segmentIsNew = true;
+  faceValues = exitValues;
 #endif
   faceDepth = exitDepth;
   faceScalar = exitScalar;
@@ -147,15 +174,15 @@ bool stepThroughCell(out int link)
   float total = edges.x + edges.y + edges.z;
   vec2 exit = total > 0.0 ? (edges.y * a.zw + edges.z * b.zw + edges.x * c.zw) * (1.0 / total)
                           : vec2(faceDepth, faceScalar);
-#if VERTEX_GRADIENTS
-  vec3 gradientX = texelFetch(vertexGradients, number).xyz;
-  gradientA = dropA ? gradientX : gradientA;
-  gradientB = dropB ? gradientX : gradientB;
-  gradientC = dropC ? gradientX : gradientC;
+#if VERTEX_VALUES
+  VertexValues valuesX = fetchValues(number);
+  valuesA = dropA ? valuesX : valuesA;
+  valuesB = dropB ? valuesX : valuesB;
+  valuesC = dropC ? valuesX : valuesC;
   return advance(exit.x, exit.y,
     total > 0.0
-      ? (edges.y * gradientA + edges.z * gradientB + edges.x * gradientC) * (1.0 / total)
-      : faceGradient);
+      ? (edges.y * valuesA + edges.z * valuesB + edges.x * valuesC) * (1.0 / total)
+      : faceValues);
 #else
   return advance(exit.x, exit.y);
 #endif
@@ -312,14 +339,14 @@ void enterFirst()
   faceDepth = f.point.x;
   faceScalar = f.point.y;
   depthNow = max(depthNow, faceDepth);
-#if VERTEX_GRADIENTS
-  gradientA = texelFetch(vertexGradients, corners.x).xyz;
-  gradientB = texelFetch(vertexGradients, corners.y).xyz;
-  gradientC = texelFetch(vertexGradients, corners.z).xyz;
+#if VERTEX_VALUES
+  valuesA = fetchValues(corners.x);
+  valuesB = fetchValues(corners.y);
+  valuesC = fetchValues(corners.z);
   float total = edges.x + edges.y + edges.z;
-  faceGradient = total > 0.0
-    ? (edges.y * gradientA + edges.z * gradientB + edges.x * gradientC) / total
-    : gradientA;
+  faceValues = total > 0.0
+    ? (edges.y * valuesA + edges.z * valuesB + edges.x * valuesC) / total
+    : valuesA;
 #endif
   entryFaces = ivec4(entryFaces.yzw, -1);
   entryDepths = vec4(entryDepths.yzw, 0.0);

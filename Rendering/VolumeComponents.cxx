@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeComponents.h"
+
+#include "vtkDataArray.h"
+#include "vtkSMPTools.h"
+#include "vtkType.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr float NotANumber = std::numeric_limits<float>::quiet_NaN();
+
+/** What a colour's full intensity is stored as: VTK's convention for bytes, 1 otherwise. */
+double FullIntensity(vtkDataArray* colors)
+{
+  return colors->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
+}
+
+/** Makes all of a vertex NaN if one component is not finite, the main one included. */
+void MarkUnknown(
+  const std::vector<std::int32_t>& points, vtkDataArray* scalars, std::vector<glm::vec3>& values)
+{
+  vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
+    [&](vtkIdType first, vtkIdType last)
+    {
+      for (vtkIdType v = first; v < last; ++v)
+      {
+        for (int c = 0; c < scalars->GetNumberOfComponents(); ++c)
+        {
+          if (!std::isfinite(scalars->GetComponent(points[v], c)))
+          {
+            values[v] = glm::vec3(NotANumber);
+          }
+        }
+      }
+    });
+}
+
+}
+
+//------------------------------------------------------------------------------
+int MainComponent(ComponentMixture mixture)
+{
+  switch (mixture)
+  {
+    case ComponentMixture::ColorAndOpacity:
+      return 1;
+    case ComponentMixture::RedGreenBlueOpacity:
+      return 3;
+    default:
+      return 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+void VolumeComponents::Update(
+  const VolumeInput& input, vtkDataArray* scalars, ComponentMixture mixture)
+{
+  const ObjectVersion version(scalars);
+  const bool same = mixture == this->Mixture &&
+    (mixture == ComponentMixture::None ||
+      (version == this->BuiltScalars && this->BuiltMesh == input.GetMeshBuilds()));
+  if (same)
+  {
+    return;
+  }
+  this->Mixture = mixture;
+  this->BuiltScalars = version;
+  this->BuiltMesh = input.GetMeshBuilds();
+  this->NumberOfComponents =
+    mixture == ComponentMixture::None ? 1 : scalars->GetNumberOfComponents();
+  this->Values.clear();
+  ++this->Version;
+  if (mixture == ComponentMixture::None)
+  {
+    return;
+  }
+  const TetrahedralMesh& mesh = input.GetMesh();
+  this->Values.assign(mesh.GetSourcePoints().size(), glm::vec3(0.0f));
+  if (mixture == ComponentMixture::RedGreenBlueOpacity)
+  {
+    this->TakeColors(mesh, scalars);
+  }
+  else if (mixture == ComponentMixture::ColorAndOpacity)
+  {
+    this->TakeScalars(mesh, scalars, 0, 0);
+  }
+  else
+  {
+    for (int component = 1; component < this->NumberOfComponents; ++component)
+    {
+      this->TakeScalars(mesh, scalars, component, component - 1);
+    }
+  }
+  MarkUnknown(mesh.GetSourcePoints(), scalars, this->Values);
+}
+
+//------------------------------------------------------------------------------
+void VolumeComponents::TakeScalars(
+  const TetrahedralMesh& mesh, vtkDataArray* scalars, int component, int other)
+{
+  const std::vector<std::int32_t>& points = mesh.GetSourcePoints();
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (const std::int32_t point : points)
+  {
+    const double value = scalars->GetComponent(point, component);
+    if (std::isfinite(value))
+    {
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+    }
+  }
+  const ScalarNormalization n =
+    lowest <= highest ? NormalizeRange(lowest, highest) : ScalarNormalization();
+  this->Normalizations[other] = n;
+  vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
+    [&](vtkIdType first, vtkIdType last)
+    {
+      for (vtkIdType v = first; v < last; ++v)
+      {
+        this->Values[v][other] = static_cast<float>(
+          (scalars->GetComponent(points[v], component) - n.Offset) * n.Scale);
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+void VolumeComponents::TakeColors(const TetrahedralMesh& mesh, vtkDataArray* scalars)
+{
+  const std::vector<std::int32_t>& points = mesh.GetSourcePoints();
+  const double scale = 1.0 / FullIntensity(scalars);
+  vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
+    [&](vtkIdType first, vtkIdType last)
+    {
+      for (vtkIdType v = first; v < last; ++v)
+      {
+        for (int c = 0; c < 3; ++c)
+        {
+          this->Values[v][c] = static_cast<float>(
+            std::min(1.0, std::max(0.0, scale * scalars->GetComponent(points[v], c))));
+        }
+      }
+    });
+}
+
+}

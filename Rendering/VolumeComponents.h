@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef VolumeComponents_h
+#define VolumeComponents_h
+
+#include "ComponentMixture.h"
+#include "Volume/TetrahedralMesh.h"
+#include "Volume/TransferFunction.h"
+#include "VolumeInput.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+class vtkDataArray;
+
+namespace meniscus
+{
+
+/** The component that VolumeInput takes as the scalar: the first, or what gives the opacity. */
+int MainComponent(ComponentMixture mixture);
+
+/** The components of an array beside the main one, for the vertices of a mesh. */
+class VolumeComponents
+{
+public:
+  /** Costs nothing if mesh, array and mixture are the same. */
+  void Update(const VolumeInput& input, vtkDataArray* scalars, ComponentMixture mixture);
+
+  ComponentMixture GetMixture() const { return this->Mixture; }
+  /** Of the array; 1 if there is no mixture. */
+  int GetNumberOfComponents() const { return this->NumberOfComponents; }
+  /**
+   * Up to three other components per vertex, normalised each by itself, or colours in [0, 1]. All
+   * NaN where a component is not finite. Empty without a mixture.
+   */
+  const std::vector<glm::vec3>& GetValues() const { return this->Values; }
+  /** Of the other components that are scalars. */
+  const ScalarNormalization& GetNormalization(int other) const
+  {
+    return this->Normalizations[other];
+  }
+  /** Changes with the values. */
+  std::int64_t GetVersion() const { return this->Version; }
+
+private:
+  void TakeScalars(const TetrahedralMesh& mesh, vtkDataArray* scalars, int component, int other);
+  void TakeColors(const TetrahedralMesh& mesh, vtkDataArray* scalars);
+
+  ComponentMixture Mixture = ComponentMixture::None;
+  int NumberOfComponents = 1;
+  std::vector<glm::vec3> Values;
+  std::array<ScalarNormalization, 3> Normalizations;
+  ObjectVersion BuiltScalars;
+  std::int64_t BuiltMesh = 0;
+  std::int64_t Version = 0;
+};
+
+}
+
+#endif

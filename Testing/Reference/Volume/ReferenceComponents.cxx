@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ReferenceComponents.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace reference
+{
+
+namespace
+{
+
+constexpr int StepsPerPiece = 64;
+
+double lengthOf(const Vector3& v)
+{
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+// A scalar along a segment.
+double scalarAt(const RaySegment& segment, double part)
+{
+  return segment.ScalarBegin + part * (segment.ScalarEnd - segment.ScalarBegin);
+}
+
+// Attenuation, and emission of the three colours.
+std::array<double, 4> mediumAt(const std::vector<const RaySegment*>& segments, Mixture mixture,
+  const std::vector<ReferenceTransferFunction>& functions, double part)
+{
+  std::array<double, 4> medium{ 0.0, 0.0, 0.0, 0.0 };
+  if (mixture == Mixture::Independent)
+  {
+    for (std::size_t i = 0; i < segments.size(); ++i)
+    {
+      const OpticalSample sample = functions[i].value(scalarAt(*segments[i], part));
+      medium[0] += sample.Attenuation;
+      for (int c = 0; c < 3; ++c)
+      {
+        medium[c + 1] += sample.Attenuation * sample.Color[c];
+      }
+    }
+    return medium;
+  }
+  const std::size_t last = segments.size() - 1;
+  medium[0] = functions[last].value(scalarAt(*segments[last], part)).Attenuation;
+  const OpticalSample byFirst = functions[0].value(scalarAt(*segments[0], part));
+  for (int c = 0; c < 3; ++c)
+  {
+    medium[c + 1] = medium[0] *
+      (mixture == Mixture::ColorAndOpacity ? byFirst.Color[c] : scalarAt(*segments[c], part));
+  }
+  return medium;
+}
+
+// Places in [0, 1] between which all functions are linear.
+std::vector<double> piecesOf(const std::vector<const RaySegment*>& segments,
+  const std::vector<ReferenceTransferFunction>& functions)
+{
+  std::vector<double> places{ 0.0, 1.0 };
+  for (std::size_t i = 0; i < segments.size(); ++i)
+  {
+    const double change = segments[i]->ScalarEnd - segments[i]->ScalarBegin;
+    for (const TransferFunctionNode& node : functions[i].nodes())
+    {
+      const double part = (node.Scalar - segments[i]->ScalarBegin) / change;
+      if (part > 0.0 && part < 1.0)
+      {
+        places.push_back(part);
+      }
+    }
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::array<double, 4> integrateComponents(const Ray& ray,
+  const std::vector<std::vector<RaySegment>>& segments, Mixture mixture,
+  const std::vector<ReferenceTransferFunction>& functions)
+{
+  std::array<double, 4> result{ 0.0, 0.0, 0.0, 0.0 };
+  double transmittance = 1.0;
+  const double unit = lengthOf(ray.Direction);
+  std::vector<const RaySegment*> here(segments.size());
+  for (std::size_t s = 0; s < segments[0].size(); ++s)
+  {
+    for (std::size_t i = 0; i < segments.size(); ++i)
+    {
+      here[i] = &segments[i][s];
+    }
+    const double length = unit * (here[0]->End - here[0]->Begin);
+    const std::vector<double> places = piecesOf(here, functions);
+    for (std::size_t p = 0; p + 1 < places.size(); ++p)
+    {
+      // By the rule of the middle, with the medium of each step constant: second order.
+      const double step = (places[p + 1] - places[p]) / StepsPerPiece;
+      for (int k = 0; k < StepsPerPiece; ++k)
+      {
+        const auto medium = mediumAt(here, mixture, functions, places[p] + (k + 0.5) * step);
+        const double gone = transmittance * -std::expm1(-medium[0] * step * length);
+        for (int c = 0; c < 3 && medium[0] > 0.0; ++c)
+        {
+          result[c] += gone * medium[c + 1] / medium[0];
+        }
+        transmittance -= gone;
+      }
+    }
+  }
+  result[3] = 1.0 - transmittance;
+  return result;
+}
+
+} // namespace reference
+} // namespace meniscus
