@@ -167,8 +167,7 @@ std::string RayCastOpenGL::UploadVertices(
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadVectors(
-  OpenGLTable& table, const std::vector<glm::vec3>& vectors)
+std::string RayCastOpenGL::UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors)
 {
   std::vector<float> values;
   values.reserve(4 * vectors.size());

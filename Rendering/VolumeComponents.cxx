@@ -126,8 +126,8 @@ void VolumeComponents::TakeScalars(
     {
       for (vtkIdType v = first; v < last; ++v)
       {
-        this->Values[v][other] = static_cast<float>(
-          (scalars->GetComponent(points[v], component) - n.Offset) * n.Scale);
+        this->Values[v][other] =
+          static_cast<float>((scalars->GetComponent(points[v], component) - n.Offset) * n.Scale);
       }
     });
 }

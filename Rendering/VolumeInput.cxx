@@ -216,8 +216,8 @@ void VolumeInput::UpdateActiveCells(const VisibleScalars& visible)
 //------------------------------------------------------------------------------
 void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherValues& others)
 {
-  if (!this->ActiveSetStale && visible == this->Visible &&
-    others.Visible == this->VisibleOthers && others.Version == this->OthersVersion)
+  if (!this->ActiveSetStale && visible == this->Visible && others.Visible == this->VisibleOthers &&
+    others.Version == this->OthersVersion)
   {
     return;
   }
@@ -230,8 +230,9 @@ void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherVa
       for (std::size_t c = first; c < last; ++c)
       {
         const auto& v = cells[c].Vertices;
-        const auto meets = [](const VisibleScalars& seen, float p, float q, float r, float s)
-        { return seen.Meets(std::min({ p, q, r, s }), std::max({ p, q, r, s })); };
+        const auto meets = [](const VisibleScalars& seen, float p, float q, float r, float s) {
+          return seen.Meets(std::min({ p, q, r, s }), std::max({ p, q, r, s }));
+        };
         const float* s = this->Scalars.data();
         bool seen = meets(visible, s[v[0]], s[v[1]], s[v[2]], s[v[3]]);
         for (std::size_t i = 0; i < others.Visible.size(); ++i)

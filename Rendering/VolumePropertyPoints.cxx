@@ -33,9 +33,8 @@ class PropertyCurve
 public:
   PropertyCurve(vtkVolumeProperty* property, int component, OpacityMeaning meaning)
     : Opacity(property->GetScalarOpacity(component))
-    , Gray(property->GetColorChannels(component) == 1
-          ? property->GetGrayTransferFunction(component)
-          : nullptr)
+    , Gray(property->GetColorChannels(component) == 1 ? property->GetGrayTransferFunction(component)
+                                                      : nullptr)
     , Color(this->Gray ? nullptr : property->GetRGBTransferFunction(component))
     , Unit(property->GetScalarOpacityUnitDistance(component))
     , Meaning(meaning)

@@ -410,8 +410,7 @@ bool TetrahedralMesh::UpdateActiveCells(
 }
 
 //------------------------------------------------------------------------------
-bool TetrahedralMesh::SetActiveCells(
-  const std::vector<std::uint8_t>& active, const RangeLoop& loop)
+bool TetrahedralMesh::SetActiveCells(const std::vector<std::uint8_t>& active, const RangeLoop& loop)
 {
   std::int64_t number = 0;
   bool changed = false;

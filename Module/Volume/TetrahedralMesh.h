@@ -139,9 +139,9 @@ public:
   bool UpdateActiveCells(const std::vector<float>& scalars, const VisibleScalars& visible,
     const RangeLoop& loop = SerialLoop);
 
-  /** Makes those cells active that are marked by 1, the others by 0. Returns whether one changed. */
-  bool SetActiveCells(
-    const std::vector<std::uint8_t>& active, const RangeLoop& loop = SerialLoop);
+  /** Makes those cells active that are marked by 1, the others by 0. Returns whether one changed.
+   */
+  bool SetActiveCells(const std::vector<std::uint8_t>& active, const RangeLoop& loop = SerialLoop);
 
   std::int64_t GetNumberOfActiveCells() const { return this->ActiveCells; }
 

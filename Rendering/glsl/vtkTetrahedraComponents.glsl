@@ -7,7 +7,6 @@
 
 // The functions, in the order of the scalars that they are taken at: the main scalar, then the other
 // components, if they are not colours themselves.
-uniform samplerBuffer intervals;     // 3 texels per interval
 uniform int functionStart[NUMBER_OF_FUNCTIONS];
 uniform int functionSize[NUMBER_OF_FUNCTIONS];
 

@@ -3,7 +3,6 @@
 //
 // The transfer function: a table of intervals in which attenuation and colour are linear.
 
-uniform samplerBuffer intervals;     // 3 texels per interval
 uniform int numberOfIntervals;
 
 // The current interval.

@@ -19,6 +19,7 @@ uniform vec2 depthDenominator;
 uniform vec3 clippingConstant[NUMBER_OF_CLIPPING_PLANES];
 uniform vec3 clippingPerDepth[NUMBER_OF_CLIPPING_PLANES];
 #endif
+uniform samplerBuffer intervals;     // of the optical model: functions by intervals, 3 texels each
 #if VERTEX_GRADIENTS
 uniform samplerBuffer vertexGradients;
 #endif

@@ -13,7 +13,8 @@ namespace reference
 namespace
 {
 
-constexpr int StepsPerPiece = 64;
+// Steps of a piece per optical depth: Gauss' rule of three points then errs by less than 1e-9.
+constexpr double StepsPerDepth = 4.0;
 
 double lengthOf(const Vector3& v)
 {
@@ -97,17 +98,32 @@ std::array<double, 4> integrateComponents(const Ray& ray,
     const std::vector<double> places = piecesOf(here, functions);
     for (std::size_t p = 0; p + 1 < places.size(); ++p)
     {
-      // By the rule of the middle, with the medium of each step constant: second order.
-      const double step = (places[p + 1] - places[p]) / StepsPerPiece;
-      for (int k = 0; k < StepsPerPiece; ++k)
+      const double span = places[p + 1] - places[p];
+      const double depth =
+        span * length * mediumAt(here, mixture, functions, places[p] + 0.5 * span)[0];
+      const int steps = 2 + static_cast<int>(StepsPerDepth * depth);
+      const double step = span / steps;
+      for (int k = 0; k < steps; ++k)
       {
-        const auto medium = mediumAt(here, mixture, functions, places[p] + (k + 0.5) * step);
-        const double gone = transmittance * -std::expm1(-medium[0] * step * length);
-        for (int c = 0; c < 3 && medium[0] > 0.0; ++c)
+        // Attenuation is linear: up to a place in the step it is that of half the way. Emission
+        // times transmittance by Gauss' rule of three points.
+        const double begin = places[p] + k * step;
+        const auto depthTo = [&](double part) {
+          return part * step * length *
+            mediumAt(here, mixture, functions, begin + 0.5 * part * step)[0];
+        };
+        for (const int side : { -1, 0, 1 })
         {
-          result[c] += gone * medium[c + 1] / medium[0];
+          const double part = 0.5 * (1.0 + side * std::sqrt(0.6));
+          const double weight = (side == 0 ? 8.0 : 5.0) / 18.0;
+          const auto medium = mediumAt(here, mixture, functions, begin + part * step);
+          const double shown = weight * transmittance * std::exp(-depthTo(part)) * step * length;
+          for (int c = 0; c < 3; ++c)
+          {
+            result[c] += shown * medium[c + 1];
+          }
         }
-        transmittance -= gone;
+        transmittance *= std::exp(-depthTo(1.0));
       }
     }
   }
