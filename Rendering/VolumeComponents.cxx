@@ -7,8 +7,10 @@
 #include "vtkType.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace meniscus
 {
@@ -23,24 +25,29 @@ double FullIntensity(vtkDataArray* colors)
   return colors->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
 }
 
-/** Makes all of a vertex NaN if one component is not finite, the main one included. */
-void MarkUnknown(
+/** Makes all of a vertex NaN if one component is not finite, the main one included. Counts them. */
+std::int64_t MarkUnknown(
   const std::vector<std::int32_t>& points, vtkDataArray* scalars, std::vector<glm::vec3>& values)
 {
+  std::atomic<std::int64_t> unknown(0);
   vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
     [&](vtkIdType first, vtkIdType last)
     {
       for (vtkIdType v = first; v < last; ++v)
       {
+        bool known = true;
         for (int c = 0; c < scalars->GetNumberOfComponents(); ++c)
         {
-          if (!std::isfinite(scalars->GetComponent(points[v], c)))
-          {
-            values[v] = glm::vec3(NotANumber);
-          }
+          known = known && std::isfinite(scalars->GetComponent(points[v], c));
+        }
+        if (!known)
+        {
+          values[v] = glm::vec3(NotANumber);
+          ++unknown;
         }
       }
     });
+  return unknown;
 }
 
 }
@@ -60,16 +67,17 @@ int MainComponent(ComponentMixture mixture)
 }
 
 //------------------------------------------------------------------------------
-void VolumeComponents::Update(
+InputReport VolumeComponents::Update(
   const VolumeInput& input, vtkDataArray* scalars, ComponentMixture mixture)
 {
   const ObjectVersion version(scalars);
   const bool same = mixture == this->Mixture &&
     (mixture == ComponentMixture::None ||
       (version == this->BuiltScalars && this->BuiltMesh == input.GetMeshBuilds()));
+  InputReport report;
   if (same)
   {
-    return;
+    return report;
   }
   this->Mixture = mixture;
   this->BuiltScalars = version;
@@ -80,7 +88,7 @@ void VolumeComponents::Update(
   ++this->Version;
   if (mixture == ComponentMixture::None)
   {
-    return;
+    return report;
   }
   const TetrahedralMesh& mesh = input.GetMesh();
   this->Values.assign(mesh.GetSourcePoints().size(), glm::vec3(0.0f));
@@ -99,7 +107,13 @@ void VolumeComponents::Update(
       this->TakeScalars(mesh, scalars, component, component - 1);
     }
   }
-  MarkUnknown(mesh.GetSourcePoints(), scalars, this->Values);
+  const std::int64_t unknown = MarkUnknown(mesh.GetSourcePoints(), scalars, this->Values);
+  if (unknown > 0)
+  {
+    report.Warning = std::to_string(unknown) + " of " + std::to_string(this->Values.size()) +
+      " vertices have a component that is not finite; cells that use them are transparent.";
+  }
+  return report;
 }
 
 //------------------------------------------------------------------------------

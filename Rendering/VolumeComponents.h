@@ -27,7 +27,7 @@ class VolumeComponents
 {
 public:
   /** Costs nothing if mesh, array and mixture are the same. */
-  void Update(const VolumeInput& input, vtkDataArray* scalars, ComponentMixture mixture);
+  InputReport Update(const VolumeInput& input, vtkDataArray* scalars, ComponentMixture mixture);
 
   ComponentMixture GetMixture() const { return this->Mixture; }
   /** Of the array; 1 if there is no mixture. */

@@ -389,13 +389,9 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     this->UpdateProgress(fraction);
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
-  const bool usable = tell(input.UpdateMesh(grid, goOn)) &&
-    input.GetMesh().GetNumberOfCells() > 0 && tell(input.UpdateScalars(scalars, component));
-  if (usable)
-  {
-    this->Internals->Components.Update(input, scalars, mixture);
-  }
-  return usable;
+  return tell(input.UpdateMesh(grid, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
+    tell(input.UpdateScalars(scalars, component)) &&
+    tell(this->Internals->Components.Update(input, scalars, mixture));
 }
 
 //------------------------------------------------------------------------------

@@ -8,7 +8,8 @@
  * the density-emitter model in closed form. The image does not depend on a sampling distance.
  *
  * Input: a vtkUnstructuredGrid with a point array, chosen by the scalar mode and array selection of
- * vtkAbstractVolumeMapper, of one component or as SetVectorMode() says. Tetrahedra are drawn as
+ * vtkAbstractVolumeMapper. Of several components, SetVectorMode() chooses one or the length; else
+ * two to four mix as described below. Tetrahedra are drawn as
  * they are; voxels, hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells as
  * tetrahedra that have the same points and fit across shared faces, whatever the cells (each cell
  * is pulled to its point of the smallest number). Other cells are left out with a warning. Any mesh
@@ -32,6 +33,12 @@
  * - ISOSURFACE_BLEND: surfaces at the property's IsoSurfaceValues, with its colour and opacity at
  *   these values; lit if Shade is on.
  *
+ * Several components, with COMPOSITE_BLEND, by vtkVolumeProperty's IndependentComponents: if on,
+ * two to four scalars, each with its own functions and weight, as media in the same place
+ * (attenuations add up, emissions too; not lit). If off, two: colour by the first, opacity by the
+ * second; or four: the first three are the colour (unsigned char, or 0 to 1), opacity by the
+ * fourth. Light then goes by the gradient of the last. See Documentation/volume.md.
+ *
  * Lengths are measured in world coordinates. Output is premultiplied RGBA, blended over what is in
  * the framebuffer; rays end at the opaque geometry there. Clipping planes cut cells exactly. A
  * transfer function that is not piecewise linear (HSV, Lab or diverging space, logarithmic scale,
@@ -50,7 +57,8 @@
  * ever.
  * 4. Within a cell the scalar is linear along the ray. The segment is split at the transfer
  *    function's nodes; every piece has linear attenuation and colour and is integrated in closed
- *    form up to an error of 3e-7.
+ *    form up to an error of 3e-7. With several components, at the nodes of all functions; every
+ *    piece then by Gauss' rule of three points, up to 1e-6. Or by SetIntegration().
  *
  * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first
  * counts up to its exit. Cells that cannot be seen, because the transfer function has no opacity
@@ -60,13 +68,14 @@
  * Meshes", IEEE Visualization 2003. Deviations: one pass with a loop instead of one pass per cell;
  * edge signs instead of plane equations (Eq. 1); closed-form integration (K. Moreland, E. Angel, "A
  * Fast High Accuracy Volume Renderer for Unstructured Data", 2004) instead of pre-integrated tables
- * (Eqs. 3, 4); boundary entries instead of imaginary cells.
+ * (Eqs. 3, 4) unless PRE_INTEGRATED is asked for; boundary entries instead of imaginary cells.
  *
  * Needs OpenGL 3.2; the native backend casts rays on the CPU and needs it to show the image. Work
  * is done where its input changes: see the counters.
  *
- * @note Limits of this version: point data; up to 32 clipping planes and 16 lights; the native
- * backend has plain composite blending only; fewer than 2^29 cells, and tables within
+ * @note Limits of this version: point data; up to 32 clipping planes and 16 lights; several
+ * components with composite blending only; the native backend has plain composite blending of one
+ * component only; fewer than 2^29 cells, and tables within
  * GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
@@ -108,7 +117,7 @@ public:
   /**
    * What is drawn of an array of several components, as in vtkSmartVolumeMapper: MAGNITUDE, the
    * length of the vector; COMPONENT, the one of number VectorComponent (from 0, the default).
-   * DISABLED, the default, draws arrays of one component only.
+   * DISABLED, the default, draws arrays of one component, and mixes two to four (see the class).
    */
   vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
   vtkGetMacro(VectorMode, int);

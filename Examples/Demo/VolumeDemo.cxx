@@ -126,61 +126,51 @@ void LookFromOutside(vtkRenderer* renderer)
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->SetViewAngle(30.0);
   camera->SetViewUp(0.0, 0.0, 1.0);
-  camera->SetPosition(1.0, -1.6, 1.1);
+  camera->SetPosition(0.8, -1.4, 1.3);
   camera->SetFocalPoint(0.0, 0.0, 0.0);
   renderer->ResetCamera();
-  camera->Zoom(1.15);
+  camera->Zoom(1.25);
 }
 
-/** Looks from a point inside the mesh's bounding box to its centre. */
-void LookFromInside(vtkRenderer* renderer, const double bounds[6])
+/** A point of the mesh and how far from it the surface is, by the surface's points. */
+struct DeepPoint
 {
-  double from[3];
-  double to[3];
-  const double fractions[3] = { 0.78, 0.30, 0.62 };
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double* range = bounds + 2 * axis;
-    from[axis] = range[0] + fractions[axis] * (range[1] - range[0]);
-    to[axis] = 0.5 * (range[0] + range[1]);
-  }
-  vtkCamera* camera = renderer->GetActiveCamera();
-  camera->SetPosition(from);
-  camera->SetFocalPoint(to);
-  camera->SetViewUp(0.0, 0.0, 1.0);
-  camera->OrthogonalizeViewUp();
-  camera->SetViewAngle(70.0);
-}
+  double Place[3];
+  double Depth;
+};
 
-/** An opaque ball where the mesh is thickest, as wide as fits. */
-vtkSmartPointer<vtkActor> MakeBall(vtkUnstructuredGrid* mesh)
+/** Some points of the mesh, the deepest first. */
+std::vector<DeepPoint> FindDeepPoints(vtkUnstructuredGrid* mesh)
 {
   vtkNew<vtkDataSetSurfaceFilter> surface;
   surface->SetInputData(mesh);
   surface->Update();
-  vtkNew<vtkPointLocator> outside;
-  outside->SetDataSet(surface->GetOutput());
-  outside->BuildLocator();
-  double center[3] = { 0.0, 0.0, 0.0 };
-  double radius = 0.0;
+  vtkNew<vtkPointLocator> locator;
+  locator->SetDataSet(surface->GetOutput());
+  locator->BuildLocator();
+  std::vector<DeepPoint> points;
   constexpr vtkIdType Tried = 2000;
   const vtkIdType step = std::max<vtkIdType>(1, mesh->GetNumberOfPoints() / Tried);
   for (vtkIdType p = 0; p < mesh->GetNumberOfPoints(); p += step)
   {
-    double x[3];
-    double y[3];
-    mesh->GetPoint(p, x);
-    surface->GetOutput()->GetPoint(outside->FindClosestPoint(x), y);
-    const double distance = std::sqrt(vtkMath::Distance2BetweenPoints(x, y));
-    if (distance > radius)
-    {
-      radius = distance;
-      std::copy(x, x + 3, center);
-    }
+    DeepPoint point;
+    double nearest[3];
+    mesh->GetPoint(p, point.Place);
+    surface->GetOutput()->GetPoint(locator->FindClosestPoint(point.Place), nearest);
+    point.Depth = std::sqrt(vtkMath::Distance2BetweenPoints(point.Place, nearest));
+    points.push_back(point);
   }
+  std::sort(points.begin(), points.end(),
+    [](const DeepPoint& a, const DeepPoint& b) { return a.Depth > b.Depth; });
+  return points;
+}
+
+/** An opaque ball where the mesh is thickest, as wide as fits. */
+vtkSmartPointer<vtkActor> MakeBall(const DeepPoint& place, double length)
+{
   vtkNew<vtkSphereSource> sphere;
-  sphere->SetCenter(center);
-  sphere->SetRadius(std::max(0.8 * radius, 0.02 * mesh->GetLength()));
+  sphere->SetCenter(place.Place[0], place.Place[1], place.Place[2]);
+  sphere->SetRadius(std::max(0.8 * place.Depth, 0.02 * length));
   sphere->SetThetaResolution(96);
   sphere->SetPhiResolution(48);
   vtkNew<vtkPolyDataMapper> mapper;
@@ -193,6 +183,30 @@ vtkSmartPointer<vtkActor> MakeBall(vtkUnstructuredGrid* mesh)
   return ball;
 }
 
+/** Looks at the first place from within the mesh: from one deep in it, a third of it away. */
+void LookFromInside(vtkRenderer* renderer, const std::vector<DeepPoint>& places, double length)
+{
+  const DeepPoint& to = places.front();
+  const DeepPoint* from = &places.back();
+  double best = HUGE_VAL;
+  for (const DeepPoint& place : places)
+  {
+    const double apart = std::sqrt(vtkMath::Distance2BetweenPoints(place.Place, to.Place));
+    const double missed = std::fabs(apart - 0.33 * length);
+    if (place.Depth > 0.5 * to.Depth && missed < best)
+    {
+      best = missed;
+      from = &place;
+    }
+  }
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->SetPosition(from->Place);
+  camera->SetFocalPoint(to.Place);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  camera->OrthogonalizeViewUp();
+  camera->SetViewAngle(75.0);
+}
+
 /** The pictures of one mesh. Each begins with the settings of the first. */
 class VolumePictures
 {
@@ -201,7 +215,8 @@ public:
     : Mesh(mesh)
     , Scalars(mesh->GetPointData()->GetScalars())
     , Pictures(folder)
-    , Ball(MakeBall(mesh))
+    , Places(FindDeepPoints(mesh))
+    , Ball(MakeBall(this->Places.front(), mesh->GetLength()))
   {
     this->Mapper->SetInputData(mesh);
     this->Volume->SetMapper(this->Mapper);
@@ -226,7 +241,7 @@ public:
 
     this->Begin();
     this->ShowIsosurfaces();
-    this->Write("volume-isosurfaces", "four isosurfaces, translucent and lit");
+    this->Write("volume-isosurfaces", "three isosurfaces, translucent and lit");
 
     this->Begin();
     this->ShowMaximum();
@@ -234,7 +249,7 @@ public:
 
     this->Begin();
     this->Clip();
-    this->Write("volume-clipping", "a corner cut off by two clipping planes");
+    this->Write("volume-clipping", "cut by two clipping planes");
 
     this->Begin();
     this->Ball->VisibilityOn();
@@ -244,8 +259,10 @@ public:
 
     this->Begin();
     this->Ball->VisibilityOn();
-    LookFromInside(this->Renderer(), this->Mesh->GetBounds());
-    this->Write("volume-inside", "from inside its bounds, an opaque ball in it");
+    this->Light(0.5, 0.6, 0.2, 24.0);
+    SetSmoothOpacity(this->Property(), this->Scalars, 2.0);
+    LookFromInside(this->Renderer(), this->Places, this->Mesh->GetLength());
+    this->Write("volume-inside", "from inside the mesh, at the ball");
     return this->Written;
   }
 
@@ -260,7 +277,7 @@ private:
     this->Property()->ShadeOff();
     this->Property()->SetScalarOpacityUnitDistance(this->Mesh->GetLength() / 8.0);
     SetColors(this->Property(), this->Scalars);
-    SetSmoothOpacity(this->Property(), this->Scalars, 1.0);
+    SetSmoothOpacity(this->Property(), this->Scalars, 1.5);
     this->Ball->VisibilityOff();
   }
 
@@ -276,16 +293,16 @@ private:
   void ShowIsosurfaces()
   {
     this->Mapper->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-    this->Light(0.25, 0.75, 0.5, 40.0);
+    this->Light(0.35, 0.7, 0.5, 40.0);
     vtkPiecewiseFunction* opacity = this->Property()->GetScalarOpacity();
     opacity->RemoveAllPoints();
     this->Property()->GetIsoSurfaceValues()->SetNumberOfContours(0);
     int number = 0;
-    for (const double fraction : { 0.15, 0.45, 0.75, 0.97 })
+    for (const double fraction : { 0.35, 0.7, 0.95 })
     {
       const double value = this->Scalars.At(fraction);
       this->Property()->GetIsoSurfaceValues()->SetValue(number++, value);
-      opacity->AddPoint(value, 0.25 + 0.75 * fraction * fraction);
+      opacity->AddPoint(value, 0.2 + 0.8 * fraction * fraction);
     }
   }
 
@@ -294,11 +311,12 @@ private:
     this->Mapper->SetBlendMode(vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND);
     vtkPiecewiseFunction* opacity = this->Property()->GetScalarOpacity();
     opacity->RemoveAllPoints();
-    opacity->AddPoint(this->Scalars.At(0.0), 0.3);
-    opacity->AddPoint(this->Scalars.At(0.6), 1.0);
+    opacity->AddPoint(this->Scalars.At(0.0), 0.0);
+    opacity->AddPoint(this->Scalars.At(0.4), 0.4);
+    opacity->AddPoint(this->Scalars.At(0.8), 1.0);
   }
 
-  /** Keeps what is not on the viewer's side of both planes: two pictures' worth of a corner. */
+  /** A dense medium, of which two planes leave the back. */
   void Clip()
   {
     this->Light(0.6, 0.5, 0.1, 10.0);
@@ -328,6 +346,7 @@ private:
   DemoPictures Pictures;
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
   vtkNew<vtkVolume> Volume;
+  std::vector<DeepPoint> Places;
   vtkSmartPointer<vtkActor> Ball;
   bool Written = true;
 };

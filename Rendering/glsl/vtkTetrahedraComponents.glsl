@@ -105,8 +105,8 @@ bool integratePiece()
   float pieceLength = (reached - segmentDone) * segmentLength;
 
   // Attenuation times length and emission at the ends of the piece.
-  float froms[NUMBER_OF_FUNCTIONS];
-  float tos[NUMBER_OF_FUNCTIONS];
+  float fronts[NUMBER_OF_FUNCTIONS];
+  float backs[NUMBER_OF_FUNCTIONS];
   vec2 density = vec2(0.0);
   for (int f = 0; f < NUMBER_OF_FUNCTIONS; ++f)
   {
@@ -115,17 +115,17 @@ bool integratePiece()
     float end = scalarOf(f, segmentEnd, othersEnd);
     bool leavesHere = leaves[f] >= 0.0 && leaves[f] <= reached;
     float ahead = clamp(reached < 1.0 ? mix(start, end, reached) : end, range.x, range.y);
-    froms[f] = functionScalar[f];
-    tos[f] = inside ? (leavesHere ? (moves[f] > 0 ? range.y : range.x) : ahead) : froms[f];
+    fronts[f] = functionScalar[f];
+    backs[f] = inside ? (leavesHere ? (moves[f] > 0 ? range.y : range.x) : ahead) : fronts[f];
 #if COMPONENT_MIXTURE == INDEPENDENT
-    density += vec2(densityAt(f, froms[f], pieceLength), densityAt(f, tos[f], pieceLength));
+    density += vec2(densityAt(f, fronts[f], pieceLength), densityAt(f, backs[f], pieceLength));
 #endif
   }
 #if COMPONENT_MIXTURE != INDEPENDENT
-  density = vec2(densityAt(0, froms[0], pieceLength), densityAt(0, tos[0], pieceLength));
+  density = vec2(densityAt(0, fronts[0], pieceLength), densityAt(0, backs[0], pieceLength));
 #if COMPONENT_MIXTURE == COLOR_AND_OPACITY
-  vec3 colorStart = colorAt(1, froms[1]);
-  vec3 colorEnd = colorAt(1, tos[1]);
+  vec3 colorStart = colorAt(1, fronts[1]);
+  vec3 colorEnd = colorAt(1, backs[1]);
 #else
   vec3 colorStart = mix(othersStart, othersEnd, segmentDone);
   vec3 colorEnd = mix(othersStart, othersEnd, reached);
@@ -155,7 +155,7 @@ bool integratePiece()
     vec3 here = vec3(0.0);
     for (int f = 0; f < NUMBER_OF_FUNCTIONS; ++f)
     {
-      float scalar = mix(froms[f], tos[f], at);
+      float scalar = mix(fronts[f], backs[f], at);
       here += densityAt(f, scalar, pieceLength) * colorAt(f, scalar);
     }
 #else
@@ -173,7 +173,7 @@ bool integratePiece()
   segmentDone = whole ? reached : segmentDone + part * (reached - segmentDone);
   for (int f = 0; f < NUMBER_OF_FUNCTIONS; ++f)
   {
-    functionScalar[f] = whole ? tos[f] : froms[f] + part * (tos[f] - froms[f]);
+    functionScalar[f] = whole ? backs[f] : fronts[f] + part * (backs[f] - fronts[f]);
     if (whole && moves[f] != 0 && leaves[f] <= (inside ? reached : -1.0))
     {
       functionInterval[f] += moves[f];

@@ -38,6 +38,10 @@ class TestMapper(PropertyTest):
         self.check_pair(self.mapper, "BlendMode", range(6))
         self.mapper.GetActiveBackend()
 
+    def test_pre_integration(self):
+        self.check_pair(self.mapper, "PreIntegrationScalarSize", [2, 100, 1024])
+        self.check_pair(self.mapper, "PreIntegrationLengthSize", [1, 16, 128])
+
     def test_early_termination(self):
         self.check_pair(self.mapper, "EarlyTerminationOpacity", [0.5, 1.0])
 
@@ -46,7 +50,7 @@ class TestMapper(PropertyTest):
             "NumberOfMeshBuilds", "NumberOfScalarUpdates", "NumberOfTransferFunctionBuilds",
             "NumberOfActiveSetBuilds", "UploadedBytes", "NumberOfActiveCells",
             "NumberOfTraversalSteps", "NumberOfRays", "NumberOfLostRays",
-            "NumberOfRejectedCells"])
+            "NumberOfRejectedCells", "NumberOfPreIntegrationBuilds"])
 
     def test_prints_itself(self):
         self.assertIn("Integration", str(self.mapper))

@@ -333,7 +333,12 @@ TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
   array->SetComponent(0, 2, std::numeric_limits<double>::quiet_NaN());
   array->SetComponent(grid->GetNumberOfPoints() - 1, 1, std::numeric_limits<double>::infinity());
   array->Modified();
+  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  warnings->observe(scene.rayCaster());
   scene.window()->Render();
+  EXPECT_EQ(std::count_if(warnings->Warnings.begin(), warnings->Warnings.end(),
+              [](const std::string& text) { return text.find("2 of 729 vert") != text.npos; }),
+    1);
   EXPECT_LT(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() * 7 / 16);
   EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
   // Back to one component.
