@@ -76,6 +76,7 @@ public:
   bool HasCells() const;
   bool HasBoundary() const;
   bool HasVertices() const;
+  bool HasCellScalars() const { return this->CellScalars.IsFilled(); }
   bool HasGradients() const { return this->VertexGradients.IsFilled(); }
   bool HasComponents() const { return this->VertexComponents.IsFilled(); }
   bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
@@ -83,8 +84,10 @@ public:
 
   std::string UploadCells(const TetrahedralMesh& mesh);
   std::string UploadBoundary(const BoundaryTree& tree);
-  /** @param scalars  one normalised scalar per vertex. */
+  /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
+  /** One normalised scalar per cell. Needed for optics with CellScalars. */
+  std::string UploadCellScalars(const std::vector<float>& scalars);
   /** One gradient per vertex. Needed for optics with VertexGradients. */
   std::string UploadGradients(const std::vector<glm::vec3>& gradients);
   /** Needed for optics with PreIntegrated. */
@@ -152,6 +155,7 @@ private:
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   OpenGLTable Vertices;
   OpenGLTable Cells;
+  OpenGLTable CellScalars;
   OpenGLTable TreeNodes;
   OpenGLTable TreeFaces;
   OpenGLTable VertexGradients;

@@ -93,7 +93,7 @@ void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const Opt
 {
   // Components that mix have a gradient each: there is no normal for all.
   const bool composite = optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND &&
-    optics.Components != ComponentMixture::Independent;
+    !optics.CellScalars && optics.Components != ComponentMixture::Independent;
   optics.Shading = property->GetShade() != 0 &&
     (composite || optics.BlendMode == vtkVolumeMapper::ISOSURFACE_BLEND);
   optics.GradientOpacity = composite && UsesGradientOpacity(property);

@@ -39,6 +39,8 @@ struct RayCastOptics
 {
   /** A number of vtkVolumeMapper::BlendModes up to ISOSURFACE_BLEND. */
   int BlendMode = 0;
+  /** One scalar per cell, in place of those of the vertices. */
+  bool CellScalars = false;
   /** Not None with composite blending only. */
   ComponentMixture Components = ComponentMixture::None;
   /** Of the scalars' components, the main one first. */
@@ -63,10 +65,11 @@ struct RayCastOptics
 
   bool HasComponents() const { return this->Components != ComponentMixture::None; }
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
-  /** Composite blending of one scalar by the transfer function as it is. */
+  /** Composite blending of one scalar of the vertices by the transfer function as it is. */
   bool IsComposite() const
   {
-    return this->BlendMode == 0 && !this->UsesGradients() && !this->HasComponents();
+    return this->BlendMode == 0 && !this->UsesGradients() && !this->HasComponents() &&
+      !this->CellScalars;
   }
   /** The same, integrated exactly. */
   bool IsPlain() const { return this->IsComposite() && !this->PreIntegrated; }
@@ -83,7 +86,11 @@ struct OpticsPlace
   double ScalarScale = 1.0;
 };
 
-/** Sets shading, its material and the lights that are on; gradient opacity where there is one. */
+/**
+ * Sets shading, its material and the lights that are on; gradient opacity where there is one.
+ * Scalars of cells have no gradient, only their isosurfaces a normal. Wants the other members of
+ * the optics that do not follow from this.
+ */
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const OpticsPlace& place,
   RayCastOptics& optics);
 

@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeComponents.h"
 
+#include "ValuesOfParts.h"
+
 #include "vtkDataArray.h"
 #include "vtkSMPTools.h"
 #include "vtkType.h"
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -20,15 +24,20 @@ namespace
 constexpr float NotANumber = std::numeric_limits<float>::quiet_NaN();
 
 /** What a colour's full intensity is stored as: VTK's convention for bytes, 1 otherwise. */
-double FullIntensity(vtkDataArray* colors)
+double FullIntensity(const InputParts& parts)
 {
-  return colors->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
+  return parts.Parts.front().Scalars->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
 }
 
 /** Makes all of a vertex NaN if one component is not finite, the main one included. Counts them. */
-std::int64_t MarkUnknown(
-  const std::vector<std::int32_t>& points, vtkDataArray* scalars, std::vector<glm::vec3>& values)
+std::int64_t MarkUnknown(const std::vector<std::int32_t>& points, const InputParts& parts,
+  int components, std::vector<glm::vec3>& values)
 {
+  std::vector<ValuesOfParts> valuesOf;
+  for (int c = 0; c < components; ++c)
+  {
+    valuesOf.emplace_back(parts, c);
+  }
   std::atomic<std::int64_t> unknown(0);
   vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
     [&](vtkIdType first, vtkIdType last)
@@ -36,9 +45,9 @@ std::int64_t MarkUnknown(
       for (vtkIdType v = first; v < last; ++v)
       {
         bool known = true;
-        for (int c = 0; c < scalars->GetNumberOfComponents(); ++c)
+        for (const ValuesOfParts& valueOf : valuesOf)
         {
-          known = known && std::isfinite(scalars->GetComponent(points[v], c));
+          known = known && std::isfinite(valueOf(points[v]));
         }
         if (!known)
         {
@@ -68,9 +77,13 @@ int MainComponent(ComponentMixture mixture)
 
 //------------------------------------------------------------------------------
 InputReport VolumeComponents::Update(
-  const VolumeInput& input, vtkDataArray* scalars, ComponentMixture mixture)
+  const VolumeInput& input, const InputParts& parts, ComponentMixture mixture)
 {
-  const ObjectVersion version(scalars);
+  std::vector<ObjectVersion> version;
+  for (const InputPart& part : parts.Parts)
+  {
+    version.emplace_back(part.Scalars);
+  }
   const bool same = mixture == this->Mixture &&
     (mixture == ComponentMixture::None ||
       (version == this->BuiltScalars && this->BuiltMesh == input.GetMeshBuilds()));
@@ -83,7 +96,7 @@ InputReport VolumeComponents::Update(
   this->BuiltScalars = version;
   this->BuiltMesh = input.GetMeshBuilds();
   this->NumberOfComponents =
-    mixture == ComponentMixture::None ? 1 : scalars->GetNumberOfComponents();
+    mixture == ComponentMixture::None ? 1 : parts.Parts.front().Scalars->GetNumberOfComponents();
   this->Values.clear();
   ++this->Version;
   if (mixture == ComponentMixture::None)
@@ -94,20 +107,21 @@ InputReport VolumeComponents::Update(
   this->Values.assign(mesh.GetSourcePoints().size(), glm::vec3(0.0f));
   if (mixture == ComponentMixture::RedGreenBlueOpacity)
   {
-    this->TakeColors(mesh, scalars);
+    this->TakeColors(mesh, parts);
   }
   else if (mixture == ComponentMixture::ColorAndOpacity)
   {
-    this->TakeScalars(mesh, scalars, 0, 0);
+    this->TakeScalars(mesh, parts, 0, 0);
   }
   else
   {
     for (int component = 1; component < this->NumberOfComponents; ++component)
     {
-      this->TakeScalars(mesh, scalars, component, component - 1);
+      this->TakeScalars(mesh, parts, component, component - 1);
     }
   }
-  const std::int64_t unknown = MarkUnknown(mesh.GetSourcePoints(), scalars, this->Values);
+  const std::int64_t unknown =
+    MarkUnknown(mesh.GetSourcePoints(), parts, this->NumberOfComponents, this->Values);
   if (unknown > 0)
   {
     report.Warning = std::to_string(unknown) + " of " + std::to_string(this->Values.size()) +
@@ -118,14 +132,15 @@ InputReport VolumeComponents::Update(
 
 //------------------------------------------------------------------------------
 void VolumeComponents::TakeScalars(
-  const TetrahedralMesh& mesh, vtkDataArray* scalars, int component, int other)
+  const TetrahedralMesh& mesh, const InputParts& parts, int component, int other)
 {
   const std::vector<std::int32_t>& points = mesh.GetSourcePoints();
+  const ValuesOfParts valueOf(parts, component);
   double lowest = std::numeric_limits<double>::infinity();
   double highest = -lowest;
   for (const std::int32_t point : points)
   {
-    const double value = scalars->GetComponent(point, component);
+    const double value = valueOf(point);
     if (std::isfinite(value))
     {
       lowest = std::min(lowest, value);
@@ -140,27 +155,26 @@ void VolumeComponents::TakeScalars(
     {
       for (vtkIdType v = first; v < last; ++v)
       {
-        this->Values[v][other] =
-          static_cast<float>((scalars->GetComponent(points[v], component) - n.Offset) * n.Scale);
+        this->Values[v][other] = static_cast<float>((valueOf(points[v]) - n.Offset) * n.Scale);
       }
     });
 }
 
 //------------------------------------------------------------------------------
-void VolumeComponents::TakeColors(const TetrahedralMesh& mesh, vtkDataArray* scalars)
+void VolumeComponents::TakeColors(const TetrahedralMesh& mesh, const InputParts& parts)
 {
   const std::vector<std::int32_t>& points = mesh.GetSourcePoints();
-  const double scale = 1.0 / FullIntensity(scalars);
+  const double scale = 1.0 / FullIntensity(parts);
+  const ValuesOfParts red(parts, 0);
+  const ValuesOfParts green(parts, 1);
+  const ValuesOfParts blue(parts, 2);
   vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
     [&](vtkIdType first, vtkIdType last)
     {
       for (vtkIdType v = first; v < last; ++v)
       {
-        for (int c = 0; c < 3; ++c)
-        {
-          this->Values[v][c] = static_cast<float>(
-            std::min(1.0, std::max(0.0, scale * scalars->GetComponent(points[v], c))));
-        }
+        const glm::dvec3 color(red(points[v]), green(points[v]), blue(points[v]));
+        this->Values[v] = glm::vec3(glm::clamp(scale * color, 0.0, 1.0));
       }
     });
 }

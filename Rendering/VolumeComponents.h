@@ -14,20 +14,18 @@
 #include <cstdint>
 #include <vector>
 
-class vtkDataArray;
-
 namespace meniscus
 {
 
 /** The component that VolumeInput takes as the scalar: the first, or what gives the opacity. */
 int MainComponent(ComponentMixture mixture);
 
-/** The components of an array beside the main one, for the vertices of a mesh. */
+/** The components of the arrays beside the main one, for the vertices of a mesh. */
 class VolumeComponents
 {
 public:
-  /** Costs nothing if mesh, array and mixture are the same. */
-  InputReport Update(const VolumeInput& input, vtkDataArray* scalars, ComponentMixture mixture);
+  /** Costs nothing if mesh, arrays and mixture are the same. */
+  InputReport Update(const VolumeInput& input, const InputParts& parts, ComponentMixture mixture);
 
   ComponentMixture GetMixture() const { return this->Mixture; }
   /** Of the array; 1 if there is no mixture. */
@@ -46,14 +44,14 @@ public:
   std::int64_t GetVersion() const { return this->Version; }
 
 private:
-  void TakeScalars(const TetrahedralMesh& mesh, vtkDataArray* scalars, int component, int other);
-  void TakeColors(const TetrahedralMesh& mesh, vtkDataArray* scalars);
+  void TakeScalars(const TetrahedralMesh& mesh, const InputParts& parts, int component, int other);
+  void TakeColors(const TetrahedralMesh& mesh, const InputParts& parts);
 
   ComponentMixture Mixture = ComponentMixture::None;
   int NumberOfComponents = 1;
   std::vector<glm::vec3> Values;
   std::array<ScalarNormalization, 3> Normalizations;
-  ObjectVersion BuiltScalars;
+  std::vector<ObjectVersion> BuiltScalars;
   std::int64_t BuiltMesh = 0;
   std::int64_t Version = 0;
 };

@@ -14,15 +14,17 @@
 #include "VolumePropertyTables.h"
 
 #include "vtkCamera.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
+#include "vtkDataSet.h"
 #include "vtkHardwareSelector.h"
+#include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
-#include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
@@ -71,6 +73,7 @@ public:
   std::int64_t UploadedLinks = 0;
   std::int64_t UploadedMesh = 0;
   std::int64_t UploadedScalars = 0;
+  std::int64_t UploadedCellScalars = 0;
   std::int64_t UploadedGradients = 0;
   std::int64_t UploadedComponents = 0;
   std::int64_t UploadedProperty = 0;
@@ -84,6 +87,8 @@ public:
   /** Seconds that the last frame would have taken with a ray per pixel; 0 before it. */
   double FullImageTime = 0.0;
 
+  /** What was last said of data sets that are left out. */
+  std::string ToldOfParts;
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedNative = false;
@@ -111,13 +116,20 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(const meniscus::Ray
     error = error.empty() ? this->OpenGL.UploadBoundary(input.GetBoundaryTree()) : error;
     this->UploadedLinks = error.empty() ? input.GetLinkChanges() : 0;
   }
+  const bool ofCells = input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   const bool verticesStale = this->UploadedMesh != input.GetMeshBuilds() ||
-    this->UploadedScalars != input.GetScalarUpdates();
+    (!ofCells && this->UploadedScalars != input.GetScalarUpdates());
   if (error.empty() && (verticesStale || !this->OpenGL.HasVertices()))
   {
     error = this->OpenGL.UploadVertices(input.GetMesh(), input.GetScalars());
     this->UploadedMesh = error.empty() ? input.GetMeshBuilds() : 0;
     this->UploadedScalars = input.GetScalarUpdates();
+  }
+  const bool cellScalarsStale = this->UploadedCellScalars != input.GetScalarUpdates();
+  if (error.empty() && ofCells && (cellScalarsStale || !this->OpenGL.HasCellScalars()))
+  {
+    error = this->OpenGL.UploadCellScalars(input.GetCellScalars());
+    this->UploadedCellScalars = error.empty() ? input.GetScalarUpdates() : 0;
   }
   const bool gradientsStale = this->UploadedGradients != this->GradientBuilds;
   if (error.empty() && optics.VertexGradients && (gradientsStale || !this->OpenGL.HasGradients()))
@@ -251,91 +263,125 @@ vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
 vtkTetrahedraRayCastMapper::~vtkTetrahedraRayCastMapper() = default;
 
 //------------------------------------------------------------------------------
-vtkUnstructuredGrid* vtkTetrahedraRayCastMapper::ValidateInput()
+int vtkTetrahedraRayCastMapper::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  for (const char* type : { "vtkDataSet", "vtkCompositeDataSet" })
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::SetInputData(vtkDataSet* input)
+{
+  this->SetInputDataInternal(0, input);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::SetInputData(vtkCompositeDataSet* input)
+{
+  this->SetInputDataInternal(0, input);
+}
+
+//------------------------------------------------------------------------------
+double* vtkTetrahedraRayCastMapper::GetBounds()
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput());
+  if (!composite)
+  {
+    return this->Superclass::GetBounds();
+  }
+  this->GetInputAlgorithm()->Update();
+  composite = vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput());
+  composite->GetBounds(this->Bounds);
+  return this->Bounds;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::Tell(const meniscus::InputReport& report)
+{
+  if (!report.Error.empty())
+  {
+    vtkErrorMacro(<< report.Error << "; nothing is rendered.");
+  }
+  if (!report.Warning.empty())
+  {
+    vtkWarningMacro(<< report.Warning);
+  }
+  return report.Error.empty();
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::CollectInput(meniscus::InputParts& parts)
 {
   if (this->GetNumberOfInputConnections(0) > 0)
   {
     this->GetInputAlgorithm()->Update();
   }
-  vtkUnstructuredGridBase* input = this->GetInput();
-  if (!input)
-  {
-    vtkErrorMacro("No input; nothing is rendered.");
-    return nullptr;
-  }
-  vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(input);
-  if (!grid)
-  {
-    vtkErrorMacro("The input is a " << input->GetClassName()
-                                    << ", not a vtkUnstructuredGrid; nothing is rendered.");
-  }
-  return grid;
+  meniscus::InputReport report =
+    meniscus::CollectInputParts(this->GetDataObjectInput(), this->SelectedScalars(), parts);
+  // The same parts are left out again in every frame.
+  const bool told = report.Warning == this->Internals->ToldOfParts;
+  this->Internals->ToldOfParts = report.Warning;
+  report.Warning = told ? std::string() : report.Warning;
+  return this->Tell(report);
 }
 
 //------------------------------------------------------------------------------
-vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* grid)
+meniscus::ScalarSelection vtkTetrahedraRayCastMapper::SelectedScalars()
 {
-  int cellFlag = 0;
-  vtkDataArray* scalars = vtkAbstractMapper::GetScalars(
-    grid, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cellFlag);
-  if (!scalars)
+  meniscus::ScalarSelection selection;
+  selection.ScalarMode = this->ScalarMode;
+  selection.AccessMode = this->ArrayAccessMode;
+  selection.ArrayId = this->ArrayId;
+  selection.ArrayName = this->ArrayName;
+  if (this->VectorMode != DISABLED)
   {
-    const bool byName = this->ArrayAccessMode == VTK_GET_ARRAY_BY_NAME && this->ArrayName;
-    vtkErrorMacro("The input has no scalar array"
-      << (byName ? std::string(" named '") + this->ArrayName + "'" : std::string())
-      << "; nothing is rendered.");
-    return nullptr;
+    selection.Component =
+      this->VectorMode == MAGNITUDE ? meniscus::ScalarSelection::Magnitude : this->VectorComponent;
   }
-  const std::string name = scalars->GetName() ? scalars->GetName() : "without a name";
-  if (cellFlag != 0)
-  {
-    vtkErrorMacro("The array '" << name
-                                << "' is cell or field data; point data is needed (see "
-                                   "vtkCellDataToPointData). Nothing is rendered.");
-    return nullptr;
-  }
-  const int components = scalars->GetNumberOfComponents();
-  if (this->VectorMode == COMPONENT && this->VectorComponent >= components)
-  {
-    vtkErrorMacro("The array '" << name << "' has " << components << " components, none of number "
-                                << this->VectorComponent << ". Nothing is rendered.");
-    return nullptr;
-  }
-  if (scalars->GetNumberOfTuples() != grid->GetNumberOfPoints())
-  {
-    vtkErrorMacro("The array '" << name << "' has " << scalars->GetNumberOfTuples()
-                                << " values for " << grid->GetNumberOfPoints()
-                                << " points; nothing is rendered.");
-    return nullptr;
-  }
-  return scalars;
+  return selection;
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::ChooseMixture(vtkDataArray* scalars, vtkVolume* volume)
+bool vtkTetrahedraRayCastMapper::ChooseMixture(const meniscus::InputParts& parts, vtkVolume* volume)
 {
   using Mixture = meniscus::ComponentMixture;
   Mixture& mixture = this->Internals->Mixture;
   mixture = Mixture::None;
+  vtkDataArray* scalars = parts.Parts.front().Scalars;
   const int components = scalars->GetNumberOfComponents();
-  if (this->VectorMode != DISABLED || components == 1)
+  const bool same = std::all_of(parts.Parts.begin(), parts.Parts.end(),
+    [components](const meniscus::InputPart& part)
+    { return part.Scalars->GetNumberOfComponents() == components; });
+  if (this->VectorMode != DISABLED || (components == 1 && same))
   {
     return true;
   }
-  const std::string name = scalars->GetName() ? scalars->GetName() : "without a name";
   const bool independent = volume->GetProperty()->GetIndependentComponents() != 0;
-  if (independent ? components > 4 : components != 2 && components != 4)
+  const bool fits = independent ? components <= 4 : components == 2 || components == 4;
+  const char* problem = nullptr;
+  if (!same)
   {
-    vtkErrorMacro("The array '" << name << "' has " << components << " components; "
-                                << (independent ? "1 to 4" : "1, 2 or 4")
-                                << " are needed, or a VectorMode. Nothing is rendered.");
-    return false;
+    problem = ", and another data set not as many";
   }
-  if (this->GetUsedBlendMode() != vtkVolumeMapper::COMPOSITE_BLEND)
+  else if (!fits)
   {
-    vtkErrorMacro("The array '" << name << "' has " << components
-                                << " components; other than composite blending needs 1, or a "
-                                   "VectorMode. Nothing is rendered.");
+    problem = independent ? "; 1 to 4 are needed, or a VectorMode"
+                          : "; 1, 2 or 4 are needed, or a VectorMode";
+  }
+  else if (parts.Place == meniscus::ScalarPlace::Cells ||
+    this->GetUsedBlendMode() != vtkVolumeMapper::COMPOSITE_BLEND)
+  {
+    problem = "; cell data and other than composite blending need 1, or a VectorMode";
+  }
+  if (problem)
+  {
+    const char* name = scalars->GetName();
+    vtkErrorMacro("The array '" << (name ? name : "without a name") << "' has " << components
+                                << " components" << problem << "; nothing is rendered.");
     return false;
   }
   mixture = independent ? Mixture::Independent
@@ -364,34 +410,21 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateInput(
-  vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars)
+  vtkRenderWindow* window, const meniscus::InputParts& parts)
 {
   meniscus::VolumeInput& input = this->Internals->Input;
-  const auto tell = [this](const meniscus::InputReport& report)
-  {
-    if (!report.Error.empty())
-    {
-      vtkErrorMacro(<< report.Error << " Nothing is rendered.");
-    }
-    if (!report.Warning.empty())
-    {
-      vtkWarningMacro(<< report.Warning);
-    }
-    return report.Error.empty();
-  };
-  const meniscus::ComponentMixture mixture = this->Internals->Mixture;
-  const int component = this->VectorMode == MAGNITUDE
-    ? meniscus::VolumeInput::Magnitude
-    : (this->VectorMode == COMPONENT ? this->VectorComponent : MainComponent(mixture));
   this->SetAbortExecute(0);
   const auto goOn = [this, window](double fraction)
   {
     this->UpdateProgress(fraction);
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
-  return tell(input.UpdateMesh(grid, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
-    tell(input.UpdateScalars(scalars, component)) &&
-    tell(this->Internals->Components.Update(input, scalars, mixture));
+  const int component = this->Internals->Mixture == meniscus::ComponentMixture::None
+    ? this->SelectedScalars().Component
+    : MainComponent(this->Internals->Mixture);
+  return this->Tell(input.UpdateMesh(parts, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
+    this->Tell(input.UpdateScalars(parts, component)) &&
+    this->Tell(this->Internals->Components.Update(input, parts, this->Internals->Mixture));
 }
 
 //------------------------------------------------------------------------------
@@ -410,14 +443,16 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
     this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Input.GetNormalization(),
     internals.Components);
   const meniscus::VisibleScalars visible = internals.Property.GetVisibleScalars();
-  if (internals.Mixture == meniscus::ComponentMixture::None)
+  if (internals.Mixture != meniscus::ComponentMixture::None)
   {
-    internals.Input.UpdateActiveCells(visible);
+    internals.Input.UpdateActiveCells(visible,
+      { &internals.Components.GetValues(), internals.Components.GetVersion(),
+        internals.Property.GetVisibleOthers() });
     return;
   }
-  internals.Input.UpdateActiveCells(visible,
-    { &internals.Components.GetValues(), internals.Components.GetVersion(),
-      internals.Property.GetVisibleOthers() });
+  using Jumps = meniscus::TetrahedralMesh::CellJumps;
+  const bool isosurfaces = this->GetUsedBlendMode() == vtkVolumeMapper::ISOSURFACE_BLEND;
+  internals.Input.UpdateActiveCells(visible, isosurfaces ? Jumps::Visible : Jumps::Hidden);
 }
 
 //------------------------------------------------------------------------------
@@ -430,8 +465,8 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
   const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
   const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
   this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
-    "The native backend has composite blending of one component only, integrated exactly, without "
-    "shading and gradient opacity; rendering with OpenGL.");
+    "The native backend has composite blending of one component of point data only, integrated "
+    "exactly, without shading and gradient opacity; rendering with OpenGL.");
   this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
     "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
   return nativeLacks || computeLacks ? OPENGL : this->Backend;
@@ -443,7 +478,9 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
 {
   const bool wanted =
     this->Integration == PRE_INTEGRATED && optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
-  this->WarnOnce(wanted && !optics.IsComposite(), this->Internals->WarnedIntegration,
+  // Where the scalar is constant in a cell, the table would hold what it is to replace.
+  this->WarnOnce(wanted && !optics.IsComposite() && !optics.CellScalars,
+    this->Internals->WarnedIntegration,
     "Pre-integration is not available with shading, gradient opacity and several components; "
     "integrating exactly.");
   optics.PreIntegrated = wanted && optics.IsComposite();
@@ -506,6 +543,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   frame.Optics.Components = internals.Mixture;
   frame.Optics.NumberOfFunctions =
     1 + static_cast<int>(internals.Property.GetOtherIntervals().size());
+  frame.Optics.CellScalars = internals.Input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
   this->WarnOnce(internals.Mixture == meniscus::ComponentMixture::Independent &&
       (volume->GetProperty()->GetShade() != 0 ||
@@ -514,8 +552,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     "Shading and gradient opacity are not available with independent components; rendering "
     "without.");
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
-  frame.Optics.VertexGradients =
-    frame.Optics.UsesGradients() && this->Gradients == VERTEX_GRADIENTS;
+  frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
+    this->Gradients == VERTEX_GRADIENTS;
   this->ChooseIntegration(volume, frame.Optics);
   return meniscus::DescribeExcess(frame.Optics);
 }
@@ -564,14 +602,9 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
-  vtkUnstructuredGrid* grid = this->ValidateInput();
-  if (!grid || grid->GetNumberOfCells() == 0)
-  {
-    return;
-  }
-  vtkDataArray* scalars = this->ValidateScalars(grid);
-  if (!scalars || !this->ChooseMixture(scalars, volume) ||
-    !this->UpdateInput(renderer->GetRenderWindow(), grid, scalars))
+  meniscus::InputParts parts;
+  if (!this->CollectInput(parts) || parts.Parts.empty() || !this->ChooseMixture(parts, volume) ||
+    !this->UpdateInput(renderer->GetRenderWindow(), parts))
   {
     return;
   }
@@ -651,6 +684,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveCells()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransparentCells()
+{
+  return this->Internals->Input.GetMesh().GetNumberOfUnknownCells();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRejectedCells()
 {
   return this->Internals->Input.GetMesh().GetRejectedCells().Total();
@@ -702,5 +741,6 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
+  os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
   os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";
 }
