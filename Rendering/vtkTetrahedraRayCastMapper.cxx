@@ -69,8 +69,6 @@ public:
   std::int64_t UploadedGradients = 0;
   std::int64_t UploadedProperty = 0;
   /** The same of the native backend's. */
-  std::int64_t NativeMesh = 0;
-  std::int64_t NativeScalars = 0;
   std::int64_t NativeProperty = 0;
 
   vtkTypeInt64 GradientBuilds = 0;
@@ -155,13 +153,6 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::vtkInternals::UpdateNative()
 {
-  if (this->NativeMesh != this->Input.GetMeshBuilds() ||
-    this->NativeScalars != this->Input.GetScalarUpdates())
-  {
-    this->Native.UpdateVertices(this->Input.GetMesh(), this->Input.GetScalars());
-    this->NativeMesh = this->Input.GetMeshBuilds();
-    this->NativeScalars = this->Input.GetScalarUpdates();
-  }
   if (this->NativeProperty != this->Property.GetVersion())
   {
     this->Native.UpdateIntervals(this->Property.GetIntervals());
@@ -177,16 +168,16 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
   meniscus::TileCaster::Scene scene;
   scene.Mesh = &this->Input.GetMesh();
   scene.Boundary = &this->Input.GetMesh().GetBoundary();
-  scene.Frame = frame.Rays;
   scene.ClippingPlanes = frame.Optics.ClippingPlanes;
   scene.TerminationTransmittance = static_cast<float>(1.0 - frame.EarlyTerminationOpacity);
   return this->OpenGL.DrawImageOf(
-    [this, &scene](
+    [this, &scene, &frame](
       int width, int height, const std::vector<float>& depths, std::vector<float>& image)
     {
-      scene.Width = width;
-      scene.Height = height;
-      return this->Native.Cast(scene, depths, image);
+      scene.Rays = meniscus::PixelRays(frame.Rays, width, height);
+      const meniscus::VertexVersion version{ this->Input.GetMeshBuilds(),
+        this->Input.GetScalarUpdates() };
+      return this->Native.Cast(scene, this->Input.GetScalars(), version, depths, image);
     },
     frame.Output);
 }

@@ -14,13 +14,15 @@
 namespace meniscus
 {
 
-/** A vertex about which rays pass: 16 bytes. */
+/** A vertex as the rays of an image see it: 16 bytes. */
 struct PacketVertex
 {
-  /** Fixed point, TetrahedralMesh::PositionUnit. */
-  std::int32_t Position[3];
+  /** Grid coordinates x, y and depth (PixelRays), depth in units of DepthUnit. */
+  std::int32_t Place[3];
   /** Normalised; NaN makes the vertex's cells transparent. */
   float Scalar;
+
+  static constexpr float DepthUnit = 1.0f / 1073741824.0f; // 2^-30
 };
 
 /** A TransferFunctionInterval in three groups of four. */
@@ -35,16 +37,14 @@ struct PacketInterval
 };
 
 /**
- * A ray and the frame about it. With p the fixed-point position of a vertex, a row's value is
- * row[0] p.x + row[1] p.y + row[2] p.z + row[3].
+ * A ray and the frame about it: where a vertex lies as seen along the ray, from which it is
+ * (u, v) = (x, y) - floor((depth * Slope + Offset) / 2^32), in grid units.
  */
 struct PacketRay
 {
-  /** Where the ray is the origin, in grid units: |u|, |v| < 2^31 for all vertices of the mesh. */
-  double U[4];
-  double V[4];
-  /** Along the ray, ascending; float holds the differences within the mesh. */
-  double Depth[4];
+  /** |u|, |v| < 2^31 for all vertices of the mesh. */
+  std::int32_t Slope[2];
+  std::int64_t Offset[2];
   /** World length of a unit of depth. */
   float LengthPerDepth;
   /** Where the ray begins and ends to count. */

@@ -94,8 +94,8 @@ private:
   };
 
   template <int Blocks>
-  void Lookup(Fields& fields) const;
-  void Fetch(Fields& fields) const;
+  void Lookup();
+  void Fetch();
   void FindIntervals(Mask lanes);
   template <std::size_t Size>
   static Float Polynomial(Float x, const Float (&coefficients)[Size], int terms = Size);
@@ -105,8 +105,9 @@ private:
   const PacketInterval* Intervals;
   std::int32_t NumberOfIntervals;
   Float Termination;
-  /** Interval of each lane. */
+  /** Interval of each lane, and what it holds. */
   Int At;
+  Fields Now;
   Float From;
   Float To;
   /** Length still to integrate; 0 where there is none. */
@@ -144,6 +145,7 @@ PacketIntegral<Simd>::PacketIntegral(
       this->Table[field][i] = i < numberOfIntervals ? values[i * NumberOfFields + field] : 0.0f;
     }
   }
+  this->Fetch();
 }
 
 //------------------------------------------------------------------------------
@@ -247,8 +249,9 @@ void PacketIntegral<Simd>::FindIntervals(Mask lanes)
 //------------------------------------------------------------------------------
 template <class Simd>
 template <int Blocks>
-inline void PacketIntegral<Simd>::Lookup(Fields& fields) const
+inline void PacketIntegral<Simd>::Lookup()
 {
+  Fields& fields = this->Now;
   const auto& table = this->Table;
   fields.Lower = Simd::template Lookup<Blocks>(table[0], this->At);
   fields.Upper = Simd::template Lookup<Blocks>(table[1], this->At);
@@ -263,18 +266,19 @@ inline void PacketIntegral<Simd>::Lookup(Fields& fields) const
 
 //------------------------------------------------------------------------------
 template <class Simd>
-inline void PacketIntegral<Simd>::Fetch(Fields& fields) const
+void PacketIntegral<Simd>::Fetch()
 {
   if (this->NumberOfIntervals <= Simd::LookupBlock)
   {
-    this->template Lookup<1>(fields);
+    this->template Lookup<1>();
     return;
   }
   if (this->NumberOfIntervals <= LargestTable)
   {
-    this->template Lookup<2>(fields);
+    this->template Lookup<2>();
     return;
   }
+  Fields& fields = this->Now;
   const float* first = &this->Intervals->Lower;
   Simd::template GatherQuads<NumberOfFields>(
     first, this->At, fields.Lower, fields.Upper, fields.Attenuation, fields.AttenuationSlope);
@@ -290,13 +294,12 @@ inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
-  Fields fields;
-  this->Fetch(fields);
+  const Fields& fields = this->Now;
   const Mask outside = lanes & ((this->From < fields.Lower) | (this->From > fields.Upper));
   if (Simd::Bits(outside) != 0)
   {
     this->FindIntervals(outside);
-    this->Fetch(fields);
+    this->Fetch();
   }
 
   // The part of the segment that is in the interval. Without a change of scalar the share is 0 / 0,
@@ -352,7 +355,13 @@ inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
   const Mask more = lanes & (upward | downward | thick) & (this->Transmittance > this->Termination);
   this->Remaining = Simd::Select(more, this->Remaining - length, zero);
   this->From = to;
-  this->At = Simd::Decrement(downward, Simd::Increment(upward, this->At));
+  // Few segments leave their interval.
+  const Mask leaves = upward | downward;
+  if (Simd::Bits(leaves) != 0)
+  {
+    this->At = Simd::Decrement(downward, Simd::Increment(upward, this->At));
+    this->Fetch();
+  }
   return more;
 }
 

@@ -41,30 +41,38 @@ private:
     Float V;
     Float Depth;
     Float Scalar;
-    Int Id;
+    /** By vertex among those of its face: 0, 1 or 2. Cells and faces order vertices alike. */
+    Int Rank;
   };
-  /** The rows of PacketRay by lane. */
-  struct Row
+  /** What an axis of PacketRay takes off, by lane; even and odd lanes are multiplied apart. */
+  struct Shift
   {
-    double Of[4][Width];
+    std::int32_t Slope[Width];
+    std::int64_t Offset[2][Width / 2];
+
+    void Set(int lane, std::int32_t slope, std::int64_t offset)
+    {
+      this->Slope[lane] = slope;
+      this->Offset[lane % 2][lane / 2] = offset;
+    }
   };
 
-  typename Simd::Double Transform(const Row& row, Int x, Int y, Int z) const;
-  void ProjectOnGrid(Int id, Int& u, Int& v) const;
   void Place(const Float (&vertex)[4], Corner& corner) const;
   void Project(Int id, Corner& corner) const;
+  std::int32_t OnGrid(int axis, const PacketVertex& vertex, int lane) const;
   static Float EdgeArea(const Corner& p, const Corner& q, Float& excess);
   static bool TurnsLeft(const std::int32_t (&p)[3], const std::int32_t (&q)[3], float& area);
-  void MakeSure(const Corner& x, unsigned int lanes, Float (&areas)[3], Mask (&left)[3]) const;
-  /** The cell that is entered next: its vertices, its links and the vertex not seen yet. */
+  void MakeSure(
+    unsigned int lanes, const Int (&corners)[4], Float (&areas)[3], Mask (&left)[3]) const;
+  /** The cell that is entered next: the face it is entered by, its links, the vertex not seen yet.
+   */
   struct Ahead
   {
-    Int Ids[4];
+    Int Face;
     Int Links[4];
     Corner X;
   };
   void Fetch(Ahead& ahead) const;
-  static Int PickByRank(Int rank, const Int (&of)[4]);
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
   void Interpolate(Float& depth, Float& scalar) const;
@@ -84,9 +92,7 @@ private:
   std::int32_t StepLimit;
 
   PacketIntegral<Simd> Integral;
-  Row U;
-  Row V;
-  Row Depth;
+  Shift Axes[2];
   // The face just entered by, counter-clockwise about the ray, and twice the areas that its edges
   // AB, BC, CA span with the ray.
   Corner A;
@@ -146,10 +152,8 @@ PacketWalk<Simd>::PacketWalk(const PacketJob& job)
     this->CellFaces[lane] = this->StepsOf[lane] = 0;
     this->DepthsNow[lane] = this->StartDepths[lane] = this->EndDepths[lane] = 0.0f;
     this->LengthsPerDepth[lane] = 0.0f;
-    for (int k = 0; k < 4; ++k)
-    {
-      this->U.Of[k][lane] = this->V.Of[k][lane] = this->Depth.Of[k][lane] = 0.0;
-    }
+    this->Axes[0].Set(lane, 0, 0);
+    this->Axes[1].Set(lane, 0, 0);
   }
   this->LoadLanes();
 }
@@ -183,26 +187,19 @@ void PacketWalk<Simd>::Run()
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-inline auto PacketWalk<Simd>::Transform(const Row& row, Int x, Int y, Int z) const ->
-  typename Simd::Double
-{
-  return Simd::Fma(Simd::ToDouble(x), Simd::Load(row.Of[0]),
-    Simd::Fma(Simd::ToDouble(y), Simd::Load(row.Of[1]),
-      Simd::Fma(Simd::ToDouble(z), Simd::Load(row.Of[2]), Simd::Load(row.Of[3]))));
-}
-
-//------------------------------------------------------------------------------
-/** A vertex of the table about the rays; its Id is left. */
+/** A vertex of the table about the rays; its Rank is left. */
 template <class Simd>
 inline void PacketWalk<Simd>::Place(const Float (&vertex)[4], Corner& corner) const
 {
-  const Int x = Simd::AsInt(vertex[0]);
-  const Int y = Simd::AsInt(vertex[1]);
-  const Int z = Simd::AsInt(vertex[2]);
-  corner.U = Simd::ToFloat(Simd::Round(this->Transform(this->U, x, y, z)));
-  corner.V = Simd::ToFloat(Simd::Round(this->Transform(this->V, x, y, z)));
-  corner.Depth = Simd::ToFloat(this->Transform(this->Depth, x, y, z));
+  const Int depth = Simd::AsInt(vertex[2]);
+  const auto aboutRay = [&](const Shift& axis, Float place)
+  {
+    const Int shift = Simd::MultiplyHigh(depth, axis.Slope, axis.Offset[0], axis.Offset[1]);
+    return Simd::ToFloat(Simd::AsInt(place) - shift);
+  };
+  corner.U = aboutRay(this->Axes[0], vertex[0]);
+  corner.V = aboutRay(this->Axes[1], vertex[1]);
+  corner.Depth = Simd::ToFloat(depth) * Simd::Splat(PacketVertex::DepthUnit);
   corner.Scalar = vertex[3];
 }
 
@@ -213,21 +210,17 @@ void PacketWalk<Simd>::Project(Int id, Corner& corner) const
   Float vertex[4];
   Simd::template GatherQuads<4>(this->VertexTable, id, vertex[0], vertex[1], vertex[2], vertex[3]);
   this->Place(vertex, corner);
-  corner.Id = id;
 }
 
 //------------------------------------------------------------------------------
-/** As Project, but only (u, v), and exact. */
+/** u or v of a vertex about the ray of a lane, exactly. */
 template <class Simd>
-void PacketWalk<Simd>::ProjectOnGrid(Int id, Int& u, Int& v) const
+std::int32_t PacketWalk<Simd>::OnGrid(int axis, const PacketVertex& vertex, int lane) const
 {
-  Float x;
-  Float y;
-  Float z;
-  Float scalar;
-  Simd::template GatherQuads<4>(this->VertexTable, id, x, y, z, scalar);
-  u = Simd::Round(this->Transform(this->U, Simd::AsInt(x), Simd::AsInt(y), Simd::AsInt(z)));
-  v = Simd::Round(this->Transform(this->V, Simd::AsInt(x), Simd::AsInt(y), Simd::AsInt(z)));
+  const Shift& shift = this->Axes[axis];
+  const std::int64_t product = std::int64_t{ vertex.Place[2] } * shift.Slope[lane];
+  const std::int64_t sum = product + shift.Offset[lane % 2][lane / 2];
+  return vertex.Place[axis] - static_cast<std::int32_t>(sum >> 32);
 }
 
 //------------------------------------------------------------------------------
@@ -265,39 +258,54 @@ bool PacketWalk<Simd>::TurnsLeft(
 }
 
 //------------------------------------------------------------------------------
-/** Exact areas and signs of the edges from x to A, B, C in some lanes. */
+/**
+ * Exact areas and signs, in some lanes, of the edges from the vertex ahead to A, B, C; `corners`
+ * are the places of the four in the cell.
+ */
 template <class Simd>
 void PacketWalk<Simd>::MakeSure(
-  const Corner& x, unsigned int lanes, Float (&areas)[3], Mask (&left)[3]) const
+  unsigned int lanes, const Int (&corners)[4], Float (&areas)[3], Mask (&left)[3]) const
 {
-  std::int32_t grid[4][3][Width];
-  const Corner* corners[4] = { &x, &this->A, &this->B, &this->C };
+  std::int32_t cellFaces[Width];
+  std::int32_t places[4][Width];
+  float exact[3][Width];
+  unsigned int bits[3];
+  Simd::Store(cellFaces, this->CellFace);
   for (int c = 0; c < 4; ++c)
   {
-    Int u;
-    Int v;
-    this->ProjectOnGrid(corners[c]->Id, u, v);
-    Simd::Store(grid[c][0], u);
-    Simd::Store(grid[c][1], v);
-    Simd::Store(grid[c][2], corners[c]->Id);
+    Simd::Store(places[c], corners[c]);
   }
   for (int edge = 0; edge < 3; ++edge)
   {
-    float exact[Width];
-    Simd::Store(exact, areas[edge]);
-    unsigned int bits = Simd::Bits(left[edge]);
-    for (int lane = 0; lane < Width; ++lane)
+    Simd::Store(exact[edge], areas[edge]);
+    bits[edge] = Simd::Bits(left[edge]);
+  }
+  for (int lane = 0; lane < Width; ++lane)
+  {
+    const unsigned int bit = 1u << lane;
+    if ((lanes & bit) == 0)
     {
-      if (lanes >> lane & 1u)
-      {
-        const auto& q = grid[edge + 1];
-        const bool turns = TurnsLeft({ grid[0][0][lane], grid[0][1][lane], grid[0][2][lane] },
-          { q[0][lane], q[1][lane], q[2][lane] }, exact[lane]);
-        bits = turns ? bits | 1u << lane : bits & ~(1u << lane);
-      }
+      continue;
     }
-    areas[edge] = Simd::Load(exact);
-    left[edge] = Simd::FromBits(bits);
+    const std::int32_t* cell = this->Job.Cells + 8 * std::int64_t{ cellFaces[lane] >> 2 };
+    std::int32_t grid[4][3];
+    for (int c = 0; c < 4; ++c)
+    {
+      grid[c][2] = cell[places[c][lane]];
+      const PacketVertex& vertex = this->Job.Vertices[grid[c][2]];
+      grid[c][0] = this->OnGrid(0, vertex, lane);
+      grid[c][1] = this->OnGrid(1, vertex, lane);
+    }
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const bool turns = TurnsLeft(grid[0], grid[edge + 1], exact[edge][lane]);
+      bits[edge] = turns ? bits[edge] | bit : bits[edge] & ~bit;
+    }
+  }
+  for (int edge = 0; edge < 3; ++edge)
+  {
+    areas[edge] = Simd::Load(exact[edge]);
+    left[edge] = Simd::FromBits(bits[edge]);
   }
 }
 
@@ -309,18 +317,9 @@ inline void PacketWalk<Simd>::Fetch(Ahead& ahead) const
   const Int zero = Simd::Splat(0);
   const Int cellFace = Simd::Select(this->CellFace < zero, zero, this->CellFace);
   Float vertex[4];
-  Simd::GatherCells(this->Job.Cells, this->VertexTable, cellFace, ahead.Ids, ahead.Links, vertex);
+  ahead.Face = Simd::And(cellFace, Simd::Splat(3));
+  Simd::GatherCells(this->Job.Cells, this->VertexTable, cellFace, ahead.Links, vertex);
   this->Place(vertex, ahead.X);
-  ahead.X.Id = PickByRank(Simd::And(cellFace, Simd::Splat(3)), ahead.Ids);
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
-inline auto PacketWalk<Simd>::PickByRank(Int rank, const Int (&of)[4]) -> Int
-{
-  const Int low = Simd::Select(rank > Simd::Splat(0), of[1], of[0]);
-  const Int high = Simd::Select(rank > Simd::Splat(2), of[3], of[2]);
-  return Simd::Select(rank > Simd::Splat(1), high, low);
 }
 
 //------------------------------------------------------------------------------
@@ -334,10 +333,19 @@ inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
   Float areas[3] = { EdgeArea(x, this->A, excess), EdgeArea(x, this->B, excess),
     EdgeArea(x, this->C, excess) };
   Mask left[3] = { areas[0] > zero, areas[1] > zero, areas[2] > zero };
+
+  // Places of the vertices in the cell: a face's ranks leave out that of the vertex opposite. In
+  // lanes that stay where they are the last place takes that part, which changes nothing.
+  const Int last = Simd::Splat(3);
+  const Int face = Simd::Select(lanes, ahead.Face, last);
+  const Int before = face - Simd::Splat(1);
+  const auto placeOf = [&](const Corner& corner)
+  { return Simd::Increment(corner.Rank > before, corner.Rank); };
+  const Int places[4] = { face, placeOf(this->A), placeOf(this->B), placeOf(this->C) };
   const unsigned int unsureBits = Simd::Bits(Simd::AndNot(lanes, excess > zero));
   if (unsureBits != 0)
   {
-    this->MakeSure(x, unsureBits, areas, left);
+    this->MakeSure(unsureBits, places, areas, left);
   }
 
   // The ray leaves between two consecutive edges from x, left of one and right of the next. The
@@ -345,12 +353,9 @@ inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
   const Mask dropC = Simd::AndNot(left[0], left[1]);
   const Mask dropA = Simd::AndNot(Simd::AndNot(left[1], left[2]), dropC);
   const Mask keepB = dropC | dropA;
-  const Int dropped = Simd::Select(dropA, this->A.Id, Simd::Select(dropC, this->C.Id, this->B.Id));
-  Int link = ahead.Links[0];
-  for (int rank = 1; rank < 4; ++rank)
-  {
-    link = Simd::Select(Simd::Equal(dropped, ahead.Ids[rank]), ahead.Links[rank], link);
-  }
+  const Int opposite = Simd::Select(dropA, places[1], Simd::Select(dropC, places[3], places[2]));
+  const Int link = Simd::Pick(opposite, ahead.Links);
+  const Int dropped = Simd::Select(lanes, opposite, last);
 
   // The exit face: x takes the dropped vertex's place, which keeps the sense of rotation.
   const Mask replaceA = dropA & lanes;
@@ -363,15 +368,22 @@ inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
   this->AreaAB = Simd::Select(replaceA, areas[1], Simd::Select(replaceB, areas[0], this->AreaAB));
   this->AreaBC = Simd::Select(replaceB, areas[2], Simd::Select(replaceC, areas[1], this->AreaBC));
   this->AreaCA = Simd::Select(replaceA, areas[2], Simd::Select(replaceC, areas[0], this->AreaCA));
-  ReplaceCorner(replaceA, x, this->A);
-  ReplaceCorner(replaceB, x, this->B);
-  ReplaceCorner(replaceC, x, this->C);
+  const auto replace = [&](Mask replaced, Int place, Corner& corner)
+  {
+    ReplaceCorner(replaced, x, corner);
+    const Int kept = Simd::Select(replaced, face, place);
+    corner.Rank = Simd::Decrement(kept > dropped, kept);
+  };
+  replace(replaceA, places[1], this->A);
+  replace(replaceB, places[2], this->B);
+  replace(replaceC, places[3], this->C);
   this->CellFace = Simd::Select(lanes, link, this->CellFace);
   this->Steps = this->Steps + Simd::One(lanes);
   this->Pass(lanes);
 }
 
 //------------------------------------------------------------------------------
+/** All but its Rank. */
 template <class Simd>
 inline void PacketWalk<Simd>::ReplaceCorner(Mask lanes, const Corner& x, Corner& corner)
 {
@@ -379,7 +391,6 @@ inline void PacketWalk<Simd>::ReplaceCorner(Mask lanes, const Corner& x, Corner&
   corner.V = Simd::Select(lanes, x.V, corner.V);
   corner.Depth = Simd::Select(lanes, x.Depth, corner.Depth);
   corner.Scalar = Simd::Select(lanes, x.Scalar, corner.Scalar);
-  corner.Id = Simd::Select(lanes, x.Id, corner.Id);
 }
 
 //------------------------------------------------------------------------------
@@ -497,11 +508,12 @@ bool PacketWalk<Simd>::TakeRay(int lane)
   {
     const std::int32_t number = this->NextRay++;
     const PacketRay& ray = this->Job.Rays[number];
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      this->Axes[axis].Set(lane, ray.Slope[axis], ray.Offset[axis]);
+    }
     for (int k = 0; k < 4; ++k)
     {
-      this->U.Of[k][lane] = ray.U[k];
-      this->V.Of[k][lane] = ray.V[k];
-      this->Depth.Of[k][lane] = ray.Depth[k];
       this->Colors[k][lane] = k == 3 ? 1.0f : 0.0f;
     }
     this->LengthsPerDepth[lane] = ray.LengthPerDepth;
@@ -567,11 +579,17 @@ template <class Simd>
 void PacketWalk<Simd>::Enter(Mask lanes)
 {
   Corner* const corners[3] = { &this->A, &this->B, &this->C };
+  const Int ids[3] = { Simd::Load(this->Ids[0]), Simd::Load(this->Ids[1]),
+    Simd::Load(this->Ids[2]) };
   for (int i = 0; i < 3; ++i)
   {
     Corner x;
-    this->Project(Simd::Load(this->Ids[i]), x);
+    this->Project(ids[i], x);
     ReplaceCorner(lanes, x, *corners[i]);
+    Int rank = Simd::Splat(0);
+    rank = Simd::Increment(ids[i] > ids[(i + 1) % 3], rank);
+    rank = Simd::Increment(ids[i] > ids[(i + 2) % 3], rank);
+    corners[i]->Rank = Simd::Select(lanes, rank, corners[i]->Rank);
   }
   const auto area = [lanes](const Corner& p, const Corner& q, Float& kept)
   { kept = Simd::Select(lanes, Simd::Abs(Simd::CrossProduct(p.U, p.V, q.U, q.V)), kept); };
