@@ -157,8 +157,11 @@ void GridView::Tetrahedralize(vtkUnstructuredGrid* grid)
     if (!ghosts || !(ghosts->GetValue(c) & LeftOut))
     {
       this->AddCell(grid, c, grid->GetCellType(c));
+      this->Sources.resize(
+        this->Tetrahedra.GetTetrahedra().size() / 4, static_cast<std::int32_t>(c));
     }
   }
+  this->View.SourceCells = this->Sources.data();
   this->View.Cells = this->Tetrahedra.GetTetrahedra().data();
   this->View.NumberOfCells = static_cast<std::int64_t>(this->Tetrahedra.GetTetrahedra().size() / 4);
 }

@@ -44,6 +44,8 @@ private:
   std::vector<double> Points;
   std::vector<std::int64_t> Ids;
   Tetrahedralizer Tetrahedra;
+  /** The cell of each tetrahedron. */
+  std::vector<std::int32_t> Sources;
   /** Cells by type that are not drawn. */
   std::map<int, std::int64_t> Omitted;
   /** Whether quadratic triangles may belong to other cells than tetrahedra. */

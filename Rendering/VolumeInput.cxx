@@ -86,7 +86,7 @@ bool VolumeInput::MeshVersion::operator==(const MeshVersion& other) const
 
 //------------------------------------------------------------------------------
 InputReport VolumeInput::UpdateMesh(
-  vtkUnstructuredGrid* grid, const std::function<bool(double)>& progress)
+  vtkUnstructuredGrid* grid, ScalarPlace place, const std::function<bool(double)>& progress)
 {
   InputReport report;
   MeshVersion version;
@@ -94,14 +94,17 @@ InputReport VolumeInput::UpdateMesh(
   version.Coordinates = ObjectVersion(grid->GetPoints() ? grid->GetPoints()->GetData() : nullptr);
   version.Cells = ObjectVersion(grid->GetCells());
   version.Ghosts = ObjectVersion(grid->GetCellGhostArray());
-  if (this->MeshBuilds > 0 && version == this->BuiltMesh)
+  const bool lacksSources = place == ScalarPlace::Cells && !this->KeepsSourceCells;
+  if (this->MeshBuilds > 0 && version == this->BuiltMesh && !lacksSources)
   {
     return report;
   }
+  this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
 
   std::ostringstream text;
   const GridView gridView(grid);
-  const TetrahedraView& view = gridView.GetView();
+  TetrahedraView view = gridView.GetView();
+  view.KeepSourceCells = this->KeepsSourceCells;
   MeshBuildControl control;
   control.Loop = ThreadedLoop;
   control.Progress = progress;
@@ -141,16 +144,19 @@ InputReport VolumeInput::UpdateMesh(
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
+InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, ScalarPlace place, int component)
 {
   InputReport report;
   const ObjectVersion version(scalars);
-  if (version == this->BuiltScalars && component == this->BuiltComponent)
+  if (version == this->BuiltScalars && place == this->BuiltPlace &&
+    component == this->BuiltComponent)
   {
     return report;
   }
-  const std::vector<std::int32_t>& points = this->Mesh.GetSourcePoints();
-  std::vector<double> values(points.size());
+  const bool ofCells = place == ScalarPlace::Cells;
+  const std::vector<std::int32_t>& sources =
+    ofCells ? this->Mesh.GetSourceCells() : this->Mesh.GetSourcePoints();
+  std::vector<double> values(sources.size());
   std::vector<ValueRange> ranges(NumberOfBlocks(values.size()));
   ForEachBlock(values.size(), ThreadedLoop,
     [&](std::size_t block, std::size_t first, std::size_t last)
@@ -158,8 +164,8 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
       ValueRange range;
       for (std::size_t v = first; v < last; ++v)
       {
-        values[v] = component == Magnitude ? LengthOf(scalars, points[v])
-                                           : scalars->GetComponent(points[v], component);
+        values[v] = component == Magnitude ? LengthOf(scalars, sources[v])
+                                           : scalars->GetComponent(sources[v], component);
         range.Add(values[v]);
       }
       ranges[block] = range;
@@ -173,25 +179,30 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
   if (notFinite > 0)
   {
     report.Warning = std::to_string(notFinite) + " of " + std::to_string(values.size()) +
-      " scalars are not finite; cells that use them are transparent.";
+      " scalars of the " + (ofCells ? "tetrahedra" : "vertices") +
+      " are not finite; cells that use them are transparent.";
   }
 
   this->Normalization = notFinite == static_cast<std::int64_t>(values.size())
     ? ScalarNormalization()
     : NormalizeRange(range.Lowest, range.Highest);
-  this->Scalars.resize(values.size());
+  this->Scalars.clear();
+  this->CellScalars.clear();
+  std::vector<float>& normalized = ofCells ? this->CellScalars : this->Scalars;
+  normalized.resize(values.size());
   ForEachBlock(values.size(), ThreadedLoop,
     [&](std::size_t, std::size_t first, std::size_t last)
     {
       const ScalarNormalization& n = this->Normalization;
       for (std::size_t v = first; v < last; ++v)
       {
-        this->Scalars[v] = std::isfinite(values[v])
+        normalized[v] = std::isfinite(values[v])
           ? static_cast<float>((values[v] - n.Offset) * n.Scale)
           : std::numeric_limits<float>::quiet_NaN();
       }
     });
   this->BuiltScalars = version;
+  this->BuiltPlace = place;
   this->BuiltComponent = component;
   this->ActiveSetStale = true;
   ++this->ScalarUpdates;
@@ -199,14 +210,18 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
 }
 
 //------------------------------------------------------------------------------
-void VolumeInput::UpdateActiveCells(const VisibleScalars& visible)
+void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, TetrahedralMesh::CellJumps jumps)
 {
-  if (!this->ActiveSetStale && visible == this->Visible)
+  if (!this->ActiveSetStale && visible == this->Visible && jumps == this->Jumps)
   {
     return;
   }
-  this->LinkChanges += this->Mesh.UpdateActiveCells(this->Scalars, visible, ThreadedLoop) ? 1 : 0;
+  const bool changed = this->BuiltPlace == ScalarPlace::Cells
+    ? this->Mesh.UpdateActiveCells(this->CellScalars, jumps, visible, ThreadedLoop)
+    : this->Mesh.UpdateActiveCells(this->Scalars, visible, ThreadedLoop);
+  this->LinkChanges += changed ? 1 : 0;
   this->Visible = visible;
+  this->Jumps = jumps;
   this->ActiveSetStale = false;
   ++this->ActiveSetBuilds;
 }

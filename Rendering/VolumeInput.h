@@ -45,6 +45,13 @@ struct InputReport
   std::string Warning;
 };
 
+/** What scalars belong to. */
+enum class ScalarPlace
+{
+  Points,
+  Cells
+};
+
 /**
  * What is drawn, as the kernel's tables: mesh, normalised scalars, active cells. Each is remade
  * when its own input changed. The counters say how often that was, and so whether a copy is stale.
@@ -54,23 +61,32 @@ class VolumeInput
 public:
   /**
    * The mesh of a grid. Another grid that shares its points and cells is the same mesh.
+   * @param place  what its scalars will belong to. Those of cells take 4 bytes more per cell, which
+   *               is kept up from then on; a mesh without is made again.
    * @param progress  told the fraction done; false aborts, which leaves no mesh and no report.
    */
-  InputReport UpdateMesh(vtkUnstructuredGrid* grid, const std::function<bool(double)>& progress);
+  InputReport UpdateMesh(
+    vtkUnstructuredGrid* grid, ScalarPlace place, const std::function<bool(double)>& progress);
 
   /**
-   * The scalars of that mesh, one tuple for each point.
+   * The scalars of that mesh, one tuple for each point or cell of the grid.
    * @param component  which component; Magnitude for the length of the tuple.
    */
-  InputReport UpdateScalars(vtkDataArray* scalars, int component);
+  InputReport UpdateScalars(vtkDataArray* scalars, ScalarPlace place, int component);
   static constexpr int Magnitude = -1;
 
-  /** The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same. */
-  void UpdateActiveCells(const VisibleScalars& visible);
+  /**
+   * The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same.
+   * @param jumps  whether jumps of the scalars of cells can be seen.
+   */
+  void UpdateActiveCells(const VisibleScalars& visible, TetrahedralMesh::CellJumps jumps);
 
   const TetrahedralMesh& GetMesh() const { return this->Mesh; }
-  /** One normalised scalar per vertex; NaN where the input's is not finite. */
+  ScalarPlace GetScalarPlace() const { return this->BuiltPlace; }
+  /** One normalised scalar per vertex; NaN where the input's is not finite. Empty if of cells. */
   const std::vector<float>& GetScalars() const { return this->Scalars; }
+  /** One per cell of the mesh, likewise; empty if of points. */
+  const std::vector<float>& GetCellScalars() const { return this->CellScalars; }
   const ScalarNormalization& GetNormalization() const { return this->Normalization; }
   /** Over the boundary of the active cells; built when first asked for. */
   const BoundaryTree& GetBoundaryTree();
@@ -97,12 +113,16 @@ private:
   TetrahedralMesh Mesh;
   BoundaryTree Tree;
   std::vector<float> Scalars;
+  std::vector<float> CellScalars;
   ScalarNormalization Normalization;
   VisibleScalars Visible;
+  TetrahedralMesh::CellJumps Jumps = TetrahedralMesh::CellJumps::Hidden;
 
   MeshVersion BuiltMesh;
   ObjectVersion BuiltScalars;
+  ScalarPlace BuiltPlace = ScalarPlace::Points;
   int BuiltComponent = 0;
+  bool KeepsSourceCells = false;
   bool ActiveSetStale = true;
   std::int64_t TreeOf = 0;
 

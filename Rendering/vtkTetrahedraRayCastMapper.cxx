@@ -66,6 +66,7 @@ public:
   std::int64_t UploadedLinks = 0;
   std::int64_t UploadedMesh = 0;
   std::int64_t UploadedScalars = 0;
+  std::int64_t UploadedCellScalars = 0;
   std::int64_t UploadedGradients = 0;
   std::int64_t UploadedProperty = 0;
   /** The same of the native backend's. */
@@ -101,13 +102,20 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
     error = error.empty() ? this->OpenGL.UploadBoundary(input.GetBoundaryTree()) : error;
     this->UploadedLinks = error.empty() ? input.GetLinkChanges() : 0;
   }
+  const bool ofCells = input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   const bool verticesStale = this->UploadedMesh != input.GetMeshBuilds() ||
-    this->UploadedScalars != input.GetScalarUpdates();
+    (!ofCells && this->UploadedScalars != input.GetScalarUpdates());
   if (error.empty() && (verticesStale || !this->OpenGL.HasVertices()))
   {
     error = this->OpenGL.UploadVertices(input.GetMesh(), input.GetScalars());
     this->UploadedMesh = error.empty() ? input.GetMeshBuilds() : 0;
     this->UploadedScalars = input.GetScalarUpdates();
+  }
+  const bool cellScalarsStale = this->UploadedCellScalars != input.GetScalarUpdates();
+  if (error.empty() && ofCells && (cellScalarsStale || !this->OpenGL.HasCellScalars()))
+  {
+    error = this->OpenGL.UploadCellScalars(input.GetCellScalars());
+    this->UploadedCellScalars = error.empty() ? input.GetScalarUpdates() : 0;
   }
   const bool gradientsStale = this->UploadedGradients != this->GradientBuilds;
   if (error.empty() && gradients && (gradientsStale || !this->OpenGL.HasGradients()))
@@ -243,11 +251,14 @@ vtkUnstructuredGrid* vtkTetrahedraRayCastMapper::ValidateInput()
 }
 
 //------------------------------------------------------------------------------
-vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* grid)
+vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* grid, bool& ofCells)
 {
-  int cellFlag = 0;
+  constexpr int CellData = 1;
+  constexpr int FieldData = 2;
+  int place = 0;
   vtkDataArray* scalars = vtkAbstractMapper::GetScalars(
-    grid, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cellFlag);
+    grid, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, place);
+  ofCells = place == CellData;
   if (!scalars)
   {
     const bool byName = this->ArrayAccessMode == VTK_GET_ARRAY_BY_NAME && this->ArrayName;
@@ -257,11 +268,11 @@ vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* g
     return nullptr;
   }
   const std::string name = scalars->GetName() ? scalars->GetName() : "without a name";
-  if (cellFlag != 0)
+  if (place == FieldData)
   {
     vtkErrorMacro("The array '" << name
-                                << "' is cell or field data; point data is needed (see "
-                                   "vtkCellDataToPointData). Nothing is rendered.");
+                                << "' is field data; point or cell data is needed. Nothing is "
+                                   "rendered.");
     return nullptr;
   }
   const int components = scalars->GetNumberOfComponents();
@@ -278,11 +289,12 @@ vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* g
                                 << this->VectorComponent << ". Nothing is rendered.");
     return nullptr;
   }
-  if (scalars->GetNumberOfTuples() != grid->GetNumberOfPoints())
+  const vtkIdType size = ofCells ? grid->GetNumberOfCells() : grid->GetNumberOfPoints();
+  if (scalars->GetNumberOfTuples() != size)
   {
     vtkErrorMacro("The array '" << name << "' has " << scalars->GetNumberOfTuples()
-                                << " values for " << grid->GetNumberOfPoints()
-                                << " points; nothing is rendered.");
+                                << " values for " << size << (ofCells ? " cells" : " points")
+                                << "; nothing is rendered.");
     return nullptr;
   }
   return scalars;
@@ -310,7 +322,7 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateInput(
-  vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars)
+  vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars, bool ofCells)
 {
   meniscus::VolumeInput& input = this->Internals->Input;
   const auto tell = [this](const meniscus::InputReport& report)
@@ -334,8 +346,9 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     this->UpdateProgress(fraction);
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
-  return tell(input.UpdateMesh(grid, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
-    tell(input.UpdateScalars(scalars, component));
+  const auto place = ofCells ? meniscus::ScalarPlace::Cells : meniscus::ScalarPlace::Points;
+  return tell(input.UpdateMesh(grid, place, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
+    tell(input.UpdateScalars(scalars, place, component));
 }
 
 //------------------------------------------------------------------------------
@@ -352,7 +365,10 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
   vtkInternals& internals = *this->Internals;
   internals.Property.Update(volume->GetProperty(), this->GetUsedBlendMode(),
     this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Input.GetNormalization());
-  internals.Input.UpdateActiveCells(internals.Property.GetVisibleScalars());
+  using Jumps = meniscus::TetrahedralMesh::CellJumps;
+  const bool isosurfaces = this->GetUsedBlendMode() == vtkVolumeMapper::ISOSURFACE_BLEND;
+  internals.Input.UpdateActiveCells(
+    internals.Property.GetVisibleScalars(), isosurfaces ? Jumps::Visible : Jumps::Hidden);
 }
 
 //------------------------------------------------------------------------------
@@ -365,8 +381,8 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
   const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
   const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
   this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
-    "The native backend has composite blending only, without shading and gradient opacity; "
-    "rendering with OpenGL.");
+    "The native backend has composite blending of point data only, without shading and gradient "
+    "opacity; rendering with OpenGL.");
   this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
     "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
   return nativeLacks || computeLacks ? OPENGL : this->Backend;
@@ -420,10 +436,11 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   frame.Rays = place.Frame;
   frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
   frame.Optics.BlendMode = this->GetUsedBlendMode();
+  frame.Optics.CellScalars = internals.Input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
-  frame.Optics.VertexGradients =
-    frame.Optics.UsesGradients() && this->Gradients == VERTEX_GRADIENTS;
+  frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
+    this->Gradients == VERTEX_GRADIENTS;
   return meniscus::DescribeExcess(frame.Optics);
 }
 
@@ -476,8 +493,9 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   {
     return;
   }
-  vtkDataArray* scalars = this->ValidateScalars(grid);
-  if (!scalars || !this->UpdateInput(renderer->GetRenderWindow(), grid, scalars))
+  bool ofCells = false;
+  vtkDataArray* scalars = this->ValidateScalars(grid, ofCells);
+  if (!scalars || !this->UpdateInput(renderer->GetRenderWindow(), grid, scalars, ofCells))
   {
     return;
   }
@@ -551,6 +569,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveCells()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransparentCells()
+{
+  return this->Internals->Input.GetMesh().GetNumberOfUnknownCells();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRejectedCells()
 {
   return this->Internals->Input.GetMesh().GetRejectedCells().Total();
@@ -598,5 +622,6 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
+  os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
   os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";
 }
