@@ -69,6 +69,12 @@ RayCastLight ToFrame(vtkLight* source, const OpticsPlace& place)
 }
 
 //------------------------------------------------------------------------------
+bool RayCastOptics::IsPlain() const
+{
+  return this->BlendMode != vtkVolumeMapper::ISOSURFACE_BLEND && !this->UsesGradients();
+}
+
+//------------------------------------------------------------------------------
 bool UsesGradientOpacity(vtkVolumeProperty* property)
 {
   if (!property->HasGradientOpacity() || property->GetDisableGradientOpacity() != 0)

@@ -57,11 +57,8 @@ struct RayCastOptics
   std::vector<RayClippingPlane> ClippingPlanes;
 
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
-  /** Composite blending of the transfer function as it is, by scalars of the vertices. */
-  bool IsPlain() const
-  {
-    return this->BlendMode == 0 && !this->UsesGradients() && !this->CellScalars;
-  }
+  /** Whether gradients and isosurfaces are left out, as the native backend does. */
+  bool IsPlain() const;
 };
 
 /** Where the mesh lies for optics: its centre in world and view coordinates, and view coordinates.

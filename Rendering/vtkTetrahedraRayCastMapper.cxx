@@ -176,6 +176,9 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
   meniscus::TileCaster::Scene scene;
   scene.Mesh = &this->Input.GetMesh();
   scene.Boundary = &this->Input.GetMesh().GetBoundary();
+  scene.CellScalars = frame.Optics.CellScalars ? this->Input.GetCellScalars().data() : nullptr;
+  // The numbers are the same up to the additive mode, the last that this backend has.
+  scene.Blending = static_cast<meniscus::PacketBlending>(frame.Optics.BlendMode);
   scene.ClippingPlanes = frame.Optics.ClippingPlanes;
   scene.TerminationTransmittance = static_cast<float>(1.0 - frame.EarlyTerminationOpacity);
   return this->OpenGL.DrawImageOf(
@@ -381,8 +384,7 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
   const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
   const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
   this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
-    "The native backend has composite blending of point data only, without shading and gradient "
-    "opacity; rendering with OpenGL.");
+    "The native backend has no isosurfaces, shading and gradient opacity; rendering with OpenGL.");
   this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
     "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
   return nativeLacks || computeLacks ? OPENGL : this->Backend;

@@ -11,14 +11,14 @@ namespace meniscus
 void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
   const PixelRays& rays, const RangeLoop& loop, std::vector<PacketVertex>& vertices)
 {
-  vertices.resize(scalars.size());
+  vertices.resize(mesh.GetFixedPositions().size());
   loop(vertices.size(),
     [&](std::size_t first, std::size_t last)
     {
       for (std::size_t v = first; v < last; ++v)
       {
         const glm::ivec3 place = rays.Place(mesh.GetFixedPositions()[v]);
-        vertices[v] = { { place.x, place.y, place.z }, scalars[v] };
+        vertices[v] = { { place.x, place.y, place.z }, scalars.empty() ? 0.0f : scalars[v] };
       }
     });
 }
@@ -113,6 +113,8 @@ RayStatistics TileCaster::Cast(
   workspace.Results.resize(workspace.Rays.size());
   const TetrahedralMesh& mesh = *this->Input.Mesh;
   PacketJob job;
+  job.Blending = this->Input.Blending;
+  job.CellScalars = this->Input.CellScalars;
   job.Vertices = this->Input.Tables->Vertices.data();
   job.Cells = mesh.GetCells().front().Vertices.data();
   job.NumberOfCells = mesh.GetNumberOfCells();

@@ -26,7 +26,8 @@ struct PacketTables
 };
 
 /**
- * @param scalars   one normalised scalar per mesh vertex; NaN makes its cells transparent.
+ * @param scalars   one normalised scalar per mesh vertex; NaN makes its cells transparent. Empty
+ * for none, where cells have scalars.
  * @param vertices  replaced.
  */
 void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
@@ -43,6 +44,9 @@ public:
     /** The boundary that rays enter by. */
     const std::vector<BoundaryFace>* Boundary = nullptr;
     const PacketTables* Tables = nullptr;
+    /** One normalised scalar per cell, in place of those of the vertices; null for none. */
+    const float* CellScalars = nullptr;
+    PacketBlending Blending = PacketBlending::Composite;
     PixelRays Rays;
     /** Rays count where all of them keep them. */
     std::vector<RayClippingPlane> ClippingPlanes;

@@ -75,12 +75,25 @@ struct PacketResult
   std::int32_t Lost;
 };
 
+/** What becomes of the segments of a ray; see PacketIntegral and PacketProjection. */
+enum class PacketBlending
+{
+  Composite,
+  Maximum,
+  Minimum,
+  Average,
+  Additive
+};
+
 struct PacketJob
 {
+  PacketBlending Blending;
   const PacketVertex* Vertices;
   /** Per cell, 4 ascending vertices, then 4 links (TetrahedralMesh::Cell). */
   const std::int32_t* Cells;
   std::int64_t NumberOfCells;
+  /** One normalised scalar per cell, in place of those of the vertices; null for none. */
+  const float* CellScalars;
   const PacketInterval* Intervals;
   std::int32_t NumberOfIntervals;
   /** Rays end when their transmittance is not above it. */

@@ -5,6 +5,7 @@
 
 #include "Volume/Packet/Packet.h"
 #include "Volume/Packet/PacketIntegral.h"
+#include "Volume/Packet/PacketProjection.h"
 
 namespace meniscus
 {
@@ -21,7 +22,7 @@ namespace meniscus
  * leave by, every face and side one way to come there, and a walk that begins on the boundary ends
  * on the boundary.
  */
-template <class Simd>
+template <class Simd, class Model>
 class PacketWalk
 {
 public:
@@ -71,12 +72,14 @@ private:
     Int Face;
     Int Links[4];
     Corner X;
+    /** Only with scalars of cells. */
+    Float CellScalar;
   };
   void Fetch(Ahead& ahead) const;
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
   void Interpolate(Float& depth, Float& scalar) const;
-  void Pass(Mask lanes);
+  void Pass(Mask lanes, Float cellScalar);
 
   unsigned int Replace(unsigned int ended);
   bool NextEntry(int lane);
@@ -91,7 +94,7 @@ private:
   std::int32_t NextRay = 0;
   std::int32_t StepLimit;
 
-  PacketIntegral<Simd> Integral;
+  Model Integral;
   Shift Axes[2];
   // The face just entered by, counter-clockwise about the ray, and twice the areas that its edges
   // AB, BC, CA span with the ray.
@@ -125,15 +128,16 @@ private:
   float StartDepths[Width];
   float EndDepths[Width];
   float LengthsPerDepth[Width];
-  float Colors[4][Width];
+  float Values[Model::NumberOfValues][Width];
+  unsigned int OnBits = 0;
 };
 
 //------------------------------------------------------------------------------
-template <class Simd>
-PacketWalk<Simd>::PacketWalk(const PacketJob& job)
+template <class Simd, class Model>
+PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   : Job(job)
   , VertexTable(&job.Vertices->Scalar - 3)
-  , Integral(job.Intervals, job.NumberOfIntervals, job.TerminationTransmittance)
+  , Integral(job)
 {
   // A ray crosses a cell once through each of its 4 faces, in 2 orientations, at the most.
   const std::int64_t limit = 8 * job.NumberOfCells;
@@ -159,8 +163,8 @@ PacketWalk<Simd>::PacketWalk(const PacketJob& job)
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::Run()
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::Run()
 {
   // Replacing rays costs about as much as a step: worth it once half of the lanes wait.
   constexpr int enough = Width / 2;
@@ -188,8 +192,8 @@ void PacketWalk<Simd>::Run()
 
 //------------------------------------------------------------------------------
 /** A vertex of the table about the rays; its Rank is left. */
-template <class Simd>
-inline void PacketWalk<Simd>::Place(const Float (&vertex)[4], Corner& corner) const
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& corner) const
 {
   const Int depth = Simd::AsInt(vertex[2]);
   const auto aboutRay = [&](const Shift& axis, Float place)
@@ -204,8 +208,8 @@ inline void PacketWalk<Simd>::Place(const Float (&vertex)[4], Corner& corner) co
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::Project(Int id, Corner& corner) const
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::Project(Int id, Corner& corner) const
 {
   Float vertex[4];
   Simd::template GatherQuads<4>(this->VertexTable, id, vertex[0], vertex[1], vertex[2], vertex[3]);
@@ -214,8 +218,8 @@ void PacketWalk<Simd>::Project(Int id, Corner& corner) const
 
 //------------------------------------------------------------------------------
 /** u or v of a vertex about the ray of a lane, exactly. */
-template <class Simd>
-std::int32_t PacketWalk<Simd>::OnGrid(int axis, const PacketVertex& vertex, int lane) const
+template <class Simd, class Model>
+std::int32_t PacketWalk<Simd, Model>::OnGrid(int axis, const PacketVertex& vertex, int lane) const
 {
   const Shift& shift = this->Axes[axis];
   const std::int64_t product = std::int64_t{ vertex.Place[2] } * shift.Slope[lane];
@@ -229,8 +233,9 @@ std::int32_t PacketWalk<Simd>::OnGrid(int axis, const PacketVertex& vertex, int 
  * products and difference by as much again: by less than 2^-22 (|area| + 2 |pv qu|) in all. So the
  * sign is sure if |area| - 2^-20 |pv qu| is positive; `excess` is lowered to that.
  */
-template <class Simd>
-inline auto PacketWalk<Simd>::EdgeArea(const Corner& p, const Corner& q, Float& excess) -> Float
+template <class Simd, class Model>
+inline auto PacketWalk<Simd, Model>::EdgeArea(const Corner& p, const Corner& q, Float& excess)
+  -> Float
 {
   const Float area = Simd::CrossProduct(p.U, p.V, q.U, q.V);
   const Float bound = Simd::Abs(p.V * q.U) * Simd::Splat(9.5367431640625e-7f);
@@ -240,8 +245,8 @@ inline auto PacketWalk<Simd>::EdgeArea(const Corner& p, const Corner& q, Float& 
 
 //------------------------------------------------------------------------------
 /** Whether the ray is left of pq, exactly; each is { u, v, id }. */
-template <class Simd>
-bool PacketWalk<Simd>::TurnsLeft(
+template <class Simd, class Model>
+bool PacketWalk<Simd, Model>::TurnsLeft(
   const std::int32_t (&p)[3], const std::int32_t (&q)[3], float& area)
 {
   const std::int64_t exact = std::int64_t{ p[0] } * q[1] - std::int64_t{ p[1] } * q[0];
@@ -262,8 +267,8 @@ bool PacketWalk<Simd>::TurnsLeft(
  * Exact areas and signs, in some lanes, of the edges from the vertex ahead to A, B, C; `corners`
  * are the places of the four in the cell.
  */
-template <class Simd>
-void PacketWalk<Simd>::MakeSure(
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::MakeSure(
   unsigned int lanes, const Int (&corners)[4], Float (&areas)[3], Mask (&left)[3]) const
 {
   std::int32_t cellFaces[Width];
@@ -310,8 +315,8 @@ void PacketWalk<Simd>::MakeSure(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-inline void PacketWalk<Simd>::Fetch(Ahead& ahead) const
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
 {
   // Lanes outside of the mesh look at cell 0.
   const Int zero = Simd::Splat(0);
@@ -320,12 +325,16 @@ inline void PacketWalk<Simd>::Fetch(Ahead& ahead) const
   ahead.Face = Simd::And(cellFace, Simd::Splat(3));
   Simd::GatherCells(this->Job.Cells, this->VertexTable, cellFace, ahead.Links, vertex);
   this->Place(vertex, ahead.X);
+  if (this->Job.CellScalars)
+  {
+    ahead.CellScalar = Simd::GatherCellScalars(this->Job.CellScalars, cellFace);
+  }
 }
 
 //------------------------------------------------------------------------------
 /** Crosses the cells of `lanes` and gives the segments passed to the integral. */
-template <class Simd>
-inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
 {
   const Corner& x = ahead.X;
   const Float zero = Simd::Splat(0.0f);
@@ -379,13 +388,13 @@ inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
   replace(replaceC, places[3], this->C);
   this->CellFace = Simd::Select(lanes, link, this->CellFace);
   this->Steps = this->Steps + Simd::One(lanes);
-  this->Pass(lanes);
+  this->Pass(lanes, ahead.CellScalar);
 }
 
 //------------------------------------------------------------------------------
 /** All but its Rank. */
-template <class Simd>
-inline void PacketWalk<Simd>::ReplaceCorner(Mask lanes, const Corner& x, Corner& corner)
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, Corner& corner)
 {
   corner.U = Simd::Select(lanes, x.U, corner.U);
   corner.V = Simd::Select(lanes, x.V, corner.V);
@@ -395,8 +404,8 @@ inline void PacketWalk<Simd>::ReplaceCorner(Mask lanes, const Corner& x, Corner&
 
 //------------------------------------------------------------------------------
 /** Depth and scalar where the ray meets ABC; a face without projected area keeps what is given. */
-template <class Simd>
-inline void PacketWalk<Simd>::Interpolate(Float& depth, Float& scalar) const
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Interpolate(Float& depth, Float& scalar) const
 {
   const Float total = this->AreaAB + this->AreaBC + this->AreaCA;
   const Mask real = total > Simd::Splat(0.0f);
@@ -409,8 +418,8 @@ inline void PacketWalk<Simd>::Interpolate(Float& depth, Float& scalar) const
 
 //------------------------------------------------------------------------------
 /** Gives the integral what lies between the last face and this one. */
-template <class Simd>
-inline void PacketWalk<Simd>::Pass(Mask lanes)
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Float cellScalar)
 {
   Float depth = this->FaceDepth;
   Float scalar = this->FaceScalar;
@@ -423,7 +432,11 @@ inline void PacketWalk<Simd>::Pass(Mask lanes)
   Float to = scalar;
   const Mask late = start > this->FaceDepth;
   const Mask early = depth > end;
-  if (Simd::Bits(lanes & (late | early)) != 0)
+  if (this->Job.CellScalars)
+  {
+    from = to = cellScalar;
+  }
+  else if (Simd::Bits(lanes & (late | early)) != 0)
   {
     const Float perDepth = (scalar - this->FaceScalar) / (depth - this->FaceDepth);
     from = Simd::Select(late, Simd::Fma(start - this->FaceDepth, perDepth, this->FaceScalar), from);
@@ -442,8 +455,8 @@ inline void PacketWalk<Simd>::Pass(Mask lanes)
  * Gives lanes whose walk has ended the next entry of their ray or the next ray. Returns the lanes
  * that have a ray.
  */
-template <class Simd>
-unsigned int PacketWalk<Simd>::Replace(unsigned int ended)
+template <class Simd, class Model>
+unsigned int PacketWalk<Simd, Model>::Replace(unsigned int ended)
 {
   this->StoreLanes();
   unsigned int busy = Simd::Bits(this->Busy);
@@ -478,14 +491,14 @@ unsigned int PacketWalk<Simd>::Replace(unsigned int ended)
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-bool PacketWalk<Simd>::NextEntry(int lane)
+template <class Simd, class Model>
+bool PacketWalk<Simd, Model>::NextEntry(int lane)
 {
   const PacketRay& ray = this->Job.Rays[this->Ray[lane]];
   const std::int32_t next = this->Entry[lane] + 1;
   if (next >= ray.EndEntry || this->CellFaces[lane] >= 0 ||
     !(this->DepthsNow[lane] < ray.EndDepth) || !(this->Job.Entries[next].Depth < ray.EndDepth) ||
-    !(this->Colors[3][lane] > this->Job.TerminationTransmittance))
+    (this->OnBits >> lane & 1u) == 0)
   {
     return false;
   }
@@ -501,8 +514,8 @@ bool PacketWalk<Simd>::NextEntry(int lane)
 
 //------------------------------------------------------------------------------
 /** Starts the next ray that has an entry before its end; false if there is none. */
-template <class Simd>
-bool PacketWalk<Simd>::TakeRay(int lane)
+template <class Simd, class Model>
+bool PacketWalk<Simd, Model>::TakeRay(int lane)
 {
   while (this->NextRay < this->Job.NumberOfRays)
   {
@@ -512,10 +525,11 @@ bool PacketWalk<Simd>::TakeRay(int lane)
     {
       this->Axes[axis].Set(lane, ray.Slope[axis], ray.Offset[axis]);
     }
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < Model::NumberOfValues; ++k)
     {
-      this->Colors[k][lane] = k == 3 ? 1.0f : 0.0f;
+      this->Values[k][lane] = Model::Empty[k];
     }
+    this->OnBits |= 1u << lane;
     this->LengthsPerDepth[lane] = ray.LengthPerDepth;
     this->StartDepths[lane] = ray.StartDepth;
     this->EndDepths[lane] = ray.EndDepth;
@@ -535,36 +549,34 @@ bool PacketWalk<Simd>::TakeRay(int lane)
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::Finish(int lane)
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::Finish(int lane)
 {
   PacketResult& result = this->Job.Results[this->Ray[lane]];
-  for (int channel = 0; channel < 3; ++channel)
+  float values[Model::NumberOfValues];
+  for (int k = 0; k < Model::NumberOfValues; ++k)
   {
-    result.Color[channel] = this->Colors[channel][lane];
+    values[k] = this->Values[k][lane];
   }
-  result.Color[3] = 1.0f - this->Colors[3][lane];
+  Model::Finish(this->Job, values, result.Color);
   result.Steps = this->StepsOf[lane];
   result.Lost = this->StepsOf[lane] >= this->StepLimit && this->CellFaces[lane] >= 0 ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::StoreLanes()
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::StoreLanes()
 {
   Simd::Store(this->DepthsNow, this->DepthNow);
   Simd::Store(this->StepsOf, this->Steps);
   Simd::Store(this->CellFaces, this->CellFace);
-  for (int channel = 0; channel < 3; ++channel)
-  {
-    Simd::Store(this->Colors[channel], this->Integral.GetColor(channel));
-  }
-  Simd::Store(this->Colors[3], this->Integral.GetTransmittance());
+  this->Integral.Store(this->Values);
+  this->OnBits = Simd::Bits(this->Integral.IsOn());
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::LoadLanes()
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::LoadLanes()
 {
   this->DepthNow = Simd::Load(this->DepthsNow);
   this->Steps = Simd::Load(this->StepsOf);
@@ -575,8 +587,8 @@ void PacketWalk<Simd>::LoadLanes()
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::Enter(Mask lanes)
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::Enter(Mask lanes)
 {
   Corner* const corners[3] = { &this->A, &this->B, &this->C };
   const Int ids[3] = { Simd::Load(this->Ids[0]), Simd::Load(this->Ids[1]),
@@ -603,6 +615,20 @@ void PacketWalk<Simd>::Enter(Mask lanes)
   this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
   this->FaceScalar = Simd::Select(lanes, scalar, this->FaceScalar);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+void CastPacketsWith(const PacketJob& job)
+{
+  if (job.Blending == PacketBlending::Composite)
+  {
+    PacketWalk<Simd, PacketIntegral<Simd>>(job).Run();
+  }
+  else
+  {
+    PacketWalk<Simd, PacketProjection<Simd>>(job).Run();
+  }
 }
 
 }

@@ -181,6 +181,10 @@ struct SimdAVX2
     z.V = _mm256_shuffle_ps(zw01, zw23, _MM_SHUFFLE(1, 0, 1, 0));
     w.V = _mm256_shuffle_ps(zw01, zw23, _MM_SHUFFLE(3, 2, 3, 2));
   }
+  static Float GatherCellScalars(const float* scalars, Int cellFace)
+  {
+    return { _mm256_i32gather_ps(scalars, _mm256_srli_epi32(cellFace.V, 2), 4) };
+  }
   static constexpr int LookupBlock = 8;
   template <int Blocks>
   static Float Lookup(const float* table, Int index)

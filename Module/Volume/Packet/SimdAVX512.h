@@ -163,6 +163,10 @@ struct SimdAVX512
     z.V = _mm512_shuffle_ps(zw01, zw23, _MM_SHUFFLE(1, 0, 1, 0));
     w.V = _mm512_shuffle_ps(zw01, zw23, _MM_SHUFFLE(3, 2, 3, 2));
   }
+  static Float GatherCellScalars(const float* scalars, Int cellFace)
+  {
+    return { _mm512_i32gather_ps(_mm512_srli_epi32(cellFace.V, 2), scalars, 4) };
+  }
   static constexpr int LookupBlock = 16;
   template <int Blocks>
   static Float Lookup(const float* table, Int index)

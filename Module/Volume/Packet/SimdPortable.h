@@ -239,6 +239,11 @@ struct SimdPortable
       }
     }
   }
+  /** scalars[cellFace / 4]. */
+  static Float GatherCellScalars(const float* scalars, const Int& cellFace)
+  {
+    return EachLane<float>([scalars](std::int32_t i) { return scalars[i / 4]; }, cellFace);
+  }
   /** table[index], of a table of `Blocks` (1 or 2) times LookupBlock entries. */
   static constexpr int LookupBlock = 8;
   template <int Blocks>
