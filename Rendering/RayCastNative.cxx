@@ -18,11 +18,19 @@ RayCastNative::RayCastNative()
 }
 
 //------------------------------------------------------------------------------
-void RayCastNative::UpdateIntervals(const std::vector<TransferFunctionInterval>& intervals)
+void RayCastNative::UpdateProperty(const VolumePropertyTables& property)
 {
-  this->Tables.Intervals = PackIntervals(intervals);
+  this->Tables.Intervals = PackIntervals(property.GetIntervals());
+  this->Tables.Surfaces.clear();
+  for (const Isosurface& surface : property.GetIsosurfaces())
+  {
+    const glm::vec3& color = surface.Color;
+    this->Tables.Surfaces.push_back(
+      { surface.Scalar, surface.Opacity, { color.r, color.g, color.b } });
+  }
   this->TableBytes +=
-    static_cast<std::int64_t>(this->Tables.Intervals.size() * sizeof(PacketInterval));
+    static_cast<std::int64_t>(this->Tables.Intervals.size() * sizeof(PacketInterval) +
+      this->Tables.Surfaces.size() * sizeof(PacketSurface));
 }
 
 //------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 
 #include "Volume/RayStatistics.h"
 #include "Volume/TileCaster.h"
+#include "VolumePropertyTables.h"
 
 #include <array>
 #include <cstdint>
@@ -25,7 +26,7 @@ class RayCastNative
 public:
   RayCastNative();
 
-  void UpdateIntervals(const std::vector<TransferFunctionInterval>& intervals);
+  void UpdateProperty(const VolumePropertyTables& property);
 
   /**
    * Casts the rays of an image.

@@ -163,7 +163,7 @@ void vtkTetrahedraRayCastMapper::vtkInternals::UpdateNative()
 {
   if (this->NativeProperty != this->Property.GetVersion())
   {
-    this->Native.UpdateIntervals(this->Property.GetIntervals());
+    this->Native.UpdateProperty(this->Property);
     this->NativeProperty = this->Property.GetVersion();
   }
 }
@@ -177,7 +177,14 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
   scene.Mesh = &this->Input.GetMesh();
   scene.Boundary = &this->Input.GetMesh().GetBoundary();
   scene.CellScalars = frame.Optics.CellScalars ? this->Input.GetCellScalars().data() : nullptr;
-  // The numbers are the same up to the additive mode, the last that this backend has.
+  scene.Lighting = frame.Optics.Shading ? &frame.Optics.Lighting : nullptr;
+  if (frame.Optics.VertexGradients)
+  {
+    this->UpdateGradients();
+    scene.VertexGradients = this->Gradients.data();
+    scene.GradientToFrame = frame.Optics.GradientToFrame;
+  }
+  // The numbers are the same.
   scene.Blending = static_cast<meniscus::PacketBlending>(frame.Optics.BlendMode);
   scene.ClippingPlanes = frame.Optics.ClippingPlanes;
   scene.TerminationTransmittance = static_cast<float>(1.0 - frame.EarlyTerminationOpacity);
@@ -384,7 +391,8 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
   const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
   const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
   this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
-    "The native backend has no isosurfaces, shading and gradient opacity; rendering with OpenGL.");
+    "The native backend has no gradient opacity and no shading but of isosurfaces; rendering with "
+    "OpenGL.");
   this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
     "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
   return nativeLacks || computeLacks ? OPENGL : this->Backend;

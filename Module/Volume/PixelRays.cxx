@@ -44,6 +44,7 @@ PixelRays::PixelRays(const RayFrame& frame, int width, int height)
     }
   }
   const double perUnit = GridRadius / (1.0 + steepest);
+  this->GridUnit = 1.0 / perUnit;
   this->Offset = Scaled(frame.Origin, perUnit);
   this->Slope = Scaled(frame.Slope, perUnit / GridPerDepth);
   const double unit = TetrahedralMesh::PositionUnit;

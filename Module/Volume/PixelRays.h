@@ -49,6 +49,8 @@ public:
    */
   const AffinePixelMap& GetOffset() const { return this->Offset; }
   const AffinePixelMap& GetSlope() const { return this->Slope; }
+  /** Of x and y, in units of the frame. */
+  double GetGridUnit() const { return this->GridUnit; }
   int GetWidth() const { return this->Width; }
   int GetHeight() const { return this->Height; }
   const RayFrame& GetFrame() const { return this->Frame; }
@@ -66,6 +68,7 @@ private:
   RayFrame Frame;
   int Width = 0;
   int Height = 0;
+  double GridUnit = 1.0;
   /** Fixed-point positions to the grid. */
   glm::dmat3 ToGrid{ 0.0 };
   AffinePixelMap Offset;

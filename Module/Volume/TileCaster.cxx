@@ -115,6 +115,12 @@ RayStatistics TileCaster::Cast(
   PacketJob job;
   job.Blending = this->Input.Blending;
   job.CellScalars = this->Input.CellScalars;
+  job.Surfaces = this->Input.Tables->Surfaces.data();
+  job.NumberOfSurfaces = static_cast<std::int32_t>(this->Input.Tables->Surfaces.size());
+  job.Lighting = this->Input.Lighting;
+  job.VertexGradients = this->Input.VertexGradients ? &this->Input.VertexGradients->x : nullptr;
+  job.GradientToFrame = &this->Input.GradientToFrame;
+  job.GridUnit = this->Input.Rays.GetGridUnit();
   job.Vertices = this->Input.Tables->Vertices.data();
   job.Cells = mesh.GetCells().front().Vertices.data();
   job.NumberOfCells = mesh.GetNumberOfCells();

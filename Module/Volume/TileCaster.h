@@ -23,6 +23,7 @@ struct PacketTables
   /** As the rays of an image see them. */
   std::vector<PacketVertex> Vertices;
   std::vector<PacketInterval> Intervals;
+  std::vector<PacketSurface> Surfaces;
 };
 
 /**
@@ -47,6 +48,11 @@ public:
     /** One normalised scalar per cell, in place of those of the vertices; null for none. */
     const float* CellScalars = nullptr;
     PacketBlending Blending = PacketBlending::Composite;
+    /** Of isosurfaces; null for none. */
+    const SurfaceLighting* Lighting = nullptr;
+    /** One per vertex, in normalised model coordinates; null for those of the cells. */
+    const glm::vec3* VertexGradients = nullptr;
+    glm::dmat3 GradientToFrame{ 1.0 };
     PixelRays Rays;
     /** Rays count where all of them keep them. */
     std::vector<RayClippingPlane> ClippingPlanes;

@@ -49,7 +49,7 @@ public:
   void AddSegment(float from, float to, float length)
   {
     SimdPortable::Mask pending = this->Packet.Begin(SimdPortable::FromBits(1u << Lane),
-      SimdPortable::Splat(from), SimdPortable::Splat(to), SimdPortable::Splat(length));
+      SimdPortable::Splat(from), SimdPortable::Splat(to), SimdPortable::Splat(length), nullptr);
     while (SimdPortable::Bits(pending) != 0)
     {
       pending = this->Packet.Advance(pending);

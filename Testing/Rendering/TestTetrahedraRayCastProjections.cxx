@@ -235,7 +235,7 @@ TEST(TetrahedraRayCastProjections, SkipOnlyWhatTheModeCannotShow)
   EXPECT_GT(scene.rayCaster()->GetNumberOfActiveCells(), 0);
 }
 
-TEST(TetrahedraRayCastProjections, NativeBackendLeavesIsosurfacesToOpenGL)
+TEST(TetrahedraRayCastProjections, NativeBackendLeavesShadingToOpenGL)
 {
   const Grid grid = makeBlock(3, wavyField(3.0));
   double range[2];
@@ -249,7 +249,8 @@ TEST(TetrahedraRayCastProjections, NativeBackendLeavesIsosurfacesToOpenGL)
   expectReference(scene, Projection::Maximum, "native asked for");
   EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::NATIVE);
   EXPECT_TRUE(warnings->Warnings.empty());
-  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  scene.rayCaster()->SetBlendModeToComposite();
+  scene.volume()->GetProperty()->ShadeOn();
   scene.window()->Render();
   EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::OPENGL);
   EXPECT_EQ(warnings->Warnings.size(), 1u);

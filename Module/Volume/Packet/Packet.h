@@ -11,8 +11,12 @@
 
 #include <cstdint>
 
+#include <glm/fwd.hpp>
+
 namespace meniscus
 {
+
+struct SurfaceLighting;
 
 /** A vertex as the rays of an image see it: 16 bytes. */
 struct PacketVertex
@@ -75,14 +79,24 @@ struct PacketResult
   std::int32_t Lost;
 };
 
-/** What becomes of the segments of a ray; see PacketIntegral and PacketProjection. */
+/** What becomes of the segments of a ray: see PacketIntegral, PacketProjection, PacketIsosurfaces.
+ */
 enum class PacketBlending
 {
   Composite,
   Maximum,
   Minimum,
   Average,
-  Additive
+  Additive,
+  Isosurfaces
+};
+
+/** An isosurface in normalised scalars. */
+struct PacketSurface
+{
+  float Scalar;
+  float Opacity;
+  float Color[3];
 };
 
 struct PacketJob
@@ -96,6 +110,16 @@ struct PacketJob
   const float* CellScalars;
   const PacketInterval* Intervals;
   std::int32_t NumberOfIntervals;
+  /** Ascending scalars. */
+  const PacketSurface* Surfaces;
+  std::int32_t NumberOfSurfaces;
+  /** Of surfaces; null for none. */
+  const SurfaceLighting* Lighting;
+  /** Gradients at the vertices in normalised model coordinates; null for those of the cells. */
+  const float* VertexGradients;
+  const glm::dmat3* GradientToFrame;
+  /** Grid unit of x and y, in units of the frame. */
+  double GridUnit;
   /** Rays end when their transmittance is not above it. */
   float TerminationTransmittance;
   const PacketRay* Rays;
@@ -104,6 +128,32 @@ struct PacketJob
   /** One per ray. */
   PacketResult* Results;
 };
+
+/** What isosurfaces have left of a ray. */
+struct PacketSurfaceState
+{
+  /** Premultiplied. */
+  float Color[3];
+  float Transmittance;
+  /** The isovalues next to the scalar, the lower one included. */
+  float Lower;
+  float Upper;
+};
+
+/** Part of a ray within a cell, where the scalar is linear. */
+struct PacketSegment
+{
+  float From;
+  float To;
+  float StartDepth;
+  float EndDepth;
+  /** 4 * cell + the face entered by. */
+  std::int32_t CellFace;
+  std::int32_t Ray;
+};
+
+/** Adds the isosurfaces that a segment meets, front to back. */
+void CrossSurfaces(const PacketJob& job, const PacketSegment& segment, PacketSurfaceState& state);
 
 enum class InstructionSet
 {

@@ -44,7 +44,8 @@ public:
    * Gives lanes a segment each; returns those that have one to integrate. A segment with a scalar
    * that is not finite, or of no length, is none.
    */
-  Mask Begin(Mask lanes, Float from, Float to, Float length)
+  template <class Place>
+  Mask Begin(Mask lanes, Float from, Float to, Float length, const Place&)
   {
     const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
     this->From = Simd::Select(valid, from, this->From);
@@ -59,6 +60,8 @@ public:
   /** Where the ray has not been terminated. */
   Mask IsOn() const { return this->Transmittance > this->Termination; }
 
+  /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
+  static constexpr bool SeesJumps = false;
   static constexpr int NumberOfValues = 4;
   /** Of a ray that meets nothing. */
   static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
@@ -73,11 +76,7 @@ public:
   }
   static void Finish(const PacketJob&, const float (&values)[NumberOfValues], float (&color)[4])
   {
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      color[channel] = values[channel];
-    }
-    color[3] = 1.0f - values[3];
+    FinishBlended<Simd>(values, color);
   }
 
 private:

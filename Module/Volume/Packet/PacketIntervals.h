@@ -21,6 +21,17 @@ inline typename Simd::Mask SegmentsOf(typename Simd::Mask lanes, typename Simd::
   return lanes & (Simd::Abs(to - from) < Simd::Splat(4.0f)) & (length > Simd::Splat(0.0f));
 }
 
+/** Premultiplied colour and alpha from colour and transmittance. */
+template <class Simd>
+inline void FinishBlended(const float (&values)[4], float (&color)[4])
+{
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    color[channel] = values[channel];
+  }
+  color[3] = 1.0f - values[3];
+}
+
 /** The intervals of a transfer function, and in which of them the scalar of each lane is. */
 template <class Simd>
 class PacketIntervals

@@ -45,12 +45,18 @@ public:
     this->Seen = Simd::Select(lanes, zero, this->Seen);
   }
 
-  Mask Begin(Mask lanes, Float from, Float to, Float length);
+  template <class Place>
+  Mask Begin(Mask lanes, Float from, Float to, Float length, const Place&)
+  {
+    return this->Begin(lanes, from, to, length);
+  }
   Mask Advance(Mask lanes);
 
   /** Nothing hides what is behind. */
   Mask IsOn() const { return Simd::FromBits((1u << Simd::Width) - 1u); }
 
+  /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
+  static constexpr bool SeesJumps = false;
   static constexpr int NumberOfValues = 2;
   /** Of a ray that meets nothing. */
   static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f };
@@ -64,6 +70,7 @@ public:
     const PacketJob& job, const float (&values)[NumberOfValues], float (&color)[4]);
 
 private:
+  Mask Begin(Mask lanes, Float from, Float to, Float length);
   void Collect(Mask lanes, Float term);
 
   PacketBlending Blending;

@@ -5,6 +5,7 @@
 
 #include "Volume/Packet/Packet.h"
 #include "Volume/Packet/PacketIntegral.h"
+#include "Volume/Packet/PacketIsosurfaces.h"
 #include "Volume/Packet/PacketProjection.h"
 
 namespace meniscus
@@ -79,7 +80,17 @@ private:
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
   void Interpolate(Float& depth, Float& scalar) const;
-  void Pass(Mask lanes, Float cellScalar);
+  /** Where a segment is, for models that ask. */
+  struct SegmentPlace
+  {
+    Float StartDepth;
+    Float EndDepth;
+    /** Of the cell, and the face entered by. */
+    Int CellFace;
+    /** Number of each lane's ray. */
+    const std::int32_t (&Rays)[Width];
+  };
+  void Pass(Mask lanes, Int cellFace, Float cellScalar);
 
   unsigned int Replace(unsigned int ended);
   bool NextEntry(int lane);
@@ -386,9 +397,10 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
   replace(replaceA, places[1], this->A);
   replace(replaceB, places[2], this->B);
   replace(replaceC, places[3], this->C);
+  const Int crossed = this->CellFace;
   this->CellFace = Simd::Select(lanes, link, this->CellFace);
   this->Steps = this->Steps + Simd::One(lanes);
-  this->Pass(lanes, ahead.CellScalar);
+  this->Pass(lanes, crossed, ahead.CellScalar);
 }
 
 //------------------------------------------------------------------------------
@@ -419,7 +431,7 @@ inline void PacketWalk<Simd, Model>::Interpolate(Float& depth, Float& scalar) co
 //------------------------------------------------------------------------------
 /** Gives the integral what lies between the last face and this one. */
 template <class Simd, class Model>
-inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Float cellScalar)
+inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, Float cellScalar)
 {
   Float depth = this->FaceDepth;
   Float scalar = this->FaceScalar;
@@ -434,7 +446,10 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Float cellScalar)
   const Mask early = depth > end;
   if (this->Job.CellScalars)
   {
-    from = to = cellScalar;
+    // A jump counts where the cell is entered, unless the ray begins behind that.
+    to = cellScalar;
+    from = Simd::Select(this->StartDepth > this->FaceDepth, to, this->FaceScalar);
+    from = Model::SeesJumps ? from : to;
   }
   else if (Simd::Bits(lanes & (late | early)) != 0)
   {
@@ -443,11 +458,20 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Float cellScalar)
     to = Simd::Select(early, Simd::Fma(end - this->FaceDepth, perDepth, this->FaceScalar), to);
   }
   const Mask segment = lanes & (end > start);
-  this->Pending =
-    this->Pending | this->Integral.Begin(segment, from, to, (end - start) * this->LengthPerDepth);
+  const SegmentPlace place{ start, end, cellFace, this->Ray };
+  this->Pending = this->Pending |
+    this->Integral.Begin(segment, from, to, (end - start) * this->LengthPerDepth, place);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
   this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
-  this->FaceScalar = Simd::Select(lanes, scalar, this->FaceScalar);
+  Mask known = lanes;
+  if (this->Job.CellScalars)
+  {
+    // Of the last cell that counted.
+    known = SegmentsOf<Simd>(segment, from, to, end - start) |
+      Simd::AndNot(lanes, depth > this->StartDepth);
+    scalar = cellScalar;
+  }
+  this->FaceScalar = Simd::Select(known, scalar, this->FaceScalar);
 }
 
 //------------------------------------------------------------------------------
@@ -612,6 +636,12 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
   Float depth = this->A.Depth;
   Float scalar = this->A.Scalar;
   this->Interpolate(depth, scalar);
+  if (this->Job.CellScalars)
+  {
+    const Int zero = Simd::Splat(0);
+    scalar = Simd::GatherCellScalars(
+      this->Job.CellScalars, Simd::Select(this->CellFace < zero, zero, this->CellFace));
+  }
   this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
   this->FaceScalar = Simd::Select(lanes, scalar, this->FaceScalar);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
@@ -624,6 +654,10 @@ void CastPacketsWith(const PacketJob& job)
   if (job.Blending == PacketBlending::Composite)
   {
     PacketWalk<Simd, PacketIntegral<Simd>>(job).Run();
+  }
+  else if (job.Blending == PacketBlending::Isosurfaces)
+  {
+    PacketWalk<Simd, PacketIsosurfaces<Simd>>(job).Run();
   }
   else
   {

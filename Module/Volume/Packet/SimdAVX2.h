@@ -83,6 +83,11 @@ struct SimdAVX2
   }
   static Int One(Mask mask) { return { _mm256_srli_epi32(_mm256_castps_si256(mask.Bits), 31) }; }
   static Mask AndNot(Mask a, Mask b) { return { _mm256_andnot_ps(b.Bits, a.Bits) }; }
+  static Mask Not(Mask a)
+  {
+    const __m256i all = _mm256_set1_epi32(-1);
+    return { _mm256_xor_ps(a.Bits, _mm256_castsi256_ps(all)) };
+  }
   static unsigned int Bits(Mask mask)
   {
     return static_cast<unsigned int>(_mm256_movemask_ps(mask.Bits));

@@ -72,6 +72,7 @@ struct SimdAVX512
   }
   static Int One(Mask mask) { return { _mm512_maskz_set1_epi32(mask.Lanes, 1) }; }
   static Mask AndNot(Mask a, Mask b) { return { _mm512_kandn(b.Lanes, a.Lanes) }; }
+  static Mask Not(Mask a) { return { _mm512_knot(a.Lanes) }; }
   static unsigned int Bits(Mask mask) { return mask.Lanes; }
   static Mask FromBits(unsigned int bits) { return { static_cast<__mmask16>(bits) }; }
 

@@ -149,6 +149,10 @@ struct SimdPortable
   {
     return EachLane<bool>([](bool x, bool y) { return x && !y; }, a, b);
   }
+  static Mask Not(const Mask& a)
+  {
+    return EachLane<bool>([](bool x) { return !x; }, a);
+  }
   /** Bit i is lane i. */
   static unsigned int Bits(const Mask& mask)
   {
