@@ -12,15 +12,16 @@
 #include "VolumePropertyTables.h"
 
 #include "vtkCamera.h"
-#include "vtkDataArray.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSet.h"
 #include "vtkHardwareSelector.h"
+#include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
-#include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
@@ -76,6 +77,8 @@ public:
   /** Seconds that the last frame would have taken with a ray per pixel; 0 before it. */
   double FullImageTime = 0.0;
 
+  /** What was last said of data sets that are left out. */
+  std::string ToldOfParts;
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedNative = false;
@@ -239,75 +242,86 @@ vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
 vtkTetrahedraRayCastMapper::~vtkTetrahedraRayCastMapper() = default;
 
 //------------------------------------------------------------------------------
-vtkUnstructuredGrid* vtkTetrahedraRayCastMapper::ValidateInput()
+int vtkTetrahedraRayCastMapper::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  for (const char* type : { "vtkDataSet", "vtkCompositeDataSet" })
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::SetInputData(vtkDataSet* input)
+{
+  this->SetInputDataInternal(0, input);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::SetInputData(vtkCompositeDataSet* input)
+{
+  this->SetInputDataInternal(0, input);
+}
+
+//------------------------------------------------------------------------------
+double* vtkTetrahedraRayCastMapper::GetBounds()
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput());
+  if (!composite)
+  {
+    return this->Superclass::GetBounds();
+  }
+  this->GetInputAlgorithm()->Update();
+  composite = vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput());
+  composite->GetBounds(this->Bounds);
+  return this->Bounds;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::Tell(const meniscus::InputReport& report)
+{
+  if (!report.Error.empty())
+  {
+    vtkErrorMacro(<< report.Error << "; nothing is rendered.");
+  }
+  if (!report.Warning.empty())
+  {
+    vtkWarningMacro(<< report.Warning);
+  }
+  return report.Error.empty();
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::CollectInput(meniscus::InputParts& parts)
 {
   if (this->GetNumberOfInputConnections(0) > 0)
   {
     this->GetInputAlgorithm()->Update();
   }
-  vtkUnstructuredGridBase* input = this->GetInput();
-  if (!input)
-  {
-    vtkErrorMacro("No input; nothing is rendered.");
-    return nullptr;
-  }
-  vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(input);
-  if (!grid)
-  {
-    vtkErrorMacro("The input is a " << input->GetClassName()
-                                    << ", not a vtkUnstructuredGrid; nothing is rendered.");
-  }
-  return grid;
+  meniscus::InputReport report =
+    meniscus::CollectInputParts(this->GetDataObjectInput(), this->SelectedScalars(), parts);
+  // The same parts are left out again in every frame.
+  const bool told = report.Warning == this->Internals->ToldOfParts;
+  this->Internals->ToldOfParts = report.Warning;
+  report.Warning = told ? std::string() : report.Warning;
+  return this->Tell(report);
 }
 
 //------------------------------------------------------------------------------
-vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* grid, bool& ofCells)
+meniscus::ScalarSelection vtkTetrahedraRayCastMapper::SelectedScalars()
 {
-  constexpr int CellData = 1;
-  constexpr int FieldData = 2;
-  int place = 0;
-  vtkDataArray* scalars = vtkAbstractMapper::GetScalars(
-    grid, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, place);
-  ofCells = place == CellData;
-  if (!scalars)
+  meniscus::ScalarSelection selection;
+  selection.ScalarMode = this->ScalarMode;
+  selection.AccessMode = this->ArrayAccessMode;
+  selection.ArrayId = this->ArrayId;
+  selection.ArrayName = this->ArrayName;
+  if (this->VectorMode != DISABLED)
   {
-    const bool byName = this->ArrayAccessMode == VTK_GET_ARRAY_BY_NAME && this->ArrayName;
-    vtkErrorMacro("The input has no scalar array"
-      << (byName ? std::string(" named '") + this->ArrayName + "'" : std::string())
-      << "; nothing is rendered.");
-    return nullptr;
+    selection.Component =
+      this->VectorMode == MAGNITUDE ? meniscus::ScalarSelection::Magnitude : this->VectorComponent;
   }
-  const std::string name = scalars->GetName() ? scalars->GetName() : "without a name";
-  if (place == FieldData)
-  {
-    vtkErrorMacro("The array '" << name
-                                << "' is field data; point or cell data is needed. Nothing is "
-                                   "rendered.");
-    return nullptr;
-  }
-  const int components = scalars->GetNumberOfComponents();
-  if (this->VectorMode == DISABLED && components != 1)
-  {
-    vtkErrorMacro(
-      "The array '" << name << "' has " << components
-                    << " components; 1 is needed, or a VectorMode. Nothing is rendered.");
-    return nullptr;
-  }
-  if (this->VectorMode == COMPONENT && this->VectorComponent >= components)
-  {
-    vtkErrorMacro("The array '" << name << "' has " << components << " components, none of number "
-                                << this->VectorComponent << ". Nothing is rendered.");
-    return nullptr;
-  }
-  const vtkIdType size = ofCells ? grid->GetNumberOfCells() : grid->GetNumberOfPoints();
-  if (scalars->GetNumberOfTuples() != size)
-  {
-    vtkErrorMacro("The array '" << name << "' has " << scalars->GetNumberOfTuples()
-                                << " values for " << size << (ofCells ? " cells" : " points")
-                                << "; nothing is rendered.");
-    return nullptr;
-  }
-  return scalars;
+  return selection;
 }
 
 //------------------------------------------------------------------------------
@@ -332,33 +346,17 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateInput(
-  vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars, bool ofCells)
+  vtkRenderWindow* window, const meniscus::InputParts& parts)
 {
   meniscus::VolumeInput& input = this->Internals->Input;
-  const auto tell = [this](const meniscus::InputReport& report)
-  {
-    if (!report.Error.empty())
-    {
-      vtkErrorMacro(<< report.Error << " Nothing is rendered.");
-    }
-    if (!report.Warning.empty())
-    {
-      vtkWarningMacro(<< report.Warning);
-    }
-    return report.Error.empty();
-  };
-  const int component = this->VectorMode == MAGNITUDE
-    ? meniscus::VolumeInput::Magnitude
-    : (this->VectorMode == COMPONENT ? this->VectorComponent : 0);
   this->SetAbortExecute(0);
   const auto goOn = [this, window](double fraction)
   {
     this->UpdateProgress(fraction);
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
-  const auto place = ofCells ? meniscus::ScalarPlace::Cells : meniscus::ScalarPlace::Points;
-  return tell(input.UpdateMesh(grid, place, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
-    tell(input.UpdateScalars(scalars, place, component));
+  return this->Tell(input.UpdateMesh(parts, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
+    this->Tell(input.UpdateScalars(parts, this->SelectedScalars().Component));
 }
 
 //------------------------------------------------------------------------------
@@ -498,14 +496,9 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
-  vtkUnstructuredGrid* grid = this->ValidateInput();
-  if (!grid || grid->GetNumberOfCells() == 0)
-  {
-    return;
-  }
-  bool ofCells = false;
-  vtkDataArray* scalars = this->ValidateScalars(grid, ofCells);
-  if (!scalars || !this->UpdateInput(renderer->GetRenderWindow(), grid, scalars, ofCells))
+  meniscus::InputParts parts;
+  if (!this->CollectInput(parts) || parts.Parts.empty() ||
+    !this->UpdateInput(renderer->GetRenderWindow(), parts))
   {
     return;
   }

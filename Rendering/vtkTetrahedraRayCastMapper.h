@@ -7,7 +7,9 @@
  * Casts one ray per pixel through the mesh, from cell to cell across shared faces, and integrates
  * the density-emitter model in closed form. The image does not depend on a sampling distance.
  *
- * Input: a vtkUnstructuredGrid with a point or cell array, chosen by the scalar mode and array
+ * Input: a vtkUnstructuredGrid, structured, rectilinear or image grid, or a composite data set of
+ * such (whose leaves make one mesh, so that they may interlock; leaves without the array are left
+ * out with a warning) with a point or cell array, chosen by the scalar mode and array
  * selection of vtkAbstractVolumeMapper, of one component or as SetVectorMode() says. Point data is
  * linear within each tetrahedron, cell data constant within each cell. Tetrahedra are drawn as
  * they are; voxels, hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells as
@@ -84,13 +86,16 @@
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
-class vtkDataArray;
+class vtkCompositeDataSet;
+class vtkDataSet;
 class vtkRenderWindow;
-class vtkUnstructuredGrid;
 
 namespace meniscus
 {
+struct InputParts;
+struct InputReport;
 struct RayCastFrame;
+struct ScalarSelection;
 }
 
 class VTKMENISCUS_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
@@ -99,6 +104,22 @@ public:
   static vtkTetrahedraRayCastMapper* New();
   vtkTypeMacro(vtkTetrahedraRayCastMapper, vtkUnstructuredGridVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Sets what is drawn, without a pipeline: a data set with cells that have volume, or a composite
+   * one of such, all of whose leaves are drawn as one mesh.
+   */
+  using vtkUnstructuredGridVolumeMapper::SetInputData;
+  void SetInputData(vtkDataSet* input) override;
+  void SetInputData(vtkCompositeDataSet* input);
+  ///@}
+
+  ///@{
+  /** Bounds of the input; of all leaves of a composite one. */
+  double* GetBounds() VTK_SIZEHINT(6) override;
+  void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
+  ///@}
 
   enum VectorModes
   {
@@ -285,16 +306,18 @@ protected:
   vtkTetrahedraRayCastMapper();
   ~vtkTetrahedraRayCastMapper() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
 private:
   vtkTetrahedraRayCastMapper(const vtkTetrahedraRayCastMapper&) = delete;
   void operator=(const vtkTetrahedraRayCastMapper&) = delete;
 
-  vtkUnstructuredGrid* ValidateInput();
-  vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid, bool& ofCells);
+  meniscus::ScalarSelection SelectedScalars();
+  bool CollectInput(meniscus::InputParts& parts);
+  bool Tell(const meniscus::InputReport& report);
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
-  bool UpdateInput(
-    vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars, bool ofCells);
+  bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
   int ChooseBackend(bool plainOptics);

@@ -33,6 +33,18 @@ glm::dvec3 PointAt(const TetrahedraView& input, std::size_t index)
   return { p[0], p[1], p[2] };
 }
 
+/** Sorts without branches, which no predictor would foresee. */
+void SortFour(std::array<std::int32_t, 4>& values)
+{
+  constexpr int Pairs[5][2] = { { 0, 1 }, { 2, 3 }, { 0, 2 }, { 1, 3 }, { 1, 2 } };
+  for (const auto& pair : Pairs)
+  {
+    const std::int32_t low = std::min(values[pair[0]], values[pair[1]]);
+    values[pair[1]] = std::max(values[pair[0]], values[pair[1]]);
+    values[pair[0]] = low;
+  }
+}
+
 bool IsFinite(const glm::dvec3& p)
 {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -315,8 +327,6 @@ void TetrahedralMesh::Builder::NumberVertices()
 //------------------------------------------------------------------------------
 void TetrahedralMesh::Builder::NumberCells()
 {
-  const glm::dvec3 box(1.0); // positions are in units of the radius
-  const MortonCurve curve(-box, box);
   std::vector<MortonKey> keys(this->NumberOfCells);
   ForEachBlock(this->Input.NumberOfCells, this->Loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
@@ -329,14 +339,19 @@ void TetrahedralMesh::Builder::NumberCells()
         {
           continue;
         }
-        glm::dvec3 centroid(0.0);
+        // Within +-2^32, as positions are within +-2^30.
+        std::int64_t sum[3] = { 0, 0, 0 };
         for (std::int32_t& corner : corners)
         {
           corner = this->VertexOfPoint[corner];
-          centroid += 0.25 * this->Mesh.GetPosition(corner);
+          const glm::ivec3& position = this->Mesh.Positions[corner];
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            sum[axis] += position[axis];
+          }
         }
-        std::sort(corners.begin(), corners.end());
-        keys[next++] = MakeMortonKey(curve.Code(centroid), c);
+        SortFour(corners);
+        keys[next++] = MakeMortonKey(MortonCode(sum, 33), c);
       }
     });
   SortByCode(keys, this->Loop);
