@@ -15,6 +15,21 @@ namespace
 // Facets that a thread takes at once: tens of microseconds of work.
 constexpr vtkIdType Grain = 512;
 
+const char* NameFault(MembraneStatus status)
+{
+  switch (status)
+  {
+    case MembraneStatus::TooLarge:
+      return "The membrane has more points or triangles than 32-bit indices can name";
+    case MembraneStatus::OneSided:
+      return "The membrane is one-sided, as a Moebius band is: no side is the eye's";
+    case MembraneStatus::Empty:
+    case MembraneStatus::Ready:
+      break;
+  }
+  return "The membrane has no usable triangle";
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -69,10 +84,7 @@ bool RefractionScene::ReportMembrane(MembraneStatus status, SceneMessages& messa
   std::ostringstream text;
   if (status != MembraneStatus::Ready)
   {
-    text << (status == MembraneStatus::TooLarge
-                ? "The membrane has more points or triangles than 32-bit indices can name"
-                : "The membrane has no usable triangle")
-         << " (" << report.Skipped() << " of " << triangles
+    text << NameFault(status) << " (" << report.Skipped() << " of " << triangles
          << " triangles skipped); the output is empty.";
     messages.error = text.str();
     return false;
@@ -93,6 +105,16 @@ bool RefractionScene::ReportMembrane(MembraneStatus status, SceneMessages& messa
   {
     text << report.computedNormals << " of " << points
          << " membrane normals are zero or not finite; these are computed. ";
+  }
+  if (report.turnedFacets > 0)
+  {
+    text << report.turnedFacets << " of " << triangles
+         << " membrane triangles are wound the other way than their neighbours; turned. ";
+  }
+  if (report.turnedNormals > 0)
+  {
+    text << report.turnedNormals << " of " << points
+         << " membrane normals point to the other side than their neighbours'; turned. ";
   }
   messages.warning = text.str();
   return true;

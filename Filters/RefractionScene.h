@@ -45,6 +45,8 @@ public:
   /// Takes an eye for the membrane. False, with an error, if it cannot be used.
   bool SetEye(const Eye& eye, SceneMessages& messages);
 
+  const Eye& GetEye() const { return this->Key.values; }
+
   /// One image of each point (x, y, z each) in [from, to).
   void Solve(const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const;
 
