@@ -33,7 +33,7 @@ const char* NameFault(MembraneStatus status)
 }
 
 //------------------------------------------------------------------------------
-void ThreadedLoop(std::size_t count, const RangeBody& body)
+void FacetLoop(std::size_t count, const RangeBody& body)
 {
   vtkSMPTools::For(0, static_cast<vtkIdType>(count), Grain,
     [&body](vtkIdType begin, vtkIdType end)
@@ -72,7 +72,7 @@ MembraneStatus RefractionScene::BuildMembrane(bool curved)
     this->Curves = curved;
   }
   const MembraneInput input = this->Arrays.AsInput();
-  return curved ? this->Curved.SetMembrane(input, ThreadedLoop) : this->Flat.SetMembrane(input);
+  return curved ? this->Curved.SetMembrane(input, FacetLoop) : this->Flat.SetMembrane(input);
 }
 
 //------------------------------------------------------------------------------
@@ -130,8 +130,8 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
   this->Key = EyeKey(); // stale until the update succeeds
   const glm::dvec3 position(eye[0], eye[1], eye[2]);
   const EyeStatus status = this->Curves
-    ? this->Curved.SetEye(position, eye[3], eye[4], ThreadedLoop)
-    : this->Flat.SetEye(position, eye[3], eye[4], ThreadedLoop);
+    ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop)
+    : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
   std::ostringstream text;
   switch (status)
   {

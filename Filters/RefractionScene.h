@@ -20,7 +20,7 @@ namespace meniscus
 {
 
 /// Independent work on the threads of vtkSMPTools, for the kernel.
-void ThreadedLoop(std::size_t count, const RangeBody& body);
+void FacetLoop(std::size_t count, const RangeBody& body);
 
 /// What the owner of a scene has to report; empty if there is nothing.
 struct SceneMessages
