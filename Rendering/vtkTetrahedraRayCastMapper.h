@@ -80,8 +80,9 @@
  * is done where its input changes: see the counters.
  *
  * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
- * composite blending of point data only; the native backend has plain composite blending of one
- * component of point data only; fewer than 2^29 cells, and tables within
+ * composite blending of point data only; the native backend has no gradient opacity, no shading but
+ * of isosurfaces, no several components and no pre-integration; fewer than 2^29 cells, and tables
+ * within
  * GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
