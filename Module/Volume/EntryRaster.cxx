@@ -139,8 +139,8 @@ EntryRaster::PixelBox EntryRaster::BoxOf(const SeenFace& face) const
   const SeenVertex& first = face.Vertices[0];
   for (int k = 0; k < 3; ++k)
   {
-    // The pixel whose ray passes through the vertex: u = v = 0. How u and v change with the column is
-    // 0 in the plane of the eye and the other way behind it.
+    // The pixel whose ray passes through the vertex: u = v = 0. How u and v change with the column
+    // is 0 in the plane of the eye and the other way behind it.
     const SeenVertex& vertex = face.Vertices[k];
     const double side = vertex.U[1] * vertex.V[2] - vertex.U[2] * vertex.V[1];
     const bool together = vertex.U[1] * first.U[1] + vertex.V[1] * first.V[1] > 0.0;
