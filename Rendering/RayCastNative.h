@@ -34,6 +34,11 @@ public:
     TileCaster::Scene scene, const std::vector<float>& opaqueDepth, std::vector<float>& image);
 
   InstructionSet GetInstructionSet() const { return this->Set; }
+  /** Bytes of the tables. */
+  std::int64_t GetBytes() const
+  {
+    return BytesOf(this->Tables.Vertices) + BytesOf(this->Tables.Intervals);
+  }
   /** Bytes of tables made, ever. */
   std::int64_t GetTableBytes() const { return this->TableBytes; }
 
