@@ -43,7 +43,8 @@ public:
   /** Bytes of the tables. */
   std::int64_t GetBytes() const
   {
-    return BytesOf(this->Tables.Vertices) + BytesOf(this->Tables.Intervals);
+    return BytesOf(this->Tables.Vertices) + BytesOf(this->Tables.Intervals) +
+      BytesOf(this->Tables.Surfaces);
   }
   /** Bytes of tables made, ever. */
   std::int64_t GetTableBytes() const { return this->TableBytes; }

@@ -241,7 +241,8 @@ vtkStandardNewMacro(vtkTetrahedraRayCastMapper);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
-  : Internals(new vtkInternals)
+  : MaximumTableSize(VTK_TYPE_INT64_MAX)
+  , Internals(new vtkInternals)
 {
 }
 

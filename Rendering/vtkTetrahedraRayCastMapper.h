@@ -369,7 +369,7 @@ private:
   float MaximumImageSampleDistance = 8.0f;
   vtkTypeBool AutoAdjustSampleDistances = 1;
   vtkTypeBool CompactTables = 0;
-  vtkTypeInt64 MaximumTableSize = VTK_TYPE_INT64_MAX;
+  vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator stumbles over its default here
   double UsedImageSampleDistance = 1.0;
 
   class vtkInternals;
