@@ -63,7 +63,9 @@ public:
   vtkTypeInt64 SkippedCells = 0;
   vtkTypeInt64 CulledVertices = 0;
   vtkTypeInt64 CulledCells = 0;
-  bool IsViewActive = false;
+  bool IsViewActive = false; ///< some facet is out of view
+  vtkMTimeType ViewTime = 0;
+  vtkTypeInt64 ViewEye = -1;
   vtkTypeInt64 FailedInRun = 0;
   vtkTypeInt64 WarnedOfNoImage = -1; ///< the number of the membrane
   bool WarnedOfModes = false;
@@ -153,9 +155,22 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
 void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFilter* self)
 {
   vtkCamera* camera = self->Camera;
-  // An eye at infinity has no view to speak of, a facet that is out of view must exist.
-  this->IsViewActive = self->ViewCulling && camera && !camera->GetParallelProjection() &&
-    this->Scene.SetView(meniscus::FindViewPlanes(camera, self->ViewAspectRatio));
+  if (!self->ViewCulling || !camera || camera->GetParallelProjection())
+  {
+    this->IsViewActive = false; // an eye at infinity has no view to speak of
+    this->ViewTime = 0;
+    return;
+  }
+  // The filter's time covers the camera's, which no block of composite data changes.
+  const vtkMTimeType time = self->GetMTime();
+  const vtkTypeInt64 eye = this->Scene.GetNumberOfEyeUpdates();
+  if (time != this->ViewTime || eye != this->ViewEye)
+  {
+    this->IsViewActive =
+      this->Scene.SetView(meniscus::FindViewPlanes(camera, self->ViewAspectRatio));
+    this->ViewTime = time;
+    this->ViewEye = eye;
+  }
 }
 
 //------------------------------------------------------------------------------
