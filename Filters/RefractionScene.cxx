@@ -2,9 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractionScene.h"
 
+#include "Refraction/PatchTube.h"
+
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace meniscus
@@ -15,10 +22,25 @@ namespace
 // Facets that a thread takes at once: tens of microseconds of work.
 constexpr vtkIdType Grain = 512;
 
+const char* NameFault(MembraneStatus status)
+{
+  switch (status)
+  {
+    case MembraneStatus::TooLarge:
+      return "The membrane has more points or triangles than 32-bit indices can name";
+    case MembraneStatus::OneSided:
+      return "The membrane is one-sided, as a Moebius band is: no side is the eye's";
+    case MembraneStatus::Empty:
+    case MembraneStatus::Ready:
+      break;
+  }
+  return "The membrane has no usable triangle";
+}
+
 }
 
 //------------------------------------------------------------------------------
-void ThreadedLoop(std::size_t count, const RangeBody& body)
+void FacetLoop(std::size_t count, const RangeBody& body)
 {
   vtkSMPTools::For(0, static_cast<vtkIdType>(count), Grain,
     [&body](vtkIdType begin, vtkIdType end)
@@ -57,7 +79,7 @@ MembraneStatus RefractionScene::BuildMembrane(bool curved)
     this->Curves = curved;
   }
   const MembraneInput input = this->Arrays.AsInput();
-  return curved ? this->Curved.SetMembrane(input, ThreadedLoop) : this->Flat.SetMembrane(input);
+  return curved ? this->Curved.SetMembrane(input, FacetLoop) : this->Flat.SetMembrane(input);
 }
 
 //------------------------------------------------------------------------------
@@ -69,10 +91,7 @@ bool RefractionScene::ReportMembrane(MembraneStatus status, SceneMessages& messa
   std::ostringstream text;
   if (status != MembraneStatus::Ready)
   {
-    text << (status == MembraneStatus::TooLarge
-                ? "The membrane has more points or triangles than 32-bit indices can name"
-                : "The membrane has no usable triangle")
-         << " (" << report.Skipped() << " of " << triangles
+    text << NameFault(status) << " (" << report.Skipped() << " of " << triangles
          << " triangles skipped); the output is empty.";
     messages.error = text.str();
     return false;
@@ -94,6 +113,16 @@ bool RefractionScene::ReportMembrane(MembraneStatus status, SceneMessages& messa
     text << report.computedNormals << " of " << points
          << " membrane normals are zero or not finite; these are computed. ";
   }
+  if (report.turnedFacets > 0)
+  {
+    text << report.turnedFacets << " of " << triangles
+         << " membrane triangles are wound the other way than their neighbours; turned. ";
+  }
+  if (report.turnedNormals > 0)
+  {
+    text << report.turnedNormals << " of " << points
+         << " membrane normals point to the other side than their neighbours'; turned. ";
+  }
   messages.warning = text.str();
   return true;
 }
@@ -107,9 +136,8 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
   }
   this->Key = EyeKey(); // stale until the update succeeds
   const glm::dvec3 position(eye[0], eye[1], eye[2]);
-  const EyeStatus status = this->Curves
-    ? this->Curved.SetEye(position, eye[3], eye[4], ThreadedLoop)
-    : this->Flat.SetEye(position, eye[3], eye[4], ThreadedLoop);
+  const EyeStatus status = this->Curves ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop)
+                                        : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
   std::ostringstream text;
   switch (status)
   {
@@ -132,6 +160,56 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
   }
   messages.error = text.str();
   return false;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
+{
+  const Membrane& membrane = this->GetMembrane();
+  const auto& facets = membrane.GetFacets();
+  // Of a sum of three products of coordinates, and of planes that come through two matrices.
+  constexpr double rounding = 1e-12;
+  std::vector<bool> inView(facets.size(), true);
+  bool any = false;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    const double bulge = this->Curves
+      ? BoundBulge(this->Curved.GetPatches().GetPatch(static_cast<std::int32_t>(i)))
+      : 0.0;
+    for (const ViewPlane& plane : planes)
+    {
+      double most = std::numeric_limits<double>::lowest();
+      double reach = std::fabs(plane.offset);
+      for (const std::int32_t vertex : facets[i])
+      {
+        const glm::dvec3 point =
+          membrane.GetPositions()[static_cast<std::size_t>(vertex)] + membrane.GetOrigin();
+        most = std::max(most, glm::dot(plane.normal, point) + plane.offset);
+        reach = std::max(reach, glm::length(point));
+      }
+      // Not a number: nothing is known, so it is in view.
+      inView[i] = inView[i] && !(most < -bulge - rounding * reach);
+    }
+    any = any || !inView[i];
+  }
+  if (inView != this->FacetsInView)
+  {
+    this->FacetsInView = std::move(inView);
+    ++this->ViewChange;
+  }
+  return any;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::MayBeInView(const glm::dvec3& low, const glm::dvec3& high) const
+{
+  if (this->Curves)
+  {
+    return this->Curved.MayShow(low, high, this->FacetsInView);
+  }
+  const glm::dvec3 half = 0.5 * high - 0.5 * low;
+  return this->Flat.MayShow(
+    0.5 * low + 0.5 * high, std::max({ half.x, half.y, half.z }), this->FacetsInView);
 }
 
 //------------------------------------------------------------------------------
