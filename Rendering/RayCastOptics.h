@@ -34,6 +34,8 @@ struct RayCastOptics
   int NumberOfFunctions = 1;
   /** Composite blending by a table of segments; neither shading nor gradient opacity. */
   bool PreIntegrated = false;
+  /** How the table of cells is laid out: see RayCastOpenGL::UploadCells(). */
+  bool CompactCells = false;
   bool Shading = false;
   bool GradientOpacity = false;
   /** Gradients interpolated between vertices, not those of the cells; only with one of the above.

@@ -116,6 +116,7 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("SHADING", optics.Shading ? 1 : 0);
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
   define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);
+  define("COMPACT_CELLS", optics.CompactCells ? 1 : 0);
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
   define("VERTEX_VALUES", optics.VertexGradients || optics.HasComponents() ? 1 : 0);

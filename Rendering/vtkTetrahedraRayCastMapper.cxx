@@ -92,6 +92,7 @@ public:
   bool WarnedNative = false;
   bool WarnedComponents = false;
   bool WarnedCompute = false;
+  bool WarnedTableSize = false;
 
   void UpdateGradients();
   std::string Upload(const meniscus::RayCastOptics& optics);
@@ -108,10 +109,16 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(const meniscus::Ray
   meniscus::VolumeInput& input = this->Input;
   std::string error;
   const bool linksStale = this->UploadedLinks != input.GetLinkChanges();
-  if (linksStale || !this->OpenGL.HasCells() || !this->OpenGL.HasBoundary())
+  if (linksStale || !this->OpenGL.HasCells(optics.CompactCells))
   {
-    error = this->OpenGL.UploadCells(input.GetMesh());
-    error = error.empty() ? this->OpenGL.UploadBoundary(input.GetBoundaryTree()) : error;
+    error = this->OpenGL.UploadCells(input.GetMesh(), optics.CompactCells);
+  }
+  if (error.empty() && (linksStale || !this->OpenGL.HasBoundary()))
+  {
+    error = this->OpenGL.UploadBoundary(input.GetBoundaryTree());
+  }
+  if (linksStale || !error.empty())
+  {
     this->UploadedLinks = error.empty() ? input.GetLinkChanges() : 0;
   }
   const bool ofCells = input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
@@ -256,7 +263,8 @@ vtkStandardNewMacro(vtkTetrahedraRayCastMapper);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
-  : Internals(new vtkInternals)
+  : MaximumTableSize(VTK_TYPE_INT64_MAX)
+  , Internals(new vtkInternals)
 {
 }
 
@@ -494,6 +502,22 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
 }
 
 //------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::FallsBackToNative(bool plainOptics, std::string& error)
+{
+  vtkInternals& internals = *this->Internals;
+  error = internals.OpenGL.DescribeExcess(
+    internals.Input.GetMesh(), this->CompactTables != 0, this->MaximumTableSize);
+  if (error.empty() || !plainOptics)
+  {
+    return false;
+  }
+  this->WarnOnce(
+    true, internals.WarnedTableSize, ("Rendering with the native backend: " + error + ".").c_str());
+  error.clear();
+  return true;
+}
+
+//------------------------------------------------------------------------------
 double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
 {
   if (!this->AutoAdjustSampleDistances)
@@ -544,6 +568,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   frame.Optics.Components = internals.Mixture;
   frame.Optics.NumberOfFunctions =
     1 + static_cast<int>(internals.Property.GetOtherIntervals().size());
+  frame.Optics.CompactCells = this->CompactTables != 0;
   frame.Optics.CellScalars = internals.Input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
   this->WarnOnce(internals.Mixture == meniscus::ComponentMixture::Independent &&
@@ -587,6 +612,13 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   if (error.empty())
   {
     backend = this->ChooseBackend(frame.Optics.IsPlain());
+    if (backend != NATIVE && this->FallsBackToNative(frame.Optics.IsPlain(), error))
+    {
+      backend = NATIVE;
+    }
+  }
+  if (error.empty())
+  {
     frame.Compute = backend == COMPUTE;
     error = backend == NATIVE ? internals.DrawNative(frame) : internals.DrawOpenGL(frame);
   }
@@ -679,6 +711,21 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
+{
+  const vtkInternals& internals = *this->Internals;
+  const std::size_t gradients = internals.Gradients.size() * sizeof(glm::vec3);
+  return internals.Input.GetBytes() + internals.Native.GetBytes() +
+    static_cast<vtkTypeInt64>(gradients);
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetDeviceBytes()
+{
+  return this->Internals->OpenGL.GetTableBytes();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveCells()
 {
   return this->Internals->Input.GetMesh().GetNumberOfActiveCells();
@@ -741,6 +788,10 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
+  os << indent << "CompactTables: " << this->CompactTables << "\n";
+  os << indent << "MaximumTableSize: " << this->MaximumTableSize << "\n";
+  os << indent << "HostBytes: " << this->GetHostBytes() << "\n";
+  os << indent << "DeviceBytes: " << this->GetDeviceBytes() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
   os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
   os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";
