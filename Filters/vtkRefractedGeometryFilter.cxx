@@ -3,9 +3,7 @@
 #include "vtkRefractedGeometryFilter.h"
 
 #include "ImagePolyData.h"
-#include "MembraneExtraction.h"
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/VirtualGeometry.h"
+#include "RefractionScene.h"
 #include "VirtualPolyData.h"
 
 #include "vtkCamera.h"
@@ -39,13 +37,6 @@ static_assert(
   Grain % meniscus::CurvedGeometry::Chain == 0 && Grain % meniscus::ObjectImages::Chunk == 0,
   "Ranges are made of whole chains and chunks");
 
-void ThreadedLoop(std::size_t count, const meniscus::RangeBody& body)
-{
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), Grain,
-    [&body](vtkIdType begin, vtkIdType end)
-    { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
-}
-
 /// The virtual vertices of one block of geometry, and what they were computed from.
 struct SolvedBlock
 {
@@ -63,18 +54,6 @@ struct SolvedBlock
   meniscus::ObjectTopology topology;
   std::unique_ptr<meniscus::ObjectImages> images;
   meniscus::AllImages cells;
-};
-
-/// Values that the refraction rays depend on, beside the membrane.
-struct EyeKey
-{
-  std::array<double, 5> values{}; ///< position, exterior and interior index
-  vtkTypeInt64 membraneBuild = -1;
-
-  bool operator==(const EyeKey& other) const
-  {
-    return this->values == other.values && this->membraneBuild == other.membraneBuild;
-  }
 };
 
 std::vector<double> CopyPoints(vtkPolyData* input)
@@ -105,33 +84,13 @@ public:
   bool Solve(vtkRefractedGeometryFilter* self, SolvedBlock& block);
   bool SolveAll(vtkRefractedGeometryFilter* self, vtkPolyData* input, SolvedBlock& block);
   bool SolveAllPoints(vtkRefractedGeometryFilter* self, SolvedBlock& block);
-  void SolveRange(SolvedBlock& block, std::size_t from, std::size_t to) const;
   bool Run(vtkRefractedGeometryFilter* self, double from, double to, vtkIdType count,
     vtkIdType grain, const meniscus::RangeBody& body);
   void Count(meniscus::ImageState state);
 
-  const meniscus::Membrane& GetMembrane() const
-  {
-    return this->IsCurved ? this->Curved.GetMembrane() : this->Flat.GetMembrane();
-  }
-  meniscus::MembraneStatus SetMembrane(bool curved);
-  meniscus::EyeStatus SetEye(const EyeKey& key);
-
-  /// Only the one that IsCurved names has the membrane.
-  meniscus::VirtualGeometry Flat;
-  meniscus::CurvedGeometry Curved;
-  bool IsCurved = false;
-
-  vtkWeakPointer<vtkPolyData> MembraneSource;
-  vtkMTimeType MembraneTime = 0;
-  meniscus::MembraneArrays MembraneArrays;
-  bool MembraneKnown = false;
-  bool MembraneReady = false;
-  EyeKey Eye;
+  meniscus::RefractionScene Scene;
   std::list<SolvedBlock> Blocks;
 
-  vtkTypeInt64 PatchBuilds = 0;
-  vtkTypeInt64 EyeUpdates = 0;
   vtkTypeInt64 SolvedVertices = 0;
   vtkTypeInt64 FailedSolves = 0;
   vtkTypeInt64 VerticesWithoutImage = 0;
@@ -208,7 +167,7 @@ void vtkRefractedGeometryFilter::vtkInternals::Count(meniscus::ImageState state)
 bool vtkRefractedGeometryFilter::vtkInternals::Solve(
   vtkRefractedGeometryFilter* self, SolvedBlock& block)
 {
-  if (block.eyeUpdate == this->EyeUpdates && !block.all)
+  if (block.eyeUpdate == this->Scene.GetNumberOfEyeUpdates() && !block.all)
   {
     return true;
   }
@@ -219,7 +178,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
   block.vertices.resize(static_cast<std::size_t>(count));
   if (!this->Run(self, 0.0, 1.0, count, Grain,
         [this, &block](std::size_t begin, std::size_t end)
-        { this->SolveRange(block, begin, end); }))
+        { this->Scene.Solve(block.points.data(), begin, end, block.vertices.data()); }))
   {
     return false;
   }
@@ -227,7 +186,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
   {
     this->Count(vertex.state);
   }
-  block.eyeUpdate = this->EyeUpdates;
+  block.eyeUpdate = this->Scene.GetNumberOfEyeUpdates();
   return true;
 }
 
@@ -243,7 +202,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
     block.topology = std::move(topology);
     block.topologyTime = input->GetMTime();
   }
-  const bool pointsReady = block.eyeUpdate == this->EyeUpdates && block.all;
+  const bool pointsReady = block.eyeUpdate == this->Scene.GetNumberOfEyeUpdates() && block.all;
   if (pointsReady && block.cellsReady && block.tolerance == tolerance)
   {
     return true;
@@ -267,21 +226,21 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   vtkRefractedGeometryFilter* self, SolvedBlock& block)
 {
   const std::size_t count = block.points.size() / 3;
-  const glm::dvec3& origin = this->Curved.GetMembrane().GetOrigin();
+  const glm::dvec3& origin = this->Scene.GetCurved().GetMembrane().GetOrigin();
   bool mayCross = false;
   for (std::size_t i = 0; i < count && !mayCross; ++i)
   {
     const double* p = block.points.data() + 3 * i;
-    mayCross = !this->Curved.IsBehindAll(glm::dvec3(p[0], p[1], p[2]) - origin);
+    mayCross = !this->Scene.GetCurved().IsBehindAll(glm::dvec3(p[0], p[1], p[2]) - origin);
   }
   if (mayCross)
   {
-    this->Curved.PrepareSides();
+    this->Scene.GetCurved().PrepareSides();
   }
   block.all = true;
   block.eyeUpdate = -1;
   block.vertices.clear();
-  block.images = std::make_unique<meniscus::ObjectImages>(this->Curved);
+  block.images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
   block.images->SetPoints(block.points.data(), count, mayCross);
   if (!this->Run(self, 0.0, 0.5, static_cast<vtkIdType>(count), Grain,
         [&block](std::size_t begin, std::size_t end) { block.images->SolvePoints(begin, end); }))
@@ -293,43 +252,8 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   {
     this->Count(block.images->GetState(i));
   }
-  block.eyeUpdate = this->EyeUpdates;
+  block.eyeUpdate = this->Scene.GetNumberOfEyeUpdates();
   return true;
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractedGeometryFilter::vtkInternals::SolveRange(
-  SolvedBlock& block, std::size_t from, std::size_t to) const
-{
-  if (this->IsCurved)
-  {
-    this->Curved.Solve(block.points.data(), from, to, block.vertices.data());
-  }
-  else
-  {
-    this->Flat.Solve(block.points.data(), from, to, block.vertices.data());
-  }
-}
-
-//------------------------------------------------------------------------------
-meniscus::MembraneStatus vtkRefractedGeometryFilter::vtkInternals::SetMembrane(bool curved)
-{
-  if (curved != this->IsCurved)
-  {
-    this->Flat = meniscus::VirtualGeometry();
-    this->Curved.Clear();
-    this->IsCurved = curved;
-  }
-  const meniscus::MembraneInput input = this->MembraneArrays.AsInput();
-  return curved ? this->Curved.SetMembrane(input, ThreadedLoop) : this->Flat.SetMembrane(input);
-}
-
-//------------------------------------------------------------------------------
-meniscus::EyeStatus vtkRefractedGeometryFilter::vtkInternals::SetEye(const EyeKey& key)
-{
-  const glm::dvec3 eye(key.values[0], key.values[1], key.values[2]);
-  return this->IsCurved ? this->Curved.SetEye(eye, key.values[3], key.values[4], ThreadedLoop)
-                        : this->Flat.SetEye(eye, key.values[3], key.values[4], ThreadedLoop);
 }
 
 vtkStandardNewMacro(vtkRefractedGeometryFilter);
@@ -376,13 +300,13 @@ vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfPatchBuilds() const
 {
-  return this->Internals->PatchBuilds;
+  return this->Internals->Scene.GetNumberOfPatchBuilds();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
 {
-  return this->Internals->EyeUpdates;
+  return this->Internals->Scene.GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -412,7 +336,7 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedCells() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
 {
-  return static_cast<vtkTypeInt64>(this->Internals->GetMembrane().GetReport().Skipped());
+  return static_cast<vtkTypeInt64>(this->Internals->Scene.GetMembrane().GetReport().Skipped());
 }
 
 //------------------------------------------------------------------------------
@@ -473,7 +397,7 @@ int vtkRefractedGeometryFilter::RequestData(
     return 1;
   }
 
-  const meniscus::Membrane& surface = this->Internals->GetMembrane();
+  const meniscus::Membrane& surface = this->Internals->Scene.GetMembrane();
   const meniscus::VirtualPolyDataReport report = all
     ? meniscus::BuildImagePolyData(input, block.topology, *block.images, block.cells, surface,
         this->OutputPointsPrecision, output)
@@ -516,100 +440,39 @@ void vtkRefractedGeometryFilter::WarnOfModes()
 //------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
 {
-  vtkInternals& internals = *this->Internals;
-  const bool curved = this->MembraneModel == CURVED;
-  const bool known =
-    internals.MembraneKnown && internals.MembraneReady && internals.IsCurved == curved;
-  if (known && internals.MembraneSource == membrane &&
-    internals.MembraneTime == membrane->GetMTime())
+  meniscus::SceneMessages messages;
+  const bool ready =
+    this->Internals->Scene.SetMembrane(membrane, this->MembraneModel == CURVED, messages);
+  if (!messages.error.empty())
   {
-    return true;
+    vtkErrorMacro(<< messages.error);
   }
-  meniscus::MembraneArrays arrays = meniscus::ExtractMembrane(membrane);
-  internals.MembraneSource = membrane;
-  internals.MembraneTime = membrane->GetMTime();
-  if (known && arrays == internals.MembraneArrays)
+  if (!messages.warning.empty())
   {
-    return true;
+    vtkWarningMacro(<< messages.warning);
   }
-  internals.MembraneArrays = std::move(arrays);
-  internals.MembraneKnown = true;
-  const meniscus::MembraneStatus status = internals.SetMembrane(curved);
-  internals.MembraneReady = status == meniscus::MembraneStatus::Ready;
-  ++internals.PatchBuilds;
-
-  const meniscus::MembraneReport& report = internals.GetMembrane().GetReport();
-  const std::size_t triangles = internals.MembraneArrays.triangles.size() / 3;
-  if (!internals.MembraneReady)
-  {
-    vtkErrorMacro(<< (status == meniscus::MembraneStatus::TooLarge
-                         ? "The membrane has more points or triangles than 32-bit indices can name"
-                         : "The membrane has no usable triangle")
-                  << " (" << report.Skipped() << " of " << triangles
-                  << " triangles skipped); the output is empty.");
-    return false;
-  }
-  if (report.Skipped() > 0)
-  {
-    vtkWarningMacro(<< report.Skipped() << " of " << triangles << " membrane triangles skipped: "
-                    << report.zeroArea << " without area, " << report.notFinite
-                    << " with coordinates that are not finite, " << report.outOfRange
-                    << " with points that do not exist, " << report.duplicated << " repeated.");
-  }
-  if (internals.MembraneArrays.normalsRejected)
-  {
-    vtkWarningMacro("The membrane's normals do not have 3 components for each of its "
-      << membrane->GetNumberOfPoints() << " points; normals are computed.");
-  }
-  else if (report.computedNormals > 0 && !internals.MembraneArrays.normals.empty())
-  {
-    vtkWarningMacro(<< report.computedNormals << " of " << membrane->GetNumberOfPoints()
-                    << " membrane normals are zero or not finite; these are computed.");
-  }
-  return true;
+  return ready;
 }
 
 //------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::UpdateEye()
 {
-  vtkInternals& internals = *this->Internals;
   double position[3];
   std::copy(this->EyePosition, this->EyePosition + 3, position);
   if (this->Camera)
   {
     this->Camera->GetPosition(position);
   }
-  EyeKey key;
-  key.values = { position[0], position[1], position[2], this->ExteriorIndexOfRefraction,
-    this->InteriorIndexOfRefraction };
-  key.membraneBuild = internals.PatchBuilds;
-  if (key == internals.Eye)
+  meniscus::SceneMessages messages;
+  const bool ready = this->Internals->Scene.SetEye(
+    { position[0], position[1], position[2], this->ExteriorIndexOfRefraction,
+      this->InteriorIndexOfRefraction },
+    messages);
+  if (!messages.error.empty())
   {
-    return true;
+    vtkErrorMacro(<< messages.error);
   }
-  internals.Eye = EyeKey(); // stale until the update succeeds
-  const meniscus::EyeStatus status = internals.SetEye(key);
-  switch (status)
-  {
-    case meniscus::EyeStatus::Ready:
-      internals.Eye = key;
-      ++internals.EyeUpdates;
-      return true;
-    case meniscus::EyeStatus::BadIndex:
-      vtkErrorMacro("Indices of refraction must be positive and finite, not "
-        << this->ExteriorIndexOfRefraction << " and " << this->InteriorIndexOfRefraction
-        << "; the output is empty.");
-      return false;
-    case meniscus::EyeStatus::NotFinite:
-      vtkErrorMacro("The eye (" << position[0] << ", " << position[1] << ", " << position[2]
-                                << ") is not finite; the output is empty.");
-      return false;
-    case meniscus::EyeStatus::OnTheMembrane:
-      vtkErrorMacro("The eye (" << position[0] << ", " << position[1] << ", " << position[2]
-                                << ") lies on the membrane; the output is empty.");
-      return false;
-  }
-  return false;
+  return ready;
 }
 
 //------------------------------------------------------------------------------

@@ -23,8 +23,6 @@ public:
 
   void UpdateVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
   void UpdateIntervals(const std::vector<TransferFunctionInterval>& intervals);
-  void InvalidateIntervals() { this->Tables.Intervals.clear(); }
-  bool HasIntervals() const { return !this->Tables.Intervals.empty(); }
 
   /**
    * Casts the rays of an image.

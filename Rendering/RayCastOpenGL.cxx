@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastOpenGL.h"
 
+#include "RayCastShader.h"
+
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
+#include "vtkTetrahedraRayCastCS.h"
 #include "vtkTetrahedraRayCastFS.h"
-#include "vtkTetrahedraRays.h"
+#include "vtkTetrahedraSelectFS.h"
 
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -96,12 +99,6 @@ bool RayCastOpenGL::HasVertices() const
 }
 
 //------------------------------------------------------------------------------
-bool RayCastOpenGL::HasIntervals() const
-{
-  return this->Intervals.IsFilled();
-}
-
-//------------------------------------------------------------------------------
 std::string RayCastOpenGL::Count(OpenGLTable& table, const std::string& error)
 {
   this->UploadedBytes += table.GetBytes();
@@ -170,19 +167,55 @@ std::string RayCastOpenGL::UploadVertices(
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadIntervals(const std::vector<TransferFunctionInterval>& intervals)
+std::string RayCastOpenGL::UploadGradients(const std::vector<glm::vec3>& gradients)
 {
   std::vector<float> values;
-  values.reserve(12 * intervals.size());
-  for (const auto& i : intervals)
+  values.reserve(4 * gradients.size());
+  for (const glm::vec3& g : gradients)
   {
-    values.insert(values.end(),
-      { i.Lower, i.Upper, i.Attenuation, i.AttenuationSlope, i.Color.r, i.Color.g, i.Color.b, 0.0f,
-        i.ColorSlope.r, i.ColorSlope.g, i.ColorSlope.b, 0.0f });
+    values.insert(values.end(), { g.x, g.y, g.z, 0.0f });
   }
   const std::string error =
-    this->Intervals.Upload(this->Window, values.data(), values.size(), 4, 3);
-  return this->Count(this->Intervals, error);
+    this->VertexGradients.Upload(this->Window, values.data(), values.size(), 4, 1);
+  return this->Count(this->VertexGradients, error);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadProperty(const VolumePropertyTables& tables)
+{
+  std::vector<float> values;
+  const auto append = [&values](const std::vector<TransferFunctionInterval>& intervals)
+  {
+    for (const auto& i : intervals)
+    {
+      values.insert(values.end(),
+        { i.Lower, i.Upper, i.Attenuation, i.AttenuationSlope, i.Color.r, i.Color.g, i.Color.b,
+          0.0f, i.ColorSlope.r, i.ColorSlope.g, i.ColorSlope.b, 0.0f });
+    }
+  };
+  append(tables.GetIntervals());
+  append(tables.GetGradientIntervals());
+  this->NumberOfScalarIntervals = static_cast<int>(tables.GetIntervals().size());
+  std::string error = this->Intervals.Upload(this->Window, values.data(), values.size(), 4, 3);
+  if (!this->Count(this->Intervals, error).empty())
+  {
+    return error;
+  }
+
+  this->Isosurfaces.Release(this->Window);
+  if (tables.GetIsosurfaces().empty())
+  {
+    return std::string();
+  }
+  values.clear();
+  for (const Isosurface& surface : tables.GetIsosurfaces())
+  {
+    const glm::vec3& color = surface.Color;
+    values.insert(values.end(),
+      { surface.Scalar, surface.Opacity, 0.0f, 0.0f, color.r, color.g, color.b, 0.0f });
+  }
+  error = this->Isosurfaces.Upload(this->Window, values.data(), values.size(), 4, 2);
+  return this->Count(this->Isosurfaces, error);
 }
 
 //------------------------------------------------------------------------------
@@ -193,7 +226,7 @@ void RayCastOpenGL::GetViewport(int viewport[4]) const
 
 //------------------------------------------------------------------------------
 template <typename Function>
-std::string RayCastOpenGL::DrawImage(Function&& makeImage)
+std::string RayCastOpenGL::DrawImage(const RayCastOutput& output, Function&& makeImage)
 {
   vtkOpenGLState* state = this->Window->GetState();
   vtkOpenGLState::ScopedglViewport viewportScope(state);
@@ -210,7 +243,7 @@ std::string RayCastOpenGL::DrawImage(Function&& makeImage)
   int viewport[4];
   this->GetViewport(viewport);
   this->Depth.Update(this->Window, viewport);
-  std::string error = this->Resize(viewport[2], viewport[3]);
+  std::string error = this->Resize(output.ImageSize[0], output.ImageSize[1]);
   if (!error.empty())
   {
     return error;
@@ -227,7 +260,7 @@ std::string RayCastOpenGL::DrawImage(Function&& makeImage)
     error = makeImage();
     state->PopFramebufferBindings();
   }
-  return error.empty() ? this->Blend(viewport) : error;
+  return error.empty() ? this->Blend(output, viewport) : error;
 }
 
 //------------------------------------------------------------------------------
@@ -248,21 +281,25 @@ bool RayCastOpenGL::IsSoftware() const
 //------------------------------------------------------------------------------
 std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
 {
-  return this->DrawImage(
+  return this->DrawImage(frame.Output,
     [this, &frame]()
     {
       const std::string error = this->ListEntries(frame);
-      return error.empty() ? this->CastRays(frame) : error;
+      if (!error.empty())
+      {
+        return error;
+      }
+      return frame.Compute ? this->DispatchRays(frame) : this->CastRays(frame);
     });
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::DrawImageOf(const ImageMaker& maker)
+std::string RayCastOpenGL::DrawImageOf(const ImageMaker& maker, const RayCastOutput& output)
 {
-  return this->DrawImage(
+  return this->DrawImage(output,
     [this, &maker]() -> std::string
     {
-      const std::vector<float> depths = this->Depth.Read(this->Window);
+      const std::vector<float> depths = this->ReadDepths();
       std::vector<float> image;
       this->Statistics = maker(this->Size[0], this->Size[1], depths, image);
       this->StatisticsStale = false;
@@ -270,6 +307,35 @@ std::string RayCastOpenGL::DrawImageOf(const ImageMaker& maker)
         this->Image->Create2DFromRaw(this->Size[0], this->Size[1], 4, VTK_FLOAT, image.data());
       return made ? std::string() : "the image could not be sent to the graphics device";
     });
+}
+
+//------------------------------------------------------------------------------
+std::vector<float> RayCastOpenGL::ReadDepths()
+{
+  const std::vector<float> all = this->Depth.Read(this->Window);
+  const int width = static_cast<int>(this->Depth.GetTexture()->GetWidth());
+  const int height = static_cast<int>(this->Depth.GetTexture()->GetHeight());
+  if (width == this->Size[0] && height == this->Size[1])
+  {
+    return all;
+  }
+  std::vector<float> depths;
+  depths.reserve(static_cast<std::size_t>(this->Size[0]) * this->Size[1]);
+  for (int y = 0; y < this->Size[1]; ++y)
+  {
+    const std::size_t row = static_cast<std::size_t>((y + 0.5) * height / this->Size[1]) * width;
+    for (int x = 0; x < this->Size[0]; ++x)
+    {
+      depths.push_back(all[row + static_cast<std::size_t>((x + 0.5) * width / this->Size[0])]);
+    }
+  }
+  return depths;
+}
+
+//------------------------------------------------------------------------------
+void RayCastOpenGL::Finish()
+{
+  glFinish();
 }
 
 //------------------------------------------------------------------------------
@@ -304,13 +370,13 @@ std::string RayCastOpenGL::Resize(int width, int height)
 }
 
 //------------------------------------------------------------------------------
+template <typename Function>
 std::string RayCastOpenGL::ReadyQuad(
-  std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragmentShader)
+  std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader)
 {
   if (!quad)
   {
-    std::string source(fragmentShader);
-    vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
+    const std::string source = makeFragmentShader();
     quad = std::make_unique<vtkOpenGLQuadHelper>(this->Window, nullptr, source.c_str(), "");
   }
   else
@@ -337,7 +403,8 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame)
   DrawToAttachments(this->TileTarget, TileLayers);
   this->Window->GetState()->vtkglViewport(0, 0, this->Tiles[0], this->Tiles[1]);
 
-  const std::string error = this->ReadyQuad(this->TileLister, vtkTetrahedraEntryTilesFS);
+  const std::string error = this->ReadyQuad(this->TileLister,
+    []() { return RayCastShaderSource(vtkTetrahedraEntryTilesFS, RayCastOptics()); });
   if (!error.empty())
   {
     return error;
@@ -365,28 +432,90 @@ std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
   DrawToAttachments(this->ImageTarget, 2);
   this->Window->GetState()->vtkglViewport(0, 0, this->Size[0], this->Size[1]);
 
-  const std::string error = this->ReadyQuad(this->RayCaster, vtkTetrahedraRayCastFS);
+  std::unique_ptr<vtkOpenGLQuadHelper>& caster =
+    this->RayCasters[RayCastShaderOptions(frame.Optics)];
+  const std::string error = this->ReadyQuad(
+    caster, [&frame]() { return RayCastShaderSource(vtkTetrahedraRayCastFS, frame.Optics); });
   if (!error.empty())
   {
     return error;
   }
-  vtkShaderProgram* program = this->RayCaster->Program;
+  this->RunCaster(caster->Program, frame, [&caster]() { caster->Render(); });
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::DispatchRays(const RayCastFrame& frame)
+{
+  constexpr int GroupSize = 8; // as in the shader
+  vtkSmartPointer<OpenGLComputeProgram>& caster =
+    this->ComputeCasters[RayCastShaderOptions(frame.Optics)];
+  if (!caster)
+  {
+    const auto program = vtkSmartPointer<OpenGLComputeProgram>::New();
+    if (!program->Build(RayCastShaderSource(vtkTetrahedraRayCastCS, frame.Optics)))
+    {
+      return "a compute shader does not compile on this graphics device";
+    }
+    caster = program;
+  }
+  caster->Use(this->Window);
+  glBindImageTexture(0, this->Image->GetHandle(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+  glBindImageTexture(
+    1, this->StatisticsImage->GetHandle(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
+  this->RunCaster(caster, frame,
+    [this, &caster]()
+    {
+      caster->Dispatch(
+        (this->Size[0] + GroupSize - 1) / GroupSize, (this->Size[1] + GroupSize - 1) / GroupSize);
+    });
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+template <typename Function>
+void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& frame, Function&& run)
+{
   this->ActivateRays(program, frame.Rays);
-  this->Cells.Activate(program, "cells");
-  this->Intervals.Activate(program, "intervals");
+  const std::vector<OpenGLTable*> tables = this->ActivateTables(program, frame.Optics);
   this->EntryTiles->Activate();
   program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
   this->Depth.GetTexture()->Activate();
   program->SetUniformi("opaqueDepth", this->Depth.GetTexture()->GetTextureUnit());
   this->SetCastUniforms(program, frame);
-  this->RayCaster->Render();
+  SetOpticsUniforms(program, frame.Optics);
+  run();
   this->Depth.GetTexture()->Deactivate();
   this->EntryTiles->Deactivate();
-  this->Intervals.Deactivate();
-  this->Cells.Deactivate();
+  for (OpenGLTable* table : tables)
+  {
+    table->Deactivate();
+  }
   this->DeactivateRays();
   this->StatisticsStale = true;
-  return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::vector<OpenGLTable*> RayCastOpenGL::ActivateTables(
+  vtkShaderProgram* program, const RayCastOptics& optics)
+{
+  std::vector<OpenGLTable*> active;
+  const auto activate = [&active, program](OpenGLTable& table, const char* name)
+  {
+    table.Activate(program, name);
+    active.push_back(&table);
+  };
+  activate(this->Cells, "cells");
+  activate(this->Intervals, "intervals");
+  if (optics.VertexGradients)
+  {
+    activate(this->VertexGradients, "vertexGradients");
+  }
+  if (this->Isosurfaces.IsFilled())
+  {
+    activate(this->Isosurfaces, "surfaces");
+  }
+  return active;
 }
 
 //------------------------------------------------------------------------------
@@ -428,7 +557,11 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
 {
   const RayFrame& rays = frame.Rays;
   program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
-  program->SetUniformi("numberOfIntervals", static_cast<int>(this->Intervals.GetNumberOfRows()));
+  const int intervals = static_cast<int>(this->Intervals.GetNumberOfRows());
+  program->SetUniformi("numberOfIntervals", this->NumberOfScalarIntervals);
+  program->SetUniformi("firstGradientInterval", this->NumberOfScalarIntervals);
+  program->SetUniformi("numberOfGradientIntervals", intervals - this->NumberOfScalarIntervals);
+  program->SetUniformi("numberOfSurfaces", static_cast<int>(this->Isosurfaces.GetNumberOfRows()));
   // Apart from its size, whose square may be beyond single precision.
   const glm::dmat3& toWorld = rays.ViewToWorld;
   const double unit =
@@ -444,20 +577,33 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::Blend(const int viewport[4])
+std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport[4])
 {
   vtkOpenGLState* state = this->Window->GetState();
   state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
-  state->vtkglEnable(GL_BLEND);
-  state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  const std::string error = this->ReadyQuad(this->Composer, vtkTetrahedraComposeFS);
+  std::unique_ptr<vtkOpenGLQuadHelper>& drawer = output.Selecting ? this->Selector : this->Composer;
+  const std::string error = this->ReadyQuad(drawer,
+    [&output]()
+    { return std::string(output.Selecting ? vtkTetrahedraSelectFS : vtkTetrahedraComposeFS); });
   if (!error.empty())
   {
     return error;
   }
+  if (output.Selecting)
+  {
+    state->vtkglDisable(GL_BLEND);
+    drawer->Program->SetUniform3f("selectionValue", glm::value_ptr(output.SelectionValue));
+  }
+  else
+  {
+    state->vtkglEnable(GL_BLEND);
+    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  }
+  const bool whole = this->Size[0] == viewport[2] && this->Size[1] == viewport[3];
+  this->Image->SetMagnificationFilter(whole ? vtkTextureObject::Nearest : vtkTextureObject::Linear);
   this->Image->Activate();
-  this->Composer->Program->SetUniformi("image", this->Image->GetTextureUnit());
-  this->Composer->Render();
+  drawer->Program->SetUniformi("image", this->Image->GetTextureUnit());
+  drawer->Render();
   this->Image->Deactivate();
   return std::string();
 }
@@ -515,15 +661,24 @@ void RayCastOpenGL::Release(vtkWindow* window)
     owner->PushContext();
   }
   this->GetStatistics();
-  for (OpenGLTable* table :
-    { &this->Vertices, &this->Cells, &this->TreeNodes, &this->TreeFaces, &this->Intervals })
+  for (OpenGLTable* table : { &this->Vertices, &this->Cells, &this->TreeNodes, &this->TreeFaces,
+         &this->VertexGradients, &this->Intervals, &this->Isosurfaces })
   {
     table->Release(owner);
   }
   this->Depth.Release(owner);
   this->TileLister.reset();
-  this->RayCaster.reset();
+  this->RayCasters.clear();
+  for (auto& caster : this->ComputeCasters)
+  {
+    if (caster.second && owner)
+    {
+      caster.second->Free();
+    }
+  }
+  this->ComputeCasters.clear();
   this->Composer.reset();
+  this->Selector.reset();
   this->TileTarget = nullptr;
   this->ImageTarget = nullptr;
   this->EntryTiles = nullptr;

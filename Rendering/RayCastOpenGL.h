@@ -9,13 +9,17 @@
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
+#include "OpenGLComputeProgram.h"
 #include "OpenGLDepthCopy.h"
 #include "OpenGLTable.h"
+#include "RayCastOptics.h"
+#include "VolumePropertyTables.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,18 +35,32 @@ class vtkWindow;
 namespace meniscus
 {
 
+/** How an image gets into the framebuffer. */
+struct RayCastOutput
+{
+  /** Rays of the image; fewer than the viewport's pixels are interpolated. */
+  int ImageSize[2] = { 0, 0 };
+  /** Hardware selection: a value where the image is visible, in place of its colour. */
+  bool Selecting = false;
+  glm::vec3 SelectionValue{ 0.0f };
+};
+
 /** What a frame needs beside the tables. */
 struct RayCastFrame
 {
   RayFrame Rays;
   double EarlyTerminationOpacity;
+  RayCastOptics Optics;
+  RayCastOutput Output;
+  /** By a compute shader, not a fragment shader. */
+  bool Compute = false;
 };
 
 /**
  * The ray caster on OpenGL 3.2: tables in texture buffers; a pass that lists the possible entries
- * of each tile of the image, one that casts the rays into a float image of the viewport's size, and
- * one that blends it into the framebuffer. All calls want the window's context to be current.
- * Errors are texts, empty if there is none.
+ * of each tile of the image, one that casts the rays into a float image of the viewport's size (a
+ * fragment or a compute shader of the same functions), and one that blends it into the framebuffer.
+ * All calls want the window's context to be current. Errors are texts, empty if there is none.
  */
 class RayCastOpenGL
 {
@@ -57,13 +75,19 @@ public:
   bool HasCells() const;
   bool HasBoundary() const;
   bool HasVertices() const;
-  bool HasIntervals() const;
+  bool HasGradients() const { return this->VertexGradients.IsFilled(); }
+  bool HasProperty() const { return this->Intervals.IsFilled(); }
 
   std::string UploadCells(const TetrahedralMesh& mesh);
   std::string UploadBoundary(const BoundaryTree& tree);
   /** @param scalars  one normalised scalar per vertex. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
-  std::string UploadIntervals(const std::vector<TransferFunctionInterval>& intervals);
+  /** One gradient per vertex. Needed for optics with VertexGradients. */
+  std::string UploadGradients(const std::vector<glm::vec3>& gradients);
+  std::string UploadProperty(const VolumePropertyTables& tables);
+
+  /** Whether the window's context has compute shaders (OpenGL 4.3). */
+  bool HasCompute() const { return OpenGLComputeProgram::IsSupported(); }
 
   /** Whether the window's OpenGL runs on the processor: Mesa's llvmpipe, softpipe or swr. */
   bool IsSoftware() const;
@@ -78,7 +102,10 @@ public:
   using ImageMaker = std::function<RayStatistics(
     int width, int height, const std::vector<float>& opaqueDepth, std::vector<float>& image)>;
   /** The same with rays cast elsewhere; needs no tables. */
-  std::string DrawImageOf(const ImageMaker& maker);
+  std::string DrawImageOf(const ImageMaker& maker, const RayCastOutput& output);
+
+  /** Waits until the device has drawn what it was told to. */
+  void Finish();
 
   /** Of the last frame; read back on the first call after it. */
   RayStatistics GetStatistics();
@@ -97,26 +124,39 @@ private:
   bool ReadStatistics();
   std::string Count(OpenGLTable& table, const std::string& error);
   template <typename Function>
-  std::string DrawImage(Function&& makeImage);
+  std::string DrawImage(const RayCastOutput& output, Function&& makeImage);
+  std::vector<float> ReadDepths();
   std::string Resize(int width, int height);
-  std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, const char* fragmentShader);
+  template <typename Function>
+  std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
   std::string ListEntries(const RayCastFrame& frame);
   std::string CastRays(const RayCastFrame& frame);
-  std::string Blend(const int viewport[4]);
+  std::string DispatchRays(const RayCastFrame& frame);
+  template <typename Function>
+  void RunCaster(vtkShaderProgram* program, const RayCastFrame& frame, Function&& run);
+  std::string Blend(const RayCastOutput& output, const int viewport[4]);
   void ActivateRays(vtkShaderProgram* program, const RayFrame& rays);
   void DeactivateRays();
   void SetCastUniforms(vtkShaderProgram* program, const RayCastFrame& frame);
+  std::vector<OpenGLTable*> ActivateTables(vtkShaderProgram* program, const RayCastOptics& optics);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   OpenGLTable Vertices;
   OpenGLTable Cells;
   OpenGLTable TreeNodes;
   OpenGLTable TreeFaces;
+  OpenGLTable VertexGradients;
+  /** Of the scalar, then of the gradient's magnitude. */
   OpenGLTable Intervals;
+  int NumberOfScalarIntervals = 0;
+  OpenGLTable Isosurfaces;
   OpenGLDepthCopy Depth;
   std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
-  std::unique_ptr<vtkOpenGLQuadHelper> RayCaster;
+  /** By RayCastShaderOptions(). */
+  std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
+  std::map<std::string, vtkSmartPointer<OpenGLComputeProgram>> ComputeCasters;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
+  std::unique_ptr<vtkOpenGLQuadHelper> Selector;
   vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;
   vtkSmartPointer<vtkOpenGLFramebufferObject> ImageTarget;
   vtkSmartPointer<vtkTextureObject> EntryTiles;

@@ -31,12 +31,18 @@ constexpr double SmallestJump = 1.0 / 1073741824.0;
 class PropertyCurve
 {
 public:
-  PropertyCurve(vtkVolumeProperty* property, bool perUnitDistance)
+  PropertyCurve(vtkVolumeProperty* property, OpacityMeaning meaning)
     : Opacity(property->GetScalarOpacity(0))
     , Gray(property->GetColorChannels(0) == 1 ? property->GetGrayTransferFunction(0) : nullptr)
     , Color(this->Gray ? nullptr : property->GetRGBTransferFunction(0))
     , Unit(property->GetScalarOpacityUnitDistance(0))
-    , PerUnitDistance(perUnitDistance)
+    , Meaning(meaning)
+  {
+  }
+
+  /** A function of opacity without colour. */
+  explicit PropertyCurve(vtkPiecewiseFunction* opacity)
+    : Opacity(opacity)
   {
   }
 
@@ -65,7 +71,7 @@ public:
     {
       point.Color = glm::dvec3(this->Gray->GetValue(scalar));
     }
-    else
+    else if (this->Color)
     {
       this->Color->GetColor(scalar, &point.Color[0]);
     }
@@ -76,8 +82,9 @@ public:
   double Difference(const TransferFunctionPoint& a, const TransferFunctionPoint& b) const
   {
     const glm::dvec3 color = glm::abs(a.Color - b.Color);
-    const double alpha =
-      std::abs(std::exp(-a.Attenuation * this->Unit) - std::exp(-b.Attenuation * this->Unit));
+    const double alpha = this->Meaning == OpacityMeaning::Alpha
+      ? std::abs(a.Attenuation - b.Attenuation)
+      : std::abs(std::exp(-a.Attenuation * this->Unit) - std::exp(-b.Attenuation * this->Unit));
     return std::max({ color.r, color.g, color.b, alpha });
   }
 
@@ -95,15 +102,22 @@ private:
   double AttenuationOf(double opacity) const
   {
     const double positive = opacity > 0.0 ? opacity : 0.0;
-    return (this->PerUnitDistance ? -std::log1p(-std::min(positive, LargestOpacity)) : positive) /
-      this->Unit;
+    switch (this->Meaning)
+    {
+      case OpacityMeaning::Attenuation:
+        return positive / this->Unit;
+      case OpacityMeaning::AlphaPerUnitDistance:
+        return -std::log1p(-std::min(positive, LargestOpacity)) / this->Unit;
+      default:
+        return positive;
+    }
   }
 
   vtkPiecewiseFunction* Opacity;
-  vtkPiecewiseFunction* Gray;
-  vtkColorTransferFunction* Color;
-  double Unit;
-  bool PerUnitDistance;
+  vtkPiecewiseFunction* Gray = nullptr;
+  vtkColorTransferFunction* Color = nullptr;
+  double Unit = 1.0;
+  OpacityMeaning Meaning = OpacityMeaning::Alpha;
 };
 
 TransferFunctionPoint Middle(const TransferFunctionPoint& a, const TransferFunctionPoint& b)
@@ -145,13 +159,8 @@ TransferFunctionPoint LimitAt(const PropertyCurve& curve, double node, double to
   return limit;
 }
 
-}
-
-//------------------------------------------------------------------------------
-std::vector<TransferFunctionPoint> ReducePropertyToPoints(
-  vtkVolumeProperty* property, bool opacityPerUnitDistance)
+std::vector<TransferFunctionPoint> ReduceToPoints(const PropertyCurve& curve)
 {
-  const PropertyCurve curve(property, opacityPerUnitDistance);
   std::vector<TransferFunctionPoint> points;
   if (!curve.HasOpacity())
   {
@@ -179,6 +188,27 @@ std::vector<TransferFunctionPoint> ReducePropertyToPoints(
     }
   }
   return points;
+}
+
+}
+
+//------------------------------------------------------------------------------
+std::vector<TransferFunctionPoint> ReducePropertyToPoints(
+  vtkVolumeProperty* property, OpacityMeaning meaning)
+{
+  return ReduceToPoints(PropertyCurve(property, meaning));
+}
+
+//------------------------------------------------------------------------------
+TransferFunctionPoint EvaluateProperty(vtkVolumeProperty* property, double scalar)
+{
+  return PropertyCurve(property, OpacityMeaning::Alpha).At(scalar);
+}
+
+//------------------------------------------------------------------------------
+std::vector<TransferFunctionPoint> ReduceGradientOpacityToPoints(vtkVolumeProperty* property)
+{
+  return ReduceToPoints(PropertyCurve(property->GetGradientOpacity(0)));
 }
 
 }

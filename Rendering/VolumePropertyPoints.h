@@ -12,15 +12,34 @@ class vtkVolumeProperty;
 namespace meniscus
 {
 
+/** What an opacity o of the transfer function stands for, with the property's unit distance u. */
+enum class OpacityMeaning
+{
+  /** An attenuation coefficient o / u. */
+  Attenuation,
+  /** The alpha of one unit distance: an attenuation coefficient -ln(1 - o) / u. */
+  AlphaPerUnitDistance,
+  /** An alpha as it is. */
+  Alpha
+};
+
 /**
  * The transfer function of a property's first component as control points of attenuation (per world
- * length) and colour, ascending. Empty if nothing is visible: no opacity node. Where property and
- * points differ between two nodes, linear interpolation is off by less than 1/32768 in colour and
- * in alpha over the unit distance.
- * @param opacityPerUnitDistance  opacity is the alpha of one unit distance, not a coefficient.
+ * length, or alpha) and colour, ascending. Empty if nothing is visible: no opacity node. Where
+ * property and points differ between two nodes, linear interpolation is off by less than 1/32768 in
+ * colour and in alpha (over the unit distance).
  */
 std::vector<TransferFunctionPoint> ReducePropertyToPoints(
-  vtkVolumeProperty* property, bool opacityPerUnitDistance);
+  vtkVolumeProperty* property, OpacityMeaning meaning);
+
+/** Colour and alpha of a property at a scalar. */
+TransferFunctionPoint EvaluateProperty(vtkVolumeProperty* property, double scalar);
+
+/**
+ * The gradient opacity function of a property's first component, likewise: Attenuation holds the
+ * factor, >= 0; Scalar the gradient's magnitude. Empty without a node, which means a factor of 1.
+ */
+std::vector<TransferFunctionPoint> ReduceGradientOpacityToPoints(vtkVolumeProperty* property);
 
 }
 

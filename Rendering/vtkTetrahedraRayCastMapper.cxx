@@ -4,25 +4,29 @@
 
 #include "RayCastNative.h"
 #include "RayCastOpenGL.h"
+#include "RayCastOptics.h"
+#include "RayCastShader.h"
 #include "Volume/RayFrame.h"
-#include "Volume/TransferFunction.h"
+#include "Volume/VertexGradients.h"
 #include "VolumeInput.h"
-#include "VolumePropertyPoints.h"
+#include "VolumePropertyTables.h"
 
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
+#include "vtkHardwareSelector.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkPlaneCollection.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
+#include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -49,44 +53,46 @@ class vtkTetrahedraRayCastMapper::vtkInternals
 {
 public:
   meniscus::VolumeInput Input;
-  std::vector<meniscus::TransferFunctionPoint> Points;
-  std::vector<meniscus::TransferFunctionInterval> Intervals;
+  meniscus::VolumePropertyTables Property;
+  std::vector<glm::vec3> Gradients;
   meniscus::RayCastOpenGL OpenGL;
   meniscus::RayCastNative Native;
 
-  meniscus::ObjectVersion BuiltProperty;
-  int BuiltOpacityModel = -1;
-  meniscus::ScalarNormalization IntervalNormalization;
-  bool IntervalsStale = true;
+  /** What the gradients were computed from, by the input's counters. */
+  std::int64_t GradientsOfMesh = 0;
+  std::int64_t GradientsOfScalars = 0;
 
-  /** What the tables on the graphics device were made of, by the input's counters. */
+  /** What the tables on the graphics device were made of, by counters. */
   std::int64_t UploadedLinks = 0;
   std::int64_t UploadedMesh = 0;
   std::int64_t UploadedScalars = 0;
-  bool IntervalUploadStale = true;
+  std::int64_t UploadedGradients = 0;
+  std::int64_t UploadedProperty = 0;
   /** The same of the native backend's. */
   std::int64_t NativeMesh = 0;
   std::int64_t NativeScalars = 0;
+  std::int64_t NativeProperty = 0;
 
-  vtkTypeInt64 TransferFunctionBuilds = 0;
+  vtkTypeInt64 GradientBuilds = 0;
+  /** Seconds that the last frame would have taken with a ray per pixel; 0 before it. */
+  double FullImageTime = 0.0;
 
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
-  bool WarnedShading = false;
-  bool WarnedClipping = false;
+  bool WarnedNative = false;
+  bool WarnedCompute = false;
 
-  void UpdateIntervals();
-  void UpdateActiveCells();
-  std::string Upload();
+  void UpdateGradients();
+  std::string Upload(bool gradients);
   void UpdateNative();
-  std::string DrawOpenGL(const meniscus::RayFrame& frame, double terminationOpacity);
-  std::string DrawNative(const meniscus::RayFrame& frame, double terminationOpacity);
+  std::string DrawOpenGL(const meniscus::RayCastFrame& frame);
+  std::string DrawNative(const meniscus::RayCastFrame& frame);
   std::string ComputeFrame(
-    vtkRenderer* renderer, vtkVolume* volume, const int viewport[4], meniscus::RayFrame& frame);
+    vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], meniscus::OpticsPlace& place);
 };
 
 //------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload()
+std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
 {
   meniscus::VolumeInput& input = this->Input;
   std::string error;
@@ -105,42 +111,45 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload()
     this->UploadedMesh = error.empty() ? input.GetMeshBuilds() : 0;
     this->UploadedScalars = input.GetScalarUpdates();
   }
-  if (error.empty() && (this->IntervalUploadStale || !this->OpenGL.HasIntervals()))
+  const bool gradientsStale = this->UploadedGradients != this->GradientBuilds;
+  if (error.empty() && gradients && (gradientsStale || !this->OpenGL.HasGradients()))
   {
-    error = this->OpenGL.UploadIntervals(this->Intervals);
-    this->IntervalUploadStale = !error.empty();
+    error = this->OpenGL.UploadGradients(this->Gradients);
+    this->UploadedGradients = error.empty() ? this->GradientBuilds : 0;
+  }
+  const bool propertyStale = this->UploadedProperty != this->Property.GetVersion();
+  if (error.empty() && (propertyStale || !this->OpenGL.HasProperty()))
+  {
+    error = this->OpenGL.UploadProperty(this->Property);
+    this->UploadedProperty = error.empty() ? this->Property.GetVersion() : 0;
   }
   return error;
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::vtkInternals::UpdateIntervals()
+void vtkTetrahedraRayCastMapper::vtkInternals::UpdateGradients()
 {
-  const meniscus::ScalarNormalization& normalization = this->Input.GetNormalization();
-  if (this->IntervalsStale || normalization != this->IntervalNormalization)
+  const meniscus::VolumeInput& input = this->Input;
+  if (this->GradientsOfMesh != input.GetMeshBuilds() ||
+    this->GradientsOfScalars != input.GetScalarUpdates())
   {
-    this->Intervals = meniscus::BuildIntervals(this->Points, normalization);
-    this->IntervalNormalization = normalization;
-    this->IntervalsStale = false;
-    this->IntervalUploadStale = true;
-    this->Native.InvalidateIntervals();
+    this->Gradients = meniscus::ComputeVertexGradients(input.GetMesh(), input.GetScalars());
+    this->GradientsOfMesh = input.GetMeshBuilds();
+    this->GradientsOfScalars = input.GetScalarUpdates();
+    ++this->GradientBuilds;
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::vtkInternals::UpdateActiveCells()
-{
-  meniscus::VisibleScalars visible;
-  visible.AddAttenuation(this->Intervals);
-  this->Input.UpdateActiveCells(visible);
-}
-
-//------------------------------------------------------------------------------
 std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
-  const meniscus::RayFrame& frame, double terminationOpacity)
+  const meniscus::RayCastFrame& frame)
 {
-  const std::string error = this->Upload();
-  return error.empty() ? this->OpenGL.Draw({ frame, terminationOpacity }) : error;
+  if (frame.Optics.VertexGradients)
+  {
+    this->UpdateGradients();
+  }
+  const std::string error = this->Upload(frame.Optics.VertexGradients);
+  return error.empty() ? this->OpenGL.Draw(frame) : error;
 }
 
 //------------------------------------------------------------------------------
@@ -153,22 +162,24 @@ void vtkTetrahedraRayCastMapper::vtkInternals::UpdateNative()
     this->NativeMesh = this->Input.GetMeshBuilds();
     this->NativeScalars = this->Input.GetScalarUpdates();
   }
-  if (!this->Native.HasIntervals())
+  if (this->NativeProperty != this->Property.GetVersion())
   {
-    this->Native.UpdateIntervals(this->Intervals);
+    this->Native.UpdateIntervals(this->Property.GetIntervals());
+    this->NativeProperty = this->Property.GetVersion();
   }
 }
 
 //------------------------------------------------------------------------------
 std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
-  const meniscus::RayFrame& frame, double terminationOpacity)
+  const meniscus::RayCastFrame& frame)
 {
   this->UpdateNative();
   meniscus::TileCaster::Scene scene;
   scene.Mesh = &this->Input.GetMesh();
   scene.Boundary = &this->Input.GetMesh().GetBoundary();
-  scene.Frame = frame;
-  scene.TerminationTransmittance = static_cast<float>(1.0 - terminationOpacity);
+  scene.Frame = frame.Rays;
+  scene.ClippingPlanes = frame.Optics.ClippingPlanes;
+  scene.TerminationTransmittance = static_cast<float>(1.0 - frame.EarlyTerminationOpacity);
   return this->OpenGL.DrawImageOf(
     [this, &scene](
       int width, int height, const std::vector<float>& depths, std::vector<float>& image)
@@ -176,12 +187,13 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
       scene.Width = width;
       scene.Height = height;
       return this->Native.Cast(scene, depths, image);
-    });
+    },
+    frame.Output);
 }
 
 //------------------------------------------------------------------------------
 std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(
-  vtkRenderer* renderer, vtkVolume* volume, const int viewport[4], meniscus::RayFrame& frame)
+  vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], meniscus::OpticsPlace& place)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   meniscus::RayFrameInput input;
@@ -191,8 +203,11 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(
     ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
   input.Center = this->Input.GetMesh().GetCenter();
   input.Radius = this->Input.GetMesh().GetRadius();
-  input.ImageSize = glm::dvec2(viewport[2], viewport[3]);
-  switch (meniscus::ComputeRayFrame(input, frame))
+  input.ImageSize = glm::dvec2(imageSize[0], imageSize[1]);
+  place.CenterInWorld = glm::dvec3(input.ModelToWorld * glm::dvec4(input.Center, 1.0));
+  place.WorldToView = input.WorldToView;
+  place.ScalarScale = this->Input.GetNormalization().Scale;
+  switch (meniscus::ComputeRayFrame(input, place.Frame))
   {
     case meniscus::RayFrameStatus::Ok:
       return std::string();
@@ -283,26 +298,23 @@ vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* g
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::WarnAboutUnavailable(vtkVolume* volume)
+void vtkTetrahedraRayCastMapper::WarnOnce(bool condition, bool& warned, const char* text)
 {
-  const auto warnOnce = [this](bool condition, bool& warned, const char* text)
+  if (condition && !warned)
   {
-    if (condition && !warned)
-    {
-      warned = true;
-      vtkWarningMacro(<< text);
-    }
-  };
+    warned = true;
+    vtkWarningMacro(<< text);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
+{
   vtkInternals& internals = *this->Internals;
-  warnOnce(this->Integration == PRE_INTEGRATED, internals.WarnedIntegration,
+  this->WarnOnce(this->Integration == PRE_INTEGRATED, internals.WarnedIntegration,
     "Pre-integration is not available; integrating exactly.");
-  warnOnce(this->BlendMode != COMPOSITE_BLEND, internals.WarnedBlendMode,
-    "This blend mode is not available; rendering with composite blending.");
-  vtkVolumeProperty* property = volume->GetProperty();
-  warnOnce(property->GetShade() != 0 || property->HasGradientOpacity(), internals.WarnedShading,
-    "Shading and gradient opacity are not available; rendering without.");
-  warnOnce(this->ClippingPlanes && this->ClippingPlanes->GetNumberOfItems() > 0,
-    internals.WarnedClipping, "Clipping planes are not available; rendering without.");
+  this->WarnOnce(this->GetUsedBlendMode() != this->BlendMode, internals.WarnedBlendMode,
+    "There is no such blend mode for meshes; rendering with composite blending.");
 }
 
 //------------------------------------------------------------------------------
@@ -336,31 +348,92 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
 }
 
 //------------------------------------------------------------------------------
+int vtkTetrahedraRayCastMapper::GetUsedBlendMode()
+{
+  const bool known = this->BlendMode >= vtkVolumeMapper::COMPOSITE_BLEND &&
+    this->BlendMode <= vtkVolumeMapper::ISOSURFACE_BLEND;
+  return known ? this->BlendMode : vtkVolumeMapper::COMPOSITE_BLEND;
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
 {
   vtkInternals& internals = *this->Internals;
-  vtkVolumeProperty* property = volume->GetProperty();
-  // A property without functions makes default ones when asked: ask before taking its time.
-  property->GetScalarOpacity(0);
-  if (property->GetColorChannels(0) == 1)
+  internals.Property.Update(volume->GetProperty(), this->GetUsedBlendMode(),
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Input.GetNormalization());
+  internals.Input.UpdateActiveCells(internals.Property.GetVisibleScalars());
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
+{
+  if (this->Backend == AUTOMATIC)
   {
-    property->GetGrayTransferFunction(0);
+    return plainOptics && this->Internals->OpenGL.IsSoftware() ? NATIVE : OPENGL;
   }
-  else
+  const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
+  const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
+  this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
+    "The native backend has composite blending only, without shading and gradient opacity; "
+    "rendering with OpenGL.");
+  this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
+    "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
+  return nativeLacks || computeLacks ? OPENGL : this->Backend;
+}
+
+//------------------------------------------------------------------------------
+double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
+{
+  if (!this->AutoAdjustSampleDistances)
   {
-    property->GetRGBTransferFunction(0);
+    return this->ImageSampleDistance;
   }
-  const meniscus::ObjectVersion version(property);
-  if (version == internals.BuiltProperty && internals.BuiltOpacityModel == this->OpacityModel)
+  // Time goes with the number of rays, the inverse square of the distance.
+  const double allocated = volume->GetAllocatedRenderTime();
+  const double full = this->Internals->FullImageTime;
+  const double distance = allocated > 0.0 && full > allocated ? std::sqrt(full / allocated) : 1.0;
+  return std::min(distance, static_cast<double>(this->MaximumImageSampleDistance));
+}
+
+//------------------------------------------------------------------------------
+std::string vtkTetrahedraRayCastMapper::PrepareFrame(
+  vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame)
+{
+  vtkInternals& internals = *this->Internals;
+  vtkHardwareSelector* selector = renderer->GetSelector();
+  const double sampleDistance = selector ? 1.0 : this->ChooseImageSampleDistance(volume);
+  int viewport[4];
+  internals.OpenGL.GetViewport(viewport);
+  for (int i = 0; i < 2; ++i)
   {
-    return;
+    frame.Output.ImageSize[i] =
+      std::max(1, static_cast<int>(std::ceil(viewport[2 + i] / sampleDistance)));
   }
-  internals.Points =
-    meniscus::ReducePropertyToPoints(property, this->OpacityModel == OPACITY_PER_UNIT_DISTANCE);
-  internals.BuiltProperty = version;
-  internals.BuiltOpacityModel = this->OpacityModel;
-  internals.IntervalsStale = true;
-  ++internals.TransferFunctionBuilds;
+  this->UsedImageSampleDistance = sampleDistance;
+  if (selector)
+  {
+    // Other passes tell parts of a prop apart: this one has one part, of id 0.
+    const bool propPass = selector->GetCurrentPass() == vtkHardwareSelector::ACTOR_PASS;
+    const float* value = selector->GetPropColorValue();
+    frame.Output.Selecting = true;
+    frame.Output.SelectionValue =
+      propPass ? glm::vec3(value[0], value[1], value[2]) : glm::vec3(0.0f);
+  }
+
+  meniscus::OpticsPlace place;
+  const std::string error = internals.ComputeFrame(renderer, volume, frame.Output.ImageSize, place);
+  if (!error.empty())
+  {
+    return error;
+  }
+  frame.Rays = place.Frame;
+  frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
+  frame.Optics.BlendMode = this->GetUsedBlendMode();
+  meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
+  meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
+  frame.Optics.VertexGradients =
+    frame.Optics.UsesGradients() && this->Gradients == VERTEX_GRADIENTS;
+  return meniscus::DescribeExcess(frame.Optics);
 }
 
 //------------------------------------------------------------------------------
@@ -381,21 +454,18 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
     return true;
   }
   vtkOpenGLClearErrorMacro();
-  meniscus::RayFrame frame;
+  meniscus::RayCastFrame frame;
   std::string error = internals.OpenGL.SetWindow(window);
-  const bool native =
-    this->Backend == NATIVE || (this->Backend == AUTOMATIC && internals.OpenGL.IsSoftware());
-  const int backend = native ? NATIVE : OPENGL;
   if (error.empty())
   {
-    int viewport[4];
-    internals.OpenGL.GetViewport(viewport);
-    error = internals.ComputeFrame(renderer, volume, viewport, frame);
+    error = this->PrepareFrame(renderer, volume, frame);
   }
+  int backend = OPENGL;
   if (error.empty())
   {
-    error = backend == NATIVE ? internals.DrawNative(frame, this->EarlyTerminationOpacity)
-                              : internals.DrawOpenGL(frame, this->EarlyTerminationOpacity);
+    backend = this->ChooseBackend(frame.Optics.IsPlain());
+    frame.Compute = backend == COMPUTE;
+    error = backend == NATIVE ? internals.DrawNative(frame) : internals.DrawOpenGL(frame);
   }
   if (!error.empty())
   {
@@ -410,11 +480,6 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
-  if (renderer->GetSelector())
-  {
-    return;
-  }
-  const double start = vtkTimerLog::GetUniversalTime();
   vtkUnstructuredGrid* grid = this->ValidateInput();
   if (!grid || grid->GetNumberOfCells() == 0)
   {
@@ -425,13 +490,24 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   {
     return;
   }
-  this->WarnAboutUnavailable(volume);
+  this->WarnAboutUnavailable();
   this->UpdateTransferFunction(volume);
-  this->Internals->UpdateIntervals();
-  this->Internals->UpdateActiveCells();
+  vtkHardwareSelector* selector = renderer->GetSelector();
+  if (selector)
+  {
+    selector->BeginRenderProp();
+    this->Draw(renderer, volume);
+    selector->EndRenderProp();
+    return;
+  }
+  const double start = vtkTimerLog::GetUniversalTime();
   if (this->Draw(renderer, volume))
   {
+    // Drawing is over when the device says so, not when the commands are sent.
+    this->Internals->OpenGL.Finish();
     this->TimeToDraw = std::max(vtkTimerLog::GetUniversalTime() - start, 1.0e-9);
+    this->Internals->FullImageTime =
+      this->TimeToDraw * this->UsedImageSampleDistance * this->UsedImageSampleDistance;
   }
 }
 
@@ -456,7 +532,13 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfScalarUpdates()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransferFunctionBuilds()
 {
-  return this->Internals->TransferFunctionBuilds;
+  return this->Internals->Property.GetNumberOfBuilds();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfGradientBuilds()
+{
+  return this->Internals->GradientBuilds;
 }
 
 //------------------------------------------------------------------------------
@@ -511,11 +593,17 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "ActiveBackend: " << this->ActiveBackend << "\n";
   os << indent << "Integration: " << this->Integration << "\n";
+  os << indent << "Gradients: " << this->Gradients << "\n";
+  os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
+  os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
+  os << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << "\n";
+  os << indent << "UsedImageSampleDistance: " << this->UsedImageSampleDistance << "\n";
   os << indent << "EarlyTerminationOpacity: " << this->EarlyTerminationOpacity << "\n";
   os << indent << "NumberOfMeshBuilds: " << this->GetNumberOfMeshBuilds() << "\n";
   os << indent << "NumberOfScalarUpdates: " << this->GetNumberOfScalarUpdates() << "\n";
   os << indent << "NumberOfTransferFunctionBuilds: " << this->GetNumberOfTransferFunctionBuilds()
      << "\n";
+  os << indent << "NumberOfGradientBuilds: " << this->GetNumberOfGradientBuilds() << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";

@@ -18,13 +18,26 @@
  * not finite are left out and counted. Cells with a vertex whose scalar is not finite are
  * transparent.
  *
- * Optical model: colour and opacity come from the vtkVolumeProperty. Opacity becomes an attenuation
- * coefficient as SetOpacityModel() says, per ScalarOpacityUnitDistance, lengths measured in world
- * coordinates. Emitted colour is weighted by the attenuation, output is premultiplied RGBA, blended
- * over what is in the framebuffer; rays end at the opaque geometry there. A transfer function that
- * is not piecewise linear (HSV, Lab or diverging space, logarithmic scale, midpoint, sharpness,
- * OPACITY_PER_UNIT_DISTANCE) is sampled between its nodes until linear interpolation is off by less
- * than 1/32768 of the full range of colour and of alpha over the unit distance.
+ * Optical model, by SetBlendMode() with the numbers of vtkVolumeMapper::BlendModes:
+ * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity becomes an
+ *   attenuation coefficient as SetOpacityModel() says, per ScalarOpacityUnitDistance. Emitted
+ *   colour is weighted by the attenuation. Shade and the property's material light the colour (by
+ *   Phong's model, two-sided, by the renderer's lights); the gradient opacity function, of the
+ *   gradient's length in scalar per world length, multiplies the attenuation. See SetGradients().
+ * - MAXIMUM_INTENSITY_BLEND, MINIMUM_INTENSITY_BLEND, AVERAGE_INTENSITY_BLEND: the largest or
+ *   smallest scalar of the ray, or its mean over the length, shown by colour and opacity of the
+ *   property; lengths do not count.
+ * - ADDITIVE_BLEND: the integral of opacity / ScalarOpacityUnitDistance times the scalar's place in
+ *   the data's range [0, 1], as an opaque grey level.
+ * - ISOSURFACE_BLEND: surfaces at the property's IsoSurfaceValues, with its colour and opacity at
+ *   these values; lit if Shade is on.
+ *
+ * Lengths are measured in world coordinates. Output is premultiplied RGBA, blended over what is in
+ * the framebuffer; rays end at the opaque geometry there. Clipping planes cut cells exactly. A
+ * transfer function that is not piecewise linear (HSV, Lab or diverging space, logarithmic scale,
+ * midpoint, sharpness, OPACITY_PER_UNIT_DISTANCE) is sampled between its nodes until linear
+ * interpolation is off by less than 1/32768 of the full range of colour and of alpha over the unit
+ * distance.
  *
  * Method:
  * 1. Vertices and cells are ordered along a Morton curve; cells are linked across faces. Once per
@@ -52,9 +65,9 @@
  * Needs OpenGL 3.2; the native backend casts rays on the CPU and needs it to show the image. Work
  * is done where its input changes: see the counters.
  *
- * @note Limits of this version: composite blending; point data; no shading, gradient opacity or
- * clipping planes (a warning says so once); not drawn in hardware selection passes; fewer than
- * 2^29 cells, and tables within GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
+ * @note Limits of this version: point data; up to 32 clipping planes and 16 lights; the native
+ * backend has plain composite blending only; fewer than 2^29 cells, and tables within
+ * GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -65,10 +78,16 @@
 #include "vtkUnstructuredGridVolumeMapper.h"
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 
 class vtkDataArray;
 class vtkRenderWindow;
 class vtkUnstructuredGrid;
+
+namespace meniscus
+{
+struct RayCastFrame;
+}
 
 class VTKMENISCUS_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
 {
@@ -118,16 +137,19 @@ public:
   {
     AUTOMATIC = 0,
     OPENGL = 1,
-    NATIVE = 2
+    NATIVE = 2,
+    COMPUTE = 3
   };
 
   ///@{
   /**
-   * What runs the ray caster: OPENGL, a fragment shader; NATIVE, the CPU, in SIMD packets (AVX-512,
-   * AVX2 or what there is) on all threads of vtkSMPTools; AUTOMATIC, the default, OPENGL, or NATIVE
-   * where OpenGL is a software rasteriser.
+   * What runs the ray caster: OPENGL, a fragment shader; COMPUTE, a compute shader of the same
+   * functions (OpenGL 4.3; on a window without, OPENGL after a warning); NATIVE, the CPU, in SIMD
+   * packets (AVX-512, AVX2 or what there is) on all threads of vtkSMPTools; AUTOMATIC, the default,
+   * OPENGL, or NATIVE where OpenGL is a software rasteriser. What NATIVE does not have (see the
+   * limits) warns once and is drawn by OPENGL.
    */
-  vtkSetClampMacro(Backend, int, AUTOMATIC, NATIVE);
+  vtkSetClampMacro(Backend, int, AUTOMATIC, COMPUTE);
   vtkGetMacro(Backend, int);
   ///@}
 
@@ -150,6 +172,23 @@ public:
   vtkGetMacro(Integration, int);
   ///@}
 
+  enum GradientLocations
+  {
+    CELL_GRADIENTS = 0,
+    VERTEX_GRADIENTS = 1
+  };
+
+  ///@{
+  /**
+   * Which gradients shading and gradient opacity use: CELL_GRADIENTS, that of each cell (flat), or
+   * VERTEX_GRADIENTS, the default, means around each vertex, interpolated (smooth). They are
+   * computed when first needed and after a change of mesh or scalars. Lengths are measured in world
+   * coordinates.
+   */
+  vtkSetClampMacro(Gradients, int, CELL_GRADIENTS, VERTEX_GRADIENTS);
+  vtkGetMacro(Gradients, int);
+  ///@}
+
   ///@{
   /**
    * Opacity at which a ray ends, in [0, 1]. A pixel is off by at most 1 minus this. Default
@@ -161,14 +200,40 @@ public:
 
   ///@{
   /**
+   * Pixels between neighbouring rays, along each axis, >= 1; pixels between are interpolated.
+   * Default 1. Only without AutoAdjustSampleDistances.
+   */
+  vtkSetClampMacro(ImageSampleDistance, float, 1.0f, 100.0f);
+  vtkGetMacro(ImageSampleDistance, float);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the distance between rays follows from the time that the volume is allocated (the
+   * window's desired update rate) and that the last frame took: rays are apart during interaction,
+   * by up to MaximumImageSampleDistance (default 8), and one per pixel when still. Default on.
+   */
+  vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkBooleanMacro(AutoAdjustSampleDistances, vtkTypeBool);
+  vtkSetClampMacro(MaximumImageSampleDistance, float, 1.0f, 100.0f);
+  vtkGetMacro(MaximumImageSampleDistance, float);
+  ///@}
+
+  /** Pixels between neighbouring rays in the last frame. */
+  vtkGetMacro(UsedImageSampleDistance, double);
+
+  ///@{
+  /**
    * Work done since construction: builds of the mesh tables, updates of vertex scalars, reductions
    * of the volume property to control points, builds of the set of active cells (on a new mesh,
-   * new scalars, or when other scalars become visible).
+   * new scalars, or when other scalars become visible), computations of vertex gradients.
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
   vtkTypeInt64 GetNumberOfTransferFunctionBuilds();
   vtkTypeInt64 GetNumberOfActiveSetBuilds();
+  vtkTypeInt64 GetNumberOfGradientBuilds();
   ///@}
 
   /**
@@ -199,10 +264,11 @@ public:
   ///@}
 
   /**
-   * Draws the volume into the current framebuffer and viewport. Input that cannot be drawn gives an
-   * error and leaves the picture as it is. While a mesh's tables are built, ProgressEvent is
-   * invoked; AbortExecuteOn(), called by an observer, or the window's abort status ends that. Then
-   * nothing is drawn, and the next call begins again.
+   * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, the
+   * prop's id wherever the volume is visible. Input that cannot be drawn gives an error and leaves
+   * the picture as it is. While a mesh's tables are built, ProgressEvent is invoked;
+   * AbortExecuteOn(), called by an observer, or the window's abort status ends that. Then nothing
+   * is drawn, and the next call begins again.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
@@ -219,9 +285,14 @@ private:
 
   vtkUnstructuredGrid* ValidateInput();
   vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
-  void WarnAboutUnavailable(vtkVolume* volume);
+  void WarnOnce(bool condition, bool& warned, const char* text);
+  void WarnAboutUnavailable();
   bool UpdateInput(vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars);
   void UpdateTransferFunction(vtkVolume* volume);
+  int GetUsedBlendMode();
+  int ChooseBackend(bool plainOptics);
+  double ChooseImageSampleDistance(vtkVolume* volume);
+  std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);
 
   int VectorMode = DISABLED;
@@ -230,7 +301,12 @@ private:
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
   int Integration = EXACT;
+  int Gradients = VERTEX_GRADIENTS;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
+  float ImageSampleDistance = 1.0f;
+  float MaximumImageSampleDistance = 8.0f;
+  vtkTypeBool AutoAdjustSampleDistances = 1;
+  double UsedImageSampleDistance = 1.0;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -319,6 +319,44 @@ VirtualVertex CurvedGeometry::SolveNear(const glm::dvec3& point, const VirtualVe
 }
 
 //------------------------------------------------------------------------------
+bool CurvedGeometry::MeetRay(
+  const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const
+{
+  const glm::dvec3& eye = this->Optics.eye;
+  glm::dvec3 target = near.sightPoint - this->Surface.GetOrigin();
+  // As long as the way to the surface, so that its parameter is about 1.
+  const double distance =
+    std::max(glm::dot(target - eye, direction), std::numeric_limits<double>::min());
+  const ObjectLine ray{ eye, distance * direction };
+  std::int32_t facet = near.facet;
+  for (int i = 0; i < LongestChase; ++i)
+  {
+    const CurvedPatch patch = this->Patches.GetPatch(facet);
+    glm::dvec2 b = Project(patch, target);
+    double l = 1.0;
+    if (!MeetPatch(patch, ray, b, l))
+    {
+      return false;
+    }
+    if (FindOutside(b).least >= -Border)
+    {
+      at = patch.Evaluate(b);
+      at.normal = glm::normalize(at.normal);
+      at.position += this->Surface.GetOrigin();
+      return true;
+    }
+    target = patch.GetFlatPoint(b);
+    const std::int32_t next = this->Patches.Walk(facet, target, -direction, LongestWalk);
+    if (next == facet)
+    {
+      return false; // beyond the border
+    }
+    facet = next;
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
 // Newton's method across patches, from where the answers of the points before point to.
 bool CurvedGeometry::Follow(const SightEquation& equation, const glm::dvec3& local,
   const Memory& memory, SightPlace& place) const

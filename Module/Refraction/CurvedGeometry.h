@@ -72,6 +72,10 @@ public:
   /// method does not get there.
   VirtualVertex SolveNear(const glm::dvec3& point, const VirtualVertex& known) const;
 
+  /// Where the ray from the eye along the unit vector `direction` meets the membrane near the sight
+  /// point of a known image, in world coordinates, with the unit normal. False if it does not.
+  bool MeetRay(const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const;
+
   /// Eye and indices, in local coordinates: relative to the membrane's origin.
   const Media& GetMedia() const { return this->Optics; }
   SightEquation MakeEquation(const glm::dvec3& local) const

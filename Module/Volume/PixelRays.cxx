@@ -65,7 +65,7 @@ PixelRays::PixelRays(const RayFrame& frame, int width, int height)
 }
 
 //------------------------------------------------------------------------------
-PacketRay PixelRays::RayOf(int column, int row, float endDepth) const
+PacketRay PixelRays::RayOf(int column, int row) const
 {
   const glm::dvec2 pixel = this->FromCenter(column, row);
   const glm::dvec4 u = this->U.At(pixel.x, pixel.y);
@@ -81,7 +81,7 @@ PacketRay PixelRays::RayOf(int column, int row, float endDepth) const
   ray.LengthPerDepth =
     static_cast<float>(glm::length(this->Frame.ViewToWorld * glm::dvec3(slope.x, slope.y, 1.0)));
   ray.StartDepth = static_cast<float>(this->Frame.NearDepth);
-  ray.EndDepth = endDepth;
+  ray.EndDepth = 1.0e+30f;
   ray.FirstEntry = 0;
   ray.EndEntry = 0;
   return ray;

@@ -42,8 +42,8 @@ public:
     return { column + 0.5 - 0.5 * this->Width, row + 0.5 - 0.5 * this->Height };
   }
 
-  /** The ray of a pixel, without its entries. */
-  PacketRay RayOf(int column, int row, float endDepth) const;
+  /** The ray of a pixel, without its entries, from the near plane on without end. */
+  PacketRay RayOf(int column, int row) const;
 
   const AffineRow& GetU() const { return this->U; }
   const AffineRow& GetV() const { return this->V; }

@@ -349,7 +349,9 @@ private:
     for (std::size_t patch = 0; patch < volumes.size(); ++patch)
     {
       int sign = 1;
-      volumeOfSet[sets.Find(static_cast<std::int32_t>(patch), sign)] += sign * volumes[patch];
+      // Not in one expression: the right side of += comes before the left one, which sets the sign.
+      const std::int32_t set = sets.Find(static_cast<std::int32_t>(patch), sign);
+      volumeOfSet[set] += sign * volumes[patch];
     }
     for (std::size_t patch = 0; patch < volumes.size(); ++patch)
     {

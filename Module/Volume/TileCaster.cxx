@@ -45,15 +45,33 @@ TileCaster::TileCaster(const Scene& scene)
 }
 
 //------------------------------------------------------------------------------
-/** One ray for each pixel with a hit. */
+PacketRay TileCaster::RayOf(int column, int row, const float* opaqueDepth) const
+{
+  const RayFrame& frame = this->Input.Frame;
+  const std::int64_t pixel = std::int64_t{ row } * this->Input.Width + column;
+  double start = frame.NearDepth;
+  double end = opaqueDepth ? frame.DepthAt(2.0 * opaqueDepth[pixel] - 1.0) : 1.0e+30;
+  const PixelRays& rays = this->Raster.GetRays();
+  for (const RayClippingPlane& plane : this->Input.ClippingPlanes)
+  {
+    ClipRay(plane, rays.FromCenter(column, row), start, end);
+  }
+  PacketRay ray = rays.RayOf(column, row);
+  ray.StartDepth = static_cast<float>(start);
+  ray.EndDepth = static_cast<float>(end);
+  return ray;
+}
+
+//------------------------------------------------------------------------------
+/** One ray for each pixel with a hit and a part that counts. */
 void TileCaster::TakeHits(int tile, const float* opaqueDepth, Workspace& workspace) const
 {
-  constexpr float endless = 1.0e+30f;
   const EntryRaster::PixelBox box = this->Raster.BoxOfTile(tile);
   workspace.Entries.clear();
   workspace.Rays.clear();
   workspace.Pixels.clear();
   std::int32_t lastPixel = -1;
+  bool counts = false;
   for (const EntryRaster::Hit& hit : workspace.Hits)
   {
     if (hit.Pixel != lastPixel)
@@ -62,15 +80,20 @@ void TileCaster::TakeHits(int tile, const float* opaqueDepth, Workspace& workspa
       const int column = box.Left + hit.Pixel % EntryRaster::TileSize;
       const int row = box.Bottom + hit.Pixel / EntryRaster::TileSize;
       const std::int64_t pixel = std::int64_t{ row } * this->Input.Width + column;
-      const float end = opaqueDepth
-        ? static_cast<float>(this->Input.Frame.DepthAt(2.0 * opaqueDepth[pixel] - 1.0))
-        : endless;
-      workspace.Pixels.push_back(pixel);
-      workspace.Rays.push_back(this->Raster.GetRays().RayOf(column, row, end));
-      workspace.Rays.back().FirstEntry = static_cast<std::int32_t>(workspace.Entries.size());
+      const PacketRay ray = this->RayOf(column, row, opaqueDepth);
+      counts = ray.StartDepth < ray.EndDepth;
+      if (counts)
+      {
+        workspace.Pixels.push_back(pixel);
+        workspace.Rays.push_back(ray);
+        workspace.Rays.back().FirstEntry = static_cast<std::int32_t>(workspace.Entries.size());
+      }
     }
-    workspace.Entries.push_back(hit.Entry);
-    workspace.Rays.back().EndEntry = static_cast<std::int32_t>(workspace.Entries.size());
+    if (counts)
+    {
+      workspace.Entries.push_back(hit.Entry);
+      workspace.Rays.back().EndEntry = static_cast<std::int32_t>(workspace.Entries.size());
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #ifndef meniscus_Volume_TileCaster_h
 #define meniscus_Volume_TileCaster_h
 
+#include "Volume/ClippingPlanes.h"
 #include "Volume/EntryRaster.h"
 #include "Volume/Packet/Packet.h"
 #include "Volume/PixelRays.h"
@@ -38,6 +39,8 @@ public:
     const std::vector<BoundaryFace>* Boundary = nullptr;
     const PacketTables* Tables = nullptr;
     RayFrame Frame;
+    /** Rays count where all of them keep them. */
+    std::vector<RayClippingPlane> ClippingPlanes;
     int Width = 0;
     int Height = 0;
     /** Rays end when their transmittance is not above it. */
@@ -68,6 +71,7 @@ public:
   RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
 
 private:
+  PacketRay RayOf(int column, int row, const float* opaqueDepth) const;
   void TakeHits(int tile, const float* opaqueDepth, Workspace& workspace) const;
 
   Scene Input;

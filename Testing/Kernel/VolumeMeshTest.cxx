@@ -105,6 +105,19 @@ TEST(TetrahedralMesh, OrientationIsThatOfTheWholeNotOfEachCell)
   ExpectConsistentLinks(mesh);
 }
 
+TEST(TetrahedralMesh, PartsOfBothSignsMakeOneWhole)
+{
+  // Cells are oriented in blocks of thousands, whose parts are joined: the boundary encloses the
+  // unit cube, whatever the parts' signs were.
+  for (const int n : { 11, 12, 16, 20 })
+  {
+    TetrahedralMesh mesh;
+    mesh.Build(KuhnGrid(n).View());
+    const double radius = mesh.GetRadius();
+    EXPECT_NEAR(EnclosedVolume(mesh) * radius * radius * radius, 1.0, 1e-5) << n;
+  }
+}
+
 TEST(TetrahedralMesh, RejectsAndCountsBadCells)
 {
   MeshArrays arrays = KuhnGrid(2);

@@ -4,7 +4,7 @@
 import unittest
 
 import meniscus
-from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm
+from vtkmodules.vtkCommonExecutionModel import vtkImageAlgorithm, vtkPolyDataAlgorithm
 from vtkmodules.vtkRenderingVolume import vtkUnstructuredGridVolumeMapper
 
 
@@ -14,6 +14,7 @@ class TestImport(unittest.TestCase):
 
     def test_classes(self):
         self.assertIsInstance(meniscus.vtkRefractedGeometryFilter(), vtkPolyDataAlgorithm)
+        self.assertIsInstance(meniscus.vtkRefractionErrorVolume(), vtkImageAlgorithm)
         self.assertIsInstance(
             meniscus.vtkTetrahedraRayCastMapper(), vtkUnstructuredGridVolumeMapper)
 

@@ -3,7 +3,9 @@
 """Every public name exists in Python, setters and getters agree, counters begin at 0."""
 import unittest
 
-from meniscus import vtkRefractedGeometryFilter, vtkTetrahedraRayCastMapper
+from meniscus import (
+    vtkRefractedGeometryFilter, vtkRefractionErrorVolume, vtkTetrahedraRayCastMapper)
+from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkRenderingCore import vtkCamera
 
 
@@ -79,6 +81,32 @@ class TestFilter(PropertyTest):
         self.check_counters(self.filter, [
             "NumberOfPatchBuilds", "NumberOfEyeUpdates", "NumberOfSolvedVertices",
             "NumberOfFailedSolves"])
+
+
+class TestErrorVolume(PropertyTest):
+    def setUp(self):
+        self.volume = vtkRefractionErrorVolume()
+
+    def test_properties(self):
+        self.check_mode(self.volume, "MembraneModel", ["FLAT_FACETS", "CURVED"], "CURVED")
+        self.check_pair(self.volume, "EyePosition", [(1, 2, 3)])
+        self.check_pair(self.volume, "ExteriorIndexOfRefraction", [1.333])
+        self.check_pair(self.volume, "InteriorIndexOfRefraction", [1.0])
+        self.check_pair(self.volume, "ModelBounds", [(1, 2, 3, 4, 5, 6)])
+        self.check_pair(self.volume, "SampleDimensions", [(7, 8, 9)])
+
+    def test_exact_membrane(self):
+        sphere = vtkSphere()
+        self.volume.SetExactMembrane(sphere)
+        self.assertIs(self.volume.GetExactMembrane(), sphere)
+        before = self.volume.GetMTime()
+        sphere.SetRadius(7)
+        self.assertGreater(self.volume.GetMTime(), before)
+
+    def test_counters(self):
+        self.check_counters(self.volume, [
+            "NumberOfPatchBuilds", "NumberOfEyeUpdates", "NumberOfMeasuredSamples", "MeanError",
+            "StandardDeviation", "LargestError"])
 
 
 if __name__ == "__main__":

@@ -158,8 +158,8 @@ PacketWalk<Simd>::PacketWalk(const PacketJob& job)
 template <class Simd>
 void PacketWalk<Simd>::Run()
 {
-  // Replacing rays costs about as much as a step: worth it once a quarter of the lanes wait.
-  constexpr int enough = Width / 4;
+  // Replacing rays costs about as much as a step: worth it once half of the lanes wait.
+  constexpr int enough = Width / 2;
   const Int zero = Simd::Splat(0);
   unsigned int busy = this->Replace((1u << Width) - 1u);
   while (busy != 0)

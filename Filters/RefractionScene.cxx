@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefractionScene.h"
+
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+
+#include <sstream>
+
+namespace meniscus
+{
+namespace
+{
+
+// Facets that a thread takes at once: tens of microseconds of work.
+constexpr vtkIdType Grain = 512;
+
+}
+
+//------------------------------------------------------------------------------
+void ThreadedLoop(std::size_t count, const RangeBody& body)
+{
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), Grain,
+    [&body](vtkIdType begin, vtkIdType end)
+    { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::SetMembrane(vtkPolyData* membrane, bool curved, SceneMessages& messages)
+{
+  const bool known = this->MembraneReady && this->Curves == curved;
+  if (known && this->MembraneSource == membrane && this->MembraneTime == membrane->GetMTime())
+  {
+    return true;
+  }
+  MembraneArrays arrays = ExtractMembrane(membrane);
+  this->MembraneSource = membrane;
+  this->MembraneTime = membrane->GetMTime();
+  if (known && arrays == this->Arrays)
+  {
+    return true;
+  }
+  this->Arrays = std::move(arrays);
+  const MembraneStatus status = this->BuildMembrane(curved);
+  this->MembraneReady = status == MembraneStatus::Ready;
+  ++this->PatchBuilds;
+  return this->ReportMembrane(status, messages);
+}
+
+//------------------------------------------------------------------------------
+MembraneStatus RefractionScene::BuildMembrane(bool curved)
+{
+  if (curved != this->Curves)
+  {
+    this->Flat = VirtualGeometry();
+    this->Curved.Clear();
+    this->Curves = curved;
+  }
+  const MembraneInput input = this->Arrays.AsInput();
+  return curved ? this->Curved.SetMembrane(input, ThreadedLoop) : this->Flat.SetMembrane(input);
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::ReportMembrane(MembraneStatus status, SceneMessages& messages) const
+{
+  const MembraneReport& report = this->GetMembrane().GetReport();
+  const std::size_t triangles = this->Arrays.triangles.size() / 3;
+  const std::size_t points = this->Arrays.points.size() / 3;
+  std::ostringstream text;
+  if (status != MembraneStatus::Ready)
+  {
+    text << (status == MembraneStatus::TooLarge
+                ? "The membrane has more points or triangles than 32-bit indices can name"
+                : "The membrane has no usable triangle")
+         << " (" << report.Skipped() << " of " << triangles
+         << " triangles skipped); the output is empty.";
+    messages.error = text.str();
+    return false;
+  }
+  if (report.Skipped() > 0)
+  {
+    text << report.Skipped() << " of " << triangles
+         << " membrane triangles skipped: " << report.zeroArea << " without area, "
+         << report.notFinite << " with coordinates that are not finite, " << report.outOfRange
+         << " with points that do not exist, " << report.duplicated << " repeated. ";
+  }
+  if (this->Arrays.normalsRejected)
+  {
+    text << "The membrane's normals do not have 3 components for each of its " << points
+         << " points; normals are computed. ";
+  }
+  else if (report.computedNormals > 0 && !this->Arrays.normals.empty())
+  {
+    text << report.computedNormals << " of " << points
+         << " membrane normals are zero or not finite; these are computed. ";
+  }
+  messages.warning = text.str();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
+{
+  if (eye == this->Key.values && this->PatchBuilds == this->Key.membraneBuild)
+  {
+    return true;
+  }
+  this->Key = EyeKey(); // stale until the update succeeds
+  const glm::dvec3 position(eye[0], eye[1], eye[2]);
+  const EyeStatus status = this->Curves
+    ? this->Curved.SetEye(position, eye[3], eye[4], ThreadedLoop)
+    : this->Flat.SetEye(position, eye[3], eye[4], ThreadedLoop);
+  std::ostringstream text;
+  switch (status)
+  {
+    case EyeStatus::Ready:
+      this->Key = { eye, this->PatchBuilds };
+      ++this->EyeUpdates;
+      return true;
+    case EyeStatus::BadIndex:
+      text << "Indices of refraction must be positive and finite, not " << eye[3] << " and "
+           << eye[4] << "; the output is empty.";
+      break;
+    case EyeStatus::NotFinite:
+      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2]
+           << ") is not finite; the output is empty.";
+      break;
+    case EyeStatus::OnTheMembrane:
+      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2]
+           << ") lies on the membrane; the output is empty.";
+      break;
+  }
+  messages.error = text.str();
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void RefractionScene::Solve(
+  const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const
+{
+  if (this->Curves)
+  {
+    this->Curved.Solve(points, from, to, vertices);
+  }
+  else
+  {
+    this->Flat.Solve(points, from, to, vertices);
+  }
+}
+
+}

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Filters_RefractionScene_h
+#define meniscus_Filters_RefractionScene_h
+
+#include "MembraneExtraction.h"
+#include "Refraction/CurvedGeometry.h"
+#include "Refraction/VirtualGeometry.h"
+
+#include "vtkType.h"
+#include "vtkWeakPointer.h"
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+class vtkPolyData;
+
+namespace meniscus
+{
+
+/// Independent work on the threads of vtkSMPTools, for the kernel.
+void ThreadedLoop(std::size_t count, const RangeBody& body);
+
+/// What the owner of a scene has to report; empty if there is nothing.
+struct SceneMessages
+{
+  std::string error;
+  std::string warning;
+};
+
+/**
+ * A membrane, an eye and two media: what the filters of refraction share. Keeps the kernel's
+ * geometry as long as the values behind it hold, whatever the modification times say.
+ */
+class RefractionScene
+{
+public:
+  /// Position of the eye in the world, exterior and interior index of refraction.
+  using Eye = std::array<double, 5>;
+
+  /// Takes a membrane. False, with an error, if it cannot be used.
+  bool SetMembrane(vtkPolyData* membrane, bool curved, SceneMessages& messages);
+
+  /// Takes an eye for the membrane. False, with an error, if it cannot be used.
+  bool SetEye(const Eye& eye, SceneMessages& messages);
+
+  /// One image of each point (x, y, z each) in [from, to).
+  void Solve(const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const;
+
+  bool IsCurved() const { return this->Curves; }
+  const Membrane& GetMembrane() const
+  {
+    return this->Curves ? this->Curved.GetMembrane() : this->Flat.GetMembrane();
+  }
+  /// Only the one that IsCurved names has the membrane.
+  CurvedGeometry& GetCurved() { return this->Curved; }
+  const CurvedGeometry& GetCurved() const { return this->Curved; }
+  const VirtualGeometry& GetFlat() const { return this->Flat; }
+
+  vtkTypeInt64 GetNumberOfPatchBuilds() const { return this->PatchBuilds; }
+  vtkTypeInt64 GetNumberOfEyeUpdates() const { return this->EyeUpdates; }
+
+private:
+  /// Values that the refraction rays depend on.
+  struct EyeKey
+  {
+    Eye values{};
+    vtkTypeInt64 membraneBuild = -1;
+  };
+
+  MembraneStatus BuildMembrane(bool curved);
+  bool ReportMembrane(MembraneStatus status, SceneMessages& messages) const;
+
+  VirtualGeometry Flat;
+  CurvedGeometry Curved;
+  bool Curves = false;
+
+  vtkWeakPointer<vtkPolyData> MembraneSource;
+  vtkMTimeType MembraneTime = 0;
+  MembraneArrays Arrays;
+  bool MembraneReady = false;
+  EyeKey Key;
+
+  vtkTypeInt64 PatchBuilds = 0;
+  vtkTypeInt64 EyeUpdates = 0;
+};
+
+}
+
+#endif

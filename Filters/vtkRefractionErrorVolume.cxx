@@ -1,0 +1,377 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkRefractionErrorVolume.h"
+
+#include "ImplicitSurface.h"
+#include "Refraction/ErrorSamples.h"
+#include "RefractionScene.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkImplicitFunction.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSMPTools.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace
+{
+
+// Samples that a thread takes at once, and between two reports of progress: a hundredth of all, but
+// enough for the threads of a large machine.
+constexpr vtkIdType Grain = 128;
+constexpr vtkIdType ProgressSteps = 100;
+constexpr vtkIdType SmallestStep = 64 * Grain;
+
+}
+
+//------------------------------------------------------------------------------
+class vtkRefractionErrorVolume::vtkInternals
+{
+public:
+  meniscus::RefractionScene Scene;
+  /// The finer mesh, or the same one where the scene has flat facets.
+  meniscus::RefractionScene Reference;
+  std::vector<meniscus::ErrorSample> Samples;
+  meniscus::ErrorSummary Summary;
+  bool WarnedOfNoReference = false;
+};
+
+vtkStandardNewMacro(vtkRefractionErrorVolume);
+
+//------------------------------------------------------------------------------
+vtkRefractionErrorVolume::vtkRefractionErrorVolume()
+  : Internals(new vtkInternals)
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+//------------------------------------------------------------------------------
+vtkRefractionErrorVolume::~vtkRefractionErrorVolume() = default;
+
+//------------------------------------------------------------------------------
+void vtkRefractionErrorVolume::SetExactMembrane(vtkImplicitFunction* function)
+{
+  if (this->ExactMembrane != function)
+  {
+    this->ExactMembrane = function;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkImplicitFunction* vtkRefractionErrorVolume::GetExactMembrane()
+{
+  return this->ExactMembrane;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionErrorVolume::SetReferenceData(vtkPolyData* membrane)
+{
+  this->SetInputData(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+double vtkRefractionErrorVolume::GetMeanError() const
+{
+  return this->Internals->Summary.mean;
+}
+
+//------------------------------------------------------------------------------
+double vtkRefractionErrorVolume::GetStandardDeviation() const
+{
+  return this->Internals->Summary.deviation;
+}
+
+//------------------------------------------------------------------------------
+double vtkRefractionErrorVolume::GetLargestError() const
+{
+  return this->Internals->Summary.largest;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfMeasuredSamples() const
+{
+  return static_cast<vtkTypeInt64>(this->Internals->Summary.count);
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfPatchBuilds() const
+{
+  return this->Internals->Scene.GetNumberOfPatchBuilds();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfEyeUpdates() const
+{
+  return this->Internals->Scene.GetNumberOfEyeUpdates();
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkRefractionErrorVolume::GetMTime()
+{
+  const vtkMTimeType own = this->Superclass::GetMTime();
+  return this->ExactMembrane ? std::max(own, this->ExactMembrane->GetMTime()) : own;
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractionErrorVolume::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractionErrorVolume::HasValidBox()
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* range = this->ModelBounds + 2 * axis;
+    if (!std::isfinite(range[0]) || !std::isfinite(range[1]) || range[0] > range[1])
+    {
+      vtkErrorMacro("ModelBounds " << range[0] << " to " << range[1] << " along axis " << axis
+                                   << " are not finite or turned over; the output is empty.");
+      return false;
+    }
+    if (this->SampleDimensions[axis] < 1)
+    {
+      vtkErrorMacro("SampleDimensions must be 1 at least, not "
+        << this->SampleDimensions[axis] << " along axis " << axis << "; the output is empty.");
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractionErrorVolume::RequestInformation(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
+{
+  int extent[6];
+  double origin[3];
+  double spacing[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // What is wrong with the box is said when there is an output to empty, in RequestData.
+    const double* range = this->ModelBounds + 2 * axis;
+    const int last = std::max(this->SampleDimensions[axis], 1) - 1;
+    extent[2 * axis] = 0;
+    extent[2 * axis + 1] = last;
+    origin[axis] = range[0];
+    const double step = last > 0 ? (range[1] - range[0]) / last : 0.0;
+    spacing[axis] = step > 0.0 ? step : 1.0;
+  }
+  vtkInformation* info = outputs->GetInformationObject(0);
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  info->Set(vtkDataObject::ORIGIN(), origin, 3);
+  info->Set(vtkDataObject::SPACING(), spacing, 3);
+  info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_DOUBLE, 1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Every part of the volume needs all of the membranes.
+int vtkRefractionErrorVolume::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < 2; ++port)
+  {
+    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
+    {
+      info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractionErrorVolume::RequestData(
+  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  this->Internals->Summary = meniscus::ErrorSummary();
+  vtkPolyData* membrane = vtkPolyData::GetData(inputs[0]);
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  if (!membrane || !output)
+  {
+    vtkErrorMacro("The membrane is missing or no vtkPolyData; the output is empty.");
+    return 0;
+  }
+  if (!this->HasValidBox() || !this->UpdateScenes(membrane, vtkPolyData::GetData(inputs[1])))
+  {
+    return 0;
+  }
+  vtkInformation* info = outputs->GetInformationObject(0);
+  output->SetExtent(info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
+  output->SetOrigin(info->Get(vtkDataObject::ORIGIN()));
+  output->SetSpacing(info->Get(vtkDataObject::SPACING()));
+  if (this->MeasureSamples(output))
+  {
+    this->FillOutput(output);
+  }
+  else
+  {
+    output->Initialize();
+  }
+  std::vector<meniscus::ErrorSample>().swap(this->Internals->Samples);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference)
+{
+  vtkInternals& internals = *this->Internals;
+  const bool curved = this->MembraneModel == CURVED;
+  const meniscus::RefractionScene::Eye eye = { this->EyePosition[0], this->EyePosition[1],
+    this->EyePosition[2], this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction };
+  meniscus::SceneMessages messages;
+  bool ready = internals.Scene.SetMembrane(membrane, curved, messages) &&
+    internals.Scene.SetEye(eye, messages);
+  const bool needsReference = !this->ExactMembrane && (reference || !curved);
+  if (ready && needsReference)
+  {
+    ready = internals.Reference.SetMembrane(reference ? reference : membrane, true, messages) &&
+      internals.Reference.SetEye(eye, messages);
+  }
+  if (!messages.error.empty())
+  {
+    vtkErrorMacro(<< messages.error);
+  }
+  if (!messages.warning.empty())
+  {
+    vtkWarningMacro(<< messages.warning);
+  }
+  if (curved && !needsReference && !this->ExactMembrane && !internals.WarnedOfNoReference)
+  {
+    internals.WarnedOfNoReference = true;
+    vtkWarningMacro("CURVED is compared with itself: set the exact membrane, or a finer one on "
+                    "port 1, to learn how good the mesh is.");
+  }
+  return ready;
+}
+
+//------------------------------------------------------------------------------
+// False after an abort.
+bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
+{
+  vtkInternals& internals = *this->Internals;
+  const glm::dvec3 eye(this->EyePosition[0], this->EyePosition[1], this->EyePosition[2]);
+  std::unique_ptr<meniscus::ExactSurface> exact;
+  if (this->ExactMembrane)
+  {
+    exact = std::make_unique<meniscus::ImplicitSurface>(
+      this->ExactMembrane, internals.Scene.GetMembrane(), eye);
+  }
+  else
+  {
+    const bool itself = this->MembraneModel == CURVED && !this->GetInputDataObject(1, 0);
+    exact = std::make_unique<meniscus::PatchesAsSurface>(
+      itself ? internals.Scene.GetCurved() : internals.Reference.GetCurved());
+  }
+  const meniscus::ErrorSampler sampler(
+    *exact, eye, this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction);
+  const meniscus::RefractionScene& scene = internals.Scene;
+  const vtkIdType count = output->GetNumberOfPoints();
+  internals.Samples.assign(static_cast<std::size_t>(count), meniscus::ErrorSample());
+  const vtkIdType step = std::max(count / ProgressSteps, SmallestStep);
+  for (vtkIdType first = 0; first < count; first += step)
+  {
+    const vtkIdType last = std::min(first + step, count);
+    vtkSMPTools::For(first, last, Grain,
+      [&internals, &sampler, &scene, output](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType i = begin; i < end; ++i)
+        {
+          glm::dvec3 point;
+          output->GetPoint(i, &point.x);
+          internals.Samples[static_cast<std::size_t>(i)] = scene.IsCurved()
+            ? sampler.Measure(scene.GetCurved(), point)
+            : sampler.Measure(scene.GetFlat(), point);
+        }
+      });
+    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
+    if (this->GetAbortExecute())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionErrorVolume::FillOutput(vtkImageData* output)
+{
+  const std::vector<meniscus::ErrorSample>& samples = this->Internals->Samples;
+  this->Internals->Summary = meniscus::Summarize(samples.data(), samples.size());
+  vtkNew<vtkDoubleArray> errors;
+  errors->SetName("RefractionError");
+  errors->SetNumberOfTuples(static_cast<vtkIdType>(samples.size()));
+  vtkNew<vtkUnsignedCharArray> states;
+  states->SetName("SampleState");
+  states->SetNumberOfTuples(static_cast<vtkIdType>(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    const bool measured = samples[i].state == meniscus::SampleState::Measured;
+    errors->SetValue(static_cast<vtkIdType>(i),
+      measured ? samples[i].error : std::numeric_limits<double>::quiet_NaN());
+    states->SetValue(static_cast<vtkIdType>(i), static_cast<unsigned char>(samples[i].state));
+  }
+  output->GetPointData()->SetScalars(errors);
+  output->GetPointData()->AddArray(states);
+
+  const auto addNumber = [output](const char* name, double value)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name);
+    array->InsertNextValue(value);
+    output->GetFieldData()->AddArray(array);
+  };
+  addNumber("MeanError", this->GetMeanError());
+  addNumber("StandardDeviation", this->GetStandardDeviation());
+  addNumber("LargestError", this->GetLargestError());
+  vtkNew<vtkIdTypeArray> measured;
+  measured->SetName("NumberOfMeasuredSamples");
+  measured->InsertNextValue(static_cast<vtkIdType>(this->GetNumberOfMeasuredSamples()));
+  output->GetFieldData()->AddArray(measured);
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionErrorVolume::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
+     << this->EyePosition[2] << ")\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
+     << "\n";
+  os << indent << "ExactMembrane: " << this->ExactMembrane.Get() << "\n";
+  os << indent << "ModelBounds: (" << this->ModelBounds[0] << ", " << this->ModelBounds[1] << ", "
+     << this->ModelBounds[2] << ", " << this->ModelBounds[3] << ", " << this->ModelBounds[4] << ", "
+     << this->ModelBounds[5] << ")\n";
+  os << indent << "SampleDimensions: (" << this->SampleDimensions[0] << ", "
+     << this->SampleDimensions[1] << ", " << this->SampleDimensions[2] << ")\n";
+  os << indent << "MeanError: " << this->GetMeanError() << "\n";
+  os << indent << "StandardDeviation: " << this->GetStandardDeviation() << "\n";
+  os << indent << "LargestError: " << this->GetLargestError() << "\n";
+  os << indent << "NumberOfMeasuredSamples: " << this->GetNumberOfMeasuredSamples() << "\n";
+}

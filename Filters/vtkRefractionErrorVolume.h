@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkRefractionErrorVolume
+ * @brief   how far off virtual geometry is behind a membrane, over a box
+ *
+ * The error volumes of the thesis "Refraction by geometric transforms", section 4.1, for any
+ * membrane, eye and box: shows how good a membrane's mesh is for a scene before geometry is put
+ * behind it.
+ *
+ * Each sample of a regular grid is taken for a true point and moved to its virtual point with the
+ * membrane's mesh, as vtkRefractedGeometryFilter does it. The sight ray of the virtual point is
+ * then traced through the exact surface, Eq. 2.2, and Eq. 2.4 is undone on the refracted ray. The
+ * distance between the point that this gives and the sample is the error, a world length.
+ *
+ * Input port 0 is the membrane as vtkRefractedGeometryFilter takes it. What the exact surface is:
+ * - an implicit function that the membrane's points lie on (SetExactMembrane), with its gradient;
+ * - otherwise the membrane on the optional input port 1, a finer mesh of the same surface, as
+ * curved patches;
+ * - otherwise the curved patches of the membrane itself. This measures what FLAT_FACETS loses;
+ *   CURVED has no error by this measure, so a warning says so.
+ *
+ * Output is a vtkImageData with two point arrays:
+ * - `RefractionError` (the active scalars, 1 double, world length): NaN where it was not measured;
+ * - `SampleState` (1 unsigned char): MEASURED, NO_IMAGE (outside the visible volume),
+ * SEVERAL_IMAGES (zones of convergence; with FLAT_FACETS points that are not in one cell alone),
+ *   NO_EXACT_POINT (the exact surface is missed or reflects totally there), NOT_FINITE (coordinates
+ *   out of range).
+ *
+ * Like the thesis, the statistics are over MEASURED samples alone. They are in the field data too,
+ * as `MeanError`, `StandardDeviation`, `LargestError` and `NumberOfMeasuredSamples`, and hold for
+ * the part of the volume that was asked for last.
+ *
+ * Samples are measured in parallel with vtkSMPTools; results do not depend on the number of
+ * threads. An implicit function is evaluated from all of them, as vtkSampleFunction does it.
+ * Progress is reported; after an abort the output is empty. Cost: about 1 microsecond per sample
+ * and thread with FLAT_FACETS, 3 with CURVED. The membrane's mesh is taken in again only if its
+ * values change, the rays only if the eye's or a medium's do.
+ *
+ * @note A point that is 20 units off far below the membrane may look better than one that is 2 off
+ * just below it (thesis): the error is a length in the interior, not an angle at the eye.
+ * @note A ray may meet an implicit function beyond the border of the membrane's mesh.
+ *
+ * @sa vtkRefractedGeometryFilter
+ */
+#ifndef vtkRefractionErrorVolume_h
+#define vtkRefractionErrorVolume_h
+
+#include "vtkImageAlgorithm.h"
+#include "vtkMeniscusModule.h" // For export macro
+#include "vtkSmartPointer.h"   // For the implicit function
+
+#include <memory> // For std::unique_ptr
+
+class vtkImageData;
+class vtkImplicitFunction;
+class vtkPolyData;
+
+class VTKMENISCUS_EXPORT vtkRefractionErrorVolume : public vtkImageAlgorithm
+{
+public:
+  static vtkRefractionErrorVolume* New();
+  vtkTypeMacro(vtkRefractionErrorVolume, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// As in vtkRefractedGeometryFilter.
+  enum MembraneModels
+  {
+    FLAT_FACETS = 0,
+    CURVED = 1
+  };
+
+  /// Values of the array SampleState.
+  enum SampleStates
+  {
+    MEASURED = 0,
+    NO_IMAGE = 1,
+    SEVERAL_IMAGES = 2,
+    NO_EXACT_POINT = 3,
+    NOT_FINITE = 4
+  };
+
+  ///@{
+  /**
+   * Set/Get the eye's position in world coordinates. Default is (0, 0, 1).
+   */
+  vtkSetVector3Macro(EyePosition, double);
+  vtkGetVector3Macro(EyePosition, double);
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get the indices of refraction on the eye's side and behind the membrane. Positive and
+   * finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
+   */
+  vtkSetMacro(ExteriorIndexOfRefraction, double);
+  vtkGetMacro(ExteriorIndexOfRefraction, double);
+  vtkSetMacro(InteriorIndexOfRefraction, double);
+  vtkGetMacro(InteriorIndexOfRefraction, double);
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get the membrane model that is measured, FLAT_FACETS or CURVED. Default is CURVED.
+   */
+  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
+  vtkGetMacro(MembraneModel, int);
+  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
+  void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get the exact surface, whose zero set the membrane's points lie on. Which of its sides the
+   * eye is on follows from the membrane's normals. Default is none.
+   */
+  void SetExactMembrane(vtkImplicitFunction* function);
+  vtkImplicitFunction* GetExactMembrane();
+  ///@}
+
+  /**
+   * Set the finer membrane, port 1, by connection. Not used if there is an implicit function.
+   */
+  void SetReferenceConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+  /**
+   * Set the finer membrane, port 1, without a pipeline connection.
+   */
+  void SetReferenceData(vtkPolyData* membrane);
+
+  ///@{
+  /**
+   * Set/Get the box, (xmin, xmax, ymin, ymax, zmin, zmax) in world coordinates. Finite, each
+   * minimum at most its maximum; anything else is an error. Default is -1 to 1 each way.
+   */
+  vtkSetVector6Macro(ModelBounds, double);
+  vtkGetVector6Macro(ModelBounds, double);
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get the number of samples along each side of the box, from border to border; with one they
+   * are at the minimum. Default is 40 each, the thesis's. Numbers below 1 are an error.
+   */
+  vtkSetVector3Macro(SampleDimensions, int);
+  vtkGetVector3Macro(SampleDimensions, int);
+  ///@}
+
+  ///@{
+  /**
+   * Statistics of the last update: mean, standard deviation and largest of the errors, world
+   * lengths, and how many samples they are of. 0 if there is none.
+   */
+  double GetMeanError() const;
+  double GetStandardDeviation() const;
+  double GetLargestError() const;
+  vtkTypeInt64 GetNumberOfMeasuredSamples() const;
+  ///@}
+
+  ///@{
+  /**
+   * Counters since construction: how often the membrane's shape was taken in, and how often rays
+   * were computed for it.
+   */
+  vtkTypeInt64 GetNumberOfPatchBuilds() const;
+  vtkTypeInt64 GetNumberOfEyeUpdates() const;
+  ///@}
+
+  /**
+   * Covers the implicit function.
+   */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkRefractionErrorVolume();
+  ~vtkRefractionErrorVolume() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkRefractionErrorVolume(const vtkRefractionErrorVolume&) = delete;
+  void operator=(const vtkRefractionErrorVolume&) = delete;
+
+  bool HasValidBox();
+  bool UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference);
+  bool MeasureSamples(vtkImageData* output);
+  void FillOutput(vtkImageData* output);
+
+  double EyePosition[3] = { 0.0, 0.0, 1.0 };
+  double ExteriorIndexOfRefraction = 1.0;
+  double InteriorIndexOfRefraction = 1.333;
+  int MembraneModel = CURVED;
+  double ModelBounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+  int SampleDimensions[3] = { 40, 40, 40 };
+  vtkSmartPointer<vtkImplicitFunction> ExactMembrane;
+
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
+};
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/ClippingPlanes.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+RayClippingPlane ComputeClippingPlane(
+  const RayFrame& frame, const glm::dvec3& normal, double height)
+{
+  const glm::dvec3 inFrame = glm::transpose(frame.ViewToWorld) * normal;
+  const double size = glm::length(inFrame);
+  if (!(size > 0.0))
+  {
+    return RayClippingPlane();
+  }
+  const glm::dvec3 unit = inFrame / size;
+  const glm::dvec2 across(unit);
+  const auto map = [&across](const AffinePixelMap& pixels, double constant)
+  {
+    return glm::dvec3(constant + glm::dot(across, pixels.Base), glm::dot(across, pixels.PerColumn),
+      glm::dot(across, pixels.PerRow));
+  };
+  return { map(frame.Origin, height / size), map(frame.Slope, unit.z) };
+}
+
+//------------------------------------------------------------------------------
+void ClipRay(const RayClippingPlane& plane, const glm::dvec2& pixel, double& start, double& end)
+{
+  const glm::dvec3 place(1.0, pixel.x, pixel.y);
+  const double constant = glm::dot(plane.Constant, place);
+  const double perDepth = glm::dot(plane.PerDepth, place);
+  if (perDepth > 0.0)
+  {
+    start = std::max(start, -constant / perDepth);
+  }
+  else if (perDepth < 0.0)
+  {
+    end = std::min(end, -constant / perDepth);
+  }
+  else if (constant < 0.0)
+  {
+    end = start;
+  }
+}
+
+}

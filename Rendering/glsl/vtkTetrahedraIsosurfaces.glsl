@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Isosurfaces, met exactly where the scalar, linear along a segment, passes an isovalue. A scalar equal
+// to an isovalue counts as above it: a surface through a face is met once, and one that a ray only
+// touches is not met.
+
+uniform samplerBuffer surfaces;      // ascending, 2 texels each: (isovalue, opacity), colour
+uniform int numberOfSurfaces;
+uniform float terminationTransmittance;
+
+const float BEYOND = 3.0e+38;
+
+vec3 color;
+float transmittance;
+
+int surfacesBelow;   // isovalues not above the scalar
+vec2 surfaceRange;   // the isovalues next to it
+
+void startRay()
+{
+  color = vec3(0.0);
+  transmittance = 1.0;
+}
+
+bool isRayDone()
+{
+  return transmittance <= terminationTransmittance;
+}
+
+vec4 finishRay()
+{
+  return vec4(color, 1.0 - transmittance);
+}
+
+void loadSurfaceRange()
+{
+  surfaceRange.x = surfacesBelow > 0 ? texelFetch(surfaces, 2 * surfacesBelow - 2).x : -BEYOND;
+  surfaceRange.y =
+    surfacesBelow < numberOfSurfaces ? texelFetch(surfaces, 2 * surfacesBelow).x : BEYOND;
+}
+
+void startPart(float scalar)
+{
+  int low = 0;
+  int high = numberOfSurfaces;
+  while (low < high)
+  {
+    int middle = (low + high) / 2;
+    bool above = texelFetch(surfaces, 2 * middle).x > scalar;
+    low = above ? low : middle + 1;
+    high = above ? middle : high;
+  }
+  surfacesBelow = low;
+  loadSurfaceRange();
+}
+
+// Adds a surface at a fraction of the pending segment.
+void addSurface(int index, float at)
+{
+  float alpha = texelFetch(surfaces, 2 * index).y;
+  vec3 emitted = texelFetch(surfaces, 2 * index + 1).rgb;
+#if SHADING
+#if VERTEX_GRADIENTS
+  vec3 gradient = mix(segmentGradientStart, segmentGradientEnd, at);
+#else
+  vec3 gradient = cellGradient(cell);
+#endif
+  vec3 reflected;
+  vec3 highlight;
+  light(gradient, mix(segmentStartDepth, segmentEndDepth, at), reflected, highlight);
+  emitted = emitted * reflected + highlight;
+#endif
+  color += transmittance * alpha * emitted;
+  transmittance -= transmittance * alpha;
+}
+
+// One surface per turn, front to back.
+bool integratePiece()
+{
+  // A segment that begins outside of the range first moves the range. After that segmentDone is 1.
+  bool inside = segmentDone > 0.0 ||
+    (segmentStart >= surfaceRange.x && segmentStart < surfaceRange.y);
+  float target = inside ? segmentEnd : segmentStart;
+  bool upward = target >= surfaceRange.y;
+  bool downward = target < surfaceRange.x;
+  if (inside)
+  {
+    segmentDone = 1.0;
+    if (upward || downward)
+    {
+      float isovalue = upward ? surfaceRange.y : surfaceRange.x;
+      float at = clamp((isovalue - segmentStart) / (segmentEnd - segmentStart), 0.0, 1.0);
+      addSurface(upward ? surfacesBelow : surfacesBelow - 1, at);
+    }
+  }
+  if (upward || downward)
+  {
+    surfacesBelow += upward ? 1 : -1;
+    loadSurfaceRange();
+  }
+  return inside && !upward && !downward;
+}

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Gradients and lights. Positions and directions are in the frame of the rays (x, y, depth), whose
+// metric is the world's up to a factor.
+
+uniform mat3 gradientToFrame;        // from normalised model coordinates
+uniform float gradientMagnitude;     // per length in the frame: scalar per world length, normalised
+uniform int firstGradientInterval;   // gradient opacity follows the intervals of the scalar
+uniform int numberOfGradientIntervals;
+uniform float ambient;
+uniform float diffuse;
+uniform float specular;
+uniform float specularPower;
+#if NUMBER_OF_LIGHTS > 0
+uniform vec4 lightPosition[NUMBER_OF_LIGHTS];    // or the direction to it, with w = 0
+uniform vec3 lightDiffuse[NUMBER_OF_LIGHTS];
+uniform vec3 lightSpecular[NUMBER_OF_LIGHTS];
+uniform vec4 lightCone[NUMBER_OF_LIGHTS];        // axis, cosine of the angle (-2: no cone)
+uniform vec4 lightFalloff[NUMBER_OF_LIGHTS];     // by distance^0, 1, 2; exponent in the cone
+#endif
+
+// Gradient of the scalar in a cell; 0 in one without volume.
+vec3 cellGradient(int index)
+{
+  vec4 p = texelFetch(vertices, texelFetch(cells, 8 * index).r);
+  vec4 a = texelFetch(vertices, texelFetch(cells, 8 * index + 1).r) - p;
+  vec4 b = texelFetch(vertices, texelFetch(cells, 8 * index + 2).r) - p;
+  vec4 c = texelFetch(vertices, texelFetch(cells, 8 * index + 3).r) - p;
+  vec3 bc = cross(b.xyz, c.xyz);
+  float volume = dot(a.xyz, bc);
+  vec3 sum = a.w * bc + b.w * cross(c.xyz, a.xyz) + c.w * cross(a.xyz, b.xyz);
+  return volume != 0.0 ? sum / volume : vec3(0.0);
+}
+
+#if GRADIENT_OPACITY
+// The factor of the attenuation.
+float gradientOpacity(vec3 gradient)
+{
+  float size = gradientMagnitude * length(gradientToFrame * gradient);
+  int low = firstGradientInterval;
+  int high = firstGradientInterval + numberOfGradientIntervals - 1;
+  while (low < high)
+  {
+    int middle = (low + high) / 2;
+    bool above = texelFetch(intervals, 3 * middle).y < size;
+    low = above ? middle + 1 : low;
+    high = above ? high : middle;
+  }
+  vec4 range = texelFetch(intervals, 3 * low);
+  return max(0.0, range.z + (size - range.x) * range.w);
+}
+#endif
+
+// Phong's model, two-sided: the normal is the gradient, turned to the viewer. Yields what multiplies
+// the emitted colour and what is added to it, at a depth on the ray.
+void light(vec3 gradient, float depth, out vec3 reflected, out vec3 highlight)
+{
+  reflected = vec3(ambient);
+  highlight = vec3(0.0);
+  vec3 normal = gradientToFrame * gradient;
+  float largest = max(abs(normal.x), max(abs(normal.y), abs(normal.z)));
+  if (!(largest > 0.0))
+  {
+    return;
+  }
+  normal = normalize(normal / largest);
+  vec3 toEye = -normalize(vec3(raySlope, 1.0));
+  normal = dot(normal, toEye) < 0.0 ? -normal : normal;
+#if NUMBER_OF_LIGHTS > 0
+  vec2 origin = originBase + rayPixel.x * originPerColumn + rayPixel.y * originPerRow;
+  vec3 place = vec3(origin + depth * raySlope, depth);
+  for (int i = 0; i < NUMBER_OF_LIGHTS; ++i)
+  {
+    vec3 toLight = lightPosition[i].xyz - lightPosition[i].w * place;
+    float distance = length(toLight);
+    toLight /= distance;
+    float strength =
+      1.0 / dot(lightFalloff[i].xyz, vec3(1.0, distance, distance * distance));
+    float inCone = -dot(toLight, lightCone[i].xyz);
+    bool lit = inCone >= lightCone[i].w;
+    strength *= lightCone[i].w >= -1.0 && lightFalloff[i].w != 0.0
+      ? pow(max(inCone, 0.0), lightFalloff[i].w)
+      : 1.0;
+    float facing = dot(normal, toLight);
+    if (lit && facing > 0.0)
+    {
+      float glance = dot(2.0 * facing * normal - toLight, toEye);
+      reflected += strength * diffuse * facing * lightDiffuse[i];
+      highlight +=
+        glance > 0.0 ? strength * specular * pow(glance, specularPower) * lightSpecular[i] : vec3(0.0);
+    }
+  }
+#endif
+}

@@ -1,0 +1,537 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Error volumes against the thesis's tables as measured by other means, exact surfaces of every
+// kind, and what becomes of bad input.
+#include "HeightField.h"
+#include "RefractedGeometryTestHelpers.h"
+#include "ThesisTables.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkImplicitFunction.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPlane.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkRefractionErrorVolume.h"
+#include "vtkSMPTools.h"
+#include "vtkSphere.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using namespace meniscus::reference;
+
+const double NaN = std::numeric_limits<double>::quiet_NaN();
+const double Pi = std::acos(-1.0);
+const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
+
+/// y - f(x, z) of the waves.
+class WavesFunction : public vtkImplicitFunction
+{
+public:
+  static WavesFunction* New();
+  vtkTypeMacro(WavesFunction, vtkImplicitFunction);
+  using vtkImplicitFunction::EvaluateFunction;
+  double EvaluateFunction(double x[3]) override { return x[1] - Waves.GetHeight(x[0], x[2]); }
+  void EvaluateGradient(double x[3], double g[3]) override
+  {
+    double dx = 0.0;
+    double dz = 0.0;
+    Waves.GetSlopes(x[0], x[2], dx, dz);
+    g[0] = -dx;
+    g[1] = 1.0;
+    g[2] = -dz;
+  }
+};
+vtkStandardNewMacro(WavesFunction);
+
+vtkSmartPointer<vtkSphere> MakeSphere(double radius)
+{
+  auto sphere = vtkSmartPointer<vtkSphere>::New();
+  sphere->SetCenter(0.0, radius, 0.0);
+  sphere->SetRadius(radius);
+  return sphere;
+}
+
+vtkSmartPointer<vtkRefractionErrorVolume> MakeVolume(vtkPolyData* membrane)
+{
+  auto volume = vtkSmartPointer<vtkRefractionErrorVolume>::New();
+  volume->SetInputData(0, membrane);
+  volume->SetEyePosition(20.0, 300.0, 10.0);
+  volume->SetModelBounds(-80.0, 80.0, -150.0, -10.0, -80.0, 80.0);
+  volume->SetSampleDimensions(12, 12, 12);
+  return volume;
+}
+
+/// The thesis's box: 40 samples a side, 20 apart.
+vtkSmartPointer<vtkRefractionErrorVolume> MakeThesisVolume(const ThesisRow& row)
+{
+  const double radius = row.sphereRatio * 141.5;
+  auto volume = MakeVolume(
+    MakeMembrane(row.shape == MembraneShape::Disc ? MakeDisc(141.5, 5, radius)
+                                                  : MakeSquare(200.0, row.squareCells, radius)));
+  volume->SetMembraneModelToFlatFacets();
+  volume->SetEyePosition(row.eyeOffset, row.eyeHeight, 0.0);
+  volume->SetExteriorIndexOfRefraction(row.exterior);
+  volume->SetInteriorIndexOfRefraction(row.interior);
+  volume->SetModelBounds(-400.0, 380.0, -800.0, -20.0, -400.0, 380.0);
+  volume->SetSampleDimensions(40, 40, 40);
+  if (radius > 0.0)
+  {
+    volume->SetExactMembrane(MakeSphere(radius));
+  }
+  else
+  {
+    vtkNew<vtkPlane> plane;
+    plane->SetNormal(0.0, -2.0, 0.0); // away from the eye, of any length
+    volume->SetExactMembrane(plane);
+  }
+  return volume;
+}
+
+std::vector<double> GetErrors(vtkRefractionErrorVolume* volume)
+{
+  vtkDataArray* errors = volume->GetOutput()->GetPointData()->GetArray("RefractionError");
+  std::vector<double> values;
+  for (vtkIdType i = 0; errors && i < errors->GetNumberOfTuples(); ++i)
+  {
+    values.push_back(errors->GetTuple1(i));
+  }
+  return values;
+}
+
+bool SameBits(const std::vector<double>& a, const std::vector<double>& b)
+{
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+//------------------------------------------------------------------------------
+// Rows whose mean the references measure without this class, to rounding; the printed ones within
+// what Documentation/refraction.md states for them.
+TEST(RefractionErrorVolume, ReproducesTheThesis)
+{
+  int rows = 0;
+  for (const ThesisRow& row : GetThesisRows())
+  {
+    const bool bowl = std::strcmp(row.table, "4.2") == 0 && row.sphereRatio > 0.0;
+    const bool square = std::strcmp(row.table, "4.5") == 0 && row.sphereRatio == 0.0;
+    if (!bowl && !square)
+    {
+      continue;
+    }
+    ++rows;
+    const auto volume = MakeThesisVolume(row);
+    const auto messages = Observe(volume);
+    volume->Update();
+    EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+    const ErrorStatistics expected = MeasureThesisRow(row);
+    EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), static_cast<vtkTypeInt64>(expected.points));
+    EXPECT_NEAR(volume->GetMeanError(), expected.mean, 1e-9 * expected.mean);
+    EXPECT_NEAR(volume->GetStandardDeviation(), expected.deviation, 1e-7 * expected.mean);
+    EXPECT_NEAR(volume->GetLargestError(), expected.largest, 1e-9 * expected.largest);
+    EXPECT_NEAR(volume->GetMeanError(), row.mean, 0.0025 * row.mean) << rows;
+    EXPECT_NEAR(volume->GetStandardDeviation(), row.deviation, 0.009 * row.deviation) << rows;
+  }
+  EXPECT_EQ(rows, 11);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionErrorVolume, CurvedPatchesReproduceSpheres)
+{
+  const ThesisRow& row = GetThesisRows()[14]; // Table 4.2, radius 355
+  ASSERT_EQ(row.sphereRatio, 2.5);
+  const auto volume = MakeThesisVolume(row);
+  volume->SetMembraneModelToCurved();
+  volume->Update();
+  EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 20000);
+  EXPECT_LT(volume->GetMeanError(), 1e-11);
+  // So its own patches serve as the exact surface of its facets.
+  volume->SetMembraneModelToFlatFacets();
+  volume->Update();
+  const double mean = volume->GetMeanError();
+  const vtkTypeInt64 count = volume->GetNumberOfMeasuredSamples();
+  volume->SetExactMembrane(nullptr);
+  volume->Update();
+  // Samples at the border of the mesh have no exact image in one of the two.
+  EXPECT_NEAR(
+    static_cast<double>(volume->GetNumberOfMeasuredSamples()), static_cast<double>(count), 300.0);
+  EXPECT_NEAR(volume->GetMeanError(), mean, 0.01 * mean);
+}
+
+//------------------------------------------------------------------------------
+// A finer mesh stands for the surface as well as the function does, as far as it is better.
+TEST(RefractionErrorVolume, AFinerMeshStandsForTheSurface)
+{
+  const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
+  vtkNew<WavesFunction> function;
+  for (const int model :
+    { vtkRefractionErrorVolume::FLAT_FACETS, vtkRefractionErrorVolume::CURVED })
+  {
+    volume->SetMembraneModel(model);
+    volume->SetExactMembrane(function);
+    volume->Update();
+    const auto exact = GetErrors(volume);
+    const double mean = volume->GetMeanError();
+    EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 200);
+    EXPECT_GT(mean, 1e-4);
+    volume->SetExactMembrane(nullptr);
+    volume->SetReferenceData(MakeMembrane(Waves.MakeMesh(192)));
+    volume->Update();
+    const auto fine = GetErrors(volume);
+    ASSERT_EQ(fine.size(), exact.size());
+    std::size_t both = 0;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < fine.size(); ++i)
+    {
+      if (std::isfinite(fine[i]) && std::isfinite(exact[i]))
+      {
+        ++both;
+        worst = std::max(worst, std::fabs(fine[i] - exact[i]));
+      }
+    }
+    EXPECT_GT(both, 200u);
+    // Third order: the finer mesh is (24 / 192)^3 times as far off as CURVED on the coarse one.
+    EXPECT_LT(worst, 0.01 * volume->GetLargestError()) << model;
+    EXPECT_NEAR(volume->GetMeanError(), mean, 0.01 * mean) << model;
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionErrorVolume, CurvedAgainstItselfIsExactAndWarnsOnce)
+{
+  const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
+  const auto messages = Observe(volume);
+  volume->Update();
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 200);
+  EXPECT_LT(volume->GetLargestError(), 1e-8);
+  volume->SetEyePosition(0.0, 250.0, 0.0);
+  volume->Update();
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionErrorVolume, EqualIndicesHaveNoError)
+{
+  const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(16)));
+  volume->SetExactMembrane(vtkSmartPointer<WavesFunction>::New());
+  volume->SetInteriorIndexOfRefraction(1.0);
+  volume->Update();
+  EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 200);
+  EXPECT_LT(volume->GetLargestError(), 1e-11);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionErrorVolume, StatesSayWhyASampleIsNotMeasured)
+{
+  const HeightField strong{ HeightField::Shape::Waves, 200.0, 5.0, 0.03 * Pi, 1.0, 1.333 };
+  const auto volume = MakeVolume(MakeMembrane(strong.MakeMesh(48)));
+  volume->SetModelBounds(-80.0, 80.0, -400.0, 40.0, -80.0, 80.0);
+  volume->SetSampleDimensions(10, 9, 10);
+  const auto messages = Observe(volume); // CURVED against itself
+  volume->Update();
+  vtkImageData* output = volume->GetOutput();
+  vtkDataArray* states = output->GetPointData()->GetArray("SampleState");
+  ASSERT_NE(states, nullptr);
+  const auto errors = GetErrors(volume);
+  EXPECT_EQ(
+    output->GetPointData()->GetScalars(), output->GetPointData()->GetArray("RefractionError"));
+  int counts[5] = { 0, 0, 0, 0, 0 };
+  int wrong = 0;
+  for (vtkIdType i = 0; i < states->GetNumberOfTuples(); ++i)
+  {
+    const int state = static_cast<int>(states->GetTuple1(i));
+    ++counts[state];
+    EXPECT_EQ(std::isfinite(errors[static_cast<std::size_t>(i)]),
+      state == vtkRefractionErrorVolume::MEASURED);
+    double p[3];
+    output->GetPoint(i, p);
+    const auto exact = strong.FindSightPoints({ 20.0, 300.0, 10.0 }, { p[0], p[1], p[2] }, 100);
+    const int expected = p[1] > strong.GetHeight(p[0], p[2]) || exact.empty()
+      ? vtkRefractionErrorVolume::NO_IMAGE
+      : (exact.size() > 1 ? vtkRefractionErrorVolume::SEVERAL_IMAGES
+                          : vtkRefractionErrorVolume::MEASURED);
+    // A point in front may have an image too, seen through a crest (the membrane hides nothing).
+    wrong += p[1] < -5.0 && state != expected;
+  }
+  EXPECT_GT(counts[vtkRefractionErrorVolume::MEASURED], 100);
+  EXPECT_GT(counts[vtkRefractionErrorVolume::NO_IMAGE], 50);
+  EXPECT_GT(counts[vtkRefractionErrorVolume::SEVERAL_IMAGES], 100);
+  EXPECT_EQ(counts[vtkRefractionErrorVolume::MEASURED],
+    static_cast<int>(volume->GetNumberOfMeasuredSamples()));
+  EXPECT_LE(wrong, 3); // pairs of images that merge, on a caustic
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionErrorVolume, FieldDataHasTheStatistics)
+{
+  const auto volume = MakeThesisVolume(GetThesisRows()[13]);
+  volume->SetSampleDimensions(10, 11, 12);
+  volume->Update();
+  vtkImageData* output = volume->GetOutput();
+  int dimensions[3];
+  output->GetDimensions(dimensions);
+  EXPECT_EQ(dimensions[0], 10);
+  EXPECT_EQ(dimensions[2], 12);
+  EXPECT_EQ(output->GetBounds()[1], 380.0);
+  EXPECT_EQ(output->GetBounds()[2], -800.0);
+  vtkFieldData* field = output->GetFieldData();
+  EXPECT_EQ(field->GetArray("MeanError")->GetTuple1(0), volume->GetMeanError());
+  EXPECT_EQ(field->GetArray("StandardDeviation")->GetTuple1(0), volume->GetStandardDeviation());
+  EXPECT_EQ(field->GetArray("LargestError")->GetTuple1(0), volume->GetLargestError());
+  EXPECT_EQ(field->GetArray("NumberOfMeasuredSamples")->GetTuple1(0),
+    static_cast<double>(volume->GetNumberOfMeasuredSamples()));
+  std::ostringstream text;
+  volume->Print(text);
+  EXPECT_NE(text.str().find("FLAT_FACETS"), std::string::npos);
+  EXPECT_NE(text.str().find("SampleDimensions: (10, 11, 12)"), std::string::npos);
+}
+
+TEST(RefractionErrorVolume, AnySingleSliceOrPointWillDo)
+{
+  const auto volume = MakeVolume(MakeFlatMembrane());
+  volume->SetSampleDimensions(1, 1, 1);
+  volume->SetModelBounds(5.0, 5.0, -50.0, -50.0, 3.0, 9.0);
+  volume->SetMembraneModelToFlatFacets();
+  volume->Update();
+  EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), 1);
+  EXPECT_EQ(volume->GetStandardDeviation(), 0.0);
+  double p[3];
+  volume->GetOutput()->GetPoint(0, p);
+  EXPECT_EQ(p[1], -50.0);
+  EXPECT_EQ(p[2], 3.0);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionErrorVolume, APartOfTheVolumeHasThatPartsValues)
+{
+  const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(16)));
+  volume->SetMembraneModelToFlatFacets();
+  volume->Update();
+  const auto whole = GetErrors(volume);
+  const auto another = MakeVolume(MakeMembrane(Waves.MakeMesh(16)));
+  another->SetMembraneModelToFlatFacets();
+  int extent[6] = { 3, 7, 2, 5, 4, 11 };
+  another->UpdateExtent(extent);
+  const auto part = GetErrors(another);
+  ASSERT_EQ(part.size(), 5u * 4u * 8u);
+  std::size_t i = 0;
+  for (int z = extent[4]; z <= extent[5]; ++z)
+  {
+    for (int y = extent[2]; y <= extent[3]; ++y)
+    {
+      for (int x = extent[0]; x <= extent[1]; ++x, ++i)
+      {
+        const auto at = static_cast<std::size_t>(x + 12 * (y + 12 * z));
+        EXPECT_TRUE(part[i] == whole[at] || (std::isnan(part[i]) && std::isnan(whole[at])));
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionErrorVolume, DoesNotDependOnTheNumberOfThreads)
+{
+  std::vector<std::vector<double>> results;
+  std::vector<double> means;
+  for (const int threads : { 1, 2, 5 })
+  {
+    vtkSMPTools::Initialize(threads);
+    const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
+    volume->SetSampleDimensions(30, 30, 30);
+    volume->SetExactMembrane(vtkSmartPointer<WavesFunction>::New());
+    volume->Update();
+    results.push_back(GetErrors(volume));
+    means.push_back(volume->GetMeanError());
+  }
+  vtkSMPTools::Initialize(0);
+  EXPECT_TRUE(SameBits(results[0], results[1]));
+  EXPECT_TRUE(SameBits(results[0], results[2]));
+  EXPECT_EQ(means[0], means[2]);
+}
+
+TEST(RefractionErrorVolume, KeepsWhatDidNotChange)
+{
+  const auto membrane = MakeMembrane(Waves.MakeMesh(16));
+  const auto volume = MakeVolume(membrane);
+  vtkNew<WavesFunction> function;
+  volume->SetExactMembrane(function);
+  volume->Update();
+  volume->SetSampleDimensions(5, 5, 5);
+  volume->Update();
+  membrane->Modified();
+  volume->Update();
+  EXPECT_EQ(volume->GetNumberOfPatchBuilds(), 1);
+  EXPECT_EQ(volume->GetNumberOfEyeUpdates(), 1);
+  volume->SetEyePosition(0.0, 200.0, 0.0);
+  volume->Update();
+  EXPECT_EQ(volume->GetNumberOfPatchBuilds(), 1);
+  EXPECT_EQ(volume->GetNumberOfEyeUpdates(), 2);
+  const vtkMTimeType before = volume->GetMTime();
+  function->Modified();
+  EXPECT_GT(volume->GetMTime(), before);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionErrorVolume, ReportsProgressAndCanBeAborted)
+{
+  struct Observed
+  {
+    double last = 0.0;
+    int calls = 0;
+    bool falls = false;
+    bool abort = false;
+  } observed;
+  const auto volume = MakeVolume(MakeFlatMembrane());
+  volume->SetMembraneModelToFlatFacets();
+  volume->SetSampleDimensions(60, 60, 60);
+  vtkNew<vtkCallbackCommand> callback;
+  callback->SetClientData(&observed);
+  callback->SetCallback(
+    [](vtkObject* caller, unsigned long, void* data, void*)
+    {
+      auto* o = static_cast<Observed*>(data);
+      auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+      o->falls = o->falls || algorithm->GetProgress() < o->last;
+      o->last = algorithm->GetProgress();
+      if (o->last > 0.0 && ++o->calls == 2 && o->abort)
+      {
+        algorithm->SetAbortExecute(1);
+      }
+    });
+  volume->AddObserver(vtkCommand::ProgressEvent, callback);
+  observed.abort = true;
+  volume->Update();
+  EXPECT_LT(observed.calls, 5);
+  EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), 0);
+  observed = Observed();
+  volume->SetAbortExecute(0);
+  volume->Modified();
+  volume->Update();
+  EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 1000);
+  EXPECT_GE(observed.calls, 20);
+  EXPECT_FALSE(observed.falls);
+  EXPECT_EQ(observed.last, 1.0);
+}
+
+//------------------------------------------------------------------------------
+class RefractionErrorVolumeBadInput : public ::testing::Test
+{
+protected:
+  /// One error, an empty output, no statistics; and it recovers.
+  void ExpectErrorAndRecovery(const std::function<void(vtkRefractionErrorVolume*)>& spoil,
+    const std::function<void(vtkRefractionErrorVolume*)>& mend)
+  {
+    const auto volume = MakeVolume(MakeFlatMembrane());
+    volume->SetMembraneModelToFlatFacets();
+    volume->Update();
+    const vtkTypeInt64 measured = volume->GetNumberOfMeasuredSamples();
+    EXPECT_GT(measured, 0);
+    const auto messages = Observe(volume);
+    spoil(volume);
+    volume->Update();
+    EXPECT_GE(messages->errors, 1);
+    EXPECT_FALSE(messages->text.empty());
+    EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
+    mend(volume);
+    volume->Update();
+    EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), measured);
+  }
+};
+
+TEST_F(RefractionErrorVolumeBadInput, Boxes)
+{
+  const auto mend = [](vtkRefractionErrorVolume* v)
+  {
+    v->SetModelBounds(-80.0, 80.0, -150.0, -10.0, -80.0, 80.0);
+    v->SetSampleDimensions(12, 12, 12);
+  };
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetModelBounds(1.0, -1.0, 0.0, 1.0, 0.0, 1.0); }, mend);
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetModelBounds(0.0, NaN, 0.0, 1.0, 0.0, 1.0); }, mend);
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetSampleDimensions(12, 0, 12); }, mend);
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetSampleDimensions(-3, 12, 12); }, mend);
+}
+
+TEST_F(RefractionErrorVolumeBadInput, EyesAndIndices)
+{
+  const auto mend = [](vtkRefractionErrorVolume* v)
+  {
+    v->SetEyePosition(20.0, 300.0, 10.0);
+    v->SetExteriorIndexOfRefraction(1.0);
+  };
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetEyePosition(12.5, 0.0, 0.0); }, mend);
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetEyePosition(0.0, NaN, 0.0); }, mend);
+  this->ExpectErrorAndRecovery(
+    [](vtkRefractionErrorVolume* v) { v->SetExteriorIndexOfRefraction(-1.0); }, mend);
+}
+
+TEST_F(RefractionErrorVolumeBadInput, Membranes)
+{
+  const auto mend = [](vtkRefractionErrorVolume* v)
+  {
+    v->SetInputData(0, MakeFlatMembrane());
+    v->SetInputConnection(1, nullptr);
+  };
+  this->ExpectErrorAndRecovery([](vtkRefractionErrorVolume* v)
+    { v->SetInputData(0, vtkSmartPointer<vtkPolyData>::New()); },
+    mend);
+  this->ExpectErrorAndRecovery([](vtkRefractionErrorVolume* v)
+    { v->SetReferenceData(vtkSmartPointer<vtkPolyData>::New()); },
+    mend);
+}
+
+TEST(RefractionErrorVolume, NoMembraneAtAll)
+{
+  vtkNew<vtkRefractionErrorVolume> volume;
+  const auto messages = Observe(volume);
+  volume->Update();
+  EXPECT_GE(messages->errors, 1);
+  EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
+  volume->SetInputData(0, vtkSmartPointer<vtkImageData>::New());
+  volume->Update();
+  EXPECT_GE(messages->errors, 2);
+  EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+// A function that has nothing to do with the membrane, or none of the values of one.
+TEST(RefractionErrorVolume, FunctionsThatAreNoSurface)
+{
+  const auto volume = MakeVolume(MakeFlatMembrane());
+  vtkNew<vtkPlane> nowhere;
+  nowhere->SetNormal(0.0, 0.0, 0.0);
+  volume->SetExactMembrane(nowhere);
+  volume->Update();
+  EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), 0);
+  vtkDataArray* states = volume->GetOutput()->GetPointData()->GetArray("SampleState");
+  for (vtkIdType i = 0; i < states->GetNumberOfTuples(); ++i)
+  {
+    EXPECT_TRUE(states->GetTuple1(i) == vtkRefractionErrorVolume::NO_EXACT_POINT ||
+      states->GetTuple1(i) == vtkRefractionErrorVolume::NO_IMAGE);
+  }
+  volume->SetExactMembrane(MakeSphere(1e-3));
+  volume->Update();
+  EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 12 * 12 * 12);
+}
+
+}

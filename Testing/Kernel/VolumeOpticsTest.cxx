@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Clipping planes as rays see them, gradients at vertices.
+#include "VolumeTestMeshes.h"
+
+#include "Volume/ClippingPlanes.h"
+#include "Volume/VertexGradients.h"
+
+#include <glm/geometric.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace meniscus;
+using namespace meniscus::test;
+
+namespace
+{
+
+/** One value per vertex of a mesh, by its normalised position. */
+template <typename Function>
+std::vector<float> Evaluate(const TetrahedralMesh& mesh, const Function& field)
+{
+  std::vector<float> values;
+  for (std::int64_t v = 0; v < mesh.GetNumberOfVertices(); ++v)
+  {
+    values.push_back(static_cast<float>(field(mesh.GetPosition(v))));
+  }
+  return values;
+}
+
+}
+
+TEST(VolumeClippingPlanes, DistanceAlongRays)
+{
+  TetrahedralMesh mesh;
+  const MeshArrays arrays = KuhnGrid(2);
+  mesh.Build(arrays.View());
+  const RayFrame frame = FrameAlongZ(mesh, 0.7, 100);
+  const glm::dvec3 normal(0.3, -2.0, 0.9);
+  const glm::dvec3 origin(0.2, 0.9, 0.4);
+  // The view looks along -z of the world, and depth 0 is at the mesh's centre.
+  const RayClippingPlane plane =
+    ComputeClippingPlane(frame, normal, glm::dot(normal, mesh.GetCenter() - origin));
+  for (const double depth : { -0.8, 0.0, 0.5 })
+  {
+    for (const double i : { -40.0, 0.0, 13.5 })
+    {
+      for (const double j : { -7.25, 31.0 })
+      {
+        const glm::dvec2 across = frame.Origin.At(i, j) + depth * frame.Slope.At(i, j);
+        const glm::dvec3 world = mesh.GetCenter() + frame.ViewToWorld * glm::dvec3(across, depth);
+        const glm::dvec3 place(1.0, i, j);
+        const double height =
+          glm::dot(plane.Constant, place) + depth * glm::dot(plane.PerDepth, place);
+        const double size = glm::length(frame.ViewToWorld[0]) * glm::length(normal);
+        EXPECT_NEAR(height, glm::dot(normal, world - origin) / size, 1e-13);
+      }
+    }
+  }
+}
+
+TEST(VolumeClippingPlanes, NormalOfNoLengthKeepsEverything)
+{
+  const RayClippingPlane plane = ComputeClippingPlane(RayFrame(), glm::dvec3(0.0), 3.0);
+  EXPECT_EQ(plane.Constant, glm::dvec3(0.0));
+  EXPECT_EQ(plane.PerDepth, glm::dvec3(0.0));
+}
+
+TEST(VolumeVertexGradients, LinearFieldIsExact)
+{
+  MeshArrays arrays = KuhnGrid(4);
+  Jitter(arrays, 0.05, 3);
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  const glm::dvec3 slope(0.5, -1.0, 0.25);
+  const auto scalars = Evaluate(mesh, [&](const glm::dvec3& p) { return glm::dot(slope, p); });
+  for (const glm::vec3& gradient : ComputeVertexGradients(mesh, scalars))
+  {
+    // Scalars are rounded by 2^-24 and cells are about 0.2 wide.
+    EXPECT_NEAR(glm::length(glm::dvec3(gradient) - slope), 0.0, 5e-6);
+  }
+}
+
+TEST(VolumeVertexGradients, MeansAreWeightedByVolume)
+{
+  // Two tetrahedra on both sides of the face 0, 1, 2; the second is three times as high.
+  const MeshArrays arrays{ { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -3 },
+    { 0, 1, 2, 3, 0, 1, 2, 4 } };
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  // The scalar |z|: gradients +1 and -1 along z.
+  const auto scalars = Evaluate(mesh,
+    [&](const glm::dvec3& p)
+    { return std::abs(p.z * mesh.GetRadius() + mesh.GetCenter().z) / mesh.GetRadius(); });
+  const auto gradients = ComputeVertexGradients(mesh, scalars);
+  for (std::size_t v = 0; v < gradients.size(); ++v)
+  {
+    const std::int64_t point = mesh.GetSourcePoints()[v];
+    const double expected = point == 3 ? 1.0 : (point == 4 ? -1.0 : (1.0 - 3.0) / 4.0);
+    EXPECT_NEAR(gradients[v].z, expected, 1e-6) << point;
+    EXPECT_NEAR(gradients[v].x, 0.0, 1e-6) << point;
+  }
+}
+
+TEST(VolumeVertexGradients, CellsWithoutVolumeOrScalarDoNotCount)
+{
+  MeshArrays arrays = KuhnGrid(2);
+  const std::int64_t points = static_cast<std::int64_t>(arrays.Points.size() / 3);
+  arrays.Points.insert(arrays.Points.end(), { 3.0, 0.0, 0.0 });
+  // A flat cell on the line of x, and the only one of the new point.
+  arrays.Cells.insert(arrays.Cells.end(), { 0, 1, 2, points });
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  auto scalars = Evaluate(mesh, [](const glm::dvec3& p) { return p.x; });
+  std::size_t lonely = 0;
+  std::size_t broken = 0;
+  for (std::size_t v = 0; v < scalars.size(); ++v)
+  {
+    lonely = mesh.GetSourcePoints()[v] == points ? v : lonely;
+    broken = mesh.GetSourcePoints()[v] == points - 1 ? v : broken;
+  }
+  scalars[broken] = std::numeric_limits<float>::quiet_NaN();
+  const auto gradients = ComputeVertexGradients(mesh, scalars);
+  EXPECT_EQ(gradients[lonely], glm::vec3(0.0f));
+  for (std::size_t v = 0; v < gradients.size(); ++v)
+  {
+    EXPECT_TRUE(std::isfinite(gradients[v].x)) << v;
+    EXPECT_TRUE(v == lonely || v == broken || std::abs(gradients[v].x - 1.0f) < 1e-5f ||
+      gradients[v] == glm::vec3(0.0f))
+      << v << ": " << gradients[v].x;
+  }
+}

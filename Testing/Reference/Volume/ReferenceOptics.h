@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Optical models other than plain compositing, in double, on the segments that
+ * ReferenceRayIntegrator finds: what a ray shows by projection, by isosurfaces and with light.
+ */
+#ifndef meniscus_ReferenceOptics_h
+#define meniscus_ReferenceOptics_h
+
+#include "ReferenceMesh.h"
+#include "ReferenceRayIntegrator.h"
+#include "ReferenceTransferFunction.h"
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace meniscus
+{
+namespace reference
+{
+
+enum class Projection
+{
+  Maximum, ///< largest scalar, shown by the function (attenuation read as alpha)
+  Minimum,
+  Average, ///< mean over the length
+  Additive ///< integral of attenuation times the scalar's place in the range, grey, alpha 1
+};
+
+/// Premultiplied. The range is that of the data, for Additive.
+std::array<double, 4> project(const Ray& ray, const std::vector<RaySegment>& segments,
+  Projection projection, const ReferenceTransferFunction& function, const double range[2]);
+
+/// A half space, kept where Normal . (x - Origin) >= 0.
+struct HalfSpace
+{
+  Vector3 Normal;
+  Vector3 Origin;
+};
+
+/// The part of a ray in half spaces; Begin >= End if there is none.
+Ray clipRay(const Ray& ray, const std::vector<HalfSpace>& halfSpaces);
+
+struct Light
+{
+  /// Position, or direction towards the light.
+  Vector3 Place;
+  bool Positional = false;
+  Vector3 Diffuse{ 1.0, 1.0, 1.0 };
+  Vector3 Specular{ 1.0, 1.0, 1.0 };
+  /// Coefficients of the powers 0, 1, 2 of the distance.
+  Vector3 Falloff{ 1.0, 0.0, 0.0 };
+  /// Cosine of the half angle of a cone about Axis, -2 without; exponent within.
+  double ConeCosine = -2.0;
+  Vector3 Axis{ 0.0, 0.0, 1.0 };
+  double Exponent = 0.0;
+};
+
+struct Material
+{
+  double Ambient = 0.1;
+  double Diffuse = 0.7;
+  double Specular = 0.2;
+  double Power = 10.0;
+  std::vector<Light> Lights;
+};
+
+/// Gradients of the scalar in world coordinates.
+class ReferenceGradients
+{
+public:
+  /// Of the cells, or interpolated between the volume-weighted means about each point.
+  ReferenceGradients(const ReferenceMesh& mesh, bool smooth);
+
+  Vector3 at(std::int64_t cell, const Vector3& position) const;
+
+private:
+  Vector3 ofCell(std::int64_t cell) const;
+
+  const ReferenceMesh& Mesh;
+  std::vector<Vector3> AtPoints;
+};
+
+/// Phong's model, two-sided: the colour that a point with an emitted colour shows to a ray.
+std::array<double, 3> shade(const Material& material, const Ray& ray, const Vector3& position,
+  const Vector3& gradient, const std::array<double, 3>& emitted);
+
+struct Surface
+{
+  double Scalar;
+  double Alpha;
+  std::array<double, 3> Color;
+};
+
+/// Surfaces in front-to-back order. Without gradients they show their colour.
+std::array<double, 4> blendSurfaces(const Ray& ray, const std::vector<RaySegment>& segments,
+  const std::vector<Surface>& surfaces, const ReferenceGradients* gradients,
+  const Material& material);
+
+/**
+ * The density-emitter integral with light and a factor of the attenuation by the gradient's length
+ * (null: 1), by midpoints of many equal steps per segment between the function's nodes.
+ */
+std::array<double, 4> integrateShaded(const Ray& ray, const std::vector<RaySegment>& segments,
+  const ReferenceTransferFunction& function, const ReferenceGradients& gradients,
+  const Material* material, const std::function<double(double)>& gradientOpacity,
+  int stepsPerPiece);
+
+} // namespace reference
+} // namespace meniscus
+
+#endif

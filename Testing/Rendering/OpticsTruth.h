@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_OpticsTruth_h
+#define meniscus_OpticsTruth_h
+
+#include "RayCastScene.h"
+#include "ReferenceOptics.h"
+#include "TracedImage.h"
+
+namespace meniscus
+{
+namespace test
+{
+
+/// Opacity as it is, where a mode does not measure lengths.
+reference::ReferenceTransferFunction toAlphas(vtkVolumeProperty* property);
+
+/// The material of a property, lit by the renderer's lights as they were in the last frame.
+reference::Material toMaterial(vtkVolumeProperty* property, vtkRenderer* renderer);
+
+/// The isosurfaces of a property.
+std::vector<reference::Surface> toSurfaces(vtkVolumeProperty* property);
+
+/**
+ * Renders in float and expects every pixel to be within the tolerance of the truth of its ray, up
+ * to a share of pixels that moving the ray by float rounding explains; no ray may be lost. Returns
+ * the comparison, whose figures are recorded as properties of the test.
+ */
+TracedComparison expectTrace(RayCastScene& scene, const TraceRay& trace, const std::string& what,
+  double tolerance = FloatTolerance, double excusedShare = LargestSilhouetteShare);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

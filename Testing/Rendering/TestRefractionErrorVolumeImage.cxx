@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// An error volume drawn as the thesis's figure 4.2 draws it: a cube of 400 flush with the top of a
+// hemisphere (yellow), one block per sample, green below one unit, blue below 10, red below 100,
+// white above, darker for less within each; cut open in the middle.
+#include "MembraneMeshes.h"
+#include "StrictImage.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCubeSource.h>
+#include <vtkDataArray.h>
+#include <vtkGlyph3D.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRefractionErrorVolume.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSphere.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 300;
+constexpr int Threshold = 1; // grey levels: rounding to 8 bits
+constexpr int Samples = 20;
+constexpr double Spacing = 20.0;
+constexpr double Radius = 141.5;
+
+vtkSmartPointer<vtkPolyData> makeMembrane()
+{
+  const auto mesh = meniscus::reference::MakeDisc(Radius, 5, Radius);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> triangles;
+  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  {
+    points->InsertNextPoint(mesh.points.data() + i);
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+  {
+    const vtkIdType ids[3] = { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] };
+    triangles->InsertNextCell(3, ids);
+  }
+  auto membrane = vtkSmartPointer<vtkPolyData>::New();
+  membrane->SetPoints(points);
+  membrane->SetPolys(triangles);
+  return membrane;
+}
+
+void colourOf(double error, unsigned char* rgb)
+{
+  const double limits[3] = { 1.0, 10.0, 100.0 };
+  const int channels[3] = { 1, 2, 0 }; // green, blue, red
+  std::fill(rgb, rgb + 3, static_cast<unsigned char>(255));
+  for (int k = 2; k >= 0; --k)
+  {
+    if (error < limits[k])
+    {
+      std::fill(rgb, rgb + 3, static_cast<unsigned char>(0));
+      rgb[channels[k]] = static_cast<unsigned char>(80.0 + 175.0 * error / limits[k]);
+    }
+  }
+}
+
+/// The blocks behind the plane z = 0 that were measured.
+vtkSmartPointer<vtkPolyData> makeBlocks(vtkImageData* volume)
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  vtkDataArray* errors = volume->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < volume->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    volume->GetPoint(i, p);
+    if (p[2] <= 0.0 && std::isfinite(errors->GetTuple1(i)))
+    {
+      unsigned char rgb[3];
+      colourOf(errors->GetTuple1(i), rgb);
+      points->InsertNextPoint(p);
+      colours->InsertNextTypedTuple(rgb);
+    }
+  }
+  vtkNew<vtkPolyData> centres;
+  centres->SetPoints(points);
+  centres->GetPointData()->SetScalars(colours);
+  vtkNew<vtkCubeSource> cube;
+  cube->SetXLength(Spacing);
+  cube->SetYLength(Spacing);
+  cube->SetZLength(Spacing);
+  vtkNew<vtkGlyph3D> glyphs;
+  glyphs->SetInputData(centres);
+  glyphs->SetSourceConnection(cube->GetOutputPort());
+  glyphs->SetColorModeToColorByScalar();
+  glyphs->ScalingOff();
+  glyphs->Update();
+  return glyphs->GetOutput();
+}
+
+void addActor(vtkRenderer* renderer, vtkPolyData* data, bool isMembrane)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  if (isMembrane)
+  {
+    actor->GetProperty()->SetRepresentationToWireframe();
+    actor->GetProperty()->SetColor(1.0, 1.0, 0.0);
+  }
+  renderer->AddActor(actor);
+}
+
+} // anonymous namespace
+
+TEST(RefractionErrorVolumeImage, LooksLikeTheThesis)
+{
+  const auto membrane = makeMembrane();
+  vtkNew<vtkSphere> sphere;
+  sphere->SetCenter(0.0, Radius, 0.0);
+  sphere->SetRadius(Radius);
+  vtkNew<vtkRefractionErrorVolume> volume;
+  volume->SetInputData(membrane);
+  volume->SetExactMembrane(sphere);
+  volume->SetMembraneModelToFlatFacets();
+  volume->SetEyePosition(0.0, 450.0, 0.0);
+  volume->SetInteriorIndexOfRefraction(1.51);
+  const double half = 0.5 * Spacing * (Samples - 1);
+  volume->SetModelBounds(
+    -half, half, Radius - Spacing * (Samples - 0.5), Radius - 0.5 * Spacing, -half, half);
+  volume->SetSampleDimensions(Samples, Samples, Samples);
+  volume->Update();
+  // Mostly below 10 units; far below the rim, where rays turn the most, above.
+  EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 1000);
+  EXPECT_GT(volume->GetLargestError(), 10.0);
+
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(0);
+  window->SetSize(Size, Size);
+  vtkNew<vtkRenderer> renderer;
+  window->AddRenderer(renderer);
+  addActor(renderer, makeBlocks(volume->GetOutput()), false);
+  addActor(renderer, membrane, true);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  camera->SetPosition(250.0, 250.0, 900.0);
+  camera->SetFocalPoint(0.0, -30.0, 0.0);
+  renderer->ResetCamera();
+  camera->Zoom(1.3);
+  window->Render();
+
+  const ByteImage image = readBytes(window);
+  const BaselineResult result = compareToBaseline(image, "RefractionErrorVolume", Threshold);
+  EXPECT_TRUE(result.Passed) << result.Message;
+}

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Compute and fragment shaders, made of the same functions, give the same picture.
+#include "RayCastScene.h"
+
+#include <vtkContourValues.h>
+#include <vtkLight.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlane.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 100;
+constexpr double Range[2] = { -1.0, 1.0 };
+// What executions of the ray caster may differ by in float.
+constexpr double Agreement = 2e-5;
+
+vtkSmartPointer<vtkVolumeProperty> litProperty()
+{
+  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  property->ShadeOn();
+  property->SetSpecular(0.4);
+  vtkNew<vtkPiecewiseFunction> factor;
+  factor->AddPoint(0.0, 0.2);
+  factor->AddPoint(3.0, 1.0);
+  property->SetGradientOpacity(factor);
+  property->GetIsoSurfaceValues()->SetValue(0, 0.2);
+  property->GetIsoSurfaceValues()->SetValue(1, -0.2);
+  return property;
+}
+
+bool hasCompute(vtkRenderWindow* window)
+{
+  const std::string device = deviceName(window);
+  const std::size_t at = device.rfind(", ");
+  int version[2] = { 0, 0 };
+  return at != std::string::npos &&
+    std::sscanf(device.c_str() + at + 2, "%d.%d", &version[0], &version[1]) == 2 &&
+    version[0] * 10 + version[1] >= 43;
+}
+
+void expectAgreement(RayCastScene& scene, const std::string& what)
+{
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+  const FloatImage fragment = scene.renderFloat();
+  const vtkTypeInt64 steps = mapper->GetNumberOfTraversalSteps();
+  mapper->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
+  const FloatImage compute = scene.renderFloat();
+  EXPECT_EQ(mapper->GetActiveBackend(), vtkTetrahedraRayCastMapper::COMPUTE) << what;
+  EXPECT_EQ(mapper->GetNumberOfTraversalSteps(), steps) << what;
+  EXPECT_EQ(mapper->GetNumberOfLostRays(), 0) << what;
+  double largest = 0.0;
+  double brightest = 0.0;
+  for (std::size_t i = 0; i < fragment.Rgba.size(); ++i)
+  {
+    const double d = std::fabs(fragment.Rgba[i] - compute.Rgba[i]);
+    largest = d <= largest ? largest : d;
+    brightest = std::max(brightest, static_cast<double>(fragment.Rgba[i]));
+  }
+  EXPECT_GT(brightest, 0.1) << what;
+  EXPECT_LE(largest, Agreement) << what;
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastBackends, ComputeAgreesWithFragmentsInEveryMode)
+{
+  const Grid grid = makeBlock(7, wavyField(3.0), torus(0.6, 0.35));
+  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  scene.window()->Render();
+  if (!hasCompute(scene.window()))
+  {
+    GTEST_SKIP() << "no OpenGL 4.3";
+  }
+  expectAgreement(scene, "plain");
+  scene.volume()->SetProperty(litProperty());
+  for (const int mode : { 0, 1, 2, 3, 4, 5 })
+  {
+    for (const int gradients : { 0, 1 })
+    {
+      scene.rayCaster()->SetBlendMode(mode);
+      scene.rayCaster()->SetGradients(gradients);
+      expectAgreement(
+        scene, "mode " + std::to_string(mode) + ", gradients " + std::to_string(gradients));
+    }
+  }
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(0.3, 1.0, 0.2);
+  scene.rayCaster()->AddClippingPlane(plane);
+  scene.rayCaster()->SetBlendModeToComposite();
+  expectAgreement(scene, "clipped");
+}
+
+TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
+{
+  // Run once more with OpenGL held at 3.2.
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
+  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  warnings->observe(scene.rayCaster());
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  expectMatchesReference(scene, "compute asked for");
+  const bool compute = hasCompute(scene.window());
+  EXPECT_EQ(scene.rayCaster()->GetActiveBackend(),
+    compute ? vtkTetrahedraRayCastMapper::COMPUTE : vtkTetrahedraRayCastMapper::OPENGL);
+  EXPECT_EQ(warnings->Warnings.size(), compute ? 0u : 1u);
+  EXPECT_TRUE(warnings->Errors.empty()) << warnings->text();
+}
+
+TEST(TetrahedraRayCastBackends, SwitchingKeepsTheTables)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  const auto drawWithEach = [&]()
+  {
+    for (const int backend : { 3, 1, 2 })
+    {
+      mapper->SetBackend(backend);
+      scene.window()->Render();
+    }
+  };
+  drawWithEach();
+  const vtkTypeInt64 bytes = mapper->GetUploadedBytes();
+  drawWithEach();
+  EXPECT_EQ(mapper->GetUploadedBytes(), bytes);
+  mapper->ReleaseGraphicsResources(scene.window());
+  const ByteImage again = scene.renderBytes();
+  EXPECT_GT(*std::max_element(again.Rgb.begin(), again.Rgb.end()), 50);
+}

@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Picking, level of detail during interaction, translucent neighbours.
+#include "RayCastScene.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCubeSource.h>
+#include <vtkHardwareSelector.h>
+#include <vtkInformation.h>
+#include <vtkLODProp3D.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProp.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSelection.h>
+#include <vtkSelectionNode.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 120;
+constexpr double Range[2] = { -1.0, 1.0 };
+constexpr double Bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+
+vtkSmartPointer<vtkVolumeProperty> smooth()
+{
+  return makeProperty(FunctionKind::Smooth, Range, 3.4);
+}
+
+vtkSmartPointer<vtkActor> addPlane(vtkRenderer* renderer, double z, double opacity)
+{
+  vtkNew<vtkPlaneSource> source;
+  source->SetOrigin(-4.0, -4.0, z);
+  source->SetPoint1(4.0, -4.0, z);
+  source->SetPoint2(-4.0, 4.0, z);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetLighting(false);
+  actor->GetProperty()->SetColor(0.2, 0.8, 0.4);
+  actor->GetProperty()->SetOpacity(opacity);
+  renderer->AddActor(actor);
+  return actor;
+}
+
+// The prop that a hardware selection finds at a pixel.
+vtkProp* propAt(vtkHardwareSelector* selector, int x, int y)
+{
+  const unsigned int pixel[2] = { static_cast<unsigned int>(x), static_cast<unsigned int>(y) };
+  return selector->GetPixelInformation(pixel).Prop;
+}
+
+struct PickCounts
+{
+  std::size_t Volume = 0;
+  std::size_t Other = 0;
+};
+
+// Every pixel of the volume is the volume's, the others belong to `behind` (null: nothing).
+PickCounts expectPicks(RayCastScene& scene, vtkProp* behind, int association)
+{
+  scene.volume()->SetVisibility(true);
+  const FloatImage image = scene.renderFloat();
+  scene.window()->Render();
+  vtkNew<vtkHardwareSelector> selector;
+  selector->SetRenderer(scene.renderer());
+  selector->SetArea(0, 0, Size - 1, Size - 1);
+  selector->SetFieldAssociation(association);
+  EXPECT_TRUE(selector->CaptureBuffers());
+  PickCounts counts;
+  for (int y = 0; y < Size; ++y)
+  {
+    for (int x = 0; x < Size; ++x)
+    {
+      vtkProp* found = propAt(selector, x, y);
+      const bool isVolume = found == scene.volume();
+      counts.Volume += isVolume;
+      counts.Other += found == behind;
+      if (!behind)
+      {
+        EXPECT_EQ(isVolume, image.pixel(x, y)[3] > 0.0f) << x << ", " << y;
+      }
+    }
+  }
+  return counts;
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastPicking, TheVolumeIsFoundWhereItIsVisible)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0), torus(0.6, 0.3));
+  for (const int association :
+    { int(vtkDataObject::FIELD_ASSOCIATION_CELLS), int(vtkDataObject::FIELD_ASSOCIATION_POINTS) })
+  {
+    for (const int backend :
+      { int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE) })
+    {
+      RayCastScene scene(grid, smooth(), Size, Size);
+      scene.rayCaster()->SetBackend(backend);
+      lookAt(scene.renderer(), Bounds, 30.0, 40.0);
+      const PickCounts counts = expectPicks(scene, nullptr, association);
+      EXPECT_GT(counts.Volume, 1000u);
+      EXPECT_GT(counts.Other, 1000u);
+    }
+  }
+}
+
+TEST(TetrahedraRayCastPicking, OpaqueGeometryHidesIt)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  lookAt(scene.renderer(), Bounds, 0.0, 0.0);
+  const auto plane = addPlane(scene.renderer(), 1.5, 1.0);
+  EXPECT_EQ(expectPicks(scene, plane, vtkDataObject::FIELD_ASSOCIATION_CELLS).Volume, 0u);
+  plane->SetPosition(0.0, 0.0, -3.0);
+  const PickCounts behind = expectPicks(scene, plane, vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  EXPECT_GT(behind.Volume, 1000u);
+  EXPECT_GT(behind.Other, 1000u);
+}
+
+TEST(TetrahedraRayCastPicking, TransparentPartsAreNotFound)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, makeConstantProperty(0.0, 1, 1, 1, 1.0), Size, Size);
+  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
+  EXPECT_EQ(expectPicks(scene, nullptr, vtkDataObject::FIELD_ASSOCIATION_CELLS).Volume, 0u);
+}
+
+TEST(TetrahedraRayCastPicking, PictureAfterwardsIsTheSame)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
+  const ByteImage before = scene.renderBytes();
+  expectPicks(scene, nullptr, vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  EXPECT_EQ(scene.renderBytes().Rgb, before.Rgb);
+}
+
+TEST(TetrahedraRayCastDetail, FewerRaysDuringInteractionAllOfThemWhenStill)
+{
+  const Grid grid = makeBlock(8, wavyField(3.0));
+  for (const int backend :
+    { int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE) })
+  {
+    RayCastScene scene(grid, smooth(), Size, Size);
+    vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+    mapper->SetBackend(backend);
+    lookAt(scene.renderer(), Bounds, 30.0, 20.0);
+    const FloatImage still = scene.renderFloat();
+    const vtkTypeInt64 rays = mapper->GetNumberOfRays();
+    EXPECT_EQ(mapper->GetUsedImageSampleDistance(), 1.0);
+
+    // More frames per second than can be had.
+    scene.window()->SetDesiredUpdateRate(1e6);
+    const FloatImage moving = scene.renderFloat();
+    EXPECT_EQ(mapper->GetUsedImageSampleDistance(), mapper->GetMaximumImageSampleDistance());
+    EXPECT_NEAR(static_cast<double>(mapper->GetNumberOfRays()), static_cast<double>(rays) / 64.0,
+      0.15 * static_cast<double>(rays) / 64.0);
+    EXPECT_NE(moving.Rgba, still.Rgba);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < still.Rgba.size(); ++i)
+    {
+      sum += std::fabs(moving.Rgba[i] - still.Rgba[i]);
+    }
+    EXPECT_LT(sum / static_cast<double>(still.Rgba.size()), 0.02);
+
+    scene.window()->SetDesiredUpdateRate(1e-4);
+    EXPECT_EQ(scene.renderFloat().Rgba, still.Rgba);
+    EXPECT_EQ(mapper->GetUsedImageSampleDistance(), 1.0);
+
+    scene.window()->SetDesiredUpdateRate(1e6);
+    mapper->AutoAdjustSampleDistancesOff();
+    EXPECT_EQ(scene.renderFloat().Rgba, still.Rgba);
+  }
+}
+
+TEST(TetrahedraRayCastDetail, RaysOfACoarseImageAreExact)
+{
+  // An image of half the size has the rays of a window of that size.
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  RayCastScene coarse(grid, smooth(), 2 * Size, 2 * Size);
+  coarse.rayCaster()->AutoAdjustSampleDistancesOff();
+  coarse.rayCaster()->SetImageSampleDistance(2.0f);
+  lookAt(coarse.renderer(), Bounds, 30.0, 20.0);
+  RayCastScene small(grid, smooth(), Size, Size);
+  lookAt(small.renderer(), Bounds, 30.0, 20.0);
+  coarse.window()->Render();
+  small.window()->Render();
+  EXPECT_EQ(coarse.rayCaster()->GetNumberOfTraversalSteps(),
+    small.rayCaster()->GetNumberOfTraversalSteps());
+  const FloatImage large = coarse.renderFloat();
+  const FloatImage truth = small.renderFloat();
+  for (int y = 1; y < Size - 1; ++y)
+  {
+    for (int x = 1; x < Size - 1; ++x)
+    {
+      // Interpolation weights of a pixel a quarter off a ray: 9, 3, 3, 1 of 16.
+      const float expected = (9.0f * truth.pixel(x, y)[3] + 3.0f * truth.pixel(x + 1, y)[3] +
+                               3.0f * truth.pixel(x, y + 1)[3] + truth.pixel(x + 1, y + 1)[3]) /
+        16.0f;
+      // Filters have 8 bits of position.
+      ASSERT_NEAR(large.pixel(2 * x + 1, 2 * y + 1)[3], expected, 0.01f) << x << ", " << y;
+    }
+  }
+}
+
+TEST(TetrahedraRayCastDetail, LevelsOfDetailProp)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
+  const ByteImage truth = scene.renderBytes();
+  EXPECT_GT(scene.rayCaster()->GetTimeToDraw(), 0.0);
+  scene.renderer()->RemoveVolume(scene.volume());
+  vtkNew<vtkLODProp3D> prop;
+  prop->AddLOD(scene.rayCaster(), scene.volume()->GetProperty(), 0.0);
+  scene.renderer()->AddViewProp(prop);
+  EXPECT_EQ(scene.renderBytes().Rgb, truth.Rgb);
+}
+
+TEST(TetrahedraRayCastNeighbors, TranslucentGeometry)
+{
+  // The volume is blended over what is translucent, as VTK's volumes are: behind it or in front.
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  for (const bool peeling : { false, true })
+  {
+    for (const double z : { -1.5, 1.5 })
+    {
+      RayCastScene scene(grid, smooth(), Size, Size);
+      lookAt(scene.renderer(), Bounds, 0.0, 0.0);
+      const ByteImage alone = scene.renderBytes();
+      const FloatImage volume = scene.renderFloat();
+      const auto plane = addPlane(scene.renderer(), z, 0.5);
+      scene.renderer()->SetUseDepthPeeling(peeling);
+      scene.renderer()->SetMaximumNumberOfPeels(4);
+      scene.renderer()->SetOcclusionRatio(0.0);
+      const ByteImage image = scene.renderBytes();
+      const double color[3] = { 0.2, 0.8, 0.4 };
+      for (int y = 0; y < Size; ++y)
+      {
+        for (int x = 0; x < Size; ++x)
+        {
+          const float* rgba = volume.pixel(x, y);
+          for (int c = 0; c < 3; ++c)
+          {
+            const double expected = rgba[c] + (1.0 - rgba[3]) * 0.5 * color[c];
+            ASSERT_NEAR(image.pixel(x, y)[c], 255.0 * expected, 1.51)
+              << x << ", " << y << (peeling ? ", peeling" : "") << " z " << z;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(TetrahedraRayCastNeighbors, SeveralVolumes)
+{
+  // Two volumes apart in depth: the front one over the back one, each as if alone.
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  mapper->SetInputData(grid);
+  vtkNew<vtkVolume> second;
+  second->SetMapper(mapper);
+  second->SetProperty(scene.volume()->GetProperty());
+  second->SetPosition(0.3, 0.2, 3.0);
+  const double bounds[6] = { -1.0, 1.3, -1.0, 1.2, -1.0, 4.0 };
+  lookAt(scene.renderer(), bounds, 20.0, 10.0);
+  const FloatImage back = scene.renderFloat();
+  scene.renderer()->RemoveVolume(scene.volume());
+  scene.renderer()->AddVolume(second);
+  const FloatImage front = scene.renderFloat();
+  scene.renderer()->RemoveVolume(second);
+  scene.renderer()->AddVolume(scene.volume());
+  scene.renderer()->AddVolume(second);
+  const FloatImage both = scene.renderFloat();
+  for (std::size_t i = 0; i < both.Rgba.size(); ++i)
+  {
+    const float transmitted = 1.0f - front.Rgba[i / 4 * 4 + 3];
+    ASSERT_NEAR(both.Rgba[i], front.Rgba[i] + transmitted * back.Rgba[i], 1e-6) << i;
+  }
+}

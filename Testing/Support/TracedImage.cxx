@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TracedImage.h"
+
+#include <vtkMath.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+using Color = std::array<double, 4>;
+
+double difference(const Color& a, const Color& b)
+{
+  double largest = 0.0;
+  for (int c = 0; c < 4; ++c)
+  {
+    const double d = std::fabs(a[c] - b[c]);
+    largest = d <= largest ? largest : d; // lets NaN through
+  }
+  return largest;
+}
+
+// Largest change of the truth when the ray moves sideways in 8 directions.
+double sensitivity(
+  const reference::Ray& ray, const TraceRay& trace, const Color& truth, double distance)
+{
+  double right[3];
+  double up[3];
+  vtkMath::Perpendiculars(ray.Direction.data(), right, up, 0.3);
+  double largest = 0.0;
+  for (int i = 0; i < 8; ++i)
+  {
+    const double angle = vtkMath::RadiansFromDegrees(45.0 * i);
+    reference::Ray moved = ray;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      moved.Origin[axis] += distance * (std::cos(angle) * right[axis] + std::sin(angle) * up[axis]);
+    }
+    largest = std::max(largest, difference(trace(moved), truth));
+  }
+  return largest;
+}
+
+// Adds up the pixels of a row.
+class RowComparer
+{
+public:
+  RowComparer(const PixelRays& rays, const TraceRay& trace, double tolerance, double rounding)
+    : Rays(rays)
+    , Trace(trace)
+    , Tolerance(tolerance)
+    , Rounding(rounding)
+  {
+  }
+
+  void add(int x, int y, const float* drawn)
+  {
+    const reference::Ray ray = this->Rays.ray(x, y);
+    const Color truth = this->Trace(ray);
+    Color image;
+    std::copy(drawn, drawn + 4, image.begin());
+    const bool visible = truth[3] > 0.0;
+    const double d = difference(image, truth);
+    const bool wrong = !(d <= this->Tolerance);
+    this->Sum.Visible += visible;
+    if (wrong && d <= 2.0 * sensitivity(ray, this->Trace, truth, this->Rounding))
+    {
+      ++this->Sum.Excused;
+      return;
+    }
+    this->Sum.Wrong += wrong;
+    this->Squares += visible ? d * d : 0.0;
+    if (!(d <= this->Sum.Largest))
+    {
+      this->Sum.Largest = d;
+      this->Sum.WorstPixel[0] = x;
+      this->Sum.WorstPixel[1] = y;
+      this->Sum.WorstImage = image;
+      this->Sum.WorstTruth = truth;
+    }
+  }
+
+  TracedComparison Sum;
+  double Squares = 0.0;
+
+private:
+  const PixelRays& Rays;
+  const TraceRay& Trace;
+  double Tolerance;
+  double Rounding;
+};
+
+void merge(const RowComparer& row, TracedComparison& total)
+{
+  const TracedComparison& sum = row.Sum;
+  if (!(sum.Largest <= total.Largest))
+  {
+    const TracedComparison before = total;
+    total = sum;
+    total.Visible = before.Visible;
+    total.Wrong = before.Wrong;
+    total.Excused = before.Excused;
+    total.Rms = before.Rms;
+  }
+  total.Visible += sum.Visible;
+  total.Wrong += sum.Wrong;
+  total.Excused += sum.Excused;
+  total.Rms += row.Squares;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::string TracedComparison::text() const
+{
+  std::ostringstream out;
+  out << "visible " << this->Visible << ", wrong " << this->Wrong << ", excused " << this->Excused
+      << ", max " << this->Largest << ", rms " << this->Rms << ", worst pixel ("
+      << this->WorstPixel[0] << ", " << this->WorstPixel[1] << ") is";
+  for (const double value : this->WorstImage)
+  {
+    out << ' ' << value;
+  }
+  out << ", truth";
+  for (const double value : this->WorstTruth)
+  {
+    out << ' ' << value;
+  }
+  return out.str();
+}
+
+//------------------------------------------------------------------------------
+TracedComparison compareToTrace(const FloatImage& image, const PixelRays& rays,
+  const TraceRay& trace, double tolerance, double rounding)
+{
+  TracedComparison total;
+  std::atomic<int> next{ 0 };
+  std::mutex mutex;
+  const auto work = [&]()
+  {
+    for (int y = next++; y < image.Height; y = next++)
+    {
+      RowComparer row(rays, trace, tolerance, rounding);
+      for (int x = 0; x < image.Width; ++x)
+      {
+        row.add(x, y, image.pixel(x, y));
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      merge(row, total);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned int i = 1; i < std::thread::hardware_concurrency(); ++i)
+  {
+    threads.emplace_back(work);
+  }
+  work();
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  total.Rms = total.Visible > 0 ? std::sqrt(total.Rms / static_cast<double>(total.Visible)) : 0.0;
+  return total;
+}
+
+} // namespace test
+} // namespace meniscus

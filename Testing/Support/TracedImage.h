@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_TracedImage_h
+#define meniscus_TracedImage_h
+
+#include "PixelRays.h"
+#include "VolumeScene.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace meniscus
+{
+namespace test
+{
+
+/// Premultiplied colour of a ray; called from several threads at once.
+using TraceRay = std::function<std::array<double, 4>(const reference::Ray&)>;
+
+struct TracedComparison
+{
+  double Largest = 0.0;    // over all pixels that are not excused
+  double Rms = 0.0;        // over the visible ones of them
+  std::size_t Visible = 0; // pixels whose truth is not empty
+  std::size_t Wrong = 0;   // off by more than the tolerance
+  std::size_t Excused = 0; // as many more, where moving the ray explains the difference
+  int WorstPixel[2] = { -1, -1 };
+  std::array<double, 4> WorstImage{};
+  std::array<double, 4> WorstTruth{};
+
+  std::string text() const;
+};
+
+/**
+ * Compares a float image with the truth of each pixel's ray, on all processors. A pixel off by more
+ * than the tolerance is excused if the truth itself changes as much (half of it) when the ray moves
+ * sideways by `rounding`: at silhouettes, in front of steps.
+ */
+TracedComparison compareToTrace(const FloatImage& image, const PixelRays& rays,
+  const TraceRay& trace, double tolerance, double rounding);
+
+} // namespace test
+} // namespace meniscus
+
+#endif
