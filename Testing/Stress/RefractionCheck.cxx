@@ -71,8 +71,12 @@ public:
       this->note("membrane or eye refused");
       return this->Tally;
     }
-    this->Rounding = 4.0 * std::numeric_limits<double>::epsilon() *
-      (glm::length(this->Test.Offset) / this->Test.Scale + 200.0);
+    double reach = glm::length(this->Test.Offset) / this->Test.Scale + glm::length(this->Test.Eye);
+    for (const glm::dvec3& point : this->Test.Points)
+    {
+      reach = std::max(reach, glm::length(point));
+    }
+    this->Rounding = 4.0 * std::numeric_limits<double>::epsilon() * (reach + 200.0);
     if (this->Test.Truth == RefractionTruth::Smooth)
     {
       this->measureSurface();

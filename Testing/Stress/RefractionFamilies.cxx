@@ -178,7 +178,7 @@ RefractionCase makeNearEye(StressRandom& random)
   test.Eye = below + height * test.Surface.GetNormal(foot.x, foot.z);
   for (int i = 0; i < PointsPerCase; ++i)
   {
-    const double away = height * magnitude(random, -1.0, 1.5);
+    const double away = std::min(height * magnitude(random, -1.0, 1.5), 0.25 * Side);
     const double angle = random.uniform(0.0, 2.0 * Pi);
     const glm::dvec3 sight =
       test.Surface.GetPoint(below.x + away * std::cos(angle), below.z + away * std::sin(angle));
