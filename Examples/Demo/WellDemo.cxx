@@ -211,8 +211,8 @@ bool DrawErrorVolume(const std::string& folder)
   measured->SetInputConnection(volume->GetOutputPort());
   measured->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "RefractionError");
-  measured->SetLowerThreshold(0.0);
-  measured->SetThresholdFunction(vtkThreshold::THRESHOLD_UPPER);
+  measured->SetLowerThreshold(0.0); // others are NaN
+  measured->SetUpperThreshold(VTK_DOUBLE_MAX);
   vtkNew<vtkDataSetSurfaceFilter> surface;
   surface->SetInputConnection(measured->GetOutputPort());
   vtkNew<vtkColorTransferFunction> colors;

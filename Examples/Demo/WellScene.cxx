@@ -37,8 +37,8 @@ constexpr int TilesPerSide = 10;
 constexpr int QuadsPerTile = 3;
 
 // Amplitude, wave vector and speed. Crests focus light at depths of 1 to 2.
-constexpr double Waves[3][4] = { { 0.022, 5.0, 4.0, 2.0 }, { 0.016, -3.0, 7.5, 3.0 },
-  { 0.010, 8.0, -6.0, 4.0 } };
+constexpr double Waves[3][4] = { { 0.030, 5.0, 4.0, 2.0 }, { 0.020, -3.0, 7.5, 3.0 },
+  { 0.012, 8.0, -6.0, 4.0 } };
 
 using Color = std::array<double, 3>;
 using ColorRule = std::function<Color(const double center[3])>;

@@ -15,7 +15,7 @@ class DemoWater
 {
 public:
   static constexpr double HalfSide = 1.9;
-  static constexpr double Highest = 0.06; ///< above the waves
+  static constexpr double Highest = 0.07; ///< above the waves
   static constexpr double Index = 1.333;
 
   explicit DemoWater(double time)
