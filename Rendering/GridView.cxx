@@ -2,15 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridView.h"
 
+#include "Volume/BlockLoop.h"
+
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
 #include "vtkCellTypes.h"
+#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
 #include "vtkIdList.h"
+#include "vtkImageData.h"
 #include "vtkNew.h"
+#include "vtkPointSet.h"
 #include "vtkPoints.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -76,103 +83,110 @@ std::vector<int> AroundFace(vtkCell* face)
   }
 }
 
-}
-
-//------------------------------------------------------------------------------
-GridView::GridView(vtkUnstructuredGrid* grid)
+/** Tetrahedra of a cell of a type whose cells are not degenerate. */
+int TetrahedraOf(int type)
 {
-  this->View.NumberOfPoints = grid->GetNumberOfPoints();
-  if (grid->GetPoints())
+  switch (type)
   {
-    this->ViewPoints(grid->GetPoints()->GetData());
-  }
-  bool onlyTetrahedra = true;
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
-  {
-    const int type = grid->GetCellType(c);
-    onlyTetrahedra = onlyTetrahedra && type == VTK_TETRA;
-    this->QuadraticByFaces = this->QuadraticByFaces || SharesQuadraticTriangles(type);
-  }
-  if (onlyTetrahedra && grid->GetNumberOfCells() > 0)
-  {
-    this->ViewTetrahedra(grid);
-  }
-  else
-  {
-    this->Tetrahedralize(grid);
+    case VTK_VOXEL:
+    case VTK_HEXAHEDRON:
+      return 6;
+    case VTK_WEDGE:
+      return 3;
+    case VTK_PYRAMID:
+      return 2;
+    case VTK_QUADRATIC_TETRA:
+      return 8;
+    case VTK_EMPTY_CELL:
+      return 0;
+    default:
+      return 1;
   }
 }
 
-//------------------------------------------------------------------------------
-void GridView::ViewPoints(vtkDataArray* points)
+/** Whether all cells have one type, and which, as far as the class of the data set says. */
+bool HasOneType(vtkDataSet* grid)
 {
-  if (auto* doubles = vtkAOSDataArrayTemplate<double>::FastDownCast(points))
-  {
-    this->View.Points = doubles->GetPointer(0);
-  }
-  else if (auto* floats = vtkAOSDataArrayTemplate<float>::FastDownCast(points))
-  {
-    this->View.FloatPoints = floats->GetPointer(0);
-  }
-  else
-  {
-    this->Points = CopyValues<double>(points);
-    this->View.Points = this->Points.data();
-  }
+  return vtkImageData::SafeDownCast(grid) || vtkRectilinearGrid::SafeDownCast(grid) ||
+    vtkStructuredGrid::SafeDownCast(grid);
 }
 
-//------------------------------------------------------------------------------
-void GridView::ViewTetrahedra(vtkUnstructuredGrid* grid)
+/** Whether several threads may ask for cells at the same time. */
+bool IsThreadSafe(vtkDataSet* grid)
 {
-  this->View.NumberOfCells = grid->GetNumberOfCells();
-  vtkDataArray* ids = grid->GetCells()->GetConnectivityArray();
-  if (auto* longs = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
-  {
-    // VTK's 64-bit integer and the standard's may have two names.
-    static_assert(sizeof(vtkTypeInt64) == sizeof(std::int64_t), "both have 64 bits");
-    this->View.Cells = reinterpret_cast<const std::int64_t*>(longs->GetPointer(0));
-  }
-  else if (auto* ints = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
-  {
-    this->View.ShortCells = ints->GetPointer(0);
-  }
-  else
-  {
-    this->Ids = CopyValues<std::int64_t>(ids);
-    this->View.Cells = this->Ids.data();
-  }
-  if (vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray())
-  {
-    this->View.CellFlags = ghosts->GetPointer(0);
-    this->View.LeftOutBits = LeftOut;
-  }
+  return HasOneType(grid) || vtkUnstructuredGrid::SafeDownCast(grid);
 }
 
+/** Whether it holds tetrahedra of four points each, and nothing else. */
+bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
+{
+  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  const vtkIdType cells = grid->GetNumberOfCells();
+  const auto isOther = [](unsigned char type) { return type != VTK_TETRA; };
+  return grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() == 4 * cells &&
+    std::none_of(types->GetPointer(0), types->GetPointer(0) + cells, isOther);
+}
+
+vtkPoints* PointsOf(vtkDataSet* grid)
+{
+  vtkPointSet* set = vtkPointSet::SafeDownCast(grid);
+  return set ? set->GetPoints() : nullptr;
+}
+
+}
+
+/** What a block of cells becomes. */
+struct GridView::Part
+{
+  Tetrahedralizer Tetrahedra;
+  std::vector<std::int32_t> Sources;
+  std::map<int, std::int64_t> Omitted;
+  /** Whether quadratic triangles may belong to other cells than tetrahedra. */
+  bool QuadraticByFaces = false;
+  /** What is added to the data set's numbers. */
+  std::int64_t FirstPoint = 0;
+  std::int64_t FirstCell = 0;
+
+  void AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last);
+
+private:
+  void AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdList* ids);
+  bool AddByFaces(vtkCell* cell);
+};
+
 //------------------------------------------------------------------------------
-void GridView::Tetrahedralize(vtkUnstructuredGrid* grid)
+void GridView::Part::AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last)
 {
   vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
-  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  vtkNew<vtkIdList> ids;
+  for (std::size_t c = first; c < last; ++c)
   {
-    if (!ghosts || !(ghosts->GetValue(c) & LeftOut))
+    const auto cell = static_cast<vtkIdType>(c);
+    if (!ghosts || !(ghosts->GetValue(cell) & LeftOut))
     {
-      this->AddCell(grid, c, grid->GetCellType(c));
+      this->AddCell(grid, cell, grid->GetCellType(cell), ids);
+      this->Sources.resize(this->Tetrahedra.GetTetrahedra().size() / 4,
+        static_cast<std::int32_t>(this->FirstCell + cell));
     }
   }
-  this->View.Cells = this->Tetrahedra.GetTetrahedra().data();
-  this->View.NumberOfCells = static_cast<std::int64_t>(this->Tetrahedra.GetTetrahedra().size() / 4);
 }
 
 //------------------------------------------------------------------------------
-void GridView::AddCell(vtkUnstructuredGrid* grid, std::int64_t cell, int type)
+void GridView::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdList* ids)
 {
+  if (type == VTK_EMPTY_CELL)
+  {
+    return; // blanked
+  }
   // Most points that a cell of a type with a rule of its own has.
   constexpr vtkIdType MostPoints = 10;
   std::array<std::int64_t, MostPoints> points{};
-  vtkIdType size = 0;
-  const vtkIdType* ids = nullptr;
-  grid->GetCellPoints(cell, size, ids);
-  std::copy_n(ids, std::min(size, MostPoints), points.begin());
+  grid->GetCellPoints(cell, ids);
+  const vtkIdType size = ids->GetNumberOfIds();
+  for (vtkIdType i = 0; i < std::min(size, MostPoints); ++i)
+  {
+    points[i] = this->FirstPoint + ids->GetId(i);
+  }
   if (type == VTK_TETRA && size == 4)
   {
     this->Tetrahedra.AddTetrahedron(points.data());
@@ -209,7 +223,7 @@ void GridView::AddCell(vtkUnstructuredGrid* grid, std::int64_t cell, int type)
 }
 
 //------------------------------------------------------------------------------
-bool GridView::AddByFaces(vtkCell* cell)
+bool GridView::Part::AddByFaces(vtkCell* cell)
 {
   std::vector<std::int64_t> faces;
   for (int f = 0; f < cell->GetNumberOfFaces(); ++f)
@@ -223,11 +237,173 @@ bool GridView::AddByFaces(vtkCell* cell)
     faces.push_back(static_cast<std::int64_t>(around.size()));
     for (const int place : around)
     {
-      faces.push_back(face->GetPointId(place));
+      faces.push_back(this->FirstPoint + face->GetPointId(place));
     }
   }
   this->Tetrahedra.AddPolyhedron(faces.data(), static_cast<std::size_t>(cell->GetNumberOfFaces()));
   return cell->GetNumberOfFaces() > 0;
+}
+
+//------------------------------------------------------------------------------
+GridView::GridView(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
+{
+  for (vtkDataSet* grid : grids)
+  {
+    this->View.NumberOfPoints += grid->GetNumberOfPoints();
+  }
+  vtkPoints* points = grids.size() == 1 ? PointsOf(grids[0]) : nullptr;
+  if (points)
+  {
+    this->ViewPoints(points->GetData());
+  }
+  else
+  {
+    this->CopyPoints(grids, loop);
+  }
+  auto* single = grids.size() == 1 ? vtkUnstructuredGrid::SafeDownCast(grids[0]) : nullptr;
+  if (single && HasOnlyTetrahedra(single))
+  {
+    this->ViewTetrahedra(single);
+  }
+  else
+  {
+    this->Tetrahedralize(grids, loop);
+  }
+}
+
+//------------------------------------------------------------------------------
+void GridView::ViewPoints(vtkDataArray* points)
+{
+  if (auto* doubles = vtkAOSDataArrayTemplate<double>::FastDownCast(points))
+  {
+    this->View.Points = doubles->GetPointer(0);
+  }
+  else if (auto* floats = vtkAOSDataArrayTemplate<float>::FastDownCast(points))
+  {
+    this->View.FloatPoints = floats->GetPointer(0);
+  }
+  else
+  {
+    this->Points = CopyValues<double>(points);
+    this->View.Points = this->Points.data();
+  }
+}
+
+//------------------------------------------------------------------------------
+void GridView::CopyPoints(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
+{
+  this->Points.resize(3 * static_cast<std::size_t>(this->View.NumberOfPoints));
+  double* next = this->Points.data();
+  for (vtkDataSet* grid : grids)
+  {
+    const auto size = static_cast<std::size_t>(grid->GetNumberOfPoints());
+    ForEachBlock(size, IsThreadSafe(grid) ? loop : SerialLoop,
+      [grid, next](std::size_t, std::size_t first, std::size_t last)
+      {
+        for (std::size_t p = first; p < last; ++p)
+        {
+          grid->GetPoint(static_cast<vtkIdType>(p), next + 3 * p);
+        }
+      });
+    next += 3 * size;
+  }
+  this->View.Points = this->Points.data();
+}
+
+//------------------------------------------------------------------------------
+void GridView::ViewTetrahedra(vtkUnstructuredGrid* grid)
+{
+  this->View.NumberOfCells = grid->GetNumberOfCells();
+  vtkDataArray* ids = grid->GetCells()->GetConnectivityArray();
+  if (auto* longs = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
+  {
+    // VTK's 64-bit integer and the standard's may have two names.
+    static_assert(sizeof(vtkTypeInt64) == sizeof(std::int64_t), "both have 64 bits");
+    this->View.Cells = reinterpret_cast<const std::int64_t*>(longs->GetPointer(0));
+  }
+  else if (auto* ints = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
+  {
+    this->View.ShortCells = ints->GetPointer(0);
+  }
+  else
+  {
+    this->Ids = CopyValues<std::int64_t>(ids);
+    this->View.Cells = this->Ids.data();
+  }
+  if (vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray())
+  {
+    this->View.CellFlags = ghosts->GetPointer(0);
+    this->View.LeftOutBits = LeftOut;
+  }
+}
+
+//------------------------------------------------------------------------------
+void GridView::Tetrahedralize(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
+{
+  bool quadraticByFaces = false;
+  for (vtkDataSet* grid : grids)
+  {
+    for (vtkIdType c = 0; c < grid->GetNumberOfCells() && !HasOneType(grid); ++c)
+    {
+      quadraticByFaces = quadraticByFaces || SharesQuadraticTriangles(grid->GetCellType(c));
+    }
+  }
+  std::vector<Part> parts;
+  std::int64_t firstPoint = 0;
+  std::int64_t firstCell = 0;
+  for (vtkDataSet* grid : grids)
+  {
+    const auto size = static_cast<std::size_t>(grid->GetNumberOfCells());
+    const std::size_t firstPart = parts.size();
+    parts.resize(firstPart + NumberOfBlocks(size));
+    // What VTK makes when it is first asked for must be there before threads ask.
+    grid->GetCellType(0);
+    grid->GetCellGhostArray();
+    ForEachBlock(size, IsThreadSafe(grid) ? loop : SerialLoop,
+      [&](std::size_t block, std::size_t first, std::size_t last)
+      {
+        Part& part = parts[firstPart + block];
+        part.QuadraticByFaces = quadraticByFaces;
+        part.FirstPoint = firstPoint;
+        part.FirstCell = firstCell;
+        part.AddBlock(grid, first, last);
+      });
+    firstPoint += grid->GetNumberOfPoints();
+    firstCell += grid->GetNumberOfCells();
+  }
+  this->TakeParts(parts, loop);
+}
+
+//------------------------------------------------------------------------------
+void GridView::TakeParts(const std::vector<Part>& parts, const RangeLoop& loop)
+{
+  std::vector<std::size_t> starts;
+  std::size_t size = 0;
+  for (const Part& part : parts)
+  {
+    starts.push_back(size);
+    size += part.Sources.size();
+    for (const auto& omitted : part.Omitted)
+    {
+      this->Omitted[omitted.first] += omitted.second;
+    }
+  }
+  this->Ids.resize(4 * size);
+  this->Sources.resize(size);
+  loop(parts.size(),
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const std::vector<std::int64_t>& ids = parts[i].Tetrahedra.GetTetrahedra();
+        std::copy(ids.begin(), ids.end(), this->Ids.begin() + 4 * starts[i]);
+        std::copy(
+          parts[i].Sources.begin(), parts[i].Sources.end(), this->Sources.begin() + starts[i]);
+      }
+    });
+  this->View.Cells = this->Ids.data();
+  this->View.SourceCells = this->Sources.data();
+  this->View.NumberOfCells = static_cast<std::int64_t>(size);
 }
 
 //------------------------------------------------------------------------------
@@ -241,6 +417,28 @@ std::string GridView::DescribeOmitted() const
          << (name ? name : "of an unknown type");
   }
   return text.str();
+}
+
+//------------------------------------------------------------------------------
+GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
+{
+  GridSize size;
+  for (vtkDataSet* grid : grids)
+  {
+    size.Points += grid->GetNumberOfPoints();
+    const vtkIdType cells = grid->GetNumberOfCells();
+    if (HasOneType(grid))
+    {
+      // Of structured data also those that are blanked: counting them would take time.
+      size.Tetrahedra += TetrahedraOf(VTK_VOXEL) * cells;
+      continue;
+    }
+    for (vtkIdType c = 0; c < cells; ++c)
+    {
+      size.Tetrahedra += TetrahedraOf(grid->GetCellType(c));
+    }
+  }
+  return size;
 }
 
 }

@@ -13,19 +13,22 @@
 
 class vtkCell;
 class vtkDataArray;
+class vtkDataSet;
 class vtkUnstructuredGrid;
 
 namespace meniscus
 {
 
 /**
- * A grid's cells as tetrahedra: where they are stored, if all are tetrahedra, else in an array of
- * its own. Duplicate and hidden cells (vtkGhostType) are left out. The grid must outlive it.
+ * The cells of data sets as tetrahedra: where they are stored, if it is one vtkUnstructuredGrid of
+ * tetrahedra, else in arrays of its own. Points and cells of several are numbered through.
+ * Duplicate, hidden and blanked cells (vtkGhostType) are left out. The data sets must outlive it.
  */
 class GridView
 {
 public:
-  explicit GridView(vtkUnstructuredGrid* grid);
+  /** @pre  MeasureGrids() says that 32 bits can number their points, cells and tetrahedra. */
+  GridView(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop);
 
   const TetrahedraView& GetView() const { return this->View; }
 
@@ -34,21 +37,32 @@ public:
   std::string DescribeOmitted() const;
 
 private:
+  struct Part;
+
   void ViewPoints(vtkDataArray* points);
+  void CopyPoints(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop);
   void ViewTetrahedra(vtkUnstructuredGrid* grid);
-  void Tetrahedralize(vtkUnstructuredGrid* grid);
-  void AddCell(vtkUnstructuredGrid* grid, std::int64_t cell, int type);
-  bool AddByFaces(vtkCell* cell);
+  void Tetrahedralize(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop);
+  void TakeParts(const std::vector<Part>& parts, const RangeLoop& loop);
 
   TetrahedraView View;
   std::vector<double> Points;
   std::vector<std::int64_t> Ids;
-  Tetrahedralizer Tetrahedra;
+  /** The cell of each tetrahedron. */
+  std::vector<std::int32_t> Sources;
   /** Cells by type that are not drawn. */
   std::map<int, std::int64_t> Omitted;
-  /** Whether quadratic triangles may belong to other cells than tetrahedra. */
-  bool QuadraticByFaces = false;
 };
+
+/** How many points and tetrahedra data sets have, the latter if no cell is degenerate. */
+struct GridSize
+{
+  std::int64_t Points = 0;
+  std::int64_t Tetrahedra = 0;
+};
+
+/** Counted without tetrahedra being made. */
+GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids);
 
 }
 

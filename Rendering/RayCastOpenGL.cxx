@@ -156,14 +156,22 @@ std::string RayCastOpenGL::UploadVertices(
   const TetrahedralMesh& mesh, const std::vector<float>& scalars)
 {
   std::vector<float> values;
-  values.reserve(4 * scalars.size());
-  for (std::size_t v = 0; v < scalars.size(); ++v)
+  values.reserve(4 * static_cast<std::size_t>(mesh.GetNumberOfVertices()));
+  for (std::int64_t v = 0; v < mesh.GetNumberOfVertices(); ++v)
   {
-    const glm::vec3 p(mesh.GetPosition(static_cast<std::int64_t>(v)));
-    values.insert(values.end(), { p.x, p.y, p.z, scalars[v] });
+    const glm::vec3 p(mesh.GetPosition(v));
+    values.insert(values.end(), { p.x, p.y, p.z, scalars.empty() ? 0.0f : scalars[v] });
   }
   const std::string error = this->Vertices.Upload(this->Window, values.data(), values.size(), 4, 1);
   return this->Count(this->Vertices, error);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::UploadCellScalars(const std::vector<float>& scalars)
+{
+  const std::string error =
+    this->CellScalars.Upload(this->Window, scalars.data(), scalars.size(), 1, 1);
+  return this->Count(this->CellScalars, error);
 }
 
 //------------------------------------------------------------------------------
@@ -507,6 +515,10 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateTables(
   };
   activate(this->Cells, "cells");
   activate(this->Intervals, "intervals");
+  if (optics.CellScalars)
+  {
+    activate(this->CellScalars, "cellScalars");
+  }
   if (optics.VertexGradients)
   {
     activate(this->VertexGradients, "vertexGradients");
@@ -661,8 +673,8 @@ void RayCastOpenGL::Release(vtkWindow* window)
     owner->PushContext();
   }
   this->GetStatistics();
-  for (OpenGLTable* table : { &this->Vertices, &this->Cells, &this->TreeNodes, &this->TreeFaces,
-         &this->VertexGradients, &this->Intervals, &this->Isosurfaces })
+  for (OpenGLTable* table : { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes,
+         &this->TreeFaces, &this->VertexGradients, &this->Intervals, &this->Isosurfaces })
   {
     table->Release(owner);
   }

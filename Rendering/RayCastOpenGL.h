@@ -75,13 +75,16 @@ public:
   bool HasCells() const;
   bool HasBoundary() const;
   bool HasVertices() const;
+  bool HasCellScalars() const { return this->CellScalars.IsFilled(); }
   bool HasGradients() const { return this->VertexGradients.IsFilled(); }
   bool HasProperty() const { return this->Intervals.IsFilled(); }
 
   std::string UploadCells(const TetrahedralMesh& mesh);
   std::string UploadBoundary(const BoundaryTree& tree);
-  /** @param scalars  one normalised scalar per vertex. */
+  /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
+  /** One normalised scalar per cell. Needed for optics with CellScalars. */
+  std::string UploadCellScalars(const std::vector<float>& scalars);
   /** One gradient per vertex. Needed for optics with VertexGradients. */
   std::string UploadGradients(const std::vector<glm::vec3>& gradients);
   std::string UploadProperty(const VolumePropertyTables& tables);
@@ -143,6 +146,7 @@ private:
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   OpenGLTable Vertices;
   OpenGLTable Cells;
+  OpenGLTable CellScalars;
   OpenGLTable TreeNodes;
   OpenGLTable TreeFaces;
   OpenGLTable VertexGradients;

@@ -91,7 +91,8 @@ bool UsesGradientOpacity(vtkVolumeProperty* property)
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const OpticsPlace& place,
   RayCastOptics& optics)
 {
-  const bool composite = optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
+  const bool composite =
+    optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND && !optics.CellScalars;
   optics.Shading = property->GetShade() != 0 &&
     (composite || optics.BlendMode == vtkVolumeMapper::ISOSURFACE_BLEND);
   optics.GradientOpacity = composite && UsesGradientOpacity(property);

@@ -38,6 +38,8 @@ struct RayCastOptics
 {
   /** A number of vtkVolumeMapper::BlendModes up to ISOSURFACE_BLEND. */
   int BlendMode = 0;
+  /** One scalar per cell, in place of those of the vertices. */
+  bool CellScalars = false;
   bool Shading = false;
   bool GradientOpacity = false;
   /** Gradients interpolated between vertices, not those of the cells; only with one of the above.
@@ -55,8 +57,11 @@ struct RayCastOptics
   std::vector<RayClippingPlane> ClippingPlanes;
 
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
-  /** Composite blending of the transfer function as it is. */
-  bool IsPlain() const { return this->BlendMode == 0 && !this->UsesGradients(); }
+  /** Composite blending of the transfer function as it is, by scalars of the vertices. */
+  bool IsPlain() const
+  {
+    return this->BlendMode == 0 && !this->UsesGradients() && !this->CellScalars;
+  }
 };
 
 /** Where the mesh lies for optics: its centre in world and view coordinates, and view coordinates.
@@ -70,7 +75,11 @@ struct OpticsPlace
   double ScalarScale = 1.0;
 };
 
-/** Sets shading, its material and the lights that are on; gradient opacity where there is one. */
+/**
+ * Sets shading, its material and the lights that are on; gradient opacity where there is one.
+ * Scalars of cells have no gradient, only their isosurfaces a normal. Wants the other members of
+ * the optics that do not follow from this.
+ */
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const OpticsPlace& place,
   RayCastOptics& optics);
 

@@ -3,12 +3,18 @@
 #include "VolumeInput.h"
 
 #include "GridView.h"
+#include "ThreadedLoop.h"
 #include "Volume/BlockLoop.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"
+#include "vtkExplicitStructuredGrid.h"
+#include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
+#include "vtkPointSet.h"
 #include "vtkPoints.h"
-#include "vtkSMPTools.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -21,14 +27,6 @@ namespace meniscus
 {
 namespace
 {
-
-/** Blocks of the kernel's loops are large enough to be a thread's unit of work. */
-void ThreadedLoop(std::size_t count, const RangeBody& body)
-{
-  vtkSMPTools::For(0, static_cast<vtkIdType>(count), 1,
-    [&body](vtkIdType begin, vtkIdType end)
-    { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
-}
 
 /** Length of a tuple, without overflow on the way. */
 double LengthOf(vtkDataArray* array, vtkIdType tuple)
@@ -68,6 +66,39 @@ struct ValueRange
   }
 };
 
+/** The arrays of all parts as one, by numbers that run through them. */
+class ValuesOfParts
+{
+public:
+  ValuesOfParts(const InputParts& input, int component)
+    : Input(input)
+    , Component(component == ScalarSelection::Only ? 0 : component)
+  {
+    std::int64_t next = 0;
+    for (const InputPart& part : input.Parts)
+    {
+      this->Firsts.push_back(next);
+      next += part.Scalars->GetNumberOfTuples();
+    }
+  }
+
+  double operator()(std::int32_t number) const
+  {
+    const auto after = std::upper_bound(this->Firsts.begin() + 1, this->Firsts.end(), number);
+    const auto part = static_cast<std::size_t>(after - this->Firsts.begin()) - 1;
+    vtkDataArray* array = this->Input.Parts[part].Scalars;
+    const auto tuple = static_cast<vtkIdType>(number - this->Firsts[part]);
+    return this->Component == ScalarSelection::Magnitude
+      ? LengthOf(array, tuple)
+      : array->GetComponent(tuple, this->Component);
+  }
+
+private:
+  const InputParts& Input;
+  int Component;
+  std::vector<std::int64_t> Firsts;
+};
+
 }
 
 //------------------------------------------------------------------------------
@@ -78,48 +109,99 @@ ObjectVersion::ObjectVersion(vtkObject* object)
 }
 
 //------------------------------------------------------------------------------
-bool VolumeInput::MeshVersion::operator==(const MeshVersion& other) const
+void VolumeInput::MeshVersion::Add(vtkDataSet* grid)
 {
-  return this->Points == other.Points && this->Coordinates == other.Coordinates &&
-    this->Cells == other.Cells && this->Ghosts == other.Ghosts;
+  const auto add = [this](vtkObject* object) { this->Objects.emplace_back(object); };
+  const auto addNumbers = [this](const auto* first, int count)
+  { this->Numbers.insert(this->Numbers.end(), first, first + count); };
+  add(grid->GetCellGhostArray());
+  add(grid->GetPointGhostArray());
+  if (auto* set = vtkPointSet::SafeDownCast(grid))
+  {
+    add(set->GetPoints());
+    add(set->GetPoints() ? set->GetPoints()->GetData() : nullptr);
+  }
+  if (auto* unstructured = vtkUnstructuredGrid::SafeDownCast(grid))
+  {
+    add(unstructured->GetCells());
+    add(unstructured->GetFaces());
+  }
+  else if (auto* structured = vtkStructuredGrid::SafeDownCast(grid))
+  {
+    addNumbers(structured->GetExtent(), 6);
+  }
+  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(grid))
+  {
+    add(rectilinear->GetXCoordinates());
+    add(rectilinear->GetYCoordinates());
+    add(rectilinear->GetZCoordinates());
+    addNumbers(rectilinear->GetExtent(), 6);
+  }
+  else if (auto* image = vtkImageData::SafeDownCast(grid))
+  {
+    addNumbers(image->GetExtent(), 6);
+    addNumbers(image->GetOrigin(), 3);
+    addNumbers(image->GetSpacing(), 3);
+    addNumbers(image->GetDirectionMatrix()->GetData(), 9);
+  }
+  else
+  {
+    add(grid);
+  }
 }
 
 //------------------------------------------------------------------------------
 InputReport VolumeInput::UpdateMesh(
-  vtkUnstructuredGrid* grid, const std::function<bool(double)>& progress)
+  const InputParts& input, const std::function<bool(double)>& progress)
 {
-  InputReport report;
   MeshVersion version;
-  version.Points = ObjectVersion(grid->GetPoints());
-  version.Coordinates = ObjectVersion(grid->GetPoints() ? grid->GetPoints()->GetData() : nullptr);
-  version.Cells = ObjectVersion(grid->GetCells());
-  version.Ghosts = ObjectVersion(grid->GetCellGhostArray());
-  if (this->MeshBuilds > 0 && version == this->BuiltMesh)
+  std::vector<vtkDataSet*> grids;
+  for (const InputPart& part : input.Parts)
   {
-    return report;
+    version.Add(part.Grid);
+    grids.push_back(part.Grid);
   }
+  const bool lacksSources = input.Place == ScalarPlace::Cells && !this->KeepsSourceCells;
+  if (this->MeshBuilds > 0 && version == this->BuiltMesh && !lacksSources)
+  {
+    return InputReport();
+  }
+  this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
+  this->BuiltMesh = version;
+  return this->BuildMesh(grids, progress);
+}
 
-  std::ostringstream text;
-  const GridView gridView(grid);
-  const TetrahedraView& view = gridView.GetView();
-  MeshBuildControl control;
-  control.Loop = ThreadedLoop;
-  control.Progress = progress;
-  const MeshStatus status = this->Mesh.Build(view, control);
-  // What was aborted is begun again at the next call.
-  this->BuiltMesh = status == MeshStatus::Aborted ? MeshVersion() : version;
-  this->BuiltScalars = ObjectVersion();
+//------------------------------------------------------------------------------
+InputReport VolumeInput::BuildMesh(
+  const std::vector<vtkDataSet*>& grids, const std::function<bool(double)>& progress)
+{
+  this->BuiltScalars.clear();
   this->ActiveSetStale = true;
   ++this->MeshBuilds;
   ++this->LinkChanges;
 
-  if (status == MeshStatus::TooLarge)
+  InputReport report;
+  std::ostringstream text;
+  const GridSize size = MeasureGrids(grids);
+  if (size.Tetrahedra > TetrahedralMesh::MaximumNumberOfCells ||
+    size.Points > std::numeric_limits<std::int32_t>::max())
   {
-    text << "A mesh of " << view.NumberOfCells << " cells and " << view.NumberOfPoints
+    this->Mesh = TetrahedralMesh();
+    text << "A mesh of " << size.Tetrahedra << " tetrahedra and " << size.Points
          << " points exceeds the limit of " << TetrahedralMesh::MaximumNumberOfCells
-         << " cells and 2^31 points.";
+         << " tetrahedra and 2^31 points";
     report.Error = text.str();
     return report;
+  }
+  const GridView gridView(grids, ThreadedLoop);
+  TetrahedraView view = gridView.GetView();
+  view.KeepSourceCells = this->KeepsSourceCells;
+  MeshBuildControl control;
+  control.Loop = ThreadedLoop;
+  control.Progress = progress;
+  if (this->Mesh.Build(view, control) == MeshStatus::Aborted)
+  {
+    this->BuiltMesh = MeshVersion(); // begun again at the next call
   }
   const std::string omitted = gridView.DescribeOmitted();
   if (!omitted.empty())
@@ -141,16 +223,24 @@ InputReport VolumeInput::UpdateMesh(
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
+InputReport VolumeInput::UpdateScalars(const InputParts& input, int component)
 {
   InputReport report;
-  const ObjectVersion version(scalars);
-  if (version == this->BuiltScalars && component == this->BuiltComponent)
+  std::vector<ObjectVersion> version;
+  for (const InputPart& part : input.Parts)
+  {
+    version.emplace_back(part.Scalars);
+  }
+  if (version == this->BuiltScalars && input.Place == this->BuiltPlace &&
+    component == this->BuiltComponent)
   {
     return report;
   }
-  const std::vector<std::int32_t>& points = this->Mesh.GetSourcePoints();
-  std::vector<double> values(points.size());
+  const bool ofCells = input.Place == ScalarPlace::Cells;
+  const std::vector<std::int32_t>& sources =
+    ofCells ? this->Mesh.GetSourceCells() : this->Mesh.GetSourcePoints();
+  const ValuesOfParts valueOf(input, component);
+  std::vector<double> values(sources.size());
   std::vector<ValueRange> ranges(NumberOfBlocks(values.size()));
   ForEachBlock(values.size(), ThreadedLoop,
     [&](std::size_t block, std::size_t first, std::size_t last)
@@ -158,8 +248,7 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
       ValueRange range;
       for (std::size_t v = first; v < last; ++v)
       {
-        values[v] = component == Magnitude ? LengthOf(scalars, points[v])
-                                           : scalars->GetComponent(points[v], component);
+        values[v] = valueOf(sources[v]);
         range.Add(values[v]);
       }
       ranges[block] = range;
@@ -173,25 +262,30 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
   if (notFinite > 0)
   {
     report.Warning = std::to_string(notFinite) + " of " + std::to_string(values.size()) +
-      " scalars are not finite; cells that use them are transparent.";
+      " scalars of the " + (ofCells ? "tetrahedra" : "vertices") +
+      " are not finite; cells that use them are transparent.";
   }
 
   this->Normalization = notFinite == static_cast<std::int64_t>(values.size())
     ? ScalarNormalization()
     : NormalizeRange(range.Lowest, range.Highest);
-  this->Scalars.resize(values.size());
+  this->Scalars.clear();
+  this->CellScalars.clear();
+  std::vector<float>& normalized = ofCells ? this->CellScalars : this->Scalars;
+  normalized.resize(values.size());
   ForEachBlock(values.size(), ThreadedLoop,
     [&](std::size_t, std::size_t first, std::size_t last)
     {
       const ScalarNormalization& n = this->Normalization;
       for (std::size_t v = first; v < last; ++v)
       {
-        this->Scalars[v] = std::isfinite(values[v])
+        normalized[v] = std::isfinite(values[v])
           ? static_cast<float>((values[v] - n.Offset) * n.Scale)
           : std::numeric_limits<float>::quiet_NaN();
       }
     });
   this->BuiltScalars = version;
+  this->BuiltPlace = input.Place;
   this->BuiltComponent = component;
   this->ActiveSetStale = true;
   ++this->ScalarUpdates;
@@ -199,14 +293,18 @@ InputReport VolumeInput::UpdateScalars(vtkDataArray* scalars, int component)
 }
 
 //------------------------------------------------------------------------------
-void VolumeInput::UpdateActiveCells(const VisibleScalars& visible)
+void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, TetrahedralMesh::CellJumps jumps)
 {
-  if (!this->ActiveSetStale && visible == this->Visible)
+  if (!this->ActiveSetStale && visible == this->Visible && jumps == this->Jumps)
   {
     return;
   }
-  this->LinkChanges += this->Mesh.UpdateActiveCells(this->Scalars, visible, ThreadedLoop) ? 1 : 0;
+  const bool changed = this->BuiltPlace == ScalarPlace::Cells
+    ? this->Mesh.UpdateActiveCells(this->CellScalars, jumps, visible, ThreadedLoop)
+    : this->Mesh.UpdateActiveCells(this->Scalars, visible, ThreadedLoop);
+  this->LinkChanges += changed ? 1 : 0;
   this->Visible = visible;
+  this->Jumps = jumps;
   this->ActiveSetStale = false;
   ++this->ActiveSetBuilds;
 }

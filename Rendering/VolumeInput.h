@@ -3,6 +3,7 @@
 #ifndef VolumeInput_h
 #define VolumeInput_h
 
+#include "InputParts.h"
 #include "Volume/BoundaryTree.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
@@ -15,9 +16,7 @@
 #include <string>
 #include <vector>
 
-class vtkDataArray;
 class vtkObject;
-class vtkUnstructuredGrid;
 
 namespace meniscus
 {
@@ -36,15 +35,6 @@ struct ObjectVersion
   }
 };
 
-/** What is to be told about an input; empty texts if nothing is. */
-struct InputReport
-{
-  /** Why nothing can be drawn. */
-  std::string Error;
-  /** What is left out of the picture. */
-  std::string Warning;
-};
-
 /**
  * What is drawn, as the kernel's tables: mesh, normalised scalars, active cells. Each is remade
  * when its own input changed. The counters say how often that was, and so whether a copy is stale.
@@ -53,24 +43,31 @@ class VolumeInput
 {
 public:
   /**
-   * The mesh of a grid. Another grid that shares its points and cells is the same mesh.
+   * The mesh of an input, all parts in one. Another that shares its points and cells is the same.
+   * For scalars of cells it takes 4 bytes more per cell, which is kept up from then on; a mesh
+   * without is made again.
    * @param progress  told the fraction done; false aborts, which leaves no mesh and no report.
    */
-  InputReport UpdateMesh(vtkUnstructuredGrid* grid, const std::function<bool(double)>& progress);
+  InputReport UpdateMesh(const InputParts& input, const std::function<bool(double)>& progress);
 
   /**
-   * The scalars of that mesh, one tuple for each point.
-   * @param component  which component; Magnitude for the length of the tuple.
+   * The scalars of that mesh.
+   * @param component  as of ScalarSelection.
    */
-  InputReport UpdateScalars(vtkDataArray* scalars, int component);
-  static constexpr int Magnitude = -1;
+  InputReport UpdateScalars(const InputParts& input, int component);
 
-  /** The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same. */
-  void UpdateActiveCells(const VisibleScalars& visible);
+  /**
+   * The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same.
+   * @param jumps  whether jumps of the scalars of cells can be seen.
+   */
+  void UpdateActiveCells(const VisibleScalars& visible, TetrahedralMesh::CellJumps jumps);
 
   const TetrahedralMesh& GetMesh() const { return this->Mesh; }
-  /** One normalised scalar per vertex; NaN where the input's is not finite. */
+  ScalarPlace GetScalarPlace() const { return this->BuiltPlace; }
+  /** One normalised scalar per vertex; NaN where the input's is not finite. Empty if of cells. */
   const std::vector<float>& GetScalars() const { return this->Scalars; }
+  /** One per cell of the mesh, likewise; empty if of points. */
+  const std::vector<float>& GetCellScalars() const { return this->CellScalars; }
   const ScalarNormalization& GetNormalization() const { return this->Normalization; }
   /** Over the boundary of the active cells; built when first asked for. */
   const BoundaryTree& GetBoundaryTree();
@@ -83,26 +80,35 @@ public:
   std::int64_t GetLinkChanges() const { return this->LinkChanges; }
 
 private:
-  /** What the mesh was built from. */
+  /** What the mesh was built from: objects, and numbers where there is no object. */
   struct MeshVersion
   {
-    ObjectVersion Points;
-    ObjectVersion Coordinates;
-    ObjectVersion Cells;
-    ObjectVersion Ghosts;
+    std::vector<ObjectVersion> Objects;
+    std::vector<double> Numbers;
 
-    bool operator==(const MeshVersion& other) const;
+    bool operator==(const MeshVersion& other) const
+    {
+      return this->Objects == other.Objects && this->Numbers == other.Numbers;
+    }
+    void Add(vtkDataSet* grid);
   };
+
+  InputReport BuildMesh(
+    const std::vector<vtkDataSet*>& grids, const std::function<bool(double)>& progress);
 
   TetrahedralMesh Mesh;
   BoundaryTree Tree;
   std::vector<float> Scalars;
+  std::vector<float> CellScalars;
   ScalarNormalization Normalization;
   VisibleScalars Visible;
+  TetrahedralMesh::CellJumps Jumps = TetrahedralMesh::CellJumps::Hidden;
 
   MeshVersion BuiltMesh;
-  ObjectVersion BuiltScalars;
+  std::vector<ObjectVersion> BuiltScalars;
+  ScalarPlace BuiltPlace = ScalarPlace::Points;
   int BuiltComponent = 0;
+  bool KeepsSourceCells = false;
   bool ActiveSetStale = true;
   std::int64_t TreeOf = 0;
 

@@ -12,15 +12,16 @@
 #include "VolumePropertyTables.h"
 
 #include "vtkCamera.h"
-#include "vtkDataArray.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSet.h"
 #include "vtkHardwareSelector.h"
+#include "vtkInformation.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
-#include "vtkUnstructuredGrid.h"
 #include "vtkVolume.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
@@ -66,6 +67,7 @@ public:
   std::int64_t UploadedLinks = 0;
   std::int64_t UploadedMesh = 0;
   std::int64_t UploadedScalars = 0;
+  std::int64_t UploadedCellScalars = 0;
   std::int64_t UploadedGradients = 0;
   std::int64_t UploadedProperty = 0;
   /** The same of the native backend's. */
@@ -77,6 +79,8 @@ public:
   /** Seconds that the last frame would have taken with a ray per pixel; 0 before it. */
   double FullImageTime = 0.0;
 
+  /** What was last said of data sets that are left out. */
+  std::string ToldOfParts;
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedNative = false;
@@ -103,13 +107,20 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
     error = error.empty() ? this->OpenGL.UploadBoundary(input.GetBoundaryTree()) : error;
     this->UploadedLinks = error.empty() ? input.GetLinkChanges() : 0;
   }
+  const bool ofCells = input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   const bool verticesStale = this->UploadedMesh != input.GetMeshBuilds() ||
-    this->UploadedScalars != input.GetScalarUpdates();
+    (!ofCells && this->UploadedScalars != input.GetScalarUpdates());
   if (error.empty() && (verticesStale || !this->OpenGL.HasVertices()))
   {
     error = this->OpenGL.UploadVertices(input.GetMesh(), input.GetScalars());
     this->UploadedMesh = error.empty() ? input.GetMeshBuilds() : 0;
     this->UploadedScalars = input.GetScalarUpdates();
+  }
+  const bool cellScalarsStale = this->UploadedCellScalars != input.GetScalarUpdates();
+  if (error.empty() && ofCells && (cellScalarsStale || !this->OpenGL.HasCellScalars()))
+  {
+    error = this->OpenGL.UploadCellScalars(input.GetCellScalars());
+    this->UploadedCellScalars = error.empty() ? input.GetScalarUpdates() : 0;
   }
   const bool gradientsStale = this->UploadedGradients != this->GradientBuilds;
   if (error.empty() && gradients && (gradientsStale || !this->OpenGL.HasGradients()))
@@ -230,71 +241,86 @@ vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
 vtkTetrahedraRayCastMapper::~vtkTetrahedraRayCastMapper() = default;
 
 //------------------------------------------------------------------------------
-vtkUnstructuredGrid* vtkTetrahedraRayCastMapper::ValidateInput()
+int vtkTetrahedraRayCastMapper::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  for (const char* type : { "vtkDataSet", "vtkCompositeDataSet" })
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::SetInputData(vtkDataSet* input)
+{
+  this->SetInputDataInternal(0, input);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::SetInputData(vtkCompositeDataSet* input)
+{
+  this->SetInputDataInternal(0, input);
+}
+
+//------------------------------------------------------------------------------
+double* vtkTetrahedraRayCastMapper::GetBounds()
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput());
+  if (!composite)
+  {
+    return this->Superclass::GetBounds();
+  }
+  this->GetInputAlgorithm()->Update();
+  composite = vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput());
+  composite->GetBounds(this->Bounds);
+  return this->Bounds;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::Tell(const meniscus::InputReport& report)
+{
+  if (!report.Error.empty())
+  {
+    vtkErrorMacro(<< report.Error << "; nothing is rendered.");
+  }
+  if (!report.Warning.empty())
+  {
+    vtkWarningMacro(<< report.Warning);
+  }
+  return report.Error.empty();
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::CollectInput(meniscus::InputParts& parts)
 {
   if (this->GetNumberOfInputConnections(0) > 0)
   {
     this->GetInputAlgorithm()->Update();
   }
-  vtkUnstructuredGridBase* input = this->GetInput();
-  if (!input)
-  {
-    vtkErrorMacro("No input; nothing is rendered.");
-    return nullptr;
-  }
-  vtkUnstructuredGrid* grid = vtkUnstructuredGrid::SafeDownCast(input);
-  if (!grid)
-  {
-    vtkErrorMacro("The input is a " << input->GetClassName()
-                                    << ", not a vtkUnstructuredGrid; nothing is rendered.");
-  }
-  return grid;
+  meniscus::InputReport report =
+    meniscus::CollectInputParts(this->GetDataObjectInput(), this->SelectedScalars(), parts);
+  // The same parts are left out again in every frame.
+  const bool told = report.Warning == this->Internals->ToldOfParts;
+  this->Internals->ToldOfParts = report.Warning;
+  report.Warning = told ? std::string() : report.Warning;
+  return this->Tell(report);
 }
 
 //------------------------------------------------------------------------------
-vtkDataArray* vtkTetrahedraRayCastMapper::ValidateScalars(vtkUnstructuredGrid* grid)
+meniscus::ScalarSelection vtkTetrahedraRayCastMapper::SelectedScalars()
 {
-  int cellFlag = 0;
-  vtkDataArray* scalars = vtkAbstractMapper::GetScalars(
-    grid, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cellFlag);
-  if (!scalars)
+  meniscus::ScalarSelection selection;
+  selection.ScalarMode = this->ScalarMode;
+  selection.AccessMode = this->ArrayAccessMode;
+  selection.ArrayId = this->ArrayId;
+  selection.ArrayName = this->ArrayName;
+  if (this->VectorMode != DISABLED)
   {
-    const bool byName = this->ArrayAccessMode == VTK_GET_ARRAY_BY_NAME && this->ArrayName;
-    vtkErrorMacro("The input has no scalar array"
-      << (byName ? std::string(" named '") + this->ArrayName + "'" : std::string())
-      << "; nothing is rendered.");
-    return nullptr;
+    selection.Component =
+      this->VectorMode == MAGNITUDE ? meniscus::ScalarSelection::Magnitude : this->VectorComponent;
   }
-  const std::string name = scalars->GetName() ? scalars->GetName() : "without a name";
-  if (cellFlag != 0)
-  {
-    vtkErrorMacro("The array '" << name
-                                << "' is cell or field data; point data is needed (see "
-                                   "vtkCellDataToPointData). Nothing is rendered.");
-    return nullptr;
-  }
-  const int components = scalars->GetNumberOfComponents();
-  if (this->VectorMode == DISABLED && components != 1)
-  {
-    vtkErrorMacro(
-      "The array '" << name << "' has " << components
-                    << " components; 1 is needed, or a VectorMode. Nothing is rendered.");
-    return nullptr;
-  }
-  if (this->VectorMode == COMPONENT && this->VectorComponent >= components)
-  {
-    vtkErrorMacro("The array '" << name << "' has " << components << " components, none of number "
-                                << this->VectorComponent << ". Nothing is rendered.");
-    return nullptr;
-  }
-  if (scalars->GetNumberOfTuples() != grid->GetNumberOfPoints())
-  {
-    vtkErrorMacro("The array '" << name << "' has " << scalars->GetNumberOfTuples()
-                                << " values for " << grid->GetNumberOfPoints()
-                                << " points; nothing is rendered.");
-    return nullptr;
-  }
-  return scalars;
+  return selection;
 }
 
 //------------------------------------------------------------------------------
@@ -319,32 +345,17 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateInput(
-  vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars)
+  vtkRenderWindow* window, const meniscus::InputParts& parts)
 {
   meniscus::VolumeInput& input = this->Internals->Input;
-  const auto tell = [this](const meniscus::InputReport& report)
-  {
-    if (!report.Error.empty())
-    {
-      vtkErrorMacro(<< report.Error << " Nothing is rendered.");
-    }
-    if (!report.Warning.empty())
-    {
-      vtkWarningMacro(<< report.Warning);
-    }
-    return report.Error.empty();
-  };
-  const int component = this->VectorMode == MAGNITUDE
-    ? meniscus::VolumeInput::Magnitude
-    : (this->VectorMode == COMPONENT ? this->VectorComponent : 0);
   this->SetAbortExecute(0);
   const auto goOn = [this, window](double fraction)
   {
     this->UpdateProgress(fraction);
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
-  return tell(input.UpdateMesh(grid, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
-    tell(input.UpdateScalars(scalars, component));
+  return this->Tell(input.UpdateMesh(parts, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
+    this->Tell(input.UpdateScalars(parts, this->SelectedScalars().Component));
 }
 
 //------------------------------------------------------------------------------
@@ -361,7 +372,10 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
   vtkInternals& internals = *this->Internals;
   internals.Property.Update(volume->GetProperty(), this->GetUsedBlendMode(),
     this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Input.GetNormalization());
-  internals.Input.UpdateActiveCells(internals.Property.GetVisibleScalars());
+  using Jumps = meniscus::TetrahedralMesh::CellJumps;
+  const bool isosurfaces = this->GetUsedBlendMode() == vtkVolumeMapper::ISOSURFACE_BLEND;
+  internals.Input.UpdateActiveCells(
+    internals.Property.GetVisibleScalars(), isosurfaces ? Jumps::Visible : Jumps::Hidden);
 }
 
 //------------------------------------------------------------------------------
@@ -374,8 +388,8 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
   const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
   const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
   this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
-    "The native backend has composite blending only, without shading and gradient opacity; "
-    "rendering with OpenGL.");
+    "The native backend has composite blending of point data only, without shading and gradient "
+    "opacity; rendering with OpenGL.");
   this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
     "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
   return nativeLacks || computeLacks ? OPENGL : this->Backend;
@@ -429,10 +443,11 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   frame.Rays = place.Frame;
   frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
   frame.Optics.BlendMode = this->GetUsedBlendMode();
+  frame.Optics.CellScalars = internals.Input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
-  frame.Optics.VertexGradients =
-    frame.Optics.UsesGradients() && this->Gradients == VERTEX_GRADIENTS;
+  frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
+    this->Gradients == VERTEX_GRADIENTS;
   return meniscus::DescribeExcess(frame.Optics);
 }
 
@@ -480,13 +495,9 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
-  vtkUnstructuredGrid* grid = this->ValidateInput();
-  if (!grid || grid->GetNumberOfCells() == 0)
-  {
-    return;
-  }
-  vtkDataArray* scalars = this->ValidateScalars(grid);
-  if (!scalars || !this->UpdateInput(renderer->GetRenderWindow(), grid, scalars))
+  meniscus::InputParts parts;
+  if (!this->CollectInput(parts) || parts.Parts.empty() ||
+    !this->UpdateInput(renderer->GetRenderWindow(), parts))
   {
     return;
   }
@@ -560,6 +571,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveCells()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransparentCells()
+{
+  return this->Internals->Input.GetMesh().GetNumberOfUnknownCells();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRejectedCells()
 {
   return this->Internals->Input.GetMesh().GetRejectedCells().Total();
@@ -607,5 +624,6 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
+  os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
   os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";
 }

@@ -7,16 +7,19 @@
  * Casts one ray per pixel through the mesh, from cell to cell across shared faces, and integrates
  * the density-emitter model in closed form. The image does not depend on a sampling distance.
  *
- * Input: a vtkUnstructuredGrid with a point array, chosen by the scalar mode and array selection of
- * vtkAbstractVolumeMapper, of one component or as SetVectorMode() says. Tetrahedra are drawn as
+ * Input: a vtkUnstructuredGrid, structured, rectilinear or image grid, or a composite data set of
+ * such (whose leaves make one mesh, so that they may interlock; leaves without the array are left
+ * out with a warning) with a point or cell array, chosen by the scalar mode and array
+ * selection of vtkAbstractVolumeMapper, of one component or as SetVectorMode() says. Point data is
+ * linear within each tetrahedron, cell data constant within each cell. Tetrahedra are drawn as
  * they are; voxels, hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells as
  * tetrahedra that have the same points and fit across shared faces, whatever the cells (each cell
  * is pulled to its point of the smallest number). Other cells are left out with a warning. Any mesh
  * is accepted: non-convex, disconnected, cyclic, with inverted cells, cells of zero volume,
  * duplicate points and faces of more than two cells. Cells that vtkGhostType marks as duplicate or
  * hidden are left out. Cells with a point index out of range, a repeated point or a point that is
- * not finite are left out and counted. Cells with a vertex whose scalar is not finite are
- * transparent.
+ * not finite are left out and counted. Cells with a scalar that is not finite, their own or that of
+ * a vertex, are transparent and counted.
  *
  * Optical model, by SetBlendMode() with the numbers of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity becomes an
@@ -30,7 +33,10 @@
  * - ADDITIVE_BLEND: the integral of opacity / ScalarOpacityUnitDistance times the scalar's place in
  *   the data's range [0, 1], as an opaque grey level.
  * - ISOSURFACE_BLEND: surfaces at the property's IsoSurfaceValues, with its colour and opacity at
- *   these values; lit if Shade is on.
+ *   these values; lit if Shade is on. Of cell data, the faces shared by two cells whose values lie
+ *   on either side of an isovalue.
+ *
+ * Cell data has no gradient: of Shade and gradient opacity, only light on isosurfaces is left.
  *
  * Lengths are measured in world coordinates. Output is premultiplied RGBA, blended over what is in
  * the framebuffer; rays end at the opaque geometry there. Clipping planes cut cells exactly. A
@@ -65,8 +71,8 @@
  * Needs OpenGL 3.2; the native backend casts rays on the CPU and needs it to show the image. Work
  * is done where its input changes: see the counters.
  *
- * @note Limits of this version: point data; up to 32 clipping planes and 16 lights; the native
- * backend has plain composite blending only; fewer than 2^29 cells, and tables within
+ * @note Limits of this version: up to 32 clipping planes and 16 lights; the native backend has
+ * plain composite blending of point data only; fewer than 2^29 cells, and tables within
  * GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
@@ -80,13 +86,16 @@
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
-class vtkDataArray;
+class vtkCompositeDataSet;
+class vtkDataSet;
 class vtkRenderWindow;
-class vtkUnstructuredGrid;
 
 namespace meniscus
 {
+struct InputParts;
+struct InputReport;
 struct RayCastFrame;
+struct ScalarSelection;
 }
 
 class VTKMENISCUS_EXPORT vtkTetrahedraRayCastMapper : public vtkUnstructuredGridVolumeMapper
@@ -95,6 +104,22 @@ public:
   static vtkTetrahedraRayCastMapper* New();
   vtkTypeMacro(vtkTetrahedraRayCastMapper, vtkUnstructuredGridVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Sets what is drawn, without a pipeline: a data set with cells that have volume, or a composite
+   * one of such, all of whose leaves are drawn as one mesh.
+   */
+  using vtkUnstructuredGridVolumeMapper::SetInputData;
+  void SetInputData(vtkDataSet* input) override;
+  void SetInputData(vtkCompositeDataSet* input);
+  ///@}
+
+  ///@{
+  /** Bounds of the input; of all leaves of a composite one. */
+  double* GetBounds() VTK_SIZEHINT(6) override;
+  void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
+  ///@}
 
   enum VectorModes
   {
@@ -244,11 +269,13 @@ public:
 
   ///@{
   /**
-   * Of the current mesh: cells that rays can visit, which are those that the transfer function lets
-   * be seen and whose scalars are finite, and input cells left out because of a point
-   * index out of range, a repeated point or a point that is not finite.
+   * Of the current mesh: tetrahedra that rays can visit, which are those that the transfer function
+   * lets be seen and whose scalars are finite; tetrahedra with a scalar that is not finite; and
+   * tetrahedra left out because of a point index out of range, a repeated point or a point that is
+   * not finite.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
+  vtkTypeInt64 GetNumberOfTransparentCells();
   vtkTypeInt64 GetNumberOfRejectedCells();
   ///@}
 
@@ -279,15 +306,18 @@ protected:
   vtkTetrahedraRayCastMapper();
   ~vtkTetrahedraRayCastMapper() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+
 private:
   vtkTetrahedraRayCastMapper(const vtkTetrahedraRayCastMapper&) = delete;
   void operator=(const vtkTetrahedraRayCastMapper&) = delete;
 
-  vtkUnstructuredGrid* ValidateInput();
-  vtkDataArray* ValidateScalars(vtkUnstructuredGrid* grid);
+  meniscus::ScalarSelection SelectedScalars();
+  bool CollectInput(meniscus::InputParts& parts);
+  bool Tell(const meniscus::InputReport& report);
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
-  bool UpdateInput(vtkRenderWindow* window, vtkUnstructuredGrid* grid, vtkDataArray* scalars);
+  bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
   int ChooseBackend(bool plainOptics);

@@ -28,6 +28,9 @@ private:
   glm::dvec3 Scale;
 };
 
+/** The code of whole numbers within +-2^(bits - 1): 30 bits, of the 10 uppermost of an axis. */
+std::uint32_t MortonCode(const std::int64_t position[3], int bits);
+
 /** A Morton code in the upper and an index in the lower 32 bits. */
 using MortonKey = std::uint64_t;
 

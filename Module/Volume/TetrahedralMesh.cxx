@@ -3,9 +3,7 @@
 #include "Volume/TetrahedralMesh.h"
 
 #include "Volume/BlockLoop.h"
-#include "Volume/CellFaces.h"
 #include "Volume/MortonOrder.h"
-#include "Volume/VisibleScalars.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -13,10 +11,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 namespace meniscus
@@ -37,17 +33,22 @@ glm::dvec3 PointAt(const TetrahedraView& input, std::size_t index)
   return { p[0], p[1], p[2] };
 }
 
+/** Sorts without branches, which no predictor would foresee. */
+void SortFour(std::array<std::int32_t, 4>& values)
+{
+  constexpr int Pairs[5][2] = { { 0, 1 }, { 2, 3 }, { 0, 2 }, { 1, 3 }, { 1, 2 } };
+  for (const auto& pair : Pairs)
+  {
+    const std::int32_t low = std::min(values[pair[0]], values[pair[1]]);
+    values[pair[1]] = std::max(values[pair[0]], values[pair[1]]);
+    values[pair[0]] = low;
+  }
+}
+
 bool IsFinite(const glm::dvec3& p)
 {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
-
-/** What a block of cells adds to the sums over all. */
-struct BlockCount
-{
-  std::int64_t Active = 0;
-  std::int64_t Changed = 0;
-};
 
 /** Turns the counts of blocks into where each block's part starts; returns the sum. */
 std::size_t CountsToStarts(std::vector<std::size_t>& counts)
@@ -326,8 +327,6 @@ void TetrahedralMesh::Builder::NumberVertices()
 //------------------------------------------------------------------------------
 void TetrahedralMesh::Builder::NumberCells()
 {
-  const glm::dvec3 box(1.0); // positions are in units of the radius
-  const MortonCurve curve(-box, box);
   std::vector<MortonKey> keys(this->NumberOfCells);
   ForEachBlock(this->Input.NumberOfCells, this->Loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
@@ -340,14 +339,19 @@ void TetrahedralMesh::Builder::NumberCells()
         {
           continue;
         }
-        glm::dvec3 centroid(0.0);
+        // Within +-2^32, as positions are within +-2^30.
+        std::int64_t sum[3] = { 0, 0, 0 };
         for (std::int32_t& corner : corners)
         {
           corner = this->VertexOfPoint[corner];
-          centroid += 0.25 * this->Mesh.GetPosition(corner);
+          const glm::ivec3& position = this->Mesh.Positions[corner];
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            sum[axis] += position[axis];
+          }
         }
-        std::sort(corners.begin(), corners.end());
-        keys[next++] = MakeMortonKey(curve.Code(centroid), c);
+        SortFour(corners);
+        keys[next++] = MakeMortonKey(MortonCode(sum, 33), c);
       }
     });
   SortByCode(keys, this->Loop);
@@ -363,108 +367,8 @@ void TetrahedralMesh::Builder::NumberCells()
         this->Mesh.Cells[c].Links.fill(NoNeighbor);
         if (this->Input.KeepSourceCells)
         {
-          this->Mesh.SourceCells[c] = static_cast<std::int32_t>(source);
-        }
-      }
-    });
-}
-
-//------------------------------------------------------------------------------
-bool TetrahedralMesh::UpdateActiveCells(
-  const std::vector<float>& scalars, const VisibleScalars& visible, const RangeLoop& loop)
-{
-  std::vector<std::uint8_t> active(this->Cells.size());
-  std::vector<BlockCount> counts(NumberOfBlocks(this->Cells.size()));
-  ForEachBlock(this->Cells.size(), loop,
-    [&](std::size_t block, std::size_t first, std::size_t last)
-    {
-      BlockCount count;
-      for (std::size_t c = first; c < last; ++c)
-      {
-        const auto& v = this->Cells[c].Vertices;
-        const float s[4] = { scalars[v[0]], scalars[v[1]], scalars[v[2]], scalars[v[3]] };
-        // The sum of normalised scalars is NaN if one of them is.
-        const bool known = !std::isnan(s[0] + s[1] + s[2] + s[3]);
-        active[c] = known &&
-          visible.Meets(std::min(std::min(s[0], s[1]), std::min(s[2], s[3])),
-            std::max(std::max(s[0], s[1]), std::max(s[2], s[3])));
-        count.Active += active[c];
-        count.Changed += active[c] != (std::abs(this->Orientation[c]) == 1);
-      }
-      counts[block] = count;
-    });
-  BlockCount total;
-  for (const BlockCount& count : counts)
-  {
-    total.Active += count.Active;
-    total.Changed += count.Changed;
-  }
-  if (total.Changed == 0)
-  {
-    return false;
-  }
-  this->ActiveCells = total.Active;
-  this->MarkLinks(active, loop);
-  this->CollectBoundary(loop);
-  return true;
-}
-
-//------------------------------------------------------------------------------
-void TetrahedralMesh::MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop)
-{
-  ForEachBlock(this->Cells.size(), loop,
-    [this, &active](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        const int sign = this->Orientation[c] > 0 ? 1 : -1;
-        this->Orientation[c] = static_cast<std::int8_t>(active[c] ? sign : 2 * sign);
-        for (std::int32_t& link : this->Cells[c].Links)
-        {
-          if (link != NoNeighbor)
-          {
-            const std::int32_t neighbor = link < NoNeighbor ? MarkedLink(link) : link;
-            link = active[neighbor / 4] ? neighbor : MarkedLink(neighbor);
-          }
-        }
-      }
-    });
-}
-
-//------------------------------------------------------------------------------
-void TetrahedralMesh::CollectBoundary(const RangeLoop& loop)
-{
-  const auto isBoundary = [this](std::size_t c, int face)
-  { return std::abs(this->Orientation[c]) == 1 && this->Cells[c].Links[face] < 0; };
-
-  // Counted before they are written, so that the order is that of the cells on any threads.
-  std::vector<std::size_t> starts(NumberOfBlocks(this->Cells.size()) + 1, 0);
-  ForEachBlock(this->Cells.size(), loop,
-    [&](std::size_t block, std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        for (int face = 0; face < 4; ++face)
-        {
-          starts[block + 1] += isBoundary(c, face);
-        }
-      }
-    });
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  this->Boundary.resize(starts.back());
-  ForEachBlock(this->Cells.size(), loop,
-    [&](std::size_t block, std::size_t first, std::size_t last)
-    {
-      std::size_t next = starts[block];
-      for (std::size_t c = first; c < last; ++c)
-      {
-        for (int face = 0; face < 4; ++face)
-        {
-          if (isBoundary(c, face))
-          {
-            this->Boundary[next++] = { FaceVertices(this->Cells[c].Vertices, face),
-              FaceParity(face) * this->Orientation[c], static_cast<std::int32_t>(4 * c + face) };
-          }
+          this->Mesh.SourceCells[c] = this->Input.SourceCells ? this->Input.SourceCells[source]
+                                                              : static_cast<std::int32_t>(source);
         }
       }
     });

@@ -52,6 +52,8 @@ struct TetrahedraView
   std::uint8_t LeftOutBits = 0xFF;
   /** Whether GetSourceCells() is wanted: 4 bytes per cell. */
   bool KeepSourceCells = false;
+  /** Per cell, what GetSourceCells() says of it; null for its own number. */
+  const std::int32_t* SourceCells = nullptr;
 };
 
 /** How a mesh is built. */
@@ -139,7 +141,20 @@ public:
   bool UpdateActiveCells(const std::vector<float>& scalars, const VisibleScalars& visible,
     const RangeLoop& loop = SerialLoop);
 
+  enum class CellJumps
+  {
+    /** Only the values of the cells can be seen. */
+    Hidden,
+    /** So can all between the values of two cells, on the face that they share (isosurfaces). */
+    Visible
+  };
+  /** The same for a mesh whose cells have one value each, NaN for none. */
+  bool UpdateActiveCells(const std::vector<float>& cellScalars, CellJumps jumps,
+    const VisibleScalars& visible, const RangeLoop& loop = SerialLoop);
+
   std::int64_t GetNumberOfActiveCells() const { return this->ActiveCells; }
+  /** Cells without a scalar in the last update of the active cells. */
+  std::int64_t GetNumberOfUnknownCells() const { return this->UnknownCells; }
 
   const std::vector<Cell>& GetCells() const { return this->Cells; }
   /** Vertex positions relative to GetCenter(), in units of GetRadius() * PositionUnit. */
@@ -151,7 +166,7 @@ public:
   }
   /** Input point of each vertex. */
   const std::vector<std::int32_t>& GetSourcePoints() const { return this->SourcePoints; }
-  /** Input cell of each cell, if wanted. */
+  /** Input cell of each cell, if wanted; else empty. */
   const std::vector<std::int32_t>& GetSourceCells() const { return this->SourceCells; }
   const std::vector<BoundaryFace>& GetBoundary() const { return this->Boundary; }
   const RejectedCells& GetRejectedCells() const { return this->Rejected; }
@@ -168,6 +183,9 @@ private:
   void Clear();
   void LinkCells(const RangeLoop& loop);
   void OrientCells(const RangeLoop& loop);
+  struct ScalarRange;
+  template <typename RangeOf>
+  bool ActivateCells(RangeOf&& rangeOf, const VisibleScalars& visible, const RangeLoop& loop);
   void MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop);
   void CollectBoundary(const RangeLoop& loop);
 
@@ -184,6 +202,7 @@ private:
   RejectedCells Rejected;
   std::int64_t CutLinks = 0;
   std::int64_t ActiveCells = 0;
+  std::int64_t UnknownCells = 0;
   glm::dvec3 Center{ 0.0 };
   double Radius = 0.0;
 };

@@ -17,52 +17,19 @@ namespace meniscus
 namespace
 {
 
-/** Six times the signed volume of the ascending vertices. */
-double SixfoldVolume(const TetrahedralMesh& mesh, std::size_t cell)
+/** A multiple of the signed volume of the ascending vertices. */
+double SignedVolume(const std::vector<glm::ivec3>& positions, const TetrahedralMesh::Cell& cell)
 {
-  const auto& v = mesh.GetCells()[cell].Vertices;
-  const glm::dvec3 origin = mesh.GetPosition(v[0]);
-  return glm::dot(glm::cross(mesh.GetPosition(v[1]) - origin, mesh.GetPosition(v[2]) - origin),
-    mesh.GetPosition(v[3]) - origin);
-}
-
-/** A face filed under its lowest vertex: the two others, and whose it is. */
-struct FiledFace
-{
-  std::uint64_t Others;
-  std::int32_t CellFace;
-
-  bool operator<(const FiledFace& other) const
-  {
-    return this->Others != other.Others ? this->Others < other.Others
-                                        : this->CellFace < other.CellFace;
-  }
-};
-
-/** Sorts few faces: what insertion does best. */
-void SortFaces(FiledFace* first, FiledFace* last)
-{
-  constexpr std::ptrdiff_t Few = 40;
-  if (last - first > Few)
-  {
-    std::sort(first, last);
-    return;
-  }
-  for (FiledFace* next = first; next != last; ++next)
-  {
-    const FiledFace face = *next;
-    FiledFace* to = next;
-    for (; to != first && face < to[-1]; --to)
-    {
-      *to = to[-1];
-    }
-    *to = face;
-  }
+  const auto& v = cell.Vertices;
+  const glm::dvec3 origin(positions[v[0]]);
+  return glm::dot(
+    glm::cross(glm::dvec3(positions[v[1]]) - origin, glm::dvec3(positions[v[2]]) - origin),
+    glm::dvec3(positions[v[3]]) - origin);
 }
 
 /**
- * All faces, grouped by lowest vertex. Threads file them in any order, which sorting each group
- * undoes.
+ * All faces, grouped by lowest vertex. Three faces of a cell have its lowest vertex, the fourth
+ * begins with the second lowest. Threads file them in any order.
  */
 class FaceFile
 {
@@ -70,7 +37,7 @@ public:
   FaceFile(const std::vector<TetrahedralMesh::Cell>& cells, std::size_t numberOfVertices,
     const RangeLoop& loop)
     : Ends(new std::atomic<std::uint32_t>[numberOfVertices])
-    , Faces(new FiledFace[4 * cells.size()])
+    , Entries(new std::uint32_t[2 * cells.size()])
   {
     ForEachBlock(numberOfVertices, loop,
       [this](std::size_t, std::size_t first, std::size_t last)
@@ -80,11 +47,10 @@ public:
           this->Ends[v].store(0, std::memory_order_relaxed);
         }
       });
-    // Three faces contain the cell's lowest vertex; the fourth begins with the second lowest.
     this->ForEachCell(cells.size(), loop,
       [&](std::size_t c)
       {
-        this->Ends[cells[c].Vertices[0]].fetch_add(3, std::memory_order_relaxed);
+        this->Ends[cells[c].Vertices[0]].fetch_add(1, std::memory_order_relaxed);
         this->Ends[cells[c].Vertices[1]].fetch_add(1, std::memory_order_relaxed);
       });
     std::uint32_t next = 0;
@@ -99,32 +65,24 @@ public:
       [&](std::size_t c)
       {
         const auto& v = cells[c].Vertices;
-        const std::uint32_t low = this->Ends[v[0]].fetch_add(3, std::memory_order_relaxed);
-        const std::uint32_t high = this->Ends[v[1]].fetch_add(1, std::memory_order_relaxed);
-        const auto cellFace = static_cast<std::int32_t>(4 * c);
-        this->Faces[high] = { Pair(v[2], v[3]), cellFace };
-        this->Faces[low] = { Pair(v[2], v[3]), cellFace + 1 };
-        this->Faces[low + 1] = { Pair(v[1], v[3]), cellFace + 2 };
-        this->Faces[low + 2] = { Pair(v[1], v[2]), cellFace + 3 };
+        const auto cell = static_cast<std::uint32_t>(2 * c);
+        this->Entries[this->Ends[v[0]].fetch_add(1, std::memory_order_relaxed)] = cell;
+        this->Entries[this->Ends[v[1]].fetch_add(1, std::memory_order_relaxed)] = cell + 1;
       });
   }
 
-  FiledFace* Begin(std::size_t vertex)
+  /** 2 * cell, and 1 more if the vertex is the second lowest. */
+  const std::uint32_t* Begin(std::size_t vertex) const
   {
-    return this->Faces.get() +
+    return this->Entries.get() +
       (vertex == 0 ? 0 : this->Ends[vertex - 1].load(std::memory_order_relaxed));
   }
-  FiledFace* End(std::size_t vertex)
+  const std::uint32_t* End(std::size_t vertex) const
   {
-    return this->Faces.get() + this->Ends[vertex].load(std::memory_order_relaxed);
+    return this->Entries.get() + this->Ends[vertex].load(std::memory_order_relaxed);
   }
 
 private:
-  static std::uint64_t Pair(std::int32_t middle, std::int32_t highest)
-  {
-    return (static_cast<std::uint64_t>(middle) << 32) | static_cast<std::uint32_t>(highest);
-  }
-
   template <typename Body>
   void ForEachCell(std::size_t count, const RangeLoop& loop, Body&& body)
   {
@@ -139,7 +97,107 @@ private:
   }
 
   std::unique_ptr<std::atomic<std::uint32_t>[]> Ends;
-  std::unique_ptr<FiledFace[]> Faces;
+  std::unique_ptr<std::uint32_t[]> Entries;
+};
+
+/** Links the faces of a group after group, through a hash table of the two other vertices. */
+class FaceMatcher
+{
+public:
+  explicit FaceMatcher(std::vector<TetrahedralMesh::Cell>& cells)
+    : Cells(cells)
+  {
+  }
+
+  void MatchGroup(const std::uint32_t* first, const std::uint32_t* last)
+  {
+    // A cell has up to three faces here; at most half of the slots are filled.
+    const std::size_t most = 6 * static_cast<std::size_t>(last - first);
+    if (most > this->Slots.size())
+    {
+      std::size_t size = 64;
+      while (size < most)
+      {
+        size *= 2;
+      }
+      this->Slots.assign(size, Slot());
+    }
+    ++this->Group;
+    for (; first != last; ++first)
+    {
+      const auto cell = static_cast<std::int32_t>(*first / 2);
+      const auto& v = this->Cells[cell].Vertices;
+      if (*first % 2 != 0)
+      {
+        this->Add(v[2], v[3], 4 * cell);
+      }
+      else
+      {
+        this->Add(v[2], v[3], 4 * cell + 1);
+        this->Add(v[1], v[3], 4 * cell + 2);
+        this->Add(v[1], v[2], 4 * cell + 3);
+      }
+    }
+  }
+
+private:
+  struct Slot
+  {
+    std::uint64_t Others = 0;
+    std::uint32_t Group = 0;
+    /** The first face of these vertices, and the second or NoNeighbor. */
+    std::int32_t First = 0;
+    std::int32_t Second = 0;
+  };
+
+  void Add(std::int32_t middle, std::int32_t highest, std::int32_t cellFace)
+  {
+    const std::uint64_t others =
+      (static_cast<std::uint64_t>(middle) << 32) | static_cast<std::uint32_t>(highest);
+    // Fibonacci hashing (D. Knuth, The Art of Computer Programming 3, section 6.4).
+    const std::uint64_t hash = (others ^ (others >> 29)) * 0x9E3779B97F4A7C15u;
+    const std::size_t mask = this->Slots.size() - 1;
+    for (std::size_t at = (hash >> 32) & mask;; at = (at + 1) & mask)
+    {
+      Slot& slot = this->Slots[at];
+      if (slot.Group != this->Group)
+      {
+        slot = { others, this->Group, cellFace, TetrahedralMesh::NoNeighbor };
+        return;
+      }
+      if (slot.Others == others)
+      {
+        this->Meet(slot, cellFace);
+        return;
+      }
+    }
+  }
+
+  /** Two faces are linked, three or more are not. */
+  void Meet(Slot& slot, std::int32_t cellFace)
+  {
+    if (slot.Second == TetrahedralMesh::NoNeighbor)
+    {
+      slot.Second = cellFace;
+      this->LinkOf(slot.First) = cellFace;
+      this->LinkOf(cellFace) = slot.First;
+    }
+    else
+    {
+      this->LinkOf(slot.First) = TetrahedralMesh::NoNeighbor;
+      this->LinkOf(slot.Second) = TetrahedralMesh::NoNeighbor;
+    }
+  }
+
+  std::int32_t& LinkOf(std::int32_t cellFace)
+  {
+    return this->Cells[cellFace / 4].Links[cellFace % 4];
+  }
+
+  std::vector<TetrahedralMesh::Cell>& Cells;
+  std::vector<Slot> Slots;
+  /** Slots of other groups are empty. */
+  std::uint32_t Group = 0;
 };
 
 /** Sets of patches that are known to be oriented alike or oppositely, joined one by one. */
@@ -152,6 +210,15 @@ public:
   {
     std::iota(this->Parents.begin(), this->Parents.end(), 0);
   }
+
+  /** One patch more. */
+  std::int32_t Add()
+  {
+    this->Parents.push_back(static_cast<std::int32_t>(this->Parents.size()));
+    this->Signs.push_back(1);
+    return this->Parents.back();
+  }
+  std::size_t GetSize() const { return this->Parents.size(); }
 
   /** The set of a patch, and the patch's sign in it. */
   std::int32_t Find(std::int32_t patch, int& sign)
@@ -201,7 +268,8 @@ private:
 
 /**
  * Flood fill in two stages: within blocks of cells, side by side, then from block to block. So the
- * result does not depend on the number of threads.
+ * result does not depend on the number of threads. Within a block, a cell takes the orientation of
+ * a neighbour before it, and patches that meet later are joined: no cell is visited out of order.
  */
 class Orienter
 {
@@ -252,56 +320,73 @@ private:
 
   void FillBlock(Block& block, std::size_t first, std::size_t last)
   {
-    std::vector<std::int32_t> patch;
-    for (std::size_t seed = first; seed < last; ++seed)
+    SignedSets sets(0);
+    for (std::size_t c = first; c < last; ++c)
     {
-      if (this->Orientation[seed] != 0)
-      {
-        continue;
-      }
-      const auto number = static_cast<std::int32_t>(block.Volumes.size());
-      patch.assign(1, static_cast<std::int32_t>(seed));
-      this->Orientation[seed] = 1;
-      double volume = 0.0;
-      for (std::size_t next = 0; next < patch.size(); ++next)
-      {
-        const std::int32_t cell = patch[next];
-        this->PatchOf[cell] = number;
-        volume += this->Orientation[cell] * SixfoldVolume(this->Mesh, cell);
-        this->VisitNeighbors(block, cell, first, last, patch);
-      }
-      block.Volumes.push_back(volume);
+      this->TakeOrientation(block, sets, static_cast<std::int32_t>(c), first, last);
+    }
+    // Patches that were joined become one.
+    std::vector<std::int32_t> numbers(sets.GetSize(), -1);
+    std::vector<std::int8_t> signs(sets.GetSize());
+    std::int32_t next = 0;
+    for (std::size_t patch = 0; patch < numbers.size(); ++patch)
+    {
+      int sign = 1;
+      const std::int32_t root = sets.Find(static_cast<std::int32_t>(patch), sign);
+      numbers[root] = numbers[root] < 0 ? next++ : numbers[root];
+      numbers[patch] = numbers[root];
+      signs[patch] = static_cast<std::int8_t>(sign);
+    }
+    block.Volumes.assign(static_cast<std::size_t>(next), 0.0);
+    for (std::size_t c = first; c < last; ++c)
+    {
+      const std::int32_t patch = this->PatchOf[c];
+      this->Orientation[c] = static_cast<std::int8_t>(this->Orientation[c] * signs[patch]);
+      this->PatchOf[c] = numbers[patch];
+      block.Volumes[numbers[patch]] +=
+        this->Orientation[c] * SignedVolume(this->Mesh.GetFixedPositions(), this->Cells[c]);
     }
   }
 
-  void VisitNeighbors(Block& block, std::int32_t cell, std::size_t first, std::size_t last,
-    std::vector<std::int32_t>& patch)
+  /** Orients a cell like its neighbours before it; cuts links that none can satisfy. */
+  void TakeOrientation(
+    Block& block, SignedSets& sets, std::int32_t cell, std::size_t first, std::size_t last)
   {
+    std::int32_t patch = -1;
     for (int face = 0; face < 4; ++face)
     {
       const std::int32_t link = this->Cells[cell].Links[face];
       const std::int32_t other = link / 4;
-      if (link == TetrahedralMesh::NoNeighbor || other < static_cast<std::int64_t>(first))
-      {
-        continue;
-      }
-      if (other >= static_cast<std::int64_t>(last))
+      if (link != TetrahedralMesh::NoNeighbor && other >= static_cast<std::int64_t>(last))
       {
         block.LinksOut.push_back(4 * cell + face);
+      }
+      if (link == TetrahedralMesh::NoNeighbor || other > cell ||
+        other < static_cast<std::int64_t>(first))
+      {
         continue;
       }
-      const int wanted = this->Orientation[cell] * Product(face, link);
-      if (this->Orientation[other] == 0)
+      const int wanted = Product(face, link) * this->Orientation[other];
+      const std::int32_t patchOfOther = this->PatchOf[other];
+      if (patch < 0)
       {
-        this->Orientation[other] = static_cast<std::int8_t>(wanted);
-        patch.push_back(other);
+        patch = patchOfOther;
+        this->Orientation[cell] = static_cast<std::int8_t>(wanted);
       }
-      else if (this->Orientation[other] != wanted)
+      else if (patchOfOther == patch
+          ? this->Orientation[cell] != wanted
+          : !sets.Join(patch, patchOfOther, this->Orientation[cell] * wanted))
       {
         this->CutLink(cell, face);
         ++block.CutLinks;
       }
     }
+    if (patch < 0)
+    {
+      patch = sets.Add();
+      this->Orientation[cell] = 1;
+    }
+    this->PatchOf[cell] = patch;
   }
 
   std::int64_t JoinBlocks()
@@ -384,30 +469,14 @@ private:
 //------------------------------------------------------------------------------
 void TetrahedralMesh::LinkCells(const RangeLoop& loop)
 {
-  FaceFile file(this->Cells, this->Positions.size(), loop);
+  const FaceFile file(this->Cells, this->Positions.size(), loop);
   ForEachBlock(this->Positions.size(), loop,
     [this, &file](std::size_t, std::size_t firstVertex, std::size_t lastVertex)
     {
+      FaceMatcher matcher(this->Cells);
       for (std::size_t v = firstVertex; v < lastVertex; ++v)
       {
-        FiledFace* const last = file.End(v);
-        SortFaces(file.Begin(v), last);
-        for (FiledFace* group = file.Begin(v); group != last;)
-        {
-          FiledFace* groupEnd = group + 1;
-          while (groupEnd != last && groupEnd->Others == group->Others)
-          {
-            ++groupEnd;
-          }
-          if (groupEnd - group == 2)
-          {
-            const std::int32_t a = group[0].CellFace;
-            const std::int32_t b = group[1].CellFace;
-            this->Cells[a / 4].Links[a % 4] = b;
-            this->Cells[b / 4].Links[b % 4] = a;
-          }
-          group = groupEnd;
-        }
+        matcher.MatchGroup(file.Begin(v), file.End(v));
       }
     });
 }

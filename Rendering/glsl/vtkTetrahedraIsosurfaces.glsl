@@ -3,7 +3,7 @@
 //
 // Isosurfaces, met exactly where the scalar, linear along a segment, passes an isovalue. A scalar equal
 // to an isovalue counts as above it: a surface through a face is met once, and one that a ray only
-// touches is not met.
+// touches is not met. Scalars of cells pass isovalues on the faces where they jump.
 
 uniform samplerBuffer surfaces;      // ascending, 2 texels each: (isovalue, opacity), colour
 uniform int numberOfSurfaces;
@@ -61,7 +61,9 @@ void addSurface(int index, float at)
   float alpha = texelFetch(surfaces, 2 * index).y;
   vec3 emitted = texelFetch(surfaces, 2 * index + 1).rgb;
 #if SHADING
-#if VERTEX_GRADIENTS
+#if CELL_SCALARS
+  vec3 gradient = faceNormal(cell, face);
+#elif VERTEX_GRADIENTS
   vec3 gradient = mix(segmentGradientStart, segmentGradientEnd, at);
 #else
   vec3 gradient = cellGradient(cell);
@@ -90,7 +92,11 @@ bool integratePiece()
     if (upward || downward)
     {
       float isovalue = upward ? surfaceRange.y : surfaceRange.x;
+#if CELL_SCALARS
+      float at = 0.0;
+#else
       float at = clamp((isovalue - segmentStart) / (segmentEnd - segmentStart), 0.0, 1.0);
+#endif
       addSurface(upward ? surfacesBelow : surfacesBelow - 1, at);
     }
   }

@@ -33,6 +33,17 @@ vec3 cellGradient(int index)
   return volume != 0.0 ? sum / volume : vec3(0.0);
 }
 
+#if CELL_SCALARS
+// Normal of a cell's face.
+vec3 faceNormal(int index, int opposite)
+{
+  vec3 p = texelFetch(vertices, texelFetch(cells, 8 * index + (opposite == 0 ? 1 : 0)).r).xyz;
+  vec3 a = texelFetch(vertices, texelFetch(cells, 8 * index + (opposite <= 1 ? 2 : 1)).r).xyz - p;
+  vec3 b = texelFetch(vertices, texelFetch(cells, 8 * index + (opposite == 3 ? 2 : 3)).r).xyz - p;
+  return cross(a, b);
+}
+#endif
+
 #if GRADIENT_OPACITY
 // The factor of the attenuation.
 float gradientOpacity(vec3 gradient)

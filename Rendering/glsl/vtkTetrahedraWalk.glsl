@@ -22,6 +22,9 @@ uniform vec3 clippingPerDepth[NUMBER_OF_CLIPPING_PLANES];
 #if VERTEX_GRADIENTS
 uniform samplerBuffer vertexGradients;
 #endif
+#if CELL_SCALARS
+uniform samplerBuffer cellScalars;   // one per cell; those of the vertices do not count
+#endif
 
 const float BEFORE_EVERYTHING = -1.0e+30;
 const int TILE_CAPACITY = 32;
@@ -41,7 +44,7 @@ vec3 edges;          // twice the areas that edges ab, bc, ca span with the ray
 int cell;
 int face;
 float faceDepth;     // where the ray meets that face
-float faceScalar;
+float faceScalar;    // of scalars of cells, the last one that counted
 float depthNow;      // the largest depth reached
 
 // The segment whose ray integral is pending.
@@ -89,9 +92,20 @@ bool advance(float exitDepth, float exitScalar)
 {
   float from = max(depthNow, startDepth);
   float to = min(exitDepth, endDepth);
+#if CELL_SCALARS
+  // One scalar throughout the cell. Isosurfaces also see the jump to it, unless the ray begins behind
+  // that.
+  segmentEnd = texelFetch(cellScalars, cell).r;
+#if BLEND_MODE == ISOSURFACES
+  segmentStart = startDepth <= faceDepth ? faceScalar : segmentEnd;
+#else
+  segmentStart = segmentEnd;
+#endif
+#else
   float perDepth = (exitScalar - faceScalar) / (exitDepth - faceDepth);
   segmentStart = from > faceDepth ? faceScalar + (from - faceDepth) * perDepth : faceScalar;
   segmentEnd = to < exitDepth ? faceScalar + (to - faceDepth) * perDepth : exitScalar;
+#endif
   segmentScalar = segmentStart;
   segmentDone = 0.0;
   segmentLength = (to - from) * rayLengthPerDepth;
@@ -108,9 +122,21 @@ bool advance(float exitDepth, float exitScalar)
   faceGradient = exitGradient;
 #endif
   faceDepth = exitDepth;
-  faceScalar = exitScalar;
   depthNow = max(depthNow, exitDepth);
-  return to > from && abs(segmentEnd - segmentStart) <= 4.0;
+  bool counts = to > from && abs(segmentEnd - segmentStart) <= 4.0;
+#if CELL_SCALARS
+  faceScalar = counts || exitDepth <= startDepth ? segmentEnd : faceScalar;
+#if BLEND_MODE != ISOSURFACES
+  // Scalars that jump may be any number of the transfer function's intervals apart.
+  if (counts)
+  {
+    startPart(segmentEnd);
+  }
+#endif
+#else
+  faceScalar = exitScalar;
+#endif
+  return counts;
 }
 
 // Crosses `cell` from `face`. Yields the link to follow; returns whether a segment is pending.
@@ -310,7 +336,11 @@ void enterFirst()
   cell = f.cellFace >> 2;
   face = f.cellFace & 3;
   faceDepth = f.point.x;
+#if CELL_SCALARS
+  faceScalar = texelFetch(cellScalars, cell).r;
+#else
   faceScalar = f.point.y;
+#endif
   depthNow = max(depthNow, faceDepth);
 #if VERTEX_GRADIENTS
   gradientA = texelFetch(vertexGradients, corners.x).xyz;

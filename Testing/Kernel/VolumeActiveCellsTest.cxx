@@ -302,3 +302,42 @@ TEST(ActiveCells, DoNotDependOnTheLoop)
     EXPECT_EQ(serial.GetBoundary()[f].Outward, parallel.GetBoundary()[f].Outward);
   }
 }
+
+TEST(ActiveCells, ScalarsOfCells)
+{
+  Block block;
+  std::vector<float> values;
+  for (std::int64_t c = 0; c < block.Mesh.GetNumberOfCells(); ++c)
+  {
+    values.push_back(c % 11 == 0 ? Nan : std::sin(0.37f * static_cast<float>(c)));
+  }
+  const VisibleScalars visible = VisibleThrough({ { 0.2, 0.0 }, { 0.3, 1.0 }, { 0.4, 0.0 } });
+  std::vector<bool> active;
+  for (const float value : values)
+  {
+    active.push_back(value > 0.2f && value < 0.4f);
+  }
+  EXPECT_TRUE(block.Mesh.UpdateActiveCells(values, TetrahedralMesh::CellJumps::Hidden, visible));
+  ExpectActive(block.Mesh, active);
+  EXPECT_EQ(block.Mesh.GetNumberOfUnknownCells(),
+    std::count_if(values.begin(), values.end(), [](float v) { return std::isnan(v); }));
+
+  // A value between those of two cells is seen on their face: both are active.
+  VisibleScalars isovalue;
+  isovalue.AddIsovalue(0.25f);
+  const auto below = [&values](std::int64_t c) { return values[c] < 0.25f; };
+  for (std::size_t c = 0; c < values.size(); ++c)
+  {
+    active[c] = false;
+    for (const std::int32_t marked : block.Mesh.GetCells()[c].Links)
+    {
+      const std::int32_t link =
+        marked < TetrahedralMesh::NoNeighbor ? TetrahedralMesh::MarkedLink(marked) : marked;
+      active[c] = active[c] ||
+        (link != TetrahedralMesh::NoNeighbor && !std::isnan(values[c]) &&
+          !std::isnan(values[link / 4]) && below(static_cast<std::int64_t>(c)) != below(link / 4));
+    }
+  }
+  block.Mesh.UpdateActiveCells(values, TetrahedralMesh::CellJumps::Visible, isovalue);
+  ExpectActive(block.Mesh, active);
+}

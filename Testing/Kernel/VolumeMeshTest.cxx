@@ -297,6 +297,37 @@ TEST(TetrahedralMesh, FaceOfThreeCellsIsBoundaryOnAllSides)
   EXPECT_EQ(mesh.GetBoundary().size(), 12u);
 }
 
+TEST(TetrahedralMesh, FacesOfMoreThanTwoCellsAreNeverLinked)
+{
+  // 2 to 6 cells on one face.
+  MeshArrays arrays = { { 0, 0, 0, 1, 0, 0, 0, 1, 0 }, {} };
+  for (std::int64_t n = 1; n <= 6; ++n)
+  {
+    arrays.Points.insert(arrays.Points.end(), { 0.1 * n, 0.05 * n, n % 2 ? 1.0 : -1.0 });
+    arrays.Cells.insert(arrays.Cells.end(), { 0, 1, 2, n + 2 });
+    TetrahedralMesh mesh;
+    ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+    EXPECT_EQ(mesh.GetBoundary().size(), static_cast<std::size_t>(n == 2 ? 6 : 4 * n));
+  }
+}
+
+TEST(TetrahedralMesh, ManyCellsAboutAnEdge)
+{
+  const std::int64_t n = 3000;
+  MeshArrays arrays = { { 0, 0, -1, 0, 0, 1 }, {} };
+  for (std::int64_t i = 0; i < n; ++i)
+  {
+    const double angle = 2.0 * 3.14159265358979 * static_cast<double>(i) / n;
+    arrays.Points.insert(arrays.Points.end(), { std::cos(angle), std::sin(angle), 0.0 });
+    arrays.Cells.insert(arrays.Cells.end(), { 0, 1, 2 + i, 2 + (i + 1) % n });
+  }
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(arrays.View()), MeshStatus::Ok);
+  EXPECT_EQ(mesh.GetBoundary().size(), static_cast<std::size_t>(2 * n));
+  EXPECT_EQ(mesh.GetNumberOfCutLinks(), 0);
+  ExpectConsistentLinks(mesh);
+}
+
 TEST(BoundaryTree, HoldsEveryFaceOnceAndInItsBoxes)
 {
   MeshArrays arrays = KuhnGrid(5);
@@ -330,6 +361,19 @@ TEST(BoundaryTree, HoldsEveryFaceOnceAndInItsBoxes)
           offset.z <= nodes[n].Half.z);
       }
     }
+  }
+}
+
+TEST(MortonOrder, WholeNumbersHaveTheCodesOfTheirPlaces)
+{
+  const MortonCurve curve(glm::dvec3(-1.0), glm::dvec3(1.0));
+  const std::int64_t end = std::int64_t{ 1 } << 32;
+  for (const std::int64_t value : { -end, -end + 1, std::int64_t{ -12345678 }, std::int64_t{ 0 },
+         std::int64_t{ 987654321 }, end - 1, end })
+  {
+    const std::int64_t position[3] = { value, -value, value / 3 };
+    const glm::dvec3 place = glm::dvec3(position[0], position[1], position[2]) / double(end);
+    EXPECT_EQ(MortonCode(position, 33), curve.Code(place)) << value;
   }
 }
 

@@ -1,0 +1,566 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Cell data: one scalar throughout each cell, in every blend mode.
+#include "OpticsTruth.h"
+
+#include <vtkCamera.h>
+#include <vtkCellData.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkContourValues.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkLight.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+using namespace meniscus::test;
+using namespace meniscus::reference;
+
+namespace
+{
+
+constexpr int Size = 120;
+constexpr double Range[2] = { -1.0, 1.0 };
+const char* const CellScalarName = "cell scalar";
+
+/// Gives every cell the field's value at the mean of its points.
+vtkDoubleArray* addCellScalars(vtkUnstructuredGrid* grid, const Field& field)
+{
+  vtkNew<vtkDoubleArray> values;
+  values->SetName(CellScalarName);
+  values->SetNumberOfTuples(grid->GetNumberOfCells());
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    grid->GetCellPoints(c, ids);
+    double middle[3] = { 0.0, 0.0, 0.0 };
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        middle[axis] += grid->GetPoint(ids->GetId(i))[axis] / ids->GetNumberOfIds();
+      }
+    }
+    values->SetValue(c, field(middle[0], middle[1], middle[2]));
+  }
+  grid->GetCellData()->SetScalars(values);
+  return values;
+}
+
+vtkDoubleArray* cellScalars(vtkUnstructuredGrid* grid)
+{
+  return vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetScalars());
+}
+
+Grid makeCellBlock(int n, const Region& region = nullptr)
+{
+  const Grid grid = makeBlock(n, constantField(0.0), region);
+  jitter(grid, 0.3 / n, 3);
+  addCellScalars(grid, wavyField(3.0));
+  return grid;
+}
+
+/// A ray's cells with their own scalars; those without one are left out.
+std::vector<RaySegment> findCells(
+  const ReferenceRayIntegrator& integrator, vtkDataArray* values, const Ray& ray)
+{
+  std::vector<RaySegment> segments;
+  integrator.findSegments(ray, segments);
+  std::vector<RaySegment> known;
+  for (RaySegment segment : segments)
+  {
+    segment.ScalarBegin = segment.ScalarEnd = values->GetComponent(segment.Cell, 0);
+    if (std::isfinite(segment.ScalarBegin))
+    {
+      known.push_back(segment);
+    }
+  }
+  return known;
+}
+
+/// Normal of the face that two cells share.
+Vector3 normalBetween(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
+{
+  const std::int64_t* other = mesh.cell(static_cast<std::size_t>(b));
+  std::vector<const double*> corners;
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::int64_t id = mesh.cell(static_cast<std::size_t>(a))[i];
+    if (std::find(other, other + 4, id) != other + 4)
+    {
+      corners.push_back(mesh.point(id));
+    }
+  }
+  Vector3 u;
+  Vector3 v;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    u[axis] = corners[1][axis] - corners[0][axis];
+    v[axis] = corners[2][axis] - corners[0][axis];
+  }
+  return { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
+}
+
+/// Isosurfaces of cell scalars: where a ray goes from one cell to the next across isovalues.
+std::array<double, 4> blendJumps(const ReferenceMesh& mesh, const Ray& ray,
+  const std::vector<RaySegment>& segments, std::vector<Surface> surfaces, const Material* material)
+{
+  std::sort(surfaces.begin(), surfaces.end(),
+    [](const Surface& a, const Surface& b) { return a.Scalar < b.Scalar; });
+  std::array<double, 4> total{ 0.0, 0.0, 0.0, 0.0 };
+  for (std::size_t i = 1; i < segments.size(); ++i)
+  {
+    const RaySegment& from = segments[i - 1];
+    const RaySegment& to = segments[i];
+    if (to.Begin - from.End > 1e-9)
+    {
+      continue; // out of the mesh and back
+    }
+    std::vector<Surface> met;
+    for (const Surface& surface : surfaces)
+    {
+      if ((from.ScalarEnd < surface.Scalar) != (to.ScalarBegin < surface.Scalar))
+      {
+        met.push_back(surface);
+      }
+    }
+    if (to.ScalarBegin < from.ScalarEnd)
+    {
+      std::reverse(met.begin(), met.end());
+    }
+    for (const Surface& surface : met)
+    {
+      std::array<double, 3> color = surface.Color;
+      if (material)
+      {
+        Vector3 x;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          x[axis] = ray.Origin[axis] + to.Begin * ray.Direction[axis];
+        }
+        color = shade(*material, ray, x, normalBetween(mesh, from.Cell, to.Cell), color);
+      }
+      const double share = (1.0 - total[3]) * surface.Alpha;
+      for (int c = 0; c < 3; ++c)
+      {
+        total[c] += share * color[c];
+      }
+      total[3] += share;
+    }
+  }
+  return total;
+}
+
+/// A scene of a grid's cell scalars.
+class CellScene : public RayCastScene
+{
+public:
+  CellScene(vtkUnstructuredGrid* grid, vtkVolumeProperty* property)
+    : RayCastScene(grid, property, Size, Size)
+  {
+    this->rayCaster()->SetScalarModeToUseCellData();
+    lookAt(this->renderer(), grid->GetBounds(), 30.0, 20.0);
+  }
+
+  /// Traces in what is left of each ray by the clipping planes given.
+  TracedComparison expectComposite(
+    const std::string& what, const std::vector<HalfSpace>& halves = {})
+  {
+    this->window()->Render();
+    const auto integrator = makeReference(this->grid(), this->volume()->GetMatrix());
+    const auto function = toReference(this->volume()->GetProperty());
+    return expectTrace(
+      *this,
+      [&](const Ray& whole)
+      {
+        const Ray ray = clipRay(whole, halves);
+        return ray.Begin < ray.End
+          ? ReferenceRayIntegrator::integrate(
+              ray, findCells(*integrator, cellScalars(this->grid()), ray), function)
+          : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
+      },
+      what);
+  }
+
+  TracedComparison expectSurfaces(
+    const std::string& what, const std::vector<HalfSpace>& halves = {})
+  {
+    this->window()->Render();
+    const auto integrator = makeReference(this->grid(), this->volume()->GetMatrix());
+    vtkVolumeProperty* property = this->volume()->GetProperty();
+    const Material material = toMaterial(property, this->renderer());
+    const std::vector<Surface> surfaces = toSurfaces(property);
+    return expectTrace(
+      *this,
+      [&](const Ray& whole)
+      {
+        const Ray ray = clipRay(whole, halves);
+        return ray.Begin < ray.End ? blendJumps(integrator->mesh(), ray,
+                                       findCells(*integrator, cellScalars(this->grid()), ray),
+                                       surfaces, property->GetShade() ? &material : nullptr)
+                                   : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
+      },
+      what);
+  }
+};
+
+vtkSmartPointer<vtkVolumeProperty> surfaceProperty()
+{
+  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  const double values[3] = { 0.3, -0.2, 0.05 };
+  for (int i = 0; i < 3; ++i)
+  {
+    property->GetIsoSurfaceValues()->SetValue(i, values[i]);
+  }
+  return property;
+}
+
+std::vector<HalfSpace> addPlane(RayCastScene& scene)
+{
+  const HalfSpace half{ Vector3{ 0.4, -0.3, -0.8 }, Vector3{ 0.05, 0.02, 0.11 } };
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(half.Normal.data());
+  plane->SetOrigin(half.Origin.data());
+  scene.rayCaster()->AddClippingPlane(plane);
+  return { half };
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastCellData, TwoSlabs)
+{
+  // x < 0: attenuation 0.5 and red; x > 0: attenuation 2 and blue.
+  const Grid grid = makeBlock(4, constantField(0.0));
+  addCellScalars(grid, [](double x, double, double) { return x < 0.0 ? -1.0 : 1.0; });
+  auto property = makeConstantProperty(0.0, 1, 1, 1, 1.0);
+  property->GetScalarOpacity()->RemoveAllPoints();
+  property->GetScalarOpacity()->AddPoint(-1.0, 0.5);
+  property->GetScalarOpacity()->AddPoint(1.0, 2.0);
+  property->GetRGBTransferFunction()->RemoveAllPoints();
+  property->GetRGBTransferFunction()->AddRGBPoint(-1.0, 1.0, 0.0, 0.0);
+  property->GetRGBTransferFunction()->AddRGBPoint(1.0, 0.0, 0.0, 1.0);
+  CellScene scene(grid, property);
+  lookAlongAxis(scene.renderer(), grid->GetBounds(), 0, 1.3);
+  const FloatImage image = scene.renderFloat();
+  // Along x, in this or that direction: 1 of each.
+  const float* middle = image.pixel(Size / 2, Size / 2);
+  const bool redFirst = middle[0] > 0.3f;
+  const double red = (1.0 - std::exp(-0.5)) * (redFirst ? 1.0 : std::exp(-2.0));
+  const double blue = (1.0 - std::exp(-2.0)) * (redFirst ? std::exp(-0.5) : 1.0);
+  for (const int x : { 30, 60, 77 })
+  {
+    const float* pixel = image.pixel(x, 51);
+    EXPECT_NEAR(pixel[0], red, 2e-6);
+    EXPECT_NEAR(pixel[1], 0.0, 2e-6);
+    EXPECT_NEAR(pixel[2], blue, 2e-6);
+    EXPECT_NEAR(pixel[3], 1.0 - std::exp(-2.5), 2e-6);
+  }
+}
+
+TEST(TetrahedraRayCastCellData, CompositeIsThatOfTheReference)
+{
+  for (const bool hollow : { false, true })
+  {
+    const Grid grid = makeCellBlock(6, hollow ? shell(0.5, 0.95) : Region());
+    for (const FunctionKind kind :
+      { FunctionKind::Smooth, FunctionKind::Peaked, FunctionKind::Sparse, FunctionKind::Opaque })
+    {
+      CellScene scene(grid, makeProperty(kind, Range, 3.4));
+      scene.expectComposite(
+        "function " + std::to_string(int(kind)) + (hollow ? ", shell" : ", block"));
+    }
+    CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
+    scene.expectComposite("clipped", addPlane(scene));
+  }
+}
+
+TEST(TetrahedraRayCastCellData, Projections)
+{
+  const Grid grid = makeCellBlock(6);
+  const std::pair<int, Projection> modes[] = { { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
+                                                 Projection::Maximum },
+    { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
+    { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
+    { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
+  for (const auto& mode : modes)
+  {
+    CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
+    scene.rayCaster()->SetBlendMode(mode.first);
+    scene.window()->Render();
+    const auto integrator = makeReference(grid);
+    vtkVolumeProperty* property = scene.volume()->GetProperty();
+    const auto function =
+      mode.second == Projection::Additive ? toReference(property) : toAlphas(property);
+    double range[2];
+    cellScalars(grid)->GetFiniteRange(range);
+    expectTrace(
+      scene,
+      [&](const Ray& ray)
+      {
+        return project(
+          ray, findCells(*integrator, cellScalars(grid), ray), mode.second, function, range);
+      },
+      "mode " + std::to_string(mode.first), FloatTolerance, 0.01);
+  }
+}
+
+TEST(TetrahedraRayCastCellData, IsosurfacesAreFacesBetweenCells)
+{
+  for (const bool hollow : { false, true })
+  {
+    const Grid grid = makeCellBlock(6, hollow ? shell(0.5, 0.95) : Region());
+    for (const bool lit : { false, true })
+    {
+      auto property = surfaceProperty();
+      property->SetShade(lit);
+      CellScene scene(grid, property);
+      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+      vtkNew<vtkLight> side;
+      side->SetLightTypeToSceneLight();
+      side->SetPosition(4.0, 2.0, 1.0);
+      scene.renderer()->AddLight(side);
+      const std::string what =
+        std::string(lit ? "lit" : "unlit") + (hollow ? ", shell" : ", block");
+      scene.expectSurfaces(what);
+      scene.expectSurfaces(what + ", clipped", addPlane(scene));
+    }
+  }
+}
+
+TEST(TetrahedraRayCastCellData, IsosurfacesVisitTheCellsOnBothSides)
+{
+  const Grid grid = makeBlock(8, constantField(0.0));
+  addCellScalars(grid, [](double x, double, double) { return x < 0.0 ? -1.0 : 1.0; });
+  auto property = surfaceProperty();
+  CellScene scene(grid, property);
+  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  scene.expectSurfaces("between two slabs");
+  // A side of a cube is two faces; each has a cell on both sides.
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 8 * 8 * 4);
+}
+
+TEST(TetrahedraRayCastCellData, FromWithinTheMesh)
+{
+  const Grid grid = makeCellBlock(5);
+  for (const bool surfaces : { false, true })
+  {
+    CellScene scene(grid, surfaceProperty());
+    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0, 1.0);
+    scene.renderer()->GetActiveCamera()->SetPosition(0.31, 0.12, 0.43);
+    scene.renderer()->GetActiveCamera()->SetFocalPoint(-1.0, -0.2, -0.6);
+    scene.renderer()->GetActiveCamera()->SetClippingRange(0.05, 5.0);
+    if (surfaces)
+    {
+      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+      scene.expectSurfaces("surfaces");
+    }
+    else
+    {
+      scene.expectComposite("composite");
+    }
+  }
+}
+
+TEST(TetrahedraRayCastCellData, CellsWithoutValueAreTransparentAndCounted)
+{
+  const Grid grid = makeCellBlock(5);
+  const std::set<vtkIdType> unknown{ 17, 18, 100, 101, 102, 400, 555 };
+  for (const vtkIdType cell : unknown)
+  {
+    cellScalars(grid)->SetValue(cell,
+      cell == 100 ? std::numeric_limits<double>::infinity()
+                  : std::numeric_limits<double>::quiet_NaN());
+  }
+  CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
+  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  warnings->observe(scene.rayCaster());
+  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+  scene.expectComposite("with holes");
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfTransparentCells(), 7);
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() - 7);
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfRejectedCells(), 0);
+  EXPECT_EQ(warnings->Warnings.size(), 1u);
+
+  CellScene surfaces(grid, surfaceProperty());
+  surfaces.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  surfaces.expectSurfaces("surfaces with holes");
+}
+
+TEST(TetrahedraRayCastCellData, OnlyCellsThatCanBeSeenAreVisited)
+{
+  const Grid grid = makeCellBlock(6);
+  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  property->GetScalarOpacity()->RemoveAllPoints();
+  property->GetScalarOpacity()->AddPoint(0.1, 0.0);
+  property->GetScalarOpacity()->AddPoint(0.2, 0.9);
+  property->GetScalarOpacity()->AddPoint(0.3, 0.0);
+  vtkTypeInt64 expected = 0;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    const double value = cellScalars(grid)->GetValue(c);
+    expected += value > 0.1 && value < 0.3;
+  }
+  CellScene scene(grid, property);
+  scene.expectComposite("a window of values");
+  EXPECT_GT(expected, 0);
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), expected);
+}
+
+TEST(TetrahedraRayCastCellData, TetrahedraInheritTheirCellsValue)
+{
+  const Grid tetrahedra = makeBlock(4, constantField(0.0));
+  addCellScalars(tetrahedra,
+    [](double x, double y, double z)
+    {
+      const auto cube = [](double a) { return std::floor(2.0 * a) + 2.0; }; // 0 to 3
+      return -1.0 + (cube(x) * 16.0 + cube(y) * 4.0 + cube(z)) / 32.0;
+    });
+  const Grid hexahedra = Grid::New();
+  hexahedra->SetPoints(tetrahedra->GetPoints());
+  const vtkIdType triangle[3] = { 0, 1, 2 };
+  hexahedra->InsertNextCell(VTK_TRIANGLE, 3, triangle); // not drawn, and not miscounted
+  for (int k = 0; k < 4; ++k)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      for (int i = 0; i < 4; ++i)
+      {
+        vtkIdType ids[8];
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          const double x[3] = { -1.0 + 0.5 * (i + (corner & 1)),
+            -1.0 + 0.5 * (j + (corner >> 1 & 1)), -1.0 + 0.5 * (k + (corner >> 2)) };
+          ids[corner] = hexahedra->FindPoint(const_cast<double*>(x));
+        }
+        hexahedra->InsertNextCell(VTK_VOXEL, 8, ids);
+      }
+    }
+  }
+  addCellScalars(hexahedra,
+    [](double x, double y, double z)
+    {
+      const auto cube = [](double a) { return std::floor(2.0 * a) + 2.0; };
+      return -1.0 + (cube(x) * 16.0 + cube(y) * 4.0 + cube(z)) / 32.0;
+    });
+  CellScene expected(tetrahedra, makeProperty(FunctionKind::Smooth, Range, 3.4));
+  CellScene scene(hexahedra, makeProperty(FunctionKind::Smooth, Range, 3.4));
+  const FloatImage a = expected.renderFloat();
+  const FloatImage b = scene.renderFloat();
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 6 * 64);
+  for (std::size_t i = 0; i < a.Rgba.size(); ++i)
+  {
+    ASSERT_NEAR(a.Rgba[i], b.Rgba[i], 2e-5);
+  }
+}
+
+TEST(TetrahedraRayCastCellData, NewValuesUpdateOnlyThem)
+{
+  const Grid grid = makeCellBlock(5);
+  CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
+  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+  scene.window()->Render();
+  const vtkTypeInt64 bytes = scene.rayCaster()->GetUploadedBytes();
+  vtkDoubleArray* values = cellScalars(grid);
+  for (vtkIdType c = 1; c < values->GetNumberOfTuples(); c += 2)
+  {
+    std::swap(*values->GetPointer(c), *values->GetPointer(c - 1)); // the range stays
+  }
+  values->Modified();
+  scene.expectComposite("other values");
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 2);
+  EXPECT_EQ(mapper->GetNumberOfTransferFunctionBuilds(), 1);
+  EXPECT_EQ(mapper->GetUploadedBytes() - bytes, 4 * grid->GetNumberOfCells());
+}
+
+TEST(TetrahedraRayCastCellData, PointDataAndBack)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  addCellScalars(grid, wavyField(2.0));
+  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  // By default point data, if there is any.
+  const FloatImage points = scene.renderFloat();
+  expectMatchesReference(scene, "point data");
+  EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
+  mapper->SetScalarModeToUseCellFieldData();
+  mapper->SelectScalarArray(CellScalarName);
+  const FloatImage cells = scene.renderFloat();
+  EXPECT_NE(cells.Rgba, points.Rgba);
+  EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 2); // now with each tetrahedron's cell
+  mapper->SetScalarModeToDefault();
+  EXPECT_EQ(scene.renderFloat().Rgba, points.Rgba);
+  mapper->SetScalarModeToUseCellData();
+  EXPECT_EQ(scene.renderFloat().Rgba, cells.Rgba);
+  EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 2);
+  grid->GetPointData()->Initialize();
+  mapper->SetScalarModeToDefault();
+  EXPECT_EQ(scene.renderFloat().Rgba, cells.Rgba);
+}
+
+TEST(TetrahedraRayCastCellData, LightChangesNothingInTheMedium)
+{
+  const Grid grid = makeCellBlock(4);
+  CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
+  const FloatImage unlit = scene.renderFloat();
+  scene.volume()->GetProperty()->ShadeOn();
+  scene.volume()->GetProperty()->GetGradientOpacity()->AddPoint(0.0, 0.0);
+  scene.volume()->GetProperty()->GetGradientOpacity()->AddPoint(1.0, 1.0);
+  EXPECT_EQ(scene.renderFloat().Rgba, unlit.Rgba);
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfGradientBuilds(), 0);
+}
+
+TEST(TetrahedraRayCastCellData, ComputeIsTheFragmentShadersTwin)
+{
+  const Grid grid = makeCellBlock(5);
+  for (const bool surfaces : { false, true })
+  {
+    CellScene scene(grid, surfaceProperty());
+    scene.rayCaster()->SetBlendMode(
+      surfaces ? vtkVolumeMapper::ISOSURFACE_BLEND : vtkVolumeMapper::COMPOSITE_BLEND);
+    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+    const FloatImage fragments = scene.renderFloat();
+    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
+    const FloatImage compute = scene.renderFloat();
+    for (std::size_t i = 0; i < compute.Rgba.size(); ++i)
+    {
+      ASSERT_NEAR(compute.Rgba[i], fragments.Rgba[i], 2e-5);
+    }
+  }
+}
+
+TEST(TetrahedraRayCastCellData, WrongArraysAreErrors)
+{
+  const Grid grid = makeCellBlock(3);
+  CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
+  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  errors->observe(scene.rayCaster());
+  cellScalars(grid)->SetNumberOfTuples(5);
+  scene.window()->Render();
+  ASSERT_EQ(errors->Errors.size(), 1u);
+  EXPECT_NE(errors->text().find(" cells"), std::string::npos) << errors->text();
+
+  vtkNew<vtkDoubleArray> field;
+  field->SetName("field");
+  field->SetNumberOfTuples(grid->GetNumberOfCells());
+  grid->GetFieldData()->AddArray(field);
+  scene.rayCaster()->SetScalarMode(VTK_SCALAR_MODE_USE_FIELD_DATA);
+  scene.rayCaster()->SelectScalarArray("field");
+  scene.window()->Render();
+  ASSERT_EQ(errors->Errors.size(), 2u);
+  EXPECT_NE(errors->Errors[1].find("field data"), std::string::npos) << errors->text();
+}
