@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImagePolyData.h"
 
-#include "OutputArrays.h"
-
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
@@ -172,7 +170,7 @@ public:
   {
   }
 
-  VirtualPolyDataReport Run(int pointsPrecision)
+  VirtualPolyDataReport Run(const OutputOptions& options)
   {
     this->Output->GetFieldData()->PassData(this->Input->GetFieldData());
     this->ListPointsWithoutImage();
@@ -188,8 +186,11 @@ public:
     this->Output->SetPolys(this->Polygons);
 
     this->InterpolatePointArrays();
-    MakePoints(
-      this->Input, this->Points, this->PointSources, this->Surface, pointsPrecision, this->Output);
+    MakePoints(this->Input, this->Points, this->PointSources, this->Surface, options, this->Output);
+    if (options.virtualNormals)
+    {
+      MakeVirtualNormals(this->Points, this->FindTruePoints(), options, this->Output);
+    }
     vtkNew<vtkDataSetAttributes> fitting;
     const vtkIdType cells = this->Input->GetNumberOfCells();
     this->Report.arraysOfWrongSize += TakeFittingArrays(this->Input->GetCellData(), cells, fitting);
@@ -226,6 +227,24 @@ private:
       this->Origins.push_back(&point);
     }
     return first;
+  }
+
+  std::vector<glm::dvec3> FindTruePoints() const
+  {
+    std::vector<glm::dvec3> points;
+    points.reserve(this->Origins.size());
+    for (const ImagePoint* origin : this->Origins)
+    {
+      glm::dvec3 sum(0.0);
+      for (std::size_t k = 0; k < 3 && origin->weight[k] != 0.0; ++k)
+      {
+        glm::dvec3 corner;
+        this->Input->GetPoint(origin->source[k], &corner.x);
+        sum += origin->weight[k] * corner;
+      }
+      points.push_back(sum);
+    }
+    return points;
   }
 
   void MakeVertices()
@@ -302,6 +321,30 @@ private:
       }
       to->InterpolatePoint(fitting, static_cast<vtkIdType>(i), ids, weights);
     }
+    this->CopyIds(fitting);
+  }
+
+  // VTK leaves out what is an id: there is no id in between. The nearest point's is taken.
+  void CopyIds(vtkDataSetAttributes* fitting)
+  {
+    vtkPointData* to = this->Output->GetPointData();
+    for (int k = 0; k < fitting->GetNumberOfArrays(); ++k)
+    {
+      vtkAbstractArray* from = fitting->GetAbstractArray(k);
+      if (!from->GetName() || to->HasArray(from->GetName()))
+      {
+        continue;
+      }
+      const auto copy = vtk::TakeSmartPointer(from->NewInstance());
+      copy->SetName(from->GetName());
+      copy->SetNumberOfComponents(from->GetNumberOfComponents());
+      copy->SetNumberOfTuples(static_cast<vtkIdType>(this->Origins.size()));
+      for (std::size_t i = 0; i < this->Origins.size(); ++i)
+      {
+        copy->SetTuple(static_cast<vtkIdType>(i), this->Origins[i]->source[0], from);
+      }
+      to->AddArray(copy);
+    }
   }
 
   vtkPolyData* Input;
@@ -357,10 +400,10 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
 
 //------------------------------------------------------------------------------
 VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopology& topology,
-  const ObjectImages& images, const AllImages& cells, const Membrane& membrane, int pointsPrecision,
-  vtkPolyData* output)
+  const ObjectImages& images, const AllImages& cells, const Membrane& membrane,
+  const OutputOptions& options, vtkPolyData* output)
 {
-  return Builder(input, topology, images, cells, membrane, output).Run(pointsPrecision);
+  return Builder(input, topology, images, cells, membrane, output).Run(options);
 }
 
 }

@@ -69,8 +69,8 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
 /// Fills `output` with every image and with the arrays of vtkRefractedGeometryFilter; arrays of
 /// the input are interpolated at points that were made.
 VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopology& topology,
-  const ObjectImages& images, const AllImages& cells, const Membrane& membrane, int pointsPrecision,
-  vtkPolyData* output);
+  const ObjectImages& images, const AllImages& cells, const Membrane& membrane,
+  const OutputOptions& options, vtkPolyData* output);
 
 }
 

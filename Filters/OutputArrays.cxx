@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutputArrays.h"
 
+#include "Refraction/Optics.h"
+#include "Refraction/VirtualNormal.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -12,6 +15,8 @@
 #include "vtkPolyData.h"
 #include "vtkSignedCharArray.h"
 #include "vtkSmartPointer.h"
+
+#include <cmath>
 
 namespace meniscus
 {
@@ -42,12 +47,12 @@ int GetPointType(vtkPolyData* input, int precision)
 
 //------------------------------------------------------------------------------
 void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& vertices,
-  const std::vector<vtkIdType>& sources, const Membrane& membrane, int pointsPrecision,
+  const std::vector<vtkIdType>& sources, const Membrane& membrane, const OutputOptions& options,
   vtkPolyData* output)
 {
   const std::size_t count = vertices.size();
   vtkNew<vtkPoints> points;
-  points->SetDataType(GetPointType(input, pointsPrecision));
+  points->SetDataType(GetPointType(input, options.pointsPrecision));
   points->SetNumberOfPoints(static_cast<vtkIdType>(count));
   const auto sightPoint = MakeArray<vtkDoubleArray>("SightPoint", 3, count);
   const auto depth = MakeArray<vtkDoubleArray>("RefractionDepth", 1, count);
@@ -61,7 +66,10 @@ void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& ver
     points->SetPoint(i, vertex.position.x, vertex.position.y, vertex.position.z);
     sightPoint->SetTypedTuple(i, &vertex.sightPoint.x);
     depth->SetValue(i, vertex.depth);
-    reflectance->SetValue(i, vertex.reflectance);
+    reflectance->SetValue(i,
+      options.schlick && vertex.facet >= 0
+        ? SchlickReflectance(vertex.cosine, options.exterior, options.interior)
+        : vertex.reflectance);
     facet->SetValue(
       i, vertex.facet < 0 ? -1 : static_cast<vtkIdType>(membrane.GetCellId(vertex.facet)));
     source->SetValue(i, sources[k]);
@@ -73,6 +81,35 @@ void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& ver
   data->AddArray(reflectance);
   data->AddArray(facet);
   data->AddArray(source);
+}
+
+//------------------------------------------------------------------------------
+void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
+  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output)
+{
+  vtkPointData* data = output->GetPointData();
+  vtkDataArray* trueNormals = data->GetNormals();
+  if (!trueNormals)
+  {
+    return;
+  }
+  const auto normals = MakeArray<vtkDoubleArray>("VirtualNormals", 3, vertices.size());
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+  {
+    const auto i = static_cast<vtkIdType>(k);
+    glm::dvec3 normal(0.0);
+    trueNormals->GetTuple(i, &normal.x);
+    const double length = glm::length(normal);
+    const VirtualVertex& vertex = *vertices[k];
+    if (length > 0.0 && std::isfinite(length) && vertex.facet >= 0)
+    {
+      normal = ComputeVirtualNormal(normal / length, truePoints[k], vertex.sightPoint, options.eye,
+        options.exterior, options.interior, options.isLightAtEye ? nullptr : &options.light);
+    }
+    normals->SetTypedTuple(i, &normal.x);
+  }
+  data->AddArray(normals);
+  data->SetActiveNormals(normals->GetName()); // SetNormals would drop the true ones
 }
 
 //------------------------------------------------------------------------------

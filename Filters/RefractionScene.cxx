@@ -15,10 +15,25 @@ namespace
 // Facets that a thread takes at once: tens of microseconds of work.
 constexpr vtkIdType Grain = 512;
 
+const char* NameFault(MembraneStatus status)
+{
+  switch (status)
+  {
+    case MembraneStatus::TooLarge:
+      return "The membrane has more points or triangles than 32-bit indices can name";
+    case MembraneStatus::OneSided:
+      return "The membrane is one-sided, as a Moebius band is: no side is the eye's";
+    case MembraneStatus::Empty:
+    case MembraneStatus::Ready:
+      break;
+  }
+  return "The membrane has no usable triangle";
+}
+
 }
 
 //------------------------------------------------------------------------------
-void ThreadedLoop(std::size_t count, const RangeBody& body)
+void FacetLoop(std::size_t count, const RangeBody& body)
 {
   vtkSMPTools::For(0, static_cast<vtkIdType>(count), Grain,
     [&body](vtkIdType begin, vtkIdType end)
@@ -57,7 +72,7 @@ MembraneStatus RefractionScene::BuildMembrane(bool curved)
     this->Curves = curved;
   }
   const MembraneInput input = this->Arrays.AsInput();
-  return curved ? this->Curved.SetMembrane(input, ThreadedLoop) : this->Flat.SetMembrane(input);
+  return curved ? this->Curved.SetMembrane(input, FacetLoop) : this->Flat.SetMembrane(input);
 }
 
 //------------------------------------------------------------------------------
@@ -69,10 +84,7 @@ bool RefractionScene::ReportMembrane(MembraneStatus status, SceneMessages& messa
   std::ostringstream text;
   if (status != MembraneStatus::Ready)
   {
-    text << (status == MembraneStatus::TooLarge
-                ? "The membrane has more points or triangles than 32-bit indices can name"
-                : "The membrane has no usable triangle")
-         << " (" << report.Skipped() << " of " << triangles
+    text << NameFault(status) << " (" << report.Skipped() << " of " << triangles
          << " triangles skipped); the output is empty.";
     messages.error = text.str();
     return false;
@@ -94,6 +106,16 @@ bool RefractionScene::ReportMembrane(MembraneStatus status, SceneMessages& messa
     text << report.computedNormals << " of " << points
          << " membrane normals are zero or not finite; these are computed. ";
   }
+  if (report.turnedFacets > 0)
+  {
+    text << report.turnedFacets << " of " << triangles
+         << " membrane triangles are wound the other way than their neighbours; turned. ";
+  }
+  if (report.turnedNormals > 0)
+  {
+    text << report.turnedNormals << " of " << points
+         << " membrane normals point to the other side than their neighbours'; turned. ";
+  }
   messages.warning = text.str();
   return true;
 }
@@ -108,8 +130,8 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
   this->Key = EyeKey(); // stale until the update succeeds
   const glm::dvec3 position(eye[0], eye[1], eye[2]);
   const EyeStatus status = this->Curves
-    ? this->Curved.SetEye(position, eye[3], eye[4], ThreadedLoop)
-    : this->Flat.SetEye(position, eye[3], eye[4], ThreadedLoop);
+    ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop)
+    : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
   std::ostringstream text;
   switch (status)
   {

@@ -20,7 +20,7 @@ namespace meniscus
 {
 
 /// Independent work on the threads of vtkSMPTools, for the kernel.
-void ThreadedLoop(std::size_t count, const RangeBody& body);
+void FacetLoop(std::size_t count, const RangeBody& body);
 
 /// What the owner of a scene has to report; empty if there is nothing.
 struct SceneMessages
@@ -44,6 +44,8 @@ public:
 
   /// Takes an eye for the membrane. False, with an error, if it cannot be used.
   bool SetEye(const Eye& eye, SceneMessages& messages);
+
+  const Eye& GetEye() const { return this->Key.values; }
 
   /// One image of each point (x, y, z each) in [from, to).
   void Solve(const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VirtualPolyData.h"
 
-#include "OutputArrays.h"
-
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
@@ -32,14 +30,22 @@ public:
   {
   }
 
-  VirtualPolyDataReport Run(int pointsPrecision)
+  VirtualPolyDataReport Run(const OutputOptions& options)
   {
     this->Output->GetFieldData()->PassData(this->Input->GetFieldData());
     this->NumberPoints();
     this->CopyArrays(this->Input->GetPointData(), this->Input->GetNumberOfPoints(),
       this->SourcePoints, this->Output->GetPointData());
-    MakePoints(
-      this->Input, this->Images, this->SourcePoints, this->Surface, pointsPrecision, this->Output);
+    MakePoints(this->Input, this->Images, this->SourcePoints, this->Surface, options, this->Output);
+    if (options.virtualNormals)
+    {
+      std::vector<glm::dvec3> truePoints(this->SourcePoints.size());
+      for (std::size_t i = 0; i < truePoints.size(); ++i)
+      {
+        this->Input->GetPoint(this->SourcePoints[i], &truePoints[i].x);
+      }
+      MakeVirtualNormals(this->Images, truePoints, options, this->Output);
+    }
 
     this->Output->SetVerts(this->CopyVertices(this->Input->GetVerts()));
     this->Output->SetLines(this->CopyCells(this->Input->GetLines()));
@@ -179,10 +185,10 @@ private:
 
 //------------------------------------------------------------------------------
 VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
-  const std::vector<VirtualVertex>& vertices, const Membrane& membrane, int pointsPrecision,
-  vtkPolyData* output)
+  const std::vector<VirtualVertex>& vertices, const Membrane& membrane,
+  const OutputOptions& options, vtkPolyData* output)
 {
-  return Builder(input, vertices, membrane, output).Run(pointsPrecision);
+  return Builder(input, vertices, membrane, output).Run(options);
 }
 
 }

@@ -3,6 +3,7 @@
 #ifndef meniscus_Filters_VirtualPolyData_h
 #define meniscus_Filters_VirtualPolyData_h
 
+#include "OutputArrays.h"
 #include "Refraction/VirtualGeometry.h"
 
 #include "vtkType.h"
@@ -28,8 +29,8 @@ struct VirtualPolyDataReport
  * `membrane`.
  */
 VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
-  const std::vector<VirtualVertex>& vertices, const Membrane& membrane, int pointsPrecision,
-  vtkPolyData* output);
+  const std::vector<VirtualVertex>& vertices, const Membrane& membrane,
+  const OutputOptions& options, vtkPolyData* output);
 
 }
 

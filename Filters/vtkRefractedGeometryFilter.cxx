@@ -12,13 +12,14 @@
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstring>
 #include <list>
 #include <vector>
@@ -87,6 +88,7 @@ public:
   bool Run(vtkRefractedGeometryFilter* self, double from, double to, vtkIdType count,
     vtkIdType grain, const meniscus::RangeBody& body);
   void Count(meniscus::ImageState state);
+  meniscus::OutputOptions GetOptions(vtkRefractedGeometryFilter* self) const;
 
   meniscus::RefractionScene Scene;
   std::list<SolvedBlock> Blocks;
@@ -95,7 +97,10 @@ public:
   vtkTypeInt64 FailedSolves = 0;
   vtkTypeInt64 VerticesWithoutImage = 0;
   vtkTypeInt64 SkippedCells = 0;
+  vtkTypeInt64 FailedInRun = 0;
+  vtkTypeInt64 WarnedOfNoImage = -1; ///< the number of the membrane
   bool WarnedOfModes = false;
+  bool WarnedOfNoNormals = false;
   bool WarnedOfParallelProjection = false;
 };
 
@@ -160,7 +165,30 @@ void vtkRefractedGeometryFilter::vtkInternals::Count(meniscus::ImageState state)
 {
   ++this->SolvedVertices;
   this->FailedSolves += state == meniscus::ImageState::NotFinite;
+  this->FailedInRun += state == meniscus::ImageState::NotFinite;
   this->VerticesWithoutImage += state == meniscus::ImageState::NoImage;
+}
+
+//------------------------------------------------------------------------------
+meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
+  vtkRefractedGeometryFilter* self) const
+{
+  meniscus::OutputOptions options;
+  options.pointsPrecision = self->OutputPointsPrecision;
+  options.schlick = self->ReflectanceModel == SCHLICK;
+  options.virtualNormals = self->VirtualNormals;
+  const double* light = self->LightDirection;
+  const double length = std::hypot(light[0], light[1], light[2]);
+  options.isLightAtEye = !(length > 0.0);
+  if (!options.isLightAtEye)
+  {
+    options.light = glm::dvec3(light[0], light[1], light[2]) / length;
+  }
+  const meniscus::RefractionScene::Eye& eye = this->Scene.GetEye();
+  options.eye = glm::dvec3(eye[0], eye[1], eye[2]);
+  options.exterior = eye[3];
+  options.interior = eye[4];
+  return options;
 }
 
 //------------------------------------------------------------------------------
@@ -386,10 +414,11 @@ int vtkRefractedGeometryFilter::RequestData(
   {
     return 1;
   }
-  if (!this->UpdateEye())
+  if (!this->UpdateEye() || !this->HasValidLight())
   {
     return 0;
   }
+  this->Internals->FailedInRun = 0;
   SolvedBlock& block = this->Internals->GetBlock(input);
   const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
   if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
@@ -398,11 +427,12 @@ int vtkRefractedGeometryFilter::RequestData(
   }
 
   const meniscus::Membrane& surface = this->Internals->Scene.GetMembrane();
+  const meniscus::OutputOptions options = this->Internals->GetOptions(this);
   const meniscus::VirtualPolyDataReport report = all
-    ? meniscus::BuildImagePolyData(input, block.topology, *block.images, block.cells, surface,
-        this->OutputPointsPrecision, output)
-    : meniscus::BuildVirtualPolyData(
-        input, block.vertices, surface, this->OutputPointsPrecision, output);
+    ? meniscus::BuildImagePolyData(
+        input, block.topology, *block.images, block.cells, surface, options, output)
+    : meniscus::BuildVirtualPolyData(input, block.vertices, surface, options, output);
+  this->ReportPoints(this->Internals->FailedInRun, output->GetNumberOfPoints(), input);
   this->Internals->SkippedCells += report.skippedCells + report.brokenCells;
   if (report.brokenCells > 0)
   {
@@ -416,6 +446,47 @@ int vtkRefractedGeometryFilter::RequestData(
       << " point or cell arrays do not have one tuple per point or cell; not passed.");
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::HasValidLight()
+{
+  const double* light = this->LightDirection;
+  // Not hypot: of three, it takes a NaN for a zero in the library of gcc 12.
+  if (this->VirtualNormals && !std::isfinite(light[0] + light[1] + light[2]))
+  {
+    vtkErrorMacro("The light's direction (" << light[0] << ", " << light[1] << ", " << light[2]
+                                            << ") is not finite; the output is empty.");
+    return false;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::ReportPoints(
+  vtkTypeInt64 failed, vtkIdType images, vtkPolyData* input)
+{
+  vtkInternals& internals = *this->Internals;
+  const vtkIdType points = input->GetNumberOfPoints();
+  if (failed > 0)
+  {
+    vtkWarningMacro(<< failed << " of " << points
+                    << " points are not finite, or too far away to be solved; they have no image.");
+  }
+  if (points > failed && images == 0 &&
+    internals.WarnedOfNoImage != internals.Scene.GetNumberOfPatchBuilds())
+  {
+    internals.WarnedOfNoImage = internals.Scene.GetNumberOfPatchBuilds();
+    vtkWarningMacro("None of the "
+      << points << " points has an image. Is the eye on the side that the membrane's normals point "
+      << "to, and are geometry (port 0) and membrane (port 1) where they belong?");
+  }
+  if (this->VirtualNormals && !internals.WarnedOfNoNormals && points > 0 &&
+    !input->GetPointData()->GetNormals())
+  {
+    internals.WarnedOfNoNormals = true;
+    vtkWarningMacro("VirtualNormals need point normals, which the geometry does not have.");
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -488,6 +559,11 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
   os << indent << "AngularTolerance: " << this->AngularTolerance << "\n";
+  os << indent
+     << "ReflectanceModel: " << (this->ReflectanceModel == SCHLICK ? "SCHLICK" : "FRESNEL") << "\n";
+  os << indent << "VirtualNormals: " << (this->VirtualNormals ? "on" : "off") << "\n";
+  os << indent << "LightDirection: (" << this->LightDirection[0] << ", " << this->LightDirection[1]
+     << ", " << this->LightDirection[2] << ")\n";
   os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
   os << indent << "NumberOfPatchBuilds: " << this->GetNumberOfPatchBuilds() << "\n";
   os << indent << "NumberOfEyeUpdates: " << this->GetNumberOfEyeUpdates() << "\n";

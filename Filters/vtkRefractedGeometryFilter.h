@@ -11,21 +11,25 @@
  * Input port 0 is the geometry, a vtkPolyData with vertices, lines, polygons and triangle strips;
  * composite data runs block by block. Input port 1 is the membrane, a vtkPolyData with triangles,
  * polygons or strips that separate the eye's medium (exterior) from that of the geometry
- * (interior). It is open, its normals point to the eye's side: its point normals are used where
- * they are valid, others are computed from the facets' winding. Ghost levels of the membrane are
- * not asked for.
+ * (interior). Its normals point to the eye's side: its point normals are used where they are valid,
+ * others are computed from the facets' winding. Facets that are wound the other way than most of
+ * their piece, and normals on the other side than most, are turned, with a warning; a one-sided
+ * surface (a Moebius band) is an error. A closed membrane is a body of the interior medium, or a
+ * bubble of the exterior one, as its normals say; what is beyond it is shown unchanged. Ghost
+ * levels of the membrane are not asked for.
  *
  * The output shows every image of the geometry (ALL_IMAGES), or one per point with the input's own
  * connectivity (FIRST_IMAGE), with all point and cell arrays. Each image of a point of a vertex
  * cell is a cell of its own. With ALL_IMAGES a line or polygon whose points have one image each,
  * and which is straight enough between them, keeps its points; any other becomes the pieces that
  * the membrane shows of it, strips as triangles, and what it has on the eye's side of the membrane
- * passes unchanged. Arrays are interpolated at the points that this makes. Point arrays added:
+ * passes unchanged. Arrays are interpolated at the points that this makes; arrays of ids, of which
+ * there are none in between, take the nearest point's. Point arrays added:
  * - `SightPoint` (3 doubles, world): where the light leaves the membrane towards the eye;
  * - `RefractionDepth` (1 double, world length, >= 0): from sight point to true point, the path in
  * the interior that attenuation should use;
  * - `Reflectance` (1 double, 0 to 1): unpolarised Fresnel reflectance at the sight point, 1 beyond
- *   the critical angle;
+ *   the critical angle; or Schlick's approximation of it;
  * - `SightFacet` (1 id): the membrane's cell that holds the sight point, -1 for a point on the
  * eye's side that passed unchanged;
  * - `SourcePointId` (1 id): the point of the input, -1 for a point that clipping made.
@@ -37,7 +41,7 @@
  * A point without an image (outside the visible volume, in front of the membrane with FIRST_IMAGE,
  * not finite) is no point of the output: the field data array `PointsWithoutImage` lists its id.
  * With FIRST_IMAGE, lines, polygons and strips that need such a point are left out whole. Both are
- * counted.
+ * counted; points that are not finite, and a geometry without any image, are warned of.
  *
  * Method of CURVED (Documentation/refraction.md has the equations):
  * 1. A patch per facet, from the vertices and their normals: cubic edges, a quadratic normal whose
@@ -79,7 +83,8 @@
  * order in the size of the facets; Documentation/refraction.md has measurements. Cells of
  * neighbouring facets may overlap or leave thin gaps, and zones of convergence show the first image
  * only.
- * @note Normals of the input are passed through although the virtual surface is bent.
+ * @note Normals of the input are passed through although the virtual surface is bent, unless
+ * VirtualNormals are wanted.
  *
  * @sa vtkTetrahedraRayCastMapper
  */
@@ -114,6 +119,13 @@ public:
     FIRST_IMAGE = 0, ///< one: with FLAT_FACETS that of the first facet, in the order of the
                      ///< membrane's cells; with CURVED that which continues the last point's
     ALL_IMAGES = 1   ///< every one
+  };
+
+  /// What the array Reflectance holds.
+  enum ReflectanceModels
+  {
+    FRESNEL = 0, ///< exact, of unpolarised light, Eq. 2.6
+    SCHLICK = 1  ///< Schlick's approximation, Eq. 2.7, as the thesis draws
   };
 
   ///@{
@@ -186,6 +198,49 @@ public:
 
   ///@{
   /**
+   * Set/Get the model of the array Reflectance, FRESNEL or SCHLICK. Default is FRESNEL. Nothing is
+   * solved again for it. SCHLICK knows no critical angle: from a denser exterior (n1 > n2) it is
+   * wrong near and beyond it.
+   */
+  vtkSetClampMacro(ReflectanceModel, int, FRESNEL, SCHLICK);
+  vtkGetMacro(ReflectanceModel, int);
+  void SetReflectanceModelToFresnel() { this->SetReflectanceModel(FRESNEL); }
+  void SetReflectanceModelToSchlick() { this->SetReflectanceModel(SCHLICK); }
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get whether point normals of the geometry are replaced by normals that make standard
+   * lighting of the virtual surface look like the true surface, lit and seen through the membrane:
+   * the array `VirtualNormals` becomes the active one, the true normals stay as an array. Default
+   * is off. Geometry without point normals gets none, with a warning. Nothing is solved again for
+   * it.
+   *
+   * The normal n at a virtual point has n.w' = N.w and n.v' = N.v, where N, w and v are the normal
+   * and the directions of the refracted rays to light and viewer at the true point, w' and v' the
+   * straight ones at the virtual point. So diffuse light is exact, and a highlight up to the angle
+   * between light and viewer, which refraction changes; where no normal does both (light and viewer
+   * far apart), diffuse light is exact. Exact for a light at the eye, whatever the membrane; for a
+   * light at infinity where the membrane is plane between the light's ray and the sight ray. What
+   * the membrane focuses or reflects of the light is not in a normal.
+   */
+  vtkSetMacro(VirtualNormals, bool);
+  vtkGetMacro(VirtualNormals, bool);
+  vtkBooleanMacro(VirtualNormals, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get the direction to a light at infinity that VirtualNormals are for, of any length, in
+   * world coordinates. (0, 0, 0) is a light at the eye, a headlight. Default is (0, 0, 0). A
+   * coordinate that is not finite is an error when the filter runs with VirtualNormals.
+   */
+  vtkSetVector3Macro(LightDirection, double);
+  vtkGetVector3Macro(LightDirection, double);
+  ///@}
+
+  ///@{
+  /**
    * Set/Get the precision of the output points, one of vtkAlgorithm::DesiredOutputPrecision.
    * Default is DEFAULT_PRECISION, that of the input points. Everything is computed in double.
    */
@@ -243,6 +298,8 @@ private:
   void operator=(const vtkRefractedGeometryFilter&) = delete;
 
   void WarnOfModes();
+  void ReportPoints(vtkTypeInt64 failed, vtkIdType images, vtkPolyData* input);
+  bool HasValidLight();
   bool UpdateMembrane(vtkPolyData* membrane);
   bool UpdateEye();
 
@@ -252,6 +309,9 @@ private:
   int MembraneModel = CURVED;
   int Images = ALL_IMAGES;
   double AngularTolerance = 0.005;
+  int ReflectanceModel = FRESNEL;
+  bool VirtualNormals = false;
+  double LightDirection[3] = { 0.0, 0.0, 0.0 };
   int OutputPointsPrecision = DEFAULT_PRECISION;
   vtkSmartPointer<vtkCamera> Camera;
 

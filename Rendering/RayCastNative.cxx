@@ -18,28 +18,36 @@ RayCastNative::RayCastNative()
 }
 
 //------------------------------------------------------------------------------
-void RayCastNative::UpdateVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars)
+void RayCastNative::UpdateProperty(const VolumePropertyTables& property)
 {
-  this->Tables.Vertices = PackVertices(mesh, scalars);
+  this->Tables.Intervals = PackIntervals(property.GetIntervals());
+  this->Tables.Surfaces.clear();
+  for (const Isosurface& surface : property.GetIsosurfaces())
+  {
+    const glm::vec3& color = surface.Color;
+    this->Tables.Surfaces.push_back(
+      { surface.Scalar, surface.Opacity, { color.r, color.g, color.b } });
+  }
   this->TableBytes +=
-    static_cast<std::int64_t>(this->Tables.Vertices.size() * sizeof(PacketVertex));
+    static_cast<std::int64_t>(this->Tables.Intervals.size() * sizeof(PacketInterval) +
+      this->Tables.Surfaces.size() * sizeof(PacketSurface));
 }
 
 //------------------------------------------------------------------------------
-void RayCastNative::UpdateIntervals(const std::vector<TransferFunctionInterval>& intervals)
+RayStatistics RayCastNative::Cast(TileCaster::Scene scene, const std::vector<float>& scalars,
+  const VertexVersion& version, const std::vector<float>& opaqueDepth, std::vector<float>& image)
 {
-  this->Tables.Intervals = PackIntervals(intervals);
-  this->TableBytes +=
-    static_cast<std::int64_t>(this->Tables.Intervals.size() * sizeof(PacketInterval));
-}
-
-//------------------------------------------------------------------------------
-RayStatistics RayCastNative::Cast(
-  TileCaster::Scene scene, const std::vector<float>& opaqueDepth, std::vector<float>& image)
-{
+  if (version != this->PlacedVersion || !scene.Rays.PlacesAs(this->PlacedBy))
+  {
+    const auto loop = [](std::size_t count, const RangeBody& body)
+    { vtkSMPTools::For(0, static_cast<vtkIdType>(count), body); };
+    PlaceVertices(*scene.Mesh, scalars, scene.Rays, loop, this->Tables.Vertices);
+    this->PlacedBy = scene.Rays;
+    this->PlacedVersion = version;
+  }
   scene.Tables = &this->Tables;
   scene.Set = this->Set;
-  image.assign(std::size_t{ 4 } * scene.Width * scene.Height, 0.0f);
+  image.assign(std::size_t{ 4 } * scene.Rays.GetWidth() * scene.Rays.GetHeight(), 0.0f);
   const TileCaster caster(scene);
   std::vector<RayStatistics> ofTile(caster.GetNumberOfTiles());
   vtkSMPThreadLocal<TileCaster::Workspace> workspaces;

@@ -5,12 +5,17 @@
 
 #include "Volume/RayStatistics.h"
 #include "Volume/TileCaster.h"
+#include "VolumePropertyTables.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace meniscus
 {
+
+/** Of a mesh and of its scalars; 0: none. */
+using VertexVersion = std::array<std::int64_t, 2>;
 
 /**
  * The ray caster on the CPU: SIMD packets of the widest instruction set there is, tiles in parallel
@@ -21,17 +26,18 @@ class RayCastNative
 public:
   RayCastNative();
 
-  void UpdateVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
-  void UpdateIntervals(const std::vector<TransferFunctionInterval>& intervals);
+  void UpdateProperty(const VolumePropertyTables& property);
 
   /**
    * Casts the rays of an image.
    * @param scene        its Tables and Set are filled in here.
+   * @param scalars      one normalised scalar per mesh vertex.
+   * @param version      changes with the mesh and the scalars.
    * @param opaqueDepth  window depths in [0, 1], one per pixel, rows from below.
    * @param image        premultiplied RGBA per pixel; resized.
    */
-  RayStatistics Cast(
-    TileCaster::Scene scene, const std::vector<float>& opaqueDepth, std::vector<float>& image);
+  RayStatistics Cast(TileCaster::Scene scene, const std::vector<float>& scalars,
+    const VertexVersion& version, const std::vector<float>& opaqueDepth, std::vector<float>& image);
 
   InstructionSet GetInstructionSet() const { return this->Set; }
   /** Bytes of tables made, ever. */
@@ -39,6 +45,8 @@ public:
 
 private:
   PacketTables Tables;
+  PixelRays PlacedBy;
+  VertexVersion PlacedVersion{ 0, 0 };
   InstructionSet Set;
   std::int64_t TableBytes = 0;
 };

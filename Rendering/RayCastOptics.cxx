@@ -69,6 +69,12 @@ RayCastLight ToFrame(vtkLight* source, const OpticsPlace& place)
 }
 
 //------------------------------------------------------------------------------
+bool RayCastOptics::IsPlain() const
+{
+  return this->BlendMode == vtkVolumeMapper::ISOSURFACE_BLEND || !this->UsesGradients();
+}
+
+//------------------------------------------------------------------------------
 bool UsesGradientOpacity(vtkVolumeProperty* property)
 {
   if (!property->HasGradientOpacity() || property->GetDisableGradientOpacity() != 0)
@@ -104,10 +110,10 @@ void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const Opt
   const glm::dmat3 rows(frame.RowX, frame.RowY, frame.RowDepth);
   optics.GradientToFrame = glm::inverse(rows); // the inverse of the transpose of the map
   optics.GradientMagnitude = 1.0 / (UnitOf(frame) * place.ScalarScale);
-  optics.Ambient = property->GetAmbient();
-  optics.Diffuse = property->GetDiffuse();
-  optics.Specular = property->GetSpecular();
-  optics.SpecularPower = property->GetSpecularPower();
+  optics.Lighting.Ambient = property->GetAmbient();
+  optics.Lighting.Diffuse = property->GetDiffuse();
+  optics.Lighting.Specular = property->GetSpecular();
+  optics.Lighting.SpecularPower = property->GetSpecularPower();
   vtkLightCollection* lights = renderer->GetLights();
   vtkCollectionSimpleIterator iterator;
   lights->InitTraversal(iterator);
@@ -115,7 +121,7 @@ void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const Opt
   {
     if (optics.Shading && light->GetSwitch())
     {
-      optics.Lights.push_back(ToFrame(light, place));
+      optics.Lighting.Lights.push_back(ToFrame(light, place));
     }
   }
 }

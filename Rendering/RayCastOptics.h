@@ -5,6 +5,7 @@
 
 #include "Volume/ClippingPlanes.h"
 #include "Volume/RayFrame.h"
+#include "Volume/SurfaceLighting.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -19,20 +20,6 @@ class vtkVolumeProperty;
 namespace meniscus
 {
 
-/** A light in the frame of the rays (RayFrame): x, y, depth about the mesh's centre. */
-struct RayCastLight
-{
-  /** Position and 1, or the direction towards the light and 0. */
-  glm::dvec4 Position{ 0.0 };
-  /** Colours times intensity. */
-  glm::dvec3 Diffuse{ 0.0 };
-  glm::dvec3 Specular{ 0.0 };
-  /** Axis and cosine of the cone's half angle; -2 without a cone. */
-  glm::dvec4 Cone{ 0.0, 0.0, 1.0, -2.0 };
-  /** Coefficients of the powers 0, 1, 2 of the distance, then the exponent within the cone. */
-  glm::dvec4 Falloff{ 1.0, 0.0, 0.0, 0.0 };
-};
-
 /** What becomes of scalars along a ray, beside the transfer function's tables. */
 struct RayCastOptics
 {
@@ -45,23 +32,16 @@ struct RayCastOptics
   /** Gradients interpolated between vertices, not those of the cells; only with one of the above.
    */
   bool VertexGradients = false;
-  double Ambient = 0.0;
-  double Diffuse = 0.0;
-  double Specular = 0.0;
-  double SpecularPower = 1.0;
   /** Gradient in normalised model coordinates to the frame's. */
   glm::dmat3 GradientToFrame{ 1.0 };
   /** From a gradient's length in the frame to scalar per world length. */
   double GradientMagnitude = 1.0;
-  std::vector<RayCastLight> Lights;
+  SurfaceLighting Lighting;
   std::vector<RayClippingPlane> ClippingPlanes;
 
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
-  /** Composite blending of the transfer function as it is, by scalars of the vertices. */
-  bool IsPlain() const
-  {
-    return this->BlendMode == 0 && !this->UsesGradients() && !this->CellScalars;
-  }
+  /** Whether the medium's light and opacity do without gradients. */
+  bool IsPlain() const;
 };
 
 /** Where the mesh lies for optics: its centre in world and view coordinates, and view coordinates.

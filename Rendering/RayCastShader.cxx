@@ -85,7 +85,8 @@ std::string DescribeExcess(const RayCastOptics& optics)
   };
   const std::string planes =
     describe(optics.ClippingPlanes.size(), MaximumNumberOfClippingPlanes, "clipping planes");
-  return planes.empty() ? describe(optics.Lights.size(), MaximumNumberOfLights, "lights") : planes;
+  return planes.empty() ? describe(optics.Lighting.Lights.size(), MaximumNumberOfLights, "lights")
+                        : planes;
 }
 
 //------------------------------------------------------------------------------
@@ -105,7 +106,7 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("NEEDS_POSITION", optics.UsesGradients() ? 1 : 0);
-  define("NUMBER_OF_LIGHTS", static_cast<int>(optics.Lights.size()));
+  define("NUMBER_OF_LIGHTS", static_cast<int>(optics.Lighting.Lights.size()));
   define("NUMBER_OF_CLIPPING_PLANES", static_cast<int>(optics.ClippingPlanes.size()));
   return text.str();
 }
@@ -141,17 +142,17 @@ void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
   glm::mat3 gradientToFrame(optics.GradientToFrame);
   program->SetUniformMatrix3x3("gradientToFrame", glm::value_ptr(gradientToFrame));
   program->SetUniformf("gradientMagnitude", static_cast<float>(optics.GradientMagnitude));
-  program->SetUniformf("ambient", static_cast<float>(optics.Ambient));
-  program->SetUniformf("diffuse", static_cast<float>(optics.Diffuse));
-  program->SetUniformf("specular", static_cast<float>(optics.Specular));
-  program->SetUniformf("specularPower", static_cast<float>(optics.SpecularPower));
-  if (!optics.Lights.empty())
+  program->SetUniformf("ambient", static_cast<float>(optics.Lighting.Ambient));
+  program->SetUniformf("diffuse", static_cast<float>(optics.Lighting.Diffuse));
+  program->SetUniformf("specular", static_cast<float>(optics.Lighting.Specular));
+  program->SetUniformf("specularPower", static_cast<float>(optics.Lighting.SpecularPower));
+  if (!optics.Lighting.Lights.empty())
   {
-    set4("lightPosition", Collect(optics.Lights, &RayCastLight::Position));
-    set3("lightDiffuse", Collect(optics.Lights, &RayCastLight::Diffuse));
-    set3("lightSpecular", Collect(optics.Lights, &RayCastLight::Specular));
-    set4("lightCone", Collect(optics.Lights, &RayCastLight::Cone));
-    set4("lightFalloff", Collect(optics.Lights, &RayCastLight::Falloff));
+    set4("lightPosition", Collect(optics.Lighting.Lights, &RayCastLight::Position));
+    set3("lightDiffuse", Collect(optics.Lighting.Lights, &RayCastLight::Diffuse));
+    set3("lightSpecular", Collect(optics.Lighting.Lights, &RayCastLight::Specular));
+    set4("lightCone", Collect(optics.Lighting.Lights, &RayCastLight::Cone));
+    set4("lightFalloff", Collect(optics.Lighting.Lights, &RayCastLight::Falloff));
   }
 }
 

@@ -71,8 +71,6 @@ public:
   std::int64_t UploadedGradients = 0;
   std::int64_t UploadedProperty = 0;
   /** The same of the native backend's. */
-  std::int64_t NativeMesh = 0;
-  std::int64_t NativeScalars = 0;
   std::int64_t NativeProperty = 0;
 
   vtkTypeInt64 GradientBuilds = 0;
@@ -166,16 +164,9 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::vtkInternals::UpdateNative()
 {
-  if (this->NativeMesh != this->Input.GetMeshBuilds() ||
-    this->NativeScalars != this->Input.GetScalarUpdates())
-  {
-    this->Native.UpdateVertices(this->Input.GetMesh(), this->Input.GetScalars());
-    this->NativeMesh = this->Input.GetMeshBuilds();
-    this->NativeScalars = this->Input.GetScalarUpdates();
-  }
   if (this->NativeProperty != this->Property.GetVersion())
   {
-    this->Native.UpdateIntervals(this->Property.GetIntervals());
+    this->Native.UpdateProperty(this->Property);
     this->NativeProperty = this->Property.GetVersion();
   }
 }
@@ -188,16 +179,26 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
   meniscus::TileCaster::Scene scene;
   scene.Mesh = &this->Input.GetMesh();
   scene.Boundary = &this->Input.GetMesh().GetBoundary();
-  scene.Frame = frame.Rays;
+  scene.CellScalars = frame.Optics.CellScalars ? this->Input.GetCellScalars().data() : nullptr;
+  scene.Lighting = frame.Optics.Shading ? &frame.Optics.Lighting : nullptr;
+  if (frame.Optics.VertexGradients)
+  {
+    this->UpdateGradients();
+    scene.VertexGradients = this->Gradients.data();
+    scene.GradientToFrame = frame.Optics.GradientToFrame;
+  }
+  // The numbers are the same.
+  scene.Blending = static_cast<meniscus::PacketBlending>(frame.Optics.BlendMode);
   scene.ClippingPlanes = frame.Optics.ClippingPlanes;
   scene.TerminationTransmittance = static_cast<float>(1.0 - frame.EarlyTerminationOpacity);
   return this->OpenGL.DrawImageOf(
-    [this, &scene](
+    [this, &scene, &frame](
       int width, int height, const std::vector<float>& depths, std::vector<float>& image)
     {
-      scene.Width = width;
-      scene.Height = height;
-      return this->Native.Cast(scene, depths, image);
+      scene.Rays = meniscus::PixelRays(frame.Rays, width, height);
+      const meniscus::VertexVersion version{ this->Input.GetMeshBuilds(),
+        this->Input.GetScalarUpdates() };
+      return this->Native.Cast(scene, this->Input.GetScalars(), version, depths, image);
     },
     frame.Output);
 }
@@ -388,8 +389,8 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
   const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
   const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
   this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
-    "The native backend has composite blending of point data only, without shading and gradient "
-    "opacity; rendering with OpenGL.");
+    "The native backend has no gradient opacity and no shading but of isosurfaces; rendering with "
+    "OpenGL.");
   this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
     "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
   return nativeLacks || computeLacks ? OPENGL : this->Backend;

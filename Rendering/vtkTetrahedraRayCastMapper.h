@@ -71,8 +71,8 @@
  * Needs OpenGL 3.2; the native backend casts rays on the CPU and needs it to show the image. Work
  * is done where its input changes: see the counters.
  *
- * @note Limits of this version: up to 32 clipping planes and 16 lights; the native backend has
- * plain composite blending of point data only; fewer than 2^29 cells, and tables within
+ * @note Limits of this version: up to 32 clipping planes and 16 lights; the native backend has no
+ * gradient opacity and no shading but of isosurfaces; fewer than 2^29 cells, and tables within
  * GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty

@@ -117,8 +117,10 @@ void CurvedGeometry::FindAxis()
       sum += this->Surface.GetNormals()[static_cast<std::size_t>(vertex)];
     }
   }
+  this->FindEnclosure();
   const double length = glm::length(sum);
-  this->Axis = length > 0.0 ? sum / length : glm::dvec3(0.0);
+  // Normals of a closed membrane cancel out.
+  this->Axis = length > 0.0 && !this->Closed ? sum / length : glm::dvec3(0.0, 0.0, 1.0);
   this->Lowest = std::numeric_limits<double>::max();
   this->Highest = std::numeric_limits<double>::lowest();
   for (std::size_t i = 0; i < this->Surface.GetFacets().size(); ++i)
@@ -132,6 +134,30 @@ void CurvedGeometry::FindAxis()
       this->Highest = std::max(this->Highest, height + bulge);
     }
   }
+}
+
+//------------------------------------------------------------------------------
+void CurvedGeometry::FindEnclosure()
+{
+  const auto& facets = this->Surface.GetFacets();
+  this->Closed = !facets.empty();
+  double volume = 0.0; // by the divergence theorem, six times, positive for normals outwards
+  for (std::size_t i = 0; i < facets.size() && this->Closed; ++i)
+  {
+    const auto at = [this, &facets, i](std::size_t k) -> const glm::dvec3&
+    { return this->Surface.GetPositions()[static_cast<std::size_t>(facets[i][k])]; };
+    const glm::dvec3 winding = glm::cross(at(1) - at(0), at(2) - at(0));
+    glm::dvec3 normal(0.0);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const bool isBorder = this->Patches.GetNeighbour(static_cast<std::int32_t>(i),
+                              static_cast<int>(k)) == CurvedPatches::NoFacet;
+      this->Closed = this->Closed && !isBorder;
+      normal += this->Surface.GetNormals()[static_cast<std::size_t>(facets[i][k])];
+    }
+    volume += std::copysign(1.0, glm::dot(winding, normal)) * glm::dot(at(0), winding);
+  }
+  this->OutsideIsFront = this->Closed && volume > 0.0;
 }
 
 //------------------------------------------------------------------------------
@@ -166,8 +192,8 @@ bool CurvedGeometry::IsInFront(const glm::dvec3& local) const
   constexpr double rounding = 1024.0 * std::numeric_limits<double>::epsilon();
   const double slack = rounding * this->Surface.GetRadius();
   double nearest = std::numeric_limits<double>::max();
-  bool faces = glm::dot(this->Axis, local) > this->Highest;
-  if (faces)
+  bool faces = this->Closed ? this->OutsideIsFront : glm::dot(this->Axis, local) > this->Highest;
+  if (faces && !this->Closed)
   {
     return true;
   }
@@ -500,8 +526,9 @@ VirtualVertex CurvedGeometry::MakeVertex(
     ? local
     : at.position + sight * (vertex.depth * this->Optics.exterior / this->Optics.interior);
   vertex.position = virtualPoint + this->Surface.GetOrigin();
-  vertex.reflectance = FresnelReflectance(-glm::dot(sight, at.normal) / glm::length(at.normal),
-    this->Optics.exterior, this->Optics.interior);
+  vertex.cosine = -glm::dot(sight, at.normal) / glm::length(at.normal);
+  vertex.reflectance =
+    FresnelReflectance(vertex.cosine, this->Optics.exterior, this->Optics.interior);
   vertex.facet = place.facet;
   vertex.state = ImageState::Found;
   vertex.orientation = static_cast<signed char>(SightEquation::GetOrientation(patch, place.root));

@@ -105,12 +105,16 @@ public:
    * faces it, or if it lies on it within rounding. Beside the membrane, a point above all of it is
    * in front. IsBehindAll is a first test that costs nothing; where it fails, IsInFront needs
    * PrepareSides, a tree over the facets' columns that is built once per shape.
+   *
+   * Of a closed membrane any axis will do; without a patch below it a point is outside, and that is
+   * in front if the normals point outwards.
    */
   void PrepareSides();
   bool IsBehindAll(const glm::dvec3& local) const
   {
-    return glm::dot(this->Axis, local) < this->Lowest;
+    return !this->OutsideIsFront && glm::dot(this->Axis, local) < this->Lowest;
   }
+  bool IsClosed() const { return this->Closed; }
   bool IsInFront(const glm::dvec3& local) const;
   ///@}
 
@@ -137,6 +141,7 @@ private:
   };
 
   void FindAxis();
+  void FindEnclosure();
   void BuildTree(CellTree& tree) const;
   bool IsEyeOnPatch(const CurvedPatch& patch) const;
   VirtualVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
@@ -154,6 +159,8 @@ private:
   glm::dvec3 Axis{ 0.0 };
   double Lowest = 0.0;
   double Highest = 0.0;
+  bool Closed = false;
+  bool OutsideIsFront = false; ///< closed, with normals that point outwards
   Media Optics{ glm::dvec3(0.0), 1.0, 1.0 };
 };
 

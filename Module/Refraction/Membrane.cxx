@@ -55,7 +55,11 @@ bool HasArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 //------------------------------------------------------------------------------
 MembraneStatus Membrane::Build(const MembraneInput& input)
 {
-  *this = Membrane();
+  Membrane last;
+  std::swap(*this, last);
+  this->WoundFacets = std::move(last.WoundFacets);
+  this->OrientedFacets = std::move(last.OrientedFacets);
+  this->Pieces = std::move(last.Pieces);
   constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
   if (input.numberOfPoints > limit || input.numberOfTriangles > limit)
   {
@@ -66,6 +70,11 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
   if (this->Facets.empty())
   {
     return MembraneStatus::Empty;
+  }
+  if (!this->OrientFacets(input.numberOfPoints))
+  {
+    *this = Membrane();
+    return MembraneStatus::OneSided;
   }
   this->MoveToLocalOrigin(input);
   if (!std::isfinite(1.0 / this->Radius))
@@ -157,6 +166,20 @@ void Membrane::DropDuplicates()
 }
 
 //------------------------------------------------------------------------------
+bool Membrane::OrientFacets(std::size_t points)
+{
+  if (this->Facets != this->WoundFacets)
+  {
+    this->WoundFacets = this->Facets;
+    this->OrientedFacets = this->Facets;
+    this->Pieces = meniscus::OrientFacets(this->OrientedFacets, points);
+  }
+  this->Facets = this->OrientedFacets;
+  this->Report.turnedFacets = this->Pieces.turnedFacets;
+  return !this->Pieces.isOneSided;
+}
+
+//------------------------------------------------------------------------------
 void Membrane::MoveToLocalOrigin(const MembraneInput& input)
 {
   glm::dvec3 low(std::numeric_limits<double>::max());
@@ -209,6 +232,11 @@ void Membrane::TakeNormals(const MembraneInput& input)
   {
     this->Report.nonManifoldFacets =
       ComputeVertexNormals(this->Positions, this->Facets, missing, this->Normals);
+  }
+  if (input.normals)
+  {
+    this->Report.turnedNormals =
+      OrientNormals(this->Positions, this->Facets, this->Pieces, this->Normals);
   }
 }
 

@@ -8,6 +8,8 @@
 #ifndef meniscus_Refraction_Membrane_h
 #define meniscus_Refraction_Membrane_h
 
+#include "Refraction/MembraneOrientation.h"
+
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -32,8 +34,9 @@ struct MembraneInput
 enum class MembraneStatus
 {
   Ready,
-  Empty,   ///< no triangle at all, or none that passed
-  TooLarge ///< more points or triangles than 32-bit indices can name
+  Empty,    ///< no triangle at all, or none that passed
+  TooLarge, ///< more points or triangles than 32-bit indices can name
+  OneSided  ///< a Moebius band has no side for the eye
 };
 
 /// What validation found. Skipped triangles are counted once, under the first fault found.
@@ -45,6 +48,8 @@ struct MembraneReport
   std::size_t duplicated = 0;        ///< skipped: same three points as an earlier triangle
   std::size_t computedNormals = 0;   ///< vertices whose normal was missing, zero or not finite
   std::size_t nonManifoldFacets = 0; ///< kept, but not joined to neighbours for computed normals
+  std::size_t turnedFacets = 0;      ///< kept, wound the other way than their neighbours
+  std::size_t turnedNormals = 0;     ///< kept, turned to the side of their neighbours
 
   std::size_t Skipped() const
   {
@@ -79,6 +84,7 @@ public:
 private:
   void AcceptFacets(const MembraneInput& input);
   void DropDuplicates();
+  bool OrientFacets(std::size_t points);
   void MoveToLocalOrigin(const MembraneInput& input);
   void TakeNormals(const MembraneInput& input);
 
@@ -89,6 +95,11 @@ private:
   std::vector<Facet> Facets;
   std::vector<std::int64_t> CellIds;
   MembraneReport Report;
+
+  /// Kept from shape to shape: a deforming membrane is wound as it was.
+  std::vector<Facet> WoundFacets;
+  std::vector<Facet> OrientedFacets;
+  SurfacePieces Pieces;
 };
 
 }

@@ -74,9 +74,17 @@ inline double FresnelReflectance(double cosine, double exterior, double interior
   return std::clamp(0.5 * first * first * (1.0 + second * second), 0.0, 1.0);
 }
 
-/// Schlick's approximation of the Fresnel reflectance (Eq. 2.7), which the thesis draws with.
+/**
+ * Schlick's approximation of the Fresnel reflectance (Eq. 2.7), which the thesis draws with:
+ * r + (1 - r) (1 - c)^5 with r = ((n1 - n2) / (n1 + n2))^2. It knows no critical angle. 0 for equal
+ * indices, where the formula has (1 - c)^5.
+ */
 inline double SchlickReflectance(double cosine, double exterior, double interior)
 {
+  if (exterior == interior)
+  {
+    return 0.0;
+  }
   const double c = std::clamp(cosine, 0.0, 1.0);
   const double n = exterior / interior;
   const double normal = (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0));

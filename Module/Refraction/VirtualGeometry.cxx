@@ -161,9 +161,9 @@ VirtualVertex VirtualGeometry::MakeVertex(
   // Eq. 2.4.
   vertex.position = sightPoint + sight * (vertex.depth * this->Exterior / this->Interior) +
     this->Surface.GetOrigin();
-  vertex.reflectance = bent > 0.0
-    ? FresnelReflectance(-glm::dot(sight, normal) / bent, this->Exterior, this->Interior)
-    : 1.0;
+  // Where normals cancel out the ray only grazes.
+  vertex.cosine = bent > 0.0 ? -glm::dot(sight, normal) / bent : 0.0;
+  vertex.reflectance = FresnelReflectance(vertex.cosine, this->Exterior, this->Interior);
   vertex.facet = facet;
   vertex.state = ImageState::Found;
   vertex.orientation = static_cast<signed char>(hit.orientation);

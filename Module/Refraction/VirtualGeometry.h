@@ -34,6 +34,7 @@ struct VirtualVertex
   glm::dvec3 sightPoint{ 0.0 }; ///< where the sight ray meets the facet, world
   double depth = 0.0;           ///< from sight point to true point
   double reflectance = 0.0;     ///< exact Fresnel at the sight point
+  double cosine = 1.0;          ///< of the angle of incidence there, on the eye's side
   std::int32_t facet = -1;      ///< index among the membrane's accepted facets
   ImageState state = ImageState::NoImage;
   signed char orientation = 1; ///< -1: mirrored

@@ -15,16 +15,16 @@ namespace
 {
 
 /**
- * By what rounding to the grid can change an edge's area: half a unit in each of four numbers, each
- * the factor of another of at most 2^30 + 2, and the double arithmetic, much less.
+ * By what rounding can change an edge's area: RoundingOfRay in each of four numbers, each the
+ * factor of another of at most 2^30 + 2, and the double arithmetic, much less.
  */
 constexpr double Margin = 4294967296.0; // 2^32
+static_assert(4.0 * PixelRays::RoundingOfRay * 1073741826.0 < Margin, "rounding of rays");
 
 /** Whether the ray is left of the edge pq: PacketWalk's rule for exact coordinates. */
-bool TurnsLeft(const glm::dvec2& p, const glm::dvec2& q, bool ascending, double& area)
+bool TurnsLeft(const glm::ivec2& p, const glm::ivec2& q, bool ascending, double& area)
 {
-  const std::int64_t exact =
-    std::int64_t(p.x) * std::int64_t(q.y) - std::int64_t(p.y) * std::int64_t(q.x);
+  const std::int64_t exact = std::int64_t{ p.x } * q.y - std::int64_t{ p.y } * q.x;
   area = static_cast<double>(exact);
   if (exact != 0)
   {
@@ -37,10 +37,14 @@ bool TurnsLeft(const glm::dvec2& p, const glm::dvec2& q, bool ascending, double&
   return p.x != q.x ? q.x > p.x : ascending;
 }
 
-glm::dvec3 Coefficients(const PixelRays::AffineRow& row, const glm::dvec4& position)
+/** u or v of a vertex, a function of the pixel. */
+glm::dvec3 Coefficients(
+  const AffinePixelMap& offset, const AffinePixelMap& slope, int axis, const PacketVertex& vertex)
 {
-  return { glm::dot(row.Base, position), glm::dot(row.PerColumn, position),
-    glm::dot(row.PerRow, position) };
+  const double depth = vertex.Place[2];
+  return { vertex.Place[axis] - offset.Base[axis] - depth * slope.Base[axis],
+    -offset.PerColumn[axis] - depth * slope.PerColumn[axis],
+    -offset.PerRow[axis] - depth * slope.PerRow[axis] };
 }
 
 /** The affine function u_p v_q - v_p u_q of the pixel, whose second-order terms vanish. */
@@ -96,9 +100,11 @@ struct EntryRaster::SeenFace
 //------------------------------------------------------------------------------
 EntryRaster::SeenVertex EntryRaster::See(std::int32_t vertex) const
 {
-  const glm::dvec4 position(glm::dvec3(this->Mesh->GetFixedPositions()[vertex]), 1.0);
-  return { Coefficients(this->Rays.GetU(), position), Coefficients(this->Rays.GetV(), position),
-    glm::dot(this->Rays.GetDepth(), position) };
+  const PacketVertex& seen = (*this->Vertices)[vertex];
+  const AffinePixelMap& offset = this->Rays.GetOffset();
+  const AffinePixelMap& slope = this->Rays.GetSlope();
+  return { Coefficients(offset, slope, 0, seen), Coefficients(offset, slope, 1, seen),
+    PixelRays::DepthOf(seen.Place[2]) };
 }
 
 //------------------------------------------------------------------------------
@@ -166,13 +172,12 @@ EntryRaster::PixelBox EntryRaster::BoxOf(const SeenFace& face) const
 }
 
 //------------------------------------------------------------------------------
-void EntryRaster::Build(const TetrahedralMesh& mesh, const std::vector<BoundaryFace>& faces,
-  const PixelRays& rays, InstructionSet set)
+void EntryRaster::Build(const std::vector<PacketVertex>& vertices,
+  const std::vector<BoundaryFace>& faces, const PixelRays& rays)
 {
-  this->Mesh = &mesh;
+  this->Vertices = &vertices;
   this->Faces = &faces;
   this->Rays = rays;
-  this->Fused = set != InstructionSet::Portable;
   this->Columns = (this->Rays.GetWidth() + TileSize - 1) / TileSize;
   this->Rows = (this->Rays.GetHeight() + TileSize - 1) / TileSize;
 
@@ -220,30 +225,22 @@ EntryRaster::PixelBox EntryRaster::BoxOfTile(int tile) const
 }
 
 //------------------------------------------------------------------------------
-double EntryRaster::OnGrid(const glm::dvec4& row, const glm::ivec3& position) const
-{
-  // Operation by operation what Simd::Fma does in PacketWalk::Transform.
-  const auto fma = [this](double a, double b, double c)
-  { return this->Fused ? std::fma(a, b, c) : a * b + c; };
-  return std::nearbyint(
-    fma(position.x, row.x, fma(position.y, row.y, fma(position.z, row.z, row.w))));
-}
-
-//------------------------------------------------------------------------------
 bool EntryRaster::EntersExactly(
-  const SeenFace& face, const glm::dvec2& pixel, double (&areas)[3]) const
+  const SeenFace& face, const glm::ivec2& pixel, double (&areas)[3]) const
 {
-  const glm::dvec4 u = this->Rays.GetU().At(pixel.x, pixel.y);
-  const glm::dvec4 v = this->Rays.GetV().At(pixel.x, pixel.y);
-  if (!(std::abs(u.w) <= PixelRays::LargestOffset) || !(std::abs(v.w) <= PixelRays::LargestOffset))
+  const glm::dvec2 center = this->Rays.FromCenter(pixel.x, pixel.y);
+  const glm::dvec2 offset = glm::abs(this->Rays.GetOffset().At(center.x, center.y));
+  if (!(offset.x <= PixelRays::LargestOffset) || !(offset.y <= PixelRays::LargestOffset))
   {
     return false; // too far away to meet the mesh
   }
-  glm::dvec2 grid[3];
+  const PacketRay ray = this->Rays.RayOf(pixel.x, pixel.y);
+  glm::ivec2 grid[3];
   for (int k = 0; k < 3; ++k)
   {
-    const glm::ivec3& position = this->Mesh->GetFixedPositions()[face.Ids[k]];
-    grid[k] = { this->OnGrid(u, position), this->OnGrid(v, position) };
+    const std::int32_t(&place)[3] = (*this->Vertices)[face.Ids[k]].Place;
+    grid[k] = { AboutRay(place[0], place[2], ray.Slope[0], ray.Offset[0]),
+      AboutRay(place[1], place[2], ray.Slope[1], ray.Offset[1]) };
   }
   for (int k = 0; k < 3; ++k)
   {
@@ -287,7 +284,8 @@ void EntryRaster::CollectFace(
         areas[k] = face.Edges[k][0] + pixel.x * face.Edges[k][1] + pixel.y * face.Edges[k][2];
       }
       const double least = std::min(areas[0], std::min(areas[1], areas[2]));
-      if (!(least > Margin) && (least < -Margin || !this->EntersExactly(face, pixel, areas)))
+      if (!(least > Margin) &&
+        (least < -Margin || !this->EntersExactly(face, { column, row }, areas)))
       {
         continue;
       }

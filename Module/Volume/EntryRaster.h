@@ -27,12 +27,11 @@ public:
 
   /**
    * Sorts faces into tiles.
-   * @param mesh   must outlive this.
-   * @param faces  the boundary that rays may enter by; must outlive this.
-   * @param set    what casts the rays: it decides how coordinates are rounded.
+   * @param vertices  those of the mesh in the grid of the rays; must outlive this.
+   * @param faces     the boundary that rays may enter by; must outlive this.
    */
-  void Build(const TetrahedralMesh& mesh, const std::vector<BoundaryFace>& faces,
-    const PixelRays& rays, InstructionSet set);
+  void Build(const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& faces,
+    const PixelRays& rays);
 
   int GetNumberOfTiles() const { return this->Columns * this->Rows; }
   const PixelRays& GetRays() const { return this->Rays; }
@@ -68,16 +67,14 @@ private:
   SeenVertex See(std::int32_t vertex) const;
   SeenFace See(const BoundaryFace& face) const;
   PixelBox BoxOf(const SeenFace& face) const;
-  double OnGrid(const glm::dvec4& row, const glm::ivec3& position) const;
-  bool EntersExactly(const SeenFace& face, const glm::dvec2& pixel, double (&areas)[3]) const;
+  bool EntersExactly(const SeenFace& face, const glm::ivec2& pixel, double (&areas)[3]) const;
   static double DepthAt(const SeenFace& face, const double (&areas)[3]);
   void CollectFace(
     const BoundaryFace& boundary, const PixelBox& tile, std::vector<Hit>& hits) const;
 
-  const TetrahedralMesh* Mesh = nullptr;
+  const std::vector<PacketVertex>* Vertices = nullptr;
   const std::vector<BoundaryFace>* Faces = nullptr;
   PixelRays Rays;
-  bool Fused = false;
   int Columns = 0;
   int Rows = 0;
   /** Faces of tile t: FaceOfSlot[TileBegin[t]] to [TileBegin[t + 1]]. */

@@ -5,7 +5,7 @@
 #include "Volume/TetrahedralMesh.h"
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,26 +15,13 @@ namespace meniscus
 namespace
 {
 
-constexpr double GridRadius = 536870912.0; // 2^29
+constexpr double GridRadius = 536870912.0;      // 2^29
+constexpr double FractionOfGrid = 4294967296.0; // 2^32, what PacketRay shifts out
+constexpr double LargestSlope = 2147483647.0;
 
-/** Row of u (axis 0) or v (axis 1), in units of the radius: (x - Slope d, -Origin). */
-PixelRays::AffineRow RowOfAxis(const RayFrame& frame, int axis)
+AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
 {
-  const glm::dvec3& position = axis == 0 ? frame.RowX : frame.RowY;
-  const auto row = [&](const glm::dvec3& start, const glm::dvec2& slope, const glm::dvec2& origin)
-  { return glm::dvec4(start - slope[axis] * frame.RowDepth, -origin[axis]); };
-  return { row(position, frame.Slope.Base, frame.Origin.Base),
-    row(glm::dvec3(0.0), frame.Slope.PerColumn, frame.Origin.PerColumn),
-    row(glm::dvec3(0.0), frame.Slope.PerRow, frame.Origin.PerRow) };
-}
-
-/** Applies units: of the grid, and fixed point for what multiplies positions. */
-void Scale(PixelRays::AffineRow& row, double toGrid)
-{
-  const glm::dvec4 unit(glm::dvec3(toGrid * TetrahedralMesh::PositionUnit), toGrid);
-  row.Base *= unit;
-  row.PerColumn *= unit;
-  row.PerRow *= unit;
+  return { map.Base * scale, map.PerColumn * scale, map.PerRow * scale };
 }
 
 }
@@ -44,42 +31,54 @@ PixelRays::PixelRays(const RayFrame& frame, int width, int height)
   : Frame(frame)
   , Width(width)
   , Height(height)
-  , U(RowOfAxis(frame, 0))
-  , V(RowOfAxis(frame, 1))
-  , Depth(TetrahedralMesh::PositionUnit * frame.RowDepth, 0.0)
 {
-  // The length of an affine function is largest at a corner.
-  double longest = 0.0;
+  // The magnitude of an affine function is largest at a corner.
+  double steepest = 0.0;
   for (const int column : { 0, width - 1 })
   {
     for (const int row : { 0, height - 1 })
     {
       const glm::dvec2 pixel = this->FromCenter(column, row);
-      longest = std::max({ longest, glm::length(glm::dvec3(this->U.At(pixel.x, pixel.y))),
-        glm::length(glm::dvec3(this->V.At(pixel.x, pixel.y))) });
+      const glm::dvec2 slope = glm::abs(frame.Slope.At(pixel.x, pixel.y));
+      steepest = std::max({ steepest, slope.x, slope.y });
     }
   }
-  const double toGrid = longest > 0.0 ? GridRadius / longest : 0.0;
-  Scale(this->U, toGrid);
-  Scale(this->V, toGrid);
+  const double perUnit = GridRadius / (1.0 + steepest);
+  this->GridUnit = 1.0 / perUnit;
+  this->Offset = Scaled(frame.Origin, perUnit);
+  this->Slope = Scaled(frame.Slope, perUnit / GridPerDepth);
+  const double unit = TetrahedralMesh::PositionUnit;
+  this->ToGrid = glm::transpose(glm::dmat3(perUnit * unit * frame.RowX, perUnit * unit * frame.RowY,
+    GridPerDepth * unit * frame.RowDepth));
+}
+
+//------------------------------------------------------------------------------
+glm::ivec3 PixelRays::Place(const glm::ivec3& position) const
+{
+  const glm::dvec3 place = this->ToGrid * glm::dvec3(position);
+  return { static_cast<int>(std::lrint(place.x)), static_cast<int>(std::lrint(place.y)),
+    static_cast<int>(std::lrint(place.z)) };
 }
 
 //------------------------------------------------------------------------------
 PacketRay PixelRays::RayOf(int column, int row) const
 {
   const glm::dvec2 pixel = this->FromCenter(column, row);
-  const glm::dvec4 u = this->U.At(pixel.x, pixel.y);
-  const glm::dvec4 v = this->V.At(pixel.x, pixel.y);
-  const glm::dvec2 slope = this->Frame.Slope.At(pixel.x, pixel.y);
+  // Half a unit more, for what is shifted out is rounded down.
+  const glm::dvec2 offset =
+    glm::clamp(this->Offset.At(pixel.x, pixel.y), -LargestOffset, LargestOffset) + 0.5;
+  const glm::dvec2 slope = this->Slope.At(pixel.x, pixel.y);
+  const glm::dvec2 perDepth = this->Frame.Slope.At(pixel.x, pixel.y);
   PacketRay ray;
-  for (int k = 0; k < 4; ++k)
+  for (int axis = 0; axis < 2; ++axis)
   {
-    ray.U[k] = u[k];
-    ray.V[k] = v[k];
-    ray.Depth[k] = this->Depth[k];
+    ray.Offset[axis] = std::llrint(offset[axis] * FractionOfGrid);
+    // Below 1/2 in theory, and not to be rounded up to it for views of nearly 180 degrees.
+    ray.Slope[axis] = static_cast<std::int32_t>(
+      std::clamp(std::rint(slope[axis] * FractionOfGrid), -LargestSlope, LargestSlope));
   }
-  ray.LengthPerDepth =
-    static_cast<float>(glm::length(this->Frame.ViewToWorld * glm::dvec3(slope.x, slope.y, 1.0)));
+  ray.LengthPerDepth = static_cast<float>(
+    glm::length(this->Frame.ViewToWorld * glm::dvec3(perDepth.x, perDepth.y, 1.0)));
   ray.StartDepth = static_cast<float>(this->Frame.NearDepth);
   ray.EndDepth = 1.0e+30f;
   ray.FirstEntry = 0;

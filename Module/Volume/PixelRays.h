@@ -6,33 +6,26 @@
 #include "Volume/Packet/Packet.h"
 #include "Volume/RayFrame.h"
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
+
+#include <cstdint>
 
 namespace meniscus
 {
 
 /**
- * The frames about the rays of an image's pixels (PacketRay), which are affine functions of the
- * pixel: only the difference of two vertices' depths enters them with the slope of the ray.
+ * The rays of an image's pixels and where vertices lie about them, in whole grid units.
  *
- * (u, v) are in grid units of 2^-29 of the mesh's radius or a little more. All rays of an image
- * have the same unit, which is such that |u| and |v| stay below 2^30 where a ray meets the mesh.
+ * Vertices are rounded once, to (x, y, depth) of the frame: depth in units of 2^-30 of the frame's,
+ * x and y in units of 2^-29 times 1 + the steepest slope, so that |u| and |v| stay below 2^30 where
+ * a ray meets the mesh. From there on all is integer arithmetic (PacketRay), the same on every
+ * processor and for every user of a ray.
  */
 class PixelRays
 {
 public:
-  /** base + i * PerColumn + j * PerRow; a row of PacketRay. */
-  struct AffineRow
-  {
-    glm::dvec4 Base{ 0.0 };
-    glm::dvec4 PerColumn{ 0.0 };
-    glm::dvec4 PerRow{ 0.0 };
-
-    glm::dvec4 At(double i, double j) const { return this->Base + i * PerColumn + j * PerRow; }
-  };
-
   PixelRays() = default;
   PixelRays(const RayFrame& frame, int width, int height);
 
@@ -45,24 +38,49 @@ public:
   /** The ray of a pixel, without its entries, from the near plane on without end. */
   PacketRay RayOf(int column, int row) const;
 
-  const AffineRow& GetU() const { return this->U; }
-  const AffineRow& GetV() const { return this->V; }
-  const glm::dvec4& GetDepth() const { return this->Depth; }
+  /** Where a vertex lies in the grid. @param position  TetrahedralMesh::GetFixedPositions(). */
+  glm::ivec3 Place(const glm::ivec3& position) const;
+  /** Whether Place() is the same function. */
+  bool PlacesAs(const PixelRays& other) const { return this->ToGrid == other.ToGrid; }
+
+  /**
+   * About the ray of pixel (i, j), counted from the image's centre, u = x - offset - slope * depth,
+   * all in grid units; likewise v.
+   */
+  const AffinePixelMap& GetOffset() const { return this->Offset; }
+  const AffinePixelMap& GetSlope() const { return this->Slope; }
+  /** Of x and y, in units of the frame. */
+  double GetGridUnit() const { return this->GridUnit; }
   int GetWidth() const { return this->Width; }
   int GetHeight() const { return this->Height; }
   const RayFrame& GetFrame() const { return this->Frame; }
 
-  /** Of u or v of a ray that may meet the mesh: the largest magnitude of the constant term. */
+  /** By what u or v of a ray differs from the affine function: rounding of it and of its slope. */
+  static constexpr double RoundingOfRay = 0.625 + 0.0625;
+  /** The largest magnitude of the offset of a ray that may meet the mesh. */
   static constexpr double LargestOffset = 536870912.0 + 2.0;
+  /** Of a vertex in the grid, in units of the frame. */
+  static double DepthOf(std::int32_t gridDepth) { return gridDepth / GridPerDepth; }
 
 private:
+  static constexpr double GridPerDepth = 1.0 / PacketVertex::DepthUnit;
+
   RayFrame Frame;
   int Width = 0;
   int Height = 0;
-  AffineRow U;
-  AffineRow V;
-  glm::dvec4 Depth{ 0.0 };
+  double GridUnit = 1.0;
+  /** Fixed-point positions to the grid. */
+  glm::dmat3 ToGrid{ 0.0 };
+  AffinePixelMap Offset;
+  AffinePixelMap Slope;
 };
+
+/** u or v of a vertex about a ray, exactly. */
+inline std::int32_t AboutRay(
+  std::int32_t place, std::int32_t depth, std::int32_t slope, std::int64_t offset)
+{
+  return place - static_cast<std::int32_t>((std::int64_t{ depth } * slope + offset) >> 32);
+}
 
 }
 

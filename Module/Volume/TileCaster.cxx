@@ -8,16 +8,19 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-std::vector<PacketVertex> PackVertices(
-  const TetrahedralMesh& mesh, const std::vector<float>& scalars)
+void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
+  const PixelRays& rays, const RangeLoop& loop, std::vector<PacketVertex>& vertices)
 {
-  std::vector<PacketVertex> vertices(scalars.size());
-  for (std::size_t v = 0; v < vertices.size(); ++v)
-  {
-    const glm::ivec3& position = mesh.GetFixedPositions()[v];
-    vertices[v] = { { position.x, position.y, position.z }, scalars[v] };
-  }
-  return vertices;
+  vertices.resize(mesh.GetFixedPositions().size());
+  loop(vertices.size(),
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t v = first; v < last; ++v)
+      {
+        const glm::ivec3 place = rays.Place(mesh.GetFixedPositions()[v]);
+        vertices[v] = { { place.x, place.y, place.z }, scalars.empty() ? 0.0f : scalars[v] };
+      }
+    });
 }
 
 //------------------------------------------------------------------------------
@@ -40,18 +43,17 @@ std::vector<PacketInterval> PackIntervals(const std::vector<TransferFunctionInte
 TileCaster::TileCaster(const Scene& scene)
   : Input(scene)
 {
-  const PixelRays rays(scene.Frame, scene.Width, scene.Height);
-  this->Raster.Build(*scene.Mesh, *scene.Boundary, rays, scene.Set);
+  this->Raster.Build(scene.Tables->Vertices, *scene.Boundary, scene.Rays);
 }
 
 //------------------------------------------------------------------------------
 PacketRay TileCaster::RayOf(int column, int row, const float* opaqueDepth) const
 {
-  const RayFrame& frame = this->Input.Frame;
-  const std::int64_t pixel = std::int64_t{ row } * this->Input.Width + column;
+  const PixelRays& rays = this->Input.Rays;
+  const RayFrame& frame = rays.GetFrame();
+  const std::int64_t pixel = std::int64_t{ row } * rays.GetWidth() + column;
   double start = frame.NearDepth;
   double end = opaqueDepth ? frame.DepthAt(2.0 * opaqueDepth[pixel] - 1.0) : 1.0e+30;
-  const PixelRays& rays = this->Raster.GetRays();
   for (const RayClippingPlane& plane : this->Input.ClippingPlanes)
   {
     ClipRay(plane, rays.FromCenter(column, row), start, end);
@@ -79,7 +81,7 @@ void TileCaster::TakeHits(int tile, const float* opaqueDepth, Workspace& workspa
       lastPixel = hit.Pixel;
       const int column = box.Left + hit.Pixel % EntryRaster::TileSize;
       const int row = box.Bottom + hit.Pixel / EntryRaster::TileSize;
-      const std::int64_t pixel = std::int64_t{ row } * this->Input.Width + column;
+      const std::int64_t pixel = std::int64_t{ row } * this->Input.Rays.GetWidth() + column;
       const PacketRay ray = this->RayOf(column, row, opaqueDepth);
       counts = ray.StartDepth < ray.EndDepth;
       if (counts)
@@ -111,6 +113,14 @@ RayStatistics TileCaster::Cast(
   workspace.Results.resize(workspace.Rays.size());
   const TetrahedralMesh& mesh = *this->Input.Mesh;
   PacketJob job;
+  job.Blending = this->Input.Blending;
+  job.CellScalars = this->Input.CellScalars;
+  job.Surfaces = this->Input.Tables->Surfaces.data();
+  job.NumberOfSurfaces = static_cast<std::int32_t>(this->Input.Tables->Surfaces.size());
+  job.Lighting = this->Input.Lighting;
+  job.VertexGradients = this->Input.VertexGradients ? &this->Input.VertexGradients->x : nullptr;
+  job.GradientToFrame = &this->Input.GradientToFrame;
+  job.GridUnit = this->Input.Rays.GetGridUnit();
   job.Vertices = this->Input.Tables->Vertices.data();
   job.Cells = mesh.GetCells().front().Vertices.data();
   job.NumberOfCells = mesh.GetNumberOfCells();

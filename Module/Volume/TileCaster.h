@@ -3,6 +3,7 @@
 #ifndef meniscus_Volume_TileCaster_h
 #define meniscus_Volume_TileCaster_h
 
+#include "Refraction/RangeLoop.h"
 #include "Volume/ClippingPlanes.h"
 #include "Volume/EntryRaster.h"
 #include "Volume/Packet/Packet.h"
@@ -19,13 +20,19 @@ namespace meniscus
 /** What the packets read, in their layout; see the builders below. */
 struct PacketTables
 {
+  /** As the rays of an image see them. */
   std::vector<PacketVertex> Vertices;
   std::vector<PacketInterval> Intervals;
+  std::vector<PacketSurface> Surfaces;
 };
 
-/** @param scalars  one normalised scalar per mesh vertex; NaN makes its cells transparent. */
-std::vector<PacketVertex> PackVertices(
-  const TetrahedralMesh& mesh, const std::vector<float>& scalars);
+/**
+ * @param scalars   one normalised scalar per mesh vertex; NaN makes its cells transparent. Empty
+ * for none, where cells have scalars.
+ * @param vertices  replaced.
+ */
+void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
+  const PixelRays& rays, const RangeLoop& loop, std::vector<PacketVertex>& vertices);
 std::vector<PacketInterval> PackIntervals(const std::vector<TransferFunctionInterval>& intervals);
 
 /** Casts the rays of an image by tiles, which are independent of each other. */
@@ -38,11 +45,17 @@ public:
     /** The boundary that rays enter by. */
     const std::vector<BoundaryFace>* Boundary = nullptr;
     const PacketTables* Tables = nullptr;
-    RayFrame Frame;
+    /** One normalised scalar per cell, in place of those of the vertices; null for none. */
+    const float* CellScalars = nullptr;
+    PacketBlending Blending = PacketBlending::Composite;
+    /** Of isosurfaces; null for none. */
+    const SurfaceLighting* Lighting = nullptr;
+    /** One per vertex, in normalised model coordinates; null for those of the cells. */
+    const glm::vec3* VertexGradients = nullptr;
+    glm::dmat3 GradientToFrame{ 1.0 };
+    PixelRays Rays;
     /** Rays count where all of them keep them. */
     std::vector<RayClippingPlane> ClippingPlanes;
-    int Width = 0;
-    int Height = 0;
     /** Rays end when their transmittance is not above it. */
     float TerminationTransmittance = 0.0f;
     InstructionSet Set = InstructionSet::Portable;

@@ -42,27 +42,38 @@ class RayIntegral
 public:
   RayIntegral(const std::vector<TransferFunctionInterval>& intervals, float termination)
     : Intervals(PackIntervals(intervals))
-    , Packet(this->Intervals.data(), static_cast<std::int32_t>(intervals.size()), termination)
+    , Packet(JobOf(this->Intervals, termination))
   {
   }
 
   void AddSegment(float from, float to, float length)
   {
     SimdPortable::Mask pending = this->Packet.Begin(SimdPortable::FromBits(1u << Lane),
-      SimdPortable::Splat(from), SimdPortable::Splat(to), SimdPortable::Splat(length));
+      SimdPortable::Splat(from), SimdPortable::Splat(to), SimdPortable::Splat(length), nullptr);
     while (SimdPortable::Bits(pending) != 0)
     {
       pending = this->Packet.Advance(pending);
     }
   }
-  glm::vec3 GetColor() const
-  {
-    return { this->Packet.GetColor(0).Of[Lane], this->Packet.GetColor(1).Of[Lane],
-      this->Packet.GetColor(2).Of[Lane] };
-  }
-  float GetTransmittance() const { return this->Packet.GetTransmittance().Of[Lane]; }
+  glm::vec3 GetColor() const { return { this->Value(0), this->Value(1), this->Value(2) }; }
+  float GetTransmittance() const { return this->Value(3); }
 
 private:
+  static PacketJob JobOf(const std::vector<PacketInterval>& intervals, float termination)
+  {
+    PacketJob job = {};
+    job.Intervals = intervals.data();
+    job.NumberOfIntervals = static_cast<std::int32_t>(intervals.size());
+    job.TerminationTransmittance = termination;
+    return job;
+  }
+  float Value(int k) const
+  {
+    float values[4][SimdPortable::Width];
+    this->Packet.Store(values);
+    return values[k][Lane];
+  }
+
   static constexpr int Lane = 1;
   std::vector<PacketInterval> Intervals;
   PacketIntegral<SimdPortable> Packet;

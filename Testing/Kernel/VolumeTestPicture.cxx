@@ -11,14 +11,14 @@ namespace test
 Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, float windowDepth)
 {
   PacketTables tables;
-  tables.Vertices = PackVertices(scene.Mesh, scene.Scalars);
+  const PixelRays rays(scene.Frame, size, size);
+  PlaceVertices(scene.Mesh, scene.Scalars, rays, SerialLoop, tables.Vertices);
   tables.Intervals = PackIntervals(scene.Intervals);
   TileCaster::Scene cast;
   cast.Mesh = &scene.Mesh;
   cast.Boundary = &scene.Mesh.GetBoundary();
   cast.Tables = &tables;
-  cast.Frame = scene.Frame;
-  cast.Width = cast.Height = size;
+  cast.Rays = rays;
   cast.Set = set;
 
   const std::size_t pixels = static_cast<std::size_t>(size) * size;

@@ -76,6 +76,14 @@ class TestFilter(PropertyTest):
     def test_modes(self):
         self.check_mode(self.filter, "MembraneModel", ["FLAT_FACETS", "CURVED"], "CURVED")
         self.check_mode(self.filter, "Images", ["FIRST_IMAGE", "ALL_IMAGES"], "ALL_IMAGES")
+        self.check_mode(self.filter, "ReflectanceModel", ["FRESNEL", "SCHLICK"], "FRESNEL")
+
+    def test_normals(self):
+        self.assertFalse(self.filter.GetVirtualNormals())
+        self.filter.VirtualNormalsOn()
+        self.assertTrue(self.filter.GetVirtualNormals())
+        self.assertEqual(self.filter.GetLightDirection(), (0, 0, 0))
+        self.check_pair(self.filter, "LightDirection", [(1, 2, 3)])
 
     def test_counters(self):
         self.check_counters(self.filter, [

@@ -235,7 +235,7 @@ TEST(TetrahedraRayCastProjections, SkipOnlyWhatTheModeCannotShow)
   EXPECT_GT(scene.rayCaster()->GetNumberOfActiveCells(), 0);
 }
 
-TEST(TetrahedraRayCastProjections, NativeBackendLeavesThemToOpenGL)
+TEST(TetrahedraRayCastProjections, NativeBackendLeavesShadingToOpenGL)
 {
   const Grid grid = makeBlock(3, wavyField(3.0));
   double range[2];
@@ -247,6 +247,11 @@ TEST(TetrahedraRayCastProjections, NativeBackendLeavesThemToOpenGL)
   warnings->observe(scene.rayCaster());
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
   expectReference(scene, Projection::Maximum, "native asked for");
+  EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::NATIVE);
+  EXPECT_TRUE(warnings->Warnings.empty());
+  scene.rayCaster()->SetBlendModeToComposite();
+  scene.volume()->GetProperty()->ShadeOn();
+  scene.window()->Render();
   EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::OPENGL);
   EXPECT_EQ(warnings->Warnings.size(), 1u);
 }

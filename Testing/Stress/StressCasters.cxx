@@ -56,7 +56,6 @@ public:
     VisibleScalars visible;
     visible.AddAttenuation(this->Intervals);
     this->Mesh.UpdateActiveCells(this->Scalars, visible);
-    this->Tables.Vertices = PackVertices(this->Mesh, this->Scalars);
     this->Tables.Intervals = PackIntervals(this->Intervals);
   }
 
@@ -69,17 +68,19 @@ public:
     scene.Mesh = &this->Mesh;
     scene.Boundary = &this->Mesh.GetBoundary();
     scene.Tables = &this->Tables;
-    scene.Width = scene.Height = this->Size;
     scene.TerminationTransmittance = Transmittance;
     scene.Set = BestInstructionSet();
     RayFrameInput input = view.frameInput(this->Size);
     input.Center = this->Mesh.GetCenter();
     input.Radius = this->Mesh.GetRadius();
+    RayFrame frame;
     if (this->Mesh.GetNumberOfCells() == 0 || this->Mesh.GetRadius() == 0.0 ||
-      ComputeRayFrame(input, scene.Frame) != RayFrameStatus::Ok)
+      ComputeRayFrame(input, frame) != RayFrameStatus::Ok)
     {
       return result;
     }
+    scene.Rays = PixelRays(frame, this->Size, this->Size);
+    PlaceVertices(this->Mesh, this->Scalars, scene.Rays, SerialLoop, this->Tables.Vertices);
     const TileCaster caster(scene);
     TileCaster::Workspace workspace;
     const std::vector<float> farPlane(std::size_t(this->Size) * this->Size, 1.0f);

@@ -11,16 +11,22 @@
 
 #include <cstdint>
 
+#include <glm/fwd.hpp>
+
 namespace meniscus
 {
 
-/** A vertex about which rays pass: 16 bytes. */
+struct SurfaceLighting;
+
+/** A vertex as the rays of an image see it: 16 bytes. */
 struct PacketVertex
 {
-  /** Fixed point, TetrahedralMesh::PositionUnit. */
-  std::int32_t Position[3];
+  /** Grid coordinates x, y and depth (PixelRays), depth in units of DepthUnit. */
+  std::int32_t Place[3];
   /** Normalised; NaN makes the vertex's cells transparent. */
   float Scalar;
+
+  static constexpr float DepthUnit = 1.0f / 1073741824.0f; // 2^-30
 };
 
 /** A TransferFunctionInterval in three groups of four. */
@@ -35,16 +41,14 @@ struct PacketInterval
 };
 
 /**
- * A ray and the frame about it. With p the fixed-point position of a vertex, a row's value is
- * row[0] p.x + row[1] p.y + row[2] p.z + row[3].
+ * A ray and the frame about it: where a vertex lies as seen along the ray, from which it is
+ * (u, v) = (x, y) - floor((depth * Slope + Offset) / 2^32), in grid units.
  */
 struct PacketRay
 {
-  /** Where the ray is the origin, in grid units: |u|, |v| < 2^31 for all vertices of the mesh. */
-  double U[4];
-  double V[4];
-  /** Along the ray, ascending; float holds the differences within the mesh. */
-  double Depth[4];
+  /** |u|, |v| < 2^31 for all vertices of the mesh. */
+  std::int32_t Slope[2];
+  std::int64_t Offset[2];
   /** World length of a unit of depth. */
   float LengthPerDepth;
   /** Where the ray begins and ends to count. */
@@ -75,14 +79,47 @@ struct PacketResult
   std::int32_t Lost;
 };
 
+/** What becomes of the segments of a ray: see PacketIntegral, PacketProjection, PacketIsosurfaces.
+ */
+enum class PacketBlending
+{
+  Composite,
+  Maximum,
+  Minimum,
+  Average,
+  Additive,
+  Isosurfaces
+};
+
+/** An isosurface in normalised scalars. */
+struct PacketSurface
+{
+  float Scalar;
+  float Opacity;
+  float Color[3];
+};
+
 struct PacketJob
 {
+  PacketBlending Blending;
   const PacketVertex* Vertices;
   /** Per cell, 4 ascending vertices, then 4 links (TetrahedralMesh::Cell). */
   const std::int32_t* Cells;
   std::int64_t NumberOfCells;
+  /** One normalised scalar per cell, in place of those of the vertices; null for none. */
+  const float* CellScalars;
   const PacketInterval* Intervals;
   std::int32_t NumberOfIntervals;
+  /** Ascending scalars. */
+  const PacketSurface* Surfaces;
+  std::int32_t NumberOfSurfaces;
+  /** Of surfaces; null for none. */
+  const SurfaceLighting* Lighting;
+  /** Gradients at the vertices in normalised model coordinates; null for those of the cells. */
+  const float* VertexGradients;
+  const glm::dmat3* GradientToFrame;
+  /** Grid unit of x and y, in units of the frame. */
+  double GridUnit;
   /** Rays end when their transmittance is not above it. */
   float TerminationTransmittance;
   const PacketRay* Rays;
@@ -91,6 +128,32 @@ struct PacketJob
   /** One per ray. */
   PacketResult* Results;
 };
+
+/** What isosurfaces have left of a ray. */
+struct PacketSurfaceState
+{
+  /** Premultiplied. */
+  float Color[3];
+  float Transmittance;
+  /** The isovalues next to the scalar, the lower one included. */
+  float Lower;
+  float Upper;
+};
+
+/** Part of a ray within a cell, where the scalar is linear. */
+struct PacketSegment
+{
+  float From;
+  float To;
+  float StartDepth;
+  float EndDepth;
+  /** 4 * cell + the face entered by. */
+  std::int32_t CellFace;
+  std::int32_t Ray;
+};
+
+/** Adds the isosurfaces that a segment meets, front to back. */
+void CrossSurfaces(const PacketJob& job, const PacketSegment& segment, PacketSurfaceState& state);
 
 enum class InstructionSet
 {

@@ -10,7 +10,7 @@ namespace meniscus
 //------------------------------------------------------------------------------
 void CastPacketsAVX2(const PacketJob& job)
 {
-  PacketWalk<SimdAVX2>(job).Run();
+  CastPacketsWith<SimdAVX2>(job);
 }
 
 }

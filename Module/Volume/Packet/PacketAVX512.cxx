@@ -10,7 +10,7 @@ namespace meniscus
 //------------------------------------------------------------------------------
 void CastPacketsAVX512(const PacketJob& job)
 {
-  PacketWalk<SimdAVX512>(job).Run();
+  CastPacketsWith<SimdAVX512>(job);
 }
 
 }

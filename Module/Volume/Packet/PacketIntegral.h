@@ -3,7 +3,7 @@
 #ifndef meniscus_Volume_Packet_PacketIntegral_h
 #define meniscus_Volume_Packet_PacketIntegral_h
 
-#include "Volume/Packet/Packet.h"
+#include "Volume/Packet/PacketIntervals.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,8 +28,7 @@ public:
   using Int = typename Simd::Int;
   using Mask = typename Simd::Mask;
 
-  PacketIntegral(
-    const PacketInterval* intervals, std::int32_t numberOfIntervals, float termination);
+  explicit PacketIntegral(const PacketJob& job);
 
   /** Nothing passed yet. */
   void Reset(Mask lanes)
@@ -45,11 +44,10 @@ public:
    * Gives lanes a segment each; returns those that have one to integrate. A segment with a scalar
    * that is not finite, or of no length, is none.
    */
-  Mask Begin(Mask lanes, Float from, Float to, Float length)
+  template <class Place>
+  Mask Begin(Mask lanes, Float from, Float to, Float length, const Place&)
   {
-    // Normalised scalars are in [-1, 1]: a larger change is that of a vertex without a scalar.
-    const Mask valid =
-      lanes & (Simd::Abs(to - from) < Simd::Splat(4.0f)) & (length > Simd::Splat(0.0f));
+    const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
     this->From = Simd::Select(valid, from, this->From);
     this->To = Simd::Select(valid, to, this->To);
     this->Remaining = Simd::Select(valid, length, this->Remaining);
@@ -61,23 +59,27 @@ public:
 
   /** Where the ray has not been terminated. */
   Mask IsOn() const { return this->Transmittance > this->Termination; }
-  /** Premultiplied. */
-  Float GetColor(int channel) const { return this->Color[channel]; }
-  Float GetTransmittance() const { return this->Transmittance; }
+
+  /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
+  static constexpr bool SeesJumps = false;
+  static constexpr int NumberOfValues = 4;
+  /** Of a ray that meets nothing. */
+  static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
+  /** Premultiplied colour and transmittance of each lane. */
+  void Store(float (&values)[NumberOfValues][Simd::Width]) const
+  {
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      Simd::Store(values[channel], this->Color[channel]);
+    }
+    Simd::Store(values[3], this->Transmittance);
+  }
+  static void Finish(const PacketJob&, const float (&values)[NumberOfValues], float (&color)[4])
+  {
+    FinishBlended<Simd>(values, color);
+  }
 
 private:
-  /** Of the intervals that lanes are in: the members of PacketInterval. */
-  struct Fields
-  {
-    Float Lower;
-    Float Upper;
-    Float Attenuation;
-    Float AttenuationSlope;
-    Float Color[4];
-    Float ColorSlope[4];
-  };
-  static constexpr int NumberOfFields = sizeof(PacketInterval) / sizeof(float);
-  static constexpr int LargestTable = 2 * Simd::LookupBlock;
   /**
    * Polynomials of the optical depth t of a part and the density a at its front, lowest power
    * first: 1 - exp(-t), divided by t; and, by power of a, 1 - psi, the mean over the part of what
@@ -93,20 +95,13 @@ private:
     Float ThickMean[6][5];
   };
 
-  template <int Blocks>
-  void Lookup(Fields& fields) const;
-  void Fetch(Fields& fields) const;
-  void FindIntervals(Mask lanes);
   template <std::size_t Size>
   static Float Polynomial(Float x, const Float (&coefficients)[Size], int terms = Size);
   void Absorb(Float depth, Float density, Float& gone, Float& mean) const;
   void SetCoefficients();
 
-  const PacketInterval* Intervals;
-  std::int32_t NumberOfIntervals;
+  PacketIntervals<Simd> Intervals;
   Float Termination;
-  /** Interval of each lane. */
-  Int At;
   Float From;
   Float To;
   /** Length still to integrate; 0 where there is none. */
@@ -114,18 +109,13 @@ private:
   Float Color[3];
   Float Transmittance;
   Coefficients Fit;
-  /** The intervals by field, where they fit. */
-  float Table[NumberOfFields][LargestTable];
 };
 
 //------------------------------------------------------------------------------
 template <class Simd>
-PacketIntegral<Simd>::PacketIntegral(
-  const PacketInterval* intervals, std::int32_t numberOfIntervals, float termination)
-  : Intervals(intervals)
-  , NumberOfIntervals(numberOfIntervals)
-  , Termination(Simd::Splat(termination))
-  , At(Simd::Splat(0))
+PacketIntegral<Simd>::PacketIntegral(const PacketJob& job)
+  : Intervals(job.Intervals, job.NumberOfIntervals)
+  , Termination(Simd::Splat(job.TerminationTransmittance))
   , From(Simd::Splat(0.0f))
   , To(Simd::Splat(0.0f))
   , Remaining(Simd::Splat(0.0f))
@@ -136,14 +126,6 @@ PacketIntegral<Simd>::PacketIntegral(
     channel = Simd::Splat(0.0f);
   }
   this->SetCoefficients();
-  const float* values = &intervals->Lower;
-  for (int field = 0; field < NumberOfFields; ++field)
-  {
-    for (int i = 0; i < LargestTable; ++i)
-    {
-      this->Table[field][i] = i < numberOfIntervals ? values[i * NumberOfFields + field] : 0.0f;
-    }
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -217,86 +199,15 @@ inline void PacketIntegral<Simd>::Absorb(Float depth, Float density, Float& gone
 
 //------------------------------------------------------------------------------
 template <class Simd>
-void PacketIntegral<Simd>::FindIntervals(Mask lanes)
-{
-  float scalars[Simd::Width];
-  std::int32_t at[Simd::Width];
-  Simd::Store(scalars, this->From);
-  Simd::Store(at, this->At);
-  const unsigned int bits = Simd::Bits(lanes);
-  for (int lane = 0; lane < Simd::Width; ++lane)
-  {
-    if (bits >> lane & 1u)
-    {
-      // The first interval whose upper end is not below the scalar.
-      std::int32_t first = 0;
-      std::int32_t last = this->NumberOfIntervals - 1;
-      while (first < last)
-      {
-        const std::int32_t middle = (first + last) / 2;
-        const bool below = this->Intervals[middle].Upper < scalars[lane];
-        first = below ? middle + 1 : first;
-        last = below ? last : middle;
-      }
-      at[lane] = first;
-    }
-  }
-  this->At = Simd::Load(at);
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
-template <int Blocks>
-inline void PacketIntegral<Simd>::Lookup(Fields& fields) const
-{
-  const auto& table = this->Table;
-  fields.Lower = Simd::template Lookup<Blocks>(table[0], this->At);
-  fields.Upper = Simd::template Lookup<Blocks>(table[1], this->At);
-  fields.Attenuation = Simd::template Lookup<Blocks>(table[2], this->At);
-  fields.AttenuationSlope = Simd::template Lookup<Blocks>(table[3], this->At);
-  for (int channel = 0; channel < 3; ++channel)
-  {
-    fields.Color[channel] = Simd::template Lookup<Blocks>(table[4 + channel], this->At);
-    fields.ColorSlope[channel] = Simd::template Lookup<Blocks>(table[8 + channel], this->At);
-  }
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
-inline void PacketIntegral<Simd>::Fetch(Fields& fields) const
-{
-  if (this->NumberOfIntervals <= Simd::LookupBlock)
-  {
-    this->template Lookup<1>(fields);
-    return;
-  }
-  if (this->NumberOfIntervals <= LargestTable)
-  {
-    this->template Lookup<2>(fields);
-    return;
-  }
-  const float* first = &this->Intervals->Lower;
-  Simd::template GatherQuads<NumberOfFields>(
-    first, this->At, fields.Lower, fields.Upper, fields.Attenuation, fields.AttenuationSlope);
-  Simd::template GatherQuads<NumberOfFields>(
-    first + 4, this->At, fields.Color[0], fields.Color[1], fields.Color[2], fields.Color[3]);
-  Simd::template GatherQuads<NumberOfFields>(first + 8, this->At, fields.ColorSlope[0],
-    fields.ColorSlope[1], fields.ColorSlope[2], fields.ColorSlope[3]);
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
 inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
-  Fields fields;
-  this->Fetch(fields);
+  const auto& fields = this->Intervals.GetFields();
   const Mask outside = lanes & ((this->From < fields.Lower) | (this->From > fields.Upper));
   if (Simd::Bits(outside) != 0)
   {
-    this->FindIntervals(outside);
-    this->Fetch(fields);
+    this->Intervals.Find(outside, this->From);
   }
 
   // The part of the segment that is in the interval. Without a change of scalar the share is 0 / 0,
@@ -352,7 +263,7 @@ inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
   const Mask more = lanes & (upward | downward | thick) & (this->Transmittance > this->Termination);
   this->Remaining = Simd::Select(more, this->Remaining - length, zero);
   this->From = to;
-  this->At = Simd::Decrement(downward, Simd::Increment(upward, this->At));
+  this->Intervals.Move(upward, downward);
   return more;
 }
 

@@ -10,7 +10,7 @@ namespace meniscus
 //------------------------------------------------------------------------------
 void CastPacketsPortable(const PacketJob& job)
 {
-  PacketWalk<SimdPortable>(job).Run();
+  CastPacketsWith<SimdPortable>(job);
 }
 
 }

@@ -5,6 +5,8 @@
 
 #include "Volume/Packet/Packet.h"
 #include "Volume/Packet/PacketIntegral.h"
+#include "Volume/Packet/PacketIsosurfaces.h"
+#include "Volume/Packet/PacketProjection.h"
 
 namespace meniscus
 {
@@ -21,7 +23,7 @@ namespace meniscus
  * leave by, every face and side one way to come there, and a walk that begins on the boundary ends
  * on the boundary.
  */
-template <class Simd>
+template <class Simd, class Model>
 class PacketWalk
 {
 public:
@@ -41,34 +43,54 @@ private:
     Float V;
     Float Depth;
     Float Scalar;
-    Int Id;
+    /** By vertex among those of its face: 0, 1 or 2. Cells and faces order vertices alike. */
+    Int Rank;
   };
-  /** The rows of PacketRay by lane. */
-  struct Row
+  /** What an axis of PacketRay takes off, by lane; even and odd lanes are multiplied apart. */
+  struct Shift
   {
-    double Of[4][Width];
+    std::int32_t Slope[Width];
+    std::int64_t Offset[2][Width / 2];
+
+    void Set(int lane, std::int32_t slope, std::int64_t offset)
+    {
+      this->Slope[lane] = slope;
+      this->Offset[lane % 2][lane / 2] = offset;
+    }
   };
 
-  typename Simd::Double Transform(const Row& row, Int x, Int y, Int z) const;
-  void ProjectOnGrid(Int id, Int& u, Int& v) const;
   void Place(const Float (&vertex)[4], Corner& corner) const;
   void Project(Int id, Corner& corner) const;
+  std::int32_t OnGrid(int axis, const PacketVertex& vertex, int lane) const;
   static Float EdgeArea(const Corner& p, const Corner& q, Float& excess);
   static bool TurnsLeft(const std::int32_t (&p)[3], const std::int32_t (&q)[3], float& area);
-  void MakeSure(const Corner& x, unsigned int lanes, Float (&areas)[3], Mask (&left)[3]) const;
-  /** The cell that is entered next: its vertices, its links and the vertex not seen yet. */
+  void MakeSure(
+    unsigned int lanes, const Int (&corners)[4], Float (&areas)[3], Mask (&left)[3]) const;
+  /** The cell that is entered next: the face it is entered by, its links, the vertex not seen yet.
+   */
   struct Ahead
   {
-    Int Ids[4];
+    Int Face;
     Int Links[4];
     Corner X;
+    /** Only with scalars of cells. */
+    Float CellScalar;
   };
   void Fetch(Ahead& ahead) const;
-  static Int PickByRank(Int rank, const Int (&of)[4]);
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
   void Interpolate(Float& depth, Float& scalar) const;
-  void Pass(Mask lanes);
+  /** Where a segment is, for models that ask. */
+  struct SegmentPlace
+  {
+    Float StartDepth;
+    Float EndDepth;
+    /** Of the cell, and the face entered by. */
+    Int CellFace;
+    /** Number of each lane's ray. */
+    const std::int32_t (&Rays)[Width];
+  };
+  void Pass(Mask lanes, Int cellFace, Float cellScalar);
 
   unsigned int Replace(unsigned int ended);
   bool NextEntry(int lane);
@@ -83,10 +105,8 @@ private:
   std::int32_t NextRay = 0;
   std::int32_t StepLimit;
 
-  PacketIntegral<Simd> Integral;
-  Row U;
-  Row V;
-  Row Depth;
+  Model Integral;
+  Shift Axes[2];
   // The face just entered by, counter-clockwise about the ray, and twice the areas that its edges
   // AB, BC, CA span with the ray.
   Corner A;
@@ -119,15 +139,16 @@ private:
   float StartDepths[Width];
   float EndDepths[Width];
   float LengthsPerDepth[Width];
-  float Colors[4][Width];
+  float Values[Model::NumberOfValues][Width];
+  unsigned int OnBits = 0;
 };
 
 //------------------------------------------------------------------------------
-template <class Simd>
-PacketWalk<Simd>::PacketWalk(const PacketJob& job)
+template <class Simd, class Model>
+PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   : Job(job)
   , VertexTable(&job.Vertices->Scalar - 3)
-  , Integral(job.Intervals, job.NumberOfIntervals, job.TerminationTransmittance)
+  , Integral(job)
 {
   // A ray crosses a cell once through each of its 4 faces, in 2 orientations, at the most.
   const std::int64_t limit = 8 * job.NumberOfCells;
@@ -146,17 +167,15 @@ PacketWalk<Simd>::PacketWalk(const PacketJob& job)
     this->CellFaces[lane] = this->StepsOf[lane] = 0;
     this->DepthsNow[lane] = this->StartDepths[lane] = this->EndDepths[lane] = 0.0f;
     this->LengthsPerDepth[lane] = 0.0f;
-    for (int k = 0; k < 4; ++k)
-    {
-      this->U.Of[k][lane] = this->V.Of[k][lane] = this->Depth.Of[k][lane] = 0.0;
-    }
+    this->Axes[0].Set(lane, 0, 0);
+    this->Axes[1].Set(lane, 0, 0);
   }
   this->LoadLanes();
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::Run()
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::Run()
 {
   // Replacing rays costs about as much as a step: worth it once half of the lanes wait.
   constexpr int enough = Width / 2;
@@ -183,51 +202,40 @@ void PacketWalk<Simd>::Run()
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-inline auto PacketWalk<Simd>::Transform(const Row& row, Int x, Int y, Int z) const ->
-  typename Simd::Double
+/** A vertex of the table about the rays; its Rank is left. */
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& corner) const
 {
-  return Simd::Fma(Simd::ToDouble(x), Simd::Load(row.Of[0]),
-    Simd::Fma(Simd::ToDouble(y), Simd::Load(row.Of[1]),
-      Simd::Fma(Simd::ToDouble(z), Simd::Load(row.Of[2]), Simd::Load(row.Of[3]))));
-}
-
-//------------------------------------------------------------------------------
-/** A vertex of the table about the rays; its Id is left. */
-template <class Simd>
-inline void PacketWalk<Simd>::Place(const Float (&vertex)[4], Corner& corner) const
-{
-  const Int x = Simd::AsInt(vertex[0]);
-  const Int y = Simd::AsInt(vertex[1]);
-  const Int z = Simd::AsInt(vertex[2]);
-  corner.U = Simd::ToFloat(Simd::Round(this->Transform(this->U, x, y, z)));
-  corner.V = Simd::ToFloat(Simd::Round(this->Transform(this->V, x, y, z)));
-  corner.Depth = Simd::ToFloat(this->Transform(this->Depth, x, y, z));
+  const Int depth = Simd::AsInt(vertex[2]);
+  const auto aboutRay = [&](const Shift& axis, Float place)
+  {
+    const Int shift = Simd::MultiplyHigh(depth, axis.Slope, axis.Offset[0], axis.Offset[1]);
+    return Simd::ToFloat(Simd::AsInt(place) - shift);
+  };
+  corner.U = aboutRay(this->Axes[0], vertex[0]);
+  corner.V = aboutRay(this->Axes[1], vertex[1]);
+  corner.Depth = Simd::ToFloat(depth) * Simd::Splat(PacketVertex::DepthUnit);
   corner.Scalar = vertex[3];
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::Project(Int id, Corner& corner) const
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::Project(Int id, Corner& corner) const
 {
   Float vertex[4];
   Simd::template GatherQuads<4>(this->VertexTable, id, vertex[0], vertex[1], vertex[2], vertex[3]);
   this->Place(vertex, corner);
-  corner.Id = id;
 }
 
 //------------------------------------------------------------------------------
-/** As Project, but only (u, v), and exact. */
-template <class Simd>
-void PacketWalk<Simd>::ProjectOnGrid(Int id, Int& u, Int& v) const
+/** u or v of a vertex about the ray of a lane, exactly. */
+template <class Simd, class Model>
+std::int32_t PacketWalk<Simd, Model>::OnGrid(int axis, const PacketVertex& vertex, int lane) const
 {
-  Float x;
-  Float y;
-  Float z;
-  Float scalar;
-  Simd::template GatherQuads<4>(this->VertexTable, id, x, y, z, scalar);
-  u = Simd::Round(this->Transform(this->U, Simd::AsInt(x), Simd::AsInt(y), Simd::AsInt(z)));
-  v = Simd::Round(this->Transform(this->V, Simd::AsInt(x), Simd::AsInt(y), Simd::AsInt(z)));
+  const Shift& shift = this->Axes[axis];
+  const std::int64_t product = std::int64_t{ vertex.Place[2] } * shift.Slope[lane];
+  const std::int64_t sum = product + shift.Offset[lane % 2][lane / 2];
+  return vertex.Place[axis] - static_cast<std::int32_t>(sum >> 32);
 }
 
 //------------------------------------------------------------------------------
@@ -236,8 +244,9 @@ void PacketWalk<Simd>::ProjectOnGrid(Int id, Int& u, Int& v) const
  * products and difference by as much again: by less than 2^-22 (|area| + 2 |pv qu|) in all. So the
  * sign is sure if |area| - 2^-20 |pv qu| is positive; `excess` is lowered to that.
  */
-template <class Simd>
-inline auto PacketWalk<Simd>::EdgeArea(const Corner& p, const Corner& q, Float& excess) -> Float
+template <class Simd, class Model>
+inline auto PacketWalk<Simd, Model>::EdgeArea(const Corner& p, const Corner& q, Float& excess)
+  -> Float
 {
   const Float area = Simd::CrossProduct(p.U, p.V, q.U, q.V);
   const Float bound = Simd::Abs(p.V * q.U) * Simd::Splat(9.5367431640625e-7f);
@@ -247,8 +256,8 @@ inline auto PacketWalk<Simd>::EdgeArea(const Corner& p, const Corner& q, Float& 
 
 //------------------------------------------------------------------------------
 /** Whether the ray is left of pq, exactly; each is { u, v, id }. */
-template <class Simd>
-bool PacketWalk<Simd>::TurnsLeft(
+template <class Simd, class Model>
+bool PacketWalk<Simd, Model>::TurnsLeft(
   const std::int32_t (&p)[3], const std::int32_t (&q)[3], float& area)
 {
   const std::int64_t exact = std::int64_t{ p[0] } * q[1] - std::int64_t{ p[1] } * q[0];
@@ -265,68 +274,78 @@ bool PacketWalk<Simd>::TurnsLeft(
 }
 
 //------------------------------------------------------------------------------
-/** Exact areas and signs of the edges from x to A, B, C in some lanes. */
-template <class Simd>
-void PacketWalk<Simd>::MakeSure(
-  const Corner& x, unsigned int lanes, Float (&areas)[3], Mask (&left)[3]) const
+/**
+ * Exact areas and signs, in some lanes, of the edges from the vertex ahead to A, B, C; `corners`
+ * are the places of the four in the cell.
+ */
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::MakeSure(
+  unsigned int lanes, const Int (&corners)[4], Float (&areas)[3], Mask (&left)[3]) const
 {
-  std::int32_t grid[4][3][Width];
-  const Corner* corners[4] = { &x, &this->A, &this->B, &this->C };
+  std::int32_t cellFaces[Width];
+  std::int32_t places[4][Width];
+  float exact[3][Width];
+  unsigned int bits[3];
+  Simd::Store(cellFaces, this->CellFace);
   for (int c = 0; c < 4; ++c)
   {
-    Int u;
-    Int v;
-    this->ProjectOnGrid(corners[c]->Id, u, v);
-    Simd::Store(grid[c][0], u);
-    Simd::Store(grid[c][1], v);
-    Simd::Store(grid[c][2], corners[c]->Id);
+    Simd::Store(places[c], corners[c]);
   }
   for (int edge = 0; edge < 3; ++edge)
   {
-    float exact[Width];
-    Simd::Store(exact, areas[edge]);
-    unsigned int bits = Simd::Bits(left[edge]);
-    for (int lane = 0; lane < Width; ++lane)
+    Simd::Store(exact[edge], areas[edge]);
+    bits[edge] = Simd::Bits(left[edge]);
+  }
+  for (int lane = 0; lane < Width; ++lane)
+  {
+    const unsigned int bit = 1u << lane;
+    if ((lanes & bit) == 0)
     {
-      if (lanes >> lane & 1u)
-      {
-        const auto& q = grid[edge + 1];
-        const bool turns = TurnsLeft({ grid[0][0][lane], grid[0][1][lane], grid[0][2][lane] },
-          { q[0][lane], q[1][lane], q[2][lane] }, exact[lane]);
-        bits = turns ? bits | 1u << lane : bits & ~(1u << lane);
-      }
+      continue;
     }
-    areas[edge] = Simd::Load(exact);
-    left[edge] = Simd::FromBits(bits);
+    const std::int32_t* cell = this->Job.Cells + 8 * std::int64_t{ cellFaces[lane] >> 2 };
+    std::int32_t grid[4][3];
+    for (int c = 0; c < 4; ++c)
+    {
+      grid[c][2] = cell[places[c][lane]];
+      const PacketVertex& vertex = this->Job.Vertices[grid[c][2]];
+      grid[c][0] = this->OnGrid(0, vertex, lane);
+      grid[c][1] = this->OnGrid(1, vertex, lane);
+    }
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const bool turns = TurnsLeft(grid[0], grid[edge + 1], exact[edge][lane]);
+      bits[edge] = turns ? bits[edge] | bit : bits[edge] & ~bit;
+    }
+  }
+  for (int edge = 0; edge < 3; ++edge)
+  {
+    areas[edge] = Simd::Load(exact[edge]);
+    left[edge] = Simd::FromBits(bits[edge]);
   }
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-inline void PacketWalk<Simd>::Fetch(Ahead& ahead) const
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
 {
   // Lanes outside of the mesh look at cell 0.
   const Int zero = Simd::Splat(0);
   const Int cellFace = Simd::Select(this->CellFace < zero, zero, this->CellFace);
   Float vertex[4];
-  Simd::GatherCells(this->Job.Cells, this->VertexTable, cellFace, ahead.Ids, ahead.Links, vertex);
+  ahead.Face = Simd::And(cellFace, Simd::Splat(3));
+  Simd::GatherCells(this->Job.Cells, this->VertexTable, cellFace, ahead.Links, vertex);
   this->Place(vertex, ahead.X);
-  ahead.X.Id = PickByRank(Simd::And(cellFace, Simd::Splat(3)), ahead.Ids);
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
-inline auto PacketWalk<Simd>::PickByRank(Int rank, const Int (&of)[4]) -> Int
-{
-  const Int low = Simd::Select(rank > Simd::Splat(0), of[1], of[0]);
-  const Int high = Simd::Select(rank > Simd::Splat(2), of[3], of[2]);
-  return Simd::Select(rank > Simd::Splat(1), high, low);
+  if (this->Job.CellScalars)
+  {
+    ahead.CellScalar = Simd::GatherCellScalars(this->Job.CellScalars, cellFace);
+  }
 }
 
 //------------------------------------------------------------------------------
 /** Crosses the cells of `lanes` and gives the segments passed to the integral. */
-template <class Simd>
-inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
 {
   const Corner& x = ahead.X;
   const Float zero = Simd::Splat(0.0f);
@@ -334,10 +353,19 @@ inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
   Float areas[3] = { EdgeArea(x, this->A, excess), EdgeArea(x, this->B, excess),
     EdgeArea(x, this->C, excess) };
   Mask left[3] = { areas[0] > zero, areas[1] > zero, areas[2] > zero };
+
+  // Places of the vertices in the cell: a face's ranks leave out that of the vertex opposite. In
+  // lanes that stay where they are the last place takes that part, which changes nothing.
+  const Int last = Simd::Splat(3);
+  const Int face = Simd::Select(lanes, ahead.Face, last);
+  const Int before = face - Simd::Splat(1);
+  const auto placeOf = [&](const Corner& corner)
+  { return Simd::Increment(corner.Rank > before, corner.Rank); };
+  const Int places[4] = { face, placeOf(this->A), placeOf(this->B), placeOf(this->C) };
   const unsigned int unsureBits = Simd::Bits(Simd::AndNot(lanes, excess > zero));
   if (unsureBits != 0)
   {
-    this->MakeSure(x, unsureBits, areas, left);
+    this->MakeSure(unsureBits, places, areas, left);
   }
 
   // The ray leaves between two consecutive edges from x, left of one and right of the next. The
@@ -345,12 +373,9 @@ inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
   const Mask dropC = Simd::AndNot(left[0], left[1]);
   const Mask dropA = Simd::AndNot(Simd::AndNot(left[1], left[2]), dropC);
   const Mask keepB = dropC | dropA;
-  const Int dropped = Simd::Select(dropA, this->A.Id, Simd::Select(dropC, this->C.Id, this->B.Id));
-  Int link = ahead.Links[0];
-  for (int rank = 1; rank < 4; ++rank)
-  {
-    link = Simd::Select(Simd::Equal(dropped, ahead.Ids[rank]), ahead.Links[rank], link);
-  }
+  const Int opposite = Simd::Select(dropA, places[1], Simd::Select(dropC, places[3], places[2]));
+  const Int link = Simd::Pick(opposite, ahead.Links);
+  const Int dropped = Simd::Select(lanes, opposite, last);
 
   // The exit face: x takes the dropped vertex's place, which keeps the sense of rotation.
   const Mask replaceA = dropA & lanes;
@@ -363,29 +388,36 @@ inline void PacketWalk<Simd>::Step(Mask lanes, const Ahead& ahead)
   this->AreaAB = Simd::Select(replaceA, areas[1], Simd::Select(replaceB, areas[0], this->AreaAB));
   this->AreaBC = Simd::Select(replaceB, areas[2], Simd::Select(replaceC, areas[1], this->AreaBC));
   this->AreaCA = Simd::Select(replaceA, areas[2], Simd::Select(replaceC, areas[0], this->AreaCA));
-  ReplaceCorner(replaceA, x, this->A);
-  ReplaceCorner(replaceB, x, this->B);
-  ReplaceCorner(replaceC, x, this->C);
+  const auto replace = [&](Mask replaced, Int place, Corner& corner)
+  {
+    ReplaceCorner(replaced, x, corner);
+    const Int kept = Simd::Select(replaced, face, place);
+    corner.Rank = Simd::Decrement(kept > dropped, kept);
+  };
+  replace(replaceA, places[1], this->A);
+  replace(replaceB, places[2], this->B);
+  replace(replaceC, places[3], this->C);
+  const Int crossed = this->CellFace;
   this->CellFace = Simd::Select(lanes, link, this->CellFace);
   this->Steps = this->Steps + Simd::One(lanes);
-  this->Pass(lanes);
+  this->Pass(lanes, crossed, ahead.CellScalar);
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-inline void PacketWalk<Simd>::ReplaceCorner(Mask lanes, const Corner& x, Corner& corner)
+/** All but its Rank. */
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, Corner& corner)
 {
   corner.U = Simd::Select(lanes, x.U, corner.U);
   corner.V = Simd::Select(lanes, x.V, corner.V);
   corner.Depth = Simd::Select(lanes, x.Depth, corner.Depth);
   corner.Scalar = Simd::Select(lanes, x.Scalar, corner.Scalar);
-  corner.Id = Simd::Select(lanes, x.Id, corner.Id);
 }
 
 //------------------------------------------------------------------------------
 /** Depth and scalar where the ray meets ABC; a face without projected area keeps what is given. */
-template <class Simd>
-inline void PacketWalk<Simd>::Interpolate(Float& depth, Float& scalar) const
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Interpolate(Float& depth, Float& scalar) const
 {
   const Float total = this->AreaAB + this->AreaBC + this->AreaCA;
   const Mask real = total > Simd::Splat(0.0f);
@@ -398,8 +430,8 @@ inline void PacketWalk<Simd>::Interpolate(Float& depth, Float& scalar) const
 
 //------------------------------------------------------------------------------
 /** Gives the integral what lies between the last face and this one. */
-template <class Simd>
-inline void PacketWalk<Simd>::Pass(Mask lanes)
+template <class Simd, class Model>
+inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, Float cellScalar)
 {
   Float depth = this->FaceDepth;
   Float scalar = this->FaceScalar;
@@ -412,18 +444,34 @@ inline void PacketWalk<Simd>::Pass(Mask lanes)
   Float to = scalar;
   const Mask late = start > this->FaceDepth;
   const Mask early = depth > end;
-  if (Simd::Bits(lanes & (late | early)) != 0)
+  if (this->Job.CellScalars)
+  {
+    // A jump counts where the cell is entered, unless the ray begins behind that.
+    to = cellScalar;
+    from = Simd::Select(this->StartDepth > this->FaceDepth, to, this->FaceScalar);
+    from = Model::SeesJumps ? from : to;
+  }
+  else if (Simd::Bits(lanes & (late | early)) != 0)
   {
     const Float perDepth = (scalar - this->FaceScalar) / (depth - this->FaceDepth);
     from = Simd::Select(late, Simd::Fma(start - this->FaceDepth, perDepth, this->FaceScalar), from);
     to = Simd::Select(early, Simd::Fma(end - this->FaceDepth, perDepth, this->FaceScalar), to);
   }
   const Mask segment = lanes & (end > start);
-  this->Pending =
-    this->Pending | this->Integral.Begin(segment, from, to, (end - start) * this->LengthPerDepth);
+  const SegmentPlace place{ start, end, cellFace, this->Ray };
+  this->Pending = this->Pending |
+    this->Integral.Begin(segment, from, to, (end - start) * this->LengthPerDepth, place);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
   this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
-  this->FaceScalar = Simd::Select(lanes, scalar, this->FaceScalar);
+  Mask known = lanes;
+  if (this->Job.CellScalars)
+  {
+    // Of the last cell that counted.
+    known = SegmentsOf<Simd>(segment, from, to, end - start) |
+      Simd::AndNot(lanes, depth > this->StartDepth);
+    scalar = cellScalar;
+  }
+  this->FaceScalar = Simd::Select(known, scalar, this->FaceScalar);
 }
 
 //------------------------------------------------------------------------------
@@ -431,8 +479,8 @@ inline void PacketWalk<Simd>::Pass(Mask lanes)
  * Gives lanes whose walk has ended the next entry of their ray or the next ray. Returns the lanes
  * that have a ray.
  */
-template <class Simd>
-unsigned int PacketWalk<Simd>::Replace(unsigned int ended)
+template <class Simd, class Model>
+unsigned int PacketWalk<Simd, Model>::Replace(unsigned int ended)
 {
   this->StoreLanes();
   unsigned int busy = Simd::Bits(this->Busy);
@@ -467,14 +515,14 @@ unsigned int PacketWalk<Simd>::Replace(unsigned int ended)
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-bool PacketWalk<Simd>::NextEntry(int lane)
+template <class Simd, class Model>
+bool PacketWalk<Simd, Model>::NextEntry(int lane)
 {
   const PacketRay& ray = this->Job.Rays[this->Ray[lane]];
   const std::int32_t next = this->Entry[lane] + 1;
   if (next >= ray.EndEntry || this->CellFaces[lane] >= 0 ||
     !(this->DepthsNow[lane] < ray.EndDepth) || !(this->Job.Entries[next].Depth < ray.EndDepth) ||
-    !(this->Colors[3][lane] > this->Job.TerminationTransmittance))
+    (this->OnBits >> lane & 1u) == 0)
   {
     return false;
   }
@@ -490,20 +538,22 @@ bool PacketWalk<Simd>::NextEntry(int lane)
 
 //------------------------------------------------------------------------------
 /** Starts the next ray that has an entry before its end; false if there is none. */
-template <class Simd>
-bool PacketWalk<Simd>::TakeRay(int lane)
+template <class Simd, class Model>
+bool PacketWalk<Simd, Model>::TakeRay(int lane)
 {
   while (this->NextRay < this->Job.NumberOfRays)
   {
     const std::int32_t number = this->NextRay++;
     const PacketRay& ray = this->Job.Rays[number];
-    for (int k = 0; k < 4; ++k)
+    for (int axis = 0; axis < 2; ++axis)
     {
-      this->U.Of[k][lane] = ray.U[k];
-      this->V.Of[k][lane] = ray.V[k];
-      this->Depth.Of[k][lane] = ray.Depth[k];
-      this->Colors[k][lane] = k == 3 ? 1.0f : 0.0f;
+      this->Axes[axis].Set(lane, ray.Slope[axis], ray.Offset[axis]);
     }
+    for (int k = 0; k < Model::NumberOfValues; ++k)
+    {
+      this->Values[k][lane] = Model::Empty[k];
+    }
+    this->OnBits |= 1u << lane;
     this->LengthsPerDepth[lane] = ray.LengthPerDepth;
     this->StartDepths[lane] = ray.StartDepth;
     this->EndDepths[lane] = ray.EndDepth;
@@ -523,36 +573,34 @@ bool PacketWalk<Simd>::TakeRay(int lane)
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::Finish(int lane)
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::Finish(int lane)
 {
   PacketResult& result = this->Job.Results[this->Ray[lane]];
-  for (int channel = 0; channel < 3; ++channel)
+  float values[Model::NumberOfValues];
+  for (int k = 0; k < Model::NumberOfValues; ++k)
   {
-    result.Color[channel] = this->Colors[channel][lane];
+    values[k] = this->Values[k][lane];
   }
-  result.Color[3] = 1.0f - this->Colors[3][lane];
+  Model::Finish(this->Job, values, result.Color);
   result.Steps = this->StepsOf[lane];
   result.Lost = this->StepsOf[lane] >= this->StepLimit && this->CellFaces[lane] >= 0 ? 1 : 0;
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::StoreLanes()
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::StoreLanes()
 {
   Simd::Store(this->DepthsNow, this->DepthNow);
   Simd::Store(this->StepsOf, this->Steps);
   Simd::Store(this->CellFaces, this->CellFace);
-  for (int channel = 0; channel < 3; ++channel)
-  {
-    Simd::Store(this->Colors[channel], this->Integral.GetColor(channel));
-  }
-  Simd::Store(this->Colors[3], this->Integral.GetTransmittance());
+  this->Integral.Store(this->Values);
+  this->OnBits = Simd::Bits(this->Integral.IsOn());
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::LoadLanes()
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::LoadLanes()
 {
   this->DepthNow = Simd::Load(this->DepthsNow);
   this->Steps = Simd::Load(this->StepsOf);
@@ -563,15 +611,21 @@ void PacketWalk<Simd>::LoadLanes()
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketWalk<Simd>::Enter(Mask lanes)
+template <class Simd, class Model>
+void PacketWalk<Simd, Model>::Enter(Mask lanes)
 {
   Corner* const corners[3] = { &this->A, &this->B, &this->C };
+  const Int ids[3] = { Simd::Load(this->Ids[0]), Simd::Load(this->Ids[1]),
+    Simd::Load(this->Ids[2]) };
   for (int i = 0; i < 3; ++i)
   {
     Corner x;
-    this->Project(Simd::Load(this->Ids[i]), x);
+    this->Project(ids[i], x);
     ReplaceCorner(lanes, x, *corners[i]);
+    Int rank = Simd::Splat(0);
+    rank = Simd::Increment(ids[i] > ids[(i + 1) % 3], rank);
+    rank = Simd::Increment(ids[i] > ids[(i + 2) % 3], rank);
+    corners[i]->Rank = Simd::Select(lanes, rank, corners[i]->Rank);
   }
   const auto area = [lanes](const Corner& p, const Corner& q, Float& kept)
   { kept = Simd::Select(lanes, Simd::Abs(Simd::CrossProduct(p.U, p.V, q.U, q.V)), kept); };
@@ -582,9 +636,33 @@ void PacketWalk<Simd>::Enter(Mask lanes)
   Float depth = this->A.Depth;
   Float scalar = this->A.Scalar;
   this->Interpolate(depth, scalar);
+  if (this->Job.CellScalars)
+  {
+    const Int zero = Simd::Splat(0);
+    scalar = Simd::GatherCellScalars(
+      this->Job.CellScalars, Simd::Select(this->CellFace < zero, zero, this->CellFace));
+  }
   this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
   this->FaceScalar = Simd::Select(lanes, scalar, this->FaceScalar);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+void CastPacketsWith(const PacketJob& job)
+{
+  if (job.Blending == PacketBlending::Composite)
+  {
+    PacketWalk<Simd, PacketIntegral<Simd>>(job).Run();
+  }
+  else if (job.Blending == PacketBlending::Isosurfaces)
+  {
+    PacketWalk<Simd, PacketIsosurfaces<Simd>>(job).Run();
+  }
+  else
+  {
+    PacketWalk<Simd, PacketProjection<Simd>>(job).Run();
+  }
 }
 
 }

@@ -46,24 +46,10 @@ struct SimdAVX2
     }
   };
 
-  struct Double
-  {
-    __m256d Low;
-    __m256d High;
-    friend Double operator+(Double a, Double b)
-    {
-      return { _mm256_add_pd(a.Low, b.Low), _mm256_add_pd(a.High, b.High) };
-    }
-  };
-
   static Float Load(const float* from) { return { _mm256_loadu_ps(from) }; }
   static Int Load(const std::int32_t* from)
   {
     return { _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from)) };
-  }
-  static Double Load(const double* from)
-  {
-    return { _mm256_loadu_pd(from), _mm256_loadu_pd(from + 4) };
   }
   static void Store(float* to, Float x) { _mm256_storeu_ps(to, x.V); }
   static void Store(std::int32_t* to, Int x)
@@ -74,10 +60,6 @@ struct SimdAVX2
   static Int Splat(std::int32_t value) { return { _mm256_set1_epi32(value) }; }
 
   static Float Fma(Float a, Float b, Float c) { return { _mm256_fmadd_ps(a.V, b.V, c.V) }; }
-  static Double Fma(Double a, Double b, Double c)
-  {
-    return { _mm256_fmadd_pd(a.Low, b.Low, c.Low), _mm256_fmadd_pd(a.High, b.High, c.High) };
-  }
   static Float CrossProduct(Float a, Float b, Float c, Float d)
   {
     // Kahan's difference of products, within 1.5 units in the last place of the result.
@@ -101,6 +83,11 @@ struct SimdAVX2
   }
   static Int One(Mask mask) { return { _mm256_srli_epi32(_mm256_castps_si256(mask.Bits), 31) }; }
   static Mask AndNot(Mask a, Mask b) { return { _mm256_andnot_ps(b.Bits, a.Bits) }; }
+  static Mask Not(Mask a)
+  {
+    const __m256i all = _mm256_set1_epi32(-1);
+    return { _mm256_xor_ps(a.Bits, _mm256_castsi256_ps(all)) };
+  }
   static unsigned int Bits(Mask mask)
   {
     return static_cast<unsigned int>(_mm256_movemask_ps(mask.Bits));
@@ -122,18 +109,23 @@ struct SimdAVX2
   }
   static Int And(Int a, Int b) { return { _mm256_and_si256(a.V, b.V) }; }
   static Float ToFloat(Int a) { return { _mm256_cvtepi32_ps(a.V) }; }
-  static Float ToFloat(Double a)
+  static Int MultiplyHigh(
+    Int a, const std::int32_t* b, const std::int64_t* evenAddend, const std::int64_t* oddAddend)
   {
-    return { _mm256_set_m128(_mm256_cvtpd_ps(a.High), _mm256_cvtpd_ps(a.Low)) };
+    const auto load = [](const void* from)
+    { return _mm256_loadu_si256(static_cast<const __m256i*>(from)); };
+    const __m256i factor = load(b);
+    const __m256i even = _mm256_add_epi64(_mm256_mul_epi32(a.V, factor), load(evenAddend));
+    const __m256i odd = _mm256_add_epi64(
+      _mm256_mul_epi32(_mm256_srli_epi64(a.V, 32), _mm256_srli_epi64(factor, 32)), load(oddAddend));
+    return { _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa) };
   }
-  static Double ToDouble(Int a)
+  static Int Pick(Int index, const Int (&of)[4])
   {
-    return { _mm256_cvtepi32_pd(_mm256_castsi256_si128(a.V)),
-      _mm256_cvtepi32_pd(_mm256_extracti128_si256(a.V, 1)) };
-  }
-  static Int Round(Double a)
-  {
-    return { _mm256_set_m128i(_mm256_cvtpd_epi32(a.High), _mm256_cvtpd_epi32(a.Low)) };
+    // Bits 0 and 1 of the index, moved to where the blend looks.
+    const Mask odd{ _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 31)) };
+    const Mask high{ _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 30)) };
+    return Select(high, Select(odd, of[3], of[2]), Select(odd, of[1], of[0]));
   }
 
   template <int Stride>
@@ -149,24 +141,29 @@ struct SimdAVX2
     Transpose(rows, x, y, z, w);
   }
   static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
-    Int (&ids)[4], Int (&links)[4], Float (&vertex)[4])
+    Int (&links)[4], Float (&vertex)[4])
   {
-    std::int32_t at[Width];
-    Store(at, cellFace);
-    const float* cellRows[Width];
+    const __m256i face = _mm256_and_si256(cellFace.V, _mm256_set1_epi32(3));
+    const __m256i cell = _mm256_slli_epi32(_mm256_sub_epi32(cellFace.V, face), 1);
+    // Up to 8 * 2^29 - 1: unsigned.
+    std::uint32_t cellAt[Width];
+    std::uint32_t oppositeAt[Width];
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(cellAt), cell);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(oppositeAt), _mm256_or_si256(cell, face));
     const float* linkRows[Width];
     const float* vertexRows[Width];
     for (int i = 0; i < Width; ++i)
     {
-      const std::int64_t face = at[i] & 3;
-      const std::int32_t* cell = cells + 2 * (at[i] - face);
-      vertexRows[i] = vertices + 4 * std::int64_t{ cell[face] };
-      cellRows[i] = reinterpret_cast<const float*>(cell);
-      linkRows[i] = cellRows[i] + 4;
+      vertexRows[i] = vertices + 4 * std::int64_t{ cells[oppositeAt[i]] };
+      linkRows[i] = reinterpret_cast<const float*>(cells + 4 + cellAt[i]);
     }
     Transpose(vertexRows, vertex[0], vertex[1], vertex[2], vertex[3]);
-    TransposeInts(cellRows, ids);
-    TransposeInts(linkRows, links);
+    Float bits[4];
+    Transpose(linkRows, bits[0], bits[1], bits[2], bits[3]);
+    for (int k = 0; k < 4; ++k)
+    {
+      links[k] = AsInt(bits[k]);
+    }
   }
   /** Four floats from each of the rows. */
   static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
@@ -189,14 +186,9 @@ struct SimdAVX2
     z.V = _mm256_shuffle_ps(zw01, zw23, _MM_SHUFFLE(1, 0, 1, 0));
     w.V = _mm256_shuffle_ps(zw01, zw23, _MM_SHUFFLE(3, 2, 3, 2));
   }
-  static void TransposeInts(const float* const (&rows)[Width], Int (&columns)[4])
+  static Float GatherCellScalars(const float* scalars, Int cellFace)
   {
-    Float bits[4];
-    Transpose(rows, bits[0], bits[1], bits[2], bits[3]);
-    for (int k = 0; k < 4; ++k)
-    {
-      columns[k] = AsInt(bits[k]);
-    }
+    return { _mm256_i32gather_ps(scalars, _mm256_srli_epi32(cellFace.V, 2), 4) };
   }
   static constexpr int LookupBlock = 8;
   template <int Blocks>
@@ -212,7 +204,6 @@ struct SimdAVX2
     const __m256 second = _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 28));
     return { _mm256_blendv_ps(low, high, second) };
   }
-  static Mask Equal(Int a, Int b) { return { _mm256_castsi256_ps(_mm256_cmpeq_epi32(a.V, b.V)) }; }
   static Int AsInt(Float a) { return { _mm256_castps_si256(a.V) }; }
 };
 

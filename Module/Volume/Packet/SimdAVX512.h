@@ -42,32 +42,14 @@ struct SimdAVX512
     friend Mask operator>(Int a, Int b) { return { _mm512_cmpgt_epi32_mask(a.V, b.V) }; }
   };
 
-  struct Double
-  {
-    __m512d Low;
-    __m512d High;
-    friend Double operator+(Double a, Double b)
-    {
-      return { _mm512_add_pd(a.Low, b.Low), _mm512_add_pd(a.High, b.High) };
-    }
-  };
-
   static Float Load(const float* from) { return { _mm512_loadu_ps(from) }; }
   static Int Load(const std::int32_t* from) { return { _mm512_loadu_si512(from) }; }
-  static Double Load(const double* from)
-  {
-    return { _mm512_loadu_pd(from), _mm512_loadu_pd(from + 8) };
-  }
   static void Store(float* to, Float x) { _mm512_storeu_ps(to, x.V); }
   static void Store(std::int32_t* to, Int x) { _mm512_storeu_si512(to, x.V); }
   static Float Splat(float value) { return { _mm512_set1_ps(value) }; }
   static Int Splat(std::int32_t value) { return { _mm512_set1_epi32(value) }; }
 
   static Float Fma(Float a, Float b, Float c) { return { _mm512_fmadd_ps(a.V, b.V, c.V) }; }
-  static Double Fma(Double a, Double b, Double c)
-  {
-    return { _mm512_fmadd_pd(a.Low, b.Low, c.Low), _mm512_fmadd_pd(a.High, b.High, c.High) };
-  }
   static Float CrossProduct(Float a, Float b, Float c, Float d)
   {
     // Kahan's difference of products, within 1.5 units in the last place of the result.
@@ -90,6 +72,7 @@ struct SimdAVX512
   }
   static Int One(Mask mask) { return { _mm512_maskz_set1_epi32(mask.Lanes, 1) }; }
   static Mask AndNot(Mask a, Mask b) { return { _mm512_kandn(b.Lanes, a.Lanes) }; }
+  static Mask Not(Mask a) { return { _mm512_knot(a.Lanes) }; }
   static unsigned int Bits(Mask mask) { return mask.Lanes; }
   static Mask FromBits(unsigned int bits) { return { static_cast<__mmask16>(bits) }; }
 
@@ -103,21 +86,22 @@ struct SimdAVX512
   }
   static Int And(Int a, Int b) { return { _mm512_and_si512(a.V, b.V) }; }
   static Float ToFloat(Int a) { return { _mm512_cvtepi32_ps(a.V) }; }
-  static Float ToFloat(Double a)
+  static Int MultiplyHigh(
+    Int a, const std::int32_t* b, const std::int64_t* evenAddend, const std::int64_t* oddAddend)
   {
-    const __m512d low = _mm512_castpd256_pd512(_mm256_castps_pd(_mm512_cvtpd_ps(a.Low)));
-    return { _mm512_castpd_ps(
-      _mm512_insertf64x4(low, _mm256_castps_pd(_mm512_cvtpd_ps(a.High)), 1)) };
+    const __m512i factor = _mm512_loadu_si512(b);
+    const __m512i even =
+      _mm512_add_epi64(_mm512_mul_epi32(a.V, factor), _mm512_loadu_si512(evenAddend));
+    const __m512i odd =
+      _mm512_add_epi64(_mm512_mul_epi32(_mm512_srli_epi64(a.V, 32), _mm512_srli_epi64(factor, 32)),
+        _mm512_loadu_si512(oddAddend));
+    return { _mm512_mask_blend_epi32(0xaaaa, _mm512_srli_epi64(even, 32), odd) };
   }
-  static Double ToDouble(Int a)
+  static Int Pick(Int index, const Int (&of)[4])
   {
-    return { _mm512_cvtepi32_pd(_mm512_castsi512_si256(a.V)),
-      _mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(a.V, 1)) };
-  }
-  static Int Round(Double a)
-  {
-    return { _mm512_inserti64x4(
-      _mm512_castsi256_si512(_mm512_cvtpd_epi32(a.Low)), _mm512_cvtpd_epi32(a.High), 1) };
+    const Mask odd{ _mm512_test_epi32_mask(index.V, _mm512_set1_epi32(1)) };
+    const Mask high{ _mm512_test_epi32_mask(index.V, _mm512_set1_epi32(2)) };
+    return Select(high, Select(odd, of[3], of[2]), Select(odd, of[1], of[0]));
   }
 
   template <int Stride>
@@ -133,24 +117,29 @@ struct SimdAVX512
     Transpose(rows, x, y, z, w);
   }
   static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
-    Int (&ids)[4], Int (&links)[4], Float (&vertex)[4])
+    Int (&links)[4], Float (&vertex)[4])
   {
-    std::int32_t at[Width];
-    Store(at, cellFace);
-    const float* cellRows[Width];
+    const __m512i face = _mm512_and_si512(cellFace.V, _mm512_set1_epi32(3));
+    const __m512i cell = _mm512_slli_epi32(_mm512_sub_epi32(cellFace.V, face), 1);
+    // Up to 8 * 2^29 - 1: unsigned.
+    std::uint32_t cellAt[Width];
+    std::uint32_t oppositeAt[Width];
+    _mm512_storeu_si512(cellAt, cell);
+    _mm512_storeu_si512(oppositeAt, _mm512_or_si512(cell, face));
     const float* linkRows[Width];
     const float* vertexRows[Width];
     for (int i = 0; i < Width; ++i)
     {
-      const std::int64_t face = at[i] & 3;
-      const std::int32_t* cell = cells + 2 * (at[i] - face);
-      vertexRows[i] = vertices + 4 * std::int64_t{ cell[face] };
-      cellRows[i] = reinterpret_cast<const float*>(cell);
-      linkRows[i] = cellRows[i] + 4;
+      vertexRows[i] = vertices + 4 * std::int64_t{ cells[oppositeAt[i]] };
+      linkRows[i] = reinterpret_cast<const float*>(cells + 4 + cellAt[i]);
     }
     Transpose(vertexRows, vertex[0], vertex[1], vertex[2], vertex[3]);
-    TransposeInts(cellRows, ids);
-    TransposeInts(linkRows, links);
+    Float bits[4];
+    Transpose(linkRows, bits[0], bits[1], bits[2], bits[3]);
+    for (int k = 0; k < 4; ++k)
+    {
+      links[k] = AsInt(bits[k]);
+    }
   }
   /** Four floats from each of the rows. */
   static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
@@ -175,14 +164,9 @@ struct SimdAVX512
     z.V = _mm512_shuffle_ps(zw01, zw23, _MM_SHUFFLE(1, 0, 1, 0));
     w.V = _mm512_shuffle_ps(zw01, zw23, _MM_SHUFFLE(3, 2, 3, 2));
   }
-  static void TransposeInts(const float* const (&rows)[Width], Int (&columns)[4])
+  static Float GatherCellScalars(const float* scalars, Int cellFace)
   {
-    Float bits[4];
-    Transpose(rows, bits[0], bits[1], bits[2], bits[3]);
-    for (int k = 0; k < 4; ++k)
-    {
-      columns[k] = AsInt(bits[k]);
-    }
+    return { _mm512_i32gather_ps(_mm512_srli_epi32(cellFace.V, 2), scalars, 4) };
   }
   static constexpr int LookupBlock = 16;
   template <int Blocks>
@@ -194,7 +178,6 @@ struct SimdAVX512
     }
     return { _mm512_permutex2var_ps(_mm512_loadu_ps(table), index.V, _mm512_loadu_ps(table + 16)) };
   }
-  static Mask Equal(Int a, Int b) { return { _mm512_cmpeq_epi32_mask(a.V, b.V) }; }
   static Int AsInt(Float a) { return { _mm512_castps_si512(a.V) }; }
 };
 

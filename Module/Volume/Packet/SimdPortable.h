@@ -73,7 +73,7 @@ inline PortableLanes<bool> operator|(const PortableLanes<bool>& a, const Portabl
  * Packets of 4 lanes in plain C++, for any processor. SimdAVX2 and SimdAVX512 offer the same names
  * with intrinsics; they are all that the templates of the ray caster use.
  *
- * Float, Int (32 bits), Double and Mask hold one value per lane. Comparisons with NaN are false;
+ * Float, Int (32 bits) and Mask hold one value per lane. Comparisons with NaN are false;
  * Min and Max return their second argument then.
  */
 struct SimdPortable
@@ -81,7 +81,6 @@ struct SimdPortable
   static constexpr int Width = PortableWidth;
   using Float = PortableLanes<float>;
   using Int = PortableLanes<std::int32_t>;
-  using Double = PortableLanes<double>;
   using Mask = PortableLanes<bool>;
 
   template <typename T>
@@ -150,6 +149,10 @@ struct SimdPortable
   {
     return EachLane<bool>([](bool x, bool y) { return x && !y; }, a, b);
   }
+  static Mask Not(const Mask& a)
+  {
+    return EachLane<bool>([](bool x) { return !x; }, a);
+  }
   /** Bit i is lane i. */
   static unsigned int Bits(const Mask& mask)
   {
@@ -181,19 +184,30 @@ struct SimdPortable
   {
     return EachLane<float>([](std::int32_t x) { return static_cast<float>(x); }, a);
   }
-  static Float ToFloat(const Double& a)
+  /**
+   * The upper half of a * b + addend in 64 bits, rounded down; the addends of even and of odd lanes
+   * are apart.
+   */
+  static Int MultiplyHigh(const Int& a, const std::int32_t* b, const std::int64_t* evenAddend,
+    const std::int64_t* oddAddend)
   {
-    return EachLane<float>([](double x) { return static_cast<float>(x); }, a);
+    Int result;
+    for (int i = 0; i < Width; ++i)
+    {
+      const std::int64_t addend = (i % 2 == 0 ? evenAddend : oddAddend)[i / 2];
+      result.Of[i] = static_cast<std::int32_t>((std::int64_t{ a.Of[i] } * b[i] + addend) >> 32);
+    }
+    return result;
   }
-  static Double ToDouble(const Int& a)
+  /** Per lane, of[index]. */
+  static Int Pick(const Int& index, const Int (&of)[4])
   {
-    return EachLane<double>([](std::int32_t x) { return static_cast<double>(x); }, a);
-  }
-  /** To the nearest integer; values are within +-2^31. */
-  static Int Round(const Double& a)
-  {
-    return EachLane<std::int32_t>(
-      [](double x) { return static_cast<std::int32_t>(std::lrint(x)); }, a);
+    Int result;
+    for (int i = 0; i < Width; ++i)
+    {
+      result.Of[i] = of[index.Of[i]].Of[i];
+    }
+    return result;
   }
 
   /** Per lane, the four floats from `from + Stride * index`. */
@@ -211,11 +225,11 @@ struct SimdPortable
     }
   }
   /**
-   * For cell and face number cellFace / 4 and cellFace % 4: the vertices and links of the cell, 8
-   * integers from `cells + 8 cell`, and the four floats of its vertex opposite to the face.
+   * For cell and face number cellFace / 4 and cellFace % 4: the links of the cell, of the integers
+   * from `cells + 8 cell` the last four, and the four floats of its vertex opposite to the face.
    */
   static void GatherCells(const std::int32_t* cells, const float* vertices, const Int& cellFace,
-    Int (&ids)[4], Int (&links)[4], Float (&vertex)[4])
+    Int (&links)[4], Float (&vertex)[4])
   {
     for (int i = 0; i < Width; ++i)
     {
@@ -224,11 +238,15 @@ struct SimdPortable
       const float* opposite = vertices + 4 * std::int64_t{ cell[face] };
       for (int k = 0; k < 4; ++k)
       {
-        ids[k].Of[i] = cell[k];
         links[k].Of[i] = cell[4 + k];
         vertex[k].Of[i] = opposite[k];
       }
     }
+  }
+  /** scalars[cellFace / 4]. */
+  static Float GatherCellScalars(const float* scalars, const Int& cellFace)
+  {
+    return EachLane<float>([scalars](std::int32_t i) { return scalars[i / 4]; }, cellFace);
   }
   /** table[index], of a table of `Blocks` (1 or 2) times LookupBlock entries. */
   static constexpr int LookupBlock = 8;
@@ -236,10 +254,6 @@ struct SimdPortable
   static Float Lookup(const float* table, const Int& index)
   {
     return EachLane<float>([table](std::int32_t i) { return table[i]; }, index);
-  }
-  static Mask Equal(const Int& a, const Int& b)
-  {
-    return EachLane<bool>([](std::int32_t x, std::int32_t y) { return x == y; }, a, b);
   }
   /** The same bits. */
   static Int AsInt(const Float& a)

@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Reflectance by either model, and normals for the lighting of virtual geometry.
+#include "HeightField.h"
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using meniscus::reference::HeightField;
+
+const double Pi = std::acos(-1.0);
+const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
+const glm::dvec3 Eye(20.0, 300.0, 10.0);
+
+/// A grid with unit normals that differ from point to point, none of them along an axis.
+vtkSmartPointer<vtkPolyData> MakeLitGrid(double y)
+{
+  auto grid = MakeGrid(9, 80.0, y);
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetName("Bumps");
+  normals->SetNumberOfComponents(3);
+  for (int i = 0; i < 81; ++i)
+  {
+    const glm::dvec3 n =
+      glm::normalize(glm::dvec3(0.6 * std::sin(0.7 * i), 1.0, 0.6 * std::cos(1.3 * i)));
+    normals->InsertNextTuple(&n.x);
+  }
+  grid->GetPointData()->SetNormals(normals);
+  return grid;
+}
+
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeCurved(vtkPolyData* geometry, vtkPolyData* membrane)
+{
+  auto filter = MakeFilter(geometry, membrane);
+  filter->SetMembraneModelToCurved();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  return filter;
+}
+
+glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
+{
+  glm::dvec3 t(0.0);
+  array->GetTuple(i, &t.x);
+  return t;
+}
+
+glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
+{
+  glm::dvec3 p(0.0);
+  data->GetPoint(i, &p.x);
+  return p;
+}
+
+/// True point, true and virtual normal, and so on, of each point of an output.
+struct Lit
+{
+  glm::dvec3 point;
+  glm::dvec3 sightPoint;
+  glm::dvec3 virtualPoint;
+  glm::dvec3 normal;
+  glm::dvec3 virtualNormal;
+};
+
+std::vector<Lit> Read(vtkPolyData* grid, vtkPolyData* output)
+{
+  vtkPointData* data = output->GetPointData();
+  std::vector<Lit> result;
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(data->GetArray("SourcePointId")->GetTuple1(i));
+    result.push_back({ GetPoint(grid, id), GetTuple(data->GetArray("SightPoint"), i),
+      GetPoint(output, i), GetTuple(data->GetArray("Bumps"), i), GetTuple(data->GetNormals(), i) });
+    EXPECT_EQ(result.back().normal, GetTuple(grid->GetPointData()->GetNormals(), id));
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryLight, SchlickIsItsClosedForm)
+{
+  const auto filter = MakeCurved(MakeGrid(9, 150.0, -60.0), MakeFlatMembrane());
+  filter->SetEyePosition(150.0, 40.0, 10.0);
+  filter->Update();
+  const vtkTypeInt64 solved = filter->GetNumberOfSolvedVertices();
+  vtkNew<vtkDoubleArray> fresnel;
+  fresnel->DeepCopy(filter->GetOutput()->GetPointData()->GetArray("Reflectance"));
+  filter->SetReflectanceModelToSchlick();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), solved);
+  vtkPointData* data = filter->GetOutput()->GetPointData();
+  ASSERT_EQ(data->GetArray("Reflectance")->GetNumberOfTuples(), fresnel->GetNumberOfTuples());
+  double largest = 0.0;
+  for (vtkIdType i = 0; i < fresnel->GetNumberOfTuples(); ++i)
+  {
+    const glm::dvec3 away =
+      glm::dvec3(150.0, 40.0, 10.0) - GetTuple(data->GetArray("SightPoint"), i);
+    const double cosine = away.y / glm::length(away);
+    const double r = std::pow(0.333 / 2.333, 2);
+    const double value = data->GetArray("Reflectance")->GetTuple1(i);
+    EXPECT_NEAR(value, r + (1.0 - r) * std::pow(1.0 - cosine, 5), 1e-12);
+    // It is an approximation: near the exact one, not the same.
+    largest = std::max(largest, std::fabs(value - fresnel->GetTuple1(i)));
+  }
+  EXPECT_GT(largest, 0.01);
+  EXPECT_LT(largest, 0.1);
+  filter->SetInteriorIndexOfRefraction(1.0);
+  filter->Update();
+  data = filter->GetOutput()->GetPointData();
+  EXPECT_EQ(data->GetArray("Reflectance")->GetRange()[1], 0.0);
+}
+
+//------------------------------------------------------------------------------
+// A light at the eye: exact on any membrane, in both modes of images.
+TEST(RefractedGeometryLight, HeadlightsSeeTheTrueAngles)
+{
+  for (const int images :
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+  {
+    const auto grid = MakeLitGrid(-60.0);
+    const auto filter = MakeCurved(grid, MakeMembrane(Waves.MakeMesh(64)));
+    filter->SetImages(images);
+    filter->SetAngularTolerance(10.0); // no made points, which have no true normal of their own
+    filter->VirtualNormalsOn();
+    filter->Update();
+    const auto lit = Read(grid, filter->GetOutput());
+    EXPECT_GE(lit.size(), 81u);
+    double largest = 0.0;
+    for (const Lit& point : lit)
+    {
+      EXPECT_NEAR(glm::length(point.virtualNormal), 1.0, 1e-12);
+      const glm::dvec3 inside = glm::normalize(point.sightPoint - point.point);
+      const glm::dvec3 outside = glm::normalize(Eye - point.virtualPoint);
+      EXPECT_NEAR(glm::dot(point.virtualNormal, outside), glm::dot(point.normal, inside), 1e-9);
+      largest = std::max(largest, glm::length(point.virtualNormal - point.normal));
+    }
+    EXPECT_GT(largest, 0.01);
+  }
+}
+
+//------------------------------------------------------------------------------
+// A light at infinity over a plane: its refracted ray by n1 sin a = n2 sin b.
+TEST(RefractedGeometryLight, DistantLightsAreExactUnderPlanes)
+{
+  const auto grid = MakeLitGrid(-60.0);
+  const auto filter = MakeCurved(grid, MakeFlatMembrane());
+  filter->VirtualNormalsOn();
+  for (const glm::dvec3& light :
+    { glm::dvec3(3.0, 2.0, -1.0), glm::dvec3(0.0, 5.0, 0.0), glm::dvec3(-40.0, 1.0, 3.0) })
+  {
+    filter->SetLightDirection(light.x, light.y, light.z);
+    filter->Update();
+    const glm::dvec3 unit = glm::normalize(light);
+    glm::dvec3 refracted(unit.x / 1.333, 0.0, unit.z / 1.333);
+    refracted.y = std::sqrt(1.0 - glm::dot(refracted, refracted));
+    int both = 0;
+    for (const Lit& point : Read(grid, filter->GetOutput()))
+    {
+      const double diffuse = glm::dot(point.virtualNormal, unit);
+      const double wanted = glm::dot(point.normal, refracted);
+      const glm::dvec3 inside = glm::normalize(point.sightPoint - point.point);
+      const glm::dvec3 outside = glm::normalize(Eye - point.virtualPoint);
+      EXPECT_NEAR(diffuse, wanted, 1e-9);
+      // Both products, where a unit normal can have them.
+      both +=
+        std::fabs(glm::dot(point.virtualNormal, outside) - glm::dot(point.normal, inside)) < 1e-9;
+      EXPECT_NEAR(glm::length(point.virtualNormal), 1.0, 1e-12);
+    }
+    EXPECT_GE(both, light.y > 1.0 ? 55 : 10);
+  }
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 81);
+}
+
+TEST(RefractedGeometryLight, LightFromBelowTheHorizonLightsNothing)
+{
+  const auto grid = MakeLitGrid(-60.0);
+  const auto filter = MakeCurved(grid, MakeFlatMembrane());
+  filter->VirtualNormalsOn();
+  filter->SetLightDirection(1.0, -0.5, 0.0);
+  filter->Update();
+  for (const Lit& point : Read(grid, filter->GetOutput()))
+  {
+    EXPECT_LT(glm::dot(point.virtualNormal, glm::dvec3(1.0, -0.5, 0.0)), 0.0);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryLight, NothingTurnsWhereNothingIsRefracted)
+{
+  for (const double light : { 0.0, 1.0 })
+  {
+    const auto grid = MakeLitGrid(-60.0);
+    const auto filter = MakeCurved(grid, MakeMembrane(Waves.MakeMesh(32)));
+    filter->SetInteriorIndexOfRefraction(1.0);
+    filter->VirtualNormalsOn();
+    filter->SetLightDirection(light, light, 0.0);
+    filter->Update();
+    for (const Lit& point : Read(grid, filter->GetOutput()))
+    {
+      EXPECT_LT(glm::length(point.virtualNormal - point.normal), 1e-15);
+    }
+    // In front of the membrane neither.
+    filter->SetInteriorIndexOfRefraction(1.333);
+    filter->SetImagesToAllImages();
+    const auto front = MakeLitGrid(30.0);
+    filter->SetInputData(0, front);
+    filter->Update();
+    const auto lit = Read(front, filter->GetOutput());
+    EXPECT_EQ(lit.size(), 81u);
+    for (const Lit& point : lit)
+    {
+      EXPECT_EQ(point.virtualNormal, point.normal);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryLight, NormalsAreOffByDefaultAndWarnWhereThereAreNone)
+{
+  const auto grid = MakeLitGrid(-60.0);
+  const auto filter = MakeCurved(grid, MakeFlatMembrane());
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("VirtualNormals"), nullptr);
+  const auto bare = MakeCurved(MakeGrid(9, 80.0, -60.0), MakeFlatMembrane());
+  bare->VirtualNormalsOn();
+  const auto messages = Observe(bare);
+  bare->Update();
+  bare->SetEyePosition(0.0, 200.0, 0.0);
+  bare->Update();
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(bare->GetOutput()->GetNumberOfPoints(), 81);
+  EXPECT_EQ(bare->GetOutput()->GetPointData()->GetNormals(), nullptr);
+}
+
+TEST(RefractedGeometryLight, BadNormalsAndLights)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto grid = MakeLitGrid(-60.0);
+  grid->GetPointData()->GetNormals()->SetTuple3(3, 0.0, 0.0, 0.0);
+  grid->GetPointData()->GetNormals()->SetTuple3(4, nan, 0.0, 0.0);
+  const auto filter = MakeCurved(grid, MakeFlatMembrane());
+  filter->VirtualNormalsOn();
+  filter->Update();
+  vtkDataArray* normals = filter->GetOutput()->GetPointData()->GetNormals();
+  EXPECT_EQ(GetTuple(normals, 3), glm::dvec3(0.0)); // as they came
+  EXPECT_TRUE(std::isnan(GetTuple(normals, 4).x));
+  const auto messages = Observe(filter);
+  filter->SetLightDirection(0.0, nan, 0.0);
+  filter->Update();
+  EXPECT_GE(messages->errors, 1);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  filter->VirtualNormalsOff();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
+}
+
+}

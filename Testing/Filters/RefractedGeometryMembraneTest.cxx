@@ -1,0 +1,589 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Membranes that are closed, turned over, one-sided or of odd cells, and ports that are swapped.
+#include "AnalyticMembrane.h"
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCharArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdList.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkShortArray.h"
+#include "vtkStringArray.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using namespace meniscus::reference;
+
+const double Pi = std::acos(-1.0);
+
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
+  vtkPolyData* geometry, vtkPolyData* membrane)
+{
+  auto filter = MakeFilter(geometry, membrane);
+  filter->SetMembraneModelToCurved();
+  filter->SetImagesToAllImages();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  return filter;
+}
+
+/// A whole sphere about the origin with exact normals, outwards or inwards; wound outwards.
+MembraneMesh MakeSphere(double radius, int rings, double sign)
+{
+  MembraneMesh mesh;
+  const int around = 2 * rings;
+  const auto add = [&mesh, radius, sign](double polar, double azimuth)
+  {
+    const glm::dvec3 n(
+      std::sin(polar) * std::cos(azimuth), std::cos(polar), std::sin(polar) * std::sin(azimuth));
+    mesh.AddPoint(radius * n, sign * n);
+  };
+  add(0.0, 0.0);
+  for (int i = 1; i < rings; ++i)
+  {
+    for (int k = 0; k < around; ++k)
+    {
+      add(Pi * i / rings, 2.0 * Pi * k / around);
+    }
+  }
+  add(Pi, 0.0);
+  const auto at = [around, rings](int i, int k) -> std::int64_t
+  {
+    return i == 0 ? 0 : (i == rings ? 1 + (rings - 1) * around : 1 + (i - 1) * around + k % around);
+  };
+  for (int i = 0; i < rings; ++i)
+  {
+    for (int k = 0; k < around; ++k)
+    {
+      if (i > 0)
+      {
+        mesh.AddTriangle(at(i, k), at(i, k + 1), at(i + 1, k));
+      }
+      if (i + 1 < rings)
+      {
+        mesh.AddTriangle(at(i, k + 1), at(i + 1, k + 1), at(i + 1, k));
+      }
+    }
+  }
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> MakeVertices(const std::vector<Point>& positions)
+{
+  auto points = MakePoints(positions);
+  vtkNew<vtkCellArray> verts;
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    verts->InsertNextCell(1, &i);
+  }
+  points->SetVerts(verts);
+  return points;
+}
+
+glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
+{
+  glm::dvec3 t(0.0);
+  array->GetTuple(i, &t.x);
+  return t;
+}
+
+/// Largest violation of Snell's law at a sphere about the origin, normals outwards (1) or inwards.
+double GetWorstSnell(vtkPolyData* output, const glm::dvec3& eye, double sign)
+{
+  double worst = 0.0;
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const glm::dvec3 s = GetTuple(output->GetPointData()->GetArray("SightPoint"), i);
+    const double depth = output->GetPointData()->GetArray("RefractionDepth")->GetTuple1(i);
+    glm::dvec3 v(0.0);
+    output->GetPoint(i, &v.x);
+    const glm::dvec3 truth = GetTuple(output->GetPointData()->GetArray("Truth"), i);
+    const glm::dvec3 n = sign * glm::normalize(s);
+    const glm::dvec3 in = glm::normalize(s - eye);
+    const glm::dvec3 out = glm::normalize(truth - s);
+    worst = std::max(worst, glm::length(glm::cross(in, n) - 1.333 * glm::cross(out, n)));
+    worst = std::max(worst, std::fabs(glm::length(truth - s) - depth));
+    EXPECT_LT(glm::dot(in, n), 0.0);
+    EXPECT_LT(glm::dot(out, n), 0.0);
+  }
+  return worst;
+}
+
+void AddTruth(vtkPolyData* data)
+{
+  vtkNew<vtkDoubleArray> truth;
+  truth->SetName("Truth");
+  truth->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    truth->InsertNextTuple(data->GetPoint(i));
+  }
+  data->GetPointData()->AddArray(truth);
+}
+
+//------------------------------------------------------------------------------
+// A ball of water: what is inside is refracted, what is outside is not, all around.
+TEST(RefractedGeometryMembrane, ClosedMembranesAreBodies)
+{
+  const auto geometry = MakeVertices({ { 0, 0, 0 }, { 20, 10, -30 }, { -50, 0, 20 }, { 0, 60, 0 },
+    { 150, 0, 0 }, { 0, -150, 0 }, { 0, 150, 0 }, { 0, 0, 200 } });
+  AddTruth(geometry);
+  const auto filter = MakeAllImages(geometry, MakeMembrane(MakeSphere(100.0, 24, 1.0)));
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  vtkPolyData* output = filter->GetOutput();
+  vtkDataArray* source = output->GetPointData()->GetArray("SourcePointId");
+  vtkDataArray* facet = output->GetPointData()->GetArray("SightFacet");
+  int images[8] = { 0, 0, 0, 0, 0, 0, 0, 0 };
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const auto id = static_cast<int>(source->GetTuple1(i));
+    ++images[id];
+    EXPECT_EQ(facet->GetTuple1(i) < 0.0, id >= 4) << id;
+  }
+  for (const int count : images)
+  {
+    EXPECT_EQ(count, 1);
+  }
+  vtkNew<vtkPolyData> inside;
+  filter->SetInputData(0, MakeVertices({ { 0, 0, 0 }, { 20, 10, -30 }, { -50, 0, 20 } }));
+  AddTruth(vtkPolyData::SafeDownCast(filter->GetInputDataObject(0, 0)));
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 3);
+  EXPECT_LT(GetWorstSnell(filter->GetOutput(), { 20.0, 300.0, 10.0 }, 1.0), 1e-8);
+}
+
+// A bubble of air around the eye in water.
+TEST(RefractedGeometryMembrane, ClosedMembranesAreBubbles)
+{
+  const auto geometry = MakeVertices({ { 0, 0, 200 }, { 300, 100, -30 }, { 10, 0, 20 } });
+  AddTruth(geometry);
+  const auto filter = MakeAllImages(geometry, MakeMembrane(MakeSphere(100.0, 24, -1.0)));
+  filter->SetEyePosition(5.0, -10.0, 3.0);
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), 3);
+  vtkDataArray* facet = output->GetPointData()->GetArray("SightFacet");
+  EXPECT_GE(facet->GetTuple1(0), 0.0);
+  EXPECT_GE(facet->GetTuple1(1), 0.0);
+  EXPECT_EQ(facet->GetTuple1(2), -1.0);
+  const auto behind = MakeVertices({ { 0, 0, 200 }, { 300, 100, -30 } });
+  AddTruth(behind);
+  filter->SetInputData(0, behind);
+  filter->Update();
+  EXPECT_LT(GetWorstSnell(filter->GetOutput(), { 5.0, -10.0, 3.0 }, -1.0), 1e-8);
+}
+
+//------------------------------------------------------------------------------
+// Facets wound at random, without normals: oriented as most of them are.
+TEST(RefractedGeometryMembrane, InconsistentFacetsAreTurned)
+{
+  const MembraneMesh bowl = MakeDisc(141.5, 5, 400.0);
+  MembraneMesh mixed = bowl;
+  std::size_t turned = 0;
+  for (std::size_t i = 0; i < mixed.triangles.size(); i += 3)
+  {
+    if (i % 7 < 3)
+    {
+      std::swap(mixed.triangles[i + 1], mixed.triangles[i + 2]);
+      ++turned;
+    }
+  }
+  ASSERT_LT(2 * turned, mixed.GetNumberOfFacets());
+  const auto run = [](const MembraneMesh& mesh, MessageCounter** counter)
+  {
+    const auto filter = MakeAllImages(MakeGrid(9, 80.0, -50.0), MakeMembrane(mesh, false));
+    static vtkSmartPointer<MessageCounter> messages;
+    messages = Observe(filter);
+    filter->Update();
+    *counter = messages;
+    vtkSmartPointer<vtkPolyData> output = filter->GetOutput();
+    return output;
+  };
+  MessageCounter* messages = nullptr;
+  const auto expected = run(bowl, &messages);
+  EXPECT_EQ(messages->warnings, 0) << messages->text;
+  const auto output = run(mixed, &messages);
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_NE(messages->text.find(std::to_string(turned) + " of 184"), std::string::npos)
+    << messages->text;
+  ASSERT_EQ(output->GetNumberOfPoints(), expected->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    double a[3];
+    double b[3];
+    output->GetPoint(i, a);
+    expected->GetPoint(i, b);
+    EXPECT_NEAR(a[0], b[0], 1e-9);
+    EXPECT_NEAR(a[1], b[1], 1e-9);
+    EXPECT_NEAR(a[2], b[2], 1e-9);
+  }
+}
+
+TEST(RefractedGeometryMembrane, NormalsOnTheWrongSideAreTurned)
+{
+  const auto membrane = MakeMembrane(MakeDisc(141.5, 5, 400.0));
+  const auto expected = MakeAllImages(MakeGrid(9, 80.0, -50.0), membrane);
+  expected->Update();
+  const auto wrong = MakeMembrane(MakeDisc(141.5, 5, 400.0));
+  vtkDataArray* normals = wrong->GetPointData()->GetNormals();
+  for (const vtkIdType i : { 0, 30, 31, 77 })
+  {
+    const double* n = normals->GetTuple3(i);
+    normals->SetTuple3(i, -n[0], -n[1], -n[2]);
+  }
+  const auto filter = MakeAllImages(MakeGrid(9, 80.0, -50.0), wrong);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->warnings, 1);
+  EXPECT_NE(messages->text.find("4 of 125"), std::string::npos) << messages->text;
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), expected->GetOutput()->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    EXPECT_NEAR(filter->GetOutput()->GetPoint(i)[1], expected->GetOutput()->GetPoint(i)[1], 1e-12);
+  }
+}
+
+TEST(RefractedGeometryMembrane, OneSidedMembranesAreAnError)
+{
+  constexpr int count = 24;
+  std::vector<Point> positions;
+  for (int i = 0; i < count; ++i)
+  {
+    const double around = 2.0 * Pi * i / count;
+    for (const double side : { -20.0, 20.0 })
+    {
+      const double radius = 80.0 + side * std::cos(0.5 * around);
+      positions.push_back(
+        { radius * std::cos(around), side * std::sin(0.5 * around), radius * std::sin(around) });
+    }
+  }
+  const auto band = MakePoints(positions);
+  vtkNew<vtkCellArray> polys;
+  for (int i = 0; i < count; ++i)
+  {
+    const int next = (i + 1) % count;
+    const bool turns = next == 0; // half a turn: the sides change places
+    const vtkIdType a = 2 * i;
+    const vtkIdType c = 2 * next + (turns ? 1 : 0);
+    const vtkIdType d = 2 * next + (turns ? 0 : 1);
+    const vtkIdType first[3] = { a, a + 1, c };
+    const vtkIdType second[3] = { a + 1, d, c };
+    polys->InsertNextCell(3, first);
+    polys->InsertNextCell(3, second);
+  }
+  band->SetPolys(polys);
+  const auto filter = MakeAllImages(MakeGrid(5, 40.0, -50.0), band);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors, 1);
+  EXPECT_NE(messages->text.find("one-sided"), std::string::npos) << messages->text;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  filter->SetInputData(1, MakeFlatMembrane());
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys() > 0, true);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
+{
+  const auto object = MakeGrid(9, 40.0, -50.0);
+  const auto membrane = MakeFlatMembrane();
+  for (const bool curved : { true, false })
+  {
+    const auto filter = MakeAllImages(membrane, object);
+    filter->SetMembraneModel(
+      curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FLAT_FACETS);
+    filter->SetImagesToFirstImage();
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->warnings, 1) << messages->text;
+    EXPECT_NE(messages->text.find("None of the 81 points"), std::string::npos) << messages->text;
+    EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 81);
+    filter->SetEyePosition(0.0, 250.0, 0.0);
+    filter->Update();
+    EXPECT_EQ(messages->warnings, 1); // once a membrane
+    filter->SetInputData(0, object);
+    filter->SetInputData(1, membrane);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
+  }
+}
+
+TEST(RefractedGeometryMembrane, EyesBehindSaySoAndEyesOnItAreAnError)
+{
+  for (const int images :
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+  {
+    const auto filter = MakeAllImages(MakeGrid(5, 40.0, -30.0), MakeFlatMembrane());
+    filter->SetImages(images);
+    const auto messages = Observe(filter);
+    filter->SetEyePosition(0.0, -100.0, 0.0);
+    filter->Update();
+    EXPECT_EQ(messages->errors, 0);
+    EXPECT_EQ(messages->warnings, 1) << messages->text;
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+    filter->SetEyePosition(3.0, 0.0, 5.0);
+    filter->Update();
+    EXPECT_GE(messages->errors, 1);
+    EXPECT_NE(messages->text.find("lies on the membrane"), std::string::npos);
+    filter->SetEyePosition(20.0, 300.0, 10.0);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys() > 0, true);
+  }
+}
+
+TEST(RefractedGeometryMembrane, FailedSolvesAreWarnedOfWithNumbers)
+{
+  for (const int images :
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+  {
+    auto grid = MakeGrid(3, 10.0, -5.0);
+    grid->GetPoints()->SetPoint(0, std::numeric_limits<double>::quiet_NaN(), -5.0, 0.0);
+    grid->GetPoints()->SetPoint(2, 0.0, -1e300, 0.0);
+    const auto filter = MakeAllImages(grid, MakeFlatMembrane());
+    filter->SetImages(images);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(filter->GetNumberOfFailedSolves(), 2);
+    EXPECT_EQ(messages->warnings, 1);
+    EXPECT_NE(messages->text.find("2 of 9 points"), std::string::npos) << messages->text;
+    filter->Update();
+    filter->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
+    filter->Update(); // nothing solved again
+    EXPECT_EQ(messages->warnings, 1);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryMembrane, EqualIndicesAreTheIdentityExactly)
+{
+  const auto grid = MakeGrid(9, 80.0, -50.0);
+  for (const int images :
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+  {
+    const auto filter = MakeAllImages(grid, MakeMembrane(MakeWaves(200.0, 32, 3.0, 2.0)));
+    filter->SetImages(images);
+    filter->SetInteriorIndexOfRefraction(1.0);
+    filter->Update();
+    vtkPolyData* output = filter->GetOutput();
+    ASSERT_EQ(output->GetNumberOfPoints(), 81);
+    EXPECT_EQ(output->GetNumberOfPolys(), 64);
+    for (vtkIdType i = 0; i < 81; ++i)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_EQ(output->GetPoint(i)[axis], grid->GetPoint(i)[axis]);
+      }
+      EXPECT_EQ(output->GetPointData()->GetArray("Reflectance")->GetTuple1(i), 0.0);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Quads, a hexagon and strips: the same surface as its triangles.
+TEST(RefractedGeometryMembrane, CurvedMembranesMayBeStripsAndPolygons)
+{
+  const MembraneMesh mesh = MakeWaves(200.0, 8, 3.0, 1.0);
+  const auto triangles = MakeMembrane(mesh);
+  const auto expected = MakeAllImages(MakeGrid(9, 80.0, -50.0), triangles);
+  expected->SetImagesToFirstImage();
+  expected->Update();
+  const auto strips = MakeMembrane(mesh);
+  vtkNew<vtkCellArray> cells;
+  for (vtkIdType row = 0; row < 8; ++row)
+  {
+    cells->InsertNextCell(18);
+    for (vtkIdType i = 0; i < 9; ++i)
+    {
+      cells->InsertCellPoint((row + 1) * 9 + i);
+      cells->InsertCellPoint(row * 9 + i);
+    }
+  }
+  strips->SetPolys(nullptr);
+  strips->SetStrips(cells);
+  const auto filter = MakeAllImages(MakeGrid(9, 80.0, -50.0), strips);
+  filter->SetImagesToFirstImage();
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->warnings + messages->errors, 0) << messages->text;
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
+  for (vtkIdType i = 0; i < 81; ++i)
+  {
+    // The diagonals run the other way: the same to the order of the patches.
+    EXPECT_NEAR(filter->GetOutput()->GetPoint(i)[0], expected->GetOutput()->GetPoint(i)[0], 0.05);
+    EXPECT_NEAR(filter->GetOutput()->GetPoint(i)[1], expected->GetOutput()->GetPoint(i)[1], 0.2);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryMembrane, EmptyAndMissingBlocksOfComposites)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, MakeGrid(5, 40.0, -30.0));
+  blocks->SetBlock(1, vtkSmartPointer<vtkPolyData>::New());
+  blocks->SetBlock(2, nullptr);
+  blocks->SetBlock(3, MakeGrid(5, 40.0, -60.0));
+  vtkNew<vtkRefractedGeometryFilter> filter;
+  filter->SetEyePosition(20.0, 300.0, 10.0);
+  filter->SetInputDataObject(0, blocks);
+  filter->SetInputData(1, MakeFlatMembrane());
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_NE(output, nullptr);
+  EXPECT_GT(vtkPolyData::SafeDownCast(output->GetBlock(0))->GetNumberOfPolys(), 0);
+  EXPECT_EQ(vtkPolyData::SafeDownCast(output->GetBlock(1))->GetNumberOfPoints(), 0);
+  EXPECT_GT(vtkPolyData::SafeDownCast(output->GetBlock(3))->GetNumberOfPolys(), 0);
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryMembrane, ArraysOfOddTypes)
+{
+  for (const int images :
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+  {
+    const auto grid = MakeGrid(9, 150.0, -60.0);
+    vtkNew<vtkStringArray> names;
+    names->SetName("Names");
+    vtkNew<vtkCharArray> letters;
+    letters->SetName("Letters");
+    vtkNew<vtkShortArray> colours;
+    colours->SetName("Colours");
+    colours->SetNumberOfComponents(4);
+    for (int i = 0; i < 81; ++i)
+    {
+      names->InsertNextValue("p" + std::to_string(i));
+      letters->InsertNextValue(static_cast<char>('a' + i % 26));
+      const short tuple[4] = { static_cast<short>(i), 1, 2, 3 };
+      colours->InsertNextTypedTuple(tuple);
+    }
+    grid->GetPointData()->AddArray(names);
+    grid->GetPointData()->AddArray(letters);
+    grid->GetPointData()->SetScalars(colours);
+    const auto filter = MakeAllImages(grid, MakeMembrane(MakeWaves(200.0, 32, 3.0, 2.0)));
+    filter->SetImages(images);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+    vtkPolyData* output = filter->GetOutput();
+    vtkPointData* data = output->GetPointData();
+    for (const char* name : { "Names", "Letters", "Colours", "Rank" })
+    {
+      vtkAbstractArray* array = data->GetAbstractArray(name);
+      ASSERT_NE(array, nullptr) << name;
+      EXPECT_EQ(array->GetNumberOfTuples(), output->GetNumberOfPoints()) << name;
+    }
+    auto* names2 = vtkStringArray::SafeDownCast(data->GetAbstractArray("Names"));
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      const double source = data->GetArray("SourcePointId")->GetTuple1(i);
+      if (source >= 0.0)
+      {
+        EXPECT_EQ(names2->GetValue(i), "p" + std::to_string(static_cast<int>(source)));
+        EXPECT_EQ(data->GetArray("Colours")->GetComponent(i, 0), source);
+        EXPECT_EQ(data->GetArray("Rank")->GetTuple1(i), source);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryMembrane, DataOfThePortsMayChangeBetweenUpdates)
+{
+  const auto grid = MakeGrid(9, 80.0, -50.0);
+  const auto membrane = MakeMembrane(MakeWaves(200.0, 16, 3.0, 2.0));
+  const auto filter = MakeAllImages(grid, membrane);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), 0);
+  // Fewer points, other cells, another type of points, then nothing, then as before.
+  grid->ShallowCopy(MakeVertices({ { 0, -50, 0 }, { 10, -40, 3 } }));
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfVerts(), 2);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 0);
+  membrane->ShallowCopy(MakeFlatMembrane());
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 2);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfVerts(), 2);
+  grid->Initialize();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  membrane->Initialize();
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->errors, 1) << messages->text;
+  membrane->ShallowCopy(MakeFlatMembrane());
+  grid->ShallowCopy(MakeGrid(9, 80.0, -50.0));
+  filter->Update();
+  EXPECT_EQ(messages->errors, 1) << messages->text;
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), 0);
+}
+
+//------------------------------------------------------------------------------
+// Abort while points are solved, and while cells are mapped: nothing half done comes out, and the
+// next update makes up for it.
+TEST(RefractedGeometryMembrane, AbortWithAllImages)
+{
+  struct Observed
+  {
+    double from = 0.0;
+    double last = 0.0;
+    bool abort = true;
+  } observed;
+  const auto grid = MakeGrid(260, 150.0, -60.0);
+  const auto expected = MakeAllImages(grid, MakeFlatMembrane());
+  expected->SetAngularTolerance(1.0);
+  expected->Update();
+  for (const double from : { 0.1, 0.6 })
+  {
+    const auto filter = MakeAllImages(grid, MakeFlatMembrane());
+    filter->SetAngularTolerance(1.0);
+    observed = Observed();
+    observed.from = from;
+    vtkNew<vtkCallbackCommand> callback;
+    callback->SetClientData(&observed);
+    callback->SetCallback(
+      [](vtkObject* caller, unsigned long, void* data, void*)
+      {
+        auto* o = static_cast<Observed*>(data);
+        auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+        o->last = algorithm->GetProgress();
+        if (o->abort && o->last > o->from)
+        {
+          algorithm->SetAbortExecute(1);
+        }
+      });
+    filter->AddObserver(vtkCommand::ProgressEvent, callback);
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << from;
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0) << from;
+    observed.abort = false;
+    filter->SetAbortExecute(0);
+    filter->Modified();
+    filter->Update();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), expected->GetOutput()->GetNumberOfPoints());
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), expected->GetOutput()->GetNumberOfCells());
+    EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 260 * 260);
+  }
+}
+
+}
