@@ -220,7 +220,8 @@ private:
       {
         text += ", " + race.Change + " " + number(race.TracedMs / race.OursMs, 3) + "x (" +
           number(race.OursMs, 3) + " against " + number(race.TracedMs, 3) + " ms; CPU " +
-          number(race.TracedCpuMs / race.OursCpuMs, 3) + "x)";
+          number(race.TracedCpuMs / race.OursCpuMs, 3) + "x, " + number(race.OursCpuMs, 3) +
+          " against " + number(race.TracedCpuMs, 3) + " ms)";
       }
     }
     return text.empty() ? "skipped: built without Embree" : text;
