@@ -129,9 +129,8 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
   }
   this->Key = EyeKey(); // stale until the update succeeds
   const glm::dvec3 position(eye[0], eye[1], eye[2]);
-  const EyeStatus status = this->Curves
-    ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop)
-    : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
+  const EyeStatus status = this->Curves ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop)
+                                        : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
   std::ostringstream text;
   switch (status)
   {

@@ -136,17 +136,18 @@ EntryRaster::PixelBox EntryRaster::BoxOf(const SeenFace& face) const
   glm::dvec2 lower(1.0e30);
   glm::dvec2 upper(-1.0e30);
   bool facesAway = true;
-  double firstSide = 0.0;
+  const SeenVertex& first = face.Vertices[0];
   for (int k = 0; k < 3; ++k)
   {
-    // The pixel whose ray passes through the vertex: u = v = 0.
+    // The pixel whose ray passes through the vertex: u = v = 0. How u and v change with the column
+    // is 0 in the plane of the eye and the other way behind it.
     const SeenVertex& vertex = face.Vertices[k];
     const double side = vertex.U[1] * vertex.V[2] - vertex.U[2] * vertex.V[1];
-    firstSide = k == 0 ? side : firstSide;
+    const bool together = vertex.U[1] * first.U[1] + vertex.V[1] * first.V[1] > 0.0;
     const glm::dvec2 pixel = glm::dvec2(vertex.U[2] * vertex.V[0] - vertex.U[0] * vertex.V[2],
                                vertex.U[0] * vertex.V[1] - vertex.U[1] * vertex.V[0]) /
       side;
-    if (!(side * firstSide > 0.0) || !(std::abs(pixel.x) < 1.0e9) || !(std::abs(pixel.y) < 1.0e9))
+    if (!together || !(std::abs(pixel.x) < 1.0e9) || !(std::abs(pixel.y) < 1.0e9))
     {
       return whole; // about the plane of the eye, where the face is seen without bounds
     }

@@ -3,6 +3,7 @@
 // Compute and fragment shaders, made of the same functions, give the same picture.
 #include "RayCastScene.h"
 
+#include <vtkCamera.h>
 #include <vtkContourValues.h>
 #include <vtkLight.h>
 #include <vtkPiecewiseFunction.h>
@@ -127,6 +128,29 @@ TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
   expectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
   property->ShadeOn();
   expectAgreementOfModes(scene, backend, { 5 });
+}
+
+TEST(TetrahedraRayCastBackends, NativeAgreesFromWithinAMeshOfManyParts)
+{
+  // Cells that can be seen lie before, beside and behind the eye, and across the plane of the eye.
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0, 1.0);
+  vtkCamera* camera = scene.renderer()->GetActiveCamera();
+  camera->SetPosition(0.31, 0.12, 0.43);
+  camera->SetFocalPoint(-1.0, -0.2, -0.6);
+  camera->SetViewAngle(70.0);
+  camera->SetClippingRange(0.05, 5.0);
+  vtkNew<vtkPiecewiseFunction> opacity;
+  for (const double center : { -0.6, 0.0, 0.5 })
+  {
+    opacity->AddPoint(center - 0.1, 0.0);
+    opacity->AddPoint(center, 4.0);
+    opacity->AddPoint(center + 0.1, 0.0);
+  }
+  scene.volume()->GetProperty()->SetScalarOpacity(opacity);
+  expectAgreement(scene, vtkTetrahedraRayCastMapper::NATIVE, "from within");
+  EXPECT_LT(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
 }
 
 TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
