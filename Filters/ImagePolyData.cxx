@@ -24,7 +24,7 @@ namespace
 
 // Cells that one result collects: enough work for a thread, and the results do not depend on the
 // threads.
-constexpr std::size_t CellsPerPart = 256;
+constexpr std::size_t CellsPerPart = 64;
 
 class TopologyReader
 {
@@ -208,7 +208,8 @@ private:
     without->SetName("PointsWithoutImage");
     for (vtkIdType i = 0; i < this->Input->GetNumberOfPoints(); ++i)
     {
-      if (this->Images.GetNumberOfImages(static_cast<std::size_t>(i)) == 0)
+      const auto point = static_cast<std::size_t>(i);
+      if (this->Images.IsWanted(point) && this->Images.GetNumberOfImages(point) == 0)
       {
         without->InsertNextValue(i);
       }

@@ -2,9 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractionScene.h"
 
+#include "Refraction/PatchTube.h"
+
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
 
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace meniscus
@@ -153,6 +160,56 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
   }
   messages.error = text.str();
   return false;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
+{
+  const Membrane& membrane = this->GetMembrane();
+  const auto& facets = membrane.GetFacets();
+  // Of a sum of three products of coordinates, and of planes that come through two matrices.
+  constexpr double rounding = 1e-12;
+  std::vector<bool> inView(facets.size(), true);
+  bool any = false;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    const double bulge = this->Curves
+      ? BoundBulge(this->Curved.GetPatches().GetPatch(static_cast<std::int32_t>(i)))
+      : 0.0;
+    for (const ViewPlane& plane : planes)
+    {
+      double most = std::numeric_limits<double>::lowest();
+      double reach = std::fabs(plane.offset);
+      for (const std::int32_t vertex : facets[i])
+      {
+        const glm::dvec3 point =
+          membrane.GetPositions()[static_cast<std::size_t>(vertex)] + membrane.GetOrigin();
+        most = std::max(most, glm::dot(plane.normal, point) + plane.offset);
+        reach = std::max(reach, glm::length(point));
+      }
+      // Not a number: nothing is known, so it is in view.
+      inView[i] = inView[i] && !(most < -bulge - rounding * reach);
+    }
+    any = any || !inView[i];
+  }
+  if (inView != this->FacetsInView)
+  {
+    this->FacetsInView = std::move(inView);
+    ++this->ViewChange;
+  }
+  return any;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::MayBeInView(const glm::dvec3& low, const glm::dvec3& high) const
+{
+  if (this->Curves)
+  {
+    return this->Curved.MayShow(low, high, this->FacetsInView);
+  }
+  const glm::dvec3 half = 0.5 * high - 0.5 * low;
+  return this->Flat.MayShow(
+    0.5 * low + 0.5 * high, std::max({ half.x, half.y, half.z }), this->FacetsInView);
 }
 
 //------------------------------------------------------------------------------

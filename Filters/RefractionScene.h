@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -27,6 +28,13 @@ struct SceneMessages
 {
   std::string error;
   std::string warning;
+};
+
+/// The half space normal.p + offset >= 0, in world coordinates; the normal is a unit vector.
+struct ViewPlane
+{
+  glm::dvec3 normal;
+  double offset;
 };
 
 /**
@@ -49,6 +57,13 @@ public:
 
   /// One image of each point (x, y, z each) in [from, to).
   void Solve(const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const;
+
+  /// Finds the facets that are in view, for an eye that has been set. True if any is out of view.
+  bool SetView(const std::vector<ViewPlane>& planes);
+  /// Rises with every change of what SetView found.
+  vtkTypeInt64 GetViewChange() const { return this->ViewChange; }
+  /// Whether something in the box may be seen through a facet in view, or without the membrane.
+  bool MayBeInView(const glm::dvec3& low, const glm::dvec3& high) const;
 
   bool IsCurved() const { return this->Curves; }
   const Membrane& GetMembrane() const
@@ -83,6 +98,8 @@ private:
   MembraneArrays Arrays;
   bool MembraneReady = false;
   EyeKey Key;
+  std::vector<bool> FacetsInView;
+  vtkTypeInt64 ViewChange = 0;
 
   vtkTypeInt64 PatchBuilds = 0;
   vtkTypeInt64 EyeUpdates = 0;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VirtualPolyData.h"
 
+#include "ViewSelection.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
@@ -21,10 +23,11 @@ namespace
 class Builder
 {
 public:
-  Builder(vtkPolyData* input, const std::vector<VirtualVertex>& vertices, const Membrane& membrane,
-    vtkPolyData* output)
+  Builder(vtkPolyData* input, const std::vector<VirtualVertex>& vertices,
+    const ViewSelection& selection, const Membrane& membrane, vtkPolyData* output)
     : Input(input)
     , Vertices(vertices)
+    , Selection(selection)
     , Surface(membrane)
     , Output(output)
   {
@@ -67,6 +70,10 @@ private:
     without->SetName("PointsWithoutImage");
     for (vtkIdType i = 0; i < count; ++i)
     {
+      if (!this->Selection.HasPoint(static_cast<std::size_t>(i)))
+      {
+        continue; // whether it has an image is not known
+      }
       if (this->GetVertex(i).state == ImageState::Found)
       {
         this->NewIds[static_cast<std::size_t>(i)] =
@@ -120,6 +127,10 @@ private:
         {
           broken = true;
         }
+        else if (!this->Selection.HasCell(this->Cell))
+        {
+          continue;
+        }
         else if (const vtkIdType id = this->NewIds[static_cast<std::size_t>(ids[i])]; id >= 0)
         {
           copy->InsertNextCell(1, &id);
@@ -156,13 +167,14 @@ private:
         complete = complete && id >= 0;
         points->InsertNextId(id);
       }
-      if (!broken && complete)
+      const bool selected = this->Selection.HasCell(this->Cell);
+      if (!broken && complete && selected)
       {
         copy->InsertNextCell(points);
         this->AddSource(this->Cell, ids[0]);
       }
       this->Report.brokenCells += broken;
-      this->Report.skippedCells += !broken && !complete;
+      this->Report.skippedCells += !broken && !complete && selected;
       ++this->Cell;
     }
     return copy;
@@ -170,6 +182,7 @@ private:
 
   vtkPolyData* Input;
   const std::vector<VirtualVertex>& Vertices;
+  const ViewSelection& Selection;
   const Membrane& Surface;
   vtkPolyData* Output;
   std::vector<vtkIdType> NewIds;
@@ -185,10 +198,10 @@ private:
 
 //------------------------------------------------------------------------------
 VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
-  const std::vector<VirtualVertex>& vertices, const Membrane& membrane,
-  const OutputOptions& options, vtkPolyData* output)
+  const std::vector<VirtualVertex>& vertices, const ViewSelection& selection,
+  const Membrane& membrane, const OutputOptions& options, vtkPolyData* output)
 {
-  return Builder(input, vertices, membrane, output).Run(options);
+  return Builder(input, vertices, selection, membrane, output).Run(options);
 }
 
 }

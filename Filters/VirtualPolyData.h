@@ -15,6 +15,8 @@ class vtkPolyData;
 namespace meniscus
 {
 
+struct ViewSelection;
+
 /// What did not make it to the output.
 struct VirtualPolyDataReport
 {
@@ -25,12 +27,12 @@ struct VirtualPolyDataReport
 
 /**
  * Fills `output` with the cells of `input` at the virtual points, and with the arrays of
- * vtkRefractedGeometryFilter. `vertices` has one entry per point of `input`, solved with
- * `membrane`.
+ * vtkRefractedGeometryFilter. `vertices` has one entry per point of `input`; what `selection` has
+ * is solved with `membrane`.
  */
 VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
-  const std::vector<VirtualVertex>& vertices, const Membrane& membrane,
-  const OutputOptions& options, vtkPolyData* output);
+  const std::vector<VirtualVertex>& vertices, const ViewSelection& selection,
+  const Membrane& membrane, const OutputOptions& options, vtkPolyData* output);
 
 }
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractedGeometryFilter.h"
 
-#include "ImagePolyData.h"
 #include "RefractionScene.h"
+#include "SolvedBlock.h"
+#include "ViewSelection.h"
 #include "VirtualPolyData.h"
 
 #include "vtkCamera.h"
@@ -16,11 +17,9 @@
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <list>
 #include <vector>
 
@@ -28,52 +27,15 @@ namespace
 {
 
 // Points or facets that a thread takes at once: tens of microseconds of work.
-constexpr vtkIdType Grain = 512;
+constexpr vtkIdType Grain = 128;
 
 // Progress is reported and abort checked this often while points are solved, but not for fewer
 // points than keep all threads of a large machine busy.
 constexpr vtkIdType ProgressSteps = 100;
-constexpr vtkIdType SmallestStep = 64 * Grain;
+constexpr vtkIdType SmallestStep = 256 * Grain;
 static_assert(
   Grain % meniscus::CurvedGeometry::Chain == 0 && Grain % meniscus::ObjectImages::Chunk == 0,
   "Ranges are made of whole chains and chunks");
-
-/// The virtual vertices of one block of geometry, and what they were computed from.
-struct SolvedBlock
-{
-  vtkWeakPointer<vtkPolyData> source;
-  vtkMTimeType sourceTime = 0;
-  std::vector<double> points;
-  vtkTypeInt64 eyeUpdate = -1; ///< for which the points are solved
-  bool all = false;            ///< all images, or the first
-  std::vector<meniscus::VirtualVertex> vertices;
-
-  /// All images only.
-  double tolerance = 0.0;
-  vtkMTimeType topologyTime = 0;
-  bool cellsReady = false;
-  meniscus::ObjectTopology topology;
-  std::unique_ptr<meniscus::ObjectImages> images;
-  meniscus::AllImages cells;
-};
-
-std::vector<double> CopyPoints(vtkPolyData* input)
-{
-  const vtkIdType count = input->GetNumberOfPoints();
-  std::vector<double> points(3 * static_cast<std::size_t>(count));
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    input->GetPoint(i, points.data() + 3 * i);
-  }
-  return points;
-}
-
-// Bit by bit, so that a NaN equals itself.
-bool SameValues(const std::vector<double>& a, const std::vector<double>& b)
-{
-  return a.size() == b.size() &&
-    (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
-}
 
 }
 
@@ -81,22 +43,29 @@ bool SameValues(const std::vector<double>& a, const std::vector<double>& b)
 class vtkRefractedGeometryFilter::vtkInternals
 {
 public:
-  SolvedBlock& GetBlock(vtkPolyData* input);
-  bool Solve(vtkRefractedGeometryFilter* self, SolvedBlock& block);
-  bool SolveAll(vtkRefractedGeometryFilter* self, vtkPolyData* input, SolvedBlock& block);
-  bool SolveAllPoints(vtkRefractedGeometryFilter* self, SolvedBlock& block);
+  meniscus::SolvedBlock& GetBlock(vtkPolyData* input);
+  void UpdateView(vtkRefractedGeometryFilter* self);
+  void Select(vtkPolyData* input, meniscus::SolvedBlock& block);
+  bool Solve(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
+  bool SolveAll(vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block);
+  bool SolveAllPoints(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady);
   bool Run(vtkRefractedGeometryFilter* self, double from, double to, vtkIdType count,
     vtkIdType grain, const meniscus::RangeBody& body);
   void Count(meniscus::ImageState state);
   meniscus::OutputOptions GetOptions(vtkRefractedGeometryFilter* self) const;
 
   meniscus::RefractionScene Scene;
-  std::list<SolvedBlock> Blocks;
+  std::list<meniscus::SolvedBlock> Blocks;
 
   vtkTypeInt64 SolvedVertices = 0;
   vtkTypeInt64 FailedSolves = 0;
   vtkTypeInt64 VerticesWithoutImage = 0;
   vtkTypeInt64 SkippedCells = 0;
+  vtkTypeInt64 CulledVertices = 0;
+  vtkTypeInt64 CulledCells = 0;
+  bool IsViewActive = false; ///< some facet is out of view
+  vtkMTimeType ViewTime = 0;
+  vtkTypeInt64 ViewEye = -1;
   vtkTypeInt64 FailedInRun = 0;
   vtkTypeInt64 WarnedOfNoImage = -1; ///< the number of the membrane
   bool WarnedOfModes = false;
@@ -107,26 +76,17 @@ public:
 //------------------------------------------------------------------------------
 // The cache of a block lives as long as its data object: composite data of any number of blocks
 // stays cached, and what a pipeline has replaced goes.
-SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPolyData* input)
+meniscus::SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPolyData* input)
 {
-  this->Blocks.remove_if([](const SolvedBlock& block) { return !block.source; });
+  this->Blocks.remove_if([](const meniscus::SolvedBlock& block) { return !block.source; });
   auto block = std::find_if(this->Blocks.begin(), this->Blocks.end(),
-    [input](const SolvedBlock& candidate) { return candidate.source == input; });
+    [input](const meniscus::SolvedBlock& candidate) { return candidate.source == input; });
   if (block == this->Blocks.end())
   {
     block = this->Blocks.emplace(this->Blocks.end());
     block->source = input;
   }
-  if (block->sourceTime != input->GetMTime())
-  {
-    std::vector<double> points = CopyPoints(input);
-    if (!SameValues(points, block->points))
-    {
-      block->points = std::move(points);
-      block->eyeUpdate = -1;
-    }
-    block->sourceTime = input->GetMTime();
-  }
+  block->UpdatePoints();
   return *block;
 }
 
@@ -192,51 +152,115 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::vtkInternals::Solve(
-  vtkRefractedGeometryFilter* self, SolvedBlock& block)
+void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFilter* self)
 {
-  if (block.eyeUpdate == this->Scene.GetNumberOfEyeUpdates() && !block.all)
+  vtkCamera* camera = self->Camera;
+  if (!self->ViewCulling || !camera || camera->GetParallelProjection())
   {
-    return true;
+    this->IsViewActive = false; // an eye at infinity has no view to speak of
+    this->ViewTime = 0;
+    return;
   }
-  const auto count = static_cast<vtkIdType>(block.points.size() / 3);
-  block.all = false;
-  block.images.reset();
-  block.eyeUpdate = -1;
-  block.vertices.resize(static_cast<std::size_t>(count));
-  if (!this->Run(self, 0.0, 1.0, count, Grain,
-        [this, &block](std::size_t begin, std::size_t end)
-        { this->Scene.Solve(block.points.data(), begin, end, block.vertices.data()); }))
+  // The filter's time covers the camera's, which no block of composite data changes.
+  const vtkMTimeType time = self->GetMTime();
+  const vtkTypeInt64 eye = this->Scene.GetNumberOfEyeUpdates();
+  if (time != this->ViewTime || eye != this->ViewEye)
   {
+    this->IsViewActive =
+      this->Scene.SetView(meniscus::FindViewPlanes(camera, self->ViewAspectRatio));
+    this->ViewTime = time;
+    this->ViewEye = eye;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Finds what of a block is in view, if anything has changed that it depends on.
+void vtkRefractedGeometryFilter::vtkInternals::Select(
+  vtkPolyData* input, meniscus::SolvedBlock& block)
+{
+  meniscus::ViewSelection selection;
+  if (this->IsViewActive)
+  {
+    block.UpdateTopology();
+    const bool isSolved = block.eyeUpdate == this->Scene.GetNumberOfEyeUpdates();
+    if (isSolved && block.selection.isActive && block.viewChange == this->Scene.GetViewChange())
+    {
+      return;
+    }
+    selection =
+      meniscus::SelectInView(this->Scene, block.topology, input->GetNumberOfCells(), block.points);
+    block.viewChange = this->Scene.GetViewChange();
+  }
+  if (!(selection == block.selection))
+  {
+    block.cellsReady = false;
+    // Images of all points are not kept chunk by chunk.
+    const bool isNew = block.all && selection.isActive && !block.selection.isActive;
+    block.eyeUpdate = isNew ? -1 : block.eyeUpdate;
+    block.selection = std::move(selection);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::vtkInternals::Solve(
+  vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block)
+{
+  constexpr std::size_t chunkSize = meniscus::ObjectImages::Chunk;
+  const std::size_t count = block.points.size() / 3;
+  if (block.eyeUpdate != this->Scene.GetNumberOfEyeUpdates() || block.all)
+  {
+    block.all = false;
+    block.images.reset();
+    block.eyeUpdate = this->Scene.GetNumberOfEyeUpdates();
+    block.vertices.assign(count, meniscus::VirtualVertex());
+    block.solvedChunks.assign((count + chunkSize - 1) / chunkSize, false);
+  }
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < block.solvedChunks.size(); ++i)
+  {
+    if (!block.solvedChunks[i] && block.selection.HasPoint(i * chunkSize))
+    {
+      open.push_back(i);
+    }
+  }
+  const bool done = this->Run(self, 0.0, 1.0, static_cast<vtkIdType>(open.size()), 1,
+    [this, &block, &open, count](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->Scene.Solve(block.points.data(), open[i] * chunkSize,
+          std::min((open[i] + 1) * chunkSize, count), block.vertices.data());
+      }
+    });
+  if (!done)
+  {
+    block.eyeUpdate = -1;
     return false;
   }
-  for (const meniscus::VirtualVertex& vertex : block.vertices)
+  for (const std::size_t chunk : open)
   {
-    this->Count(vertex.state);
+    block.solvedChunks[chunk] = true;
+    for (std::size_t i = chunk * chunkSize; i < std::min((chunk + 1) * chunkSize, count); ++i)
+    {
+      this->Count(block.vertices[i].state);
+    }
   }
-  block.eyeUpdate = this->Scene.GetNumberOfEyeUpdates();
   return true;
 }
 
 //------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
-  vtkRefractedGeometryFilter* self, vtkPolyData* input, SolvedBlock& block)
+  vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block)
 {
   const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
-  if (block.topologyTime != input->GetMTime())
-  {
-    meniscus::ObjectTopology topology = meniscus::ExtractTopology(input);
-    block.cellsReady = block.cellsReady && topology == block.topology;
-    block.topology = std::move(topology);
-    block.topologyTime = input->GetMTime();
-  }
+  block.UpdateTopology();
   const bool pointsReady = block.eyeUpdate == this->Scene.GetNumberOfEyeUpdates() && block.all;
   if (pointsReady && block.cellsReady && block.tolerance == tolerance)
   {
     return true;
   }
   block.cellsReady = false;
-  if (!pointsReady && !this->SolveAllPoints(self, block))
+  if (!this->SolveAllPoints(self, block, pointsReady))
   {
     return false;
   }
@@ -245,31 +269,52 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
   block.images->SetTolerance(tolerance);
   const auto loop = [this, self](std::size_t parts, const meniscus::RangeBody& body)
   { return this->Run(self, 0.5, 1.0, static_cast<vtkIdType>(parts), 1, body); };
-  block.cellsReady = meniscus::MapCells(input, block.topology, *block.images, loop, block.cells);
+  const meniscus::ObjectTopology* topology = &block.topology;
+  if (block.selection.isActive)
+  {
+    block.selected = meniscus::SelectCells(block.topology, block.selection);
+    topology = &block.selected;
+  }
+  block.cellsReady = meniscus::MapCells(input, *topology, *block.images, loop, block.cells);
   return block.cellsReady;
 }
 
 //------------------------------------------------------------------------------
+// Those that are selected; with `isReady`, what has been solved before holds.
 bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
-  vtkRefractedGeometryFilter* self, SolvedBlock& block)
+  vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady)
 {
   const std::size_t count = block.points.size() / 3;
-  const glm::dvec3& origin = this->Scene.GetCurved().GetMembrane().GetOrigin();
-  bool mayCross = false;
-  for (std::size_t i = 0; i < count && !mayCross; ++i)
+  if (!isReady)
   {
-    const double* p = block.points.data() + 3 * i;
-    mayCross = !this->Scene.GetCurved().IsBehindAll(glm::dvec3(p[0], p[1], p[2]) - origin);
+    const glm::dvec3& origin = this->Scene.GetCurved().GetMembrane().GetOrigin();
+    bool mayCross = false;
+    for (std::size_t i = 0; i < count && !mayCross; ++i)
+    {
+      const double* p = block.points.data() + 3 * i;
+      mayCross = !this->Scene.GetCurved().IsBehindAll(glm::dvec3(p[0], p[1], p[2]) - origin);
+    }
+    if (mayCross)
+    {
+      this->Scene.GetCurved().PrepareSides();
+    }
+    block.all = true;
+    block.vertices.clear();
+    block.images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
+    block.images->SetPoints(block.points.data(), count, mayCross);
   }
-  if (mayCross)
+  std::vector<bool> known(count);
+  for (std::size_t i = 0; i < count; ++i)
   {
-    this->Scene.GetCurved().PrepareSides();
+    known[i] = block.images->GetState(i) != meniscus::ImageState::NotAsked;
   }
-  block.all = true;
+  const bool same = isReady && block.images->GetWanted() == block.selection.chunks;
+  if (same)
+  {
+    return true; // cells alone have changed
+  }
+  block.images->SetWanted(block.selection.chunks);
   block.eyeUpdate = -1;
-  block.vertices.clear();
-  block.images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
-  block.images->SetPoints(block.points.data(), count, mayCross);
   if (!this->Run(self, 0.0, 0.5, static_cast<vtkIdType>(count), Grain,
         [&block](std::size_t begin, std::size_t end) { block.images->SolvePoints(begin, end); }))
   {
@@ -278,7 +323,10 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   block.images->FinishPoints();
   for (std::size_t i = 0; i < count; ++i)
   {
-    this->Count(block.images->GetState(i));
+    if (!known[i] && block.selection.HasPoint(i))
+    {
+      this->Count(block.images->GetState(i));
+    }
   }
   block.eyeUpdate = this->Scene.GetNumberOfEyeUpdates();
   return true;
@@ -362,6 +410,18 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedCells() const
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledVertices() const
+{
+  return this->Internals->CulledVertices;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfCulledCells() const
+{
+  return this->Internals->CulledCells;
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
 {
   return static_cast<vtkTypeInt64>(this->Internals->Scene.GetMembrane().GetReport().Skipped());
@@ -419,7 +479,9 @@ int vtkRefractedGeometryFilter::RequestData(
     return 0;
   }
   this->Internals->FailedInRun = 0;
-  SolvedBlock& block = this->Internals->GetBlock(input);
+  this->Internals->UpdateView(this);
+  meniscus::SolvedBlock& block = this->Internals->GetBlock(input);
+  this->Internals->Select(input, block);
   const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
   if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
   {
@@ -429,10 +491,16 @@ int vtkRefractedGeometryFilter::RequestData(
   const meniscus::Membrane& surface = this->Internals->Scene.GetMembrane();
   const meniscus::OutputOptions options = this->Internals->GetOptions(this);
   const meniscus::VirtualPolyDataReport report = all
-    ? meniscus::BuildImagePolyData(
-        input, block.topology, *block.images, block.cells, surface, options, output)
-    : meniscus::BuildVirtualPolyData(input, block.vertices, surface, options, output);
-  this->ReportPoints(this->Internals->FailedInRun, output->GetNumberOfPoints(), input);
+    ? meniscus::BuildImagePolyData(input,
+        block.selection.isActive ? block.selected : block.topology, *block.images, block.cells,
+        surface, options, output)
+    : meniscus::BuildVirtualPolyData(
+        input, block.vertices, block.selection, surface, options, output);
+  this->Internals->CulledVertices += block.selection.culledPoints;
+  this->Internals->CulledCells += block.selection.culledCells;
+  // Of a part nothing can be said about the whole.
+  this->ReportPoints(this->Internals->FailedInRun,
+    block.selection.isActive || output->GetNumberOfPoints() > 0, input);
   this->Internals->SkippedCells += report.skippedCells + report.brokenCells;
   if (report.brokenCells > 0)
   {
@@ -464,7 +532,7 @@ bool vtkRefractedGeometryFilter::HasValidLight()
 
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::ReportPoints(
-  vtkTypeInt64 failed, vtkIdType images, vtkPolyData* input)
+  vtkTypeInt64 failed, bool hasImage, vtkPolyData* input)
 {
   vtkInternals& internals = *this->Internals;
   const vtkIdType points = input->GetNumberOfPoints();
@@ -473,7 +541,7 @@ void vtkRefractedGeometryFilter::ReportPoints(
     vtkWarningMacro(<< failed << " of " << points
                     << " points are not finite, or too far away to be solved; they have no image.");
   }
-  if (points > failed && images == 0 &&
+  if (points > failed && !hasImage &&
     internals.WarnedOfNoImage != internals.Scene.GetNumberOfPatchBuilds())
   {
     internals.WarnedOfNoImage = internals.Scene.GetNumberOfPatchBuilds();
@@ -553,6 +621,8 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
      << this->EyePosition[2] << ")\n";
   os << indent << "Camera: " << this->Camera.Get() << "\n";
+  os << indent << "ViewCulling: " << (this->ViewCulling ? "on" : "off") << "\n";
+  os << indent << "ViewAspectRatio: " << this->ViewAspectRatio << "\n";
   os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
   os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
   os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
@@ -572,5 +642,7 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfVerticesWithoutImage: " << this->GetNumberOfVerticesWithoutImage()
      << "\n";
   os << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n";
+  os << indent << "NumberOfCulledVertices: " << this->GetNumberOfCulledVertices() << "\n";
+  os << indent << "NumberOfCulledCells: " << this->GetNumberOfCulledCells() << "\n";
   os << indent << "NumberOfSkippedFacets: " << this->GetNumberOfSkippedFacets() << "\n";
 }

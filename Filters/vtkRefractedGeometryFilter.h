@@ -141,10 +141,34 @@ public:
   ///@{
   /**
    * Set/Get a camera whose position is the eye. Changes of the camera modify the filter; only a
-   * change of its position costs more than a comparison. Default is none.
+   * change of its position, or of what it shows of the membrane, costs more than a comparison.
+   * Default is none.
    */
   void SetCamera(vtkCamera* camera);
   vtkCamera* GetCamera();
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get whether, with a camera, cells and points that it cannot show through the membrane are
+   * left out unsolved: those that no facet in its view may show, told by bounds, and that are not
+   * in front of the membrane. What is in view is not changed by it. For output that other cameras
+   * look at turn it off. Without a camera, or with one in parallel projection, it does nothing.
+   * Default is on.
+   */
+  vtkSetMacro(ViewCulling, bool);
+  vtkGetMacro(ViewCulling, bool);
+  vtkBooleanMacro(ViewCulling, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get the width of the camera's viewport over its height, for ViewCulling. 0 says that it is
+   * not known: nothing is culled left and right of the view then (above and below it, if the view
+   * angle is horizontal). Default is 0. Range 0 to 1000.
+   */
+  vtkSetClampMacro(ViewAspectRatio, double, 0.0, 1000.0);
+  vtkGetMacro(ViewAspectRatio, double);
   ///@}
 
   ///@{
@@ -272,6 +296,15 @@ public:
   vtkTypeInt64 GetNumberOfSkippedCells() const;
   ///@}
 
+  ///@{
+  /**
+   * Counters since construction, summed over the runs: points that were not solved and cells that
+   * were left out because the camera cannot show them through the membrane (ViewCulling).
+   */
+  vtkTypeInt64 GetNumberOfCulledVertices() const;
+  vtkTypeInt64 GetNumberOfCulledCells() const;
+  ///@}
+
   /**
    * Triangles of the present membrane that were skipped: no area, a coordinate that is not finite,
    * a point that does not exist, or the same points as an earlier one.
@@ -298,12 +331,14 @@ private:
   void operator=(const vtkRefractedGeometryFilter&) = delete;
 
   void WarnOfModes();
-  void ReportPoints(vtkTypeInt64 failed, vtkIdType images, vtkPolyData* input);
+  void ReportPoints(vtkTypeInt64 failed, bool hasImage, vtkPolyData* input);
   bool HasValidLight();
   bool UpdateMembrane(vtkPolyData* membrane);
   bool UpdateEye();
 
   double EyePosition[3] = { 0.0, 0.0, 1.0 };
+  bool ViewCulling = true;
+  double ViewAspectRatio = 0.0;
   double ExteriorIndexOfRefraction = 1.0;
   double InteriorIndexOfRefraction = 1.333;
   int MembraneModel = CURVED;

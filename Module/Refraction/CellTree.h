@@ -67,6 +67,19 @@ public:
   template <typename Visitor>
   void Visit(const glm::dvec3& point, double padding, Visitor&& visit) const;
 
+  /// Whether the tube, widened by `padding`, of any facet that `chosen` marks may hold `point`.
+  bool HasAny(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
+  {
+    bool found = false;
+    this->Visit(point, padding,
+      [&found, &chosen](std::int32_t facet)
+      {
+        found = found || chosen[static_cast<std::size_t>(facet)];
+        return found ? 0 : NoFacet;
+      });
+    return found;
+  }
+
 private:
   static constexpr int Width = 4;
   static constexpr std::int32_t NoNode = -1;

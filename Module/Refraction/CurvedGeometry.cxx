@@ -278,6 +278,19 @@ bool CurvedGeometry::IsEyeOnPatch(const CurvedPatch& patch) const
 }
 
 //------------------------------------------------------------------------------
+bool CurvedGeometry::MayShow(
+  const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const
+{
+  const glm::dvec3 middle = 0.5 * low + 0.5 * high - this->Surface.GetOrigin();
+  const glm::dvec3 half = 0.5 * high - 0.5 * low;
+  const double padding = std::max({ half.x, half.y, half.z });
+  const glm::dvec3 top(std::copysign(half.x, this->Axis.x), std::copysign(half.y, this->Axis.y),
+    std::copysign(half.z, this->Axis.z));
+  return !this->IsInReach(middle) || !this->IsBehindAll(middle + top) ||
+    this->Tree.HasAny(middle, padding, chosen);
+}
+
+//------------------------------------------------------------------------------
 bool CurvedGeometry::IsInReach(const glm::dvec3& local) const
 {
   const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });

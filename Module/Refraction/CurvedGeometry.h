@@ -91,6 +91,11 @@ public:
     VisitTree(this->Tree, local, padding, visit);
   }
 
+  /// Whether a patch that `chosen` marks may show a point of the box from `low` to `high`, in world
+  /// coordinates, or whether the box is not behind all of the membrane.
+  bool MayShow(
+    const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const;
+
   /// The virtual vertex of a local point with the sight point `place`.
   VirtualVertex MakeVertex(
     const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const;

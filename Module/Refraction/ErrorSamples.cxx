@@ -51,6 +51,7 @@ ErrorSample ErrorSampler::Measure(const VirtualGeometry& geometry, const glm::dv
     case ImageState::NotFinite:
       return { 0.0, SampleState::NotFinite };
     case ImageState::NoImage:
+    case ImageState::NotAsked:
       return { 0.0, SampleState::NoImage };
     case ImageState::Found:
       break;

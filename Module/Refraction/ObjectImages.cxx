@@ -15,8 +15,9 @@ void ObjectImages::SetPoints(const double* points, std::size_t count, bool mayCr
   this->Points = points;
   this->MayCross = mayCross;
   this->Chunks.assign((count + Chunk - 1) / Chunk, {});
-  this->States.assign(count, ImageState::NoImage);
-  this->First.assign(count + 1, 0);
+  this->Wanted.clear();
+  this->Counts.assign(count, 0);
+  this->States.assign(count, ImageState::NotAsked);
   this->Images.clear();
 }
 
@@ -33,6 +34,10 @@ void ObjectImages::SolvePoints(std::size_t begin, std::size_t end)
   std::vector<VirtualVertex> images;
   for (std::size_t i = begin; i < end; ++i)
   {
+    if (!this->IsWanted(i) || this->States[i] != ImageState::NotAsked)
+    {
+      continue;
+    }
     const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
     const glm::dvec3 local = point - this->Geometry.GetMembrane().GetOrigin();
     if (this->MayCross && this->Geometry.IsInReach(local) && !this->Geometry.IsBehindAll(local) &&
@@ -47,7 +52,7 @@ void ObjectImages::SolvePoints(std::size_t begin, std::size_t end)
     {
       this->States[i] = this->Geometry.FindImages(point, images);
     }
-    this->First[i + 1] = images.size();
+    this->Counts[i] = static_cast<std::uint32_t>(images.size());
     std::vector<VirtualVertex>& chunk = this->Chunks[i / Chunk];
     chunk.insert(chunk.end(), images.begin(), images.end());
   }
@@ -59,12 +64,15 @@ void ObjectImages::FinishPoints()
   this->Nearest = std::numeric_limits<double>::max();
   this->Farthest = 0.0;
   this->InFront.assign(this->States.size(), false);
-  for (std::size_t i = 0; i < this->States.size(); ++i)
+  this->First.assign(this->States.size() + 1, 0);
+  this->Images.clear();
+  for (std::size_t i = 0, inChunk = 0; i < this->States.size(); ++i)
   {
-    const std::size_t count = this->First[i + 1];
-    this->First[i + 1] += this->First[i];
-    const VirtualVertex* images =
-      this->Chunks[i / Chunk].data() + (this->First[i] - this->First[i / Chunk * Chunk]);
+    inChunk = i % Chunk == 0 ? 0 : inChunk;
+    const std::size_t count = this->IsWanted(i) ? this->Counts[i] : 0;
+    this->First[i + 1] = this->First[i] + count;
+    const VirtualVertex* images = this->Chunks[i / Chunk].data() + inChunk;
+    inChunk += count;
     for (std::size_t k = 0; k < count; ++k)
     {
       ImagePoint image;
@@ -76,7 +84,10 @@ void ObjectImages::FinishPoints()
     }
     this->InFront[i] = count == 1 && images[0].facet == CurvedPatches::NoFacet;
   }
-  this->Chunks.clear();
+  if (this->Wanted.empty())
+  {
+    this->Chunks.clear(); // nothing can be wanted later
+  }
   this->Nearest = std::min(this->Nearest, this->Farthest);
 }
 
@@ -91,7 +102,7 @@ ObjectImages::Side ObjectImages::FindSide(const std::int64_t* ids, std::size_t c
 //------------------------------------------------------------------------------
 // Whether the image of the side's middle lies where the virtual side's is drawn, within the
 // tolerance at the eye. An image of another branch does not.
-bool ObjectImages::IsSideStraight(std::int64_t from, std::int64_t to) const
+bool ObjectImages::TestSide(std::int64_t from, std::int64_t to) const
 {
   const auto image = [this](std::int64_t id) -> const VirtualVertex&
   { return this->Images[this->First[static_cast<std::size_t>(id)]].vertex; };
@@ -110,7 +121,23 @@ bool ObjectImages::IsSideStraight(std::int64_t from, std::int64_t to) const
 }
 
 //------------------------------------------------------------------------------
-bool ObjectImages::IsSimple(const std::int64_t* ids, std::size_t count, bool isClosed) const
+// From the lower id to the higher one, so that both neighbours get one answer, cached or not.
+bool ObjectImages::IsSideStraight(std::int64_t a, std::int64_t b, SideCache& sides) const
+{
+  const std::int64_t low = std::min(a, b);
+  const std::int64_t high = std::max(a, b);
+  const auto slot = static_cast<std::size_t>(low + 7 * (high - low)) % sides.entries.size();
+  SideCache::Entry& entry = sides.entries[slot];
+  if (entry.low != low || entry.high != high)
+  {
+    entry = { low, high, this->TestSide(low, high) };
+  }
+  return entry.isStraight;
+}
+
+//------------------------------------------------------------------------------
+bool ObjectImages::IsSimple(
+  const std::int64_t* ids, std::size_t count, bool isClosed, SideCache& sides) const
 {
   const auto image = [this, ids](std::size_t i) -> const VirtualVertex&
   { return this->Images[this->First[static_cast<std::size_t>(ids[i])]].vertex; };
@@ -126,7 +153,7 @@ bool ObjectImages::IsSimple(const std::int64_t* ids, std::size_t count, bool isC
   }
   for (std::size_t i = 0; i + 1 < count || (isClosed && i < count); ++i)
   {
-    if (!this->IsSideStraight(ids[i], ids[(i + 1) % count]))
+    if (!this->IsSideStraight(ids[i], ids[(i + 1) % count], sides))
     {
       return false;
     }
@@ -160,13 +187,14 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
 {
   const MembraneMapping mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
   CellReport report;
+  SideCache sides;
   for (std::size_t i = begin; i < end; ++i)
   {
     const std::int64_t* ids = cells.connectivity + cells.offsets[i];
     const auto count = static_cast<std::size_t>(cells.offsets[i + 1] - cells.offsets[i]);
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
-    if (side == Side::InFront || (side == Side::Behind && this->IsSimple(ids, count, false)))
+    if (side == Side::InFront || (side == Side::Behind && this->IsSimple(ids, count, false, sides)))
     {
       this->AddWhole(ids, count, cell, whole);
       ++report.whole;
@@ -191,6 +219,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
 {
   const MembraneMapping mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
   CellReport report;
+  SideCache sides;
   std::vector<std::int64_t> triangles;
   for (std::size_t i = begin; i < end; ++i)
   {
@@ -198,7 +227,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
     const auto count = static_cast<std::size_t>(cells.offsets[i + 1] - cells.offsets[i]);
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
-    if (side == Side::InFront || (side == Side::Behind && this->IsSimple(ids, count, true)))
+    if (side == Side::InFront || (side == Side::Behind && this->IsSimple(ids, count, true, sides)))
     {
       this->AddWhole(ids, count, cell, whole);
       ++report.whole;

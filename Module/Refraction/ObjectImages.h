@@ -13,6 +13,7 @@
 #include "Refraction/MembraneMapping.h"
 #include "Refraction/RangeLoop.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -57,11 +58,21 @@ public:
   /// of the membrane. Finds no image yet.
   void SetPoints(const double* points, std::size_t count, bool mayCross);
 
-  /// Images of the points in [begin, end), whole chunks. Different ranges may run at once.
+  /// Chunks of points that are wanted from now on; none: all of them. What is solved is kept, for
+  /// when it is wanted again, unless all of them were wanted.
   static constexpr std::size_t Chunk = 128;
+  void SetWanted(const std::vector<bool>& chunks) { this->Wanted = chunks; }
+  const std::vector<bool>& GetWanted() const { return this->Wanted; }
+  bool IsWanted(std::size_t point) const
+  {
+    return this->Wanted.empty() || this->Wanted[point / Chunk];
+  }
+
+  /// Images of the points in [begin, end), whole chunks, that are wanted and not solved. Different
+  /// ranges may run at once.
   void SolvePoints(std::size_t begin, std::size_t end);
 
-  /// Collects what SolvePoints found. Cells can be mapped afterwards.
+  /// Collects what SolvePoints found. Cells of wanted points can be mapped afterwards.
   void FinishPoints();
 
   const std::vector<ImagePoint>& GetPointImages() const { return this->Images; }
@@ -69,6 +80,7 @@ public:
   {
     return this->First[point + 1] - this->First[point];
   }
+  /// NotAsked if the point has never been wanted.
   ImageState GetState(std::size_t point) const { return this->States[point]; }
 
   /// Adds the images of cells [begin, end), called `names`. Cells that pass whole go to `whole`,
@@ -86,10 +98,23 @@ private:
     Both
   };
 
+  /// Sides that have been tested, for the neighbour on the other side. Forgets what is in the way.
+  struct SideCache
+  {
+    struct Entry
+    {
+      std::int64_t low = -1;
+      std::int64_t high = -1;
+      bool isStraight = false;
+    };
+    std::array<Entry, 256> entries;
+  };
+
   glm::dvec3 GetPoint(std::int64_t id) const;
   Side FindSide(const std::int64_t* ids, std::size_t count) const;
-  bool IsSimple(const std::int64_t* ids, std::size_t count, bool isClosed) const;
-  bool IsSideStraight(std::int64_t from, std::int64_t to) const;
+  bool IsSimple(const std::int64_t* ids, std::size_t count, bool isClosed, SideCache& sides) const;
+  bool IsSideStraight(std::int64_t a, std::int64_t b, SideCache& sides) const;
+  bool TestSide(std::int64_t from, std::int64_t to) const;
   void AddWhole(
     const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const;
 
@@ -100,6 +125,8 @@ private:
   const double* Points = nullptr;
   bool MayCross = false;
   std::vector<std::vector<VirtualVertex>> Chunks;
+  std::vector<bool> Wanted; ///< chunks; empty: all
+  std::vector<std::uint32_t> Counts;
   std::vector<ImageState> States;
   std::vector<bool> InFront;
   std::vector<std::size_t> First;

@@ -117,6 +117,14 @@ VirtualVertex VirtualGeometry::SolvePointByBruteForce(const glm::dvec3& point) c
 }
 
 //------------------------------------------------------------------------------
+bool VirtualGeometry::MayShow(
+  const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
+{
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  return !this->IsInReach(local) || this->Tree.HasAny(local, padding, chosen);
+}
+
+//------------------------------------------------------------------------------
 bool VirtualGeometry::HasOneCell(const glm::dvec3& point, double wall) const
 {
   const glm::dvec3 local = point - this->Surface.GetOrigin();

@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace meniscus
 {
@@ -24,8 +25,9 @@ namespace meniscus
 enum class ImageState : unsigned char
 {
   Found,
-  NoImage,  ///< the point is in no cell
-  NotFinite ///< NaN, infinite, or farther than CellTree::FarthestRadii: no answer is possible
+  NoImage,   ///< the point is in no cell
+  NotFinite, ///< NaN, infinite, or farther than CellTree::FarthestRadii: no answer is possible
+  NotAsked   ///< left out by the caller
 };
 
 struct VirtualVertex
@@ -65,6 +67,9 @@ public:
   /// Whether exactly one cell holds `point` with walls widened by `wall`, in barycentric
   /// coordinates: the thesis leaves all other points out of its statistics.
   bool HasOneCell(const glm::dvec3& point, double wall) const;
+
+  /// Whether a facet that `chosen` marks may show a point of the cube of half side `padding`.
+  bool MayShow(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const;
 
 private:
   bool IsInReach(const glm::dvec3& local) const;

@@ -78,6 +78,13 @@ class TestFilter(PropertyTest):
         self.check_mode(self.filter, "Images", ["FIRST_IMAGE", "ALL_IMAGES"], "ALL_IMAGES")
         self.check_mode(self.filter, "ReflectanceModel", ["FRESNEL", "SCHLICK"], "FRESNEL")
 
+    def test_view(self):
+        self.assertTrue(self.filter.GetViewCulling())
+        self.filter.ViewCullingOff()
+        self.assertFalse(self.filter.GetViewCulling())
+        self.assertEqual(self.filter.GetViewAspectRatio(), 0)
+        self.check_pair(self.filter, "ViewAspectRatio", [1.5])
+
     def test_normals(self):
         self.assertFalse(self.filter.GetVirtualNormals())
         self.filter.VirtualNormalsOn()
@@ -88,7 +95,7 @@ class TestFilter(PropertyTest):
     def test_counters(self):
         self.check_counters(self.filter, [
             "NumberOfPatchBuilds", "NumberOfEyeUpdates", "NumberOfSolvedVertices",
-            "NumberOfFailedSolves"])
+            "NumberOfFailedSolves", "NumberOfCulledVertices", "NumberOfCulledCells"])
 
 
 class TestErrorVolume(PropertyTest):
