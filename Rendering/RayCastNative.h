@@ -40,6 +40,12 @@ public:
     const VertexVersion& version, const std::vector<float>& opaqueDepth, std::vector<float>& image);
 
   InstructionSet GetInstructionSet() const { return this->Set; }
+  /** Bytes of the tables. */
+  std::int64_t GetBytes() const
+  {
+    return BytesOf(this->Tables.Vertices) + BytesOf(this->Tables.Intervals) +
+      BytesOf(this->Tables.Surfaces);
+  }
   /** Bytes of tables made, ever. */
   std::int64_t GetTableBytes() const { return this->TableBytes; }
 

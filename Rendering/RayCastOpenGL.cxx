@@ -3,6 +3,8 @@
 #include "RayCastOpenGL.h"
 
 #include "RayCastShader.h"
+#include "ThreadedLoop.h"
+#include "Volume/BlockLoop.h"
 
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
@@ -35,6 +37,27 @@ constexpr unsigned int TileLayers = 8;
 /** Pixels along a tile's side: 8 overflows the lists of 7-14 % of the tiles of meshes of 200k
  * cells. */
 constexpr int TileSize = 4;
+
+constexpr int FullCellTexels = 8;
+constexpr int CompactCellTexels = 5;
+
+std::vector<std::int32_t> CompactCells(const TetrahedralMesh& mesh)
+{
+  const auto& cells = mesh.GetCells();
+  std::vector<std::int32_t> values(CompactCellTexels * cells.size());
+  ForEachBlock(cells.size(), ThreadedLoop,
+    [&cells, &values](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const auto& v = cells[c].Vertices;
+        std::int32_t* value = &values[CompactCellTexels * c];
+        *value = v[0] ^ v[1] ^ v[2] ^ v[3];
+        std::copy(cells[c].Links.begin(), cells[c].Links.end(), value + 1);
+      }
+    });
+  return values;
+}
 
 /**
  * Draws to the first `count` color attachments of the bound target. VTK 9.1 skips the OpenGL call
@@ -81,9 +104,9 @@ std::string RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
-bool RayCastOpenGL::HasCells() const
+bool RayCastOpenGL::HasCells(bool compact) const
 {
-  return this->Cells.IsFilled();
+  return this->Cells.IsFilled() && compact == this->CellsAreCompact;
 }
 
 //------------------------------------------------------------------------------
@@ -106,13 +129,53 @@ std::string RayCastOpenGL::Count(OpenGLTable& table, const std::string& error)
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadCells(const TetrahedralMesh& mesh)
+std::string RayCastOpenGL::UploadCells(const TetrahedralMesh& mesh, bool compact)
 {
-  static_assert(sizeof(TetrahedralMesh::Cell) == 8 * sizeof(std::int32_t), "8 integers per cell");
-  const auto* values = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
-  const std::string error = this->Cells.Upload(
-    this->Window, values, 8 * static_cast<std::size_t>(mesh.GetNumberOfCells()), 1, 8);
+  static_assert(sizeof(TetrahedralMesh::Cell) == FullCellTexels * sizeof(std::int32_t),
+    "a full cell as it is on the host");
+  const auto cells = static_cast<std::size_t>(mesh.GetNumberOfCells());
+  std::string error;
+  if (compact)
+  {
+    const std::vector<std::int32_t> values = CompactCells(mesh);
+    error = this->Cells.Upload(this->Window, values.data(), values.size(), 1, CompactCellTexels);
+  }
+  else
+  {
+    const auto* values = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
+    error = this->Cells.Upload(this->Window, values, FullCellTexels * cells, 1, FullCellTexels);
+  }
+  this->CellsAreCompact = compact;
   return this->Count(this->Cells, error);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::DescribeExcess(
+  const TetrahedralMesh& mesh, bool compact, std::int64_t limit) const
+{
+  GLint ofDevice = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &ofDevice);
+  const std::int64_t largest = std::min(limit, static_cast<std::int64_t>(ofDevice));
+  const std::int64_t texels =
+    std::max((compact ? CompactCellTexels : FullCellTexels) * mesh.GetNumberOfCells(),
+      mesh.GetNumberOfVertices());
+  return texels <= largest ? std::string()
+                           : "a table of " + std::to_string(texels) + " texels for " +
+      std::to_string(mesh.GetNumberOfCells()) +
+      " tetrahedra exceeds the graphics device's limit of " + std::to_string(largest);
+}
+
+//------------------------------------------------------------------------------
+std::int64_t RayCastOpenGL::GetTableBytes() const
+{
+  std::int64_t bytes = 0;
+  for (const OpenGLTable* table :
+    { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
+      &this->VertexGradients, &this->Intervals, &this->Isosurfaces })
+  {
+    bytes += table->GetBytes();
+  }
+  return bytes;
 }
 
 //------------------------------------------------------------------------------

@@ -27,6 +27,8 @@ struct RayCastOptics
   int BlendMode = 0;
   /** One scalar per cell, in place of those of the vertices. */
   bool CellScalars = false;
+  /** How the table of cells is laid out: see RayCastOpenGL::UploadCells(). */
+  bool CompactCells = false;
   bool Shading = false;
   bool GradientOpacity = false;
   /** Gradients interpolated between vertices, not those of the cells; only with one of the above.

@@ -104,6 +104,7 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("SHADING", optics.Shading ? 1 : 0);
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
   define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);
+  define("COMPACT_CELLS", optics.CompactCells ? 1 : 0);
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("NEEDS_POSITION", optics.UsesGradients() ? 1 : 0);
   define("NUMBER_OF_LIGHTS", static_cast<int>(optics.Lighting.Lights.size()));

@@ -310,6 +310,13 @@ void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, TetrahedralMe
 }
 
 //------------------------------------------------------------------------------
+std::int64_t VolumeInput::GetBytes() const
+{
+  return this->Mesh.GetBytes() + BytesOf(this->Scalars) + BytesOf(this->CellScalars) +
+    BytesOf(this->Tree.GetNodes()) + BytesOf(this->Tree.GetFaces());
+}
+
+//------------------------------------------------------------------------------
 const BoundaryTree& VolumeInput::GetBoundaryTree()
 {
   if (this->TreeOf != this->LinkChanges)

@@ -72,6 +72,9 @@ public:
   /** Over the boundary of the active cells; built when first asked for. */
   const BoundaryTree& GetBoundaryTree();
 
+  /** Bytes of the tables. */
+  std::int64_t GetBytes() const;
+
   std::int64_t GetMeshBuilds() const { return this->MeshBuilds; }
   std::int64_t GetScalarUpdates() const { return this->ScalarUpdates; }
   /** Times that it was found out which cells are active. */

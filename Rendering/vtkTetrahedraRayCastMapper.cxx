@@ -83,9 +83,10 @@ public:
   bool WarnedBlendMode = false;
   bool WarnedNative = false;
   bool WarnedCompute = false;
+  bool WarnedTableSize = false;
 
   void UpdateGradients();
-  std::string Upload(bool gradients);
+  std::string Upload(const meniscus::RayCastOptics& optics);
   void UpdateNative();
   std::string DrawOpenGL(const meniscus::RayCastFrame& frame);
   std::string DrawNative(const meniscus::RayCastFrame& frame);
@@ -94,15 +95,21 @@ public:
 };
 
 //------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
+std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(const meniscus::RayCastOptics& optics)
 {
   meniscus::VolumeInput& input = this->Input;
   std::string error;
   const bool linksStale = this->UploadedLinks != input.GetLinkChanges();
-  if (linksStale || !this->OpenGL.HasCells() || !this->OpenGL.HasBoundary())
+  if (linksStale || !this->OpenGL.HasCells(optics.CompactCells))
   {
-    error = this->OpenGL.UploadCells(input.GetMesh());
-    error = error.empty() ? this->OpenGL.UploadBoundary(input.GetBoundaryTree()) : error;
+    error = this->OpenGL.UploadCells(input.GetMesh(), optics.CompactCells);
+  }
+  if (error.empty() && (linksStale || !this->OpenGL.HasBoundary()))
+  {
+    error = this->OpenGL.UploadBoundary(input.GetBoundaryTree());
+  }
+  if (linksStale || !error.empty())
+  {
     this->UploadedLinks = error.empty() ? input.GetLinkChanges() : 0;
   }
   const bool ofCells = input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
@@ -121,7 +128,7 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(bool gradients)
     this->UploadedCellScalars = error.empty() ? input.GetScalarUpdates() : 0;
   }
   const bool gradientsStale = this->UploadedGradients != this->GradientBuilds;
-  if (error.empty() && gradients && (gradientsStale || !this->OpenGL.HasGradients()))
+  if (error.empty() && optics.VertexGradients && (gradientsStale || !this->OpenGL.HasGradients()))
   {
     error = this->OpenGL.UploadGradients(this->Gradients);
     this->UploadedGradients = error.empty() ? this->GradientBuilds : 0;
@@ -157,7 +164,7 @@ std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
   {
     this->UpdateGradients();
   }
-  const std::string error = this->Upload(frame.Optics.VertexGradients);
+  const std::string error = this->Upload(frame.Optics);
   return error.empty() ? this->OpenGL.Draw(frame) : error;
 }
 
@@ -234,7 +241,8 @@ vtkStandardNewMacro(vtkTetrahedraRayCastMapper);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
-  : Internals(new vtkInternals)
+  : MaximumTableSize(VTK_TYPE_INT64_MAX)
+  , Internals(new vtkInternals)
 {
 }
 
@@ -397,6 +405,22 @@ int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
 }
 
 //------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::FallsBackToNative(bool plainOptics, std::string& error)
+{
+  vtkInternals& internals = *this->Internals;
+  error = internals.OpenGL.DescribeExcess(
+    internals.Input.GetMesh(), this->CompactTables != 0, this->MaximumTableSize);
+  if (error.empty() || !plainOptics)
+  {
+    return false;
+  }
+  this->WarnOnce(
+    true, internals.WarnedTableSize, ("Rendering with the native backend: " + error + ".").c_str());
+  error.clear();
+  return true;
+}
+
+//------------------------------------------------------------------------------
 double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
 {
   if (!this->AutoAdjustSampleDistances)
@@ -444,6 +468,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   frame.Rays = place.Frame;
   frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
   frame.Optics.BlendMode = this->GetUsedBlendMode();
+  frame.Optics.CompactCells = this->CompactTables != 0;
   frame.Optics.CellScalars = internals.Input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
@@ -480,6 +505,13 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   if (error.empty())
   {
     backend = this->ChooseBackend(frame.Optics.IsPlain());
+    if (backend != NATIVE && this->FallsBackToNative(frame.Optics.IsPlain(), error))
+    {
+      backend = NATIVE;
+    }
+  }
+  if (error.empty())
+  {
     frame.Compute = backend == COMPUTE;
     error = backend == NATIVE ? internals.DrawNative(frame) : internals.DrawOpenGL(frame);
   }
@@ -566,6 +598,21 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
+{
+  const vtkInternals& internals = *this->Internals;
+  const std::size_t gradients = internals.Gradients.size() * sizeof(glm::vec3);
+  return internals.Input.GetBytes() + internals.Native.GetBytes() +
+    static_cast<vtkTypeInt64>(gradients);
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetDeviceBytes()
+{
+  return this->Internals->OpenGL.GetTableBytes();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveCells()
 {
   return this->Internals->Input.GetMesh().GetNumberOfActiveCells();
@@ -624,6 +671,10 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfGradientBuilds: " << this->GetNumberOfGradientBuilds() << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
+  os << indent << "CompactTables: " << this->CompactTables << "\n";
+  os << indent << "MaximumTableSize: " << this->MaximumTableSize << "\n";
+  os << indent << "HostBytes: " << this->GetHostBytes() << "\n";
+  os << indent << "DeviceBytes: " << this->GetDeviceBytes() << "\n";
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
   os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
   os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";

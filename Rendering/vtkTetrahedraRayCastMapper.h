@@ -216,6 +216,27 @@ public:
 
   ///@{
   /**
+   * Whether the table of cells on the graphics device takes 20 bytes per tetrahedron in place
+   * of 32. The picture is the same. Default off.
+   */
+  vtkSetMacro(CompactTables, vtkTypeBool);
+  vtkGetMacro(CompactTables, vtkTypeBool);
+  vtkBooleanMacro(CompactTables, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * Texels that a table on the graphics device may have, beside the limit that the device names
+   * (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that promise more than they hold. A mesh with a table
+   * beyond, of 8 texels per tetrahedron or 5 if compact, is drawn by the native backend, after a
+   * warning; what that does not have is an error with the numbers. Default: no limit.
+   */
+  vtkSetClampMacro(MaximumTableSize, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(MaximumTableSize, vtkTypeInt64);
+  ///@}
+
+  ///@{
+  /**
    * Opacity at which a ray ends, in [0, 1]. A pixel is off by at most 1 minus this. Default
    * 1 - 2^-17; 1 integrates every ray to its end.
    */
@@ -266,6 +287,16 @@ public:
    * native backend, since construction. A camera move sends none.
    */
   vtkTypeInt64 GetUploadedBytes();
+
+  ///@{
+  /**
+   * Bytes of the tables that are kept now: in the computer's memory (mesh, scalars, gradients,
+   * those of the native backend; not the input itself) and on the graphics device. Images and what
+   * a frame or a build takes in passing do not count.
+   */
+  vtkTypeInt64 GetHostBytes();
+  vtkTypeInt64 GetDeviceBytes();
+  ///@}
 
   ///@{
   /**
@@ -321,6 +352,7 @@ private:
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
   int ChooseBackend(bool plainOptics);
+  bool FallsBackToNative(bool plainOptics, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);
@@ -336,6 +368,8 @@ private:
   float ImageSampleDistance = 1.0f;
   float MaximumImageSampleDistance = 8.0f;
   vtkTypeBool AutoAdjustSampleDistances = 1;
+  vtkTypeBool CompactTables = 0;
+  vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator stumbles over its default here
   double UsedImageSampleDistance = 1.0;
 
   class vtkInternals;

@@ -56,7 +56,7 @@ void BoundaryTree::Build(const TetrahedralMesh& mesh)
     items[f] = { glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)),
       static_cast<std::int32_t>(f) };
   }
-  this->Nodes.reserve(2 * items.size());
+  this->Nodes.reserve(2 * items.size() - 1);
   this->Faces.reserve(items.size());
   this->BuildSubtree(mesh, items, 0, items.size());
 }

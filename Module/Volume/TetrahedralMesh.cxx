@@ -50,6 +50,17 @@ bool IsFinite(const glm::dvec3& p)
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+/** What a table held before is memory for the next, unless it is far too much. */
+template <typename T>
+void ResizeTable(std::vector<T>& table, std::size_t size)
+{
+  if (table.capacity() / 2 > size)
+  {
+    table = std::vector<T>();
+  }
+  table.resize(size);
+}
+
 /** Turns the counts of blocks into where each block's part starts; returns the sum. */
 std::size_t CountsToStarts(std::vector<std::size_t>& counts)
 {
@@ -71,7 +82,6 @@ public:
     : Mesh(mesh)
     , Input(input)
     , Loop(loop)
-    , Corners(new Quad[input.NumberOfCells])
     , CellStarts(NumberOfBlocks(input.NumberOfCells))
     , Used(new std::atomic<std::uint8_t>[input.NumberOfPoints])
   {
@@ -94,8 +104,11 @@ private:
   TetrahedralMesh& Mesh;
   const TetrahedraView& Input;
   const RangeLoop& Loop;
-  /** Per input cell: its points, then its vertices in ascending order; -1 first if rejected. */
-  std::unique_ptr<Quad[]> Corners;
+  /**
+   * Per input cell: its points, then its vertices in ascending order; -1 first if rejected. They
+   * lie in links, which come to be after them: memory touched first costs more than most of this.
+   */
+  Quad& CornersOf(std::size_t inputCell) { return this->Mesh.Cells[inputCell].Links; }
   /** Per block of input cells: how many are accepted in the blocks before it. */
   std::vector<std::size_t> CellStarts;
   std::size_t NumberOfCells = 0;
@@ -111,15 +124,27 @@ void TetrahedralMesh::Clear()
 }
 
 //------------------------------------------------------------------------------
+void TetrahedralMesh::ForgetAllButTables()
+{
+  this->Rejected = RejectedCells();
+  this->CutLinks = 0;
+  this->ActiveCells = 0;
+  this->UnknownCells = 0;
+  this->Center = glm::dvec3(0.0);
+  this->Radius = 0.0;
+}
+
+//------------------------------------------------------------------------------
 MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildControl& control)
 {
-  this->Clear();
   // A vertex index is 31 bits, and so is a link.
   if (input.NumberOfCells > MaximumNumberOfCells ||
     input.NumberOfPoints > std::numeric_limits<std::int32_t>::max())
   {
+    this->Clear();
     return MeshStatus::TooLarge;
   }
+  this->ForgetAllButTables();
   const auto goesOn = [this, &control](double fraction)
   {
     const bool on = !control.Progress || control.Progress(fraction);
@@ -133,6 +158,9 @@ MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildCo
   builder->ValidateCells();
   if (!builder->HasCells())
   {
+    const RejectedCells rejected = this->Rejected;
+    this->Clear();
+    this->Rejected = rejected;
     return MeshStatus::Empty;
   }
   // Fractions of the time, as measured for meshes of 200 thousand cells.
@@ -166,6 +194,7 @@ MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildCo
 void TetrahedralMesh::Builder::ValidateCells()
 {
   const auto numberOfPoints = static_cast<std::size_t>(this->Input.NumberOfPoints);
+  ResizeTable(this->Mesh.Cells, static_cast<std::size_t>(this->Input.NumberOfCells));
   this->Finite.resize(numberOfPoints);
   ForEachBlock(numberOfPoints, this->Loop,
     [this](std::size_t, std::size_t first, std::size_t last)
@@ -208,7 +237,7 @@ void TetrahedralMesh::Builder::ReadBlock(const Id* cells, std::size_t first, std
   for (std::size_t c = first; c < last; ++c)
   {
     const Id* ids = cells + 4 * c;
-    Quad& corners = this->Corners[c];
+    Quad& corners = this->CornersOf(c);
     corners[0] = -1;
     if (flags && (flags[c] & this->Input.LeftOutBits))
     {
@@ -307,8 +336,8 @@ void TetrahedralMesh::Builder::NumberVertices()
   std::vector<MortonKey> keys = this->KeysOfUsedPoints();
   SortByCode(keys, this->Loop);
   this->VertexOfPoint.resize(this->Input.NumberOfPoints);
-  this->Mesh.SourcePoints.resize(keys.size());
-  this->Mesh.Positions.resize(keys.size());
+  ResizeTable(this->Mesh.SourcePoints, keys.size());
+  ResizeTable(this->Mesh.Positions, keys.size());
   const double scale = this->Mesh.Radius > 0.0 ? 1.0 / PositionUnit / this->Mesh.Radius : 0.0;
   ForEachBlock(keys.size(), this->Loop,
     [this, &keys, scale](std::size_t, std::size_t first, std::size_t last)
@@ -334,7 +363,7 @@ void TetrahedralMesh::Builder::NumberCells()
       std::size_t next = this->CellStarts[block];
       for (std::size_t c = first; c < last; ++c)
       {
-        Quad& corners = this->Corners[c];
+        Quad& corners = this->CornersOf(c);
         if (corners[0] < 0)
         {
           continue;
@@ -355,21 +384,32 @@ void TetrahedralMesh::Builder::NumberCells()
       }
     });
   SortByCode(keys, this->Loop);
-  this->Mesh.Cells.resize(keys.size());
-  this->Mesh.SourceCells.resize(this->Input.KeepSourceCells ? keys.size() : 0);
+  ResizeTable(this->Mesh.SourceCells, this->Input.KeepSourceCells ? keys.size() : 0);
   ForEachBlock(keys.size(), this->Loop,
     [this, &keys](std::size_t, std::size_t first, std::size_t last)
     {
       for (std::size_t c = first; c < last; ++c)
       {
         const std::size_t source = IndexOf(keys[c]);
-        this->Mesh.Cells[c].Vertices = this->Corners[source];
-        this->Mesh.Cells[c].Links.fill(NoNeighbor);
+        this->Mesh.Cells[c].Vertices = this->CornersOf(source);
         if (this->Input.KeepSourceCells)
         {
           this->Mesh.SourceCells[c] = this->Input.SourceCells ? this->Input.SourceCells[source]
                                                               : static_cast<std::int32_t>(source);
         }
+      }
+    });
+  this->Mesh.Cells.resize(keys.size());
+  if (this->Mesh.Cells.capacity() / 2 > keys.size())
+  {
+    this->Mesh.Cells.shrink_to_fit(); // most of the input was left out
+  }
+  ForEachBlock(keys.size(), this->Loop,
+    [this](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        this->Mesh.Cells[c].Links.fill(NoNeighbor);
       }
     });
 }

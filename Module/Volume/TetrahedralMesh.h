@@ -87,6 +87,13 @@ struct RejectedCells
 
 class VisibleScalars;
 
+/** Bytes that a table takes. */
+template <typename T>
+std::int64_t BytesOf(const std::vector<T>& table)
+{
+  return static_cast<std::int64_t>(table.capacity() * sizeof(T));
+}
+
 /** A face of an active cell without an active cell on the other side. */
 struct BoundaryFace
 {
@@ -172,6 +179,12 @@ public:
   const RejectedCells& GetRejectedCells() const { return this->Rejected; }
   /** Links cut because they contradict the flood fill. */
   std::int64_t GetNumberOfCutLinks() const { return this->CutLinks; }
+  /** Bytes of all tables. */
+  std::int64_t GetBytes() const
+  {
+    return BytesOf(this->Cells) + BytesOf(this->Positions) + BytesOf(this->SourcePoints) +
+      BytesOf(this->SourceCells) + BytesOf(this->Boundary) + BytesOf(this->Orientation);
+  }
   /** Centre of the bounding box of the used points. */
   const glm::dvec3& GetCenter() const { return this->Center; }
   /** Largest distance of a vertex from the centre; 0 if all vertices coincide or there are none. */
@@ -181,6 +194,7 @@ private:
   class Builder;
 
   void Clear();
+  void ForgetAllButTables();
   void LinkCells(const RangeLoop& loop);
   void OrientCells(const RangeLoop& loop);
   struct ScalarRange;

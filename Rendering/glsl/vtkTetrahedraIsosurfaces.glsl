@@ -62,7 +62,7 @@ void addSurface(int index, float at)
   vec3 emitted = texelFetch(surfaces, 2 * index + 1).rgb;
 #if SHADING
 #if CELL_SCALARS
-  vec3 gradient = faceNormal(cell, face);
+  vec3 gradient = faceNormal(cell);
 #elif VERTEX_GRADIENTS
   vec3 gradient = mix(segmentGradientStart, segmentGradientEnd, at);
 #else

@@ -20,13 +20,27 @@ uniform vec4 lightCone[NUMBER_OF_LIGHTS];        // axis, cosine of the angle (-
 uniform vec4 lightFalloff[NUMBER_OF_LIGHTS];     // by distance^0, 1, 2; exponent in the cone
 #endif
 
-// Gradient of the scalar in a cell; 0 in one without volume.
+// The vertices of the cell that the ray is leaving; the three first are those of its exit.
+ivec4 cellVertices(int index)
+{
+#if COMPACT_CELLS
+  int last = texelFetch(cells, CELL_SIZE * index).r ^ corners.x ^ corners.y ^ corners.z;
+  return ivec4(corners, last);
+#else
+  ivec4 v = ivec4(texelFetch(cells, CELL_SIZE * index).r, texelFetch(cells, CELL_SIZE * index + 1).r,
+    texelFetch(cells, CELL_SIZE * index + 2).r, texelFetch(cells, CELL_SIZE * index + 3).r);
+  return ivec4(corners, v.x ^ v.y ^ v.z ^ v.w ^ corners.x ^ corners.y ^ corners.z);
+#endif
+}
+
+// Gradient of the scalar in that cell; 0 in one without volume.
 vec3 cellGradient(int index)
 {
-  vec4 p = texelFetch(vertices, texelFetch(cells, 8 * index).r);
-  vec4 a = texelFetch(vertices, texelFetch(cells, 8 * index + 1).r) - p;
-  vec4 b = texelFetch(vertices, texelFetch(cells, 8 * index + 2).r) - p;
-  vec4 c = texelFetch(vertices, texelFetch(cells, 8 * index + 3).r) - p;
+  ivec4 v = cellVertices(index);
+  vec4 p = texelFetch(vertices, v.x);
+  vec4 a = texelFetch(vertices, v.y) - p;
+  vec4 b = texelFetch(vertices, v.z) - p;
+  vec4 c = texelFetch(vertices, v.w) - p;
   vec3 bc = cross(b.xyz, c.xyz);
   float volume = dot(a.xyz, bc);
   vec3 sum = a.w * bc + b.w * cross(c.xyz, a.xyz) + c.w * cross(a.xyz, b.xyz);
@@ -34,13 +48,14 @@ vec3 cellGradient(int index)
 }
 
 #if CELL_SCALARS
-// Normal of a cell's face.
-vec3 faceNormal(int index, int opposite)
+// Normal of the face by which the ray entered that cell: of all vertices but the apex.
+vec3 faceNormal(int index)
 {
-  vec3 p = texelFetch(vertices, texelFetch(cells, 8 * index + (opposite == 0 ? 1 : 0)).r).xyz;
-  vec3 a = texelFetch(vertices, texelFetch(cells, 8 * index + (opposite <= 1 ? 2 : 1)).r).xyz - p;
-  vec3 b = texelFetch(vertices, texelFetch(cells, 8 * index + (opposite == 3 ? 2 : 3)).r).xyz - p;
-  return cross(a, b);
+  ivec4 v = cellVertices(index);
+  ivec3 entered =
+    ivec3(v.x == apex ? v.w : v.x, v.y == apex ? v.w : v.y, v.z == apex ? v.w : v.z);
+  vec3 p = texelFetch(vertices, entered.x).xyz;
+  return cross(texelFetch(vertices, entered.y).xyz - p, texelFetch(vertices, entered.z).xyz - p);
 }
 #endif
 

@@ -4,7 +4,16 @@
 // The walk of a ray through a tetrahedral mesh. The loops are flat, one step or one piece of the
 // optical model per turn: rays side by side do not wait for each other's inner loops.
 
-uniform isamplerBuffer cells;        // per cell: 4 vertices, 4 links
+#if COMPACT_CELLS
+// Per cell: the exclusive or of its vertices, from which three give the fourth; 4 links.
+#define CELL_SIZE 5
+#define FIRST_LINK 1
+#else
+// Per cell: 4 vertices, 4 links.
+#define CELL_SIZE 8
+#define FIRST_LINK 4
+#endif
+uniform isamplerBuffer cells;
 uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetrahedraEntryTilesFS
 uniform int numberOfCells;
 uniform float tileSize;
@@ -40,6 +49,7 @@ RayVertex a;
 RayVertex b;
 RayVertex c;
 ivec3 corners;       // their numbers
+int apex;            // the vertex of the cell that the face entered by does not have
 vec3 edges;          // twice the areas that edges ab, bc, ca span with the ray
 int cell;
 int face;
@@ -142,7 +152,12 @@ bool advance(float exitDepth, float exitScalar)
 // Crosses `cell` from `face`. Yields the link to follow; returns whether a segment is pending.
 bool stepThroughCell(out int link)
 {
-  int number = texelFetch(cells, 8 * cell + face).r;
+#if COMPACT_CELLS
+  int number = texelFetch(cells, CELL_SIZE * cell).r ^ corners.x ^ corners.y ^ corners.z;
+#else
+  int number = texelFetch(cells, CELL_SIZE * cell + face).r;
+#endif
+  apex = number;
   RayVertex x = fetchVertex(number);
   vec3 areas = vec3(edgeArea(x, a), edgeArea(x, b), edgeArea(x, c));
   bool leftOfA = edgeTurnsLeft(x, a, areas.x, number < corners.x);
@@ -158,7 +173,7 @@ bool stepThroughCell(out int link)
   int dropped = dropA ? corners.x : (dropB ? corners.y : corners.z);
   int rank = int(number < dropped) + int(corners.x < dropped) + int(corners.y < dropped) +
     int(corners.z < dropped);
-  link = texelFetch(cells, 8 * cell + 4 + rank).r;
+  link = texelFetch(cells, CELL_SIZE * cell + FIRST_LINK + rank).r;
 
   // The exit face: x takes the dropped vertex's place, which keeps the sense of rotation.
   edges = vec3(dropC ? edges.x : (dropA ? areas.y : areas.x),

@@ -202,12 +202,14 @@ TEST(TetrahedraRayCastBadInput, PointsThatAreNotFinite)
 TEST(TetrahedraRayCastBadInput, PointIndexOutOfRange)
 {
   const Grid grid = makeBlock(3, wavyField(2.0));
-  for (const vtkIdType bad : { vtkIdType(1000000), vtkIdType(-1), grid->GetNumberOfPoints() })
+  // One of more than 32 bits, whose lower ones would be a point.
+  for (const vtkIdType bad :
+    { vtkIdType(1000000), vtkIdType(-1), grid->GetNumberOfPoints(), (vtkIdType(1) << 32) + 2 })
   {
     const vtkIdType ids[4] = { 0, 1, 5, bad };
     grid->InsertNextCell(VTK_TETRA, 4, ids);
   }
-  expectRest(grid, 3, "index out of range");
+  expectRest(grid, 4, "index out of range");
 }
 
 TEST(TetrahedraRayCastBadInput, RepeatedPointsInACell)

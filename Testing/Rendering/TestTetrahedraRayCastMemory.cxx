@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The size of tables: what is kept, the compact layout, and meshes beyond the device's limits.
+#include "RayCastScene.h"
+
+#include <vtkCellData.h>
+#include <vtkContourValues.h>
+#include <vtkDoubleArray.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 120;
+constexpr double Range[2] = { -1.0, 1.0 };
+constexpr int Native = vtkTetrahedraRayCastMapper::NATIVE;
+constexpr int OpenGL = vtkTetrahedraRayCastMapper::OPENGL;
+constexpr int Compute = vtkTetrahedraRayCastMapper::COMPUTE;
+
+class TetrahedraRayCastMemory : public testing::Test
+{
+protected:
+  TetrahedraRayCastMemory()
+    : Mesh(makeBlock(6, wavyField(3.0)))
+    , Property(makeProperty(FunctionKind::Smooth, Range, 3.5))
+    , Scene(this->Mesh, this->Property, Size, Size)
+    , Mapper(this->Scene.rayCaster())
+    , Observer(vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New()))
+  {
+    jitter(this->Mesh, 0.05, 5);
+    vtkNew<vtkDoubleArray> values;
+    for (vtkIdType c = 0; c < this->Mesh->GetNumberOfCells(); ++c)
+    {
+      values->InsertNextValue(std::sin(0.05 * c));
+    }
+    values->SetName("cells");
+    this->Mesh->GetCellData()->SetScalars(values);
+    this->Property->GetIsoSurfaceValues()->SetValue(0, 0.2);
+    this->Property->GetIsoSurfaceValues()->SetValue(1, -0.4);
+    this->Observer->observe(this->Mapper);
+    lookAt(this->Scene.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
+    this->Mapper->SetBackend(OpenGL);
+  }
+
+  /// With full and with compact tables.
+  void expectSamePicture(const std::string& what)
+  {
+    this->Mapper->CompactTablesOff();
+    const FloatImage full = this->Scene.renderFloat();
+    this->Mapper->CompactTablesOn();
+    const FloatImage compact = this->Scene.renderFloat();
+    EXPECT_EQ(this->Mapper->GetNumberOfLostRays(), 0);
+    float opacity = 0.0f;
+    for (std::size_t i = 0; i < full.Rgba.size(); ++i)
+    {
+      ASSERT_NEAR(compact.Rgba[i], full.Rgba[i], 2e-6) << what;
+      opacity = std::max(opacity, full.Rgba[i]);
+    }
+    EXPECT_GT(opacity, 0.1f) << what;
+  }
+
+  vtkTypeInt64 cells() const { return this->Mesh->GetNumberOfCells(); }
+
+  Grid Mesh;
+  vtkSmartPointer<vtkVolumeProperty> Property;
+  RayCastScene Scene;
+  vtkTetrahedraRayCastMapper* Mapper;
+  vtkSmartPointer<ErrorObserver> Observer;
+};
+
+} // anonymous namespace
+
+TEST_F(TetrahedraRayCastMemory, CompactTablesGiveTheSamePicture)
+{
+  struct Case
+  {
+    int Backend;
+    bool Lit;
+    int Gradients;
+  };
+  for (const Case& c : { Case{ OpenGL, false, 0 }, Case{ OpenGL, true, 0 }, Case{ OpenGL, true, 1 },
+         Case{ Compute, false, 0 } })
+  {
+    this->Mapper->SetBackend(c.Backend);
+    this->Property->SetShade(c.Lit);
+    this->Mapper->SetGradients(c.Gradients);
+    for (const int mode :
+      { int(vtkVolumeMapper::COMPOSITE_BLEND), int(vtkVolumeMapper::ISOSURFACE_BLEND) })
+    {
+      this->Mapper->SetBlendMode(mode);
+      for (const int scalars : { VTK_SCALAR_MODE_USE_POINT_DATA, VTK_SCALAR_MODE_USE_CELL_DATA })
+      {
+        this->Mapper->SetScalarMode(scalars);
+        this->expectSamePicture("backend " + std::to_string(c.Backend) + " lit " +
+          std::to_string(c.Lit) + " gradients " + std::to_string(c.Gradients) + " mode " +
+          std::to_string(mode) + " scalars " + std::to_string(scalars));
+      }
+    }
+  }
+}
+
+TEST_F(TetrahedraRayCastMemory, BytesAreThoseOfTheTables)
+{
+  // The block's sides: two triangles for each square. Vertices are the points.
+  const vtkTypeInt64 faces = 6 * 6 * 6 * 2;
+  const vtkTypeInt64 points = this->Mesh->GetNumberOfPoints();
+  const vtkTypeInt64 tree = (2 * faces - 1) * 32 + faces * 20;
+  this->Scene.window()->Render();
+  EXPECT_EQ(this->Mapper->GetHostBytes(), 33 * this->cells() + 20 * points + 20 * faces + tree);
+  const vtkTypeInt64 full = this->Mapper->GetDeviceBytes();
+  const vtkTypeInt64 property = full - 32 * this->cells() - 16 * points - 80 * faces + 32;
+  EXPECT_GT(property, 0);
+  EXPECT_LT(property, 10000);
+  const vtkTypeInt64 uploaded = this->Mapper->GetUploadedBytes();
+  this->Mapper->CompactTablesOn();
+  this->Scene.window()->Render();
+  EXPECT_EQ(full - this->Mapper->GetDeviceBytes(), 12 * this->cells());
+  EXPECT_EQ(this->Mapper->GetUploadedBytes() - uploaded, 20 * this->cells());
+  this->Scene.window()->Render();
+  EXPECT_EQ(this->Mapper->GetUploadedBytes() - uploaded, 20 * this->cells());
+  EXPECT_EQ(this->Mapper->GetNumberOfMeshBuilds(), 1);
+  this->Mapper->ReleaseGraphicsResources(this->Scene.window());
+  EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
+}
+
+TEST_F(TetrahedraRayCastMemory, MeshesBeyondTheDevicesTablesGoToTheNativeBackend)
+{
+  this->Mapper->SetScalarModeToUsePointData();
+  this->Mapper->SetMaximumTableSize(8 * this->cells());
+  expectMatchesReference(this->Scene, "within the limit");
+  EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
+  this->Mapper->SetMaximumTableSize(8 * this->cells() - 1);
+  expectMatchesReference(this->Scene, "beyond the limit");
+  EXPECT_EQ(this->Mapper->GetActiveBackend(), Native);
+  ASSERT_EQ(this->Observer->Warnings.size(), 1u);
+  EXPECT_NE(this->Observer->Warnings[0].find(std::to_string(8 * this->cells())), std::string::npos);
+  EXPECT_NE(
+    this->Observer->Warnings[0].find(std::to_string(8 * this->cells() - 1)), std::string::npos);
+  this->Mapper->CompactTablesOn();
+  expectMatchesReference(this->Scene, "compact, within the limit");
+  EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
+  EXPECT_TRUE(this->Observer->Errors.empty());
+}
+
+TEST_F(TetrahedraRayCastMemory, BeyondTheLimitsOfAllBackendsIsAnErrorAndNoPicture)
+{
+  this->Property->ShadeOn();
+  this->Mapper->SetScalarModeToUsePointData();
+  const FloatImage expected = this->Scene.renderFloat();
+  this->Mapper->SetMaximumTableSize(100);
+  const FloatImage image = this->Scene.renderFloat();
+  // The native backend draws it, or nothing does.
+  const bool native = this->Mapper->GetActiveBackend() == Native;
+  EXPECT_EQ(this->Observer->Errors.size(), native ? 0u : 1u);
+  for (std::size_t i = 0; i < image.Rgba.size(); ++i)
+  {
+    ASSERT_NEAR(image.Rgba[i], native ? expected.Rgba[i] : 0.0f, 1e-4);
+  }
+}
