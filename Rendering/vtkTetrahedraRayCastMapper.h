@@ -72,8 +72,8 @@
  * is done where its input changes: see the counters.
  *
  * @note Limits of this version: up to 32 clipping planes and 16 lights; the native backend has no
- * gradient opacity and no shading but of isosurfaces; fewer than 2^29 cells, and tables within
- * GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
+ * gradient opacity and no shading but of isosurfaces; fewer than 2^29 tetrahedra; on the
+ * graphics device, tables within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
