@@ -81,9 +81,8 @@
  *
  * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
  * composite blending of point data only; the native backend has no gradient opacity, no shading but
- * of isosurfaces, no several components and no pre-integration; fewer than 2^29 cells, and tables
- * within
- * GL_MAX_TEXTURE_BUFFER_SIZE (8 texels per cell).
+ * of isosurfaces, no several components and no pre-integration; fewer than 2^29 tetrahedra; on the
+ * graphics device, tables within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()).
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */

@@ -9,6 +9,8 @@ export DEBIAN_FRONTEND=noninteractive
 # What a fresh Debian 12 lacks, per purpose.
 PACKAGES_BUILD=(g++ cmake ninja-build libvtk9-dev python3 python3-vtk9 libpython3-dev libglm-dev
   libopenmesh-dev libgtest-dev libbenchmark-dev)
+# What only a part of the benchmarks needs: the build goes on without it.
+PACKAGES_BENCHMARKS=(libembree-dev)
 PACKAGES_DISPLAY=(xvfb xauth libgl1-mesa-dri)
 PACKAGES_LINT=(clang-format-14 codespell git)
 PACKAGES_TIDY=(clang-tidy-14)

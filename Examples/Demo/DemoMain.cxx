@@ -6,6 +6,7 @@
 #include "DemoVolumeInput.h"
 #include "RefractionDemo.h"
 #include "VolumeDemo.h"
+#include "WellDemo.h"
 
 #include "vtkUnstructuredGrid.h"
 
@@ -47,5 +48,6 @@ int main(int argc, char* argv[])
   }
   const bool volume = RunVolumeDemo(grid, folder);
   const bool refraction = RunRefractionDemo(folder);
-  return volume && refraction ? 0 : 1;
+  const bool well = RunWellDemo(folder);
+  return volume && refraction && well ? 0 : 1;
 }

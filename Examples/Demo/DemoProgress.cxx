@@ -17,7 +17,19 @@ namespace
 
 constexpr int BarWidth = 30;
 
-void DrawBar(const std::string& what, double progress)
+void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
+{
+  const double progress = static_cast<vtkAlgorithm*>(caller)->GetProgress();
+  if (progress < 1.0) // the last state is drawn once, after the update
+  {
+    ShowProgress(*static_cast<const std::string*>(clientData), progress);
+  }
+}
+
+}
+
+//------------------------------------------------------------------------------
+void ShowProgress(const std::string& what, double progress)
 {
   // In a log, which keeps every state of the bar, only the last one is wanted.
   if (progress < 1.0 && !isatty(fileno(stderr)))
@@ -30,17 +42,6 @@ void DrawBar(const std::string& what, double progress)
     static_cast<int>(100.0 * progress + 0.5));
 }
 
-void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
-{
-  const double progress = static_cast<vtkAlgorithm*>(caller)->GetProgress();
-  if (progress < 1.0) // the last state is drawn once, after the update
-  {
-    DrawBar(*static_cast<const std::string*>(clientData), progress);
-  }
-}
-
-}
-
 //------------------------------------------------------------------------------
 void UpdateWithProgress(vtkAlgorithm* algorithm, const std::string& what)
 {
@@ -50,9 +51,9 @@ void UpdateWithProgress(vtkAlgorithm* algorithm, const std::string& what)
   observer->SetClientData(&label);
   const unsigned long tag = algorithm->AddObserver(vtkCommand::ProgressEvent, observer);
   const double start = vtkTimerLog::GetUniversalTime();
-  DrawBar(what, 0.0);
+  ShowProgress(what, 0.0);
   algorithm->Update();
   algorithm->RemoveObserver(tag);
-  DrawBar(what, 1.0);
+  ShowProgress(what, 1.0);
   std::fprintf(stderr, "  %.2f s\n", vtkTimerLog::GetUniversalTime() - start);
 }

@@ -7,6 +7,9 @@
 
 class vtkAlgorithm;
 
+/** Draws the bar's state, `progress` from 0 to 1. */
+void ShowProgress(const std::string& what, double progress);
+
 /** Updates an algorithm under a progress bar on standard error and prints how long it took. */
 void UpdateWithProgress(vtkAlgorithm* algorithm, const std::string& what);
 

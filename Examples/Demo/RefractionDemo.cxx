@@ -216,8 +216,6 @@ bool RunRefractionDemo(const std::string& folder)
   refraction->SetInputData(0, pool);
   refraction->SetMembraneData(water);
   refraction->SetCamera(camera);
-  refraction->SetMembraneModelToFlatFacets();
-  refraction->SetImagesToFirstImage();
   UpdateWithProgress(refraction, "Virtual geometry");
   PrintCounters(refraction);
   const auto truePool = MakeActor(pool);

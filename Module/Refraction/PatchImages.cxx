@@ -29,6 +29,9 @@ constexpr int MostDivisions = 1000;
 // Newton's method starts at the root of a nearly linear map.
 constexpr int NewtonSteps = 12;
 
+// A root this far outside of a triangle, in triangles, says nothing of the triangle.
+constexpr double FarthestRoot = 0.5;
+
 // The part of second degree, relative to the linear part, above which the interpolant is a guess.
 constexpr double LargestBend = 0.5;
 
@@ -127,15 +130,20 @@ void PatchImages::Find()
 
 //------------------------------------------------------------------------------
 // Eye and point are so far that lines of sight turn by less than half a radian in the patch, and so
-// do its normals: the map bends by less than LargestBend.
+// do its normals, which hardly bend on the way: the map bends by less than LargestBend.
 bool PatchImages::IsFar() const
 {
   const glm::dvec3 first = this->Patch.corner[1] - this->Patch.corner[0];
   const glm::dvec3 second = this->Patch.corner[2] - this->Patch.corner[0];
   const double squared = 4.0 * (glm::dot(first, first) + glm::dot(second, second));
-  constexpr double smallest = 0.875; // cos 0.5
+  constexpr double smallest = 0.875;  // cos 0.5
+  constexpr double straightest = 0.1; // a quarter of the largest bend of an edge
   const auto turns = [this](int i, int j)
-  { return glm::dot(this->Patch.normal[i], this->Patch.normal[j]) < smallest; };
+  {
+    const glm::dvec3& bend = this->Patch.bend[3 - i - j];
+    return glm::dot(this->Patch.normal[i], this->Patch.normal[j]) < smallest ||
+      glm::dot(bend, bend) > straightest * straightest;
+  };
   return this->Equation.GetSquaredDistance(this->Patch.corner[0]) > squared && !turns(0, 1) &&
     !turns(1, 2) && !turns(2, 0);
 }
@@ -184,8 +192,8 @@ void PatchImages::Search(const Triangle& triangle, int depth)
 }
 
 //------------------------------------------------------------------------------
-// False if Newton's method gave no answer. A root outside the triangle is an answer: there is none
-// inside.
+// False if Newton's method gave no answer. A root just outside the triangle is an answer: there is
+// none inside.
 bool PatchImages::TakeRoot(const Triangle& triangle)
 {
   const glm::dvec2 u = triangle.f[1] - triangle.f[0];
@@ -209,6 +217,11 @@ bool PatchImages::TakeRoot(const Triangle& triangle)
   const double area = Cross(side1, side2);
   const glm::dvec2 inside(
     Cross(root.b - triangle.b[0], side2) / area, Cross(side1, root.b - triangle.b[0]) / area);
+  // Newton's method may have gone to another root far away; the map is known here only.
+  if (FindOutside(inside).least < -FarthestRoot)
+  {
+    return false;
+  }
   // A triangle's border is as wide as the facet's, whatever its size.
   const double border = Border / std::sqrt(std::fabs(area));
   if (FindOutside(inside).least >= -border && FindOutside(root.b).least >= -Border)

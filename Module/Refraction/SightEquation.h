@@ -75,6 +75,7 @@ private:
   {
     glm::dvec2 move;
     double determinant;
+    double nearest; ///< of eye and point, the distance
   };
   Step GetStep(const PatchJet& jet) const;
 
@@ -127,7 +128,8 @@ inline SightEquation::Step SightEquation::GetStep(const PatchJet& jet) const
   const glm::dvec3 second = glm::cross(jet.normal, by[0]);
   const double determinant = glm::dot(by[0], first);
   const double inverse = -1.0 / determinant;
-  return { { inverse * glm::dot(h, first), inverse * glm::dot(h, second) }, determinant };
+  return { { inverse * glm::dot(h, first), inverse * glm::dot(h, second) }, determinant,
+    std::min(lengthA, lengthP) };
 }
 
 //------------------------------------------------------------------------------
@@ -135,8 +137,16 @@ inline SightRoot SightEquation::Solve(
   const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const
 {
   // The error after a step is of the order of the step's square, in facets: what is left is below
-  // 1e-10 of a facet but near a caustic.
+  // 1e-10 of a facet but near a caustic. Where eye or point is closer to the surface than a facet
+  // is wide, that distance takes the facet's place.
   constexpr double lastStep = 1e-5;
+  const auto isLast = [](const Step& step, const PatchJet& at, double size)
+  {
+    const double width = std::max(
+      glm::dot(at.positionBy[0], at.positionBy[0]), glm::dot(at.positionBy[1], at.positionBy[1]));
+    const double longest = lastStep * step.nearest;
+    return size < lastStep && size * size * width <= longest * longest;
+  };
   PatchJet jet;
   for (int i = 0; i < steps; ++i)
   {
@@ -148,7 +158,7 @@ inline SightRoot SightEquation::Solve(
       break;
     }
     b += step.move;
-    if (size < lastStep)
+    if (isLast(step, jet, size))
     {
       // Over so short a step the patch is as good as linear.
       const PatchPoint at{ jet.position + step.move.x * jet.positionBy[0] +

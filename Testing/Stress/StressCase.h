@@ -4,6 +4,7 @@
 #define meniscus_StressCase_h
 
 #include "ReferenceTransferFunction.h"
+#include "StressRandom.h"
 #include "StressView.h"
 #include "TestMeshes.h"
 
@@ -56,33 +57,6 @@ struct StressFamily
   std::string Name;
   int Cases = 0;
   std::function<StressCase(int)> Make;
-};
-
-/// Numbers that every standard library draws alike.
-class StressRandom
-{
-public:
-  explicit StressRandom(std::uint64_t seed)
-    : State(seed)
-  {
-  }
-  /// SplitMix64 (Steele, Lea and Flood 2014).
-  std::uint64_t bits()
-  {
-    std::uint64_t z = (this->State += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  double uniform(double low = 0.0, double high = 1.0)
-  {
-    return low + (high - low) * static_cast<double>(this->bits() >> 11) * 0x1p-53;
-  }
-  int below(int n) { return static_cast<int>(this->bits() % static_cast<std::uint64_t>(n)); }
-  glm::dvec3 direction();
-
-private:
-  std::uint64_t State;
 };
 
 /**

@@ -20,23 +20,6 @@ namespace meniscus
 namespace test
 {
 
-//------------------------------------------------------------------------------
-glm::dvec3 StressRandom::direction()
-{
-  // Rejection from the cube: no library function whose last digit may differ.
-  for (;;)
-  {
-    const double x = this->uniform(-1.0, 1.0);
-    const double y = this->uniform(-1.0, 1.0);
-    const glm::dvec3 v(x, y, this->uniform(-1.0, 1.0));
-    const double length = glm::length(v);
-    if (length > 0.1 && length <= 1.0)
-    {
-      return v / length;
-    }
-  }
-}
-
 namespace
 {
 

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A ray tracer of one refraction with Embree: what virtual geometry is compared with. The membrane
+ * is triangles with normals that are interpolated linearly, the object is triangles.
+ *
+ * Rays go in packets of eight. A packet that has been traced is handed to a shader, which makes its
+ * colours; what it needs for Fresnel's equations, attenuation along the true path, textures or a
+ * reflected environment is in the packet. A shader may send further rays with Intersect().
+ */
+#ifndef meniscus_RefractionTracer_h
+#define meniscus_RefractionTracer_h
+
+#include <glm/vec3.hpp>
+
+#include <embree3/rtcore.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+/// Triangles as Embree takes them, with one float of padding behind the last point.
+struct TracedMesh
+{
+  std::vector<float> Points;
+  std::vector<float> Normals; ///< of points; for membranes only
+  std::vector<std::uint32_t> Triangles;
+
+  void addPoint(const double* point);
+  void finish() { this->Points.resize(this->Points.size() + 1, 0.0f); }
+  std::size_t numberOfPoints() const { return (this->Points.size() - 1) / 3; }
+};
+
+/// Eight neighbouring pixels of a row after tracing, component by component.
+struct TracedPacket
+{
+  static constexpr int Width = 8;
+  static constexpr std::uint32_t None = 0xffffffffu;
+
+  int X = 0;
+  int Y = 0;
+  int Count = 0; ///< pixels inside the picture
+
+  /// Unit direction from the eye, and where it meets the membrane: facet, place, unit normal
+  /// towards the eye, cosine of the angle of incidence, distance from the eye. No facet where the
+  /// membrane is missed or faces away.
+  float Sight[3][Width];
+  std::uint32_t Facet[Width];
+  float Place[3][Width];
+  float Normal[3][Width];
+  float Cosine[Width];
+  float Distance[Width];
+
+  /// Unit direction behind the membrane, and what it meets: triangle, barycentric coordinates of
+  /// its second and third corner, length of the path. No triangle under total reflection, and where
+  /// nothing is met.
+  float Refracted[3][Width];
+  std::uint32_t Triangle[Width];
+  float U[Width];
+  float V[Width];
+  float Depth[Width];
+};
+
+/// Makes colours of traced pixels. Called from several threads at once.
+class TracedShader
+{
+public:
+  virtual ~TracedShader() = default;
+  /// Four bytes for each of the packet's pixels.
+  virtual void shade(const TracedPacket& packet, unsigned char* rgba) const = 0;
+};
+
+/// One colour for each triangle of the object, another where there is nothing.
+class TriangleColors : public TracedShader
+{
+public:
+  std::vector<std::uint32_t> Colors; ///< RGBA bytes in memory order
+  std::uint32_t Background = 0xff000000u;
+  void shade(const TracedPacket& packet, unsigned char* rgba) const override;
+};
+
+/// Ray (x, y) of a picture has the direction Forward + x' Right + y' Up, x' and y' from -1 to 1.
+struct TracedView
+{
+  glm::dvec3 Eye{ 0.0 };
+  glm::dvec3 Forward{ 0.0 };
+  glm::dvec3 Right{ 0.0 };
+  glm::dvec3 Up{ 0.0 };
+  int Pixels = 512;
+};
+
+class RefractionTracer
+{
+public:
+  RefractionTracer();
+  ~RefractionTracer();
+  RefractionTracer(const RefractionTracer&) = delete;
+  void operator=(const RefractionTracer&) = delete;
+
+  void setIndices(double exterior, double interior);
+  void setMembrane(const TracedMesh& mesh);
+  /// Another shape of the same facets: refits instead of building again.
+  void moveMembrane(const TracedMesh& mesh);
+  void setObject(const TracedMesh& mesh);
+
+  /// Traces all pixels with vtkSMPTools. `rgba` is Pixels x Pixels x 4 bytes, rows upwards.
+  void trace(const TracedView& view, const TracedShader& shader, unsigned char* rgba) const;
+
+  /// One packet, for who needs more than colours.
+  void tracePacket(const TracedView& view, TracedPacket& packet) const;
+
+  /// Rays of a shader's own, against the object.
+  void intersect(const int* valid, RTCRayHit8& rays) const;
+
+private:
+  static RTCGeometry commit(RTCDevice device, RTCScene scene, RTCGeometry old,
+    const TracedMesh& mesh, RTCBuildQuality quality);
+  void findSights(const TracedView& view, TracedPacket& packet) const;
+  void refract(TracedPacket& packet, RTCRayHit8& rays, int* valid) const;
+
+  RTCDevice Device = nullptr;
+  RTCScene Membrane = nullptr;
+  RTCScene Object = nullptr;
+  RTCGeometry MembraneGeometry = nullptr;
+  TracedMesh Surface;
+  TracedMesh Shape;
+  float Ratio = 1.0f;
+};
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif

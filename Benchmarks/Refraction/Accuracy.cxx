@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Accuracy.h"
+
+#include "AnalyticMembrane.h"
+#include "HeightField.h"
+#include "Refraction/CurvedGeometry.h"
+#include "Refraction/VirtualGeometry.h"
+#include "SightOracle.h"
+#include "ThesisTables.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <sstream>
+#include <vector>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+namespace
+{
+
+using reference::ErrorStatistics;
+using reference::HeightField;
+using reference::OracleAnswer;
+using reference::OracleImage;
+using reference::SmoothSurface;
+using reference::ThesisRow;
+
+// The acceptance counts rows whose mean is this close to the printed one.
+constexpr double AcceptedPercent = 3.0;
+
+const double Pi = std::acos(-1.0);
+
+class Random
+{
+public:
+  double operator()(double low, double high)
+  {
+    return low + (high - low) * (this->Engine() / 4294967296.0);
+  }
+
+private:
+  std::mt19937 Engine{ 5 };
+};
+
+std::string describe(const ThesisRow& row)
+{
+  std::ostringstream text;
+  const char* kind =
+    row.sphereRatio == 0.0 ? "planar" : (row.sphereRatio == 1.0 ? "hemisphere" : "bowl");
+  text << kind;
+  if (row.shape == reference::MembraneShape::Square)
+  {
+    text << " " << row.squareCells << "x" << row.squareCells;
+  }
+  else if (row.sphereRatio > 1.0)
+  {
+    text << " r=" << 142.0 * row.sphereRatio;
+  }
+  text << " h=" << row.eyeHeight;
+  if (row.eyeOffset > 0.0)
+  {
+    text << " off=" << row.eyeOffset;
+  }
+  text << " " << row.exterior << "/" << row.interior;
+  return text.str();
+}
+
+// Where the virtual vertex of a sight point is right: the point behind it on the exact surface.
+double errorOf(const HeightField& field, const glm::dvec3& eye, const glm::dvec3& point,
+  const VirtualVertex& vertex)
+{
+  const glm::dvec3 sight = vertex.sightPoint - eye;
+  const glm::dvec3 exact = field.Intersect(eye, glm::normalize(sight), glm::length(sight));
+  const auto behind = field.Refract(
+    eye, exact, glm::length(vertex.position - exact) * field.interior / field.exterior);
+  return behind ? glm::length(*behind - point) : 0.0;
+}
+
+struct ImageScene
+{
+  SmoothSurface surface;
+  double exterior;
+  double interior;
+  glm::dvec3 eye;
+  int cells;
+  double reach;
+};
+
+std::vector<ImageScene> makeImageScenes()
+{
+  // sin(kx) sin(kz) as a sum of two waves.
+  const auto waves = [](double amplitude, double k)
+  {
+    SmoothSurface surface;
+    surface.waves = { { 0.5 * amplitude, k, -k, 0.5 * Pi }, { -0.5 * amplitude, k, k, 0.5 * Pi } };
+    return surface;
+  };
+  SmoothSurface dome;
+  dome.hills = { { 30.0, 0.025, 0.0, 0.0 } };
+  return { { waves(5.0, 0.03 * Pi), 1.0, 1.333, { 20.0, 300.0, 10.0 }, 64, 80.0 },
+    { waves(5.0, 0.03 * Pi), 1.333, 1.0, { 20.0, 300.0, 10.0 }, 64, 80.0 },
+    { dome, 1.0, 1.5, { 5.0, 400.0, 3.0 }, 64, 20.0 },
+    { waves(3.0, 0.04 * Pi), 1.0, 1.333, { 120.0, 90.0, 20.0 }, 96, 80.0 } };
+}
+
+reference::SurfaceError errorOf(const CurvedGeometry& geometry, const SmoothSurface& surface)
+{
+  reference::SurfaceError error;
+  const auto facets = static_cast<std::int32_t>(geometry.GetMembrane().GetFacets().size());
+  for (std::int32_t f = 0; f < facets; ++f)
+  {
+    const CurvedPatch patch = geometry.GetPatches().GetPatch(f);
+    for (const glm::dvec2& b : { glm::dvec2(1.0 / 3.0, 1.0 / 3.0), glm::dvec2(0.5, 0.0),
+           glm::dvec2(0.0, 0.5), glm::dvec2(0.5, 0.5) })
+    {
+      const PatchPoint at = patch.Evaluate(b);
+      const glm::dvec3 p = at.position + geometry.GetMembrane().GetOrigin();
+      error.position = std::max(error.position, std::fabs(p.y - surface.At(p.x, p.z).f));
+      error.normal = std::max(
+        error.normal, glm::length(glm::normalize(at.normal) - surface.GetNormal(p.x, p.z)));
+    }
+  }
+  return { 1.5 * error.position, 1.5 * error.normal };
+}
+
+void compare(const OracleAnswer& answer, const std::vector<VirtualVertex>& images,
+  const reference::SurfaceError& error, ImageCount& count)
+{
+  const auto matches = [&error](const OracleImage& image, const VirtualVertex& vertex)
+  {
+    return glm::length(vertex.sightPoint - image.sight) <=
+      2.0 * image.radius + 2.0 * error.position + 1e-7;
+  };
+  ++count.Points;
+  count.Uncertain += !answer.uncertain.empty();
+  count.Images += static_cast<int>(answer.images.size());
+  for (const OracleImage& image : answer.images)
+  {
+    count.Missed += std::none_of(images.begin(), images.end(),
+      [&](const VirtualVertex& vertex) { return matches(image, vertex); });
+  }
+  for (const VirtualVertex& vertex : images)
+  {
+    count.False += !answer.IsUncertain(vertex.sightPoint.x, vertex.sightPoint.z, 1e-7) &&
+      std::none_of(answer.images.begin(), answer.images.end(),
+        [&](const OracleImage& image) { return matches(image, vertex); });
+  }
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::string runThesisTables()
+{
+  std::ostringstream json;
+  json << "  \"thesis\": [\n";
+  std::printf("%-5s %-30s | %10s %10s %7s | %10s %10s %7s | %8s | %9s %9s %7s\n", "table", "set-up",
+    "thesis mean", "deviation", "points", "our mean", "deviation", "points", "mean", "curved",
+    "largest", "points");
+  int close = 0;
+  int counted = 0;
+  const auto& rows = reference::GetThesisRows();
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    const ThesisRow& row = rows[i];
+    const ErrorStatistics ours = reference::MeasureThesisRow(row);
+    const ErrorStatistics curved = reference::MeasureThesisRowCurved(row);
+    const double percent = 100.0 * (ours.mean / row.mean - 1.0);
+    const bool accepted = std::fabs(percent) <= AcceptedPercent;
+    const bool counts = reference::IsReproducible(row);
+    counted += counts;
+    close += counts && accepted;
+    const std::string points = row.points > 0 ? std::to_string(row.points) : "-";
+    std::printf(
+      "%-5s %-30s | %11.4f %10.4f %7s | %10.4f %10.4f %7zu | %+7.2f%%%s | %9.2e %9.2e %7zu\n",
+      row.table, describe(row).c_str(), row.mean, row.deviation, points.c_str(), ours.mean,
+      ours.deviation, ours.points, percent, accepted ? " " : "*", curved.mean, curved.largest,
+      curved.points);
+    std::fflush(stdout);
+    json << "    { \"table\": \"" << row.table << "\", \"setup\": \"" << describe(row)
+         << "\", \"thesis_mean\": " << row.mean << ", \"thesis_deviation\": " << row.deviation
+         << ", \"thesis_points\": " << row.points << ", \"mean\": " << ours.mean
+         << ", \"deviation\": " << ours.deviation << ", \"points\": " << ours.points
+         << ", \"curved_mean\": " << curved.mean << ", \"curved_largest\": " << curved.largest
+         << ", \"curved_points\": " << curved.points << " }"
+         << (i + 1 < rows.size() ? ",\n" : "\n");
+  }
+  json << "  ],\n  \"rows_within_3_percent\": " << close << ",\n  \"rows_counted\": " << counted;
+  std::printf("%d of %d rows of Tables 4.1, 4.2, 4.3 and 4.5 have their mean within %g %%"
+              " (* marks rows that do not)\n",
+    close, counted, AcceptedPercent);
+  return json.str();
+}
+
+//------------------------------------------------------------------------------
+WaveError measureWaveError(int cells)
+{
+  const HeightField field{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
+  const glm::dvec3 eye(20.0, 300.0, 10.0);
+  const auto mesh = field.MakeMesh(cells);
+  CurvedGeometry curved;
+  curved.SetMembrane(mesh.AsInput());
+  curved.SetEye(eye, field.exterior, field.interior);
+  VirtualGeometry flat;
+  flat.SetMembrane(mesh.AsInput());
+  flat.SetEye(eye, field.exterior, field.interior);
+  Random random;
+  double sums[2] = { 0.0, 0.0 };
+  int counts[2] = { 0, 0 };
+  for (int i = 0; i < 4000; ++i)
+  {
+    const glm::dvec3 point(random(-60.0, 60.0), random(-60.0, -10.0), random(-60.0, 60.0));
+    VirtualVertex vertex[2];
+    vertex[0] = flat.SolvePoint(point);
+    curved.Solve(&point.x, 0, 1, &vertex[1]);
+    for (int k = 0; k < 2; ++k)
+    {
+      if (vertex[k].state == ImageState::Found)
+      {
+        sums[k] += errorOf(field, eye, point, vertex[k]);
+        ++counts[k];
+      }
+    }
+  }
+  return { sums[0] / std::max(counts[0], 1), sums[1] / std::max(counts[1], 1) };
+}
+
+//------------------------------------------------------------------------------
+ImageCount countImages()
+{
+  ImageCount count;
+  Random random;
+  for (const ImageScene& scene : makeImageScenes())
+  {
+    CurvedGeometry geometry;
+    const auto mesh = scene.surface.MakeMesh(scene.cells);
+    geometry.SetMembrane(mesh.AsInput());
+    geometry.SetEye(scene.eye, scene.exterior, scene.interior);
+    const auto error = errorOf(geometry, scene.surface);
+    const reference::SightOracle oracle(
+      scene.surface, scene.eye, scene.exterior, scene.interior, error);
+    std::vector<VirtualVertex> images;
+    for (int i = 0; i < 500; ++i)
+    {
+      const glm::dvec3 point(random(-scene.reach, scene.reach), random(-250.0, -40.0),
+        random(-scene.reach, scene.reach));
+      geometry.FindImages(point, images);
+      compare(oracle.Find(point), images, error, count);
+    }
+  }
+  return count;
+}
+
+//------------------------------------------------------------------------------
+double measureHemispherePixels()
+{
+  constexpr double radius = 141.5;
+  const glm::dvec3 eye(0.0, 450.0, 0.0);
+  const reference::AnalyticMembrane exact{ radius, 1.0, 1.51 };
+  const auto mesh = reference::MakeDisc(radius, 5, radius);
+  CurvedGeometry geometry;
+  geometry.SetMembrane(mesh.AsInput());
+  geometry.SetEye(eye, 1.0, 1.51);
+  // The opening is at the height of the sphere's centre.
+  const double pixel = 2.0 * radius / (512.0 * (eye.y - radius));
+  double largest = 0.0;
+  Random random;
+  std::vector<VirtualVertex> images;
+  for (int i = 0; i < 5000; ++i)
+  {
+    const glm::dvec3 point(random(-400, 380), random(-800, -20), random(-400, 380));
+    geometry.FindImages(point, images);
+    const auto sights = exact.FindSightPoints(eye, point);
+    if (images.size() != 1 || sights.size() != 1)
+    {
+      continue;
+    }
+    const glm::dvec3 a = images[0].sightPoint - eye;
+    const glm::dvec3 b = sights[0] - eye;
+    const glm::dvec3 apart = a / a.y - b / b.y;
+    largest = std::max(largest, glm::length(apart) / pixel);
+  }
+  return largest;
+}
+
+} // namespace benchmark
+} // namespace meniscus

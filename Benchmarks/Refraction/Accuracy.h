@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Accuracy_h
+#define meniscus_Accuracy_h
+
+#include <string>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+/// Prints thesis Tables 4.1 to 4.5 side by side and returns them as members of a JSON object.
+std::string runThesisTables();
+
+/// Mean error of virtual vertices on waves of two periods with `cells` x `cells` x 2 facets, as the
+/// distance between a true point and the exact point behind its virtual vertex.
+struct WaveError
+{
+  double Flat = 0.0;
+  double Curved = 0.0;
+};
+WaveError measureWaveError(int cells);
+
+/// Images of points on two waves, a dome and a low eye against the interval oracle.
+struct ImageCount
+{
+  int Points = 0;
+  int Images = 0; ///< certain
+  int Missed = 0;
+  int False = 0;
+  int Uncertain = 0; ///< points
+};
+ImageCount countImages();
+
+/// Largest error of a sight point on the hemisphere of 184 facets, eye at 450, in pixels of a
+/// picture of 512 pixels that the hemisphere's opening just fills.
+double measureHemispherePixels();
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Growth.h"
+
+#include "Accuracy.h"
+#include "Chart.h"
+#include "MembraneMeshes.h"
+#include "Refraction/CurvedGeometry.h"
+#include "Refraction/VirtualGeometry.h"
+#include "Timing.h"
+
+#include <vtkSMPTools.h>
+#include <vtkType.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <numeric>
+#include <random>
+#include <sstream>
+#include <vector>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+namespace
+{
+
+using reference::MembraneMesh;
+
+const glm::dvec3 Eye(20.0, 300.0, 10.0);
+constexpr double Exterior = 1.0;
+constexpr double Interior = 1.333;
+
+// A box of n^3 points below the waves, in grid order.
+std::vector<double> makePoints(int n)
+{
+  std::vector<double> points;
+  for (int i = 0; i < n * n * n; ++i)
+  {
+    points.push_back(160.0 * ((i % n + 0.5) / n - 0.5));
+    points.push_back(-10.0 - 100.0 * (i / n % n + 0.5) / n);
+    points.push_back(160.0 * ((i / (n * n) + 0.5) / n - 0.5));
+  }
+  return points;
+}
+
+std::vector<double> shuffle(const std::vector<double>& points)
+{
+  std::vector<std::size_t> order(points.size() / 3);
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  std::vector<double> shuffled;
+  for (std::size_t i : order)
+  {
+    shuffled.insert(shuffled.end(), points.begin() + static_cast<std::ptrdiff_t>(3 * i),
+      points.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
+  }
+  return shuffled;
+}
+
+MembraneMesh makeWaves(int cells)
+{
+  return reference::MakeWaves(200.0, cells, 3.0, 2.0);
+}
+
+template <typename Geometry>
+double microsecondsPerVertex(const Geometry& geometry, const std::vector<double>& points)
+{
+  std::vector<VirtualVertex> vertices(points.size() / 3);
+  return 1e6 / static_cast<double>(vertices.size()) *
+    timeMedian([&] { geometry.Solve(points.data(), 0, vertices.size(), vertices.data()); }).Cpu;
+}
+
+void measureFlat(
+  const MembraneMesh& mesh, const std::vector<double>& points, GrowthFigures& figures)
+{
+  VirtualGeometry geometry;
+  figures.FlatShape = timeMedian([&] { geometry.SetMembrane(mesh.AsInput()); }).Cpu;
+  figures.FlatEye = timeMedian([&] { geometry.SetEye(Eye, Exterior, Interior); }).Cpu;
+  figures.FlatCoherent = microsecondsPerVertex(geometry, points);
+  const std::vector<double> shuffled = shuffle(points);
+  figures.FlatScattered = microsecondsPerVertex(geometry, shuffled);
+  // About 4e6 cell tests in all.
+  const std::size_t sample = std::max<std::size_t>(4000000 / figures.Facets, 4);
+  double sink = 0.0;
+  const double seconds = timeOnce(
+    [&]
+    {
+      for (std::size_t i = 0; i < sample; ++i)
+      {
+        const double* p = shuffled.data() + 3 * (i % (shuffled.size() / 3));
+        sink += geometry.SolvePointByBruteForce({ p[0], p[1], p[2] }).depth;
+      }
+    }).Cpu;
+  figures.FlatBruteForce = sink >= 0.0 ? 1e6 * seconds / static_cast<double>(sample) : 0.0;
+}
+
+void measureCurved(
+  const MembraneMesh& mesh, const std::vector<double>& points, GrowthFigures& figures)
+{
+  CurvedGeometry geometry;
+  figures.CurvedShape = timeMedian(
+    [&]
+    {
+      geometry.Clear();
+      geometry.SetMembrane(mesh.AsInput());
+    }).Cpu;
+  MembraneMesh moved = mesh;
+  figures.CurvedDeform = timeMedian(
+    [&]
+    {
+      moved.points[1] += 1e-6;
+      geometry.SetMembrane(moved.AsInput());
+    }).Cpu;
+  geometry.SetMembrane(mesh.AsInput());
+  figures.CurvedEye = timeMedian([&] { geometry.SetEye(Eye, Exterior, Interior); }).Cpu;
+  figures.CurvedOne = microsecondsPerVertex(geometry, points);
+  std::vector<VirtualVertex> images;
+  figures.CurvedAll = 3e6 / static_cast<double>(points.size()) *
+    timeMedian(
+      [&]
+      {
+        for (std::size_t i = 0; i < points.size(); i += 3)
+        {
+          geometry.FindImages({ points[i], points[i + 1], points[i + 2] }, images);
+        }
+      })
+      .Cpu;
+}
+
+std::vector<GrowthFigures> growByFacets()
+{
+  std::printf("%9s | %9s %9s %9s %9s %10s %9s | %9s %9s %9s %9s %9s %9s\n", "facets", "flat shape",
+    "eye s", "us grid", "us random", "us brute", "error", "curved s", "deform s", "eye s", "us one",
+    "us all", "error");
+  std::vector<GrowthFigures> all;
+  for (const int cells : { 7, 23, 64, 128, 226, 400, 708 })
+  {
+    GrowthFigures f = measureGrowth(cells);
+    const WaveError error = measureWaveError(cells);
+    f.FlatError = error.Flat;
+    f.CurvedError = error.Curved;
+    std::printf("%9zu | %9.4f %9.4f %9.3f %9.3f %10.1f %9.2e | %9.4f %9.4f %9.4f %9.3f %9.3f %9.2e"
+                "\n",
+      f.Facets, f.FlatShape, f.FlatEye, f.FlatCoherent, f.FlatScattered, f.FlatBruteForce,
+      f.FlatError, f.CurvedShape, f.CurvedDeform, f.CurvedEye, f.CurvedOne, f.CurvedAll,
+      f.CurvedError);
+    std::fflush(stdout);
+    all.push_back(f);
+  }
+  return all;
+}
+
+std::string growByVertices()
+{
+  std::ostringstream json;
+  json << "  \"vertices\": [\n";
+  const MembraneMesh mesh = makeWaves(128);
+  CurvedGeometry geometry;
+  geometry.SetMembrane(mesh.AsInput());
+  geometry.SetEye(Eye, Exterior, Interior);
+  std::printf("\n32768 facets, CURVED\n%9s | %9s\n", "vertices", "us one");
+  const int sizes[] = { 10, 22, 46, 100 };
+  for (const int n : sizes)
+  {
+    const double one = microsecondsPerVertex(geometry, makePoints(n));
+    std::printf("%9d | %9.3f\n", n * n * n, one);
+    json << "    { \"vertices\": " << n * n * n << ", \"curved_us_per_vertex_one_image\": " << one
+         << " }" << (n != 100 ? ",\n" : "\n");
+  }
+  json << "  ]";
+  return json.str();
+}
+
+std::string toJson(const std::vector<GrowthFigures>& all)
+{
+  std::ostringstream json;
+  json << "  \"growth\": [\n";
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    const GrowthFigures& f = all[i];
+    json << "    { \"facets\": " << f.Facets << ", \"shape_s\": " << f.FlatShape
+         << ", \"eye_s\": " << f.FlatEye << ", \"us_per_vertex_grid_order\": " << f.FlatCoherent
+         << ", \"us_per_vertex_random_order\": " << f.FlatScattered
+         << ", \"us_per_vertex_brute_force\": " << f.FlatBruteForce
+         << ", \"mean_error\": " << f.FlatError << ", \"curved_shape_s\": " << f.CurvedShape
+         << ", \"curved_deform_s\": " << f.CurvedDeform << ", \"curved_eye_s\": " << f.CurvedEye
+         << ", \"curved_us_per_vertex_one_image\": " << f.CurvedOne
+         << ", \"curved_us_per_vertex_all_images\": " << f.CurvedAll
+         << ", \"curved_mean_error\": " << f.CurvedError << " }"
+         << (i + 1 < all.size() ? ",\n" : "\n");
+  }
+  json << "  ]";
+  return json.str();
+}
+
+bool writeCsv(const std::string& file, const std::vector<GrowthFigures>& all)
+{
+  std::ofstream out(file);
+  out << "facets,method,us_per_vertex,mean_error\n";
+  for (const GrowthFigures& f : all)
+  {
+    out << f.Facets << ",flat brute force," << f.FlatBruteForce << ',' << f.FlatError << '\n'
+        << f.Facets << ",flat," << f.FlatCoherent << ',' << f.FlatError << '\n'
+        << f.Facets << ",curved one image," << f.CurvedOne << ',' << f.CurvedError << '\n'
+        << f.Facets << ",curved all images," << f.CurvedAll << ',' << f.CurvedError << '\n';
+  }
+  return out.good();
+}
+
+bool plot(const std::string& file, const std::vector<GrowthFigures>& all)
+{
+  std::vector<ChartSeries> series = { { "thesis: flat, brute force", {} }, { "flat, tree", {} },
+    { "curved, one image", {} }, { "curved, all images", {} } };
+  for (const GrowthFigures& f : all)
+  {
+    series[0].Points.emplace_back(f.FlatBruteForce, f.FlatError);
+    series[1].Points.emplace_back(f.FlatCoherent, f.FlatError);
+    series[2].Points.emplace_back(f.CurvedOne, f.CurvedError);
+    series[3].Points.emplace_back(f.CurvedAll, f.CurvedError);
+  }
+  return writeChart(file, "Waves of 98 to 1M facets, one thread", "microseconds per virtual vertex",
+    "mean error (membrane 200 wide)", series);
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+GrowthFigures measureGrowth(int cells)
+{
+  const MembraneMesh mesh = makeWaves(cells);
+  const std::vector<double> points = makePoints(48);
+  GrowthFigures figures;
+  figures.Facets = mesh.GetNumberOfFacets();
+  measureFlat(mesh, points, figures);
+  measureCurved(mesh, points, figures);
+  return figures;
+}
+
+//------------------------------------------------------------------------------
+ThreadedFigures measureThreaded(int cells)
+{
+  const RangeLoop loop = [](std::size_t count, const RangeBody& body)
+  {
+    constexpr vtkIdType grain = 512;
+    vtkSMPTools::For(0, static_cast<vtkIdType>(count), grain,
+      [&body](vtkIdType begin, vtkIdType end)
+      { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
+  };
+  MembraneMesh mesh = makeWaves(cells);
+  CurvedGeometry geometry;
+  geometry.SetMembrane(mesh.AsInput(), loop);
+  ThreadedFigures figures;
+  figures.Facets = mesh.GetNumberOfFacets();
+  const Seconds eye = timeMedian([&] { geometry.SetEye(Eye, Exterior, Interior, loop); });
+  const Seconds deform = timeMedian(
+    [&]
+    {
+      mesh.points[1] += 1e-6;
+      geometry.SetMembrane(mesh.AsInput(), loop);
+    });
+  figures.EyeWall = eye.Wall;
+  figures.EyeCpu = eye.Cpu;
+  figures.DeformWall = deform.Wall;
+  figures.DeformCpu = deform.Cpu;
+  return figures;
+}
+
+//------------------------------------------------------------------------------
+std::string runGrowth(const RefractionOptions& options)
+{
+  const std::vector<GrowthFigures> all = growByFacets();
+  const std::string json = toJson(all) + ",\n" + growByVertices();
+  if (!options.Csv.empty() && !writeCsv(options.Csv, all))
+  {
+    std::cerr << "cannot write " << options.Csv << '\n';
+    return {};
+  }
+  if (!options.Plot.empty() && !plot(options.Plot, all))
+  {
+    std::cerr << "cannot write " << options.Plot << '\n';
+    return {};
+  }
+  return json;
+}
+
+} // namespace benchmark
+} // namespace meniscus

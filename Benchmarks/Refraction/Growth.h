@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Growth_h
+#define meniscus_Growth_h
+
+#include "RefractionOptions.h"
+
+#include <cstddef>
+#include <string>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+/// What a membrane of so many facets costs; processor seconds of one thread but where said.
+struct GrowthFigures
+{
+  std::size_t Facets = 0;
+  double FlatShape = 0.0;
+  double FlatEye = 0.0;
+  double FlatCoherent = 0.0;   ///< microseconds per vertex, grid order
+  double FlatScattered = 0.0;  ///< the same, random order
+  double FlatBruteForce = 0.0; ///< the same, every facet tested
+  double CurvedShape = 0.0;    ///< a new topology
+  double CurvedDeform = 0.0;   ///< the same topology, other points
+  double CurvedEye = 0.0;
+  double CurvedOne = 0.0; ///< microseconds per vertex, one image, grid order
+  double CurvedAll = 0.0; ///< the same, all images
+  double FlatError = 0.0; ///< mean distance between true points and those that are drawn
+  double CurvedError = 0.0;
+};
+
+/// Waves of `cells` x `cells` x 2 facets.
+GrowthFigures measureGrowth(int cells);
+
+/// Wall and processor seconds of CURVED for a new eye and for a deformed membrane, in threads.
+struct ThreadedFigures
+{
+  std::size_t Facets = 0;
+  double EyeWall = 0.0;
+  double EyeCpu = 0.0;
+  double DeformWall = 0.0;
+  double DeformCpu = 0.0;
+};
+ThreadedFigures measureThreaded(int cells);
+
+/// Prints cost by facets and by vertices, and time against error; returns members of a JSON object.
+/// Writes CSV and plot if asked for; an empty string if one of them cannot be written.
+std::string runGrowth(const RefractionOptions& options);
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif

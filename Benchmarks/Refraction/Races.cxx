@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Frames.h"
+
+#ifdef MENISCUS_HAS_EMBREE
+
+#include "RefractionTracer.h"
+#include "Timing.h"
+#include "WellScene.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkPolyData.h>
+#include <vtkRefractedGeometryFilter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+#endif
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+#ifdef MENISCUS_HAS_EMBREE
+
+namespace
+{
+
+constexpr double AcceptedPixels = 0.5;
+constexpr int Frames = 40;
+constexpr int LargestTried = 64;
+constexpr int Sizes[] = { 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256 };
+
+// The well as it is, for the tracer. The filter may get it finer: what it draws is straight between
+// points.
+constexpr int Quads = 16;
+constexpr int FinerQuads[] = { 16, 32, 48 };
+
+// Half a pixel of 512 pixels and 29 degrees is 0.028 degrees.
+constexpr double Tolerances[] = { 0.015, 0.03, 0.06 };
+
+TracedMesh membraneOf(const reference::MembraneMesh& mesh)
+{
+  TracedMesh result;
+  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  {
+    result.addPoint(mesh.points.data() + i);
+  }
+  result.Normals.assign(mesh.normals.begin(), mesh.normals.end());
+  result.Triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  result.finish();
+  return result;
+}
+
+// Triangles 2 i and 2 i + 1 are those of quad i.
+TracedMesh objectOf(vtkPolyData* data)
+{
+  TracedMesh result;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    result.addPoint(data->GetPoint(i));
+  }
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    data->GetCellPoints(i, ids);
+    for (const vtkIdType k : { 1, 2 })
+    {
+      for (const vtkIdType c : { vtkIdType(0), k, k + 1 })
+      {
+        result.Triangles.push_back(static_cast<std::uint32_t>(ids->GetId(c)));
+      }
+    }
+  }
+  result.finish();
+  return result;
+}
+
+TriangleColors colorsOf(vtkPolyData* data)
+{
+  TriangleColors result;
+  vtkDataArray* colors = data->GetCellData()->GetScalars();
+  for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+  {
+    std::uint32_t rgba = 0xff000000u;
+    for (int c = 0; c < 3; ++c)
+    {
+      rgba |= static_cast<std::uint32_t>(colors->GetComponent(i, c)) << (8 * c);
+    }
+    result.Colors.insert(result.Colors.end(), { rgba, rgba });
+  }
+  return result;
+}
+
+TracedView viewOf(const testing::PixelCamera& camera)
+{
+  return { camera.GetEye(), camera.GetForward(), camera.GetRight(), camera.GetUp(),
+    camera.GetPixels() };
+}
+
+// What the tracer shows where.
+testing::PlacePicture placesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera)
+{
+  const TracedView view = viewOf(camera);
+  testing::PlacePicture picture(static_cast<std::size_t>(view.Pixels) * view.Pixels);
+  TracedPacket packet = {};
+  for (packet.Y = 0; packet.Y < view.Pixels; ++packet.Y)
+  {
+    for (packet.X = 0; packet.X < view.Pixels; packet.X += TracedPacket::Width)
+    {
+      packet.Count = std::min(TracedPacket::Width, view.Pixels - packet.X);
+      tracer.tracePacket(view, packet);
+      for (int k = 0; k < packet.Count; ++k)
+      {
+        if (packet.Triangle[k] == TracedPacket::None)
+        {
+          continue;
+        }
+        testing::PlacePixel& pixel =
+          picture[static_cast<std::size_t>(packet.Y * view.Pixels + packet.X + k)];
+        pixel.covered = true;
+        for (int i = 0; i < 3; ++i)
+        {
+          pixel.place[i] = packet.Place[i][k] + packet.Depth[k] * packet.Refracted[i][k];
+        }
+      }
+    }
+  }
+  return picture;
+}
+
+//------------------------------------------------------------------------------
+class RaceTrack
+{
+public:
+  explicit RaceTrack(bool all)
+    : All(all)
+  {
+    WellScene scene(Sizes[0], Quads);
+    this->Truth = scene.trace();
+  }
+
+  RaceReport run()
+  {
+    this->findOurs();
+    const int traced = this->findTraced();
+    RaceReport report;
+    std::ostringstream text;
+    text << "CURVED, " << (this->All ? "ALL_IMAGES" : "FIRST_IMAGE");
+    if (this->All)
+    {
+      text << ", tolerance " << this->Ours.Tolerance << " degrees";
+    }
+    text << ", " << 2 * this->Ours.Cells * this->Ours.Cells << " facets, "
+         << 5 * this->Ours.Quads * this->Ours.Quads << " quads: image error " << this->Ours.Error
+         << " pixels";
+    report.Ours = text.str();
+    text.str("");
+    text << "Embree, " << 2 * traced * traced << " facets, " << 5 * Quads * Quads
+         << " quads: image error " << this->TracedError << " pixels";
+    report.Traced = text.str();
+
+    WellScene scene(this->Ours.Cells, this->Ours.Quads);
+    this->prepare(scene, this->Ours.Tolerance);
+    WellScene tracedScene(Sizes[0], Quads);
+    RefractionTracer tracer;
+    this->prepare(tracer, tracedScene, traced);
+    const auto race = [&](const char* name, const std::function<void(int)>& move,
+                        const std::function<void(int)>& moveTraced)
+    { report.Races.push_back(this->race(name, scene, tracer, move, moveTraced)); };
+    race(
+      "the eye", [&](int i) { scene.moveEye(0.01 * i); }, [](int) {});
+    race(
+      "nothing but colours", [&](int i) { scene.changeColors(i); },
+      [&](int i) { this->Colors.Colors[static_cast<std::size_t>(i)] ^= 0xffu; });
+    // The arrays of both are made outside of the times: water comes from a simulation.
+    std::vector<TracedMesh> meshes;
+    for (int i = 0; i < Frames; ++i)
+    {
+      meshes.push_back(membraneOf(scene.fieldAt(0.1 * i).MakeMesh(traced)));
+    }
+    race(
+      "the membrane", [&](int i) { scene.moveMembrane(0.1 * i); },
+      [&](int i) { tracer.moveMembrane(meshes[static_cast<std::size_t>(i)]); });
+    return report;
+  }
+
+private:
+  struct SetUp
+  {
+    int Cells = 0;
+    int Quads = 0;
+    double Tolerance = 0.0;
+    double Error = 0.0;
+    double Seconds = std::numeric_limits<double>::max();
+  };
+
+  void prepare(WellScene& scene, double tolerance) const
+  {
+    scene.filter()->SetImages(this->All);
+    scene.filter()->SetAngularTolerance(tolerance);
+  }
+
+  void prepare(RefractionTracer& tracer, WellScene& scene, int cells)
+  {
+    tracer.setIndices(scene.field().exterior, scene.field().interior);
+    tracer.setMembrane(membraneOf(scene.field().MakeMesh(cells)));
+    tracer.setObject(objectOf(scene.well()));
+    this->Colors = colorsOf(scene.well());
+  }
+
+  // Of wells and tolerances, each with the coarsest membrane whose picture is right to half a
+  // pixel, the fastest.
+  void findOurs()
+  {
+    for (const int quads : FinerQuads)
+    {
+      for (const double tolerance : Tolerances)
+      {
+        if (this->All || tolerance == Tolerances[0])
+        {
+          this->tryOurs(quads, tolerance);
+        }
+      }
+    }
+  }
+
+  void tryOurs(int quads, double tolerance)
+  {
+    for (const int cells : Sizes)
+    {
+      WellScene scene(cells, quads);
+      this->prepare(scene, tolerance);
+      const double error =
+        testing::ComparePlaces(this->Truth, scene.drawPlaces(), scene.camera()).error;
+      if (error <= AcceptedPixels)
+      {
+        int frame = 0;
+        const auto work = [&]
+        {
+          scene.moveEye(0.01 * ++frame);
+          scene.update();
+        };
+        const double seconds = timeMedian(work, 3).Cpu;
+        if (seconds < this->Ours.Seconds)
+        {
+          this->Ours = { cells, quads, tolerance, error, seconds };
+        }
+        return;
+      }
+      if (cells >= LargestTried)
+      {
+        return; // what is left does not come from the membrane
+      }
+    }
+  }
+
+  int findTraced()
+  {
+    WellScene scene(Sizes[0], Quads);
+    for (const int cells : Sizes)
+    {
+      RefractionTracer tracer;
+      this->prepare(tracer, scene, cells);
+      const auto picture = placesOf(tracer, scene.camera());
+      this->TracedError = testing::ComparePlaces(this->Truth, picture, scene.camera()).error;
+      if (this->TracedError <= AcceptedPixels)
+      {
+        return cells;
+      }
+    }
+    return Sizes[std::size(Sizes) - 1];
+  }
+
+  // Frame by frame in turns, so that both meet the same load.
+  Race race(const char* name, WellScene& scene, RefractionTracer& tracer,
+    const std::function<void(int)>& move, const std::function<void(int)>& moveTraced)
+  {
+    std::vector<unsigned char> rgba(std::size_t(4) * 512 * 512);
+    std::vector<Seconds> ours;
+    std::vector<Seconds> traced;
+    scene.draw();
+    for (int i = 0; i < Frames; ++i)
+    {
+      move(i);
+      ours.push_back(timeOnce([&] { scene.draw(); }));
+      const TracedView view = viewOf(scene.camera());
+      traced.push_back(timeOnce(
+        [&]
+        {
+          moveTraced(i);
+          tracer.trace(view, this->Colors, rgba.data());
+        }));
+    }
+    const Seconds a = medianOf(ours);
+    const Seconds b = medianOf(traced);
+    return { name, 1e3 * a.Wall, 1e3 * b.Wall, 1e3 * a.Cpu, 1e3 * b.Cpu };
+  }
+
+  bool All;
+  SetUp Ours;
+  testing::PlacePicture Truth;
+  TriangleColors Colors;
+  double TracedError = 0.0;
+};
+
+} // anonymous namespace
+
+#endif
+
+//------------------------------------------------------------------------------
+std::vector<RaceReport> runRaces()
+{
+  std::vector<RaceReport> reports;
+#ifdef MENISCUS_HAS_EMBREE
+  for (const bool all : { true, false })
+  {
+    reports.push_back(RaceTrack(all).run());
+  }
+#endif
+  return reports;
+}
+
+} // namespace benchmark
+} // namespace meniscus

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_RefractionOptions_h
+#define meniscus_RefractionOptions_h
+
+#include <string>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+struct RefractionOptions
+{
+  bool Thesis = false;
+  bool Growth = false;
+  bool Frames = false;
+  bool Report = false;
+  bool Help = false;
+  std::string Row;
+  std::string Json;
+  std::string Csv;
+  std::string Plot;
+  int Threads = 2;
+  std::string Problem;
+};
+
+extern const char* const RefractionUsage;
+
+RefractionOptions parseRefractionOptions(int argc, char* argv[]);
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif

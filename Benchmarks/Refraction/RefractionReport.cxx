@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefractionReport.h"
+
+#include "Accuracy.h"
+#include "Frames.h"
+#include "Growth.h"
+#include "RefractionPicture.h"
+#include "ThesisTables.h"
+#include "WellScene.h"
+
+#include <vtkNew.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyData.h>
+#include <vtkRefractedGeometryFilter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <iomanip>
+#include <sstream>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+namespace
+{
+
+std::string number(double value, int digits = 2)
+{
+  std::ostringstream text;
+  text << std::setprecision(digits) << value;
+  return text.str();
+}
+
+class Report
+{
+public:
+  Report(std::ostream& out, const RefractionOptions& options)
+    : Out(out)
+    , Options(options)
+  {
+  }
+
+  void print()
+  {
+    this->Out << "| row | goal | measured |\n|---|---|---|\n";
+    this->row("planar error", "mean <= 1e-8", [this] { return this->planar(); });
+    this->row("bowl errors", "mean <= 1e-5 / 1e-4 / 4e-4 / 2e-3", [this] { return this->bowls(); });
+    this->row(
+      "hemisphere error", "mean <= 0.05, pixels <= 0.2", [this] { return this->hemisphere(); });
+    this->row("wave error", "<= 1e-5 at 51,200 facets, order >= 2.8", [] { return waves(); });
+    this->row("vertex cost",
+      "one image <= 250 ns to 32k facets, 500 ns at 1M; all <= 1.5 us to "
+      "131k",
+      [] { return vertices(); });
+    this->row("membrane cost",
+      "new eye of 1M facets <= 150 ms, deforming <= 1 us a facet, 2 "
+      "threads",
+      [] { return membranes(); });
+    this->row("images", "all, none false", [] { return images(); });
+    this->row("pictures", "<= 0.1 % of covered pixels differ", [] { return pictures(); });
+    this->row("well", ">= 500 frames/s of filter time", [] { return well(); });
+    this->row("Embree", "eye moving >= 2x, colours alone >= 10x", [] { return races(); });
+  }
+
+private:
+  void row(const char* name, const char* goal, const std::function<std::string()>& measure)
+  {
+    if (std::strstr(name, this->Options.Row.c_str()))
+    {
+      this->Out << "| " << name << " | " << goal << " | " << std::flush << measure() << " |"
+                << std::endl;
+    }
+  }
+
+  using Choice = std::function<bool(const reference::ThesisRow&)>;
+
+  static std::string means(const Choice& choice, bool largestOnly)
+  {
+    std::string text;
+    double largest = 0.0;
+    for (const reference::ThesisRow& row : reference::GetThesisRows())
+    {
+      if (choice(row))
+      {
+        const double mean = reference::MeasureThesisRowCurved(row).mean;
+        largest = std::max(largest, mean);
+        text += (text.empty() ? "" : " / ") + number(mean);
+      }
+    }
+    return largestOnly ? "at most " + number(largest) : text;
+  }
+
+  std::string planar() const
+  {
+    return means([](const reference::ThesisRow& row) { return row.sphereRatio == 0.0; }, true);
+  }
+
+  std::string bowls() const
+  {
+    return means([](const reference::ThesisRow& row)
+      { return std::strcmp(row.table, "4.2") == 0 && row.sphereRatio > 1.0; },
+      false);
+  }
+
+  std::string hemisphere() const
+  {
+    return "mean " +
+      means([](const reference::ThesisRow& row)
+        { return std::strcmp(row.table, "4.2") == 0 && row.sphereRatio == 1.0; },
+        false) +
+      ", largest " + number(measureHemispherePixels()) + " pixels";
+  }
+
+  static std::string waves()
+  {
+    const int cells[] = { 20, 40, 80, 160, 320 };
+    std::string text;
+    double last = 0.0;
+    std::string orders;
+    for (const int n : cells)
+    {
+      const double error = measureWaveError(n).Curved;
+      if (n == 160)
+      {
+        text = number(error);
+      }
+      if (last > 0.0)
+      {
+        orders += (orders.empty() ? "" : ", ") + number(std::log2(last / error));
+      }
+      last = error;
+    }
+    return text + "; orders from 800 to 204,800 facets " + orders;
+  }
+
+  static std::string vertices()
+  {
+    std::string text;
+    for (const int cells : { 23, 128, 256, 708 })
+    {
+      const GrowthFigures f = measureGrowth(cells);
+      text += (text.empty() ? "" : "; ") + std::to_string(f.Facets) + " facets: one " +
+        number(1e3 * f.CurvedOne, 3) + " ns, all " + number(1e3 * f.CurvedAll, 4) + " ns";
+    }
+    return text;
+  }
+
+  static std::string membranes()
+  {
+    const ThreadedFigures f = measureThreaded(708);
+    const auto facets = static_cast<double>(f.Facets);
+    return "eye " + number(1e3 * f.EyeWall, 3) + " ms (" + number(1e3 * f.EyeCpu, 3) +
+      " ms CPU); deforming " + number(1e6 * f.DeformWall / facets) + " us a facet (" +
+      number(1e6 * f.DeformCpu / facets) + " us CPU)";
+  }
+
+  static std::string images()
+  {
+    const ImageCount count = countImages();
+    return std::to_string(count.Images) + " images of " + std::to_string(count.Points) +
+      " points: " + std::to_string(count.Missed) + " missed, " + std::to_string(count.False) +
+      " false, " + std::to_string(count.Uncertain) + " points uncertain";
+  }
+
+  static std::string pictures()
+  {
+    std::string text;
+    for (const testing::PictureScene& scene : testing::GetPictureScenes())
+    {
+      vtkNew<vtkPlaneSource> plane;
+      const double half = 0.5 * scene.size;
+      plane->SetOrigin(-half, -scene.depth, -half);
+      plane->SetPoint1(-half, -scene.depth, half);
+      plane->SetPoint2(half, -scene.depth, -half);
+      plane->SetResolution(scene.tiles, scene.tiles);
+      plane->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+      plane->Update();
+      testing::AddPlaces(plane->GetOutput());
+      vtkNew<vtkRefractedGeometryFilter> filter;
+      filter->SetInputData(0, plane->GetOutput());
+      filter->SetMembraneData(makeMembrane(scene.field.MakeMesh(scene.cells)));
+      filter->SetEyePosition(scene.eye.x, scene.eye.y, scene.eye.z);
+      filter->SetExteriorIndexOfRefraction(scene.field.exterior);
+      filter->SetInteriorIndexOfRefraction(scene.field.interior);
+      filter->Update();
+      const testing::PixelCamera camera = scene.GetCamera();
+      const auto compared =
+        testing::ComparePlaces(testing::TracePlaces(scene.field, camera,
+                                 testing::MakeSquareTracer(-scene.depth, scene.size)),
+          testing::DrawPlaces(filter->GetOutput(), camera), camera);
+      text += (text.empty() ? "" : "; ") + scene.name + " " +
+        number(100.0 * (compared.coverage + compared.place) / compared.covered) + " %";
+    }
+    return text;
+  }
+
+  static std::string well()
+  {
+    std::string text;
+    for (const WellFrames& frames : measureWell())
+    {
+      text += (text.empty() ? "" : "; ") + frames.Mode + " " + number(frames.PerSecond, 3) + " (" +
+        number(frames.CpuMs, 3) + " ms CPU)";
+    }
+    return text;
+  }
+
+  static std::string races()
+  {
+    std::string text;
+    for (const RaceReport& report : runRaces())
+    {
+      text += (text.empty() ? "" : "; ") + report.Ours + " against " + report.Traced;
+      for (const Race& race : report.Races)
+      {
+        text += ", " + race.Change + " " + number(race.TracedMs / race.OursMs, 3) + "x (" +
+          number(race.OursMs, 3) + " against " + number(race.TracedMs, 3) + " ms; CPU " +
+          number(race.TracedCpuMs / race.OursCpuMs, 3) + "x, " + number(race.OursCpuMs, 3) +
+          " against " + number(race.TracedCpuMs, 3) + " ms)";
+      }
+    }
+    return text.empty() ? "skipped: built without Embree" : text;
+  }
+
+  std::ostream& Out;
+  const RefractionOptions& Options;
+};
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+void printRefractionReport(std::ostream& out, const RefractionOptions& options)
+{
+  Report(out, options).print();
+}
+
+} // namespace benchmark
+} // namespace meniscus

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_RefractionReport_h
+#define meniscus_RefractionReport_h
+
+#include "RefractionOptions.h"
+
+#include <ostream>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+/// Measures each row of the table of goals and prints it beside its goal.
+void printRefractionReport(std::ostream& out, const RefractionOptions& options);
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Timing_h
+#define meniscus_Timing_h
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <vector>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+/// Processor time of all threads: others may run beside the program.
+inline double cpuSeconds()
+{
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+inline double wallSeconds()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Seconds
+{
+  double Wall = 0.0;
+  double Cpu = 0.0;
+};
+
+template <typename Work>
+Seconds timeOnce(const Work& work)
+{
+  const double wall = wallSeconds();
+  const double cpu = cpuSeconds();
+  work();
+  return { wallSeconds() - wall, cpuSeconds() - cpu };
+}
+
+inline double medianOf(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Of wall and processor times, each by itself.
+inline Seconds medianOf(const std::vector<Seconds>& times)
+{
+  std::vector<double> wall;
+  std::vector<double> cpu;
+  for (const Seconds& time : times)
+  {
+    wall.push_back(time.Wall);
+    cpu.push_back(time.Cpu);
+  }
+  return { medianOf(wall), medianOf(cpu) };
+}
+
+/// Median of `runs` runs after one warm-up.
+template <typename Work>
+Seconds timeMedian(const Work& work, int runs = 5)
+{
+  work();
+  std::vector<Seconds> times;
+  for (int i = 0; i < runs; ++i)
+  {
+    times.push_back(timeOnce(work));
+  }
+  return medianOf(times);
+}
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "WellScene.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkMath.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRefractedGeometryFilter.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+namespace
+{
+
+const double Pi = std::acos(-1.0);
+// The tangent of half the angle of view: the well fills the picture.
+constexpr double HalfTangent = 0.26;
+const glm::dvec3 Target(0.0, -30.0, 0.0);
+
+void addSide(vtkPoints* points, vtkCellArray* quads, const glm::dvec3& origin, const glm::dvec3& u,
+  const glm::dvec3& v, int n)
+{
+  const vtkIdType first = points->GetNumberOfPoints();
+  for (int j = 0; j <= n; ++j)
+  {
+    for (int i = 0; i <= n; ++i)
+    {
+      const glm::dvec3 p = origin + u * (double(i) / n) + v * (double(j) / n);
+      points->InsertNextPoint(p.x, p.y, p.z);
+    }
+  }
+  for (int j = 0; j < n; ++j)
+  {
+    for (int i = 0; i < n; ++i)
+    {
+      const vtkIdType a = first + j * (n + 1) + i;
+      const vtkIdType ids[4] = { a, a + 1, a + n + 2, a + n + 1 };
+      quads->InsertNextCell(4, ids);
+    }
+  }
+}
+
+vtkSmartPointer<vtkPolyData> makeWell(int n)
+{
+  constexpr double w = WellScene::HalfWidth;
+  constexpr double low = -WellScene::Depth;
+  constexpr double height = WellScene::Top - low;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> quads;
+  const glm::dvec3 up(0.0, height, 0.0);
+  addSide(points, quads, { -w, low, -w }, { 2 * w, 0, 0 }, { 0, 0, 2 * w }, n);
+  addSide(points, quads, { -w, low, -w }, { 2 * w, 0, 0 }, up, n);
+  addSide(points, quads, { -w, low, w }, { 2 * w, 0, 0 }, up, n);
+  addSide(points, quads, { -w, low, -w }, { 0, 0, 2 * w }, up, n);
+  addSide(points, quads, { w, low, -w }, { 0, 0, 2 * w }, up, n);
+  auto well = vtkSmartPointer<vtkPolyData>::New();
+  well->SetPoints(points);
+  well->SetPolys(quads);
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("Color");
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(well->GetNumberOfCells());
+  well->GetCellData()->SetScalars(colors);
+  return well;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> makeMembrane(const reference::MembraneMesh& mesh)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetName("Normals");
+  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  {
+    points->InsertNextPoint(mesh.points.data() + i);
+    normals->InsertNextTuple(mesh.normals.data() + i);
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+  {
+    const vtkIdType ids[3] = { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] };
+    triangles->InsertNextCell(3, ids);
+  }
+  auto membrane = vtkSmartPointer<vtkPolyData>::New();
+  membrane->SetPoints(points);
+  membrane->SetPolys(triangles);
+  membrane->GetPointData()->SetNormals(normals);
+  return membrane;
+}
+
+//------------------------------------------------------------------------------
+WellScene::WellScene(int cells, int quads)
+  : Field{ reference::HeightField::Shape::Waves, 200.0, 1.5, 0.03 * Pi, 1.0, 1.333 }
+  , Present(this->Field)
+  , Cells(cells)
+  , Well(makeWell(quads))
+  , Membrane(makeMembrane(this->Field.MakeMesh(cells)))
+{
+  this->Filter->SetInputData(0, this->Well);
+  this->Filter->SetMembraneData(this->Membrane);
+  this->Filter->SetExteriorIndexOfRefraction(this->Field.exterior);
+  this->Filter->SetInteriorIndexOfRefraction(this->Field.interior);
+  this->changeColors(0);
+  this->moveEye(0.0);
+}
+
+//------------------------------------------------------------------------------
+WellScene::~WellScene() = default;
+
+//------------------------------------------------------------------------------
+reference::HeightField WellScene::fieldAt(double time) const
+{
+  reference::HeightField field = this->Field;
+  field.amplitude *= 1.0 + 0.3 * std::sin(time);
+  return field;
+}
+
+//------------------------------------------------------------------------------
+void WellScene::moveMembrane(double time)
+{
+  this->Present = this->fieldAt(time);
+  vtkPoints* points = this->Membrane->GetPoints();
+  vtkDataArray* normals = this->Membrane->GetPointData()->GetNormals();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    points->GetPoint(i, p);
+    p[1] = this->Present.GetHeight(p[0], p[2]);
+    points->SetPoint(i, p);
+    const glm::dvec3 normal = this->Present.GetNormal(p[0], p[2]);
+    normals->SetTuple(i, &normal.x);
+  }
+  points->Modified();
+  normals->Modified();
+  this->Membrane->Modified();
+}
+
+//------------------------------------------------------------------------------
+void WellScene::moveEye(double time)
+{
+  this->Eye = glm::dvec3(20.0 * std::cos(time), 300.0, 20.0 * std::sin(time));
+  this->Filter->SetEyePosition(this->Eye.x, this->Eye.y, this->Eye.z);
+}
+
+//------------------------------------------------------------------------------
+void WellScene::changeColors(int number)
+{
+  vtkDataArray* colors = this->Well->GetCellData()->GetScalars();
+  for (vtkIdType i = 0; i < colors->GetNumberOfTuples(); ++i)
+  {
+    const auto tint = static_cast<double>((number + 5 * i) % 200);
+    colors->SetTuple3(i, 55.0 + tint, i % 2 ? 200.0 : 60.0, 220.0 - tint);
+  }
+  colors->Modified();
+  this->Well->Modified();
+}
+
+//------------------------------------------------------------------------------
+void WellScene::moveWell(double time)
+{
+  vtkPoints* points = this->Well->GetPoints();
+  const double by = 0.01 * std::sin(time);
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    points->GetPoint(i, p);
+    points->SetPoint(i, p[0], p[1] + by, p[2]);
+  }
+  points->Modified();
+  this->Well->Modified();
+}
+
+//------------------------------------------------------------------------------
+testing::PixelCamera WellScene::camera() const
+{
+  return { this->Eye, Target, HalfTangent };
+}
+
+//------------------------------------------------------------------------------
+void WellScene::setUpWindow()
+{
+  this->Mapper->SetInputConnection(this->Filter->GetOutputPort());
+  this->Mapper->SetScalarModeToUseCellData();
+  this->Actor->SetMapper(this->Mapper);
+  this->Actor->GetProperty()->LightingOff();
+  this->Renderer->AddActor(this->Actor);
+  this->Window->SetOffScreenRendering(1);
+  this->Window->SetMultiSamples(0);
+  this->Window->SetSize(512, 512);
+  this->Window->AddRenderer(this->Renderer);
+  vtkCamera* camera = this->Renderer->GetActiveCamera();
+  camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(std::atan(HalfTangent)));
+  camera->SetFocalPoint(Target.x, Target.y, Target.z);
+  camera->SetViewUp(0.0, 0.0, 1.0);
+  camera->SetClippingRange(100.0, 1000.0);
+  this->HasWindow = true;
+}
+
+//------------------------------------------------------------------------------
+void WellScene::draw()
+{
+  if (!this->HasWindow)
+  {
+    this->setUpWindow();
+  }
+  this->Renderer->GetActiveCamera()->SetPosition(this->Eye.x, this->Eye.y, this->Eye.z);
+  this->Window->Render();
+  this->Window->WaitForCompletion();
+}
+
+//------------------------------------------------------------------------------
+void WellScene::update()
+{
+  this->Filter->Update();
+}
+
+//------------------------------------------------------------------------------
+testing::PlacePicture WellScene::trace() const
+{
+  return testing::TracePlaces(this->Present, this->camera(),
+    [](const glm::dvec3& start, const glm::dvec3& direction)
+    {
+      // Out of the box through a wall or the bottom.
+      double t = std::numeric_limits<double>::max();
+      for (const int axis : { 0, 2 })
+      {
+        const double wall = direction[axis] > 0.0 ? HalfWidth : -HalfWidth;
+        const double at = (wall - start[axis]) / direction[axis];
+        // A ray that starts beside the well may meet a wall from outside.
+        const double other = (-wall - start[axis]) / direction[axis];
+        for (const double candidate : { other, at })
+        {
+          const glm::dvec3 hit = start + candidate * direction;
+          const double across = axis == 0 ? hit.z : hit.x;
+          if (candidate > 0.0 && candidate < t && std::fabs(across) <= HalfWidth && hit.y <= Top &&
+            hit.y >= -Depth)
+          {
+            t = candidate;
+          }
+        }
+      }
+      const double bottom = (-Depth - start.y) / direction.y;
+      const glm::dvec3 hit = start + bottom * direction;
+      testing::PlacePixel pixel;
+      if (bottom > 0.0 && bottom < t && std::max(std::fabs(hit.x), std::fabs(hit.z)) <= HalfWidth)
+      {
+        t = bottom;
+      }
+      pixel.covered = t < std::numeric_limits<double>::max();
+      pixel.place = start + (pixel.covered ? t : bottom) * direction;
+      return pixel;
+    });
+}
+
+//------------------------------------------------------------------------------
+testing::PlacePicture WellScene::drawPlaces()
+{
+  testing::AddPlaces(this->Well);
+  this->Well->Modified();
+  this->Filter->Update();
+  const auto picture = testing::DrawPlaces(this->Filter->GetOutput(), this->camera());
+  this->Well->GetPointData()->RemoveArray("Place");
+  return picture;
+}
+
+} // namespace benchmark
+} // namespace meniscus

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_WellScene_h
+#define meniscus_WellScene_h
+
+#include "HeightField.h"
+#include "RefractionPicture.h"
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+class vtkActor;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkRefractedGeometryFilter;
+class vtkRenderWindow;
+class vtkRenderer;
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+/// A membrane's mesh as data set.
+vtkSmartPointer<vtkPolyData> makeMembrane(const reference::MembraneMesh& mesh);
+
+/**
+ * The thesis's well: four walls and a bottom of coloured quads below waves, drawn at 512 x 512
+ * pixels through the filter by an eye above it.
+ */
+class WellScene
+{
+public:
+  static constexpr double HalfWidth = 60.0;
+  static constexpr double Depth = 100.0;
+  static constexpr double Top = -5.0;
+
+  /// `cells` x `cells` x 2 facets, `quads` x `quads` quads on each of five sides.
+  WellScene(int cells, int quads);
+  ~WellScene();
+
+  vtkRefractedGeometryFilter* filter() { return this->Filter; }
+  vtkPolyData* well() { return this->Well; }
+  const reference::HeightField& field() const { return this->Field; }
+
+  /// The membrane of a moment.
+  reference::HeightField fieldAt(double time) const;
+  void moveMembrane(double time);
+  /// An eye on a circle.
+  void moveEye(double time);
+  void changeColors(int number);
+  /// The well itself, up and down.
+  void moveWell(double time);
+
+  testing::PixelCamera camera() const;
+
+  /// Runs the filter and draws, until the picture is there.
+  void draw();
+  /// Runs the filter alone.
+  void update();
+
+  /// What the present eye sees of the well through the present membrane, by rays in double.
+  testing::PlacePicture trace() const;
+  /// The same from the filter's output.
+  testing::PlacePicture drawPlaces();
+
+private:
+  void setUpWindow();
+
+  reference::HeightField Field;
+  reference::HeightField Present;
+  int Cells;
+  glm::dvec3 Eye{ 0.0 };
+  vtkSmartPointer<vtkPolyData> Well;
+  vtkSmartPointer<vtkPolyData> Membrane;
+  vtkNew<vtkRefractedGeometryFilter> Filter;
+  vtkNew<vtkPolyDataMapper> Mapper;
+  vtkNew<vtkActor> Actor;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkRenderWindow> Window;
+  bool HasWindow = false;
+};
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef WellScene_h
+#define WellScene_h
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+
+class vtkPolyData;
+class vtkUnsignedCharArray;
+
+/** Waves of moving water about z = 0, exactly: where they are and how they are tilted. */
+class DemoWater
+{
+public:
+  static constexpr double HalfSide = 1.9;
+  static constexpr double Highest = 0.07; ///< above the waves
+  static constexpr double Index = 1.333;
+
+  explicit DemoWater(double time)
+    : Time(time)
+  {
+  }
+
+  double GetHeight(double x, double y) const;
+  std::array<double, 3> GetNormal(double x, double y) const;
+
+  /** `cells` x `cells` x 2 facets with normals. */
+  vtkSmartPointer<vtkPolyData> MakeMesh(int cells) const;
+
+  /** Where a ray from above first meets the water, as a distance; negative if it does not. */
+  double Intersect(const double eye[3], const double direction[3]) const;
+
+private:
+  double Time;
+};
+
+/**
+ * Four walls and a bottom with tiles, a ball, a ring, and a post that stands out of the water.
+ * Cells have their colours, with the light of a lamp above in them: no further lighting is needed.
+ */
+vtkSmartPointer<vtkPolyData> MakeDemoWell();
+
+/**
+ * The picture that tracing rays through the exact water makes of cells with colours: one ray
+ * through the middle of each of `size` x `size` pixels, refracted once. `camera` are its eye, focal
+ * point, view up and the angle of view in degrees.
+ */
+struct DemoView
+{
+  double eye[3];
+  double target[3];
+  double up[3];
+  double angle;
+};
+vtkSmartPointer<vtkUnsignedCharArray> TraceDemoWell(vtkPolyData* well, const DemoWater& water,
+  const DemoView& view, int size, const unsigned char background[3]);
+
+#endif

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The stress programme's oracle against bracketed roots on a sphere and a dense search on waves.
+#include "AnalyticMembrane.h"
+#include "HeightField.h"
+#include "SightOracle.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace
+{
+
+using meniscus::reference::AnalyticMembrane;
+using meniscus::reference::HeightField;
+using meniscus::reference::OracleAnswer;
+using meniscus::reference::OracleImage;
+using meniscus::reference::SightOracle;
+using meniscus::reference::SmoothSurface;
+using meniscus::reference::SurfaceError;
+
+constexpr SurfaceError Exact{ 1e-12, 1e-12 };
+
+class Random
+{
+public:
+  double operator()(double low, double high)
+  {
+    return low + (high - low) * (this->Engine() / 4294967296.0);
+  }
+
+private:
+  std::mt19937 Engine{ 7 };
+};
+
+// Both lists are the same but for the order and for what either of them may leave out.
+int CountDifferences(const OracleAnswer& answer, const std::vector<glm::dvec3>& others, double same)
+{
+  int differences = 0;
+  for (const OracleImage& image : answer.images)
+  {
+    differences += std::none_of(others.begin(), others.end(),
+      [&](const glm::dvec3& s) { return glm::length(s - image.sight) < same; });
+  }
+  for (const glm::dvec3& s : others)
+  {
+    differences += !answer.IsUncertain(s.x, s.z, same) &&
+      std::none_of(answer.images.begin(), answer.images.end(),
+        [&](const OracleImage& image) { return glm::length(s - image.sight) < same; });
+  }
+  return differences;
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionOracle, AgreesWithBracketedRootsOnASphere)
+{
+  SmoothSurface surface;
+  surface.sphereRadius = 200.0;
+  Random random;
+  int images = 0;
+  for (const double ratio : { 1.0 / 1.51, 1.6 })
+  {
+    const AnalyticMembrane sphere{ 200.0, ratio, 1.0 };
+    const glm::dvec3 eye(20.0, 260.0, 10.0);
+    const SightOracle oracle(surface, eye, ratio, 1.0, Exact);
+    for (int i = 0; i < 200; ++i)
+    {
+      const glm::dvec3 point(random(-90, 90), random(-300, -20), random(-90, 90));
+      std::vector<glm::dvec3> expected;
+      for (const glm::dvec3& s : sphere.FindSightPoints(eye, point))
+      {
+        if (std::max(std::fabs(s.x), std::fabs(s.z)) < 100.0)
+        {
+          expected.push_back(s);
+        }
+      }
+      const OracleAnswer answer = oracle.Find(point);
+      EXPECT_TRUE(answer.complete);
+      EXPECT_EQ(CountDifferences(answer, expected, 1e-6), 0) << i;
+      images += static_cast<int>(answer.images.size());
+    }
+  }
+  EXPECT_GT(images, 200);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionOracle, AgreesWithADenseSearchOnWaves)
+{
+  const double k = 0.03 * std::acos(-1.0);
+  const HeightField field{ HeightField::Shape::Waves, 200.0, 5.0, k, 1.0, 1.333 };
+  // sin(kx) sin(kz) as a sum of two waves.
+  SmoothSurface surface;
+  const double quarter = 0.5 * std::acos(-1.0);
+  surface.waves = { { 2.5, k, -k, quarter }, { -2.5, k, k, quarter } };
+  const glm::dvec3 eye(20.0, 300.0, 10.0);
+  const SightOracle oracle(surface, eye, 1.0, 1.333, Exact);
+  Random random;
+  int several = 0;
+  for (int i = 0; i < 120; ++i)
+  {
+    const glm::dvec3 point(random(-80, 80), random(-250, -40), random(-80, 80));
+    const OracleAnswer answer = oracle.Find(point);
+    EXPECT_TRUE(answer.complete);
+    EXPECT_EQ(CountDifferences(answer, field.FindSightPoints(eye, point, 250), 1e-6), 0) << i;
+    several += answer.images.size() > 1;
+  }
+  EXPECT_GT(several, 5);
+}
+
+//------------------------------------------------------------------------------
+// With an error of the surface, what is certain stays so on every surface within it, and the closer
+// to a caustic the less is.
+TEST(RefractionOracle, DoubtGrowsWithTheError)
+{
+  SmoothSurface surface;
+  surface.hills = { { 30.0, 0.025, 0.0, 0.0 } };
+  const glm::dvec3 eye(5.0, 400.0, 3.0);
+  const SightOracle exact(surface, eye, 1.0, 1.5, Exact);
+  const SightOracle doubtful(surface, eye, 1.0, 1.5, { 1e-3, 1e-3 });
+  Random random;
+  std::size_t certain = 0;
+  std::size_t stillCertain = 0;
+  for (int i = 0; i < 100; ++i)
+  {
+    const glm::dvec3 point(random(-20, 20), random(-300, -40), random(-20, 20));
+    const OracleAnswer sharp = exact.Find(point);
+    const OracleAnswer vague = doubtful.Find(point);
+    certain += sharp.images.size();
+    stillCertain += vague.images.size();
+    for (const OracleImage& image : vague.images)
+    {
+      EXPECT_TRUE(std::any_of(sharp.images.begin(), sharp.images.end(),
+        [&](const OracleImage& other)
+        { return glm::length(other.sight - image.sight) < image.radius + 1e-9; }));
+    }
+    for (const OracleImage& image : sharp.images)
+    {
+      EXPECT_TRUE(vague.IsUncertain(image.sight.x, image.sight.z, 1e-9) ||
+        std::any_of(vague.images.begin(), vague.images.end(),
+          [&](const OracleImage& other) { return glm::length(other.sight - image.sight) < 1e-9; }));
+    }
+  }
+  EXPECT_LT(stillCertain, certain);
+  EXPECT_GT(stillCertain, certain / 4);
+}
+
+}

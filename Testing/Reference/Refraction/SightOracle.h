@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Every sight point on a smooth surface, by interval Newton in double: nothing of the kernel's
+ * patches, trees or searches.
+ *
+ * The equation is Snell's law along the surface, F = (h.tx, h.tz) with h = n1 |p| a - n2 |a| p,
+ * a = S - eye, p = point - S, tx = (1, fx, 0), tz = (0, fz, 1). Boxes of (x, z) are divided until
+ * the mean value form or a Newton step says that there is no root, or the derivative over the box
+ * says that there is one at most.
+ *
+ * The membrane that is judged is a mesh, whose surface differs from the smooth one. Its error is
+ * given and widens every test: an image is `certain` if every surface within that error has exactly
+ * one image within `radius` of it. Everything else (near caustics, borders, the critical angle, the
+ * point's own place) lies in `uncertain` boxes.
+ */
+#ifndef meniscus_SightOracle_h
+#define meniscus_SightOracle_h
+
+#include "SmoothSurface.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace meniscus::reference
+{
+
+/// How far a mesh's surface may be from the smooth one, and its unit normals from the smooth one's.
+/// The first covers rounding of eye and point, too.
+struct SurfaceError
+{
+  double position = 0.0;
+  double normal = 0.0;
+};
+
+struct OracleImage
+{
+  glm::dvec3 sight;
+  double radius;
+  int orientation; ///< +1, or -1 where the image is mirrored
+};
+
+/// Where there may be any number of images, in x and z.
+struct OracleBox
+{
+  double x;
+  double z;
+  double half;
+};
+
+struct OracleAnswer
+{
+  std::vector<OracleImage> images;
+  std::vector<OracleBox> uncertain;
+  bool complete = true; ///< false: given up after too many boxes
+
+  bool IsUncertain(double x, double z, double slack) const;
+};
+
+class SightOracle
+{
+public:
+  SightOracle(const SmoothSurface& surface, const glm::dvec3& eye, double exterior, double interior,
+    const SurfaceError& error)
+    : Surface(surface)
+    , Eye(eye)
+    , Exterior(exterior)
+    , Interior(interior)
+    , Error(error)
+  {
+  }
+
+  OracleAnswer Find(const glm::dvec3& point) const;
+
+private:
+  class Search;
+
+  const SmoothSurface& Surface;
+  glm::dvec3 Eye;
+  double Exterior;
+  double Interior;
+  SurfaceError Error;
+};
+
+}
+
+#endif

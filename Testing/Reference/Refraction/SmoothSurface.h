@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A height field y = f(x, z) over a square about the origin, a sum of plane waves, hills and a cap
+ * of a sphere, with two derivatives, at points and over intervals.
+ */
+#ifndef meniscus_SmoothSurface_h
+#define meniscus_SmoothSurface_h
+
+#include "Interval.h"
+#include "MembraneMeshes.h"
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace meniscus::reference
+{
+
+/// A height and its derivatives.
+template <typename T>
+struct HeightJet
+{
+  T f = T(0.0);
+  T x = T(0.0);
+  T z = T(0.0);
+  T xx = T(0.0);
+  T xz = T(0.0);
+  T zz = T(0.0);
+};
+
+struct SmoothSurface
+{
+  /// amplitude sin(kx x + kz z + phase)
+  struct Wave
+  {
+    double amplitude;
+    double kx;
+    double kz;
+    double phase;
+  };
+  /// amplitude exp(-k k ((x - centreX)^2 + (z - centreZ)^2))
+  struct Hill
+  {
+    double amplitude;
+    double k;
+    double centreX;
+    double centreZ;
+  };
+
+  double side = 200.0;
+  std::vector<Wave> waves;
+  std::vector<Hill> hills;
+  /// Radius of a sphere through the origin, above 0.75 `side`: positive with its centre above
+  /// (concave to the eye), negative below, 0: none.
+  double sphereRadius = 0.0;
+
+  HeightJet<double> At(double x, double z) const;
+  HeightJet<Interval> Over(const Interval& x, const Interval& z) const;
+
+  glm::dvec3 GetPoint(double x, double z) const { return { x, this->At(x, z).f, z }; }
+  glm::dvec3 GetNormal(double x, double z) const;
+
+  /// Where the ray from the eye meets the surface, by Newton's method from `distance`.
+  glm::dvec3 Intersect(const glm::dvec3& eye, const glm::dvec3& direction, double distance) const;
+
+  /// Unit direction behind `onSurface`, by n1 sin a = n2 sin b with `ratio` = n1 / n2; nothing from
+  /// behind and under total internal reflection.
+  std::optional<glm::dvec3> Refract(
+    const glm::dvec3& eye, const glm::dvec3& onSurface, double ratio) const;
+
+  /// `cells` x `cells` x 2 facets with exact normals.
+  MembraneMesh MakeMesh(int cells) const;
+};
+
+}
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_PatchSearch_h
+#define meniscus_PatchSearch_h
+
+#include "Refraction/CurvedGeometry.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+/**
+ * Sight points on the patches of a membrane by a dense search: every facet is sampled, and Newton's
+ * method with differences started wherever the samples do not exclude a root. Of the kernel only
+ * the patches are used. Some roots may be missed; those found are roots.
+ */
+class PatchSearch
+{
+public:
+  /// All positions are relative to the membrane's origin.
+  PatchSearch(const CurvedPatches& patches, std::size_t facets, const glm::dvec3& eye,
+    double exterior, double interior)
+    : Patches(patches)
+    , Facets(facets)
+    , Eye(eye)
+    , Exterior(exterior)
+    , Interior(interior)
+  {
+  }
+
+  struct Sight
+  {
+    glm::dvec3 place;
+    /// Of the equation's derivative against the product of its columns' lengths: near 0 at a
+    /// caustic.
+    double condition;
+    /// Smallest barycentric coordinate, and cosines towards the eye and away from the point.
+    double inside;
+    double facing;
+    std::int32_t facet;
+  };
+  std::vector<Sight> find(const glm::dvec3& point) const;
+
+  /// The part of Snell's law that a place fails by: the sine between h and the normal.
+  double residual(const glm::dvec3& point, const glm::dvec3& place, std::int32_t facet) const;
+
+private:
+  glm::dvec2 equation(const CurvedPatch& patch, const glm::dvec3& point, const glm::dvec2& b) const;
+  bool solve(
+    const CurvedPatch& patch, const glm::dvec3& point, glm::dvec2& b, double& condition) const;
+  void search(std::int32_t facet, const glm::dvec3& point, std::vector<Sight>& found) const;
+  glm::dvec3 misfit(const PatchPoint& at, const glm::dvec3& point) const;
+
+  const CurvedPatches& Patches;
+  std::size_t Facets;
+  glm::dvec3 Eye;
+  double Exterior;
+  double Interior;
+};
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,426 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefractionCheck.h"
+
+#include "PatchSearch.h"
+#include "Refraction/CurvedGeometry.h"
+#include "RefractionTriangles.h"
+#include "SightOracle.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+using reference::OracleAnswer;
+using reference::OracleImage;
+using reference::SightOracle;
+using reference::SmoothSurface;
+using reference::SurfaceError;
+
+// What Newton's method may leave, in facets: 1e-10 away from caustics.
+constexpr double Rest = 1e-8;
+
+// Reflectance by the amplitudes of the two polarisations, not by Eq. 2.6.
+double reflectance(double cosine, double exterior, double interior)
+{
+  const double c1 = std::clamp(cosine, 0.0, 1.0);
+  const double sine = exterior / interior * std::sqrt(1.0 - c1 * c1);
+  if (sine >= 1.0)
+  {
+    return 1.0;
+  }
+  const double c2 = std::sqrt(1.0 - sine * sine);
+  const double s = (exterior * c1 - interior * c2) / (exterior * c1 + interior * c2);
+  const double p = (interior * c1 - exterior * c2) / (interior * c1 + exterior * c2);
+  return 0.5 * (s * s + p * p);
+}
+
+//------------------------------------------------------------------------------
+class Checker
+{
+public:
+  explicit Checker(const RefractionCase& test)
+    : Test(test)
+  {
+  }
+
+  RefractionTally run()
+  {
+    reference::MembraneMesh mesh = this->Test.Mesh;
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    {
+      mesh.points[i] =
+        this->Test.Scale * mesh.points[i] + this->Test.Offset[static_cast<int>(i % 3)];
+    }
+    if (this->Geometry.SetMembrane(mesh.AsInput()) != MembraneStatus::Ready ||
+      this->Geometry.SetEye(this->toWorld(this->Test.Eye), this->Test.Exterior,
+        this->Test.Interior) != EyeStatus::Ready)
+    {
+      ++this->Tally.Failed;
+      this->note("membrane or eye refused");
+      return this->Tally;
+    }
+    double reach = glm::length(this->Test.Offset) / this->Test.Scale + glm::length(this->Test.Eye);
+    for (const glm::dvec3& point : this->Test.Points)
+    {
+      reach = std::max(reach, glm::length(point));
+    }
+    this->Rounding = 4.0 * std::numeric_limits<double>::epsilon() * (reach + 200.0);
+    if (this->Test.Truth == RefractionTruth::Smooth)
+    {
+      this->measureSurface();
+      this->checkBySurface();
+    }
+    else
+    {
+      this->checkByPatches();
+    }
+    return this->Tally;
+  }
+
+private:
+  glm::dvec3 toWorld(const glm::dvec3& p) const { return this->Test.Scale * p + this->Test.Offset; }
+  glm::dvec3 fromWorld(const glm::dvec3& p) const
+  {
+    return (p - this->Test.Offset) / this->Test.Scale;
+  }
+
+  void note(const std::string& what)
+  {
+    if (this->Tally.First.empty())
+    {
+      this->Tally.First = what;
+    }
+  }
+
+  void count(
+    std::int64_t RefractionTally::*fault, std::size_t point, const char* what, double x, double z)
+  {
+    ++(this->Tally.*fault);
+    std::ostringstream text;
+    text.precision(10);
+    text << "point " << point << ": " << what << " at x " << x << ", z " << z;
+    this->note(text.str());
+  }
+
+  // How far the patches are from the smooth surface, and their normals; at places inside a facet
+  // and on its edges, half more for places between these.
+  void measureSurface()
+  {
+    const CurvedPatches& patches = this->Geometry.GetPatches();
+    const auto facets = static_cast<std::int32_t>(this->Geometry.GetMembrane().GetFacets().size());
+    const glm::dvec2 places[] = { { 1.0 / 3.0, 1.0 / 3.0 }, { 0.5, 0.0 }, { 0.0, 0.5 },
+      { 0.5, 0.5 }, { 0.2, 0.2 }, { 0.6, 0.2 }, { 0.2, 0.6 }, { 0.25, 0.0 }, { 0.75, 0.0 },
+      { 0.0, 0.25 }, { 0.0, 0.75 }, { 0.25, 0.75 }, { 0.75, 0.25 } };
+    for (std::int32_t f = 0; f < facets; ++f)
+    {
+      const CurvedPatch patch = patches.GetPatch(f);
+      for (const glm::dvec2& b : places)
+      {
+        const PatchPoint at = patch.Evaluate(b);
+        const glm::dvec3 p =
+          this->fromWorld(at.position + this->Geometry.GetMembrane().GetOrigin());
+        const glm::dvec3 normal = this->Test.Surface.GetNormal(p.x, p.z);
+        this->Error.position =
+          std::max(this->Error.position, std::fabs(p.y - this->Test.Surface.At(p.x, p.z).f));
+        this->Error.normal =
+          std::max(this->Error.normal, glm::length(glm::normalize(at.normal) - normal));
+      }
+    }
+    this->Error.position = 1.5 * this->Error.position + this->Rounding;
+    this->Error.normal = 1.5 * this->Error.normal + this->Rounding / this->Test.FacetSize;
+  }
+
+  // +1: in a hole, -1: not, 0: within `band` of a border.
+  int isInHole(const glm::dvec3& sight, double band) const
+  {
+    int result = -1;
+    for (const auto& hole : this->Test.Holes)
+    {
+      double least = std::numeric_limits<double>::max();
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const glm::dvec2 side = hole[(k + 1) % 3] - hole[k];
+        const glm::dvec2 to = glm::dvec2(sight.x, sight.z) - hole[k];
+        // Wound clockwise in x and z: counter-clockwise as seen from above.
+        least = std::min(least, (side.y * to.x - side.x * to.y) / glm::length(side));
+      }
+      if (least > band)
+      {
+        return 1;
+      }
+      result = least > -band ? 0 : result;
+    }
+    return result;
+  }
+
+  //----------------------------------------------------------------------------
+  void checkBySurface()
+  {
+    const SightOracle oracle(
+      this->Test.Surface, this->Test.Eye, this->Test.Exterior, this->Test.Interior, this->Error);
+    std::vector<double> points;
+    for (const glm::dvec3& p : this->Test.Points)
+    {
+      const glm::dvec3 world = this->toWorld(p);
+      points.insert(points.end(), { world.x, world.y, world.z });
+    }
+    std::vector<VirtualVertex> first(this->Test.Points.size());
+    this->Geometry.Solve(points.data(), 0, first.size(), first.data());
+    std::vector<VirtualVertex> images;
+    for (std::size_t i = 0; i < this->Test.Points.size(); ++i)
+    {
+      ++this->Tally.Points;
+      const glm::dvec3 world(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+      if (this->Geometry.FindImages(world, images) == ImageState::NotFinite)
+      {
+        this->count(&RefractionTally::Failed, i, "no answer", 0.0, 0.0);
+        continue;
+      }
+      OracleAnswer answer = oracle.Find(this->Test.Points[i]);
+      if (!answer.complete)
+      {
+        ++this->Tally.GivenUp;
+        continue;
+      }
+      this->cutHoles(answer);
+      this->Tally.Uncertain += !answer.uncertain.empty();
+      this->compare(i, answer, images);
+      this->checkFirst(i, answer, first[i]);
+    }
+    if (!this->Test.Triangles.empty())
+    {
+      this->Tally.add(checkTriangles(this->Test, this->Geometry, oracle, this->Error));
+    }
+  }
+
+  void cutHoles(OracleAnswer& answer) const
+  {
+    std::vector<OracleImage> kept;
+    for (const OracleImage& image : answer.images)
+    {
+      const double band = 2.0 * image.radius + 4.0 * this->Error.position + 1e-7;
+      const int hole = this->isInHole(image.sight, band);
+      if (hole == 0)
+      {
+        answer.uncertain.push_back({ image.sight.x, image.sight.z, band });
+      }
+      else if (hole < 0)
+      {
+        kept.push_back(image);
+      }
+    }
+    answer.images = kept;
+  }
+
+  double slackOf(const OracleImage& image) const
+  {
+    return 2.0 * image.radius + 2.0 * this->Error.position + Rest * this->Test.FacetSize;
+  }
+
+  void compare(std::size_t i, const OracleAnswer& answer, const std::vector<VirtualVertex>& images)
+  {
+    std::vector<int> matches(answer.images.size(), 0);
+    for (const VirtualVertex& vertex : images)
+    {
+      const glm::dvec3 sight = this->fromWorld(vertex.sightPoint);
+      bool known = false;
+      for (std::size_t k = 0; k < answer.images.size(); ++k)
+      {
+        const OracleImage& image = answer.images[k];
+        const double distance = glm::length(image.sight - sight);
+        if (distance > this->slackOf(image))
+        {
+          continue;
+        }
+        known = true;
+        this->Tally.Largest = std::max(this->Tally.Largest, distance / this->Test.FacetSize);
+        if (++matches[k] > this->Test.Layers)
+        {
+          this->count(&RefractionTally::False, i, "an image too often", sight.x, sight.z);
+        }
+        if (vertex.orientation != image.orientation)
+        {
+          this->count(&RefractionTally::Wrong, i, "orientation", sight.x, sight.z);
+        }
+      }
+      this->checkVertex(i, vertex);
+      if (!known && !answer.IsUncertain(sight.x, sight.z, Rest * this->Test.FacetSize))
+      {
+        this->count(&RefractionTally::False, i, "false image", sight.x, sight.z);
+      }
+    }
+    for (std::size_t k = 0; k < answer.images.size(); ++k)
+    {
+      ++this->Tally.Images;
+      if (matches[k] == 0)
+      {
+        this->count(&RefractionTally::Missed, i, "missed image", answer.images[k].sight.x,
+          answer.images[k].sight.z);
+      }
+    }
+  }
+
+  void checkFirst(std::size_t i, const OracleAnswer& answer, const VirtualVertex& vertex)
+  {
+    const glm::dvec3 sight = this->fromWorld(vertex.sightPoint);
+    const bool found = vertex.state == ImageState::Found;
+    const bool known = found &&
+      std::any_of(answer.images.begin(), answer.images.end(),
+        [&](const OracleImage& image)
+        { return glm::length(image.sight - sight) <= this->slackOf(image); });
+    const bool excused = found && answer.IsUncertain(sight.x, sight.z, Rest * this->Test.FacetSize);
+    if (found && !known && !excused)
+    {
+      this->count(&RefractionTally::False, i, "first image is none", sight.x, sight.z);
+    }
+    if (!found && !answer.images.empty())
+    {
+      this->count(&RefractionTally::Missed, i, "no first image", answer.images[0].sight.x,
+        answer.images[0].sight.z);
+    }
+  }
+
+  // Eq. 2.4, depth and reflectance from the sight point and the patch's normal there.
+  void checkVertex(std::size_t i, const VirtualVertex& vertex)
+  {
+    const glm::dvec3 point = this->Test.Points[i];
+    const glm::dvec3 sight = this->fromWorld(vertex.sightPoint);
+    const double depth = glm::length(point - sight);
+    const glm::dvec3 way = sight - this->Test.Eye;
+    const glm::dvec3 expected = this->Test.Exterior == this->Test.Interior
+      ? point
+      : sight + way / glm::length(way) * (depth * this->Test.Exterior / this->Test.Interior);
+    const glm::dvec3 position = this->fromWorld(vertex.position);
+    // A direction from as far as the eye is has the rounding of its ends over its length.
+    const double rounding =
+      8.0 * this->Rounding * (1.0 + depth / std::min(glm::length(way), 1.0 + depth)) +
+      1e-13 * (depth + glm::length(way));
+    const bool right = std::fabs(vertex.depth / this->Test.Scale - depth) <= rounding &&
+      glm::length(position - expected) <= 4.0 * rounding * (1.0 + depth / glm::length(way)) &&
+      vertex.reflectance >= 0.0 && vertex.reflectance <= 1.0;
+    if (!right)
+    {
+      this->count(&RefractionTally::Wrong, i, "virtual vertex", sight.x, sight.z);
+    }
+    if (this->Test.Truth == RefractionTruth::Smooth)
+    {
+      const glm::dvec3 normal = this->Test.Surface.GetNormal(sight.x, sight.z);
+      const double cosine = -glm::dot(way, normal) / glm::length(way);
+      const double turn = 2.0 * this->Error.normal +
+        2.0 * (this->Error.position + this->Rounding) / glm::length(way) + 1e-9;
+      const double ends[2] = { reflectance(cosine - turn, this->Test.Exterior, this->Test.Interior),
+        reflectance(cosine + turn, this->Test.Exterior, this->Test.Interior) };
+      // Towards the normal reflectance may have a shallow minimum, below both ends.
+      if (vertex.reflectance > std::max(ends[0], ends[1]) + 1e-6 ||
+        vertex.reflectance < std::min(ends[0], ends[1]) - 1e-3)
+      {
+        this->count(&RefractionTally::Wrong, i, "reflectance", sight.x, sight.z);
+      }
+    }
+  }
+
+  //----------------------------------------------------------------------------
+  void checkByPatches()
+  {
+    const glm::dvec3 origin = this->Geometry.GetMembrane().GetOrigin();
+    const std::size_t facets = this->Geometry.GetMembrane().GetFacets().size();
+    const PatchSearch search(this->Geometry.GetPatches(), facets, this->Test.Eye - origin,
+      this->Test.Exterior, this->Test.Interior);
+    std::vector<VirtualVertex> images;
+    for (std::size_t i = 0; i < this->Test.Points.size(); ++i)
+    {
+      ++this->Tally.Points;
+      const glm::dvec3 local = this->Test.Points[i] - origin;
+      if (this->Geometry.FindImages(this->Test.Points[i], images) == ImageState::NotFinite)
+      {
+        this->count(&RefractionTally::Failed, i, "no answer", 0.0, 0.0);
+        continue;
+      }
+      for (const VirtualVertex& vertex : images)
+      {
+        const glm::dvec3 place = vertex.sightPoint - origin;
+        this->checkVertex(i, vertex);
+        const double residual = search.residual(local, place, vertex.facet);
+        this->Tally.Largest = std::max(this->Tally.Largest, residual);
+        if (!(residual < 1e-6))
+        {
+          this->count(&RefractionTally::False, i, "false image", place.x, place.z);
+        }
+      }
+      this->comparePatches(i, search.find(local), images, origin);
+    }
+  }
+
+  void comparePatches(std::size_t i, const std::vector<PatchSearch::Sight>& sights,
+    const std::vector<VirtualVertex>& images, const glm::dvec3& origin)
+  {
+    bool uncertain = false;
+    for (const PatchSearch::Sight& sight : sights)
+    {
+      // On a caustic or a border rounding decides.
+      if (sight.condition < 1e-4 || sight.inside < 1e-9 || sight.facing < 1e-9)
+      {
+        uncertain = true;
+        continue;
+      }
+      ++this->Tally.Images;
+      const bool found = std::any_of(images.begin(), images.end(),
+        [&](const VirtualVertex& vertex) {
+          return glm::length(vertex.sightPoint - origin - sight.place) <
+            1e-4 * this->Test.FacetSize;
+        });
+      if (!found)
+      {
+        this->count(&RefractionTally::Missed, i, "missed image", sight.place.x, sight.place.z);
+      }
+    }
+    this->Tally.Uncertain += uncertain;
+  }
+
+  const RefractionCase& Test;
+  CurvedGeometry Geometry;
+  RefractionTally Tally;
+  SurfaceError Error;
+  double Rounding = 0.0;
+};
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+void RefractionTally::add(const RefractionTally& other)
+{
+  this->Points += other.Points;
+  this->Images += other.Images;
+  this->Uncertain += other.Uncertain;
+  this->GivenUp += other.GivenUp;
+  this->Missed += other.Missed;
+  this->False += other.False;
+  this->Wrong += other.Wrong;
+  this->Failed += other.Failed;
+  this->Largest = std::max(this->Largest, other.Largest);
+  if (this->First.empty())
+  {
+    this->First = other.First;
+  }
+}
+
+//------------------------------------------------------------------------------
+RefractionTally checkCase(const RefractionCase& test)
+{
+  return Checker(test).run();
+}
+
+} // namespace test
+} // namespace meniscus

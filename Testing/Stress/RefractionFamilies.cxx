@@ -1,0 +1,457 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefractionCase.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+using reference::MembraneMesh;
+using reference::SmoothSurface;
+
+const double Pi = std::acos(-1.0);
+constexpr double Side = 200.0;
+constexpr int PointsPerCase = 24;
+
+// 10 to a power between the two.
+double magnitude(StressRandom& random, double low, double high)
+{
+  return std::pow(10.0, random.uniform(low, high));
+}
+
+//------------------------------------------------------------------------------
+// Waves of several directions, with slopes of `slope` at most in all.
+void addWaves(RefractionCase& test, StressRandom& random, int count, double slope)
+{
+  double shortest = Side;
+  for (int i = 0; i < count; ++i)
+  {
+    const double length = random.uniform(30.0, 150.0);
+    const double angle = random.uniform(0.0, 2.0 * Pi);
+    const double k = 2.0 * Pi / length;
+    test.Surface.waves.push_back({ slope / count * random.uniform(0.3, 1.0) / k,
+      k * std::cos(angle), k * std::sin(angle), random.uniform(0.0, 2.0 * Pi) });
+    shortest = std::min(shortest, length);
+  }
+  test.FacetSize = std::min(test.FacetSize, shortest / 16.0);
+}
+
+void addHills(RefractionCase& test, StressRandom& random)
+{
+  const int count = 1 + random.below(4);
+  for (int i = 0; i < count; ++i)
+  {
+    const double k = random.uniform(0.015, 0.04);
+    // The steepest slope is 0.86 amplitude k.
+    const double slope = random.uniform(0.1, 0.8) / count * (random.below(3) ? 1.0 : -1.0);
+    test.Surface.hills.push_back(
+      { slope / k, k, random.uniform(-60.0, 60.0), random.uniform(-60.0, 60.0) });
+    test.FacetSize = std::min(test.FacetSize, 1.0 / (8.0 * k));
+  }
+}
+
+void makeMesh(RefractionCase& test)
+{
+  const int cells = std::clamp(static_cast<int>(std::ceil(Side / test.FacetSize)), 6, 96);
+  test.FacetSize = Side / cells;
+  test.Mesh = test.Surface.MakeMesh(cells);
+}
+
+//------------------------------------------------------------------------------
+RefractionCase makeSurface(StressRandom& random, int kind)
+{
+  RefractionCase test;
+  test.FacetSize = Side / 16;
+  switch (kind)
+  {
+    case 0:
+      addWaves(test, random, 1 + random.below(5), 0.5);
+      break;
+    case 1:
+      addHills(test, random);
+      break;
+    case 2:
+      test.Surface.sphereRadius = Side * random.uniform(0.8, 5.0) * (random.below(2) ? 1.0 : -1.0);
+      test.FacetSize = Side / (6 + random.below(26));
+      break;
+    case 3:
+      addWaves(test, random, 16, 1.2);
+      break;
+    default: // flat
+      break;
+  }
+  makeMesh(test);
+  return test;
+}
+
+// n1 / n2 from 0.3 to 3, at times 1.
+void setIndices(RefractionCase& test, StressRandom& random)
+{
+  const double ratio =
+    random.below(16) == 0 ? 1.0 : std::exp(random.uniform(std::log(0.3), std::log(3.0)));
+  test.Interior = random.below(2) ? 1.0 : random.uniform(0.5, 2.0);
+  test.Exterior = test.Interior * ratio;
+}
+
+glm::dvec3 randomSight(const RefractionCase& test, StressRandom& random)
+{
+  return test.Surface.GetPoint(
+    random.uniform(-0.5 * Side, 0.5 * Side), random.uniform(-0.5 * Side, 0.5 * Side));
+}
+
+// Elevation in degrees.
+void setEye(RefractionCase& test, StressRandom& random, double low, double high, double distance)
+{
+  const double elevation = random.uniform(low, high) * Pi / 180.0;
+  const double angle = random.uniform(0.0, 2.0 * Pi);
+  test.Eye = 0.3 * randomSight(test, random) +
+    distance *
+      glm::dvec3(std::cos(elevation) * std::cos(angle), std::sin(elevation),
+        std::cos(elevation) * std::sin(angle));
+}
+
+// A point at `length` behind `sight` on the refracted ray; anywhere below if there is none.
+glm::dvec3 pointBehind(
+  const RefractionCase& test, StressRandom& random, const glm::dvec3& sight, double length)
+{
+  const auto ray = test.Surface.Refract(test.Eye, sight, test.Exterior / test.Interior);
+  if (ray)
+  {
+    return sight + length * *ray;
+  }
+  return sight + length * glm::dvec3(random.uniform(-1.0, 1.0), -1.0, random.uniform(-1.0, 1.0));
+}
+
+void addPoints(RefractionCase& test, StressRandom& random, double low, double high)
+{
+  for (int i = 0; i < PointsPerCase; ++i)
+  {
+    const double length = Side * magnitude(random, low, high);
+    if (random.below(4) == 0)
+    {
+      test.Points.push_back(randomSight(test, random) - glm::dvec3(0.0, length, 0.0));
+    }
+    else
+    {
+      test.Points.push_back(pointBehind(test, random, randomSight(test, random), length));
+    }
+  }
+}
+
+RefractionCase makeOrdinary(StressRandom& random, int kind)
+{
+  RefractionCase test = makeSurface(random, kind);
+  setIndices(test, random);
+  setEye(test, random, 20.0, 90.0, Side * magnitude(random, 0.0, 1.0));
+  addPoints(test, random, -2.0, 0.5);
+  return test;
+}
+
+//------------------------------------------------------------------------------
+RefractionCase makeFar(StressRandom& random)
+{
+  RefractionCase test = makeSurface(random, random.below(5));
+  setIndices(test, random);
+  setEye(test, random, 15.0, 90.0, 0.5 * Side * magnitude(random, 0.0, 4.0));
+  addPoints(test, random, -1.0, 3.7);
+  return test;
+}
+
+// The eye from a thousandth of a facet to one facet away.
+RefractionCase makeNearEye(StressRandom& random)
+{
+  RefractionCase test = makeSurface(random, 2 + 2 * random.below(2));
+  setIndices(test, random);
+  const double height = test.FacetSize * magnitude(random, -3.0, 0.0);
+  const glm::dvec3 foot = 0.9 * randomSight(test, random);
+  const glm::dvec3 below = test.Surface.GetPoint(foot.x, foot.z);
+  test.Eye = below + height * test.Surface.GetNormal(foot.x, foot.z);
+  for (int i = 0; i < PointsPerCase; ++i)
+  {
+    const double away = std::min(height * magnitude(random, -1.0, 1.5), 0.25 * Side);
+    const double angle = random.uniform(0.0, 2.0 * Pi);
+    const glm::dvec3 sight =
+      test.Surface.GetPoint(below.x + away * std::cos(angle), below.z + away * std::sin(angle));
+    test.Points.push_back(pointBehind(test, random, sight, height * magnitude(random, -1.0, 3.0)));
+  }
+  return test;
+}
+
+RefractionCase makeGrazing(StressRandom& random)
+{
+  RefractionCase test = makeSurface(random, random.below(5));
+  setIndices(test, random);
+  setEye(test, random, 0.2, 8.0, Side * magnitude(random, 0.0, 1.0));
+  addPoints(test, random, -2.0, 0.3);
+  return test;
+}
+
+// Points on the membrane, down to 1e-6 of a facet below it, and above it.
+RefractionCase makeNearObject(StressRandom& random)
+{
+  RefractionCase test = makeSurface(random, random.below(5));
+  setIndices(test, random);
+  setEye(test, random, 20.0, 90.0, Side * magnitude(random, 0.0, 1.0));
+  for (int i = 0; i < PointsPerCase; ++i)
+  {
+    const glm::dvec3 sight = randomSight(test, random);
+    const double length = test.FacetSize * magnitude(random, -6.0, 0.0);
+    const int where = random.below(8);
+    test.Points.push_back(where == 0 ? sight
+        : where == 1                 ? sight + glm::dvec3(0.0, length, 0.0)
+                                     : pointBehind(test, random, sight, length));
+  }
+  return test;
+}
+
+RefractionCase makeOffset(StressRandom& random)
+{
+  RefractionCase test = makeOrdinary(random, random.below(5));
+  test.Scale = magnitude(random, -6.0, 6.0);
+  test.Offset = test.Scale * magnitude(random, 0.0, 7.0) * random.direction();
+  return test;
+}
+
+//------------------------------------------------------------------------------
+// A sound mesh with facets that add nothing: repeated, with or without points of their own, of no
+// area, with corners that are not finite or do not exist; all in another order.
+RefractionCase makeDirty(StressRandom& random)
+{
+  RefractionCase test = makeOrdinary(random, random.below(5));
+  test.Layers = 3;
+  MembraneMesh& mesh = test.Mesh;
+  const auto facets = static_cast<int>(mesh.GetNumberOfFacets());
+  const auto corner = [&mesh](int facet, int k)
+  { return mesh.triangles[static_cast<std::size_t>(3 * facet + k)]; };
+  const auto addCopy = [&mesh](std::int64_t id)
+  {
+    const auto at = static_cast<std::size_t>(3 * id);
+    mesh.AddPoint({ mesh.points[at], mesh.points[at + 1], mesh.points[at + 2] },
+      { mesh.normals[at], mesh.normals[at + 1], mesh.normals[at + 2] });
+    return static_cast<std::int64_t>(mesh.points.size() / 3) - 1;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  mesh.AddPoint({ nan, 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
+  const auto bad = static_cast<std::int64_t>(mesh.points.size() / 3) - 1;
+  for (int i = 0; i < facets / 8; ++i)
+  {
+    const int f = random.below(facets);
+    switch (random.below(6))
+    {
+      case 0:
+        mesh.AddTriangle(corner(f, 1), corner(f, 2), corner(f, 0));
+        break;
+      case 1:
+        mesh.AddTriangle(corner(f, 0), corner(f, 1), corner(f, 1));
+        break;
+      case 2:
+        mesh.AddTriangle(corner(f, 0), corner(f, 1), addCopy(corner(f, 1)));
+        break;
+      case 3:
+        mesh.AddTriangle(corner(f, 0), bad, corner(f, 1));
+        break;
+      case 4:
+        mesh.AddTriangle(corner(f, 0), corner(f, 1), random.below(2) ? -1 : 1000000000);
+        break;
+      default:
+      {
+        const std::int64_t a = addCopy(corner(f, 0));
+        const std::int64_t b = addCopy(corner(f, 1));
+        mesh.AddTriangle(a, b, addCopy(corner(f, 2)));
+        break;
+      }
+    }
+  }
+  for (std::size_t i = mesh.GetNumberOfFacets(); i > 1; --i)
+  {
+    const auto j = static_cast<std::size_t>(random.below(static_cast<int>(i)));
+    std::swap_ranges(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(3 * (i - 1)),
+      mesh.triangles.begin() + static_cast<std::ptrdiff_t>(3 * i),
+      mesh.triangles.begin() + static_cast<std::ptrdiff_t>(3 * j));
+  }
+  return test;
+}
+
+// Without a tenth of its facets, in some cases in one piece.
+RefractionCase makeHoles(StressRandom& random)
+{
+  RefractionCase test = makeOrdinary(random, random.below(5));
+  MembraneMesh& mesh = test.Mesh;
+  const bool inOnePiece = random.below(2) == 0;
+  const glm::dvec3 middle = 0.7 * randomSight(test, random);
+  std::vector<std::int64_t> kept;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+  {
+    std::array<glm::dvec2, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto at = static_cast<std::size_t>(3 * mesh.triangles[i + k]);
+      corners[k] = glm::dvec2(mesh.points[at], mesh.points[at + 2]);
+    }
+    const bool drop = inOnePiece
+      ? glm::length(corners[0] - glm::dvec2(middle.x, middle.z)) < 0.18 * Side
+      : random.below(10) == 0;
+    if (drop)
+    {
+      test.Holes.push_back(corners);
+    }
+    else
+    {
+      kept.insert(kept.end(), { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] });
+    }
+  }
+  mesh.triangles = kept;
+  return test;
+}
+
+//------------------------------------------------------------------------------
+// For surfaces that are their own truth: points in a box below, and eyes above.
+void lookFromAbove(RefractionCase& test, StressRandom& random)
+{
+  test.Truth = RefractionTruth::Patches;
+  setIndices(test, random);
+  setEye(test, random, 20.0, 90.0, Side * magnitude(random, 0.0, 1.0));
+  for (int i = 0; i < PointsPerCase; ++i)
+  {
+    test.Points.emplace_back(random.uniform(-80.0, 80.0), -Side * magnitude(random, -1.0, 0.3),
+      random.uniform(-80.0, 80.0));
+  }
+}
+
+// Heights and normals of their own at every vertex.
+RefractionCase makeRough(StressRandom& random)
+{
+  RefractionCase test;
+  const int cells = 4 + random.below(7);
+  test.FacetSize = Side / cells;
+  test.Mesh = reference::MakeRandom(Side, cells, test.FacetSize * magnitude(random, -2.0, 0.0),
+    magnitude(random, -2.0, 0.3), static_cast<unsigned>(random.bits()));
+  lookFromAbove(test, random);
+  return test;
+}
+
+// A sheet that overhangs: x swings back along it.
+RefractionCase makeFolded(StressRandom& random)
+{
+  RefractionCase test;
+  const int cells = 8 + random.below(6);
+  test.FacetSize = Side / cells;
+  test.Mesh = reference::MakeSquare(Side, cells, 0.0);
+  const double k = 2.0 * Pi * random.uniform(1.0, 2.0) / Side;
+  const double swing = random.uniform(0.5, 1.6) / k; // above 1 / k it overhangs
+  const double height = random.uniform(0.3, 1.5) / k;
+  MembraneMesh& mesh = test.Mesh;
+  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  {
+    const double u = mesh.points[i];
+    mesh.points[i] = u + swing * std::sin(2.0 * k * u) * 0.5;
+    mesh.points[i + 1] = height * std::sin(k * u);
+    const glm::dvec3 along(
+      1.0 + swing * k * std::cos(2.0 * k * u), height * k * std::cos(k * u), 0.0);
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(-along.y, along.x, 0.0));
+    std::copy(&normal.x, &normal.x + 3, mesh.normals.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  lookFromAbove(test, random);
+  return test;
+}
+
+// Fins on edges of a waved sheet: three and four facets meet there.
+RefractionCase makeNonManifold(StressRandom& random)
+{
+  RefractionCase test;
+  addWaves(test, random, 2, 0.4);
+  test.FacetSize = Side / 10;
+  makeMesh(test);
+  MembraneMesh& mesh = test.Mesh;
+  const std::size_t facets = mesh.GetNumberOfFacets();
+  for (int i = 0; i < 40; ++i)
+  {
+    const auto f = static_cast<std::size_t>(random.below(static_cast<int>(facets)));
+    const std::int64_t a = mesh.triangles[3 * f];
+    const std::int64_t b = mesh.triangles[3 * f + 1];
+    const auto at = static_cast<std::size_t>(3 * a);
+    const glm::dvec3 tip = glm::dvec3(mesh.points[at], mesh.points[at + 1], mesh.points[at + 2]) +
+      test.FacetSize *
+        glm::dvec3(random.uniform(-1.0, 1.0), random.uniform(-0.5, 0.5), random.uniform(-1.0, 1.0));
+    mesh.AddPoint(tip, test.Surface.GetNormal(tip.x, tip.z));
+    mesh.AddTriangle(a, b, static_cast<std::int64_t>(mesh.points.size() / 3) - 1);
+  }
+  lookFromAbove(test, random);
+  return test;
+}
+
+//------------------------------------------------------------------------------
+// Triangles of all sizes, some of them large against the membrane, none that crosses it.
+RefractionCase makeTriangles(StressRandom& random)
+{
+  RefractionCase test = makeSurface(random, random.below(5));
+  setIndices(test, random);
+  setEye(test, random, 30.0, 90.0, Side * magnitude(random, 0.0, 0.7));
+  for (int i = 0; i < 6; ++i)
+  {
+    const double depth = Side * magnitude(random, -0.6, 0.2);
+    const glm::dvec3 middle =
+      pointBehind(test, random, 0.8 * randomSight(test, random), depth) - glm::dvec3(0, 40, 0);
+    const double size = std::min(Side * magnitude(random, -1.7, 0.0), 0.6 * (-30.0 - middle.y));
+    std::array<glm::dvec3, 3> triangle;
+    for (glm::dvec3& corner : triangle)
+    {
+      corner = middle + size * random.direction();
+    }
+    if (size > 0.0)
+    {
+      test.Triangles.push_back(triangle);
+    }
+  }
+  return test;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::vector<RefractionFamily> refractionFamilies(double intensity, std::uint64_t seed)
+{
+  std::vector<RefractionFamily> families;
+  const auto add = [&](const std::string& name, double cases,
+                     const std::function<RefractionCase(StressRandom&)>& make)
+  {
+    // Every case has its own stream, so that it can be run alone.
+    const std::uint64_t stream = seed + 0x1000003u * (families.size() + 1);
+    families.push_back({ name, std::max(1, static_cast<int>(std::lround(cases * intensity))),
+      [stream, make](int index)
+      {
+        StressRandom random(stream * 0x2545f4914f6cdd1du + static_cast<std::uint64_t>(index));
+        return make(random);
+      } });
+  };
+  add("waves", 12, [](StressRandom& random) { return makeOrdinary(random, 0); });
+  add("domes", 12, [](StressRandom& random) { return makeOrdinary(random, 1); });
+  add("bowls", 12, [](StressRandom& random) { return makeOrdinary(random, 2); });
+  add("noise", 4, [](StressRandom& random) { return makeOrdinary(random, 3); });
+  add("flat", 8, [](StressRandom& random) { return makeOrdinary(random, 4); });
+  add("far eyes and objects", 16, makeFar);
+  add("near eyes", 16, makeNearEye);
+  add("grazing eyes", 16, makeGrazing);
+  add("near objects", 12, makeNearObject);
+  add("offset and scaled", 12, makeOffset);
+  add("dirty meshes", 12, makeDirty);
+  add("holes", 12, makeHoles);
+  add("rough", 12, makeRough);
+  add("folded", 12, makeFolded);
+  add("non-manifold", 12, makeNonManifold);
+  add("triangles", 12, makeTriangles);
+  return families;
+}
+
+} // namespace test
+} // namespace meniscus

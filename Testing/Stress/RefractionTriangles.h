@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_RefractionTriangles_h
+#define meniscus_RefractionTriangles_h
+
+#include "Refraction/CurvedGeometry.h"
+#include "RefractionCheck.h"
+#include "SightOracle.h"
+
+namespace meniscus
+{
+namespace test
+{
+
+/**
+ * Draws the images of a case's triangles and judges them at random places of the triangles: every
+ * certain image of the place must be shown by a polygon, and every polygon that shows the place
+ * must show it where light from there goes.
+ */
+RefractionTally checkTriangles(const RefractionCase& test, const CurvedGeometry& geometry,
+  const reference::SightOracle& oracle, const reference::SurfaceError& error);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

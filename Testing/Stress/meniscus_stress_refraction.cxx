@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Membranes, eyes and objects that are hard on virtual geometry of curved patches, judged by an
+ * interval Newton method on the smooth surface or a dense search on the patches. Reports missed,
+ * false, wrong and failed per family; the exit status is 0 without any.
+ */
+#include "RefractionCheck.h"
+#include "StressOptions.h"
+#include "StressProcess.h"
+
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+const char* const Usage =
+  "meniscus_stress_refraction [options]\n"
+  "  --intensity X      1 (default) takes half a minute; cases grow with it\n";
+
+struct FamilyResult : ProcessResult
+{
+  RefractionTally Tally;
+};
+
+//------------------------------------------------------------------------------
+std::string encode(const RefractionTally& t)
+{
+  std::ostringstream line;
+  line.precision(std::numeric_limits<double>::max_digits10);
+  line << t.Points << ' ' << t.Images << ' ' << t.Uncertain << ' ' << t.GivenUp << ' ' << t.Missed
+       << ' ' << t.False << ' ' << t.Wrong << ' ' << t.Failed << ' ' << t.Largest << ' ' << t.First;
+  return line.str();
+}
+
+RefractionTally decode(const std::string& text)
+{
+  std::istringstream line(text);
+  RefractionTally t;
+  line >> t.Points >> t.Images >> t.Uncertain >> t.GivenUp >> t.Missed >> t.False >> t.Wrong >>
+    t.Failed >> t.Largest;
+  line.ignore(1);
+  std::getline(line, t.First);
+  return t;
+}
+
+//------------------------------------------------------------------------------
+FamilyResult runFamily(const RefractionFamily& family, const StressOptions& options)
+{
+  FamilyResult result;
+  const int only = options.Case;
+  const auto start = [&family, only]() -> CaseWork
+  {
+    return [&family, only](int index)
+    { return encode(checkCase(family.Make(only < 0 ? index : only))); };
+  };
+  const auto take = [&result, only](int index, const std::string& line)
+  {
+    const RefractionTally tally = decode(line);
+    result.Tally.add(tally);
+    if (!tally.First.empty())
+    {
+      result.note("case " + std::to_string(only < 0 ? index : only) + ": " + tally.First);
+    }
+  };
+  const int cases = only < 0 ? family.Cases : (only < family.Cases ? 1 : 0);
+  runCases(cases, 1, options.Seconds, start, take, result);
+  return result;
+}
+
+//------------------------------------------------------------------------------
+void printRow(std::ostream& out, const std::string& family, const FamilyResult& r)
+{
+  const RefractionTally& t = r.Tally;
+  std::ostringstream row;
+  row << "| " << family << " | " << r.Cases << " | " << t.Points << " | " << t.Images << " | "
+      << t.Uncertain << " | " << t.GivenUp << " | " << t.Missed << " | " << t.False << " | "
+      << t.Wrong << " | " << t.Failed << " | " << r.Stuck << " | " << r.Crashed << " | "
+      << std::scientific << std::setprecision(1) << t.Largest << " | " << std::fixed << r.Seconds
+      << " |\n";
+  out << row.str() << std::flush;
+}
+
+//------------------------------------------------------------------------------
+bool runAll(const StressOptions& options, std::ostream& out)
+{
+  out << "| family | cases | points | images | uncertain | given up | missed | false | wrong | "
+         "failed | stuck | crashed | max error | s |\n"
+      << "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::vector<std::string> notes;
+  FamilyResult sum;
+  bool good = true;
+  for (const RefractionFamily& family : refractionFamilies(options.Intensity, options.Seed))
+  {
+    if (!options.has(family.Name))
+    {
+      continue;
+    }
+    const FamilyResult result = runFamily(family, options);
+    printRow(out, family.Name, result);
+    good = good && result.Tally.isGood() && result.Crashed == 0 && result.Stuck == 0;
+    for (const std::string& note : result.Notes)
+    {
+      notes.push_back(family.Name + ", " + note);
+    }
+    sum.Tally.add(result.Tally);
+    sum.Cases += result.Cases;
+    sum.Stuck += result.Stuck;
+    sum.Crashed += result.Crashed;
+    sum.Seconds += result.Seconds;
+  }
+  printRow(out, "all", sum);
+  for (const std::string& note : notes)
+  {
+    out << note << '\n';
+  }
+  return good;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+int main(int argc, char* argv[])
+{
+  StressOptions options;
+  return runStressProgramme(
+    argc, argv, Usage, options, [](const std::string&, const std::string&) { return false; },
+    [&options](std::ostream& out) { return runAll(options, out); });
+}
