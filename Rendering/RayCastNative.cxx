@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastNative.h"
 
+#include "ThreadedLoop.h"
+
 #include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
 #include "vtkType.h"
@@ -39,9 +41,7 @@ RayStatistics RayCastNative::Cast(TileCaster::Scene scene, const std::vector<flo
 {
   if (version != this->PlacedVersion || !scene.Rays.PlacesAs(this->PlacedBy))
   {
-    const auto loop = [](std::size_t count, const RangeBody& body)
-    { vtkSMPTools::For(0, static_cast<vtkIdType>(count), body); };
-    PlaceVertices(*scene.Mesh, scalars, scene.Rays, loop, this->Tables.Vertices);
+    PlaceVertices(*scene.Mesh, scalars, scene.Rays, ThreadedLoop, this->Tables.Vertices);
     this->PlacedBy = scene.Rays;
     this->PlacedVersion = version;
   }

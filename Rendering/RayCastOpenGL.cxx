@@ -3,8 +3,6 @@
 #include "RayCastOpenGL.h"
 
 #include "RayCastShader.h"
-#include "ThreadedLoop.h"
-#include "Volume/BlockLoop.h"
 
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
@@ -38,25 +36,12 @@ constexpr unsigned int TileLayers = 8;
  * cells. */
 constexpr int TileSize = 4;
 
-constexpr int FullCellTexels = 8;
-constexpr int CompactCellTexels = 5;
-
-std::vector<std::int32_t> CompactCells(const TetrahedralMesh& mesh)
+void Deactivate(const std::vector<OpenGLTable*>& tables)
 {
-  const auto& cells = mesh.GetCells();
-  std::vector<std::int32_t> values(CompactCellTexels * cells.size());
-  ForEachBlock(cells.size(), ThreadedLoop,
-    [&cells, &values](std::size_t, std::size_t first, std::size_t last)
-    {
-      for (std::size_t c = first; c < last; ++c)
-      {
-        const auto& v = cells[c].Vertices;
-        std::int32_t* value = &values[CompactCellTexels * c];
-        *value = v[0] ^ v[1] ^ v[2] ^ v[3];
-        std::copy(cells[c].Links.begin(), cells[c].Links.end(), value + 1);
-      }
-    });
-  return values;
+  for (OpenGLTable* table : tables)
+  {
+    table->Deactivate();
+  }
 }
 
 /**
@@ -90,6 +75,7 @@ std::string RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
   {
     this->Release(nullptr);
     this->Window = window;
+    this->Tables.SetWindow(window);
     window->MakeCurrent();
   }
   GLint version[2] = { 0, 0 };
@@ -101,216 +87,6 @@ std::string RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
       std::to_string(version[1]);
   }
   return std::string();
-}
-
-//------------------------------------------------------------------------------
-bool RayCastOpenGL::HasCells(bool compact) const
-{
-  return this->Cells.IsFilled() && compact == this->CellsAreCompact;
-}
-
-//------------------------------------------------------------------------------
-bool RayCastOpenGL::HasBoundary() const
-{
-  return this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
-}
-
-//------------------------------------------------------------------------------
-bool RayCastOpenGL::HasVertices() const
-{
-  return this->Vertices.IsFilled();
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::Count(OpenGLTable& table, const std::string& error)
-{
-  this->UploadedBytes += table.GetBytes();
-  return error;
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadCells(const TetrahedralMesh& mesh, bool compact)
-{
-  static_assert(sizeof(TetrahedralMesh::Cell) == FullCellTexels * sizeof(std::int32_t),
-    "a full cell as it is on the host");
-  const auto cells = static_cast<std::size_t>(mesh.GetNumberOfCells());
-  std::string error;
-  if (compact)
-  {
-    const std::vector<std::int32_t> values = CompactCells(mesh);
-    error = this->Cells.Upload(this->Window, values.data(), values.size(), 1, CompactCellTexels);
-  }
-  else
-  {
-    const auto* values = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
-    error = this->Cells.Upload(this->Window, values, FullCellTexels * cells, 1, FullCellTexels);
-  }
-  this->CellsAreCompact = compact;
-  return this->Count(this->Cells, error);
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::DescribeExcess(
-  const TetrahedralMesh& mesh, bool compact, std::int64_t limit) const
-{
-  GLint ofDevice = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &ofDevice);
-  const std::int64_t largest = std::min(limit, static_cast<std::int64_t>(ofDevice));
-  const std::int64_t texels =
-    std::max((compact ? CompactCellTexels : FullCellTexels) * mesh.GetNumberOfCells(),
-      mesh.GetNumberOfVertices());
-  return texels <= largest ? std::string()
-                           : "a table of " + std::to_string(texels) + " texels for " +
-      std::to_string(mesh.GetNumberOfCells()) +
-      " tetrahedra exceeds the graphics device's limit of " + std::to_string(largest);
-}
-
-//------------------------------------------------------------------------------
-std::int64_t RayCastOpenGL::GetTableBytes() const
-{
-  std::int64_t bytes = 0;
-  for (const OpenGLTable* table :
-    { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
-      &this->VertexGradients, &this->Intervals, &this->Isosurfaces })
-  {
-    bytes += table->GetBytes();
-  }
-  return bytes;
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadBoundary(const BoundaryTree& tree)
-{
-  // A node's indices travel as floats, which are whole up to 2^24.
-  const std::int64_t largestIndex =
-    static_cast<std::int64_t>(std::max(tree.GetNodes().size(), tree.GetFaces().size()));
-  if (largestIndex > (std::int64_t{ 1 } << 24))
-  {
-    return "a mesh with " + std::to_string(tree.GetFaces().size()) +
-      " boundary faces exceeds the limit of 8388608";
-  }
-  std::vector<float> nodes;
-  nodes.reserve(8 * tree.GetNodes().size());
-  for (const auto& node : tree.GetNodes())
-  {
-    nodes.insert(nodes.end(),
-      { node.Center.x, node.Center.y, node.Center.z, static_cast<float>(node.Skip), node.Half.x,
-        node.Half.y, node.Half.z, static_cast<float>(node.Face) });
-  }
-  std::string error = this->TreeNodes.Upload(this->Window, nodes.data(), nodes.size(), 4, 2);
-  if (!this->Count(this->TreeNodes, error).empty())
-  {
-    return error;
-  }
-
-  std::vector<std::int32_t> faces;
-  faces.reserve(4 * tree.GetFaces().size());
-  for (const auto& face : tree.GetFaces())
-  {
-    const auto& v = face.Vertices;
-    faces.insert(faces.end(), { face.Outward > 0 ? v[0] : ~v[0], v[1], v[2], face.CellFace });
-  }
-  error = this->TreeFaces.Upload(this->Window, faces.data(), faces.size(), 4, 1);
-  return this->Count(this->TreeFaces, error);
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadVertices(
-  const TetrahedralMesh& mesh, const std::vector<float>& scalars)
-{
-  std::vector<float> values;
-  values.reserve(4 * static_cast<std::size_t>(mesh.GetNumberOfVertices()));
-  for (std::int64_t v = 0; v < mesh.GetNumberOfVertices(); ++v)
-  {
-    const glm::vec3 p(mesh.GetPosition(v));
-    values.insert(values.end(), { p.x, p.y, p.z, scalars.empty() ? 0.0f : scalars[v] });
-  }
-  const std::string error = this->Vertices.Upload(this->Window, values.data(), values.size(), 4, 1);
-  return this->Count(this->Vertices, error);
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadCellScalars(const std::vector<float>& scalars)
-{
-  const std::string error =
-    this->CellScalars.Upload(this->Window, scalars.data(), scalars.size(), 1, 1);
-  return this->Count(this->CellScalars, error);
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors)
-{
-  std::vector<float> values;
-  values.reserve(4 * vectors.size());
-  for (const glm::vec3& v : vectors)
-  {
-    values.insert(values.end(), { v.x, v.y, v.z, 0.0f });
-  }
-  return this->Count(table, table.Upload(this->Window, values.data(), values.size(), 4, 1));
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadGradients(const std::vector<glm::vec3>& gradients)
-{
-  return this->UploadVectors(this->VertexGradients, gradients);
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadComponents(const std::vector<glm::vec3>& components)
-{
-  return this->UploadVectors(this->VertexComponents, components);
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadPreIntegration(const PreIntegrationTable& table)
-{
-  const std::string error = this->PreIntegration.Upload(this->Window, table);
-  this->UploadedBytes += this->PreIntegration.GetBytes();
-  return error;
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::UploadProperty(const VolumePropertyTables& tables)
-{
-  std::vector<float> values;
-  this->FunctionStarts.assign(1, 0);
-  const auto append = [this, &values](const std::vector<TransferFunctionInterval>& intervals)
-  {
-    const int start = this->FunctionStarts.back();
-    this->FunctionStarts.push_back(start + static_cast<int>(intervals.size()));
-    for (const auto& i : intervals)
-    {
-      values.insert(values.end(),
-        { i.Lower, i.Upper, i.Attenuation, i.AttenuationSlope, i.Color.r, i.Color.g, i.Color.b,
-          0.0f, i.ColorSlope.r, i.ColorSlope.g, i.ColorSlope.b, 0.0f });
-    }
-  };
-  append(tables.GetIntervals());
-  for (const auto& intervals : tables.GetOtherIntervals())
-  {
-    append(intervals);
-  }
-  append(tables.GetGradientIntervals());
-  std::string error = this->Intervals.Upload(this->Window, values.data(), values.size(), 4, 3);
-  if (!this->Count(this->Intervals, error).empty())
-  {
-    return error;
-  }
-
-  this->Isosurfaces.Release(this->Window);
-  if (tables.GetIsosurfaces().empty())
-  {
-    return std::string();
-  }
-  values.clear();
-  for (const Isosurface& surface : tables.GetIsosurfaces())
-  {
-    const glm::vec3& color = surface.Color;
-    values.insert(values.end(),
-      { surface.Scalar, surface.Opacity, 0.0f, 0.0f, color.r, color.g, color.b, 0.0f });
-  }
-  error = this->Isosurfaces.Upload(this->Window, values.data(), values.size(), 4, 2);
-  return this->Count(this->Isosurfaces, error);
 }
 
 //------------------------------------------------------------------------------
@@ -505,11 +281,11 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame)
     return error;
   }
   vtkShaderProgram* program = this->TileLister->Program;
-  this->ActivateRays(program, frame.Rays);
+  const std::vector<OpenGLTable*> tables = this->ActivateRays(program, frame.Rays);
   const float tiles[2] = { static_cast<float>(this->Tiles[0]), static_cast<float>(this->Tiles[1]) };
   program->SetUniform2f("tileCount", tiles);
   this->TileLister->Render();
-  this->DeactivateRays();
+  Deactivate(tables);
   return std::string();
 }
 
@@ -571,8 +347,8 @@ std::string RayCastOpenGL::DispatchRays(const RayCastFrame& frame)
 template <typename Function>
 void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& frame, Function&& run)
 {
-  this->ActivateRays(program, frame.Rays);
-  const std::vector<OpenGLTable*> tables = this->ActivateTables(program, frame.Optics);
+  const std::vector<OpenGLTable*> rayTables = this->ActivateRays(program, frame.Rays);
+  const std::vector<OpenGLTable*> tables = this->Tables.Activate(program, frame.Optics);
   this->EntryTiles->Activate();
   program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
   this->Depth.GetTexture()->Activate();
@@ -581,69 +357,29 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
   SetOpticsUniforms(program, frame.Optics);
   if (frame.Optics.PreIntegrated)
   {
-    this->PreIntegration.Activate(program);
+    this->Tables.GetPreIntegration().Activate(program);
   }
   run();
   if (frame.Optics.PreIntegrated)
   {
-    this->PreIntegration.Deactivate();
+    this->Tables.GetPreIntegration().Deactivate();
   }
   this->Depth.GetTexture()->Deactivate();
   this->EntryTiles->Deactivate();
-  for (OpenGLTable* table : tables)
-  {
-    table->Deactivate();
-  }
-  this->DeactivateRays();
+  Deactivate(tables);
+  Deactivate(rayTables);
   this->StatisticsStale = true;
 }
 
 //------------------------------------------------------------------------------
-std::vector<OpenGLTable*> RayCastOpenGL::ActivateTables(
-  vtkShaderProgram* program, const RayCastOptics& optics)
-{
-  std::vector<OpenGLTable*> active;
-  const auto activate = [&active, program](OpenGLTable& table, const char* name)
-  {
-    table.Activate(program, name);
-    active.push_back(&table);
-  };
-  activate(this->Cells, "cells");
-  if (!optics.PreIntegrated)
-  {
-    activate(this->Intervals, "intervals");
-  }
-  if (optics.CellScalars)
-  {
-    activate(this->CellScalars, "cellScalars");
-  }
-  if (optics.VertexGradients)
-  {
-    activate(this->VertexGradients, "vertexGradients");
-  }
-  if (optics.HasComponents())
-  {
-    activate(this->VertexComponents, "vertexComponents");
-  }
-  if (this->Isosurfaces.IsFilled())
-  {
-    activate(this->Isosurfaces, "surfaces");
-  }
-  return active;
-}
-
-//------------------------------------------------------------------------------
-void RayCastOpenGL::ActivateRays(vtkShaderProgram* program, const RayFrame& rays)
+std::vector<OpenGLTable*> RayCastOpenGL::ActivateRays(
+  vtkShaderProgram* program, const RayFrame& rays)
 {
   const auto set2 = [program](const char* name, const glm::dvec2& value)
   { program->SetUniform2f(name, glm::value_ptr(glm::vec2(value))); };
   const auto set3 = [program](const char* name, const glm::dvec3& value)
   { program->SetUniform3f(name, glm::value_ptr(glm::vec3(value))); };
 
-  this->Vertices.Activate(program, "vertices");
-  this->TreeNodes.Activate(program, "treeNodes");
-  this->TreeFaces.Activate(program, "treeFaces");
-  program->SetUniformi("numberOfNodes", static_cast<int>(this->TreeNodes.GetNumberOfRows()));
   program->SetUniformf("tileSize", static_cast<float>(TileSize));
   set2("imageCenter", 0.5 * glm::dvec2(this->Size[0], this->Size[1]));
   set3("rowX", rays.RowX);
@@ -656,23 +392,14 @@ void RayCastOpenGL::ActivateRays(vtkShaderProgram* program, const RayFrame& rays
   set2("slopePerColumn", rays.Slope.PerColumn);
   set2("slopePerRow", rays.Slope.PerRow);
   program->SetUniformi("enteringSign", rays.Handedness);
-}
-
-//------------------------------------------------------------------------------
-void RayCastOpenGL::DeactivateRays()
-{
-  this->TreeFaces.Deactivate();
-  this->TreeNodes.Deactivate();
-  this->Vertices.Deactivate();
+  return this->Tables.ActivateRays(program);
 }
 
 //------------------------------------------------------------------------------
 void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFrame& frame)
 {
   const RayFrame& rays = frame.Rays;
-  program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
-  this->SetFunctionUniforms(program, frame.Optics);
-  program->SetUniformi("numberOfSurfaces", static_cast<int>(this->Isosurfaces.GetNumberOfRows()));
+  this->Tables.SetUniforms(program, frame.Optics);
   // Apart from its size, whose square may be beyond single precision.
   const glm::dmat3& toWorld = rays.ViewToWorld;
   const double unit =
@@ -685,23 +412,6 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
   program->SetUniform2f("depthDenominator", glm::value_ptr(glm::vec2(rays.DepthDenominator)));
   program->SetUniformf(
     "terminationTransmittance", static_cast<float>(1.0 - frame.EarlyTerminationOpacity));
-}
-
-//------------------------------------------------------------------------------
-void RayCastOpenGL::SetFunctionUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
-{
-  const std::vector<int>& starts = this->FunctionStarts;
-  const int first = starts[starts.size() - 2];
-  program->SetUniformi("firstGradientInterval", first);
-  program->SetUniformi("numberOfGradientIntervals", starts.back() - first);
-  program->SetUniformi("numberOfIntervals", starts[1]);
-  if (optics.HasComponents())
-  {
-    std::vector<int> sizes(starts.size());
-    std::adjacent_difference(starts.begin(), starts.end(), sizes.begin());
-    program->SetUniform1iv("functionStart", optics.NumberOfFunctions, starts.data());
-    program->SetUniform1iv("functionSize", optics.NumberOfFunctions, sizes.data() + 1);
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -789,13 +499,7 @@ void RayCastOpenGL::Release(vtkWindow* window)
     owner->PushContext();
   }
   this->GetStatistics();
-  for (OpenGLTable* table :
-    { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
-      &this->VertexGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces })
-  {
-    table->Release(owner);
-  }
-  this->PreIntegration.Release(owner);
+  this->Tables.Release(owner);
   this->Depth.Release(owner);
   this->TileLister.reset();
   this->RayCasters.clear();

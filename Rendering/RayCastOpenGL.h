@@ -3,18 +3,13 @@
 #ifndef RayCastOpenGL_h
 #define RayCastOpenGL_h
 
-#include "Volume/BoundaryTree.h"
 #include "Volume/RayFrame.h"
 #include "Volume/RayStatistics.h"
-#include "Volume/TetrahedralMesh.h"
-#include "Volume/TransferFunction.h"
 
 #include "OpenGLComputeProgram.h"
 #include "OpenGLDepthCopy.h"
-#include "OpenGLPreIntegration.h"
-#include "OpenGLTable.h"
+#include "OpenGLTables.h"
 #include "RayCastOptics.h"
-#include "VolumePropertyTables.h"
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
@@ -73,34 +68,8 @@ public:
 
   /** Binds to a window; on a change of window all tables are gone. */
   std::string SetWindow(vtkOpenGLRenderWindow* window);
-  bool HasCells(bool compact) const;
-  bool HasBoundary() const;
-  bool HasVertices() const;
-  bool HasCellScalars() const { return this->CellScalars.IsFilled(); }
-  bool HasGradients() const { return this->VertexGradients.IsFilled(); }
-  bool HasComponents() const { return this->VertexComponents.IsFilled(); }
-  bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
-  bool HasProperty() const { return this->Intervals.IsFilled(); }
-
-  /**
-   * The cells in 32 bytes each or, compact, in 20: the exclusive or of a cell's vertices in place
-   * of those. A ray that comes by a face knows the three others. Wanted as optics' CompactCells.
-   */
-  std::string UploadCells(const TetrahedralMesh& mesh, bool compact);
-  /** Which table of a mesh a limit in texels or the device's own forbids; empty if none. */
-  std::string DescribeExcess(const TetrahedralMesh& mesh, bool compact, std::int64_t limit) const;
-  std::string UploadBoundary(const BoundaryTree& tree);
-  /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
-  std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
-  /** One normalised scalar per cell. Needed for optics with CellScalars. */
-  std::string UploadCellScalars(const std::vector<float>& scalars);
-  /** One gradient per vertex. Needed for optics with VertexGradients. */
-  std::string UploadGradients(const std::vector<glm::vec3>& gradients);
-  /** Needed for optics with PreIntegrated. */
-  std::string UploadPreIntegration(const PreIntegrationTable& table);
-  /** Up to three further components per vertex. Needed for optics with components. */
-  std::string UploadComponents(const std::vector<glm::vec3>& components);
-  std::string UploadProperty(const VolumePropertyTables& tables);
+  OpenGLTables& GetTables() { return this->Tables; }
+  const OpenGLTables& GetTables() const { return this->Tables; }
 
   /** Whether the window's context has compute shaders (OpenGL 4.3). */
   bool HasCompute() const { return OpenGLComputeProgram::IsSupported(); }
@@ -128,10 +97,6 @@ public:
   /** Notes a frame without rays. */
   void ClearStatistics();
 
-  std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
-  /** Bytes of the tables that are on the device now. */
-  std::int64_t GetTableBytes() const;
-
   /**
    * Frees all graphics resources in the context of their window; null for the window last drawn to.
    * A window that is being destroyed must be given, weak pointers to it are empty by then.
@@ -140,9 +105,6 @@ public:
 
 private:
   bool ReadStatistics();
-  std::string Count(OpenGLTable& table, const std::string& error);
-  std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
-  void SetFunctionUniforms(vtkShaderProgram* program, const RayCastOptics& optics);
   template <typename Function>
   std::string DrawImage(const RayCastOutput& output, Function&& makeImage);
   std::vector<float> ReadDepths();
@@ -155,26 +117,11 @@ private:
   template <typename Function>
   void RunCaster(vtkShaderProgram* program, const RayCastFrame& frame, Function&& run);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
-  void ActivateRays(vtkShaderProgram* program, const RayFrame& rays);
-  void DeactivateRays();
+  std::vector<OpenGLTable*> ActivateRays(vtkShaderProgram* program, const RayFrame& rays);
   void SetCastUniforms(vtkShaderProgram* program, const RayCastFrame& frame);
-  std::vector<OpenGLTable*> ActivateTables(vtkShaderProgram* program, const RayCastOptics& optics);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  OpenGLTable Vertices;
-  OpenGLTable Cells;
-  bool CellsAreCompact = false;
-  OpenGLTable CellScalars;
-  OpenGLTable TreeNodes;
-  OpenGLTable TreeFaces;
-  OpenGLTable VertexGradients;
-  OpenGLTable VertexComponents;
-  /** Of the scalar, of its other components, of the gradient's magnitude. */
-  OpenGLTable Intervals;
-  /** Where the intervals of each function begin, the gradient's last, and where they end. */
-  std::vector<int> FunctionStarts;
-  OpenGLTable Isosurfaces;
-  OpenGLPreIntegration PreIntegration;
+  OpenGLTables Tables;
   OpenGLDepthCopy Depth;
   std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
   /** By RayCastShaderOptions(). */
@@ -191,7 +138,6 @@ private:
   int Tiles[2] = { 0, 0 };
   RayStatistics Statistics;
   bool StatisticsStale = false;
-  std::int64_t UploadedBytes = 0;
 };
 
 }

@@ -2,24 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
-#include "RayCastNative.h"
-#include "RayCastOpenGL.h"
-#include "RayCastOptics.h"
+#include "RayCastPipeline.h"
 #include "RayCastShader.h"
-#include "Volume/RayFrame.h"
-#include "Volume/VertexGradients.h"
-#include "VolumeComponents.h"
-#include "VolumeInput.h"
-#include "VolumePreIntegration.h"
-#include "VolumePropertyTables.h"
 
-#include "vtkCamera.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkHardwareSelector.h"
 #include "vtkInformation.h"
-#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -35,53 +25,10 @@
 #include <string>
 #include <vector>
 
-namespace
-{
-
-glm::dmat4 ToGlm(vtkMatrix4x4* matrix)
-{
-  glm::dmat4 result;
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      result[column][row] = matrix->GetElement(row, column);
-    }
-  }
-  return result;
-}
-
-}
-
-class vtkTetrahedraRayCastMapper::vtkInternals
+class vtkTetrahedraRayCastMapper::vtkInternals : public meniscus::RayCastPipeline
 {
 public:
-  meniscus::VolumeInput Input;
-  meniscus::VolumeComponents Components;
   meniscus::ComponentMixture Mixture = meniscus::ComponentMixture::None;
-  meniscus::VolumePropertyTables Property;
-  meniscus::VolumePreIntegration PreIntegration;
-  std::vector<glm::vec3> Gradients;
-  meniscus::RayCastOpenGL OpenGL;
-  meniscus::RayCastNative Native;
-
-  /** What the gradients were computed from, by the input's counters. */
-  std::int64_t GradientsOfMesh = 0;
-  std::int64_t GradientsOfScalars = 0;
-
-  /** What the tables on the graphics device were made of, by counters. */
-  std::int64_t UploadedLinks = 0;
-  std::int64_t UploadedMesh = 0;
-  std::int64_t UploadedScalars = 0;
-  std::int64_t UploadedCellScalars = 0;
-  std::int64_t UploadedGradients = 0;
-  std::int64_t UploadedComponents = 0;
-  std::int64_t UploadedProperty = 0;
-  std::int64_t UploadedPreIntegration = 0;
-  /** The same of the native backend's. */
-  std::int64_t NativeProperty = 0;
-
-  vtkTypeInt64 GradientBuilds = 0;
   /** Seconds that the last frame would have taken with a ray per pixel; 0 before it. */
   double FullImageTime = 0.0;
 
@@ -93,171 +40,7 @@ public:
   bool WarnedComponents = false;
   bool WarnedCompute = false;
   bool WarnedTableSize = false;
-
-  void UpdateGradients();
-  std::string Upload(const meniscus::RayCastOptics& optics);
-  void UpdateNative();
-  std::string DrawOpenGL(const meniscus::RayCastFrame& frame);
-  std::string DrawNative(const meniscus::RayCastFrame& frame);
-  std::string ComputeFrame(
-    vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], meniscus::OpticsPlace& place);
 };
-
-//------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::Upload(const meniscus::RayCastOptics& optics)
-{
-  meniscus::VolumeInput& input = this->Input;
-  std::string error;
-  const bool linksStale = this->UploadedLinks != input.GetLinkChanges();
-  if (linksStale || !this->OpenGL.HasCells(optics.CompactCells))
-  {
-    error = this->OpenGL.UploadCells(input.GetMesh(), optics.CompactCells);
-  }
-  if (error.empty() && (linksStale || !this->OpenGL.HasBoundary()))
-  {
-    error = this->OpenGL.UploadBoundary(input.GetBoundaryTree());
-  }
-  if (linksStale || !error.empty())
-  {
-    this->UploadedLinks = error.empty() ? input.GetLinkChanges() : 0;
-  }
-  const bool ofCells = input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
-  const bool verticesStale = this->UploadedMesh != input.GetMeshBuilds() ||
-    (!ofCells && this->UploadedScalars != input.GetScalarUpdates());
-  if (error.empty() && (verticesStale || !this->OpenGL.HasVertices()))
-  {
-    error = this->OpenGL.UploadVertices(input.GetMesh(), input.GetScalars());
-    this->UploadedMesh = error.empty() ? input.GetMeshBuilds() : 0;
-    this->UploadedScalars = input.GetScalarUpdates();
-  }
-  const bool cellScalarsStale = this->UploadedCellScalars != input.GetScalarUpdates();
-  if (error.empty() && ofCells && (cellScalarsStale || !this->OpenGL.HasCellScalars()))
-  {
-    error = this->OpenGL.UploadCellScalars(input.GetCellScalars());
-    this->UploadedCellScalars = error.empty() ? input.GetScalarUpdates() : 0;
-  }
-  const bool gradientsStale = this->UploadedGradients != this->GradientBuilds;
-  if (error.empty() && optics.VertexGradients && (gradientsStale || !this->OpenGL.HasGradients()))
-  {
-    error = this->OpenGL.UploadGradients(this->Gradients);
-    this->UploadedGradients = error.empty() ? this->GradientBuilds : 0;
-  }
-  const bool componentsStale = this->UploadedComponents != this->Components.GetVersion();
-  if (error.empty() && optics.HasComponents() && (componentsStale || !this->OpenGL.HasComponents()))
-  {
-    error = this->OpenGL.UploadComponents(this->Components.GetValues());
-    this->UploadedComponents = error.empty() ? this->Components.GetVersion() : 0;
-  }
-  const bool propertyStale = this->UploadedProperty != this->Property.GetVersion();
-  if (error.empty() && (propertyStale || !this->OpenGL.HasProperty()))
-  {
-    error = this->OpenGL.UploadProperty(this->Property);
-    this->UploadedProperty = error.empty() ? this->Property.GetVersion() : 0;
-  }
-  const std::int64_t table = this->PreIntegration.GetNumberOfBuilds();
-  if (error.empty() && optics.PreIntegrated &&
-    (this->UploadedPreIntegration != table || !this->OpenGL.HasPreIntegration()))
-  {
-    error = this->OpenGL.UploadPreIntegration(this->PreIntegration.GetTable());
-    this->UploadedPreIntegration = error.empty() ? table : 0;
-  }
-  return error;
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::vtkInternals::UpdateGradients()
-{
-  const meniscus::VolumeInput& input = this->Input;
-  if (this->GradientsOfMesh != input.GetMeshBuilds() ||
-    this->GradientsOfScalars != input.GetScalarUpdates())
-  {
-    this->Gradients = meniscus::ComputeVertexGradients(input.GetMesh(), input.GetScalars());
-    this->GradientsOfMesh = input.GetMeshBuilds();
-    this->GradientsOfScalars = input.GetScalarUpdates();
-    ++this->GradientBuilds;
-  }
-}
-
-//------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawOpenGL(
-  const meniscus::RayCastFrame& frame)
-{
-  if (frame.Optics.VertexGradients)
-  {
-    this->UpdateGradients();
-  }
-  const std::string error = this->Upload(frame.Optics);
-  return error.empty() ? this->OpenGL.Draw(frame) : error;
-}
-
-//------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::vtkInternals::UpdateNative()
-{
-  if (this->NativeProperty != this->Property.GetVersion())
-  {
-    this->Native.UpdateProperty(this->Property);
-    this->NativeProperty = this->Property.GetVersion();
-  }
-}
-
-//------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::DrawNative(
-  const meniscus::RayCastFrame& frame)
-{
-  this->UpdateNative();
-  meniscus::TileCaster::Scene scene;
-  scene.Mesh = &this->Input.GetMesh();
-  scene.Boundary = &this->Input.GetMesh().GetBoundary();
-  scene.CellScalars = frame.Optics.CellScalars ? this->Input.GetCellScalars().data() : nullptr;
-  scene.Lighting = frame.Optics.Shading ? &frame.Optics.Lighting : nullptr;
-  if (frame.Optics.VertexGradients)
-  {
-    this->UpdateGradients();
-    scene.VertexGradients = this->Gradients.data();
-    scene.GradientToFrame = frame.Optics.GradientToFrame;
-  }
-  // The numbers are the same.
-  scene.Blending = static_cast<meniscus::PacketBlending>(frame.Optics.BlendMode);
-  scene.ClippingPlanes = frame.Optics.ClippingPlanes;
-  scene.TerminationTransmittance = static_cast<float>(1.0 - frame.EarlyTerminationOpacity);
-  return this->OpenGL.DrawImageOf(
-    [this, &scene, &frame](
-      int width, int height, const std::vector<float>& depths, std::vector<float>& image)
-    {
-      scene.Rays = meniscus::PixelRays(frame.Rays, width, height);
-      const meniscus::VertexVersion version{ this->Input.GetMeshBuilds(),
-        this->Input.GetScalarUpdates() };
-      return this->Native.Cast(scene, this->Input.GetScalars(), version, depths, image);
-    },
-    frame.Output);
-}
-
-//------------------------------------------------------------------------------
-std::string vtkTetrahedraRayCastMapper::vtkInternals::ComputeFrame(
-  vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], meniscus::OpticsPlace& place)
-{
-  vtkCamera* camera = renderer->GetActiveCamera();
-  meniscus::RayFrameInput input;
-  input.ModelToWorld = ToGlm(volume->GetMatrix());
-  input.WorldToView = ToGlm(camera->GetModelViewTransformMatrix());
-  input.ViewToClip =
-    ToGlm(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
-  input.Center = this->Input.GetMesh().GetCenter();
-  input.Radius = this->Input.GetMesh().GetRadius();
-  input.ImageSize = glm::dvec2(imageSize[0], imageSize[1]);
-  place.CenterInWorld = glm::dvec3(input.ModelToWorld * glm::dvec4(input.Center, 1.0));
-  place.WorldToView = input.WorldToView;
-  place.ScalarScale = this->Input.GetNormalization().Scale;
-  switch (meniscus::ComputeRayFrame(input, place.Frame))
-  {
-    case meniscus::RayFrameStatus::Ok:
-      return std::string();
-    case meniscus::RayFrameStatus::Singular:
-      return "the matrix of the volume or of the camera is singular or not finite";
-    default:
-      return "the camera's projection is not that of a plane image";
-  }
-}
 
 vtkStandardNewMacro(vtkTetrahedraRayCastMapper);
 
@@ -496,7 +279,8 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
   if (optics.PreIntegrated)
   {
     vtkInternals& internals = *this->Internals;
-    internals.PreIntegration.Update(internals.Input, internals.Property, ToGlm(volume->GetMatrix()),
+    internals.PreIntegration.Update(internals.Input, internals.Property,
+      meniscus::ToGlm(volume->GetMatrix()),
       { this->PreIntegrationScalarSize, this->PreIntegrationLengthSize });
   }
 }
@@ -505,7 +289,7 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
 bool vtkTetrahedraRayCastMapper::FallsBackToNative(bool plainOptics, std::string& error)
 {
   vtkInternals& internals = *this->Internals;
-  error = internals.OpenGL.DescribeExcess(
+  error = internals.OpenGL.GetTables().DescribeExcess(
     internals.Input.GetMesh(), this->CompactTables != 0, this->MaximumTableSize);
   if (error.empty() || !plainOptics)
   {
@@ -689,7 +473,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransferFunctionBuilds()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfGradientBuilds()
 {
-  return this->Internals->GradientBuilds;
+  return this->Internals->GetGradientBuilds();
 }
 
 //------------------------------------------------------------------------------
@@ -707,14 +491,15 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 {
-  return this->Internals->OpenGL.GetUploadedBytes() + this->Internals->Native.GetTableBytes();
+  return this->Internals->OpenGL.GetTables().GetUploadedBytes() +
+    this->Internals->Native.GetTableBytes();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
 {
   const vtkInternals& internals = *this->Internals;
-  const std::size_t gradients = internals.Gradients.size() * sizeof(glm::vec3);
+  const std::size_t gradients = internals.GetGradients().size() * sizeof(glm::vec3);
   return internals.Input.GetBytes() + internals.Native.GetBytes() +
     static_cast<vtkTypeInt64>(gradients);
 }
@@ -722,7 +507,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetDeviceBytes()
 {
-  return this->Internals->OpenGL.GetTableBytes();
+  return this->Internals->OpenGL.GetTables().GetTableBytes();
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/TileCaster.h"
 
+#include "Volume/BlockLoop.h"
+
 #include <algorithm>
 
 namespace meniscus
@@ -12,8 +14,8 @@ void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalar
   const PixelRays& rays, const RangeLoop& loop, std::vector<PacketVertex>& vertices)
 {
   vertices.resize(mesh.GetFixedPositions().size());
-  loop(vertices.size(),
-    [&](std::size_t first, std::size_t last)
+  ForEachBlock(vertices.size(), loop,
+    [&](std::size_t, std::size_t first, std::size_t last)
     {
       for (std::size_t v = first; v < last; ++v)
       {

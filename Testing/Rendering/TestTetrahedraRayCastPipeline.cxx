@@ -3,6 +3,7 @@
 // What is rebuilt when something changes, shown by the mapper's counters.
 #include "RayCastScene.h"
 
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkCommand.h>
@@ -261,4 +262,40 @@ TEST_F(TetrahedraRayCastPipeline, MapperOutlivesItsWindow)
   other.setProperty(this->Property);
   lookAt(other.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
   EXPECT_EQ(other.renderBytes().Rgb, first.Rgb);
+}
+
+TEST_F(TetrahedraRayCastPipeline, LostContext)
+{
+  // The window gives up its context and takes a new one.
+  const ByteImage first = this->Scene->renderBytes();
+  this->Scene->window()->Finalize();
+  EXPECT_EQ(this->Scene->renderBytes().Rgb, first.Rgb);
+}
+
+TEST_F(TetrahedraRayCastPipeline, TransferFunctionEditedDuringARenderOfAnotherWindow)
+{
+  RayCastScene other(this->Mesh, this->Property, Size, Size);
+  lookAt(other.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
+  this->Scene->window()->Render();
+  other.window()->Render();
+  // After the other renderer has drawn its volume, before its window shows it.
+  vtkNew<vtkCallbackCommand> edit;
+  edit->SetClientData(this->Property.Get());
+  edit->SetCallback(
+    [](vtkObject*, unsigned long, void* property, void*)
+    {
+      static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity()->RemoveAllPoints();
+      static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity()->AddPoint(0.0, 0.0);
+    });
+  const unsigned long tag = other.renderer()->AddObserver(vtkCommand::EndEvent, edit);
+  other.window()->Render();
+  other.renderer()->RemoveObserver(tag);
+  // Now nothing is visible, in either window.
+  for (RayCastScene* scene : { this->Scene.get(), &other })
+  {
+    for (const float value : scene->renderFloat().Rgba)
+    {
+      ASSERT_EQ(value, 0.0f);
+    }
+  }
 }

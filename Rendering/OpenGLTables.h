@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef OpenGLTables_h
+#define OpenGLTables_h
+
+#include "Volume/BoundaryTree.h"
+#include "Volume/TetrahedralMesh.h"
+#include "Volume/TransferFunction.h"
+
+#include "OpenGLPreIntegration.h"
+#include "OpenGLTable.h"
+#include "VolumePropertyTables.h"
+#include "vtkWeakPointer.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace meniscus
+{
+
+struct RayCastOptics;
+
+/**
+ * What the ray caster's shaders read, on the graphics device. All calls want the window's context
+ * to be current. Errors are texts, empty if there is none.
+ */
+class OpenGLTables
+{
+public:
+  OpenGLTables();
+  ~OpenGLTables();
+  OpenGLTables(const OpenGLTables&) = delete;
+  void operator=(const OpenGLTables&) = delete;
+
+  /** To be told before anything is uploaded. */
+  void SetWindow(vtkOpenGLRenderWindow* window);
+
+  bool HasCells(bool compact) const;
+  bool HasBoundary() const;
+  bool HasVertices() const;
+  bool HasCellScalars() const { return this->CellScalars.IsFilled(); }
+  bool HasGradients() const { return this->VertexGradients.IsFilled(); }
+  bool HasComponents() const { return this->VertexComponents.IsFilled(); }
+  bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
+  bool HasProperty() const { return this->Intervals.IsFilled(); }
+
+  /**
+   * The cells in 32 bytes each or, compact, in 20: the exclusive or of a cell's vertices in place
+   * of those. A ray that comes by a face knows the three others. Wanted as optics' CompactCells.
+   */
+  std::string UploadCells(const TetrahedralMesh& mesh, bool compact);
+  /** Which table of a mesh a limit in texels or the device's own forbids; empty if none. */
+  std::string DescribeExcess(const TetrahedralMesh& mesh, bool compact, std::int64_t limit) const;
+  std::string UploadBoundary(const BoundaryTree& tree);
+  /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
+  std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
+  /** One normalised scalar per cell. Needed for optics with CellScalars. */
+  std::string UploadCellScalars(const std::vector<float>& scalars);
+  /** One gradient per vertex. Needed for optics with VertexGradients. */
+  std::string UploadGradients(const std::vector<glm::vec3>& gradients);
+  /** Needed for optics with PreIntegrated. */
+  std::string UploadPreIntegration(const PreIntegrationTable& table);
+  /** Up to three further components per vertex. Needed for optics with components. */
+  std::string UploadComponents(const std::vector<glm::vec3>& components);
+  std::string UploadProperty(const VolumePropertyTables& tables);
+
+  std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
+  /** Bytes of the tables that are on the device now. */
+  std::int64_t GetTableBytes() const;
+
+  /** Binds what finds and projects: vertices and the tree of the boundary. */
+  std::vector<OpenGLTable*> ActivateRays(vtkShaderProgram* program);
+  /** Binds what the optical model reads. */
+  std::vector<OpenGLTable*> Activate(vtkShaderProgram* program, const RayCastOptics& optics);
+  OpenGLPreIntegration& GetPreIntegration() { return this->PreIntegration; }
+  void SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const;
+
+  /** @param owner  the window of the tables; null if it is gone. */
+  void Release(vtkOpenGLRenderWindow* owner);
+
+private:
+  std::string Count(OpenGLTable& table, const std::string& error);
+  std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  OpenGLTable Vertices;
+  OpenGLTable Cells;
+  bool CellsAreCompact = false;
+  OpenGLTable CellScalars;
+  OpenGLTable TreeNodes;
+  OpenGLTable TreeFaces;
+  OpenGLTable VertexGradients;
+  OpenGLTable VertexComponents;
+  /** Of the scalar, of its other components, of the gradient's magnitude. */
+  OpenGLTable Intervals;
+  /** Where the intervals of each function begin, the gradient's last, and where they end. */
+  std::vector<int> FunctionStarts;
+  OpenGLTable Isosurfaces;
+  OpenGLPreIntegration PreIntegration;
+  std::int64_t UploadedBytes = 0;
+};
+
+}
+
+#endif

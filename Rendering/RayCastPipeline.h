@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RayCastPipeline_h
+#define RayCastPipeline_h
+
+#include "RayCastNative.h"
+#include "RayCastOpenGL.h"
+#include "RayCastOptics.h"
+#include "VolumeComponents.h"
+#include "VolumeInput.h"
+#include "VolumePreIntegration.h"
+#include "VolumePropertyTables.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkMatrix4x4;
+class vtkRenderer;
+class vtkVolume;
+
+namespace meniscus
+{
+
+/** The same matrix, of column vectors. */
+glm::dmat4 ToGlm(vtkMatrix4x4* matrix);
+
+/**
+ * From a mapper's input to a picture: what is made of mesh, scalars and property, and the backends
+ * that draw it. Tables of a backend are brought up to date when it draws. Errors are texts, empty
+ * if there is none.
+ */
+class RayCastPipeline
+{
+public:
+  VolumeInput Input;
+  VolumeComponents Components;
+  VolumePropertyTables Property;
+  VolumePreIntegration PreIntegration;
+  RayCastOpenGL OpenGL;
+  RayCastNative Native;
+
+  /** Where the mesh lies for the rays of an image of so many pixels. */
+  std::string ComputeFrame(
+    vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], OpticsPlace& place) const;
+  std::string DrawOpenGL(const RayCastFrame& frame);
+  std::string DrawNative(const RayCastFrame& frame);
+
+  std::int64_t GetGradientBuilds() const { return this->GradientBuilds; }
+  const std::vector<glm::vec3>& GetGradients() const { return this->Gradients; }
+
+private:
+  void UpdateGradients();
+  std::string Upload(const RayCastOptics& optics);
+  void UpdateNative();
+
+  std::vector<glm::vec3> Gradients;
+  std::int64_t GradientBuilds = 0;
+
+  /** What the gradients were computed from, by the input's counters. */
+  std::int64_t GradientsOfMesh = 0;
+  std::int64_t GradientsOfScalars = 0;
+
+  /** What the tables on the graphics device were made of, by counters. */
+  std::int64_t UploadedLinks = 0;
+  std::int64_t UploadedMesh = 0;
+  std::int64_t UploadedScalars = 0;
+  std::int64_t UploadedCellScalars = 0;
+  std::int64_t UploadedGradients = 0;
+  std::int64_t UploadedComponents = 0;
+  std::int64_t UploadedProperty = 0;
+  std::int64_t UploadedPreIntegration = 0;
+  /** The same of the native backend's. */
+  std::int64_t NativeProperty = 0;
+};
+
+}
+
+#endif
