@@ -1,0 +1,73 @@
+//VTK::System::Dec
+
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A membrane, pixel by pixel: what is seen through it and what it reflects.
+
+//VTK::Environment::Dec
+
+in vec2 texCoord;
+
+//VTK::Output::Dec
+
+uniform sampler2D refracted;       // premultiplied
+uniform sampler2D membraneNormal;  // view coordinates, towards the eye; 0 beside the membrane
+uniform sampler2D membraneDepth;   // of the window
+#if HAS_ENVIRONMENT
+uniform samplerCube environment;
+uniform mat3 viewToWorld;
+#endif
+uniform mat4 clipToView;
+uniform bool parallelView;
+uniform vec3 background;
+uniform int reflectanceModel;      // 0: none, 1: Schlick, 2: exact
+uniform float relativeIndex;       // interior to exterior
+
+// Unpolarised light; c is the cosine of the angle of incidence. Eq. 2.6 and Eq. 2.7 of the thesis.
+float reflectance(float c)
+{
+  if (reflectanceModel == 0)
+  {
+    return 0.0;
+  }
+  if (reflectanceModel == 1)
+  {
+    float r = (relativeIndex - 1.0) / (relativeIndex + 1.0);
+    float x = 1.0 - c;
+    return r * r + (1.0 - r * r) * x * x * x * x * x;
+  }
+  float g2 = relativeIndex * relativeIndex + c * c - 1.0;
+  if (g2 <= 0.0)
+  {
+    return 1.0;
+  }
+  float g = sqrt(g2);
+  float s = (g - c) / (g + c);
+  float t = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
+  return 0.5 * s * s * (1.0 + t * t);
+}
+
+void main()
+{
+  vec4 normal = texture(membraneNormal, texCoord);
+  if (normal.a == 0.0)
+  {
+    discard;
+  }
+  float depth = texture(membraneDepth, texCoord).r;
+  vec4 place = clipToView * vec4(2.0 * vec3(texCoord, depth) - 1.0, 1.0);
+  vec3 sight = parallelView ? vec3(0.0, 0.0, -1.0) : normalize(place.xyz / place.w);
+  vec3 n = normalize(normal.xyz);
+  float cosine = clamp(-dot(n, sight), 0.0, 1.0);
+
+  vec4 behind = texture(refracted, texCoord);
+  vec3 transmitted = behind.rgb + (1.0 - behind.a) * background;
+#if HAS_ENVIRONMENT
+  vec3 mirrored = texture(environment, viewToWorld * reflect(sight, n)).rgb;
+#else
+  vec3 mirrored = background;
+#endif
+  gl_FragData[0] = vec4(mix(transmitted, mirrored, reflectance(cosine)), 1.0);
+  gl_FragDepth = depth;
+}

@@ -1,0 +1,592 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkRefractionPass.h"
+
+#include "vtkRefractedGeometryFilter.h"
+#include "vtkRefractionMembraneFS.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkDataObject.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpaquePass.h"
+#include "vtkOpenGLCamera.h"
+#include "vtkOpenGLError.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLQuadHelper.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLShaderCache.h"
+#include "vtkOpenGLState.h"
+#include "vtkOpenGLTexture.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderState.h"
+#include "vtkRenderStepsPass.h"
+#include "vtkRenderer.h"
+#include "vtkShaderProgram.h"
+#include "vtkSmartPointer.h"
+#include "vtkTexture.h"
+#include "vtkTextureObject.h"
+#include "vtkTranslucentPass.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkRefractionPass);
+
+namespace
+{
+
+/** A picture to draw to, of the size of the viewport. */
+struct Target
+{
+  vtkSmartPointer<vtkOpenGLFramebufferObject> Buffer;
+  vtkSmartPointer<vtkTextureObject> Color;
+  vtkSmartPointer<vtkTextureObject> Depth;
+  int Size[2] = { 0, 0 };
+
+  bool Ready(vtkOpenGLRenderWindow* window, int width, int height, int colorType);
+  /** Binds and clears it: colour (0, 0, 0, 0), depth 1. */
+  void Begin(vtkOpenGLState* state);
+  void Release(vtkWindow* window);
+};
+
+//------------------------------------------------------------------------------
+bool Target::Ready(vtkOpenGLRenderWindow* window, int width, int height, int colorType)
+{
+  if (this->Buffer && this->Size[0] == width && this->Size[1] == height)
+  {
+    return true;
+  }
+  this->Release(window);
+  this->Color = vtkSmartPointer<vtkTextureObject>::New();
+  this->Color->SetContext(window);
+  this->Depth = vtkSmartPointer<vtkTextureObject>::New();
+  this->Depth->SetContext(window);
+  const auto w = static_cast<unsigned int>(width);
+  const auto h = static_cast<unsigned int>(height);
+  if (!this->Color->Allocate2D(w, h, 4, colorType) ||
+    !this->Depth->AllocateDepth(w, h, vtkTextureObject::Float32))
+  {
+    return false;
+  }
+  this->Buffer = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+  this->Buffer->SetContext(window);
+  this->Buffer->Bind();
+  this->Buffer->AddColorAttachment(0, this->Color);
+  this->Buffer->AddDepthAttachment(this->Depth);
+  this->Size[0] = width;
+  this->Size[1] = height;
+  return this->Buffer->CheckFrameBufferStatus(GL_FRAMEBUFFER) != 0;
+}
+
+//------------------------------------------------------------------------------
+void Target::Begin(vtkOpenGLState* state)
+{
+  this->Buffer->Bind();
+  this->Buffer->ActivateDrawBuffers(1);
+  state->vtkglViewport(0, 0, this->Size[0], this->Size[1]);
+  state->vtkglScissor(0, 0, this->Size[0], this->Size[1]);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_LEQUAL);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+  state->vtkglClearDepth(1.0);
+  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+//------------------------------------------------------------------------------
+void Target::Release(vtkWindow* window)
+{
+  if (this->Buffer)
+  {
+    this->Buffer->ReleaseGraphicsResources(window);
+    this->Color->ReleaseGraphicsResources(window);
+    this->Depth->ReleaseGraphicsResources(window);
+  }
+  this->Buffer = nullptr;
+  this->Color = nullptr;
+  this->Depth = nullptr;
+}
+
+//------------------------------------------------------------------------------
+/** Whether a part of the box may be in view: not all corners are beyond one plane of the frustum.
+ */
+bool MayBeInView(vtkRenderer* renderer, const double bounds[6])
+{
+  double planes[24];
+  renderer->GetActiveCamera()->GetFrustumPlanes(renderer->GetTiledAspectRatio(), planes);
+  for (int p = 0; p < 6; ++p)
+  {
+    const double* plane = planes + 4 * p;
+    bool beyond = true;
+    for (int corner = 0; corner < 8 && beyond; ++corner)
+    {
+      const double height = plane[0] * bounds[corner & 1] +
+        plane[1] * bounds[2 + (corner >> 1 & 1)] + plane[2] * bounds[4 + (corner >> 2 & 1)] +
+        plane[3];
+      beyond = height < 0.0;
+    }
+    if (beyond)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool Append(std::string& shader, const std::string& tag, const std::string& code)
+{
+  return vtkShaderProgram::Substitute(shader, tag, tag + "\n" + code + "\n", false);
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+class vtkRefractionPass::vtkInternals
+{
+public:
+  struct Refraction
+  {
+    vtkSmartPointer<vtkActor> Membrane;
+    vtkSmartPointer<vtkActor> Object;
+    vtkSmartPointer<vtkRefractedGeometryFilter> Filter;
+  };
+  enum class Stages
+  {
+    Objects,
+    Membrane
+  };
+
+  std::vector<Refraction> Refractions;
+  vtkSmartPointer<vtkRenderPass> ScenePass;
+  vtkSmartPointer<vtkTexture> Reflection;
+  vtkNew<vtkOpaquePass> Opaque;
+  vtkNew<vtkTranslucentPass> Translucent;
+  /** Shows the membrane's mapper, whatever the property of its actor. */
+  vtkNew<vtkActor> Surface;
+  Stages Stage = Stages::Objects;
+
+  Target Objects;
+  Target Membrane;
+  std::unique_ptr<vtkOpenGLQuadHelper> Composers[2]; // without and with a cube map
+
+  vtkTypeInt64 Drawn = 0;
+  vtkTypeInt64 Skipped = 0;
+
+  std::vector<vtkActor*> ListMembranes() const;
+  vtkTexture* FindCubeMap(vtkRenderer* renderer) const;
+};
+
+//------------------------------------------------------------------------------
+/** In the order in which they were added. */
+std::vector<vtkActor*> vtkRefractionPass::vtkInternals::ListMembranes() const
+{
+  std::vector<vtkActor*> membranes;
+  for (const Refraction& refraction : this->Refractions)
+  {
+    if (std::find(membranes.begin(), membranes.end(), refraction.Membrane) == membranes.end())
+    {
+      membranes.push_back(refraction.Membrane);
+    }
+  }
+  return membranes;
+}
+
+//------------------------------------------------------------------------------
+vtkTexture* vtkRefractionPass::vtkInternals::FindCubeMap(vtkRenderer* renderer) const
+{
+  vtkTexture* texture =
+    this->Reflection ? this->Reflection.Get() : renderer->GetEnvironmentTexture();
+  return texture && texture->GetCubeMap() ? texture : nullptr;
+}
+
+//------------------------------------------------------------------------------
+vtkRefractionPass::vtkRefractionPass()
+  : Internals(std::make_unique<vtkInternals>())
+{
+  this->Internals->ScenePass = vtkSmartPointer<vtkRenderStepsPass>::New();
+}
+
+//------------------------------------------------------------------------------
+vtkRefractionPass::~vtkRefractionPass() = default;
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::SetScenePass(vtkRenderPass* pass)
+{
+  if (pass != this->Internals->ScenePass)
+  {
+    this->Internals->ScenePass = pass;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkRenderPass* vtkRefractionPass::GetScenePass()
+{
+  return this->Internals->ScenePass;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::AddRefraction(
+  vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter)
+{
+  if (!membrane || !object || !filter)
+  {
+    vtkErrorMacro("A refraction needs a membrane, an object and a filter.");
+    return;
+  }
+  if (auto* mapper = vtkPolyDataMapper::SafeDownCast(object->GetMapper()))
+  {
+    mapper->MapDataArrayToVertexAttribute(
+      "refractionDepth", "RefractionDepth", vtkDataObject::FIELD_ASSOCIATION_POINTS);
+  }
+  this->Internals->Refractions.push_back({ membrane, object, filter });
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::RemoveRefraction(vtkActor* object)
+{
+  auto& all = this->Internals->Refractions;
+  all.erase(std::remove_if(all.begin(), all.end(),
+              [object](const vtkInternals::Refraction& one) { return one.Object == object; }),
+    all.end());
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::RemoveAllRefractions()
+{
+  this->Internals->Refractions.clear();
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractionPass::GetNumberOfRefractions()
+{
+  return static_cast<int>(this->Internals->Refractions.size());
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::SetReflectionTexture(vtkTexture* texture)
+{
+  if (texture != this->Internals->Reflection)
+  {
+    this->Internals->Reflection = texture;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkTexture* vtkRefractionPass::GetReflectionTexture()
+{
+  return this->Internals->Reflection;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractionPass::GetNumberOfMembranesDrawn() const
+{
+  return this->Internals->Drawn;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractionPass::GetNumberOfMembranesSkipped() const
+{
+  return this->Internals->Skipped;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
+  std::string& geometryShader, std::string& fragmentShader, vtkAbstractMapper*, vtkProp*)
+{
+  const std::string light = "  //VTK::Light::Impl";
+  if (this->Internals->Stage == vtkInternals::Stages::Membrane)
+  {
+    Append(fragmentShader, light, "  gl_FragData[0] = vec4(normalVCVSOutput, 1.0);");
+    return true;
+  }
+  const std::string declarations = "//VTK::Normal::Dec";
+  Append(
+    vertexShader, declarations, "in float refractionDepth;\nout float refractionDepthVSOutput;");
+  Append(vertexShader, "//VTK::Normal::Impl", "  refractionDepthVSOutput = refractionDepth;");
+  Append(geometryShader, declarations,
+    "in float refractionDepthVSOutput[];\nout float refractionDepthGSOutput;");
+  Append(
+    geometryShader, "//VTK::Normal::Impl", "refractionDepthGSOutput = refractionDepthVSOutput[i];");
+  Append(fragmentShader, declarations,
+    "in float refractionDepthVSOutput;\nuniform vec3 attenuationCoefficients;");
+  Append(fragmentShader, light,
+    "  gl_FragData[0].rgb *= exp(-attenuationCoefficients * max(refractionDepthVSOutput, 0.0));");
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractionPass::SetShaderParameters(
+  vtkShaderProgram* program, vtkAbstractMapper*, vtkProp*, vtkOpenGLVertexArrayObject*)
+{
+  if (program->IsUniformUsed("attenuationCoefficients"))
+  {
+    float coefficients[3];
+    std::copy_n(this->AttenuationCoefficients, 3, coefficients);
+    program->SetUniform3f("attenuationCoefficients", coefficients);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::Render(const vtkRenderState* state)
+{
+  vtkInternals& internals = *this->Internals;
+  this->NumberOfRenderedProps = 0;
+  if (internals.ScenePass)
+  {
+    internals.ScenePass->Render(state);
+    this->NumberOfRenderedProps = internals.ScenePass->GetNumberOfRenderedProps();
+  }
+  vtkRenderer* renderer = state->GetRenderer();
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  if (!window || renderer->GetSelector())
+  {
+    return;
+  }
+  for (vtkActor* membrane : internals.ListMembranes())
+  {
+    const double* bounds = membrane->GetVisibility() ? membrane->GetBounds() : nullptr;
+    if (bounds && bounds[0] <= bounds[1] && MayBeInView(renderer, bounds))
+    {
+      ++internals.Drawn;
+      this->DrawMembrane(renderer, window, membrane);
+    }
+    else
+    {
+      ++internals.Skipped;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::DrawMembrane(
+  vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane)
+{
+  vtkInternals& internals = *this->Internals;
+  vtkOpenGLClearErrorMacro();
+  int size[2];
+  int origin[2];
+  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  vtkOpenGLState* state = window->GetState();
+  state->Push();
+  state->PushFramebufferBindings();
+  const bool ready = internals.Objects.Ready(window, size[0], size[1], VTK_UNSIGNED_CHAR) &&
+    internals.Membrane.Ready(window, size[0], size[1], VTK_FLOAT);
+  if (ready)
+  {
+    this->DrawObjects(renderer, state, membrane);
+    this->DrawSurface(renderer, state, membrane);
+  }
+  state->PopFramebufferBindings();
+  state->Pop();
+  if (!ready)
+  {
+    vtkErrorMacro("Nothing is drawn behind a membrane: no picture of "
+      << size[0] << " x " << size[1] << " pixels to draw to.");
+    return;
+  }
+  state->Push();
+  state->vtkglViewport(origin[0], origin[1], size[0], size[1]);
+  state->vtkglScissor(origin[0], origin[1], size[0], size[1]);
+  this->Compose(renderer, window, membrane);
+  state->Pop();
+  vtkOpenGLCheckErrorMacro("failed after drawing a membrane");
+}
+
+//------------------------------------------------------------------------------
+/** The virtual geometry behind the membrane. */
+void vtkRefractionPass::DrawObjects(
+  vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane)
+{
+  vtkInternals& internals = *this->Internals;
+  std::vector<vtkProp*> props;
+  for (const auto& refraction : internals.Refractions)
+  {
+    if (refraction.Membrane == membrane && refraction.Object->GetVisibility())
+    {
+      props.push_back(refraction.Object);
+    }
+  }
+  internals.Objects.Begin(state);
+  internals.Stage = vtkInternals::Stages::Objects;
+  vtkRenderState objects(renderer);
+  objects.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
+  objects.SetFrameBuffer(internals.Objects.Buffer);
+  this->PreRender(&objects);
+  internals.Opaque->Render(&objects);
+  internals.Translucent->Render(&objects);
+  this->PostRender(&objects);
+  this->NumberOfRenderedProps += internals.Opaque->GetNumberOfRenderedProps();
+}
+
+//------------------------------------------------------------------------------
+/** The membrane's normals and depths. */
+void vtkRefractionPass::DrawSurface(
+  vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane)
+{
+  vtkInternals& internals = *this->Internals;
+  internals.Membrane.Begin(state);
+  state->vtkglDisable(GL_BLEND);
+  internals.Stage = vtkInternals::Stages::Membrane;
+  internals.Surface->SetMapper(membrane->GetMapper());
+  internals.Surface->SetUserMatrix(membrane->GetMatrix());
+  vtkProp* prop = internals.Surface;
+  vtkRenderState surface(renderer);
+  surface.SetPropArrayAndCount(&prop, 1);
+  surface.SetFrameBuffer(internals.Membrane.Buffer);
+  this->PreRender(&surface);
+  internals.Opaque->Render(&surface);
+  this->PostRender(&surface);
+}
+
+//------------------------------------------------------------------------------
+/** What the membrane shows, to where the scene was drawn. */
+void vtkRefractionPass::Compose(
+  vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane)
+{
+  vtkInternals& internals = *this->Internals;
+  vtkTexture* cubeMap = internals.FindCubeMap(renderer);
+  if (cubeMap)
+  {
+    cubeMap->Render(renderer);
+  }
+  auto& composer = internals.Composers[cubeMap ? 1 : 0];
+  if (!composer)
+  {
+    std::string source = vtkRefractionMembraneFS;
+    vtkShaderProgram::Substitute(source, "//VTK::Environment::Dec",
+      cubeMap ? "#define HAS_ENVIRONMENT 1" : "#define HAS_ENVIRONMENT 0");
+    composer = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), "");
+  }
+  else
+  {
+    window->GetShaderCache()->ReadyShaderProgram(composer->Program);
+  }
+  if (!composer->Program || !composer->Program->GetCompiled())
+  {
+    vtkErrorMacro("The shader of membranes does not compile on this graphics device.");
+    return;
+  }
+  vtkOpenGLState* state = window->GetState();
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_LEQUAL);
+  state->vtkglDepthMask(GL_TRUE);
+  state->vtkglDisable(GL_BLEND);
+  vtkTextureObject* const color = internals.Objects.Color;
+  vtkTextureObject* const normal = internals.Membrane.Color;
+  vtkTextureObject* const depth = internals.Membrane.Depth;
+  const auto bind = [&composer](vtkTextureObject* texture, const char* name)
+  {
+    texture->Activate();
+    composer->Program->SetUniformi(name, texture->GetTextureUnit());
+  };
+  bind(color, "refracted");
+  bind(normal, "membraneNormal");
+  bind(depth, "membraneDepth");
+  if (cubeMap)
+  {
+    composer->Program->SetUniformi("environment", cubeMap->GetTextureUnit());
+  }
+  this->SetOptics(renderer, membrane, composer->Program);
+  composer->Render();
+  if (cubeMap)
+  {
+    cubeMap->PostRender(renderer);
+  }
+  for (vtkTextureObject* texture : { color, normal, depth })
+  {
+    texture->Deactivate();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::SetOptics(
+  vtkRenderer* renderer, vtkActor* membrane, vtkShaderProgram* program)
+{
+  const auto& refractions = this->Internals->Refractions;
+  const auto ofMembrane = std::find_if(refractions.begin(), refractions.end(),
+    [membrane](const vtkInternals::Refraction& one) { return one.Membrane == membrane; });
+  vtkRefractedGeometryFilter* filter = ofMembrane->Filter;
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkNew<vtkMatrix4x4> clipToView;
+  clipToView->DeepCopy(
+    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  clipToView->Invert();
+  clipToView->Transpose(); // OpenGL's order
+  vtkMatrix4x4* worldToView = camera->GetModelViewTransformMatrix();
+  vtkNew<vtkMatrix3x3> viewToWorld;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      // The inverse of a rotation in OpenGL's order.
+      viewToWorld->SetElement(i, j, worldToView->GetElement(i, j));
+    }
+  }
+  program->SetUniformMatrix("clipToView", clipToView);
+  if (program->IsUniformUsed("viewToWorld"))
+  {
+    program->SetUniformMatrix("viewToWorld", viewToWorld);
+  }
+  float background[3];
+  std::copy_n(renderer->GetBackground(), 3, background);
+  program->SetUniform3f("background", background);
+  program->SetUniformi("parallelView", camera->GetParallelProjection());
+  program->SetUniformi("reflectanceModel", this->ReflectanceModel);
+  program->SetUniformf("relativeIndex",
+    static_cast<float>(
+      filter->GetInteriorIndexOfRefraction() / filter->GetExteriorIndexOfRefraction()));
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::ReleaseGraphicsResources(vtkWindow* window)
+{
+  vtkInternals& internals = *this->Internals;
+  if (internals.ScenePass)
+  {
+    internals.ScenePass->ReleaseGraphicsResources(window);
+  }
+  internals.Opaque->ReleaseGraphicsResources(window);
+  internals.Translucent->ReleaseGraphicsResources(window);
+  internals.Surface->ReleaseGraphicsResources(window);
+  for (auto& refraction : internals.Refractions)
+  {
+    refraction.Object->ReleaseGraphicsResources(window);
+  }
+  if (internals.Reflection)
+  {
+    internals.Reflection->ReleaseGraphicsResources(window);
+  }
+  internals.Objects.Release(window);
+  internals.Membrane.Release(window);
+  for (auto& composer : internals.Composers)
+  {
+    composer.reset();
+  }
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfRefractions: " << this->GetNumberOfRefractions() << "\n";
+  os << indent << "ReflectanceModel: " << this->ReflectanceModel << "\n";
+  os << indent << "AttenuationCoefficients: " << this->AttenuationCoefficients[0] << " "
+     << this->AttenuationCoefficients[1] << " " << this->AttenuationCoefficients[2] << "\n";
+  os << indent << "NumberOfMembranesDrawn: " << this->GetNumberOfMembranesDrawn() << "\n";
+  os << indent << "NumberOfMembranesSkipped: " << this->GetNumberOfMembranesSkipped() << "\n";
+}

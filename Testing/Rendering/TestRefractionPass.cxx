@@ -1,0 +1,465 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkRefractionPass against closed forms: a plane of water, seen from above.
+#include "RayCastScene.h"
+#include "VolumeScene.h"
+
+#include <vtkActor.h>
+#include <vtkAlgorithmOutput.h>
+#include <vtkCamera.h>
+#include <vtkCubeSource.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRefractedGeometryFilter.h>
+#include <vtkRefractionPass.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+#include <vtkTexture.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 120;
+constexpr double EyeHeight = 4.0;
+constexpr double Depth = 1.5;
+constexpr double Water = 1.333;
+constexpr double Background[3] = { 0.1, 0.3, 0.7 };
+// Rounding to 8 bits, of the picture behind the membrane and of the result.
+constexpr double Rounding = 1.5 / 255.0;
+
+vtkSmartPointer<vtkActor> makeActor(vtkAlgorithmOutput* port)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(port);
+  mapper->ScalarVisibilityOff();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  return actor;
+}
+
+/// Colours of its own, whatever the light.
+void setFlatColor(vtkActor* actor, double red, double green, double blue)
+{
+  actor->GetProperty()->SetColor(red, green, blue);
+  actor->GetProperty()->SetAmbient(1.0);
+  actor->GetProperty()->SetDiffuse(0.0);
+}
+
+vtkSmartPointer<vtkPlaneSource> makePlane(double halfWidth, double height, int resolution)
+{
+  auto plane = vtkSmartPointer<vtkPlaneSource>::New();
+  plane->SetOrigin(-halfWidth, -halfWidth, height);
+  plane->SetPoint1(halfWidth, -halfWidth, height);
+  plane->SetPoint2(-halfWidth, halfWidth, height);
+  plane->SetResolution(resolution, resolution);
+  return plane;
+}
+
+/// A window that looks down on water in the plane z = 0, with a white floor below it.
+class Pool
+{
+public:
+  explicit Pool(int samples = 0)
+    : Bottom(makePlane(6.0, -Depth, 60))
+    , Surface(makePlane(3.0, 0.0, 4))
+    , Scene(Size, Size, samples)
+  {
+    this->Filter->SetInputConnection(this->Bottom->GetOutputPort());
+    this->Filter->SetMembraneConnection(this->Surface->GetOutputPort());
+    this->Filter->SetInteriorIndexOfRefraction(Water);
+    this->Filter->SetCamera(this->camera());
+    this->Membrane = makeActor(this->Surface->GetOutputPort());
+    this->Floor = makeActor(this->Filter->GetOutputPort());
+    setFlatColor(this->Floor, 1.0, 1.0, 1.0);
+    this->Pass->AddRefraction(this->Membrane, this->Floor, this->Filter);
+    this->renderer()->SetPass(this->Pass);
+    this->renderer()->SetBackground(Background[0], Background[1], Background[2]);
+    this->lookFrom(0.0, 0.0);
+  }
+
+  void lookFrom(double x, double y)
+  {
+    this->camera()->SetPosition(x, y, EyeHeight);
+    this->camera()->SetFocalPoint(0.0, 0.0, 0.0);
+    this->camera()->SetViewUp(0.0, 1.0, 0.0);
+    this->camera()->SetViewAngle(60.0);
+    this->camera()->SetClippingRange(0.1, 20.0);
+  }
+
+  vtkRenderer* renderer() { return this->Scene.renderer(); }
+  vtkCamera* camera() { return this->renderer()->GetActiveCamera(); }
+  ByteImage render()
+  {
+    this->Scene.window()->Render();
+    return readBytes(this->Scene.window());
+  }
+
+  vtkSmartPointer<vtkPlaneSource> Bottom;
+  vtkSmartPointer<vtkPlaneSource> Surface;
+  vtkNew<vtkRefractedGeometryFilter> Filter;
+  vtkNew<vtkRefractionPass> Pass;
+  vtkSmartPointer<vtkActor> Membrane;
+  vtkSmartPointer<vtkActor> Floor;
+  VolumeScene Scene;
+};
+
+struct Sight
+{
+  bool OnMembrane;
+  /// Of the angles of incidence and refraction.
+  double Cosine;
+  double RefractedCosine;
+  /// Where the sight ray meets the water.
+  double Point[2];
+};
+
+/// What a pixel's ray sees of the plane, by Snell's law.
+Sight sightOf(vtkCamera* camera, int x, int y)
+{
+  double eye[3];
+  double forward[3];
+  double up[3];
+  camera->GetPosition(eye);
+  camera->GetDirectionOfProjection(forward);
+  camera->OrthogonalizeViewUp();
+  camera->GetViewUp(up);
+  const double right[3] = { forward[1] * up[2] - forward[2] * up[1],
+    forward[2] * up[0] - forward[0] * up[2], forward[0] * up[1] - forward[1] * up[0] };
+  const double scale = std::tan(camera->GetViewAngle() * std::acos(-1.0) / 360.0) / (0.5 * Size);
+  const double u = (x + 0.5 - 0.5 * Size) * scale;
+  const double v = (y + 0.5 - 0.5 * Size) * scale;
+  double direction[3];
+  double length = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    direction[i] = forward[i] + u * right[i] + v * up[i];
+    length += direction[i] * direction[i];
+  }
+  Sight sight;
+  sight.Cosine = -direction[2] / std::sqrt(length);
+  const double sine = std::sqrt(1.0 - sight.Cosine * sight.Cosine) / Water;
+  sight.RefractedCosine = std::sqrt(1.0 - sine * sine);
+  const double t = -eye[2] / direction[2];
+  sight.Point[0] = eye[0] + t * direction[0];
+  sight.Point[1] = eye[1] + t * direction[1];
+  sight.OnMembrane =
+    direction[2] < 0.0 && std::max(std::fabs(sight.Point[0]), std::fabs(sight.Point[1])) < 3.0;
+  return sight;
+}
+
+/// Pixels at the border of the membrane may count as in or out.
+bool isBorder(const Sight& sight)
+{
+  const double reach = std::max(std::fabs(sight.Point[0]), std::fabs(sight.Point[1]));
+  return std::fabs(reach - 3.0) < 0.15;
+}
+
+/// Of unpolarised light, from the amplitudes (the pass uses the form of Eq. 2.6).
+double fresnel(const Sight& sight)
+{
+  const double c = sight.Cosine;
+  const double d = sight.RefractedCosine;
+  const double s = (c - Water * d) / (c + Water * d);
+  const double p = (Water * c - d) / (Water * c + d);
+  return 0.5 * (s * s + p * p);
+}
+
+double schlick(const Sight& sight)
+{
+  const double r = std::pow((Water - 1.0) / (Water + 1.0), 2.0);
+  return r + (1.0 - r) * std::pow(1.0 - sight.Cosine, 5.0);
+}
+
+template <typename ColorOf>
+void expectColors(Pool& pool, const std::string& what, ColorOf&& colorOf)
+{
+  SCOPED_TRACE(what);
+  const ByteImage image = pool.render();
+  int seen = 0;
+  for (int y = 0; y < Size; ++y)
+  {
+    for (int x = 0; x < Size; ++x)
+    {
+      const Sight sight = sightOf(pool.camera(), x, y);
+      if (isBorder(sight))
+      {
+        continue;
+      }
+      seen += sight.OnMembrane ? 1 : 0;
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        const double expected = sight.OnMembrane ? colorOf(sight, channel) : Background[channel];
+        ASSERT_NEAR(image.pixel(x, y)[channel] / 255.0, expected, Rounding) << x << " " << y;
+      }
+    }
+  }
+  EXPECT_GT(seen, Size * Size / 4);
+}
+
+/// A cube map of one colour.
+vtkSmartPointer<vtkTexture> makeSky(unsigned char red, unsigned char green, unsigned char blue)
+{
+  auto sky = vtkSmartPointer<vtkTexture>::New();
+  sky->CubeMapOn();
+  for (int side = 0; side < 6; ++side)
+  {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(2, 2, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    for (int i = 0; i < 4; ++i)
+    {
+      auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i % 2, i / 2, 0));
+      pixel[0] = red;
+      pixel[1] = green;
+      pixel[2] = blue;
+    }
+    sky->SetInputDataObject(side, image);
+  }
+  return sky;
+}
+
+} // anonymous namespace
+
+TEST(RefractionPass, ClearWaterShowsTheFloor)
+{
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  expectColors(pool, "from above", [](const Sight&, int) { return 1.0; });
+  pool.lookFrom(2.5, -1.5);
+  expectColors(pool, "aside", [](const Sight&, int) { return 1.0; });
+  EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 2);
+}
+
+TEST(RefractionPass, ReflectanceIsFresnels)
+{
+  Pool pool;
+  const double sky[3] = { 1.0, 0.0, 51.0 / 255.0 };
+  pool.Pass->SetReflectionTexture(makeSky(255, 0, 51));
+  setFlatColor(pool.Floor, 0.0, 1.0, 0.0);
+  const double floor[3] = { 0.0, 1.0, 0.0 };
+  for (const double x : { 0.0, 4.0 })
+  {
+    pool.lookFrom(x, 0.3);
+    pool.Pass->SetReflectanceModel(vtkRefractionPass::FRESNEL);
+    expectColors(pool, "Fresnel",
+      [&](const Sight& sight, int channel)
+      {
+        const double f = fresnel(sight);
+        return (1.0 - f) * floor[channel] + f * sky[channel];
+      });
+    pool.Pass->SetReflectanceModel(vtkRefractionPass::SCHLICK);
+    expectColors(pool, "Schlick",
+      [&](const Sight& sight, int channel)
+      {
+        const double f = schlick(sight);
+        return (1.0 - f) * floor[channel] + f * sky[channel];
+      });
+  }
+}
+
+TEST(RefractionPass, WithoutACubeMapTheBackgroundIsReflected)
+{
+  Pool pool;
+  expectColors(pool, "Fresnel",
+    [](const Sight& sight, int channel)
+    { return 1.0 - fresnel(sight) * (1.0 - Background[channel]); });
+}
+
+TEST(RefractionPass, AttenuationGoesWithTheTruePath)
+{
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  const double coefficients[3] = { 0.8, 0.2, 0.0 };
+  pool.Pass->SetAttenuationCoefficients(coefficients);
+  for (const double x : { 0.0, 3.0 })
+  {
+    pool.lookFrom(x, 0.0);
+    expectColors(pool, "attenuated",
+      [&](const Sight& sight, int channel)
+      { return std::exp(-coefficients[channel] * Depth / sight.RefractedCosine); });
+  }
+}
+
+TEST(RefractionPass, WhatIsInFrontHidesTheMembrane)
+{
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  vtkNew<vtkCubeSource> cube;
+  cube->SetCenter(0.0, 0.0, 0.5);
+  cube->SetXLength(0.6);
+  cube->SetYLength(0.6);
+  cube->SetZLength(0.2);
+  const auto actor = makeActor(cube->GetOutputPort());
+  setFlatColor(actor, 1.0, 0.0, 0.0);
+  pool.renderer()->AddActor(actor);
+  const ByteImage above = pool.render();
+  const unsigned char* middle = above.pixel(Size / 2, Size / 2);
+  EXPECT_EQ(middle[0], 255);
+  EXPECT_EQ(middle[1], 0);
+  // Below the membrane it is hidden: only what the filter shows is behind water.
+  cube->SetCenter(0.0, 0.0, -0.5);
+  const ByteImage below = pool.render();
+  EXPECT_EQ(below.pixel(Size / 2, Size / 2)[1], 255);
+}
+
+TEST(RefractionPass, OtherActorsAreNotChanged)
+{
+  // The same picture to the bit beside the membrane, with the pass, without, and after it.
+  Pool pool;
+  const auto ball = makePlane(20.0, -3.0, 1);
+  const auto actor = makeActor(ball->GetOutputPort());
+  actor->GetProperty()->SetColor(0.9, 0.6, 0.2);
+  pool.renderer()->AddActor(actor);
+  pool.renderer()->SetPass(nullptr);
+  const ByteImage plain = pool.render();
+  pool.renderer()->SetPass(pool.Pass);
+  const ByteImage with = pool.render();
+  pool.renderer()->SetPass(nullptr);
+  EXPECT_EQ(pool.render().Rgb, plain.Rgb);
+  int changed = 0;
+  for (int y = 0; y < Size; ++y)
+  {
+    for (int x = 0; x < Size; ++x)
+    {
+      const Sight sight = sightOf(pool.camera(), x, y);
+      const bool same = std::equal(with.pixel(x, y), with.pixel(x, y) + 3, plain.pixel(x, y));
+      ASSERT_TRUE(same || sight.OnMembrane || isBorder(sight)) << x << " " << y;
+      changed += same ? 0 : 1;
+    }
+  }
+  EXPECT_GT(changed, Size * Size / 8);
+}
+
+TEST(RefractionPass, AMembraneOutOfViewCostsNothing)
+{
+  Pool pool;
+  pool.camera()->SetPosition(0.0, 0.0, EyeHeight);
+  pool.camera()->SetFocalPoint(0.0, 0.0, 2.0 * EyeHeight);
+  pool.render();
+  EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 0);
+  EXPECT_EQ(pool.Pass->GetNumberOfMembranesSkipped(), 1);
+  EXPECT_EQ(pool.Filter->GetNumberOfSolvedVertices(), 0);
+  pool.lookFrom(0.0, 0.0);
+  pool.Membrane->VisibilityOff();
+  pool.render();
+  EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 0);
+  EXPECT_EQ(pool.Pass->GetNumberOfMembranesSkipped(), 2);
+}
+
+TEST(RefractionPass, CountersOfWhatMoves)
+{
+  Pool pool;
+  pool.render();
+  const vtkTypeInt64 patches = pool.Filter->GetNumberOfPatchBuilds();
+  const vtkTypeInt64 eyes = pool.Filter->GetNumberOfEyeUpdates();
+  const vtkTypeInt64 solved = pool.Filter->GetNumberOfSolvedVertices();
+  EXPECT_EQ(patches, 1);
+  EXPECT_EQ(eyes, 1);
+  pool.render();
+  EXPECT_EQ(pool.Filter->GetNumberOfSolvedVertices(), solved);
+  pool.lookFrom(1.0, 0.0);
+  pool.render();
+  EXPECT_EQ(pool.Filter->GetNumberOfPatchBuilds(), patches);
+  EXPECT_EQ(pool.Filter->GetNumberOfEyeUpdates(), eyes + 1);
+  pool.Pass->SetAttenuationCoefficients(0.1, 0.1, 0.1);
+  const vtkTypeInt64 now = pool.Filter->GetNumberOfSolvedVertices();
+  pool.render();
+  EXPECT_EQ(pool.Filter->GetNumberOfSolvedVertices(), now);
+}
+
+TEST(RefractionPass, TwoMembranes)
+{
+  // Side by side, each with an object of its own.
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  pool.Surface->SetPoint1(-0.2, -3.0, 0.0); // x from -3 to -0.2
+  const auto surface = makePlane(3.0, 0.0, 4);
+  surface->SetOrigin(0.2, -3.0, 0.0);
+  surface->SetPoint2(0.2, 3.0, 0.0);
+  vtkNew<vtkRefractedGeometryFilter> filter;
+  filter->SetInputConnection(pool.Bottom->GetOutputPort());
+  filter->SetMembraneConnection(surface->GetOutputPort());
+  filter->SetCamera(pool.camera());
+  const auto membrane = makeActor(surface->GetOutputPort());
+  const auto floor = makeActor(filter->GetOutputPort());
+  setFlatColor(floor, 1.0, 1.0, 0.0);
+  pool.Pass->AddRefraction(membrane, floor, filter);
+  const ByteImage image = pool.render();
+  EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 2);
+  EXPECT_EQ(image.pixel(Size / 4, Size / 2)[2], 255);
+  EXPECT_EQ(image.pixel(3 * Size / 4, Size / 2)[2], 0);
+  EXPECT_EQ(image.pixel(3 * Size / 4, Size / 2)[1], 255);
+  EXPECT_NEAR(image.pixel(Size / 2, Size / 2)[2], 255.0 * Background[2], 1.0);
+  pool.Pass->RemoveRefraction(floor);
+  EXPECT_EQ(pool.Pass->GetNumberOfRefractions(), 1);
+  EXPECT_NEAR(pool.render().pixel(3 * Size / 4, Size / 2)[1], 255.0 * Background[1], 1.0);
+}
+
+TEST(RefractionPass, WindowsOfAllKinds)
+{
+  for (const int samples : { 0, 4 })
+  {
+    for (const int stencil : { 0, 1 })
+    {
+      Pool pool(samples);
+      pool.Scene.window()->SetStencilCapable(stencil);
+      pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+      expectColors(
+        pool, "samples " + std::to_string(samples), [](const Sight&, int) { return 1.0; });
+      pool.Scene.window()->SetSize(Size + 37, Size - 20);
+      pool.render();
+      pool.Scene.window()->SetSize(Size, Size);
+      expectColors(pool, "resized", [](const Sight&, int) { return 1.0; });
+      pool.Pass->ReleaseGraphicsResources(pool.Scene.window());
+      expectColors(pool, "released", [](const Sight&, int) { return 1.0; });
+    }
+  }
+}
+
+TEST(RefractionPass, SeveralViewports)
+{
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  pool.renderer()->SetViewport(0.5, 0.25, 1.0, 0.75);
+  vtkNew<vtkRenderer> other;
+  other->SetViewport(0.0, 0.0, 0.5, 1.0);
+  other->SetBackground(0.0, 0.0, 0.0);
+  pool.Scene.window()->AddRenderer(other);
+  const ByteImage image = pool.render();
+  EXPECT_EQ(image.pixel(Size / 4, Size / 2)[0], 0);
+  EXPECT_EQ(image.pixel(3 * Size / 4, Size / 2)[0], 255);
+}
+
+TEST(RefractionPass, NothingToDraw)
+{
+  Pool pool;
+  pool.Pass->RemoveAllRefractions();
+  const ByteImage image = pool.render();
+  EXPECT_NEAR(image.pixel(Size / 2, Size / 2)[2], 255.0 * Background[2], 1.0);
+  EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 0);
+}
+
+TEST(RefractionPass, NullPartsAreAnError)
+{
+  Pool pool;
+  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  errors->observe(pool.Pass);
+  pool.Pass->AddRefraction(nullptr, pool.Floor, pool.Filter);
+  pool.Pass->AddRefraction(pool.Membrane, nullptr, pool.Filter);
+  pool.Pass->AddRefraction(pool.Membrane, pool.Floor, nullptr);
+  EXPECT_EQ(errors->Errors.size(), 3u);
+  EXPECT_EQ(pool.Pass->GetNumberOfRefractions(), 1);
+}
