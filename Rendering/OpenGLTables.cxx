@@ -116,12 +116,17 @@ std::string OpenGLTables::DescribeExcess(
 }
 
 //------------------------------------------------------------------------------
-std::int64_t OpenGLTables::GetTableBytes() const
+std::vector<OpenGLTable*> OpenGLTables::List()
 {
-  std::int64_t bytes = 0;
-  for (const OpenGLTable* table :
-    { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
-      &this->VertexGradients, &this->Intervals, &this->Isosurfaces })
+  return { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
+    &this->VertexGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces };
+}
+
+//------------------------------------------------------------------------------
+std::int64_t OpenGLTables::GetTableBytes()
+{
+  std::int64_t bytes = this->PreIntegration.GetBytes();
+  for (const OpenGLTable* table : this->List())
   {
     bytes += table->GetBytes();
   }
@@ -329,9 +334,7 @@ std::vector<OpenGLTable*> OpenGLTables::ActivateRays(vtkShaderProgram* program)
 //------------------------------------------------------------------------------
 void OpenGLTables::Release(vtkOpenGLRenderWindow* owner)
 {
-  for (OpenGLTable* table :
-    { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
-      &this->VertexGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces })
+  for (OpenGLTable* table : this->List())
   {
     table->Release(owner);
   }

@@ -72,7 +72,7 @@ public:
 
   std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
   /** Bytes of the tables that are on the device now. */
-  std::int64_t GetTableBytes() const;
+  std::int64_t GetTableBytes();
 
   /** Binds what finds and projects: vertices and the tree of the boundary. */
   std::vector<OpenGLTable*> ActivateRays(vtkShaderProgram* program);
@@ -85,6 +85,8 @@ public:
   void Release(vtkOpenGLRenderWindow* owner);
 
 private:
+  /** All but that of pre-integration. */
+  std::vector<OpenGLTable*> List();
   std::string Count(OpenGLTable& table, const std::string& error);
   std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
 

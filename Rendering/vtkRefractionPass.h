@@ -20,7 +20,7 @@
  * geometry in front of the membrane, and the part on the eye's side of objects that pierce it, hide
  * the membrane, what lies behind it is hidden by it.
  *
- * Each pixel of a membrane is, after section 3.3 of the thesis "Refraction by geometric
+ * Each pixel of a membrane is, after section 3 of the thesis "Refraction by geometric
  * transforms",
  *
  *     (1 - F) T + F R.

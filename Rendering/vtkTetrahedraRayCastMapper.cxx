@@ -499,9 +499,11 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
 {
   const vtkInternals& internals = *this->Internals;
-  const std::size_t gradients = internals.GetGradients().size() * sizeof(glm::vec3);
+  const std::size_t vectors =
+    internals.GetGradients().size() + internals.Components.GetValues().size();
+  const std::size_t table = internals.PreIntegration.GetTable().GetValues().size();
   return internals.Input.GetBytes() + internals.Native.GetBytes() +
-    static_cast<vtkTypeInt64>(gradients);
+    static_cast<vtkTypeInt64>(vectors * sizeof(glm::vec3) + table * sizeof(float));
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/EntryRaster.h"
 
+#include "Volume/Packet/ExactGrid.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -20,22 +22,6 @@ namespace
  */
 constexpr double Margin = 4294967296.0; // 2^32
 static_assert(4.0 * PixelRays::RoundingOfRay * 1073741826.0 < Margin, "rounding of rays");
-
-/** Whether the ray is left of the edge pq: PacketWalk's rule for exact coordinates. */
-bool TurnsLeft(const glm::ivec2& p, const glm::ivec2& q, bool ascending, double& area)
-{
-  const std::int64_t exact = std::int64_t{ p.x } * q.y - std::int64_t{ p.y } * q.x;
-  area = static_cast<double>(exact);
-  if (exact != 0)
-  {
-    return exact > 0;
-  }
-  if (p.y != q.y)
-  {
-    return q.y < p.y;
-  }
-  return p.x != q.x ? q.x > p.x : ascending;
-}
 
 /** u or v of a vertex, a function of the pixel. */
 glm::dvec3 Coefficients(
@@ -236,20 +222,25 @@ bool EntryRaster::EntersExactly(
     return false; // too far away to meet the mesh
   }
   const PacketRay ray = this->Rays.RayOf(pixel.x, pixel.y);
-  glm::ivec2 grid[3];
+  using Grid = ExactGrid<EntryRaster>;
+  std::int32_t grid[3][3];
   for (int k = 0; k < 3; ++k)
   {
     const std::int32_t(&place)[3] = (*this->Vertices)[face.Ids[k]].Place;
-    grid[k] = { AboutRay(place[0], place[2], ray.Slope[0], ray.Offset[0]),
-      AboutRay(place[1], place[2], ray.Slope[1], ray.Offset[1]) };
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      grid[k][axis] = Grid::AboutRay(place[axis], place[2], ray.Slope[axis], ray.Offset[axis]);
+    }
+    grid[k][2] = face.Ids[k];
   }
   for (int k = 0; k < 3; ++k)
   {
-    const int next = (k + 1) % 3;
-    if (!TurnsLeft(grid[k], grid[next], face.Ids[k] < face.Ids[next], areas[k]))
+    std::int64_t area;
+    if (!Grid::TurnsLeft(grid[k], grid[(k + 1) % 3], area))
     {
       return false;
     }
+    areas[k] = static_cast<double>(area);
   }
   return true;
 }

@@ -75,13 +75,6 @@ private:
   AffinePixelMap Slope;
 };
 
-/** u or v of a vertex about a ray, exactly. */
-inline std::int32_t AboutRay(
-  std::int32_t place, std::int32_t depth, std::int32_t slope, std::int64_t offset)
-{
-  return place - static_cast<std::int32_t>((std::int64_t{ depth } * slope + offset) >> 32);
-}
-
 }
 
 #endif

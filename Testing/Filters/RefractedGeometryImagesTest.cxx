@@ -51,19 +51,6 @@ glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
   return GetTuple(data->GetPoints()->GetData(), i);
 }
 
-// The true position as a point array, so that interpolation can be checked.
-void AddTruth(vtkPolyData* data)
-{
-  vtkNew<vtkDoubleArray> truth;
-  truth->SetName("Truth");
-  truth->SetNumberOfComponents(3);
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    truth->InsertNextTuple(data->GetPoint(i));
-  }
-  data->GetPointData()->AddArray(truth);
-}
-
 /// A polygon that stands upright at x = 7, from `low` to `high`.
 vtkSmartPointer<vtkPolyData> MakeWall(double low, double high)
 {

@@ -125,18 +125,6 @@ double GetWorstSnell(vtkPolyData* output, const glm::dvec3& eye, double sign)
   return worst;
 }
 
-void AddTruth(vtkPolyData* data)
-{
-  vtkNew<vtkDoubleArray> truth;
-  truth->SetName("Truth");
-  truth->SetNumberOfComponents(3);
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    truth->InsertNextTuple(data->GetPoint(i));
-  }
-  data->GetPointData()->AddArray(truth);
-}
-
 //------------------------------------------------------------------------------
 // A ball of water: what is inside is refracted, what is outside is not, all around.
 TEST(RefractedGeometryMembrane, ClosedMembranesAreBodies)

@@ -124,4 +124,17 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(vtkPolyData* geometry, vt
   return filter;
 }
 
+//------------------------------------------------------------------------------
+void AddTruth(vtkPolyData* data)
+{
+  vtkNew<vtkDoubleArray> truth;
+  truth->SetName("Truth");
+  truth->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    truth->InsertNextTuple(data->GetPoint(i));
+  }
+  data->GetPointData()->AddArray(truth);
+}
+
 }

@@ -52,6 +52,9 @@ vtkSmartPointer<vtkPolyData> MakeGrid(int count, double size, double y);
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(
   vtkPolyData* geometry, vtkPolyData* membrane);
 
+/// The true position as a point array `Truth`, so that interpolation can be checked.
+void AddTruth(vtkPolyData* data);
+
 }
 
 #endif

@@ -10,6 +10,7 @@
 #include <vtkVolumeProperty.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace meniscus
@@ -53,6 +54,22 @@ void expectMatch(
   const double share = allowance.Share * static_cast<double>(comparison.Covered);
   EXPECT_LE(static_cast<double>(comparison.Silhouettes),
     std::max(share, static_cast<double>(allowance.Pixels)));
+}
+
+//------------------------------------------------------------------------------
+void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what)
+{
+  ASSERT_EQ(a.Rgba.size(), b.Rgba.size());
+  constexpr float tolerance = 2e-5f;
+  float largest = 0.0f;
+  float opacity = 0.0f;
+  for (std::size_t i = 0; i < a.Rgba.size(); ++i)
+  {
+    largest = std::max(largest, std::abs(a.Rgba[i] - b.Rgba[i]));
+    opacity = std::max(opacity, a.Rgba[i]);
+  }
+  EXPECT_LE(largest, tolerance) << what;
+  EXPECT_GT(opacity, 0.1f) << what;
 }
 
 //------------------------------------------------------------------------------

@@ -64,6 +64,9 @@ struct SceneTruth
 
 SceneTruth makeTruth(const RayCastScene& scene);
 
+/// Expects every value to be the same within 2e-5, and not all of them to be transparent.
+void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what);
+
 /**
  * Renders in float and in 8 bits and expects every pixel to match the reference; no ray may be
  * lost. The scene must hold nothing but the volume, its renderer fill the window.

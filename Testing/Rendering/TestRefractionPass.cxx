@@ -315,6 +315,46 @@ TEST(RefractionPass, WhatIsInFrontHidesTheMembrane)
   EXPECT_EQ(below.pixel(Size / 2, Size / 2)[1], 255);
 }
 
+TEST(RefractionPass, APiercingObjectIsSeenAboveAndBelow)
+{
+  // Red as it is, an actor of the renderer; green as the membrane shows it.
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  vtkNew<vtkCubeSource> post;
+  post->SetXLength(0.6);
+  post->SetYLength(0.6);
+  const auto above = makeActor(post->GetOutputPort());
+  setFlatColor(above, 1.0, 0.0, 0.0);
+  pool.renderer()->AddActor(above);
+  vtkNew<vtkRefractedGeometryFilter> filter;
+  filter->SetInputConnection(post->GetOutputPort());
+  filter->SetMembraneConnection(pool.Surface->GetOutputPort());
+  filter->SetInteriorIndexOfRefraction(Water);
+  filter->SetCamera(pool.camera());
+  const auto below = makeActor(filter->GetOutputPort());
+  setFlatColor(below, 0.0, 1.0, 0.0);
+  pool.Pass->AddRefraction(pool.Membrane, below, filter);
+  pool.lookFrom(4.0, 0.0);
+  const ByteImage image = pool.render();
+  int red = 0;
+  int green = 0;
+  for (int y = 0; y < Size; ++y)
+  {
+    for (int x = 0; x < Size; ++x)
+    {
+      const unsigned char* pixel = image.pixel(x, y);
+      red += pixel[0] > 250 && pixel[1] < 5 ? 1 : 0;
+      green += pixel[0] < 5 && pixel[1] > 250 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(red, 50);
+  EXPECT_GT(green, 20);
+  // The side towards the eye: just above the water red, just below green.
+  const Sight foot = sightOf(pool.camera(), Size / 2, Size / 2);
+  EXPECT_NEAR(foot.Point[0], 0.0, 0.1); // the middle of the picture is the water within the post
+  EXPECT_EQ(image.pixel(Size / 2, Size / 2)[0], 255);
+}
+
 TEST(RefractionPass, OtherActorsAreNotChanged)
 {
   // The same picture to the bit beside the membrane, with the pass, without, and after it.

@@ -34,7 +34,6 @@ namespace
 constexpr int Size = 100;
 constexpr double Range[2] = { -2.0, 2.0 };
 constexpr double Bounds[6] = { -1, 1, -1, 1, -1, 1 };
-constexpr float Tolerance = 2e-5f;
 
 // The same in any tetrahedra; only the walk's rounding differs.
 Field linear()
@@ -77,20 +76,6 @@ FloatImage pictureOf(vtkDataObject* input, int scalarMode = VTK_SCALAR_MODE_DEFA
   const FloatImage image = scene.picture();
   EXPECT_TRUE(scene.Observer->Errors.empty()) << scene.Observer->text();
   return image;
-}
-
-void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what)
-{
-  ASSERT_EQ(a.Rgba.size(), b.Rgba.size());
-  float largest = 0.0f;
-  float opacity = 0.0f;
-  for (std::size_t i = 0; i < a.Rgba.size(); ++i)
-  {
-    largest = std::max(largest, std::abs(a.Rgba[i] - b.Rgba[i]));
-    opacity = std::max(opacity, a.Rgba[i]);
-  }
-  EXPECT_LE(largest, Tolerance) << what;
-  EXPECT_GT(opacity, 0.1f) << what;
 }
 
 /// Some cells of a grid, with points of their own and all data.

@@ -26,7 +26,6 @@ constexpr int Size = 100;
 constexpr double Range[2] = { -2.0, 2.0 };
 
 // A linear field is the same in any tetrahedra; only the walk's rounding differs.
-constexpr float Tolerance = 2e-5f;
 
 Field linear()
 {
@@ -53,20 +52,6 @@ FloatImage pictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
     *warnings = static_cast<int>(observer->Warnings.size());
   }
   return image;
-}
-
-void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what)
-{
-  ASSERT_EQ(a.Rgba.size(), b.Rgba.size());
-  float largest = 0.0f;
-  float opacity = 0.0f;
-  for (std::size_t i = 0; i < a.Rgba.size(); ++i)
-  {
-    largest = std::max(largest, std::abs(a.Rgba[i] - b.Rgba[i]));
-    opacity = std::max(opacity, a.Rgba[i]);
-  }
-  EXPECT_LE(largest, Tolerance) << what;
-  EXPECT_GT(opacity, 0.1f) << what;
 }
 
 /// The cube [-1, 1]^3 in n^3 cells of a type that has the 8 corners of a cube in its order.

@@ -134,6 +134,34 @@ TEST_F(TetrahedraRayCastMemory, BytesAreThoseOfTheTables)
   EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
 }
 
+TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
+{
+  // What a frame sends for the first time is what it keeps.
+  const auto expectSentAndKept = [this](const std::string& what)
+  {
+    const vtkTypeInt64 sent = this->Mapper->GetUploadedBytes();
+    const vtkTypeInt64 kept = this->Mapper->GetDeviceBytes();
+    const vtkTypeInt64 host = this->Mapper->GetHostBytes();
+    this->Scene.window()->Render();
+    EXPECT_GT(this->Mapper->GetUploadedBytes(), sent) << what;
+    EXPECT_EQ(this->Mapper->GetDeviceBytes() - kept, this->Mapper->GetUploadedBytes() - sent)
+      << what;
+    EXPECT_GT(this->Mapper->GetHostBytes(), host) << what;
+  };
+  this->Scene.window()->Render();
+  this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+  expectSentAndKept("pre-integration");
+  this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
+  // A change of the property sends its table again, in place of the old one.
+  this->Property->ShadeOn();
+  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+  this->Scene.window()->Render();
+  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
+  expectSentAndKept("gradients");
+  this->Mapper->ReleaseGraphicsResources(this->Scene.window());
+  EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
+}
+
 TEST_F(TetrahedraRayCastMemory, MeshesBeyondTheDevicesTablesGoToTheNativeBackend)
 {
   this->Mapper->SetScalarModeToUsePointData();

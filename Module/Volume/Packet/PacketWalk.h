@@ -3,6 +3,7 @@
 #ifndef meniscus_Volume_Packet_PacketWalk_h
 #define meniscus_Volume_Packet_PacketWalk_h
 
+#include "Volume/Packet/ExactGrid.h"
 #include "Volume/Packet/Packet.h"
 #include "Volume/Packet/PacketIntegral.h"
 #include "Volume/Packet/PacketIsosurfaces.h"
@@ -34,6 +35,7 @@ private:
   using Float = typename Simd::Float;
   using Int = typename Simd::Int;
   using Mask = typename Simd::Mask;
+  using Grid = ExactGrid<Simd>;
   static constexpr int Width = Simd::Width;
 
   /** A vertex about the ray of each lane. */
@@ -61,9 +63,7 @@ private:
 
   void Place(const Float (&vertex)[4], Corner& corner) const;
   void Project(Int id, Corner& corner) const;
-  std::int32_t OnGrid(int axis, const PacketVertex& vertex, int lane) const;
   static Float EdgeArea(const Corner& p, const Corner& q, Float& excess);
-  static bool TurnsLeft(const std::int32_t (&p)[3], const std::int32_t (&q)[3], float& area);
   void MakeSure(
     unsigned int lanes, const Int (&corners)[4], Float (&areas)[3], Mask (&left)[3]) const;
   /** The cell that is entered next: the face it is entered by, its links, the vertex not seen yet.
@@ -228,17 +228,6 @@ void PacketWalk<Simd, Model>::Project(Int id, Corner& corner) const
 }
 
 //------------------------------------------------------------------------------
-/** u or v of a vertex about the ray of a lane, exactly. */
-template <class Simd, class Model>
-std::int32_t PacketWalk<Simd, Model>::OnGrid(int axis, const PacketVertex& vertex, int lane) const
-{
-  const Shift& shift = this->Axes[axis];
-  const std::int64_t product = std::int64_t{ vertex.Place[2] } * shift.Slope[lane];
-  const std::int64_t sum = product + shift.Offset[lane % 2][lane / 2];
-  return vertex.Place[axis] - static_cast<std::int32_t>(sum >> 32);
-}
-
-//------------------------------------------------------------------------------
 /**
  * Twice the area that the edge pq spans with the ray. Each factor is off by 2^-24 of itself, their
  * products and difference by as much again: by less than 2^-22 (|area| + 2 |pv qu|) in all. So the
@@ -252,25 +241,6 @@ inline auto PacketWalk<Simd, Model>::EdgeArea(const Corner& p, const Corner& q, 
   const Float bound = Simd::Abs(p.V * q.U) * Simd::Splat(9.5367431640625e-7f);
   excess = Simd::Min(excess, Simd::Abs(area) - bound);
   return area;
-}
-
-//------------------------------------------------------------------------------
-/** Whether the ray is left of pq, exactly; each is { u, v, id }. */
-template <class Simd, class Model>
-bool PacketWalk<Simd, Model>::TurnsLeft(
-  const std::int32_t (&p)[3], const std::int32_t (&q)[3], float& area)
-{
-  const std::int64_t exact = std::int64_t{ p[0] } * q[1] - std::int64_t{ p[1] } * q[0];
-  area = static_cast<float>(exact);
-  if (exact != 0)
-  {
-    return exact > 0;
-  }
-  if (p[1] != q[1])
-  {
-    return q[1] < p[1];
-  }
-  return p[0] != q[0] ? q[0] > p[0] : p[2] < q[2];
 }
 
 //------------------------------------------------------------------------------
@@ -309,12 +279,18 @@ void PacketWalk<Simd, Model>::MakeSure(
     {
       grid[c][2] = cell[places[c][lane]];
       const PacketVertex& vertex = this->Job.Vertices[grid[c][2]];
-      grid[c][0] = this->OnGrid(0, vertex, lane);
-      grid[c][1] = this->OnGrid(1, vertex, lane);
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        const Shift& shift = this->Axes[axis];
+        grid[c][axis] = Grid::AboutRay(
+          vertex.Place[axis], vertex.Place[2], shift.Slope[lane], shift.Offset[lane % 2][lane / 2]);
+      }
     }
     for (int edge = 0; edge < 3; ++edge)
     {
-      const bool turns = TurnsLeft(grid[0], grid[edge + 1], exact[edge][lane]);
+      std::int64_t area;
+      const bool turns = Grid::TurnsLeft(grid[0], grid[edge + 1], area);
+      exact[edge][lane] = static_cast<float>(area);
       bits[edge] = turns ? bits[edge] | bit : bits[edge] & ~bit;
     }
   }
