@@ -382,8 +382,8 @@ private:
   bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
-  int ChooseBackend(bool plainOptics);
-  bool FallsBackToNative(bool plainOptics, std::string& error);
+  int ChooseBackend();
+  bool FallsBackToNative(std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);

@@ -3,11 +3,28 @@
 #include "Volume/TileCaster.h"
 
 #include "Volume/BlockLoop.h"
+#include "Volume/SurfaceLighting.h"
+
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 
 namespace meniscus
 {
+namespace
+{
+
+/** A vector in single precision. */
+template <typename Vector, int Size>
+void Round(const Vector& from, float (&to)[Size])
+{
+  for (int i = 0; i < Size; ++i)
+  {
+    to[i] = static_cast<float>(from[i]);
+  }
+}
+
+}
 
 //------------------------------------------------------------------------------
 void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
@@ -46,6 +63,50 @@ TileCaster::TileCaster(const Scene& scene)
   : Input(scene)
 {
   this->Raster.Build(scene.Tables->Vertices, *scene.Boundary, scene.Rays);
+  this->PackMedium();
+  if (scene.PreIntegration)
+  {
+    const PreIntegrationTable& table = *scene.PreIntegration;
+    this->SegmentTable = { table.GetValues().data(), table.GetNumberOfScalars(),
+      table.GetNumberOfLengths(), static_cast<float>(1.0 / table.GetShortest()),
+      static_cast<float>(table.GetLengthsPerOctave()) };
+  }
+}
+
+//------------------------------------------------------------------------------
+void TileCaster::PackMedium()
+{
+  const glm::dmat3 rows = glm::transpose(this->Input.GradientToFrame);
+  for (int row = 0; row < 3; ++row)
+  {
+    Round(rows[row], this->Medium.GradientToFrame[row]);
+  }
+  this->Medium.GradientMagnitude = static_cast<float>(this->Input.GradientMagnitude);
+  const std::vector<PacketInterval>& opacity = this->Input.Tables->GradientIntervals;
+  this->Medium.Opacity = opacity.data();
+  this->Medium.NumberOfOpacityIntervals = static_cast<std::int32_t>(opacity.size());
+  this->Medium.Shading = this->Input.Lighting != nullptr;
+  if (!this->Medium.Shading)
+  {
+    return;
+  }
+  const SurfaceLighting& lighting = *this->Input.Lighting;
+  this->Medium.Ambient = static_cast<float>(lighting.Ambient);
+  this->Medium.Diffuse = static_cast<float>(lighting.Diffuse);
+  this->Medium.Specular = static_cast<float>(lighting.Specular);
+  this->Medium.SpecularPower = static_cast<float>(lighting.SpecularPower);
+  for (const RayCastLight& light : lighting.Lights)
+  {
+    this->Lights.emplace_back();
+    PacketLight& packed = this->Lights.back();
+    Round(light.Position, packed.Position);
+    Round(light.Diffuse, packed.Diffuse);
+    Round(light.Specular, packed.Specular);
+    Round(light.Cone, packed.Cone);
+    Round(light.Falloff, packed.Falloff);
+  }
+  this->Medium.Lights = this->Lights.data();
+  this->Medium.NumberOfLights = static_cast<std::int32_t>(this->Lights.size());
 }
 
 //------------------------------------------------------------------------------
@@ -102,6 +163,38 @@ void TileCaster::TakeHits(int tile, const float* opaqueDepth, Workspace& workspa
 }
 
 //------------------------------------------------------------------------------
+/** What becomes of scalars. */
+void TileCaster::SetOptics(PacketJob& job) const
+{
+  const PacketTables& tables = *this->Input.Tables;
+  const auto sizeOf = [](const auto& table) { return static_cast<std::int32_t>(table.size()); };
+  job.Blending = this->Input.Blending;
+  job.CellScalars = this->Input.CellScalars;
+  job.Surfaces = tables.Surfaces.data();
+  job.NumberOfSurfaces = sizeOf(tables.Surfaces);
+  job.Lighting = this->Input.Lighting;
+  job.VertexGradients = this->Input.VertexGradients ? &this->Input.VertexGradients->x : nullptr;
+  job.GradientToFrame = &this->Input.GradientToFrame;
+  job.Intervals = tables.Intervals.data();
+  job.NumberOfIntervals = sizeOf(tables.Intervals);
+  job.TerminationTransmittance = this->Input.TerminationTransmittance;
+  job.Mixture = this->Input.Mixture;
+  job.Components = this->Input.Components ? &this->Input.Components->x : nullptr;
+  for (std::size_t i = 0; i < tables.OtherIntervals.size(); ++i)
+  {
+    job.OtherIntervals[i] = tables.OtherIntervals[i].data();
+    job.NumberOfOtherIntervals[i] = sizeOf(tables.OtherIntervals[i]);
+  }
+  job.SegmentTable = this->Input.PreIntegration ? &this->SegmentTable : nullptr;
+  job.Medium = nullptr;
+  if (job.Blending == PacketBlending::Composite &&
+    (this->Medium.Shading || !tables.GradientIntervals.empty()))
+  {
+    job.Medium = &this->Medium;
+  }
+}
+
+//------------------------------------------------------------------------------
 RayStatistics TileCaster::Cast(
   int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
 {
@@ -114,21 +207,12 @@ RayStatistics TileCaster::Cast(
   }
   workspace.Results.resize(workspace.Rays.size());
   const TetrahedralMesh& mesh = *this->Input.Mesh;
-  PacketJob job;
-  job.Blending = this->Input.Blending;
-  job.CellScalars = this->Input.CellScalars;
-  job.Surfaces = this->Input.Tables->Surfaces.data();
-  job.NumberOfSurfaces = static_cast<std::int32_t>(this->Input.Tables->Surfaces.size());
-  job.Lighting = this->Input.Lighting;
-  job.VertexGradients = this->Input.VertexGradients ? &this->Input.VertexGradients->x : nullptr;
-  job.GradientToFrame = &this->Input.GradientToFrame;
+  PacketJob job{};
+  this->SetOptics(job);
   job.GridUnit = this->Input.Rays.GetGridUnit();
   job.Vertices = this->Input.Tables->Vertices.data();
   job.Cells = mesh.GetCells().front().Vertices.data();
   job.NumberOfCells = mesh.GetNumberOfCells();
-  job.Intervals = this->Input.Tables->Intervals.data();
-  job.NumberOfIntervals = static_cast<std::int32_t>(this->Input.Tables->Intervals.size());
-  job.TerminationTransmittance = this->Input.TerminationTransmittance;
   job.Rays = workspace.Rays.data();
   job.NumberOfRays = static_cast<std::int32_t>(workspace.Rays.size());
   job.Entries = workspace.Entries.data();
