@@ -202,8 +202,8 @@ public:
    * as in the paper, over the scalars at both ends of a segment and its length (SetPreIntegration-
    * ScalarSize(), SetPreIntegrationLengthSize()). The table is made when the transfer function, a
    * size or the longest edge of the volume in the world changed. It is there for composite blending
-   * of one component without light and gradient opacity; else segments are integrated exactly, after
-   * a warning where PRE_INTEGRATED would have made a difference.
+   * of one component without light and gradient opacity; else segments are integrated exactly,
+   * after a warning where PRE_INTEGRATED would have made a difference.
    */
   vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
   vtkGetMacro(Integration, int);

@@ -3,28 +3,11 @@
 #include "Volume/TileCaster.h"
 
 #include "Volume/BlockLoop.h"
-#include "Volume/SurfaceLighting.h"
-
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 
 namespace meniscus
 {
-namespace
-{
-
-/** A vector in single precision. */
-template <typename Vector, int Size>
-void Round(const Vector& from, float (&to)[Size])
-{
-  for (int i = 0; i < Size; ++i)
-  {
-    to[i] = static_cast<float>(from[i]);
-  }
-}
-
-}
 
 //------------------------------------------------------------------------------
 void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
@@ -63,7 +46,8 @@ TileCaster::TileCaster(const Scene& scene)
   : Input(scene)
 {
   this->Raster.Build(scene.Tables->Vertices, *scene.Boundary, scene.Rays);
-  this->PackMedium();
+  this->Medium.Pack(scene.Lighting, scene.GradientToFrame, scene.GradientMagnitude,
+    scene.Tables->GradientIntervals);
   if (scene.PreIntegration)
   {
     const PreIntegrationTable& table = *scene.PreIntegration;
@@ -71,42 +55,6 @@ TileCaster::TileCaster(const Scene& scene)
       table.GetNumberOfLengths(), static_cast<float>(1.0 / table.GetShortest()),
       static_cast<float>(table.GetLengthsPerOctave()) };
   }
-}
-
-//------------------------------------------------------------------------------
-void TileCaster::PackMedium()
-{
-  const glm::dmat3 rows = glm::transpose(this->Input.GradientToFrame);
-  for (int row = 0; row < 3; ++row)
-  {
-    Round(rows[row], this->Medium.GradientToFrame[row]);
-  }
-  this->Medium.GradientMagnitude = static_cast<float>(this->Input.GradientMagnitude);
-  const std::vector<PacketInterval>& opacity = this->Input.Tables->GradientIntervals;
-  this->Medium.Opacity = opacity.data();
-  this->Medium.NumberOfOpacityIntervals = static_cast<std::int32_t>(opacity.size());
-  this->Medium.Shading = this->Input.Lighting != nullptr;
-  if (!this->Medium.Shading)
-  {
-    return;
-  }
-  const SurfaceLighting& lighting = *this->Input.Lighting;
-  this->Medium.Ambient = static_cast<float>(lighting.Ambient);
-  this->Medium.Diffuse = static_cast<float>(lighting.Diffuse);
-  this->Medium.Specular = static_cast<float>(lighting.Specular);
-  this->Medium.SpecularPower = static_cast<float>(lighting.SpecularPower);
-  for (const RayCastLight& light : lighting.Lights)
-  {
-    this->Lights.emplace_back();
-    PacketLight& packed = this->Lights.back();
-    Round(light.Position, packed.Position);
-    Round(light.Diffuse, packed.Diffuse);
-    Round(light.Specular, packed.Specular);
-    Round(light.Cone, packed.Cone);
-    Round(light.Falloff, packed.Falloff);
-  }
-  this->Medium.Lights = this->Lights.data();
-  this->Medium.NumberOfLights = static_cast<std::int32_t>(this->Lights.size());
 }
 
 //------------------------------------------------------------------------------
@@ -186,12 +134,7 @@ void TileCaster::SetOptics(PacketJob& job) const
     job.NumberOfOtherIntervals[i] = sizeOf(tables.OtherIntervals[i]);
   }
   job.SegmentTable = this->Input.PreIntegration ? &this->SegmentTable : nullptr;
-  job.Medium = nullptr;
-  if (job.Blending == PacketBlending::Composite &&
-    (this->Medium.Shading || !tables.GradientIntervals.empty()))
-  {
-    job.Medium = &this->Medium;
-  }
+  job.Medium = job.Blending == PacketBlending::Composite ? this->Medium.Get() : nullptr;
 }
 
 //------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include "Refraction/RangeLoop.h"
 #include "Volume/ClippingPlanes.h"
 #include "Volume/EntryRaster.h"
+#include "Volume/MediumTable.h"
 #include "Volume/Packet/Packet.h"
 #include "Volume/PixelRays.h"
 #include "Volume/PreIntegration.h"
@@ -99,13 +100,11 @@ public:
 private:
   PacketRay RayOf(int column, int row, const float* opaqueDepth) const;
   void TakeHits(int tile, const float* opaqueDepth, Workspace& workspace) const;
-  void PackMedium();
   void SetOptics(PacketJob& job) const;
 
   Scene Input;
   EntryRaster Raster;
-  std::vector<PacketLight> Lights;
-  PacketMedium Medium{};
+  MediumTable Medium;
   PacketSegmentTable SegmentTable{};
 };
 
