@@ -302,6 +302,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
     block.vertices.clear();
     block.images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
     block.images->SetPoints(block.points.data(), count, mayCross);
+    block.images->PrepareUnique(count, meniscus::FacetLoop);
   }
   std::vector<bool> known(count);
   for (std::size_t i = 0; i < count; ++i)
