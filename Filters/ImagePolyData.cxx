@@ -98,8 +98,8 @@ private:
   ObjectTopology Topology;
 };
 
-// Whether the diagonal from corner 0 to corner 2 splits a quad into two triangles that face the same
-// way.
+// Whether the diagonal from corner 0 to corner 2 splits a quad into two triangles that face the
+// same way.
 bool IsSplitByDiagonal(vtkPolyData* input, const std::int64_t* ids)
 {
   glm::dvec3 corner[4];

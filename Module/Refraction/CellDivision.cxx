@@ -11,8 +11,8 @@ namespace meniscus
 namespace
 {
 
-// Edges are as short as 2^-14 of the primitive's then: where the virtual geometry has a corner, at a
-// crease of the membrane, the error shrinks with the length.
+// Edges are as short as 2^-14 of the primitive's then: where the virtual geometry has a corner, at
+// a crease of the membrane, the error shrinks with the length.
 constexpr int DeepestLevel = 14;
 
 // Those of a few dozen cells.
@@ -28,8 +28,8 @@ std::size_t Hash(const glm::dvec3& point)
   std::uint64_t bits[3];
   std::memcpy(bits, &point.x, sizeof(bits));
   // Multipliers of a well mixed linear congruence, one for each coordinate.
-  std::uint64_t sum = bits[0] * 0x9e3779b97f4a7c15u + bits[1] * 0xbf58476d1ce4e5b9u +
-    bits[2] * 0x94d049bb133111ebu;
+  std::uint64_t sum =
+    bits[0] * 0x9e3779b97f4a7c15u + bits[1] * 0xbf58476d1ce4e5b9u + bits[2] * 0x94d049bb133111ebu;
   sum ^= sum >> 32;
   return static_cast<std::size_t>(sum * 0x9e3779b97f4a7c15u >> 32);
 }
@@ -120,13 +120,12 @@ CellDivision::Shape CellDivision::FindShape(const Stretch& part, int depth)
     return Shape::Straight;
   }
   const glm::dvec3 point = 0.5 * (part.point[0] + part.point[1]);
-  const Shape first = this->FindShape({ { part.point[0], point }, { part.drawn[0], drawn },
-                                        { part.image[0], &middle } },
-    depth + 1);
+  const Shape first = this->FindShape(
+    { { part.point[0], point }, { part.drawn[0], drawn }, { part.image[0], &middle } }, depth + 1);
   return first != Shape::Straight
     ? first
-    : this->FindShape({ { point, part.point[1] }, { drawn, part.drawn[1] },
-                        { &middle, part.image[1] } },
+    : this->FindShape(
+        { { point, part.point[1] }, { drawn, part.drawn[1] }, { &middle, part.image[1] } },
         depth + 1);
 }
 
@@ -243,8 +242,7 @@ void CellDivision::Emit(const Cell& cell, const std::array<std::int32_t, N>& nod
 }
 
 //------------------------------------------------------------------------------
-void CellDivision::Divide(
-  const Cell& cell, const std::array<std::int32_t, 3>& nodes, int depth)
+void CellDivision::Divide(const Cell& cell, const std::array<std::int32_t, 3>& nodes, int depth)
 {
   std::array<std::int32_t, 3> middle; // of the edge opposite to each node
   for (std::size_t k = 0; k < 3; ++k)
@@ -255,8 +253,8 @@ void CellDivision::Divide(
   {
     return;
   }
-  const auto splits = std::count_if(
-    middle.begin(), middle.end(), [](std::int32_t m) { return m != NotSplit; });
+  const auto splits =
+    std::count_if(middle.begin(), middle.end(), [](std::int32_t m) { return m != NotSplit; });
   if (splits == 0)
   {
     this->Emit(cell, nodes);

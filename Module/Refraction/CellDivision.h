@@ -38,8 +38,8 @@ public:
   /// `tolerance` is an angle in radians at the eye.
   CellDivision(const CurvedGeometry& geometry, double tolerance);
 
-  /// Whether the images of points on the edge are where the virtual edge is drawn. Images of another
-  /// branch are not.
+  /// Whether the images of points on the edge are where the virtual edge is drawn. Images of
+  /// another branch are not.
   bool IsStraight(const ImagedPoint& a, const ImagedPoint& b);
 
   /// Adds the image of a triangle as triangles, wound as it is. False, and nothing is added, if a
@@ -48,8 +48,8 @@ public:
     const std::array<ImagedPoint, 3>& corners, std::int64_t sourceCell, ImageMesh& images);
 
   /// Adds the image of a line as lines of two points, in the same way.
-  bool AddLine(const ImagedPoint& from, const ImagedPoint& to, std::int64_t sourceCell,
-    ImageMesh& images);
+  bool AddLine(
+    const ImagedPoint& from, const ImagedPoint& to, std::int64_t sourceCell, ImageMesh& images);
 
 private:
   struct Node

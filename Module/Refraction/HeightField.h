@@ -38,7 +38,8 @@ struct HeightFrame
  * wound alike, and their border is one loop that turns to one side only and once around. No place
  * of the polygon is then covered twice, and the way between two of its places stays inside.
  */
-bool IsConvexField(const Membrane& membrane, const CurvedPatches& patches, const HeightFrame& frame);
+bool IsConvexField(
+  const Membrane& membrane, const CurvedPatches& patches, const HeightFrame& frame);
 
 }
 

@@ -357,9 +357,9 @@ bool ObjectImages::DividePolygon(const std::int64_t* ids,
   const ImageMesh::Mark before = pieces.GetMark();
   for (std::size_t k = 0; k + 2 < triangles.size(); k += 3)
   {
-    if (!division.AddTriangle({ this->GetImagedPoint(ids[triangles[k]]),
-                                this->GetImagedPoint(ids[triangles[k + 1]]),
-                                this->GetImagedPoint(ids[triangles[k + 2]]) },
+    if (!division.AddTriangle(
+          { this->GetImagedPoint(ids[triangles[k]]), this->GetImagedPoint(ids[triangles[k + 1]]),
+            this->GetImagedPoint(ids[triangles[k + 2]]) },
           cell, pieces))
     {
       pieces.ReturnTo(before);

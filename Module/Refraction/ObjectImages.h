@@ -3,8 +3,8 @@
 /**
  * Every image of an object: of its points, and of its lines and polygons. A cell is simple, and
  * keeps its points, if each of them has one image and if the virtual cell is where the images of
- * the middles of its sides are, within a tolerance. A cell that is bent, but where no point can have
- * several images, is divided. All other cells are mapped from the membrane.
+ * the middles of its sides are, within a tolerance. A cell that is bent, but where no point can
+ * have several images, is divided. All other cells are mapped from the membrane.
  */
 #ifndef meniscus_Refraction_ObjectImages_h
 #define meniscus_Refraction_ObjectImages_h

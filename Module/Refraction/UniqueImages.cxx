@@ -50,8 +50,8 @@ bool MakeRay(const CurvedPatch& patch, const glm::dvec2& b, const HeightFrame& f
   {
     return false;
   }
-  const RefractionRay refracted = ComputeRefractionRay(glm::normalize(at.position - media.eye),
-    at.normal / length, media.exterior / media.interior);
+  const RefractionRay refracted = ComputeRefractionRay(
+    glm::normalize(at.position - media.eye), at.normal / length, media.exterior / media.interior);
   const double drop = -frame.GetHeight(refracted.direction);
   if (refracted.kind != RayKind::Refracted || !(drop > 0.0))
   {
@@ -205,8 +205,7 @@ void UniqueImages::FitGrid(
   this->Bulge = 0.0;
   for (std::size_t i = 0; i < facets; ++i)
   {
-    this->Bulge =
-      std::max(this->Bulge, BoundBulge(patches.GetPatch(static_cast<std::int32_t>(i))));
+    this->Bulge = std::max(this->Bulge, BoundBulge(patches.GetPatch(static_cast<std::int32_t>(i))));
     for (const std::int32_t vertex : membrane.GetFacets()[i])
     {
       const glm::dvec2 place =
@@ -251,14 +250,11 @@ void UniqueImages::Build(const Membrane& membrane, const CurvedPatches& patches,
         judged[i] = this->Judge(patches.GetPatch(static_cast<std::int32_t>(i)), frame, media);
       }
     });
-  this->Levels.assign(
-    1, Level(static_cast<std::size_t>(this->Width) * this->Width, MakeEmpty()));
+  this->Levels.assign(1, Level(static_cast<std::size_t>(this->Width) * this->Width, MakeEmpty()));
   for (std::size_t i = 0; i < facets.size(); ++i)
   {
-    const auto place = [this, &membrane, &facets, i](std::size_t k)
-    {
-      return this->Frame.Project(
-        membrane.GetPositions()[static_cast<std::size_t>(facets[i][k])]);
+    const auto place = [this, &membrane, &facets, i](std::size_t k) {
+      return this->Frame.Project(membrane.GetPositions()[static_cast<std::size_t>(facets[i][k])]);
     };
     const glm::dvec2 low2 = glm::min(place(0), glm::min(place(1), place(2)));
     const glm::dvec2 high2 = glm::max(place(0), glm::max(place(1), place(2)));
@@ -344,8 +340,8 @@ bool UniqueImages::HoldsAtMostOne(const glm::dvec3& low, const glm::dvec3& high)
   const glm::dvec3 middle = 0.5 * (low + high);
   const glm::dvec3 half = 0.5 * (high - low);
   const glm::dvec2 at = this->Frame.Project(middle);
-  const glm::dvec2 reach(glm::dot(glm::abs(this->Frame.First), half),
-    glm::dot(glm::abs(this->Frame.Second), half));
+  const glm::dvec2 reach(
+    glm::dot(glm::abs(this->Frame.First), half), glm::dot(glm::abs(this->Frame.Second), half));
   const double height = this->Frame.GetHeight(middle);
   const double rise = glm::dot(glm::abs(this->Frame.Axis), half);
   const std::uint8_t slabs = this->FindSlabs(height - rise, height + rise);

@@ -7,14 +7,14 @@
  * refracted rays draw a map F_z from the polygon to the plane: F_z(u) = S(u) + (h(u) - z) m(u) with
  * the surface's point S and height h over the flat facets' place u, and the ray's slope m. If the
  * symmetric part of its derivative is positive definite along the straight way from u to v, then
- * (v - u).(F_z(v) - F_z(u)) > 0: not both look at the same point. That holds for smaller depths than
- * those of the first caustic and a good part of those behind it, and it is concave in z, so between
- * two heights where it holds it holds too.
+ * (v - u).(F_z(v) - F_z(u)) > 0: not both look at the same point. That holds for smaller depths
+ * than those of the first caustic and a good part of those behind it, and it is concave in z, so
+ * between two heights where it holds it holds too.
  *
- * Per patch it is tested by a Bezier triangle of second degree from six rays, with a margin for what
- * is of higher degree; a grid over the polygon collects the patches' answers for slabs of heights,
- * and bounds of their rays' slopes. From the slopes follows where the sight points of a box of
- * points can be, from the patches there whether they can be several.
+ * Per patch it is tested by a Bezier triangle of second degree from six rays, with a margin for
+ * what is of higher degree; a grid over the polygon collects the patches' answers for slabs of
+ * heights, and bounds of their rays' slopes. From the slopes follows where the sight points of a
+ * box of points can be, from the patches there whether they can be several.
  */
 #ifndef meniscus_Refraction_UniqueImages_h
 #define meniscus_Refraction_UniqueImages_h
@@ -50,7 +50,7 @@ private:
   /// Bounds of what lies over a cell of the grid, and the slabs in which all of it is injective.
   struct Cell
   {
-    std::array<float, 3> low;  ///< slope, slope, height
+    std::array<float, 3> low; ///< slope, slope, height
     std::array<float, 3> high;
     std::uint8_t slabs;
   };

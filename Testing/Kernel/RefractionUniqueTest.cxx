@@ -119,8 +119,7 @@ TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
     const glm::dvec3 middle =
       random.point({ -80.0, -test.depth + 5.0, -80.0 }, { 80.0, -45.0, 80.0 });
     const glm::dvec3 half(random(0.0, 4.0));
-    const bool isUnique =
-      unique.HoldsAtMostOne(middle - half - origin, middle + half - origin);
+    const bool isUnique = unique.HoldsAtMostOne(middle - half - origin, middle + half - origin);
     boxes += isUnique;
     for (int k = 0; k < 5; ++k)
     {
@@ -261,8 +260,7 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
     glm::dvec3 drawn(0.0);
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const auto& point =
-        images.points[static_cast<std::size_t>(images.connectivity[3 * i + k])];
+      const auto& point = images.points[static_cast<std::size_t>(images.connectivity[3 * i + k])];
       at[k] = place(point);
       drawn += point.vertex.position / 3.0;
     }
@@ -287,8 +285,7 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
   for (const auto& [ends, count] : sides)
   {
     const auto [a, b] = ends;
-    const glm::dvec2 side(
-      std::get<0>(b) - std::get<0>(a), std::get<1>(b) - std::get<1>(a));
+    const glm::dvec2 side(std::get<0>(b) - std::get<0>(a), std::get<1>(b) - std::get<1>(a));
     border += count == 1 ? glm::length(side) : 0.0;
     EXPECT_LE(count, 2);
   }
@@ -301,9 +298,10 @@ TEST(RefractionDivision, NothingIsAddedWhereAnImageIsMissing)
 {
   const UniqueCase& test = Cases[0];
   CurvedGeometry geometry;
-  Set(geometry, MakeSheet(20,
-                  [](int i, int j) { return glm::dvec3(i - 10.0, 0.0, j - 10.0); },
-                  [](int i, int) { return i < 8 || i > 11; }),
+  Set(geometry,
+    MakeSheet(
+      20, [](int i, int j) { return glm::dvec3(i - 10.0, 0.0, j - 10.0); },
+      [](int i, int) { return i < 8 || i > 11; }),
     test.eye);
   const glm::dvec3 points[2] = { { -9.0, -2.0, 0.0 }, { 9.0, -2.0, 0.0 } };
   std::vector<VirtualVertex> vertices(2);
