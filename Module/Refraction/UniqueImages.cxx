@@ -326,8 +326,8 @@ std::uint8_t UniqueImages::FindSlabs(double low, double high) const
     return static_cast<unsigned>(std::clamp(slab, 0.0, Slabs - 1.0));
   };
   const unsigned below = (1u << index(low)) - 1u;
-  const unsigned upTo = (2u << index(high)) - 1u;
-  return static_cast<std::uint8_t>(upTo & ~below);
+  const unsigned through = (2u << index(high)) - 1u;
+  return static_cast<std::uint8_t>(through & ~below);
 }
 
 //------------------------------------------------------------------------------
