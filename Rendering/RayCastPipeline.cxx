@@ -140,6 +140,7 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
     scene.VertexGradients = this->Gradients.data();
   }
   scene.GradientToFrame = frame.Optics.GradientToFrame;
+  scene.GradientOpacity = frame.Optics.GradientOpacity;
   scene.GradientMagnitude = frame.Optics.GradientMagnitude;
   // The numbers are the same.
   scene.Blending = static_cast<PacketBlending>(frame.Optics.BlendMode);

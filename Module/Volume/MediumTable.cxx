@@ -25,7 +25,7 @@ void Round(const Vector& from, float (&to)[Size])
 
 //------------------------------------------------------------------------------
 void MediumTable::Pack(const SurfaceLighting* lighting, const glm::dmat3& gradientToFrame,
-  double gradientMagnitude, const std::vector<PacketInterval>& opacity)
+  double gradientMagnitude, const std::vector<PacketInterval>* opacity)
 {
   const glm::dmat3 rows = glm::transpose(gradientToFrame);
   for (int row = 0; row < 3; ++row)
@@ -33,8 +33,8 @@ void MediumTable::Pack(const SurfaceLighting* lighting, const glm::dmat3& gradie
     Round(rows[row], this->Medium.GradientToFrame[row]);
   }
   this->Medium.GradientMagnitude = static_cast<float>(gradientMagnitude);
-  this->Medium.Opacity = opacity.data();
-  this->Medium.NumberOfOpacityIntervals = static_cast<std::int32_t>(opacity.size());
+  this->Medium.Opacity = opacity ? opacity->data() : nullptr;
+  this->Medium.NumberOfOpacityIntervals = opacity ? static_cast<std::int32_t>(opacity->size()) : 0;
   this->Medium.Shading = lighting != nullptr;
   this->Lights.clear();
   if (lighting)

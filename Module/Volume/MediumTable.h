@@ -25,10 +25,10 @@ public:
    * @param lighting  in the frame; null without light.
    * @param gradientToFrame  from normalised model coordinates.
    * @param gradientMagnitude  from a gradient's length in the frame to what `opacity` is of.
-   * @param opacity  empty for none; must outlive this.
+   * @param opacity  null for none; must outlive this.
    */
   void Pack(const SurfaceLighting* lighting, const glm::dmat3& gradientToFrame,
-    double gradientMagnitude, const std::vector<PacketInterval>& opacity);
+    double gradientMagnitude, const std::vector<PacketInterval>* opacity);
 
   /** Null if gradients do nothing. */
   const PacketMedium* Get() const

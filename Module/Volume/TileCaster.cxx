@@ -47,7 +47,7 @@ TileCaster::TileCaster(const Scene& scene)
 {
   this->Raster.Build(scene.Tables->Vertices, *scene.Boundary, scene.Rays);
   this->Medium.Pack(scene.Lighting, scene.GradientToFrame, scene.GradientMagnitude,
-    scene.Tables->GradientIntervals);
+    scene.GradientOpacity ? &scene.Tables->GradientIntervals : nullptr);
   if (scene.PreIntegration)
   {
     const PreIntegrationTable& table = *scene.PreIntegration;

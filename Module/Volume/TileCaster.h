@@ -26,7 +26,7 @@ struct PacketTables
   std::vector<PacketVertex> Vertices;
   std::vector<PacketInterval> Intervals;
   std::vector<PacketSurface> Surfaces;
-  /** Of components that have functions of their own; by gradients, empty for none. */
+  /** Of components that have functions of their own; of the lengths of gradients. */
   std::vector<std::vector<PacketInterval>> OtherIntervals;
   std::vector<PacketInterval> GradientIntervals;
 };
@@ -63,7 +63,9 @@ public:
     /** One per vertex, in normalised model coordinates; null for those of the cells. */
     const glm::vec3* VertexGradients = nullptr;
     glm::dmat3 GradientToFrame{ 1.0 };
-    /** From a gradient's length in the frame to what the tables' gradient opacity is of. */
+    /** Whether gradients change the attenuation, by the table of that. */
+    bool GradientOpacity = false;
+    /** From a gradient's length in the frame to what that table is of. */
     double GradientMagnitude = 1.0;
     PixelRays Rays;
     /** Rays count where all of them keep them. */

@@ -20,6 +20,7 @@ Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, flo
     tables.OtherIntervals.push_back(PackIntervals(intervals));
   }
   TileCaster::Scene cast = scene.Optics;
+  cast.GradientOpacity = !scene.GradientIntervals.empty();
   cast.Mesh = &scene.Mesh;
   cast.Boundary = &scene.Mesh.GetBoundary();
   cast.Tables = &tables;
