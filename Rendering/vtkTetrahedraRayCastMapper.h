@@ -141,7 +141,8 @@ public:
   ///@{
   /**
    * What is drawn of an array of several components, as in vtkSmartVolumeMapper: MAGNITUDE, the
-   * length of the vector; COMPONENT, the one of number VectorComponent (from 0, the default).
+   * length of the vector (a single component with its sign); COMPONENT, the one of number
+   * VectorComponent (from 0, the default).
    * DISABLED, the default, draws arrays of one component, and mixes two to four (see the class).
    */
   vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
