@@ -98,6 +98,20 @@ private:
   ObjectTopology Topology;
 };
 
+// Whether the diagonal from corner 0 to corner 2 splits a quad into two triangles that face the
+// same way.
+bool IsSplitByDiagonal(vtkPolyData* input, const std::int64_t* ids)
+{
+  glm::dvec3 corner[4];
+  for (int i = 0; i < 4; ++i)
+  {
+    input->GetPoint(ids[i], &corner[i].x);
+  }
+  const glm::dvec3 diagonal = corner[2] - corner[0];
+  return glm::dot(glm::cross(corner[1] - corner[0], diagonal),
+           glm::cross(diagonal, corner[3] - corner[0])) > 0.0;
+}
+
 // Ear clipping, which also splits polygons that are not convex. A polygon that it cannot split, or
 // that has fewer than three points, has no area.
 void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count,
@@ -106,6 +120,11 @@ void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count
   triangles.clear();
   if (count < 3)
   {
+    return;
+  }
+  if (count == 4 && IsSplitByDiagonal(input, ids))
+  {
+    triangles = { 0, 1, 2, 0, 2, 3 };
     return;
   }
   vtkNew<vtkPolygon> polygon;

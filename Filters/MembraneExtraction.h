@@ -5,9 +5,11 @@
 
 #include "Refraction/Membrane.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+class vtkImplicitFunction;
 class vtkPolyData;
 
 namespace meniscus
@@ -32,6 +34,14 @@ struct MembraneArrays
  * will skip and count.
  */
 MembraneArrays ExtractMembrane(vtkPolyData* membrane);
+
+/**
+ * Moves the points of the triangles onto the zero set of `function`, by Newton's method along its
+ * gradient, and makes its gradients there their normals, on the side that the membrane's normals
+ * are on or, if it has none, the facets' winding. Returns the number of points that have no place
+ * on the zero set; these keep their place, and a normal of zeros, for which one is computed.
+ */
+std::size_t FitToFunction(vtkImplicitFunction* function, MembraneArrays& arrays);
 
 }
 

@@ -4,6 +4,7 @@
 
 #include "Refraction/PatchTube.h"
 
+#include "vtkImplicitFunction.h"
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
 
@@ -48,16 +49,22 @@ void FacetLoop(std::size_t count, const RangeBody& body)
 }
 
 //------------------------------------------------------------------------------
-bool RefractionScene::SetMembrane(vtkPolyData* membrane, bool curved, SceneMessages& messages)
+bool RefractionScene::SetMembrane(
+  vtkPolyData* membrane, bool curved, SceneMessages& messages, vtkImplicitFunction* function)
 {
+  const vtkMTimeType functionTime = function ? function->GetMTime() : 0;
   const bool known = this->MembraneReady && this->Curves == curved;
-  if (known && this->MembraneSource == membrane && this->MembraneTime == membrane->GetMTime())
+  if (known && this->MembraneSource == membrane && this->MembraneTime == membrane->GetMTime() &&
+    this->Function == function && this->FunctionTime == functionTime)
   {
     return true;
   }
   MembraneArrays arrays = ExtractMembrane(membrane);
+  const std::size_t lost = function ? FitToFunction(function, arrays) : 0;
   this->MembraneSource = membrane;
   this->MembraneTime = membrane->GetMTime();
+  this->Function = function;
+  this->FunctionTime = functionTime;
   if (known && arrays == this->Arrays)
   {
     return true;
@@ -66,7 +73,7 @@ bool RefractionScene::SetMembrane(vtkPolyData* membrane, bool curved, SceneMessa
   const MembraneStatus status = this->BuildMembrane(curved);
   this->MembraneReady = status == MembraneStatus::Ready;
   ++this->PatchBuilds;
-  return this->ReportMembrane(status, messages);
+  return this->ReportMembrane(status, lost, messages);
 }
 
 //------------------------------------------------------------------------------
@@ -83,7 +90,8 @@ MembraneStatus RefractionScene::BuildMembrane(bool curved)
 }
 
 //------------------------------------------------------------------------------
-bool RefractionScene::ReportMembrane(MembraneStatus status, SceneMessages& messages) const
+bool RefractionScene::ReportMembrane(
+  MembraneStatus status, std::size_t lost, SceneMessages& messages) const
 {
   const MembraneReport& report = this->GetMembrane().GetReport();
   const std::size_t triangles = this->Arrays.triangles.size() / 3;
@@ -103,12 +111,18 @@ bool RefractionScene::ReportMembrane(MembraneStatus status, SceneMessages& messa
          << report.notFinite << " with coordinates that are not finite, " << report.outOfRange
          << " with points that do not exist, " << report.duplicated << " repeated. ";
   }
+  if (lost > 0)
+  {
+    text << lost << " of " << points
+         << " membrane points have no place on the exact membrane's zero set; they stay where they "
+            "are. ";
+  }
   if (this->Arrays.normalsRejected)
   {
     text << "The membrane's normals do not have 3 components for each of its " << points
          << " points; normals are computed. ";
   }
-  else if (report.computedNormals > 0 && !this->Arrays.normals.empty())
+  else if (report.computedNormals > lost && !this->Arrays.normals.empty())
   {
     text << report.computedNormals << " of " << points
          << " membrane normals are zero or not finite; these are computed. ";

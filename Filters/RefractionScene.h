@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+class vtkImplicitFunction;
 class vtkPolyData;
 
 namespace meniscus
@@ -47,8 +48,10 @@ public:
   /// Position of the eye in the world, exterior and interior index of refraction.
   using Eye = std::array<double, 5>;
 
-  /// Takes a membrane. False, with an error, if it cannot be used.
-  bool SetMembrane(vtkPolyData* membrane, bool curved, SceneMessages& messages);
+  /// Takes a membrane; with a function, that of its points on the function's zero set. False, with
+  /// an error, if it cannot be used.
+  bool SetMembrane(vtkPolyData* membrane, bool curved, SceneMessages& messages,
+    vtkImplicitFunction* function = nullptr);
 
   /// Takes an eye for the membrane. False, with an error, if it cannot be used.
   bool SetEye(const Eye& eye, SceneMessages& messages);
@@ -87,7 +90,7 @@ private:
   };
 
   MembraneStatus BuildMembrane(bool curved);
-  bool ReportMembrane(MembraneStatus status, SceneMessages& messages) const;
+  bool ReportMembrane(MembraneStatus status, std::size_t lost, SceneMessages& messages) const;
 
   VirtualGeometry Flat;
   CurvedGeometry Curved;
@@ -95,6 +98,8 @@ private:
 
   vtkWeakPointer<vtkPolyData> MembraneSource;
   vtkMTimeType MembraneTime = 0;
+  vtkImplicitFunction* Function = nullptr; ///< told apart only
+  vtkMTimeType FunctionTime = 0;
   MembraneArrays Arrays;
   bool MembraneReady = false;
   EyeKey Key;

@@ -9,6 +9,7 @@
 
 #include "vtkCamera.h"
 #include "vtkDataObject.h"
+#include "vtkImplicitFunction.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
@@ -302,6 +303,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
     block.vertices.clear();
     block.images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
     block.images->SetPoints(block.points.data(), count, mayCross);
+    block.images->PrepareUnique(count, meniscus::FacetLoop);
   }
   std::vector<bool> known(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -361,6 +363,22 @@ vtkCamera* vtkRefractedGeometryFilter::GetCamera()
 }
 
 //------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::SetExactMembrane(vtkImplicitFunction* function)
+{
+  if (this->ExactMembrane != function)
+  {
+    this->ExactMembrane = function;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkImplicitFunction* vtkRefractedGeometryFilter::GetExactMembrane()
+{
+  return this->ExactMembrane;
+}
+
+//------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::SetMembraneData(vtkPolyData* membrane)
 {
   this->SetInputData(1, membrane);
@@ -370,7 +388,9 @@ void vtkRefractedGeometryFilter::SetMembraneData(vtkPolyData* membrane)
 vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 {
   const vtkMTimeType own = this->Superclass::GetMTime();
-  return this->Camera ? std::max(own, this->Camera->GetMTime()) : own;
+  const vtkMTimeType camera = this->Camera ? this->Camera->GetMTime() : 0;
+  const vtkMTimeType membrane = this->ExactMembrane ? this->ExactMembrane->GetMTime() : 0;
+  return std::max({ own, camera, membrane });
 }
 
 //------------------------------------------------------------------------------
@@ -582,8 +602,8 @@ void vtkRefractedGeometryFilter::WarnOfModes()
 bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
 {
   meniscus::SceneMessages messages;
-  const bool ready =
-    this->Internals->Scene.SetMembrane(membrane, this->MembraneModel == CURVED, messages);
+  const bool ready = this->Internals->Scene.SetMembrane(
+    membrane, this->MembraneModel == CURVED, messages, this->ExactMembrane);
   if (!messages.error.empty())
   {
     vtkErrorMacro(<< messages.error);
@@ -629,6 +649,7 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
   os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
      << "\n";
+  os << indent << "ExactMembrane: " << this->ExactMembrane.Get() << "\n";
   os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
   os << indent << "AngularTolerance: " << this->AngularTolerance << "\n";
   os << indent

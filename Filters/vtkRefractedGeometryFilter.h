@@ -98,6 +98,7 @@
 #include <memory> // For std::unique_ptr
 
 class vtkCamera;
+class vtkImplicitFunction;
 
 class VTKMENISCUS_EXPORT vtkRefractedGeometryFilter : public vtkPolyDataAlgorithm
 {
@@ -197,6 +198,19 @@ public:
   vtkGetMacro(MembraneModel, int);
   void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get the exact surface of a membrane that has a formula: its zero set. The membrane's points
+   * are moved onto it along the function's gradient, and their normals are that gradient, on the
+   * side of the membrane's own. The membrane says how far the surface reaches and how finely it is
+   * represented: planes and spheres are exact then, others off by the third order of a facet's
+   * size. Points that have no place on the zero set stay where they are, with a warning. Default is
+   * none.
+   */
+  void SetExactMembrane(vtkImplicitFunction* function);
+  vtkImplicitFunction* GetExactMembrane();
   ///@}
 
   ///@{
@@ -312,7 +326,7 @@ public:
   vtkTypeInt64 GetNumberOfSkippedFacets() const;
 
   /**
-   * Covers the camera.
+   * Covers the camera and the exact membrane.
    */
   vtkMTimeType GetMTime() override;
 
@@ -342,6 +356,7 @@ private:
   double ExteriorIndexOfRefraction = 1.0;
   double InteriorIndexOfRefraction = 1.333;
   int MembraneModel = CURVED;
+  vtkSmartPointer<vtkImplicitFunction> ExactMembrane;
   int Images = ALL_IMAGES;
   double AngularTolerance = 0.005;
   int ReflectanceModel = FRESNEL;

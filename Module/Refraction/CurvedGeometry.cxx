@@ -121,6 +121,8 @@ void CurvedGeometry::FindAxis()
   const double length = glm::length(sum);
   // Normals of a closed membrane cancel out.
   this->Axis = length > 0.0 && !this->Closed ? sum / length : glm::dvec3(0.0, 0.0, 1.0);
+  this->Frame = HeightFrame(this->Axis);
+  this->ConvexField = !this->Closed && IsConvexField(this->Surface, this->Patches, this->Frame);
   this->Lowest = std::numeric_limits<double>::max();
   this->Highest = std::numeric_limits<double>::lowest();
   for (std::size_t i = 0; i < this->Surface.GetFacets().size(); ++i)
@@ -342,12 +344,14 @@ VirtualVertex CurvedGeometry::SolvePoint(const glm::dvec3& point, Memory& memory
 }
 
 //------------------------------------------------------------------------------
-VirtualVertex CurvedGeometry::SolveNear(const glm::dvec3& point, const VirtualVertex& known) const
+VirtualVertex CurvedGeometry::SolveBetween(
+  const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const
 {
   const glm::dvec3 local = point - this->Surface.GetOrigin();
   Memory memory;
-  memory.place.facet = known.facet;
-  memory.place.root.at.position = known.sightPoint - this->Surface.GetOrigin();
+  memory.place.facet = first.facet;
+  memory.place.root.at.position =
+    0.5 * (first.sightPoint + second.sightPoint) - this->Surface.GetOrigin();
   memory.place.root.at.normal = this->Optics.eye - memory.place.root.at.position;
   memory.point = local;
   SightPlace place;

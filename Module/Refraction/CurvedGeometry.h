@@ -13,6 +13,7 @@
 
 #include "Refraction/CellTree.h"
 #include "Refraction/CurvedPatches.h"
+#include "Refraction/HeightField.h"
 #include "Refraction/MappingPlace.h"
 #include "Refraction/Membrane.h"
 #include "Refraction/SightEquation.h"
@@ -68,9 +69,31 @@ public:
   /// any.
   ImageState FindImages(const glm::dvec3& point, std::vector<VirtualVertex>& images) const;
 
-  /// The image of a point that continues a known image of a point nearby; NoImage if Newton's
-  /// method does not get there.
-  VirtualVertex SolveNear(const glm::dvec3& point, const VirtualVertex& known) const;
+  /// What a chain of points remembers: the last two answers.
+  struct Memory
+  {
+    SightPlace place;
+    glm::dvec3 point{ 0.0 };
+    glm::dvec3 pointStep{ 0.0 };
+    glm::dvec3 sightStep{ 0.0 };
+  };
+
+  /// One image of a point, as Solve finds it after the points that `memory` has seen.
+  VirtualVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
+
+  /// The directions that UniqueImages takes, along the mean of the membrane's normals, and whether
+  /// the membrane is a convex field along them.
+  const HeightFrame& GetFrame() const { return this->Frame; }
+  bool HasConvexField() const { return this->ConvexField; }
+
+  /// The image of a point that continues a known image of a point nearby, or two of points on both
+  /// sides; NoImage if Newton's method does not get there.
+  VirtualVertex SolveNear(const glm::dvec3& point, const VirtualVertex& known) const
+  {
+    return this->SolveBetween(point, known, known);
+  }
+  VirtualVertex SolveBetween(
+    const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const;
 
   /// Where the ray from the eye along the unit vector `direction` meets the membrane near the sight
   /// point of a known image, in world coordinates, with the unit normal. False if it does not.
@@ -136,20 +159,10 @@ private:
       });
   }
 
-  /// What a chain remembers: the last two answers.
-  struct Memory
-  {
-    SightPlace place;
-    glm::dvec3 point{ 0.0 };
-    glm::dvec3 pointStep{ 0.0 };
-    glm::dvec3 sightStep{ 0.0 };
-  };
-
   void FindAxis();
   void FindEnclosure();
   void BuildTree(CellTree& tree) const;
   bool IsEyeOnPatch(const CurvedPatch& patch) const;
-  VirtualVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
   bool Follow(const SightEquation& equation, const glm::dvec3& local, const Memory& memory,
     SightPlace& place) const;
   bool FindFirst(const SightEquation& equation, const glm::dvec3& local, SightPlace& place) const;
@@ -162,6 +175,8 @@ private:
   CellTree Columns;
   bool ColumnsReady = false;
   glm::dvec3 Axis{ 0.0 };
+  HeightFrame Frame;
+  bool ConvexField = false;
   double Lowest = 0.0;
   double Highest = 0.0;
   bool Closed = false;

@@ -57,6 +57,26 @@ struct ImageMesh
     this->orientations.push_back(static_cast<signed char>(orientation));
   }
 
+  /// A state to return to, when what has been added since turns out wrong.
+  struct Mark
+  {
+    std::size_t points;
+    std::size_t entries;
+    std::size_t cells;
+  };
+  Mark GetMark() const
+  {
+    return { this->points.size(), this->connectivity.size(), this->ends.size() };
+  }
+  void ReturnTo(const Mark& mark)
+  {
+    this->points.resize(mark.points);
+    this->connectivity.resize(mark.entries);
+    this->ends.resize(mark.cells);
+    this->sourceCells.resize(mark.cells);
+    this->orientations.resize(mark.cells);
+  }
+
   void Append(const ImageMesh& other)
   {
     const auto firstPoint = static_cast<std::int64_t>(this->points.size());

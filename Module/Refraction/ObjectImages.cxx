@@ -5,9 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace meniscus
 {
+namespace
+{
+
+// What a facet costs is a third of what a point saves.
+constexpr std::size_t FacetsPerPoint = 3;
+
+// Points that are tested together, a part of a chunk.
+constexpr std::size_t Run = 8;
+static_assert(ObjectImages::Chunk % Run == 0, "runs make chunks");
+
+}
 
 //------------------------------------------------------------------------------
 void ObjectImages::SetPoints(const double* points, std::size_t count, bool mayCross)
@@ -29,15 +41,86 @@ glm::dvec3 ObjectImages::GetPoint(std::int64_t id) const
 }
 
 //------------------------------------------------------------------------------
+void ObjectImages::PrepareUnique(std::size_t wanted, const RangeLoop& loop)
+{
+  const std::size_t facets = this->Geometry.GetMembrane().GetFacets().size();
+  if (!this->Geometry.HasConvexField() || FacetsPerPoint * wanted < facets)
+  {
+    return;
+  }
+  const HeightFrame& frame = this->Geometry.GetFrame();
+  const double origin = frame.GetHeight(this->Geometry.GetMembrane().GetOrigin());
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
+    if (this->Geometry.IsInReach(point - this->Geometry.GetMembrane().GetOrigin()))
+    {
+      low = std::min(low, frame.GetHeight(point));
+      high = std::max(high, frame.GetHeight(point));
+    }
+  }
+  if (low <= high)
+  {
+    // A point's height is off by a few roundings of its coordinates.
+    const double slack = 16.0 * std::numeric_limits<double>::epsilon() *
+      (std::fabs(low) + std::fabs(high) + std::fabs(origin) +
+        this->Geometry.GetMembrane().GetRadius());
+    this->Unique.Build(this->Geometry.GetMembrane(), this->Geometry.GetPatches(), frame,
+      this->Geometry.GetMedia(), low - origin - slack, high - origin + slack, loop);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Whether no point of the points' bounds has several images.
+bool ObjectImages::IsUnique(const std::int64_t* ids, std::size_t count) const
+{
+  if (this->Unique.IsEmpty())
+  {
+    return false;
+  }
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::dvec3 point = this->GetPoint(ids[i]);
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
+  return this->Unique.HoldsAtMostOne(low - origin, high - origin);
+}
+
+//------------------------------------------------------------------------------
 void ObjectImages::SolvePoints(std::size_t begin, std::size_t end)
 {
+  CurvedGeometry::Memory memory;
+  for (std::size_t i = begin; i < end; i += Run)
+  {
+    if (i % Chunk == 0)
+    {
+      memory = CurvedGeometry::Memory(); // a chunk does not depend on who solves it
+    }
+    this->SolveRun(i, std::min(i + Run, end), memory);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Points that follow each other are near each other in most objects: one test for a few of them.
+void ObjectImages::SolveRun(std::size_t begin, std::size_t end, CurvedGeometry::Memory& memory)
+{
+  if (!this->IsWanted(begin) || this->States[begin] != ImageState::NotAsked)
+  {
+    return;
+  }
+  std::array<std::int64_t, Run> ids;
+  std::iota(ids.begin(), ids.end(), static_cast<std::int64_t>(begin));
+  const bool areUnique = this->IsUnique(ids.data(), end - begin);
+  std::vector<VirtualVertex>& chunk = this->Chunks[begin / Chunk];
   std::vector<VirtualVertex> images;
   for (std::size_t i = begin; i < end; ++i)
   {
-    if (!this->IsWanted(i) || this->States[i] != ImageState::NotAsked)
-    {
-      continue;
-    }
     const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
     const glm::dvec3 local = point - this->Geometry.GetMembrane().GetOrigin();
     if (this->MayCross && this->Geometry.IsInReach(local) && !this->Geometry.IsBehindAll(local) &&
@@ -50,12 +133,29 @@ void ObjectImages::SolvePoints(std::size_t begin, std::size_t end)
     }
     else
     {
-      this->States[i] = this->Geometry.FindImages(point, images);
+      const bool isUnique = areUnique || this->IsUnique(&ids[i - begin], 1);
+      this->States[i] = this->FindImages(point, isUnique, memory, images);
     }
     this->Counts[i] = static_cast<std::uint32_t>(images.size());
-    std::vector<VirtualVertex>& chunk = this->Chunks[i / Chunk];
     chunk.insert(chunk.end(), images.begin(), images.end());
   }
+}
+
+//------------------------------------------------------------------------------
+ImageState ObjectImages::FindImages(const glm::dvec3& point, bool isUnique,
+  CurvedGeometry::Memory& memory, std::vector<VirtualVertex>& images) const
+{
+  if (!isUnique)
+  {
+    return this->Geometry.FindImages(point, images);
+  }
+  images.assign(1, this->Geometry.SolvePoint(point, memory));
+  const ImageState state = images.front().state;
+  if (state != ImageState::Found)
+  {
+    images.clear();
+  }
+  return state;
 }
 
 //------------------------------------------------------------------------------
@@ -100,72 +200,56 @@ ObjectImages::Side ObjectImages::FindSide(const std::int64_t* ids, std::size_t c
 }
 
 //------------------------------------------------------------------------------
-// Whether the image of the side's middle lies where the virtual side's is drawn, within the
-// tolerance at the eye. An image of another branch does not.
-bool ObjectImages::TestSide(std::int64_t from, std::int64_t to) const
+ImagedPoint ObjectImages::GetImagedPoint(std::int64_t id) const
 {
-  const auto image = [this](std::int64_t id) -> const VirtualVertex&
-  { return this->Images[this->First[static_cast<std::size_t>(id)]].vertex; };
-  const glm::dvec3 middle = 0.5 * (this->GetPoint(from) + this->GetPoint(to));
-  const VirtualVertex exact = this->Geometry.SolveNear(middle, image(from));
-  if (exact.state != ImageState::Found)
-  {
-    return false;
-  }
-  const glm::dvec3 eye = this->Geometry.GetMedia().eye + this->Geometry.GetMembrane().GetOrigin();
-  const glm::dvec3 drawn = 0.5 * (image(from).position + image(to).position) - eye;
-  const glm::dvec3 seen = exact.position - eye;
-  const glm::dvec3 across = glm::cross(drawn, seen);
-  const double squared = glm::dot(drawn, drawn) * glm::dot(seen, seen);
-  return glm::dot(across, across) <= this->Tolerance * this->Tolerance * squared;
+  return { id, this->GetPoint(id),
+    &this->Images[this->First[static_cast<std::size_t>(id)]].vertex };
 }
 
 //------------------------------------------------------------------------------
-// From the lower id to the higher one, so that both neighbours get one answer, cached or not.
-bool ObjectImages::IsSideStraight(std::int64_t a, std::int64_t b, SideCache& sides) const
+// Each of the points, all of them the same way round.
+bool ObjectImages::HaveOneImage(const std::int64_t* ids, std::size_t count) const
 {
-  const std::int64_t low = std::min(a, b);
-  const std::int64_t high = std::max(a, b);
-  const auto slot = static_cast<std::size_t>(low + 7 * (high - low)) % sides.entries.size();
-  SideCache::Entry& entry = sides.entries[slot];
-  if (entry.low != low || entry.high != high)
-  {
-    entry = { low, high, this->TestSide(low, high) };
-  }
-  return entry.isStraight;
+  return std::all_of(ids, ids + count,
+    [this, ids](std::int64_t id)
+    {
+      return this->GetNumberOfImages(static_cast<std::size_t>(id)) == 1 &&
+        this->GetImagedPoint(id).image->orientation ==
+        this->GetImagedPoint(ids[0]).image->orientation;
+    });
 }
 
 //------------------------------------------------------------------------------
+// Of points with one image each.
 bool ObjectImages::IsSimple(
-  const std::int64_t* ids, std::size_t count, bool isClosed, SideCache& sides) const
+  const std::int64_t* ids, std::size_t count, bool isClosed, CellDivision& division) const
 {
-  const auto image = [this, ids](std::size_t i) -> const VirtualVertex&
-  { return this->Images[this->First[static_cast<std::size_t>(ids[i])]].vertex; };
   glm::dvec3 middle(0.0);
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (this->GetNumberOfImages(static_cast<std::size_t>(ids[i])) != 1 ||
-      image(i).orientation != image(0).orientation)
-    {
-      return false;
-    }
     middle += this->GetPoint(ids[i]) / static_cast<double>(count);
-  }
-  for (std::size_t i = 0; i + 1 < count || (isClosed && i < count); ++i)
-  {
-    if (!this->IsSideStraight(ids[i], ids[(i + 1) % count], sides))
+    const bool hasSide = i + 1 < count || isClosed;
+    if (hasSide &&
+      !division.IsStraight(
+        this->GetImagedPoint(ids[i]), this->GetImagedPoint(ids[(i + 1) % count])))
     {
       return false;
     }
   }
   // Between sight points in one facet the membrane holds no surprise; over several it may.
-  const bool inOneFacet = std::all_of(ids, ids + count,
-    [this, &image](std::int64_t id) {
-      return this->Images[this->First[static_cast<std::size_t>(id)]].vertex.facet == image(0).facet;
-    });
+  const VirtualVertex& first = *this->GetImagedPoint(ids[0]).image;
+  if (std::all_of(ids, ids + count,
+        [this, &first](std::int64_t id)
+        { return this->GetImagedPoint(id).image->facet == first.facet; }))
+  {
+    return true;
+  }
+  if (this->IsUnique(ids, count))
+  {
+    return this->Geometry.SolveNear(middle, first).state == ImageState::Found;
+  }
   std::vector<VirtualVertex> images;
-  return inOneFacet ||
-    (this->Geometry.FindImages(middle, images) == ImageState::Found && images.size() == 1);
+  return this->Geometry.FindImages(middle, images) == ImageState::Found && images.size() == 1;
 }
 
 //------------------------------------------------------------------------------
@@ -186,28 +270,37 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
   std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
 {
   const MembraneMapping mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
+  CellDivision division(this->Geometry, this->Tolerance);
   CellReport report;
-  SideCache sides;
   for (std::size_t i = begin; i < end; ++i)
   {
     const std::int64_t* ids = cells.connectivity + cells.offsets[i];
     const auto count = static_cast<std::size_t>(cells.offsets[i + 1] - cells.offsets[i]);
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
-    if (side == Side::InFront || (side == Side::Behind && this->IsSimple(ids, count, false, sides)))
+    const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
+    if (side == Side::InFront || (isOne && this->IsSimple(ids, count, false, division)))
     {
       this->AddWhole(ids, count, cell, whole);
       ++report.whole;
       continue;
     }
     const std::size_t before = pieces.GetNumberOfCells();
+    bool isDivided = isOne;
     for (std::size_t k = 0; k + 1 < count; ++k)
     {
+      if (isOne && this->IsUnique(ids + k, 2) &&
+        division.AddLine(
+          this->GetImagedPoint(ids[k]), this->GetImagedPoint(ids[k + 1]), cell, pieces))
+      {
+        continue;
+      }
+      isDivided = false;
       mapping.MapLine({ { ids[k], ids[k + 1], ids[k] },
                         { this->GetPoint(ids[k]), this->GetPoint(ids[k + 1]), glm::dvec3(0.0) } },
         cell, side == Side::Both, pieces);
     }
-    ++(pieces.GetNumberOfCells() > before ? report.mapped : report.without);
+    report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }
   return report;
 }
@@ -218,8 +311,8 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
   ImageMesh& whole) const
 {
   const MembraneMapping mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
+  CellDivision division(this->Geometry, this->Tolerance);
   CellReport report;
-  SideCache sides;
   std::vector<std::int64_t> triangles;
   for (std::size_t i = begin; i < end; ++i)
   {
@@ -227,7 +320,8 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
     const auto count = static_cast<std::size_t>(cells.offsets[i + 1] - cells.offsets[i]);
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
-    if (side == Side::InFront || (side == Side::Behind && this->IsSimple(ids, count, true, sides)))
+    const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
+    if (side == Side::InFront || (isOne && this->IsSimple(ids, count, true, division)))
     {
       this->AddWhole(ids, count, cell, whole);
       ++report.whole;
@@ -239,7 +333,9 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
       triangulate(ids, count, triangles);
     }
     const std::size_t before = pieces.GetNumberOfCells();
-    for (std::size_t k = 0; k + 2 < triangles.size(); k += 3)
+    const bool isDivided = isOne && this->IsUnique(ids, count) &&
+      this->DividePolygon(ids, triangles, cell, division, pieces);
+    for (std::size_t k = 0; k + 2 < triangles.size() && !isDivided; k += 3)
     {
       const std::array<std::int64_t, 3> corner = { ids[triangles[k]], ids[triangles[k + 1]],
         ids[triangles[k + 2]] };
@@ -248,9 +344,29 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
           { this->GetPoint(corner[0]), this->GetPoint(corner[1]), this->GetPoint(corner[2]) } },
         cell, side == Side::Both, pieces);
     }
-    ++(pieces.GetNumberOfCells() > before ? report.mapped : report.without);
+    report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }
   return report;
+}
+
+//------------------------------------------------------------------------------
+bool ObjectImages::DividePolygon(const std::int64_t* ids,
+  const std::vector<std::int64_t>& triangles, std::int64_t cell, CellDivision& division,
+  ImageMesh& pieces) const
+{
+  const ImageMesh::Mark before = pieces.GetMark();
+  for (std::size_t k = 0; k + 2 < triangles.size(); k += 3)
+  {
+    if (!division.AddTriangle(
+          { this->GetImagedPoint(ids[triangles[k]]), this->GetImagedPoint(ids[triangles[k + 1]]),
+            this->GetImagedPoint(ids[triangles[k + 2]]) },
+          cell, pieces))
+    {
+      pieces.ReturnTo(before);
+      return false;
+    }
+  }
+  return true;
 }
 
 }

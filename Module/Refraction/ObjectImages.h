@@ -3,15 +3,18 @@
 /**
  * Every image of an object: of its points, and of its lines and polygons. A cell is simple, and
  * keeps its points, if each of them has one image and if the virtual cell is where the images of
- * the middles of its sides are, within a tolerance. All other cells are mapped from the membrane.
+ * the middles of its sides are, within a tolerance. A cell that is bent, but where no point can
+ * have several images, is divided. All other cells are mapped from the membrane.
  */
 #ifndef meniscus_Refraction_ObjectImages_h
 #define meniscus_Refraction_ObjectImages_h
 
+#include "Refraction/CellDivision.h"
 #include "Refraction/CurvedGeometry.h"
 #include "Refraction/ImageMesh.h"
 #include "Refraction/MembraneMapping.h"
 #include "Refraction/RangeLoop.h"
+#include "Refraction/UniqueImages.h"
 
 #include <array>
 #include <cstddef>
@@ -34,8 +37,14 @@ struct ObjectCells
 struct CellReport
 {
   std::size_t whole = 0;   ///< passed through with its points
+  std::size_t divided = 0; ///< shown once, but bent: divided into several
   std::size_t mapped = 0;  ///< mapped from the membrane, to any number of pieces
   std::size_t without = 0; ///< no image at all
+
+  void Count(bool isDivided, bool hasPieces)
+  {
+    ++(isDivided ? this->divided : (hasPieces ? this->mapped : this->without));
+  }
 };
 
 class ObjectImages
@@ -57,6 +66,10 @@ public:
   /// Takes the object's points, x, y, z each, borrowed; `mayCross` if any of them is not behind all
   /// of the membrane. Finds no image yet.
   void SetPoints(const double* points, std::size_t count, bool mayCross);
+
+  /// Finds out where points have one image at most, if that costs less than it saves for `wanted`
+  /// points. What is found does not depend on it, but for rounding.
+  void PrepareUnique(std::size_t wanted, const RangeLoop& loop);
 
   /// Chunks of points that are wanted from now on; none: all of them. What is solved is kept, for
   /// when it is wanted again, unless all of them were wanted.
@@ -98,27 +111,23 @@ private:
     Both
   };
 
-  /// Sides that have been tested, for the neighbour on the other side. Forgets what is in the way.
-  struct SideCache
-  {
-    struct Entry
-    {
-      std::int64_t low = -1;
-      std::int64_t high = -1;
-      bool isStraight = false;
-    };
-    std::array<Entry, 256> entries;
-  };
-
   glm::dvec3 GetPoint(std::int64_t id) const;
+  bool IsUnique(const std::int64_t* ids, std::size_t count) const;
+  void SolveRun(std::size_t begin, std::size_t end, CurvedGeometry::Memory& memory);
+  ImageState FindImages(const glm::dvec3& point, bool isUnique, CurvedGeometry::Memory& memory,
+    std::vector<VirtualVertex>& images) const;
   Side FindSide(const std::int64_t* ids, std::size_t count) const;
-  bool IsSimple(const std::int64_t* ids, std::size_t count, bool isClosed, SideCache& sides) const;
-  bool IsSideStraight(std::int64_t a, std::int64_t b, SideCache& sides) const;
-  bool TestSide(std::int64_t from, std::int64_t to) const;
+  bool HaveOneImage(const std::int64_t* ids, std::size_t count) const;
+  bool IsSimple(
+    const std::int64_t* ids, std::size_t count, bool isClosed, CellDivision& division) const;
+  ImagedPoint GetImagedPoint(std::int64_t id) const;
+  bool DividePolygon(const std::int64_t* ids, const std::vector<std::int64_t>& triangles,
+    std::int64_t cell, CellDivision& division, ImageMesh& pieces) const;
   void AddWhole(
     const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const;
 
   const CurvedGeometry& Geometry;
+  UniqueImages Unique;
   double Tolerance = 0.0;
   double Nearest = 0.0;
   double Farthest = 0.0;

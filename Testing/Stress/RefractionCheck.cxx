@@ -4,6 +4,7 @@
 
 #include "PatchSearch.h"
 #include "Refraction/CurvedGeometry.h"
+#include "Refraction/ObjectImages.h"
 #include "RefractionTriangles.h"
 #include "SightOracle.h"
 
@@ -178,6 +179,7 @@ private:
     }
     std::vector<VirtualVertex> first(this->Test.Points.size());
     this->Geometry.Solve(points.data(), 0, first.size(), first.data());
+    const ObjectImages object = this->solveObject(points);
     std::vector<VirtualVertex> images;
     for (std::size_t i = 0; i < this->Test.Points.size(); ++i)
     {
@@ -197,11 +199,54 @@ private:
       this->cutHoles(answer);
       this->Tally.Uncertain += !answer.uncertain.empty();
       this->compare(i, answer, images);
+      if (answer.uncertain.empty())
+      {
+        this->checkObject(i, object, images);
+      }
       this->checkFirst(i, answer, first[i]);
     }
     if (!this->Test.Triangles.empty())
     {
       this->Tally.add(checkTriangles(this->Test, this->Geometry, oracle, this->Error));
+    }
+  }
+
+  // All points as one object, with what tells where an image is the only one.
+  ObjectImages solveObject(const std::vector<double>& points) const
+  {
+    ObjectImages object(this->Geometry);
+    object.SetPoints(points.data(), points.size() / 3, false);
+    object.PrepareUnique(std::numeric_limits<std::uint32_t>::max(), SerialLoop);
+    object.SolvePoints(0, points.size() / 3);
+    object.FinishPoints();
+    return object;
+  }
+
+  // The same images as one by one.
+  void checkObject(
+    std::size_t i, const ObjectImages& object, const std::vector<VirtualVertex>& images)
+  {
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < i; ++k)
+    {
+      first += object.GetNumberOfImages(k);
+    }
+    bool same = object.GetNumberOfImages(i) == images.size();
+    for (std::size_t k = 0; k < object.GetNumberOfImages(i); ++k)
+    {
+      const glm::dvec3 sight = object.GetPointImages()[first + k].vertex.sightPoint;
+      same = same &&
+        std::any_of(images.begin(), images.end(),
+          [&](const VirtualVertex& vertex)
+          {
+            return glm::length(vertex.sightPoint - sight) <=
+              Rest * this->Test.FacetSize * this->Test.Scale + this->Rounding * this->Test.Scale;
+          });
+    }
+    if (!same)
+    {
+      this->count(&RefractionTally::Wrong, i, "other images as part of an object",
+        this->Test.Points[i].x, this->Test.Points[i].z);
     }
   }
 

@@ -77,6 +77,7 @@ std::vector<Piece> draw(const CurvedGeometry& geometry, const Triangle& triangle
   ObjectImages images(geometry);
   images.SetTolerance(Tolerance);
   images.SetPoints(&triangle[0].x, 3, false);
+  images.PrepareUnique(std::numeric_limits<std::uint32_t>::max(), SerialLoop);
   images.SolvePoints(0, 3);
   images.FinishPoints();
   const std::int64_t offsets[2] = { 0, 3 };

@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Membranes that have a formula.
+#include "HeightField.h"
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkDataArray.h"
+#include "vtkImplicitFunction.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPlane.h"
+#include "vtkPointData.h"
+#include "vtkSphere.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using namespace meniscus::reference;
+
+/// y - f(x, z).
+class HeightFunction : public vtkImplicitFunction
+{
+public:
+  static HeightFunction* New();
+  vtkTypeMacro(HeightFunction, vtkImplicitFunction);
+  using vtkImplicitFunction::EvaluateFunction;
+  double EvaluateFunction(double x[3]) override { return x[1] - this->field.GetHeight(x[0], x[2]); }
+  void EvaluateGradient(double x[3], double g[3]) override
+  {
+    double dx = 0.0;
+    double dz = 0.0;
+    this->field.GetSlopes(x[0], x[2], dx, dz);
+    g[0] = -dx;
+    g[1] = 1.0;
+    g[2] = -dz;
+  }
+
+  HeightField field;
+};
+vtkStandardNewMacro(HeightFunction);
+
+/// A function without a zero, or without a gradient.
+class NowhereZero : public vtkImplicitFunction
+{
+public:
+  static NowhereZero* New();
+  vtkTypeMacro(NowhereZero, vtkImplicitFunction);
+  using vtkImplicitFunction::EvaluateFunction;
+  double EvaluateFunction(double x[3]) override
+  {
+    return this->hasGradient ? 1.0 + x[1] * x[1] : 1.0;
+  }
+  void EvaluateGradient(double x[3], double g[3]) override
+  {
+    g[0] = 0.0;
+    g[1] = this->hasGradient ? 2.0 * x[1] : 0.0;
+    g[2] = 0.0;
+  }
+
+  bool hasGradient = true;
+};
+vtkStandardNewMacro(NowhereZero);
+
+std::vector<Point> MakeDepths()
+{
+  std::vector<Point> points;
+  for (int i = 0; i < 5; ++i)
+  {
+    for (int k = 0; k < 5; ++k)
+    {
+      points.push_back({ -40.0 + 20.0 * i, -30.0 - 5.0 * k, -40.0 + 20.0 * k });
+    }
+  }
+  return points;
+}
+
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeCurved(vtkPolyData* membrane)
+{
+  auto filter = MakeFilter(MakePoints(MakeDepths()), membrane);
+  filter->SetMembraneModelToCurved();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  return filter;
+}
+
+double FindLargestDifference(vtkPolyData* a, vtkPolyData* b)
+{
+  EXPECT_EQ(a->GetNumberOfPoints(), b->GetNumberOfPoints());
+  double largest = 0.0;
+  for (vtkIdType i = 0; i < std::min(a->GetNumberOfPoints(), b->GetNumberOfPoints()); ++i)
+  {
+    glm::dvec3 p;
+    glm::dvec3 q;
+    a->GetPoint(i, &p.x);
+    b->GetPoint(i, &q.x);
+    largest = std::max(largest, glm::length(p - q));
+  }
+  return largest;
+}
+
+}
+
+//------------------------------------------------------------------------------
+// A flat sheet and the waves' formula give what the waves' own mesh with exact normals gives. The
+// sheet's points move along the gradient, not upwards, so the patches are others, but as good.
+TEST(RefractedGeometryExact, SheetTakesTheShapeOfTheFormula)
+{
+  HeightField field;
+  field.amplitude = 1.0;
+  field.k = 0.02 * std::acos(-1.0);
+  vtkNew<HeightFunction> waves;
+  waves->field = field;
+  HeightField flat = field;
+  flat.amplitude = 0.0;
+  const auto exact = MakeCurved(MakeMembrane(field.MakeMesh(128)));
+  exact->Update();
+  ASSERT_EQ(exact->GetOutput()->GetNumberOfPoints(), 25);
+  double before = 0.0;
+  for (const int cells : { 16, 32 })
+  {
+    const auto filter = MakeCurved(MakeMembrane(flat.MakeMesh(cells), false));
+    filter->SetExactMembrane(waves);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+    const double error = FindLargestDifference(filter->GetOutput(), exact->GetOutput());
+    const auto own = MakeCurved(MakeMembrane(field.MakeMesh(cells)));
+    own->Update();
+    EXPECT_LT(error, 1.5 * FindLargestDifference(own->GetOutput(), exact->GetOutput()));
+    EXPECT_LT(error, before > 0.0 ? before / 6.0 : 1.0); // third order: an eighth
+    before = error;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Four facets that are only roughly on a sphere, with normals that are only roughly its own.
+TEST(RefractedGeometryExact, SpheresAreExactFromAnyMesh)
+{
+  const double radius = 400.0;
+  MembraneMesh rough;
+  MembraneMesh fine;
+  const auto onSphere = [radius](double x, double z)
+  { return glm::dvec3(x, std::sqrt(radius * radius - x * x - z * z) - radius, z); };
+  for (const int cells : { 2, 40 })
+  {
+    MembraneMesh& mesh = cells == 2 ? rough : fine;
+    for (int j = 0; j <= cells; ++j)
+    {
+      for (int i = 0; i <= cells; ++i)
+      {
+        const double x = 300.0 * i / cells - 150.0;
+        const double z = 300.0 * j / cells - 150.0;
+        const glm::dvec3 p = onSphere(x, z);
+        const glm::dvec3 off = cells == 2 ? glm::dvec3(i - 1.0, 3.0 - j, j - i) : glm::dvec3(0.0);
+        const glm::dvec3 center(0.0, -radius, 0.0);
+        mesh.AddPoint(p + off, glm::normalize(p - center + 20.0 * off));
+      }
+    }
+    const int row = cells + 1;
+    for (int j = 0; j < cells; ++j)
+    {
+      for (int i = 0; i < cells; ++i)
+      {
+        const std::int64_t a = j * row + i;
+        mesh.triangles.insert(
+          mesh.triangles.end(), { a, a + row, a + 1, a + 1, a + row, a + row + 1 });
+      }
+    }
+  }
+  vtkNew<vtkSphere> sphere;
+  sphere->SetCenter(0.0, -radius, 0.0);
+  sphere->SetRadius(radius);
+  const auto truth = MakeCurved(MakeMembrane(fine));
+  truth->Update();
+  const auto filter = MakeCurved(MakeMembrane(rough));
+  filter->SetExactMembrane(sphere);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 25);
+  EXPECT_LT(FindLargestDifference(filter->GetOutput(), truth->GetOutput()), 1e-7);
+
+  // Its inside counts as the other side only if the membrane's normals say so.
+  const auto turned = vtkSmartPointer<vtkPolyData>::New();
+  turned->DeepCopy(MakeMembrane(rough));
+  vtkDataArray* normals = turned->GetPointData()->GetNormals();
+  for (vtkIdType i = 0; i < normals->GetNumberOfTuples(); ++i)
+  {
+    double n[3];
+    normals->GetTuple(i, n);
+    normals->SetTuple3(i, -n[0], -n[1], -n[2]);
+  }
+  const auto below = MakeCurved(turned);
+  below->SetExactMembrane(sphere);
+  const auto messages = Observe(below);
+  below->Update();
+  EXPECT_EQ(below->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryExact, NothingIsFittedAgainWithoutNeed)
+{
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(0.0, 1.0, 0.0);
+  const auto filter = MakeCurved(MakeFlatMembrane());
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
+  filter->SetExactMembrane(plane); // the same surface
+  filter->Update();
+  filter->SetExteriorIndexOfRefraction(1.1);
+  filter->Update();
+  const vtkTypeInt64 builds = filter->GetNumberOfPatchBuilds();
+  plane->SetOrigin(0.0, -1.0, 0.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), builds + 1);
+  const double* sight = filter->GetOutput()->GetPointData()->GetArray("SightPoint")->GetTuple3(0);
+  EXPECT_NEAR(sight[1], -1.0, 1e-9);
+  filter->SetEyePosition(0.0, 100.0, 0.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), builds + 1);
+  filter->SetExactMembrane(nullptr);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), builds + 2);
+  EXPECT_NEAR(
+    filter->GetOutput()->GetPointData()->GetArray("SightPoint")->GetComponent(0, 1), 0.0, 1e-9);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryExact, FunctionsWithoutAZeroLeaveTheMembraneWithAWarning)
+{
+  const auto plain = MakeCurved(MakeFlatMembrane());
+  plain->Update();
+  for (const bool hasGradient : { true, false })
+  {
+    vtkNew<NowhereZero> nowhere;
+    nowhere->hasGradient = hasGradient;
+    const auto filter = MakeCurved(MakeFlatMembrane());
+    filter->SetExactMembrane(nowhere);
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->errors, 0) << messages->text;
+    EXPECT_EQ(messages->warnings, 1);
+    EXPECT_NE(messages->text.find("81 of 81"), std::string::npos) << messages->text;
+    EXPECT_LT(FindLargestDifference(filter->GetOutput(), plain->GetOutput()), 1e-9);
+  }
+}

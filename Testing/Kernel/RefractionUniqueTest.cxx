@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Where points have one image at most, against a search for all of them; cells divided there.
+#include "HeightField.h"
+#include "MembraneMeshes.h"
+#include "Refraction/CellDivision.h"
+#include "Refraction/CurvedGeometry.h"
+#include "Refraction/HeightField.h"
+#include "Refraction/UniqueImages.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+#include <tuple>
+
+namespace
+{
+
+using meniscus::CellDivision;
+using meniscus::CurvedGeometry;
+using meniscus::EyeStatus;
+using meniscus::ImagedPoint;
+using meniscus::ImageMesh;
+using meniscus::ImageState;
+using meniscus::MembraneStatus;
+using meniscus::UniqueImages;
+using meniscus::VirtualVertex;
+using meniscus::reference::HeightField;
+using meniscus::reference::MembraneMesh;
+
+constexpr double Pi = 3.14159265358979323846;
+
+class Random
+{
+public:
+  explicit Random(unsigned seed)
+    : Engine(seed)
+  {
+  }
+  double operator()(double low, double high)
+  {
+    return low + (high - low) * (this->Engine() / 4294967296.0);
+  }
+  glm::dvec3 point(const glm::dvec3& low, const glm::dvec3& high)
+  {
+    const double x = (*this)(low.x, high.x);
+    const double y = (*this)(low.y, high.y);
+    return { x, y, (*this)(low.z, high.z) };
+  }
+
+private:
+  std::mt19937 Engine;
+};
+
+void Set(CurvedGeometry& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
+  double interior = 1.333)
+{
+  ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+  ASSERT_EQ(geometry.SetEye(eye, 1.0, interior), EyeStatus::Ready);
+}
+
+UniqueImages Build(const CurvedGeometry& geometry, double low, double high)
+{
+  UniqueImages unique;
+  unique.Build(geometry.GetMembrane(), geometry.GetPatches(), geometry.GetFrame(),
+    geometry.GetMedia(), low, high, meniscus::SerialLoop);
+  return unique;
+}
+
+struct UniqueCase
+{
+  const char* name;
+  HeightField field;
+  glm::dvec3 eye;
+  int cells;
+  double depth;
+  int leastUnique; ///< percent
+  int leastSeveral;
+};
+
+// Exteriors of index 1. The last two focus, so that some points have several images.
+const UniqueCase Cases[] = {
+  { "plane", { HeightField::Shape::Waves, 200.0, 0.0, 0.04 * Pi, 1.0, 1.333 },
+    { 20.0, 300.0, 10.0 }, 32, 400.0, 100, 0 },
+  { "calm waves", { HeightField::Shape::Waves, 200.0, 0.5, 0.04 * Pi, 1.0, 1.333 },
+    { 20.0, 300.0, 10.0 }, 32, 100.0, 95, 0 },
+  { "waves", { HeightField::Shape::Waves, 200.0, 3.0, 0.04 * Pi, 1.0, 1.333 },
+    { 20.0, 300.0, 10.0 }, 96, 250.0, 8, 5 },
+  { "dome", { HeightField::Shape::Dome, 200.0, 30.0, 0.025, 1.0, 1.5 }, { 5.0, 400.0, 3.0 }, 64,
+    300.0, 10, 2 },
+};
+
+class RefractionUnique : public testing::TestWithParam<UniqueCase>
+{
+};
+
+}
+
+//------------------------------------------------------------------------------
+// Each box that is said to hold no point with several images is searched at random points.
+TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
+{
+  const UniqueCase& test = GetParam();
+  CurvedGeometry geometry;
+  Set(geometry, test.field.MakeMesh(test.cells), test.eye, test.field.interior);
+  ASSERT_TRUE(geometry.HasConvexField());
+  const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
+  const UniqueImages unique = Build(geometry, -test.depth - origin.y, -40.0 - origin.y);
+  Random random(5);
+  std::vector<VirtualVertex> found;
+  int boxes = 0;
+  int several = 0;
+  constexpr int count = 500;
+  for (int i = 0; i < count; ++i)
+  {
+    const glm::dvec3 middle =
+      random.point({ -80.0, -test.depth + 5.0, -80.0 }, { 80.0, -45.0, 80.0 });
+    const glm::dvec3 half(random(0.0, 4.0));
+    const bool isUnique = unique.HoldsAtMostOne(middle - half - origin, middle + half - origin);
+    boxes += isUnique;
+    for (int k = 0; k < 5; ++k)
+    {
+      geometry.FindImages(random.point(middle - half, middle + half), found);
+      several += found.size() > 1;
+      ASSERT_TRUE(!isUnique || found.size() <= 1) << test.name << " box " << i;
+    }
+  }
+  EXPECT_GE(100 * boxes, test.leastUnique * count) << boxes;
+  EXPECT_GE(100 * several, test.leastSeveral * 5 * count) << several;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, testing::ValuesIn(Cases));
+
+//------------------------------------------------------------------------------
+TEST(RefractionUnique, HeightsOutOfRangeAreNotTold)
+{
+  CurvedGeometry geometry;
+  Set(geometry, Cases[0].field.MakeMesh(8), Cases[0].eye);
+  const UniqueImages unique = Build(geometry, -100.0, -50.0);
+  EXPECT_TRUE(unique.HoldsAtMostOne({ 0.0, -100.0, 0.0 }, { 1.0, -50.0, 1.0 }));
+  EXPECT_FALSE(unique.HoldsAtMostOne({ 0.0, -101.0, 0.0 }, { 1.0, -60.0, 1.0 }));
+  EXPECT_FALSE(unique.HoldsAtMostOne({ 0.0, -60.0, 0.0 }, { 1.0, -49.0, 1.0 }));
+  const double nan = std::nan("");
+  EXPECT_FALSE(unique.HoldsAtMostOne(glm::dvec3(nan), glm::dvec3(nan)));
+  EXPECT_FALSE(UniqueImages().HoldsAtMostOne(glm::dvec3(0.0), glm::dvec3(0.0)));
+}
+
+//------------------------------------------------------------------------------
+// A sheet of triangles given by rows of heights over a grid, with holes.
+namespace
+{
+
+MembraneMesh MakeSheet(int cells, const std::function<glm::dvec3(int, int)>& point,
+  const std::function<bool(int, int)>& isThere)
+{
+  MembraneMesh mesh;
+  for (int j = 0; j <= cells; ++j)
+  {
+    for (int i = 0; i <= cells; ++i)
+    {
+      const glm::dvec3 p = point(i, j);
+      mesh.points.insert(mesh.points.end(), { p.x, p.y, p.z });
+    }
+  }
+  const auto id = [cells](int i, int j) { return static_cast<std::int64_t>(j * (cells + 1) + i); };
+  for (int j = 0; j < cells; ++j)
+  {
+    for (int i = 0; i < cells; ++i)
+    {
+      if (isThere(i, j))
+      {
+        mesh.triangles.insert(mesh.triangles.end(),
+          { id(i, j), id(i, j + 1), id(i + 1, j), id(i + 1, j), id(i, j + 1), id(i + 1, j + 1) });
+      }
+    }
+  }
+  return mesh;
+}
+
+bool IsConvex(const MembraneMesh& mesh)
+{
+  CurvedGeometry geometry;
+  EXPECT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+  return geometry.HasConvexField();
+}
+
+const auto Everywhere = [](int, int) { return true; };
+const auto Flat = [](int i, int j) { return glm::dvec3(i, 0.0, j); };
+
+}
+
+TEST(RefractionHeightField, OnlyAConvexSheetWithoutHolesIsOne)
+{
+  EXPECT_TRUE(IsConvex(MakeSheet(4, Flat, Everywhere)));
+  // Turned and moved: sides of the border are collinear up to rounding only.
+  const auto turned = [](int i, int j)
+  {
+    const glm::dvec3 u = glm::normalize(glm::dvec3(1.0, 0.3, -0.2));
+    const glm::dvec3 v = glm::normalize(glm::cross(u, glm::dvec3(0.1, 1.0, 0.7)));
+    return 1e5 + (0.1 * i) * u + (0.1 * j) * v;
+  };
+  EXPECT_TRUE(IsConvex(MakeSheet(9, turned, Everywhere)));
+  EXPECT_FALSE(IsConvex(MakeSheet(4, Flat, [](int i, int j) { return i != 1 || j != 1; }))); // hole
+  EXPECT_FALSE(IsConvex(MakeSheet(4, Flat, [](int i, int j) { return i != 3 || j != 3; }))); // L
+  EXPECT_FALSE(IsConvex(MakeSheet(4, Flat, [](int i, int) { return i != 1; }))); // two pieces
+  // Two squares that touch in a point.
+  EXPECT_FALSE(IsConvex(MakeSheet(2, Flat, [](int i, int j) { return i == j; })));
+  // Folded over itself.
+  const auto folded = [](int i, int j)
+  { return i < 3 ? glm::dvec3(i, 0.0, j) : glm::dvec3(5.0 - i, 0.5, j); };
+  EXPECT_FALSE(IsConvex(MakeSheet(4, folded, Everywhere)));
+}
+
+//------------------------------------------------------------------------------
+// Triangles of a divided square lie within the tolerance of the true images, have no cracks, and
+// cover the square once: areas in the object add up, and every inner edge has two triangles.
+TEST(RefractionDivision, TrianglesAreStraightAndTile)
+{
+  const UniqueCase& test = Cases[1];
+  CurvedGeometry geometry;
+  Set(geometry, test.field.MakeMesh(test.cells), test.eye);
+  constexpr double tolerance = 1e-4;
+  const glm::dvec3 points[4] = { { -50.0, -90.0, -50.0 }, { 50.0, -90.0, -50.0 },
+    { 50.0, -90.0, 50.0 }, { -50.0, -90.0, 50.0 } };
+  std::vector<VirtualVertex> vertices(4);
+  geometry.Solve(&points[0].x, 0, 4, vertices.data());
+  ImagedPoint corners[4];
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    ASSERT_EQ(vertices[i].state, ImageState::Found);
+    corners[i] = { static_cast<std::int64_t>(i), points[i], &vertices[i] };
+  }
+  CellDivision division(geometry, tolerance);
+  ImageMesh images;
+  ASSERT_TRUE(division.AddTriangle({ corners[0], corners[1], corners[2] }, 7, images));
+  ASSERT_TRUE(division.AddTriangle({ corners[0], corners[2], corners[3] }, 7, images));
+  ASSERT_GT(images.GetNumberOfCells(), 100u);
+
+  const auto place = [&points](const meniscus::ImagePoint& point)
+  {
+    glm::dvec3 sum(0.0);
+    for (std::size_t k = 0; k < 3 && point.weight[k] != 0.0; ++k)
+    {
+      sum += point.weight[k] * points[point.source[k]];
+    }
+    return sum;
+  };
+  using Key = std::tuple<double, double>;
+  std::map<std::pair<Key, Key>, int> sides;
+  double area = 0.0;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < images.GetNumberOfCells(); ++i)
+  {
+    ASSERT_EQ(images.ends[i], static_cast<std::int64_t>(3 * i + 3));
+    EXPECT_EQ(images.sourceCells[i], 7);
+    glm::dvec3 at[3];
+    glm::dvec3 drawn(0.0);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const auto& point = images.points[static_cast<std::size_t>(images.connectivity[3 * i + k])];
+      at[k] = place(point);
+      drawn += point.vertex.position / 3.0;
+    }
+    area += 0.5 * std::fabs(glm::cross(at[1] - at[0], at[2] - at[0]).y);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const Key a(at[k].x, at[k].z);
+      const Key b(at[(k + 1) % 3].x, at[(k + 1) % 3].z);
+      ++sides[{ std::min(a, b), std::max(a, b) }];
+    }
+    const glm::dvec3 middle = (at[0] + at[1] + at[2]) / 3.0;
+    VirtualVertex exact;
+    geometry.Solve(&middle.x, 0, 1, &exact);
+    const glm::dvec3 seen = glm::normalize(exact.position - test.eye);
+    worst = std::max(worst, glm::length(glm::cross(seen, glm::normalize(drawn - test.eye))));
+  }
+  EXPECT_NEAR(area, 1e4, 1e-6);
+  // The middle of a triangle bends by up to 4/3 of what the middles of its edges do, if by second
+  // degree.
+  EXPECT_LT(worst, 1.5 * tolerance);
+  double border = 0.0;
+  for (const auto& [ends, count] : sides)
+  {
+    const auto [a, b] = ends;
+    const glm::dvec2 side(std::get<0>(b) - std::get<0>(a), std::get<1>(b) - std::get<1>(a));
+    border += count == 1 ? glm::length(side) : 0.0;
+    EXPECT_LE(count, 2);
+  }
+  EXPECT_NEAR(border, 400.0, 1e-6); // no side within the square is without its neighbour
+}
+
+//------------------------------------------------------------------------------
+// A line that leaves what the membrane shows is not divided, and nothing of it is left.
+TEST(RefractionDivision, NothingIsAddedWhereAnImageIsMissing)
+{
+  const UniqueCase& test = Cases[0];
+  CurvedGeometry geometry;
+  Set(geometry,
+    MakeSheet(
+      20, [](int i, int j) { return glm::dvec3(i - 10.0, 0.0, j - 10.0); },
+      [](int i, int) { return i < 8 || i > 11; }),
+    test.eye);
+  const glm::dvec3 points[2] = { { -9.0, -2.0, 0.0 }, { 9.0, -2.0, 0.0 } };
+  std::vector<VirtualVertex> vertices(2);
+  geometry.Solve(&points[0].x, 0, 2, vertices.data());
+  ASSERT_EQ(vertices[0].state, ImageState::Found);
+  ASSERT_EQ(vertices[1].state, ImageState::Found);
+  CellDivision division(geometry, 1e-4);
+  ImageMesh images;
+  EXPECT_FALSE(
+    division.AddLine({ 0, points[0], &vertices[0] }, { 1, points[1], &vertices[1] }, 0, images));
+  EXPECT_TRUE(images.points.empty());
+  EXPECT_TRUE(images.connectivity.empty());
+  EXPECT_EQ(images.GetNumberOfCells(), 0u);
+}
