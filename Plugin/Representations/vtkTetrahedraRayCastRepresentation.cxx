@@ -3,7 +3,11 @@
 #include "vtkTetrahedraRayCastRepresentation.h"
 
 #include "vtkColorTransferFunction.h"
+#include "vtkCommunicator.h"
 #include "vtkContourValues.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
@@ -11,6 +15,7 @@
 #include "vtkTetrahedraRayCastMapper.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
+#include "vtkVolumeRepresentationPreprocessor.h"
 
 vtkStandardNewMacro(vtkTetrahedraRayCastRepresentation);
 
@@ -36,6 +41,63 @@ int vtkTetrahedraRayCastRepresentation::ProcessViewRequest(
     vtkPVRenderView::SetRedistributionModeToSplitBoundaryCells(inputs, this);
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayCastRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const int succeeded = this->Superclass::RequestData(request, inputs, outputs);
+  this->LeaveOutWithoutArray();
+  return succeeded;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::LeaveOutWithoutArray()
+{
+  vtkDataSet* grid = vtkDataSet::SafeDownCast(this->Preprocessor->GetOutputDataObject(0));
+  vtkInformation* info = this->GetInputArrayInformation(0);
+  if (!grid || !info || !info->Has(vtkDataObject::FIELD_NAME()))
+  {
+    return;
+  }
+  std::string name = info->Get(vtkDataObject::FIELD_NAME());
+  if (name.empty())
+  {
+    return;
+  }
+  name += this->UseSeparateOpacityArray ? "_and_opacity" : "";
+  const int place = info->Get(vtkDataObject::FIELD_ASSOCIATION());
+  vtkDataSetAttributes* arrays = grid->GetAttributes(place);
+  vtkDataArray* array = arrays ? arrays->GetArray(name.c_str()) : nullptr;
+
+  // Type and number of components, which a rank without the array has to learn.
+  int shape[2] = { array ? array->GetDataType() : 0, array ? array->GetNumberOfComponents() : 0 };
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  const int ranks = controller ? controller->GetNumberOfProcesses() : 1;
+  if (ranks > 1)
+  {
+    const int local[2] = { shape[0], shape[1] };
+    controller->AllReduce(local, shape, 2, vtkCommunicator::MAX_OP);
+  }
+  if (array || !arrays)
+  {
+    return;
+  }
+  if (grid->GetNumberOfCells() > 0)
+  {
+    vtkWarningMacro("There is no array '"
+      << name << "' on rank " << (ranks > 1 ? controller->GetLocalProcessId() : 0) << "; its "
+      << grid->GetNumberOfCells() << " cells are left out.");
+  }
+  grid->Initialize();
+  if (shape[0] != 0)
+  {
+    auto empty = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(shape[0]));
+    empty->SetName(name.c_str());
+    empty->SetNumberOfComponents(shape[1]);
+    arrays->AddArray(empty);
+  }
 }
 
 //------------------------------------------------------------------------------

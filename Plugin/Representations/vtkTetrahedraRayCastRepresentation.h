@@ -14,7 +14,9 @@
  * opacity array, components mix as vtkTetrahedraRayCastMapper says.
  *
  * Of several ranks each gets the cells of a box, cut at its sides. ParaView's own representation
- * gives cells whole to one box, so that what sticks out is composited in the wrong order.
+ * gives cells whole to one box, so that what sticks out is composited in the wrong order. Cells of
+ * a rank that does not have the chosen array are left out, with a warning; ParaView would drop the
+ * array on all ranks.
  */
 #ifndef vtkTetrahedraRayCastRepresentation_h
 #define vtkTetrahedraRayCastRepresentation_h
@@ -66,11 +68,15 @@ protected:
   vtkTetrahedraRayCastRepresentation();
   ~vtkTetrahedraRayCastRepresentation() override;
 
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void UpdateMapperParameters() override;
 
 private:
   vtkTetrahedraRayCastRepresentation(const vtkTetrahedraRayCastRepresentation&) = delete;
   void operator=(const vtkTetrahedraRayCastRepresentation&) = delete;
+
+  void LeaveOutWithoutArray();
 
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
 };

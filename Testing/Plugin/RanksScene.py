@@ -94,6 +94,30 @@ def draw_volume(prefix, name, mesh, array, balls):
     simple.Delete(view)
 
 
+WITHOUT_ARRAY = """
+from paraview.modules.vtkRemotingCore import vtkProcessModule
+output = self.GetOutputDataObject(0)
+output.ShallowCopy(self.GetInputDataObject(0, 0))
+if vtkProcessModule.GetProcessModule().GetPartitionId() == 1:
+    output.GetPointData().RemoveArray("RTData")
+"""
+
+
+def draw_without_array(prefix):
+    """One rank does not have the array: the others' cells are drawn, its own left out with a
+    warning."""
+    grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
+    mesh = simple.ProgrammableFilter(Input=grid, Script=WITHOUT_ARRAY)
+    view = PluginTesting.make_view()
+    display = simple.Show(mesh, view)
+    display.SetRepresentationType("Tetrahedra Ray Cast")
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    simple.ResetCamera(view)
+    drawn = len(PluginTesting.covered(PluginTesting.screenshot(view, prefix + "WithoutArray")))
+    assert drawn > 0.1 * PluginTesting.SIZE**2, "%d pixels drawn" % drawn
+    simple.Delete(view)
+
+
 def write_points(prefix, name, source):
     """The points of all ranks, with the depth behind the membrane."""
     data = servermanager.Fetch(source)
@@ -129,6 +153,7 @@ def main():
     for mesh in data_meshes(names) if names else made_meshes():
         draw_volume(prefix, *mesh, ["Ball"] if names else ["", "Ball"])
     if not names:
+        draw_without_array(prefix)
         refract(prefix)
 
 

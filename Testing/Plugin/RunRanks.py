@@ -70,10 +70,15 @@ def run(mpirun, pvbatch, ranks, names):
     command = [mpirun, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), pvbatch,
                os.path.join(HERE, "RanksScene.py"), "Ranks%d" % ranks] + names
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if "invalid token" in done.stdout:
+        print("SKIPPED: this ParaView cannot send cells between ranks with the installed libexpat "
+              "(newer than 2.5.0-1+deb12u1)")
+        sys.exit(SKIP)
     if "FINISHED" not in done.stdout or " ERR|" in done.stdout:
         print(done.stdout)
         sys.exit("ParaView failed on %d ranks" % ranks)
-    return done.stdout
+    if not names and ranks > 1 and "There is no array 'RTData' on rank 1" not in done.stdout:
+        sys.exit("A rank without the array is not told of")
 
 
 def main():
