@@ -140,7 +140,8 @@ std::array<double, 3> DemoWater::GetNormal(double x, double y) const
   std::array<double, 3> normal = { 0.0, 0.0, 1.0 };
   for (const auto& wave : Waves)
   {
-    const double slope = this->WaveHeight * wave[0] * std::cos(wave[1] * x + wave[2] * y + wave[3] * this->Time);
+    const double slope =
+      this->WaveHeight * wave[0] * std::cos(wave[1] * x + wave[2] * y + wave[3] * this->Time);
     normal[0] -= wave[1] * slope;
     normal[1] -= wave[2] * slope;
   }

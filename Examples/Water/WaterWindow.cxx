@@ -111,8 +111,8 @@ void WaterWindow::Show(const WaterSettings& settings)
   const auto mesh = water.MakeMesh(WaterCells);
   this->Filter->SetMembraneData(mesh);
   this->Filter->SetInteriorIndexOfRefraction(settings.Index);
-  this->Filter->SetMembraneModel(settings.Curved ? vtkRefractedGeometryFilter::CURVED
-                                                 : vtkRefractedGeometryFilter::FLAT_FACETS);
+  this->Filter->SetMembraneModel(
+    settings.Curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FLAT_FACETS);
   this->Filter->SetImages(settings.Curved ? vtkRefractedGeometryFilter::ALL_IMAGES
                                           : vtkRefractedGeometryFilter::FIRST_IMAGE);
   vtkPolyDataMapper::SafeDownCast(this->Water->GetMapper())->SetInputData(mesh);
@@ -158,9 +158,8 @@ void WaterWindow::ShowRays(const WaterSettings& settings)
   view.angle = camera->GetViewAngle();
   vtkNew<vtkImageData> picture;
   picture->SetDimensions(this->Size, this->Size, 1);
-  picture->GetPointData()->SetScalars(
-    TraceDemoWell(this->Well, DemoWater(settings.Time, settings.WaveHeight, settings.Index), view,
-      this->Size, Background));
+  picture->GetPointData()->SetScalars(TraceDemoWell(this->Well,
+    DemoWater(settings.Time, settings.WaveHeight, settings.Index), view, this->Size, Background));
   this->TracedPicture->SetInputData(picture);
 }
 

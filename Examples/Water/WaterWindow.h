@@ -22,12 +22,12 @@ class vtkTextActor;
 struct WaterSettings
 {
   double Time = 0.0;
-  double WaveHeight = 1.0;       ///< 0 to 2
-  double Index = 1.333;          ///< of the water, 1 to 2.5
-  double Attenuation = 0.25;     ///< of red light per length; green and blue lose less
-  bool Curved = true;            ///< or the thesis's flat facets
-  bool Refracts = true;          ///< or the well as it is
-  bool ShowsRays = false;        ///< the ray-traced twin beside it, both without the extras
+  double WaveHeight = 1.0;   ///< 0 to 2
+  double Index = 1.333;      ///< of the water, 1 to 2.5
+  double Attenuation = 0.25; ///< of red light per length; green and blue lose less
+  bool Curved = true;        ///< or the thesis's flat facets
+  bool Refracts = true;      ///< or the well as it is
+  bool ShowsRays = false;    ///< the ray-traced twin beside it, both without the extras
 };
 
 /**

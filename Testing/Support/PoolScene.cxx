@@ -224,8 +224,7 @@ vtkSmartPointer<vtkPolyData> makeWalls()
   return triangles->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> place(
-  vtkPolyDataAlgorithm* source, const glm::dvec3& at, double turn)
+vtkSmartPointer<vtkPolyData> place(vtkPolyDataAlgorithm* source, const glm::dvec3& at, double turn)
 {
   vtkNew<vtkTransform> transform;
   transform->Translate(at.x, at.y, at.z);
@@ -306,7 +305,8 @@ double fresnel(double cosine)
 //------------------------------------------------------------------------------
 glm::dvec3 skyColor(const glm::dvec3& d)
 {
-  return 0.5 + 0.3 * glm::dvec3(std::sin(3.0 * d.x), std::sin(2.0 * d.y + 1.0), std::cos(3.0 * d.z));
+  return 0.5 +
+    0.3 * glm::dvec3(std::sin(3.0 * d.x), std::sin(2.0 * d.y + 1.0), std::cos(3.0 * d.z));
 }
 
 //------------------------------------------------------------------------------
