@@ -23,6 +23,12 @@ RayCastNative::RayCastNative()
 void RayCastNative::UpdateProperty(const VolumePropertyTables& property)
 {
   this->Tables.Intervals = PackIntervals(property.GetIntervals());
+  this->Tables.GradientIntervals = PackIntervals(property.GetGradientIntervals());
+  this->Tables.OtherIntervals.clear();
+  for (const std::vector<TransferFunctionInterval>& intervals : property.GetOtherIntervals())
+  {
+    this->Tables.OtherIntervals.push_back(PackIntervals(intervals));
+  }
   this->Tables.Surfaces.clear();
   for (const Isosurface& surface : property.GetIsosurfaces())
   {
@@ -30,9 +36,19 @@ void RayCastNative::UpdateProperty(const VolumePropertyTables& property)
     this->Tables.Surfaces.push_back(
       { surface.Scalar, surface.Opacity, { color.r, color.g, color.b } });
   }
-  this->TableBytes +=
-    static_cast<std::int64_t>(this->Tables.Intervals.size() * sizeof(PacketInterval) +
-      this->Tables.Surfaces.size() * sizeof(PacketSurface));
+  this->TableBytes += this->GetPropertyBytes();
+}
+
+//------------------------------------------------------------------------------
+std::int64_t RayCastNative::GetPropertyBytes() const
+{
+  std::int64_t bytes = BytesOf(this->Tables.Intervals) + BytesOf(this->Tables.Surfaces) +
+    BytesOf(this->Tables.GradientIntervals);
+  for (const std::vector<PacketInterval>& intervals : this->Tables.OtherIntervals)
+  {
+    bytes += BytesOf(intervals);
+  }
+  return bytes;
 }
 
 //------------------------------------------------------------------------------

@@ -43,13 +43,14 @@ public:
   /** Bytes of the tables. */
   std::int64_t GetBytes() const
   {
-    return BytesOf(this->Tables.Vertices) + BytesOf(this->Tables.Intervals) +
-      BytesOf(this->Tables.Surfaces);
+    return BytesOf(this->Tables.Vertices) + this->GetPropertyBytes();
   }
   /** Bytes of tables made, ever. */
   std::int64_t GetTableBytes() const { return this->TableBytes; }
 
 private:
+  std::int64_t GetPropertyBytes() const;
+
   PacketTables Tables;
   PixelRays PlacedBy;
   VertexVersion PlacedVersion{ 0, 0 };

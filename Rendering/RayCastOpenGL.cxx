@@ -411,7 +411,7 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
   program->SetUniform2f("depthNumerator", glm::value_ptr(glm::vec2(rays.DepthNumerator)));
   program->SetUniform2f("depthDenominator", glm::value_ptr(glm::vec2(rays.DepthDenominator)));
   program->SetUniformf(
-    "terminationTransmittance", static_cast<float>(1.0 - frame.EarlyTerminationOpacity));
+    "terminationTransmittance", static_cast<float>(frame.TerminationTransmittance()));
 }
 
 //------------------------------------------------------------------------------

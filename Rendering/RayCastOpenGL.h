@@ -13,6 +13,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -46,6 +47,11 @@ struct RayCastFrame
 {
   RayFrame Rays;
   double EarlyTerminationOpacity;
+  /** What of a ray ends it. Where so little is left, single precision has no digits to lose. */
+  double TerminationTransmittance() const
+  {
+    return std::max(1.0 - this->EarlyTerminationOpacity, 1.0e-30);
+  }
   RayCastOptics Optics;
   RayCastOutput Output;
   /** By a compute shader, not a fragment shader. */

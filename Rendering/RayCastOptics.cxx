@@ -69,13 +69,6 @@ RayCastLight ToFrame(vtkLight* source, const OpticsPlace& place)
 }
 
 //------------------------------------------------------------------------------
-bool RayCastOptics::IsPlain() const
-{
-  return !this->HasComponents() && !this->PreIntegrated &&
-    (this->BlendMode == vtkVolumeMapper::ISOSURFACE_BLEND || !this->UsesGradients());
-}
-
-//------------------------------------------------------------------------------
 bool UsesGradientOpacity(vtkVolumeProperty* property)
 {
   if (!property->HasGradientOpacity() || property->GetDisableGradientOpacity() != 0)

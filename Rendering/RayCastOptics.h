@@ -56,11 +56,6 @@ struct RayCastOptics
     return this->BlendMode == 0 && !this->UsesGradients() && !this->HasComponents() &&
       !this->CellScalars;
   }
-  /**
-   * Whether the medium's light and opacity do without gradients, several components and
-   * pre-integration.
-   */
-  bool IsPlain() const;
 };
 
 /** Where the mesh lies for optics: its centre in world and view coordinates, and view coordinates.

@@ -138,12 +138,17 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
   {
     this->UpdateGradients();
     scene.VertexGradients = this->Gradients.data();
-    scene.GradientToFrame = frame.Optics.GradientToFrame;
   }
+  scene.GradientToFrame = frame.Optics.GradientToFrame;
+  scene.GradientOpacity = frame.Optics.GradientOpacity;
+  scene.GradientMagnitude = frame.Optics.GradientMagnitude;
   // The numbers are the same.
   scene.Blending = static_cast<PacketBlending>(frame.Optics.BlendMode);
+  scene.Mixture = static_cast<PacketMixture>(frame.Optics.Components);
+  scene.Components = frame.Optics.HasComponents() ? this->Components.GetValues().data() : nullptr;
+  scene.PreIntegration = frame.Optics.PreIntegrated ? &this->PreIntegration.GetTable() : nullptr;
   scene.ClippingPlanes = frame.Optics.ClippingPlanes;
-  scene.TerminationTransmittance = static_cast<float>(1.0 - frame.EarlyTerminationOpacity);
+  scene.TerminationTransmittance = static_cast<float>(frame.TerminationTransmittance());
   return this->OpenGL.DrawImageOf(
     [this, &scene, &frame](
       int width, int height, const std::vector<float>& depths, std::vector<float>& image)

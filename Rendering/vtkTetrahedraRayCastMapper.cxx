@@ -36,7 +36,6 @@ public:
   std::string ToldOfParts;
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
-  bool WarnedNative = false;
   bool WarnedComponents = false;
   bool WarnedCompute = false;
   bool WarnedTableSize = false;
@@ -248,20 +247,16 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
 }
 
 //------------------------------------------------------------------------------
-int vtkTetrahedraRayCastMapper::ChooseBackend(bool plainOptics)
+int vtkTetrahedraRayCastMapper::ChooseBackend()
 {
   if (this->Backend == AUTOMATIC)
   {
-    return plainOptics && this->Internals->OpenGL.IsSoftware() ? NATIVE : OPENGL;
+    return this->Internals->OpenGL.IsSoftware() ? NATIVE : OPENGL;
   }
-  const bool nativeLacks = this->Backend == NATIVE && !plainOptics;
   const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
-  this->WarnOnce(nativeLacks, this->Internals->WarnedNative,
-    "The native backend has no gradient opacity, no shading but of isosurfaces, no several "
-    "components and no pre-integration; rendering with OpenGL.");
   this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
     "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
-  return nativeLacks || computeLacks ? OPENGL : this->Backend;
+  return computeLacks ? OPENGL : this->Backend;
 }
 
 //------------------------------------------------------------------------------
@@ -286,12 +281,12 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::FallsBackToNative(bool plainOptics, std::string& error)
+bool vtkTetrahedraRayCastMapper::FallsBackToNative(std::string& error)
 {
   vtkInternals& internals = *this->Internals;
   error = internals.OpenGL.GetTables().DescribeExcess(
     internals.Input.GetMesh(), this->CompactTables != 0, this->MaximumTableSize);
-  if (error.empty() || !plainOptics)
+  if (error.empty())
   {
     return false;
   }
@@ -395,8 +390,8 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   int backend = OPENGL;
   if (error.empty())
   {
-    backend = this->ChooseBackend(frame.Optics.IsPlain());
-    if (backend != NATIVE && this->FallsBackToNative(frame.Optics.IsPlain(), error))
+    backend = this->ChooseBackend();
+    if (backend != NATIVE && this->FallsBackToNative(error))
     {
       backend = NATIVE;
     }

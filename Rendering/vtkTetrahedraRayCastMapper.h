@@ -80,9 +80,8 @@
  * is done where its input changes: see the counters.
  *
  * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
- * composite blending of point data only; the native backend has no gradient opacity, no shading but
- * of isosurfaces, no several components and no pre-integration; fewer than 2^29 tetrahedra; on the
- * graphics device, tables within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()).
+ * composite blending of point data only; fewer than 2^29 tetrahedra; on the graphics device, tables
+ * within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()). All backends draw the same.
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -181,8 +180,8 @@ public:
    * What runs the ray caster: OPENGL, a fragment shader; COMPUTE, a compute shader of the same
    * functions (OpenGL 4.3; on a window without, OPENGL after a warning); NATIVE, the CPU, in SIMD
    * packets (AVX-512, AVX2 or what there is) on all threads of vtkSMPTools; AUTOMATIC, the default,
-   * OPENGL, or NATIVE where OpenGL is a software rasteriser. What NATIVE does not have (see the
-   * limits) warns once and is drawn by OPENGL.
+   * OPENGL, or NATIVE where OpenGL is a software rasteriser. The choice depends on nothing else:
+   * every backend has every optical model.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, COMPUTE);
   vtkGetMacro(Backend, int);
@@ -203,8 +202,8 @@ public:
    * as in the paper, over the scalars at both ends of a segment and its length (SetPreIntegration-
    * ScalarSize(), SetPreIntegrationLengthSize()). The table is made when the transfer function, a
    * size or the longest edge of the volume in the world changed. It is there for composite blending
-   * without light and gradient opacity, with OpenGL; else segments are integrated exactly, after a
-   * warning where PRE_INTEGRATED would have made a difference.
+   * of one component without light and gradient opacity; else segments are integrated exactly,
+   * after a warning where PRE_INTEGRATED would have made a difference.
    */
   vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
   vtkGetMacro(Integration, int);
@@ -256,7 +255,7 @@ public:
    * Texels that a table on the graphics device may have, beside the limit that the device names
    * (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that promise more than they hold. A mesh with a table
    * beyond, of 8 texels per tetrahedron or 5 if compact, is drawn by the native backend, after a
-   * warning; what that does not have is an error with the numbers. Default: no limit.
+   * warning with the numbers. Default: no limit.
    */
   vtkSetClampMacro(MaximumTableSize, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumTableSize, vtkTypeInt64);
@@ -382,8 +381,8 @@ private:
   bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
-  int ChooseBackend(bool plainOptics);
-  bool FallsBackToNative(bool plainOptics, std::string& error);
+  int ChooseBackend();
+  bool FallsBackToNative(std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);

@@ -46,6 +46,15 @@ TileCaster::TileCaster(const Scene& scene)
   : Input(scene)
 {
   this->Raster.Build(scene.Tables->Vertices, *scene.Boundary, scene.Rays);
+  this->Medium.Pack(scene.Lighting, scene.GradientToFrame, scene.GradientMagnitude,
+    scene.GradientOpacity ? &scene.Tables->GradientIntervals : nullptr);
+  if (scene.PreIntegration)
+  {
+    const PreIntegrationTable& table = *scene.PreIntegration;
+    this->SegmentTable = { table.GetValues().data(), table.GetNumberOfScalars(),
+      table.GetNumberOfLengths(), static_cast<float>(1.0 / table.GetShortest()),
+      static_cast<float>(table.GetLengthsPerOctave()) };
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -102,6 +111,33 @@ void TileCaster::TakeHits(int tile, const float* opaqueDepth, Workspace& workspa
 }
 
 //------------------------------------------------------------------------------
+/** What becomes of scalars. */
+void TileCaster::SetOptics(PacketJob& job) const
+{
+  const PacketTables& tables = *this->Input.Tables;
+  const auto sizeOf = [](const auto& table) { return static_cast<std::int32_t>(table.size()); };
+  job.Blending = this->Input.Blending;
+  job.CellScalars = this->Input.CellScalars;
+  job.Surfaces = tables.Surfaces.data();
+  job.NumberOfSurfaces = sizeOf(tables.Surfaces);
+  job.Lighting = this->Input.Lighting;
+  job.VertexGradients = this->Input.VertexGradients ? &this->Input.VertexGradients->x : nullptr;
+  job.GradientToFrame = &this->Input.GradientToFrame;
+  job.Intervals = tables.Intervals.data();
+  job.NumberOfIntervals = sizeOf(tables.Intervals);
+  job.TerminationTransmittance = this->Input.TerminationTransmittance;
+  job.Mixture = this->Input.Mixture;
+  job.Components = this->Input.Components ? &this->Input.Components->x : nullptr;
+  for (std::size_t i = 0; i < tables.OtherIntervals.size(); ++i)
+  {
+    job.OtherIntervals[i] = tables.OtherIntervals[i].data();
+    job.NumberOfOtherIntervals[i] = sizeOf(tables.OtherIntervals[i]);
+  }
+  job.SegmentTable = this->Input.PreIntegration ? &this->SegmentTable : nullptr;
+  job.Medium = job.Blending == PacketBlending::Composite ? this->Medium.Get() : nullptr;
+}
+
+//------------------------------------------------------------------------------
 RayStatistics TileCaster::Cast(
   int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
 {
@@ -114,21 +150,12 @@ RayStatistics TileCaster::Cast(
   }
   workspace.Results.resize(workspace.Rays.size());
   const TetrahedralMesh& mesh = *this->Input.Mesh;
-  PacketJob job;
-  job.Blending = this->Input.Blending;
-  job.CellScalars = this->Input.CellScalars;
-  job.Surfaces = this->Input.Tables->Surfaces.data();
-  job.NumberOfSurfaces = static_cast<std::int32_t>(this->Input.Tables->Surfaces.size());
-  job.Lighting = this->Input.Lighting;
-  job.VertexGradients = this->Input.VertexGradients ? &this->Input.VertexGradients->x : nullptr;
-  job.GradientToFrame = &this->Input.GradientToFrame;
+  PacketJob job{};
+  this->SetOptics(job);
   job.GridUnit = this->Input.Rays.GetGridUnit();
   job.Vertices = this->Input.Tables->Vertices.data();
   job.Cells = mesh.GetCells().front().Vertices.data();
   job.NumberOfCells = mesh.GetNumberOfCells();
-  job.Intervals = this->Input.Tables->Intervals.data();
-  job.NumberOfIntervals = static_cast<std::int32_t>(this->Input.Tables->Intervals.size());
-  job.TerminationTransmittance = this->Input.TerminationTransmittance;
   job.Rays = workspace.Rays.data();
   job.NumberOfRays = static_cast<std::int32_t>(workspace.Rays.size());
   job.Entries = workspace.Entries.data();

@@ -6,8 +6,10 @@
 #include "Refraction/RangeLoop.h"
 #include "Volume/ClippingPlanes.h"
 #include "Volume/EntryRaster.h"
+#include "Volume/MediumTable.h"
 #include "Volume/Packet/Packet.h"
 #include "Volume/PixelRays.h"
+#include "Volume/PreIntegration.h"
 #include "Volume/RayStatistics.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
@@ -24,6 +26,9 @@ struct PacketTables
   std::vector<PacketVertex> Vertices;
   std::vector<PacketInterval> Intervals;
   std::vector<PacketSurface> Surfaces;
+  /** Of components that have functions of their own; of the lengths of gradients. */
+  std::vector<std::vector<PacketInterval>> OtherIntervals;
+  std::vector<PacketInterval> GradientIntervals;
 };
 
 /**
@@ -48,11 +53,20 @@ public:
     /** One normalised scalar per cell, in place of those of the vertices; null for none. */
     const float* CellScalars = nullptr;
     PacketBlending Blending = PacketBlending::Composite;
-    /** Of isosurfaces; null for none. */
+    /** How the components of vertices mix in composite blending, and those beside the scalar. */
+    PacketMixture Mixture = PacketMixture::None;
+    const glm::vec3* Components = nullptr;
+    /** Looked up in place of the transfer function; null for none. */
+    const PreIntegrationTable* PreIntegration = nullptr;
+    /** Of isosurfaces and of composite blending; null for none. */
     const SurfaceLighting* Lighting = nullptr;
     /** One per vertex, in normalised model coordinates; null for those of the cells. */
     const glm::vec3* VertexGradients = nullptr;
     glm::dmat3 GradientToFrame{ 1.0 };
+    /** Whether gradients change the attenuation, by the table of that. */
+    bool GradientOpacity = false;
+    /** From a gradient's length in the frame to what that table is of. */
+    double GradientMagnitude = 1.0;
     PixelRays Rays;
     /** Rays count where all of them keep them. */
     std::vector<RayClippingPlane> ClippingPlanes;
@@ -63,6 +77,8 @@ public:
 
   /** What `scene` points at must outlive this. */
   explicit TileCaster(const Scene& scene);
+  TileCaster(const TileCaster&) = delete;
+  TileCaster& operator=(const TileCaster&) = delete;
 
   int GetNumberOfTiles() const { return this->Raster.GetNumberOfTiles(); }
 
@@ -86,9 +102,12 @@ public:
 private:
   PacketRay RayOf(int column, int row, const float* opaqueDepth) const;
   void TakeHits(int tile, const float* opaqueDepth, Workspace& workspace) const;
+  void SetOptics(PacketJob& job) const;
 
   Scene Input;
   EntryRaster Raster;
+  MediumTable Medium;
+  PacketSegmentTable SegmentTable{};
 };
 
 }

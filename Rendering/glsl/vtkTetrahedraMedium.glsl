@@ -3,8 +3,8 @@
 //
 // What composite blending needs however many components the scalars have.
 
-// Optical depth of a piece beyond which nothing can be told apart; keeps infinities out.
-const float LARGEST_DEPTH = 1.0e+30;
+// Optical depth of a piece beyond which nothing can be told apart; its square is finite.
+const float LARGEST_DEPTH = 1.0e+18;
 
 #if SHADING || GRADIENT_OPACITY
 // What the gradient does to the pending segment, at its start and end and linear between: light that

@@ -14,7 +14,13 @@ Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, flo
   const PixelRays rays(scene.Frame, size, size);
   PlaceVertices(scene.Mesh, scene.Scalars, rays, SerialLoop, tables.Vertices);
   tables.Intervals = PackIntervals(scene.Intervals);
-  TileCaster::Scene cast;
+  tables.GradientIntervals = PackIntervals(scene.GradientIntervals);
+  for (const std::vector<TransferFunctionInterval>& intervals : scene.OtherIntervals)
+  {
+    tables.OtherIntervals.push_back(PackIntervals(intervals));
+  }
+  TileCaster::Scene cast = scene.Optics;
+  cast.GradientOpacity = !scene.GradientIntervals.empty();
   cast.Mesh = &scene.Mesh;
   cast.Boundary = &scene.Mesh.GetBoundary();
   cast.Tables = &tables;

@@ -21,6 +21,10 @@ struct PictureScene
   std::vector<float> Scalars;
   std::vector<TransferFunctionInterval> Intervals;
   RayFrame Frame;
+  std::vector<std::vector<TransferFunctionInterval>> OtherIntervals{};
+  std::vector<TransferFunctionInterval> GradientIntervals{};
+  /** What is not of mesh, tables and rays. */
+  TileCaster::Scene Optics{};
 };
 
 struct Picture

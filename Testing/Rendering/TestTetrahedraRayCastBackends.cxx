@@ -43,6 +43,28 @@ vtkSmartPointer<vtkVolumeProperty> litProperty()
   return property;
 }
 
+// Two that depend on the place, one of them a cone with an exponent that is not whole.
+void addLights(vtkRenderer* renderer)
+{
+  vtkNew<vtkLight> head;
+  head->SetLightTypeToHeadlight();
+  head->SetIntensity(0.5);
+  renderer->AddLight(head);
+  for (const double exponent : { 0.0, 2.5 })
+  {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToSceneLight();
+    light->SetPositional(1);
+    light->SetPosition(exponent - 2.0, 2.0, 2.5);
+    light->SetFocalPoint(0.0, 0.0, 0.0);
+    light->SetConeAngle(exponent > 0.0 ? 30.0 : 180.0);
+    light->SetExponent(exponent);
+    light->SetAttenuationValues(0.5, 0.1, 0.05);
+    light->SetDiffuseColor(1.0, 0.6, 0.2);
+    renderer->AddLight(light);
+  }
+}
+
 bool hasCompute(vtkRenderWindow* window)
 {
   const std::string device = deviceName(window);
@@ -122,12 +144,37 @@ TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
   const int backend = vtkTetrahedraRayCastMapper::NATIVE;
   expectAgreement(scene, backend, "plain");
-  vtkVolumeProperty* property = scene.volume()->GetProperty();
-  property->GetIsoSurfaceValues()->SetValue(0, 0.2);
-  property->GetIsoSurfaceValues()->SetValue(1, -0.2);
+  scene.volume()->SetProperty(litProperty());
   expectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
-  property->ShadeOn();
-  expectAgreementOfModes(scene, backend, { 5 });
+  addLights(scene.renderer());
+  expectAgreementOfModes(scene, backend, { 0, 5 });
+  // Exponents that are not whole numbers; light alone, then the factor alone.
+  scene.volume()->GetProperty()->SetSpecularPower(7.25);
+  scene.volume()->GetProperty()->SetDisableGradientOpacity(1);
+  expectAgreementOfModes(scene, backend, { 0 });
+  scene.volume()->GetProperty()->SetDisableGradientOpacity(0);
+  scene.volume()->GetProperty()->ShadeOff();
+  expectAgreementOfModes(scene, backend, { 0 });
+}
+
+TEST(TetrahedraRayCastBackends, AutomaticIsNativeOnASoftwareRasteriser)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, litProperty(), Size, Size);
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  mapper->SetBackend(vtkTetrahedraRayCastMapper::AUTOMATIC);
+  scene.window()->Render();
+  const bool software = deviceName(scene.window()).find("llvmpipe") != std::string::npos;
+  const int expected =
+    software ? vtkTetrahedraRayCastMapper::NATIVE : vtkTetrahedraRayCastMapper::OPENGL;
+  EXPECT_EQ(mapper->GetActiveBackend(), expected) << "light and gradient opacity";
+  scene.volume()->SetProperty(makeProperty(FunctionKind::Smooth, Range, 3.4));
+  scene.window()->Render();
+  EXPECT_EQ(mapper->GetActiveBackend(), expected) << "plain";
+  mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+  scene.window()->Render();
+  EXPECT_EQ(mapper->GetActiveBackend(), expected) << "pre-integrated";
 }
 
 TEST(TetrahedraRayCastBackends, NativeAgreesFromWithinAMeshOfManyParts)

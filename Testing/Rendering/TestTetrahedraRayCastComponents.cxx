@@ -8,6 +8,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkPiecewiseFunction.h>
+#include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -394,18 +395,67 @@ TEST(TetrahedraRayCastComponents, NumbersThatDoNotFitAreErrors)
   }
 }
 
-TEST(TetrahedraRayCastComponents, NativeLeavesThemToOpenGL)
+TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)
 {
+  const auto drawBoth = [](RayCastScene& scene, const std::string& what)
+  {
+    lookAt(scene.renderer(), scene.grid()->GetBounds(), 30.0, 20.0);
+    const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+    warnings->observe(scene.rayCaster());
+    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+    const FloatImage fragments = scene.renderFloat();
+    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+    expectSamePicture(scene.renderFloat(), fragments, what);
+    EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::NATIVE) << what;
+    EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << what;
+    EXPECT_TRUE(warnings->Warnings.empty()) << what;
+  };
+  for (const int number : { 2, 3, 4 })
+  {
+    const std::vector<int> all{ 0, 1, 2, 3 };
+    const Grid grid = makeComponents<vtkDoubleArray>({ all.begin(), all.begin() + number }, 1.0);
+    RayCastScene scene(grid, combine(makeParts(number, FunctionKind::Smooth), Weights), Size, Size);
+    drawBoth(scene, std::to_string(number) + " independent");
+  }
+  // Dependent ones, with and without what gradients do, seen from within and clipped as well.
+  for (const std::vector<int>& components : { std::vector<int>{ 0, 3 }, { 0, 1, 2, 3 } })
+  {
+    for (const int gradients : { -1, 0, 1 })
+    {
+      const Grid grid = makeComponents<vtkFloatArray>(components, 1.0);
+      const auto property = combine(makeParts(1, FunctionKind::Smooth), Weights);
+      property->IndependentComponentsOff();
+      property->SetShade(gradients >= 0);
+      if (gradients >= 0)
+      {
+        property->GetGradientOpacity()->AddPoint(0.0, 0.2);
+        property->GetGradientOpacity()->AddPoint(2.0, 1.0);
+      }
+      RayCastScene scene(grid, property, Size, Size);
+      scene.rayCaster()->SetGradients(std::max(gradients, 0));
+      const std::string what =
+        std::to_string(components.size()) + " dependent, gradients " + std::to_string(gradients);
+      drawBoth(scene, what);
+      vtkNew<vtkPlane> plane;
+      plane->SetNormal(0.3, 1.0, 0.2);
+      scene.rayCaster()->AddClippingPlane(plane);
+      drawBoth(scene, what + ", clipped");
+    }
+  }
+}
+
+TEST(TetrahedraRayCastComponents, DenseBeyondMeasureEnds)
+{
+  // An attenuation of which nothing can be told apart, and rays that never end early.
   const Grid grid = makeComponents<vtkDoubleArray>({ 0, 1 }, 1.0);
-  const auto parts = makeParts(2, FunctionKind::Smooth);
-  RayCastScene scene(grid, combine(parts, Weights), Size, Size);
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->observe(scene.rayCaster());
+  auto part = makeConstantProperty(1.0, 1, 0.5, 0.25, 1e-30);
+  const std::vector<double> ones(2, 1.0);
+  RayCastScene scene(grid, combine({ part, part }, ones), Size, Size);
+  scene.rayCaster()->SetEarlyTerminationOpacity(1.0);
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  expectMixture(scene, Mixture::Independent,
-    { weighted(toReference(parts[0]), Weights[0]), weighted(toReference(parts[1]), Weights[1]) },
-    1.0, "native asked for");
-  EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::OPENGL);
-  EXPECT_EQ(warnings->Warnings.size(), 1u);
+  const FloatImage image = scene.renderFloat();
+  const float* middle = image.pixel(Size / 2, Size / 2);
+  EXPECT_NEAR(middle[0], 1.0f, 2e-6);
+  EXPECT_NEAR(middle[1], 0.5f, 2e-6);
+  EXPECT_NEAR(middle[3], 1.0f, 2e-6);
 }

@@ -181,18 +181,21 @@ TEST_F(TetrahedraRayCastMemory, MeshesBeyondTheDevicesTablesGoToTheNativeBackend
   EXPECT_TRUE(this->Observer->Errors.empty());
 }
 
-TEST_F(TetrahedraRayCastMemory, BeyondTheLimitsOfAllBackendsIsAnErrorAndNoPicture)
+TEST_F(TetrahedraRayCastMemory, SoDoTheirLightAndPreIntegration)
 {
-  this->Property->ShadeOn();
   this->Mapper->SetScalarModeToUsePointData();
-  const FloatImage expected = this->Scene.renderFloat();
-  this->Mapper->SetMaximumTableSize(100);
-  const FloatImage image = this->Scene.renderFloat();
-  // The native backend draws it, or nothing does.
-  const bool native = this->Mapper->GetActiveBackend() == Native;
-  EXPECT_EQ(this->Observer->Errors.size(), native ? 0u : 1u);
-  for (std::size_t i = 0; i < image.Rgba.size(); ++i)
+  for (const bool shade : { true, false })
   {
-    ASSERT_NEAR(image.Rgba[i], native ? expected.Rgba[i] : 0.0f, 1e-4);
+    this->Property->SetShade(shade);
+    this->Mapper->SetIntegration(
+      shade ? vtkTetrahedraRayCastMapper::EXACT : vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+    this->Mapper->SetMaximumTableSize(VTK_TYPE_INT64_MAX);
+    const FloatImage expected = this->Scene.renderFloat();
+    EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
+    this->Mapper->SetMaximumTableSize(100);
+    meniscus::test::expectSamePicture(
+      this->Scene.renderFloat(), expected, shade ? "light" : "pre-integrated");
+    EXPECT_EQ(this->Mapper->GetActiveBackend(), Native);
   }
+  EXPECT_TRUE(this->Observer->Errors.empty());
 }

@@ -78,7 +78,6 @@ TEST(TetrahedraRayCastPreIntegration, ConvergesWithTheSizeOfTheTable)
       coarse = size == 16 ? result.Rms : coarse;
       fine = result.Rms;
     }
-    EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::OPENGL);
     // Five doublings of both sizes.
     const double order = std::log2(coarse / fine) / 5.0;
     RecordProperty("order", std::to_string(order));
@@ -143,7 +142,9 @@ TEST(TetrahedraRayCastPreIntegration, TableIsMadeWhenWhatItDependsOnChanges)
   bytes = mapper->GetUploadedBytes();
   usePreIntegration(scene, 64, 8);
   renderAndExpect(1, "first use");
-  EXPECT_GE(mapper->GetUploadedBytes(), 64 * 64 * 8 * 16);
+  // The native backend reads the table where it is.
+  EXPECT_TRUE(mapper->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE ||
+    mapper->GetUploadedBytes() >= 64 * 64 * 8 * 16);
   lookAt(scene.renderer(), block.Mesh->GetBounds(), 77.0, -20.0);
   renderAndExpect(0, "camera");
   scene.volume()->RotateX(33.0);
@@ -194,19 +195,26 @@ TEST(TetrahedraRayCastPreIntegration, ExactWhereThereIsNoTable)
   EXPECT_EQ(scene.rayCaster()->GetNumberOfPreIntegrationBuilds(), 0);
 }
 
-TEST(TetrahedraRayCastPreIntegration, NativeLeavesItToOpenGL)
+TEST(TetrahedraRayCastPreIntegration, NativeLooksUpTheSame)
 {
   const Block block;
-  RayCastScene scene(block.Mesh, block.property(FunctionKind::Smooth), Size, Size);
+  RayCastScene scene(block.Mesh, block.property(FunctionKind::Opaque), Size, Size);
   lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  const SceneTruth truth = truthOf(scene);
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
-  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
   warnings->observe(scene.rayCaster());
-  EXPECT_LT(compare(scene, truth).Largest, 1.0 / 255.0);
-  EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::OPENGL);
-  EXPECT_EQ(warnings->Warnings.size(), 1u);
+  // Two and three dimensions, and a coarse table, whose errors the other backend must have, too.
+  const int sizes[3][2] = { { 64, 1 }, { 64, 16 }, { 8, 4 } };
+  for (const auto& size : sizes)
+  {
+    usePreIntegration(scene, size[0], size[1]);
+    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+    const FloatImage fragments = scene.renderFloat();
+    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+    expectSamePicture(scene.renderFloat(), fragments,
+      std::to_string(size[0]) + " scalars, " + std::to_string(size[1]) + " lengths");
+    EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::NATIVE);
+  }
+  EXPECT_TRUE(warnings->Warnings.empty());
 }
 
 TEST(TetrahedraRayCastPreIntegration, ComputeShadersDrawTheSame)

@@ -234,24 +234,3 @@ TEST(TetrahedraRayCastProjections, SkipOnlyWhatTheModeCannotShow)
   EXPECT_LE(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 8);
   EXPECT_GT(scene.rayCaster()->GetNumberOfActiveCells(), 0);
 }
-
-TEST(TetrahedraRayCastProjections, NativeBackendLeavesShadingToOpenGL)
-{
-  const Grid grid = makeBlock(3, wavyField(3.0));
-  double range[2];
-  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
-  scene.rayCaster()->SetBlendModeToMaximumIntensity();
-  const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->observe(scene.rayCaster());
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  expectReference(scene, Projection::Maximum, "native asked for");
-  EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::NATIVE);
-  EXPECT_TRUE(warnings->Warnings.empty());
-  scene.rayCaster()->SetBlendModeToComposite();
-  scene.volume()->GetProperty()->ShadeOn();
-  scene.window()->Render();
-  EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::OPENGL);
-  EXPECT_EQ(warnings->Warnings.size(), 1u);
-}

@@ -99,6 +99,59 @@ struct PacketSurface
   float Color[3];
 };
 
+/** How components of the vertices make colour and attenuation, with composite blending. */
+enum class PacketMixture
+{
+  /** There is one scalar. */
+  None,
+  /** Each has a function of its own; attenuations and emissions add up. */
+  Independent,
+  /** The scalar gives the attenuation, another the colour. */
+  ColorAndOpacity,
+  /** The scalar gives the attenuation, the others are the colour. */
+  RedGreenBlueOpacity
+};
+
+/** A RayCastLight in single precision. */
+struct PacketLight
+{
+  float Position[4];
+  float Diffuse[3];
+  float Specular[3];
+  float Cone[4];
+  float Falloff[4];
+};
+
+/** What gradients do to the medium of composite blending. */
+struct PacketMedium
+{
+  /** Rows: normalised model coordinates to the frame of the rays. */
+  float GradientToFrame[3][3];
+  /** From a gradient's length in the frame to what gradient opacity is a function of. */
+  float GradientMagnitude;
+  /** The factor of the attenuation; none if the number is 0. */
+  const PacketInterval* Opacity;
+  std::int32_t NumberOfOpacityIntervals;
+  /** Whether the colour is lit. */
+  bool Shading;
+  float Ambient;
+  float Diffuse;
+  float Specular;
+  float SpecularPower;
+  const PacketLight* Lights;
+  std::int32_t NumberOfLights;
+};
+
+/** A PreIntegrationTable. */
+struct PacketSegmentTable
+{
+  const float* Values;
+  std::int32_t Scalars;
+  std::int32_t Lengths;
+  float ShortestReciprocal;
+  float LengthsPerOctave;
+};
+
 struct PacketJob
 {
   PacketBlending Blending;
@@ -110,6 +163,16 @@ struct PacketJob
   const float* CellScalars;
   const PacketInterval* Intervals;
   std::int32_t NumberOfIntervals;
+  PacketMixture Mixture;
+  /** Three numbers per vertex: scalars beside the main one, normalised, or a colour; if mixed. */
+  const float* Components;
+  /** Of those scalars, where they have functions. */
+  const PacketInterval* OtherIntervals[3];
+  std::int32_t NumberOfOtherIntervals[3];
+  /** In place of the intervals, for one scalar without gradients; null for none. */
+  const PacketSegmentTable* SegmentTable;
+  /** Null where gradients do nothing to the medium. */
+  const PacketMedium* Medium;
   /** Ascending scalars. */
   const PacketSurface* Surfaces;
   std::int32_t NumberOfSurfaces;
@@ -154,6 +217,13 @@ struct PacketSegment
 
 /** Adds the isosurfaces that a segment meets, front to back. */
 void CrossSurfaces(const PacketJob& job, const PacketSegment& segment, PacketSurfaceState& state);
+
+/**
+ * Colour over opacity and mean attenuation of a segment between two scalars, by linear
+ * interpolation in the table's scalars and in the number of its length.
+ */
+void LookUpSegment(
+  const PacketSegmentTable& table, float from, float to, float length, float (&mean)[4]);
 
 enum class InstructionSet
 {

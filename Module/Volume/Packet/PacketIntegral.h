@@ -4,6 +4,7 @@
 #define meniscus_Volume_Packet_PacketIntegral_h
 
 #include "Volume/Packet/PacketIntervals.h"
+#include "Volume/Packet/PacketMedium.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,8 +20,10 @@ namespace meniscus
  * part with linear attenuation and colour, K. Moreland and E. Angel, "A Fast High Accuracy Volume
  * Renderer for Unstructured Data" (2004), give cf - cb zeta + (cb - cf) psi; it is written
  * cf (1 - psi) + cb (psi - zeta), free of cancellation, with psi by a polynomial (Coefficients).
+ *
+ * Medium is what gradients do to it: PacketPlainMedium, or PacketLitMedium.
  */
-template <class Simd>
+template <class Simd, class Medium = PacketPlainMedium<Simd>>
 class PacketIntegral
 {
 public:
@@ -45,14 +48,21 @@ public:
    * that is not finite, or of no length, is none.
    */
   template <class Place>
-  Mask Begin(Mask lanes, Float from, Float to, Float length, const Place&)
+  Mask Begin(Mask lanes, Float from, Float to, Float length, const Place& place)
   {
     const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
     this->From = Simd::Select(valid, from, this->From);
     this->To = Simd::Select(valid, to, this->To);
     this->Remaining = Simd::Select(valid, length, this->Remaining);
+    if constexpr (Medium::UsesGradients)
+    {
+      this->Ahead = Simd::Select(valid, Simd::Splat(1.0f), this->Ahead);
+    }
+    this->Optics.Begin(valid, place);
     return valid;
   }
+  /** The rays of some lanes enter the mesh, or come back into it. */
+  void Enter(Mask lanes) { this->Optics.Enter(lanes); }
 
   /** Integrates one part of the segments of `lanes`; returns those that have more. */
   Mask Advance(Mask lanes);
@@ -62,6 +72,10 @@ public:
 
   /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
   static constexpr bool SeesJumps = false;
+  /** What Begin() wants to know of the place: PacketWalk::SegmentPlace. */
+  static constexpr int NumberOfTriples = Medium::NumberOfTriples;
+  static constexpr bool UsesCellGradients = Medium::UsesCellGradients;
+  static constexpr bool UsesLines = Medium::UsesGradients;
   static constexpr int NumberOfValues = 4;
   /** Of a ray that meets nothing. */
   static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
@@ -106,20 +120,25 @@ private:
   Float To;
   /** Length still to integrate; 0 where there is none. */
   Float Remaining;
+  /** The same as a fraction of the segment; only with gradients. */
+  Float Ahead;
   Float Color[3];
   Float Transmittance;
   Coefficients Fit;
+  Medium Optics;
 };
 
 //------------------------------------------------------------------------------
-template <class Simd>
-PacketIntegral<Simd>::PacketIntegral(const PacketJob& job)
+template <class Simd, class Medium>
+PacketIntegral<Simd, Medium>::PacketIntegral(const PacketJob& job)
   : Intervals(job.Intervals, job.NumberOfIntervals)
   , Termination(Simd::Splat(job.TerminationTransmittance))
   , From(Simd::Splat(0.0f))
   , To(Simd::Splat(0.0f))
   , Remaining(Simd::Splat(0.0f))
+  , Ahead(Simd::Splat(0.0f))
   , Transmittance(Simd::Splat(1.0f))
+  , Optics(job)
 {
   for (Float& channel : this->Color)
   {
@@ -129,8 +148,8 @@ PacketIntegral<Simd>::PacketIntegral(const PacketJob& job)
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-void PacketIntegral<Simd>::SetCoefficients()
+template <class Simd, class Medium>
+void PacketIntegral<Simd, Medium>::SetCoefficients()
 {
   static const float thinAbsorbed[4] = { 0.999999972267f, -0.499995547289f, 0.166505568729f,
     -0.039642346780f };
@@ -161,10 +180,10 @@ void PacketIntegral<Simd>::SetCoefficients()
 
 //------------------------------------------------------------------------------
 /** Horner's scheme with the first `terms` coefficients. */
-template <class Simd>
+template <class Simd, class Medium>
 template <std::size_t Size>
-inline auto PacketIntegral<Simd>::Polynomial(Float x, const Float (&coefficients)[Size], int terms)
-  -> Float
+inline auto PacketIntegral<Simd, Medium>::Polynomial(
+  Float x, const Float (&coefficients)[Size], int terms) -> Float
 {
   Float sum = coefficients[terms - 1];
   for (int i = terms - 2; i >= 0; --i)
@@ -175,8 +194,9 @@ inline auto PacketIntegral<Simd>::Polynomial(Float x, const Float (&coefficients
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-inline void PacketIntegral<Simd>::Absorb(Float depth, Float density, Float& gone, Float& mean) const
+template <class Simd, class Medium>
+inline void PacketIntegral<Simd, Medium>::Absorb(
+  Float depth, Float density, Float& gone, Float& mean) const
 {
   const auto& fit = this->Fit;
   if (Simd::Bits(depth > Simd::Splat(0.125f)) == 0)
@@ -198,8 +218,8 @@ inline void PacketIntegral<Simd>::Absorb(Float depth, Float density, Float& gone
 }
 
 //------------------------------------------------------------------------------
-template <class Simd>
-inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
+template <class Simd, class Medium>
+inline auto PacketIntegral<Simd, Medium>::Advance(Mask lanes) -> Mask
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
@@ -215,23 +235,26 @@ inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
   Mask upward = this->To > fields.Upper;
   Mask downward = this->To < fields.Lower;
   Float to = Simd::Min(Simd::Max(this->To, fields.Lower), fields.Upper);
-  const Float share = (to - this->From) / (this->To - this->From);
-  Float length = Simd::Max(Simd::Min(share, one), zero) * this->Remaining;
+  Float share = (to - this->From) / (this->To - this->From);
+  share = Simd::Max(Simd::Min(share, one), zero);
+  Float length = share * this->Remaining;
   const Float offset = this->From - fields.Lower;
   const auto densityAt = [&](Float fromLower)
   {
     return length *
       Simd::Max(Simd::Fma(fromLower, fields.AttenuationSlope, fields.Attenuation), zero);
   };
-  Float density = densityAt(offset);
-  Float densityTo = densityAt(to - fields.Lower);
+  const Float done = one - this->Ahead;
+  Float density = this->Optics.Thin(densityAt(offset), done);
+  Float densityTo =
+    this->Optics.Thin(densityAt(to - fields.Lower), Simd::Fma(share, this->Ahead, done));
   Float depth = Simd::Splat(0.5f) * (density + densityTo);
   Mask thick = depth > one;
   if (Simd::Bits(thick) != 0)
   {
     // part (density + part (densityTo - density) / 2) = 1, the root without cancellation. Beyond
-    // a depth of 1e30 nothing can be told apart; the bound keeps infinities out.
-    const Float largest = Simd::Splat(1.0e+30f);
+    // a depth of 1e18 nothing can be told apart; its square is finite.
+    const Float largest = Simd::Splat(1.0e+18f);
     density = Simd::Min(density, largest);
     densityTo = Simd::Min(densityTo, largest);
     const Float root = Simd::Sqrt(
@@ -240,6 +263,7 @@ inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
       Simd::Select(thick, Simd::Min(Simd::Splat(2.0f) / (density + root), one), one);
     to = Simd::Select(thick, Simd::Fma(part, to - this->From, this->From), to);
     length = length * part;
+    share = share * part;
     density = density * part;
     depth = Simd::Min(depth, one);
     upward = Simd::AndNot(upward, thick);
@@ -250,14 +274,37 @@ inline auto PacketIntegral<Simd>::Advance(Mask lanes) -> Mask
   Float mean;
   this->Absorb(depth, density, gone, mean);
   const Float weight = this->Transmittance * gone;
-  const Float weightOfChange =
-    this->Transmittance * Simd::Max(gone - mean, zero) * (to - this->From);
+  Float weightOfChange = this->Transmittance * Simd::Max(gone - mean, zero);
+  Float color[3];
+  Float change[3];
   for (int channel = 0; channel < 3; ++channel)
   {
-    const Float slope = fields.ColorSlope[channel];
-    const Float color = Simd::Fma(offset, slope, fields.Color[channel]);
-    this->Color[channel] =
-      Simd::Fma(weightOfChange, slope, Simd::Fma(weight, color, this->Color[channel]));
+    change[channel] = fields.ColorSlope[channel];
+    color[channel] = Simd::Fma(offset, change[channel], fields.Color[channel]);
+  }
+  if constexpr (Medium::UsesGradients)
+  {
+    Float colorTo[3];
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      colorTo[channel] = Simd::Fma(to - this->From, change[channel], color[channel]);
+    }
+    this->Optics.Shade(color, done);
+    this->Optics.Shade(colorTo, Simd::Fma(share, this->Ahead, done));
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      change[channel] = colorTo[channel] - color[channel];
+    }
+    this->Ahead = this->Ahead - share * this->Ahead;
+  }
+  else
+  {
+    weightOfChange = weightOfChange * (to - this->From);
+  }
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    this->Color[channel] = Simd::Fma(
+      weightOfChange, change[channel], Simd::Fma(weight, color[channel], this->Color[channel]));
   }
   this->Transmittance = this->Transmittance - weight;
   const Mask more = lanes & (upward | downward | thick) & (this->Transmittance > this->Termination);

@@ -64,6 +64,7 @@ public:
     return Simd::FromBits(0);
   }
   Mask Advance(Mask lanes) { return lanes; }
+  void Enter(Mask) {}
 
   Mask IsOn() const
   {
@@ -72,6 +73,9 @@ public:
 
   /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
   static constexpr bool SeesJumps = true;
+  static constexpr int NumberOfTriples = 0;
+  static constexpr bool UsesCellGradients = false;
+  static constexpr bool UsesLines = false;
   static constexpr int NumberOfValues = 4;
   static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
   /** Premultiplied colour and transmittance of each lane. */

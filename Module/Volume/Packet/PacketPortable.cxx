@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Packet/PacketCast.h"
 #include "Volume/Packet/PacketSets.h"
-#include "Volume/Packet/PacketWalk.h"
 #include "Volume/Packet/SimdPortable.h"
 
 namespace meniscus

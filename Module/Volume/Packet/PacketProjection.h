@@ -51,12 +51,16 @@ public:
     return this->Begin(lanes, from, to, length);
   }
   Mask Advance(Mask lanes);
+  void Enter(Mask) {}
 
   /** Nothing hides what is behind. */
   Mask IsOn() const { return Simd::FromBits((1u << Simd::Width) - 1u); }
 
   /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
   static constexpr bool SeesJumps = false;
+  static constexpr int NumberOfTriples = 0;
+  static constexpr bool UsesCellGradients = false;
+  static constexpr bool UsesLines = false;
   static constexpr int NumberOfValues = 2;
   /** Of a ray that meets nothing. */
   static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f };

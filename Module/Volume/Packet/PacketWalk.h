@@ -5,9 +5,10 @@
 
 #include "Volume/Packet/ExactGrid.h"
 #include "Volume/Packet/Packet.h"
-#include "Volume/Packet/PacketIntegral.h"
-#include "Volume/Packet/PacketIsosurfaces.h"
-#include "Volume/Packet/PacketProjection.h"
+#include "Volume/Packet/PacketLights.h"
+#include "Volume/Packet/PacketValues.h"
+
+#include <array>
 
 namespace meniscus
 {
@@ -36,6 +37,7 @@ private:
   using Int = typename Simd::Int;
   using Mask = typename Simd::Mask;
   using Grid = ExactGrid<Simd>;
+  using VertexValues = PacketValues<Simd, Model::NumberOfTriples>;
   static constexpr int Width = Simd::Width;
 
   /** A vertex about the ray of each lane. */
@@ -47,6 +49,9 @@ private:
     Float Scalar;
     /** By vertex among those of its face: 0, 1 or 2. Cells and faces order vertices alike. */
     Int Rank;
+    /** What models want beside, and depth in grid units for gradients of cells. */
+    VertexValues Others{};
+    std::array<Int, Model::UsesCellGradients ? 1 : 0> GridDepth{};
   };
   /** What an axis of PacketRay takes off, by lane; even and odd lanes are multiplied apart. */
   struct Shift
@@ -79,7 +84,10 @@ private:
   void Fetch(Ahead& ahead) const;
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
-  void Interpolate(Float& depth, Float& scalar) const;
+  void Interpolate(Float& depth, Float& scalar, VertexValues& others) const;
+  void FindCellGradient(const Corner& x);
+  Int OppositeVertices(Int cellFace) const;
+  void LoadLines();
   /** Where a segment is, for models that ask. */
   struct SegmentPlace
   {
@@ -89,6 +97,14 @@ private:
     Int CellFace;
     /** Number of each lane's ray. */
     const std::int32_t (&Rays)[Width];
+    /** Lanes that crossed a cell; that begin behind the face they entered it by. */
+    Mask Stepped;
+    Mask Late;
+    const VertexValues& StartValues;
+    const VertexValues& EndValues;
+    /** Of the scalar in the cell, in the frame of the rays. */
+    const std::array<Float, 3>& CellGradient;
+    const PacketLine<Simd>& Ray;
   };
   void Pass(Mask lanes, Int cellFace, Float cellScalar);
 
@@ -102,6 +118,7 @@ private:
 
   const PacketJob& Job;
   const float* VertexTable;
+  const float* ValueTables[2];
   std::int32_t NextRay = 0;
   std::int32_t StepLimit;
 
@@ -119,6 +136,10 @@ private:
   Int CellFace;
   Float FaceDepth;
   Float FaceScalar;
+  VertexValues FaceValues;
+  /** Of the cell just crossed, and each lane's ray; for models that ask. */
+  std::array<Float, 3> CellGradient;
+  PacketLine<Simd> Line;
   /** The largest depth reached. */
   Float DepthNow;
   Float StartDepth;
@@ -155,9 +176,19 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   this->StepLimit = static_cast<std::int32_t>(limit < 0x7fffffff ? limit : 0x7fffffff);
   const Int none = Simd::Splat(0);
   const Float zero = Simd::Splat(0.0f);
-  this->A = this->B = this->C = { zero, zero, zero, zero, none };
+  this->A = Corner{ zero, zero, zero, zero, none };
+  this->A.Others.Clear();
+  this->A.GridDepth.fill(none);
+  this->B = this->C = this->A;
   this->AreaAB = this->AreaBC = this->AreaCA = zero;
   this->FaceDepth = this->FaceScalar = zero;
+  this->FaceValues.Clear();
+  this->CellGradient.fill(zero);
+  this->Line = { zero, zero, zero, zero };
+  // Of gradients first.
+  const bool gradients = job.Medium && job.VertexGradients;
+  this->ValueTables[0] = gradients ? job.VertexGradients : job.Components;
+  this->ValueTables[1] = job.Components;
   this->Steps = none;
   this->Busy = this->Pending = Simd::FromBits(0);
   for (int lane = 0; lane < Width; ++lane)
@@ -216,6 +247,7 @@ inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& cor
   corner.V = aboutRay(this->Axes[1], vertex[1]);
   corner.Depth = Simd::ToFloat(depth) * Simd::Splat(PacketVertex::DepthUnit);
   corner.Scalar = vertex[3];
+  corner.GridDepth.fill(depth);
 }
 
 //------------------------------------------------------------------------------
@@ -225,6 +257,7 @@ void PacketWalk<Simd, Model>::Project(Int id, Corner& corner) const
   Float vertex[4];
   Simd::template GatherQuads<4>(this->VertexTable, id, vertex[0], vertex[1], vertex[2], vertex[3]);
   this->Place(vertex, corner);
+  corner.Others.Gather(this->ValueTables, id);
 }
 
 //------------------------------------------------------------------------------
@@ -244,64 +277,6 @@ inline auto PacketWalk<Simd, Model>::EdgeArea(const Corner& p, const Corner& q, 
 }
 
 //------------------------------------------------------------------------------
-/**
- * Exact areas and signs, in some lanes, of the edges from the vertex ahead to A, B, C; `corners`
- * are the places of the four in the cell.
- */
-template <class Simd, class Model>
-void PacketWalk<Simd, Model>::MakeSure(
-  unsigned int lanes, const Int (&corners)[4], Float (&areas)[3], Mask (&left)[3]) const
-{
-  std::int32_t cellFaces[Width];
-  std::int32_t places[4][Width];
-  float exact[3][Width];
-  unsigned int bits[3];
-  Simd::Store(cellFaces, this->CellFace);
-  for (int c = 0; c < 4; ++c)
-  {
-    Simd::Store(places[c], corners[c]);
-  }
-  for (int edge = 0; edge < 3; ++edge)
-  {
-    Simd::Store(exact[edge], areas[edge]);
-    bits[edge] = Simd::Bits(left[edge]);
-  }
-  for (int lane = 0; lane < Width; ++lane)
-  {
-    const unsigned int bit = 1u << lane;
-    if ((lanes & bit) == 0)
-    {
-      continue;
-    }
-    const std::int32_t* cell = this->Job.Cells + 8 * std::int64_t{ cellFaces[lane] >> 2 };
-    std::int32_t grid[4][3];
-    for (int c = 0; c < 4; ++c)
-    {
-      grid[c][2] = cell[places[c][lane]];
-      const PacketVertex& vertex = this->Job.Vertices[grid[c][2]];
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        const Shift& shift = this->Axes[axis];
-        grid[c][axis] = Grid::AboutRay(
-          vertex.Place[axis], vertex.Place[2], shift.Slope[lane], shift.Offset[lane % 2][lane / 2]);
-      }
-    }
-    for (int edge = 0; edge < 3; ++edge)
-    {
-      std::int64_t area;
-      const bool turns = Grid::TurnsLeft(grid[0], grid[edge + 1], area);
-      exact[edge][lane] = static_cast<float>(area);
-      bits[edge] = turns ? bits[edge] | bit : bits[edge] & ~bit;
-    }
-  }
-  for (int edge = 0; edge < 3; ++edge)
-  {
-    areas[edge] = Simd::Load(exact[edge]);
-    left[edge] = Simd::FromBits(bits[edge]);
-  }
-}
-
-//------------------------------------------------------------------------------
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
 {
@@ -312,10 +287,13 @@ inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
   ahead.Face = Simd::And(cellFace, Simd::Splat(3));
   Simd::GatherCells(this->Job.Cells, this->VertexTable, cellFace, ahead.Links, vertex);
   this->Place(vertex, ahead.X);
-  if (this->Job.CellScalars)
+  if constexpr (Model::NumberOfTriples > 0)
   {
-    ahead.CellScalar = Simd::GatherCellScalars(this->Job.CellScalars, cellFace);
+    ahead.X.Others.Gather(this->ValueTables, this->OppositeVertices(cellFace));
   }
+  ahead.CellScalar = this->Job.CellScalars
+    ? Simd::GatherCellScalars(this->Job.CellScalars, cellFace)
+    : Simd::Splat(0.0f);
 }
 
 //------------------------------------------------------------------------------
@@ -353,6 +331,11 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
   const Int link = Simd::Pick(opposite, ahead.Links);
   const Int dropped = Simd::Select(lanes, opposite, last);
 
+  if constexpr (Model::UsesCellGradients)
+  {
+    this->FindCellGradient(x);
+  }
+
   // The exit face: x takes the dropped vertex's place, which keeps the sense of rotation.
   const Mask replaceA = dropA & lanes;
   const Mask replaceC = dropC & lanes;
@@ -388,12 +371,18 @@ inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, 
   corner.V = Simd::Select(lanes, x.V, corner.V);
   corner.Depth = Simd::Select(lanes, x.Depth, corner.Depth);
   corner.Scalar = Simd::Select(lanes, x.Scalar, corner.Scalar);
+  corner.Others.Replace(lanes, x.Others);
+  for (std::size_t i = 0; i < corner.GridDepth.size(); ++i)
+  {
+    corner.GridDepth[i] = Simd::Select(lanes, x.GridDepth[i], corner.GridDepth[i]);
+  }
 }
 
 //------------------------------------------------------------------------------
-/** Depth and scalar where the ray meets ABC; a face without projected area keeps what is given. */
+/** What is where the ray meets ABC; a face without projected area keeps what is given. */
 template <class Simd, class Model>
-inline void PacketWalk<Simd, Model>::Interpolate(Float& depth, Float& scalar) const
+inline void PacketWalk<Simd, Model>::Interpolate(
+  Float& depth, Float& scalar, VertexValues& others) const
 {
   const Float total = this->AreaAB + this->AreaBC + this->AreaCA;
   const Mask real = total > Simd::Splat(0.0f);
@@ -402,6 +391,11 @@ inline void PacketWalk<Simd, Model>::Interpolate(Float& depth, Float& scalar) co
   { return Simd::Fma(Simd::Fma(this->AreaCA, b - a, this->AreaAB * (c - a)), inverse, a); };
   depth = Simd::Select(real, mean(this->A.Depth, this->B.Depth, this->C.Depth), depth);
   scalar = Simd::Select(real, mean(this->A.Scalar, this->B.Scalar, this->C.Scalar), scalar);
+  for (int i = 0; i < VertexValues::Size; ++i)
+  {
+    const Float value = mean(this->A.Others.Of[i], this->B.Others.Of[i], this->C.Others.Of[i]);
+    others.Of[i] = Simd::Select(real, value, others.Of[i]);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -411,13 +405,16 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, Float cellSc
 {
   Float depth = this->FaceDepth;
   Float scalar = this->FaceScalar;
-  this->Interpolate(depth, scalar);
+  VertexValues exitValues = this->FaceValues;
+  this->Interpolate(depth, scalar, exitValues);
 
   // What lies before the largest depth reached has been passed already and does not count again.
   const Float start = Simd::Max(this->DepthNow, this->StartDepth);
   const Float end = Simd::Min(depth, this->EndDepth);
   Float from = this->FaceScalar;
   Float to = scalar;
+  VertexValues fromValues = this->FaceValues;
+  VertexValues toValues = exitValues;
   const Mask late = start > this->FaceDepth;
   const Mask early = depth > end;
   if (this->Job.CellScalars)
@@ -432,13 +429,23 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, Float cellSc
     const Float perDepth = (scalar - this->FaceScalar) / (depth - this->FaceDepth);
     from = Simd::Select(late, Simd::Fma(start - this->FaceDepth, perDepth, this->FaceScalar), from);
     to = Simd::Select(early, Simd::Fma(end - this->FaceDepth, perDepth, this->FaceScalar), to);
+    if constexpr (Model::NumberOfTriples > 0)
+    {
+      const Float whole = depth - this->FaceDepth;
+      const auto at = [&](Float place)
+      { return this->FaceValues.Between((place - this->FaceDepth) / whole, exitValues); };
+      fromValues.Replace(late, at(start));
+      toValues.Replace(early, at(end));
+    }
   }
   const Mask segment = lanes & (end > start);
-  const SegmentPlace place{ start, end, cellFace, this->Ray };
+  const SegmentPlace place{ start, end, cellFace, this->Ray, lanes, late, fromValues, toValues,
+    this->CellGradient, this->Line };
   this->Pending = this->Pending |
     this->Integral.Begin(segment, from, to, (end - start) * this->LengthPerDepth, place);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
   this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
+  this->FaceValues.Replace(lanes, exitValues);
   Mask known = lanes;
   if (this->Job.CellScalars)
   {
@@ -584,6 +591,10 @@ void PacketWalk<Simd, Model>::LoadLanes()
   this->StartDepth = Simd::Load(this->StartDepths);
   this->EndDepth = Simd::Load(this->EndDepths);
   this->LengthPerDepth = Simd::Load(this->LengthsPerDepth);
+  if constexpr (Model::UsesLines)
+  {
+    this->LoadLines();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -611,7 +622,8 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
   // A face without projected area is met at its first vertex.
   Float depth = this->A.Depth;
   Float scalar = this->A.Scalar;
-  this->Interpolate(depth, scalar);
+  VertexValues others = this->A.Others;
+  this->Interpolate(depth, scalar, others);
   if (this->Job.CellScalars)
   {
     const Int zero = Simd::Splat(0);
@@ -620,27 +632,14 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
   }
   this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
   this->FaceScalar = Simd::Select(lanes, scalar, this->FaceScalar);
+  this->FaceValues.Replace(lanes, others);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
-}
-
-//------------------------------------------------------------------------------
-template <class Simd>
-void CastPacketsWith(const PacketJob& job)
-{
-  if (job.Blending == PacketBlending::Composite)
-  {
-    PacketWalk<Simd, PacketIntegral<Simd>>(job).Run();
-  }
-  else if (job.Blending == PacketBlending::Isosurfaces)
-  {
-    PacketWalk<Simd, PacketIsosurfaces<Simd>>(job).Run();
-  }
-  else
-  {
-    PacketWalk<Simd, PacketProjection<Simd>>(job).Run();
-  }
+  this->Integral.Enter(lanes);
 }
 
 }
+
+#include "Volume/Packet/PacketWalkExact.h"
+#include "Volume/Packet/PacketWalkOptics.h"
 
 #endif

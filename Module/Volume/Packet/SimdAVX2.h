@@ -140,6 +140,21 @@ struct SimdAVX2
     }
     Transpose(rows, x, y, z, w);
   }
+  static void GatherTriples(const float* from, Int index, Float& x, Float& y, Float& z)
+  {
+    std::int32_t at[Width];
+    Store(at, index);
+    const float* rows[Width];
+    for (int i = 0; i < Width; ++i)
+    {
+      rows[i] = from + std::int64_t{ 3 } * at[i];
+    }
+    // Nothing is read behind the third.
+    const __m128i three = _mm_setr_epi32(-1, -1, -1, 0);
+    Float none;
+    TransposeAs(
+      [three](const float* row) { return _mm_maskload_ps(row, three); }, rows, x, y, z, none);
+  }
   static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
     Int (&links)[4], Float (&vertex)[4])
   {
@@ -168,11 +183,14 @@ struct SimdAVX2
   /** Four floats from each of the rows. */
   static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
   {
-    const auto pair = [&rows](int i)
-    {
-      return _mm256_insertf128_ps(
-        _mm256_castps128_ps256(_mm_loadu_ps(rows[i])), _mm_loadu_ps(rows[i + 4]), 1);
-    };
+    TransposeAs([](const float* row) { return _mm_loadu_ps(row); }, rows, x, y, z, w);
+  }
+  template <typename LoadRow>
+  static void TransposeAs(
+    const LoadRow& load, const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
+  {
+    const auto pair = [&rows, &load](int i)
+    { return _mm256_insertf128_ps(_mm256_castps128_ps256(load(rows[i])), load(rows[i + 4]), 1); };
     const __m256 r0 = pair(0);
     const __m256 r1 = pair(1);
     const __m256 r2 = pair(2);

@@ -116,6 +116,21 @@ struct SimdAVX512
     }
     Transpose(rows, x, y, z, w);
   }
+  static void GatherTriples(const float* from, Int index, Float& x, Float& y, Float& z)
+  {
+    std::int32_t at[Width];
+    Store(at, index);
+    const float* rows[Width];
+    for (int i = 0; i < Width; ++i)
+    {
+      rows[i] = from + std::int64_t{ 3 } * at[i];
+    }
+    // Nothing is read behind the third.
+    const __m128i three = _mm_setr_epi32(-1, -1, -1, 0);
+    Float none;
+    TransposeAs(
+      [three](const float* row) { return _mm_maskload_ps(row, three); }, rows, x, y, z, none);
+  }
   static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
     Int (&links)[4], Float (&vertex)[4])
   {
@@ -144,12 +159,18 @@ struct SimdAVX512
   /** Four floats from each of the rows. */
   static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
   {
-    const auto row = [&rows](int i)
+    TransposeAs([](const float* row) { return _mm_loadu_ps(row); }, rows, x, y, z, w);
+  }
+  template <typename LoadRow>
+  static void TransposeAs(
+    const LoadRow& load, const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
+  {
+    const auto row = [&rows, &load](int i)
     {
-      __m512 r = _mm512_castps128_ps512(_mm_loadu_ps(rows[i]));
-      r = _mm512_insertf32x4(r, _mm_loadu_ps(rows[i + 4]), 1);
-      r = _mm512_insertf32x4(r, _mm_loadu_ps(rows[i + 8]), 2);
-      return _mm512_insertf32x4(r, _mm_loadu_ps(rows[i + 12]), 3);
+      __m512 r = _mm512_castps128_ps512(load(rows[i]));
+      r = _mm512_insertf32x4(r, load(rows[i + 4]), 1);
+      r = _mm512_insertf32x4(r, load(rows[i + 8]), 2);
+      return _mm512_insertf32x4(r, load(rows[i + 12]), 3);
     };
     const __m512 r0 = row(0);
     const __m512 r1 = row(1);

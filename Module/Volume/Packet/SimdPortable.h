@@ -224,6 +224,17 @@ struct SimdPortable
       w.Of[i] = quad[3];
     }
   }
+  /** Per lane, the three floats from `from + 3 * index`. */
+  static void GatherTriples(const float* from, const Int& index, Float& x, Float& y, Float& z)
+  {
+    for (int i = 0; i < Width; ++i)
+    {
+      const float* triple = from + std::int64_t{ 3 } * index.Of[i];
+      x.Of[i] = triple[0];
+      y.Of[i] = triple[1];
+      z.Of[i] = triple[2];
+    }
+  }
   /**
    * For cell and face number cellFace / 4 and cellFace % 4: the links of the cell, of the integers
    * from `cells + 8 cell` the last four, and the four floats of its vertex opposite to the face.
