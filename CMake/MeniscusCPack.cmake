@@ -17,8 +17,9 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 
 if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
   set(CPACK_PACKAGE_NAME paraview-meniscus)
-  # The plugin is one package: its library lies beside it. `development` holds static archives.
-  set(CPACK_COMPONENTS_ALL runtime plugin)
+  # The plugin is one package: its library lies beside it. ParaView 5.11 installs the plugin itself
+  # without a component.
+  set(CPACK_COMPONENTS_ALL runtime Unspecified)
   set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
   set(CPACK_DEBIAN_PACKAGE_NAME paraview-meniscus)
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "paraview (>= 5.11), paraview (<< 5.12)")
