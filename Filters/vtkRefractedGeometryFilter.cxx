@@ -604,7 +604,7 @@ bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
     membrane, this->MembraneModel == CURVED, messages, this->ExactMembrane);
   if (!messages.error.empty())
   {
-    vtkErrorMacro(<< messages.error);
+    vtkErrorMacro(<< messages.error << "; the output is empty.");
   }
   if (!messages.warning.empty())
   {
@@ -629,7 +629,7 @@ bool vtkRefractedGeometryFilter::UpdateEye()
     messages);
   if (!messages.error.empty())
   {
-    vtkErrorMacro(<< messages.error);
+    vtkErrorMacro(<< messages.error << "; the output is empty.");
   }
   return ready;
 }

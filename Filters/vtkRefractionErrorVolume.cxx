@@ -254,7 +254,7 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
   }
   if (!messages.error.empty())
   {
-    vtkErrorMacro(<< messages.error);
+    vtkErrorMacro(<< messages.error << "; the output is empty.");
   }
   if (!messages.warning.empty())
   {
