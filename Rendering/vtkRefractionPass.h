@@ -126,6 +126,17 @@ public:
 
   ///@{
   /**
+   * Set/Get whether the camera's clipping range is widened, where it does not hold the membranes in
+   * view and the objects behind them, which the renderer does not know. It is never narrowed.
+   * Default is on.
+   */
+  vtkSetMacro(AdjustClippingRange, bool);
+  vtkGetMacro(AdjustClippingRange, bool);
+  vtkBooleanMacro(AdjustClippingRange, bool);
+  ///@}
+
+  ///@{
+  /**
    * Counters since construction: membranes drawn, and membranes that were not because none of their
    * bounds is in view, or because they are not visible.
    */
@@ -160,6 +171,7 @@ private:
   void Compose(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void SetOptics(vtkRenderer* renderer, vtkActor* membrane, vtkShaderProgram* program);
 
+  bool AdjustClippingRange = true;
   int ReflectanceModel = FRESNEL;
   double AttenuationCoefficients[3] = { 0.0, 0.0, 0.0 };
 

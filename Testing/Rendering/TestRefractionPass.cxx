@@ -399,6 +399,34 @@ TEST(RefractionPass, AMembraneOutOfViewCostsNothing)
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesSkipped(), 2);
 }
 
+TEST(RefractionPass, TheClippingRangeHoldsWhatTheRendererDoesNotKnow)
+{
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  const ByteImage whole = pool.render();
+  double range[2];
+  pool.camera()->GetClippingRange(range);
+  EXPECT_EQ(range[0], 0.1); // wide enough: untouched
+  EXPECT_EQ(range[1], 20.0);
+  // As the renderer would set it for a small actor in front.
+  pool.camera()->SetClippingRange(0.5, 1.0);
+  EXPECT_EQ(pool.render().Rgb, whole.Rgb);
+  pool.camera()->GetClippingRange(range);
+  EXPECT_EQ(range[0], 0.5);
+  EXPECT_GT(range[1], EyeHeight + 0.5);
+  const vtkTypeInt64 eyes = pool.Filter->GetNumberOfEyeUpdates();
+  const vtkMTimeType time = pool.camera()->GetMTime();
+  pool.render();
+  EXPECT_EQ(pool.Filter->GetNumberOfEyeUpdates(), eyes);
+  EXPECT_EQ(pool.camera()->GetMTime(), time);
+
+  pool.Pass->AdjustClippingRangeOff();
+  pool.camera()->SetClippingRange(0.5, 1.0);
+  pool.render();
+  pool.camera()->GetClippingRange(range);
+  EXPECT_EQ(range[1], 1.0);
+}
+
 TEST(RefractionPass, CountersOfWhatMoves)
 {
   Pool pool;

@@ -11,6 +11,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkGenericCell.h>
+#include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkMath.h>
 #include <vtkPlaneSource.h>
@@ -256,34 +257,29 @@ public:
     }
   }
 
-  struct Answer
+  void find(const glm::dvec3& start, const glm::dvec3& direction, vtkGenericCell* cell,
+    PoolSight& sight) const
   {
-    int Part = -1;
-    vtkIdType Cell = -1;
-    double Pcoords[3] = { 0.0, 0.0, 0.0 };
-    double Distance = Far;
-  };
-  Answer find(const glm::dvec3& start, const glm::dvec3& direction, vtkGenericCell* cell) const
-  {
-    Answer nearest;
+    sight.Distance = Far;
     for (std::size_t i = 0; i < this->Locators.size(); ++i)
     {
-      Answer answer;
       glm::dvec3 from = start;
       glm::dvec3 to = start + Far * direction;
       double t = 0.0;
       double x[3];
+      double pcoords[3];
       int part = 0;
+      vtkIdType id = -1;
       if (this->Locators[i]->IntersectWithLine(
-            &from.x, &to.x, 1e-9, t, x, answer.Pcoords, part, answer.Cell, cell) &&
-        t * Far < nearest.Distance)
+            &from.x, &to.x, 1e-9, t, x, pcoords, part, id, cell) &&
+        t * Far < sight.Distance)
       {
-        answer.Part = static_cast<int>(i);
-        answer.Distance = t * Far;
-        nearest = answer;
+        sight.Part = static_cast<int>(i);
+        sight.Cell = id;
+        sight.Weights = { 1.0 - pcoords[0] - pcoords[1], pcoords[0], pcoords[1] };
+        sight.Distance = t * Far;
       }
     }
-    return nearest;
   }
 
 private:
@@ -379,6 +375,20 @@ void PoolScene::addPart(vtkPolyData* data, vtkImageData* image, const glm::dvec3
     texture->SetInputData(image);
     texture->InterpolateOn();
     part.Actor->SetTexture(texture);
+    vtkDataArray* coordinates = data->GetPointData()->GetTCoords();
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+    {
+      data->GetCellPoints(i, ids);
+      std::array<glm::dvec2, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        double uv[2];
+        coordinates->GetTuple(ids->GetId(static_cast<vtkIdType>(k)), uv);
+        corners[k] = { uv[0], uv[1] };
+      }
+      part.Coordinates.push_back(corners);
+    }
   }
   this->Pass->AddRefraction(this->WaterActor, part.Actor, part.Filter);
   this->Parts.push_back(part);
@@ -412,6 +422,50 @@ test::ByteImage PoolScene::draw()
 }
 
 //------------------------------------------------------------------------------
+void PoolScene::setAccuracy(bool allImages, double tolerance)
+{
+  for (const Part& part : this->Parts)
+  {
+    part.Filter->SetImages(
+      allImages ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
+    part.Filter->SetAngularTolerance(tolerance);
+  }
+}
+
+//------------------------------------------------------------------------------
+void PoolScene::showObjects(bool show)
+{
+  for (std::size_t i = 1; i < this->Parts.size(); ++i)
+  {
+    this->Parts[i].Actor->SetVisibility(show);
+  }
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 PoolScene::shade(const PoolSight& sight) const
+{
+  glm::dvec3 color = Background;
+  if (sight.Part >= 0)
+  {
+    const Part& part = this->Parts[static_cast<std::size_t>(sight.Part)];
+    color = part.Color;
+    if (part.Image)
+    {
+      const auto& corners = part.Coordinates[static_cast<std::size_t>(sight.Cell)];
+      const glm::dvec2 uv = sight.Weights[0] * corners[0] + sight.Weights[1] * corners[1] +
+        sight.Weights[2] * corners[2];
+      color = sample(part.Image, uv.x, uv.y);
+    }
+    color *= glm::exp(-sight.Distance * this->Optics.Attenuation);
+  }
+  const double cosine = -glm::dot(sight.Ray, sight.Normal);
+  const double reflected = this->Optics.Fresnel ? fresnel(cosine) : 0.0;
+  const glm::dvec3 mirrored =
+    this->Optics.Sky ? skyColor(sight.Ray + 2.0 * cosine * sight.Normal) : Background;
+  return (1.0 - reflected) * color + reflected * mirrored;
+}
+
+//------------------------------------------------------------------------------
 PoolPicture PoolScene::trace() const
 {
   std::vector<vtkSmartPointer<vtkPolyData>> data;
@@ -420,38 +474,9 @@ PoolPicture PoolScene::trace() const
     data.push_back(part.Data);
   }
   const PoolHit pool(data);
-  vtkDataArray* coordinates = this->Parts[0].Data->GetPointData()->GetTCoords();
   PoolPicture picture;
   picture.Colors.assign(static_cast<std::size_t>(Pixels) * Pixels, Background);
   std::vector<char> isWater(picture.Colors.size(), 0); // bits are shared by threads
-
-  const auto transmit = [&](const glm::dvec3& start, vtkGenericCell* cell)
-  {
-    const glm::dvec3 direction =
-      glm::normalize(this->Field.Refract(Eye, start, 1.0).value_or(start) - start);
-    const PoolHit::Answer hit = pool.find(start, direction, cell);
-    if (hit.Part < 0)
-    {
-      return Background;
-    }
-    const Part& part = this->Parts[static_cast<std::size_t>(hit.Part)];
-    glm::dvec3 color = part.Color;
-    if (part.Image)
-    {
-      vtkNew<vtkIdList> ids;
-      part.Data->GetCellPoints(hit.Cell, ids);
-      const double weights[3] = { 1.0 - hit.Pcoords[0] - hit.Pcoords[1], hit.Pcoords[0],
-        hit.Pcoords[1] };
-      double uv[2] = { 0.0, 0.0 };
-      for (int k = 0; k < 3; ++k)
-      {
-        uv[0] += weights[k] * coordinates->GetComponent(ids->GetId(k), 0);
-        uv[1] += weights[k] * coordinates->GetComponent(ids->GetId(k), 1);
-      }
-      color = sample(part.Image, uv[0], uv[1]);
-    }
-    return color * glm::exp(-hit.Distance * this->Optics.Attenuation);
-  };
 
   vtkSMPTools::For(0, Pixels,
     [&](vtkIdType begin, vtkIdType end)
@@ -467,14 +492,13 @@ PoolPicture PoolScene::trace() const
         {
           continue;
         }
-        const glm::dvec3 normal = this->Field.GetNormal(start.x, start.z);
-        const double cosine = -glm::dot(ray, normal);
-        const double reflected = this->Optics.Fresnel ? fresnel(cosine) : 0.0;
-        const glm::dvec3 mirrored =
-          this->Optics.Sky ? skyColor(ray + 2.0 * cosine * normal) : Background;
+        PoolSight sight;
+        sight.Ray = ray;
+        sight.Normal = this->Field.GetNormal(start.x, start.z);
+        const glm::dvec3 behind = this->Field.Refract(Eye, start, 1.0).value_or(start) - start;
+        pool.find(start, glm::normalize(behind), cell, sight);
         isWater[static_cast<std::size_t>(i)] = 1;
-        picture.Colors[static_cast<std::size_t>(i)] =
-          (1.0 - reflected) * transmit(start, cell) + reflected * mirrored;
+        picture.Colors[static_cast<std::size_t>(i)] = this->shade(sight);
       }
     });
   picture.isWater.assign(isWater.begin(), isWater.end());

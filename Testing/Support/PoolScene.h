@@ -11,15 +11,20 @@
 #include "RefractionPicture.h"
 #include "VolumeScene.h"
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include <vtkNew.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <array>
 #include <vector>
 
 class vtkActor;
 class vtkImageData;
-class vtkPolyData;
+
 class vtkRefractedGeometryFilter;
 class vtkRefractionPass;
 class vtkTexture;
@@ -47,6 +52,17 @@ struct PoolPicture
   std::vector<bool> isWater;
 };
 
+/// What a ray from the eye meets.
+struct PoolSight
+{
+  glm::dvec3 Ray;    ///< from the eye, a unit vector
+  glm::dvec3 Normal; ///< of the water where it is met
+  int Part = -1;     ///< behind the water; -1 for nothing
+  vtkIdType Cell = -1;
+  glm::dvec3 Weights{ 0.0 }; ///< of the cell's corners
+  double Distance = 0.0;     ///< behind the water
+};
+
 class PoolScene
 {
 public:
@@ -57,6 +73,10 @@ public:
   ~PoolScene();
 
   void setOptics(const PoolOptics& optics);
+  /// Of all filters: all images or one, and the tolerance in degrees.
+  void setAccuracy(bool allImages, double tolerance);
+  /// The walls alone, or the objects as well.
+  void showObjects(bool show);
   /// Other waves.
   void moveWater(double time);
 
@@ -69,11 +89,19 @@ public:
   /// What rays through the exact waves see, refracted once.
   PoolPicture trace() const;
 
+  /// The colour of a pixel, for rays that somebody else has traced.
+  glm::dvec3 shade(const PoolSight& sight) const;
+  int numberOfParts() const { return static_cast<int>(this->Parts.size()); }
+  /// Triangles.
+  vtkPolyData* partData(int part) const { return this->Parts[static_cast<std::size_t>(part)].Data; }
+  const reference::HeightField& field() const { return this->Field; }
+
 private:
   struct Part
   {
     vtkSmartPointer<vtkPolyData> Data;
-    vtkSmartPointer<vtkImageData> Image; ///< none: a colour
+    vtkSmartPointer<vtkImageData> Image;                ///< none: a colour
+    std::vector<std::array<glm::dvec2, 3>> Coordinates; ///< in the image, of the cells' corners
     glm::dvec3 Color{ 1.0 };
     vtkSmartPointer<vtkRefractedGeometryFilter> Filter;
     vtkSmartPointer<vtkActor> Actor;
