@@ -8,6 +8,7 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkDataObject.h"
+#include "vtkFrameBufferObjectBase.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -429,7 +430,7 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
     if (bounds && bounds[0] <= bounds[1] && MayBeInView(renderer, bounds))
     {
       ++internals.Drawn;
-      this->DrawMembrane(renderer, window, membrane);
+      this->DrawMembrane(state, window, membrane);
     }
     else
     {
@@ -440,13 +441,21 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
 
 //------------------------------------------------------------------------------
 void vtkRefractionPass::DrawMembrane(
-  vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane)
+  const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane)
 {
   vtkInternals& internals = *this->Internals;
   vtkOpenGLClearErrorMacro();
+  vtkRenderer* renderer = drawn->GetRenderer();
   int size[2];
-  int origin[2];
-  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  int origin[2] = { 0, 0 };
+  if (vtkFrameBufferObjectBase* buffer = drawn->GetFrameBuffer())
+  {
+    buffer->GetLastSize(size); // another pass's picture, of any size
+  }
+  else
+  {
+    renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  }
   vtkOpenGLState* state = window->GetState();
   state->Push();
   state->PushFramebufferBindings();

@@ -165,7 +165,7 @@ private:
   vtkRefractionPass(const vtkRefractionPass&) = delete;
   void operator=(const vtkRefractionPass&) = delete;
 
-  void DrawMembrane(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
+  void DrawMembrane(const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void DrawObjects(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
   void DrawSurface(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
   void Compose(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
