@@ -100,7 +100,7 @@ bool RefractionScene::ReportMembrane(
   if (status != MembraneStatus::Ready)
   {
     text << NameFault(status) << " (" << report.Skipped() << " of " << triangles
-         << " triangles skipped); the output is empty.";
+         << " triangles skipped)";
     messages.error = text.str();
     return false;
   }
@@ -161,15 +161,13 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
       return true;
     case EyeStatus::BadIndex:
       text << "Indices of refraction must be positive and finite, not " << eye[3] << " and "
-           << eye[4] << "; the output is empty.";
+           << eye[4];
       break;
     case EyeStatus::NotFinite:
-      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2]
-           << ") is not finite; the output is empty.";
+      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2] << ") is not finite";
       break;
     case EyeStatus::OnTheMembrane:
-      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2]
-           << ") lies on the membrane; the output is empty.";
+      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2] << ") lies on the membrane";
       break;
   }
   messages.error = text.str();

@@ -473,6 +473,8 @@ int vtkRefractedGeometryFilter::RequestUpdateExtent(
     membrane->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    // The executive has copied that of the geometry, if it comes from an image.
+    membrane->Remove(Pipeline::UPDATE_EXTENT());
   }
   return 1;
 }
@@ -604,7 +606,7 @@ bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
     membrane, this->MembraneModel == CURVED, messages, this->ExactMembrane);
   if (!messages.error.empty())
   {
-    vtkErrorMacro(<< messages.error);
+    vtkErrorMacro(<< messages.error << "; the output is empty.");
   }
   if (!messages.warning.empty())
   {
@@ -629,7 +631,7 @@ bool vtkRefractedGeometryFilter::UpdateEye()
     messages);
   if (!messages.error.empty())
   {
-    vtkErrorMacro(<< messages.error);
+    vtkErrorMacro(<< messages.error << "; the output is empty.");
   }
   return ready;
 }

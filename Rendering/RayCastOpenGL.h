@@ -42,6 +42,18 @@ struct RayCastOutput
   glm::vec3 SelectionValue{ 0.0f };
 };
 
+/** How rays bend at a membrane. */
+struct RayCastBending
+{
+  /** Whether there is a membrane that bends them. */
+  bool Wanted = false;
+  double Exterior = 1.0;
+  double Interior = 1.0;
+  /** Of the frame, in world coordinates, and depth of the eye in it. */
+  glm::dvec3 Center{ 0.0 };
+  double EyeDepth = 0.0;
+};
+
 /** What a frame needs beside the tables. */
 struct RayCastFrame
 {
@@ -53,6 +65,8 @@ struct RayCastFrame
     return std::max(1.0 - this->EarlyTerminationOpacity, 1.0e-30);
   }
   RayCastOptics Optics;
+  /** Native only. */
+  RayCastBending Bending;
   RayCastOutput Output;
   /** By a compute shader, not a fragment shader. */
   bool Compute = false;

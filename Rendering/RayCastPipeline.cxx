@@ -154,6 +154,13 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
       int width, int height, const std::vector<float>& depths, std::vector<float>& image)
     {
       scene.Rays = PixelRays(frame.Rays, width, height);
+      if (frame.Bending.Wanted)
+      {
+        const RayCastBending& bending = frame.Bending;
+        scene.Bent = this->Membrane.See({ frame.Rays, width, height, bending.Center,
+                                          bending.EyeDepth, bending.Exterior, bending.Interior },
+          this->Input);
+      }
       const VertexVersion version{ this->Input.GetMeshBuilds(), this->Input.GetScalarUpdates() };
       return this->Native.Cast(scene, this->Input.GetScalars(), version, depths, image);
     },

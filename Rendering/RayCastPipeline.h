@@ -3,6 +3,7 @@
 #ifndef RayCastPipeline_h
 #define RayCastPipeline_h
 
+#include "RayCastMembrane.h"
 #include "RayCastNative.h"
 #include "RayCastOpenGL.h"
 #include "RayCastOptics.h"
@@ -42,6 +43,7 @@ public:
   VolumePreIntegration PreIntegration;
   RayCastOpenGL OpenGL;
   RayCastNative Native;
+  RayCastMembrane Membrane;
 
   /** Where the mesh lies for the rays of an image of so many pixels. */
   std::string ComputeFrame(

@@ -5,19 +5,24 @@
 #include "RayCastPipeline.h"
 #include "RayCastShader.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkHardwareSelector.h"
 #include "vtkInformation.h"
+#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkPolyData.h"
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
 #include "vtkVolume.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
+
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +44,10 @@ public:
   bool WarnedComponents = false;
   bool WarnedCompute = false;
   bool WarnedTableSize = false;
+  bool WarnedMembrane = false;
+  std::string ToldOfMembrane;
+  /** Of the last frame, for what is in the world. */
+  glm::dmat4 WorldToModel{ 1.0 };
 };
 
 vtkStandardNewMacro(vtkTetrahedraRayCastMapper);
@@ -48,14 +57,21 @@ vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
   : MaximumTableSize(VTK_TYPE_INT64_MAX)
   , Internals(new vtkInternals)
 {
+  this->SetNumberOfInputPorts(2);
 }
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper::~vtkTetrahedraRayCastMapper() = default;
 
 //------------------------------------------------------------------------------
-int vtkTetrahedraRayCastMapper::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+int vtkTetrahedraRayCastMapper::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   for (const char* type : { "vtkDataSet", "vtkCompositeDataSet" })
   {
@@ -77,16 +93,53 @@ void vtkTetrahedraRayCastMapper::SetInputData(vtkCompositeDataSet* input)
 }
 
 //------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::SetMembraneData(vtkPolyData* membrane)
+{
+  this->SetInputDataInternal(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkTetrahedraRayCastMapper::GetMembrane()
+{
+  return this->HasMembrane() ? vtkPolyData::SafeDownCast(this->GetInputDataObject(1, 0)) : nullptr;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::HasMembrane()
+{
+  return this->GetNumberOfInputConnections(1) > 0;
+}
+
+//------------------------------------------------------------------------------
 double* vtkTetrahedraRayCastMapper::GetBounds()
 {
-  auto* composite = vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput());
-  if (!composite)
+  double* bounds = this->Superclass::GetBounds();
+  if (vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput()))
   {
-    return this->Superclass::GetBounds();
+    this->GetInputAlgorithm()->Update();
+    vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput())->GetBounds(this->Bounds);
+    bounds = this->Bounds;
   }
-  this->GetInputAlgorithm()->Update();
-  composite = vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput());
-  composite->GetBounds(this->Bounds);
+  if (!this->HasMembrane() || !vtkMath::AreBoundsInitialized(bounds))
+  {
+    return bounds;
+  }
+  this->GetInputAlgorithm(1, 0)->Update();
+  vtkPolyData* membrane = this->GetMembrane();
+  if (membrane && membrane->GetNumberOfPoints() > 0)
+  {
+    // The volume's matrix takes these to the world, where the membrane is.
+    vtkBoundingBox box(bounds);
+    double corners[6];
+    membrane->GetBounds(corners);
+    for (int c = 0; c < 8; ++c)
+    {
+      const glm::dvec4 corner = this->Internals->WorldToModel *
+        glm::dvec4(corners[c & 1], corners[2 + (c >> 1 & 1)], corners[4 + (c >> 2 & 1)], 1.0);
+      box.AddPoint(corner.x, corner.y, corner.z);
+    }
+    box.GetBounds(this->Bounds);
+  }
   return this->Bounds;
 }
 
@@ -219,6 +272,51 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
 }
 
 //------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::UpdateMembrane()
+{
+  if (!this->HasMembrane())
+  {
+    return true;
+  }
+  vtkInternals& internals = *this->Internals;
+  this->GetInputAlgorithm(1, 0)->Update();
+  vtkPolyData* membrane = this->GetMembrane();
+  meniscus::SceneMessages messages;
+  const auto isIndex = [](double index) { return index > 0.0 && std::isfinite(index); };
+  if (!membrane)
+  {
+    messages.error = "The membrane is no vtkPolyData";
+  }
+  else if (!isIndex(this->ExteriorIndexOfRefraction) || !isIndex(this->InteriorIndexOfRefraction))
+  {
+    messages.error = "Indices of refraction must be positive and finite";
+  }
+  else if (this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction &&
+    !internals.Membrane.Update(membrane, messages) && messages.error.empty())
+  {
+    messages.error = "The membrane cannot be used";
+  }
+  // The same cells are left out again in every frame.
+  const bool told = messages.warning == internals.ToldOfMembrane;
+  internals.ToldOfMembrane = messages.warning.empty() ? internals.ToldOfMembrane : messages.warning;
+  return this->Tell({ messages.error, told ? std::string() : messages.warning });
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::PrepareBending(
+  const meniscus::OpticsPlace& place, meniscus::RayCastFrame& frame)
+{
+  meniscus::RayCastBending& bending = frame.Bending;
+  bending.Wanted =
+    this->HasMembrane() && this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction;
+  bending.Exterior = this->ExteriorIndexOfRefraction;
+  bending.Interior = this->InteriorIndexOfRefraction;
+  bending.Center = place.CenterInWorld;
+  const glm::dvec3 eye(glm::inverse(place.WorldToView) * glm::dvec4(0.0, 0.0, 0.0, 1.0));
+  bending.EyeDepth = (glm::inverse(frame.Rays.ViewToWorld) * (eye - bending.Center)).z;
+}
+
+//------------------------------------------------------------------------------
 int vtkTetrahedraRayCastMapper::GetUsedBlendMode()
 {
   const bool known = this->BlendMode >= vtkVolumeMapper::COMPOSITE_BLEND &&
@@ -247,8 +345,15 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
 }
 
 //------------------------------------------------------------------------------
-int vtkTetrahedraRayCastMapper::ChooseBackend()
+int vtkTetrahedraRayCastMapper::ChooseBackend(const meniscus::RayCastFrame& frame)
 {
+  if (frame.Bending.Wanted)
+  {
+    this->WarnOnce(this->Backend == OPENGL || this->Backend == COMPUTE,
+      this->Internals->WarnedMembrane,
+      "Rays bend at a membrane in the native backend only; rendering with that.");
+    return NATIVE;
+  }
   if (this->Backend == AUTOMATIC)
   {
     return this->Internals->OpenGL.IsSoftware() ? NATIVE : OPENGL;
@@ -342,6 +447,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     return error;
   }
   frame.Rays = place.Frame;
+  this->PrepareBending(place, frame);
   frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
   frame.Optics.BlendMode = this->GetUsedBlendMode();
   frame.Optics.Components = internals.Mixture;
@@ -390,7 +496,7 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   int backend = OPENGL;
   if (error.empty())
   {
-    backend = this->ChooseBackend();
+    backend = this->ChooseBackend(frame);
     if (backend != NATIVE && this->FallsBackToNative(error))
     {
       backend = NATIVE;
@@ -416,10 +522,11 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
 {
   meniscus::InputParts parts;
   if (!this->CollectInput(parts) || parts.Parts.empty() || !this->ChooseMixture(parts, volume) ||
-    !this->UpdateInput(renderer->GetRenderWindow(), parts))
+    !this->UpdateMembrane() || !this->UpdateInput(renderer->GetRenderWindow(), parts))
   {
     return;
   }
+  this->Internals->WorldToModel = glm::inverse(meniscus::ToGlm(volume->GetMatrix()));
   this->WarnAboutUnavailable();
   this->UpdateTransferFunction(volume);
   vtkHardwareSelector* selector = renderer->GetSelector();
@@ -478,6 +585,18 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfPreIntegrationBuilds()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMembraneBuilds()
+{
+  return this->Internals->Membrane.GetBuilds();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfSightUpdates()
+{
+  return this->Internals->Membrane.GetSightUpdates();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 {
   return this->Internals->Input.GetActiveSetBuilds();
@@ -497,7 +616,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
   const std::size_t vectors =
     internals.GetGradients().size() + internals.Components.GetValues().size();
   const std::size_t table = internals.PreIntegration.GetTable().GetValues().size();
-  return internals.Input.GetBytes() + internals.Native.GetBytes() +
+  return internals.Input.GetBytes() + internals.Native.GetBytes() + internals.Membrane.GetBytes() +
     static_cast<vtkTypeInt64>(vectors * sizeof(glm::vec3) + table * sizeof(float));
 }
 
@@ -556,6 +675,8 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PreIntegrationScalarSize: " << this->PreIntegrationScalarSize << "\n";
   os << indent << "PreIntegrationLengthSize: " << this->PreIntegrationLengthSize << "\n";
   os << indent << "Gradients: " << this->Gradients << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
   os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
   os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
   os << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << "\n";
@@ -568,6 +689,8 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfGradientBuilds: " << this->GetNumberOfGradientBuilds() << "\n";
   os << indent << "NumberOfPreIntegrationBuilds: " << this->GetNumberOfPreIntegrationBuilds()
      << "\n";
+  os << indent << "NumberOfMembraneBuilds: " << this->GetNumberOfMembraneBuilds() << "\n";
+  os << indent << "NumberOfSightUpdates: " << this->GetNumberOfSightUpdates() << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "CompactTables: " << this->CompactTables << "\n";

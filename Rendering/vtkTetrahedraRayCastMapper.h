@@ -96,6 +96,7 @@
 
 class vtkCompositeDataSet;
 class vtkDataSet;
+class vtkPolyData;
 class vtkRenderWindow;
 
 namespace meniscus
@@ -103,6 +104,7 @@ namespace meniscus
 struct InputParts;
 struct InputReport;
 struct RayCastFrame;
+struct OpticsPlace;
 struct RayCastOptics;
 struct ScalarSelection;
 }
@@ -114,22 +116,62 @@ public:
   vtkTypeMacro(vtkTetrahedraRayCastMapper, vtkUnstructuredGridVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  using vtkUnstructuredGridVolumeMapper::SetInputData;
   ///@{
   /**
    * Sets what is drawn, without a pipeline: a data set with cells that have volume, or a composite
    * one of such, all of whose leaves are drawn as one mesh.
    */
-  using vtkUnstructuredGridVolumeMapper::SetInputData;
   void SetInputData(vtkDataSet* input) override;
   void SetInputData(vtkCompositeDataSet* input);
   ///@}
 
   ///@{
-  /** Bounds of the input; of all leaves of a composite one. */
+  /**
+   * Sets a surface that rays bend at, port 1, from a pipeline or without: triangles, or what
+   * triangulates, in world coordinates. Its point normals are used if present, else computed; it is
+   * curved between its points, as in vtkRefractedGeometryFilter::CURVED. Null, the default: none.
+   *
+   * A pixel's ray goes straight to where it first meets the membrane, so a part of the mesh in
+   * front of it is seen as ever; there it bends by Snell's law, once, and goes on through the mesh.
+   * Where it is totally reflected nothing behind the membrane is seen; beside the membrane rays are
+   * straight. What is in the framebuffer behind the membrane counts as virtual geometry, such as
+   * vtkRefractedGeometryFilter makes: at a distance l behind the sight point it hides what is
+   * n2 / n1 * l along the bent ray and farther (the thesis's Eq. 2.4). A membrane that is drawn
+   * opaque itself hides all that is behind it.
+   *
+   * It is native: other backends are replaced by it, after a warning. Bounds of the mapper include
+   * those of the membrane, where the volume is seen. A membrane that cannot be used is an error,
+   * and nothing is rendered.
+   *
+   * @sa SetExteriorIndexOfRefraction
+   */
+  void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+  void SetMembraneData(vtkPolyData* membrane);
+  void SetMembrane(vtkPolyData* membrane) { this->SetMembraneData(membrane); }
+  vtkPolyData* GetMembrane();
+  ///@}
+
+  ///@{
+  /**
+   * Indices of refraction: exterior, on the side that the membrane's normals point to, default 1.0,
+   * and interior, on the other side, default 1.333. Positive and finite; others are an error when
+   * there is a membrane. A ray that meets the membrane from behind leaves the interior. If they are
+   * equal the membrane changes nothing and costs nothing.
+   */
+  vtkSetMacro(ExteriorIndexOfRefraction, double);
+  vtkGetMacro(ExteriorIndexOfRefraction, double);
+  vtkSetMacro(InteriorIndexOfRefraction, double);
+  vtkGetMacro(InteriorIndexOfRefraction, double);
+  ///@}
+
+  ///@{
+  /** Bounds of the input, of all leaves of a composite one, and of the membrane. */
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
   ///@}
 
+  /// What is drawn of an array of several components.
   enum VectorModes
   {
     DISABLED = -1,
@@ -140,7 +182,8 @@ public:
   ///@{
   /**
    * What is drawn of an array of several components, as in vtkSmartVolumeMapper: MAGNITUDE, the
-   * length of the vector; COMPONENT, the one of number VectorComponent (from 0, the default).
+   * length of the vector (a single component with its sign); COMPONENT, the one of number
+   * VectorComponent (from 0, the default).
    * DISABLED, the default, draws arrays of one component, and mixes two to four (see the class).
    */
   vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
@@ -149,6 +192,7 @@ public:
   vtkGetMacro(VectorComponent, int);
   ///@}
 
+  /// What an opacity means over a length.
   enum OpacityModels
   {
     ATTENUATION_COEFFICIENT = 0,
@@ -167,6 +211,7 @@ public:
   vtkGetMacro(OpacityModel, int);
   ///@}
 
+  /// What casts the rays.
   enum Backends
   {
     AUTOMATIC = 0,
@@ -190,6 +235,7 @@ public:
   /** The backend of the last Render(); AUTOMATIC if nothing has been rendered. */
   vtkGetMacro(ActiveBackend, int);
 
+  /// How segments of rays are integrated.
   enum Integrations
   {
     EXACT = 0,
@@ -223,6 +269,7 @@ public:
   vtkGetMacro(PreIntegrationLengthSize, int);
   ///@}
 
+  /// Which gradients light and gradient opacity go by.
   enum GradientLocations
   {
     CELL_GRADIENTS = 0,
@@ -300,7 +347,8 @@ public:
    * Work done since construction: builds of the mesh tables, updates of vertex scalars, reductions
    * of the volume property to control points, builds of the set of active cells (on a new mesh,
    * new scalars, or when other scalars become visible), computations of vertex gradients, builds of
-   * the pre-integration table.
+   * the pre-integration table; of a membrane, times that its shape was taken in and fitted, and
+   * that it was found where the rays meet it (when shape, view or indices changed).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
@@ -308,6 +356,8 @@ public:
   vtkTypeInt64 GetNumberOfActiveSetBuilds();
   vtkTypeInt64 GetNumberOfGradientBuilds();
   vtkTypeInt64 GetNumberOfPreIntegrationBuilds();
+  vtkTypeInt64 GetNumberOfMembraneBuilds();
+  vtkTypeInt64 GetNumberOfSightUpdates();
   ///@}
 
   /**
@@ -378,10 +428,13 @@ private:
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
   void ChooseIntegration(vtkVolume* volume, meniscus::RayCastOptics& optics);
+  bool HasMembrane();
+  bool UpdateMembrane();
+  void PrepareBending(const meniscus::OpticsPlace& place, meniscus::RayCastFrame& frame);
   bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
-  int ChooseBackend();
+  int ChooseBackend(const meniscus::RayCastFrame& frame);
   bool FallsBackToNative(std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
@@ -396,6 +449,8 @@ private:
   int PreIntegrationScalarSize = 256;
   int PreIntegrationLengthSize = 16;
   int Gradients = VERTEX_GRADIENTS;
+  double ExteriorIndexOfRefraction = 1.0;
+  double InteriorIndexOfRefraction = 1.333;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
   float ImageSampleDistance = 1.0f;
   float MaximumImageSampleDistance = 8.0f;

@@ -73,13 +73,20 @@ struct CurvedPatch
     return (1.0 - b.x - b.y) * this->corner[0] + b.x * this->corner[1] + b.y * this->corner[2];
   }
 
+  /// Not normalised.
+  glm::dvec3 GetNormal(const glm::dvec2& b) const
+  {
+    const double c = 1.0 - b.x - b.y;
+    return c * this->normal[0] + b.x * this->normal[1] + b.y * this->normal[2] +
+      b.x * b.y * this->bend[0] + b.y * c * this->bend[1] + c * b.x * this->bend[2];
+  }
+
   PatchPoint Evaluate(const glm::dvec2& b) const
   {
     const double c = 1.0 - b.x - b.y;
     const double bc[3] = { b.x * b.y, b.y * c, c * b.x };
     PatchPoint result;
-    result.normal = c * this->normal[0] + b.x * this->normal[1] + b.y * this->normal[2] +
-      bc[0] * this->bend[0] + bc[1] * this->bend[1] + bc[2] * this->bend[2];
+    result.normal = this->GetNormal(b);
     const double q = bc[0] * (this->symmetric[0] + this->asymmetric[0] * (b.x - b.y)) +
       bc[1] * (this->symmetric[1] + this->asymmetric[1] * (b.y - c)) +
       bc[2] * (this->symmetric[2] + this->asymmetric[2] * (c - b.x));

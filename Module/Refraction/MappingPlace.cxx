@@ -104,6 +104,14 @@ bool MeetPlane(const CurvedPatch& patch, const PatchLine& curve, const glm::dvec
 //------------------------------------------------------------------------------
 bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l)
 {
+  glm::dvec3 normal;
+  return MeetPatch(patch, line, LastStep, b, l, normal);
+}
+
+//------------------------------------------------------------------------------
+bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
+  double& l, glm::dvec3& normal)
+{
   glm::dvec2 atB = b;
   double atL = l;
   PatchJet jet;
@@ -111,22 +119,24 @@ bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, 
   {
     patch.Evaluate(atB, jet);
     const glm::dvec3 rest = line.origin + atL * line.direction - jet.position;
-    const glm::dvec3 normal = glm::cross(jet.positionBy[0], jet.positionBy[1]);
-    const double moveL = -glm::dot(normal, rest) / glm::dot(normal, line.direction);
+    const glm::dvec3 across = glm::cross(jet.positionBy[0], jet.positionBy[1]);
+    const double moveL = -glm::dot(across, rest) / glm::dot(across, line.direction);
     const glm::dvec3 inPlane = rest + moveL * line.direction;
-    const double squared = glm::dot(normal, normal);
-    const glm::dvec2 moveB(glm::dot(glm::cross(inPlane, jet.positionBy[1]), normal) / squared,
-      glm::dot(glm::cross(jet.positionBy[0], inPlane), normal) / squared);
+    const double squared = glm::dot(across, across);
+    const glm::dvec2 moveB(glm::dot(glm::cross(inPlane, jet.positionBy[1]), across) / squared,
+      glm::dot(glm::cross(jet.positionBy[0], inPlane), across) / squared);
     atB += moveB;
     atL += moveL;
     if (!IsNear(atB.x, b.x) || !IsNear(atB.y, b.y) || !IsNear(atL, l))
     {
       return false;
     }
-    if (std::max({ std::fabs(moveB.x), std::fabs(moveB.y), std::fabs(moveL) }) < LastStep)
+    if (std::max({ std::fabs(moveB.x), std::fabs(moveB.y), std::fabs(moveL) }) < lastStep)
     {
       b = atB;
       l = atL;
+      // Over so short a step the normal is as good as linear.
+      normal = jet.normal + moveB.x * jet.normalBy[0] + moveB.y * jet.normalBy[1];
       return true;
     }
   }

@@ -42,6 +42,10 @@ bool MeetPlane(const CurvedPatch& patch, const PatchLine& curve, const glm::dvec
 
 /// Where the line meets the patch.
 bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l);
+/// The same with the patch's normal there, not normalised. Newton's method ends with a step shorter
+/// than `lastStep`, the square of which is left.
+bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
+  double& l, glm::dvec3& normal);
 
 }
 

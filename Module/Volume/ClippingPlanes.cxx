@@ -9,6 +9,27 @@
 
 namespace meniscus
 {
+namespace
+{
+
+/** Narrows to where constant + t * perUnit is not negative. */
+void Clip(double constant, double perUnit, double& start, double& end)
+{
+  if (perUnit > 0.0)
+  {
+    start = std::max(start, -constant / perUnit);
+  }
+  else if (perUnit < 0.0)
+  {
+    end = std::min(end, -constant / perUnit);
+  }
+  else if (constant < 0.0)
+  {
+    end = start;
+  }
+}
+
+}
 
 //------------------------------------------------------------------------------
 RayClippingPlane ComputeClippingPlane(
@@ -27,27 +48,23 @@ RayClippingPlane ComputeClippingPlane(
     return glm::dvec3(constant + glm::dot(across, pixels.Base), glm::dot(across, pixels.PerColumn),
       glm::dot(across, pixels.PerRow));
   };
-  return { map(frame.Origin, height / size), map(frame.Slope, unit.z) };
+  return { map(frame.Origin, height / size), map(frame.Slope, unit.z),
+    glm::dvec4(unit, height / size) };
 }
 
 //------------------------------------------------------------------------------
 void ClipRay(const RayClippingPlane& plane, const glm::dvec2& pixel, double& start, double& end)
 {
   const glm::dvec3 place(1.0, pixel.x, pixel.y);
-  const double constant = glm::dot(plane.Constant, place);
-  const double perDepth = glm::dot(plane.PerDepth, place);
-  if (perDepth > 0.0)
-  {
-    start = std::max(start, -constant / perDepth);
-  }
-  else if (perDepth < 0.0)
-  {
-    end = std::min(end, -constant / perDepth);
-  }
-  else if (constant < 0.0)
-  {
-    end = start;
-  }
+  Clip(glm::dot(plane.Constant, place), glm::dot(plane.PerDepth, place), start, end);
+}
+
+//------------------------------------------------------------------------------
+void ClipLine(const RayClippingPlane& plane, const glm::dvec3& place, const glm::dvec3& step,
+  double& start, double& end)
+{
+  Clip(glm::dot(plane.InFrame, glm::dvec4(place, 1.0)),
+    glm::dot(plane.InFrame, glm::dvec4(step, 0.0)), start, end);
 }
 
 }

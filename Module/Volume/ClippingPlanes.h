@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace meniscus
 {
@@ -21,6 +22,8 @@ struct RayClippingPlane
 {
   glm::dvec3 Constant{ 0.0 };
   glm::dvec3 PerDepth{ 0.0 };
+  /** The distance of a place of the frame is dot(InFrame, (x, y, depth, 1)). */
+  glm::dvec4 InFrame{ 0.0 };
 };
 
 /**
@@ -32,6 +35,10 @@ RayClippingPlane ComputeClippingPlane(
 
 /** Narrows the part of a pixel's ray between two depths to the half space; may leave nothing. */
 void ClipRay(const RayClippingPlane& plane, const glm::dvec2& pixel, double& start, double& end);
+
+/** The same of the line place + s * step of the frame, between two values of s. */
+void ClipLine(const RayClippingPlane& plane, const glm::dvec3& place, const glm::dvec3& step,
+  double& start, double& end);
 
 }
 

@@ -61,29 +61,44 @@ glm::ivec3 PixelRays::Place(const glm::ivec3& position) const
 }
 
 //------------------------------------------------------------------------------
-PacketRay PixelRays::RayOf(int column, int row) const
+/** @param perDepth  the slope in the frame; the others are in grid units. */
+PacketRay PixelRays::MakeRay(
+  const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const
 {
-  const glm::dvec2 pixel = this->FromCenter(column, row);
-  // Half a unit more, for what is shifted out is rounded down.
-  const glm::dvec2 offset =
-    glm::clamp(this->Offset.At(pixel.x, pixel.y), -LargestOffset, LargestOffset) + 0.5;
-  const glm::dvec2 slope = this->Slope.At(pixel.x, pixel.y);
-  const glm::dvec2 perDepth = this->Frame.Slope.At(pixel.x, pixel.y);
   PacketRay ray;
   for (int axis = 0; axis < 2; ++axis)
   {
-    ray.Offset[axis] = std::llrint(offset[axis] * FractionOfGrid);
+    // Half a unit more, for what is shifted out is rounded down.
+    ray.Offset[axis] =
+      std::llrint((std::clamp(offset[axis], -LargestOffset, LargestOffset) + 0.5) * FractionOfGrid);
     // Below 1/2 in theory, and not to be rounded up to it for views of nearly 180 degrees.
     ray.Slope[axis] = static_cast<std::int32_t>(
       std::clamp(std::rint(slope[axis] * FractionOfGrid), -LargestSlope, LargestSlope));
   }
   ray.LengthPerDepth = static_cast<float>(
     glm::length(this->Frame.ViewToWorld * glm::dvec3(perDepth.x, perDepth.y, 1.0)));
-  ray.StartDepth = static_cast<float>(this->Frame.NearDepth);
+  ray.StartDepth = -1.0e+30f;
   ray.EndDepth = 1.0e+30f;
   ray.FirstEntry = 0;
   ray.EndEntry = 0;
   return ray;
+}
+
+//------------------------------------------------------------------------------
+PacketRay PixelRays::RayOf(int column, int row) const
+{
+  const glm::dvec2 pixel = this->FromCenter(column, row);
+  PacketRay ray = this->MakeRay(this->Offset.At(pixel.x, pixel.y), this->Slope.At(pixel.x, pixel.y),
+    this->Frame.Slope.At(pixel.x, pixel.y));
+  ray.StartDepth = static_cast<float>(this->Frame.NearDepth);
+  return ray;
+}
+
+//------------------------------------------------------------------------------
+PacketRay PixelRays::RayAlong(const glm::dvec2& origin, const glm::dvec2& slope) const
+{
+  return this->MakeRay(
+    origin / this->GridUnit, slope * (1.0 / (this->GridUnit * GridPerDepth)), slope);
 }
 
 }

@@ -37,6 +37,11 @@ public:
 
   /** The ray of a pixel, without its entries, from the near plane on without end. */
   PacketRay RayOf(int column, int row) const;
+  /**
+   * The ray (x, y) = origin + depth * slope of the frame, without its entries and without ends.
+   * @param slope  no steeper than the steepest of a pixel.
+   */
+  PacketRay RayAlong(const glm::dvec2& origin, const glm::dvec2& slope) const;
 
   /** Where a vertex lies in the grid. @param position  TetrahedralMesh::GetFixedPositions(). */
   glm::ivec3 Place(const glm::ivec3& position) const;
@@ -64,6 +69,9 @@ public:
 
 private:
   static constexpr double GridPerDepth = 1.0 / PacketVertex::DepthUnit;
+
+  PacketRay MakeRay(
+    const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const;
 
   RayFrame Frame;
   int Width = 0;

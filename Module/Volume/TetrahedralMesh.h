@@ -183,6 +183,8 @@ public:
   /** Input cell of each cell, if wanted; else empty. */
   const std::vector<std::int32_t>& GetSourceCells() const { return this->SourceCells; }
   const std::vector<BoundaryFace>& GetBoundary() const { return this->Boundary; }
+  /** A face of an active cell as the boundary has it: see BoundaryFace. */
+  BoundaryFace GetFace(std::int64_t cell, int face) const;
   const RejectedCells& GetRejectedCells() const { return this->Rejected; }
   /** Links cut because they contradict the flood fill. */
   std::int64_t GetNumberOfCutLinks() const { return this->CutLinks; }

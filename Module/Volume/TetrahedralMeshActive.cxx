@@ -161,6 +161,13 @@ void TetrahedralMesh::MarkLinks(const std::vector<std::uint8_t>& active, const R
 }
 
 //------------------------------------------------------------------------------
+BoundaryFace TetrahedralMesh::GetFace(std::int64_t cell, int face) const
+{
+  return { FaceVertices(this->Cells[cell].Vertices, face),
+    FaceParity(face) * this->Orientation[cell], static_cast<std::int32_t>(4 * cell + face) };
+}
+
+//------------------------------------------------------------------------------
 void TetrahedralMesh::CollectBoundary(const RangeLoop& loop)
 {
   const auto isBoundary = [this](std::size_t c, int face)
@@ -191,8 +198,7 @@ void TetrahedralMesh::CollectBoundary(const RangeLoop& loop)
         {
           if (isBoundary(c, face))
           {
-            this->Boundary[next++] = { FaceVertices(this->Cells[c].Vertices, face),
-              FaceParity(face) * this->Orientation[c], static_cast<std::int32_t>(4 * c + face) };
+            this->Boundary[next++] = this->GetFace(static_cast<std::int64_t>(c), face);
           }
         }
       }

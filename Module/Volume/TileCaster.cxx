@@ -55,16 +55,26 @@ TileCaster::TileCaster(const Scene& scene)
       table.GetNumberOfLengths(), static_cast<float>(1.0 / table.GetShortest()),
       static_cast<float>(table.GetLengthsPerOctave()) };
   }
+  if (scene.Bent.Sight)
+  {
+    this->Bent = std::make_unique<BentCaster>(scene.Bent, *scene.Mesh, this->Input.Rays,
+      this->Input.ClippingPlanes,
+      BentOptics{ scene.Lighting, scene.GradientToFrame, scene.GradientMagnitude,
+        scene.GradientOpacity ? &scene.Tables->GradientIntervals : nullptr },
+      scene.Set);
+  }
 }
 
 //------------------------------------------------------------------------------
-PacketRay TileCaster::RayOf(int column, int row, const float* opaqueDepth) const
+/** @param farthest  where the ray ends at the latest. */
+PacketRay TileCaster::RayOf(int column, int row, const float* opaqueDepth, double farthest) const
 {
   const PixelRays& rays = this->Input.Rays;
   const RayFrame& frame = rays.GetFrame();
   const std::int64_t pixel = std::int64_t{ row } * rays.GetWidth() + column;
   double start = frame.NearDepth;
   double end = opaqueDepth ? frame.DepthAt(2.0 * opaqueDepth[pixel] - 1.0) : 1.0e+30;
+  end = std::min(end, farthest);
   for (const RayClippingPlane& plane : this->Input.ClippingPlanes)
   {
     ClipRay(plane, rays.FromCenter(column, row), start, end);
@@ -77,7 +87,8 @@ PacketRay TileCaster::RayOf(int column, int row, const float* opaqueDepth) const
 
 //------------------------------------------------------------------------------
 /** One ray for each pixel with a hit and a part that counts. */
-void TileCaster::TakeHits(int tile, const float* opaqueDepth, Workspace& workspace) const
+void TileCaster::TakeHits(
+  int tile, const float* opaqueDepth, const BentRay* bent, Workspace& workspace) const
 {
   const EntryRaster::PixelBox box = this->Raster.BoxOfTile(tile);
   workspace.Entries.clear();
@@ -93,13 +104,19 @@ void TileCaster::TakeHits(int tile, const float* opaqueDepth, Workspace& workspa
       const int column = box.Left + hit.Pixel % EntryRaster::TileSize;
       const int row = box.Bottom + hit.Pixel / EntryRaster::TileSize;
       const std::int64_t pixel = std::int64_t{ row } * this->Input.Rays.GetWidth() + column;
-      const PacketRay ray = this->RayOf(column, row, opaqueDepth);
+      const PacketRay ray =
+        this->RayOf(column, row, opaqueDepth, bent ? bent[hit.Pixel].Depth : 1.0e+30);
       counts = ray.StartDepth < ray.EndDepth;
       if (counts)
       {
         workspace.Pixels.push_back(pixel);
         workspace.Rays.push_back(ray);
         workspace.Rays.back().FirstEntry = static_cast<std::int32_t>(workspace.Entries.size());
+      }
+      else if (bent)
+      {
+        // The membrane may be within the mesh all the same.
+        workspace.Bent.Straight.Ends[static_cast<std::size_t>(hit.Pixel)] = PacketResult::Somewhere;
       }
     }
     if (counts)
@@ -138,29 +155,25 @@ void TileCaster::SetOptics(PacketJob& job) const
 }
 
 //------------------------------------------------------------------------------
-RayStatistics TileCaster::Cast(
-  int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
+/** Casts the rays of the workspace. */
+void TileCaster::CastStraight(PacketJob& job, Workspace& workspace) const
 {
-  this->Raster.CollectHits(tile, workspace.Hits);
-  this->TakeHits(tile, opaqueDepth, workspace);
-  RayStatistics sums;
+  workspace.Results.resize(workspace.Rays.size());
   if (workspace.Rays.empty())
   {
-    return sums;
+    return;
   }
-  workspace.Results.resize(workspace.Rays.size());
-  const TetrahedralMesh& mesh = *this->Input.Mesh;
-  PacketJob job{};
-  this->SetOptics(job);
-  job.GridUnit = this->Input.Rays.GetGridUnit();
-  job.Vertices = this->Input.Tables->Vertices.data();
-  job.Cells = mesh.GetCells().front().Vertices.data();
-  job.NumberOfCells = mesh.GetNumberOfCells();
   job.Rays = workspace.Rays.data();
   job.NumberOfRays = static_cast<std::int32_t>(workspace.Rays.size());
   job.Entries = workspace.Entries.data();
   job.Results = workspace.Results.data();
   CastPackets(job, this->Input.Set);
+}
+
+//------------------------------------------------------------------------------
+RayStatistics TileCaster::ShowStraight(const Workspace& workspace, float* image) const
+{
+  RayStatistics sums;
   for (std::size_t i = 0; i < workspace.Results.size(); ++i)
   {
     const PacketResult& result = workspace.Results[i];
@@ -169,6 +182,63 @@ RayStatistics TileCaster::Cast(
     sums.Rays += result.Steps > 0 ? 1 : 0;
     sums.Lost += result.Lost;
   }
+  return sums;
+}
+
+//------------------------------------------------------------------------------
+/** Hands the results on to what lies behind the membrane. */
+void TileCaster::KeepStraight(int tile, const BentRay* bent, Workspace& workspace) const
+{
+  const EntryRaster::PixelBox box = this->Raster.BoxOfTile(tile);
+  StraightPart& straight = workspace.Bent.Straight;
+  const int width = this->Input.Rays.GetWidth();
+  for (std::size_t i = 0; i < workspace.Results.size(); ++i)
+  {
+    const PacketResult& result = workspace.Results[i];
+    const auto column = static_cast<int>(workspace.Pixels[i] % width) - box.Left;
+    const auto row = static_cast<int>(workspace.Pixels[i] / width) - box.Bottom;
+    const auto pixel = static_cast<std::size_t>(row * EntryRaster::TileSize + column);
+    std::copy_n(result.Color, 4, straight.Values[pixel].data());
+    straight.Steps[pixel] = result.Steps;
+    // A ray that a clipping plane has ended says nothing of the sight point.
+    const bool arrived = workspace.Rays[i].EndDepth == static_cast<float>(bent[pixel].Depth);
+    straight.Ends[pixel] = arrived ? result.End : PacketResult::Somewhere;
+  }
+}
+
+//------------------------------------------------------------------------------
+RayStatistics TileCaster::Cast(
+  int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
+{
+  const BentRay* bent = this->Bent ? this->Input.Bent.Sight->GetTile(tile) : nullptr;
+  if (bent)
+  {
+    workspace.Bent.Straight.Clear(this->Input.Blending);
+  }
+  this->Raster.CollectHits(tile, workspace.Hits);
+  this->TakeHits(tile, opaqueDepth, bent, workspace);
+  const TetrahedralMesh& mesh = *this->Input.Mesh;
+  PacketJob job{};
+  this->SetOptics(job);
+  job.GridUnit = this->Input.Rays.GetGridUnit();
+  job.Vertices = this->Input.Tables->Vertices.data();
+  job.Cells = mesh.GetCells().front().Vertices.data();
+  job.NumberOfCells = mesh.GetNumberOfCells();
+  job.KeepsValues = bent != nullptr;
+  this->CastStraight(job, workspace);
+  if (!bent)
+  {
+    return this->ShowStraight(workspace, image);
+  }
+  std::int64_t lost = 0;
+  for (const PacketResult& result : workspace.Results)
+  {
+    lost += result.Lost;
+  }
+  this->KeepStraight(tile, bent, workspace);
+  RayStatistics sums =
+    this->Bent->Cast(job, this->Raster.BoxOfTile(tile), bent, opaqueDepth, workspace.Bent, image);
+  sums.Lost += lost;
   return sums;
 }
 

@@ -4,6 +4,7 @@
 #define meniscus_Volume_TileCaster_h
 
 #include "Refraction/RangeLoop.h"
+#include "Volume/BentCaster.h"
 #include "Volume/ClippingPlanes.h"
 #include "Volume/EntryRaster.h"
 #include "Volume/MediumTable.h"
@@ -14,6 +15,7 @@
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
+#include <memory>
 #include <vector>
 
 namespace meniscus
@@ -73,6 +75,8 @@ public:
     /** Rays end when their transmittance is not above it. */
     float TerminationTransmittance = 0.0f;
     InstructionSet Set = InstructionSet::Portable;
+    /** Rays that bend; without a Sight there are none. */
+    BentScene Bent;
   };
 
   /** What `scene` points at must outlive this. */
@@ -90,6 +94,7 @@ public:
     std::vector<PacketRay> Rays;
     std::vector<PacketResult> Results;
     std::vector<std::int64_t> Pixels;
+    BentCaster::Workspace Bent;
   };
 
   /**
@@ -100,14 +105,19 @@ public:
   RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
 
 private:
-  PacketRay RayOf(int column, int row, const float* opaqueDepth) const;
-  void TakeHits(int tile, const float* opaqueDepth, Workspace& workspace) const;
+  PacketRay RayOf(int column, int row, const float* opaqueDepth, double farthest) const;
+  void TakeHits(
+    int tile, const float* opaqueDepth, const BentRay* bent, Workspace& workspace) const;
   void SetOptics(PacketJob& job) const;
+  void CastStraight(PacketJob& job, Workspace& workspace) const;
+  RayStatistics ShowStraight(const Workspace& workspace, float* image) const;
+  void KeepStraight(int tile, const BentRay* bent, Workspace& workspace) const;
 
   Scene Input;
   EntryRaster Raster;
   MediumTable Medium;
   PacketSegmentTable SegmentTable{};
+  std::unique_ptr<BentCaster> Bent;
 };
 
 }

@@ -2,17 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A few small pictures against baselines, to notice what the numeric tests do not look at. The
 // baselines were looked at; each pixel must be within one grey level.
+#include "MembraneScene.h"
 #include "RayCastScene.h"
 #include "StrictImage.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkContourValues.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSphereSource.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkVolumeMapper.h>
 #include <vtkVolumeProperty.h>
 
 using namespace meniscus::test;
@@ -72,6 +75,31 @@ TEST(TetrahedraRayCastImages, OpaqueSphereInTwoBlocks)
   scene.renderer()->AddActor(actor);
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0, 1.1, true);
   expectBaseline(scene, "TetrahedraRayCastOpaqueSphere");
+}
+
+TEST(TetrahedraRayCastImages, ThroughAPlane)
+{
+  // Lit surfaces stand out of the water and go on below it, bent.
+  const Grid grid = makeBlock(16, wavyField(3.0));
+  auto property = makeProperty(FunctionKind::Opaque, Range, 3.5);
+  property->GetIsoSurfaceValues()->SetValue(0, 0.2);
+  property->ShadeOn();
+  RayCastScene scene(grid, property, Size, Size);
+  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  const MembraneCase plane = makePlaneCase(0.3, 1.6, 2);
+  scene.rayCaster()->SetMembraneData(plane.Mesh);
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 25.0);
+  expectBaseline(scene, "TetrahedraRayCastThroughAPlane");
+}
+
+TEST(TetrahedraRayCastImages, ThroughADome)
+{
+  const Grid grid = makeBlock(16, wavyField(4.0));
+  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.5), Size, Size);
+  const MembraneCase dome = makeDomeCase(1.6, 1.5, 0.9, 16);
+  scene.rayCaster()->SetMembraneData(dome.Mesh);
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 50.0);
+  expectBaseline(scene, "TetrahedraRayCastThroughADome");
 }
 
 TEST(TetrahedraRayCastImages, CameraInside)

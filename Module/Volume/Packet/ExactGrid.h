@@ -15,6 +15,12 @@ namespace meniscus
 template <class User>
 struct ExactGrid
 {
+  /**
+   * A cross product in float is surely of the right sign if it is larger than this part of its
+   * second product (PacketWalk::EdgeArea()).
+   */
+  static constexpr float RoundingOfArea = 9.5367431640625e-7f; // 2^-20
+
   /** u or v of a vertex: its x or y less what the ray has at its depth (PacketRay). */
   static std::int32_t AboutRay(
     std::int32_t place, std::int32_t depth, std::int32_t slope, std::int64_t offset)

@@ -71,8 +71,16 @@ struct PacketEntry
 
 struct PacketResult
 {
-  /** Premultiplied RGBA. */
+  /** Premultiplied RGBA, or PacketJob::KeepsValues. */
   float Color[4];
+  /**
+   * Where the ray's end lies, if nothing hides it: the face by which it entered the cell behind the
+   * last one that counts, 4 * cell + face, if there is no other cell at the end; else one of these.
+   */
+  std::int32_t End;
+  static constexpr std::int32_t Outside = -1;
+  /** In the mesh, or on its boundary, nothing else is known. */
+  static constexpr std::int32_t Somewhere = -2;
   /** Cells crossed. */
   std::int32_t Steps;
   /** 1 if a walk did not end on the boundary: never, if arithmetic is IEEE's. */
@@ -188,6 +196,12 @@ struct PacketJob
   const PacketRay* Rays;
   std::int32_t NumberOfRays;
   const PacketEntry* Entries;
+  /**
+   * Whether results are what the model keeps of a ray, to be joined with what lies behind
+   * (JoinValues()) and shown by FinishValues(): colour and transmittance, or a number and the
+   * length that it is of.
+   */
+  bool KeepsValues;
   /** One per ray. */
   PacketResult* Results;
 };
@@ -218,6 +232,35 @@ struct PacketSegment
 /** Adds the isosurfaces that a segment meets, front to back. */
 void CrossSurfaces(const PacketJob& job, const PacketSegment& segment, PacketSurfaceState& state);
 
+/** What a ray that meets nothing keeps. */
+void ClearValues(PacketBlending blending, float (&values)[4]);
+
+/** Puts the values of what lies behind to those of what lies before. */
+void JoinValues(PacketBlending blending, const float (&behind)[4], float (&values)[4]);
+
+/** Premultiplied RGBA of kept values. */
+void FinishValues(const PacketJob& job, const float (&values)[4], float (&color)[4]);
+
+/** A face of the boundary, counter-clockwise about the rays that enter by it. */
+struct PacketFace
+{
+  std::int32_t Vertices[3];
+  /** As of PacketEntry. */
+  std::int32_t CellFace;
+};
+
+/** Which of up to 64 rays enter by which faces. */
+struct PacketFaceJob
+{
+  const PacketVertex* Vertices;
+  const PacketFace* Faces;
+  std::int32_t NumberOfFaces;
+  const PacketRay* Rays;
+  std::int32_t NumberOfRays;
+  /** One per face; bit i: ray i enters by it. */
+  std::uint64_t* Entered;
+};
+
 /**
  * Colour over opacity and mean attenuation of a segment between two scalars, by linear
  * interpolation in the table's scalars and in the number of its length.
@@ -243,6 +286,9 @@ const char* NameOf(InstructionSet set);
 
 /** Casts all rays of the job on the calling thread. @pre HasInstructionSet(set) */
 void CastPackets(const PacketJob& job, InstructionSet set);
+
+/** Tests all faces with all rays. @pre HasInstructionSet(set) */
+void FindEntered(const PacketFaceJob& job, InstructionSet set);
 
 }
 

@@ -13,6 +13,11 @@ void CastPacketsPortable(const PacketJob& job);
 void CastPacketsAVX2(const PacketJob& job);
 void CastPacketsAVX512(const PacketJob& job);
 
+// Likewise.
+void FindEnteredPortable(const PacketFaceJob& job);
+void FindEnteredAVX2(const PacketFaceJob& job);
+void FindEnteredAVX512(const PacketFaceJob& job);
+
 }
 
 #endif

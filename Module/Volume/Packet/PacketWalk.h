@@ -112,6 +112,7 @@ private:
   bool NextEntry(int lane);
   bool TakeRay(int lane);
   void Finish(int lane);
+  std::int32_t EndOf(int lane) const;
   void StoreLanes();
   void LoadLanes();
   void Enter(Mask lanes);
@@ -271,7 +272,7 @@ inline auto PacketWalk<Simd, Model>::EdgeArea(const Corner& p, const Corner& q, 
   -> Float
 {
   const Float area = Simd::CrossProduct(p.U, p.V, q.U, q.V);
-  const Float bound = Simd::Abs(p.V * q.U) * Simd::Splat(9.5367431640625e-7f);
+  const Float bound = Simd::Abs(p.V * q.U) * Simd::Splat(Grid::RoundingOfArea);
   excess = Simd::Min(excess, Simd::Abs(area) - bound);
   return area;
 }
@@ -565,9 +566,37 @@ void PacketWalk<Simd, Model>::Finish(int lane)
   {
     values[k] = this->Values[k][lane];
   }
-  Model::Finish(this->Job, values, result.Color);
+  if (this->Job.KeepsValues)
+  {
+    for (int k = 0; k < Model::NumberOfValues; ++k)
+    {
+      result.Color[k] = values[k];
+    }
+  }
+  else
+  {
+    Model::Finish(this->Job, values, result.Color);
+  }
+  result.End = this->EndOf(lane);
   result.Steps = this->StepsOf[lane];
   result.Lost = this->StepsOf[lane] >= this->StepLimit && this->CellFaces[lane] >= 0 ? 1 : 0;
+}
+
+//------------------------------------------------------------------------------
+/** PacketResult::End of a ray that is finished. */
+template <class Simd, class Model>
+std::int32_t PacketWalk<Simd, Model>::EndOf(int lane) const
+{
+  const PacketRay& ray = this->Job.Rays[this->Ray[lane]];
+  const std::int32_t next = this->Entry[lane] + 1;
+  const bool more = next < ray.EndEntry && this->Job.Entries[next].Depth < ray.EndDepth;
+  const bool inside = !(this->DepthsNow[lane] < ray.EndDepth);
+  if (!inside && !more)
+  {
+    return PacketResult::Outside;
+  }
+  return inside && !more && this->CellFaces[lane] >= 0 ? this->CellFaces[lane]
+                                                       : PacketResult::Somewhere;
 }
 
 //------------------------------------------------------------------------------

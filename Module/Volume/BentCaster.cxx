@@ -1,0 +1,347 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/BentCaster.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr int TileSize = MembraneSight::TileSize;
+static_assert(TileSize == EntryRaster::TileSize, "the same tiles");
+
+/** Pixels of a bundle, along each side. */
+constexpr int BlockSize = 8;
+static_assert(BlockSize * BlockSize <= LineEntries::LargestBundle, "a block is a bundle");
+
+/**
+ * In units of the frame, by how much an entry may lie before the sight point that the straight ray
+ * says is outside of the mesh. Depths are off by 2^-24; along a ray that leaves the boundary at an
+ * angle of 2^-12 that is 2^-12. To take an entry too many costs a few steps, and changes nothing.
+ */
+constexpr double StartMargin = 1.0 / 4096.0;
+
+/** Vertices are off by the rounding of their grid, far less. */
+constexpr double BallMargin = 1.0 + 1.0e-6;
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+}
+
+/** The part that counts of what lies behind the membrane. */
+struct BentCaster::Part
+{
+  glm::dvec3 SightPoint;
+  glm::dvec3 Step;
+  /** In steps. */
+  double Start;
+  double End;
+};
+
+//------------------------------------------------------------------------------
+void StraightPart::Clear(PacketBlending blending)
+{
+  constexpr std::size_t pixels = MembraneSight::RaysOfTile;
+  float empty[4];
+  ClearValues(blending, empty);
+  this->Values.assign(pixels, { empty[0], empty[1], empty[2], empty[3] });
+  this->Ends.assign(pixels, PacketResult::Outside);
+  this->Steps.assign(pixels, 0);
+}
+
+//------------------------------------------------------------------------------
+BentCaster::BentCaster(const BentScene& scene, const TetrahedralMesh& mesh, const PixelRays& view,
+  const std::vector<RayClippingPlane>& clippingPlanes, const BentOptics& optics, InstructionSet set)
+  : Scene(scene)
+  , View(view)
+  , ClippingPlanes(clippingPlanes)
+  , Lit(optics.Lighting != nullptr)
+  , Set(set)
+{
+  if (!scene.Tree->GetNodes().empty())
+  {
+    const RayFrame& rows = view.GetFrame();
+    const glm::dmat3 toFrame = glm::transpose(glm::dmat3(rows.RowX, rows.RowY, rows.RowDepth));
+    const BoundaryTree::Node& root = scene.Tree->GetNodes().front();
+    const glm::dvec3 half(root.Half);
+    this->BallCenter = toFrame * glm::dvec3(root.Center);
+    this->BallRadius = BallMargin *
+      glm::length(glm::abs(toFrame[0]) * half.x + glm::abs(toFrame[1]) * half.y +
+        glm::abs(toFrame[2]) * half.z);
+  }
+  this->Entries.reserve(BentFrames::Number);
+  for (int index = 0; index < BentFrames::Number; ++index)
+  {
+    const BentFrame& frame = scene.Frames->Get(index);
+    this->Entries.emplace_back(mesh, *scene.Tree, frame, set);
+    Optics& turned = this->OpticsOf[static_cast<std::size_t>(index)];
+    turned.Lighting = this->Lit ? frame.Turn(*optics.Lighting) : SurfaceLighting();
+    turned.GradientToFrame = frame.FromView * optics.GradientToFrame;
+    turned.Medium.Pack(this->Lit ? &turned.Lighting : nullptr, turned.GradientToFrame,
+      optics.GradientMagnitude, optics.GradientOpacity);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** A first test that costs little. */
+bool BentCaster::MayMeetMesh(const glm::dvec3& sightPoint, const glm::dvec3& step) const
+{
+  const glm::dvec3 toCenter = this->BallCenter - sightPoint;
+  const double along = glm::dot(toCenter, step);
+  const double squared = glm::dot(step, step);
+  const double excess = glm::dot(toCenter, toCenter) - this->BallRadius * this->BallRadius;
+  return excess <= 0.0 || (along > 0.0 && along * along >= excess * squared);
+}
+
+//------------------------------------------------------------------------------
+/** False if nothing behind the membrane counts. */
+bool BentCaster::FindPart(const EntryRaster::PixelBox& box, std::int32_t pixel, const BentRay& bent,
+  const float* opaqueDepth, Part& part) const
+{
+  const int column = box.Left + pixel % TileSize;
+  const int row = box.Bottom + pixel / TileSize;
+  const RayFrame& frame = this->View.GetFrame();
+  const glm::dvec2 place = this->View.FromCenter(column, row);
+  const glm::dvec2 across =
+    frame.Origin.At(place.x, place.y) + bent.Depth * frame.Slope.At(place.x, place.y);
+  part.SightPoint = glm::dvec3(across, bent.Depth);
+  part.Step = bent.Step;
+  if (!this->MayMeetMesh(part.SightPoint, part.Step))
+  {
+    return false;
+  }
+  part.Start = std::max(0.0, frame.NearDepth - bent.Depth);
+  part.End = Infinity;
+  // Where nothing is drawn the far plane, which bounds what is drawn, says nothing.
+  const float window =
+    opaqueDepth ? opaqueDepth[std::int64_t{ row } * this->View.GetWidth() + column] : 1.0f;
+  if (window < 1.0f)
+  {
+    part.End = frame.DepthAt(2.0 * window - 1.0) - bent.Depth;
+  }
+  for (const RayClippingPlane& plane : this->ClippingPlanes)
+  {
+    ClipLine(plane, part.SightPoint, part.Step, part.Start, part.End);
+  }
+  return part.Start < part.End;
+}
+
+//------------------------------------------------------------------------------
+/** @param end  where the straight ray ended: PacketResult::End. */
+void BentCaster::AddLine(
+  const Part& part, std::int32_t pixel, std::int32_t end, Workspace& workspace) const
+{
+  const int index = this->Scene.Frames->IndexOf(part.Step);
+  const BentFrame& frame = this->Scene.Frames->Get(index);
+  Workspace::OfFrame& work = workspace.Frames[static_cast<std::size_t>(index)];
+  const auto depthOf = [&frame](const glm::dvec3& vector) { return (frame.FromView * vector).z; };
+  const double sight = depthOf(part.SightPoint);
+  const double perStep = depthOf(part.Step);
+  const auto number = static_cast<std::int32_t>(work.Lines.size());
+
+  LineEntries::Line line;
+  line.Of = frame.LineOf(part.SightPoint, part.Step);
+  line.Ray = frame.Rays.RayAlong(line.Of.Origin, line.Of.Slope);
+  line.Ray.StartDepth = static_cast<float>(sight + part.Start * perStep);
+  line.Ray.EndDepth = static_cast<float>(std::min(sight + part.End * perStep, 1.0e30));
+  line.From = sight - StartMargin;
+  bool known = end != PacketResult::Somewhere;
+  if (end >= 0)
+  {
+    PacketEntry entry;
+    known =
+      this->Entries[static_cast<std::size_t>(index)].FindEntryNear(end, line.Ray, sight, entry);
+    if (known)
+    {
+      work.Hits.push_back({ number, entry });
+    }
+  }
+  line.From = known ? line.From : -frame.Extent;
+  work.Lines.push_back(line);
+  work.Pixels.push_back(pixel);
+  work.Bundles[known ? 0 : 1].push_back(number);
+}
+
+//------------------------------------------------------------------------------
+void BentCaster::CollectBlock(Workspace& workspace) const
+{
+  for (std::size_t index = 0; index < workspace.Frames.size(); ++index)
+  {
+    Workspace::OfFrame& work = workspace.Frames[index];
+    for (std::vector<std::int32_t>& bundle : work.Bundles)
+    {
+      this->Entries[index].Collect(work.Lines, bundle, workspace.Faces, work.Hits);
+      bundle.clear();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+RayStatistics BentCaster::Cast(PacketJob job, const EntryRaster::PixelBox& box, const BentRay* rays,
+  const float* opaqueDepth, Workspace& workspace, float* image) const
+{
+  StraightPart& straight = workspace.Straight;
+  for (Workspace::OfFrame& work : workspace.Frames)
+  {
+    work.Lines.clear();
+    work.Pixels.clear();
+    work.Hits.clear();
+    work.Again.clear();
+  }
+  const bool hides =
+    job.Blending == PacketBlending::Composite || job.Blending == PacketBlending::Isosurfaces;
+  for (int block = 0; block < TileSize * TileSize; block += BlockSize * BlockSize)
+  {
+    const int corner = block / (TileSize * BlockSize) * TileSize * BlockSize +
+      block % (TileSize * BlockSize) / BlockSize;
+    for (int i = 0; i < BlockSize * BlockSize; ++i)
+    {
+      const int pixel = corner + i / BlockSize * TileSize + i % BlockSize;
+      const bool hidden = hides &&
+        !(straight.Values[static_cast<std::size_t>(pixel)][3] > job.TerminationTransmittance);
+      Part part;
+      if (rays[pixel].GoesOn() && !hidden &&
+        this->FindPart(box, pixel, rays[pixel], opaqueDepth, part))
+      {
+        this->AddLine(part, pixel, straight.Ends[static_cast<std::size_t>(pixel)], workspace);
+      }
+    }
+    this->CollectBlock(workspace);
+  }
+  RayStatistics sums;
+  for (int index = 0; index < BentFrames::Number; ++index)
+  {
+    this->CastFrame(job, index, workspace, sums);
+    if (!workspace.Frames[static_cast<std::size_t>(index)].Again.empty())
+    {
+      this->CastAgain(job, index, workspace, sums);
+    }
+  }
+  this->Finish(job, box, straight, image, sums);
+  return sums;
+}
+
+//------------------------------------------------------------------------------
+void BentCaster::CastFrame(
+  const PacketJob& base, int frame, Workspace& workspace, RayStatistics& sums) const
+{
+  Workspace::OfFrame& work = workspace.Frames[static_cast<std::size_t>(frame)];
+  std::sort(work.Hits.begin(), work.Hits.end(),
+    [](const LineEntries::Hit& a, const LineEntries::Hit& b)
+    {
+      return std::tie(a.Line, a.Entry.Depth, a.Entry.CellFace) <
+        std::tie(b.Line, b.Entry.Depth, b.Entry.CellFace);
+    });
+  workspace.Rays.clear();
+  workspace.Lines.clear();
+  workspace.Entries.clear();
+  for (const LineEntries::Hit& hit : work.Hits)
+  {
+    if (workspace.Lines.empty() || hit.Line != workspace.Lines.back())
+    {
+      workspace.Lines.push_back(hit.Line);
+      workspace.Rays.push_back(work.Lines[static_cast<std::size_t>(hit.Line)].Ray);
+      workspace.Rays.back().FirstEntry = static_cast<std::int32_t>(workspace.Entries.size());
+    }
+    workspace.Entries.push_back(hit.Entry);
+    workspace.Rays.back().EndEntry = static_cast<std::int32_t>(workspace.Entries.size());
+  }
+  if (workspace.Rays.empty())
+  {
+    return;
+  }
+  const BentFrame& turned = this->Scene.Frames->Get(frame);
+  PacketJob job = base;
+  const Optics& optics = this->OpticsOf[static_cast<std::size_t>(frame)];
+  job.GradientToFrame = &optics.GradientToFrame;
+  job.Lighting = this->Lit ? &optics.Lighting : nullptr;
+  job.Medium = base.Medium ? optics.Medium.Get() : nullptr;
+  job.Vertices = turned.Vertices.data();
+  job.GridUnit = turned.Rays.GetGridUnit();
+  job.Rays = workspace.Rays.data();
+  job.NumberOfRays = static_cast<std::int32_t>(workspace.Rays.size());
+  job.Entries = workspace.Entries.data();
+  workspace.Results.resize(workspace.Rays.size());
+  job.Results = workspace.Results.data();
+  CastPackets(job, this->Set);
+  this->Join(job, work, workspace, sums);
+}
+
+//------------------------------------------------------------------------------
+/** Lines that began inside in vain, from the boundary on. */
+void BentCaster::CastAgain(
+  const PacketJob& job, int frame, Workspace& workspace, RayStatistics& sums) const
+{
+  Workspace::OfFrame& work = workspace.Frames[static_cast<std::size_t>(frame)];
+  work.Hits.clear();
+  for (const std::int32_t number : work.Again)
+  {
+    LineEntries::Line& line = work.Lines[static_cast<std::size_t>(number)];
+    line.EntersInside = false;
+    line.From = -this->Scene.Frames->Get(frame).Extent;
+    this->Entries[static_cast<std::size_t>(frame)].Collect(
+      work.Lines, { number }, workspace.Faces, work.Hits);
+  }
+  work.Again.clear();
+  this->CastFrame(job, frame, workspace, sums);
+}
+
+//------------------------------------------------------------------------------
+void BentCaster::Join(
+  const PacketJob& job, Workspace::OfFrame& work, Workspace& workspace, RayStatistics& sums) const
+{
+  for (std::size_t i = 0; i < workspace.Results.size(); ++i)
+  {
+    const PacketResult& result = workspace.Results[i];
+    const auto line = static_cast<std::size_t>(workspace.Lines[i]);
+    const auto pixel = static_cast<std::size_t>(work.Pixels[line]);
+    workspace.Straight.Steps[pixel] += result.Steps;
+    if (result.Lost != 0 && work.Lines[line].EntersInside)
+    {
+      work.Again.push_back(workspace.Lines[i]);
+      continue;
+    }
+    float values[4];
+    std::copy_n(workspace.Straight.Values[pixel].data(), 4, values);
+    JoinValues(job.Blending, result.Color, values);
+    std::copy_n(values, 4, workspace.Straight.Values[pixel].data());
+    sums.Lost += result.Lost;
+  }
+}
+
+//------------------------------------------------------------------------------
+void BentCaster::Finish(const PacketJob& job, const EntryRaster::PixelBox& box,
+  const StraightPart& values, float* image, RayStatistics& sums) const
+{
+  for (int row = box.Bottom; row < box.Top; ++row)
+  {
+    for (int column = box.Left; column < box.Right; ++column)
+    {
+      const auto pixel =
+        static_cast<std::size_t>((row - box.Bottom) * TileSize + column - box.Left);
+      const std::int32_t steps = values.Steps[pixel];
+      if (steps == 0)
+      {
+        continue;
+      }
+      sums.Steps += steps;
+      ++sums.Rays;
+      float kept[4];
+      float color[4];
+      std::copy_n(values.Values[pixel].data(), 4, kept);
+      FinishValues(job, kept, color);
+      std::copy_n(color, 4, image + 4 * (std::int64_t{ row } * this->View.GetWidth() + column));
+    }
+  }
+}
+
+}

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_BentCaster_h
+#define meniscus_Volume_BentCaster_h
+
+#include "Volume/BentFrames.h"
+#include "Volume/BoundaryTree.h"
+#include "Volume/ClippingPlanes.h"
+#include "Volume/EntryRaster.h"
+#include "Volume/LineEntries.h"
+#include "Volume/MediumTable.h"
+#include "Volume/MembraneSight.h"
+#include "Volume/Packet/Packet.h"
+#include "Volume/RayStatistics.h"
+
+#include <array>
+#include <vector>
+
+namespace meniscus
+{
+
+/** A membrane as the rays of an image see it; see RayCastMembrane for what makes it. */
+struct BentScene
+{
+  const MembraneSight* Sight = nullptr;
+  /** With the vertices placed. */
+  const BentFrames* Frames = nullptr;
+  /** Over the boundary that rays enter by. */
+  const BoundaryTree* Tree = nullptr;
+  /** Whether a ray may begin in the cell that the membrane is in; else it does on the boundary. */
+  bool BeginsInside = false;
+};
+
+/** What depends on the frame of the rays, in that of the view; as of MediumTable::Pack(). */
+struct BentOptics
+{
+  const SurfaceLighting* Lighting;
+  glm::dmat3 GradientToFrame;
+  double GradientMagnitude;
+  const std::vector<PacketInterval>* GradientOpacity;
+};
+
+/** What the straight rays of a tile have come to at the membrane. */
+struct StraightPart
+{
+  /** By pixel of the tile, in rows of MembraneSight::TileSize: PacketResult's values and End. */
+  std::vector<std::array<float, 4>> Values;
+  std::vector<std::int32_t> Ends;
+  /** Cells crossed so far. */
+  std::vector<std::int32_t> Steps;
+
+  void Clear(PacketBlending blending);
+};
+
+/** Casts the rays of a tile behind the membrane and joins them with what lies before it. */
+class BentCaster
+{
+public:
+  /** What the arguments point at must outlive this. */
+  BentCaster(const BentScene& scene, const TetrahedralMesh& mesh, const PixelRays& view,
+    const std::vector<RayClippingPlane>& clippingPlanes, const BentOptics& optics,
+    InstructionSet set);
+
+  /** Room for the work of one thread. */
+  struct Workspace
+  {
+    struct OfFrame
+    {
+      std::vector<LineEntries::Line> Lines;
+      std::vector<std::int32_t> Pixels;
+      std::vector<LineEntries::Hit> Hits;
+      /** Lines of the block at hand whose start is known to be outside of the mesh, and others. */
+      std::vector<std::int32_t> Bundles[2];
+      /** Lines that began inside and did not come to the boundary. */
+      std::vector<std::int32_t> Again;
+    };
+    std::array<OfFrame, BentFrames::Number> Frames;
+    LineEntries::Workspace Faces;
+    std::vector<PacketRay> Rays;
+    /** Number of each ray's line. */
+    std::vector<std::int32_t> Lines;
+    std::vector<PacketEntry> Entries;
+    std::vector<PacketResult> Results;
+    StraightPart Straight;
+  };
+
+  /**
+   * @param job          as for straight rays, without rays.
+   * @param box          of the tile.
+   * @param rays         MembraneSight::GetTile().
+   * @param opaqueDepth  window depth in [0, 1] per pixel of the image; null for none.
+   * @param workspace    Straight is read and used up.
+   * @param image        premultiplied RGBA per pixel.
+   */
+  RayStatistics Cast(PacketJob job, const EntryRaster::PixelBox& box, const BentRay* rays,
+    const float* opaqueDepth, Workspace& workspace, float* image) const;
+
+private:
+  struct Part;
+  bool FindPart(const EntryRaster::PixelBox& box, std::int32_t pixel, const BentRay& bent,
+    const float* opaqueDepth, Part& part) const;
+  void AddLine(const Part& part, std::int32_t pixel, std::int32_t end, Workspace& workspace) const;
+  void CollectBlock(Workspace& workspace) const;
+  void CastFrame(const PacketJob& job, int frame, Workspace& workspace, RayStatistics& sums) const;
+  void CastAgain(const PacketJob& job, int frame, Workspace& workspace, RayStatistics& sums) const;
+  void Join(const PacketJob& job, Workspace::OfFrame& work, Workspace& workspace,
+    RayStatistics& sums) const;
+  void Finish(const PacketJob& job, const EntryRaster::PixelBox& box, const StraightPart& values,
+    float* image, RayStatistics& sums) const;
+
+  bool MayMeetMesh(const glm::dvec3& sightPoint, const glm::dvec3& step) const;
+
+  BentScene Scene;
+  /** About the mesh's boundary, in the frame of the view. */
+  glm::dvec3 BallCenter{ 0.0 };
+  double BallRadius = 0.0;
+  const PixelRays& View;
+  const std::vector<RayClippingPlane>& ClippingPlanes;
+  std::vector<LineEntries> Entries;
+  /** The same in each frame. */
+  struct Optics
+  {
+    SurfaceLighting Lighting;
+    glm::dmat3 GradientToFrame{ 1.0 };
+    MediumTable Medium;
+  };
+  std::array<Optics, BentFrames::Number> OpticsOf;
+  bool Lit;
+  InstructionSet Set;
+};
+
+}
+
+#endif

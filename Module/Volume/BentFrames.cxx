@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/BentFrames.h"
+
+#include "Volume/TileCaster.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Depth along an axis of the cube (the columns), or against it: always the same handedness. */
+glm::dmat3 RotationTo(const glm::dmat3& axes, int index)
+{
+  const int axis = (2 + index / 2) % 3;
+  const double sign = index % 2 == 0 ? 1.0 : -1.0;
+  return glm::transpose(
+    glm::dmat3(sign * axes[(axis + 1) % 3], axes[(axis + 2) % 3], sign * axes[axis]));
+}
+
+/** `view` turned, with a grid for slopes within 1. */
+BentFrame MakeFrame(const RayFrame& view, const glm::dmat3& rotation)
+{
+  BentFrame frame;
+  frame.FromView = rotation;
+  RayFrame turned;
+  const glm::dmat3 rows =
+    glm::transpose(rotation * glm::transpose(glm::dmat3(view.RowX, view.RowY, view.RowDepth)));
+  turned.RowX = rows[0];
+  turned.RowY = rows[1];
+  turned.RowDepth = rows[2];
+  turned.ViewToWorld = view.ViewToWorld * glm::transpose(rotation);
+  turned.Handedness = view.Handedness;
+  frame.Extent = std::max({ glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]) });
+  // PixelRays makes room for 1 + the steepest slope; a ray of slope 1 that meets the mesh passes
+  // the origin within 2 extents.
+  turned.Slope.Base = glm::dvec2(2.0 * frame.Extent - 1.0);
+  frame.Rays = PixelRays(turned, 1, 1);
+  return frame;
+}
+
+}
+
+//------------------------------------------------------------------------------
+FrameLine BentFrame::LineOf(const glm::dvec3& place, const glm::dvec3& step) const
+{
+  const glm::dvec3 at = this->FromView * place;
+  const glm::dvec3 along = this->FromView * step;
+  const glm::dvec2 slope = glm::dvec2(along) / along.z;
+  return { glm::dvec2(at) - at.z * slope, slope };
+}
+
+//------------------------------------------------------------------------------
+SurfaceLighting BentFrame::Turn(const SurfaceLighting& lighting) const
+{
+  SurfaceLighting turned = lighting;
+  const auto turn = [this](glm::dvec4& vector)
+  { vector = glm::dvec4(this->FromView * glm::dvec3(vector), vector.w); };
+  for (RayCastLight& light : turned.Lights)
+  {
+    turn(light.Position);
+    turn(light.Cone);
+  }
+  return turned;
+}
+
+//------------------------------------------------------------------------------
+int BentFrames::IndexOf(const glm::dvec3& step) const
+{
+  const glm::dvec3 along = step * this->Axes;
+  const glm::dvec3 size = glm::abs(along);
+  // In the order of the frames' axes, so that the mean direction's is preferred.
+  const int axis = size.z >= size.x && size.z >= size.y ? 2 : (size.x >= size.y ? 0 : 1);
+  return (axis + 1) % 3 * 2 + (along[axis] < 0.0 ? 1 : 0);
+}
+
+//------------------------------------------------------------------------------
+void BentFrames::Turn(const MembraneSight& sight, const RayFrame& view, const RangeLoop& loop)
+{
+  glm::dvec3 depth = sight.GetMeanDirection();
+  depth = depth == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : depth;
+  const glm::dvec3 size = glm::abs(depth);
+  const glm::dvec3 other = size.x <= size.y && size.x <= size.z
+    ? glm::dvec3(1.0, 0.0, 0.0)
+    : (size.y <= size.z ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0));
+  const glm::dvec3 first = glm::normalize(glm::cross(other, depth));
+  this->Axes = glm::dmat3(first, glm::cross(depth, first), depth);
+
+  const int tiles = sight.GetNumberOfTiles();
+  std::vector<unsigned int> needed(static_cast<std::size_t>(tiles), 0);
+  loop(needed.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t tile = begin; tile < end; ++tile)
+      {
+        const BentRay* rays = sight.GetTile(static_cast<int>(tile));
+        for (int i = 0; rays && i < MembraneSight::RaysOfTile; ++i)
+        {
+          needed[tile] |= rays[i].GoesOn() ? 1u << this->IndexOf(rays[i].Step) : 0u;
+        }
+      }
+    });
+  this->Needed = 0;
+  for (const unsigned int ofTile : needed)
+  {
+    this->Needed |= ofTile;
+  }
+  for (int index = 0; index < Number; ++index)
+  {
+    std::vector<PacketVertex> room = std::move(this->Frames[index].Vertices);
+    this->Frames[index] = BentFrame();
+    if (this->Needed >> index & 1u)
+    {
+      this->Frames[index] = MakeFrame(view, RotationTo(this->Axes, index));
+      this->Frames[index].Vertices = std::move(room);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void BentFrames::Place(
+  const TetrahedralMesh& mesh, const std::vector<float>& scalars, const RangeLoop& loop)
+{
+  for (int index = 0; index < Number; ++index)
+  {
+    if (this->Needed >> index & 1u)
+    {
+      PlaceVertices(mesh, scalars, this->Frames[index].Rays, loop, this->Frames[index].Vertices);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::int64_t BentFrames::GetBytes() const
+{
+  std::int64_t bytes = 0;
+  for (const BentFrame& frame : this->Frames)
+  {
+    bytes += BytesOf(frame.Vertices);
+  }
+  return bytes;
+}
+
+}

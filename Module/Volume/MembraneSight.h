@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_MembraneSight_h
+#define meniscus_Volume_MembraneSight_h
+
+#include "Refraction/CurvedPatches.h"
+#include "Refraction/Membrane.h"
+#include "Refraction/RangeLoop.h"
+#include "Volume/RayFrame.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace meniscus
+{
+
+/** What becomes of a pixel's ray at a membrane, in the frame of the view. */
+struct BentRay
+{
+  /** Of the sight point; infinite where the ray does not meet the membrane. */
+  double Depth = std::numeric_limits<double>::infinity();
+  /**
+   * The way along the refracted ray for a unit of depth along the sight ray: what is drawn at the
+   * depth Depth + s is at the sight point + s * Step (the thesis's Eq. 2.4 undone). 0 where the ray
+   * is totally reflected.
+   */
+  glm::dvec3 Step{ 0.0 };
+
+  bool MeetsMembrane() const { return this->Depth < std::numeric_limits<double>::infinity(); }
+  bool GoesOn() const { return this->Step != glm::dvec3(0.0); }
+};
+
+/**
+ * Where the rays of an image first meet a membrane of curved patches, and how they go on behind it,
+ * by tiles. Facets are sorted into tiles by bounds of their patches' pictures; in a pixel, the ray
+ * is cut with the patches by Newton's method, from where it meets the facet.
+ */
+class MembraneSight
+{
+public:
+  struct View
+  {
+    RayFrame Frame;
+    int Width = 0;
+    int Height = 0;
+    /** Of the frame, in world coordinates. */
+    glm::dvec3 Center{ 0.0 };
+    /** Depth of the eye: what lies before it is not seen. */
+    double EyeDepth = 0.0;
+    /** Index of refraction on the side that the membrane's normals point to, and on the other. */
+    double Exterior = 1.0;
+    double Interior = 1.333;
+
+    bool operator==(const View& other) const;
+  };
+
+  static constexpr int TileSize = 32;
+  static constexpr int RaysOfTile = TileSize * TileSize;
+
+  /** Traces all rays to the membrane. */
+  void Build(const Membrane& surface, const CurvedPatches& patches, const View& view,
+    const RangeLoop& loop = SerialLoop);
+  /** Forgets all rays. */
+  void Clear();
+
+  /**
+   * Rows of TileSize rays, from the tile's lower left pixel on; null if none of the tile meets the
+   * membrane. Tiles are numbered as in EntryRaster.
+   */
+  const BentRay* GetTile(int tile) const
+  {
+    const auto& rays = this->Tiles[static_cast<std::size_t>(tile)];
+    return rays.empty() ? nullptr : rays.data();
+  }
+  int GetNumberOfTiles() const { return static_cast<int>(this->Tiles.size()); }
+  /** Whether any ray meets the membrane. */
+  bool IsSeen() const { return this->Seen; }
+  /** Mean of the unit directions behind the membrane, in the frame; 0 if there is none. */
+  const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
+  const View& GetView() const { return this->Of; }
+  std::int64_t GetBytes() const;
+
+private:
+  struct Box
+  {
+    int Left;
+    int Right; // exclusive
+    int Bottom;
+    int Top; // exclusive
+  };
+  struct Hit;
+  class FacetTracer;
+
+  void PrepareRays(const Membrane& surface);
+  Box BoxOf(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const;
+  bool PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const;
+  void SortFacets(const std::vector<Box>& boxes);
+  void TraceTile(
+    const CurvedPatches& patches, const std::vector<Box>& boxes, int tile, glm::dvec3& directions);
+  BentRay Bend(const glm::dvec3& direction, const Hit& hit) const;
+
+  View Of;
+  int Columns = 0;
+  int Rows = 0;
+  bool Seen = false;
+  glm::dvec3 MeanDirection{ 0.0 };
+  glm::dmat3 WorldToFrame{ 1.0 };
+  /** The ray of a pixel, relative to the membrane's origin: constant, per column, per row. */
+  glm::dvec3 Start[3];
+  glm::dvec3 Direction[3];
+  std::vector<std::int32_t> TileBegin;
+  std::vector<std::int32_t> FacetOfSlot;
+  std::vector<std::vector<BentRay>> Tiles;
+};
+
+}
+
+#endif

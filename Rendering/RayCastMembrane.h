@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RayCastMembrane_h
+#define RayCastMembrane_h
+
+#include "RefractionScene.h"
+#include "Volume/BentCaster.h"
+#include "Volume/BentFrames.h"
+#include "Volume/MembraneSight.h"
+#include "VolumeInput.h"
+
+#include <array>
+#include <cstdint>
+
+class vtkPolyData;
+
+namespace meniscus
+{
+
+/**
+ * The membrane that a mapper's rays bend at. Its patches are kept as long as its shape, the rays
+ * behind it as long as shape, view and indices, the vertices about them as long as those and the
+ * mesh.
+ */
+class RayCastMembrane
+{
+public:
+  /** Takes the membrane's shape. False, with an error, if it cannot be used. */
+  bool Update(vtkPolyData* membrane, SceneMessages& messages)
+  {
+    return this->Surface.SetMembrane(membrane, true, messages);
+  }
+
+  /**
+   * The membrane as an image's rays see it; without a Sight if none of them meets it.
+   * @param input  what the rays go through.
+   */
+  BentScene See(const MembraneSight::View& view, VolumeInput& input);
+
+  /** Times that the shape was taken in. */
+  std::int64_t GetBuilds() const { return this->Surface.GetNumberOfPatchBuilds(); }
+  /** Times that rays were traced to the membrane. */
+  std::int64_t GetSightUpdates() const { return this->SightUpdates; }
+  /** Bytes of the rays and of the vertices about them. */
+  std::int64_t GetBytes() const { return this->Sight.GetBytes() + this->Frames.GetBytes(); }
+
+private:
+  /** Of the input's mesh and of its scalars, and of the sight; what vertices were placed for. */
+  using PlacedVersion = std::array<std::int64_t, 3>;
+
+  RefractionScene Surface;
+  MembraneSight Sight;
+  BentFrames Frames;
+  std::int64_t SightOf = 0;
+  std::int64_t SightUpdates = 0;
+  PlacedVersion Placed{ 0, 0, 0 };
+  /** Whether the mesh has inverted cells, and of which build that is known. */
+  bool Inverted = false;
+  std::int64_t InvertedOf = 0;
+};
+
+}
+
+#endif

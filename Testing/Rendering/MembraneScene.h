@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_MembraneScene_h
+#define meniscus_MembraneScene_h
+
+#include "RefractedRays.h"
+
+#include <vtkSmartPointer.h>
+
+#include <functional>
+
+class vtkPolyData;
+
+namespace meniscus
+{
+namespace test
+{
+
+/// A membrane as the mapper gets it and as the reference has it.
+struct MembraneCase
+{
+  vtkSmartPointer<vtkPolyData> Mesh;
+  reference::RefractingSurface Surface;
+};
+
+/// Triangles of a height field y(x, z) over the square of half side `half`, with exact normals.
+vtkSmartPointer<vtkPolyData> makeHeightField(const std::function<double(double, double)>& height,
+  const reference::RefractingSurface& surface, double half, int cells);
+
+/// The plane y = level over a square.
+MembraneCase makePlaneCase(double level, double half, int cells);
+
+/// The top of a sphere, convex to the eye, over a square; the apex is at y = apex.
+MembraneCase makeDomeCase(double apex, double radius, double half, int cells);
+
+/// y = level + amplitude sin(k x) sin(k z) over a square.
+MembraneCase makeWavesCase(double level, double amplitude, double k, double half, int cells);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,469 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Volumes through a membrane, against rays that are refracted in double.
+#include "MembraneScene.h"
+#include "OpticsTruth.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkContourValues.h>
+#include <vtkDataArray.h>
+#include <vtkLight.h>
+#include <vtkPlane.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace meniscus::test;
+using namespace meniscus::reference;
+
+namespace
+{
+
+constexpr int Size = 160;
+const double Range[2] = { -1.0, 1.0 };
+constexpr double Block[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+
+struct MembraneTest
+{
+  MembraneCase Membrane;
+  RayCastScene Scene;
+
+  MembraneTest(const MembraneCase& membrane, vtkUnstructuredGrid* grid,
+    FunctionKind kind = FunctionKind::Smooth)
+    : Membrane(membrane)
+    , Scene(grid, makeProperty(kind, Range, 3.4), Size, Size)
+  {
+    this->Scene.rayCaster()->SetMembraneData(membrane.Mesh);
+  }
+
+  void setIndices(double exterior, double interior)
+  {
+    this->Scene.rayCaster()->SetExteriorIndexOfRefraction(exterior);
+    this->Scene.rayCaster()->SetInteriorIndexOfRefraction(interior);
+    this->Membrane.Surface.Exterior = exterior;
+    this->Membrane.Surface.Interior = interior;
+  }
+
+  void lookAtBlock(double azimuth, double elevation, double zoom = 1.0, bool parallel = false)
+  {
+    lookAt(this->Scene.renderer(), Block, azimuth, elevation, zoom, parallel);
+  }
+
+  // The truth of composite blending.
+  TracedComparison expectComposite(const std::string& what, double tolerance = FloatTolerance)
+  {
+    this->Scene.window()->Render();
+    const auto integrator = makeReference(this->Scene.grid(), this->Scene.volume()->GetMatrix());
+    const auto function = toReference(this->Scene.volume()->GetProperty());
+    return expectTrace(
+      this->Scene,
+      [&](const Ray& ray)
+      {
+        return compose(refract(this->Membrane.Surface, ray, 0.0, false),
+          [&](const Ray& part) { return integrator->trace(part, function); });
+      },
+      what, tolerance);
+  }
+};
+
+// What isosurfaces show, with or without light.
+void expectSurfaces(MembraneTest& test, const std::string& what)
+{
+  RayCastScene& scene = test.Scene;
+  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  scene.window()->Render();
+  vtkVolumeProperty* property = scene.volume()->GetProperty();
+  const auto integrator = makeReference(scene.grid(), scene.volume()->GetMatrix());
+  const std::vector<Surface> surfaces = toSurfaces(property);
+  const Material material = toMaterial(property, scene.renderer());
+  const ReferenceGradients gradients(integrator->mesh(), scene.rayCaster()->GetGradients() != 0);
+  expectTrace(
+    scene,
+    [&](const Ray& ray)
+    {
+      return compose(refract(test.Membrane.Surface, ray, 0.0, false),
+        [&](const Ray& part)
+        {
+          std::vector<RaySegment> segments;
+          integrator->findSegments(part, segments);
+          return blendSurfaces(
+            part, segments, surfaces, property->GetShade() ? &gradients : nullptr, material);
+        });
+    },
+    what);
+}
+
+vtkSmartPointer<vtkVolumeProperty> surfaceProperty(bool shade)
+{
+  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  property->GetIsoSurfaceValues()->SetValue(0, -0.31);
+  property->GetIsoSurfaceValues()->SetValue(1, 0.12);
+  property->GetIsoSurfaceValues()->SetValue(2, 0.43);
+  property->SetShade(shade);
+  property->SetSpecular(0.4);
+  return property;
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastMembrane, ThroughAPlane)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
+  {
+    for (const double elevation : { 25.0, 60.0, 90.0 })
+    {
+      MembraneTest test(makePlaneCase(1.3, 3.0, 3), grid, kind);
+      test.lookAtBlock(30.0, elevation);
+      test.expectComposite("plane from " + std::to_string(elevation));
+      EXPECT_EQ(
+        test.Scene.rayCaster()->GetActiveBackend(), int(vtkTetrahedraRayCastMapper::NATIVE));
+    }
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, ThroughADome)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
+  {
+    for (const bool parallel : { false, true })
+    {
+      MembraneTest test(makeDomeCase(1.4, 4.0, 2.8, 16), grid, kind);
+      test.lookAtBlock(30.0, 55.0, 1.0, parallel);
+      test.expectComposite(parallel ? "dome, parallel" : "dome, perspective");
+    }
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, ThroughWaves)
+{
+  // Patches interpolate waves, so the error is theirs, of third order in the size of a facet.
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  MembraneTest test(makeWavesCase(1.3, 0.08, 3.0, 3.0, 192), grid);
+  test.lookAtBlock(30.0, 50.0);
+  test.expectComposite("waves");
+}
+
+TEST(TetrahedraRayCastMembrane, ConstantMediumUnderAPlane)
+{
+  // The closed form: 1 - exp(-tau l), l the length of the refracted ray in the box.
+  const Grid grid = makeBlock(4, constantField(0.5));
+  RayCastScene scene(grid, makeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
+  const MembraneCase plane = makePlaneCase(1.5, 4.0, 2);
+  scene.rayCaster()->SetMembraneData(plane.Mesh);
+  lookAt(scene.renderer(), Block, 20.0, 40.0);
+  expectTrace(
+    scene,
+    [](const Ray& ray)
+    {
+      const double size = std::sqrt(ray.Direction[0] * ray.Direction[0] +
+        ray.Direction[1] * ray.Direction[1] + ray.Direction[2] * ray.Direction[2]);
+      const double at = (1.5 - ray.Origin[1]) / ray.Direction[1];
+      const double ratio = 1.0 / (1.333 * size);
+      const double x = ray.Direction[0] * ratio;
+      const double z = ray.Direction[2] * ratio;
+      const double direction[3] = { x, -std::sqrt(1.0 - x * x - z * z), z };
+      double begin = 0.0;
+      double end = 1e6;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const double origin = ray.Origin[axis] + at * ray.Direction[axis];
+        const double a = (-1.0 - origin) / direction[axis];
+        const double b = (1.0 - origin) / direction[axis];
+        begin = std::max(begin, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+      }
+      const double alpha = -std::expm1(-std::max(0.0, end - begin) * 0.7 / 0.8);
+      return std::array<double, 4>{ alpha, alpha, alpha, alpha };
+    },
+    "closed form");
+}
+
+TEST(TetrahedraRayCastMembrane, MeshPartlyAbove)
+{
+  for (const Region& region : { Region(), torus(0.6, 0.3), twoBlocks(0.4), lShape() })
+  {
+    const Grid grid = makeBlock(6, wavyField(3.0), region);
+    // Through cells, along their faces, along the mesh's own top.
+    for (const double level : { -0.55, 0.0, 0.1, 1.0 })
+    {
+      MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
+      test.lookAtBlock(30.0, 35.0);
+      test.expectComposite("plane at " + std::to_string(level));
+    }
+    MembraneTest test(makeDomeCase(0.3, 4.0, 2.8, 16), grid);
+    test.lookAtBlock(30.0, 35.0);
+    test.expectComposite("dome in the mesh");
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, CellsInDisorder)
+{
+  // Inverted and overlapping cells about the membrane: the walk must not get lost. What such a mesh
+  // shows depends on the order of its cells, so only statistics are compared.
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  jitter(grid, 0.3, 5);
+  MembraneTest test(makePlaneCase(0.1, 4.0, 2), grid);
+  test.lookAtBlock(30.0, 35.0);
+  test.Scene.renderFloat();
+  EXPECT_GT(test.Scene.rayCaster()->GetNumberOfRays(), 1000);
+  EXPECT_EQ(test.Scene.rayCaster()->GetNumberOfLostRays(), 0);
+}
+
+TEST(TetrahedraRayCastMembrane, PartOfTheScreen)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  for (const double level : { 0.2, 1.2 })
+  {
+    MembraneTest test(makePlaneCase(level, 0.7, 3), grid);
+    test.lookAtBlock(30.0, 40.0);
+    test.expectComposite("small plane at " + std::to_string(level));
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, TotalReflection)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  for (const double elevation : { 20.0, 45.0 })
+  {
+    // The critical angle is 41.8 degrees.
+    MembraneTest test(makePlaneCase(0.1, 4.0, 2), grid);
+    test.setIndices(1.5, 1.0);
+    test.lookAtBlock(30.0, elevation);
+    test.expectComposite("from " + std::to_string(elevation));
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, FromTheOtherSide)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  for (const double level : { -1.3, 0.1 })
+  {
+    MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
+    test.lookAtBlock(30.0, -65.0);
+    test.expectComposite("from below, at " + std::to_string(level));
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, BehindTheEyeAndBeforeTheNearPlane)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  MembraneTest behind(makePlaneCase(9.0, 30.0, 2), grid);
+  behind.lookAtBlock(30.0, 35.0);
+  behind.expectComposite("behind the eye");
+
+  for (const double level : { 0.4, 1.5 })
+  {
+    MembraneTest near(makePlaneCase(level, 9.0, 2), grid);
+    vtkCamera* camera = near.Scene.renderer()->GetActiveCamera();
+    camera->SetPosition(0.1, level + 0.4, 0.9);
+    camera->SetFocalPoint(0.0, level - 1.0, -0.2);
+    camera->SetViewUp(0.0, 0.0, -1.0);
+    camera->SetViewAngle(70.0);
+    camera->SetClippingRange(0.8, 10.0);
+    near.expectComposite("before the near plane, at " + std::to_string(level));
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, TransformedVolume)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  MembraneTest test(makeDomeCase(0.9, 4.0, 2.7, 16), grid);
+  vtkVolume* volume = test.Scene.volume();
+  volume->SetScale(-0.7, 1.5, 1.0);
+  volume->RotateWXYZ(37.0, 0.3, 1.0, 0.2);
+  volume->SetPosition(0.1, -0.2, 0.1);
+  test.lookAtBlock(30.0, 60.0, 0.8);
+  test.expectComposite("mirrored and stretched");
+}
+
+TEST(TetrahedraRayCastMembrane, ClippingPlanesAreWhereTheMeshIs)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  const std::vector<HalfSpace> planes{ { { 0.3, -1.0, 0.2 }, { 0.1, 0.4, 0.0 } },
+    { { -2.0, 0.1, 0.7 }, { 0.5, 0.0, 0.1 } } };
+  for (const double level : { 0.1, 1.2 })
+  {
+    MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
+    for (const HalfSpace& half : planes)
+    {
+      vtkNew<vtkPlane> plane;
+      plane->SetNormal(half.Normal.data());
+      plane->SetOrigin(half.Origin.data());
+      test.Scene.rayCaster()->AddClippingPlane(plane);
+    }
+    test.lookAtBlock(30.0, 40.0);
+    test.Scene.window()->Render();
+    const auto integrator = makeReference(grid);
+    const auto function = toReference(test.Scene.volume()->GetProperty());
+    expectTrace(
+      test.Scene,
+      [&](const Ray& ray)
+      {
+        return compose(refract(test.Membrane.Surface, ray, 0.0, false),
+          [&](const Ray& part)
+          {
+            const Ray clipped = clipRay(part, planes);
+            return clipped.Begin < clipped.End ? integrator->trace(clipped, function)
+                                               : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
+          });
+      },
+      "clipped at " + std::to_string(level));
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, Projections)
+{
+  const std::vector<std::pair<int, Projection>> modes{ { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
+                                                         Projection::Maximum },
+    { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
+    { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
+    { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  double range[2];
+  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
+  const std::vector<MembraneCase> membranes{ makePlaneCase(1.3, 3.0, 3), makePlaneCase(0.1, 4.0, 2),
+    makeDomeCase(1.4, 4.0, 2.8, 16) };
+  for (const auto& mode : modes)
+  {
+    for (const MembraneCase& membrane : membranes)
+    {
+      MembraneTest test(membrane, grid);
+      RayCastScene& scene = test.Scene;
+      scene.rayCaster()->SetBlendMode(mode.first);
+      test.lookAtBlock(30.0, 55.0);
+      const auto integrator = makeReference(grid);
+      vtkVolumeProperty* property = scene.volume()->GetProperty();
+      const auto function =
+        mode.second == Projection::Additive ? toReference(property) : toAlphas(property);
+      expectTrace(
+        scene,
+        [&](const Ray& ray)
+        {
+          const RefractedRay bent = refract(membrane.Surface, ray, 0.0, false);
+          return project(
+            bent.Straight, findSegments(*integrator, bent), mode.second, function, range);
+        },
+        "mode " + std::to_string(mode.first));
+    }
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, Isosurfaces)
+{
+  const Grid grid = makeBlock(8, wavyField(3.0));
+  const std::vector<MembraneCase> membranes{ makePlaneCase(0.1, 4.0, 2),
+    makeDomeCase(1.4, 4.0, 2.8, 16) };
+  for (const bool shade : { false, true })
+  {
+    for (const MembraneCase& membrane : membranes)
+    {
+      for (const int gradients : { 0, 1 })
+      {
+        MembraneTest test(membrane, grid);
+        test.Scene.setProperty(surfaceProperty(shade));
+        test.Scene.rayCaster()->SetGradients(gradients);
+        vtkNew<vtkLight> lamp;
+        lamp->SetPositional(true);
+        lamp->SetPosition(1.5, 2.5, 1.0);
+        lamp->SetFocalPoint(0.0, 0.0, 0.0);
+        lamp->SetConeAngle(40.0);
+        lamp->SetAttenuationValues(0.4, 0.2, 0.05);
+        test.Scene.renderer()->AddLight(lamp);
+        vtkNew<vtkLight> sun;
+        sun->SetPosition(-1.0, 2.0, 0.5);
+        sun->SetFocalPoint(0.0, 0.0, 0.0);
+        test.Scene.renderer()->AddLight(sun);
+        test.lookAtBlock(30.0, 50.0);
+        expectSurfaces(test, shade ? "lit" : "unlit");
+      }
+    }
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, VirtualGeometryHides)
+{
+  // A rectangle across the view: behind the sight point its depth stands for the true length n2/n1
+  // times as long (Eq. 2.4), in front of it for itself.
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  for (const double level : { 0.1, 1.2 })
+  {
+    for (const double offset : { -0.7, -0.1, 0.5 })
+    {
+      MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
+      test.lookAtBlock(30.0, 50.0);
+      test.Scene.window()->Render();
+      vtkCamera* camera = test.Scene.renderer()->GetActiveCamera();
+      const double depth = camera->GetDistance() + offset;
+      double center[3];
+      double forward[3];
+      camera->GetDirectionOfProjection(forward);
+      vtkNew<vtkPlaneSource> source;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        center[axis] = camera->GetPosition()[axis] + depth * forward[axis];
+      }
+      source->SetOrigin(-9.0, -9.0, 0.0);
+      source->SetPoint1(9.0, -9.0, 0.0);
+      source->SetPoint2(-9.0, 9.0, 0.0);
+      source->SetCenter(center);
+      source->SetNormal(forward);
+      vtkNew<vtkPolyDataMapper> mapper;
+      mapper->SetInputConnection(source->GetOutputPort());
+      vtkNew<vtkActor> actor;
+      actor->SetMapper(mapper);
+      actor->GetProperty()->SetLighting(false);
+      actor->GetProperty()->SetColor(0.0, 0.0, 0.0);
+      test.Scene.renderer()->AddActor(actor);
+      const auto integrator = makeReference(grid);
+      const auto function = toReference(test.Scene.volume()->GetProperty());
+      expectTrace(
+        test.Scene,
+        [&](const Ray& ray)
+        {
+          Ray ended = ray;
+          ended.End = depth;
+          std::array<double, 4> color = compose(refract(test.Membrane.Surface, ended, 0.0, true),
+            [&](const Ray& part) { return integrator->trace(part, function); });
+          color[3] = 1.0;
+          return color;
+        },
+        "rectangle at " + std::to_string(offset) + ", plane at " + std::to_string(level));
+    }
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, EqualIndicesChangeNothing)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0), torus(0.6, 0.3));
+  for (const double level : { 0.1, 1.3 })
+  {
+    MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
+    test.lookAtBlock(30.0, 40.0);
+    test.Scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+    test.Scene.rayCaster()->SetMembraneData(nullptr);
+    const FloatImage straight = test.Scene.renderFloat();
+    test.Scene.rayCaster()->SetMembraneData(test.Membrane.Mesh);
+    test.setIndices(1.333, 1.333);
+    EXPECT_EQ(test.Scene.renderFloat().Rgba, straight.Rgba);
+    EXPECT_EQ(test.Scene.rayCaster()->GetNumberOfSightUpdates(), 0);
+
+    // As good as equal: rays are refracted, and do not bend.
+    test.setIndices(1.333, 1.333 * (1.0 + 1e-15));
+    expectSamePicture(test.Scene.renderFloat(), straight, "nearly equal indices");
+    EXPECT_EQ(test.Scene.rayCaster()->GetNumberOfSightUpdates(), 1);
+  }
+}

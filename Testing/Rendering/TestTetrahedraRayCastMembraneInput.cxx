@@ -1,0 +1,309 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A mapper with a membrane: what is done when, and membranes that cannot be used.
+#include "MembraneScene.h"
+#include "RayCastScene.h"
+
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 100;
+constexpr double Range[2] = { -1.0, 1.0 };
+constexpr double Block[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+
+vtkSmartPointer<vtkVolumeProperty> smooth()
+{
+  return makeProperty(FunctionKind::Smooth, Range, 3.4);
+}
+
+struct Counters
+{
+  vtkTypeInt64 Mesh;
+  vtkTypeInt64 Scalars;
+  vtkTypeInt64 Functions;
+  vtkTypeInt64 Active;
+  vtkTypeInt64 Membranes;
+  vtkTypeInt64 Sights;
+
+  explicit Counters(vtkTetrahedraRayCastMapper* mapper)
+    : Mesh(mapper->GetNumberOfMeshBuilds())
+    , Scalars(mapper->GetNumberOfScalarUpdates())
+    , Functions(mapper->GetNumberOfTransferFunctionBuilds())
+    , Active(mapper->GetNumberOfActiveSetBuilds())
+    , Membranes(mapper->GetNumberOfMembraneBuilds())
+    , Sights(mapper->GetNumberOfSightUpdates())
+  {
+  }
+
+  std::vector<vtkTypeInt64> since(const Counters& before) const
+  {
+    return { this->Mesh - before.Mesh, this->Scalars - before.Scalars,
+      this->Functions - before.Functions, this->Active - before.Active,
+      this->Membranes - before.Membranes, this->Sights - before.Sights };
+  }
+};
+
+using Moves = std::vector<vtkTypeInt64>;
+
+// Counters that a change moves, and whether it changes the picture.
+void expectWork(RayCastScene& scene, const std::string& what, const std::function<void()>& change,
+  const Moves& moves, bool changesPicture = true)
+{
+  const FloatImage before = scene.renderFloat();
+  const Counters start(scene.rayCaster());
+  change();
+  const FloatImage after = scene.renderFloat();
+  EXPECT_EQ(Counters(scene.rayCaster()).since(start), moves) << what;
+  EXPECT_EQ(before.Rgba != after.Rgba, changesPicture) << what;
+}
+
+struct Outcome
+{
+  FloatImage Picture;
+  vtkSmartPointer<ErrorObserver> Told;
+};
+
+Outcome renderWith(
+  vtkPolyData* membrane, const std::function<void(vtkTetrahedraRayCastMapper*)>& prepare = nullptr)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+  scene.rayCaster()->SetMembraneData(membrane);
+  if (prepare)
+  {
+    prepare(scene.rayCaster());
+  }
+  lookAt(scene.renderer(), Block, 30.0, 45.0);
+  Outcome outcome;
+  outcome.Told = vtkSmartPointer<ErrorObserver>::New();
+  outcome.Told->observe(scene.rayCaster());
+  outcome.Picture = scene.renderFloat();
+  return outcome;
+}
+
+bool isEmpty(const FloatImage& image)
+{
+  return std::all_of(
+    image.Rgba.begin(), image.Rgba.end(), [](float value) { return value == 0.0f; });
+}
+
+void expectError(const Outcome& outcome, const std::string& part)
+{
+  ASSERT_FALSE(outcome.Told->Errors.empty()) << part;
+  EXPECT_NE(outcome.Told->Errors.front().find(part), std::string::npos)
+    << outcome.Told->Errors.front();
+  EXPECT_NE(outcome.Told->Errors.front().find("nothing is rendered"), std::string::npos);
+  EXPECT_TRUE(isEmpty(outcome.Picture)) << part;
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  const MembraneCase waves = makeWavesCase(1.2, 0.05, 3.0, 3.0, 24);
+  const MembraneCase others = makeWavesCase(1.2, 0.06, 3.0, 3.0, 24);
+  RayCastScene scene(grid, smooth(), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  mapper->SetMembraneData(waves.Mesh);
+  lookAt(scene.renderer(), Block, 30.0, 45.0);
+  scene.renderFloat();
+  EXPECT_EQ(mapper->GetNumberOfMembraneBuilds(), 1);
+  EXPECT_EQ(mapper->GetNumberOfSightUpdates(), 1);
+
+  // Mesh, scalars, functions, active cells, membranes, sights.
+  expectWork(
+    scene, "nothing moves", [] {}, { 0, 0, 0, 0, 0, 0 }, false);
+  expectWork(scene, "camera", [&] { scene.renderer()->GetActiveCamera()->Azimuth(5.0); },
+    { 0, 0, 0, 0, 0, 1 });
+  expectWork(
+    scene, "membrane touched", [&] { waves.Mesh->Modified(); }, { 0, 0, 0, 0, 0, 0 }, false);
+  expectWork(scene, "wave",
+    [&]
+    {
+      waves.Mesh->GetPoints()->DeepCopy(others.Mesh->GetPoints());
+      waves.Mesh->GetPointData()->GetNormals()->DeepCopy(others.Mesh->GetPointData()->GetNormals());
+      waves.Mesh->Modified();
+    },
+    { 0, 0, 0, 0, 1, 1 });
+  expectWork(
+    scene, "index", [&] { mapper->SetInteriorIndexOfRefraction(1.5); }, { 0, 0, 0, 0, 0, 1 });
+  expectWork(scene, "volume's matrix", [&] { scene.volume()->RotateY(3.0); }, { 0, 0, 0, 0, 0, 1 });
+  expectWork(scene, "scalars",
+    [&]
+    {
+      vtkDataArray* scalars = grid->GetPointData()->GetScalars();
+      scalars->SetTuple1(7, 0.77);
+      scalars->Modified();
+    },
+    { 0, 1, 0, 1, 0, 0 });
+  expectWork(scene, "function",
+    [&] { scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(2.0); },
+    { 0, 0, 1, 0, 0, 0 });
+}
+
+TEST(TetrahedraRayCastMembraneInput, OutOfViewAndTakenAway)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
+  RayCastScene scene(grid, smooth(), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  mapper->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+  lookAt(scene.renderer(), Block, 30.0, 45.0);
+  const FloatImage without = scene.renderFloat();
+  mapper->SetMembrane(plane.Mesh);
+  EXPECT_EQ(mapper->GetMembrane(), plane.Mesh.Get());
+  EXPECT_NE(scene.renderFloat().Rgba, without.Rgba);
+  mapper->SetMembrane(nullptr);
+  EXPECT_EQ(mapper->GetMembrane(), nullptr);
+  EXPECT_EQ(scene.renderFloat().Rgba, without.Rgba);
+  // Below the mesh it is behind all that is seen.
+  mapper->SetMembrane(makePlaneCase(-1.2, 0.01, 1).Mesh);
+  EXPECT_EQ(scene.renderFloat().Rgba, without.Rgba);
+}
+
+TEST(TetrahedraRayCastMembraneInput, ByAPipeline)
+{
+  vtkNew<vtkPlaneSource> source; // in the x-y plane; its normals along z
+  source->SetOrigin(-4.0, -4.0, 0.0);
+  source->SetPoint1(4.0, -4.0, 0.0);
+  source->SetPoint2(-4.0, 4.0, 0.0);
+  vtkNew<vtkTransform> turn;
+  turn->Translate(0.0, 1.2, 0.0);
+  turn->RotateX(-90.0);
+  vtkNew<vtkTransformPolyDataFilter> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  filter->SetTransform(turn);
+  const Outcome data = renderWith(makePlaneCase(1.2, 4.0, 2).Mesh);
+  const Outcome connected = renderWith(nullptr,
+    [&](vtkTetrahedraRayCastMapper* mapper)
+    { mapper->SetMembraneConnection(filter->GetOutputPort()); });
+  EXPECT_TRUE(data.Told->Errors.empty()) << data.Told->text();
+  EXPECT_TRUE(connected.Told->Errors.empty()) << connected.Told->text();
+  // Points are single precision there, and the polygons quads.
+  expectSamePicture(data.Picture, connected.Picture, "connection");
+}
+
+TEST(TetrahedraRayCastMembraneInput, NativeWhateverIsAsked)
+{
+  const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
+  for (const int backend : { vtkTetrahedraRayCastMapper::AUTOMATIC,
+         vtkTetrahedraRayCastMapper::OPENGL, vtkTetrahedraRayCastMapper::COMPUTE })
+  {
+    const Outcome outcome = renderWith(
+      plane.Mesh, [backend](vtkTetrahedraRayCastMapper* mapper) { mapper->SetBackend(backend); });
+    const std::size_t warnings = backend == vtkTetrahedraRayCastMapper::AUTOMATIC ? 0 : 1;
+    EXPECT_EQ(outcome.Told->Warnings.size(), warnings) << outcome.Told->text();
+    EXPECT_FALSE(isEmpty(outcome.Picture));
+  }
+}
+
+TEST(TetrahedraRayCastMembraneInput, BoundsHoldTheMembrane)
+{
+  const Grid grid = makeBlock(2, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  scene.rayCaster()->SetMembraneData(makePlaneCase(1.2, 4.0, 2).Mesh);
+  const double wanted[6] = { -4.0, 4.0, -1.0, 1.2, -4.0, 4.0 };
+  const double* bounds = scene.rayCaster()->GetBounds();
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_DOUBLE_EQ(bounds[i], wanted[i]) << i;
+  }
+  // The membrane stays where it is when the volume moves.
+  scene.volume()->SetPosition(1.0, 0.0, 0.0);
+  lookAt(scene.renderer(), Block, 30.0, 45.0);
+  scene.renderFloat();
+  EXPECT_DOUBLE_EQ(scene.volume()->GetBounds()[0], -4.0);
+  EXPECT_DOUBLE_EQ(scene.volume()->GetBounds()[1], 4.0);
+}
+
+TEST(TetrahedraRayCastMembraneInput, UnusableMembranes)
+{
+  vtkNew<vtkPolyData> empty;
+  expectError(renderWith(empty), "no usable triangle");
+
+  const auto nan = makePlaneCase(1.2, 4.0, 2).Mesh;
+  for (vtkIdType i = 0; i < nan->GetNumberOfPoints(); ++i)
+  {
+    nan->GetPoints()->SetPoint(i, 0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
+  }
+  expectError(renderWith(nan), "no usable triangle");
+
+  const auto lines = makePlaneCase(1.2, 4.0, 2).Mesh;
+  lines->SetLines(lines->GetPolys());
+  lines->SetPolys(vtkNew<vtkCellArray>());
+  expectError(renderWith(lines), "no usable triangle");
+
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double index : { 0.0, -1.3, infinity, std::nan("") })
+  {
+    for (const bool interior : { false, true })
+    {
+      const auto set = [&](vtkTetrahedraRayCastMapper* mapper)
+      {
+        interior ? mapper->SetInteriorIndexOfRefraction(index)
+                 : mapper->SetExteriorIndexOfRefraction(index);
+      };
+      expectError(renderWith(makePlaneCase(1.2, 4.0, 2).Mesh, set), "Indices of refraction");
+      // Without a membrane they do not matter.
+      EXPECT_TRUE(renderWith(nullptr, set).Told->Errors.empty());
+    }
+  }
+}
+
+TEST(TetrahedraRayCastMembraneInput, FacetsThatAreSkipped)
+{
+  const Outcome whole = renderWith(makePlaneCase(1.2, 4.0, 2).Mesh);
+  ASSERT_FALSE(isEmpty(whole.Picture));
+  const auto bad = makePlaneCase(1.2, 4.0, 2).Mesh;
+  const vtkIdType stray = bad->GetPoints()->InsertNextPoint(0.0, std::nan(""), 0.0);
+  bad->GetPointData()->GetNormals()->InsertNextTuple3(0.0, 1.0, 0.0);
+  bad->GetPolys()->InsertNextCell({ 0, 1, stray });
+  bad->GetPolys()->InsertNextCell({ 0, 0, 1 });
+  bad->GetPolys()->InsertNextCell({ 0, 1, 99 });
+  bad->GetPolys()->InsertNextCell({ 0, -1, 1 });
+  const Outcome skipped = renderWith(bad);
+  EXPECT_TRUE(skipped.Told->Errors.empty()) << skipped.Told->text();
+  ASSERT_EQ(skipped.Told->Warnings.size(), 1u) << skipped.Told->text();
+  EXPECT_NE(
+    skipped.Told->Warnings.front().find("4 of 12 membrane triangles skipped"), std::string::npos)
+    << skipped.Told->Warnings.front();
+  EXPECT_EQ(skipped.Picture.Rgba, whole.Picture.Rgba);
+}
+
+TEST(TetrahedraRayCastMembraneInput, EyeOnTheMembrane)
+{
+  // Which side it is on is for rounding to say; something is drawn, and nothing breaks.
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  scene.rayCaster()->SetMembraneData(makePlaneCase(2.0, 4.0, 2).Mesh);
+  vtkCamera* camera = scene.renderer()->GetActiveCamera();
+  camera->SetPosition(0.5, 2.0, 2.5);
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetClippingRange(0.01, 10.0);
+  EXPECT_FALSE(isEmpty(scene.renderFloat()));
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
+}
