@@ -137,7 +137,8 @@ void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count
     polygon->GetPointIds()->InsertNextId(static_cast<vtkIdType>(i));
   }
   vtkNew<vtkIdList> corners;
-  polygon->Triangulate(corners);
+  vtkNew<vtkPoints> places; // the overload that all versions of VTK have
+  polygon->Triangulate(0, corners, places);
   for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
   {
     triangles.push_back(corners->GetId(i));

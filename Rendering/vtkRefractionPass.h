@@ -88,12 +88,15 @@ public:
    *                  actor.
    */
   void AddRefraction(vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter);
+  ///@{
   /**
-   * Removes an object that was added; a membrane without objects is no longer drawn.
+   * Removes an object that was added, or all of them; a membrane without objects is no longer
+   * drawn. How many there are.
    */
   void RemoveRefraction(vtkActor* object);
   void RemoveAllRefractions();
   int GetNumberOfRefractions();
+  ///@}
 
   ///@{
   /**
