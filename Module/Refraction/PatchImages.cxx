@@ -85,12 +85,14 @@ bool IsFarFromZero(const Control& f)
   return IsSeparated(corners, (2.0 * LargestBend + HigherDegree) * size);
 }
 
-bool IsInjective(const Control& c)
+// Each of the control points is off by up to `margin`, so each side of a determinant by twice that.
+bool IsInjective(const Control& c, double margin)
 {
   const glm::dvec2 first[3] = { c[5] - c[0], c[1] - c[5], c[3] - c[4] };
   const glm::dvec2 second[3] = { c[4] - c[0], c[3] - c[5], c[2] - c[4] };
   double low = std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::lowest();
+  double longest = 0.0;
   for (const glm::dvec2& u : first)
   {
     for (const glm::dvec2& v : second)
@@ -98,9 +100,11 @@ bool IsInjective(const Control& c)
       const double determinant = Cross(u, v);
       low = std::min(low, determinant);
       high = std::max(high, determinant);
+      longest = std::max(longest, glm::length(u) + glm::length(v));
     }
   }
-  return low > SmallestDeterminant * high || -high > SmallestDeterminant * -low;
+  const double slack = 2.0 * margin * longest;
+  return low - slack > SmallestDeterminant * high || -high - slack > SmallestDeterminant * -low;
 }
 
 }
@@ -172,7 +176,7 @@ PatchImages::Verdict PatchImages::Judge(const Triangle& triangle)
   {
     return Verdict::None;
   }
-  return !isGuess && IsInjective(control) ? Verdict::AtMostOne : Verdict::Unknown;
+  return !isGuess && IsInjective(control, margin) ? Verdict::AtMostOne : Verdict::Unknown;
 }
 
 //------------------------------------------------------------------------------
