@@ -158,7 +158,7 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
       {
         const RayCastBending& bending = frame.Bending;
         scene.Bent = this->Membrane.See({ frame.Rays, width, height, bending.Center,
-                                          bending.EyeDepth, bending.Exterior, bending.Interior },
+                                          bending.EyeDepth, bending.Exterior, bending.Interior, {} },
           this->Input);
       }
       const VertexVersion version{ this->Input.GetMeshBuilds(), this->Input.GetScalarUpdates() };
