@@ -137,7 +137,8 @@ void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count
     polygon->GetPointIds()->InsertNextId(static_cast<vtkIdType>(i));
   }
   vtkNew<vtkIdList> corners;
-  polygon->Triangulate(corners);
+  vtkNew<vtkPoints> places; // the overload that all versions of VTK have
+  polygon->Triangulate(0, corners, places);
   for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
   {
     triangles.push_back(corners->GetId(i));
@@ -407,15 +408,22 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
         topology.lines.AsObject(), topology.lines.ids.data(), begin, end, part.pieces, part.whole);
     },
     result.lines, result.wholeLines, result.cellsWithoutImage);
-  return linesDone &&
+  std::vector<unsigned char> isMapped(topology.polygons.GetCount(), 0);
+  const bool done = linesDone &&
     MapParts(
       topology.polygons.GetCount(), loop,
-      [&topology, &images, &split](std::size_t begin, std::size_t end, Part& part)
+      [&topology, &images, &split, &isMapped](std::size_t begin, std::size_t end, Part& part)
       {
         part.report = images.MapPolygons(topology.polygons.AsObject(), topology.polygons.ids.data(),
-          begin, end, split, part.pieces, part.whole);
+          begin, end, split, part.pieces, part.whole, isMapped.data());
       },
       result.polygons, result.wholePolygons, result.cellsWithoutImage);
+  if (done)
+  {
+    images.MeetNeighbours(
+      topology.polygons.AsObject(), topology.polygons.GetCount(), isMapped.data(), result.polygons);
+  }
+  return done;
 }
 
 //------------------------------------------------------------------------------

@@ -473,6 +473,8 @@ int vtkRefractedGeometryFilter::RequestUpdateExtent(
     membrane->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    // The executive has copied that of the geometry, if it comes from an image.
+    membrane->Remove(Pipeline::UPDATE_EXTENT());
   }
   return 1;
 }

@@ -199,6 +199,8 @@ int vtkRefractionErrorVolume::RequestUpdateExtent(vtkInformation* vtkNotUsed(req
       info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
       info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
       info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      // The executive has copied that of the output, which a membrane from an image does not have.
+      info->Remove(Pipeline::UPDATE_EXTENT());
     }
   }
   return 1;

@@ -12,9 +12,16 @@ namespace meniscus
 namespace
 {
 
-/** Length of a tuple, without overflow on the way. */
+/**
+ * Length of a tuple, without overflow on the way; a single component as it is, as VTK's colour maps
+ * take it, with its sign.
+ */
 double LengthOf(vtkDataArray* array, vtkIdType tuple)
 {
+  if (array->GetNumberOfComponents() == 1)
+  {
+    return array->GetComponent(tuple, 0);
+  }
   double length = 0.0;
   for (int component = 0; component < array->GetNumberOfComponents(); ++component)
   {

@@ -4,6 +4,7 @@
 
 #include "GridView.h"
 #include "ThreadedLoop.h"
+#include "VTKVersions.h"
 #include "ValuesOfParts.h"
 #include "Volume/BlockLoop.h"
 
@@ -82,7 +83,7 @@ void VolumeInput::MeshVersion::Add(vtkDataSet* grid)
   if (auto* unstructured = vtkUnstructuredGrid::SafeDownCast(grid))
   {
     add(unstructured->GetCells());
-    add(unstructured->GetFaces());
+    add(FacesOf(unstructured));
   }
   else if (auto* structured = vtkStructuredGrid::SafeDownCast(grid))
   {

@@ -8,6 +8,7 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkDataObject.h"
+#include "vtkFrameBufferObjectBase.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -33,6 +34,7 @@
 #include "vtkTranslucentPass.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -141,6 +143,44 @@ bool MayBeInView(vtkRenderer* renderer, const double bounds[6])
 }
 
 //------------------------------------------------------------------------------
+/** Widens the camera's clipping range so that it holds the bounds, as the renderer does for its own
+ * props; never narrows it. */
+void HoldInClippingRange(vtkRenderer* renderer, const double bounds[6])
+{
+  if (!(bounds[0] <= bounds[1]))
+  {
+    return;
+  }
+  vtkCamera* camera = renderer->GetActiveCamera();
+  double position[3];
+  double direction[3];
+  double range[2];
+  camera->GetPosition(position);
+  camera->GetDirectionOfProjection(direction);
+  camera->GetClippingRange(range);
+  double nearest = std::numeric_limits<double>::max();
+  double farthest = std::numeric_limits<double>::lowest();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const double depth = direction[0] * (bounds[corner & 1] - position[0]) +
+      direction[1] * (bounds[2 + (corner >> 1 & 1)] - position[1]) +
+      direction[2] * (bounds[4 + (corner >> 2 & 1)] - position[2]);
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  // As vtkRenderer::ResetCameraClippingRange: a little room, and not so near that all of the depth
+  // buffer's resolution is there.
+  constexpr double room = 0.01;
+  constexpr double smallestRatio = 0.001;
+  const double low = std::max((1.0 - room) * nearest, smallestRatio * farthest);
+  const bool holds = range[0] <= std::max(nearest, low) && range[1] >= farthest;
+  if (farthest > 0.0 && !holds)
+  {
+    camera->SetClippingRange(std::min(range[0], low), std::max(range[1], (1.0 + room) * farthest));
+  }
+}
+
+//------------------------------------------------------------------------------
 bool Append(std::string& shader, const std::string& tag, const std::string& code)
 {
   return vtkShaderProgram::Substitute(shader, tag, tag + "\n" + code + "\n", false);
@@ -180,9 +220,33 @@ public:
   vtkTypeInt64 Drawn = 0;
   vtkTypeInt64 Skipped = 0;
 
+  void AdjustClippingRange(vtkRenderer* renderer) const;
   std::vector<vtkActor*> ListMembranes() const;
   vtkTexture* FindCubeMap(vtkRenderer* renderer) const;
 };
+
+//------------------------------------------------------------------------------
+/** For membranes first: what is behind one that is out of view is not asked for. */
+void vtkRefractionPass::vtkInternals::AdjustClippingRange(vtkRenderer* renderer) const
+{
+  for (vtkActor* membrane : this->ListMembranes())
+  {
+    const double* bounds = membrane->GetVisibility() ? membrane->GetBounds() : nullptr;
+    if (!bounds)
+    {
+      continue;
+    }
+    HoldInClippingRange(renderer, bounds);
+    const bool inView = bounds[0] <= bounds[1] && MayBeInView(renderer, bounds);
+    for (const Refraction& refraction : this->Refractions)
+    {
+      if (inView && refraction.Membrane == membrane && refraction.Object->GetVisibility())
+      {
+        HoldInClippingRange(renderer, refraction.Object->GetBounds());
+      }
+    }
+  }
+}
 
 //------------------------------------------------------------------------------
 /** In the order in which they were added. */
@@ -344,13 +408,17 @@ bool vtkRefractionPass::SetShaderParameters(
 void vtkRefractionPass::Render(const vtkRenderState* state)
 {
   vtkInternals& internals = *this->Internals;
+  vtkRenderer* renderer = state->GetRenderer();
+  if (this->AdjustClippingRange)
+  {
+    internals.AdjustClippingRange(renderer);
+  }
   this->NumberOfRenderedProps = 0;
   if (internals.ScenePass)
   {
     internals.ScenePass->Render(state);
     this->NumberOfRenderedProps = internals.ScenePass->GetNumberOfRenderedProps();
   }
-  vtkRenderer* renderer = state->GetRenderer();
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (!window || renderer->GetSelector())
   {
@@ -362,7 +430,7 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
     if (bounds && bounds[0] <= bounds[1] && MayBeInView(renderer, bounds))
     {
       ++internals.Drawn;
-      this->DrawMembrane(renderer, window, membrane);
+      this->DrawMembrane(state, window, membrane);
     }
     else
     {
@@ -373,13 +441,21 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
 
 //------------------------------------------------------------------------------
 void vtkRefractionPass::DrawMembrane(
-  vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane)
+  const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane)
 {
   vtkInternals& internals = *this->Internals;
   vtkOpenGLClearErrorMacro();
+  vtkRenderer* renderer = drawn->GetRenderer();
   int size[2];
-  int origin[2];
-  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  int origin[2] = { 0, 0 };
+  if (vtkFrameBufferObjectBase* buffer = drawn->GetFrameBuffer())
+  {
+    buffer->GetLastSize(size); // another pass's picture, of any size
+  }
+  else
+  {
+    renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
+  }
   vtkOpenGLState* state = window->GetState();
   state->Push();
   state->PushFramebufferBindings();
@@ -587,6 +663,7 @@ void vtkRefractionPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ReflectanceModel: " << this->ReflectanceModel << "\n";
   os << indent << "AttenuationCoefficients: " << this->AttenuationCoefficients[0] << " "
      << this->AttenuationCoefficients[1] << " " << this->AttenuationCoefficients[2] << "\n";
+  os << indent << "AdjustClippingRange: " << (this->AdjustClippingRange ? "on" : "off") << "\n";
   os << indent << "NumberOfMembranesDrawn: " << this->GetNumberOfMembranesDrawn() << "\n";
   os << indent << "NumberOfMembranesSkipped: " << this->GetNumberOfMembranesSkipped() << "\n";
 }

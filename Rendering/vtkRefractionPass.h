@@ -88,12 +88,15 @@ public:
    *                  actor.
    */
   void AddRefraction(vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter);
+  ///@{
   /**
-   * Removes an object that was added; a membrane without objects is no longer drawn.
+   * Removes an object that was added, or all of them; a membrane without objects is no longer
+   * drawn. How many there are.
    */
   void RemoveRefraction(vtkActor* object);
   void RemoveAllRefractions();
   int GetNumberOfRefractions();
+  ///@}
 
   ///@{
   /**
@@ -119,6 +122,17 @@ public:
    */
   vtkSetVector3Macro(AttenuationCoefficients, double);
   vtkGetVector3Macro(AttenuationCoefficients, double);
+  ///@}
+
+  ///@{
+  /**
+   * Set/Get whether the camera's clipping range is widened, where it does not hold the membranes in
+   * view and the objects behind them, which the renderer does not know. It is never narrowed.
+   * Default is on.
+   */
+  vtkSetMacro(AdjustClippingRange, bool);
+  vtkGetMacro(AdjustClippingRange, bool);
+  vtkBooleanMacro(AdjustClippingRange, bool);
   ///@}
 
   ///@{
@@ -151,12 +165,13 @@ private:
   vtkRefractionPass(const vtkRefractionPass&) = delete;
   void operator=(const vtkRefractionPass&) = delete;
 
-  void DrawMembrane(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
+  void DrawMembrane(const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void DrawObjects(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
   void DrawSurface(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
   void Compose(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void SetOptics(vtkRenderer* renderer, vtkActor* membrane, vtkShaderProgram* program);
 
+  bool AdjustClippingRange = true;
   int ReflectanceModel = FRESNEL;
   double AttenuationCoefficients[3] = { 0.0, 0.0, 0.0 };
 

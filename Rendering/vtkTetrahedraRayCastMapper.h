@@ -116,12 +116,12 @@ public:
   vtkTypeMacro(vtkTetrahedraRayCastMapper, vtkUnstructuredGridVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  using vtkUnstructuredGridVolumeMapper::SetInputData;
   ///@{
   /**
    * Sets what is drawn, without a pipeline: a data set with cells that have volume, or a composite
    * one of such, all of whose leaves are drawn as one mesh.
    */
-  using vtkUnstructuredGridVolumeMapper::SetInputData;
   void SetInputData(vtkDataSet* input) override;
   void SetInputData(vtkCompositeDataSet* input);
   ///@}
@@ -171,6 +171,7 @@ public:
   void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
   ///@}
 
+  /// What is drawn of an array of several components.
   enum VectorModes
   {
     DISABLED = -1,
@@ -181,7 +182,8 @@ public:
   ///@{
   /**
    * What is drawn of an array of several components, as in vtkSmartVolumeMapper: MAGNITUDE, the
-   * length of the vector; COMPONENT, the one of number VectorComponent (from 0, the default).
+   * length of the vector (a single component with its sign); COMPONENT, the one of number
+   * VectorComponent (from 0, the default).
    * DISABLED, the default, draws arrays of one component, and mixes two to four (see the class).
    */
   vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
@@ -190,6 +192,7 @@ public:
   vtkGetMacro(VectorComponent, int);
   ///@}
 
+  /// What an opacity means over a length.
   enum OpacityModels
   {
     ATTENUATION_COEFFICIENT = 0,
@@ -208,6 +211,7 @@ public:
   vtkGetMacro(OpacityModel, int);
   ///@}
 
+  /// What casts the rays.
   enum Backends
   {
     AUTOMATIC = 0,
@@ -231,6 +235,7 @@ public:
   /** The backend of the last Render(); AUTOMATIC if nothing has been rendered. */
   vtkGetMacro(ActiveBackend, int);
 
+  /// How segments of rays are integrated.
   enum Integrations
   {
     EXACT = 0,
@@ -264,6 +269,7 @@ public:
   vtkGetMacro(PreIntegrationLengthSize, int);
   ///@}
 
+  /// Which gradients light and gradient opacity go by.
   enum GradientLocations
   {
     CELL_GRADIENTS = 0,

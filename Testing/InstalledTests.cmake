@@ -23,7 +23,7 @@ add_test(
       "-DVTK_DIR=${VTK_DIR}"
       "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
       "-DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}"
-      "-DREADME=${PROJECT_SOURCE_DIR}/README.md"
+      "-DDOCUMENTATION=${PROJECT_SOURCE_DIR}"
     --test-command "${CMAKE_CTEST_COMMAND}" --output-on-failure --no-tests=error)
 set_tests_properties(Installed.Consumer PROPERTIES
   LABELS            consumer

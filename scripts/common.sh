@@ -13,6 +13,7 @@ PACKAGES_BUILD=(g++ cmake ninja-build libvtk9-dev python3 python3-vtk9 libpython
 PACKAGES_BENCHMARKS=(libembree-dev)
 PACKAGES_DISPLAY=(xvfb xauth libgl1-mesa-dri)
 PACKAGES_LINT=(clang-format-14 codespell git)
+PACKAGES_DOCS=(doxygen python3)
 PACKAGES_TIDY=(clang-tidy-14)
 # paraview-dev does not declare what its CMake files look for; python3-paraview conflicts with
 # python3-vtk9 and is unpacked by scripts/paraview-prefix instead.

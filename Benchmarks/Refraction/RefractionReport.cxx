@@ -5,6 +5,7 @@
 #include "Accuracy.h"
 #include "Frames.h"
 #include "Growth.h"
+#include "Pool.h"
 #include "RefractionPicture.h"
 #include "ThesisTables.h"
 #include "WellScene.h"
@@ -64,6 +65,9 @@ public:
     this->row("images", "all, none false", [] { return images(); });
     this->row("pictures", "<= 0.1 % of covered pixels differ", [] { return pictures(); });
     this->row("well", ">= 500 frames/s of filter time", [] { return well(); });
+    this->row("pass", ">= 30 frames/s, everything on", [] { return pass(); });
+    this->row(
+      "pool picture", "< 0.5 % of the water differs by more than 8/255", [] { return pool(); });
     this->row("Embree", "eye moving >= 2x, colours alone >= 10x", [] { return races(); });
   }
 
@@ -208,6 +212,27 @@ private:
         number(frames.CpuMs, 3) + " ms CPU)";
     }
     return text;
+  }
+
+  static std::string pass()
+  {
+    std::string text;
+    for (const PassFrames& frames : measurePass())
+    {
+      text += (text.empty() ? "" : "; ") + frames.Mode + " " + number(frames.PerSecond, 3) + " (" +
+        number(frames.CpuMs, 3) + " ms CPU)";
+    }
+    return text;
+  }
+
+  static std::string pool()
+  {
+    const PoolPictures pictures = comparePool();
+    return "pass " + number(pictures.PassPercent, 2) + " % in " + number(pictures.PassMs, 3) +
+      " ms, new waves; " +
+      (pictures.HasTraced ? "Embree " + number(pictures.TracedPercent, 2) + " % in " +
+            number(pictures.TracedMs, 3) + " ms"
+                          : std::string("built without Embree"));
   }
 
   static std::string races()

@@ -131,7 +131,7 @@ double DemoWater::GetHeight(double x, double y) const
   {
     sum += wave[0] * std::sin(wave[1] * x + wave[2] * y + wave[3] * this->Time);
   }
-  return sum;
+  return this->WaveHeight * sum;
 }
 
 //------------------------------------------------------------------------------
@@ -140,7 +140,8 @@ std::array<double, 3> DemoWater::GetNormal(double x, double y) const
   std::array<double, 3> normal = { 0.0, 0.0, 1.0 };
   for (const auto& wave : Waves)
   {
-    const double slope = wave[0] * std::cos(wave[1] * x + wave[2] * y + wave[3] * this->Time);
+    const double slope =
+      this->WaveHeight * wave[0] * std::cos(wave[1] * x + wave[2] * y + wave[3] * this->Time);
     normal[0] -= wave[1] * slope;
     normal[1] -= wave[2] * slope;
   }
@@ -189,8 +190,9 @@ double DemoWater::Intersect(const double eye[3], const double direction[3]) cons
       this->GetHeight(eye[0] + t * direction[0], eye[1] + t * direction[1]);
   };
   // Steps much shorter than the waves through the layer that holds them, then bisection.
-  double low = (eye[2] - Highest) / -direction[2];
-  const double last = (eye[2] + Highest) / -direction[2];
+  const double highest = Highest * std::max(this->WaveHeight, 1.0);
+  double low = (eye[2] - highest) / -direction[2];
+  const double last = (eye[2] + highest) / -direction[2];
   const double step = (last - low) / 64.0;
   while (low < last && above(low + step) > 0.0)
   {
@@ -307,7 +309,7 @@ vtkSmartPointer<vtkUnsignedCharArray> TraceDemoWell(vtkPolyData* well, const Dem
             s[c] = view.eye[c] + t * direction[c];
           }
           const auto normal = water.GetNormal(s[0], s[1]);
-          const double ratio = 1.0 / DemoWater::Index;
+          const double ratio = 1.0 / water.GetIndex();
           const double cosine = vtkMath::Dot(direction, normal.data());
           const double along =
             -ratio * cosine - std::sqrt(1.0 - ratio * ratio * (1.0 - cosine * cosine));

@@ -15,13 +15,18 @@ class DemoWater
 {
 public:
   static constexpr double HalfSide = 1.9;
-  static constexpr double Highest = 0.07; ///< above the waves
+  static constexpr double Highest = 0.07; ///< above waves of height 1
   static constexpr double Index = 1.333;
 
-  explicit DemoWater(double time)
+  /** `height` scales the waves, from 0 to 2. */
+  explicit DemoWater(double time, double height = 1.0, double index = Index)
     : Time(time)
+    , WaveHeight(height)
+    , RefractiveIndex(index)
   {
   }
+
+  double GetIndex() const { return this->RefractiveIndex; }
 
   double GetHeight(double x, double y) const;
   std::array<double, 3> GetNormal(double x, double y) const;
@@ -34,6 +39,8 @@ public:
 
 private:
   double Time;
+  double WaveHeight;
+  double RefractiveIndex;
 };
 
 /**

@@ -67,14 +67,16 @@ const VirtualVertex& CellDivision::FindMiddle(const glm::dvec3& a, const Virtual
 }
 
 //------------------------------------------------------------------------------
-bool CellDivision::IsDrawnWell(const glm::dvec3& drawn, const VirtualVertex& image) const
+bool CellDivision::IsDrawnWell(
+  const glm::dvec3& drawn, const VirtualVertex& image, double parts) const
 {
   const glm::dvec3 eye = this->Geometry.GetMedia().eye + this->Geometry.GetMembrane().GetOrigin();
   const glm::dvec3 there = drawn - eye;
   const glm::dvec3 seen = image.position - eye;
   const glm::dvec3 across = glm::cross(there, seen);
   const double squared = glm::dot(there, there) * glm::dot(seen, seen);
-  return glm::dot(across, across) <= this->Tolerance * this->Tolerance * squared;
+  const double largest = parts * this->Tolerance;
+  return glm::dot(across, across) <= largest * largest * squared;
 }
 
 //------------------------------------------------------------------------------
@@ -141,6 +143,36 @@ CellDivision::Shape CellDivision::FindShape(const glm::dvec3& a, const VirtualVe
 bool CellDivision::IsStraight(const ImagedPoint& a, const ImagedPoint& b)
 {
   return this->FindShape(a.point, *a.image, b.point, *b.image) == Shape::Straight;
+}
+
+//------------------------------------------------------------------------------
+void CellDivision::MoveOntoEdge(
+  const ImagedPoint& a, const ImagedPoint& b, double l, VirtualVertex& image)
+{
+  glm::dvec3 point[2] = { a.point, b.point };
+  VirtualVertex end[2] = { *a.image, *b.image };
+  for (int depth = 0; depth <= DeepestLevel; ++depth)
+  {
+    const Shape shape =
+      depth == DeepestLevel ? Shape::Straight : this->FindShape(point[0], end[0], point[1], end[1]);
+    if (shape == Shape::Open)
+    {
+      return;
+    }
+    if (shape == Shape::Straight)
+    {
+      // Between the places that were tested the edge bends by little more than there.
+      constexpr double sameBranch = 2.0;
+      const glm::dvec3 drawn = (1.0 - l) * end[0].position + l * end[1].position;
+      image.position = this->IsDrawnWell(drawn, image, sameBranch) ? drawn : image.position;
+      return;
+    }
+    const VirtualVertex middle = this->FindMiddle(point[0], end[0], point[1], end[1]);
+    const int half = l < 0.5 ? 0 : 1;
+    point[1 - half] = 0.5 * (point[0] + point[1]);
+    end[1 - half] = middle;
+    l = 2.0 * l - half;
+  }
 }
 
 //------------------------------------------------------------------------------

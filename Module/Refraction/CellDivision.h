@@ -51,6 +51,10 @@ public:
   bool AddLine(
     const ImagedPoint& from, const ImagedPoint& to, std::int64_t sourceCell, ImageMesh& images);
 
+  /// Where neighbours draw the point at `l` from 0 to 1 of an edge, if `image` is on the branch
+  /// that they draw: its position is moved there, by no more than twice the tolerance.
+  void MoveOntoEdge(const ImagedPoint& a, const ImagedPoint& b, double l, VirtualVertex& image);
+
 private:
   struct Node
   {
@@ -97,7 +101,8 @@ private:
   Shape FindShape(const glm::dvec3& a, const VirtualVertex& imageOfA, const glm::dvec3& b,
     const VirtualVertex& imageOfB);
   Shape FindShape(const Stretch& part, int depth);
-  bool IsDrawnWell(const glm::dvec3& drawn, const VirtualVertex& image) const;
+  /// Within so many parts of the tolerance.
+  bool IsDrawnWell(const glm::dvec3& drawn, const VirtualVertex& image, double parts = 1.0) const;
   bool AreNeighbours(const VirtualVertex& a, const VirtualVertex& b) const;
   double GetSquaredSize(std::int32_t facet) const;
   void Start(const std::array<ImagedPoint, 3>& corners, std::size_t count);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace meniscus
 {
@@ -308,7 +309,7 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
 //------------------------------------------------------------------------------
 CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_t* names,
   std::size_t begin, std::size_t end, const Triangulate& triangulate, ImageMesh& pieces,
-  ImageMesh& whole) const
+  ImageMesh& whole, unsigned char* isMapped) const
 {
   const MembraneMapping mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
   CellDivision division(this->Geometry, this->Tolerance);
@@ -321,6 +322,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
     const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
+    isMapped[i] = 0;
     if (side == Side::InFront || (isOne && this->IsSimple(ids, count, true, division)))
     {
       this->AddWhole(ids, count, cell, whole);
@@ -344,9 +346,74 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
           { this->GetPoint(corner[0]), this->GetPoint(corner[1]), this->GetPoint(corner[2]) } },
         cell, side == Side::Both, pieces);
     }
+    isMapped[i] = isDivided ? 0 : 1;
     report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }
   return report;
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
+  const unsigned char* isMapped, ImageMesh& pieces) const
+{
+  using Edge = std::pair<std::int64_t, std::int64_t>;
+  const auto sides = [&cells](std::size_t cell, const auto& visit)
+  {
+    const std::int64_t begin = cells.offsets[cell];
+    const std::int64_t size = cells.offsets[cell + 1] - begin;
+    for (std::int64_t k = 0; k < size; ++k)
+    {
+      visit(std::minmax(cells.connectivity[begin + k], cells.connectivity[begin + (k + 1) % size]));
+    }
+  };
+  std::vector<Edge> mapped;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (isMapped[i])
+    {
+      sides(i, [&mapped](const Edge& side) { mapped.push_back(side); });
+    }
+  }
+  std::sort(mapped.begin(), mapped.end());
+  mapped.erase(std::unique(mapped.begin(), mapped.end()), mapped.end());
+  std::vector<char> isCommon(mapped.size(), 0);
+  const auto find = [&mapped](const Edge& side)
+  {
+    const auto at = std::lower_bound(mapped.begin(), mapped.end(), side);
+    return at != mapped.end() && *at == side ? at - mapped.begin() : -1;
+  };
+  for (std::size_t i = 0; i < count && !mapped.empty(); ++i)
+  {
+    if (!isMapped[i])
+    {
+      sides(i,
+        [&find, &isCommon](const Edge& side)
+        {
+          const auto at = find(side);
+          if (at >= 0)
+          {
+            isCommon[static_cast<std::size_t>(at)] = 1;
+          }
+        });
+    }
+  }
+  CellDivision division(this->Geometry, this->Tolerance);
+  for (std::size_t i = 0; i < pieces.points.size() && !mapped.empty(); ++i)
+  {
+    ImagePoint& point = pieces.points[i];
+    if (!(point.weight[1] > 0.0 && point.weight[2] == 0.0))
+    {
+      continue;
+    }
+    const auto at = find(std::minmax(point.source[0], point.source[1]));
+    if (at >= 0 && isCommon[static_cast<std::size_t>(at)] &&
+      this->HaveOneImage(point.source.data(), 2) &&
+      this->FindSide(point.source.data(), 2) == Side::Behind)
+    {
+      division.MoveOntoEdge(this->GetImagedPoint(point.source[0]),
+        this->GetImagedPoint(point.source[1]), point.weight[1], point.vertex);
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

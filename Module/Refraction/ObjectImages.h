@@ -98,10 +98,18 @@ public:
 
   /// Adds the images of cells [begin, end), called `names`. Cells that pass whole go to `whole`,
   /// which has no points of its own but names those of GetPointImages(); others go to `pieces`.
+  /// `isMapped[i]` becomes 1 if polygon i has been mapped from the membrane, otherwise 0.
   CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, ImageMesh& pieces, ImageMesh& whole) const;
   CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
-    std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole) const;
+    std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole,
+    unsigned char* isMapped) const;
+
+  /// After all polygons have been mapped to `pieces`: makes those that have been mapped from the
+  /// membrane, `isMapped`, end where their neighbours do, which draw common sides as straight
+  /// pieces, up to the tolerance off.
+  void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
+    ImageMesh& pieces) const;
 
 private:
   enum class Side

@@ -2,24 +2,251 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastRepresentation.h"
 
-#include "vtkNew.h"
+#include "vtkColorTransferFunction.h"
+#include "vtkCommunicator.h"
+#include "vtkContourValues.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
 #include "vtkTetrahedraRayCastMapper.h"
+#include "vtkVolumeMapper.h"
+#include "vtkVolumeProperty.h"
+#include "vtkVolumeRepresentationPreprocessor.h"
 
 vtkStandardNewMacro(vtkTetrahedraRayCastRepresentation);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastRepresentation::vtkTetrahedraRayCastRepresentation()
 {
-  vtkNew<vtkTetrahedraRayCastMapper> mapper;
-  this->AddVolumeMapper("Tetrahedra ray cast", mapper);
+  this->AddVolumeMapper("Tetrahedra ray cast", this->Mapper);
 }
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastRepresentation::~vtkTetrahedraRayCastRepresentation() = default;
 
 //------------------------------------------------------------------------------
+int vtkTetrahedraRayCastRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* inputs, vtkInformation* outputs)
+{
+  if (!this->Superclass::ProcessViewRequest(request, inputs, outputs))
+  {
+    return 0;
+  }
+  if (request == vtkPVView::REQUEST_UPDATE())
+  {
+    vtkPVRenderView::SetRedistributionModeToSplitBoundaryCells(inputs, this);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayCastRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const int succeeded = this->Superclass::RequestData(request, inputs, outputs);
+  this->LeaveOutWithoutArray();
+  return succeeded;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::LeaveOutWithoutArray()
+{
+  vtkDataSet* grid = vtkDataSet::SafeDownCast(this->Preprocessor->GetOutputDataObject(0));
+  vtkInformation* info = this->GetInputArrayInformation(0);
+  if (!grid || !info || !info->Has(vtkDataObject::FIELD_NAME()))
+  {
+    return;
+  }
+  std::string name = info->Get(vtkDataObject::FIELD_NAME());
+  if (name.empty())
+  {
+    return;
+  }
+  name += this->UseSeparateOpacityArray ? "_and_opacity" : "";
+  const int place = info->Get(vtkDataObject::FIELD_ASSOCIATION());
+  vtkDataSetAttributes* arrays = grid->GetAttributes(place);
+  vtkDataArray* array = arrays ? arrays->GetArray(name.c_str()) : nullptr;
+
+  // Type and number of components, which a rank without the array has to learn.
+  int shape[2] = { array ? array->GetDataType() : 0, array ? array->GetNumberOfComponents() : 0 };
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  const int ranks = controller ? controller->GetNumberOfProcesses() : 1;
+  if (ranks > 1)
+  {
+    const int local[2] = { shape[0], shape[1] };
+    controller->AllReduce(local, shape, 2, vtkCommunicator::MAX_OP);
+  }
+  if (array || !arrays)
+  {
+    return;
+  }
+  if (grid->GetNumberOfCells() > 0)
+  {
+    vtkWarningMacro("There is no array '"
+      << name << "' on rank " << (ranks > 1 ? controller->GetLocalProcessId() : 0) << "; its "
+      << grid->GetNumberOfCells() << " cells are left out.");
+  }
+  grid->Initialize();
+  if (shape[0] != 0)
+  {
+    auto empty = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(shape[0]));
+    empty->SetName(name.c_str());
+    empty->SetNumberOfComponents(shape[1]);
+    arrays->AddArray(empty);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::UpdateMapperParameters()
+{
+  this->Superclass::UpdateMapperParameters();
+  const bool mixes =
+    !this->MapScalars || this->MultiComponentsMapping || this->UseSeparateOpacityArray;
+  vtkColorTransferFunction* colors = this->Property->GetRGBTransferFunction();
+  this->Property->SetIndependentComponents(!mixes);
+  if (mixes || !colors)
+  {
+    this->Mapper->SetVectorMode(vtkTetrahedraRayCastMapper::DISABLED);
+    return;
+  }
+  const bool component = colors->GetVectorMode() == vtkScalarsToColors::COMPONENT;
+  this->Mapper->SetVectorComponent(component ? colors->GetVectorComponent() : 0);
+  this->Mapper->SetVectorMode(
+    component ? vtkTetrahedraRayCastMapper::COMPONENT : vtkTetrahedraRayCastMapper::MAGNITUDE);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetBackend(int backend)
+{
+  this->Mapper->SetBackend(backend);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetBlendMode(int mode)
+{
+  this->Mapper->SetBlendMode(mode);
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  const bool composites =
+    mode == vtkVolumeMapper::COMPOSITE_BLEND || mode == vtkVolumeMapper::ISOSURFACE_BLEND;
+  if (!composites && controller && controller->GetNumberOfProcesses() > 1 &&
+    controller->GetLocalProcessId() == 0)
+  {
+    vtkWarningMacro("Pictures of several ranks are composited one over the other, which is right "
+                    "for the blend modes Composite and Isosurface only; load the data on one rank "
+                    "for the others.");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetIntegration(int integration)
+{
+  this->Mapper->SetIntegration(integration);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetPreIntegrationScalarSize(int size)
+{
+  this->Mapper->SetPreIntegrationScalarSize(size);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetPreIntegrationLengthSize(int size)
+{
+  this->Mapper->SetPreIntegrationLengthSize(size);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetOpacityModel(int model)
+{
+  this->Mapper->SetOpacityModel(model);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetGradients(int location)
+{
+  this->Mapper->SetGradients(location);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetEarlyTerminationOpacity(double opacity)
+{
+  this->Mapper->SetEarlyTerminationOpacity(opacity);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetAutoAdjustSampleDistances(bool adjust)
+{
+  this->Mapper->SetAutoAdjustSampleDistances(adjust);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetImageSampleDistance(double distance)
+{
+  this->Mapper->SetImageSampleDistance(static_cast<float>(distance));
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetMaximumImageSampleDistance(double distance)
+{
+  this->Mapper->SetMaximumImageSampleDistance(static_cast<float>(distance));
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetCompactTables(bool compact)
+{
+  this->Mapper->SetCompactTables(compact);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetShade(bool shade)
+{
+  this->Property->SetShade(shade);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetAmbient(double ambient)
+{
+  this->Property->SetAmbient(ambient);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetDiffuse(double diffuse)
+{
+  this->Property->SetDiffuse(diffuse);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetSpecular(double specular)
+{
+  this->Property->SetSpecular(specular);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetSpecularPower(double power)
+{
+  this->Property->SetSpecularPower(power);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetNumberOfIsosurfaces(int number)
+{
+  this->Property->GetIsoSurfaceValues()->SetNumberOfContours(number);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetIsosurfaceValue(int number, double value)
+{
+  this->Property->GetIsoSurfaceValues()->SetValue(number, value);
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Mapper:\n";
+  this->Mapper->PrintSelf(os, indent.GetNextIndent());
 }

@@ -6,14 +6,25 @@
  *          vtkTetrahedraRayCastMapper
  *
  * ParaView fills the list of mappers of vtkUnstructuredGridVolumeRepresentation in C++; this class
- * adds ours under the name `Tetrahedra ray cast`. Everything else (splitting cells into tetrahedra,
- * the surface shown during interaction, redistribution between ranks) is inherited.
+ * adds ours under the name `Tetrahedra ray cast` and passes on what can be set about it. Splitting
+ * cells into tetrahedra and the surface shown during interaction are inherited.
+ *
+ * Of an array of several components the colour map chooses one or the length, as for ParaView's
+ * volumes of image data; with MultiComponentsMapping, without MapScalars, or with a separate
+ * opacity array, components mix as vtkTetrahedraRayCastMapper says.
+ *
+ * Of several ranks each gets the cells of a box, cut at its sides. ParaView's own representation
+ * gives cells whole to one box, so that what sticks out is composited in the wrong order. Cells of
+ * a rank that does not have the chosen array are left out, with a warning; ParaView would drop the
+ * array on all ranks.
  */
 #ifndef vtkTetrahedraRayCastRepresentation_h
 #define vtkTetrahedraRayCastRepresentation_h
 
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkUnstructuredGridVolumeRepresentation.h"
+
+class vtkTetrahedraRayCastMapper;
 
 class VTKMENISCUSREPRESENTATIONS_EXPORT vtkTetrahedraRayCastRepresentation
   : public vtkUnstructuredGridVolumeRepresentation
@@ -23,13 +34,51 @@ public:
   vtkTypeMacro(vtkTetrahedraRayCastRepresentation, vtkUnstructuredGridVolumeRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* inputs, vtkInformation* outputs) override;
+
+  ///@{
+  /** Forwarded to the mapper. */
+  void SetBackend(int backend);
+  void SetBlendMode(int mode);
+  void SetIntegration(int integration);
+  void SetPreIntegrationScalarSize(int size);
+  void SetPreIntegrationLengthSize(int size);
+  void SetOpacityModel(int model);
+  void SetGradients(int location);
+  void SetEarlyTerminationOpacity(double opacity);
+  void SetAutoAdjustSampleDistances(bool adjust);
+  void SetImageSampleDistance(double distance);
+  void SetMaximumImageSampleDistance(double distance);
+  void SetCompactTables(bool compact);
+  ///@}
+
+  ///@{
+  /** Forwarded to the volume's property. */
+  void SetShade(bool shade);
+  void SetAmbient(double ambient);
+  void SetDiffuse(double diffuse);
+  void SetSpecular(double specular);
+  void SetSpecularPower(double power);
+  void SetNumberOfIsosurfaces(int number);
+  void SetIsosurfaceValue(int number, double value);
+  ///@}
+
 protected:
   vtkTetrahedraRayCastRepresentation();
   ~vtkTetrahedraRayCastRepresentation() override;
 
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  void UpdateMapperParameters() override;
+
 private:
   vtkTetrahedraRayCastRepresentation(const vtkTetrahedraRayCastRepresentation&) = delete;
   void operator=(const vtkTetrahedraRayCastRepresentation&) = delete;
+
+  void LeaveOutWithoutArray();
+
+  vtkNew<vtkTetrahedraRayCastMapper> Mapper;
 };
 
 #endif

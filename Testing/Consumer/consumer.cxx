@@ -15,6 +15,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <cstdlib>
 #include <iostream>
@@ -63,9 +64,21 @@ bool Draw()
   std::cout << mapper->GetClassName() << ": brightest pixel " << brightest << " of 442\n";
   return brightest > 100;
 }
+
+/// The file that the tutorial's program reads.
+bool WriteMesh()
+{
+  vtkNew<vtkRTAnalyticSource> field;
+  vtkNew<vtkDataSetTriangleFilter> tetrahedra;
+  tetrahedra->SetInputConnection(field->GetOutputPort());
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputConnection(tetrahedra->GetOutputPort());
+  writer->SetFileName("mesh.vtu");
+  return writer->Write() != 0;
+}
 }
 
 int main()
 {
-  return Refract() && Draw() ? EXIT_SUCCESS : EXIT_FAILURE;
+  return Refract() && Draw() && WriteMesh() ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -40,13 +40,29 @@ def load_plugin():
     simple.LoadPlugin(os.environ["MENISCUS_PLUGIN"], remote=False, ns=vars(simple))
 
 
+def value_of(proxy, name):
+    """The value of a property as it is now; ParaView hands out some that follow later changes."""
+    value = getattr(proxy, name)
+    return value.GetData() if hasattr(value, "GetData") else value
+
+
+def mapper_of(display):
+    """The mapper behind the representation Tetrahedra Ray Cast."""
+    representation = display.SMProxy.GetClientSideObject().GetActiveRepresentation()
+    return representation.GetActiveVolumeMapper()
+
+
 def make_view():
     view = simple.CreateRenderView()
+    prepare_view(view)
+    return view
+
+
+def prepare_view(view):
     view.ViewSize = [SIZE, SIZE]
     view.UseColorPaletteForBackground = 0
     view.Background = BACKGROUND
     view.OrientationAxesVisibility = 0
-    return view
 
 
 def screenshot(view, name):
@@ -55,15 +71,27 @@ def screenshot(view, name):
     if os.path.exists(path):
         os.remove(path)
     simple.SaveScreenshot(path, view, ImageResolution=[SIZE, SIZE])
+    print("wrote", path)
+    return read_pixels(name)
+
+
+def read_picture(name):
+    """The array of pixels of NAME.png, three unsigned characters each."""
+    path = os.path.join(os.environ["MENISCUS_OUTPUT_DIR"], name + ".png")
     reader = vtkPNGReader()
     reader.SetFileName(path)
     reader.Update()
     scalars = reader.GetOutput().GetPointData().GetScalars()
-    pixels = [scalars.GetTuple(i)[:3] for i in range(scalars.GetNumberOfTuples())]
-    if len(pixels) != SIZE * SIZE:
-        raise AssertionError("%s has %d pixels" % (path, len(pixels)))
-    print("wrote", path)
-    return pixels
+    shape = (scalars.GetNumberOfTuples(), scalars.GetNumberOfComponents())
+    if shape != (SIZE * SIZE, 3):
+        raise AssertionError("%s has %d pixels of %d components" % ((path,) + shape))
+    return scalars
+
+
+def read_pixels(name):
+    """The pixels of NAME.png as a list of (r, g, b)."""
+    scalars = read_picture(name)
+    return [scalars.GetTuple(i) for i in range(scalars.GetNumberOfTuples())]
 
 
 def covered(pixels, threshold=2):

@@ -9,6 +9,13 @@ PROPERTIES = {
     "InteriorIndexOfRefraction": 1.333,
     "MembraneModel": "Curved",
     "Images": "All images",
+    "AngularTolerance": 0.005,
+    "ViewCulling": 0,
+    "ViewAngle": 30,
+    "ViewAspectRatio": 0,
+    "ReflectanceModel": "Fresnel",
+    "VirtualNormals": 0,
+    "OutputPointsPrecision": "Same as the geometry",
 }
 
 

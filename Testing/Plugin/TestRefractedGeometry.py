@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The filter on a sphere below a plane: the eye's rays obey Snell's law, and the result is drawn."""
+"""The filter on a sphere below a plane: the eye's rays obey Snell's law, and the result is drawn;
+the eye follows a camera; composite inputs."""
 import math
 
 import PluginTesting
@@ -32,6 +33,57 @@ def check_snell(source, virtual):
     assert worst < SNELL_TOLERANCE
 
 
+def follow_camera(refracted, view):
+    """Links the filter's eye and view to the view's camera, as Tools > Manage Links does."""
+    for name, name_there in [("CameraPosition", "EyePosition"),
+                             ("CameraFocalPoint", "ViewFocalPoint"),
+                             ("CameraViewUp", "ViewUp"), ("CameraViewAngle", "ViewAngle")]:
+        link = servermanager.vtkSMPropertyLink()
+        link.AddLinkedProperty(view.SMProxy, name, 1)
+        link.AddLinkedProperty(refracted.SMProxy, name_there, 2)
+        servermanager.ProxyManager().RegisterLink("Eye" + name, link)
+
+
+def check_camera(refracted, view):
+    """The eye follows the camera; with ViewCulling, what the camera does not show is left out and
+    the picture is the same."""
+    follow_camera(refracted, view)
+    for position in [(0.5, -0.4, 3.0), (1.5, 0.3, 1.5)]:
+        view.CameraPosition = position
+        refracted.ViewCulling = 0
+        name = "RefractedFrom%g" % position[0]
+        plain = PluginTesting.screenshot(view, name)
+        assert tuple(refracted.EyePosition) == position, "the eye is at %s" % refracted.EyePosition
+        refracted.ViewCulling = 1
+        assert PluginTesting.screenshot(view, name + "Culled") == plain, "culled"
+        count = servermanager.Fetch(refracted).GetNumberOfPoints()
+        view.CameraFocalPoint = [100, 0, 0]
+        simple.Render(view)
+        aside = servermanager.Fetch(refracted).GetNumberOfPoints()
+        assert aside < count, "%d of %d points though the camera looks aside" % (aside, count)
+        view.CameraFocalPoint = [0, 0, -0.6]
+
+
+def check_blocks(sphere, membrane):
+    """Composite inputs: the blocks of the geometry stay, those of the membrane become one."""
+    other = simple.Sphere(Center=[0.5, 0, -1], Radius=0.2)
+    halves = [simple.Plane(Origin=[x, -2, 0], Point1=[x + 2, -2, 0], Point2=[x, 2, 0],
+                           XResolution=RESOLUTION // 2, YResolution=RESOLUTION) for x in (-2, 0)]
+    both = simple.GroupDatasets(Input=[sphere, other])
+    refracted = simple.RefractedGeometry(
+        Geometry=both, Membrane=simple.GroupDatasets(Input=halves), EyePosition=EYE)
+    whole = simple.RefractedGeometry(Geometry=sphere, Membrane=membrane, EyePosition=EYE)
+    blocks = servermanager.Fetch(refracted)
+    expected = servermanager.Fetch(whole)
+    assert blocks.GetNumberOfBlocks() == 2
+    block = blocks.GetBlock(0)
+    assert block.GetNumberOfPoints() == expected.GetNumberOfPoints()
+    worst = max(abs(a - b) for i in range(block.GetNumberOfPoints())
+                for a, b in zip(block.GetPoint(i), expected.GetPoint(i)))
+    assert worst < 1e-6, "blocks of the membrane change the picture by %g" % worst
+    assert blocks.GetBlock(1).GetNumberOfPoints() > 0
+
+
 def test():
     PluginTesting.load_plugin()
     sphere = simple.Sphere(
@@ -57,6 +109,9 @@ def test():
     simple.ResetCamera(view)
     drawn = PluginTesting.covered(PluginTesting.screenshot(view, "RefractedGeometry"))
     assert len(drawn) > 0.05 * PluginTesting.SIZE**2, "the picture is all but empty"
+    refracted.Images = "All images"
+    check_camera(refracted, view)
+    check_blocks(sphere, membrane)
 
 
 if __name__ == "__main__":

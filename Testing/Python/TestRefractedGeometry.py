@@ -5,7 +5,9 @@ import math
 import unittest
 
 from meniscus import vtkRefractedGeometryFilter
+from vtkmodules.vtkFiltersCore import vtkContourFilter, vtkMaskPoints
 from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
+from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 
 EYE = (0.3, 0.2, 2.0)
 INDICES = (1.0, 1.333)
@@ -68,6 +70,28 @@ class TestRefractedGeometry(unittest.TestCase):
         self.filter.Update()
         self.assertGreater(self.filter.GetNumberOfSolvedVertices(), solved)
         self.assertEqual(self.filter.GetNumberOfPatchBuilds(), builds)
+
+    def test_inputs_from_images(self):
+        """Neither input asks the other's source for its own extent."""
+        objects = vtkRTAnalyticSource()
+        objects.SetWholeExtent(-4, 4, -4, 4, -5, -1)
+        vertices = vtkMaskPoints()
+        vertices.SetInputConnection(objects.GetOutputPort())
+        vertices.SetOnRatio(1)
+        vertices.GenerateVerticesOn()
+        vertices.SingleVertexPerCellOn()
+        field = vtkRTAnalyticSource()
+        field.SetWholeExtent(-8, 8, -8, 8, 0, 1)
+        surface = vtkContourFilter()
+        surface.SetInputConnection(field.GetOutputPort())
+        surface.SetValue(0, 150)
+        self.filter.SetInputConnection(0, vertices.GetOutputPort())
+        self.filter.SetInputConnection(1, surface.GetOutputPort())
+        self.filter.SetEyePosition(0, 0, 12)
+        self.filter.Update()
+        self.assertGreater(self.filter.GetOutput().GetNumberOfPoints(), 100)
+        self.assertEqual(objects.GetOutput().GetExtent(), (-4, 4, -4, 4, -5, -1))
+        self.assertEqual(field.GetOutput().GetExtent(), (-8, 8, -8, 8, 0, 1))
 
     def check_arrays(self, virtual):
         for name in POINT_ARRAYS:

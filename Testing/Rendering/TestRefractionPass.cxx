@@ -10,6 +10,7 @@
 #include <vtkCubeSource.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkOpenGLFXAAPass.h>
 #include <vtkPlaneSource.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -17,6 +18,7 @@
 #include <vtkRefractionPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkSSAAPass.h>
 #include <vtkSmartPointer.h>
 #include <vtkTexture.h>
 #include <vtkUnstructuredGrid.h>
@@ -184,17 +186,26 @@ double schlick(const Sight& sight)
 }
 
 template <typename ColorOf>
-void expectColors(Pool& pool, const std::string& what, ColorOf&& colorOf)
+void expectColors(
+  Pool& pool, const std::string& what, ColorOf&& colorOf, double slack = Rounding, int blur = 0)
 {
   SCOPED_TRACE(what);
   const ByteImage image = pool.render();
   int seen = 0;
-  for (int y = 0; y < Size; ++y)
+  // A filter of that reach takes what is beyond the picture's border from its other side.
+  for (int y = blur; y < Size - blur; ++y)
   {
-    for (int x = 0; x < Size; ++x)
+    for (int x = blur; x < Size - blur; ++x)
     {
       const Sight sight = sightOf(pool.camera(), x, y);
-      if (isBorder(sight))
+      bool border = false;
+      for (int k = 0; k < (2 * blur + 1) * (2 * blur + 1); ++k)
+      {
+        const int dx = k % (2 * blur + 1) - blur;
+        const int dy = k / (2 * blur + 1) - blur;
+        border = border || isBorder(sightOf(pool.camera(), x + dx, y + dy));
+      }
+      if (border)
       {
         continue;
       }
@@ -202,7 +213,7 @@ void expectColors(Pool& pool, const std::string& what, ColorOf&& colorOf)
       for (int channel = 0; channel < 3; ++channel)
       {
         const double expected = sight.OnMembrane ? colorOf(sight, channel) : Background[channel];
-        ASSERT_NEAR(image.pixel(x, y)[channel] / 255.0, expected, Rounding) << x << " " << y;
+        ASSERT_NEAR(image.pixel(x, y)[channel] / 255.0, expected, slack) << x << " " << y;
       }
     }
   }
@@ -399,6 +410,34 @@ TEST(RefractionPass, AMembraneOutOfViewCostsNothing)
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesSkipped(), 2);
 }
 
+TEST(RefractionPass, TheClippingRangeHoldsWhatTheRendererDoesNotKnow)
+{
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  const ByteImage whole = pool.render();
+  double range[2];
+  pool.camera()->GetClippingRange(range);
+  EXPECT_EQ(range[0], 0.1); // wide enough: untouched
+  EXPECT_EQ(range[1], 20.0);
+  // As the renderer would set it for a small actor in front.
+  pool.camera()->SetClippingRange(0.5, 1.0);
+  EXPECT_EQ(pool.render().Rgb, whole.Rgb);
+  pool.camera()->GetClippingRange(range);
+  EXPECT_EQ(range[0], 0.5);
+  EXPECT_GT(range[1], EyeHeight + 0.5);
+  const vtkTypeInt64 eyes = pool.Filter->GetNumberOfEyeUpdates();
+  const vtkMTimeType time = pool.camera()->GetMTime();
+  pool.render();
+  EXPECT_EQ(pool.Filter->GetNumberOfEyeUpdates(), eyes);
+  EXPECT_EQ(pool.camera()->GetMTime(), time);
+
+  pool.Pass->AdjustClippingRangeOff();
+  pool.camera()->SetClippingRange(0.5, 1.0);
+  pool.render();
+  pool.camera()->GetClippingRange(range);
+  EXPECT_EQ(range[1], 1.0);
+}
+
 TEST(RefractionPass, CountersOfWhatMoves)
 {
   Pool pool;
@@ -481,6 +520,43 @@ TEST(RefractionPass, SeveralViewports)
   const ByteImage image = pool.render();
   EXPECT_EQ(image.pixel(Size / 4, Size / 2)[0], 0);
   EXPECT_EQ(image.pixel(3 * Size / 4, Size / 2)[0], 255);
+}
+
+// Within other passes, and with others within it.
+TEST(RefractionPass, ComposesWithOtherPasses)
+{
+  const auto expectFloor =
+    [](Pool& pool, const std::string& name, double slack = Rounding, int blur = 0)
+  {
+    expectColors(
+      pool, name, [](const Sight&, int) { return 1.0; }, slack, blur);
+  };
+  Pool pool;
+  pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+  pool.lookFrom(2.5, -1.5);
+  expectFloor(pool, "alone");
+  vtkNew<vtkOpenGLFXAAPass> fxaa;
+  fxaa->SetDelegatePass(pool.Pass);
+  pool.renderer()->SetPass(fxaa);
+  expectFloor(pool, "FXAA");
+  vtkNew<vtkSSAAPass> ssaa;
+  ssaa->SetDelegatePass(pool.Pass);
+  pool.renderer()->SetPass(ssaa);
+  // Filtered across and down, rounded each time.
+  expectFloor(pool, "SSAA", Rounding + 1.0 / 255.0, 3);
+
+  // A translucent actor in front of the water, blended with it by peeling: half red, half white.
+  pool.renderer()->SetPass(pool.Pass);
+  const auto plane = makePlane(0.5, 1.0, 1);
+  const auto glass = makeActor(plane->GetOutputPort());
+  setFlatColor(glass, 1.0, 0.0, 0.0);
+  glass->GetProperty()->SetOpacity(0.5);
+  pool.renderer()->AddActor(glass);
+  pool.renderer()->UseDepthPeelingOn();
+  pool.render(); // must not fail; the water hides what is drawn before it where it is nearer
+  pool.renderer()->RemoveActor(glass);
+  pool.renderer()->UseDepthPeelingOff();
+  expectFloor(pool, "after peeling");
 }
 
 TEST(RefractionPass, NothingToDraw)

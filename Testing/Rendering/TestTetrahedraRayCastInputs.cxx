@@ -180,8 +180,13 @@ TEST(TetrahedraRayCastInputs, VectorMagnitudeAndComponent)
       std::sqrt(
         0.5 * 0.5 + vectors->GetComponent(i, 1) * vectors->GetComponent(i, 1) + 0.25 * 0.25));
   }
+  vtkNew<vtkDoubleArray> single;
+  single->SetName("Single");
+  single->SetNumberOfTuples(vectors->GetNumberOfTuples());
+  single->CopyComponent(0, vectors, 1);
   grid->GetPointData()->AddArray(vectors);
   grid->GetPointData()->AddArray(lengths);
+  grid->GetPointData()->AddArray(single);
 
   RayCastScene scene(grid, smooth(), Size, Size);
   const double bounds[6] = { -1, 1, -1, 1, -1, 1 };
@@ -196,6 +201,8 @@ TEST(TetrahedraRayCastInputs, VectorMagnitudeAndComponent)
   const FloatImage magnitude = scene.renderFloat();
   mapper->SelectScalarArray("Lengths");
   expectSamePicture(magnitude, scene.renderFloat(), "magnitude");
+  mapper->SelectScalarArray("Single");
+  expectSamePicture(scene.renderFloat(), expected, "a single component with its sign");
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
 
   vtkNew<ErrorObserver> observer;

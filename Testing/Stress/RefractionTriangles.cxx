@@ -85,7 +85,8 @@ std::vector<Piece> draw(const CurvedGeometry& geometry, const Triangle& triangle
   const std::int64_t name = 0;
   ImageMesh pieces;
   ImageMesh whole;
-  images.MapPolygons({ offsets, connectivity }, &name, 0, 1, nullptr, pieces, whole);
+  unsigned char isMapped = 0;
+  images.MapPolygons({ offsets, connectivity }, &name, 0, 1, nullptr, pieces, whole, &isMapped);
   std::vector<Piece> result;
   addPieces(pieces, pieces.points, result);
   addPieces(whole, images.GetPointImages(), result);

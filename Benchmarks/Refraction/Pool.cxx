@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pool.h"
+
+#include "PoolScene.h"
+#include "Timing.h"
+
+#ifdef MENISCUS_HAS_EMBREE
+#include "RefractionTracer.h"
+#endif
+
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkRenderWindow.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+namespace
+{
+
+constexpr int Cells = 16;
+constexpr int PictureCells = 96;
+constexpr int Frames = 60;
+constexpr double Accepted = 8.0 / 255.0;
+
+testing::PoolOptics everything()
+{
+  return { true, true, glm::dvec3(0.02, 0.008, 0.004) };
+}
+
+double percentOff(const std::vector<glm::dvec3>& colors, const testing::PoolPicture& truth)
+{
+  double water = 0.0;
+  double off = 0.0;
+  for (std::size_t i = 0; i < colors.size(); ++i)
+  {
+    if (truth.isWater[i])
+    {
+      const glm::dvec3 difference = glm::abs(colors[i] - truth.Colors[i]);
+      water += 1.0;
+      off += std::max({ difference.r, difference.g, difference.b }) > Accepted;
+    }
+  }
+  return 100.0 * off / water;
+}
+
+template <typename Bytes>
+std::vector<glm::dvec3> toColors(const Bytes& bytes, std::size_t stride)
+{
+  std::vector<glm::dvec3> colors(bytes.size() / stride);
+  for (std::size_t i = 0; i < colors.size(); ++i)
+  {
+    colors[i] = glm::dvec3(bytes[stride * i], bytes[stride * i + 1], bytes[stride * i + 2]) / 255.0;
+  }
+  return colors;
+}
+
+#ifdef MENISCUS_HAS_EMBREE
+
+/// Shades what Embree has traced as the scene does.
+class PoolShader : public TracedShader
+{
+public:
+  explicit PoolShader(const testing::PoolScene& scene)
+    : Scene(scene)
+  {
+    for (int part = 0; part < scene.numberOfParts(); ++part)
+    {
+      this->First.push_back(static_cast<std::uint32_t>(this->Mesh.Triangles.size() / 3));
+      const auto firstPoint = static_cast<std::uint32_t>(this->Mesh.Points.size() / 3);
+      vtkPolyData* data = scene.partData(part);
+      for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+      {
+        this->Mesh.addPoint(data->GetPoint(i));
+      }
+      vtkNew<vtkIdList> ids;
+      for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
+      {
+        data->GetCellPoints(i, ids);
+        for (vtkIdType k = 0; k < 3; ++k)
+        {
+          this->Mesh.Triangles.push_back(firstPoint + static_cast<std::uint32_t>(ids->GetId(k)));
+        }
+      }
+    }
+    this->Mesh.finish();
+  }
+
+  const TracedMesh& mesh() const { return this->Mesh; }
+
+  void shade(const TracedPacket& packet, unsigned char* rgba) const override
+  {
+    for (int k = 0; k < packet.Count; ++k)
+    {
+      glm::dvec3 color(0.0);
+      if (packet.Facet[k] != TracedPacket::None)
+      {
+        testing::PoolSight sight;
+        sight.Ray = { packet.Sight[0][k], packet.Sight[1][k], packet.Sight[2][k] };
+        sight.Normal = { packet.Normal[0][k], packet.Normal[1][k], packet.Normal[2][k] };
+        if (packet.Triangle[k] != TracedPacket::None)
+        {
+          const auto next =
+            std::upper_bound(this->First.begin(), this->First.end(), packet.Triangle[k]);
+          sight.Part = static_cast<int>(next - this->First.begin()) - 1;
+          sight.Cell = packet.Triangle[k] - *(next - 1);
+          sight.Weights = { 1.0 - packet.U[k] - packet.V[k], packet.U[k], packet.V[k] };
+          sight.Distance = packet.Depth[k];
+        }
+        color = this->Scene.shade(sight);
+      }
+      for (int c = 0; c < 3; ++c)
+      {
+        rgba[4 * k + c] =
+          static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[c], 0.0, 1.0)));
+      }
+      rgba[4 * k + 3] = 255;
+    }
+  }
+
+private:
+  const testing::PoolScene& Scene;
+  TracedMesh Mesh;
+  std::vector<std::uint32_t> First; ///< triangle of each part
+};
+
+void traceWithEmbree(
+  const testing::PoolScene& scene, const testing::PoolPicture& truth, PoolPictures& result)
+{
+  const PoolShader shader(scene);
+  TracedMesh water;
+  const reference::MembraneMesh mesh = scene.field().MakeMesh(PictureCells);
+  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  {
+    water.addPoint(mesh.points.data() + i);
+  }
+  water.Normals.assign(mesh.normals.begin(), mesh.normals.end());
+  water.Triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  water.finish();
+  RefractionTracer tracer;
+  tracer.setIndices(scene.field().exterior, scene.field().interior);
+  tracer.setMembrane(water);
+  tracer.setObject(shader.mesh());
+  const testing::PixelCamera& camera = scene.camera();
+  const TracedView view{ camera.GetEye(), camera.GetForward(), camera.GetRight(), camera.GetUp(),
+    camera.GetPixels() };
+  std::vector<unsigned char> picture(4 * truth.Colors.size());
+  std::vector<Seconds> times;
+  for (int i = 0; i < 10; ++i)
+  {
+    times.push_back(timeOnce([&] { tracer.trace(view, shader, picture.data()); }));
+  }
+  result.HasTraced = true;
+  result.TracedMs = 1e3 * medianOf(times).Wall;
+  result.TracedPercent = percentOff(toColors(picture, 4), truth);
+}
+
+#endif
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::vector<PassFrames> measurePass()
+{
+  const struct
+  {
+    const char* Name;
+    bool All;
+    double Tolerance;
+    bool Objects;
+  } modes[] = { { "well, FIRST_IMAGE", false, 0.005, false },
+    { "well, ALL_IMAGES, 0.05 degrees", true, 0.05, false },
+    { "well, ALL_IMAGES, 0.005 degrees", true, 0.005, false },
+    { "with three objects, ALL_IMAGES, 0.05 degrees", true, 0.05, true } };
+  std::vector<PassFrames> result;
+  for (const auto& mode : modes)
+  {
+    testing::PoolScene scene(Cells);
+    scene.setOptics(everything());
+    scene.setAccuracy(mode.All, mode.Tolerance);
+    scene.showObjects(mode.Objects);
+    std::vector<Seconds> times;
+    for (int i = 0; i < Frames; ++i)
+    {
+      times.push_back(timeOnce(
+        [&]
+        {
+          scene.moveWater(0.02 * i);
+          scene.window()->Render();
+          scene.window()->WaitForCompletion();
+        }));
+    }
+    const Seconds frame = medianOf(times);
+    result.push_back({ mode.Name, 1.0 / frame.Wall, 1e3 * frame.Cpu });
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+PoolPictures comparePool()
+{
+  testing::PoolScene scene(PictureCells);
+  scene.setOptics(everything());
+  const testing::PoolPicture truth = scene.trace();
+  PoolPictures result;
+  std::vector<Seconds> times;
+  test::ByteImage drawn;
+  for (int i = 0; i < 10; ++i)
+  {
+    scene.moveWater(i % 2 ? 0.0 : 1e-9); // the last is what has been traced
+    times.push_back(timeOnce([&] { drawn = scene.draw(); }));
+  }
+  result.PassMs = 1e3 * medianOf(times).Wall;
+  result.PassPercent = percentOff(toColors(drawn.Rgb, 3), truth);
+#ifdef MENISCUS_HAS_EMBREE
+  traceWithEmbree(scene, truth, result);
+#endif
+  return result;
+}
+
+} // namespace benchmark
+} // namespace meniscus

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef WaterWindow_h
+#define WaterWindow_h
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+class vtkActor;
+class vtkActor2D;
+class vtkImageMapper;
+class vtkPolyData;
+class vtkRefractedGeometryFilter;
+class vtkRefractionPass;
+class vtkRenderWindow;
+class vtkRenderer;
+class vtkTextActor;
+
+/** What keys change. */
+struct WaterSettings
+{
+  double Time = 0.0;
+  double WaveHeight = 1.0;   ///< 0 to 2
+  double Index = 1.333;      ///< of the water, 1 to 2.5
+  double Attenuation = 0.25; ///< of red light per length; green and blue lose less
+  bool Curved = true;        ///< or the thesis's flat facets
+  bool Refracts = true;      ///< or the well as it is
+  bool ShowsRays = false;    ///< the ray-traced twin beside it, both without the extras
+};
+
+/**
+ * A well of water in a window: refracted by vtkRefractedGeometryFilter, drawn by
+ * vtkRefractionPass.
+ */
+class WaterWindow
+{
+public:
+  explicit WaterWindow(int size);
+  ~WaterWindow();
+
+  vtkRenderWindow* GetWindow() { return this->Window; }
+  vtkRenderer* GetRenderer() { return this->Renderer; }
+
+  /** The eye, turned about the well by an angle in degrees. */
+  void SetEyeAngle(double angle);
+
+  /** Draws a picture with these settings. */
+  void Show(const WaterSettings& settings);
+
+  /** Writes the picture that is shown to a PNG file. False if it cannot. */
+  bool Write(const std::string& file);
+
+private:
+  void ShowRays(const WaterSettings& settings);
+
+  int Size;
+  vtkSmartPointer<vtkPolyData> Well;
+  vtkNew<vtkRefractedGeometryFilter> Filter;
+  vtkNew<vtkRefractionPass> Pass;
+  vtkNew<vtkActor> Water;
+  vtkNew<vtkActor> Virtual;
+  vtkNew<vtkActor> Solid;
+  vtkNew<vtkTextActor> Text;
+  vtkNew<vtkImageMapper> TracedPicture;
+  vtkNew<vtkActor2D> Traced;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkRenderer> TracedRenderer;
+  vtkNew<vtkRenderWindow> Window;
+};
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MembraneGathering.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkAppendPolyData.h"
+#include "vtkCleanPolyData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+#include <vector>
+
+namespace meniscus
+{
+namespace
+{
+
+using Pieces = std::vector<vtkSmartPointer<vtkPolyData>>;
+
+/** Adds what the data object has of a surface, without ghost cells. */
+void AddPieces(vtkDataObject* data, Pieces& pieces)
+{
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    auto iterator = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
+    {
+      AddPieces(iterator->GetCurrentDataObject(), pieces);
+    }
+    return;
+  }
+  auto* surface = vtkPolyData::SafeDownCast(data);
+  if (!surface || surface->GetNumberOfCells() == 0)
+  {
+    return;
+  }
+  vtkNew<vtkPolyData> piece;
+  piece->ShallowCopy(surface);
+  piece->RemoveGhostCells();
+  if (piece->GetNumberOfCells() > 0)
+  {
+    pieces.emplace_back(piece);
+  }
+}
+
+/** One surface of all pieces, sewn together where points coincide. */
+vtkSmartPointer<vtkPolyData> Join(const Pieces& pieces)
+{
+  if (pieces.empty())
+  {
+    return vtkSmartPointer<vtkPolyData>::New();
+  }
+  if (pieces.size() == 1)
+  {
+    return pieces.front();
+  }
+  vtkNew<vtkAppendPolyData> append;
+  for (vtkPolyData* piece : pieces)
+  {
+    append->AddInputData(piece);
+  }
+  vtkNew<vtkCleanPolyData> sew;
+  sew->SetInputConnection(append->GetOutputPort());
+  sew->ToleranceIsAbsoluteOn();
+  sew->SetAbsoluteTolerance(0.0);
+  sew->ConvertLinesToPointsOff();
+  sew->ConvertPolysToLinesOff();
+  sew->ConvertStripsToPolysOff();
+  sew->Update();
+  return sew->GetOutput();
+}
+
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> GatherMembrane(vtkDataObject* local)
+{
+  Pieces pieces;
+  AddPieces(local, pieces);
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  if (!controller || controller->GetNumberOfProcesses() == 1)
+  {
+    return Join(pieces);
+  }
+  // Blocks are joined where they are: ranks may have different numbers of them.
+  std::vector<vtkSmartPointer<vtkDataObject>> all;
+  if (!controller->AllGather(Join(pieces), all))
+  {
+    return nullptr;
+  }
+  pieces.clear();
+  for (vtkDataObject* data : all)
+  {
+    AddPieces(data, pieces);
+  }
+  return Join(pieces);
+}
+
+//------------------------------------------------------------------------------
+void AcceptComposite(vtkInformation* port)
+{
+  port->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkInformationVector> WrapData(vtkDataObject* data)
+{
+  auto vector = vtkSmartPointer<vtkInformationVector>::New();
+  vtkNew<vtkInformation> info;
+  info->Set(vtkDataObject::DATA_OBJECT(), data);
+  vector->Append(info);
+  return vector;
+}
+
+}

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPVRefractedGeometryFilter
+ * @brief   vtkRefractedGeometryFilter as ParaView runs it: on several ranks, with a view by numbers
+ *
+ * Every rank refracts the geometry that it has, behind the whole membrane, which is gathered from
+ * all ranks and blocks each time the filter runs. Nothing is gathered of the geometry. The membrane
+ * travels once per run, and each rank keeps all of it: about 400 bytes per facet.
+ *
+ * Geometry may be composite; its output has the same structure, with nothing in place of blocks
+ * that are no vtkPolyData. `SightFacet` numbers the gathered membrane's cells: those of the input
+ * if only one rank and block has any.
+ *
+ * The view that ViewCulling needs is given by numbers, which can be linked to those of a view.
+ * ViewCulling is off by default: the output can be looked at from any side.
+ */
+#ifndef vtkPVRefractedGeometryFilter_h
+#define vtkPVRefractedGeometryFilter_h
+
+#include "vtkMeniscusRepresentationsModule.h" // For export macro
+#include "vtkNew.h"                           // For the view
+#include "vtkRefractedGeometryFilter.h"
+
+class vtkPolyData;
+
+class VTKMENISCUSREPRESENTATIONS_EXPORT vtkPVRefractedGeometryFilter
+  : public vtkRefractedGeometryFilter
+{
+public:
+  static vtkPVRefractedGeometryFilter* New();
+  vtkTypeMacro(vtkPVRefractedGeometryFilter, vtkRefractedGeometryFilter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  using vtkRefractedGeometryFilter::SetEyePosition;
+  void SetEyePosition(double x, double y, double z) override;
+  void SetViewCulling(bool culling) override;
+
+  ///@{
+  /**
+   * The view that ViewCulling is for, beside the eye's position: where it looks, what is up, and
+   * its vertical angle in degrees. Defaults are (0, 0, 0), (0, 1, 0) and 30.
+   */
+  void SetViewFocalPoint(double x, double y, double z);
+  void SetViewUp(double x, double y, double z);
+  void SetViewAngle(double degrees);
+  ///@}
+
+  int ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+protected:
+  vtkPVRefractedGeometryFilter();
+  ~vtkPVRefractedGeometryFilter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkPVRefractedGeometryFilter(const vtkPVRefractedGeometryFilter&) = delete;
+  void operator=(const vtkPVRefractedGeometryFilter&) = delete;
+
+  int RequestDataObject(vtkInformationVector* inputs, vtkInformationVector* outputs);
+  int RefractBlock(
+    vtkInformation* request, vtkPolyData* geometry, vtkPolyData* membrane, vtkPolyData* output);
+
+  vtkNew<vtkCamera> View;
+};
+
+#endif

@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the blocks of code of a page of the documentation, one after the other as one program, in an
+empty folder with the user's files that the pages speak of.
+
+Arguments: the page, the language of the blocks, the folder; then the pictures that must be there
+afterwards and show something. A language `extract:LANGUAGE` only writes the blocks to the folder, to
+be compiled (cpp, cmake) or run by another program."""
+import os
+import re
+import shutil
+import sys
+
+SUFFIXES = {"python": "py", "pvpython": "py", "pyvista": "py", "cpp": "cxx", "cmake": "txt"}
+# Of [0, 255]; an empty picture spans nothing.
+LEAST_CONTRAST = 50
+
+
+def blocks(page, language):
+    with open(page) as file:
+        found = re.findall(r"^```%s\n(.*?)^```$" % language, file.read(), re.DOTALL | re.MULTILINE)
+    if not found:
+        sys.exit("%s has no block of %s" % (page, language))
+    return found
+
+
+def write_files():
+    """mesh.vtu, a field on tetrahedra, and object.vtp, a torus; ASCII for every reader."""
+    from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
+    from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
+    from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
+    from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+
+    field = vtkRTAnalyticSource()
+    tetrahedra = vtkDataSetTriangleFilter()
+    tetrahedra.SetInputConnection(field.GetOutputPort())
+    torus = vtkParametricFunctionSource()
+    torus.SetParametricFunction(vtkParametricTorus())
+    for name, writer, source in [("mesh.vtu", vtkXMLUnstructuredGridWriter(), tetrahedra),
+                                 ("object.vtp", vtkXMLPolyDataWriter(), torus)]:
+        writer.SetInputConnection(source.GetOutputPort())
+        writer.SetDataModeToAscii()
+        writer.SetFileName(name)
+        writer.Write()
+
+
+def check_picture(name):
+    from vtkmodules.vtkIOImage import vtkPNGReader
+
+    reader = vtkPNGReader()
+    reader.SetFileName(name)
+    reader.Update()
+    low, high = reader.GetOutput().GetScalarRange()
+    print("%s: values %g to %g" % (name, low, high))
+    if high - low < LEAST_CONTRAST:
+        sys.exit("%s shows nothing" % name)
+
+
+def main():
+    page, language, folder, pictures = sys.argv[1], sys.argv[2], sys.argv[3], sys.argv[4:]
+    extract = language.startswith("extract:")
+    language = language.split(":")[-1]
+    if not extract:
+        shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder, exist_ok=True)
+    program = "\n".join(blocks(page, language))
+    name = os.path.splitext(os.path.basename(page))[0].lower()
+    path = os.path.join(folder, "CMakeLists.txt" if language == "cmake"
+                        else "%s.%s" % (name, SUFFIXES[language]))
+    with open(path, "w") as file:
+        file.write(program)
+    if extract:
+        return
+    os.chdir(folder)
+    write_files()
+    exec(compile(program, path, "exec"), {"__name__": "__main__"})
+    for picture in pictures:
+        check_picture(picture)
+    print("FINISHED")
+
+
+if __name__ == "__main__":
+    main()

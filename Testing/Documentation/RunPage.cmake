@@ -1,0 +1,17 @@
+# cmake -DCOMMAND=... -DPICTURES=... -DCHECK=... -P RunPage.cmake: runs a command that writes pictures
+# to the current folder and checks each of them.
+if (NOT DEFINED ENV{DISPLAY})
+  message("SKIPPED: no display")
+  return ()
+endif ()
+foreach (picture IN LISTS PICTURES)
+  file(REMOVE "${picture}")
+endforeach ()
+execute_process(COMMAND ${COMMAND} RESULT_VARIABLE failed)
+if (failed)
+  message(FATAL_ERROR "${COMMAND} ended with ${failed}")
+endif ()
+execute_process(COMMAND "${CHECK}" check ${PICTURES} RESULT_VARIABLE failed)
+if (failed)
+  message(FATAL_ERROR "A picture does not show what it should")
+endif ()

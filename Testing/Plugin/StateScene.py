@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scene of TestStateSave.py and TestStateLoad.py."""
+import contextlib
+import os
+
+import PluginTesting
+from paraview import simple, smtrace
+
+FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
+STATE = os.path.join(FOLDER, "scene.pvsm")
+OLDER_STATE = os.path.join(FOLDER, "older.pvsm")
+TRACE = os.path.join(FOLDER, "trace.py")
+SCRIPT = os.path.join(FOLDER, "state.py")
+
+
+@contextlib.contextmanager
+def modified(proxy):
+    """What ParaView's panels do around changes of properties, for the trace to hold them."""
+    item = smtrace.PropertiesModified(proxy.SMProxy)
+    yield proxy
+    item.finalize()
+
+
+def make_scene():
+    """A volume with settings of its own, a ball behind waves, the eye at the camera."""
+    grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
+    view = simple.CreateRenderView()
+    with modified(view):
+        PluginTesting.prepare_view(view)
+    display = simple.Show(grid, view)
+    display.SetRepresentationType("Tetrahedra Ray Cast")
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    with modified(display):
+        display.BlendMode = "Isosurface"
+        display.IsosurfaceValues = [130.0, 210.0]
+        display.Shade = 1
+        display.Gradients = "Of cells"
+        display.ScalarOpacityUnitDistance = 2.5
+
+    ball = simple.Sphere(Center=[0, 0, 9], Radius=5, ThetaResolution=32, PhiResolution=32)
+    plane = simple.Plane(Origin=[-12, -12, 16], Point1=[12, -12, 16], Point2=[-12, 12, 16],
+                         XResolution=40, YResolution=40)
+    waves = simple.Calculator(
+        Input=plane, CoordinateResults=1,
+        Function="coords+kHat*0.4*sin(coordsX)*cos(coordsY)")
+    with modified(view):
+        view.CameraPosition = [12, 9, 48]
+        view.CameraFocalPoint = [0, 0, 0]
+        view.CameraViewUp = [0, 1, 0]
+    refracted = simple.RefractedGeometry(Geometry=ball, Membrane=waves)
+    with modified(refracted):
+        refracted.EyePosition = [12, 9, 48]
+        refracted.InteriorIndexOfRefraction = 1.5
+        refracted.AngularTolerance = 0.05
+    simple.Show(refracted, view)
+    simple.Hide(ball, view)
+    return view

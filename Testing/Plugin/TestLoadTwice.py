@@ -1,0 +1,30 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin works beside another that adds representations, and after it was loaded again. Of the
+second time ParaView 5.11 says `Plugin load failed: No plugin loaded yet`, of its own plugins too."""
+import os
+
+import PluginTesting
+import TestLoadPlugin
+from paraview import simple
+
+OTHER = "EmbossingRepresentations"
+
+
+def test():
+    # Where ParaView keeps its own plugins, beside the library that its Python modules are made of.
+    with open("/proc/self/maps") as file:
+        library = next(line.split()[-1] for line in file if "libvtkRemotingViews" in line)
+    other = os.path.join(os.path.dirname(library), "paraview-5.11", "plugins", OTHER, OTHER + ".so")
+    if os.path.exists(other):
+        simple.LoadPlugin(other, remote=False, ns=globals())
+    else:
+        print("not found: %s; beside no other plugin" % other)
+    for _ in range(2):
+        PluginTesting.load_plugin()
+        TestLoadPlugin.check_plugin()
+    print("FINISHED")
+
+
+if __name__ == "__main__":
+    PluginTesting.run(test)

@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The error volume of flat facets against a finer mesh of the same waves, measured and drawn."""
+import PluginTesting
+from paraview import servermanager, simple
+
+WAVES = "coords+kHat*0.1*sin(2*coordsX)*cos(2*coordsY)"
+# Second order: a quarter of the error; 3 leaves room for samples that fall luckily.
+LEAST_GAIN = 3
+
+
+def waves(resolution):
+    plane = simple.Plane(Origin=[-2, -2, 0], Point1=[2, -2, 0], Point2=[-2, 2, 0],
+                         XResolution=resolution, YResolution=resolution)
+    return simple.Calculator(Input=plane, CoordinateResults=1, Function=WAVES)
+
+
+def measure(membrane, finer):
+    volume = simple.RefractionErrorVolume(Membrane=membrane, FinerMembrane=finer)
+    volume.EyePosition = [0.3, 0.2, 6]
+    volume.MembraneModel = "Flat facets"
+    volume.ModelBounds = [-1, 1, -1, 1, -2, -0.4]
+    volume.SampleDimensions = [12, 12, 12]
+    data = servermanager.Fetch(volume)
+    assert data.GetDimensions() == (12, 12, 12)
+    field = data.GetFieldData()
+    measured = field.GetArray("NumberOfMeasuredSamples").GetTuple1(0)
+    assert measured > 1000, "%g samples are measured" % measured
+    return volume, field.GetArray("MeanError").GetTuple1(0)
+
+
+def test():
+    PluginTesting.load_plugin()
+    finer = waves(200)
+    coarse = measure(waves(20), finer)[1]
+    volume, fine = measure(waves(40), finer)
+    print("mean errors %.2e, %.2e" % (coarse, fine))
+    assert 0 < fine < coarse / LEAST_GAIN
+    assert volume.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
+
+    view = PluginTesting.make_view()
+    display = simple.Show(volume, view)
+    display.SetRepresentationType("Slice")
+    simple.ColorBy(display, ("POINTS", "RefractionError"))
+    simple.ResetCamera(view)
+    drawn = PluginTesting.covered(PluginTesting.screenshot(view, "RefractionErrorVolume"))
+    assert len(drawn) > 0.05 * PluginTesting.SIZE**2, "the picture is all but empty"
+
+
+if __name__ == "__main__":
+    PluginTesting.run(test)

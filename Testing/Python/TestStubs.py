@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The type stubs are Python and name every class and method that the package has."""
+import ast
+import os
+import unittest
+
+import meniscus
+
+STUBS = os.path.join(os.path.dirname(meniscus.__file__), "vtkMeniscus.pyi")
+
+
+class TestStubs(unittest.TestCase):
+    def test_complete(self):
+        with open(STUBS) as file:
+            tree = ast.parse(file.read())
+        found = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef)}
+        classes = {name: value for name, value in vars(meniscus).items()
+                   if name.startswith("vtk") and isinstance(value, type)}
+        self.assertEqual(set(found), set(classes))
+        for name, kind in classes.items():
+            methods = {node.name for node in found[name].body if isinstance(node, ast.FunctionDef)}
+            expected = {key for key, value in vars(kind).items()
+                        if key[0].isupper() and callable(value) and not isinstance(value, type)}
+            self.assertEqual(expected - methods, set(), name)
+            self.assertGreater(len(methods), 5, name)
+
+    def test_marker(self):
+        self.assertTrue(os.path.exists(os.path.join(os.path.dirname(STUBS), "py.typed")))
+
+
+if __name__ == "__main__":
+    unittest.main()
