@@ -107,8 +107,8 @@ bool BentCaster::MayMeetMesh(const glm::dvec3& sightPoint, const glm::dvec3& ste
   {
     // Along step x edge k: the centre's distance, and those of the other two edges.
     const double distance = std::fabs(glm::dot(across, edges[k]));
-    const double reach = std::fabs(glm::dot(step, areas[(k + 1) % 3])) +
-      std::fabs(glm::dot(step, areas[(k + 2) % 3]));
+    const double reach =
+      std::fabs(glm::dot(step, areas[(k + 1) % 3])) + std::fabs(glm::dot(step, areas[(k + 2) % 3]));
     if (distance > reach * BoxMargin)
     {
       return false;

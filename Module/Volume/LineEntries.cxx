@@ -70,8 +70,8 @@ SeenBox BoxOf(const BoundaryTree& tree, const RayFrame& view)
     const BoundaryTree::Node& root = tree.GetNodes().front();
     const glm::dmat3 toFrame = glm::transpose(glm::dmat3(view.RowX, view.RowY, view.RowDepth));
     box.Center = toFrame * glm::dvec3(root.Center);
-    box.HalfEdges = toFrame *
-      glm::dmat3(root.Half.x, 0.0, 0.0, 0.0, root.Half.y, 0.0, 0.0, 0.0, root.Half.z);
+    box.HalfEdges =
+      toFrame * glm::dmat3(root.Half.x, 0.0, 0.0, 0.0, root.Half.y, 0.0, 0.0, 0.0, root.Half.z);
   }
   return box;
 }
@@ -130,8 +130,7 @@ bool LineEntries::MayFace(const PacketFace& face, const Bundle& bundle) const
 {
   const auto placeOf = [this, &face](int k)
   {
-    const auto& place =
-      this->Frame.Vertices[static_cast<std::size_t>(face.Vertices[k])].Place;
+    const auto& place = this->Frame.Vertices[static_cast<std::size_t>(face.Vertices[k])].Place;
     return glm::dvec3(place[0], place[1], place[2]);
   };
   const glm::dvec3 corner = placeOf(0);

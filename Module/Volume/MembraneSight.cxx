@@ -8,9 +8,9 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -88,8 +88,7 @@ public:
       this->Directions[corner] = this->DirectionOf(column, row);
     }
     // A place that the tile sees.
-    const glm::dvec3 inside =
-      0.5 * (this->Starts[0] + this->Starts[2]) +
+    const glm::dvec3 inside = 0.5 * (this->Starts[0] + this->Starts[2]) +
       0.5 * (sight.Of.EyeDepth + 1.0) * (this->Directions[0] + this->Directions[2]);
     for (int side = 0; side < 4; ++side)
     {
@@ -195,8 +194,8 @@ public:
     // the facet's plane within bulge (1 + tangent of the angle of incidence) of that.
     const double least = FindOutside(b).least;
     if (!(least >= -Border) &&
-      !(least >= -this->Overhang *
-            (1.0 + this->NormalLength * glm::length(direction) / std::fabs(along)) -
+      !(least >=
+        -this->Overhang * (1.0 + this->NormalLength * glm::length(direction) / std::fabs(along)) -
           Border))
     {
       return false;
@@ -210,8 +209,8 @@ public:
     const glm::dvec2 first = b;
     b += this->Correction + this->Change;
     double l = 0.0;
-    if (!MeetPatch(
-          this->Patch, { start + flat * direction, this->Scale * direction }, LastStep, b, l, hit.Normal) ||
+    if (!MeetPatch(this->Patch, { start + flat * direction, this->Scale * direction }, LastStep, b,
+          l, hit.Normal) ||
       !(FindOutside(b).least >= -Border))
     {
       return false;
@@ -304,8 +303,7 @@ void MembraneSight::PrepareRays(const Membrane& surface)
   const SeenBox& mesh = this->Of.Mesh;
   const glm::dmat3 edges = toWorld * mesh.HalfEdges;
   this->MeshCenter = this->Of.Center - surface.GetOrigin() + toWorld * mesh.Center;
-  this->MeshHalf =
-    BallMargin * (glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]));
+  this->MeshHalf = BallMargin * (glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]));
 }
 
 //------------------------------------------------------------------------------
@@ -408,7 +406,8 @@ MembraneSight::SeenFacet MembraneSight::See(
   int behind = 0;
   for (const glm::dvec3& corner : patch.corner)
   {
-    const glm::dvec3 place = this->WorldToFrame * (corner + (surface.GetOrigin() - this->Of.Center));
+    const glm::dvec3 place =
+      this->WorldToFrame * (corner + (surface.GetOrigin() - this->Of.Center));
     behind += place.z + reach.z <= this->Of.EyeDepth ? 1 : 0;
     seen.Unbounded = seen.Unbounded || !(place.z - reach.z > this->Of.EyeDepth);
     for (int c = 0; c < (bulge > 0.0 ? 8 : 1) && !seen.Unbounded; ++c)
@@ -528,8 +527,8 @@ void MembraneSight::Build(
 
 //------------------------------------------------------------------------------
 /** Puts in where a facet is met before what is there. */
-void MembraneSight::TraceFacet(
-  const CurvedPatch& patch, const SeenFacet& seen, const TileRays& rays, std::vector<Hit>& hits) const
+void MembraneSight::TraceFacet(const CurvedPatch& patch, const SeenFacet& seen,
+  const TileRays& rays, std::vector<Hit>& hits) const
 {
   const Box& box = seen.Pixels;
   FacetTracer tracer(patch, seen.Matters);
@@ -539,8 +538,8 @@ void MembraneSight::TraceFacet(
   }
   const int left = std::max(rays.Left, box.Left);
   const int right = std::min(rays.Left + TileSize, box.Right);
-  for (int row = std::max(rays.Bottom, box.Bottom);
-       row < std::min(rays.Bottom + TileSize, box.Top); ++row)
+  for (int row = std::max(rays.Bottom, box.Bottom); row < std::min(rays.Bottom + TileSize, box.Top);
+       ++row)
   {
     const glm::dvec3 start = rays.StartOf(left, row);
     const glm::dvec3 direction = rays.DirectionOf(left, row);
@@ -549,8 +548,7 @@ void MembraneSight::TraceFacet(
     {
       Hit hit;
       const double step = column - left;
-      if (tracer.Meet(start + step * this->Start[1], direction + step * this->Direction[1],
-            hit) &&
+      if (tracer.Meet(start + step * this->Start[1], direction + step * this->Direction[1], hit) &&
         hit.Depth > this->Of.EyeDepth)
       {
         hits.resize(RaysOfTile);
@@ -586,8 +584,8 @@ void MembraneSight::TraceTile(const CurvedPatches& patches, const std::vector<Se
     if (hits[i].Depth < std::numeric_limits<double>::infinity())
     {
       const auto pixel = static_cast<int>(i);
-      rays[i] = this->Bend(tileRays.DirectionOf(tileRays.Left + pixel % TileSize,
-                             tileRays.Bottom + pixel / TileSize),
+      rays[i] = this->Bend(
+        tileRays.DirectionOf(tileRays.Left + pixel % TileSize, tileRays.Bottom + pixel / TileSize),
         hits[i], directions);
     }
   }

@@ -120,8 +120,7 @@ private:
   class TileRays;
 
   void PrepareRays(const Membrane& surface);
-  SeenFacet See(
-    const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const;
+  SeenFacet See(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const;
   bool MayShowMesh(const CurvedPatch& patch, double bulge) const;
   bool MeetsMesh(const TubeBounds& tube) const;
   bool PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const;

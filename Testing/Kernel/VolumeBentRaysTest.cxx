@@ -40,8 +40,7 @@ public:
 
     const RayFrame frame = FrameAlongZ(this->Mesh, 0.7, Size);
     this->Scene.Rays = PixelRays(frame, Size, Size);
-    PlaceVertices(
-      this->Mesh, this->Scalars, this->Scene.Rays, SerialLoop, this->Tables.Vertices);
+    PlaceVertices(this->Mesh, this->Scalars, this->Scene.Rays, SerialLoop, this->Tables.Vertices);
     this->Tables.Intervals = PackIntervals(ConstantFunction(1.5));
     const MembraneSight::View view{ frame, Size, Size, this->Mesh.GetCenter(), -50.0, 1.0, 1.5,
       BoxOf(this->Tree, frame) };

@@ -505,7 +505,8 @@ TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
           {
             std::vector<RaySegment> segments;
             integrator->findSegments(part, segments);
-            return integrateShaded(part, segments, function, gradients, &material,
+            return integrateShaded(
+              part, segments, function, gradients, &material,
               [](double length) { return std::min(0.2 + 0.2 * length, 1.0); }, 40);
           });
       },
