@@ -6,6 +6,7 @@
 #include "Chart.h"
 #include "MembraneMeshes.h"
 #include "Refraction/CurvedGeometry.h"
+#include "Refraction/ObjectImages.h"
 #include "Refraction/VirtualGeometry.h"
 #include "Timing.h"
 
@@ -119,8 +120,19 @@ void measureCurved(
   geometry.SetMembrane(mesh.AsInput());
   figures.CurvedEye = timeMedian([&] { geometry.SetEye(Eye, Exterior, Interior); }).Cpu;
   figures.CurvedOne = microsecondsPerVertex(geometry, points);
-  std::vector<VirtualVertex> images;
   figures.CurvedAll = 3e6 / static_cast<double>(points.size()) *
+    timeMedian(
+      [&]
+      {
+        ObjectImages object(geometry);
+        object.SetPoints(points.data(), points.size() / 3, false);
+        object.PrepareUnique(points.size() / 3, SerialLoop);
+        object.SolvePoints(0, points.size() / 3);
+        object.FinishPoints();
+      })
+      .Cpu;
+  std::vector<VirtualVertex> images;
+  figures.CurvedSearch = 3e6 / static_cast<double>(points.size()) *
     timeMedian(
       [&]
       {

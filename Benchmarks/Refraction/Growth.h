@@ -26,7 +26,9 @@ struct GrowthFigures
   double CurvedDeform = 0.0;   ///< the same topology, other points
   double CurvedEye = 0.0;
   double CurvedOne = 0.0; ///< microseconds per vertex, one image, grid order
-  double CurvedAll = 0.0; ///< the same, all images
+  double CurvedAll = 0.0; ///< the same, all images of an object's points, as the filter finds them
+  double CurvedSearch =
+    0.0;                  ///< all images of each point by itself: searched for, whatever is known
   double FlatError = 0.0; ///< mean distance between true points and those that are drawn
   double CurvedError = 0.0;
 };

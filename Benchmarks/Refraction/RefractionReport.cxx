@@ -149,7 +149,8 @@ private:
     {
       const GrowthFigures f = measureGrowth(cells);
       text += (text.empty() ? "" : "; ") + std::to_string(f.Facets) + " facets: one " +
-        number(1e3 * f.CurvedOne, 3) + " ns, all " + number(1e3 * f.CurvedAll, 4) + " ns";
+        number(1e3 * f.CurvedOne, 3) + " ns, all " + number(1e3 * f.CurvedAll, 4) +
+        " ns, searched " + number(1e3 * f.CurvedSearch, 4) + " ns";
     }
     return text;
   }
@@ -187,7 +188,7 @@ private:
       testing::AddPlaces(plane->GetOutput());
       vtkNew<vtkRefractedGeometryFilter> filter;
       filter->SetInputData(0, plane->GetOutput());
-      filter->SetMembraneData(makeMembrane(scene.field.MakeMesh(scene.cells)));
+      filter->SetMembraneData(testing::MakeMembrane(scene.field.MakeMesh(scene.cells)));
       filter->SetEyePosition(scene.eye.x, scene.eye.y, scene.eye.z);
       filter->SetExteriorIndexOfRefraction(scene.field.exterior);
       filter->SetInteriorIndexOfRefraction(scene.field.interior);

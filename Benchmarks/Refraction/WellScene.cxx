@@ -88,38 +88,12 @@ vtkSmartPointer<vtkPolyData> makeWell(int n)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> makeMembrane(const reference::MembraneMesh& mesh)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> normals;
-  normals->SetNumberOfComponents(3);
-  normals->SetName("Normals");
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
-  {
-    points->InsertNextPoint(mesh.points.data() + i);
-    normals->InsertNextTuple(mesh.normals.data() + i);
-  }
-  vtkNew<vtkCellArray> triangles;
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
-  {
-    const vtkIdType ids[3] = { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] };
-    triangles->InsertNextCell(3, ids);
-  }
-  auto membrane = vtkSmartPointer<vtkPolyData>::New();
-  membrane->SetPoints(points);
-  membrane->SetPolys(triangles);
-  membrane->GetPointData()->SetNormals(normals);
-  return membrane;
-}
-
-//------------------------------------------------------------------------------
 WellScene::WellScene(int cells, int quads)
   : Field{ reference::HeightField::Shape::Waves, 200.0, 1.5, 0.03 * Pi, 1.0, 1.333 }
   , Present(this->Field)
   , Cells(cells)
   , Well(makeWell(quads))
-  , Membrane(makeMembrane(this->Field.MakeMesh(cells)))
+  , Membrane(testing::MakeMembrane(this->Field.MakeMesh(cells)))
 {
   this->Filter->SetInputData(0, this->Well);
   this->Filter->SetMembraneData(this->Membrane);

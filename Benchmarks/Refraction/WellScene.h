@@ -21,9 +21,6 @@ namespace meniscus
 namespace benchmark
 {
 
-/// A membrane's mesh as data set.
-vtkSmartPointer<vtkPolyData> makeMembrane(const reference::MembraneMesh& mesh);
-
 /**
  * The thesis's well: four walls and a bottom of coloured quads below waves, drawn at 512 x 512
  * pixels through the filter by an eye above it.

@@ -32,36 +32,6 @@ vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> MakeMembrane(
-  const meniscus::reference::MembraneMesh& mesh, bool withNormals)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> normals;
-  normals->SetNumberOfComponents(3);
-  normals->SetName("Normals");
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
-  {
-    points->InsertNextPoint(mesh.points.data() + i);
-    normals->InsertNextTuple(mesh.normals.data() + i);
-  }
-  vtkNew<vtkCellArray> triangles;
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
-  {
-    const vtkIdType ids[3] = { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] };
-    triangles->InsertNextCell(3, ids);
-  }
-  auto membrane = vtkSmartPointer<vtkPolyData>::New();
-  membrane->SetPoints(points);
-  membrane->SetPolys(triangles);
-  if (withNormals)
-  {
-    membrane->GetPointData()->SetNormals(normals);
-  }
-  return membrane;
-}
-
-//------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> MakeFlatMembrane()
 {
   return MakeMembrane(meniscus::reference::MakeSquare(200.0, 8, 0.0));

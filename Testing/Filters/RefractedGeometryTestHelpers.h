@@ -4,6 +4,7 @@
 #define meniscus_RefractedGeometryTestHelpers_h
 
 #include "MembraneMeshes.h"
+#include "RefractionPicture.h"
 
 #include "vtkCommand.h"
 #include "vtkPolyData.h"
@@ -33,10 +34,6 @@ public:
 
 /// Observes a filter and its executive.
 vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter);
-
-/// A membrane of the references as data set, with or without its normals.
-vtkSmartPointer<vtkPolyData> MakeMembrane(
-  const meniscus::reference::MembraneMesh& mesh, bool withNormals = true);
 
 /// A flat membrane of side 200, eight cells a side.
 vtkSmartPointer<vtkPolyData> MakeFlatMembrane();

@@ -6,6 +6,7 @@
 #include "Refraction/CurvedGeometry.h"
 #include "Refraction/Optics.h"
 #include "Refraction/PatchTube.h"
+#include "RefractionTestRandom.h"
 #include "ThesisTables.h"
 
 #include <glm/geometric.hpp>
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 
 namespace
 {
@@ -29,22 +29,7 @@ using meniscus::MembraneStatus;
 using meniscus::VirtualVertex;
 using meniscus::reference::HeightField;
 using meniscus::reference::MembraneMesh;
-
-class Random
-{
-public:
-  explicit Random(unsigned seed)
-    : Engine(seed)
-  {
-  }
-  double operator()(double low, double high)
-  {
-    return low + (high - low) * (this->Engine() / 4294967296.0);
-  }
-
-private:
-  std::mt19937 Engine;
-};
+using meniscus::testing::Random;
 
 void Set(CurvedGeometry& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
   double exterior = 1.0, double interior = 1.333)

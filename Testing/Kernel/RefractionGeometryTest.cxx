@@ -4,13 +4,13 @@
 #include "AnalyticMembrane.h"
 #include "MembraneMeshes.h"
 #include "Refraction/VirtualGeometry.h"
+#include "RefractionTestRandom.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 namespace
 {
@@ -22,22 +22,7 @@ using meniscus::VirtualGeometry;
 using meniscus::VirtualVertex;
 using meniscus::reference::AnalyticMembrane;
 using meniscus::reference::MembraneMesh;
-
-class Random
-{
-public:
-  explicit Random(unsigned seed)
-    : Engine(seed)
-  {
-  }
-  double operator()(double low, double high)
-  {
-    return low + (high - low) * (this->Engine() / 4294967296.0);
-  }
-
-private:
-  std::mt19937 Engine;
-};
+using meniscus::testing::Random;
 
 VirtualGeometry Make(
   const MembraneMesh& mesh, const glm::dvec3& eye, double exterior, double interior)

@@ -3,6 +3,7 @@
 // The stress programme's oracle against bracketed roots on a sphere and a dense search on waves.
 #include "AnalyticMembrane.h"
 #include "HeightField.h"
+#include "RefractionTestRandom.h"
 #include "SightOracle.h"
 
 #include <glm/geometric.hpp>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace
 {
@@ -22,20 +22,9 @@ using meniscus::reference::OracleImage;
 using meniscus::reference::SightOracle;
 using meniscus::reference::SmoothSurface;
 using meniscus::reference::SurfaceError;
+using meniscus::testing::Random;
 
 constexpr SurfaceError Exact{ 1e-12, 1e-12 };
-
-class Random
-{
-public:
-  double operator()(double low, double high)
-  {
-    return low + (high - low) * (this->Engine() / 4294967296.0);
-  }
-
-private:
-  std::mt19937 Engine{ 7 };
-};
 
 // Both lists are the same but for the order and for what either of them may leave out.
 int CountDifferences(const OracleAnswer& answer, const std::vector<glm::dvec3>& others, double same)
@@ -60,7 +49,7 @@ TEST(RefractionOracle, AgreesWithBracketedRootsOnASphere)
 {
   SmoothSurface surface;
   surface.sphereRadius = 200.0;
-  Random random;
+  Random random(7);
   int images = 0;
   for (const double ratio : { 1.0 / 1.51, 1.6 })
   {
@@ -98,7 +87,7 @@ TEST(RefractionOracle, AgreesWithADenseSearchOnWaves)
   surface.waves = { { 2.5, k, -k, quarter }, { -2.5, k, k, quarter } };
   const glm::dvec3 eye(20.0, 300.0, 10.0);
   const SightOracle oracle(surface, eye, 1.0, 1.333, Exact);
-  Random random;
+  Random random(7);
   int several = 0;
   for (int i = 0; i < 120; ++i)
   {
@@ -121,7 +110,7 @@ TEST(RefractionOracle, DoubtGrowsWithTheError)
   const glm::dvec3 eye(5.0, 400.0, 3.0);
   const SightOracle exact(surface, eye, 1.0, 1.5, Exact);
   const SightOracle doubtful(surface, eye, 1.0, 1.5, { 1e-3, 1e-3 });
-  Random random;
+  Random random(7);
   std::size_t certain = 0;
   std::size_t stillCertain = 0;
   for (int i = 0; i < 100; ++i)
@@ -147,5 +136,4 @@ TEST(RefractionOracle, DoubtGrowsWithTheError)
   EXPECT_LT(stillCertain, certain);
   EXPECT_GT(stillCertain, certain / 4);
 }
-
 }

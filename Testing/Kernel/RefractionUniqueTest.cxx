@@ -7,13 +7,13 @@
 #include "Refraction/CurvedGeometry.h"
 #include "Refraction/HeightField.h"
 #include "Refraction/UniqueImages.h"
+#include "RefractionTestRandom.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <map>
-#include <random>
 #include <tuple>
 
 namespace
@@ -30,30 +30,9 @@ using meniscus::UniqueImages;
 using meniscus::VirtualVertex;
 using meniscus::reference::HeightField;
 using meniscus::reference::MembraneMesh;
+using meniscus::testing::Random;
 
 constexpr double Pi = 3.14159265358979323846;
-
-class Random
-{
-public:
-  explicit Random(unsigned seed)
-    : Engine(seed)
-  {
-  }
-  double operator()(double low, double high)
-  {
-    return low + (high - low) * (this->Engine() / 4294967296.0);
-  }
-  glm::dvec3 point(const glm::dvec3& low, const glm::dvec3& high)
-  {
-    const double x = (*this)(low.x, high.x);
-    const double y = (*this)(low.y, high.y);
-    return { x, y, (*this)(low.z, high.z) };
-  }
-
-private:
-  std::mt19937 Engine;
-};
 
 void Set(CurvedGeometry& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
   double interior = 1.333)
@@ -96,7 +75,6 @@ const UniqueCase Cases[] = {
 class RefractionUnique : public testing::TestWithParam<UniqueCase>
 {
 };
-
 }
 
 //------------------------------------------------------------------------------
@@ -117,13 +95,13 @@ TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
   for (int i = 0; i < count; ++i)
   {
     const glm::dvec3 middle =
-      random.point({ -80.0, -test.depth + 5.0, -80.0 }, { 80.0, -45.0, 80.0 });
+      random.Point({ -80.0, -test.depth + 5.0, -80.0 }, { 80.0, -45.0, 80.0 });
     const glm::dvec3 half(random(0.0, 4.0));
     const bool isUnique = unique.HoldsAtMostOne(middle - half - origin, middle + half - origin);
     boxes += isUnique;
     for (int k = 0; k < 5; ++k)
     {
-      geometry.FindImages(random.point(middle - half, middle + half), found);
+      geometry.FindImages(random.Point(middle - half, middle + half), found);
       several += found.size() > 1;
       ASSERT_TRUE(!isUnique || found.size() <= 1) << test.name << " box " << i;
     }

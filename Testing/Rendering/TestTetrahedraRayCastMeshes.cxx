@@ -72,6 +72,43 @@ TEST(TetrahedraRayCastMeshes, JitteredBlock)
   expectMeshMatches(grid, "jittered block, seed 4711");
 }
 
+TEST(TetrahedraRayCastMeshes, NeedlesSeenAslant)
+{
+  // Needles of 1e4, whose edges are long in u and in v: nearly all of the products cancels in the
+  // areas that depth is interpolated by. The function is as thin as the depth's last digit allows.
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    double x[3];
+    grid->GetPoint(p, x);
+    x[0] *= 1e4;
+    grid->GetPoints()->SetPoint(p, x);
+  }
+  double range[2];
+  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
+  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, range, 300.0), Size, Size);
+  vtkCamera* camera = scene.renderer()->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(2.0);
+  camera->SetFocalPoint(700.0, 0.0, 0.0);
+  camera->SetPosition(700.0 + 2e4, 1.7e4, 0.9e4);
+  camera->SetViewUp(0.3, 0.2, 1.0);
+  scene.renderer()->ResetCameraClippingRange();
+  scene.window()->Render();
+  const SceneTruth truth = makeTruth(scene);
+  const Comparison comparison =
+    compareToReference(scene.renderFloat(), truth.Image, *truth.Integrator, truth.RayOf);
+  SCOPED_TRACE(comparison.text());
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
+  EXPECT_GT(comparison.Covered, 10000u);
+  EXPECT_EQ(comparison.CoverageMismatches, 0u);
+  // Where a face is seen all but edge-on, either side of single precision's places may be shown.
+  EXPECT_LE(comparison.BeyondRounding, 1u);
+  EXPECT_LT(comparison.Largest, 2e-4);
+  // The shaders' grid is 2.4e-3 wide, over which optical depth changes by 7e-5.
+  EXPECT_LT(comparison.Rms, 2e-5);
+}
+
 TEST(TetrahedraRayCastMeshes, LShape)
 {
   expectMeshMatches(makeBlock(8, radialField(), lShape()), "L shape");

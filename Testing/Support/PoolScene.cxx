@@ -5,10 +5,8 @@
 #include <vtkActor.h>
 #include <vtkAppendPolyData.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkConeSource.h>
 #include <vtkCubeSource.h>
-#include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkGenericCell.h>
 #include <vtkIdList.h>
@@ -16,7 +14,6 @@
 #include <vtkMath.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -65,31 +62,6 @@ reference::HeightField waves(double time)
   field.exterior = 1.0;
   field.interior = Index;
   return field;
-}
-
-vtkSmartPointer<vtkPolyData> makeWater(const reference::MembraneMesh& mesh)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> normals;
-  normals->SetNumberOfComponents(3);
-  normals->SetName("Normals");
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
-  {
-    points->InsertNextPoint(mesh.points.data() + i);
-    normals->InsertNextTuple(mesh.normals.data() + i);
-  }
-  vtkNew<vtkCellArray> triangles;
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
-  {
-    const vtkIdType ids[3] = { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] };
-    triangles->InsertNextCell(3, ids);
-  }
-  auto water = vtkSmartPointer<vtkPolyData>::New();
-  water->SetPoints(points);
-  water->SetPolys(triangles);
-  water->GetPointData()->SetNormals(normals);
-  return water;
 }
 
 unsigned char toByte(double value)
@@ -310,7 +282,7 @@ PoolScene::PoolScene(int cells, double time)
   : Field(waves(time))
   , Cells(cells)
   , Camera(Eye, Target, HalfTangent, Pixels)
-  , Water(makeWater(this->Field.MakeMesh(cells)))
+  , Water(MakeMembrane(this->Field.MakeMesh(cells)))
   , Sky(makeSky())
   , Window(Pixels, Pixels)
 {
@@ -409,7 +381,7 @@ void PoolScene::setOptics(const PoolOptics& optics)
 void PoolScene::moveWater(double time)
 {
   this->Field = waves(time);
-  const auto mesh = makeWater(this->Field.MakeMesh(this->Cells));
+  const auto mesh = MakeMembrane(this->Field.MakeMesh(this->Cells));
   this->Water->SetPoints(mesh->GetPoints());
   this->Water->GetPointData()->SetNormals(mesh->GetPointData()->GetNormals());
 }

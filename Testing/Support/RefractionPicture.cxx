@@ -7,6 +7,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
@@ -97,6 +98,36 @@ glm::dvec3 PixelCamera::Project(const glm::dvec3& point) const
   const double scale = 1.0 / (depth * glm::dot(this->Right, this->Right));
   return { 0.5 * this->Pixels * (1.0 + glm::dot(d, this->Right) * scale),
     0.5 * this->Pixels * (1.0 + glm::dot(d, this->Up) * scale), depth };
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeMembrane(
+  const meniscus::reference::MembraneMesh& mesh, bool withNormals)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetName("Normals");
+  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  {
+    points->InsertNextPoint(mesh.points.data() + i);
+    normals->InsertNextTuple(mesh.normals.data() + i);
+  }
+  vtkNew<vtkCellArray> triangles;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+  {
+    const vtkIdType ids[3] = { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] };
+    triangles->InsertNextCell(3, ids);
+  }
+  auto membrane = vtkSmartPointer<vtkPolyData>::New();
+  membrane->SetPoints(points);
+  membrane->SetPolys(triangles);
+  if (withNormals)
+  {
+    membrane->GetPointData()->SetNormals(normals);
+  }
+  return membrane;
 }
 
 //------------------------------------------------------------------------------

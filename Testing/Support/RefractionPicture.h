@@ -9,6 +9,8 @@
 
 #include "HeightField.h"
 
+#include "vtkSmartPointer.h"
+
 #include <glm/vec3.hpp>
 
 #include <functional>
@@ -20,6 +22,10 @@ class vtkPolyData;
 
 namespace meniscus::testing
 {
+
+/// A membrane of the references as data set, with or without its normals.
+vtkSmartPointer<vtkPolyData> MakeMembrane(
+  const reference::MembraneMesh& mesh, bool withNormals = true);
 
 /// A pinhole camera at the eye that looks at a point, with square pictures. `halfTangent` is the
 /// tangent of half the angle of view; z points up in the picture.
