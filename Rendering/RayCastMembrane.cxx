@@ -4,12 +4,40 @@
 
 #include "ThreadedLoop.h"
 
+#include <cmath>
+
 namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-BentScene RayCastMembrane::See(const MembraneSight::View& view, VolumeInput& input)
+InputReport RayCastMembrane::Update(vtkPolyData* membrane, double exterior, double interior)
 {
+  const auto isIndex = [](double index) { return index > 0.0 && std::isfinite(index); };
+  if (!membrane)
+  {
+    return { "The membrane is no vtkPolyData", std::string() };
+  }
+  if (!isIndex(exterior) || !isIndex(interior))
+  {
+    return { "Indices of refraction must be positive and finite", std::string() };
+  }
+  SceneMessages messages;
+  if (exterior != interior && !this->Surface.SetMembrane(membrane, true, messages))
+  {
+    return { messages.error, std::string() };
+  }
+  if (messages.warning.empty() || messages.warning == this->Told)
+  {
+    return {};
+  }
+  this->Told = messages.warning;
+  return { std::string(), messages.warning };
+}
+
+//------------------------------------------------------------------------------
+BentScene RayCastMembrane::See(MembraneSight::View view, VolumeInput& input)
+{
+  view.Mesh = BoxOf(input.GetBoundaryTree(), view.Frame);
   if (this->SightOf != this->GetBuilds() || !(this->Sight.GetView() == view))
   {
     const CurvedGeometry& surface = this->Surface.GetCurved();

@@ -3,6 +3,7 @@
 #ifndef RayCastMembrane_h
 #define RayCastMembrane_h
 
+#include "InputParts.h"
 #include "RefractionScene.h"
 #include "Volume/BentCaster.h"
 #include "Volume/BentFrames.h"
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 class vtkPolyData;
 
@@ -25,17 +27,19 @@ namespace meniscus
 class RayCastMembrane
 {
 public:
-  /** Takes the membrane's shape. False, with an error, if it cannot be used. */
-  bool Update(vtkPolyData* membrane, SceneMessages& messages)
-  {
-    return this->Surface.SetMembrane(membrane, true, messages);
-  }
+  /**
+   * Takes the membrane's shape, if the indices of refraction differ. With an error it cannot be
+   * used; a warning is told once.
+   * @param membrane  null if it is none.
+   */
+  InputReport Update(vtkPolyData* membrane, double exterior, double interior);
 
   /**
    * The membrane as an image's rays see it; without a Sight if none of them meets it.
+   * @param view   but its Mesh.
    * @param input  what the rays go through.
    */
-  BentScene See(const MembraneSight::View& view, VolumeInput& input);
+  BentScene See(MembraneSight::View view, VolumeInput& input);
 
   /** Times that the shape was taken in. */
   std::int64_t GetBuilds() const { return this->Surface.GetNumberOfPatchBuilds(); }
@@ -49,6 +53,8 @@ private:
   using PlacedVersion = std::array<std::int64_t, 3>;
 
   RefractionScene Surface;
+  /** What was last said of it: the same triangles are left out of the next wave. */
+  std::string Told;
   MembraneSight Sight;
   BentFrames Frames;
   std::int64_t SightOf = 0;

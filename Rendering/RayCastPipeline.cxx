@@ -157,9 +157,10 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
       if (frame.Bending.Wanted)
       {
         const RayCastBending& bending = frame.Bending;
-        scene.Bent = this->Membrane.See({ frame.Rays, width, height, bending.Center,
-                                          bending.EyeDepth, bending.Exterior, bending.Interior },
-          this->Input);
+        scene.Bent =
+          this->Membrane.See({ frame.Rays, width, height, bending.Center, bending.EyeDepth,
+                               bending.Exterior, bending.Interior, {} },
+            this->Input);
       }
       const VertexVersion version{ this->Input.GetMeshBuilds(), this->Input.GetScalarUpdates() };
       return this->Native.Cast(scene, this->Input.GetScalars(), version, depths, image);

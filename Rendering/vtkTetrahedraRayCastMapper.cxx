@@ -45,7 +45,6 @@ public:
   bool WarnedCompute = false;
   bool WarnedTableSize = false;
   bool WarnedMembrane = false;
-  std::string ToldOfMembrane;
   /** Of the last frame, for what is in the world. */
   glm::dmat4 WorldToModel{ 1.0 };
 };
@@ -278,28 +277,9 @@ bool vtkTetrahedraRayCastMapper::UpdateMembrane()
   {
     return true;
   }
-  vtkInternals& internals = *this->Internals;
   this->GetInputAlgorithm(1, 0)->Update();
-  vtkPolyData* membrane = this->GetMembrane();
-  meniscus::SceneMessages messages;
-  const auto isIndex = [](double index) { return index > 0.0 && std::isfinite(index); };
-  if (!membrane)
-  {
-    messages.error = "The membrane is no vtkPolyData";
-  }
-  else if (!isIndex(this->ExteriorIndexOfRefraction) || !isIndex(this->InteriorIndexOfRefraction))
-  {
-    messages.error = "Indices of refraction must be positive and finite";
-  }
-  else if (this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction &&
-    !internals.Membrane.Update(membrane, messages) && messages.error.empty())
-  {
-    messages.error = "The membrane cannot be used";
-  }
-  // The same cells are left out again in every frame.
-  const bool told = messages.warning == internals.ToldOfMembrane;
-  internals.ToldOfMembrane = messages.warning.empty() ? internals.ToldOfMembrane : messages.warning;
-  return this->Tell({ messages.error, told ? std::string() : messages.warning });
+  return this->Tell(this->Internals->Membrane.Update(
+    this->GetMembrane(), this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction));
 }
 
 //------------------------------------------------------------------------------

@@ -81,7 +81,8 @@
  *
  * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
  * composite blending of point data only; fewer than 2^29 tetrahedra; on the graphics device, tables
- * within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()). All backends draw the same.
+ * within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()). All backends draw the
+ * same, but rays that bend at a membrane, which the native one alone draws.
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */

@@ -118,13 +118,14 @@ bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep
   for (int i = 0; i < Steps; ++i)
   {
     patch.Evaluate(atB, jet);
+    // Cramer's rule for by0 x + by1 y - direction l = rest.
     const glm::dvec3 rest = line.origin + atL * line.direction - jet.position;
-    const glm::dvec3 across = glm::cross(jet.positionBy[0], jet.positionBy[1]);
-    const double moveL = -glm::dot(across, rest) / glm::dot(across, line.direction);
-    const glm::dvec3 inPlane = rest + moveL * line.direction;
-    const double squared = glm::dot(across, across);
-    const glm::dvec2 moveB(glm::dot(glm::cross(inPlane, jet.positionBy[1]), across) / squared,
-      glm::dot(glm::cross(jet.positionBy[0], inPlane), across) / squared);
+    const glm::dvec3 byX = glm::cross(jet.positionBy[1], line.direction);
+    const double inverse = 1.0 / glm::dot(jet.positionBy[0], byX);
+    const glm::dvec2 moveB(inverse * glm::dot(rest, byX),
+      inverse * glm::dot(jet.positionBy[0], glm::cross(rest, line.direction)));
+    const double moveL =
+      -inverse * glm::dot(rest, glm::cross(jet.positionBy[0], jet.positionBy[1]));
     atB += moveB;
     atL += moveL;
     if (!IsNear(atB.x, b.x) || !IsNear(atB.y, b.y) || !IsNear(atL, l))

@@ -31,7 +31,7 @@ static_assert(BlockSize * BlockSize <= LineEntries::LargestBundle, "a block is a
 constexpr double StartMargin = 1.0 / 4096.0;
 
 /** Vertices are off by the rounding of their grid, far less. */
-constexpr double BallMargin = 1.0 + 1.0e-6;
+constexpr double BoxMargin = 1.0 + 1.0e-6;
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
@@ -62,22 +62,15 @@ void StraightPart::Clear(PacketBlending blending)
 BentCaster::BentCaster(const BentScene& scene, const TetrahedralMesh& mesh, const PixelRays& view,
   const std::vector<RayClippingPlane>& clippingPlanes, const BentOptics& optics, InstructionSet set)
   : Scene(scene)
+  , Box(scene.Sight->GetView().Mesh)
   , View(view)
   , ClippingPlanes(clippingPlanes)
   , Lit(optics.Lighting != nullptr)
   , Set(set)
 {
-  if (!scene.Tree->GetNodes().empty())
-  {
-    const RayFrame& rows = view.GetFrame();
-    const glm::dmat3 toFrame = glm::transpose(glm::dmat3(rows.RowX, rows.RowY, rows.RowDepth));
-    const BoundaryTree::Node& root = scene.Tree->GetNodes().front();
-    const glm::dvec3 half(root.Half);
-    this->BallCenter = toFrame * glm::dvec3(root.Center);
-    this->BallRadius = BallMargin *
-      glm::length(glm::abs(toFrame[0]) * half.x + glm::abs(toFrame[1]) * half.y +
-        glm::abs(toFrame[2]) * half.z);
-  }
+  const glm::dmat3& edges = this->Box.HalfEdges;
+  this->BallRadius =
+    BoxMargin * glm::length(glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]));
   this->Entries.reserve(BentFrames::Number);
   for (int index = 0; index < BentFrames::Number; ++index)
   {
@@ -92,14 +85,36 @@ BentCaster::BentCaster(const BentScene& scene, const TetrahedralMesh& mesh, cons
 }
 
 //------------------------------------------------------------------------------
-/** A first test that costs little. */
+/**
+ * Whether the half-line meets the box about the mesh: by its ball, then by the three axes across
+ * the line and an edge of the box that separate them if any does.
+ */
 bool BentCaster::MayMeetMesh(const glm::dvec3& sightPoint, const glm::dvec3& step) const
 {
-  const glm::dvec3 toCenter = this->BallCenter - sightPoint;
+  const glm::dvec3 toCenter = this->Box.Center - sightPoint;
   const double along = glm::dot(toCenter, step);
   const double squared = glm::dot(step, step);
   const double excess = glm::dot(toCenter, toCenter) - this->BallRadius * this->BallRadius;
-  return excess <= 0.0 || (along > 0.0 && along * along >= excess * squared);
+  if (excess > 0.0 && !(along > 0.0 && along * along >= excess * squared))
+  {
+    return false;
+  }
+  const glm::dmat3& edges = this->Box.HalfEdges;
+  const glm::dvec3 across = glm::cross(toCenter, step);
+  const glm::dvec3 areas[3] = { glm::cross(edges[1], edges[2]), glm::cross(edges[2], edges[0]),
+    glm::cross(edges[0], edges[1]) };
+  for (int k = 0; k < 3; ++k)
+  {
+    // Along step x edge k: the centre's distance, and those of the other two edges.
+    const double distance = std::fabs(glm::dot(across, edges[k]));
+    const double reach =
+      std::fabs(glm::dot(step, areas[(k + 1) % 3])) + std::fabs(glm::dot(step, areas[(k + 2) % 3]));
+    if (distance > reach * BoxMargin)
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -143,29 +158,25 @@ void BentCaster::AddLine(
   const int index = this->Scene.Frames->IndexOf(part.Step);
   const BentFrame& frame = this->Scene.Frames->Get(index);
   Workspace::OfFrame& work = workspace.Frames[static_cast<std::size_t>(index)];
-  const auto depthOf = [&frame](const glm::dvec3& vector) { return (frame.FromView * vector).z; };
-  const double sight = depthOf(part.SightPoint);
-  const double perStep = depthOf(part.Step);
+  const glm::dvec3 place = frame.FromView * part.SightPoint;
+  const glm::dvec3 step = frame.FromView * part.Step;
+  const double sight = place.z;
   const auto number = static_cast<std::int32_t>(work.Lines.size());
 
   LineEntries::Line line;
-  line.Of = frame.LineOf(part.SightPoint, part.Step);
+  line.Of = FrameLine::Through(place, step);
   line.Ray = frame.Rays.RayAlong(line.Of.Origin, line.Of.Slope);
-  line.Ray.StartDepth = static_cast<float>(sight + part.Start * perStep);
-  line.Ray.EndDepth = static_cast<float>(std::min(sight + part.End * perStep, 1.0e30));
-  line.From = sight - StartMargin;
-  bool known = end != PacketResult::Somewhere;
-  if (end >= 0)
+  line.Ray.StartDepth = static_cast<float>(sight + part.Start * step.z);
+  line.Ray.EndDepth = static_cast<float>(std::min(sight + part.End * step.z, 1.0e30));
+  PacketEntry entry;
+  line.EntersInside = end >= 0 && this->Scene.BeginsInside &&
+    this->Entries[static_cast<std::size_t>(index)].FindEntryNear(end, line.Ray, sight, entry);
+  if (line.EntersInside)
   {
-    PacketEntry entry;
-    known =
-      this->Entries[static_cast<std::size_t>(index)].FindEntryNear(end, line.Ray, sight, entry);
-    if (known)
-    {
-      work.Hits.push_back({ number, entry });
-    }
+    work.Hits.push_back({ number, entry });
   }
-  line.From = known ? line.From : -frame.Extent;
+  const bool known = line.EntersInside || end == PacketResult::Outside;
+  line.From = known ? sight - StartMargin : -frame.Extent;
   work.Lines.push_back(line);
   work.Pixels.push_back(pixel);
   work.Bundles[known ? 0 : 1].push_back(number);

@@ -111,8 +111,8 @@ private:
   bool MayMeetMesh(const glm::dvec3& sightPoint, const glm::dvec3& step) const;
 
   BentScene Scene;
-  /** About the mesh's boundary, in the frame of the view. */
-  glm::dvec3 BallCenter{ 0.0 };
+  /** Box and ball about the mesh's boundary, in the frame of the view. */
+  SeenBox Box;
   double BallRadius = 0.0;
   const PixelRays& View;
   const std::vector<RayClippingPlane>& ClippingPlanes;

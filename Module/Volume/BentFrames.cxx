@@ -49,15 +49,6 @@ BentFrame MakeFrame(const RayFrame& view, const glm::dmat3& rotation)
 }
 
 //------------------------------------------------------------------------------
-FrameLine BentFrame::LineOf(const glm::dvec3& place, const glm::dvec3& step) const
-{
-  const glm::dvec3 at = this->FromView * place;
-  const glm::dvec3 along = this->FromView * step;
-  const glm::dvec2 slope = glm::dvec2(along) / along.z;
-  return { glm::dvec2(at) - at.z * slope, slope };
-}
-
-//------------------------------------------------------------------------------
 SurfaceLighting BentFrame::Turn(const SurfaceLighting& lighting) const
 {
   SurfaceLighting turned = lighting;

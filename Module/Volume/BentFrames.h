@@ -21,6 +21,13 @@ struct FrameLine
 {
   glm::dvec2 Origin;
   glm::dvec2 Slope;
+
+  /** Through a place, along a step that has a depth. */
+  static FrameLine Through(const glm::dvec3& place, const glm::dvec3& step)
+  {
+    const glm::dvec2 slope = glm::dvec2(step) / step.z;
+    return { glm::dvec2(place) - place.z * slope, slope };
+  }
 };
 
 /** The frame of the view turned, so that its depth is along the rays. */
@@ -35,7 +42,6 @@ struct BentFrame
   /** The mesh's, once they have been placed. */
   std::vector<PacketVertex> Vertices;
 
-  FrameLine LineOf(const glm::dvec3& place, const glm::dvec3& step) const;
   /** Lights of the frame of the view. */
   SurfaceLighting Turn(const SurfaceLighting& lighting) const;
 };

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace meniscus
@@ -209,6 +210,20 @@ EntryRaster::PixelBox EntryRaster::BoxOfTile(int tile) const
   const int bottom = tile / this->Columns * TileSize;
   return { left, std::min(left + TileSize, this->Rays.GetWidth()), bottom,
     std::min(bottom + TileSize, this->Rays.GetHeight()) };
+}
+
+//------------------------------------------------------------------------------
+double EntryRaster::NearestDepth(int tile) const
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::int32_t slot = this->TileBegin[tile]; slot < this->TileBegin[tile + 1]; ++slot)
+  {
+    for (const std::int32_t vertex : (*this->Faces)[this->FaceOfSlot[slot]].Vertices)
+    {
+      nearest = std::min(nearest, PixelRays::DepthOf((*this->Vertices)[vertex].Place[2]));
+    }
+  }
+  return nearest;
 }
 
 //------------------------------------------------------------------------------

@@ -45,6 +45,9 @@ public:
   };
   PixelBox BoxOfTile(int tile) const;
 
+  /** Least depth of the faces that a tile's rays may enter by; infinite without one. */
+  double NearestDepth(int tile) const;
+
   struct Hit
   {
     /** In the tile: (row - Bottom) * TileSize + column - Left. */

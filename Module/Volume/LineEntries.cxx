@@ -61,6 +61,21 @@ bool HasInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop)
   return found;
 }
 
+//------------------------------------------------------------------------------
+SeenBox BoxOf(const BoundaryTree& tree, const RayFrame& view)
+{
+  SeenBox box;
+  if (!tree.GetNodes().empty())
+  {
+    const BoundaryTree::Node& root = tree.GetNodes().front();
+    const glm::dmat3 toFrame = glm::transpose(glm::dmat3(view.RowX, view.RowY, view.RowDepth));
+    box.Center = toFrame * glm::dvec3(root.Center);
+    box.HalfEdges =
+      toFrame * glm::dmat3(root.Half.x, 0.0, 0.0, 0.0, root.Half.y, 0.0, 0.0, 0.0, root.Half.z);
+  }
+  return box;
+}
+
 /** Lines between two depths: within a rectangle at both, and so between. */
 struct LineEntries::Bundle
 {
@@ -68,6 +83,9 @@ struct LineEntries::Bundle
   double Last;
   glm::dvec2 Lower[2];
   glm::dvec2 Upper[2];
+  /** Slopes are within the spread of the mean. */
+  glm::dvec2 MeanSlope;
+  glm::dvec2 SlopeSpread;
 
   glm::dvec2 LowerAt(double depth) const { return this->Between(this->Lower, depth); }
   glm::dvec2 UpperAt(double depth) const { return this->Between(this->Upper, depth); }
@@ -104,6 +122,35 @@ PacketFace LineEntries::SeenBy(const BoundaryFace& face) const
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Whether a line of the bundle may enter by the face, by its side. Twice the area that it has about
+ * a line is affine in the slopes; rounding of vertices and rays moves its corners by GridMargin.
+ */
+bool LineEntries::MayFace(const PacketFace& face, const Bundle& bundle) const
+{
+  const auto placeOf = [this, &face](int k)
+  {
+    const auto& place = this->Frame.Vertices[static_cast<std::size_t>(face.Vertices[k])].Place;
+    return glm::dvec3(place[0], place[1], place[2]);
+  };
+  const glm::dvec3 corner = placeOf(0);
+  // A unit of depth in units of the grid across.
+  const glm::dvec3 scale(
+    1.0, 1.0, double{ PacketVertex::DepthUnit } / this->Frame.Rays.GetGridUnit());
+  const glm::dvec3 first = scale * (placeOf(1) - corner);
+  const glm::dvec3 second = scale * (placeOf(2) - corner);
+  const glm::dvec3 normal = glm::cross(first, second);
+  const glm::dvec2 across(normal);
+  const double area = normal.z + glm::dot(across, bundle.MeanSlope);
+  const double spread = glm::dot(glm::abs(across), bundle.SlopeSpread);
+  // Both ends of an edge are off by GridMargin, by sqrt(2) times 2 of it in all. About a line, with
+  // slopes within 1, an edge is at most sqrt(3) times as long.
+  constexpr double offset = 2.83 * GridMargin;
+  const double edges = 1.74 * (glm::length(first) + glm::length(second));
+  return area + spread > -offset * (edges + offset);
+}
+
+//------------------------------------------------------------------------------
 void LineEntries::CollectFaces(const Bundle& bundle, std::vector<PacketFace>& faces) const
 {
   faces.clear();
@@ -127,7 +174,12 @@ void LineEntries::CollectFaces(const Bundle& bundle, std::vector<PacketFace>& fa
     }
     if (meets && node.Face >= 0)
     {
-      faces.push_back(this->SeenBy(this->Tree.GetFaces()[static_cast<std::size_t>(node.Face)]));
+      const PacketFace face =
+        this->SeenBy(this->Tree.GetFaces()[static_cast<std::size_t>(node.Face)]);
+      if (this->MayFace(face, bundle))
+      {
+        faces.push_back(face);
+      }
     }
     at = meets ? at + 1 : static_cast<std::size_t>(node.Skip);
   }
@@ -143,14 +195,20 @@ void LineEntries::Collect(const std::vector<Line>& lines, const std::vector<std:
   }
   const double extent = this->Frame.Extent;
   Bundle bundle{ extent, extent, { glm::dvec2(1e30), glm::dvec2(1e30) },
-    { glm::dvec2(-1e30), glm::dvec2(-1e30) } };
+    { glm::dvec2(-1e30), glm::dvec2(-1e30) }, glm::dvec2(0.0), glm::dvec2(0.0) };
+  glm::dvec2 least(1e30);
+  glm::dvec2 most(-1e30);
   workspace.Rays.clear();
   for (const std::int32_t number : numbers)
   {
     const Line& line = lines[static_cast<std::size_t>(number)];
     bundle.First = std::min(bundle.First, std::max(line.From, -extent));
+    least = glm::min(least, line.Of.Slope);
+    most = glm::max(most, line.Of.Slope);
     workspace.Rays.push_back(line.Ray);
   }
+  bundle.MeanSlope = 0.5 * (least + most);
+  bundle.SlopeSpread = 0.5 * (most - least);
   for (const std::int32_t number : numbers)
   {
     const FrameLine& line = lines[static_cast<std::size_t>(number)].Of;

@@ -20,6 +20,9 @@ namespace meniscus
  */
 bool HasInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
 
+/** The box about the boundary, in the frame of the view; without extent if there is none. */
+SeenBox BoxOf(const BoundaryTree& tree, const RayFrame& view);
+
 /**
  * Which boundary faces straight lines of a frame enter by. Lines are taken in bundles: at a depth
  * all of a bundle are in a rectangle that changes linearly with it, which sifts the tree of the
@@ -30,17 +33,18 @@ class LineEntries
 public:
   static constexpr int LargestBundle = 64;
 
+  /** What `mesh`, `tree` and `frame` are must outlive this. */
   LineEntries(const TetrahedralMesh& mesh, const BoundaryTree& tree, const BentFrame& frame,
     InstructionSet set);
 
   struct Line
   {
-    FrameLine Of;
+    FrameLine Of{};
     /** From which depth on entries are wanted. */
-    double From;
-    PacketRay Ray;
+    double From = 0.0;
+    PacketRay Ray{};
     /** Whether one of its entries is a face inside of the mesh: see FindEntryNear(). */
-    bool EntersInside;
+    bool EntersInside = false;
   };
   struct Hit
   {
@@ -76,6 +80,7 @@ public:
 private:
   struct Bundle;
   void CollectFaces(const Bundle& bundle, std::vector<PacketFace>& faces) const;
+  bool MayFace(const PacketFace& face, const Bundle& bundle) const;
   PacketFace SeenBy(const BoundaryFace& face) const;
   bool Enters(const PacketFace& face, const PacketRay& ray, double& depth) const;
   bool EntersCell(std::int64_t cell, const PacketRay& ray, double before, PacketEntry& entry) const;

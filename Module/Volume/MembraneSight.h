@@ -3,6 +3,7 @@
 #ifndef meniscus_Volume_MembraneSight_h
 #define meniscus_Volume_MembraneSight_h
 
+#include "Refraction/CellTree.h"
 #include "Refraction/CurvedPatches.h"
 #include "Refraction/Membrane.h"
 #include "Refraction/RangeLoop.h"
@@ -35,6 +36,14 @@ struct BentRay
   bool GoesOn() const { return this->Step != glm::dvec3(0.0); }
 };
 
+/** A box about what there is to see, in the frame of the view. */
+struct SeenBox
+{
+  glm::dvec3 Center{ 0.0 };
+  /** Columns: from the centre to the middles of three sides. */
+  glm::dmat3 HalfEdges{ 0.0 };
+};
+
 /**
  * Where the rays of an image first meet a membrane of curved patches, and how they go on behind it,
  * by tiles. Facets are sorted into tiles by bounds of their patches' pictures; in a pixel, the ray
@@ -55,6 +64,8 @@ public:
     /** Index of refraction on the side that the membrane's normals point to, and on the other. */
     double Exterior = 1.0;
     double Interior = 1.333;
+    /** Rays that cannot come there, before the membrane or behind it, do not matter. */
+    SeenBox Mesh;
 
     bool operator==(const View& other) const;
   };
@@ -80,7 +91,7 @@ public:
   int GetNumberOfTiles() const { return static_cast<int>(this->Tiles.size()); }
   /** Whether any ray meets the membrane. */
   bool IsSeen() const { return this->Seen; }
-  /** Mean of the unit directions behind the membrane, in the frame; 0 if there is none. */
+  /** Of the rays behind the membrane, the mean, in the frame; a unit vector, or 0 without any. */
   const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
   const View& GetView() const { return this->Of; }
   std::int64_t GetBytes() const;
@@ -93,16 +104,32 @@ private:
     int Bottom;
     int Top; // exclusive
   };
+  /** What is known of a facet's patch before it is met with rays. */
+  struct SeenFacet
+  {
+    Box Pixels;
+    /** Whether what its rays meet may be the mesh. */
+    bool Matters;
+    /** Whether nothing but the whole image bounds it; then about it: */
+    bool Unbounded;
+    glm::dvec3 Center;
+    double Radius;
+  };
   struct Hit;
   class FacetTracer;
+  class TileRays;
 
   void PrepareRays(const Membrane& surface);
-  Box BoxOf(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const;
+  SeenFacet See(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const;
+  bool MayShowMesh(const CurvedPatch& patch, double bulge) const;
+  bool MeetsMesh(const TubeBounds& tube) const;
   bool PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const;
-  void SortFacets(const std::vector<Box>& boxes);
-  void TraceTile(
-    const CurvedPatches& patches, const std::vector<Box>& boxes, int tile, glm::dvec3& directions);
-  BentRay Bend(const glm::dvec3& direction, const Hit& hit) const;
+  void SortFacets(const std::vector<SeenFacet>& facets);
+  void TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
+    glm::dvec3& directions);
+  void TraceFacet(const CurvedPatch& patch, const SeenFacet& seen, const TileRays& rays,
+    std::vector<Hit>& hits) const;
+  BentRay Bend(const glm::dvec3& direction, const Hit& hit, glm::dvec3& directions) const;
 
   View Of;
   int Columns = 0;
@@ -110,6 +137,9 @@ private:
   bool Seen = false;
   glm::dvec3 MeanDirection{ 0.0 };
   glm::dmat3 WorldToFrame{ 1.0 };
+  /** Of a box about the mesh, along the world's axes, relative to the membrane's origin. */
+  glm::dvec3 MeshCenter{ 0.0 };
+  glm::dvec3 MeshHalf{ 0.0 };
   /** The ray of a pixel, relative to the membrane's origin: constant, per column, per row. */
   glm::dvec3 Start[3];
   glm::dvec3 Direction[3];

@@ -207,6 +207,27 @@ void TileCaster::KeepStraight(int tile, const BentRay* bent, Workspace& workspac
 }
 
 //------------------------------------------------------------------------------
+/** Whether a ray of the tile may enter the mesh before the membrane. */
+bool TileCaster::IsMeshInFront(int tile, const BentRay* bent) const
+{
+  const EntryRaster::PixelBox box = this->Raster.BoxOfTile(tile);
+  const double nearest = this->Raster.NearestDepth(tile);
+  for (int row = 0; row < box.Top - box.Bottom; ++row)
+  {
+    for (int column = 0; column < box.Right - box.Left; ++column)
+    {
+      // An entry counts if it is before the end, both in single precision.
+      const double depth = bent[row * EntryRaster::TileSize + column].Depth;
+      if (static_cast<float>(nearest) < static_cast<float>(depth))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
 RayStatistics TileCaster::Cast(
   int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
 {
@@ -215,7 +236,11 @@ RayStatistics TileCaster::Cast(
   {
     workspace.Bent.Straight.Clear(this->Input.Blending);
   }
-  this->Raster.CollectHits(tile, workspace.Hits);
+  workspace.Hits.clear();
+  if (!bent || this->IsMeshInFront(tile, bent))
+  {
+    this->Raster.CollectHits(tile, workspace.Hits);
+  }
   this->TakeHits(tile, opaqueDepth, bent, workspace);
   const TetrahedralMesh& mesh = *this->Input.Mesh;
   PacketJob job{};

@@ -109,6 +109,7 @@ private:
   void TakeHits(
     int tile, const float* opaqueDepth, const BentRay* bent, Workspace& workspace) const;
   void SetOptics(PacketJob& job) const;
+  bool IsMeshInFront(int tile, const BentRay* bent) const;
   void CastStraight(PacketJob& job, Workspace& workspace) const;
   RayStatistics ShowStraight(const Workspace& workspace, float* image) const;
   void KeepStraight(int tile, const BentRay* bent, Workspace& workspace) const;

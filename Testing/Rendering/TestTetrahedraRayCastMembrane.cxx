@@ -9,6 +9,7 @@
 #include <vtkContourValues.h>
 #include <vtkDataArray.h>
 #include <vtkLight.h>
+#include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
@@ -17,6 +18,7 @@
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkSMPTools.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolume.h>
 #include <vtkVolumeMapper.h>
@@ -466,4 +468,64 @@ TEST(TetrahedraRayCastMembrane, EqualIndicesChangeNothing)
     expectSamePicture(test.Scene.renderFloat(), straight, "nearly equal indices");
     EXPECT_EQ(test.Scene.rayCaster()->GetNumberOfSightUpdates(), 1);
   }
+}
+
+TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
+{
+  // Gradients of cells and directional light: where the medium's light is exact.
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  for (const MembraneCase& membrane :
+    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+  {
+    MembraneTest test(membrane, grid);
+    vtkVolumeProperty* property = test.Scene.volume()->GetProperty();
+    property->ShadeOn();
+    property->SetSpecular(0.0);
+    vtkNew<vtkPiecewiseFunction> opacity;
+    opacity->AddPoint(0.0, 0.2);
+    opacity->AddPoint(4.0, 1.0);
+    property->SetGradientOpacity(opacity);
+    test.Scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+    vtkNew<vtkLight> sun;
+    sun->SetPosition(-1.0, 2.0, 0.5);
+    sun->SetFocalPoint(0.0, 0.0, 0.0);
+    test.Scene.renderer()->AddLight(sun);
+    test.lookAtBlock(30.0, 50.0);
+    test.Scene.window()->Render();
+    const auto integrator = makeReference(grid);
+    const auto function = toReference(property);
+    const Material material = toMaterial(property, test.Scene.renderer());
+    const ReferenceGradients gradients(integrator->mesh(), false);
+    expectTrace(
+      test.Scene,
+      [&](const Ray& ray)
+      {
+        return compose(refract(membrane.Surface, ray, 0.0, false),
+          [&](const Ray& part)
+          {
+            std::vector<RaySegment> segments;
+            integrator->findSegments(part, segments);
+            return integrateShaded(
+              part, segments, function, gradients, &material,
+              [](double length) { return std::min(0.2 + 0.2 * length, 1.0); }, 40);
+          });
+      },
+      "lit medium");
+  }
+}
+
+TEST(TetrahedraRayCastMembrane, TheNumberOfThreadsDoesNotMatter)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  MembraneTest test(makeWavesCase(0.3, 0.08, 3.0, 3.0, 48), grid);
+  test.Scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+  test.lookAtBlock(30.0, 50.0);
+  FloatImage several;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config(4), [&] { several = test.Scene.renderFloat(); });
+  test.Scene.rayCaster()->SetInteriorIndexOfRefraction(1.5);
+  test.Scene.renderFloat(); // what the first frame found out is forgotten
+  test.Scene.rayCaster()->SetInteriorIndexOfRefraction(1.333);
+  FloatImage one;
+  vtkSMPTools::LocalScope(vtkSMPTools::Config(1), [&] { one = test.Scene.renderFloat(); });
+  EXPECT_EQ(one.Rgba, several.Rgba);
 }

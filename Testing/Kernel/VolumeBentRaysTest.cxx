@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Rays that bend at a membrane inside the mesh, by the kernel alone.
+#include "VolumeTestMeshes.h"
+
+#include "Refraction/CurvedPatches.h"
+#include "Refraction/Membrane.h"
+#include "Volume/TileCaster.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace meniscus;
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 64;
+
+/** A mesh seen along z, cut in the middle by a membrane that slopes by 1 / 4. */
+class BentPicture
+{
+public:
+  explicit BentPicture(const MeshArrays& mesh)
+  {
+    EXPECT_EQ(this->Mesh.Build(mesh.View()), MeshStatus::Ok);
+    this->Tree.Build(this->Mesh);
+    for (std::int64_t v = 0; v < this->Mesh.GetNumberOfVertices(); ++v)
+    {
+      this->Scalars.push_back(static_cast<float>(this->Mesh.GetPosition(v).x));
+    }
+    const std::vector<double> points{ -2, -2, -0.1, 3, -2, -0.1, 3, 3, 1.15, -2, 3, 1.15 };
+    const std::vector<std::int64_t> triangles{ 0, 1, 2, 0, 2, 3 };
+    const MembraneInput input{ points.data(), 4, triangles.data(), 2, nullptr, nullptr };
+    EXPECT_EQ(this->Surface.Build(input), MembraneStatus::Ready);
+    this->Patches.Build(this->Surface, SerialLoop);
+
+    const RayFrame frame = FrameAlongZ(this->Mesh, 0.7, Size);
+    this->Scene.Rays = PixelRays(frame, Size, Size);
+    PlaceVertices(this->Mesh, this->Scalars, this->Scene.Rays, SerialLoop, this->Tables.Vertices);
+    this->Tables.Intervals = PackIntervals(ConstantFunction(1.5));
+    const MembraneSight::View view{ frame, Size, Size, this->Mesh.GetCenter(), -50.0, 1.0, 1.5,
+      BoxOf(this->Tree, frame) };
+    this->Sight.Build(this->Surface, this->Patches, view);
+    this->Frames.Turn(this->Sight, frame, SerialLoop);
+    this->Frames.Place(this->Mesh, this->Scalars, SerialLoop);
+    this->Scene.Mesh = &this->Mesh;
+    this->Scene.Boundary = &this->Mesh.GetBoundary();
+    this->Scene.Tables = &this->Tables;
+    this->Scene.Bent = { &this->Sight, &this->Frames, &this->Tree, false };
+  }
+
+  std::vector<float> Cast(bool beginsInside, InstructionSet set, RayStatistics& sums)
+  {
+    this->Scene.Bent.BeginsInside = beginsInside;
+    this->Scene.Set = set;
+    std::vector<float> image(std::size_t{ 4 } * Size * Size, 0.0f);
+    const TileCaster caster(this->Scene);
+    TileCaster::Workspace workspace;
+    sums = RayStatistics();
+    for (int tile = 0; tile < caster.GetNumberOfTiles(); ++tile)
+    {
+      const RayStatistics ofTile = caster.Cast(tile, nullptr, image.data(), workspace);
+      sums.Steps += ofTile.Steps;
+      sums.Rays += ofTile.Rays;
+      sums.Lost += ofTile.Lost;
+    }
+    return image;
+  }
+
+  TetrahedralMesh Mesh;
+  MembraneSight Sight;
+
+private:
+  BoundaryTree Tree;
+  std::vector<float> Scalars;
+  Membrane Surface;
+  CurvedPatches Patches;
+  BentFrames Frames;
+  PacketTables Tables;
+  TileCaster::Scene Scene;
+};
+
+float LargestDifference(const std::vector<float>& a, const std::vector<float>& b)
+{
+  float largest = 0.0f;
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    largest = std::max(largest, std::fabs(a[i] - b[i]));
+  }
+  return largest;
+}
+
+}
+
+TEST(BentRays, BeginningInsideOrOnTheBoundaryIsTheSame)
+{
+  BentPicture picture(KuhnGrid(6));
+  ASSERT_TRUE(picture.Sight.IsSeen());
+  EXPECT_FALSE(HasInvertedCells(picture.Mesh));
+  for (const InstructionSet set :
+    { InstructionSet::Portable, InstructionSet::AVX2, InstructionSet::AVX512 })
+  {
+    if (!HasInstructionSet(set))
+    {
+      continue;
+    }
+    RayStatistics boundary;
+    RayStatistics inside;
+    const std::vector<float> a = picture.Cast(false, set, boundary);
+    const std::vector<float> b = picture.Cast(true, set, inside);
+    EXPECT_LE(LargestDifference(a, b), 1e-6f) << NameOf(set);
+    EXPECT_GT(*std::max_element(a.begin(), a.end()), 0.5f);
+    EXPECT_EQ(boundary.Lost + inside.Lost, 0);
+    EXPECT_EQ(boundary.Rays, inside.Rays);
+    EXPECT_LT(inside.Steps, 0.9 * static_cast<double>(boundary.Steps));
+  }
+}
+
+TEST(BentRays, NoneIsLostInAMeshTurnedInsideOut)
+{
+  MeshArrays mesh = KuhnGrid(5);
+  Jitter(mesh, 0.2, 7);
+  BentPicture picture(mesh);
+  EXPECT_TRUE(HasInvertedCells(picture.Mesh));
+  for (const bool beginsInside : { false, true })
+  {
+    // Begun inside, some rays go round for ever; these begin again on the boundary.
+    RayStatistics sums;
+    picture.Cast(beginsInside, BestInstructionSet(), sums);
+    EXPECT_GT(sums.Rays, 1000);
+    EXPECT_EQ(sums.Lost, 0) << beginsInside;
+  }
+}
