@@ -11,78 +11,8 @@ namespace meniscus
 namespace
 {
 
-/// Values within `half` of `middle`, component by component.
-struct Box
-{
-  glm::dvec3 middle{ 0.0 };
-  glm::dvec3 half{ 0.0 };
-};
-
-const Box AnyDirection{ glm::dvec3(0.0), glm::dvec3(1.0) };
-
 // The largest of |b_i b_j (b_i - b_j)| is 1 / (6 sqrt 3), of b_i b_j 1 / 4.
 constexpr double LargestAsymmetric = 0.0962250448649377;
-
-// Unit vectors along n + d for |d| within `ball` and d within `half`: n / |n| + (d - u (u.d)) / |n|
-// and a rest below (|d| / |n|)^2 as long as |d| < |n| / 2.
-Box BoundDirections(const glm::dvec3& n, const glm::dvec3& half, double ball)
-{
-  const double length = glm::length(n);
-  const double part = ball / length;
-  if (!(part < 0.5))
-  {
-    return AnyDirection;
-  }
-  Box box;
-  box.middle = n / length;
-  box.half = half / length + glm::dvec3(part * part);
-  return box;
-}
-
-Box BoundSightRays(const CurvedPatch& patch, const glm::dvec3& eye, double bulge)
-{
-  const glm::dvec3 middle = (patch.corner[0] + patch.corner[1] + patch.corner[2]) / 3.0;
-  const glm::dvec3 toMiddle = middle - eye;
-  const glm::dvec3 direction = glm::normalize(toMiddle);
-  glm::dvec3 half(0.0);
-  double ball = 0.0;
-  for (const glm::dvec3& corner : patch.corner)
-  {
-    const glm::dvec3 d = corner - middle;
-    half = glm::max(half, glm::abs(d - direction * glm::dot(d, direction)));
-    ball = std::max(ball, glm::dot(d, d));
-  }
-  return BoundDirections(toMiddle, half + glm::dvec3(bulge), std::sqrt(ball) + bulge);
-}
-
-// The normal is a Bezier triangle of second degree: inside the hull of its six control points.
-Box BoundNormals(const CurvedPatch& patch)
-{
-  glm::dvec3 control[6];
-  glm::dvec3 low(std::numeric_limits<double>::max());
-  glm::dvec3 high(std::numeric_limits<double>::lowest());
-  for (int k = 0; k < 3; ++k)
-  {
-    control[k] = patch.normal[k];
-    control[k + 3] = 0.5 * (patch.normal[(k + 1) % 3] + patch.normal[(k + 2) % 3] + patch.bend[k]);
-  }
-  for (const glm::dvec3& c : control)
-  {
-    low = glm::min(low, c);
-    high = glm::max(high, c);
-  }
-  const glm::dvec3 middle = 0.5 * (low + high);
-  const glm::dvec3 direction = glm::normalize(middle);
-  glm::dvec3 half(0.0);
-  double ball = 0.0;
-  for (const glm::dvec3& c : control)
-  {
-    const glm::dvec3 d = c - middle;
-    half = glm::max(half, glm::abs(d - direction * glm::dot(d, direction)));
-    ball = std::max(ball, glm::dot(d, d));
-  }
-  return BoundDirections(middle, half, std::sqrt(ball));
-}
 
 }
 
@@ -99,18 +29,66 @@ double BoundBulge(const CurvedPatch& patch)
 }
 
 //------------------------------------------------------------------------------
-TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, double ratio)
+// Along n + d for |d| within `ball` and d within `half`: n / |n| + (d - u (u.d)) / |n| and a rest
+// below (|d| / |n|)^2 as long as |d| < |n| / 2.
+DirectionBox BoundDirections(
+  const glm::dvec3& middle, const glm::dvec3* hull, int count, double reach)
 {
-  const double bulge = BoundBulge(patch);
-  const Box sight = BoundSightRays(patch, eye, bulge);
-  const Box normal = BoundNormals(patch);
+  const double length = glm::length(middle);
+  const glm::dvec3 direction = middle / length;
+  glm::dvec3 half(0.0);
+  double ball = 0.0;
+  for (int i = 0; i < count; ++i)
+  {
+    const glm::dvec3 d = hull[i] - middle;
+    half = glm::max(half, glm::abs(d - direction * glm::dot(d, direction)));
+    ball = std::max(ball, glm::dot(d, d));
+  }
+  const double part = (std::sqrt(ball) + reach) / length;
+  if (!(part < 0.5))
+  {
+    return DirectionBox();
+  }
+  return { direction, (half + glm::dvec3(reach)) / length + glm::dvec3(part * part) };
+}
 
+//------------------------------------------------------------------------------
+// The normal is a Bezier triangle of second degree: inside the hull of its six control points.
+DirectionBox BoundNormals(const CurvedPatch& patch)
+{
+  glm::dvec3 control[6];
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
+  for (int k = 0; k < 3; ++k)
+  {
+    control[k] = patch.normal[k];
+    control[k + 3] = 0.5 * (patch.normal[(k + 1) % 3] + patch.normal[(k + 2) % 3] + patch.bend[k]);
+  }
+  for (const glm::dvec3& c : control)
+  {
+    low = glm::min(low, c);
+    high = glm::max(high, c);
+  }
+  return BoundDirections(0.5 * (low + high), control, 6, 0.0);
+}
+
+//------------------------------------------------------------------------------
+CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal)
+{
   const double middle = glm::dot(sight.middle, normal.middle);
   const glm::dvec3 sightReach = glm::abs(sight.middle) + sight.half;
   const double half =
     glm::dot(glm::abs(normal.middle), sight.half) + glm::dot(sightReach, normal.half);
-  const double least = std::max(middle - half, -1.0);
-  const double most = std::min(middle + half, 0.0);
+  return { std::max(middle - half, -1.0), std::min(middle + half, 1.0) };
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& normal, double ratio,
+  const glm::dvec3* points, int count, double reach)
+{
+  const CosineBounds cosine = BoundCosine(sight, normal);
+  const double least = cosine.least;
+  const double most = std::min(cosine.most, 0.0);
   const auto radicand = [ratio](double c) { return 1.0 - ratio * ratio * (1.0 - c * c); };
   if (!(least < 0.0) || !(radicand(least) > 0.0))
   {
@@ -132,12 +110,23 @@ TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, d
   const glm::dvec3 lowest = glm::max(direction - spread, glm::dvec3(-1.0));
   const glm::dvec3 highest = glm::min(direction + spread, glm::dvec3(1.0));
   TubeBounds bounds;
-  for (const glm::dvec3& corner : patch.corner)
+  for (int i = 0; i < count; ++i)
   {
-    bounds.Add(corner - glm::dvec3(bulge), lowest);
-    bounds.Add(corner + glm::dvec3(bulge), highest);
+    bounds.Add(points[i] - glm::dvec3(reach), lowest);
+    bounds.Add(points[i] + glm::dvec3(reach), highest);
   }
   return bounds;
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, double ratio)
+{
+  const double bulge = BoundBulge(patch);
+  const glm::dvec3 sights[3] = { patch.corner[0] - eye, patch.corner[1] - eye,
+    patch.corner[2] - eye };
+  const DirectionBox sight =
+    BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
+  return BoundRefractedRays(sight, BoundNormals(patch), ratio, patch.corner, 3, bulge);
 }
 
 }
