@@ -312,7 +312,8 @@ VolumeComparison::Moves VolumeComparison::measureMoves()
         Arena& arena = this->Arenas[i];
         const auto frame = [&](std::vector<FrameTime>& frames)
         {
-          lookAt(arena.Scene->renderer(), this->Grid->GetBounds(), angles[0] + 0.2 * round, elevation);
+          lookAt(
+            arena.Scene->renderer(), this->Grid->GetBounds(), angles[0] + 0.2 * round, elevation);
           const FrameTime time = this->timeFrame(arena);
           if (round > 0) // before it is the warm-up
           {

@@ -34,8 +34,8 @@ std::vector<NamedMembrane> makeMembranes(vtkUnstructuredGrid* grid)
   const double half = 2.5 * diagonal;
   const double top = 0.5 * (bounds[3] - bounds[2]) + 0.1 * diagonal;
   vtkNew<vtkTransform> toCenter;
-  toCenter->Translate(0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]),
-    0.5 * (bounds[4] + bounds[5]));
+  toCenter->Translate(
+    0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]), 0.5 * (bounds[4] + bounds[5]));
   const auto placed = [&toCenter](const test::MembraneCase& membrane)
   {
     vtkNew<vtkTransformPolyDataFilter> mover;

@@ -38,8 +38,8 @@ inline double RefractionRadicand(double cosine, double ratio)
 }
 
 /// Of the ray below.
-inline glm::dvec3 RefractionDirection(const glm::dvec3& sight, const glm::dvec3& normal,
-  double ratio, double cosine, double radicand)
+inline glm::dvec3 RefractionDirection(
+  const glm::dvec3& sight, const glm::dvec3& normal, double ratio, double cosine, double radicand)
 {
   const glm::dvec3 tangential = ratio * (sight - cosine * normal);
   const double root = radicand >= 0.0 ? std::sqrt(radicand) : -std::sqrt(-radicand);

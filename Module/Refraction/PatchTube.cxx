@@ -83,6 +83,24 @@ CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal)
 }
 
 //------------------------------------------------------------------------------
+TubeBounds BoundRays(
+  const DirectionBox& directions, const glm::dvec3* points, int count, double reach)
+{
+  TubeBounds bounds;
+  bounds.startLow = bounds.startHigh = points[0];
+  for (int i = 1; i < count; ++i)
+  {
+    bounds.startLow = glm::min(bounds.startLow, points[i]);
+    bounds.startHigh = glm::max(bounds.startHigh, points[i]);
+  }
+  bounds.startLow -= glm::dvec3(reach);
+  bounds.startHigh += glm::dvec3(reach);
+  bounds.directionLow = directions.middle - directions.half;
+  bounds.directionHigh = directions.middle + directions.half;
+  return bounds;
+}
+
+//------------------------------------------------------------------------------
 TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& normal, double ratio,
   const glm::dvec3* points, int count, double reach)
 {
@@ -109,13 +127,7 @@ TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& nor
   // The rays are unit vectors.
   const glm::dvec3 lowest = glm::max(direction - spread, glm::dvec3(-1.0));
   const glm::dvec3 highest = glm::min(direction + spread, glm::dvec3(1.0));
-  TubeBounds bounds;
-  for (int i = 0; i < count; ++i)
-  {
-    bounds.Add(points[i] - glm::dvec3(reach), lowest);
-    bounds.Add(points[i] + glm::dvec3(reach), highest);
-  }
-  return bounds;
+  return BoundRays({ 0.5 * (lowest + highest), 0.5 * (highest - lowest) }, points, count, reach);
 }
 
 //------------------------------------------------------------------------------

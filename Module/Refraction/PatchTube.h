@@ -34,6 +34,10 @@ struct CosineBounds
 };
 CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal);
 
+/// A tube around rays of these directions from within `reach` of the hull of `count` points.
+TubeBounds BoundRays(
+  const DirectionBox& directions, const glm::dvec3* points, int count, double reach);
+
 /**
  * A tube around every ray that Snell's law refracts within `reach` of the hull of `count` points,
  * for sight rays and normals of the boxes; else as below.

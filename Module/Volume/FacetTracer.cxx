@@ -51,12 +51,7 @@ bool MeshInSight::MayBeSeen(const DirectionBox& sight, DirectionBox normal,
     return true;
   }
   normal.middle = fromBehind ? -normal.middle : normal.middle;
-  TubeBounds toEye;
-  for (int i = 0; i < count; ++i)
-  {
-    toEye.Add(points[i] - glm::dvec3(reach), -sight.middle - sight.half);
-    toEye.Add(points[i] + glm::dvec3(reach), -sight.middle + sight.half);
-  }
+  const TubeBounds toEye = BoundRays({ -sight.middle, sight.half }, points, count, reach);
   const TubeBounds refracted = BoundRefractedRays(
     sight, normal, fromBehind ? 1.0 / this->Ratio : this->Ratio, points, count, reach);
   // Without valid bounds all are totally reflected.
@@ -76,7 +71,8 @@ FacetTracer::FacetTracer(const CurvedPatch& patch, const SightRays& rays, Instru
   this->NormalLength = std::sqrt(squared);
   this->Plane = { patch.corner[0], normal, glm::cross(v, normal) / squared,
     glm::cross(normal, u) / squared };
-  const double size = std::sqrt(std::max({ glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v) }));
+  const double size =
+    std::sqrt(std::max({ glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v) }));
   this->Scale = size / glm::length(rays.Direction[0]);
   // Barycentric coordinates change by 1 over an altitude.
   const double steepest = std::max({ glm::length(this->Plane.ByX), glm::length(this->Plane.ByY),
@@ -98,9 +94,11 @@ FacetTracer::FlatHits FacetTracer::MeetPlane(const CornerRays& rays) const
     const glm::dvec3& direction = rays.Directions[corner];
     const glm::dvec3 toCorner = this->Plane.Corner - rays.Starts[corner];
     const double along = glm::dot(this->Plane.Normal, direction);
-    const glm::dvec3 inPlane = glm::dot(this->Plane.Normal, toCorner) / along * direction - toCorner;
+    const glm::dvec3 inPlane =
+      glm::dot(this->Plane.Normal, toCorner) / along * direction - toCorner;
     hits.Places[corner] = this->Plane.Corner + inPlane;
-    hits.Coordinates[corner] = { glm::dot(inPlane, this->Plane.ByX), glm::dot(inPlane, this->Plane.ByY) };
+    hits.Coordinates[corner] = { glm::dot(inPlane, this->Plane.ByX),
+      glm::dot(inPlane, this->Plane.ByY) };
     hits.Along[corner] = std::fabs(along);
     front += along > 0.0 ? 1 : 0;
     least = std::min(least, hits.Along[corner]);
@@ -109,8 +107,8 @@ FacetTracer::FlatHits FacetTracer::MeetPlane(const CornerRays& rays) const
   hits.FromOneSide = front == 0 || front == 4;
   // Directions are affine in the pixel.
   hits.Slant = std::sqrt(longest) * this->NormalLength / least;
-  // As in SiftNear(), and once more what counts as the edge.
-  hits.Margin = this->Overhang * (1.0 + hits.Slant) + 2.0 * Border;
+  // Once more what counts as the edge.
+  hits.Margin = this->MarginOf(hits.Slant) + Border;
   return hits;
 }
 
@@ -148,8 +146,8 @@ DirectionBox FacetTracer::BoundNormalsOver(const glm::dvec2 (&b)[4], double marg
   const glm::dvec3 control[9] = { polar(b[0], b[0]), polar(b[1], b[1]), polar(b[2], b[2]),
     polar(b[3], b[3]), polar(b[0], b[1]), polar(b[1], b[2]), polar(b[2], b[3]), polar(b[3], b[0]),
     polar(b[0], b[2]) };
-  double slope = glm::length(patch.normal[1] - patch.normal[0]) +
-    glm::length(patch.normal[2] - patch.normal[0]);
+  double slope =
+    glm::length(patch.normal[1] - patch.normal[0]) + glm::length(patch.normal[2] - patch.normal[0]);
   double farthest = 1.0 + margin;
   for (const glm::dvec2& place : b)
   {
@@ -166,15 +164,9 @@ DirectionBox FacetTracer::BoundNormalsOver(const glm::dvec2 (&b)[4], double marg
 
 //------------------------------------------------------------------------------
 bool FacetTracer::Matters(
-  const FlatHits& hits, const CornerRays& rays, const MeshInSight& mesh, bool isAtBorder) const
+  const FlatHits& hits, const CornerRays& rays, const MeshInSight& mesh) const
 {
-  bool isInside = hits.FromOneSide;
-  for (const glm::dvec2& b : hits.Coordinates)
-  {
-    isInside = isInside && FindOutside(b).least > hits.Margin;
-  }
-  // Hidden ones are met as if a curved facet were larger.
-  if (!hits.FromOneSide || (isAtBorder && !this->IsFlat && !isInside))
+  if (!hits.FromOneSide)
   {
     return true;
   }
@@ -186,19 +178,14 @@ bool FacetTracer::Matters(
 }
 
 //------------------------------------------------------------------------------
-/**
- * Keeps rays that may meet the patch. A point of it lies within the bulge of a point of the facet;
- * the ray through it meets the facet's plane within bulge (1 + slant) of that. Hidden ones are met
- * as if the facet were so large: there is no gap to the curved ones about it.
- */
+/** Keeps rays that may meet the patch. */
 void FacetTracer::SiftNear(SightLanes& lanes) const
 {
   const int count = lanes.Count;
   lanes.Count = 0;
   for (int i = 0; i < count; ++i)
   {
-    const double margin = this->Overhang * (1.0 + lanes.Slant[i]) + Border;
-    if (FindOutside(glm::dvec2(lanes.X[i], lanes.Y[i])).least >= -margin)
+    if (lanes.Least[i] >= -this->MarginOf(lanes.Slant[i]))
     {
       lanes.Keep(lanes.Count++, i);
     }

@@ -52,15 +52,6 @@ struct MembraneHit
   double Depth = std::numeric_limits<double>::infinity();
   /** 0 where the ray does not matter. */
   glm::dvec3 Normal{ 0.0 };
-  /** Beside the facet of a patch that does not matter: counts if there is nothing else. */
-  bool IsBeside = false;
-
-  bool IsBetterThan(const MembraneHit& other) const
-  {
-    const bool isOnly = !(other.Depth < std::numeric_limits<double>::infinity());
-    return isOnly ||
-      (this->IsBeside == other.IsBeside ? this->Depth < other.Depth : other.IsBeside);
-  }
 };
 
 /** Cuts rays with one patch. */
@@ -88,16 +79,13 @@ public:
 
   /** Whether none of the rays meets the patch. */
   bool IsBeside(const FlatHits& hits) const;
-  /**
-   * Whether rays that meet the patch may come to the mesh, or must be met with the patch itself.
-   * @param isAtBorder  whether an edge of the patch is the membrane's.
-   */
-  bool Matters(
-    const FlatHits& hits, const CornerRays& rays, const MeshInSight& mesh, bool isAtBorder) const;
+  /** Whether rays that meet the patch may come to the mesh. */
+  bool Matters(const FlatHits& hits, const CornerRays& rays, const MeshInSight& mesh) const;
 
   /**
    * Where rays meet the patch; uses up the lanes.
-   * @param matters  else rays end on the flat facet: nothing of theirs is seen.
+   * @param matters  else nothing of theirs is seen: hits have no normal, and the depth of the
+   *                 facet's plane unless they are about its edges.
    * @param visit    called with the index of each ray that does, and the hit.
    */
   template <typename Visit>
@@ -106,8 +94,14 @@ public:
 private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
   void SiftNear(SightLanes& lanes) const;
+  /**
+   * In barycentric coordinates, between where a ray meets the plane and the place on the patch. A
+   * point of the patch lies within the bulge of a point of the facet; the ray through it meets the
+   * plane within bulge (1 + slant) of that.
+   */
+  double MarginOf(double slant) const { return this->Overhang * (1.0 + slant) + Border; }
   template <typename Visit>
-  void MeetCurved(SightLanes& lanes, const Visit& visit) const;
+  void MeetCurved(bool matters, SightLanes& lanes, const Visit& visit) const;
 
   /** A ray through an edge meets both of its patches, up to what Newton's method leaves. */
   static constexpr double Border = 1e-8;
@@ -135,23 +129,25 @@ void FacetTracer::Meet(bool matters, SightLanes& lanes, const Visit& visit) cons
 {
   meniscus::MeetPlane(this->Plane, this->Rays, this->Set, lanes);
   this->SiftNear(lanes);
-  if (matters && !this->IsFlat)
+  const int count = lanes.Count;
+  lanes.Count = 0;
+  for (int i = 0; i < count; ++i)
   {
-    this->MeetCurved(lanes, visit);
-    return;
-  }
-  for (int i = 0; i < lanes.Count; ++i)
-  {
+    if (!this->IsFlat && (matters || !(lanes.Least[i] > this->MarginOf(lanes.Slant[i]))))
+    {
+      lanes.Keep(lanes.Count++, i);
+      continue;
+    }
     const glm::dvec2 b(lanes.X[i], lanes.Y[i]);
-    const MembraneHit hit{ lanes.Depth[i], matters ? this->Patch.GetNormal(b) : glm::dvec3(0.0),
-      FindOutside(b).least < -Border };
-    visit(lanes.Index[i], hit);
+    visit(lanes.Index[i],
+      MembraneHit{ lanes.Depth[i], matters ? this->Patch.GetNormal(b) : glm::dvec3(0.0) });
   }
+  this->MeetCurved(matters, lanes, visit);
 }
 
 //------------------------------------------------------------------------------
 template <typename Visit>
-void FacetTracer::MeetCurved(SightLanes& lanes, const Visit& visit) const
+void FacetTracer::MeetCurved(bool matters, SightLanes& lanes, const Visit& visit) const
 {
   for (int i = 0; i < lanes.Count; ++i)
   {
@@ -171,13 +167,13 @@ void FacetTracer::MeetCurved(SightLanes& lanes, const Visit& visit) const
         if (FindOutside(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i])).least >= -Border)
         {
           const glm::dvec3 normal(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]);
-          visit(lanes.Index[i], MembraneHit{ lanes.Depth[i] + lanes.Behind[i], normal, false });
+          visit(lanes.Index[i],
+            MembraneHit{ lanes.Depth[i] + lanes.Behind[i], matters ? normal : glm::dvec3(0.0) });
         }
       }
       // What goes farther than a facet has left it.
       else if (std::fabs(lanes.PatchX[i] - lanes.X[i]) <= 1.0 &&
-        std::fabs(lanes.PatchY[i] - lanes.Y[i]) <= 1.0 &&
-        std::fabs(lanes.Behind[i]) <= this->Scale)
+        std::fabs(lanes.PatchY[i] - lanes.Y[i]) <= 1.0 && std::fabs(lanes.Behind[i]) <= this->Scale)
       {
         lanes.Keep(lanes.Count++, i);
       }

@@ -175,19 +175,23 @@ bool MembraneSight::PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const
 }
 
 //------------------------------------------------------------------------------
-/** Whether rays that meet the patch may come to the mesh, before it or behind it. */
-bool MembraneSight::MayShowMesh(const CurvedPatch& patch, double bulge) const
+/** Along the sight ray of a place. */
+glm::dvec3 MembraneSight::SightTo(const glm::dvec3& place) const
 {
   const bool isParallel =
     this->Rays.Direction[1] == glm::dvec3(0.0) && this->Rays.Direction[2] == glm::dvec3(0.0);
-  const glm::dvec3 eye = this->Rays.Start[0] + this->Of.EyeDepth * this->Rays.Direction[0];
-  glm::dvec3 sights[3];
-  for (int corner = 0; corner < 3; ++corner)
-  {
-    sights[corner] = isParallel ? this->Rays.Direction[0] : patch.corner[corner] - eye;
-  }
-  const DirectionBox sight = BoundDirections(
-    (sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, isParallel ? 0.0 : bulge);
+  return isParallel ? this->Rays.Direction[0]
+                    : place - this->Rays.Start[0] - this->Of.EyeDepth * this->Rays.Direction[0];
+}
+
+//------------------------------------------------------------------------------
+/** Whether rays that meet the patch may come to the mesh, before it or behind it. */
+bool MembraneSight::MayShowMesh(const CurvedPatch& patch, double bulge) const
+{
+  const glm::dvec3 sights[3] = { this->SightTo(patch.corner[0]), this->SightTo(patch.corner[1]),
+    this->SightTo(patch.corner[2]) };
+  const DirectionBox sight =
+    BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
   return this->Mesh.MayBeSeen(sight, BoundNormals(patch), patch.corner, 3, bulge);
 }
 
@@ -203,33 +207,38 @@ MembraneSight::SeenFacet MembraneSight::See(
     isAtBorder = isAtBorder || patches.GetNeighbour(facet, corner) == CurvedPatches::NoFacet;
   }
   const double bulge = BoundBulge(patch);
-  SeenFacet seen{ { 0, this->Of.Width, 0, this->Of.Height }, true, isAtBorder, false,
-    glm::dvec3(0.0), 0.0 };
+  const double facing = glm::dot(this->SightTo(patch.corner[0]),
+    glm::cross(patch.corner[1] - patch.corner[0], patch.corner[2] - patch.corner[0]));
+  SeenFacet seen{ { 0, this->Of.Width, 0, this->Of.Height }, true, isAtBorder,
+    (facing > 0.0 ? 1 : 0) - (facing < 0.0 ? 1 : 0), false, glm::dvec3(0.0), 0.0 };
   // What a ball of the world may be in the frame.
   glm::dvec3 reach(0.0);
   for (int axis = 0; axis < 3; ++axis)
   {
     reach[axis] = bulge * glm::length(glm::row(this->WorldToFrame, axis));
   }
-  glm::dvec2 lower(std::numeric_limits<double>::max());
-  glm::dvec2 upper(-std::numeric_limits<double>::max());
-  int behind = 0;
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
   for (const glm::dvec3& corner : patch.corner)
   {
     const glm::dvec3 place =
       this->WorldToFrame * (corner + (surface.GetOrigin() - this->Of.Center));
-    behind += place.z + reach.z <= this->Of.EyeDepth ? 1 : 0;
-    seen.Unbounded = seen.Unbounded || !(place.z - reach.z > this->Of.EyeDepth);
-    for (int c = 0; c < (bulge > 0.0 ? 8 : 1) && !seen.Unbounded; ++c)
-    {
-      const glm::dvec3 sign(c & 1 ? 1.0 : -1.0, c & 2 ? 1.0 : -1.0, c & 4 ? 1.0 : -1.0);
-      glm::dvec2 pixel;
-      seen.Unbounded = !this->PixelOf(place + sign * reach, pixel);
-      lower = glm::min(lower, pixel);
-      upper = glm::max(upper, pixel);
-    }
+    low = glm::min(low, place - reach);
+    high = glm::max(high, place + reach);
   }
-  if (behind == 3)
+  const bool isBehind = high.z <= this->Of.EyeDepth;
+  seen.Unbounded = !(low.z > this->Of.EyeDepth);
+  glm::dvec2 lower(std::numeric_limits<double>::max());
+  glm::dvec2 upper(std::numeric_limits<double>::lowest());
+  for (int c = 0; c < 8 && !seen.Unbounded; ++c)
+  {
+    glm::dvec2 pixel;
+    seen.Unbounded = !this->PixelOf(
+      glm::dvec3((c & 1 ? low : high).x, (c & 2 ? low : high).y, (c & 4 ? low : high).z), pixel);
+    lower = glm::min(lower, pixel);
+    upper = glm::max(upper, pixel);
+  }
+  if (isBehind)
   {
     seen.Pixels = { 0, 0, 0, 0 };
     return seen;
@@ -244,7 +253,7 @@ MembraneSight::SeenFacet MembraneSight::See(
     seen.Radius *= SightMargin;
     return seen;
   }
-  seen.Matters = isAtBorder || this->MayShowMesh(patch, bulge);
+  seen.Matters = this->MayShowMesh(patch, bulge);
   const auto clamped = [](double value, int size)
   { return static_cast<int>(std::min(std::max(value, 0.0), static_cast<double>(size))); };
   const glm::dvec2 center(0.5 * this->Of.Width, 0.5 * this->Of.Height);
@@ -352,13 +361,11 @@ void MembraneSight::TraceFacet(const CurvedPatch& patch, const SeenFacet& seen,
     {
       const Box block{ left, std::min(left + step, box.Right), bottom,
         std::min(bottom + step, box.Top) };
-      const CornerRays corners =
-        rays.CornersOf(block.Left, block.Bottom, block.Right, block.Top);
+      const CornerRays corners = rays.CornersOf(block.Left, block.Bottom, block.Right, block.Top);
       const FacetTracer::FlatHits flat = tracer.MeetPlane(corners);
       if (!tracer.IsBeside(flat))
       {
-        const bool matters = seen.Matters &&
-          (isSmall || tracer.Matters(flat, corners, this->Mesh, seen.IsAtBorder));
+        const bool matters = seen.Matters && (isSmall || tracer.Matters(flat, corners, this->Mesh));
         this->TraceBox(tracer, flat, block, matters, rays, hits);
       }
     }
@@ -376,7 +383,7 @@ void MembraneSight::TraceBox(const FacetTracer& tracer, const FacetTracer::FlatH
       {
         hits.resize(RaysOfTile);
         MembraneHit& nearest = hits[static_cast<std::size_t>(index)];
-        nearest = hit.Depth > this->Of.EyeDepth && hit.IsBetterThan(nearest) ? hit : nearest;
+        nearest = hit.Depth > this->Of.EyeDepth && hit.Depth < nearest.Depth ? hit : nearest;
       });
     lanes.Count = 0;
   };
@@ -399,10 +406,45 @@ void MembraneSight::TraceBox(const FacetTracer& tracer, const FacetTracer::FlatH
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Whether all rays of a tile end at the membrane before they come to the mesh. Facets seen from one
+ * side, without an edge of the membrane among them, cover the whole tile if they cover any of it.
+ */
+bool MembraneSight::HidesTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets,
+  int tile, const TileRays& rays) const
+{
+  const auto first = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile)]);
+  const auto last = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile) + 1]);
+  int side = 0;
+  for (std::size_t slot = first; slot < last; ++slot)
+  {
+    const SeenFacet& seen = facets[static_cast<std::size_t>(this->FacetOfSlot[slot])];
+    side = slot == first ? seen.Side : side;
+    if (seen.Matters || seen.IsAtBorder || seen.Unbounded || seen.Side == 0 || seen.Side != side)
+    {
+      return false;
+    }
+  }
+  std::vector<MembraneHit> hits;
+  for (std::size_t slot = first; slot < last && hits.empty(); ++slot)
+  {
+    const std::int32_t facet = this->FacetOfSlot[slot];
+    this->TraceFacet(patches.GetPatch(facet), facets[static_cast<std::size_t>(facet)], rays, hits);
+  }
+  return !hits.empty();
+}
+
+//------------------------------------------------------------------------------
 void MembraneSight::TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets,
   int tile, glm::dvec3& directions)
 {
   const TileRays tileRays(*this, tile);
+  if (this->HidesTile(patches, facets, tile, tileRays))
+  {
+    this->Tiles[static_cast<std::size_t>(tile)].assign(
+      RaysOfTile, BentRay{ this->Of.EyeDepth, glm::dvec3(0.0) });
+    return;
+  }
   std::vector<MembraneHit> hits;
   const auto first = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile)]);
   const auto last = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile) + 1]);
@@ -419,7 +461,7 @@ void MembraneSight::TraceTile(const CurvedPatches& patches, const std::vector<Se
 }
 
 //------------------------------------------------------------------------------
-/** @param directions  the refracted unit directions are added, in the world. */
+/** @param directions  the steps along the refracted rays are added, in the world. */
 void MembraneSight::BendTile(const TileRays& tile, const std::vector<MembraneHit>& hits,
   std::vector<BentRay>& rays, glm::dvec3& directions) const
 {
@@ -432,7 +474,7 @@ void MembraneSight::BendTile(const TileRays& tile, const std::vector<MembraneHit
       {
         const glm::dvec3 step(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]);
         rays[static_cast<std::size_t>(lanes.Index[i])].Step = this->WorldToFrame * step;
-        directions += glm::normalize(step);
+        directions += step;
       }
     }
     lanes.Count = 0;

@@ -112,6 +112,8 @@ private:
     bool Matters;
     /** Of the membrane. */
     bool IsAtBorder;
+    /** 1 or -1: the side of the facet that is seen; 0 on edge. */
+    int Side;
     /** Whether nothing but the whole image bounds it; then about it: */
     bool Unbounded;
     glm::dvec3 Center;
@@ -121,9 +123,12 @@ private:
 
   void PrepareRays(const Membrane& surface);
   SeenFacet See(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const;
+  glm::dvec3 SightTo(const glm::dvec3& place) const;
   bool MayShowMesh(const CurvedPatch& patch, double bulge) const;
   bool PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const;
   void SortFacets(const std::vector<SeenFacet>& facets);
+  bool HidesTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
+    const TileRays& rays) const;
   void TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
     glm::dvec3& directions);
   void TraceFacet(const CurvedPatch& patch, const SeenFacet& seen, const TileRays& rays,

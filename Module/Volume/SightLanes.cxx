@@ -38,8 +38,11 @@ struct PlaneKernel
     const double depth = glm::dot(this->Plane.Normal, toCorner) / along;
     const glm::dvec3 inPlane = depth * direction - toCorner;
     lanes.Depth[i] = depth;
-    lanes.X[i] = glm::dot(inPlane, this->Plane.ByX);
-    lanes.Y[i] = glm::dot(inPlane, this->Plane.ByY);
+    const double x = glm::dot(inPlane, this->Plane.ByX);
+    const double y = glm::dot(inPlane, this->Plane.ByY);
+    lanes.X[i] = x;
+    lanes.Y[i] = y;
+    lanes.Least[i] = std::min(std::min(x, y), 1.0 - x - y);
     lanes.Slant[i] = this->NormalLength * glm::length(direction) / std::fabs(along);
   }
 };
@@ -63,8 +66,7 @@ struct PatchKernel
     const double inverse = 1.0 / glm::dot(jet.positionBy[0], byX);
     const double x = inverse * glm::dot(rest, byX);
     const double y = inverse * glm::dot(jet.positionBy[0], glm::cross(rest, along));
-    const double l =
-      -inverse * glm::dot(rest, glm::cross(jet.positionBy[0], jet.positionBy[1]));
+    const double l = -inverse * glm::dot(rest, glm::cross(jet.positionBy[0], jet.positionBy[1]));
     lanes.PatchX[i] += x;
     lanes.PatchY[i] += y;
     lanes.Behind[i] += l * this->Scale;
@@ -172,8 +174,8 @@ void SightLanes::Keep(int to, int from)
     return;
   }
   this->Index[to] = this->Index[from];
-  for (double* of : { this->Column, this->Row, this->Depth, this->X, this->Y, this->Slant,
-         this->PatchX, this->PatchY, this->Behind })
+  for (double* of : { this->Column, this->Row, this->Depth, this->X, this->Y, this->Least,
+         this->Slant, this->PatchX, this->PatchY, this->Behind })
   {
     of[to] = of[from];
   }

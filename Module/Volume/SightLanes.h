@@ -60,6 +60,8 @@ struct SightLanes
   double Depth[Size];
   double X[Size];
   double Y[Size];
+  /** Of the three coordinates. */
+  double Least[Size];
   /** The ray's length over that along the plane's normal. */
   double Slant[Size];
   /** Of the place on the patch: coordinates as above, and the depth behind that of the plane. */
@@ -78,7 +80,7 @@ struct SightLanes
   void Keep(int to, int from);
 };
 
-/** Depth, X, Y and Slant. @pre HasInstructionSet(set) */
+/** Depth, X, Y, Least and Slant. @pre HasInstructionSet(set) */
 void MeetPlane(
   const FacetPlane& plane, const SightRays& rays, InstructionSet set, SightLanes& lanes);
 
