@@ -4,6 +4,9 @@
 
 #include <glm/common.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace meniscus
@@ -14,18 +17,42 @@ namespace
 // The largest of |b_i b_j (b_i - b_j)| is 1 / (6 sqrt 3), of b_i b_j 1 / 4.
 constexpr double LargestAsymmetric = 0.0962250448649377;
 
+// The normal is a Bezier triangle of second degree.
+std::array<glm::dvec3, 6> NormalControls(const CurvedPatch& patch)
+{
+  std::array<glm::dvec3, 6> control;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    control[k] = patch.normal[k];
+    control[k + 3] = 0.5 * (patch.normal[(k + 1) % 3] + patch.normal[(k + 2) % 3] + patch.bend[k]);
+  }
+  return control;
+}
+
 }
 
 //------------------------------------------------------------------------------
-// 2 |q| / (1 + |n|) with the shortest |n| that counts.
+// 2 |q| / (1 + |n|). The sum of b_i b_j is 1 / 3 at most, |n| no less than the least of its control
+// points along one direction.
 double BoundBulge(const CurvedPatch& patch)
 {
+  double sum = 0.0;
+  double largest = 0.0;
   double q = 0.0;
   for (int k = 0; k < 3; ++k)
   {
-    q += 0.25 * std::fabs(patch.symmetric[k]) + LargestAsymmetric * std::fabs(patch.asymmetric[k]);
+    sum += std::fabs(patch.symmetric[k]);
+    largest = std::max(largest, std::fabs(patch.symmetric[k]));
+    q += LargestAsymmetric * std::fabs(patch.asymmetric[k]);
   }
-  return 2.0 * q / (1.0 + CurvedPatch::ShortestNormal);
+  q += std::min(0.25 * sum, largest / 3.0);
+  const glm::dvec3 along = glm::normalize(patch.normal[0] + patch.normal[1] + patch.normal[2]);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& control : NormalControls(patch))
+  {
+    shortest = std::min(shortest, glm::dot(control, along));
+  }
+  return 2.0 * q / (1.0 + std::max(CurvedPatch::ShortestNormal, shortest));
 }
 
 //------------------------------------------------------------------------------
@@ -53,23 +80,18 @@ DirectionBox BoundDirections(
 }
 
 //------------------------------------------------------------------------------
-// The normal is a Bezier triangle of second degree: inside the hull of its six control points.
+// Inside the hull of the control points.
 DirectionBox BoundNormals(const CurvedPatch& patch)
 {
-  glm::dvec3 control[6];
+  const std::array<glm::dvec3, 6> control = NormalControls(patch);
   glm::dvec3 low(std::numeric_limits<double>::max());
   glm::dvec3 high(std::numeric_limits<double>::lowest());
-  for (int k = 0; k < 3; ++k)
-  {
-    control[k] = patch.normal[k];
-    control[k + 3] = 0.5 * (patch.normal[(k + 1) % 3] + patch.normal[(k + 2) % 3] + patch.bend[k]);
-  }
   for (const glm::dvec3& c : control)
   {
     low = glm::min(low, c);
     high = glm::max(high, c);
   }
-  return BoundDirections(0.5 * (low + high), control, 6, 0.0);
+  return BoundDirections(0.5 * (low + high), control.data(), 6, 0.0);
 }
 
 //------------------------------------------------------------------------------
