@@ -200,7 +200,7 @@ TEST(RefractedLight, CausticsOfWavesAreThoseOfPhotons)
       signal += expected * expected;
     }
     EXPECT_NEAR(sum / total, 1.0, 5e-4) << depth;
-    EXPECT_LT(std::sqrt(squares / signal), 0.02) << depth;
+    EXPECT_LT(std::sqrt(squares / signal), 0.005) << depth;
     RecordProperty(
       "relative_rms_" + std::to_string(static_cast<int>(depth)), std::to_string(std::sqrt(squares / signal)));
   }
