@@ -65,7 +65,8 @@ bool MembraneSight::View::operator==(const View& o) const
   return a.RowX == b.RowX && a.RowY == b.RowY && a.RowDepth == b.RowDepth && a.Origin == b.Origin &&
     a.Slope == b.Slope && a.ViewToWorld == b.ViewToWorld && this->Width == o.Width &&
     this->Height == o.Height && this->Center == o.Center && this->EyeDepth == o.EyeDepth &&
-    this->Exterior == o.Exterior && this->Interior == o.Interior;
+    this->Exterior == o.Exterior && this->Interior == o.Interior &&
+    this->Mesh.Center == o.Mesh.Center && this->Mesh.HalfEdges == o.Mesh.HalfEdges;
 }
 
 /** The rays of a tile, relative to the membrane's origin. */
