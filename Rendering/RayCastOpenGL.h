@@ -6,6 +6,7 @@
 #include "Volume/RayFrame.h"
 #include "Volume/RayStatistics.h"
 
+#include "OpenGLColorCopy.h"
 #include "OpenGLComputeProgram.h"
 #include "OpenGLDepthCopy.h"
 #include "OpenGLTables.h"
@@ -40,6 +41,8 @@ struct RayCastOutput
   /** Hardware selection: a value where the image is visible, in place of its colour. */
   bool Selecting = false;
   glm::vec3 SelectionValue{ 0.0f };
+  /** Added to the colour of what is not transparent. */
+  float ColorBias = 0.0f;
 };
 
 /** How rays bend at a membrane. */
@@ -143,6 +146,7 @@ private:
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   OpenGLTables Tables;
   OpenGLDepthCopy Depth;
+  OpenGLColorCopy Under;
   std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
   /** By RayCastShaderOptions(). */
   std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
