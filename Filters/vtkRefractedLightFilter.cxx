@@ -69,8 +69,7 @@ glm::dvec3 AreaOf(vtkIdType size, const vtkIdType* points, bool isStrip, const P
     const vtkIdType first = isStrip ? i - 2 : 0;
     const glm::dvec3 origin = place(points[first]);
     const double sign = isStrip && i % 2 == 1 ? -1.0 : 1.0;
-    sum += 0.5 * sign *
-      glm::cross(place(points[i - 1]) - origin, place(points[i]) - origin);
+    sum += 0.5 * sign * glm::cross(place(points[i - 1]) - origin, place(points[i]) - origin);
   }
   return sum;
 }
@@ -103,11 +102,10 @@ std::vector<double> GatherFlux(vtkPolyData* images, const glm::dvec3& light, vtk
       for (vtkIdType i = 0; i < size; ++i)
       {
         middle += TupleOf(sights, points[i]) / static_cast<double>(size);
-        transmitted +=
-          (1.0 - reflectance->GetComponent(points[i], 0)) / static_cast<double>(size);
+        transmitted += (1.0 - reflectance->GetComponent(points[i], 0)) / static_cast<double>(size);
       }
-      const glm::dvec3 area = AreaOf(
-        size, points, isStrip, [sights](vtkIdType point) { return TupleOf(sights, point); });
+      const glm::dvec3 area =
+        AreaOf(size, points, isStrip, [sights](vtkIdType point) { return TupleOf(sights, point); });
       const double seen = std::fabs(glm::dot(area, glm::normalize(middle - light)));
       const auto source = static_cast<vtkIdType>(sources->GetComponent(cell, 0));
       if (source >= 0 && source < cells && std::isfinite(seen))
@@ -154,8 +152,7 @@ void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const g
         return;
       }
       const bool turnedAway = light && !(glm::dot(area, *light - place(ids[0])) > 0.0);
-      const double irradiance =
-        turnedAway ? 0.0 : flux[static_cast<std::size_t>(cell)] / length;
+      const double irradiance = turnedAway ? 0.0 : flux[static_cast<std::size_t>(cell)] / length;
       ofCells->SetValue(cell, static_cast<float>(irradiance));
       for (vtkIdType i = 0; i < size; ++i)
       {
@@ -268,9 +265,9 @@ bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkPolyData* membra
   }
   if (!std::isfinite(light.x) || !std::isfinite(light.y) || !std::isfinite(light.z))
   {
-    vtkErrorMacro("LightPosition (" << this->LightPosition[0] << ", " << this->LightPosition[1]
-                                    << ", " << this->LightPosition[2]
-                                    << ") is no place, or no direction, of a light; no irradiance.");
+    vtkErrorMacro("LightPosition ("
+      << this->LightPosition[0] << ", " << this->LightPosition[1] << ", " << this->LightPosition[2]
+      << ") is no place, or no direction, of a light; no irradiance.");
     return false;
   }
   this->View->SetEyePosition(light.x, light.y, light.z);

@@ -21,8 +21,8 @@
  * A the cell's area, A' that of the part of the membrane that its light passes, as the light sees
  * it, F Fresnel's reflectance there (Eq. 2.6 of the thesis that Documentation/refraction.md
  * retells). With the light in place of the eye the parts are the sight points of the cell's images,
- * which vtkRefractedGeometryFilter finds; where the light is folded a cell has several, and they add
- * up. So what the cells get together is what the membrane lets through, whatever their size. A
+ * which vtkRefractedGeometryFilter finds; where the light is folded a cell has several, and they
+ * add up. So what the cells get together is what the membrane lets through, whatever their size. A
  * point has the mean of its cells, by area.
  *
  * Lines and vertices get 0, like what the light does not reach through the membrane.
@@ -51,9 +51,9 @@ public:
 
   ///@{
   /**
-   * Set/Get where the light is, in world coordinates, if it is positional; else the direction to it.
-   * Finite and, as a direction, not zero; anything else is an error when the filter runs. Default is
-   * (0, 0, 1).
+   * Set/Get where the light is, in world coordinates, if it is positional; else the direction to
+   * it. Finite and, as a direction, not zero; anything else is an error when the filter runs.
+   * Default is (0, 0, 1).
    */
   vtkSetVector3Macro(LightPosition, double);
   vtkGetVector3Macro(LightPosition, double);

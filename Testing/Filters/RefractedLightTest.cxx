@@ -105,9 +105,7 @@ std::size_t BinOf(vtkPolyData* grid, vtkIdType cell, int cells, double size)
   double bounds[6];
   grid->GetCellBounds(cell, bounds);
   const auto at = [=](double low, double high)
-  {
-    return static_cast<std::size_t>((0.5 * (low + high) / size + 0.5) * cells);
-  };
+  { return static_cast<std::size_t>((0.5 * (low + high) / size + 0.5) * cells); };
   return at(bounds[4], bounds[5]) * static_cast<std::size_t>(cells) + at(bounds[0], bounds[1]);
 }
 
@@ -166,8 +164,8 @@ TEST(RefractedLight, ALampAboveFlatWater)
     const double slope = (radius(low + Small) - radius(low - Small)) / (2.0 * Small);
     const double onWater = Height * std::tan(low);
     const double waterSlope = Height / (std::cos(low) * std::cos(low));
-    const double expected = transmittance(std::cos(low)) * std::cos(low) * onWater * waterSlope /
-      (r * slope);
+    const double expected =
+      transmittance(std::cos(low)) * std::cos(low) * onWater * waterSlope / (r * slope);
     largest = std::max(largest, std::fabs(OfPoints(filter)->GetComponent(i, 0) - expected));
   }
   EXPECT_LT(largest, 1e-3);
@@ -201,8 +199,8 @@ TEST(RefractedLight, CausticsOfWavesAreThoseOfPhotons)
     }
     EXPECT_NEAR(sum / total, 1.0, 5e-4) << depth;
     EXPECT_LT(std::sqrt(squares / signal), 0.005) << depth;
-    RecordProperty(
-      "relative_rms_" + std::to_string(static_cast<int>(depth)), std::to_string(std::sqrt(squares / signal)));
+    RecordProperty("relative_rms_" + std::to_string(static_cast<int>(depth)),
+      std::to_string(std::sqrt(squares / signal)));
   }
 }
 
