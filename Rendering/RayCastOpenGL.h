@@ -14,6 +14,7 @@
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -52,6 +53,10 @@ struct RayCastBending
   /** Of the frame, in world coordinates, and depth of the eye in it. */
   glm::dvec3 Center{ 0.0 };
   double EyeDepth = 0.0;
+  /** Whether a ray may begin within the mesh behind it; for optics with Bending, as the next. */
+  bool BeginsInside = false;
+  /** Of the rays behind it and of the boundary that they enter by. */
+  std::array<std::int64_t, 2> Version{ 0, 0 };
 };
 
 /** What a frame needs beside the tables. */
@@ -65,7 +70,6 @@ struct RayCastFrame
     return std::max(1.0 - this->EarlyTerminationOpacity, 1.0e-30);
   }
   RayCastOptics Optics;
-  /** Native only. */
   RayCastBending Bending;
   RayCastOutput Output;
   /** By a compute shader, not a fragment shader. */
@@ -131,7 +135,9 @@ private:
   std::string Resize(int width, int height);
   template <typename Function>
   std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
-  std::string ListEntries(const RayCastFrame& frame);
+  std::string AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles);
+  std::string ListEntries(const RayCastFrame& frame, bool bent);
+  std::string ListBentEntries(const RayCastFrame& frame);
   std::string CastRays(const RayCastFrame& frame);
   std::string DispatchRays(const RayCastFrame& frame);
   template <typename Function>
@@ -144,6 +150,7 @@ private:
   OpenGLTables Tables;
   OpenGLDepthCopy Depth;
   std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
+  std::unique_ptr<vtkOpenGLQuadHelper> BentTileLister;
   /** By RayCastShaderOptions(). */
   std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
   std::map<std::string, vtkSmartPointer<OpenGLComputeProgram>> ComputeCasters;
@@ -152,6 +159,9 @@ private:
   vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;
   vtkSmartPointer<vtkOpenGLFramebufferObject> ImageTarget;
   vtkSmartPointer<vtkTextureObject> EntryTiles;
+  /** The same for the rays behind a membrane, and RayCastBending::Version of what they list. */
+  vtkSmartPointer<vtkTextureObject> BentTiles;
+  std::array<std::int64_t, 2> BentTilesOf{ 0, 0 };
   vtkSmartPointer<vtkTextureObject> Image;
   vtkSmartPointer<vtkTextureObject> StatisticsImage;
   int Size[2] = { 0, 0 };

@@ -57,6 +57,9 @@ public:
 private:
   void UpdateGradients();
   std::string Upload(const RayCastOptics& optics);
+  /** Whether rays of the image bend. */
+  bool Trace(const RayCastFrame& frame, const int (&imageSize)[2]);
+  std::string UploadBentLines(const int (&imageSize)[2]);
   void UpdateNative();
 
   std::vector<glm::vec3> Gradients;
@@ -75,6 +78,7 @@ private:
   std::int64_t UploadedComponents = 0;
   std::int64_t UploadedProperty = 0;
   std::int64_t UploadedPreIntegration = 0;
+  std::int64_t UploadedSight = 0;
   /** The same of the native backend's. */
   std::int64_t NativeProperty = 0;
 };

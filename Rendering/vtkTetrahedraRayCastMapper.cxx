@@ -44,7 +44,6 @@ public:
   bool WarnedComponents = false;
   bool WarnedCompute = false;
   bool WarnedTableSize = false;
-  bool WarnedMembrane = false;
   /** Of the last frame, for what is in the world. */
   glm::dmat4 WorldToModel{ 1.0 };
 };
@@ -325,15 +324,8 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
 }
 
 //------------------------------------------------------------------------------
-int vtkTetrahedraRayCastMapper::ChooseBackend(const meniscus::RayCastFrame& frame)
+int vtkTetrahedraRayCastMapper::ChooseBackend()
 {
-  if (frame.Bending.Wanted)
-  {
-    this->WarnOnce(this->Backend == OPENGL || this->Backend == COMPUTE,
-      this->Internals->WarnedMembrane,
-      "Rays bend at a membrane in the native backend only; rendering with that.");
-    return NATIVE;
-  }
   if (this->Backend == AUTOMATIC)
   {
     return this->Internals->OpenGL.IsSoftware() ? NATIVE : OPENGL;
@@ -476,7 +468,7 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   int backend = OPENGL;
   if (error.empty())
   {
-    backend = this->ChooseBackend(frame);
+    backend = this->ChooseBackend();
     if (backend != NATIVE && this->FallsBackToNative(error))
     {
       backend = NATIVE;

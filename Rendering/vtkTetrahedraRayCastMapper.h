@@ -435,7 +435,7 @@ private:
   bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
-  int ChooseBackend(const meniscus::RayCastFrame& frame);
+  int ChooseBackend();
   bool FallsBackToNative(std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);

@@ -6,11 +6,15 @@
 //
 // Lists, for each tile of the image, the boundary faces by which a ray of the tile may enter the
 // mesh: up to 32 faces in 8 targets, filled up with -1. The list of a tile with more begins with -2.
-// Works with the tile's central ray, in its grid units, and bounds the difference to the others.
+// Works with the tile's central ray, in its grid units, and bounds the difference to the others. With
+// BENDING the rays are those behind the membrane; the list of a tile where these are of several frames
+// begins with -2, too.
 
 in vec2 texCoord;
 
 //VTK::Output::Dec
+
+//VTK::TetrahedraOptions::Dec
 
 //VTK::TetrahedraRays::Dec
 
@@ -60,7 +64,44 @@ bool mayEnter(int index)
     areas.x + areas.y + areas.z + faceAreaReach(p, q, r) >= 0.0;
 }
 
-void main()
+// Sets up the central ray; false if there is none, yields whether there is one for all.
+#if BENDING
+bool setUpTile(out bool alike)
+{
+  ivec2 corner = ivec2(floor(texCoord * tileCount) * tileSize);
+  ivec2 size = ivec2(textureSize(bentLines, 0).x / 2, textureSize(bentLines, 0).y);
+  // Origin and slope.
+  vec4 least = vec4(1.0e+30);
+  vec4 most = vec4(-1.0e+30);
+  int frame = -1;
+  alike = true;
+  for (int i = 0; i < int(tileSize * tileSize); ++i)
+  {
+    ivec2 pixel = min(corner + ivec2(i % int(tileSize), i / int(tileSize)), size - 1);
+    vec4 place = texelFetch(bentLines, ivec2(2 * pixel.x + 1, pixel.y), 0);
+    if (place.z > 0.0)
+    {
+      vec4 line = texelFetch(bentLines, ivec2(2 * pixel.x, pixel.y), 0);
+      least = min(least, line);
+      most = max(most, line);
+      alike = alike && (frame < 0 || frame == int(place.w));
+      frame = int(place.w);
+    }
+  }
+  if (frame < 0)
+  {
+    return false;
+  }
+  vec4 middle = 0.5 * (least + most);
+  setUpBentRay(frame, middle.xy, middle.zw, vec2(0.0));
+  // The lines are those of the pixels' centres: there is no room between for rounding to the grid.
+  vec4 spread = 0.5 * (most - least);
+  reach = spread.xy * gridScale + vec2(BOX_MARGIN);
+  reachPerDepth = spread.zw * gridScale;
+  return true;
+}
+#else
+bool setUpTile(out bool alike)
 {
   vec2 pixel = (floor(texCoord * tileCount) + vec2(0.5)) * tileSize - imageCenter;
   setUpRay(pixel, vec2(0.0));
@@ -68,15 +109,24 @@ void main()
   vec2 slopeReach = 0.5 * tileSize * (abs(slopePerColumn) + abs(slopePerRow));
   reach = originReach * gridScale;
   reachPerDepth = slopeReach * gridScale;
-  bool nearMesh = all(lessThanEqual(
-    abs(rayOrigin), vec2(GRID_RADIUS + BOX_MARGIN) + reach + 2.0 * reachPerDepth));
+  alike = true;
+  return true;
+}
+#endif
+
+void main()
+{
+  bool alike;
+  bool nearMesh = setUpTile(alike) && alike &&
+    all(lessThanEqual(
+      abs(rayOrigin), vec2(GRID_RADIUS + BOX_MARGIN) + reach + 2.0 * reachPerDepth));
 
   vec4 list[8];
   for (int i = 0; i < 8; ++i)
   {
     list[i] = vec4(-1.0);
   }
-  int count = 0;
+  int count = alike ? 0 : CAPACITY + 1;
   int node = nearMesh ? 0 : numberOfNodes;
   while (node < numberOfNodes && count <= CAPACITY)
   {

@@ -130,8 +130,7 @@ TEST(TetrahedraRayCastMembrane, ThroughAPlane)
       MembraneTest test(makePlaneCase(1.3, 3.0, 3), grid, kind);
       test.lookAtBlock(30.0, elevation);
       test.expectComposite("plane from " + std::to_string(elevation));
-      EXPECT_EQ(
-        test.Scene.rayCaster()->GetActiveBackend(), int(vtkTetrahedraRayCastMapper::NATIVE));
+      EXPECT_EQ(test.Scene.rayCaster()->GetActiveBackend(), backendUnderTest());
     }
   }
 }
