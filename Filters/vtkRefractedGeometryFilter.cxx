@@ -303,6 +303,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
     block.vertices.clear();
     block.images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
     block.images->SetPoints(block.points.data(), count, mayCross);
+    this->Scene.GetCurved().PrepareField();
     block.images->PrepareUnique(count, meniscus::FacetLoop);
   }
   std::vector<bool> known(count);

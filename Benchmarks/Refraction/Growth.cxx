@@ -124,6 +124,7 @@ void measureCurved(
     timeMedian(
       [&]
       {
+        geometry.PrepareField();
         ObjectImages object(geometry);
         object.SetPoints(points.data(), points.size() / 3, false);
         object.PrepareUnique(points.size() / 3, SerialLoop);

@@ -122,19 +122,32 @@ void CurvedGeometry::FindAxis()
   // Normals of a closed membrane cancel out.
   this->Axis = length > 0.0 && !this->Closed ? sum / length : glm::dvec3(0.0, 0.0, 1.0);
   this->Frame = HeightFrame(this->Axis);
-  this->ConvexField = !this->Closed && IsConvexField(this->Surface, this->Patches, this->Frame);
+  this->FieldReady = false;
+  this->ConvexField = false;
+  this->LargestBulge = 0.0;
   this->Lowest = std::numeric_limits<double>::max();
   this->Highest = std::numeric_limits<double>::lowest();
   for (std::size_t i = 0; i < this->Surface.GetFacets().size(); ++i)
   {
     const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
     const double bulge = BoundBulge(patch);
+    this->LargestBulge = std::max(this->LargestBulge, bulge);
     for (const glm::dvec3& corner : patch.corner)
     {
       const double height = glm::dot(this->Axis, corner);
       this->Lowest = std::min(this->Lowest, height - bulge);
       this->Highest = std::max(this->Highest, height + bulge);
     }
+  }
+}
+
+//------------------------------------------------------------------------------
+void CurvedGeometry::PrepareField()
+{
+  if (!this->FieldReady)
+  {
+    this->ConvexField = !this->Closed && IsConvexField(this->Surface, this->Patches, this->Frame);
+    this->FieldReady = true;
   }
 }
 

@@ -81,10 +81,17 @@ public:
   /// One image of a point, as Solve finds it after the points that `memory` has seen.
   VirtualVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
 
-  /// The directions that UniqueImages takes, along the mean of the membrane's normals, and whether
-  /// the membrane is a convex field along them.
+  ///@{
+  /**
+   * The directions that UniqueImages takes, along the mean of the membrane's normals, and whether
+   * the membrane is a convex field along them, which PrepareField finds out once per shape.
+   */
+  void PrepareField();
   const HeightFrame& GetFrame() const { return this->Frame; }
   bool HasConvexField() const { return this->ConvexField; }
+  ///@}
+  /// No patch is farther than this from its flat facet.
+  double GetLargestBulge() const { return this->LargestBulge; }
 
   /// The image of a point that continues a known image of a point nearby, or two of points on both
   /// sides; NoImage if Newton's method does not get there.
@@ -176,7 +183,9 @@ private:
   bool ColumnsReady = false;
   glm::dvec3 Axis{ 0.0 };
   HeightFrame Frame;
+  bool FieldReady = false;
   bool ConvexField = false;
+  double LargestBulge = 0.0;
   double Lowest = 0.0;
   double Highest = 0.0;
   bool Closed = false;

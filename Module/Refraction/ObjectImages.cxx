@@ -69,7 +69,8 @@ void ObjectImages::PrepareUnique(std::size_t wanted, const RangeLoop& loop)
       (std::fabs(low) + std::fabs(high) + std::fabs(origin) +
         this->Geometry.GetMembrane().GetRadius());
     this->Unique.Build(this->Geometry.GetMembrane(), this->Geometry.GetPatches(), frame,
-      this->Geometry.GetMedia(), low - origin - slack, high - origin + slack, loop);
+      this->Geometry.GetLargestBulge(), this->Geometry.GetMedia(), low - origin - slack,
+      high - origin + slack, loop);
   }
 }
 
@@ -374,6 +375,10 @@ void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
       sides(i, [&mapped](const Edge& side) { mapped.push_back(side); });
     }
   }
+  if (mapped.empty())
+  {
+    return;
+  }
   std::sort(mapped.begin(), mapped.end());
   mapped.erase(std::unique(mapped.begin(), mapped.end()), mapped.end());
   std::vector<char> isCommon(mapped.size(), 0);
@@ -382,7 +387,7 @@ void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
     const auto at = std::lower_bound(mapped.begin(), mapped.end(), side);
     return at != mapped.end() && *at == side ? at - mapped.begin() : -1;
   };
-  for (std::size_t i = 0; i < count && !mapped.empty(); ++i)
+  for (std::size_t i = 0; i < count; ++i)
   {
     if (!isMapped[i])
     {
@@ -398,7 +403,7 @@ void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
     }
   }
   CellDivision division(this->Geometry, this->Tolerance);
-  for (std::size_t i = 0; i < pieces.points.size() && !mapped.empty(); ++i)
+  for (std::size_t i = 0; i < pieces.points.size(); ++i)
   {
     ImagePoint& point = pieces.points[i];
     if (!(point.weight[1] > 0.0 && point.weight[2] == 0.0))

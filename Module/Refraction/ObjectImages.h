@@ -68,7 +68,8 @@ public:
   void SetPoints(const double* points, std::size_t count, bool mayCross);
 
   /// Finds out where points have one image at most, if that costs less than it saves for `wanted`
-  /// points. What is found does not depend on it, but for rounding.
+  /// points and the geometry's PrepareField() has found it possible. What is found does not depend
+  /// on it, but for rounding.
   void PrepareUnique(std::size_t wanted, const RangeLoop& loop);
 
   /// Chunks of points that are wanted from now on; none: all of them. What is solved is kept, for

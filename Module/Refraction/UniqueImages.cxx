@@ -3,7 +3,6 @@
 #include "Refraction/UniqueImages.h"
 
 #include "Refraction/Optics.h"
-#include "Refraction/PatchTube.h"
 
 #include <glm/common.hpp>
 #include <glm/mat2x2.hpp>
@@ -197,16 +196,13 @@ UniqueImages::Cell UniqueImages::Judge(
 }
 
 //------------------------------------------------------------------------------
-void UniqueImages::FitGrid(
-  const Membrane& membrane, const CurvedPatches& patches, std::size_t facets)
+void UniqueImages::FitGrid(const Membrane& membrane)
 {
   Box bounds{ glm::dvec2(std::numeric_limits<double>::max()),
     glm::dvec2(std::numeric_limits<double>::lowest()) };
-  this->Bulge = 0.0;
-  for (std::size_t i = 0; i < facets; ++i)
+  for (const Membrane::Facet& facet : membrane.GetFacets())
   {
-    this->Bulge = std::max(this->Bulge, BoundBulge(patches.GetPatch(static_cast<std::int32_t>(i))));
-    for (const std::int32_t vertex : membrane.GetFacets()[i])
+    for (const std::int32_t vertex : facet)
     {
       const glm::dvec2 place =
         this->Frame.Project(membrane.GetPositions()[static_cast<std::size_t>(vertex)]);
@@ -214,8 +210,9 @@ void UniqueImages::FitGrid(
       bounds.high = glm::max(bounds.high, place);
     }
   }
+  const auto facets = static_cast<double>(membrane.GetFacets().size());
   this->Width = 1;
-  while (this->Width < LargestWidth && 2.0 * this->Width * this->Width < double(facets))
+  while (this->Width < LargestWidth && 2.0 * this->Width * this->Width < facets)
   {
     this->Width *= 2;
   }
@@ -234,13 +231,15 @@ int UniqueImages::FindIndex(double place, int axis) const
 
 //------------------------------------------------------------------------------
 void UniqueImages::Build(const Membrane& membrane, const CurvedPatches& patches,
-  const HeightFrame& frame, const Media& media, double low, double high, const RangeLoop& loop)
+  const HeightFrame& frame, double bulge, const Media& media, double low, double high,
+  const RangeLoop& loop)
 {
   this->Frame = frame;
+  this->Bulge = bulge;
   this->LowHeight = low;
   this->SlabHeight = (high - low) / Slabs;
   const auto& facets = membrane.GetFacets();
-  this->FitGrid(membrane, patches, facets.size());
+  this->FitGrid(membrane);
   std::vector<Cell> judged(facets.size());
   loop(facets.size(),
     [this, &patches, &frame, &media, &judged](std::size_t begin, std::size_t end)

@@ -33,9 +33,10 @@ namespace meniscus
 class UniqueImages
 {
 public:
-  /// For points between two heights along the frame's axis. The membrane must be a convex field.
+  /// For points between two heights along the frame's axis. The membrane must be a convex field,
+  /// no patch of which is farther than `bulge` from its flat facet.
   void Build(const Membrane& membrane, const CurvedPatches& patches, const HeightFrame& frame,
-    const Media& media, double low, double high, const RangeLoop& loop);
+    double bulge, const Media& media, double low, double high, const RangeLoop& loop);
 
   bool IsEmpty() const { return this->Levels.empty(); }
 
@@ -64,7 +65,7 @@ private:
   static Cell MakeEmpty();
   static void Merge(Cell& cell, const Cell& other);
   Cell Judge(const CurvedPatch& patch, const HeightFrame& frame, const Media& media) const;
-  void FitGrid(const Membrane& membrane, const CurvedPatches& patches, std::size_t facets);
+  void FitGrid(const Membrane& membrane);
   int FindIndex(double place, int axis) const;
   Cell Collect(const Box& box) const;
   std::uint8_t FindSlabs(double low, double high) const;

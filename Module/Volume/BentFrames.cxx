@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/BentFrames.h"
 
+#include "Refraction/HeightField.h"
 #include "Volume/TileCaster.h"
 
 #include <glm/common.hpp>
@@ -77,12 +78,8 @@ void BentFrames::Turn(const MembraneSight& sight, const RayFrame& view, const Ra
 {
   glm::dvec3 depth = sight.GetMeanDirection();
   depth = depth == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : depth;
-  const glm::dvec3 size = glm::abs(depth);
-  const glm::dvec3 other = size.x <= size.y && size.x <= size.z
-    ? glm::dvec3(1.0, 0.0, 0.0)
-    : (size.y <= size.z ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, 1.0));
-  const glm::dvec3 first = glm::normalize(glm::cross(other, depth));
-  this->Axes = glm::dmat3(first, glm::cross(depth, first), depth);
+  const HeightFrame along(depth);
+  this->Axes = glm::dmat3(along.First, along.Second, along.Axis);
 
   const int tiles = sight.GetNumberOfTiles();
   std::vector<unsigned int> needed(static_cast<std::size_t>(tiles), 0);

@@ -21,6 +21,18 @@ vtkSmartPointer<vtkPolyData> MakeObject(const PictureScene& scene)
   return grid;
 }
 
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeSceneFilter(const PictureScene& scene)
+{
+  auto filter = MakeFilter(MakeObject(scene), MakeMembrane(scene.field.MakeMesh(scene.cells)));
+  filter->SetMembraneModelToCurved();
+  filter->SetImagesToAllImages();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  filter->SetEyePosition(scene.eye.x, scene.eye.y, scene.eye.z);
+  filter->SetExteriorIndexOfRefraction(scene.field.exterior);
+  filter->SetInteriorIndexOfRefraction(scene.field.interior);
+  return filter;
+}
+
 class RefractedGeometryRayTrace : public ::testing::TestWithParam<int>
 {
 };
@@ -32,14 +44,7 @@ TEST_P(RefractedGeometryRayTrace, PixelsAgree)
 {
   const PictureScene scene = GetPictureScenes()[static_cast<std::size_t>(GetParam())];
   const PixelCamera camera = scene.GetCamera();
-  const auto filter =
-    MakeFilter(MakeObject(scene), MakeMembrane(scene.field.MakeMesh(scene.cells)));
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  filter->SetEyePosition(scene.eye.x, scene.eye.y, scene.eye.z);
-  filter->SetExteriorIndexOfRefraction(scene.field.exterior);
-  filter->SetInteriorIndexOfRefraction(scene.field.interior);
+  const auto filter = MakeSceneFilter(scene);
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
@@ -72,14 +77,7 @@ TEST_P(RefractedGeometryRayTrace, NoCracksWithACoarseTolerance)
 {
   const PictureScene scene = GetPictureScenes()[static_cast<std::size_t>(GetParam())];
   const PixelCamera camera = scene.GetCamera();
-  const auto filter =
-    MakeFilter(MakeObject(scene), MakeMembrane(scene.field.MakeMesh(scene.cells)));
-  filter->SetMembraneModelToCurved();
-  filter->SetImagesToAllImages();
-  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  filter->SetEyePosition(scene.eye.x, scene.eye.y, scene.eye.z);
-  filter->SetExteriorIndexOfRefraction(scene.field.exterior);
-  filter->SetInteriorIndexOfRefraction(scene.field.interior);
+  const auto filter = MakeSceneFilter(scene);
   filter->SetAngularTolerance(0.12);
   filter->Update();
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), camera);

@@ -45,7 +45,7 @@ UniqueImages Build(const CurvedGeometry& geometry, double low, double high)
 {
   UniqueImages unique;
   unique.Build(geometry.GetMembrane(), geometry.GetPatches(), geometry.GetFrame(),
-    geometry.GetMedia(), low, high, meniscus::SerialLoop);
+    geometry.GetLargestBulge(), geometry.GetMedia(), low, high, meniscus::SerialLoop);
   return unique;
 }
 
@@ -84,6 +84,7 @@ TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
   const UniqueCase& test = GetParam();
   CurvedGeometry geometry;
   Set(geometry, test.field.MakeMesh(test.cells), test.eye, test.field.interior);
+  geometry.PrepareField();
   ASSERT_TRUE(geometry.HasConvexField());
   const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
   const UniqueImages unique = Build(geometry, -test.depth - origin.y, -40.0 - origin.y);
@@ -162,6 +163,8 @@ bool IsConvex(const MembraneMesh& mesh)
 {
   CurvedGeometry geometry;
   EXPECT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+  EXPECT_FALSE(geometry.HasConvexField()); // not found out yet
+  geometry.PrepareField();
   return geometry.HasConvexField();
 }
 

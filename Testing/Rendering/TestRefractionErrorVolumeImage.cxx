@@ -4,11 +4,11 @@
 // hemisphere (yellow), one block per sample, green below one unit, blue below 10, red below 100,
 // white above, darker for less within each; cut open in the middle.
 #include "MembraneMeshes.h"
+#include "RefractionPicture.h"
 #include "StrictImage.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkCubeSource.h>
 #include <vtkDataArray.h>
 #include <vtkGlyph3D.h>
@@ -40,26 +40,6 @@ constexpr int Threshold = 1; // grey levels: rounding to 8 bits
 constexpr int Samples = 20;
 constexpr double Spacing = 20.0;
 constexpr double Radius = 141.5;
-
-vtkSmartPointer<vtkPolyData> makeMembrane()
-{
-  const auto mesh = meniscus::reference::MakeDisc(Radius, 5, Radius);
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> triangles;
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
-  {
-    points->InsertNextPoint(mesh.points.data() + i);
-  }
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
-  {
-    const vtkIdType ids[3] = { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] };
-    triangles->InsertNextCell(3, ids);
-  }
-  auto membrane = vtkSmartPointer<vtkPolyData>::New();
-  membrane->SetPoints(points);
-  membrane->SetPolys(triangles);
-  return membrane;
-}
 
 void colourOf(double error, unsigned char* rgb)
 {
@@ -129,7 +109,8 @@ void addActor(vtkRenderer* renderer, vtkPolyData* data, bool isMembrane)
 
 TEST(RefractionErrorVolumeImage, LooksLikeTheThesis)
 {
-  const auto membrane = makeMembrane();
+  const auto membrane =
+    meniscus::testing::MakeMembrane(meniscus::reference::MakeDisc(Radius, 5, Radius), false);
   vtkNew<vtkSphere> sphere;
   sphere->SetCenter(0.0, Radius, 0.0);
   sphere->SetRadius(Radius);

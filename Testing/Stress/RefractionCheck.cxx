@@ -212,8 +212,9 @@ private:
   }
 
   // All points as one object, with what tells where an image is the only one.
-  ObjectImages solveObject(const std::vector<double>& points) const
+  ObjectImages solveObject(const std::vector<double>& points)
   {
+    this->Geometry.PrepareField();
     ObjectImages object(this->Geometry);
     object.SetPoints(points.data(), points.size() / 3, false);
     object.PrepareUnique(std::numeric_limits<std::uint32_t>::max(), SerialLoop);
