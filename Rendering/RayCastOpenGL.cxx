@@ -308,11 +308,18 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, bool bent)
   DrawToAttachments(this->TileTarget, TileLayers);
   this->Window->GetState()->vtkglViewport(0, 0, this->Tiles[0], this->Tiles[1]);
 
-  RayCastOptics optics;
-  optics.Bending = bent;
-  std::unique_ptr<vtkOpenGLQuadHelper>& lister = bent ? this->BentTileLister : this->TileLister;
-  const std::string error = this->ReadyQuad(
-    lister, [&optics]() { return RayCastShaderSource(vtkTetrahedraEntryTilesFS, optics); });
+  const bool bending = frame.Optics.Bending;
+  std::unique_ptr<vtkOpenGLQuadHelper>& lister = this->TileListers[bending ? 1 + bent : 0];
+  const std::string error = this->ReadyQuad(lister,
+    [bending, bent]()
+    {
+      RayCastOptics optics;
+      optics.Bending = bending;
+      std::string source = RayCastShaderSource(vtkTetrahedraEntryTilesFS, optics);
+      vtkShaderProgram::Substitute(
+        source, "//VTK::TetrahedraBehind::Dec", bent ? "#define BEHIND 1" : "#define BEHIND 0");
+      return source;
+    });
   if (!error.empty())
   {
     return error;
@@ -321,12 +328,12 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, bool bent)
   const std::vector<OpenGLTable*> tables = this->ActivateRays(program, frame.Rays);
   const float tiles[2] = { static_cast<float>(this->Tiles[0]), static_cast<float>(this->Tiles[1]) };
   program->SetUniform2f("tileCount", tiles);
-  if (bent)
+  if (bending)
   {
     this->Tables.GetBentLines().Activate(program);
   }
   lister->Render();
-  if (bent)
+  if (bending)
   {
     this->Tables.GetBentLines().Deactivate();
   }
@@ -558,8 +565,10 @@ void RayCastOpenGL::Release(vtkWindow* window)
   this->GetStatistics();
   this->Tables.Release(owner);
   this->Depth.Release(owner);
-  this->TileLister.reset();
-  this->BentTileLister.reset();
+  for (std::unique_ptr<vtkOpenGLQuadHelper>& lister : this->TileListers)
+  {
+    lister.reset();
+  }
   this->RayCasters.clear();
   for (auto& caster : this->ComputeCasters)
   {

@@ -149,8 +149,8 @@ private:
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   OpenGLTables Tables;
   OpenGLDepthCopy Depth;
-  std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
-  std::unique_ptr<vtkOpenGLQuadHelper> BentTileLister;
+  /** Without a membrane; before one, behind it. */
+  std::unique_ptr<vtkOpenGLQuadHelper> TileListers[3];
   /** By RayCastShaderOptions(). */
   std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
   std::map<std::string, vtkSmartPointer<OpenGLComputeProgram>> ComputeCasters;

@@ -6,15 +6,18 @@
 //
 // Lists, for each tile of the image, the boundary faces by which a ray of the tile may enter the
 // mesh: up to 32 faces in 8 targets, filled up with -1. The list of a tile with more begins with -2.
-// Works with the tile's central ray, in its grid units, and bounds the difference to the others. With
-// BENDING the rays are those behind the membrane; the list of a tile where these are of several frames
-// begins with -2, too.
+// Works with the tile's central ray, in its grid units, and bounds the difference to the others.
+//
+// With BENDING, rays straight on end at the membrane. With BEHIND the rays are those behind it; the list
+// of a tile where these are of several frames begins with -2, too.
 
 in vec2 texCoord;
 
 //VTK::Output::Dec
 
 //VTK::TetrahedraOptions::Dec
+
+//VTK::TetrahedraBehind::Dec
 
 //VTK::TetrahedraRays::Dec
 
@@ -64,24 +67,35 @@ bool mayEnter(int index)
     areas.x + areas.y + areas.z + faceAreaReach(p, q, r) >= 0.0;
 }
 
-// Sets up the central ray; false if there is none, yields whether there is one for all.
 #if BENDING
-bool setUpTile(out bool alike)
+// A texel of the tile's pixel number i; those outside of the image are the next in it.
+vec4 fetchLine(int i, int texel)
 {
-  ivec2 corner = ivec2(floor(texCoord * tileCount) * tileSize);
+  int columns = int(tileSize);
   ivec2 size = ivec2(textureSize(bentLines, 0).x / 2, textureSize(bentLines, 0).y);
+  ivec2 corner = ivec2(floor(texCoord * tileCount) * tileSize);
+  ivec2 pixel = min(corner + ivec2(i % columns, i / columns), size - 1);
+  return texelFetch(bentLines, ivec2(2 * pixel.x + texel, pixel.y), 0);
+}
+#endif
+
+// Sets up the central ray. Yields where all rays end; whether there is one for all. False if there is
+// none.
+#if BEHIND
+bool setUpTile(out float end, out bool alike)
+{
   // Origin and slope.
   vec4 least = vec4(1.0e+30);
   vec4 most = vec4(-1.0e+30);
   int frame = -1;
+  end = AFTER_EVERYTHING;
   alike = true;
   for (int i = 0; i < int(tileSize * tileSize); ++i)
   {
-    ivec2 pixel = min(corner + ivec2(i % int(tileSize), i / int(tileSize)), size - 1);
-    vec4 place = texelFetch(bentLines, ivec2(2 * pixel.x + 1, pixel.y), 0);
+    vec4 place = fetchLine(i, 1);
     if (place.z > 0.0)
     {
-      vec4 line = texelFetch(bentLines, ivec2(2 * pixel.x, pixel.y), 0);
+      vec4 line = fetchLine(i, 0);
       least = min(least, line);
       most = max(most, line);
       alike = alike && (frame < 0 || frame == int(place.w));
@@ -101,7 +115,7 @@ bool setUpTile(out bool alike)
   return true;
 }
 #else
-bool setUpTile(out bool alike)
+bool setUpTile(out float end, out bool alike)
 {
   vec2 pixel = (floor(texCoord * tileCount) + vec2(0.5)) * tileSize - imageCenter;
   setUpRay(pixel, vec2(0.0));
@@ -110,14 +124,24 @@ bool setUpTile(out bool alike)
   reach = originReach * gridScale;
   reachPerDepth = slopeReach * gridScale;
   alike = true;
+#if BENDING
+  end = BEFORE_EVERYTHING;
+  for (int i = 0; i < int(tileSize * tileSize); ++i)
+  {
+    end = max(end, fetchLine(i, 1).x);
+  }
+#else
+  end = AFTER_EVERYTHING;
+#endif
   return true;
 }
 #endif
 
 void main()
 {
+  float end;
   bool alike;
-  bool nearMesh = setUpTile(alike) && alike &&
+  bool nearMesh = setUpTile(end, alike) && alike &&
     all(lessThanEqual(
       abs(rayOrigin), vec2(GRID_RADIUS + BOX_MARGIN) + reach + 2.0 * reachPerDepth));
 
@@ -131,7 +155,7 @@ void main()
   while (node < numberOfNodes && count <= CAPACITY)
   {
     int leaf;
-    meetsBox(node, reach, reachPerDepth, vec2(-1.0e+30, 1.0e+30), node, leaf);
+    meetsBox(node, reach, reachPerDepth, vec2(BEFORE_EVERYTHING, end), node, leaf);
     if (leaf >= 0 && mayEnter(leaf))
     {
       if (count < CAPACITY)

@@ -59,6 +59,10 @@ const float DEPTH_MARGIN = 1.9073486328125e-06;
 // 2^24. 32-bit integers know it up to a multiple of 2^32.
 const float WRAP = 4294967296.0;
 
+// Depths.
+const float BEFORE_EVERYTHING = -1.0e+30;
+const float AFTER_EVERYTHING = 1.0e+30;
+
 // A vertex about the ray: u, v (grid units), depth, scalar.
 #define RayVertex vec4
 

@@ -47,8 +47,6 @@ uniform samplerBuffer vertexComponents;
 uniform samplerBuffer cellScalars;   // one per cell; those of the vertices do not count
 #endif
 
-const float BEFORE_EVERYTHING = -1.0e+30;
-const float AFTER_EVERYTHING = 1.0e+30;
 const int TILE_CAPACITY = 32;
 
 vec2 rayPixel;       // from the image's centre
@@ -60,6 +58,8 @@ float endDepth;
 bool rayIsBent;      // behind the membrane
 float membraneDepth; // where it is on the straight ray
 int cycleStart;      // link to the face within the mesh by which the walk began; else -1
+ivec4 nearFace;      // that face: vertices, counter-clockwise, and link
+const int NEAR_FACE = -2;
 #endif
 
 // Where the walk is: the face just entered by, its vertices counter-clockwise about the ray.
@@ -323,11 +323,19 @@ SeenFace seeTriangle(ivec3 numbers, bool left)
   return f;
 }
 
+// A face of the boundary; with BENDING, also one within the mesh that nearFace holds: number -2.
 SeenFace seeFace(int index)
 {
+#if BENDING
+  bool isNear = index == NEAR_FACE;
+  ivec4 record = texelFetch(treeFaces, isNear ? 0 : index);
+  record = isNear ? nearFace : record;
+  bool left = isNear || (record.x < 0 ? -1 : 1) * enteringSign > 0;
+#else
   ivec4 record = texelFetch(treeFaces, index);
-  ivec3 numbers = ivec3(record.x < 0 ? ~record.x : record.x, record.yz);
-  SeenFace f = seeTriangle(numbers, (record.x < 0 ? -1 : 1) * enteringSign > 0);
+  bool left = (record.x < 0 ? -1 : 1) * enteringSign > 0;
+#endif
+  SeenFace f = seeTriangle(ivec3(record.x < 0 ? ~record.x : record.x, record.yz), left);
   f.cellFace = record.w;
   return f;
 }
@@ -484,42 +492,32 @@ int oppositeVertex(int index, ivec3 numbers)
   return all ^ numbers.x ^ numbers.y ^ numbers.z;
 }
 
-// Of the cells in front of a face and behind it, a face as seen by the ray; numbers 0 to 7.
-// @param between  the vertices of the face, counter-clockwise about a ray that passes to behind.
-SeenFace seeFaceOf(int number, int front, int behind, ivec3 between)
-{
-  bool inFront = number < 4;
-  int index = inFront ? front : behind;
-  // Counter-clockwise about a ray that leaves the cell. The faces are then so if they are entered.
-  ivec3 n = inFront ? between : between.xzy;
-  int last = oppositeVertex(index, between);
-  int k = number % 4;
-  ivec3 numbers = k == 0 ? n.xzy
-    : (k == 1 ? ivec3(last, n.yz) : (k == 2 ? ivec3(last, n.zx) : ivec3(last, n.xy)));
-  int opposite = k == 0 ? last : (k == 1 ? n.x : (k == 2 ? n.y : n.z));
-  SeenFace f = seeTriangle(numbers, true);
-  f.cellFace = 4 * index + int(n.x < opposite) + int(n.y < opposite) + int(n.z < opposite) +
-    int(last < opposite);
-  return f;
-}
-
-// Puts the walk on the face by which the ray behind the membrane enters one of the two cells about
-// the face that the straight ray came to last, if that is not behind the sight point: from there a
-// walk comes to that. False if the ray passes by them.
-bool enterNear(float sightDepth)
+// Finds the face by which the ray behind the membrane enters one of the two cells about the face that
+// the straight ray came to last, if that is not behind the sight point: from there a walk comes to
+// that. False if the ray passes by them.
+bool findNearFace(float sightDepth)
 {
   int front = texelFetch(cells, CELL_SIZE * cell + FIRST_LINK + face).r >> 2;
   int number = front < 0 ? 4 : 0;
   bool found = false;
+  nearFace = ivec4(0); // goes around the loop, see walk()
   while (!found && number < 8)
   {
-    SeenFace f = seeFaceOf(number, front, cell, corners);
+    // Counter-clockwise about a ray that leaves the cell by the face between; so are the other faces
+    // about one that enters by them.
+    bool inFront = number < 4;
+    int index = inFront ? front : cell;
+    ivec3 n = inFront ? corners : corners.xzy;
+    int last = oppositeVertex(index, corners);
+    int k = number % 4;
+    int opposite = k == 0 ? last : (k == 1 ? n.x : (k == 2 ? n.y : n.z));
+    nearFace.xyz = k == 0 ? n.xzy
+      : ivec3(last, k == 1 ? n.yz : (k == 2 ? n.zx : n.xy));
+    nearFace.w = 4 * index + int(n.x < opposite) + int(n.y < opposite) + int(n.z < opposite) +
+      int(last < opposite);
+    SeenFace f = seeFace(NEAR_FACE);
     found = f.entered && f.point.x <= sightDepth;
     number += found ? 0 : 1;
-  }
-  if (found)
-  {
-    enter(seeFaceOf(number, front, cell, corners));
   }
   return found;
 }
@@ -561,45 +559,37 @@ void limitRay(float opaque)
 #endif
 }
 
-// Casts what is set up of the ray: its entries after `lastDepth`, from one within the mesh on if there
-// is one. Adds cells crossed and walks that did not end on the boundary.
-void castPart(bool meetsMesh, float lastDepth, inout int steps, inout int lost)
+// Casts what is set up of the ray: from nearFace on, if that is the first of its entries, then from
+// those after `lastDepth`, if there are more. Adds cells crossed and walks that did not end on the
+// boundary.
+void castPart(float lastDepth, inout int steps, inout int lost)
 {
   int lastFace = -1;
-  entryFaces = ivec4(-1);
-  moreEntries = meetsMesh;
-#if BENDING
-  bool within = cycleStart >= 0;
-#else
-  const bool within = false;
-#endif
-  while (!isRayDone() && (within || depthNow < endDepth))
+  while (!isRayDone() && depthNow < endDepth)
   {
-    if (!within && entryFaces.x < 0 && moreEntries)
+    if (entryFaces.x == -1 && moreEntries)
     {
       collectEntries(lastDepth, lastFace);
     }
-    if (!within && entryFaces.x < 0)
+    if (entryFaces.x == -1)
     {
       break;
     }
-    if (!within)
-    {
-      lastFace = entryFaces.x;
-      enterFirst();
-      lastDepth = faceDepth;
-    }
+    lastFace = entryFaces.x;
+    enterFirst();
+    float entryDepth = faceDepth;
     startPart(faceScalar);
     bool ended = walk(steps);
 #if BENDING
-    // One that goes round within the mesh has passed nothing twice; the rest is from the boundary on.
-    lastDepth = within && !ended ? BEFORE_EVERYTHING : lastDepth;
-    lost += ended || within ? 0 : 1;
-    within = false;
+    // A walk that goes round within the mesh has passed nothing twice; the rest is from the boundary on.
+    bool wasNear = lastFace == NEAR_FACE;
+    entryDepth = wasNear ? (ended ? lastDepth : BEFORE_EVERYTHING) : entryDepth;
+    lastFace = wasNear ? -1 : lastFace;
+    ended = ended || wasNear;
     cycleStart = -1;
-#else
-    lost += ended ? 0 : 1;
 #endif
+    lastDepth = entryDepth;
+    lost += ended ? 0 : 1;
   }
 }
 
@@ -623,8 +613,10 @@ bool goOnBehind(float opaque, out float lastDepth)
   rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * rayAlong);
   limitBentRay(opaque, place.y, place.z);
   depthNow = BEFORE_EVERYTHING;
-  bool within = arrived && inside && beginsInside && cell >= 0 && enterNear(place.y);
-  cycleStart = within ? 4 * cell + face : -1;
+  bool within = arrived && inside && beginsInside && cell >= 0 && findNearFace(place.y);
+  entryFaces = ivec4(within ? NEAR_FACE : -1, -1, -1, -1);
+  cycleStart = within ? nearFace.w : -1;
+  moreEntries = true;
   lastDepth = within || (arrived && !inside) ? place.y - START_MARGIN : lastDepth;
   return startDepth < endDepth;
 }
@@ -643,22 +635,32 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * rayAlong);
   startRay();
   float lastDepth = BEFORE_EVERYTHING;
+  entryFaces = ivec4(-1);
+  moreEntries = meetsMesh;
 #if BENDING
   rayIsBent = false;
   cycleStart = -1;
   membraneDepth = texelFetch(bentLines, ivec2(2, 1) * ivec2(pixel) + ivec2(1, 0), 0).x;
+  bool meetsMembrane = membraneDepth < AFTER_EVERYTHING;
   limitRay(opaque);
-  // Twice at the most; one loop, so that there is one copy of the walk.
-  bool goesOn = true;
+  // First what is straight, if a ray of the tile enters the mesh there, then what is behind the
+  // membrane: in one loop, of which rays side by side take the turns that they need.
+  moreEntries = meetsMesh && fetchTile(ivec2(pixel / tileSize), 0).x != -1.0;
+  bool straight = moreEntries;
+  bool goesOn = straight || meetsMembrane;
   while (goesOn)
   {
-    castPart(meetsMesh, lastDepth, steps, lost);
-    goesOn = !rayIsBent && !isRayDone() && goOnBehind(opaque, lastDepth);
-    meetsMesh = true;
+    goesOn = straight || goOnBehind(opaque, lastDepth);
+    if (goesOn)
+    {
+      castPart(lastDepth, steps, lost);
+    }
+    goesOn = goesOn && meetsMembrane && !rayIsBent && !isRayDone();
+    straight = false;
   }
 #else
   limitRay(opaque);
-  castPart(meetsMesh, lastDepth, steps, lost);
+  castPart(lastDepth, steps, lost);
 #endif
   return finishRay();
 }
