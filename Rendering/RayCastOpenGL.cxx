@@ -286,6 +286,7 @@ std::string RayCastOpenGL::ListBentEntries(const RayCastFrame& frame)
   if (error.empty())
   {
     error = this->ListEntries(frame, true);
+    ++this->BentEntryLists;
   }
   this->BentTilesOf = error.empty() ? frame.Bending.Version : std::array<std::int64_t, 2>{ 0, 0 };
   return error;

@@ -116,6 +116,9 @@ public:
   /** Waits until the device has drawn what it was told to. */
   void Finish();
 
+  /** Times that the entries behind a membrane were listed. */
+  std::int64_t GetNumberOfBentEntryLists() const { return this->BentEntryLists; }
+
   /** Of the last frame; read back on the first call after it. */
   RayStatistics GetStatistics();
   /** Notes a frame without rays. */
@@ -162,6 +165,7 @@ private:
   /** The same for the rays behind a membrane, and RayCastBending::Version of what they list. */
   vtkSmartPointer<vtkTextureObject> BentTiles;
   std::array<std::int64_t, 2> BentTilesOf{ 0, 0 };
+  std::int64_t BentEntryLists = 0;
   vtkSmartPointer<vtkTextureObject> Image;
   vtkSmartPointer<vtkTextureObject> StatisticsImage;
   int Size[2] = { 0, 0 };

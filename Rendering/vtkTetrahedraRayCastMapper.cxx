@@ -569,6 +569,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfSightUpdates()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfBentEntryLists()
+{
+  return this->Internals->OpenGL.GetNumberOfBentEntryLists();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 {
   return this->Internals->Input.GetActiveSetBuilds();
@@ -663,6 +669,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "NumberOfMembraneBuilds: " << this->GetNumberOfMembraneBuilds() << "\n";
   os << indent << "NumberOfSightUpdates: " << this->GetNumberOfSightUpdates() << "\n";
+  os << indent << "NumberOfBentEntryLists: " << this->GetNumberOfBentEntryLists() << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "CompactTables: " << this->CompactTables << "\n";

@@ -20,8 +20,8 @@ BentLine LineOf(const BentRay& ray, const glm::dvec2& pixel, const MembraneSight
   {
     const int index = frames.IndexOf(ray.Step);
     const glm::dmat3& turn = frames.Get(index).FromView;
-    const glm::dvec2 across = view.Frame.Origin.At(pixel.x, pixel.y) +
-      ray.Depth * view.Frame.Slope.At(pixel.x, pixel.y);
+    const glm::dvec2 across =
+      view.Frame.Origin.At(pixel.x, pixel.y) + ray.Depth * view.Frame.Slope.At(pixel.x, pixel.y);
     const glm::dvec3 place = turn * glm::dvec3(across, ray.Depth);
     const glm::dvec3 step = turn * ray.Step;
     const FrameLine of = FrameLine::Through(place, step);
@@ -61,8 +61,7 @@ void LayOutBentLines(const MembraneSight& sight, const BentFrames& frames, const
       {
         const BentRay* ray = rays ? rays + (row - bottom) * TileSize + column - left : nullptr;
         const glm::dvec2 pixel(column + 0.5 - 0.5 * view.Width, row + 0.5 - 0.5 * view.Height);
-        line[column] =
-          ray && ray->MeetsMembrane() ? LineOf(*ray, pixel, view, frames) : straight;
+        line[column] = ray && ray->MeetsMembrane() ? LineOf(*ray, pixel, view, frames) : straight;
       }
     }
   };

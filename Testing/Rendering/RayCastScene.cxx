@@ -11,8 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <cstdlib>
+#include <utility>
 
 namespace meniscus
 {
