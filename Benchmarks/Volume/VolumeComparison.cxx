@@ -297,6 +297,38 @@ VolumeComparison::Change VolumeComparison::measureSetUp(std::size_t contestant, 
 }
 
 //------------------------------------------------------------------------------
+VolumeComparison::Moves VolumeComparison::measureMoves()
+{
+  Moves moves{ this->Results, this->Results };
+  for (int view = 0; view < this->Settings.Views; ++view)
+  {
+    // From 35 to 75 degrees above.
+    const auto angles = viewAngles(view);
+    const double elevation = 55.0 + angles[1] / 3.0;
+    for (int round = 0; round <= this->Settings.Repetitions; ++round)
+    {
+      for (std::size_t i = 0; i < this->Arenas.size(); ++i)
+      {
+        Arena& arena = this->Arenas[i];
+        const auto frame = [&](std::vector<FrameTime>& frames)
+        {
+          lookAt(
+            arena.Scene->renderer(), this->Grid->GetBounds(), angles[0] + 0.2 * round, elevation);
+          const FrameTime time = this->timeFrame(arena);
+          if (round > 0) // before it is the warm-up
+          {
+            frames.push_back(time);
+          }
+        };
+        frame(moves.Moving[i].Frames);
+        frame(moves.Resting[i].Frames);
+      }
+    }
+  }
+  return moves;
+}
+
+//------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper* VolumeComparison::ours(std::size_t contestant) const
 {
   return vtkTetrahedraRayCastMapper::SafeDownCast(this->Arenas[contestant].Mapper);

@@ -101,6 +101,14 @@ public:
   /// A new mesh: other points and cells objects of the same contents.
   Change measureSetUp(std::size_t contestant, int times);
 
+  /// Frames from above, by contestant: the camera moved by a fifth of a degree, and where it was.
+  struct Moves
+  {
+    std::vector<Figures> Moving;
+    std::vector<Figures> Resting;
+  };
+  Moves measureMoves();
+
   vtkTetrahedraRayCastMapper* ours(std::size_t contestant) const;
 
 private:

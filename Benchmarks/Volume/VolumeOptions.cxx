@@ -38,7 +38,7 @@ const char* const VolumeUsage =
   "  --growth-limit N   up to N thousand tetrahedra (default 5000)\n"
   "  --report           the goals of the mapper, each beside what is measured\n"
   "  --row NAME         only this row of the report: native, native-1024, opengl, sparse, opaque,\n"
-  "                     setup, edit, scalars, memory, growth, error\n"
+  "                     setup, edit, scalars, memory, membrane, growth, error\n"
   "  --help             this text\n";
 
 namespace

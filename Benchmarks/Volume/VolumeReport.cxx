@@ -3,6 +3,7 @@
 #include "VolumeReport.h"
 
 #include "VolumeComparison.h"
+#include "VolumeMembranes.h"
 #include "VolumeProbe.h"
 
 #include <vtkTetrahedraRayCastMapper.h>
@@ -89,6 +90,7 @@ public:
     this->printIf("edit", [this]() { this->editRow(); });
     this->printIf("scalars", [this]() { this->scalarsRow(); });
     this->printIf("memory", [this]() { this->memoryRow(); });
+    this->printIf("membrane", [this]() { this->membraneRow(); });
     this->printIf("error", [this]() { this->errorRow(); });
     this->printIf("growth", [this]() { printGrowth(this->Out, this->Options); });
   }
@@ -289,6 +291,18 @@ private:
         "<= " + format(36.0 + 16.0 * points, 3) + " B/cell (36 and 16 per point)",
         std::string(name) + ": " +
           (probe.Survives ? format(probe.BytesPerCell, 3) + " B/cell resident" : probe.Fate));
+    }
+  }
+
+  void membraneRow()
+  {
+    for (const NamedMesh& mesh : this->Meshes)
+    {
+      for (const MembraneCost& cost : measureMembranes(this->Options, mesh.Mesh))
+      {
+        this->line(mesh.Name + ", " + cost.Name, "<= 1.5 times the frame without the membrane",
+          "camera moves " + format(cost.Moving, " x") + ", rests " + format(cost.Resting, " x"));
+      }
     }
   }
 

@@ -31,6 +31,21 @@ struct RefractionRay
   RayKind kind;
 };
 
+/// The square of the refracted ray's cosine, negative beyond the critical angle.
+inline double RefractionRadicand(double cosine, double ratio)
+{
+  return 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+}
+
+/// Of the ray below.
+inline glm::dvec3 RefractionDirection(
+  const glm::dvec3& sight, const glm::dvec3& normal, double ratio, double cosine, double radicand)
+{
+  const glm::dvec3 tangential = ratio * (sight - cosine * normal);
+  const double root = radicand >= 0.0 ? std::sqrt(radicand) : -std::sqrt(-radicand);
+  return glm::normalize(tangential - root * normal);
+}
+
 /**
  * The ray of direction `sight` behind a surface of normal `normal`, with `ratio` = n1 / n2
  * (Eq. 2.2). Where there is none the ray is extrapolated, so that a facet with one bad corner keeps
@@ -43,12 +58,10 @@ inline RefractionRay ComputeRefractionRay(
 {
   const double facing = glm::dot(sight, normal);
   const double cosine = std::min(facing, 0.0);
-  const glm::dvec3 tangential = ratio * (sight - cosine * normal);
-  const double radicand = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
-  const double root = radicand >= 0.0 ? std::sqrt(radicand) : -std::sqrt(-radicand);
+  const double radicand = RefractionRadicand(cosine, ratio);
   const RayKind kind = radicand < 0.0 ? RayKind::TotallyReflected
                                       : (facing > 0.0 ? RayKind::BackFacing : RayKind::Refracted);
-  return { glm::normalize(tangential - root * normal), kind };
+  return { RefractionDirection(sight, normal, ratio, cosine, radicand), kind };
 }
 
 /**

@@ -4,6 +4,9 @@
 
 #include <glm/common.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace meniscus
@@ -11,106 +14,121 @@ namespace meniscus
 namespace
 {
 
-/// Values within `half` of `middle`, component by component.
-struct Box
-{
-  glm::dvec3 middle{ 0.0 };
-  glm::dvec3 half{ 0.0 };
-};
-
-const Box AnyDirection{ glm::dvec3(0.0), glm::dvec3(1.0) };
-
 // The largest of |b_i b_j (b_i - b_j)| is 1 / (6 sqrt 3), of b_i b_j 1 / 4.
 constexpr double LargestAsymmetric = 0.0962250448649377;
 
-// Unit vectors along n + d for |d| within `ball` and d within `half`: n / |n| + (d - u (u.d)) / |n|
-// and a rest below (|d| / |n|)^2 as long as |d| < |n| / 2.
-Box BoundDirections(const glm::dvec3& n, const glm::dvec3& half, double ball)
+// The normal is a Bezier triangle of second degree.
+std::array<glm::dvec3, 6> NormalControls(const CurvedPatch& patch)
 {
-  const double length = glm::length(n);
-  const double part = ball / length;
-  if (!(part < 0.5))
-  {
-    return AnyDirection;
-  }
-  Box box;
-  box.middle = n / length;
-  box.half = half / length + glm::dvec3(part * part);
-  return box;
-}
-
-Box BoundSightRays(const CurvedPatch& patch, const glm::dvec3& eye, double bulge)
-{
-  const glm::dvec3 middle = (patch.corner[0] + patch.corner[1] + patch.corner[2]) / 3.0;
-  const glm::dvec3 toMiddle = middle - eye;
-  const glm::dvec3 direction = glm::normalize(toMiddle);
-  glm::dvec3 half(0.0);
-  double ball = 0.0;
-  for (const glm::dvec3& corner : patch.corner)
-  {
-    const glm::dvec3 d = corner - middle;
-    half = glm::max(half, glm::abs(d - direction * glm::dot(d, direction)));
-    ball = std::max(ball, glm::dot(d, d));
-  }
-  return BoundDirections(toMiddle, half + glm::dvec3(bulge), std::sqrt(ball) + bulge);
-}
-
-// The normal is a Bezier triangle of second degree: inside the hull of its six control points.
-Box BoundNormals(const CurvedPatch& patch)
-{
-  glm::dvec3 control[6];
-  glm::dvec3 low(std::numeric_limits<double>::max());
-  glm::dvec3 high(std::numeric_limits<double>::lowest());
-  for (int k = 0; k < 3; ++k)
+  std::array<glm::dvec3, 6> control;
+  for (std::size_t k = 0; k < 3; ++k)
   {
     control[k] = patch.normal[k];
     control[k + 3] = 0.5 * (patch.normal[(k + 1) % 3] + patch.normal[(k + 2) % 3] + patch.bend[k]);
   }
+  return control;
+}
+
+}
+
+//------------------------------------------------------------------------------
+// 2 |q| / (1 + |n|). The sum of b_i b_j is 1 / 3 at most, |n| no less than the least of its control
+// points along one direction.
+double BoundBulge(const CurvedPatch& patch)
+{
+  double sum = 0.0;
+  double largest = 0.0;
+  double q = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    sum += std::fabs(patch.symmetric[k]);
+    largest = std::max(largest, std::fabs(patch.symmetric[k]));
+    q += LargestAsymmetric * std::fabs(patch.asymmetric[k]);
+  }
+  q += std::min(0.25 * sum, largest / 3.0);
+  const glm::dvec3 along = glm::normalize(patch.normal[0] + patch.normal[1] + patch.normal[2]);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& control : NormalControls(patch))
+  {
+    shortest = std::min(shortest, glm::dot(control, along));
+  }
+  return 2.0 * q / (1.0 + std::max(CurvedPatch::ShortestNormal, shortest));
+}
+
+//------------------------------------------------------------------------------
+// Along n + d for |d| within `ball` and d within `half`: n / |n| + (d - u (u.d)) / |n| and a rest
+// below (|d| / |n|)^2 as long as |d| < |n| / 2.
+DirectionBox BoundDirections(
+  const glm::dvec3& middle, const glm::dvec3* hull, int count, double reach)
+{
+  const double length = glm::length(middle);
+  const glm::dvec3 direction = middle / length;
+  glm::dvec3 half(0.0);
+  double ball = 0.0;
+  for (int i = 0; i < count; ++i)
+  {
+    const glm::dvec3 d = hull[i] - middle;
+    half = glm::max(half, glm::abs(d - direction * glm::dot(d, direction)));
+    ball = std::max(ball, glm::dot(d, d));
+  }
+  const double part = (std::sqrt(ball) + reach) / length;
+  if (!(part < 0.5))
+  {
+    return DirectionBox();
+  }
+  return { direction, (half + glm::dvec3(reach)) / length + glm::dvec3(part * part) };
+}
+
+//------------------------------------------------------------------------------
+// Inside the hull of the control points.
+DirectionBox BoundNormals(const CurvedPatch& patch)
+{
+  const std::array<glm::dvec3, 6> control = NormalControls(patch);
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
   for (const glm::dvec3& c : control)
   {
     low = glm::min(low, c);
     high = glm::max(high, c);
   }
-  const glm::dvec3 middle = 0.5 * (low + high);
-  const glm::dvec3 direction = glm::normalize(middle);
-  glm::dvec3 half(0.0);
-  double ball = 0.0;
-  for (const glm::dvec3& c : control)
-  {
-    const glm::dvec3 d = c - middle;
-    half = glm::max(half, glm::abs(d - direction * glm::dot(d, direction)));
-    ball = std::max(ball, glm::dot(d, d));
-  }
-  return BoundDirections(middle, half, std::sqrt(ball));
-}
-
+  return BoundDirections(0.5 * (low + high), control.data(), 6, 0.0);
 }
 
 //------------------------------------------------------------------------------
-// 2 |q| / (1 + |n|) with the shortest |n| that counts.
-double BoundBulge(const CurvedPatch& patch)
+CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal)
 {
-  double q = 0.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    q += 0.25 * std::fabs(patch.symmetric[k]) + LargestAsymmetric * std::fabs(patch.asymmetric[k]);
-  }
-  return 2.0 * q / (1.0 + CurvedPatch::ShortestNormal);
-}
-
-//------------------------------------------------------------------------------
-TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, double ratio)
-{
-  const double bulge = BoundBulge(patch);
-  const Box sight = BoundSightRays(patch, eye, bulge);
-  const Box normal = BoundNormals(patch);
-
   const double middle = glm::dot(sight.middle, normal.middle);
   const glm::dvec3 sightReach = glm::abs(sight.middle) + sight.half;
   const double half =
     glm::dot(glm::abs(normal.middle), sight.half) + glm::dot(sightReach, normal.half);
-  const double least = std::max(middle - half, -1.0);
-  const double most = std::min(middle + half, 0.0);
+  return { std::max(middle - half, -1.0), std::min(middle + half, 1.0) };
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundRays(
+  const DirectionBox& directions, const glm::dvec3* points, int count, double reach)
+{
+  TubeBounds bounds;
+  bounds.startLow = bounds.startHigh = points[0];
+  for (int i = 1; i < count; ++i)
+  {
+    bounds.startLow = glm::min(bounds.startLow, points[i]);
+    bounds.startHigh = glm::max(bounds.startHigh, points[i]);
+  }
+  bounds.startLow -= glm::dvec3(reach);
+  bounds.startHigh += glm::dvec3(reach);
+  bounds.directionLow = directions.middle - directions.half;
+  bounds.directionHigh = directions.middle + directions.half;
+  return bounds;
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& normal, double ratio,
+  const glm::dvec3* points, int count, double reach)
+{
+  const CosineBounds cosine = BoundCosine(sight, normal);
+  const double least = cosine.least;
+  const double most = std::min(cosine.most, 0.0);
   const auto radicand = [ratio](double c) { return 1.0 - ratio * ratio * (1.0 - c * c); };
   if (!(least < 0.0) || !(radicand(least) > 0.0))
   {
@@ -131,13 +149,18 @@ TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, d
   // The rays are unit vectors.
   const glm::dvec3 lowest = glm::max(direction - spread, glm::dvec3(-1.0));
   const glm::dvec3 highest = glm::min(direction + spread, glm::dvec3(1.0));
-  TubeBounds bounds;
-  for (const glm::dvec3& corner : patch.corner)
-  {
-    bounds.Add(corner - glm::dvec3(bulge), lowest);
-    bounds.Add(corner + glm::dvec3(bulge), highest);
-  }
-  return bounds;
+  return BoundRays({ 0.5 * (lowest + highest), 0.5 * (highest - lowest) }, points, count, reach);
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, double ratio)
+{
+  const double bulge = BoundBulge(patch);
+  const glm::dvec3 sights[3] = { patch.corner[0] - eye, patch.corner[1] - eye,
+    patch.corner[2] - eye };
+  const DirectionBox sight =
+    BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
+  return BoundRefractedRays(sight, BoundNormals(patch), ratio, patch.corner, 3, bulge);
 }
 
 }

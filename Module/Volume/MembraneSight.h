@@ -3,10 +3,10 @@
 #ifndef meniscus_Volume_MembraneSight_h
 #define meniscus_Volume_MembraneSight_h
 
-#include "Refraction/CellTree.h"
 #include "Refraction/CurvedPatches.h"
 #include "Refraction/Membrane.h"
 #include "Refraction/RangeLoop.h"
+#include "Volume/FacetTracer.h"
 #include "Volume/RayFrame.h"
 
 #include <glm/vec2.hpp>
@@ -110,26 +110,33 @@ private:
     Box Pixels;
     /** Whether what its rays meet may be the mesh. */
     bool Matters;
+    /** Of the membrane. */
+    bool IsAtBorder;
+    /** 1 or -1: the side of the facet that is seen; 0 on edge. */
+    int Side;
     /** Whether nothing but the whole image bounds it; then about it: */
     bool Unbounded;
     glm::dvec3 Center;
     double Radius;
   };
-  struct Hit;
-  class FacetTracer;
   class TileRays;
 
   void PrepareRays(const Membrane& surface);
   SeenFacet See(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const;
+  glm::dvec3 SightTo(const glm::dvec3& place) const;
   bool MayShowMesh(const CurvedPatch& patch, double bulge) const;
-  bool MeetsMesh(const TubeBounds& tube) const;
   bool PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const;
   void SortFacets(const std::vector<SeenFacet>& facets);
+  bool HidesTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
+    const TileRays& rays) const;
   void TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
     glm::dvec3& directions);
   void TraceFacet(const CurvedPatch& patch, const SeenFacet& seen, const TileRays& rays,
-    std::vector<Hit>& hits) const;
-  BentRay Bend(const glm::dvec3& direction, const Hit& hit, glm::dvec3& directions) const;
+    std::vector<MembraneHit>& hits) const;
+  void TraceBox(const FacetTracer& tracer, const FacetTracer::FlatHits& flat, const Box& box,
+    bool matters, const TileRays& rays, std::vector<MembraneHit>& hits) const;
+  void BendTile(const TileRays& tile, const std::vector<MembraneHit>& hits,
+    std::vector<BentRay>& rays, glm::dvec3& directions) const;
 
   View Of;
   int Columns = 0;
@@ -137,12 +144,11 @@ private:
   bool Seen = false;
   glm::dvec3 MeanDirection{ 0.0 };
   glm::dmat3 WorldToFrame{ 1.0 };
-  /** Of a box about the mesh, along the world's axes, relative to the membrane's origin. */
-  glm::dvec3 MeshCenter{ 0.0 };
-  glm::dvec3 MeshHalf{ 0.0 };
-  /** The ray of a pixel, relative to the membrane's origin: constant, per column, per row. */
-  glm::dvec3 Start[3];
-  glm::dvec3 Direction[3];
+  /** Relative to the membrane's origin. */
+  MeshInSight Mesh;
+  /** Relative to the membrane's origin. */
+  SightRays Rays;
+  InstructionSet Set = BestInstructionSet();
   std::vector<std::int32_t> TileBegin;
   std::vector<std::int32_t> FacetOfSlot;
   std::vector<std::vector<BentRay>> Tiles;

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeMembranes.h"
+
+#include "MembraneScene.h"
+
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkTetrahedraRayCastMapper.h>
+#include <vtkTransform.h>
+#include <vtkTransformPolyDataFilter.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace meniscus
+{
+namespace benchmark
+{
+namespace
+{
+
+struct NamedMembrane
+{
+  std::string Name;
+  vtkSmartPointer<vtkPolyData> Mesh; // null: none
+};
+
+//------------------------------------------------------------------------------
+// As long and wide as the pictures see of it from 35 degrees and more above.
+std::vector<NamedMembrane> makeMembranes(vtkUnstructuredGrid* grid)
+{
+  double bounds[6];
+  grid->GetBounds(bounds);
+  const double diagonal = test::diagonalOf(bounds);
+  const double half = 2.5 * diagonal;
+  const double top = 0.5 * (bounds[3] - bounds[2]) + 0.1 * diagonal;
+  vtkNew<vtkTransform> toCenter;
+  toCenter->Translate(
+    0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]), 0.5 * (bounds[4] + bounds[5]));
+  const auto placed = [&toCenter](const test::MembraneCase& membrane)
+  {
+    vtkNew<vtkTransformPolyDataFilter> mover;
+    mover->SetTransform(toCenter);
+    mover->SetInputData(membrane.Mesh);
+    mover->Update();
+    return vtkSmartPointer<vtkPolyData>(mover->GetOutput());
+  };
+  return { { "none", nullptr },
+    { "plane above, 8 facets", placed(test::makePlaneCase(top, half, 2)) },
+    { "plane through the middle, 8 facets", placed(test::makePlaneCase(0.0, half, 2)) },
+    { "dome, 3,200 facets", placed(test::makeDomeCase(top, 4.0 * diagonal, half, 40)) },
+    { "waves, 20,000 facets",
+      placed(test::makeWavesCase(top, 0.02 * diagonal, 12.0 / diagonal, half, 100)) } };
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::vector<MembraneCost> measureMembranes(const VolumeOptions& options, vtkUnstructuredGrid* grid)
+{
+  const std::vector<NamedMembrane> membranes = makeMembranes(grid);
+  std::vector<Contestant> contestants;
+  for (const NamedMembrane& membrane : membranes)
+  {
+    Contestant ours = makeOurs(vtkTetrahedraRayCastMapper::NATIVE, membrane.Name);
+    ours.Make = [make = ours.Make, mesh = membrane.Mesh]()
+    {
+      const MapperPointer mapper = make();
+      vtkTetrahedraRayCastMapper::SafeDownCast(mapper)->SetMembraneData(mesh);
+      return mapper;
+    };
+    contestants.push_back(ours);
+  }
+  VolumeComparison comparison(options, grid);
+  comparison.enter(contestants);
+  const auto moves = comparison.measureMoves();
+  std::vector<MembraneCost> costs;
+  for (std::size_t i = 1; i < membranes.size(); ++i)
+  {
+    costs.push_back({ membranes[i].Name, ratioOf(moves.Moving[i], moves.Moving[0], true),
+      ratioOf(moves.Resting[i], moves.Resting[0], true) });
+  }
+  return costs;
+}
+
+} // namespace benchmark
+} // namespace meniscus

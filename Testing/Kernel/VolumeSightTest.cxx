@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Where rays meet a membrane: what is left out, and instruction sets.
+#include "RefractionTestRandom.h"
+
+#include "Refraction/CurvedPatches.h"
+#include "Refraction/Membrane.h"
+#include "Volume/MembraneSight.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/matrix.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+using namespace meniscus;
+using meniscus::testing::Random;
+
+namespace
+{
+
+constexpr int Size = 96;
+
+struct Sheet
+{
+  Membrane Surface;
+  CurvedPatches Patches;
+
+  /** z = height(x, y) over [-1, 1] squared. */
+  Sheet(const std::function<double(double, double)>& height, int cells)
+  {
+    std::vector<double> points;
+    std::vector<std::int64_t> triangles;
+    for (int j = 0; j <= cells; ++j)
+    {
+      for (int i = 0; i <= cells; ++i)
+      {
+        const double x = 2.0 * i / cells - 1.0;
+        const double y = 2.0 * j / cells - 1.0;
+        points.insert(points.end(), { x, y, height(x, y) });
+      }
+    }
+    for (std::int64_t j = 0; j < cells; ++j)
+    {
+      for (std::int64_t i = 0; i < cells; ++i)
+      {
+        const std::int64_t a = j * (cells + 1) + i;
+        const std::int64_t b = a + cells + 1;
+        triangles.insert(triangles.end(), { a, a + 1, b, a + 1, b + 1, b });
+      }
+    }
+    const MembraneInput input{ points.data(), points.size() / 3, triangles.data(),
+      triangles.size() / 3, nullptr, nullptr };
+    EXPECT_EQ(this->Surface.Build(input), MembraneStatus::Ready);
+    this->Patches.Build(this->Surface, SerialLoop);
+  }
+};
+
+struct WorldBox
+{
+  glm::dvec3 Center;
+  glm::dvec3 Half;
+
+  /** Whether it has a place start + t along, 0 <= t <= end. */
+  bool Meets(const glm::dvec3& start, const glm::dvec3& along, double end) const
+  {
+    double first = 0.0;
+    double last = end;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double a = (this->Center[axis] - this->Half[axis] - start[axis]) / along[axis];
+      const double b = (this->Center[axis] + this->Half[axis] - start[axis]) / along[axis];
+      first = std::max(first, std::min(a, b));
+      last = std::min(last, std::max(a, b));
+    }
+    return first <= last;
+  }
+};
+
+/** From an eye, or along parallel rays. */
+MembraneSight::View LookAt(
+  const glm::dvec3& eye, const glm::dvec3& target, double width, bool parallel)
+{
+  const glm::dvec3 depth = glm::normalize(target - eye);
+  const glm::dvec3 right = glm::normalize(glm::cross(depth, glm::dvec3(0.1, 0.9, 0.2)));
+  MembraneSight::View view;
+  view.Frame.ViewToWorld = glm::dmat3(right, glm::cross(depth, right), depth);
+  AffinePixelMap& map = parallel ? view.Frame.Origin : view.Frame.Slope;
+  const double step = (parallel ? width : width / glm::length(target - eye)) / Size;
+  map.PerColumn = { step, 0.0 };
+  map.PerRow = { 0.0, step };
+  view.Width = Size;
+  view.Height = Size;
+  view.Center = eye;
+  view.EyeDepth = parallel ? -100.0 : 0.0;
+  return view;
+}
+
+void SetMesh(MembraneSight::View& view, const WorldBox& box)
+{
+  const glm::dmat3 toFrame = glm::transpose(view.Frame.ViewToWorld);
+  view.Mesh.Center = toFrame * (box.Center - view.Center);
+  view.Mesh.HalfEdges =
+    toFrame * glm::dmat3(box.Half.x, 0.0, 0.0, 0.0, box.Half.y, 0.0, 0.0, 0.0, box.Half.z);
+}
+
+BentRay RayOf(const MembraneSight& sight, int column, int row)
+{
+  constexpr int Columns = (Size + MembraneSight::TileSize - 1) / MembraneSight::TileSize;
+  constexpr int Side = MembraneSight::TileSize;
+  const BentRay* tile = sight.GetTile(row / Side * Columns + column / Side);
+  return tile ? tile[row % Side * Side + column % Side] : BentRay();
+}
+
+struct Counts
+{
+  int Shown = 0;
+  int Hidden = 0;
+  int Wrong = 0;
+};
+
+/** Rays that come to the box, among all of a sight that leaves none out. */
+void Compare(
+  const MembraneSight& all, const MembraneSight& some, const WorldBox& box, Counts& counts)
+{
+  const MembraneSight::View& view = all.GetView();
+  const glm::dmat3& toWorld = view.Frame.ViewToWorld;
+  for (int row = 0; row < Size; ++row)
+  {
+    for (int column = 0; column < Size; ++column)
+    {
+      const double i = column + 0.5 - 0.5 * Size;
+      const double j = row + 0.5 - 0.5 * Size;
+      const BentRay exact = RayOf(all, column, row);
+      const BentRay ray = RayOf(some, column, row);
+      const bool same = exact.Depth == ray.Depth && exact.Step == ray.Step;
+      const glm::dvec3 start = view.Center + toWorld * glm::dvec3(view.Frame.Origin.At(i, j), 0.0);
+      const glm::dvec3 along = toWorld * glm::dvec3(view.Frame.Slope.At(i, j), 1.0);
+      const glm::dvec3 eye = start + view.EyeDepth * along;
+      const glm::dvec3 sightPoint = start + exact.Depth * along;
+      const bool comes = exact.MeetsMembrane() &&
+        (box.Meets(eye, along, exact.Depth - view.EyeDepth) ||
+          (exact.GoesOn() && box.Meets(sightPoint, toWorld * exact.Step, 1e30)));
+      const bool isHidden = ray.MeetsMembrane() && !ray.GoesOn();
+      counts.Shown += comes ? 1 : 0;
+      counts.Hidden += exact.GoesOn() && isHidden ? 1 : 0;
+      // Rays that do not come to it may be left out; those beside the membrane go straight on.
+      const bool right = same || (!comes && exact.MeetsMembrane() && isHidden);
+      counts.Wrong += right ? 0 : 1;
+    }
+  }
+}
+
+const std::function<double(double, double)> Shapes[] = { [](double, double) { return 0.0; },
+  [](double x, double y) { return std::sqrt(4.0 - x * x - y * y) - 1.7; },
+  [](double x, double y) { return 0.05 * std::sin(5.0 * x + 1.0) * std::sin(4.0 * y); } };
+
+}
+
+TEST(MembraneSight, LeavesOutOnlyRaysThatDoNotComeToTheMesh)
+{
+  Random random(11);
+  Counts counts;
+  for (const auto& shape : Shapes)
+  {
+    for (const int cells : { 1, 3, 12, 48 })
+    {
+      const Sheet sheet(shape, cells);
+      for (int view = 0; view < 24; ++view)
+      {
+        const double side = view % 4 == 3 ? -1.0 : 1.0;
+        const glm::dvec3 eye(random(-2.0, 2.0), random(-2.0, 2.0), side * random(0.2, 3.0));
+        const glm::dvec3 target =
+          random.Point(glm::dvec3(-0.8, -0.8, -0.1), glm::dvec3(0.8, 0.8, 0.1));
+        MembraneSight::View looking = LookAt(eye, target, random(0.5, 3.0), view % 3 == 0);
+        const WorldBox box{ random.Point(glm::dvec3(-1.0, -1.0, -1.0), glm::dvec3(1.0, 1.0, 0.5)),
+          random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) };
+        SetMesh(looking, { glm::dvec3(0.0), glm::dvec3(1e3) });
+        MembraneSight all;
+        all.Build(sheet.Surface, sheet.Patches, looking);
+        SetMesh(looking, box);
+        MembraneSight some;
+        some.Build(sheet.Surface, sheet.Patches, looking);
+        Compare(all, some, box, counts);
+        ASSERT_EQ(counts.Wrong, 0) << cells << " cells, view " << view;
+      }
+    }
+  }
+  EXPECT_GT(counts.Shown, 100000);
+  EXPECT_GT(counts.Hidden, 100000);
+}
+
+TEST(MembraneSight, InstructionSetsSeeTheSame)
+{
+  const Sheet sheet(Shapes[2], 3);
+  Random random(5);
+  const SightRays rays{ { glm::dvec3(0.1, 0.2, 2.0), glm::dvec3(0.0), glm::dvec3(0.0) },
+    { glm::dvec3(0.0, 0.05, -1.0), glm::dvec3(0.01, 0.0, 0.0), glm::dvec3(0.0, 0.01, 0.001) } };
+  SightLanes lanes;
+  for (int i = 0; i < SightLanes::Size - 3; ++i)
+  {
+    lanes.Add(i, random(-40.0, 40.0), random(-40.0, 40.0));
+  }
+  const CurvedPatch patch = sheet.Patches.GetPatch(4);
+  const auto run = [&](InstructionSet set)
+  {
+    SightLanes result = lanes;
+    const glm::dvec3 u = patch.corner[1] - patch.corner[0];
+    const glm::dvec3 v = patch.corner[2] - patch.corner[0];
+    const glm::dvec3 normal = glm::cross(u, v);
+    const double squared = glm::dot(normal, normal);
+    MeetPlane(
+      { patch.corner[0], normal, glm::cross(v, normal) / squared, glm::cross(normal, u) / squared },
+      rays, set, result);
+    for (int i = 0; i < result.Count; ++i)
+    {
+      result.PatchX[i] = result.X[i];
+      result.PatchY[i] = result.Y[i];
+      result.Behind[i] = 0.0;
+    }
+    StepToPatch(patch, rays, 0.5, set, result);
+    Refract(rays, 1.5, set, result); // some beyond the critical angle
+    return result;
+  };
+  const SightLanes expected = run(InstructionSet::Portable);
+  for (const InstructionSet set : { InstructionSet::AVX2, InstructionSet::AVX512 })
+  {
+    if (!HasInstructionSet(set))
+    {
+      continue;
+    }
+    const SightLanes result = run(set);
+    for (int i = 0; i < lanes.Count; ++i)
+    {
+      EXPECT_EQ(result.Depth[i], expected.Depth[i]) << NameOf(set);
+      EXPECT_EQ(result.Least[i], expected.Least[i]);
+      EXPECT_EQ(result.PatchX[i], expected.PatchX[i]);
+      EXPECT_EQ(result.Behind[i], expected.Behind[i]);
+      EXPECT_EQ(result.Move[i], expected.Move[i]);
+      EXPECT_EQ(result.Refracted[i], expected.Refracted[i]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_EQ(result.Normal[axis][i], expected.Normal[axis][i]);
+      }
+    }
+  }
+}
