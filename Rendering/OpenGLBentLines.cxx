@@ -9,8 +9,26 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+
 namespace meniscus
 {
+
+//------------------------------------------------------------------------------
+std::string OpenGLBentLines::DescribeExcess(const int (&imageSize)[2], std::int64_t limit)
+{
+  GLint side = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+  const std::int64_t texels = std::int64_t{ 2 } * imageSize[0] * imageSize[1];
+  if (texels <= limit && 2 * imageSize[0] <= side && imageSize[1] <= side)
+  {
+    return std::string();
+  }
+  return "a table of " + std::to_string(texels) + " texels for the rays of " +
+    std::to_string(imageSize[0]) + " x " + std::to_string(imageSize[1]) +
+    " pixels behind the membrane exceeds the graphics device's limit of " +
+    std::to_string(std::min(limit, std::int64_t{ side } * side));
+}
 
 //------------------------------------------------------------------------------
 std::string OpenGLBentLines::Upload(vtkOpenGLRenderWindow* window,

@@ -358,11 +358,17 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::FallsBackToNative(std::string& error)
+bool vtkTetrahedraRayCastMapper::FallsBackToNative(
+  const meniscus::RayCastFrame& frame, std::string& error)
 {
   vtkInternals& internals = *this->Internals;
   error = internals.OpenGL.GetTables().DescribeExcess(
     internals.Input.GetMesh(), this->CompactTables != 0, this->MaximumTableSize);
+  if (error.empty() && frame.Bending.Wanted)
+  {
+    error =
+      meniscus::OpenGLBentLines::DescribeExcess(frame.Output.ImageSize, this->MaximumTableSize);
+  }
   if (error.empty())
   {
     return false;
@@ -469,7 +475,7 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   if (error.empty())
   {
     backend = this->ChooseBackend();
-    if (backend != NATIVE && this->FallsBackToNative(error))
+    if (backend != NATIVE && this->FallsBackToNative(frame, error))
     {
       backend = NATIVE;
     }

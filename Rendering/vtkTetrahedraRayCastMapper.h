@@ -302,7 +302,8 @@ public:
    * Texels that a table on the graphics device may have, beside the limit that the device names
    * (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that promise more than they hold. A mesh with a table
    * beyond, of 8 texels per tetrahedron or 5 if compact, is drawn by the native backend, after a
-   * warning with the numbers. Default: no limit.
+   * warning with the numbers; so is an image through a membrane, which takes 2 texels per pixel.
+   * Default: no limit.
    */
   vtkSetClampMacro(MaximumTableSize, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumTableSize, vtkTypeInt64);
@@ -438,7 +439,7 @@ private:
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
   int ChooseBackend();
-  bool FallsBackToNative(std::string& error);
+  bool FallsBackToNative(const meniscus::RayCastFrame& frame, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);

@@ -101,6 +101,7 @@ struct Outcome
 {
   FloatImage Picture;
   vtkSmartPointer<ErrorObserver> Told;
+  int Backend = vtkTetrahedraRayCastMapper::AUTOMATIC;
 };
 
 Outcome renderWith(
@@ -118,6 +119,7 @@ Outcome renderWith(
   outcome.Told = vtkSmartPointer<ErrorObserver>::New();
   outcome.Told->observe(scene.rayCaster());
   outcome.Picture = scene.renderFloat();
+  outcome.Backend = scene.rayCaster()->GetActiveBackend();
   return outcome;
 }
 
@@ -246,6 +248,30 @@ TEST(TetrahedraRayCastMembraneInput, BackendAsAsked)
     EXPECT_TRUE(outcome.Told->Errors.empty()) << outcome.Told->text();
     native = backend == vtkTetrahedraRayCastMapper::NATIVE ? outcome.Picture : native;
     expectSamePicture(outcome.Picture, native, "backend " + std::to_string(backend));
+    EXPECT_TRUE(backend == outcome.Backend || backend == vtkTetrahedraRayCastMapper::AUTOMATIC);
+  }
+}
+
+TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
+{
+  // 2 texels per pixel: more than the mesh has, which is drawn on the device as before.
+  const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
+  for (const bool fits : { true, false })
+  {
+    const auto prepare = [fits](vtkTetrahedraRayCastMapper* mapper)
+    {
+      mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+      mapper->SetMaximumTableSize(2 * Size * Size - (fits ? 0 : 1));
+    };
+    const Outcome straight = renderWith(nullptr, prepare);
+    EXPECT_EQ(straight.Backend, int(vtkTetrahedraRayCastMapper::OPENGL));
+    EXPECT_TRUE(straight.Told->Warnings.empty()) << straight.Told->text();
+    const Outcome bent = renderWith(plane.Mesh, prepare);
+    EXPECT_EQ(bent.Backend,
+      int(fits ? vtkTetrahedraRayCastMapper::OPENGL : vtkTetrahedraRayCastMapper::NATIVE));
+    EXPECT_EQ(bent.Told->Warnings.size(), fits ? 0u : 1u);
+    EXPECT_TRUE(bent.Told->Errors.empty()) << bent.Told->text();
+    EXPECT_FALSE(isEmpty(bent.Picture));
   }
 }
 
