@@ -492,6 +492,9 @@ std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport
   {
     return error;
   }
+  // Rasterisers in software blend with 8 bits in 8 bits, which rounds three times.
+  const bool hasUnder =
+    !output.Selecting && this->IsSoftware() && this->Under.Update(this->Window, viewport);
   if (output.Selecting)
   {
     state->vtkglDisable(GL_BLEND);
@@ -499,14 +502,26 @@ std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport
   }
   else
   {
-    state->vtkglEnable(GL_BLEND);
+    drawer->Program->SetUniformf("colorBias", output.ColorBias);
+    const float corner[2] = { static_cast<float>(viewport[0]), static_cast<float>(viewport[1]) };
+    drawer->Program->SetUniform2f("corner", corner);
+    drawer->Program->SetUniformi("hasUnder", hasUnder ? 1 : 0);
+    state->SetEnumState(GL_BLEND, !hasUnder);
     state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   }
   const bool whole = this->Size[0] == viewport[2] && this->Size[1] == viewport[3];
   this->Image->SetMagnificationFilter(whole ? vtkTextureObject::Nearest : vtkTextureObject::Linear);
   this->Image->Activate();
   drawer->Program->SetUniformi("image", this->Image->GetTextureUnit());
+  // A sampler wants a texture even where it is not read.
+  vtkTextureObject* under = hasUnder ? this->Under.GetTexture() : this->Image.Get();
+  under->Activate();
+  if (!output.Selecting)
+  {
+    drawer->Program->SetUniformi("under", under->GetTextureUnit());
+  }
   drawer->Render();
+  under->Deactivate();
   this->Image->Deactivate();
   return std::string();
 }
@@ -566,6 +581,7 @@ void RayCastOpenGL::Release(vtkWindow* window)
   this->GetStatistics();
   this->Tables.Release(owner);
   this->Depth.Release(owner);
+  this->Under.Release(owner);
   for (std::unique_ptr<vtkOpenGLQuadHelper>& lister : this->TileListers)
   {
     lister.reset();

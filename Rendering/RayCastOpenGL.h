@@ -6,6 +6,7 @@
 #include "Volume/RayFrame.h"
 #include "Volume/RayStatistics.h"
 
+#include "OpenGLColorCopy.h"
 #include "OpenGLComputeProgram.h"
 #include "OpenGLDepthCopy.h"
 #include "OpenGLTables.h"
@@ -41,6 +42,8 @@ struct RayCastOutput
   /** Hardware selection: a value where the image is visible, in place of its colour. */
   bool Selecting = false;
   glm::vec3 SelectionValue{ 0.0f };
+  /** Added to the colour of what is not transparent. */
+  float ColorBias = 0.0f;
 };
 
 /** How rays bend at a membrane. */
@@ -152,6 +155,7 @@ private:
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   OpenGLTables Tables;
   OpenGLDepthCopy Depth;
+  OpenGLColorCopy Under;
   /** Without a membrane; before one, behind it. */
   std::unique_ptr<vtkOpenGLQuadHelper> TileListers[3];
   /** By RayCastShaderOptions(). */

@@ -107,6 +107,16 @@ void RayCastPipeline::UpdateGradients()
 }
 
 //------------------------------------------------------------------------------
+std::string RayCastPipeline::DescribeExcess(const RayCastFrame& frame, std::int64_t limit) const
+{
+  const std::string error = this->OpenGL.GetTables().DescribeExcess(
+    this->Input.GetMesh(), frame.Optics.CompactCells, limit);
+  return error.empty() && frame.Bending.Wanted
+    ? OpenGLBentLines::DescribeExcess(frame.Output.ImageSize, limit)
+    : error;
+}
+
+//------------------------------------------------------------------------------
 std::string RayCastPipeline::DrawOpenGL(const RayCastFrame& frame)
 {
   if (frame.Optics.VertexGradients)

@@ -48,6 +48,9 @@ public:
   /** Where the mesh lies for the rays of an image of so many pixels. */
   std::string ComputeFrame(
     vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], OpticsPlace& place) const;
+  /** Which table of a frame a limit in texels or the graphics device's own forbids; empty if none.
+   */
+  std::string DescribeExcess(const RayCastFrame& frame, std::int64_t limit) const;
   std::string DrawOpenGL(const RayCastFrame& frame);
   std::string DrawNative(const RayCastFrame& frame);
 

@@ -14,6 +14,7 @@
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLError.h"
+#include "vtkOpenGLRenderPass.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
@@ -44,6 +45,7 @@ public:
   bool WarnedComponents = false;
   bool WarnedCompute = false;
   bool WarnedTableSize = false;
+  bool WarnedPeeling = false;
   /** Of the last frame, for what is in the world. */
   glm::dmat4 WorldToModel{ 1.0 };
 };
@@ -362,13 +364,7 @@ bool vtkTetrahedraRayCastMapper::FallsBackToNative(
   const meniscus::RayCastFrame& frame, std::string& error)
 {
   vtkInternals& internals = *this->Internals;
-  error = internals.OpenGL.GetTables().DescribeExcess(
-    internals.Input.GetMesh(), this->CompactTables != 0, this->MaximumTableSize);
-  if (error.empty() && frame.Bending.Wanted)
-  {
-    error =
-      meniscus::OpenGLBentLines::DescribeExcess(frame.Output.ImageSize, this->MaximumTableSize);
-  }
+  error = internals.DescribeExcess(frame, this->MaximumTableSize);
   if (error.empty())
   {
     return false;
@@ -407,6 +403,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     frame.Output.ImageSize[i] =
       std::max(1, static_cast<int>(std::ceil(viewport[2 + i] / sampleDistance)));
   }
+  constexpr double LargestColor = 255.0;
+  frame.Output.ColorBias = static_cast<float>(this->ColorBias / LargestColor);
   this->UsedImageSampleDistance = sampleDistance;
   if (selector)
   {
@@ -498,6 +496,16 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
+  vtkInformation* keys = volume->GetPropertyKeys();
+  const bool peeled = renderer->GetUseDepthPeelingForVolumes() && keys &&
+    keys->Has(vtkOpenGLRenderPass::RenderPasses());
+  this->WarnOnce(peeled, this->Internals->WarnedPeeling,
+    "A renderer with UseDepthPeelingForVolumes on does not show this volume beside translucent "
+    "geometry; switch it off, and the volume is drawn over that.");
+  if (peeled)
+  {
+    return;
+  }
   meniscus::InputParts parts;
   if (!this->CollectInput(parts) || parts.Parts.empty() || !this->ChooseMixture(parts, volume) ||
     !this->UpdateMembrane() || !this->UpdateInput(renderer->GetRenderWindow(), parts))
@@ -679,6 +687,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "CompactTables: " << this->CompactTables << "\n";
+  os << indent << "ColorBias: " << this->ColorBias << "\n";
   os << indent << "MaximumTableSize: " << this->MaximumTableSize << "\n";
   os << indent << "HostBytes: " << this->GetHostBytes() << "\n";
   os << indent << "DeviceBytes: " << this->GetDeviceBytes() << "\n";

@@ -311,6 +311,17 @@ public:
 
   ///@{
   /**
+   * Added to the colours of what is not transparent before they are rounded to 8 bits, in steps of
+   * these, 1/255. For pictures that will be put one over the other by arithmetic that drops
+   * fractions, as IceT's does: of N pictures, each of N - 1 blends drops half a step in the mean,
+   * for which a bias of (N - 1) / (2 N) in every picture makes up. In [0, 0.5], default 0.
+   */
+  vtkSetClampMacro(ColorBias, double, 0.0, 0.5);
+  vtkGetMacro(ColorBias, double);
+  ///@}
+
+  ///@{
+  /**
    * Opacity at which a ray ends, in [0, 1]. A pixel is off by at most 1 minus this. Default
    * 1 - 2^-17; 1 integrates every ray to its end.
    */
@@ -460,6 +471,7 @@ private:
   float MaximumImageSampleDistance = 8.0f;
   vtkTypeBool AutoAdjustSampleDistances = 1;
   vtkTypeBool CompactTables = 0;
+  double ColorBias = 0.0;
   vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator stumbles over its default here
   double UsedImageSampleDistance = 1.0;
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastRepresentation.h"
 
+#include "MembraneGathering.h"
+
 #include "vtkColorTransferFunction.h"
 #include "vtkCommunicator.h"
 #include "vtkContourValues.h"
@@ -9,9 +11,12 @@
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
+#include "vtkPolyData.h"
+#include "vtkRenderer.h"
 #include "vtkTetrahedraRayCastMapper.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
@@ -19,14 +24,42 @@
 
 vtkStandardNewMacro(vtkTetrahedraRayCastRepresentation);
 
+namespace
+{
+constexpr int MembranePort = 1;
+
+/// For what IceT drops when it puts the pictures of the ranks over each other.
+double ChooseColorBias()
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  const double pictures = controller ? controller->GetNumberOfProcesses() : 1;
+  return 0.5 * (pictures - 1) / pictures;
+}
+}
+
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastRepresentation::vtkTetrahedraRayCastRepresentation()
+  : Membrane(vtkSmartPointer<vtkPolyData>::New())
 {
+  this->SetNumberOfInputPorts(2);
   this->AddVolumeMapper("Tetrahedra ray cast", this->Mapper);
 }
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastRepresentation::~vtkTetrahedraRayCastRepresentation() = default;
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayCastRepresentation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port != MembranePort)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  meniscus::AcceptComposite(info);
+  return 1;
+}
 
 //------------------------------------------------------------------------------
 int vtkTetrahedraRayCastRepresentation::ProcessViewRequest(
@@ -39,8 +72,62 @@ int vtkTetrahedraRayCastRepresentation::ProcessViewRequest(
   if (request == vtkPVView::REQUEST_UPDATE())
   {
     vtkPVRenderView::SetRedistributionModeToSplitBoundaryCells(inputs, this);
+    // Every rank has all of the membrane: a client is sent that of one of them.
+    vtkPVView::SetPiece(inputs, this, this->Membrane, 0, MembranePort);
+    vtkPVRenderView::SetDeliverToClientAndRenderingProcesses(
+      inputs, this, true, false, MembranePort);
+    if (this->Membrane->GetNumberOfPoints() > 0)
+    {
+      double bounds[6];
+      this->Membrane->GetBounds(bounds);
+      vtkPVRenderView::SetGeometryBounds(inputs, this, bounds, nullptr, MembranePort);
+    }
+  }
+  else if (request == vtkPVView::REQUEST_RENDER())
+  {
+    this->LetViewPeelVolumes(false);
+    this->Mapper->SetColorBias(ChooseColorBias());
+    auto* membrane =
+      vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPiece(inputs, this, MembranePort));
+    membrane = membrane && membrane->GetNumberOfCells() > 0 ? membrane : nullptr;
+    if (this->Mapper->GetMembrane() != membrane)
+    {
+      this->Mapper->SetMembraneData(membrane);
+    }
   }
   return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetVisibility(bool visible)
+{
+  if (!visible)
+  {
+    this->LetViewPeelVolumes(true);
+  }
+  this->Superclass::SetVisibility(visible);
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastRepresentation::RemoveFromView(vtkView* view)
+{
+  this->LetViewPeelVolumes(true);
+  return this->Superclass::RemoveFromView(view);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::LetViewPeelVolumes(bool peel)
+{
+  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
+  vtkRenderer* renderer = view ? view->GetRenderer() : nullptr;
+  // What was off before stays off.
+  const bool changes =
+    renderer && (peel ? this->HasStoppedPeeling : renderer->GetUseDepthPeelingForVolumes());
+  if (changes)
+  {
+    renderer->SetUseDepthPeelingForVolumes(peel);
+    this->HasStoppedPeeling = !peel;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -49,7 +136,29 @@ int vtkTetrahedraRayCastRepresentation::RequestData(
 {
   const int succeeded = this->Superclass::RequestData(request, inputs, outputs);
   this->LeaveOutWithoutArray();
-  return succeeded;
+  return this->UpdateMembrane(inputs[MembranePort]) ? succeeded : 0;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastRepresentation::UpdateMembrane(vtkInformationVector* input)
+{
+  this->Membrane = vtkSmartPointer<vtkPolyData>::New();
+  if (input->GetNumberOfInformationObjects() == 0)
+  {
+    return true;
+  }
+  auto membrane = meniscus::GatherMembrane(vtkDataObject::GetData(input));
+  if (!membrane)
+  {
+    vtkErrorMacro("The ranks could not exchange their parts of the membrane; rays are straight.");
+    return false;
+  }
+  if (membrane->GetNumberOfCells() == 0)
+  {
+    vtkWarningMacro("The membrane has no cells; rays are straight.");
+  }
+  this->Membrane->ShallowCopy(membrane);
+  return true;
 }
 
 //------------------------------------------------------------------------------
@@ -199,6 +308,18 @@ void vtkTetrahedraRayCastRepresentation::SetMaximumImageSampleDistance(double di
 void vtkTetrahedraRayCastRepresentation::SetCompactTables(bool compact)
 {
   this->Mapper->SetCompactTables(compact);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetExteriorIndexOfRefraction(double index)
+{
+  this->Mapper->SetExteriorIndexOfRefraction(index);
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::SetInteriorIndexOfRefraction(double index)
+{
+  this->Mapper->SetInteriorIndexOfRefraction(index);
 }
 
 //------------------------------------------------------------------------------

@@ -17,13 +17,22 @@
  * gives cells whole to one box, so that what sticks out is composited in the wrong order. Cells of
  * a rank that does not have the chosen array are left out, with a warning; ParaView would drop the
  * array on all ranks.
+ *
+ * Port 1 is a membrane at which rays bend, if it is there: vtkPolyData, or composite data of it.
+ * All that the ranks have of it is gathered and delivered to every process that renders. Pictures
+ * of several ranks are composited in the order of straight rays; see Documentation/parallel.md.
+ *
+ * While it is shown, the view does not peel volumes: translucent geometry is drawn first and the
+ * volume over it. ParaView peels volumes by default, which mappers of unstructured grids cannot do.
  */
 #ifndef vtkTetrahedraRayCastRepresentation_h
 #define vtkTetrahedraRayCastRepresentation_h
 
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
+#include "vtkSmartPointer.h"                  // For the membrane
 #include "vtkUnstructuredGridVolumeRepresentation.h"
 
+class vtkPolyData;
 class vtkTetrahedraRayCastMapper;
 
 class VTKMENISCUSREPRESENTATIONS_EXPORT vtkTetrahedraRayCastRepresentation
@@ -36,6 +45,7 @@ public:
 
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* inputs, vtkInformation* outputs) override;
+  void SetVisibility(bool visible) override;
 
   ///@{
   /** Forwarded to the mapper. */
@@ -51,6 +61,8 @@ public:
   void SetImageSampleDistance(double distance);
   void SetMaximumImageSampleDistance(double distance);
   void SetCompactTables(bool compact);
+  void SetExteriorIndexOfRefraction(double index);
+  void SetInteriorIndexOfRefraction(double index);
   ///@}
 
   ///@{
@@ -68,17 +80,25 @@ protected:
   vtkTetrahedraRayCastRepresentation();
   ~vtkTetrahedraRayCastRepresentation() override;
 
+  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   void UpdateMapperParameters() override;
+  bool RemoveFromView(vtkView* view) override;
 
 private:
   vtkTetrahedraRayCastRepresentation(const vtkTetrahedraRayCastRepresentation&) = delete;
   void operator=(const vtkTetrahedraRayCastRepresentation&) = delete;
 
   void LeaveOutWithoutArray();
+  bool UpdateMembrane(vtkInformationVector* input);
+  void LetViewPeelVolumes(bool peel);
 
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
+  /// As gathered on this rank; empty if there is none, for every process must be delivered
+  /// something.
+  vtkSmartPointer<vtkPolyData> Membrane;
+  bool HasStoppedPeeling = false;
 };
 
 #endif

@@ -147,8 +147,7 @@ def refract(prefix):
         write_points(prefix, name, refracted)
 
 
-def main():
-    prefix, names = sys.argv[1], sys.argv[2:]
+def main(prefix, names):
     PluginTesting.load_plugin()
     for mesh in data_meshes(names) if names else made_meshes():
         draw_volume(prefix, *mesh, ["Ball"] if names else ["", "Ball"])
@@ -157,9 +156,10 @@ def main():
         refract(prefix)
 
 
-try:
-    main()
-except Exception:  # the process must end by itself, or the other ranks are killed
-    traceback.print_exc()
-else:
-    print("FINISHED")
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1], sys.argv[2:])
+    except Exception:  # the process must end by itself, or the other ranks are killed
+        traceback.print_exc()
+    else:
+        print("FINISHED")

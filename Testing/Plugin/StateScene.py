@@ -23,7 +23,8 @@ def modified(proxy):
 
 
 def make_scene():
-    """A volume with settings of its own, a ball behind waves, the eye at the camera."""
+    """A volume with settings of its own, seen through waves; a ball behind a surface of a formula that
+    these waves are put on, the eye at the camera."""
     grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
     view = simple.CreateRenderView()
     with modified(view):
@@ -53,6 +54,13 @@ def make_scene():
         refracted.EyePosition = [12, 9, 48]
         refracted.InteriorIndexOfRefraction = 1.5
         refracted.AngularTolerance = 0.05
+        refracted.ExactMembrane = "Sphere"
+    with modified(refracted.ExactMembrane):
+        refracted.ExactMembrane.Center = [0, 0, -44]
+        refracted.ExactMembrane.Radius = 60
     simple.Show(refracted, view)
     simple.Hide(ball, view)
+    with modified(display):
+        display.Membrane = waves
+        display.InteriorIndexOfRefraction = 1.4
     return view

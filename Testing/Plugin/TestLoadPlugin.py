@@ -21,6 +21,7 @@ PROPERTIES = {
 
 def check_plugin():
     filter_proxy = simple.RefractedGeometry(Geometry=simple.Sphere(), Membrane=simple.Plane())
+    assert filter_proxy.ExactMembrane.GetXMLName() == "None"
     for name, default in PROPERTIES.items():
         value = getattr(filter_proxy, name)
         assert value == default, "%s is %r, not %r" % (name, value, default)
@@ -30,6 +31,7 @@ def check_plugin():
     display = simple.Show(grid, PluginTesting.make_view())
     available = display.GetProperty("Representation").Available
     assert "Tetrahedra Ray Cast" in available, available
+    assert display.Membrane is None
 
 
 def test():

@@ -118,6 +118,30 @@ def check_time(view, grid):
     simple.Hide(reader, view)
 
 
+def check_translucent(view, display, grid):
+    """The volume is drawn over a translucent surface, in front of it as behind; afterwards the view
+    peels other volumes again."""
+    alone = screenshot(view, "TranslucentNone")
+    plane = simple.Plane(Origin=[-60, -60, -20], Point1=[60, -60, -20], Point2=[-60, 60, -20])
+    surface = simple.Show(plane, view)
+    surface.Opacity = 0.5
+    both = screenshot(view, "TranslucentBoth")
+    renderer = view.SMProxy.GetClientSideObject().GetRenderer()
+    assert renderer.GetUseDepthPeelingForVolumes() == 0
+    simple.Hide(grid, view)
+    surfaces = screenshot(view, "TranslucentSurface")
+    assert renderer.GetUseDepthPeelingForVolumes() == 1
+    # Behind all of it: what of the volume is over the surface adds light to it.
+    assert surfaces != both
+    for of_both, of_volume, of_surface in zip(both, alone, surfaces):
+        for channel in range(3):
+            assert of_volume[channel] - 1 <= of_both[channel] <= (
+                of_volume[channel] + of_surface[channel] + 1), (of_both, of_volume, of_surface)
+    simple.Delete(plane)
+    simple.Show(grid, view)
+    assert screenshot(view, "TranslucentGone") == alone
+
+
 def test():
     PluginTesting.load_plugin()
     grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
@@ -125,6 +149,7 @@ def test():
     display = show(view, grid)
     color(display, "RTData")
     check_edits(view, display)
+    check_translucent(view, display, grid)
     simple.Hide(grid, view)
     check_arrays(view, grid)
     check_time(view, grid)

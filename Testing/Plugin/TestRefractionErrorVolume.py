@@ -29,8 +29,34 @@ def measure(membrane, finer):
     return volume, field.GetArray("MeanError").GetTuple1(0)
 
 
+def measure_cap(resolution, exact):
+    """Flat facets of a spherical cap, whose points are those of the formula."""
+    cap = simple.Sphere(Radius=2, EndPhi=60, PhiResolution=resolution,
+                        ThetaResolution=4 * resolution)
+    volume = simple.RefractionErrorVolume(Membrane=cap, EyePosition=[0.1, 0.2, 6],
+                                          MembraneModel="Flat facets")
+    volume.ModelBounds = [-0.5, 0.5, -0.5, 0.5, 0, 1.2]
+    volume.SampleDimensions = [10, 10, 10]
+    volume.ExactMembrane = exact
+    if exact == "Sphere":
+        volume.ExactMembrane.Radius = 2
+    field = servermanager.Fetch(volume).GetFieldData()
+    assert field.GetArray("NumberOfMeasuredSamples").GetTuple1(0) > 500
+    return field.GetArray("MeanError").GetTuple1(0)
+
+
+def check_exact():
+    """Against the formula: of second order, and not what the patches of the mesh itself say."""
+    coarse, fine = measure_cap(12, "Sphere"), measure_cap(24, "Sphere")
+    print("mean errors of a cap %.2e, %.2e" % (coarse, fine))
+    assert 0 < fine < coarse / LEAST_GAIN
+    patches = measure_cap(12, "None")
+    assert patches != coarse and abs(patches - coarse) < 0.1 * coarse, patches
+
+
 def test():
     PluginTesting.load_plugin()
+    check_exact()
     finer = waves(200)
     coarse = measure(waves(20), finer)[1]
     volume, fine = measure(waves(40), finer)

@@ -267,6 +267,28 @@ TEST(TetrahedraRayCastNeighbors, TranslucentGeometry)
   }
 }
 
+TEST(TetrahedraRayCastNeighbors, PeeledVolumesAreLeftOutWithAWarning)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  lookAt(scene.renderer(), Bounds, 0.0, 0.0);
+  scene.renderer()->SetUseDepthPeeling(true);
+  scene.renderer()->SetUseDepthPeelingForVolumes(true);
+  const ByteImage alone = scene.renderBytes();
+  scene.volume()->VisibilityOff();
+  const auto plane = addPlane(scene.renderer(), 1.5, 0.5);
+  const ByteImage translucent = scene.renderBytes();
+  EXPECT_NE(translucent.Rgb, alone.Rgb);
+  scene.volume()->VisibilityOn();
+  vtkNew<ErrorObserver> told;
+  told->observe(scene.rayCaster());
+  EXPECT_EQ(scene.renderBytes().Rgb, translucent.Rgb);
+  ASSERT_EQ(told->Warnings.size(), 1u);
+  EXPECT_NE(told->Warnings.front().find("UseDepthPeelingForVolumes"), std::string::npos);
+  plane->VisibilityOff();
+  EXPECT_EQ(scene.renderBytes().Rgb, alone.Rgb);
+}
+
 TEST(TetrahedraRayCastNeighbors, SeveralVolumes)
 {
   // Two volumes apart in depth: the front one over the back one, each as if alone.

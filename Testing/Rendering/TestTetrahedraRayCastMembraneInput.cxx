@@ -6,6 +6,7 @@
 
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
+#include <vtkContourValues.h>
 #include <vtkDoubleArray.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlaneSource.h>
@@ -192,6 +193,29 @@ TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
       scene.volume()->GetProperty()->SetScalarOpacity(opacity);
     },
     { 0, 0, 1, 1, 0, 0 }, true, true);
+}
+
+// Rays are traced to where there is something to be seen: more of them if that grows.
+TEST(TetrahedraRayCastMembraneInput, MoreOfTheMeshIsSeen)
+{
+  const Grid grid = makeBlock(4, [](double x, double, double) { return x; });
+  const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
+  const auto picture = [&](bool lessFirst)
+  {
+    RayCastScene scene(grid, smooth(), Size, Size);
+    scene.rayCaster()->SetMembrane(plane.Mesh);
+    lookAt(scene.renderer(), Block, 30.0, 45.0);
+    if (lessFirst)
+    {
+      scene.volume()->GetProperty()->GetIsoSurfaceValues()->SetValue(0, 0.8);
+      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+      scene.renderFloat();
+      EXPECT_LT(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
+      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::COMPOSITE_BLEND);
+    }
+    return scene.renderFloat();
+  };
+  EXPECT_EQ(picture(true).Rgba, picture(false).Rgba);
 }
 
 TEST(TetrahedraRayCastMembraneInput, OutOfViewAndTakenAway)

@@ -211,6 +211,40 @@ TEST(TetrahedraRayCastScenes, ColoredBackground)
     "coloured background");
 }
 
+// The picture is rounded to 8 bits once, not before it is put over what is there; a bias is added
+// to what the volume covers, and to nothing else.
+TEST(TetrahedraRayCastScenes, RoundedOnceToEightBits)
+{
+  const Block block;
+  RayCastScene scene(block.Mesh, block.Property, Size, Size);
+  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0, 0.7);
+  const FloatImage volume = scene.renderFloat();
+  constexpr std::array<double, 3> background{ 51.0, 102.0, 204.0 };
+  scene.renderer()->SetBackground(0.2, 0.4, 0.8);
+  scene.renderer()->SetBackgroundAlpha(1.0);
+  for (const double bias : { 0.0, 0.25, 0.5 })
+  {
+    scene.rayCaster()->SetColorBias(bias);
+    const ByteImage picture = scene.renderBytes();
+    double worst = 0.0;
+    std::size_t empty = 0;
+    for (int i = 0; i < Size * Size; ++i)
+    {
+      const float* rgba = volume.pixel(i % Size, i / Size);
+      empty += rgba[3] == 0.0f;
+      for (int c = 0; c < 3; ++c)
+      {
+        const double exact = 255.0 * rgba[c] + (1.0 - rgba[3]) * background[c];
+        const double expected = std::min(255.0, exact + (rgba[3] > 0.0f ? bias : 0.0));
+        worst = std::max(worst, std::fabs(picture.pixel(i % Size, i / Size)[c] - expected));
+      }
+    }
+    EXPECT_GT(empty, 100u);
+    // Half a step, and what single precision makes of 255.
+    EXPECT_LT(worst, 0.5 + 255.0 * 1.0e-5) << "bias " << bias;
+  }
+}
+
 TEST(TetrahedraRayCastScenes, CameraInsideTheMesh)
 {
   const Block block;
