@@ -27,7 +27,8 @@ public:
   bool IsFilled() const { return this->Texture != nullptr; }
   std::int64_t GetBytes() const { return this->Bytes; }
 
-  /** Which limit an image of so many pixels exceeds, one in texels or the device's; empty if none. */
+  /** Which limit an image of so many pixels exceeds, one in texels or the device's; empty if none.
+   */
   static std::string DescribeExcess(const int (&imageSize)[2], std::int64_t limit);
 
   /** Replaces the contents. Returns an error or nothing. */

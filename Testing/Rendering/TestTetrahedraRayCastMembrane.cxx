@@ -69,14 +69,13 @@ struct MembraneTest
     this->Scene.window()->Render();
     const auto integrator = makeReference(this->Scene.grid(), this->Scene.volume()->GetMatrix());
     const auto function = toReference(this->Scene.volume()->GetProperty());
-    return expectTrace(
-      this->Scene,
-      [&](const Ray& ray)
-      {
-        return compose(refract(this->Membrane.Surface, ray, 0.0, false),
-          [&](const Ray& part) { return integrator->trace(part, function); });
-      },
-      what, tolerance);
+    const TracedComparison result = expectTrace(this->Scene,
+      this->Membrane.bend([&](const Ray& part) { return integrator->trace(part, function); }), what,
+      tolerance);
+    // Measured: 1.6e-6 through waves, where patches are off, else 1.3e-7 native and 8.7e-7 by
+    // shaders.
+    EXPECT_LT(result.Rms, 2e-6) << what << ": " << result.text();
+    return result;
   }
 };
 
