@@ -35,8 +35,8 @@
  * instead of to the stencil of the window. So windows without stencil and with multisampling show
  * the same, membranes do not interfere, and the state of the window is left alone.
  *
- * Volumes behind the membrane, drawn by a vtkTetrahedraRayCastMapper with the same membrane, come to
- * AddVolume(). Attenuation is that of their own colours.
+ * Volumes behind the membrane, drawn by a vtkTetrahedraRayCastMapper with the same membrane, come
+ * to AddVolume(). Attenuation is that of their own colours.
  *
  * @note The membrane and the picture behind it have one sample per pixel.
  * @note A membrane seen through another one is hidden by it.
@@ -94,8 +94,8 @@ public:
    */
   void AddRefraction(vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter);
   /**
-   * Adds a volume that lies behind a membrane, in part or as a whole. What is behind is seen through
-   * the membrane together with its objects, what is in front or beside as it is.
+   * Adds a volume that lies behind a membrane, in part or as a whole. What is behind is seen
+   * through the membrane together with its objects, what is in front or beside as it is.
    * @param membrane  as above.
    * @param volume    with a vtkTetrahedraRayCastMapper, which has the same surface as its membrane
    *                  (SetMembraneConnection()) and the indices of refraction; else an error. Not to

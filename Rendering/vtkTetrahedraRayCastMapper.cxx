@@ -288,7 +288,8 @@ void vtkTetrahedraRayCastMapper::PrepareBending(
   const meniscus::OpticsPlace& place, meniscus::RayCastFrame& frame)
 {
   meniscus::RayCastBending& bending = frame.Bending;
-  bending.Part = static_cast<meniscus::MembranePart>(this->MembranePart); // the numbers are the same
+  bending.Part =
+    static_cast<meniscus::MembranePart>(this->MembranePart); // the numbers are the same
   bending.Wanted = this->HasMembrane() &&
     (this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction ||
       this->MembranePart != WHOLE);
