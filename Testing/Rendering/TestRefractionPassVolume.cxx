@@ -6,14 +6,12 @@
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
 #include "VolumeScene.h"
+#include "WaterParts.h"
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkContourValues.h>
 #include <vtkNew.h>
-#include <vtkPlaneSource.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRefractedGeometryFilter.h>
 #include <vtkRefractionPass.h>
 #include <vtkRenderWindow.h>
@@ -39,16 +37,6 @@ constexpr int Size = 160;
 constexpr double Water = 1.333;
 constexpr double Range[2] = { -1.0, 1.0 };
 
-vtkSmartPointer<vtkPlaneSource> makePlane(double halfWidth, double height, int resolution)
-{
-  auto plane = vtkSmartPointer<vtkPlaneSource>::New();
-  plane->SetOrigin(-halfWidth, -halfWidth, height);
-  plane->SetPoint1(halfWidth, -halfWidth, height);
-  plane->SetPoint2(-halfWidth, halfWidth, height);
-  plane->SetResolution(resolution, resolution);
-  return plane;
-}
-
 /// A block of [-1, 1]^3 that stands in water up to a level, over a floor, seen from above.
 class Basin
 {
@@ -69,9 +57,9 @@ public:
     this->Filter->SetMembraneConnection(this->Surface->GetOutputPort());
     this->Filter->SetInteriorIndexOfRefraction(Water);
     this->Filter->SetCamera(this->camera());
-    this->show(this->Floor, this->Filter->GetOutputPort());
-    this->Floor->GetProperty()->SetColor(0.9, 0.7, 0.2);
-    this->show(this->Membrane, this->Surface->GetOutputPort());
+    this->Floor = makeActor(this->Filter->GetOutputPort());
+    setFlatColor(this->Floor, 0.9, 0.7, 0.2);
+    this->Membrane = makeActor(this->Surface->GetOutputPort());
     this->Pass->SetReflectanceModel(vtkRefractionPass::NONE);
     this->renderer()->SetBackground(0.2, 0.3, 0.5);
     this->camera()->SetPosition(1.5, 2.5, 5.0);
@@ -114,21 +102,10 @@ public:
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
   vtkNew<vtkVolume> Volume;
   vtkNew<vtkRefractedGeometryFilter> Filter;
-  vtkNew<vtkActor> Floor;
-  vtkNew<vtkActor> Membrane;
+  vtkSmartPointer<vtkActor> Floor;
+  vtkSmartPointer<vtkActor> Membrane;
   vtkNew<vtkRefractionPass> Pass;
   VolumeScene Scene;
-
-private:
-  static void show(vtkActor* actor, vtkAlgorithmOutput* port)
-  {
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(port);
-    mapper->ScalarVisibilityOff();
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetAmbient(1.0);
-    actor->GetProperty()->SetDiffuse(0.0);
-  }
 };
 
 struct Differences
