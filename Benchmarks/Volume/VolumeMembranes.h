@@ -14,7 +14,8 @@ namespace meniscus
 namespace benchmark
 {
 
-/// Processor time of a frame over that of the same frame without the membrane.
+/// Processor time of a frame over that of the same frame without the membrane. Of OpenGL it is what
+/// a software rasteriser takes.
 struct MembraneCost
 {
   std::string Name;
@@ -22,8 +23,9 @@ struct MembraneCost
   Spread Resting; // nothing changed but the camera's time
 };
 
-/// The native backend through a plane above the mesh, one through its middle, a dome and waves.
-std::vector<MembraneCost> measureMembranes(const VolumeOptions& options, vtkUnstructuredGrid* grid);
+/// A backend through a plane above the mesh, one through its middle, a dome and waves.
+std::vector<MembraneCost> measureMembranes(
+  const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend);
 
 } // namespace benchmark
 } // namespace meniscus
