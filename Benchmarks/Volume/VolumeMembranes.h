@@ -14,8 +14,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/// Processor time of a frame over that of the same frame without the membrane. Of OpenGL it is what
-/// a software rasteriser takes.
+/// Processor time of a frame over that of the same frame without the membrane.
 struct MembraneCost
 {
   std::string Name;

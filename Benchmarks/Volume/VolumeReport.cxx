@@ -14,7 +14,6 @@
 #include <functional>
 #include <iomanip>
 #include <sstream>
-#include <utility>
 
 namespace meniscus
 {
@@ -299,12 +298,12 @@ private:
   {
     for (const NamedMesh& mesh : this->Meshes)
     {
-      for (const auto& backend : { std::make_pair("native", vtkTetrahedraRayCastMapper::NATIVE),
-             std::make_pair("OpenGL", vtkTetrahedraRayCastMapper::OPENGL) })
+      for (const int backend : { Mapper::NATIVE, Mapper::OPENGL })
       {
-        for (const MembraneCost& cost : measureMembranes(this->Options, mesh.Mesh, backend.second))
+        for (const MembraneCost& cost : measureMembranes(this->Options, mesh.Mesh, backend))
         {
-          this->line(mesh.Name + ", " + backend.first + ", " + cost.Name,
+          this->line(
+            mesh.Name + (backend == Mapper::NATIVE ? ", native, " : ", opengl, ") + cost.Name,
             "<= 1.5 times the frame without the membrane",
             "camera moves " + format(cost.Moving, " x") + ", rests " + format(cost.Resting, " x"));
         }
