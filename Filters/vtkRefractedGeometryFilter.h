@@ -228,9 +228,10 @@ public:
   /**
    * Set/Get the angle in degrees at the eye that an image may be off where lines and polygons are
    * drawn straight between their points (ALL_IMAGES). A pixel of an image of 512 pixels and 30
-   * degrees is 0.06. Default is 0.005. Range 0.0001 to 10.
+   * degrees is 0.06. Default is 0.005. Range 1e-8, for eyes
+   * far away, to 10.
    */
-  vtkSetClampMacro(AngularTolerance, double, 0.0001, 10.0);
+  vtkSetClampMacro(AngularTolerance, double, 1e-8, 10.0);
   vtkGetMacro(AngularTolerance, double);
   ///@}
 

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
+#include "RefractionTarget.h"
+#include "ViewBounds.h"
+
 #include "vtkRefractedGeometryFilter.h"
 #include "vtkRefractionMembraneFS.h"
 
@@ -43,143 +46,6 @@ vtkStandardNewMacro(vtkRefractionPass);
 namespace
 {
 
-/** A picture to draw to, of the size of the viewport. */
-struct Target
-{
-  vtkSmartPointer<vtkOpenGLFramebufferObject> Buffer;
-  vtkSmartPointer<vtkTextureObject> Color;
-  vtkSmartPointer<vtkTextureObject> Depth;
-  int Size[2] = { 0, 0 };
-
-  bool Ready(vtkOpenGLRenderWindow* window, int width, int height, int colorType);
-  /** Binds and clears it: colour (0, 0, 0, 0), depth 1. */
-  void Begin(vtkOpenGLState* state);
-  void Release(vtkWindow* window);
-};
-
-//------------------------------------------------------------------------------
-bool Target::Ready(vtkOpenGLRenderWindow* window, int width, int height, int colorType)
-{
-  if (this->Buffer && this->Size[0] == width && this->Size[1] == height)
-  {
-    return true;
-  }
-  this->Release(window);
-  this->Color = vtkSmartPointer<vtkTextureObject>::New();
-  this->Color->SetContext(window);
-  this->Depth = vtkSmartPointer<vtkTextureObject>::New();
-  this->Depth->SetContext(window);
-  const auto w = static_cast<unsigned int>(width);
-  const auto h = static_cast<unsigned int>(height);
-  if (!this->Color->Allocate2D(w, h, 4, colorType) ||
-    !this->Depth->AllocateDepth(w, h, vtkTextureObject::Float32))
-  {
-    return false;
-  }
-  this->Buffer = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
-  this->Buffer->SetContext(window);
-  this->Buffer->Bind();
-  this->Buffer->AddColorAttachment(0, this->Color);
-  this->Buffer->AddDepthAttachment(this->Depth);
-  this->Size[0] = width;
-  this->Size[1] = height;
-  return this->Buffer->CheckFrameBufferStatus(GL_FRAMEBUFFER) != 0;
-}
-
-//------------------------------------------------------------------------------
-void Target::Begin(vtkOpenGLState* state)
-{
-  this->Buffer->Bind();
-  this->Buffer->ActivateDrawBuffers(1);
-  state->vtkglViewport(0, 0, this->Size[0], this->Size[1]);
-  state->vtkglScissor(0, 0, this->Size[0], this->Size[1]);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDepthFunc(GL_LEQUAL);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  state->vtkglClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-  state->vtkglClearDepth(1.0);
-  state->vtkglClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-}
-
-//------------------------------------------------------------------------------
-void Target::Release(vtkWindow* window)
-{
-  if (this->Buffer)
-  {
-    this->Buffer->ReleaseGraphicsResources(window);
-    this->Color->ReleaseGraphicsResources(window);
-    this->Depth->ReleaseGraphicsResources(window);
-  }
-  this->Buffer = nullptr;
-  this->Color = nullptr;
-  this->Depth = nullptr;
-}
-
-//------------------------------------------------------------------------------
-/** Whether a part of the box may be in view: not all corners are beyond one plane of the frustum.
- */
-bool MayBeInView(vtkRenderer* renderer, const double bounds[6])
-{
-  double planes[24];
-  renderer->GetActiveCamera()->GetFrustumPlanes(renderer->GetTiledAspectRatio(), planes);
-  for (int p = 0; p < 6; ++p)
-  {
-    const double* plane = planes + 4 * p;
-    bool beyond = true;
-    for (int corner = 0; corner < 8 && beyond; ++corner)
-    {
-      const double height = plane[0] * bounds[corner & 1] +
-        plane[1] * bounds[2 + (corner >> 1 & 1)] + plane[2] * bounds[4 + (corner >> 2 & 1)] +
-        plane[3];
-      beyond = height < 0.0;
-    }
-    if (beyond)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-//------------------------------------------------------------------------------
-/** Widens the camera's clipping range so that it holds the bounds, as the renderer does for its own
- * props; never narrows it. */
-void HoldInClippingRange(vtkRenderer* renderer, const double bounds[6])
-{
-  if (!(bounds[0] <= bounds[1]))
-  {
-    return;
-  }
-  vtkCamera* camera = renderer->GetActiveCamera();
-  double position[3];
-  double direction[3];
-  double range[2];
-  camera->GetPosition(position);
-  camera->GetDirectionOfProjection(direction);
-  camera->GetClippingRange(range);
-  double nearest = std::numeric_limits<double>::max();
-  double farthest = std::numeric_limits<double>::lowest();
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const double depth = direction[0] * (bounds[corner & 1] - position[0]) +
-      direction[1] * (bounds[2 + (corner >> 1 & 1)] - position[1]) +
-      direction[2] * (bounds[4 + (corner >> 2 & 1)] - position[2]);
-    nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
-  }
-  // As vtkRenderer::ResetCameraClippingRange: a little room, and not so near that all of the depth
-  // buffer's resolution is there.
-  constexpr double room = 0.01;
-  constexpr double smallestRatio = 0.001;
-  const double low = std::max((1.0 - room) * nearest, smallestRatio * farthest);
-  const bool holds = range[0] <= std::max(nearest, low) && range[1] >= farthest;
-  if (farthest > 0.0 && !holds)
-  {
-    camera->SetClippingRange(std::min(range[0], low), std::max(range[1], (1.0 + room) * farthest));
-  }
-}
-
 //------------------------------------------------------------------------------
 bool Append(std::string& shader, const std::string& tag, const std::string& code)
 {
@@ -213,8 +79,8 @@ public:
   vtkNew<vtkActor> Surface;
   Stages Stage = Stages::Objects;
 
-  Target Objects;
-  Target Membrane;
+  meniscus::RefractionTarget Objects;
+  meniscus::RefractionTarget Membrane;
   std::unique_ptr<vtkOpenGLQuadHelper> Composers[2]; // without and with a cube map
 
   vtkTypeInt64 Drawn = 0;
@@ -236,13 +102,13 @@ void vtkRefractionPass::vtkInternals::AdjustClippingRange(vtkRenderer* renderer)
     {
       continue;
     }
-    HoldInClippingRange(renderer, bounds);
-    const bool inView = bounds[0] <= bounds[1] && MayBeInView(renderer, bounds);
+    meniscus::HoldInClippingRange(renderer, bounds);
+    const bool inView = bounds[0] <= bounds[1] && meniscus::MayBeInView(renderer, bounds);
     for (const Refraction& refraction : this->Refractions)
     {
       if (inView && refraction.Membrane == membrane && refraction.Object->GetVisibility())
       {
-        HoldInClippingRange(renderer, refraction.Object->GetBounds());
+        meniscus::HoldInClippingRange(renderer, refraction.Object->GetBounds());
       }
     }
   }
@@ -427,7 +293,7 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
   for (vtkActor* membrane : internals.ListMembranes())
   {
     const double* bounds = membrane->GetVisibility() ? membrane->GetBounds() : nullptr;
-    if (bounds && bounds[0] <= bounds[1] && MayBeInView(renderer, bounds))
+    if (bounds && bounds[0] <= bounds[1] && meniscus::MayBeInView(renderer, bounds))
     {
       ++internals.Drawn;
       this->DrawMembrane(state, window, membrane);

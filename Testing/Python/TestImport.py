@@ -14,6 +14,7 @@ class TestImport(unittest.TestCase):
 
     def test_classes(self):
         self.assertIsInstance(meniscus.vtkRefractedGeometryFilter(), vtkPolyDataAlgorithm)
+        self.assertIsInstance(meniscus.vtkRefractedLightFilter(), vtkPolyDataAlgorithm)
         self.assertIsInstance(meniscus.vtkRefractionErrorVolume(), vtkImageAlgorithm)
         self.assertIsInstance(
             meniscus.vtkTetrahedraRayCastMapper(), vtkUnstructuredGridVolumeMapper)

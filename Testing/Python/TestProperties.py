@@ -4,7 +4,8 @@
 import unittest
 
 from meniscus import (
-    vtkRefractedGeometryFilter, vtkRefractionErrorVolume, vtkTetrahedraRayCastMapper)
+    vtkRefractedGeometryFilter, vtkRefractedLightFilter, vtkRefractionErrorVolume,
+    vtkTetrahedraRayCastMapper)
 from vtkmodules.vtkCommonDataModel import vtkSphere
 from vtkmodules.vtkRenderingCore import vtkCamera
 
@@ -100,6 +101,20 @@ class TestFilter(PropertyTest):
         self.check_counters(self.filter, [
             "NumberOfPatchBuilds", "NumberOfEyeUpdates", "NumberOfSolvedVertices",
             "NumberOfFailedSolves", "NumberOfCulledVertices", "NumberOfCulledCells"])
+
+
+class TestRefractedLight(PropertyTest):
+    def test_properties(self):
+        light = vtkRefractedLightFilter()
+        self.check_pair(light, "LightPosition", [(1, 2, 3)])
+        self.check_pair(light, "ExteriorIndexOfRefraction", [1.333])
+        self.check_pair(light, "InteriorIndexOfRefraction", [1.0])
+        self.assertFalse(light.GetPositional())
+        light.PositionalOn()
+        self.assertTrue(light.GetPositional())
+        self.assertFalse(light.GetOneSided())
+        light.OneSidedOn()
+        self.assertTrue(light.GetOneSided())
 
 
 class TestErrorVolume(PropertyTest):

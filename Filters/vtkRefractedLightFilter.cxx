@@ -1,0 +1,339 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkRefractedLightFilter.h"
+
+#include "vtkRefractedGeometryFilter.h"
+
+#include "vtkBoundingBox.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkExecutive.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+constexpr char ArrayName[] = "RefractionIrradiance";
+
+// A light at infinity, in sizes of the scene. Its rays are parallel up to the inverse of that, and
+// what the view divides cells by, in degrees, is a six-thousandth of the scene.
+constexpr double FarAway = 1e4;
+constexpr double FarTolerance = 1e-6;
+constexpr double NearTolerance = 5e-3; // the view's default
+
+//------------------------------------------------------------------------------
+/// Calls `body(cell, number of points, point ids)` for polygons and strips of `data`.
+template <typename Body>
+void ForSurfaces(vtkPolyData* data, const Body& body)
+{
+  vtkIdType cell = data->GetNumberOfVerts() + data->GetNumberOfLines();
+  for (vtkCellArray* cells : { data->GetPolys(), data->GetStrips() })
+  {
+    auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
+    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+    {
+      vtkIdType size;
+      const vtkIdType* points;
+      iterator->GetCurrentCell(size, points);
+      body(cell++, size, points, cells == data->GetStrips());
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/// Area vector, half the sum of cross products about the first point; of strips, by triangles.
+template <typename Place>
+glm::dvec3 AreaOf(vtkIdType size, const vtkIdType* points, bool isStrip, const Place& place)
+{
+  glm::dvec3 sum(0.0);
+  for (vtkIdType i = 2; i < size; ++i)
+  {
+    const vtkIdType first = isStrip ? i - 2 : 0;
+    const glm::dvec3 origin = place(points[first]);
+    const double sign = isStrip && i % 2 == 1 ? -1.0 : 1.0;
+    sum += 0.5 * sign * glm::cross(place(points[i - 1]) - origin, place(points[i]) - origin);
+  }
+  return sum;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 TupleOf(vtkDataArray* array, vtkIdType i)
+{
+  glm::dvec3 tuple;
+  array->GetTuple(i, &tuple.x);
+  return tuple;
+}
+
+//------------------------------------------------------------------------------
+/// What each cell of the input gets: (1 - F) A', of all its images.
+std::vector<double> GatherFlux(vtkPolyData* images, const glm::dvec3& light, vtkIdType cells)
+{
+  std::vector<double> flux(static_cast<std::size_t>(cells), 0.0);
+  vtkDataArray* sights = images->GetPointData()->GetArray("SightPoint");
+  vtkDataArray* reflectance = images->GetPointData()->GetArray("Reflectance");
+  vtkDataArray* sources = images->GetCellData()->GetArray("SourceCellId");
+  if (!sights || !reflectance || !sources)
+  {
+    return flux; // no image at all
+  }
+  ForSurfaces(images,
+    [&](vtkIdType cell, vtkIdType size, const vtkIdType* points, bool isStrip)
+    {
+      glm::dvec3 middle(0.0);
+      double transmitted = 0.0;
+      for (vtkIdType i = 0; i < size; ++i)
+      {
+        middle += TupleOf(sights, points[i]) / static_cast<double>(size);
+        transmitted += (1.0 - reflectance->GetComponent(points[i], 0)) / static_cast<double>(size);
+      }
+      const glm::dvec3 area =
+        AreaOf(size, points, isStrip, [sights](vtkIdType point) { return TupleOf(sights, point); });
+      const double seen = std::fabs(glm::dot(area, glm::normalize(middle - light)));
+      const auto source = static_cast<vtkIdType>(sources->GetComponent(cell, 0));
+      if (source >= 0 && source < cells && std::isfinite(seen))
+      {
+        flux[static_cast<std::size_t>(source)] += transmitted * seen;
+      }
+    });
+  return flux;
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkFloatArray> MakeArray(vtkIdType tuples)
+{
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(ArrayName);
+  array->SetNumberOfTuples(tuples);
+  array->FillValue(0.0f);
+  return array;
+}
+
+//------------------------------------------------------------------------------
+/// @param light  for one side, else null.
+void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const glm::dvec3* light)
+{
+  const auto ofCells = MakeArray(output->GetNumberOfCells());
+  const vtkIdType points = output->GetNumberOfPoints();
+  std::vector<double> sum(static_cast<std::size_t>(points), 0.0);
+  std::vector<double> weight(static_cast<std::size_t>(points), 0.0);
+  ForSurfaces(output,
+    [&](vtkIdType cell, vtkIdType size, const vtkIdType* ids, bool isStrip)
+    {
+      const bool known =
+        std::all_of(ids, ids + size, [points](vtkIdType i) { return i >= 0 && i < points; });
+      const auto place = [output](vtkIdType point)
+      {
+        glm::dvec3 position;
+        output->GetPoint(point, &position.x);
+        return position;
+      };
+      const glm::dvec3 area = known ? AreaOf(size, ids, isStrip, place) : glm::dvec3(0.0);
+      const double length = glm::length(area);
+      if (!(length > 0.0) || !std::isfinite(length))
+      {
+        return;
+      }
+      const bool turnedAway = light && !(glm::dot(area, *light - place(ids[0])) > 0.0);
+      const double irradiance = turnedAway ? 0.0 : flux[static_cast<std::size_t>(cell)] / length;
+      ofCells->SetValue(cell, static_cast<float>(irradiance));
+      for (vtkIdType i = 0; i < size; ++i)
+      {
+        sum[static_cast<std::size_t>(ids[i])] += length * irradiance;
+        weight[static_cast<std::size_t>(ids[i])] += length;
+      }
+    });
+  const auto ofPoints = MakeArray(points);
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    const auto at = static_cast<std::size_t>(i);
+    ofPoints->SetValue(i, weight[at] > 0.0 ? static_cast<float>(sum[at] / weight[at]) : 0.0f);
+  }
+  output->GetCellData()->AddArray(ofCells);
+  output->GetPointData()->AddArray(ofPoints);
+}
+
+} // anonymous namespace
+
+vtkStandardNewMacro(vtkRefractedLightFilter);
+
+//------------------------------------------------------------------------------
+vtkRefractedLightFilter::vtkRefractedLightFilter()
+{
+  this->SetNumberOfInputPorts(2);
+  this->View->SetImagesToAllImages();
+  vtkNew<vtkCallbackCommand> teller;
+  teller->SetClientData(this);
+  teller->SetCallback(
+    [](vtkObject* view, unsigned long event, void* self, void* data)
+    {
+      auto* filter = static_cast<vtkRefractedLightFilter*>(self);
+      if (event == vtkCommand::ProgressEvent)
+      {
+        filter->UpdateProgress(*static_cast<double*>(data));
+        vtkAlgorithm::SafeDownCast(view)->SetAbortExecute(filter->GetAbortExecute());
+      }
+      else if (view->IsA("vtkExecutive"))
+      {
+        return; // says once more that there was an error
+      }
+      else if (event == vtkCommand::ErrorEvent)
+      {
+        vtkErrorWithObjectMacro(filter, << static_cast<const char*>(data));
+      }
+      else
+      {
+        vtkWarningWithObjectMacro(filter, << static_cast<const char*>(data));
+      }
+    });
+  for (const unsigned long event :
+    { vtkCommand::ProgressEvent, vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
+  {
+    this->View->AddObserver(event, teller);
+  }
+  this->View->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, teller);
+}
+
+//------------------------------------------------------------------------------
+vtkRefractedLightFilter::~vtkRefractedLightFilter() = default;
+
+//------------------------------------------------------------------------------
+void vtkRefractedLightFilter::SetMembraneData(vtkPolyData* membrane)
+{
+  this->SetInputData(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+vtkRefractedGeometryFilter* vtkRefractedLightFilter::GetView()
+{
+  return this->View;
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractedLightFilter::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Every piece of the geometry needs all of the membrane.
+int vtkRefractedLightFilter::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const int result = this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+  if (vtkInformation* info = inputs[1]->GetInformationObject(0))
+  {
+    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+    info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+/** False after an error. */
+bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkPolyData* membrane)
+{
+  glm::dvec3 light(this->LightPosition[0], this->LightPosition[1], this->LightPosition[2]);
+  if (!this->Positional)
+  {
+    vtkBoundingBox box(input->GetBounds());
+    box.AddBounds(membrane->GetBounds());
+    double center[3];
+    box.GetCenter(center);
+    light = glm::dvec3(center[0], center[1], center[2]) +
+      FarAway * box.GetDiagonalLength() * glm::normalize(light);
+  }
+  if (!std::isfinite(light.x) || !std::isfinite(light.y) || !std::isfinite(light.z))
+  {
+    vtkErrorMacro("LightPosition ("
+      << this->LightPosition[0] << ", " << this->LightPosition[1] << ", " << this->LightPosition[2]
+      << ") is no place, or no direction, of a light; no irradiance.");
+    return false;
+  }
+  this->View->SetEyePosition(light.x, light.y, light.z);
+  this->View->SetAngularTolerance(this->Positional ? NearTolerance : FarTolerance);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+/** Finds the images of the input's surfaces; false after an abort. */
+bool vtkRefractedLightFilter::Look(vtkPolyData* input, vtkPolyData* membrane)
+{
+  // Without the input's arrays, which images of it do not need; the same object each time, which
+  // the view knows again.
+  this->Surfaces->CopyStructure(input);
+  this->Surfaces->Modified();
+  this->View->SetInputData(this->Surfaces);
+  this->View->SetMembraneData(membrane);
+  this->View->SetExteriorIndexOfRefraction(this->ExteriorIndexOfRefraction);
+  this->View->SetInteriorIndexOfRefraction(this->InteriorIndexOfRefraction);
+  this->View->SetAbortExecute(0);
+  this->View->Update();
+  return this->GetAbortExecute() == 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkRefractedLightFilter::RequestData(
+  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* membrane = vtkPolyData::GetData(inputs[1]);
+  vtkPolyData* output = vtkPolyData::GetData(outputs);
+  if (!input || !membrane || !output)
+  {
+    vtkErrorMacro("Geometry or membrane is missing or no vtkPolyData; the output is empty.");
+    return 0;
+  }
+  output->ShallowCopy(input);
+  if (input->GetNumberOfPoints() == 0)
+  {
+    AddIrradiance(output, {}, nullptr);
+    return 1;
+  }
+  if (!this->PlaceLight(input, membrane))
+  {
+    return 0;
+  }
+  if (!this->Look(input, membrane))
+  {
+    return 1;
+  }
+  glm::dvec3 light;
+  this->View->GetEyePosition(&light.x);
+  const std::vector<double> flux =
+    GatherFlux(this->View->GetOutput(), light, input->GetNumberOfCells());
+  AddIrradiance(output, flux, this->OneSided ? &light : nullptr);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractedLightFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LightPosition: (" << this->LightPosition[0] << ", " << this->LightPosition[1]
+     << ", " << this->LightPosition[2] << ")\n";
+  os << indent << "Positional: " << (this->Positional ? "on" : "off") << "\n";
+  os << indent << "OneSided: " << (this->OneSided ? "on" : "off") << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+}

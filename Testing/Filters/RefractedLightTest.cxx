@@ -1,0 +1,334 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Irradiance through a membrane: closed forms for flat water, photons through exact waves.
+#include "HeightField.h"
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkPlaneSource.h"
+#include "vtkPointData.h"
+#include "vtkRefractedLightFilter.h"
+#include "vtkSphereSource.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using meniscus::reference::HeightField;
+
+const double Pi = std::acos(-1.0);
+constexpr double Water = 1.333;
+// The light is ten thousand sizes of the scene away.
+constexpr double Parallel = 2e-4;
+
+/// 1 - F of unpolarised light, by Fresnel's equations for both polarisations.
+double transmittance(double cosine)
+{
+  const double refracted = std::sqrt(1.0 - (1.0 - cosine * cosine) / (Water * Water));
+  const double s = (cosine - Water * refracted) / (cosine + Water * refracted);
+  const double p = (Water * cosine - refracted) / (Water * cosine + refracted);
+  return 1.0 - 0.5 * (s * s + p * p);
+}
+
+vtkSmartPointer<vtkRefractedLightFilter> MakeLight(
+  vtkPolyData* geometry, vtkPolyData* membrane, const glm::dvec3& light)
+{
+  auto filter = vtkSmartPointer<vtkRefractedLightFilter>::New();
+  filter->SetInputData(geometry);
+  filter->SetMembraneData(membrane);
+  filter->SetLightPosition(light.x, light.y, light.z);
+  filter->SetInteriorIndexOfRefraction(Water);
+  return filter;
+}
+
+vtkDataArray* OfCells(vtkRefractedLightFilter* filter)
+{
+  return filter->GetOutput()->GetCellData()->GetArray("RefractionIrradiance");
+}
+
+vtkDataArray* OfPoints(vtkRefractedLightFilter* filter)
+{
+  return filter->GetOutput()->GetPointData()->GetArray("RefractionIrradiance");
+}
+
+/// What 10^6 rays of the sun bring to the cells of MakeGrid(cells + 1, size, y), per area.
+std::vector<double> ShinePhotons(
+  const HeightField& waves, const glm::dvec3& sun, int cells, double size, double y, double& total)
+{
+  constexpr int Rays = 1000;
+  std::vector<double> flux(static_cast<std::size_t>(cells) * cells, 0.0);
+  const double step = waves.side / Rays;
+  total = 0.0;
+  for (int j = 0; j < Rays; ++j)
+  {
+    for (int i = 0; i < Rays; ++i)
+    {
+      const double x = (i + 0.5) * step - 0.5 * waves.side;
+      const double z = (j + 0.5) * step - 0.5 * waves.side;
+      const glm::dvec3 place(x, waves.GetHeight(x, z), z);
+      const glm::dvec3 normal = waves.GetNormal(x, z);
+      const double cosine = glm::dot(sun, normal);
+      const double power = step * step / normal.y * cosine * transmittance(cosine);
+      total += power;
+      const auto end = waves.Refract(place + 1e6 * sun, place, 1.0);
+      const glm::dvec3 along = *end - place;
+      const glm::dvec3 hit = place + (y - place.y) / along.y * along;
+      const auto column = static_cast<int>(std::floor((hit.x / size + 0.5) * cells));
+      const auto row = static_cast<int>(std::floor((hit.z / size + 0.5) * cells));
+      if (column >= 0 && column < cells && row >= 0 && row < cells)
+      {
+        flux[static_cast<std::size_t>(row) * cells + column] += power;
+      }
+    }
+  }
+  for (double& f : flux)
+  {
+    f *= cells * cells / (size * size);
+  }
+  return flux;
+}
+
+/// The quad of the grid that a cell covers, by its centre.
+std::size_t BinOf(vtkPolyData* grid, vtkIdType cell, int cells, double size)
+{
+  double bounds[6];
+  grid->GetCellBounds(cell, bounds);
+  const auto at = [=](double low, double high)
+  { return static_cast<std::size_t>((0.5 * (low + high) / size + 0.5) * cells); };
+  return at(bounds[4], bounds[5]) * static_cast<std::size_t>(cells) + at(bounds[0], bounds[1]);
+}
+
+} // anonymous namespace
+
+TEST(RefractedLight, FlatWaterUnderTheSun)
+{
+  auto membrane = MakeFlatMembrane();
+  for (const double angle : { 0.0, 0.3, 0.9, 1.3 })
+  {
+    const glm::dvec3 sun(std::sin(angle), std::cos(angle), 0.0);
+    auto filter = MakeLight(MakeGrid(9, 60.0, -20.0), membrane, sun);
+    filter->Update();
+    const double expected = std::cos(angle) * transmittance(std::cos(angle));
+    for (vtkIdType i = 0; i < OfCells(filter)->GetNumberOfTuples(); ++i)
+    {
+      EXPECT_NEAR(OfCells(filter)->GetComponent(i, 0), expected, Parallel) << angle;
+    }
+    for (vtkIdType i = 0; i < OfPoints(filter)->GetNumberOfTuples(); ++i)
+    {
+      EXPECT_NEAR(OfPoints(filter)->GetComponent(i, 0), expected, Parallel) << angle;
+    }
+  }
+}
+
+TEST(RefractedLight, ALampAboveFlatWater)
+{
+  constexpr double Height = 40.0;
+  constexpr double Depth = 30.0;
+  auto floor = MakeGrid(81, 80.0, -Depth);
+  auto filter = MakeLight(floor, MakeFlatMembrane(), { 0.0, Height, 0.0 });
+  filter->PositionalOn();
+  filter->Update();
+  // Rings: at the angle a light passes the water at Height tan a and ends at the radius r(a).
+  const auto sine = [](double a) { return std::sin(a) / Water; };
+  const auto radius = [&](double a)
+  { return Height * std::tan(a) + Depth * sine(a) / std::sqrt(1.0 - sine(a) * sine(a)); };
+  double largest = 0.0;
+  for (vtkIdType i = 0; i < floor->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    floor->GetPoint(i, p);
+    const double r = std::hypot(p[0], p[2]);
+    if (r < 5.0 || r > 35.0)
+    {
+      continue;
+    }
+    double low = 0.0;
+    double high = 1.5;
+    for (int step = 0; step < 60; ++step)
+    {
+      const double middle = 0.5 * (low + high);
+      (radius(middle) < r ? low : high) = middle;
+    }
+    constexpr double Small = 1e-5;
+    const double slope = (radius(low + Small) - radius(low - Small)) / (2.0 * Small);
+    const double onWater = Height * std::tan(low);
+    const double waterSlope = Height / (std::cos(low) * std::cos(low));
+    const double expected =
+      transmittance(std::cos(low)) * std::cos(low) * onWater * waterSlope / (r * slope);
+    largest = std::max(largest, std::fabs(OfPoints(filter)->GetComponent(i, 0) - expected));
+  }
+  EXPECT_LT(largest, 1e-3);
+}
+
+TEST(RefractedLight, CausticsOfWavesAreThoseOfPhotons)
+{
+  const HeightField waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, Water };
+  auto membrane = MakeMembrane(waves.MakeMesh(64));
+  const glm::dvec3 sun = glm::normalize(glm::dvec3(0.2, 1.0, 0.1));
+  constexpr int Cells = 40;
+  constexpr double Size = 500.0;
+  // Before the light is folded, about where it gathers most, and behind it.
+  for (const double depth : { 150.0, 300.0, 700.0 })
+  {
+    auto floor = MakeGrid(Cells + 1, Size, -depth);
+    auto filter = MakeLight(floor, membrane, sun);
+    filter->Update();
+    double total = 0.0;
+    const std::vector<double> truth = ShinePhotons(waves, sun, Cells, Size, -depth, total);
+    double sum = 0.0;
+    double squares = 0.0;
+    double signal = 0.0;
+    for (vtkIdType i = 0; i < floor->GetNumberOfCells(); ++i)
+    {
+      const double measured = OfCells(filter)->GetComponent(i, 0);
+      const double expected = truth[BinOf(floor, i, Cells, Size)];
+      sum += measured * Size * Size / (Cells * Cells);
+      squares += (measured - expected) * (measured - expected);
+      signal += expected * expected;
+    }
+    EXPECT_NEAR(sum / total, 1.0, 5e-4) << depth;
+    EXPECT_LT(std::sqrt(squares / signal), 0.005) << depth;
+    RecordProperty("relative_rms_" + std::to_string(static_cast<int>(depth)),
+      std::to_string(std::sqrt(squares / signal)));
+  }
+}
+
+TEST(RefractedLight, OneSideOfAClosedSurface)
+{
+  vtkNew<vtkSphereSource> ball;
+  ball->SetCenter(0.0, -20.0, 0.0);
+  ball->SetRadius(5.0);
+  ball->SetThetaResolution(48);
+  ball->SetPhiResolution(48);
+  ball->Update();
+  auto filter = MakeLight(ball->GetOutput(), MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
+  filter->OneSidedOn();
+  filter->Update();
+  for (vtkIdType i = 0; i < ball->GetOutput()->GetNumberOfCells(); ++i)
+  {
+    double bounds[6];
+    ball->GetOutput()->GetCellBounds(i, bounds);
+    const double irradiance = OfCells(filter)->GetComponent(i, 0);
+    if (bounds[3] < -20.0)
+    {
+      EXPECT_EQ(irradiance, 0.0);
+    }
+    else if (bounds[2] > -19.5)
+    {
+      EXPECT_GT(irradiance, 0.05);
+    }
+  }
+  filter->OneSidedOff();
+  filter->Update();
+  double least = 1.0;
+  for (vtkIdType i = 0; i < ball->GetOutput()->GetNumberOfCells(); ++i)
+  {
+    double bounds[6];
+    ball->GetOutput()->GetCellBounds(i, bounds);
+    least = bounds[3] < -20.5 ? std::min(least, OfCells(filter)->GetComponent(i, 0)) : least;
+  }
+  EXPECT_GT(least, 0.05);
+}
+
+TEST(RefractedLight, StripsAreTheSameAsTriangles)
+{
+  const std::vector<Point> points{ { -5, -20, -5 }, { -5, -20, 5 }, { 0, -20, -5 }, { 0, -20, 5 },
+    { 5, -20, -5 }, { 5, -20, 5 } };
+  auto strip = MakePoints(points);
+  vtkNew<vtkCellArray> strips;
+  strips->InsertNextCell({ 0, 1, 2, 3, 4, 5 });
+  strip->SetStrips(strips);
+  const double angle = 0.5;
+  auto filter = MakeLight(strip, MakeFlatMembrane(), { std::sin(angle), std::cos(angle), 0.0 });
+  filter->Update();
+  const double expected = std::cos(angle) * transmittance(std::cos(angle));
+  ASSERT_EQ(OfCells(filter)->GetNumberOfTuples(), 1);
+  EXPECT_NEAR(OfCells(filter)->GetComponent(0, 0), expected, Parallel);
+  EXPECT_NEAR(OfPoints(filter)->GetComponent(3, 0), expected, Parallel);
+}
+
+TEST(RefractedLight, WorkIsDoneWhereItsInputChanges)
+{
+  auto filter = MakeLight(MakeGrid(9, 60.0, -20.0), MakeFlatMembrane(), { 0.0, 1.0, 0.1 });
+  filter->Update();
+  const auto solved = filter->GetView()->GetNumberOfSolvedVertices();
+  const auto patches = filter->GetView()->GetNumberOfPatchBuilds();
+  EXPECT_GT(solved, 0);
+  filter->Update();
+  filter->OneSidedOn();
+  filter->Update();
+  EXPECT_EQ(filter->GetView()->GetNumberOfSolvedVertices(), solved);
+  filter->SetLightPosition(0.0, 1.0, 0.2);
+  filter->Update();
+  EXPECT_GT(filter->GetView()->GetNumberOfSolvedVertices(), solved);
+  EXPECT_EQ(filter->GetView()->GetNumberOfPatchBuilds(), patches);
+}
+
+TEST(RefractedLight, BadInput)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const glm::dvec3& light : { glm::dvec3(0.0), glm::dvec3(nan, 1.0, 0.0),
+         glm::dvec3(0.0, std::numeric_limits<double>::infinity(), 0.0) })
+  {
+    auto filter = MakeLight(MakeGrid(3, 60.0, -20.0), MakeFlatMembrane(), light);
+    auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_GT(messages->errors, 0);
+  }
+  {
+    auto filter = MakeLight(MakeGrid(3, 60.0, -20.0), MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
+    filter->SetInteriorIndexOfRefraction(-1.0);
+    auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_GT(messages->errors, 0);
+  }
+  {
+    auto filter =
+      MakeLight(MakeGrid(3, 60.0, -20.0), vtkSmartPointer<vtkPolyData>::New(), { 0.0, 1.0, 0.0 });
+    auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_GT(messages->errors, 0);
+  }
+  {
+    auto filter =
+      MakeLight(vtkSmartPointer<vtkPolyData>::New(), MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
+    auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->errors, 0);
+    EXPECT_EQ(OfCells(filter)->GetNumberOfTuples(), 0);
+  }
+  {
+    // A cell without area, one whose points do not exist, a line, a point that is not finite.
+    auto broken = MakePoints({ { 0, -20, 0 }, { 5, -20, 0 }, { 5, -20, 5 }, { nan, -20, 0 } });
+    vtkNew<vtkCellArray> polys;
+    polys->InsertNextCell({ 0, 2, 1 });
+    polys->InsertNextCell({ 0, 1, 1 });
+    polys->InsertNextCell({ 0, 1, 7 });
+    polys->InsertNextCell({ 0, 1, 3 });
+    vtkNew<vtkCellArray> lines;
+    lines->InsertNextCell({ 0, 1 });
+    broken->SetPolys(polys);
+    broken->SetLines(lines);
+    auto filter = MakeLight(broken, MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
+    auto messages = Observe(filter);
+    filter->Update();
+    ASSERT_EQ(OfCells(filter)->GetNumberOfTuples(), 5);
+    EXPECT_EQ(OfCells(filter)->GetComponent(0, 0), 0.0);
+    EXPECT_NEAR(OfCells(filter)->GetComponent(1, 0), transmittance(1.0), Parallel);
+    for (vtkIdType i = 2; i < 5; ++i)
+    {
+      EXPECT_EQ(OfCells(filter)->GetComponent(i, 0), 0.0);
+    }
+  }
+}
