@@ -125,7 +125,7 @@ std::vector<OpenGLTable*> OpenGLTables::List()
 //------------------------------------------------------------------------------
 std::int64_t OpenGLTables::GetTableBytes()
 {
-  std::int64_t bytes = this->PreIntegration.GetBytes();
+  std::int64_t bytes = this->PreIntegration.GetBytes() + this->BentLines.GetBytes();
   for (const OpenGLTable* table : this->List())
   {
     bytes += table->GetBytes();
@@ -221,6 +221,15 @@ std::string OpenGLTables::UploadPreIntegration(const PreIntegrationTable& table)
 {
   const std::string error = this->PreIntegration.Upload(this->Window, table);
   this->UploadedBytes += this->PreIntegration.GetBytes();
+  return error;
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadBentLines(
+  const std::vector<BentLine>& lines, int width, int height, const BentFrames& frames)
+{
+  const std::string error = this->BentLines.Upload(this->Window, lines, width, height, frames);
+  this->UploadedBytes += this->BentLines.GetBytes();
   return error;
 }
 
@@ -339,6 +348,7 @@ void OpenGLTables::Release(vtkOpenGLRenderWindow* owner)
     table->Release(owner);
   }
   this->PreIntegration.Release(owner);
+  this->BentLines.Release(owner);
 }
 
 }

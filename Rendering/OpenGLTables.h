@@ -7,6 +7,7 @@
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
+#include "OpenGLBentLines.h"
 #include "OpenGLPreIntegration.h"
 #include "OpenGLTable.h"
 #include "VolumePropertyTables.h"
@@ -49,6 +50,7 @@ public:
   bool HasComponents() const { return this->VertexComponents.IsFilled(); }
   bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
   bool HasProperty() const { return this->Intervals.IsFilled(); }
+  bool HasBentLines() const { return this->BentLines.IsFilled(); }
 
   /**
    * The cells in 32 bytes each or, compact, in 20: the exclusive or of a cell's vertices in place
@@ -69,6 +71,9 @@ public:
   /** Up to three further components per vertex. Needed for optics with components. */
   std::string UploadComponents(const std::vector<glm::vec3>& components);
   std::string UploadProperty(const VolumePropertyTables& tables);
+  /** A line per pixel. Needed for optics with Bending. */
+  std::string UploadBentLines(
+    const std::vector<BentLine>& lines, int width, int height, const BentFrames& frames);
 
   std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
   /** Bytes of the tables that are on the device now. */
@@ -79,13 +84,14 @@ public:
   /** Binds what the optical model reads. */
   std::vector<OpenGLTable*> Activate(vtkShaderProgram* program, const RayCastOptics& optics);
   OpenGLPreIntegration& GetPreIntegration() { return this->PreIntegration; }
+  OpenGLBentLines& GetBentLines() { return this->BentLines; }
   void SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const;
 
   /** @param owner  the window of the tables; null if it is gone. */
   void Release(vtkOpenGLRenderWindow* owner);
 
 private:
-  /** All but that of pre-integration. */
+  /** All but those of pre-integration and of bent lines. */
   std::vector<OpenGLTable*> List();
   std::string Count(OpenGLTable& table, const std::string& error);
   std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
@@ -105,6 +111,7 @@ private:
   std::vector<int> FunctionStarts;
   OpenGLTable Isosurfaces;
   OpenGLPreIntegration PreIntegration;
+  OpenGLBentLines BentLines;
   std::int64_t UploadedBytes = 0;
 };
 

@@ -35,7 +35,7 @@ InputReport RayCastMembrane::Update(vtkPolyData* membrane, double exterior, doub
 }
 
 //------------------------------------------------------------------------------
-BentScene RayCastMembrane::See(MembraneSight::View view, VolumeInput& input)
+bool RayCastMembrane::Trace(MembraneSight::View view, VolumeInput& input)
 {
   view.Mesh = BoxOf(input.GetBoundaryTree(), view.Frame);
   if (this->SightOf != this->GetBuilds() || !(this->Sight.GetView() == view))
@@ -46,11 +46,23 @@ BentScene RayCastMembrane::See(MembraneSight::View view, VolumeInput& input)
     this->SightOf = this->GetBuilds();
     ++this->SightUpdates;
   }
-  BentScene scene;
-  if (!this->Sight.IsSeen())
+  return this->Sight.IsSeen();
+}
+
+//------------------------------------------------------------------------------
+bool RayCastMembrane::BeginsInside(VolumeInput& input)
+{
+  if (this->InvertedOf != input.GetMeshBuilds())
   {
-    return scene;
+    this->Inverted = HasInvertedCells(input.GetMesh(), ThreadedLoop);
+    this->InvertedOf = input.GetMeshBuilds();
   }
+  return !this->Inverted;
+}
+
+//------------------------------------------------------------------------------
+BentScene RayCastMembrane::See(VolumeInput& input)
+{
   const PlacedVersion version{ input.GetMeshBuilds(), input.GetScalarUpdates(),
     this->SightUpdates };
   if (version != this->Placed)
@@ -58,12 +70,8 @@ BentScene RayCastMembrane::See(MembraneSight::View view, VolumeInput& input)
     this->Frames.Place(input.GetMesh(), input.GetScalars(), ThreadedLoop);
     this->Placed = version;
   }
-  if (this->InvertedOf != input.GetMeshBuilds())
-  {
-    this->Inverted = HasInvertedCells(input.GetMesh(), ThreadedLoop);
-    this->InvertedOf = input.GetMeshBuilds();
-  }
-  scene.BeginsInside = !this->Inverted;
+  BentScene scene;
+  scene.BeginsInside = this->BeginsInside(input);
   scene.Sight = &this->Sight;
   scene.Frames = &this->Frames;
   scene.Tree = &input.GetBoundaryTree();

@@ -35,11 +35,18 @@ public:
   InputReport Update(vtkPolyData* membrane, double exterior, double interior);
 
   /**
-   * The membrane as an image's rays see it; without a Sight if none of them meets it.
+   * Traces an image's rays to the membrane. False if none of them meets it.
    * @param view   but its Mesh.
    * @param input  what the rays go through.
    */
-  BentScene See(MembraneSight::View view, VolumeInput& input);
+  bool Trace(MembraneSight::View view, VolumeInput& input);
+  /** What was traced, and the frames of the rays behind the membrane. */
+  const MembraneSight& GetSight() const { return this->Sight; }
+  const BentFrames& GetFrames() const { return this->Frames; }
+  /** Whether a ray behind the membrane may begin within the mesh. */
+  bool BeginsInside(VolumeInput& input);
+  /** What was traced for the native caster, with the vertices about the rays. @pre Trace() */
+  BentScene See(VolumeInput& input);
 
   /** Times that the shape was taken in. */
   std::int64_t GetBuilds() const { return this->Surface.GetNumberOfPatchBuilds(); }

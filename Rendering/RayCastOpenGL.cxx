@@ -155,7 +155,11 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
   return this->DrawImage(frame.Output,
     [this, &frame]()
     {
-      const std::string error = this->ListEntries(frame);
+      std::string error = this->ListEntries(frame, false);
+      if (error.empty() && frame.Optics.Bending)
+      {
+        error = this->ListBentEntries(frame);
+      }
       if (!error.empty())
       {
         return error;
@@ -218,8 +222,8 @@ std::string RayCastOpenGL::Resize(int width, int height)
   }
   this->Image = vtkSmartPointer<vtkTextureObject>::New();
   this->StatisticsImage = vtkSmartPointer<vtkTextureObject>::New();
-  this->EntryTiles = vtkSmartPointer<vtkTextureObject>::New();
-  for (const auto& texture : { this->Image, this->StatisticsImage, this->EntryTiles })
+  this->BentTiles = nullptr;
+  for (const auto& texture : { this->Image, this->StatisticsImage })
   {
     texture->SetContext(this->Window);
     texture->SetMinificationFilter(vtkTextureObject::Nearest);
@@ -229,7 +233,7 @@ std::string RayCastOpenGL::Resize(int width, int height)
   this->Tiles[1] = (height + TileSize - 1) / TileSize;
   if (!this->Image->Allocate2D(width, height, 4, VTK_FLOAT) ||
     !this->StatisticsImage->Allocate2D(width, height, 2, VTK_FLOAT) ||
-    !this->EntryTiles->Allocate3D(this->Tiles[0], this->Tiles[1], TileLayers, 4, VTK_FLOAT))
+    !this->AllocateTiles(this->EntryTiles).empty())
   {
     this->Size[0] = this->Size[1] = 0;
     return "no float image of " + std::to_string(width) + " x " + std::to_string(height) +
@@ -259,7 +263,38 @@ std::string RayCastOpenGL::ReadyQuad(
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame)
+std::string RayCastOpenGL::AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles)
+{
+  tiles = vtkSmartPointer<vtkTextureObject>::New();
+  tiles->SetContext(this->Window);
+  tiles->SetMinificationFilter(vtkTextureObject::Nearest);
+  tiles->SetMagnificationFilter(vtkTextureObject::Nearest);
+  return tiles->Allocate3D(this->Tiles[0], this->Tiles[1], TileLayers, 4, VTK_FLOAT)
+    ? std::string()
+    : "no lists of entries can be made on the graphics device";
+}
+
+//------------------------------------------------------------------------------
+/** Only if rays behind the membrane, or what they enter by, are not those of the last time. */
+std::string RayCastOpenGL::ListBentEntries(const RayCastFrame& frame)
+{
+  if (this->BentTiles && this->BentTilesOf == frame.Bending.Version)
+  {
+    return std::string();
+  }
+  std::string error = this->BentTiles ? std::string() : this->AllocateTiles(this->BentTiles);
+  if (error.empty())
+  {
+    error = this->ListEntries(frame, true);
+    ++this->BentEntryLists;
+  }
+  this->BentTilesOf = error.empty() ? frame.Bending.Version : std::array<std::int64_t, 2>{ 0, 0 };
+  return error;
+}
+
+//------------------------------------------------------------------------------
+/** @param bent  of the rays behind the membrane. */
+std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, bool bent)
 {
   if (!this->TileTarget)
   {
@@ -269,22 +304,40 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame)
   this->TileTarget->Bind();
   for (unsigned int layer = 0; layer < TileLayers; ++layer)
   {
-    this->TileTarget->AddColorAttachment(layer, this->EntryTiles, layer);
+    this->TileTarget->AddColorAttachment(layer, bent ? this->BentTiles : this->EntryTiles, layer);
   }
   DrawToAttachments(this->TileTarget, TileLayers);
   this->Window->GetState()->vtkglViewport(0, 0, this->Tiles[0], this->Tiles[1]);
 
-  const std::string error = this->ReadyQuad(this->TileLister,
-    []() { return RayCastShaderSource(vtkTetrahedraEntryTilesFS, RayCastOptics()); });
+  const bool bending = frame.Optics.Bending;
+  std::unique_ptr<vtkOpenGLQuadHelper>& lister = this->TileListers[bending ? 1 + bent : 0];
+  const std::string error = this->ReadyQuad(lister,
+    [bending, bent]()
+    {
+      RayCastOptics optics;
+      optics.Bending = bending;
+      std::string source = RayCastShaderSource(vtkTetrahedraEntryTilesFS, optics);
+      vtkShaderProgram::Substitute(
+        source, "//VTK::TetrahedraBehind::Dec", bent ? "#define BEHIND 1" : "#define BEHIND 0");
+      return source;
+    });
   if (!error.empty())
   {
     return error;
   }
-  vtkShaderProgram* program = this->TileLister->Program;
+  vtkShaderProgram* program = lister->Program;
   const std::vector<OpenGLTable*> tables = this->ActivateRays(program, frame.Rays);
   const float tiles[2] = { static_cast<float>(this->Tiles[0]), static_cast<float>(this->Tiles[1]) };
   program->SetUniform2f("tileCount", tiles);
-  this->TileLister->Render();
+  if (bending)
+  {
+    this->Tables.GetBentLines().Activate(program);
+  }
+  lister->Render();
+  if (bending)
+  {
+    this->Tables.GetBentLines().Deactivate();
+  }
   Deactivate(tables);
   return std::string();
 }
@@ -359,7 +412,19 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
   {
     this->Tables.GetPreIntegration().Activate(program);
   }
+  if (frame.Optics.Bending)
+  {
+    this->Tables.GetBentLines().Activate(program);
+    this->BentTiles->Activate();
+    program->SetUniformi("bentTiles", this->BentTiles->GetTextureUnit());
+    program->SetUniformi("beginsInside", frame.Bending.BeginsInside ? 1 : 0);
+  }
   run();
+  if (frame.Optics.Bending)
+  {
+    this->BentTiles->Deactivate();
+    this->Tables.GetBentLines().Deactivate();
+  }
   if (frame.Optics.PreIntegrated)
   {
     this->Tables.GetPreIntegration().Deactivate();
@@ -517,7 +582,10 @@ void RayCastOpenGL::Release(vtkWindow* window)
   this->Tables.Release(owner);
   this->Depth.Release(owner);
   this->Under.Release(owner);
-  this->TileLister.reset();
+  for (std::unique_ptr<vtkOpenGLQuadHelper>& lister : this->TileListers)
+  {
+    lister.reset();
+  }
   this->RayCasters.clear();
   for (auto& caster : this->ComputeCasters)
   {
@@ -532,6 +600,7 @@ void RayCastOpenGL::Release(vtkWindow* window)
   this->TileTarget = nullptr;
   this->ImageTarget = nullptr;
   this->EntryTiles = nullptr;
+  this->BentTiles = nullptr;
   this->Image = nullptr;
   this->StatisticsImage = nullptr;
   this->Size[0] = this->Size[1] = 0;

@@ -15,6 +15,7 @@
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -55,6 +56,10 @@ struct RayCastBending
   /** Of the frame, in world coordinates, and depth of the eye in it. */
   glm::dvec3 Center{ 0.0 };
   double EyeDepth = 0.0;
+  /** Whether a ray may begin within the mesh behind it; for optics with Bending, as the next. */
+  bool BeginsInside = false;
+  /** Of the rays behind it and of the boundary that they enter by. */
+  std::array<std::int64_t, 2> Version{ 0, 0 };
 };
 
 /** What a frame needs beside the tables. */
@@ -68,7 +73,6 @@ struct RayCastFrame
     return std::max(1.0 - this->EarlyTerminationOpacity, 1.0e-30);
   }
   RayCastOptics Optics;
-  /** Native only. */
   RayCastBending Bending;
   RayCastOutput Output;
   /** By a compute shader, not a fragment shader. */
@@ -115,6 +119,9 @@ public:
   /** Waits until the device has drawn what it was told to. */
   void Finish();
 
+  /** Times that the entries behind a membrane were listed. */
+  std::int64_t GetNumberOfBentEntryLists() const { return this->BentEntryLists; }
+
   /** Of the last frame; read back on the first call after it. */
   RayStatistics GetStatistics();
   /** Notes a frame without rays. */
@@ -134,7 +141,9 @@ private:
   std::string Resize(int width, int height);
   template <typename Function>
   std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
-  std::string ListEntries(const RayCastFrame& frame);
+  std::string AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles);
+  std::string ListEntries(const RayCastFrame& frame, bool bent);
+  std::string ListBentEntries(const RayCastFrame& frame);
   std::string CastRays(const RayCastFrame& frame);
   std::string DispatchRays(const RayCastFrame& frame);
   template <typename Function>
@@ -147,7 +156,8 @@ private:
   OpenGLTables Tables;
   OpenGLDepthCopy Depth;
   OpenGLColorCopy Under;
-  std::unique_ptr<vtkOpenGLQuadHelper> TileLister;
+  /** Without a membrane; before one, behind it. */
+  std::unique_ptr<vtkOpenGLQuadHelper> TileListers[3];
   /** By RayCastShaderOptions(). */
   std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
   std::map<std::string, vtkSmartPointer<OpenGLComputeProgram>> ComputeCasters;
@@ -156,6 +166,10 @@ private:
   vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;
   vtkSmartPointer<vtkOpenGLFramebufferObject> ImageTarget;
   vtkSmartPointer<vtkTextureObject> EntryTiles;
+  /** The same for the rays behind a membrane, and RayCastBending::Version of what they list. */
+  vtkSmartPointer<vtkTextureObject> BentTiles;
+  std::array<std::int64_t, 2> BentTilesOf{ 0, 0 };
+  std::int64_t BentEntryLists = 0;
   vtkSmartPointer<vtkTextureObject> Image;
   vtkSmartPointer<vtkTextureObject> StatisticsImage;
   int Size[2] = { 0, 0 };

@@ -36,6 +36,8 @@ struct RayCastOptics
   bool PreIntegrated = false;
   /** How the table of cells is laid out: see RayCastOpenGL::UploadCells(). */
   bool CompactCells = false;
+  /** Whether rays go on behind a membrane, for shaders: see OpenGLBentLines. */
+  bool Bending = false;
   bool Shading = false;
   bool GradientOpacity = false;
   /** Gradients interpolated between vertices, not those of the cells; only with one of the above.

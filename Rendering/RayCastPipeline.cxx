@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastPipeline.h"
 
+#include "ThreadedLoop.h"
+#include "Volume/BentLines.h"
 #include "Volume/RayFrame.h"
 #include "Volume/VertexGradients.h"
 
@@ -105,14 +107,63 @@ void RayCastPipeline::UpdateGradients()
 }
 
 //------------------------------------------------------------------------------
+std::string RayCastPipeline::DescribeExcess(const RayCastFrame& frame, std::int64_t limit) const
+{
+  const std::string error = this->OpenGL.GetTables().DescribeExcess(
+    this->Input.GetMesh(), frame.Optics.CompactCells, limit);
+  return error.empty() && frame.Bending.Wanted
+    ? OpenGLBentLines::DescribeExcess(frame.Output.ImageSize, limit)
+    : error;
+}
+
+//------------------------------------------------------------------------------
 std::string RayCastPipeline::DrawOpenGL(const RayCastFrame& frame)
 {
   if (frame.Optics.VertexGradients)
   {
     this->UpdateGradients();
   }
-  const std::string error = this->Upload(frame.Optics);
-  return error.empty() ? this->OpenGL.Draw(frame) : error;
+  std::string error = this->Upload(frame.Optics);
+  const bool bends = frame.Bending.Wanted && this->Trace(frame, frame.Output.ImageSize);
+  if (error.empty() && bends)
+  {
+    error = this->UploadBentLines(frame.Output.ImageSize);
+  }
+  if (!error.empty() || !bends)
+  {
+    return error.empty() ? this->OpenGL.Draw(frame) : error;
+  }
+  RayCastFrame bent = frame;
+  bent.Optics.Bending = true;
+  bent.Bending.BeginsInside = this->Membrane.BeginsInside(this->Input);
+  bent.Bending.Version = { this->Membrane.GetSightUpdates(), this->Input.GetLinkChanges() };
+  return this->OpenGL.Draw(bent);
+}
+
+//------------------------------------------------------------------------------
+bool RayCastPipeline::Trace(const RayCastFrame& frame, const int (&imageSize)[2])
+{
+  const RayCastBending& bending = frame.Bending;
+  return this->Membrane.Trace({ frame.Rays, imageSize[0], imageSize[1], bending.Center,
+                                bending.EyeDepth, bending.Exterior, bending.Interior, {} },
+    this->Input);
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastPipeline::UploadBentLines(const int (&imageSize)[2])
+{
+  OpenGLTables& tables = this->OpenGL.GetTables();
+  const std::int64_t version = this->Membrane.GetSightUpdates();
+  if (this->UploadedSight == version && tables.HasBentLines())
+  {
+    return std::string();
+  }
+  std::vector<BentLine> lines;
+  LayOutBentLines(this->Membrane.GetSight(), this->Membrane.GetFrames(), ThreadedLoop, lines);
+  const std::string error =
+    tables.UploadBentLines(lines, imageSize[0], imageSize[1], this->Membrane.GetFrames());
+  this->UploadedSight = error.empty() ? version : 0;
+  return error;
 }
 
 //------------------------------------------------------------------------------
@@ -154,13 +205,9 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
       int width, int height, const std::vector<float>& depths, std::vector<float>& image)
     {
       scene.Rays = PixelRays(frame.Rays, width, height);
-      if (frame.Bending.Wanted)
+      if (frame.Bending.Wanted && this->Trace(frame, { width, height }))
       {
-        const RayCastBending& bending = frame.Bending;
-        scene.Bent =
-          this->Membrane.See({ frame.Rays, width, height, bending.Center, bending.EyeDepth,
-                               bending.Exterior, bending.Interior, {} },
-            this->Input);
+        scene.Bent = this->Membrane.See(this->Input);
       }
       const VertexVersion version{ this->Input.GetMeshBuilds(), this->Input.GetScalarUpdates() };
       return this->Native.Cast(scene, this->Input.GetScalars(), version, depths, image);

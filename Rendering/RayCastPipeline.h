@@ -48,6 +48,9 @@ public:
   /** Where the mesh lies for the rays of an image of so many pixels. */
   std::string ComputeFrame(
     vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], OpticsPlace& place) const;
+  /** Which table of a frame a limit in texels or the graphics device's own forbids; empty if none.
+   */
+  std::string DescribeExcess(const RayCastFrame& frame, std::int64_t limit) const;
   std::string DrawOpenGL(const RayCastFrame& frame);
   std::string DrawNative(const RayCastFrame& frame);
 
@@ -57,6 +60,9 @@ public:
 private:
   void UpdateGradients();
   std::string Upload(const RayCastOptics& optics);
+  /** Whether rays of the image bend. */
+  bool Trace(const RayCastFrame& frame, const int (&imageSize)[2]);
+  std::string UploadBentLines(const int (&imageSize)[2]);
   void UpdateNative();
 
   std::vector<glm::vec3> Gradients;
@@ -75,6 +81,7 @@ private:
   std::int64_t UploadedComponents = 0;
   std::int64_t UploadedProperty = 0;
   std::int64_t UploadedPreIntegration = 0;
+  std::int64_t UploadedSight = 0;
   /** The same of the native backend's. */
   std::int64_t NativeProperty = 0;
 };

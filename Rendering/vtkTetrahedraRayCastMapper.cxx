@@ -45,7 +45,6 @@ public:
   bool WarnedComponents = false;
   bool WarnedCompute = false;
   bool WarnedTableSize = false;
-  bool WarnedMembrane = false;
   bool WarnedPeeling = false;
   /** Of the last frame, for what is in the world. */
   glm::dmat4 WorldToModel{ 1.0 };
@@ -327,15 +326,8 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
 }
 
 //------------------------------------------------------------------------------
-int vtkTetrahedraRayCastMapper::ChooseBackend(const meniscus::RayCastFrame& frame)
+int vtkTetrahedraRayCastMapper::ChooseBackend()
 {
-  if (frame.Bending.Wanted)
-  {
-    this->WarnOnce(this->Backend == OPENGL || this->Backend == COMPUTE,
-      this->Internals->WarnedMembrane,
-      "Rays bend at a membrane in the native backend only; rendering with that.");
-    return NATIVE;
-  }
   if (this->Backend == AUTOMATIC)
   {
     return this->Internals->OpenGL.IsSoftware() ? NATIVE : OPENGL;
@@ -368,11 +360,11 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::FallsBackToNative(std::string& error)
+bool vtkTetrahedraRayCastMapper::FallsBackToNative(
+  const meniscus::RayCastFrame& frame, std::string& error)
 {
   vtkInternals& internals = *this->Internals;
-  error = internals.OpenGL.GetTables().DescribeExcess(
-    internals.Input.GetMesh(), this->CompactTables != 0, this->MaximumTableSize);
+  error = internals.DescribeExcess(frame, this->MaximumTableSize);
   if (error.empty())
   {
     return false;
@@ -480,8 +472,8 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   int backend = OPENGL;
   if (error.empty())
   {
-    backend = this->ChooseBackend(frame);
-    if (backend != NATIVE && this->FallsBackToNative(error))
+    backend = this->ChooseBackend();
+    if (backend != NATIVE && this->FallsBackToNative(frame, error))
     {
       backend = NATIVE;
     }
@@ -591,6 +583,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfSightUpdates()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfBentEntryLists()
+{
+  return this->Internals->OpenGL.GetNumberOfBentEntryLists();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 {
   return this->Internals->Input.GetActiveSetBuilds();
@@ -685,6 +683,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "NumberOfMembraneBuilds: " << this->GetNumberOfMembraneBuilds() << "\n";
   os << indent << "NumberOfSightUpdates: " << this->GetNumberOfSightUpdates() << "\n";
+  os << indent << "NumberOfBentEntryLists: " << this->GetNumberOfBentEntryLists() << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "CompactTables: " << this->CompactTables << "\n";

@@ -82,7 +82,7 @@
  * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
  * composite blending of point data only; fewer than 2^29 tetrahedra; on the graphics device, tables
  * within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()). All backends draw the
- * same, but rays that bend at a membrane, which the native one alone draws.
+ * same.
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -141,9 +141,8 @@ public:
    * n2 / n1 * l along the bent ray and farther (the thesis's Eq. 2.4). A membrane that is drawn
    * opaque itself hides all that is behind it.
    *
-   * It is native: other backends are replaced by it, after a warning. Bounds of the mapper include
-   * those of the membrane, where the volume is seen. A membrane that cannot be used is an error,
-   * and nothing is rendered.
+   * Bounds of the mapper include those of the membrane, where the volume is seen. A membrane that
+   * cannot be used is an error, and nothing is rendered.
    *
    * @sa SetExteriorIndexOfRefraction
    */
@@ -303,7 +302,8 @@ public:
    * Texels that a table on the graphics device may have, beside the limit that the device names
    * (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that promise more than they hold. A mesh with a table
    * beyond, of 8 texels per tetrahedron or 5 if compact, is drawn by the native backend, after a
-   * warning with the numbers. Default: no limit.
+   * warning with the numbers; so is an image through a membrane, which takes 2 texels per pixel.
+   * Default: no limit.
    */
   vtkSetClampMacro(MaximumTableSize, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumTableSize, vtkTypeInt64);
@@ -360,7 +360,8 @@ public:
    * of the volume property to control points, builds of the set of active cells (on a new mesh,
    * new scalars, or when other scalars become visible), computations of vertex gradients, builds of
    * the pre-integration table; of a membrane, times that its shape was taken in and fitted, and
-   * that it was found where the rays meet it (when shape, view or indices changed).
+   * that it was found where the rays meet it (when shape, view or indices changed), and that the
+   * graphics device listed where they enter the mesh behind it (then, and for other active cells).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
@@ -370,11 +371,13 @@ public:
   vtkTypeInt64 GetNumberOfPreIntegrationBuilds();
   vtkTypeInt64 GetNumberOfMembraneBuilds();
   vtkTypeInt64 GetNumberOfSightUpdates();
+  vtkTypeInt64 GetNumberOfBentEntryLists();
   ///@}
 
   /**
    * Bytes of mesh, scalar and transfer function tables sent to the graphics device, or made for the
-   * native backend, since construction. A camera move sends none.
+   * native backend, since construction. A camera move sends none, but with a membrane in view 32
+   * bytes per pixel.
    */
   vtkTypeInt64 GetUploadedBytes();
 
@@ -446,8 +449,8 @@ private:
   bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
   void UpdateTransferFunction(vtkVolume* volume);
   int GetUsedBlendMode();
-  int ChooseBackend(const meniscus::RayCastFrame& frame);
-  bool FallsBackToNative(std::string& error);
+  int ChooseBackend();
+  bool FallsBackToNative(const meniscus::RayCastFrame& frame, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume);

@@ -7,10 +7,17 @@
 // Lists, for each tile of the image, the boundary faces by which a ray of the tile may enter the
 // mesh: up to 32 faces in 8 targets, filled up with -1. The list of a tile with more begins with -2.
 // Works with the tile's central ray, in its grid units, and bounds the difference to the others.
+//
+// With BENDING, rays straight on end at the membrane. With BEHIND the rays are those behind it; the list
+// of a tile where these are of several frames begins with -2, too.
 
 in vec2 texCoord;
 
 //VTK::Output::Dec
+
+//VTK::TetrahedraOptions::Dec
+
+//VTK::TetrahedraBehind::Dec
 
 //VTK::TetrahedraRays::Dec
 
@@ -60,7 +67,55 @@ bool mayEnter(int index)
     areas.x + areas.y + areas.z + faceAreaReach(p, q, r) >= 0.0;
 }
 
-void main()
+#if BENDING
+// A texel of the tile's pixel number i; those outside of the image are the next in it.
+vec4 fetchLine(int i, int texel)
+{
+  int columns = int(tileSize);
+  ivec2 size = ivec2(textureSize(bentLines, 0).x / 2, textureSize(bentLines, 0).y);
+  ivec2 corner = ivec2(floor(texCoord * tileCount) * tileSize);
+  ivec2 pixel = min(corner + ivec2(i % columns, i / columns), size - 1);
+  return texelFetch(bentLines, ivec2(2 * pixel.x + texel, pixel.y), 0);
+}
+#endif
+
+// Sets up the central ray. Yields where all rays end; whether there is one for all. False if there is
+// none.
+#if BEHIND
+bool setUpTile(out float end, out bool alike)
+{
+  // Origin and slope.
+  vec4 least = vec4(1.0e+30);
+  vec4 most = vec4(-1.0e+30);
+  int frame = -1;
+  end = AFTER_EVERYTHING;
+  alike = true;
+  for (int i = 0; i < int(tileSize * tileSize); ++i)
+  {
+    vec4 place = fetchLine(i, 1);
+    if (place.z > 0.0)
+    {
+      vec4 line = fetchLine(i, 0);
+      least = min(least, line);
+      most = max(most, line);
+      alike = alike && (frame < 0 || frame == int(place.w));
+      frame = int(place.w);
+    }
+  }
+  if (frame < 0)
+  {
+    return false;
+  }
+  vec4 middle = 0.5 * (least + most);
+  setUpBentRay(frame, middle.xy, middle.zw, vec2(0.0));
+  // The lines are those of the pixels' centres: there is no room between for rounding to the grid.
+  vec4 spread = 0.5 * (most - least);
+  reach = spread.xy * gridScale + vec2(BOX_MARGIN);
+  reachPerDepth = spread.zw * gridScale;
+  return true;
+}
+#else
+bool setUpTile(out float end, out bool alike)
 {
   vec2 pixel = (floor(texCoord * tileCount) + vec2(0.5)) * tileSize - imageCenter;
   setUpRay(pixel, vec2(0.0));
@@ -68,20 +123,39 @@ void main()
   vec2 slopeReach = 0.5 * tileSize * (abs(slopePerColumn) + abs(slopePerRow));
   reach = originReach * gridScale;
   reachPerDepth = slopeReach * gridScale;
-  bool nearMesh = all(lessThanEqual(
-    abs(rayOrigin), vec2(GRID_RADIUS + BOX_MARGIN) + reach + 2.0 * reachPerDepth));
+  alike = true;
+#if BENDING
+  end = BEFORE_EVERYTHING;
+  for (int i = 0; i < int(tileSize * tileSize); ++i)
+  {
+    end = max(end, fetchLine(i, 1).x);
+  }
+#else
+  end = AFTER_EVERYTHING;
+#endif
+  return true;
+}
+#endif
+
+void main()
+{
+  float end;
+  bool alike;
+  bool nearMesh = setUpTile(end, alike) && alike &&
+    all(lessThanEqual(
+      abs(rayOrigin), vec2(GRID_RADIUS + BOX_MARGIN) + reach + 2.0 * reachPerDepth));
 
   vec4 list[8];
   for (int i = 0; i < 8; ++i)
   {
     list[i] = vec4(-1.0);
   }
-  int count = 0;
+  int count = alike ? 0 : CAPACITY + 1;
   int node = nearMesh ? 0 : numberOfNodes;
   while (node < numberOfNodes && count <= CAPACITY)
   {
     int leaf;
-    meetsBox(node, reach, reachPerDepth, vec2(-1.0e+30, 1.0e+30), node, leaf);
+    meetsBox(node, reach, reachPerDepth, vec2(BEFORE_EVERYTHING, end), node, leaf);
     if (leaf >= 0 && mayEnter(leaf))
     {
       if (count < CAPACITY)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Gradients and lights. Positions and directions are in the frame of the rays (x, y, depth), whose
+// Gradients and lights. Positions and directions are in the frame of the view (x, y, depth), whose
 // metric is the world's up to a factor.
 
 uniform mat3 gradientToFrame;        // from normalised model coordinates
@@ -91,11 +91,10 @@ void light(vec3 gradient, float depth, out vec3 reflected, out vec3 highlight)
     return;
   }
   normal = normalize(normal / largest);
-  vec3 toEye = -normalize(vec3(raySlope, 1.0));
+  vec3 toEye = -normalize(rayAlong);
   normal = dot(normal, toEye) < 0.0 ? -normal : normal;
 #if NUMBER_OF_LIGHTS > 0
-  vec2 origin = originBase + rayPixel.x * originPerColumn + rayPixel.y * originPerRow;
-  vec3 place = vec3(origin + depth * raySlope, depth);
+  vec3 place = rayPlace + depth * rayAlong;
   for (int i = 0; i < NUMBER_OF_LIGHTS; ++i)
   {
     vec3 toLight = lightPosition[i].xyz - lightPosition[i].w * place;

@@ -34,6 +34,17 @@ uniform vec2 slopeBase;
 uniform vec2 slopePerColumn;
 uniform vec2 slopePerRow;
 uniform int enteringSign;            // outward * enteringSign > 0: counter-clockwise is entering
+#if BENDING
+// Rays go on behind a membrane: per pixel two texels side by side, see Module/Volume/BentLines.h, in
+// one of several frames, given by their rows and by their axes in the frame of the view.
+uniform sampler2D bentLines;
+uniform vec3 frameRowX[6];
+uniform vec3 frameRowY[6];
+uniform vec3 frameRowDepth[6];
+uniform vec3 frameAxisX[6];
+uniform vec3 frameAxisY[6];
+uniform vec3 frameAxisDepth[6];
+#endif
 
 // The mesh's radius in grid units: coordinates about a ray that meets the mesh stay below 2^23,
 // where floats are whole numbers.
@@ -48,6 +59,10 @@ const float DEPTH_MARGIN = 1.9073486328125e-06;
 // 2^24. 32-bit integers know it up to a multiple of 2^32.
 const float WRAP = 4294967296.0;
 
+// Depths.
+const float BEFORE_EVERYTHING = -1.0e+30;
+const float AFTER_EVERYTHING = 1.0e+30;
+
 // A vertex about the ray: u, v (grid units), depth, scalar.
 #define RayVertex vec4
 
@@ -55,17 +70,25 @@ const float WRAP = 4294967296.0;
 vec3 rayU;
 vec3 rayV;
 vec2 rayOrigin;
-vec2 raySlope;
 vec2 gridScale;      // grid units per frame unit, in u and v
+vec3 rayPlace;       // at depth 0, in the frame of the view
+vec3 rayAlong;       // what is added to it per depth
+#if BENDING
+vec3 rayDepth;       // depth = dot(rayDepth, p)
+#define ROW_DEPTH rayDepth
+#else
+#define ROW_DEPTH rowDepth
+#endif
 
-// Sets up the ray of a pixel counted from the image's centre. False if it passes by the mesh's
-// bounding sphere by more than `reach` grid units.
-bool setUpRay(vec2 pixel, vec2 reach)
+// Sets up the line (x, y) = origin + depth * slope of the frame with these rows, but for rayPlace and
+// rayAlong. False if it passes by the mesh's bounding sphere by more than `reach` grid units.
+bool setUpLine(vec3 toX, vec3 toY, vec3 toDepth, vec2 origin, vec2 slope, vec2 reach)
 {
-  vec2 origin = originBase + pixel.x * originPerColumn + pixel.y * originPerRow;
-  raySlope = slopeBase + pixel.x * slopePerColumn + pixel.y * slopePerRow;
-  rayU = rowX - raySlope.x * rowDepth;
-  rayV = rowY - raySlope.y * rowDepth;
+#if BENDING
+  rayDepth = toDepth;
+#endif
+  rayU = toX - slope.x * toDepth;
+  rayV = toY - slope.y * toDepth;
   gridScale = vec2(GRID_RADIUS) / vec2(length(rayU), length(rayV));
   rayU *= gridScale.x;
   rayV *= gridScale.y;
@@ -73,12 +96,33 @@ bool setUpRay(vec2 pixel, vec2 reach)
   return all(lessThanEqual(abs(rayOrigin), vec2(GRID_RADIUS + BOX_MARGIN) + reach));
 }
 
+// Sets up the ray of a pixel counted from the image's centre.
+bool setUpRay(vec2 pixel, vec2 reach)
+{
+  vec2 origin = originBase + pixel.x * originPerColumn + pixel.y * originPerRow;
+  vec2 slope = slopeBase + pixel.x * slopePerColumn + pixel.y * slopePerRow;
+  rayPlace = vec3(origin, 0.0);
+  rayAlong = vec3(slope, 1.0);
+  return setUpLine(rowX, rowY, rowDepth, origin, slope, reach);
+}
+
+#if BENDING
+// Sets up a line of a frame.
+bool setUpBentRay(int frame, vec2 origin, vec2 slope, vec2 reach)
+{
+  rayPlace = origin.x * frameAxisX[frame] + origin.y * frameAxisY[frame];
+  rayAlong = slope.x * frameAxisX[frame] + slope.y * frameAxisY[frame] + frameAxisDepth[frame];
+  return setUpLine(
+    frameRowX[frame], frameRowY[frame], frameRowDepth[frame], origin, slope, reach);
+}
+#endif
+
 RayVertex fetchVertex(int index)
 {
   vec4 p = texelFetch(vertices, index);
   EXACTLY_AS_WRITTEN vec2 uv =
     floor(vec2(dot(rayU, p.xyz), dot(rayV, p.xyz)) - rayOrigin + vec2(0.5));
-  return vec4(uv, dot(rowDepth, p.xyz), p.w);
+  return vec4(uv, dot(ROW_DEPTH, p.xyz), p.w);
 }
 
 // Twice the area of (ray, p, q): its sign and zero are exact, its size is to 2^-23, however much of
@@ -105,8 +149,8 @@ bool meetsBox(int node, vec2 reach, vec2 reachPerDepth, vec2 depthRange, out int
 {
   vec4 center = texelFetch(treeNodes, 2 * node);
   vec4 extent = texelFetch(treeNodes, 2 * node + 1);
-  float depth = dot(rowDepth, center.xyz);
-  float depthReach = dot(abs(rowDepth), extent.xyz) + DEPTH_MARGIN;
+  float depth = dot(ROW_DEPTH, center.xyz);
+  float depthReach = dot(abs(ROW_DEPTH), extent.xyz) + DEPTH_MARGIN;
   vec2 middle = vec2(dot(rayU, center.xyz), dot(rayV, center.xyz)) - rayOrigin;
   vec2 extentUV = vec2(dot(abs(rayU), extent.xyz), dot(abs(rayV), extent.xyz)) + vec2(BOX_MARGIN) +
     reach + reachPerDepth * (abs(depth) + depthReach);

@@ -15,6 +15,10 @@
 #endif
 uniform isamplerBuffer cells;
 uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetrahedraEntryTilesFS
+#if BENDING
+uniform sampler3D bentTiles;         // the same for the rays behind the membrane
+uniform bool beginsInside;           // whether a ray behind the membrane may begin within the mesh
+#endif
 uniform int numberOfCells;
 uniform float tileSize;
 uniform mat3 viewToWorld;            // in units of viewToWorldUnit
@@ -27,6 +31,10 @@ uniform vec2 depthDenominator;
 // the pixel (i, j) counted from the image's centre.
 uniform vec3 clippingConstant[NUMBER_OF_CLIPPING_PLANES];
 uniform vec3 clippingPerDepth[NUMBER_OF_CLIPPING_PLANES];
+#if BENDING
+// Of a place of the frame of the view: dot(clippingInFrame, (x, y, depth, 1)).
+uniform vec4 clippingInFrame[NUMBER_OF_CLIPPING_PLANES];
+#endif
 #endif
 uniform samplerBuffer intervals;     // of the optical model: functions by intervals, 3 texels each
 #if VERTEX_GRADIENTS
@@ -39,7 +47,6 @@ uniform samplerBuffer vertexComponents;
 uniform samplerBuffer cellScalars;   // one per cell; those of the vertices do not count
 #endif
 
-const float BEFORE_EVERYTHING = -1.0e+30;
 const int TILE_CAPACITY = 32;
 
 vec2 rayPixel;       // from the image's centre
@@ -47,6 +54,13 @@ vec2 rayTilePixel;   // from its lower left corner
 float rayLengthPerDepth;
 float startDepth;
 float endDepth;
+#if BENDING
+bool rayIsBent;      // behind the membrane
+float membraneDepth; // where it is on the straight ray
+int cycleStart;      // link to the face within the mesh by which the walk began; else -1
+ivec4 nearFace;      // that face: vertices, counter-clockwise, and link
+const int NEAR_FACE = -2;
+#endif
 
 // Where the walk is: the face just entered by, its vertices counter-clockwise about the ray.
 RayVertex a;
@@ -231,7 +245,8 @@ bool stepThroughCell(out int link)
 }
 
 // Walks from the boundary to the boundary, or until the ray ends. Adds to the number of steps; false
-// if the ray is lost.
+// if the ray is lost. A walk that begins within the mesh comes to the boundary, too, or back to where
+// it began: every face and side has one predecessor.
 bool walk(inout int steps)
 {
   // A ray crosses a cell once through each of its 4 faces, in 2 orientations, at the most.
@@ -239,9 +254,14 @@ bool walk(inout int steps)
   int link = 0;
   bool pending = false;
   bool ended = false;
+#if BENDING
+  bool goesRound = false;
+#else
+  const bool goesRound = false;
+#endif
   // What is read after the loop goes around it: Mesa's llvmpipe (22.3) lets rays that are done go on
   // computing values that are only used behind a loop, and those come out wrong (test of lost rays).
-  while (!ended && steps < limit)
+  while (!ended && !goesRound && steps < limit)
   {
     if (!pending)
     {
@@ -257,6 +277,9 @@ bool walk(inout int steps)
     {
       cell = link >> 2;
       face = link & 3;
+#if BENDING
+      goesRound = !ended && link == cycleStart;
+#endif
     }
   }
   return ended;
@@ -278,26 +301,42 @@ struct SeenFace
   int cellFace;
 };
 
-SeenFace seeFace(int index)
+// @param left  whether the vertices are counter-clockwise if the face is entered.
+SeenFace seeTriangle(ivec3 numbers, bool left)
 {
   SeenFace f;
-  ivec4 record = texelFetch(treeFaces, index);
-  f.left = (record.x < 0 ? -1 : 1) * enteringSign > 0;
-  f.numbers = ivec3(record.x < 0 ? ~record.x : record.x, record.yz);
-  f.cellFace = record.w;
-  f.p = fetchVertex(f.numbers.x);
-  f.q = fetchVertex(f.numbers.y);
-  f.r = fetchVertex(f.numbers.z);
+  f.left = left;
+  f.numbers = numbers;
+  f.p = fetchVertex(numbers.x);
+  f.q = fetchVertex(numbers.y);
+  f.r = fetchVertex(numbers.z);
   f.areas = vec3(edgeArea(f.p, f.q), edgeArea(f.q, f.r), edgeArea(f.r, f.p));
-  f.entered = edgeTurnsLeft(f.p, f.q, f.areas.x, true) == f.left &&
-    edgeTurnsLeft(f.q, f.r, f.areas.y, true) == f.left &&
-    edgeTurnsLeft(f.r, f.p, f.areas.z, false) == f.left;
+  f.entered = edgeTurnsLeft(f.p, f.q, f.areas.x, numbers.x < numbers.y) == left &&
+    edgeTurnsLeft(f.q, f.r, f.areas.y, numbers.y < numbers.z) == left &&
+    edgeTurnsLeft(f.r, f.p, f.areas.z, numbers.z < numbers.x) == left;
   f.areas = abs(f.areas);
   float total = f.areas.x + f.areas.y + f.areas.z;
   // A face without projected area is met at its first vertex.
   f.point = total > 0.0
     ? (f.areas.y * f.p.zw + f.areas.z * f.q.zw + f.areas.x * f.r.zw) / total
     : f.p.zw;
+  return f;
+}
+
+// A face of the boundary; with BENDING, also one within the mesh that nearFace holds: number -2.
+SeenFace seeFace(int index)
+{
+#if BENDING
+  bool isNear = index == NEAR_FACE;
+  ivec4 record = texelFetch(treeFaces, isNear ? 0 : index);
+  record = isNear ? nearFace : record;
+  bool left = isNear || (record.x < 0 ? -1 : 1) * enteringSign > 0;
+#else
+  ivec4 record = texelFetch(treeFaces, index);
+  bool left = (record.x < 0 ? -1 : 1) * enteringSign > 0;
+#endif
+  SeenFace f = seeTriangle(ivec3(record.x < 0 ? ~record.x : record.x, record.yz), left);
+  f.cellFace = record.w;
   return f;
 }
 
@@ -332,12 +371,23 @@ void insertEntry(float depth, int number)
   }
 }
 
+vec4 fetchTile(ivec2 tile, int layer)
+{
+#if BENDING
+  if (rayIsBent)
+  {
+    return texelFetch(bentTiles, ivec3(tile, layer), 0);
+  }
+#endif
+  return texelFetch(entryTiles, ivec3(tile, layer), 0);
+}
+
 // Finds the next entries after (lastDepth, lastFace) among the faces listed for the ray's tile,
 // or among those of the tree if they did not fit.
 void collectEntries(float lastDepth, int lastFace)
 {
   ivec2 tile = ivec2(rayTilePixel / tileSize);
-  bool listed = texelFetch(entryTiles, ivec3(tile, 0), 0).x > -1.5;
+  bool listed = fetchTile(tile, 0).x > -1.5;
   entryFaces = ivec4(-1);
   entryDepths = vec4(0.0);
   moreEntries = false;
@@ -348,7 +398,7 @@ void collectEntries(float lastDepth, int lastFace)
     int candidate;
     if (listed)
     {
-      candidate = int(texelFetch(entryTiles, ivec3(tile, at / 4), 0)[at % 4]);
+      candidate = int(fetchTile(tile, at / 4)[at % 4]);
       at = candidate < 0 ? end : at + 1;
     }
     else
@@ -367,10 +417,9 @@ void collectEntries(float lastDepth, int lastFace)
   }
 }
 
-// Puts the walk on the first of the entries found, and removes it from them.
-void enterFirst()
+// Puts the walk on a face.
+void enter(SeenFace f)
 {
-  SeenFace f = seeFace(entryFaces.x);
   a = f.left ? f.p : f.q;
   b = f.left ? f.q : f.p;
   c = f.r;
@@ -394,33 +443,184 @@ void enterFirst()
     ? (edges.y * valuesA + edges.z * valuesB + edges.x * valuesC) / total
     : valuesA;
 #endif
+}
+
+// Puts the walk on the first of the entries found, and removes it from them.
+void enterFirst()
+{
+  enter(seeFace(entryFaces.x));
   entryFaces = ivec4(entryFaces.yzw, -1);
   entryDepths = vec4(entryDepths.yzw, 0.0);
 }
+
+//--- Limits ----------------------------------------------------------------------------------------
+
+// On the straight ray, of a depth of the window.
+float depthOf(float opaque)
+{
+  vec2 fraction = (2.0 * opaque - 1.0) * vec2(depthNumerator.x, depthDenominator.x) +
+    vec2(depthNumerator.y, depthDenominator.y);
+  return fraction.x / fraction.y;
+}
+
+// Narrows the ray to where height + depth * perDepth is not negative.
+void clip(float height, float perDepth)
+{
+  float met = -height / perDepth;
+  startDepth = perDepth > 0.0 ? max(startDepth, met) : startDepth;
+  endDepth = perDepth < 0.0 ? min(endDepth, met) : endDepth;
+  endDepth = perDepth == 0.0 && height < 0.0 ? BEFORE_EVERYTHING : endDepth;
+}
+
+#if BENDING
+//--- Behind the membrane ---------------------------------------------------------------------------
+
+// In units of the frame, by how much an entry may lie before the sight point that the straight ray
+// says is outside of the mesh. Vertices are off by 2^-22; along a ray that leaves the boundary at an
+// angle of 2^-12 that is 2^-10. To take an entry too many costs a few steps, and changes nothing.
+const float START_MARGIN = 1.0 / 1024.0;
+
+// The vertex of a cell that a face of it does not have.
+int oppositeVertex(int index, ivec3 numbers)
+{
+#if COMPACT_CELLS
+  int all = texelFetch(cells, CELL_SIZE * index).r;
+#else
+  int all = texelFetch(cells, CELL_SIZE * index).r ^ texelFetch(cells, CELL_SIZE * index + 1).r ^
+    texelFetch(cells, CELL_SIZE * index + 2).r ^ texelFetch(cells, CELL_SIZE * index + 3).r;
+#endif
+  return all ^ numbers.x ^ numbers.y ^ numbers.z;
+}
+
+// Finds the face by which the ray behind the membrane enters one of the two cells about the face that
+// the straight ray came to last, if that is not behind the sight point: from there a walk comes to
+// that. False if the ray passes by them.
+bool findNearFace(float sightDepth)
+{
+  int front = texelFetch(cells, CELL_SIZE * cell + FIRST_LINK + face).r >> 2;
+  int number = front < 0 ? 4 : 0;
+  bool found = false;
+  nearFace = ivec4(0); // goes around the loop, see walk()
+  while (!found && number < 8)
+  {
+    // Counter-clockwise about a ray that leaves the cell by the face between; so are the other faces
+    // about one that enters by them.
+    bool inFront = number < 4;
+    int index = inFront ? front : cell;
+    ivec3 n = inFront ? corners : corners.xzy;
+    int last = oppositeVertex(index, corners);
+    int k = number % 4;
+    int opposite = k == 0 ? last : (k == 1 ? n.x : (k == 2 ? n.y : n.z));
+    nearFace.xyz = k == 0 ? n.xzy
+      : ivec3(last, k == 1 ? n.yz : (k == 2 ? n.zx : n.xy));
+    nearFace.w = 4 * index + int(n.x < opposite) + int(n.y < opposite) + int(n.z < opposite) +
+      int(last < opposite);
+    SeenFace f = seeFace(NEAR_FACE);
+    found = f.entered && f.point.x <= sightDepth;
+    number += found ? 0 : 1;
+  }
+  return found;
+}
+
+// The part of the ray behind the membrane that counts. What is in the depth buffer there is drawn at
+// the depths of straight rays (Eq. 2.4), where nothing is drawn the far plane does not matter.
+void limitBentRay(float opaque, float start, float perDepth)
+{
+  startDepth = start + max(0.0, nearDepth - membraneDepth) * perDepth;
+  endDepth =
+    opaque < 1.0 ? start + (depthOf(opaque) - membraneDepth) * perDepth : AFTER_EVERYTHING;
+#if NUMBER_OF_CLIPPING_PLANES > 0
+  for (int i = 0; i < NUMBER_OF_CLIPPING_PLANES; ++i)
+  {
+    clip(dot(clippingInFrame[i], vec4(rayPlace, 1.0)), dot(clippingInFrame[i].xyz, rayAlong));
+  }
+#endif
+  endDepth = startDepth < endDepth ? endDepth : BEFORE_EVERYTHING;
+}
+#endif
 
 //--- Ray -------------------------------------------------------------------------------------------
 
 // The visible part of the ray: from the near plane to opaque geometry, within the clipping planes.
 void limitRay(float opaque)
 {
-  vec2 fraction = (2.0 * opaque - 1.0) * vec2(depthNumerator.x, depthDenominator.x) +
-    vec2(depthNumerator.y, depthDenominator.y);
   startDepth = nearDepth;
-  endDepth = fraction.x / fraction.y;
+  endDepth = depthOf(opaque);
+#if BENDING
+  endDepth = min(endDepth, membraneDepth);
+#endif
 #if NUMBER_OF_CLIPPING_PLANES > 0
   vec3 place = vec3(1.0, rayPixel);
   for (int i = 0; i < NUMBER_OF_CLIPPING_PLANES; ++i)
   {
-    float height = dot(clippingConstant[i], place);
-    float perDepth = dot(clippingPerDepth[i], place);
-    float met = -height / perDepth;
-    startDepth = perDepth > 0.0 ? max(startDepth, met) : startDepth;
-    endDepth = perDepth < 0.0 ? min(endDepth, met) : endDepth;
-    endDepth = perDepth == 0.0 && height < 0.0 ? BEFORE_EVERYTHING : endDepth;
+    clip(dot(clippingConstant[i], place), dot(clippingPerDepth[i], place));
   }
   endDepth = startDepth < endDepth ? endDepth : BEFORE_EVERYTHING;
 #endif
 }
+
+// Casts what is set up of the ray: from nearFace on, if that is the first of its entries, then from
+// those after `lastDepth`, if there are more. Adds cells crossed and walks that did not end on the
+// boundary.
+void castPart(float lastDepth, inout int steps, inout int lost)
+{
+  int lastFace = -1;
+  while (!isRayDone() && depthNow < endDepth)
+  {
+    if (entryFaces.x == -1 && moreEntries)
+    {
+      collectEntries(lastDepth, lastFace);
+    }
+    if (entryFaces.x == -1)
+    {
+      break;
+    }
+    lastFace = entryFaces.x;
+    enterFirst();
+    float entryDepth = faceDepth;
+    startPart(faceScalar);
+    bool ended = walk(steps);
+#if BENDING
+    // A walk that goes round within the mesh has passed nothing twice; the rest is from the boundary on.
+    bool wasNear = lastFace == NEAR_FACE;
+    entryDepth = wasNear ? (ended ? lastDepth : BEFORE_EVERYTHING) : entryDepth;
+    lastFace = wasNear ? -1 : lastFace;
+    ended = ended || wasNear;
+    cycleStart = -1;
+#endif
+    lastDepth = entryDepth;
+    lost += ended ? 0 : 1;
+  }
+}
+
+#if BENDING
+// Sets up what is behind the membrane, when the straight ray has come there. Yields the depth from
+// which on entries count. False if nothing of it does.
+bool goOnBehind(float opaque, out float lastDepth)
+{
+  ivec2 texel = ivec2(2, 1) * ivec2(rayTilePixel);
+  vec4 line = texelFetch(bentLines, texel, 0);
+  vec4 place = texelFetch(bentLines, texel + ivec2(1, 0), 0);
+  // Where the straight ray has come to, if clipping planes did not end it.
+  bool arrived = endDepth == membraneDepth && entryFaces.x < 0 && !moreEntries;
+  bool inside = depthNow >= endDepth;
+  lastDepth = BEFORE_EVERYTHING;
+  if (!(place.z > 0.0) || !setUpBentRay(int(place.w), line.xy, line.zw, vec2(0.0)))
+  {
+    return false;
+  }
+  rayIsBent = true;
+  rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * rayAlong);
+  limitBentRay(opaque, place.y, place.z);
+  depthNow = BEFORE_EVERYTHING;
+  bool within = arrived && inside && beginsInside && cell >= 0 && findNearFace(place.y);
+  entryFaces = ivec4(within ? NEAR_FACE : -1, -1, -1, -1);
+  cycleStart = within ? nearFace.w : -1;
+  moreEntries = true;
+  lastDepth = within || (arrived && !inside) ? place.y - START_MARGIN : lastDepth;
+  return startDepth < endDepth;
+}
+#endif
 
 // Casts the ray of a pixel, given by its centre, up to an opaque depth of the window, in [0, 1].
 // Yields cells crossed and walks that did not end on the boundary.
@@ -432,29 +632,35 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   steps = 0;
   lost = 0;
   bool meetsMesh = setUpRay(rayPixel, vec2(0.0));
-  rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * vec3(raySlope, 1.0));
-  limitRay(opaque);
+  rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * rayAlong);
   startRay();
-
   float lastDepth = BEFORE_EVERYTHING;
-  int lastFace = -1;
   entryFaces = ivec4(-1);
   moreEntries = meetsMesh;
-  while (!isRayDone() && depthNow < endDepth)
+#if BENDING
+  rayIsBent = false;
+  cycleStart = -1;
+  membraneDepth = texelFetch(bentLines, ivec2(2, 1) * ivec2(pixel) + ivec2(1, 0), 0).x;
+  bool meetsMembrane = membraneDepth < AFTER_EVERYTHING;
+  limitRay(opaque);
+  // First what is straight, if a ray of the tile enters the mesh there, then what is behind the
+  // membrane: in one loop, of which rays side by side take the turns that they need.
+  moreEntries = meetsMesh && fetchTile(ivec2(pixel / tileSize), 0).x != -1.0;
+  bool straight = moreEntries;
+  bool goesOn = straight || meetsMembrane;
+  while (goesOn)
   {
-    if (entryFaces.x < 0 && moreEntries)
+    goesOn = straight || goOnBehind(opaque, lastDepth);
+    if (goesOn)
     {
-      collectEntries(lastDepth, lastFace);
+      castPart(lastDepth, steps, lost);
     }
-    if (entryFaces.x < 0)
-    {
-      break;
-    }
-    lastFace = entryFaces.x;
-    enterFirst();
-    lastDepth = faceDepth;
-    startPart(faceScalar);
-    lost += walk(steps) ? 0 : 1;
+    goesOn = goesOn && meetsMembrane && !rayIsBent && !isRayDone();
+    straight = false;
   }
+#else
+  limitRay(opaque);
+  castPart(lastDepth, steps, lost);
+#endif
   return finishRay();
 }

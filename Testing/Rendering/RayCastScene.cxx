@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace meniscus
 {
@@ -38,9 +39,17 @@ int backendUnderTest()
 {
   const char* name = std::getenv("MENISCUS_TEST_BACKEND");
   const std::string backend(name ? name : "");
-  return backend == "Native" ? int(vtkTetrahedraRayCastMapper::NATIVE)
-                             : (backend == "OpenGL" ? int(vtkTetrahedraRayCastMapper::OPENGL)
-                                                    : int(vtkTetrahedraRayCastMapper::AUTOMATIC));
+  const std::pair<const char*, int> backends[] = { { "Native", vtkTetrahedraRayCastMapper::NATIVE },
+    { "OpenGL", vtkTetrahedraRayCastMapper::OPENGL },
+    { "Compute", vtkTetrahedraRayCastMapper::COMPUTE } };
+  for (const auto& known : backends)
+  {
+    if (backend == known.first)
+    {
+      return known.second;
+    }
+  }
+  return vtkTetrahedraRayCastMapper::AUTOMATIC;
 }
 
 //------------------------------------------------------------------------------

@@ -41,7 +41,8 @@ private:
   vtkSmartPointer<vtkUnstructuredGrid> Grid;
 };
 
-/// What the environment variable MENISCUS_TEST_BACKEND says: OpenGL, Native; else automatic.
+/// What the environment variable MENISCUS_TEST_BACKEND says: OpenGL, Compute, Native; else
+/// automatic.
 int backendUnderTest();
 
 /// Share of covered pixels that may be excused as silhouettes, or a number of pixels if larger.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Compute and fragment shaders, made of the same functions, give the same picture.
+#include "MembraneScene.h"
 #include "RayCastScene.h"
 
 #include <vtkCamera.h>
@@ -78,13 +79,18 @@ bool hasCompute(vtkRenderWindow* window)
 void expectAgreement(RayCastScene& scene, int backend, const std::string& what)
 {
   vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  // Within the mesh rays may begin behind a membrane by one cell or the next.
+  const bool sameSteps =
+    backend != vtkTetrahedraRayCastMapper::NATIVE || mapper->GetMembrane() == nullptr;
   mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const FloatImage fragment = scene.renderFloat();
   const vtkTypeInt64 steps = mapper->GetNumberOfTraversalSteps();
   mapper->SetBackend(backend);
   const FloatImage other = scene.renderFloat();
   EXPECT_EQ(mapper->GetActiveBackend(), backend) << what;
-  EXPECT_EQ(mapper->GetNumberOfTraversalSteps(), steps) << what;
+  const double difference =
+    std::fabs(static_cast<double>(mapper->GetNumberOfTraversalSteps() - steps));
+  EXPECT_LE(difference, sameSteps ? 0.0 : 0.02 * static_cast<double>(steps)) << what;
   EXPECT_EQ(mapper->GetNumberOfLostRays(), 0) << what;
   double largest = 0.0;
   double brightest = 0.0;
@@ -155,6 +161,36 @@ TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
   scene.volume()->GetProperty()->SetDisableGradientOpacity(0);
   scene.volume()->GetProperty()->ShadeOff();
   expectAgreementOfModes(scene, backend, { 0 });
+}
+
+TEST(TetrahedraRayCastBackends, AllAgreeThroughAMembraneInEveryMode)
+{
+  const Grid grid = makeBlock(7, wavyField(3.0));
+  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 50.0);
+  scene.window()->Render();
+  const bool compute = hasCompute(scene.window());
+  addLights(scene.renderer());
+  for (const MembraneCase& membrane :
+    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+  {
+    scene.rayCaster()->SetMembraneData(membrane.Mesh);
+    for (const int backend :
+      { vtkTetrahedraRayCastMapper::NATIVE, vtkTetrahedraRayCastMapper::COMPUTE })
+    {
+      if (compute || backend == vtkTetrahedraRayCastMapper::NATIVE)
+      {
+        scene.volume()->SetProperty(makeProperty(FunctionKind::Smooth, Range, 3.4));
+        scene.rayCaster()->SetBlendMode(vtkVolumeMapper::COMPOSITE_BLEND);
+        expectAgreement(scene, backend, "plain");
+        scene.rayCaster()->CompactTablesOn();
+        expectAgreement(scene, backend, "compact tables");
+        scene.rayCaster()->CompactTablesOff();
+        scene.volume()->SetProperty(litProperty());
+        expectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
+      }
+    }
+  }
 }
 
 TEST(TetrahedraRayCastBackends, AutomaticIsNativeOnASoftwareRasteriser)

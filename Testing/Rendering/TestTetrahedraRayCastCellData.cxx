@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Cell data: one scalar throughout each cell, in every blend mode.
+#include "MembraneScene.h"
 #include "OpticsTruth.h"
 
 #include <vtkCamera.h>
@@ -21,7 +22,9 @@
 #include <vtkVolumeProperty.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <set>
 
@@ -174,46 +177,60 @@ public:
     lookAt(this->renderer(), grid->GetBounds(), 30.0, 20.0);
   }
 
+  void bendAt(const MembraneCase& membrane)
+  {
+    this->Membrane = membrane;
+    this->rayCaster()->SetMembraneData(membrane.Mesh);
+    lookAt(this->renderer(), this->grid()->GetBounds(), 30.0, 50.0);
+  }
+
   /// Traces in what is left of each ray by the clipping planes given.
   TracedComparison expectComposite(
     const std::string& what, const std::vector<HalfSpace>& halves = {})
   {
-    this->window()->Render();
-    const auto integrator = makeReference(this->grid(), this->volume()->GetMatrix());
     const auto function = toReference(this->volume()->GetProperty());
-    return expectTrace(
-      *this,
-      [&](const Ray& whole)
-      {
-        const Ray ray = clipRay(whole, halves);
-        return ray.Begin < ray.End
-          ? ReferenceRayIntegrator::integrate(
-              ray, findCells(*integrator, cellScalars(this->grid()), ray), function)
-          : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
-      },
-      what);
+    return this->expectOfCells(
+      [&](const ReferenceMesh&, const Ray& ray, const std::vector<RaySegment>& cells)
+      { return ReferenceRayIntegrator::integrate(ray, cells, function); },
+      what, halves);
   }
 
   TracedComparison expectSurfaces(
     const std::string& what, const std::vector<HalfSpace>& halves = {})
   {
     this->window()->Render();
-    const auto integrator = makeReference(this->grid(), this->volume()->GetMatrix());
     vtkVolumeProperty* property = this->volume()->GetProperty();
     const Material material = toMaterial(property, this->renderer());
     const std::vector<Surface> surfaces = toSurfaces(property);
-    return expectTrace(
-      *this,
-      [&](const Ray& whole)
-      {
-        const Ray ray = clipRay(whole, halves);
-        return ray.Begin < ray.End ? blendJumps(integrator->mesh(), ray,
-                                       findCells(*integrator, cellScalars(this->grid()), ray),
-                                       surfaces, property->GetShade() ? &material : nullptr)
-                                   : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
+    return this->expectOfCells(
+      [&](const ReferenceMesh& mesh, const Ray& ray, const std::vector<RaySegment>& cells) {
+        return blendJumps(mesh, ray, cells, surfaces, property->GetShade() ? &material : nullptr);
       },
+      what, halves);
+  }
+
+private:
+  using ShowCells = std::function<std::array<double, 4>(
+    const ReferenceMesh&, const Ray&, const std::vector<RaySegment>&)>;
+
+  TracedComparison expectOfCells(
+    const ShowCells& show, const std::string& what, const std::vector<HalfSpace>& halves)
+  {
+    this->window()->Render();
+    const auto integrator = makeReference(this->grid(), this->volume()->GetMatrix());
+    return expectTrace(*this,
+      this->Membrane.bend(
+        [&](const Ray& whole)
+        {
+          const Ray ray = clipRay(whole, halves);
+          return ray.Begin < ray.End
+            ? show(integrator->mesh(), ray, findCells(*integrator, cellScalars(this->grid()), ray))
+            : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
+        }),
       what);
   }
+
+  MembraneCase Membrane;
 };
 
 vtkSmartPointer<vtkVolumeProperty> surfaceProperty()
@@ -283,6 +300,25 @@ TEST(TetrahedraRayCastCellData, CompositeIsThatOfTheReference)
     }
     CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
     scene.expectComposite("clipped", addPlane(scene));
+  }
+}
+
+TEST(TetrahedraRayCastCellData, ThroughAMembrane)
+{
+  const Grid grid = makeCellBlock(6);
+  for (const MembraneCase& membrane :
+    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+  {
+    CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
+    scene.bendAt(membrane);
+    scene.expectComposite("composite");
+    scene.expectComposite("clipped", addPlane(scene));
+    CellScene surfaces(grid, surfaceProperty());
+    surfaces.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+    surfaces.bendAt(membrane);
+    surfaces.expectSurfaces("isosurfaces");
+    surfaces.volume()->GetProperty()->ShadeOn();
+    surfaces.expectSurfaces("lit isosurfaces");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Scalars of several components: independent ones, colour and opacity, colours as they are.
+#include "MembraneScene.h"
 #include "OpticsTruth.h"
 #include "ReferenceComponents.h"
 
@@ -98,8 +99,9 @@ ReferenceTransferFunction weighted(const ReferenceTransferFunction& function, do
 
 TracedComparison expectMixture(RayCastScene& scene, Mixture mixture,
   const std::vector<ReferenceTransferFunction>& functions, double colorFactor,
-  const std::string& what)
+  const std::string& what, const MembraneCase& membrane = MembraneCase())
 {
+  scene.rayCaster()->SetMembraneData(membrane.Mesh);
   scene.window()->Render();
   std::vector<std::unique_ptr<ReferenceRayIntegrator>> integrators;
   for (int c = 0; c < scene.grid()->GetPointData()->GetScalars()->GetNumberOfComponents(); ++c)
@@ -107,17 +109,17 @@ TracedComparison expectMixture(RayCastScene& scene, Mixture mixture,
     const bool isColor = mixture == Mixture::RedGreenBlueOpacity && c < 3;
     integrators.push_back(referenceOf(scene.grid(), c, isColor ? colorFactor : 1.0));
   }
-  return expectTrace(
-    scene,
-    [&](const Ray& ray)
-    {
-      std::vector<std::vector<RaySegment>> segments(integrators.size());
-      for (std::size_t c = 0; c < integrators.size(); ++c)
+  return expectTrace(scene,
+    membrane.bend(
+      [&](const Ray& ray)
       {
-        integrators[c]->findSegments(ray, segments[c]);
-      }
-      return integrateComponents(ray, segments, mixture, functions);
-    },
+        std::vector<std::vector<RaySegment>> segments(integrators.size());
+        for (std::size_t c = 0; c < integrators.size(); ++c)
+        {
+          integrators[c]->findSegments(ray, segments[c]);
+        }
+        return integrateComponents(ray, segments, mixture, functions);
+      }),
     what);
 }
 
@@ -222,6 +224,43 @@ TEST(TetrahedraRayCastComponents, ColorsAsTheyAre)
     const ReferenceTransferFunction none;
     expectMixture(scene, Mixture::RedGreenBlueOpacity, { none, none, none, opacity }, 1.0 / factor,
       bytes ? "bytes" : "floats");
+  }
+}
+
+TEST(TetrahedraRayCastComponents, ThroughAMembrane)
+{
+  const MembraneCase membranes[] = { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) };
+  for (const MembraneCase& membrane : membranes)
+  {
+    for (const int number : { 2, 4 })
+    {
+      const std::vector<int> ofFields{ 0, 1, 2, 3 };
+      const Grid grid = makeComponents<vtkDoubleArray>(
+        std::vector<int>(ofFields.begin(), ofFields.begin() + number), 1.0);
+      const auto parts = makeParts(number, FunctionKind::Smooth);
+      std::vector<ReferenceTransferFunction> functions;
+      for (int c = 0; c < number; ++c)
+      {
+        functions.push_back(weighted(toReference(parts[c]), Weights[c]));
+      }
+      RayCastScene scene(grid, combine(parts, Weights), Size, Size);
+      lookAt(scene.renderer(), grid->GetBounds(), 30.0, 50.0);
+      expectMixture(scene, Mixture::Independent, functions, 1.0,
+        std::to_string(number) + " independent", membrane);
+    }
+    const auto part = makeParts(1, FunctionKind::Smooth)[0];
+    auto property = combine({ part }, Weights);
+    property->IndependentComponentsOff();
+    const ReferenceTransferFunction function = toReference(part);
+    const ReferenceTransferFunction none;
+    RayCastScene two(makeComponents<vtkFloatArray>({ 0, 3 }, 1.0), property, Size, Size);
+    lookAt(two.renderer(), two.grid()->GetBounds(), 30.0, 50.0);
+    expectMixture(
+      two, Mixture::ColorAndOpacity, { function, function }, 1.0, "colour and opacity", membrane);
+    RayCastScene four(makeComponents<vtkFloatArray>({ 0, 1, 2, 3 }, 1.0), property, Size, Size);
+    lookAt(four.renderer(), four.grid()->GetBounds(), 30.0, 50.0);
+    expectMixture(four, Mixture::RedGreenBlueOpacity, { none, none, none, function }, 1.0,
+      "colours as they are", membrane);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vtkCellArray.h>
 #include <vtkContourValues.h>
 #include <vtkDoubleArray.h>
+#include <vtkPiecewiseFunction.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -47,6 +48,8 @@ struct Counters
   vtkTypeInt64 Active;
   vtkTypeInt64 Membranes;
   vtkTypeInt64 Sights;
+  vtkTypeInt64 Lists;
+  vtkTypeInt64 Bytes;
 
   explicit Counters(vtkTetrahedraRayCastMapper* mapper)
     : Mesh(mapper->GetNumberOfMeshBuilds())
@@ -55,6 +58,8 @@ struct Counters
     , Active(mapper->GetNumberOfActiveSetBuilds())
     , Membranes(mapper->GetNumberOfMembraneBuilds())
     , Sights(mapper->GetNumberOfSightUpdates())
+    , Lists(mapper->GetNumberOfBentEntryLists())
+    , Bytes(mapper->GetUploadedBytes())
   {
   }
 
@@ -68,22 +73,36 @@ struct Counters
 
 using Moves = std::vector<vtkTypeInt64>;
 
-// Counters that a change moves, and whether it changes the picture.
+// Counters that a change moves, and whether it changes the picture, and the active cells.
 void expectWork(RayCastScene& scene, const std::string& what, const std::function<void()>& change,
-  const Moves& moves, bool changesPicture = true)
+  const Moves& moves, bool changesPicture = true, bool changesActive = false)
 {
   const FloatImage before = scene.renderFloat();
   const Counters start(scene.rayCaster());
   change();
   const FloatImage after = scene.renderFloat();
-  EXPECT_EQ(Counters(scene.rayCaster()).since(start), moves) << what;
+  const Counters end(scene.rayCaster());
+  EXPECT_EQ(end.since(start), moves) << what;
   EXPECT_EQ(before.Rgba != after.Rgba, changesPicture) << what;
+  if (scene.rayCaster()->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE)
+  {
+    return;
+  }
+  // The entries behind the membrane are listed for other rays or other active cells. A line of 32
+  // bytes per pixel is sent for other rays, and else nothing but scalars and functions.
+  const bool sight = moves[5] != 0;
+  EXPECT_EQ(end.Lists - start.Lists, sight || changesActive ? 1 : 0) << what;
+  if (moves[1] == 0 && moves[2] == 0)
+  {
+    EXPECT_EQ(end.Bytes - start.Bytes, sight ? vtkTypeInt64{ 32 } * Size * Size : 0) << what;
+  }
 }
 
 struct Outcome
 {
   FloatImage Picture;
   vtkSmartPointer<ErrorObserver> Told;
+  int Backend = vtkTetrahedraRayCastMapper::AUTOMATIC;
 };
 
 Outcome renderWith(
@@ -91,7 +110,6 @@ Outcome renderWith(
 {
   const Grid grid = makeBlock(4, wavyField(3.0));
   RayCastScene scene(grid, smooth(), Size, Size);
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
   scene.rayCaster()->SetMembraneData(membrane);
   if (prepare)
   {
@@ -102,6 +120,7 @@ Outcome renderWith(
   outcome.Told = vtkSmartPointer<ErrorObserver>::New();
   outcome.Told->observe(scene.rayCaster());
   outcome.Picture = scene.renderFloat();
+  outcome.Backend = scene.rayCaster()->GetActiveBackend();
   return outcome;
 }
 
@@ -164,6 +183,16 @@ TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
   expectWork(scene, "function",
     [&] { scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(2.0); },
     { 0, 0, 1, 0, 0, 0 });
+  expectWork(
+    scene, "other active cells",
+    [&]
+    {
+      vtkNew<vtkPiecewiseFunction> opacity;
+      opacity->AddPoint(0.2, 0.0);
+      opacity->AddPoint(0.8, 2.0);
+      scene.volume()->GetProperty()->SetScalarOpacity(opacity);
+    },
+    { 0, 0, 1, 1, 0, 0 }, true, true);
 }
 
 // Rays are traced to where there is something to be seen: more of them if that grows.
@@ -174,7 +203,6 @@ TEST(TetrahedraRayCastMembraneInput, MoreOfTheMeshIsSeen)
   const auto picture = [&](bool lessFirst)
   {
     RayCastScene scene(grid, smooth(), Size, Size);
-    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
     scene.rayCaster()->SetMembrane(plane.Mesh);
     lookAt(scene.renderer(), Block, 30.0, 45.0);
     if (lessFirst)
@@ -196,7 +224,6 @@ TEST(TetrahedraRayCastMembraneInput, OutOfViewAndTakenAway)
   const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
   RayCastScene scene(grid, smooth(), Size, Size);
   vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
-  mapper->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
   lookAt(scene.renderer(), Block, 30.0, 45.0);
   const FloatImage without = scene.renderFloat();
   mapper->SetMembrane(plane.Mesh);
@@ -232,18 +259,60 @@ TEST(TetrahedraRayCastMembraneInput, ByAPipeline)
   expectSamePicture(data.Picture, connected.Picture, "connection");
 }
 
-TEST(TetrahedraRayCastMembraneInput, NativeWhateverIsAsked)
+TEST(TetrahedraRayCastMembraneInput, BackendAsAsked)
 {
   const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
-  for (const int backend : { vtkTetrahedraRayCastMapper::AUTOMATIC,
-         vtkTetrahedraRayCastMapper::OPENGL, vtkTetrahedraRayCastMapper::COMPUTE })
+  FloatImage native;
+  for (const int backend : { vtkTetrahedraRayCastMapper::NATIVE, vtkTetrahedraRayCastMapper::OPENGL,
+         vtkTetrahedraRayCastMapper::COMPUTE, vtkTetrahedraRayCastMapper::AUTOMATIC })
   {
     const Outcome outcome = renderWith(
       plane.Mesh, [backend](vtkTetrahedraRayCastMapper* mapper) { mapper->SetBackend(backend); });
-    const std::size_t warnings = backend == vtkTetrahedraRayCastMapper::AUTOMATIC ? 0 : 1;
-    EXPECT_EQ(outcome.Told->Warnings.size(), warnings) << outcome.Told->text();
-    EXPECT_FALSE(isEmpty(outcome.Picture));
+    EXPECT_TRUE(outcome.Told->Warnings.empty()) << outcome.Told->text();
+    EXPECT_TRUE(outcome.Told->Errors.empty()) << outcome.Told->text();
+    native = backend == vtkTetrahedraRayCastMapper::NATIVE ? outcome.Picture : native;
+    expectSamePicture(outcome.Picture, native, "backend " + std::to_string(backend));
+    EXPECT_TRUE(backend == outcome.Backend || backend == vtkTetrahedraRayCastMapper::AUTOMATIC);
   }
+}
+
+TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
+{
+  // 2 texels per pixel: more than the mesh has, which is drawn on the device as before.
+  const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
+  for (const bool fits : { true, false })
+  {
+    const auto prepare = [fits](vtkTetrahedraRayCastMapper* mapper)
+    {
+      mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+      mapper->SetMaximumTableSize(2 * Size * Size - (fits ? 0 : 1));
+    };
+    const Outcome straight = renderWith(nullptr, prepare);
+    EXPECT_EQ(straight.Backend, int(vtkTetrahedraRayCastMapper::OPENGL));
+    EXPECT_TRUE(straight.Told->Warnings.empty()) << straight.Told->text();
+    const Outcome bent = renderWith(plane.Mesh, prepare);
+    EXPECT_EQ(bent.Backend,
+      int(fits ? vtkTetrahedraRayCastMapper::OPENGL : vtkTetrahedraRayCastMapper::NATIVE));
+    EXPECT_EQ(bent.Told->Warnings.size(), fits ? 0u : 1u);
+    EXPECT_TRUE(bent.Told->Errors.empty()) << bent.Told->text();
+    EXPECT_FALSE(isEmpty(bent.Picture));
+  }
+}
+
+TEST(TetrahedraRayCastMembraneInput, ReleasedAndResized)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  scene.rayCaster()->SetMembraneData(makePlaneCase(0.1, 4.0, 2).Mesh);
+  lookAt(scene.renderer(), Block, 30.0, 45.0);
+  const FloatImage first = scene.renderFloat();
+  scene.rayCaster()->ReleaseGraphicsResources(scene.window());
+  EXPECT_EQ(scene.renderFloat().Rgba, first.Rgba);
+  scene.window()->SetSize(Size + 7, Size - 13);
+  EXPECT_FALSE(isEmpty(scene.renderFloat()));
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
+  scene.window()->SetSize(Size, Size);
+  EXPECT_EQ(scene.renderFloat().Rgba, first.Rgba);
 }
 
 TEST(TetrahedraRayCastMembraneInput, BoundsHoldTheMembrane)

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Integration by the pre-integration table: how close it comes, and when the table is made.
+#include "MembraneScene.h"
+#include "OpticsTruth.h"
 #include "RayCastScene.h"
 
 #include <vtkCamera.h>
@@ -102,6 +104,27 @@ TEST(TetrahedraRayCastPreIntegration, DefaultSizesAreCloseToTheReference)
     const bool narrow = kind == FunctionKind::Sparse || kind == FunctionKind::Peaked;
     EXPECT_LT(result.Largest, narrow ? 10.0 / 255.0 : 1.0 / 255.0);
     EXPECT_LT(result.Rms, narrow ? 0.5 / 255.0 : 0.05 / 255.0);
+  }
+}
+
+TEST(TetrahedraRayCastPreIntegration, ThroughAMembrane)
+{
+  const Block block;
+  for (const MembraneCase& membrane :
+    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+  {
+    RayCastScene scene(block.Mesh, block.property(FunctionKind::Smooth), Size, Size);
+    scene.rayCaster()->SetMembraneData(membrane.Mesh);
+    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+    lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 50.0);
+    scene.window()->Render();
+    const auto integrator = makeReference(block.Mesh);
+    const auto function = toReference(scene.volume()->GetProperty());
+    const TracedComparison result = expectTrace(scene,
+      membrane.bend(
+        [&](const meniscus::reference::Ray& ray) { return integrator->trace(ray, function); }),
+      "through a membrane", 1.0 / 255.0);
+    EXPECT_LT(result.Rms, 0.05 / 255.0) << result.text();
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Isosurfaces, light on surfaces and in the medium, gradient opacity.
+#include "MembraneScene.h"
 #include "OpticsTruth.h"
 
 #include <vtkContourValues.h>
@@ -132,6 +133,26 @@ void expectShadedMedium(RayCastScene& scene, bool factor, double tolerance, cons
         Steps);
     },
     what, tolerance);
+}
+
+// Where the medium's light is not exact.
+TracedComparison compareShadedMedium(RayCastScene& scene, const MembraneCase& membrane)
+{
+  scene.rayCaster()->SetMembraneData(membrane.Mesh);
+  const ShadingTruth truth(scene);
+  const auto function = toReference(scene.volume()->GetProperty());
+  const FloatImage image = scene.renderFloat();
+  const PixelRays rays(scene.renderer());
+  return compareToTrace(image, rays,
+    membrane.bend(
+      [&](const Ray& ray)
+      {
+        std::vector<RaySegment> segments;
+        truth.Integrator->findSegments(ray, segments);
+        return integrateShaded(
+          ray, segments, function, *truth.Gradients, &truth.Light, gradientFactor, 8);
+      }),
+    1.0, 0.0);
 }
 
 vtkSmartPointer<vtkVolumeProperty> mediumProperty(bool shade, bool factor)
@@ -303,25 +324,31 @@ TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
     light->SetPosition(4.0, 2.0, 1.0);
     scene.renderer()->AddLight(light);
     lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-    const ShadingTruth truth(scene);
-    const auto function = toReference(scene.volume()->GetProperty());
-    const FloatImage image = scene.renderFloat();
-    const PixelRays rays(scene.renderer());
-    const TracedComparison comparison = compareToTrace(
-      image, rays,
-      [&](const Ray& ray)
-      {
-        std::vector<RaySegment> segments;
-        truth.Integrator->findSegments(ray, segments);
-        return integrateShaded(
-          ray, segments, function, *truth.Gradients, &truth.Light, gradientFactor, 8);
-      },
-      1.0, 0.0);
+    const TracedComparison comparison = compareShadedMedium(scene, MembraneCase());
     RecordProperty("cubes" + std::to_string(cubes), comparison.text());
     EXPECT_TRUE(last == 0.0 || comparison.Rms < 0.75 * last) << comparison.Rms << " after " << last;
     last = comparison.Rms;
   }
   EXPECT_LT(last, 0.002);
+}
+
+TEST(TetrahedraRayCastShading, ThroughAMembrane)
+{
+  // Lights near and far on gradients of vertices: as far off as without a membrane.
+  const Grid grid = makeBlock(16, wavyField(2.0));
+  RayCastScene scene(grid, mediumProperty(true, true), 64, 64);
+  addLights(scene.renderer());
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 50.0);
+  const TracedComparison straight = compareShadedMedium(scene, MembraneCase());
+  for (const MembraneCase& membrane :
+    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+  {
+    const TracedComparison bent = compareShadedMedium(scene, membrane);
+    RecordProperty("lit", bent.text());
+    EXPECT_GT(bent.Visible, 1000u);
+    EXPECT_LT(bent.Rms, 1.5 * straight.Rms) << bent.text() << "; straight " << straight.text();
+    EXPECT_LT(bent.Rms, 0.002) << bent.text();
+  }
 }
 
 TEST(TetrahedraRayCastShading, GradientsAreComputedOnlyForLight)

@@ -7,7 +7,6 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
 
 #include <cmath>
 
@@ -15,6 +14,17 @@ namespace meniscus
 {
 namespace test
 {
+
+//------------------------------------------------------------------------------
+TraceRay MembraneCase::bend(const TraceRay& trace) const
+{
+  if (!this->Mesh)
+  {
+    return trace;
+  }
+  return [surface = this->Surface, trace](const reference::Ray& ray)
+  { return compose(refract(surface, ray, 0.0, false), trace); };
+}
 
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> makeHeightField(const std::function<double(double, double)>& height,

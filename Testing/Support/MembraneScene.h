@@ -4,12 +4,12 @@
 #define meniscus_MembraneScene_h
 
 #include "RefractedRays.h"
+#include "TracedImage.h"
 
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <functional>
-
-class vtkPolyData;
 
 namespace meniscus
 {
@@ -21,6 +21,10 @@ struct MembraneCase
 {
   vtkSmartPointer<vtkPolyData> Mesh;
   reference::RefractingSurface Surface;
+
+  /// What rays show of which a part shows `trace`, in front of the membrane or behind it; without a
+  /// mesh, `trace` itself.
+  TraceRay bend(const TraceRay& trace) const;
 };
 
 /// Triangles of a height field y(x, z) over the square of half side `half`, with exact normals.

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef OpenGLBentLines_h
+#define OpenGLBentLines_h
+
+#include "Volume/BentFrames.h"
+#include "Volume/BentLines.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkTextureObject.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkWindow;
+
+namespace meniscus
+{
+
+/** The rays behind a membrane for shaders: a line per pixel, and the frames that they are of. */
+class OpenGLBentLines
+{
+public:
+  bool IsFilled() const { return this->Texture != nullptr; }
+  std::int64_t GetBytes() const { return this->Bytes; }
+
+  /** Which limit an image of so many pixels exceeds, one in texels or the device's; empty if none.
+   */
+  static std::string DescribeExcess(const int (&imageSize)[2], std::int64_t limit);
+
+  /** Replaces the contents. Returns an error or nothing. */
+  std::string Upload(vtkOpenGLRenderWindow* window, const std::vector<BentLine>& lines, int width,
+    int height, const BentFrames& frames);
+
+  /** Sets the uniforms of vtkTetrahedraRays with BENDING. */
+  void Activate(vtkShaderProgram* program);
+  void Deactivate() { this->Texture->Deactivate(); }
+  /** Wants the window's context to be current. */
+  void Release(vtkWindow* window);
+
+private:
+  vtkSmartPointer<vtkTextureObject> Texture;
+  std::int64_t Bytes = 0;
+  /** By frame: rows of the frame, then its axes in that of the view; three numbers each. */
+  std::vector<float> Rows[3];
+  std::vector<float> Axes[3];
+};
+
+}
+
+#endif
