@@ -29,3 +29,17 @@ set_tests_properties(Installed.Consumer PROPERTIES
   LABELS            consumer
   FIXTURES_REQUIRED installed
   TIMEOUT           600)
+
+# As a part of VTK's own build: what scripts/remote builds is configured, and vtk.module names what the
+# classes use, which an installed VTK, with all headers in one folder, does not demand.
+add_test(NAME Remote.Configure
+  COMMAND "${PROJECT_SOURCE_DIR}/scripts/remote" --configure)
+set_tests_properties(Remote.Configure PROPERTIES LABELS consumer TIMEOUT 120)
+get_property(_hierarchy TARGET VTK::CommonCore PROPERTY INTERFACE_vtk_module_hierarchy)
+if (_hierarchy)
+  get_filename_component(_hierarchy "${_hierarchy}" DIRECTORY)
+  add_test(NAME Remote.Modules
+    COMMAND "${Python3_EXECUTABLE}" -B "${CMAKE_CURRENT_SOURCE_DIR}/Remote/CheckModules.py"
+      "${PROJECT_SOURCE_DIR}" "${_hierarchy}" "${VTK_DIR}/VTK-vtk-module-properties.cmake")
+  set_tests_properties(Remote.Modules PROPERTIES LABELS consumer)
+endif ()

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Nothing in the documentation is without a test: every block of code is in a language and on a page
-that a test runs; every script, preset, test program, page and picture that a page names is there.
+that a test runs; every line of an indented block is a command that a script or test runs as well, or
+whose parts are there; every script, preset, page and picture that a page names is there.
 
 Arguments: the root of the project, then PAGE:LANGUAGE of what is run."""
 import json
@@ -9,6 +10,68 @@ import os
 import re
 import subprocess
 import sys
+
+
+# Commands, and the files whose scripts or tests run what each stands for.
+COMMANDS = [
+    (r"scripts/[a-z-]+( |$)", []),  # looked for below
+    (r"cmake --preset [a-z]+( |$)", []),  # looked for below
+    (r"cmake --build build(-[a-z]+)?$", ["scripts/common.sh"]),
+    (r"cmake --install build --prefix ", ["Testing/InstallFresh.cmake"]),
+    (r"cmake -S \. -B build && cmake --build build && build/tutorial$",
+     ["Testing/Consumer/CMakeLists.txt"]),
+    (r"cmake -DVTK_MODULE_ENABLE_VTK_Meniscus=YES ", ["scripts/remote"]),
+    (r"(xvfb-run -a -s -noreset )?ctest ", ["scripts/test"]),
+    (r"mpirun -np 4 pvbatch ", ["Testing/Plugin/RunRanks.py"]),
+    (r"mpirun -np 2 pvserver$", ["Testing/Plugin/RunServer.py"]),
+    (r"/usr/bin/python3 -m venv --system-site-packages ", ["scripts/wheel"]),
+    (r"env/bin/pip install ", ["scripts/wheel"]),
+]
+# Programs of ours, with the folder in whose sources their options are.
+PROGRAMS = {
+    "meniscus_benchmark_volume": "Benchmarks",
+    "meniscus_benchmark_refraction": "Benchmarks",
+    "meniscus_stress_volume": "Testing/Stress",
+}
+
+
+def text_below(root, folder):
+    texts = []
+    for place, _, names in os.walk(os.path.join(root, folder)):
+        for name in sorted(names):
+            if re.search(r"\.(cxx|h|sh)$|^[a-z-]+$", name):
+                with open(os.path.join(place, name)) as file:
+                    texts.append(file.read())
+    return "\n".join(texts)
+
+
+def command_faults(root, command):
+    """What is wrong with a line of an indented block, which must be a command."""
+    if command.startswith("apt-get install "):
+        scripts = text_below(root, "scripts")
+        packages = [word for word in command.split()[2:] if not word.startswith("-")]
+        return ["no script installs " + name for name in packages
+                if not re.search(r"[\s(]%s[\s)]" % re.escape(name), scripts)]
+    program = re.match(r"(?:xvfb-run -a -s -noreset )?build/bin/(\w+)( |$)", command)
+    if program:
+        if program.group(1) not in PROGRAMS:
+            return ["%s is run by nothing" % program.group(1)]
+        sources = text_below(root, PROGRAMS[program.group(1)])
+        return ["%s has no option %s" % (program.group(1), option)
+                for option in re.findall(r"--[a-z]+", command) if option not in sources]
+    files = [files for pattern, files in COMMANDS if re.match(pattern, command)]
+    if not files:
+        return ["no test runs: " + command]
+    return ["there is no " + name for name in files[0]
+            if not os.path.exists(os.path.join(root, name))]
+
+
+def indented_commands(text):
+    """Lines of indented blocks outside of fenced ones, without comments, continued lines joined."""
+    fenced = re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
+    joined = re.sub(r"\\\n *", "", fenced)
+    for line in re.findall(r"^ {4}(.*\S)", joined, re.MULTILINE):
+        yield re.sub(r" +#.*", "", line.strip())
 
 
 def pages(root):
@@ -26,6 +89,8 @@ def check(root, page, run, presets):
     for language in re.findall(r"^```(.+)$", text, re.MULTILINE):
         if page + ":" + language not in run:
             faults.append("a block of %s that no test runs" % language)
+    for command in indented_commands(text):
+        faults += command_faults(root, command)
     for script in re.findall(r"(?:^|[\s`/])(scripts/[a-z-]+)", text):
         if not os.access(os.path.join(root, script), os.X_OK):
             faults.append("there is no " + script)
