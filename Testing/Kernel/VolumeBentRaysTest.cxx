@@ -5,7 +5,11 @@
 
 #include "Refraction/CurvedPatches.h"
 #include "Refraction/Membrane.h"
+#include "Volume/BentLines.h"
 #include "Volume/TileCaster.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <gtest/gtest.h>
 
@@ -73,13 +77,13 @@ public:
 
   TetrahedralMesh Mesh;
   MembraneSight Sight;
+  BentFrames Frames;
 
 private:
   BoundaryTree Tree;
   std::vector<float> Scalars;
   Membrane Surface;
   CurvedPatches Patches;
-  BentFrames Frames;
   PacketTables Tables;
   TileCaster::Scene Scene;
 };
@@ -134,4 +138,43 @@ TEST(BentRays, NoneIsLostInAMeshTurnedInsideOut)
     EXPECT_GT(sums.Rays, 1000);
     EXPECT_EQ(sums.Lost, 0) << beginsInside;
   }
+}
+
+TEST(BentRays, LinesForShadersAreTheRays)
+{
+  const BentPicture picture(KuhnGrid(6));
+  std::vector<BentLine> lines;
+  LayOutBentLines(picture.Sight, picture.Frames, SerialLoop, lines);
+  ASSERT_EQ(lines.size(), std::size_t{ Size } * Size);
+  const RayFrame& frame = picture.Sight.GetView().Frame;
+  constexpr int tileSize = MembraneSight::TileSize;
+  int bent = 0;
+  for (int pixel = 0; pixel < Size * Size; ++pixel)
+  {
+    const int column = pixel % Size;
+    const int row = pixel / Size;
+    const BentLine& line = lines[static_cast<std::size_t>(pixel)];
+    const BentRay* tile =
+      picture.Sight.GetTile(row / tileSize * (Size / tileSize) + column / tileSize);
+    const BentRay ray = tile ? tile[row % tileSize * tileSize + column % tileSize] : BentRay();
+    if (!ray.MeetsMembrane() || !ray.GoesOn())
+    {
+      EXPECT_EQ(line.PerDepth, 0.0f);
+      EXPECT_EQ(line.MembraneDepth == BentLine::Nowhere, !ray.MeetsMembrane());
+      continue;
+    }
+    ++bent;
+    EXPECT_EQ(line.MembraneDepth, static_cast<float>(ray.Depth));
+    // Each number is rounded once; the slopes are within 1.
+    const glm::dmat3 toView =
+      glm::transpose(picture.Frames.Get(static_cast<int>(line.Frame)).FromView);
+    const glm::dvec3 along = toView * glm::dvec3(line.Slope[0], line.Slope[1], 1.0);
+    const glm::dvec3 place =
+      toView * glm::dvec3(line.Origin[0], line.Origin[1], 0.0) + double{ line.Start } * along;
+    const glm::dvec2 across = frame.Origin.At(column + 0.5 - 0.5 * Size, row + 0.5 - 0.5 * Size) +
+      ray.Depth * frame.Slope.At(column + 0.5 - 0.5 * Size, row + 0.5 - 0.5 * Size);
+    EXPECT_LE(glm::length(place - glm::dvec3(across, ray.Depth)), 2e-7) << pixel;
+    EXPECT_LE(glm::length(double{ line.PerDepth } * along - ray.Step), 2e-7) << pixel;
+  }
+  EXPECT_GT(bent, 1000);
 }
