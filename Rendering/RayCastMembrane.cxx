@@ -10,7 +10,8 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-InputReport RayCastMembrane::Update(vtkPolyData* membrane, double exterior, double interior)
+InputReport RayCastMembrane::Update(
+  vtkPolyData* membrane, double exterior, double interior, bool wanted)
 {
   const auto isIndex = [](double index) { return index > 0.0 && std::isfinite(index); };
   if (!membrane)
@@ -22,7 +23,7 @@ InputReport RayCastMembrane::Update(vtkPolyData* membrane, double exterior, doub
     return { "Indices of refraction must be positive and finite", std::string() };
   }
   SceneMessages messages;
-  if (exterior != interior && !this->Surface.SetMembrane(membrane, true, messages))
+  if ((exterior != interior || wanted) && !this->Surface.SetMembrane(membrane, true, messages))
   {
     return { messages.error, std::string() };
   }

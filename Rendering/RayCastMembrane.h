@@ -28,11 +28,11 @@ class RayCastMembrane
 {
 public:
   /**
-   * Takes the membrane's shape, if the indices of refraction differ. With an error it cannot be
-   * used; a warning is told once.
+   * Takes the membrane's shape, if the indices of refraction differ or it is `wanted` all the same.
+   * With an error it cannot be used; a warning is told once.
    * @param membrane  null if it is none.
    */
-  InputReport Update(vtkPolyData* membrane, double exterior, double interior);
+  InputReport Update(vtkPolyData* membrane, double exterior, double interior, bool wanted);
 
   /**
    * Traces an image's rays to the membrane. False if none of them meets it.

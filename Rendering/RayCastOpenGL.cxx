@@ -418,6 +418,7 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
     this->BentTiles->Activate();
     program->SetUniformi("bentTiles", this->BentTiles->GetTextureUnit());
     program->SetUniformi("beginsInside", frame.Bending.BeginsInside ? 1 : 0);
+    program->SetUniformi("membranePart", static_cast<int>(frame.Bending.Part));
   }
   run();
   if (frame.Optics.Bending)

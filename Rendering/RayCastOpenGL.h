@@ -3,6 +3,7 @@
 #ifndef RayCastOpenGL_h
 #define RayCastOpenGL_h
 
+#include "Volume/MembraneSight.h"
 #include "Volume/RayFrame.h"
 #include "Volume/RayStatistics.h"
 
@@ -49,6 +50,7 @@ struct RayCastOutput
 /** How rays bend at a membrane. */
 struct RayCastBending
 {
+  MembranePart Part = MembranePart::Whole;
   /** Whether there is a membrane that bends them. */
   bool Wanted = false;
   double Exterior = 1.0;

@@ -129,9 +129,13 @@ std::string RayCastPipeline::DrawOpenGL(const RayCastFrame& frame)
   {
     error = this->UploadBentLines(frame.Output.ImageSize);
   }
-  if (!error.empty() || !bends)
+  if (!error.empty() || (!bends && frame.Bending.Part == MembranePart::Behind))
   {
-    return error.empty() ? this->OpenGL.Draw(frame) : error;
+    return error;
+  }
+  if (!bends)
+  {
+    return this->OpenGL.Draw(frame);
   }
   RayCastFrame bent = frame;
   bent.Optics.Bending = true;
@@ -209,6 +213,7 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
       {
         scene.Bent = this->Membrane.See(this->Input);
       }
+      scene.Bent.Part = frame.Bending.Part;
       const VertexVersion version{ this->Input.GetMeshBuilds(), this->Input.GetScalarUpdates() };
       return this->Native.Cast(scene, this->Input.GetScalars(), version, depths, image);
     },

@@ -26,15 +26,18 @@
 #include "vtkOpenGLState.h"
 #include "vtkOpenGLTexture.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkProp3D.h"
 #include "vtkProperty.h"
 #include "vtkRenderState.h"
 #include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 #include "vtkSmartPointer.h"
+#include "vtkTetrahedraRayCastMapper.h"
 #include "vtkTexture.h"
 #include "vtkTextureObject.h"
 #include "vtkTranslucentPass.h"
+#include "vtkVolume.h"
 
 #include <algorithm>
 #include <limits>
@@ -45,6 +48,39 @@ vtkStandardNewMacro(vtkRefractionPass);
 
 namespace
 {
+
+//------------------------------------------------------------------------------
+/** Of the picture that a pass draws to. */
+struct PictureSize
+{
+  int Size[2];
+  int Origin[2] = { 0, 0 };
+
+  explicit PictureSize(const vtkRenderState* drawn)
+  {
+    if (vtkFrameBufferObjectBase* buffer = drawn->GetFrameBuffer())
+    {
+      buffer->GetLastSize(this->Size); // another pass's picture, of any size
+    }
+    else
+    {
+      drawn->GetRenderer()->GetTiledSizeAndOrigin(
+        &this->Size[0], &this->Size[1], &this->Origin[0], &this->Origin[1]);
+    }
+  }
+
+  void Set(vtkOpenGLState* state) const
+  {
+    state->vtkglViewport(this->Origin[0], this->Origin[1], this->Size[0], this->Size[1]);
+    state->vtkglScissor(this->Origin[0], this->Origin[1], this->Size[0], this->Size[1]);
+  }
+};
+
+//------------------------------------------------------------------------------
+vtkTetrahedraRayCastMapper* RayCasterOf(vtkVolume* volume)
+{
+  return vtkTetrahedraRayCastMapper::SafeDownCast(volume->GetMapper());
+}
 
 //------------------------------------------------------------------------------
 bool Append(std::string& shader, const std::string& tag, const std::string& code)
@@ -61,8 +97,12 @@ public:
   struct Refraction
   {
     vtkSmartPointer<vtkActor> Membrane;
-    vtkSmartPointer<vtkActor> Object;
+    /** Virtual geometry of a filter, or a volume. */
+    vtkSmartPointer<vtkProp3D> Object;
     vtkSmartPointer<vtkRefractedGeometryFilter> Filter;
+
+    vtkVolume* GetVolume() const { return vtkVolume::SafeDownCast(this->Object); }
+    double GetRelativeIndex() const;
   };
   enum class Stages
   {
@@ -90,6 +130,20 @@ public:
   std::vector<vtkActor*> ListMembranes() const;
   vtkTexture* FindCubeMap(vtkRenderer* renderer) const;
 };
+
+//------------------------------------------------------------------------------
+/** Interior to exterior. */
+double vtkRefractionPass::vtkInternals::Refraction::GetRelativeIndex() const
+{
+  if (this->Filter)
+  {
+    return this->Filter->GetInteriorIndexOfRefraction() /
+      this->Filter->GetExteriorIndexOfRefraction();
+  }
+  vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume());
+  return mapper ? mapper->GetInteriorIndexOfRefraction() / mapper->GetExteriorIndexOfRefraction()
+                : 1.0;
+}
 
 //------------------------------------------------------------------------------
 /** For membranes first: what is behind one that is out of view is not asked for. */
@@ -182,7 +236,19 @@ void vtkRefractionPass::AddRefraction(
 }
 
 //------------------------------------------------------------------------------
-void vtkRefractionPass::RemoveRefraction(vtkActor* object)
+void vtkRefractionPass::AddVolume(vtkActor* membrane, vtkVolume* volume)
+{
+  if (!membrane || !volume || !RayCasterOf(volume))
+  {
+    vtkErrorMacro("A volume behind a membrane needs both, and a vtkTetrahedraRayCastMapper.");
+    return;
+  }
+  this->Internals->Refractions.push_back({ membrane, volume, nullptr });
+  this->Modified();
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionPass::RemoveRefraction(vtkProp3D* object)
 {
   auto& all = this->Internals->Refractions;
   all.erase(std::remove_if(all.begin(), all.end(),
@@ -302,7 +368,21 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
     {
       ++internals.Skipped;
     }
+    this->DrawInFront(state, window, membrane);
   }
+}
+
+//------------------------------------------------------------------------------
+/** What of the volumes lies before the membrane and beside it, to where the scene was drawn. */
+void vtkRefractionPass::DrawInFront(
+  const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane)
+{
+  const PictureSize picture(drawn);
+  vtkOpenGLState* state = window->GetState();
+  state->Push();
+  picture.Set(state);
+  this->DrawVolumes(drawn->GetRenderer(), membrane, vtkTetrahedraRayCastMapper::IN_FRONT);
+  state->Pop();
 }
 
 //------------------------------------------------------------------------------
@@ -312,16 +392,8 @@ void vtkRefractionPass::DrawMembrane(
   vtkInternals& internals = *this->Internals;
   vtkOpenGLClearErrorMacro();
   vtkRenderer* renderer = drawn->GetRenderer();
-  int size[2];
-  int origin[2] = { 0, 0 };
-  if (vtkFrameBufferObjectBase* buffer = drawn->GetFrameBuffer())
-  {
-    buffer->GetLastSize(size); // another pass's picture, of any size
-  }
-  else
-  {
-    renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
-  }
+  const PictureSize picture(drawn);
+  const int(&size)[2] = picture.Size;
   vtkOpenGLState* state = window->GetState();
   state->Push();
   state->PushFramebufferBindings();
@@ -341,8 +413,7 @@ void vtkRefractionPass::DrawMembrane(
     return;
   }
   state->Push();
-  state->vtkglViewport(origin[0], origin[1], size[0], size[1]);
-  state->vtkglScissor(origin[0], origin[1], size[0], size[1]);
+  picture.Set(state);
   this->Compose(renderer, window, membrane);
   state->Pop();
   vtkOpenGLCheckErrorMacro("failed after drawing a membrane");
@@ -357,7 +428,8 @@ void vtkRefractionPass::DrawObjects(
   std::vector<vtkProp*> props;
   for (const auto& refraction : internals.Refractions)
   {
-    if (refraction.Membrane == membrane && refraction.Object->GetVisibility())
+    const bool isSurface = refraction.Filter != nullptr;
+    if (isSurface && refraction.Membrane == membrane && refraction.Object->GetVisibility())
     {
       props.push_back(refraction.Object);
     }
@@ -371,7 +443,29 @@ void vtkRefractionPass::DrawObjects(
   internals.Opaque->Render(&objects);
   internals.Translucent->Render(&objects);
   this->PostRender(&objects);
+  this->DrawVolumes(renderer, membrane, vtkTetrahedraRayCastMapper::BEHIND);
   this->NumberOfRenderedProps += internals.Opaque->GetNumberOfRenderedProps();
+}
+
+//------------------------------------------------------------------------------
+/** A part of the membrane's volumes, over what is there. */
+void vtkRefractionPass::DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, int part)
+{
+  for (const auto& refraction : this->Internals->Refractions)
+  {
+    vtkVolume* volume = refraction.GetVolume();
+    if (volume && refraction.Membrane == membrane && volume->GetVisibility())
+    {
+      // As the renderer does for props of its own.
+      volume->SetAllocatedRenderTime(renderer->GetAllocatedRenderTime(), renderer);
+      volume->Update();
+      if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(volume))
+      {
+        mapper->RenderPart(renderer, volume, part);
+        ++this->NumberOfRenderedProps;
+      }
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -461,7 +555,6 @@ void vtkRefractionPass::SetOptics(
   const auto& refractions = this->Internals->Refractions;
   const auto ofMembrane = std::find_if(refractions.begin(), refractions.end(),
     [membrane](const vtkInternals::Refraction& one) { return one.Membrane == membrane; });
-  vtkRefractedGeometryFilter* filter = ofMembrane->Filter;
   vtkCamera* camera = renderer->GetActiveCamera();
   vtkNew<vtkMatrix4x4> clipToView;
   clipToView->DeepCopy(
@@ -488,9 +581,7 @@ void vtkRefractionPass::SetOptics(
   program->SetUniform3f("background", background);
   program->SetUniformi("parallelView", camera->GetParallelProjection());
   program->SetUniformi("reflectanceModel", this->ReflectanceModel);
-  program->SetUniformf("relativeIndex",
-    static_cast<float>(
-      filter->GetInteriorIndexOfRefraction() / filter->GetExteriorIndexOfRefraction()));
+  program->SetUniformf("relativeIndex", static_cast<float>(ofMembrane->GetRelativeIndex()));
 }
 
 //------------------------------------------------------------------------------

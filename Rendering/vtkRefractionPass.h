@@ -35,6 +35,9 @@
  * instead of to the stencil of the window. So windows without stencil and with multisampling show
  * the same, membranes do not interfere, and the state of the window is left alone.
  *
+ * Volumes behind the membrane, drawn by a vtkTetrahedraRayCastMapper with the same membrane, come
+ * to AddVolume(). Attenuation is that of their own colours.
+ *
  * @note The membrane and the picture behind it have one sample per pixel.
  * @note A membrane seen through another one is hidden by it.
  *
@@ -51,9 +54,11 @@
 class vtkActor;
 class vtkOpenGLRenderWindow;
 class vtkOpenGLState;
+class vtkProp3D;
 class vtkRefractedGeometryFilter;
 class vtkRenderer;
 class vtkTexture;
+class vtkVolume;
 
 class VTKMENISCUS_EXPORT vtkRefractionPass : public vtkOpenGLRenderPass
 {
@@ -88,12 +93,21 @@ public:
    *                  actor.
    */
   void AddRefraction(vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter);
+  /**
+   * Adds a volume that lies behind a membrane, in part or as a whole. What is behind is seen
+   * through the membrane together with its objects, what is in front or beside as it is.
+   * @param membrane  as above.
+   * @param volume    with a vtkTetrahedraRayCastMapper, which has the same surface as its membrane
+   *                  (SetMembraneConnection()) and the indices of refraction; else an error. Not to
+   *                  be added to the renderer.
+   */
+  void AddVolume(vtkActor* membrane, vtkVolume* volume);
   ///@{
   /**
-   * Removes an object that was added, or all of them; a membrane without objects is no longer
-   * drawn. How many there are.
+   * Removes an object or a volume that was added, or all of them; a membrane without is no longer
+   * drawn. How many objects and volumes there are.
    */
-  void RemoveRefraction(vtkActor* object);
+  void RemoveRefraction(vtkProp3D* object);
   void RemoveAllRefractions();
   int GetNumberOfRefractions();
   ///@}
@@ -166,7 +180,9 @@ private:
   void operator=(const vtkRefractionPass&) = delete;
 
   void DrawMembrane(const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane);
+  void DrawInFront(const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void DrawObjects(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
+  void DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, int part);
   void DrawSurface(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
   void Compose(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
   void SetOptics(vtkRenderer* renderer, vtkActor* membrane, vtkShaderProgram* program);

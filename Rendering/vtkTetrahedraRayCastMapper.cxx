@@ -279,8 +279,8 @@ bool vtkTetrahedraRayCastMapper::UpdateMembrane()
     return true;
   }
   this->GetInputAlgorithm(1, 0)->Update();
-  return this->Tell(this->Internals->Membrane.Update(
-    this->GetMembrane(), this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction));
+  return this->Tell(this->Internals->Membrane.Update(this->GetMembrane(),
+    this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction, this->MembranePart != WHOLE));
 }
 
 //------------------------------------------------------------------------------
@@ -288,8 +288,11 @@ void vtkTetrahedraRayCastMapper::PrepareBending(
   const meniscus::OpticsPlace& place, meniscus::RayCastFrame& frame)
 {
   meniscus::RayCastBending& bending = frame.Bending;
-  bending.Wanted =
-    this->HasMembrane() && this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction;
+  bending.Part =
+    static_cast<meniscus::MembranePart>(this->MembranePart); // the numbers are the same
+  bending.Wanted = this->HasMembrane() &&
+    (this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction ||
+      this->MembranePart != WHOLE);
   bending.Exterior = this->ExteriorIndexOfRefraction;
   bending.Interior = this->InteriorIndexOfRefraction;
   bending.Center = place.CenterInWorld;
@@ -491,6 +494,14 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   vtkOpenGLCheckErrorMacro("failed after Render");
   this->ActiveBackend = backend;
   return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastMapper::RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part)
+{
+  this->MembranePart = std::clamp(part, static_cast<int>(WHOLE), static_cast<int>(BEHIND));
+  this->Render(renderer, volume);
+  this->MembranePart = WHOLE;
 }
 
 //------------------------------------------------------------------------------

@@ -423,6 +423,18 @@ public:
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
+  /// What RenderPart() draws.
+  enum MembraneParts
+  {
+    WHOLE = 0,    ///< all that there is to see
+    IN_FRONT = 1, ///< what rays come to before the membrane or beside it
+    BEHIND = 2    ///< what rays come to behind the membrane; nothing without one
+  };
+  /**
+   * Render(), but one part only, for those who draw the membrane between them: vtkRefractionPass.
+   */
+  void RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part);
+
   /** Frees all graphics resources; the next Render() makes them again. */
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -466,6 +478,7 @@ private:
   int Gradients = VERTEX_GRADIENTS;
   double ExteriorIndexOfRefraction = 1.0;
   double InteriorIndexOfRefraction = 1.333;
+  int MembranePart = WHOLE;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
   float ImageSampleDistance = 1.0f;
   float MaximumImageSampleDistance = 8.0f;

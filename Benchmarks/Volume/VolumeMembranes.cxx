@@ -55,13 +55,14 @@ std::vector<NamedMembrane> makeMembranes(vtkUnstructuredGrid* grid)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<MembraneCost> measureMembranes(const VolumeOptions& options, vtkUnstructuredGrid* grid)
+std::vector<MembraneCost> measureMembranes(
+  const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend)
 {
   const std::vector<NamedMembrane> membranes = makeMembranes(grid);
   std::vector<Contestant> contestants;
   for (const NamedMembrane& membrane : membranes)
   {
-    Contestant ours = makeOurs(vtkTetrahedraRayCastMapper::NATIVE, membrane.Name);
+    Contestant ours = makeOurs(backend, membrane.Name);
     ours.Make = [make = ours.Make, mesh = membrane.Mesh]()
     {
       const MapperPointer mapper = make();

@@ -22,8 +22,9 @@ struct MembraneCost
   Spread Resting; // nothing changed but the camera's time
 };
 
-/// The native backend through a plane above the mesh, one through its middle, a dome and waves.
-std::vector<MembraneCost> measureMembranes(const VolumeOptions& options, vtkUnstructuredGrid* grid);
+/// A backend through a plane above the mesh, one through its middle, a dome and waves.
+std::vector<MembraneCost> measureMembranes(
+  const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend);
 
 } // namespace benchmark
 } // namespace meniscus

@@ -298,10 +298,15 @@ private:
   {
     for (const NamedMesh& mesh : this->Meshes)
     {
-      for (const MembraneCost& cost : measureMembranes(this->Options, mesh.Mesh))
+      for (const int backend : { Mapper::NATIVE, Mapper::OPENGL })
       {
-        this->line(mesh.Name + ", " + cost.Name, "<= 1.5 times the frame without the membrane",
-          "camera moves " + format(cost.Moving, " x") + ", rests " + format(cost.Resting, " x"));
+        for (const MembraneCost& cost : measureMembranes(this->Options, mesh.Mesh, backend))
+        {
+          this->line(
+            mesh.Name + (backend == Mapper::NATIVE ? ", native, " : ", opengl, ") + cost.Name,
+            "<= 1.5 times the frame without the membrane",
+            "camera moves " + format(cost.Moving, " x") + ", rests " + format(cost.Resting, " x"));
+        }
       }
     }
   }

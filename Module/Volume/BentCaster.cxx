@@ -48,13 +48,13 @@ struct BentCaster::Part
 };
 
 //------------------------------------------------------------------------------
-void StraightPart::Clear(PacketBlending blending)
+void StraightPart::Clear(PacketBlending blending, std::int32_t end)
 {
   constexpr std::size_t pixels = MembraneSight::RaysOfTile;
   float empty[4];
   ClearValues(blending, empty);
   this->Values.assign(pixels, { empty[0], empty[1], empty[2], empty[3] });
-  this->Ends.assign(pixels, PacketResult::Outside);
+  this->Ends.assign(pixels, end);
   this->Steps.assign(pixels, 0);
 }
 
@@ -220,7 +220,7 @@ RayStatistics BentCaster::Cast(PacketJob job, const EntryRaster::PixelBox& box, 
       const bool hidden = hides &&
         !(straight.Values[static_cast<std::size_t>(pixel)][3] > job.TerminationTransmittance);
       Part part;
-      if (rays[pixel].GoesOn() && !hidden &&
+      if (rays[pixel].GoesOn() && !hidden && this->Scene.Part != MembranePart::InFront &&
         this->FindPart(box, pixel, rays[pixel], opaqueDepth, part))
       {
         this->AddLine(part, pixel, straight.Ends[static_cast<std::size_t>(pixel)], workspace);

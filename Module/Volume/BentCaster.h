@@ -29,6 +29,7 @@ struct BentScene
   const BoundaryTree* Tree = nullptr;
   /** Whether a ray may begin in the cell that the membrane is in; else it does on the boundary. */
   bool BeginsInside = false;
+  MembranePart Part = MembranePart::Whole;
 };
 
 /** What depends on the frame of the rays, in that of the view; as of MediumTable::Pack(). */
@@ -49,7 +50,8 @@ struct StraightPart
   /** Cells crossed so far. */
   std::vector<std::int32_t> Steps;
 
-  void Clear(PacketBlending blending);
+  /** @param end  of rays without a result: PacketResult::End. */
+  void Clear(PacketBlending blending, std::int32_t end);
 };
 
 /** Casts the rays of a tile behind the membrane and joins them with what lies before it. */

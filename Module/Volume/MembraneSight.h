@@ -20,6 +20,14 @@
 namespace meniscus
 {
 
+/** What is drawn of a ray: all, before or beside the membrane, behind it. */
+enum class MembranePart
+{
+  Whole,
+  InFront,
+  Behind
+};
+
 /** What becomes of a pixel's ray at a membrane, in the frame of the view. */
 struct BentRay
 {

@@ -232,12 +232,19 @@ RayStatistics TileCaster::Cast(
   int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
 {
   const BentRay* bent = this->Bent ? this->Input.Bent.Sight->GetTile(tile) : nullptr;
+  const bool behindOnly = this->Input.Bent.Part == MembranePart::Behind;
+  if (behindOnly && !bent)
+  {
+    return RayStatistics();
+  }
   if (bent)
   {
-    workspace.Bent.Straight.Clear(this->Input.Blending);
+    // Rays that are not cast say nothing of where the sight point is.
+    workspace.Bent.Straight.Clear(
+      this->Input.Blending, behindOnly ? PacketResult::Somewhere : PacketResult::Outside);
   }
   workspace.Hits.clear();
-  if (!bent || this->IsMeshInFront(tile, bent))
+  if (!bent || (!behindOnly && this->IsMeshInFront(tile, bent)))
   {
     this->Raster.CollectHits(tile, workspace.Hits);
   }

@@ -12,6 +12,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <vector>
 
@@ -105,6 +106,61 @@ vtkSmartPointer<vtkPolyData> GatherMembrane(vtkDataObject* local)
 void AcceptComposite(vtkInformation* port)
 {
   port->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+}
+
+//------------------------------------------------------------------------------
+int MakeOutputLikeInput(vtkInformationVector* inputs, vtkInformationVector* outputs)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputs);
+  vtkInformation* info = outputs->GetInformationObject(0);
+  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
+  if (!input)
+  {
+    return 0;
+  }
+  if (!output || !output->IsA(input->GetClassName()))
+  {
+    auto made = vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
+    info->Set(vtkDataObject::DATA_OBJECT(), made);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void AskForPiece(vtkInformationVector* membrane, vtkInformationVector* outputs)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  if (vtkInformation* info = membrane->GetInformationObject(0))
+  {
+    vtkInformation* output = outputs->GetInformationObject(0);
+    info->CopyEntry(output, Pipeline::UPDATE_PIECE_NUMBER());
+    info->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_PIECES());
+  }
+}
+
+//------------------------------------------------------------------------------
+bool RunBlocks(vtkDataObject* input, vtkDataObject* output,
+  const std::function<int(vtkPolyData*, vtkPolyData*)>& run)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(input);
+  if (!composite)
+  {
+    return run(vtkPolyData::SafeDownCast(input), vtkPolyData::SafeDownCast(output)) != 0;
+  }
+  auto* compositeOutput = vtkCompositeDataSet::SafeDownCast(output);
+  compositeOutput->CopyStructure(composite);
+  auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  bool succeeded = true;
+  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+  {
+    if (auto* geometry = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
+    {
+      vtkNew<vtkPolyData> made;
+      succeeded = run(geometry, made) != 0 && succeeded;
+      compositeOutput->SetDataSet(block, made);
+    }
+  }
+  return succeeded;
 }
 
 //------------------------------------------------------------------------------

@@ -5,6 +5,8 @@
 
 #include "vtkSmartPointer.h"
 
+#include <functional> // For what is run
+
 class vtkDataObject;
 class vtkInformation;
 class vtkInformationVector;
@@ -23,6 +25,22 @@ vtkSmartPointer<vtkPolyData> GatherMembrane(vtkDataObject* local);
 
 /** Lets a port take composite data beside vtkPolyData, without a loop over its blocks. */
 void AcceptComposite(vtkInformation* port);
+
+/** Lets an output be composite as the input is. */
+int MakeOutputLikeInput(vtkInformationVector* inputs, vtkInformationVector* outputs);
+
+/**
+ * Asks for this rank's piece of the membrane: all of it is not to be had from filters that
+ * distribute data.
+ */
+void AskForPiece(vtkInformationVector* membrane, vtkInformationVector* outputs);
+
+/**
+ * Calls `run` for the input and output, or for each block that is vtkPolyData, with nothing in
+ * place of others. False if it does so for any.
+ */
+bool RunBlocks(vtkDataObject* input, vtkDataObject* output,
+  const std::function<int(vtkPolyData* input, vtkPolyData* output)>& run);
 
 /** An input or output that holds the data object alone. */
 vtkSmartPointer<vtkInformationVector> WrapData(vtkDataObject* data);

@@ -5,14 +5,11 @@
 #include "MembraneGathering.h"
 
 #include "vtkCamera.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 vtkStandardNewMacro(vtkPVRefractedGeometryFilter);
 
@@ -80,44 +77,17 @@ int vtkPVRefractedGeometryFilter::ProcessRequest(
 {
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
   {
-    return this->RequestDataObject(inputs[0], outputs);
+    return meniscus::MakeOutputLikeInput(inputs[0], outputs);
   }
   return this->Superclass::ProcessRequest(request, inputs, outputs);
-}
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedGeometryFilter::RequestDataObject(
-  vtkInformationVector* inputs, vtkInformationVector* outputs)
-{
-  vtkDataObject* input = vtkDataObject::GetData(inputs);
-  vtkInformation* info = outputs->GetInformationObject(0);
-  vtkDataObject* output = info->Get(vtkDataObject::DATA_OBJECT());
-  if (!input)
-  {
-    return 0;
-  }
-  if (!output || !output->IsA(input->GetClassName()))
-  {
-    auto made = vtkSmartPointer<vtkDataObject>::Take(input->NewInstance());
-    info->Set(vtkDataObject::DATA_OBJECT(), made);
-  }
-  return 1;
 }
 
 //------------------------------------------------------------------------------
 int vtkPVRefractedGeometryFilter::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  // Each rank asks for its own piece of the membrane. All of it, as the superclass asks for, is not
-  // to be had from filters that distribute data.
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   const int succeeded = this->Superclass::RequestUpdateExtent(request, inputs, outputs);
-  if (vtkInformation* membrane = inputs[1]->GetInformationObject(0))
-  {
-    vtkInformation* output = outputs->GetInformationObject(0);
-    membrane->CopyEntry(output, Pipeline::UPDATE_PIECE_NUMBER());
-    membrane->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_PIECES());
-  }
+  meniscus::AskForPiece(inputs[1], outputs);
   return succeeded;
 }
 
@@ -132,28 +102,10 @@ int vtkPVRefractedGeometryFilter::RequestData(
     vtkErrorMacro("The ranks could not exchange their parts of the membrane; the output is empty.");
     return 0;
   }
-  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
-  vtkDataObject* output = vtkDataObject::GetData(outputs);
-  auto* composite = vtkCompositeDataSet::SafeDownCast(input);
-  if (!composite)
-  {
-    return this->RefractBlock(
-      request, vtkPolyData::SafeDownCast(input), membrane, vtkPolyData::SafeDownCast(output));
-  }
-  auto* compositeOutput = vtkCompositeDataSet::SafeDownCast(output);
-  compositeOutput->CopyStructure(composite);
-  auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  int succeeded = 1;
-  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
-  {
-    if (auto* geometry = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
-    {
-      vtkNew<vtkPolyData> refracted;
-      succeeded &= this->RefractBlock(request, geometry, membrane, refracted);
-      compositeOutput->SetDataSet(block, refracted);
-    }
-  }
-  return succeeded;
+  const auto refract = [&](vtkPolyData* geometry, vtkPolyData* output)
+  { return this->RefractBlock(request, geometry, membrane, output); };
+  return meniscus::RunBlocks(
+    vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(outputs), refract);
 }
 
 //------------------------------------------------------------------------------

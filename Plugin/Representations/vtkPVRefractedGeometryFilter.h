@@ -64,7 +64,6 @@ private:
   vtkPVRefractedGeometryFilter(const vtkPVRefractedGeometryFilter&) = delete;
   void operator=(const vtkPVRefractedGeometryFilter&) = delete;
 
-  int RequestDataObject(vtkInformationVector* inputs, vtkInformationVector* outputs);
   int RefractBlock(
     vtkInformation* request, vtkPolyData* geometry, vtkPolyData* membrane, vtkPolyData* output);
 

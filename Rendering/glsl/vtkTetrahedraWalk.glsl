@@ -18,6 +18,9 @@ uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetr
 #if BENDING
 uniform sampler3D bentTiles;         // the same for the rays behind the membrane
 uniform bool beginsInside;           // whether a ray behind the membrane may begin within the mesh
+uniform int membranePart;            // what is drawn, see MembranePart: all, or
+const int PART_IN_FRONT = 1;
+const int PART_BEHIND = 2;
 #endif
 uniform int numberOfCells;
 uniform float tileSize;
@@ -602,7 +605,8 @@ bool goOnBehind(float opaque, out float lastDepth)
   vec4 line = texelFetch(bentLines, texel, 0);
   vec4 place = texelFetch(bentLines, texel + ivec2(1, 0), 0);
   // Where the straight ray has come to, if clipping planes did not end it.
-  bool arrived = endDepth == membraneDepth && entryFaces.x < 0 && !moreEntries;
+  bool arrived = membranePart != PART_BEHIND && endDepth == membraneDepth && entryFaces.x < 0 &&
+    !moreEntries;
   bool inside = depthNow >= endDepth;
   lastDepth = BEFORE_EVERYTHING;
   if (!(place.z > 0.0) || !setUpBentRay(int(place.w), line.xy, line.zw, vec2(0.0)))
@@ -641,13 +645,14 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   rayIsBent = false;
   cycleStart = -1;
   membraneDepth = texelFetch(bentLines, ivec2(2, 1) * ivec2(pixel) + ivec2(1, 0), 0).x;
-  bool meetsMembrane = membraneDepth < AFTER_EVERYTHING;
+  bool bends = membraneDepth < AFTER_EVERYTHING && membranePart != PART_IN_FRONT;
   limitRay(opaque);
   // First what is straight, if a ray of the tile enters the mesh there, then what is behind the
   // membrane: in one loop, of which rays side by side take the turns that they need.
-  moreEntries = meetsMesh && fetchTile(ivec2(pixel / tileSize), 0).x != -1.0;
+  moreEntries = meetsMesh && membranePart != PART_BEHIND &&
+    fetchTile(ivec2(pixel / tileSize), 0).x != -1.0;
   bool straight = moreEntries;
-  bool goesOn = straight || meetsMembrane;
+  bool goesOn = straight || bends;
   while (goesOn)
   {
     goesOn = straight || goOnBehind(opaque, lastDepth);
@@ -655,7 +660,7 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
     {
       castPart(lastDepth, steps, lost);
     }
-    goesOn = goesOn && meetsMembrane && !rayIsBent && !isRayDone();
+    goesOn = goesOn && bends && !rayIsBent && !isRayDone();
     straight = false;
   }
 #else

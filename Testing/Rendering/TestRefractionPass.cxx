@@ -3,6 +3,7 @@
 // vtkRefractionPass against closed forms: a plane of water, seen from above.
 #include "RayCastScene.h"
 #include "VolumeScene.h"
+#include "WaterParts.h"
 
 #include <vtkActor.h>
 #include <vtkAlgorithmOutput.h>
@@ -11,7 +12,6 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkOpenGLFXAAPass.h>
-#include <vtkPlaneSource.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRefractedGeometryFilter.h>
@@ -41,34 +41,6 @@ constexpr double Water = 1.333;
 constexpr double Background[3] = { 0.1, 0.3, 0.7 };
 // Rounding to 8 bits, of the picture behind the membrane and of the result.
 constexpr double Rounding = 1.5 / 255.0;
-
-vtkSmartPointer<vtkActor> makeActor(vtkAlgorithmOutput* port)
-{
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(port);
-  mapper->ScalarVisibilityOff();
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  return actor;
-}
-
-/// Colours of its own, whatever the light.
-void setFlatColor(vtkActor* actor, double red, double green, double blue)
-{
-  actor->GetProperty()->SetColor(red, green, blue);
-  actor->GetProperty()->SetAmbient(1.0);
-  actor->GetProperty()->SetDiffuse(0.0);
-}
-
-vtkSmartPointer<vtkPlaneSource> makePlane(double halfWidth, double height, int resolution)
-{
-  auto plane = vtkSmartPointer<vtkPlaneSource>::New();
-  plane->SetOrigin(-halfWidth, -halfWidth, height);
-  plane->SetPoint1(halfWidth, -halfWidth, height);
-  plane->SetPoint2(-halfWidth, halfWidth, height);
-  plane->SetResolution(resolution, resolution);
-  return plane;
-}
 
 /// A window that looks down on water in the plane z = 0, with a white floor below it.
 class Pool

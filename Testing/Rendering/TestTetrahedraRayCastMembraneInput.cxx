@@ -299,6 +299,33 @@ TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
   }
 }
 
+// Images that are not the window: all backends draw them alike.
+TEST(TetrahedraRayCastMembraneInput, CoarserRaysAndPartOfTheWindow)
+{
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  RayCastScene scene(grid, smooth(), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  mapper->SetMembraneData(makePlaneCase(0.1, 4.0, 2).Mesh);
+  mapper->AutoAdjustSampleDistancesOff();
+  lookAt(scene.renderer(), Block, 30.0, 45.0);
+  const int backend = mapper->GetBackend();
+  const auto expectAlike = [&](const std::string& what)
+  {
+    mapper->SetBackend(backend);
+    const FloatImage drawn = scene.renderFloat();
+    mapper->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+    expectSamePicture(drawn, scene.renderFloat(), what);
+  };
+  for (const float distance : { 1.0f, 1.7f, 3.0f })
+  {
+    mapper->SetImageSampleDistance(distance);
+    expectAlike("distance " + std::to_string(distance));
+  }
+  mapper->SetImageSampleDistance(1.0f);
+  scene.renderer()->SetViewport(0.31, 0.12, 0.93, 0.78);
+  expectAlike("part of the window");
+}
+
 TEST(TetrahedraRayCastMembraneInput, ReleasedAndResized)
 {
   const Grid grid = makeBlock(4, wavyField(3.0));

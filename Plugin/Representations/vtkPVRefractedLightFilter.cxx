@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkPVRefractedLightFilter.h"
+
+#include "MembraneGathering.h"
+
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkPVRefractedLightFilter);
+
+//------------------------------------------------------------------------------
+vtkPVRefractedLightFilter::vtkPVRefractedLightFilter() = default;
+
+//------------------------------------------------------------------------------
+vtkPVRefractedLightFilter::~vtkPVRefractedLightFilter() = default;
+
+//------------------------------------------------------------------------------
+int vtkPVRefractedLightFilter::FillInputPortInformation(int port, vtkInformation* info)
+{
+  const int filled = this->Superclass::FillInputPortInformation(port, info);
+  meniscus::AcceptComposite(info);
+  return filled;
+}
+
+//------------------------------------------------------------------------------
+int vtkPVRefractedLightFilter::FillOutputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkPVRefractedLightFilter::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return meniscus::MakeOutputLikeInput(inputs[0], outputs);
+  }
+  return this->Superclass::ProcessRequest(request, inputs, outputs);
+}
+
+//------------------------------------------------------------------------------
+int vtkPVRefractedLightFilter::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const int succeeded = this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+  meniscus::AskForPiece(inputs[1], outputs);
+  return succeeded;
+}
+
+//------------------------------------------------------------------------------
+int vtkPVRefractedLightFilter::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const vtkSmartPointer<vtkPolyData> membrane =
+    meniscus::GatherMembrane(vtkDataObject::GetData(inputs[1]));
+  if (!membrane)
+  {
+    vtkErrorMacro("The ranks could not exchange their parts of the membrane; the output is empty.");
+    return 0;
+  }
+  const auto light = [&](vtkPolyData* geometry, vtkPolyData* output)
+  {
+    const vtkSmartPointer<vtkInformationVector> ports[] = { meniscus::WrapData(geometry),
+      meniscus::WrapData(membrane) };
+    vtkInformationVector* wrapped[] = { ports[0], ports[1] };
+    return this->Superclass::RequestData(request, wrapped, meniscus::WrapData(output));
+  };
+  return meniscus::RunBlocks(
+    vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(outputs), light);
+}
+
+//------------------------------------------------------------------------------
+void vtkPVRefractedLightFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+}

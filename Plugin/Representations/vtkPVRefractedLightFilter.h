@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkPVRefractedLightFilter
+ * @brief   vtkRefractedLightFilter as ParaView runs it on several ranks
+ *
+ * Every rank lights the geometry that it has, through the whole membrane, as in
+ * vtkPVRefractedGeometryFilter. Points on the border of a rank's part have the mean of its own
+ * cells.
+ */
+#ifndef vtkPVRefractedLightFilter_h
+#define vtkPVRefractedLightFilter_h
+
+#include "vtkMeniscusRepresentationsModule.h" // For export macro
+#include "vtkRefractedLightFilter.h"
+
+class VTKMENISCUSREPRESENTATIONS_EXPORT vtkPVRefractedLightFilter : public vtkRefractedLightFilter
+{
+public:
+  static vtkPVRefractedLightFilter* New();
+  vtkTypeMacro(vtkPVRefractedLightFilter, vtkRefractedLightFilter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  int ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+protected:
+  vtkPVRefractedLightFilter();
+  ~vtkPVRefractedLightFilter() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkPVRefractedLightFilter(const vtkPVRefractedLightFilter&) = delete;
+  void operator=(const vtkPVRefractedLightFilter&) = delete;
+};
+
+#endif

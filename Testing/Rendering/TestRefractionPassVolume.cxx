@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Volumes behind the membranes of vtkRefractionPass: the same picture as by the mapper alone, and
+// Fresnel's share of it.
+#include "RayCastScene.h"
+#include "TestMeshes.h"
+#include "TestTransferFunctions.h"
+#include "VolumeScene.h"
+#include "WaterParts.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkContourValues.h>
+#include <vtkNew.h>
+#include <vtkRefractedGeometryFilter.h>
+#include <vtkRefractionPass.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTetrahedraRayCastMapper.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 160;
+constexpr double Water = 1.333;
+constexpr double Range[2] = { -1.0, 1.0 };
+
+/// A block of [-1, 1]^3 that stands in water up to a level, over a floor, seen from above.
+class Basin
+{
+public:
+  explicit Basin(double level, double halfWidth = 6.0)
+    : Mesh(makeBlock(6, wavyField(3.0)))
+    , Surface(makePlane(halfWidth, level, 4))
+    , Bottom(makePlane(2.0, -1.5, 40))
+    , Scene(Size, Size)
+  {
+    this->Mapper->SetBackend(backendUnderTest());
+    this->Mapper->SetInputData(this->Mesh);
+    this->Mapper->SetMembraneConnection(this->Surface->GetOutputPort());
+    this->Mapper->SetInteriorIndexOfRefraction(Water);
+    this->Volume->SetMapper(this->Mapper);
+    this->Volume->SetProperty(makeProperty(FunctionKind::Smooth, Range, 3.4));
+    this->Filter->SetInputConnection(this->Bottom->GetOutputPort());
+    this->Filter->SetMembraneConnection(this->Surface->GetOutputPort());
+    this->Filter->SetInteriorIndexOfRefraction(Water);
+    this->Filter->SetCamera(this->camera());
+    this->Floor = makeActor(this->Filter->GetOutputPort());
+    setFlatColor(this->Floor, 0.9, 0.7, 0.2);
+    this->Membrane = makeActor(this->Surface->GetOutputPort());
+    this->Pass->SetReflectanceModel(vtkRefractionPass::NONE);
+    this->renderer()->SetBackground(0.2, 0.3, 0.5);
+    this->camera()->SetPosition(1.5, 2.5, 5.0);
+    this->camera()->SetFocalPoint(0.0, 0.0, 0.0);
+    this->camera()->SetViewUp(0.0, 1.0, 0.0);
+    this->camera()->SetViewAngle(40.0);
+    this->camera()->SetClippingRange(0.5, 20.0);
+  }
+
+  vtkRenderer* renderer() { return this->Scene.renderer(); }
+  vtkCamera* camera() { return this->renderer()->GetActiveCamera(); }
+
+  /// By the mapper alone, the virtual floor an actor.
+  ByteImage renderPlain()
+  {
+    this->Pass->RemoveAllRefractions();
+    this->renderer()->SetPass(nullptr);
+    this->renderer()->AddActor(this->Floor);
+    this->renderer()->AddVolume(this->Volume);
+    this->Scene.window()->Render();
+    const ByteImage image = readBytes(this->Scene.window());
+    this->renderer()->RemoveActor(this->Floor);
+    this->renderer()->RemoveVolume(this->Volume);
+    return image;
+  }
+
+  ByteImage renderPass()
+  {
+    this->Pass->RemoveAllRefractions();
+    this->Pass->AddRefraction(this->Membrane, this->Floor, this->Filter);
+    this->Pass->AddVolume(this->Membrane, this->Volume);
+    this->renderer()->SetPass(this->Pass);
+    this->Scene.window()->Render();
+    return readBytes(this->Scene.window());
+  }
+
+  Grid Mesh;
+  vtkSmartPointer<vtkPlaneSource> Surface;
+  vtkSmartPointer<vtkPlaneSource> Bottom;
+  vtkNew<vtkTetrahedraRayCastMapper> Mapper;
+  vtkNew<vtkVolume> Volume;
+  vtkNew<vtkRefractedGeometryFilter> Filter;
+  vtkSmartPointer<vtkActor> Floor;
+  vtkSmartPointer<vtkActor> Membrane;
+  vtkNew<vtkRefractionPass> Pass;
+  VolumeScene Scene;
+};
+
+struct Differences
+{
+  int Largest = 0;
+  int Pixels = 0; // off by more than 2
+};
+
+Differences compare(const ByteImage& a, const ByteImage& b)
+{
+  Differences result;
+  for (std::size_t pixel = 0; pixel < a.Rgb.size(); pixel += 3)
+  {
+    int largest = 0;
+    for (std::size_t c = pixel; c < pixel + 3; ++c)
+    {
+      largest = std::max(largest, std::abs(int{ a.Rgb[c] } - int{ b.Rgb[c] }));
+    }
+    result.Largest = std::max(result.Largest, largest);
+    result.Pixels += largest > 2 ? 1 : 0;
+  }
+  return result;
+}
+
+} // anonymous namespace
+
+TEST(RefractionPassVolume, IsThePictureOfTheMapperAlone)
+{
+  // Below, across and above the water; each part is rounded to 8 bits.
+  for (const double level : { 1.3, 0.2, -1.2 })
+  {
+    Basin basin(level);
+    const ByteImage plain = basin.renderPlain();
+    const Differences off = compare(basin.renderPass(), plain);
+    EXPECT_LE(off.Largest, 2) << level;
+    EXPECT_EQ(basin.Mapper->GetNumberOfLostRays(), 0);
+  }
+}
+
+TEST(RefractionPassVolume, EveryBlendModeBehindWater)
+{
+  for (const int mode : { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND, vtkVolumeMapper::ADDITIVE_BLEND,
+         vtkVolumeMapper::ISOSURFACE_BLEND })
+  {
+    Basin basin(1.3);
+    basin.Volume->GetProperty()->GetIsoSurfaceValues()->SetValue(0, 0.12);
+    basin.Mapper->SetBlendMode(mode);
+    const ByteImage plain = basin.renderPlain();
+    EXPECT_LE(compare(basin.renderPass(), plain).Largest, 2) << mode;
+  }
+}
+
+TEST(RefractionPassVolume, BesideTheMembraneItIsSeenAsItIs)
+{
+  Basin basin(0.2, 0.7);
+  basin.Floor->VisibilityOff(); // alone, it is drawn where there is no membrane
+  const ByteImage plain = basin.renderPlain();
+  const Differences off = compare(basin.renderPass(), plain);
+  // Along the membrane's border its picture decides by the pixel's centre, as rays do, up to
+  // rounding.
+  EXPECT_LE(off.Pixels, 8) << off.Largest;
+}
+
+TEST(RefractionPassVolume, FresnelTakesItsShare)
+{
+  Basin basin(1.3);
+  basin.camera()->SetPosition(0.0, 0.0, 5.0);
+  const ByteImage through = basin.renderPass();
+  basin.Pass->SetReflectanceModel(vtkRefractionPass::FRESNEL);
+  const ByteImage with = basin.renderPass();
+  const double share = std::pow((Water - 1.0) / (Water + 1.0), 2.0);
+  double background[3];
+  basin.renderer()->GetBackground(background);
+  for (int c = 0; c < 3; ++c)
+  {
+    const double expected =
+      (1.0 - share) * through.pixel(Size / 2, Size / 2)[c] + share * 255.0 * background[c];
+    EXPECT_NEAR(with.pixel(Size / 2, Size / 2)[c], expected, 1.5);
+  }
+}
+
+TEST(RefractionPassVolume, BehindAMembraneThatIsNotVisibleNothingIsSeen)
+{
+  // All of the volume is above the water, then all of it below.
+  Basin above(-1.2);
+  above.Membrane->VisibilityOff();
+  above.Floor->VisibilityOff();
+  const ByteImage plain = above.renderPlain();
+  EXPECT_LE(compare(above.renderPass(), plain).Largest, 1);
+  EXPECT_EQ(above.Pass->GetNumberOfMembranesDrawn(), 0);
+  EXPECT_EQ(above.Pass->GetNumberOfMembranesSkipped(), 1);
+
+  Basin below(1.3);
+  below.Membrane->VisibilityOff();
+  const ByteImage hidden = below.renderPass();
+  double background[3];
+  below.renderer()->GetBackground(background);
+  for (std::size_t i = 0; i < hidden.Rgb.size(); ++i)
+  {
+    ASSERT_NEAR(hidden.Rgb[i], 255.0 * background[i % 3], 1.0);
+  }
+}
+
+TEST(RefractionPassVolume, EqualIndicesAreNoMembrane)
+{
+  Basin basin(0.2);
+  basin.Floor->VisibilityOff();
+  basin.Mapper->SetInteriorIndexOfRefraction(1.0);
+  basin.Filter->SetInteriorIndexOfRefraction(1.0);
+  const ByteImage plain = basin.renderPlain();
+  EXPECT_LE(compare(basin.renderPass(), plain).Largest, 2);
+}
+
+TEST(RefractionPassVolume, RaysAreTracedOnceForBothParts)
+{
+  Basin basin(0.2);
+  basin.renderPass();
+  EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 1);
+  EXPECT_EQ(basin.Mapper->GetUsedImageSampleDistance(), 1.0);
+  basin.Scene.window()->Render();
+  EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 1);
+  EXPECT_EQ(basin.Mapper->GetNumberOfMeshBuilds(), 1);
+  basin.camera()->Azimuth(5.0);
+  basin.Scene.window()->Render();
+  EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 2);
+}
+
+TEST(RefractionPassVolume, BadInputIsAnError)
+{
+  Basin basin(0.2);
+  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  errors->observe(basin.Pass);
+  vtkNew<vtkVolume> empty;
+  basin.Pass->AddVolume(nullptr, basin.Volume);
+  basin.Pass->AddVolume(basin.Membrane, nullptr);
+  basin.Pass->AddVolume(basin.Membrane, empty);
+  EXPECT_EQ(errors->Errors.size(), 3u);
+  EXPECT_EQ(basin.Pass->GetNumberOfRefractions(), 0);
+  basin.Pass->AddVolume(basin.Membrane, basin.Volume);
+  EXPECT_EQ(basin.Pass->GetNumberOfRefractions(), 1);
+  basin.Pass->RemoveRefraction(basin.Volume);
+  EXPECT_EQ(basin.Pass->GetNumberOfRefractions(), 0);
+}
