@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractionTarget.h"
 
+#include "vtkOpenGLError.h" // OpenGL itself, whichever loader VTK has
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
-#include "vtk_glew.h" // For the constants
 
 namespace meniscus
 {

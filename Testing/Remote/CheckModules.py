@@ -74,6 +74,8 @@ def main():
     for name, header in included(root):
         module = modules.get(header)
         count += module is not None
+        if header == "vtk_glew.h":
+            faults.append("%s includes %s, which VTK 9.4 and later do not have" % (name, header))
         if module and module not in everything:
             faults.append("%s includes %s of %s, which vtk.module does not name"
                           % (name, header, module))
