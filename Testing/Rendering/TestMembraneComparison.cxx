@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A volume through a plane and through a dome, beside the picture of rays that are refracted in
+// double and the difference of both: the sheet that the documentation shows.
+#include "MembraneScene.h"
+#include "RayCastScene.h"
+#include "ReferenceImage.h"
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkPolyData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace meniscus::test;
+using namespace meniscus::reference;
+
+namespace
+{
+
+constexpr int Size = 256;
+constexpr double Range[2] = { -1.0, 1.0 };
+constexpr double Block[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+// White in the picture of differences.
+constexpr double LargestShown = 2e-6;
+// The goal of the float error.
+constexpr double Tolerance = 1e-4;
+
+/// Three pictures side by side, one row per membrane.
+class Sheet
+{
+public:
+  Sheet()
+  {
+    this->Image->SetDimensions(3 * Size, 2 * Size, 1);
+    this->Image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  }
+
+  void set(int row, int column, int x, int y, int channel, double value)
+  {
+    auto* pixel = static_cast<unsigned char*>(
+      this->Image->GetScalarPointer(column * Size + x, (1 - row) * Size + y, 0));
+    pixel[channel] =
+      static_cast<unsigned char>(std::lround(255.0 * std::min(std::max(value, 0.0), 1.0)));
+  }
+
+  void write(const std::string& name)
+  {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetFileName((std::string(MENISCUS_TEMPORARY_DIR) + "/" + name).c_str());
+    writer->SetInputData(this->Image);
+    writer->Write();
+  }
+
+private:
+  vtkNew<vtkImageData> Image;
+};
+
+/// The largest difference; every pixel counts.
+double drawRow(Sheet& sheet, int row, const MembraneCase& membrane)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  scene.rayCaster()->SetMembraneData(membrane.Mesh);
+  lookAt(scene.renderer(), Block, 30.0, 50.0);
+  scene.window()->Render();
+  const FloatImage image = scene.renderFloat();
+  const PixelRays rays(scene.renderer());
+  const auto integrator = makeReference(grid);
+  const auto function = toReference(scene.volume()->GetProperty());
+  double largest = 0.0;
+  for (int y = 0; y < Size; ++y)
+  {
+    for (int x = 0; x < Size; ++x)
+    {
+      const auto truth = compose(refract(membrane.Surface, rays.ray(x, y), 0.0, false),
+        [&](const Ray& part) { return integrator->trace(part, function); });
+      for (int c = 0; c < 3; ++c)
+      {
+        const double ours = image.pixel(x, y)[c];
+        const double difference = std::fabs(ours - truth[static_cast<std::size_t>(c)]);
+        largest = std::max(largest, difference);
+        sheet.set(row, 0, x, y, c, ours);
+        sheet.set(row, 1, x, y, c, truth[static_cast<std::size_t>(c)]);
+        sheet.set(row, 2, x, y, c, difference / LargestShown);
+      }
+    }
+  }
+  return largest;
+}
+
+} // anonymous namespace
+
+TEST(MembraneComparison, PlaneAndDomeBesideRefractedRays)
+{
+  Sheet sheet;
+  const double plane = drawRow(sheet, 0, makePlaneCase(1.3, 3.0, 3));
+  const double dome = drawRow(sheet, 1, makeDomeCase(1.6, 3.0, 2.0, 40));
+  sheet.write("membrane-comparison.png");
+  EXPECT_LE(plane, Tolerance);
+  EXPECT_LE(dome, Tolerance);
+  RecordProperty("plane", std::to_string(plane));
+  RecordProperty("dome", std::to_string(dome));
+}
