@@ -16,6 +16,7 @@
 #include <vtkRefractionPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkSSAAPass.h>
 #include <vtkTetrahedraRayCastMapper.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolume.h>
@@ -231,6 +232,25 @@ TEST(RefractionPassVolume, RaysAreTracedOnceForBothParts)
   basin.camera()->Azimuth(5.0);
   basin.Scene.window()->Render();
   EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 2);
+}
+
+TEST(RefractionPassVolume, WithinSSAA)
+{
+  // Its pictures are larger than the window. What it shows is smoother, and nowhere else.
+  Basin basin(0.2);
+  basin.Floor->VisibilityOff();
+  const ByteImage plain = basin.renderPass();
+  vtkNew<vtkSSAAPass> ssaa;
+  ssaa->SetDelegatePass(basin.Pass);
+  basin.renderer()->SetPass(ssaa);
+  basin.Scene.window()->Render();
+  const ByteImage smooth = readBytes(basin.Scene.window());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < plain.Rgb.size(); ++i)
+  {
+    sum += std::abs(int{ plain.Rgb[i] } - int{ smooth.Rgb[i] });
+  }
+  EXPECT_LT(sum / static_cast<double>(plain.Rgb.size()), 1.0);
 }
 
 TEST(RefractionPassVolume, BadInputIsAnError)
