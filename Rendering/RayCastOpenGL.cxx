@@ -155,7 +155,9 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
   return this->DrawImage(frame.Output,
     [this, &frame]()
     {
-      std::string error = this->ListEntries(frame, false);
+      std::string error = frame.Bending.Part == MembranePart::Behind
+        ? std::string()
+        : this->ListEntries(frame, false);
       if (error.empty() && frame.Optics.Bending)
       {
         error = this->ListBentEntries(frame);

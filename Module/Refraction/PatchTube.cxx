@@ -105,20 +105,17 @@ CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal)
 }
 
 //------------------------------------------------------------------------------
-TubeBounds BoundRays(
-  const DirectionBox& directions, const glm::dvec3* points, int count, double reach)
+TubeBounds BoundRays(const glm::dvec3& lowest, const glm::dvec3& highest, const glm::dvec3* points,
+  int count, double reach)
 {
   TubeBounds bounds;
-  bounds.startLow = bounds.startHigh = points[0];
-  for (int i = 1; i < count; ++i)
+  for (int i = 0; i < count; ++i)
   {
-    bounds.startLow = glm::min(bounds.startLow, points[i]);
-    bounds.startHigh = glm::max(bounds.startHigh, points[i]);
+    bounds.startLow = glm::min(bounds.startLow, points[i] - glm::dvec3(reach));
+    bounds.startHigh = glm::max(bounds.startHigh, points[i] + glm::dvec3(reach));
   }
-  bounds.startLow -= glm::dvec3(reach);
-  bounds.startHigh += glm::dvec3(reach);
-  bounds.directionLow = directions.middle - directions.half;
-  bounds.directionHigh = directions.middle + directions.half;
+  bounds.directionLow = lowest;
+  bounds.directionHigh = highest;
   return bounds;
 }
 
@@ -149,7 +146,7 @@ TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& nor
   // The rays are unit vectors.
   const glm::dvec3 lowest = glm::max(direction - spread, glm::dvec3(-1.0));
   const glm::dvec3 highest = glm::min(direction + spread, glm::dvec3(1.0));
-  return BoundRays({ 0.5 * (lowest + highest), 0.5 * (highest - lowest) }, points, count, reach);
+  return BoundRays(lowest, highest, points, count, reach);
 }
 
 //------------------------------------------------------------------------------

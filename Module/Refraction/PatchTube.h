@@ -34,9 +34,9 @@ struct CosineBounds
 };
 CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal);
 
-/// A tube around rays of these directions from within `reach` of the hull of `count` points.
-TubeBounds BoundRays(
-  const DirectionBox& directions, const glm::dvec3* points, int count, double reach);
+/// A tube around rays of directions in a box from within `reach` of the hull of `count` points.
+TubeBounds BoundRays(const glm::dvec3& lowest, const glm::dvec3& highest, const glm::dvec3* points,
+  int count, double reach);
 
 /**
  * A tube around every ray that Snell's law refracts within `reach` of the hull of `count` points,

@@ -51,7 +51,8 @@ bool MeshInSight::MayBeSeen(const DirectionBox& sight, DirectionBox normal,
     return true;
   }
   normal.middle = fromBehind ? -normal.middle : normal.middle;
-  const TubeBounds toEye = BoundRays({ -sight.middle, sight.half }, points, count, reach);
+  const TubeBounds toEye =
+    BoundRays(-sight.middle - sight.half, -sight.middle + sight.half, points, count, reach);
   const TubeBounds refracted = BoundRefractedRays(
     sight, normal, fromBehind ? 1.0 / this->Ratio : this->Ratio, points, count, reach);
   // Without valid bounds all are totally reflected.

@@ -244,7 +244,12 @@ RayStatistics TileCaster::Cast(
       this->Input.Blending, behindOnly ? PacketResult::Somewhere : PacketResult::Outside);
   }
   workspace.Hits.clear();
-  if (!bent || (!behindOnly && this->IsMeshInFront(tile, bent)))
+  const bool straight = !bent || (!behindOnly && this->IsMeshInFront(tile, bent));
+  if (!straight && this->Input.Bent.Part == MembranePart::InFront)
+  {
+    return RayStatistics();
+  }
+  if (straight)
   {
     this->Raster.CollectHits(tile, workspace.Hits);
   }

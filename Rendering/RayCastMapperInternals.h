@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef RayCastMapperInternals_h
+#define RayCastMapperInternals_h
+
+#include "RayCastPipeline.h"
+#include "vtkTetrahedraRayCastMapper.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <string>
+
+class vtkTetrahedraRayCastMapper::vtkInternals : public meniscus::RayCastPipeline
+{
+public:
+  meniscus::ComponentMixture Mixture = meniscus::ComponentMixture::None;
+  /** Seconds that the last frame would have taken with a ray per pixel; 0 before it. */
+  double FullImageTime = 0.0;
+
+  /** What was last said of data sets that are left out. */
+  std::string ToldOfParts;
+  bool WarnedIntegration = false;
+  bool WarnedBlendMode = false;
+  bool WarnedComponents = false;
+  bool WarnedCompute = false;
+  bool WarnedTableSize = false;
+  bool WarnedPeeling = false;
+  /** Of the last frame, for what is in the world. */
+  glm::dmat4 WorldToModel{ 1.0 };
+};
+
+#endif
