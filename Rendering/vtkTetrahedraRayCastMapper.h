@@ -405,9 +405,10 @@ public:
 
   ///@{
   /**
-   * Of the last frame: cells crossed, rays that entered the mesh, and rays whose walk did not end
-   * on the boundary (0, as long as the graphics driver computes what the shader says). Read back
-   * from the graphics device when first asked for after a frame; 0 without one.
+   * Of the last frame, or part of one (RenderPart()): cells crossed, rays that entered the mesh,
+   * and rays whose walk did not end on the boundary (0, as long as the graphics driver computes
+   * what the shader says). Read back from the graphics device when first asked for after a frame; 0
+   * without one.
    */
   vtkTypeInt64 GetNumberOfTraversalSteps();
   vtkTypeInt64 GetNumberOfRays();
