@@ -19,6 +19,22 @@ PROPERTIES = {
 }
 
 
+def last_group(proxy, name):
+    """The group of properties in which ParaView's panel shows a property: the last that names it."""
+    groups = [proxy.GetPropertyGroup(i) for i in range(proxy.GetNumberOfPropertyGroups())]
+    return [group for group in groups
+            if proxy.GetProperty(name) in map(group.GetProperty, range(group.GetNumberOfProperties()))
+            ][-1]
+
+
+def values_of(element):
+    """What an XML element of decorators and those below it compare with."""
+    found = {element.GetAttribute("value")}
+    for i in range(element.GetNumberOfNestedElements()):
+        found |= values_of(element.GetNestedElement(i))
+    return found
+
+
 def check_plugin():
     filter_proxy = simple.RefractedGeometry(Geometry=simple.Sphere(), Membrane=simple.Plane())
     assert filter_proxy.ExactMembrane.GetXMLName() == "None"
@@ -32,6 +48,9 @@ def check_plugin():
     available = display.GetProperty("Representation").Available
     assert "Tetrahedra Ray Cast" in available, available
     assert display.Membrane is None
+    for name in ["ScalarOpacityUnitDistance", "OpacityArrayName", "BlendMode"]:
+        shown = values_of(last_group(display.SMProxy, name).GetHints())
+        assert "Tetrahedra Ray Cast" in shown, "%s is shown for %s" % (name, shown)
 
 
 def test():

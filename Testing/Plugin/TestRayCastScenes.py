@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What a user does with the representation: choose arrays and components, edit the opacity, step
-through time, change the blend mode, light it, move the view; each changes the picture, and back
-again gives the first picture, bit for bit."""
+through time, animate a property, change the blend mode, light it, move the view, select; each changes
+the picture, and back again gives the first picture, bit for bit."""
 import os
 
 import PluginTesting
 from PluginTesting import screenshot
 from paraview import simple
+from vtkmodules.vtkIOImage import vtkPNGReader
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 PVD = """<VTKFile type="Collection"><Collection>
 <DataSet timestep="0" file="step0.vtu"/><DataSet timestep="1" file="step1.vtu"/>
@@ -84,8 +86,89 @@ def check_edits(view, display):
     assert PluginTesting.covered(screenshot(view, "SceneIsosurfaces"))
     display.BlendMode = "Composite"
 
-    view.SMProxy.InteractiveRender()
-    assert screenshot(view, "SceneStill") == first, "after interaction"
+
+
+def window_pixels(view):
+    """What the window shows now, without drawing it again."""
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(view.SMProxy.GetClientSideObject().GetRenderWindow())
+    grab.ShouldRerenderOff()
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    scalars = grab.GetOutput().GetPointData().GetScalars()
+    return [scalars.GetTuple(i) for i in range(scalars.GetNumberOfTuples())]
+
+
+def mean_difference(some, others):
+    return sum(max(abs(a - b) for a, b in zip(*pair)) for pair in zip(some, others)) / len(some)
+
+
+def check_interaction(view):
+    """While the view is moved the volume is drawn below ParaView's threshold and a surface above it;
+    afterwards the volume is back."""
+    first = screenshot(view, "InteractionNone")
+    threshold = view.LODThreshold
+    simple.Render(view)
+    still = window_pixels(view)
+    differences = []
+    for view.LODThreshold in [1e9, 0.0]:
+        view.SMProxy.InteractiveRender()
+        differences.append(mean_difference(window_pixels(view), still))
+        assert screenshot(view, "InteractionStill") == first, "after interaction"
+    print("mean differences %.2f of fewer rays, %.2f of the surface" % tuple(differences))
+    assert differences[0] < 5 and differences[1] > 20
+    view.LODThreshold = threshold
+
+
+def check_selection(view, grid):
+    """Selected cells are shown over the volume; a rectangle in the view selects none of it."""
+    first = screenshot(view, "SelectionNone")
+    simple.QuerySelect(QueryString="id < 500", FieldType="CELL", Source=grid)
+    assert screenshot(view, "Selection") != first, "the selection is not shown"
+    simple.ClearSelection(grid)
+    assert screenshot(view, "SelectionCleared") == first, "the selection is still shown"
+    middle = PluginTesting.SIZE // 2
+    simple.SelectSurfaceCells(Rectangle=[middle - 50, middle - 50, middle + 50, middle + 50], View=view)
+    assert screenshot(view, "SelectionByView") == first, "a rectangle selects"
+
+
+def check_screenshots(view):
+    """A larger one, and one without background, over which the volume's opacity is kept."""
+    first = screenshot(view, "Screenshot")
+    folder = os.environ["MENISCUS_OUTPUT_DIR"]
+    for name, options, shape in [
+            ("Large", {"ImageResolution": [700, 700]}, (700 * 700, 3)),
+            ("Transparent", {"ImageResolution": [PluginTesting.SIZE] * 2, "TransparentBackground": 1},
+             (PluginTesting.SIZE**2, 4))]:
+        reader = vtkPNGReader()
+        reader.SetFileName(os.path.join(folder, "Screenshot%s.png" % name))
+        simple.SaveScreenshot(reader.GetFileName(), view, **options)
+        reader.Update()
+        scalars = reader.GetOutput().GetPointData().GetScalars()
+        assert (scalars.GetNumberOfTuples(), scalars.GetNumberOfComponents()) == shape
+        if shape[1] == 3:
+            drawn = sum(max(scalars.GetTuple(i)) > 2 for i in range(shape[0])) / shape[0]
+            expected = len(PluginTesting.covered(first)) / len(first)
+            assert abs(drawn - expected) < 0.01 * expected, (drawn, expected)
+        else:
+            opacities = {scalars.GetComponent(i, 3) for i in range(shape[0])}
+            assert min(opacities) == 0 and len(opacities) > 100, len(opacities)
+    assert screenshot(view, "ScreenshotAgain") == first
+
+
+def check_animation(view, display):
+    """Keyframes of a property of the representation."""
+    first = screenshot(view, "Animation0")
+    scene = simple.GetAnimationScene()
+    track = simple.GetAnimationTrack("ScalarOpacityUnitDistance", proxy=display)
+    low = display.ScalarOpacityUnitDistance
+    track.KeyFrames = [simple.CompositeKeyFrame(KeyTime=0, KeyValues=[low]),
+                       simple.CompositeKeyFrame(KeyTime=1, KeyValues=[9 * low])]
+    scene.AnimationTime = scene.EndTime
+    assert screenshot(view, "Animation1") != first, "the keyframes change nothing"
+    scene.AnimationTime = scene.StartTime
+    assert screenshot(view, "Animation0Again") == first
+    simple.Delete(track)
 
 
 def write_steps(grid):
@@ -146,9 +229,14 @@ def test():
     PluginTesting.load_plugin()
     grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
     view = PluginTesting.make_view()
+    simple.Render(view)  # the first one resets the camera
     display = show(view, grid)
     color(display, "RTData")
     check_edits(view, display)
+    check_interaction(view)
+    check_screenshots(view)
+    check_selection(view, grid)
+    check_animation(view, display)
     check_translucent(view, display, grid)
     simple.Hide(grid, view)
     check_arrays(view, grid)
