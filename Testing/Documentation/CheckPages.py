@@ -75,6 +75,12 @@ def indented_commands(text):
 
 
 def pages(root):
+    """The pages of the repository or, without one, of the source tree."""
+    if not os.path.exists(os.path.join(root, ".git")):
+        return [os.path.relpath(os.path.join(folder, name), root)
+                for folder, folders, names in os.walk(root)
+                for name in names if name.endswith(".md")
+                and not os.path.relpath(folder, root).startswith("build")]
     listed = subprocess.run(
         ["git", "-c", "safe.directory=" + root, "-C", root, "ls-files", "--cached", "--others",
          "--exclude-standard", "*.md"], stdout=subprocess.PIPE, text=True, check=True)
