@@ -95,6 +95,9 @@ def check(root, page, run, presets):
     for language in re.findall(r"^```(.+)$", text, re.MULTILINE):
         if page + ":" + language not in run:
             faults.append("a block of %s that no test runs" % language)
+    for language in ("cpp", "cmake"):  # of these the tests take a page's first
+        if len(re.findall(r"^```%s$" % language, text, re.MULTILINE)) > 1:
+            faults.append("only the first block of %s is run" % language)
     for command in indented_commands(text):
         faults += command_faults(root, command)
     for script in re.findall(r"(?:^|[\s`/])(scripts/[a-z-]+)", text):
