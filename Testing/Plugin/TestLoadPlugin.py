@@ -27,11 +27,13 @@ def last_group(proxy, name):
             ][-1]
 
 
-def values_of(element):
-    """What an XML element of decorators and those below it compare with."""
-    found = {element.GetAttribute("value")}
+def values_of(element, inverse):
+    """What an XML element of decorators and those below it compare with, to show or to hide."""
+    found = set()
+    if (element.GetAttribute("inverse") == "1") == inverse:
+        found.add(element.GetAttribute("value"))
     for i in range(element.GetNumberOfNestedElements()):
-        found |= values_of(element.GetNestedElement(i))
+        found |= values_of(element.GetNestedElement(i), inverse)
     return found
 
 
@@ -48,9 +50,10 @@ def check_plugin():
     available = display.GetProperty("Representation").Available
     assert "Tetrahedra Ray Cast" in available, available
     assert display.Membrane is None
-    for name in ["ScalarOpacityUnitDistance", "OpacityArrayName", "BlendMode"]:
-        shown = values_of(last_group(display.SMProxy, name).GetHints())
-        assert "Tetrahedra Ray Cast" in shown, "%s is shown for %s" % (name, shown)
+    for name, hides in [("ScalarOpacityUnitDistance", False), ("OpacityArrayName", False),
+                        ("BlendMode", False), ("Opacity", True), ("LineWidth", True)]:
+        told = values_of(last_group(display.SMProxy, name).GetHints(), hides)
+        assert "Tetrahedra Ray Cast" in told, "%s is told of %s" % (name, told)
 
 
 def test():

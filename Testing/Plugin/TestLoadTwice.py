@@ -16,13 +16,14 @@ def test():
     with open("/proc/self/maps") as file:
         library = next(line.split()[-1] for line in file if "libvtkRemotingViews" in line)
     other = os.path.join(os.path.dirname(library), "paraview-5.11", "plugins", OTHER, OTHER + ".so")
-    if os.path.exists(other):
+    beside = os.path.exists(other)
+    if beside:
         simple.LoadPlugin(other, remote=False, ns=globals())
-    else:
-        print("not found: %s; beside no other plugin" % other)
     for _ in range(2):
         PluginTesting.load_plugin()
         TestLoadPlugin.check_plugin()
+    if not beside:
+        PluginTesting.skip("%s is not there: loaded twice, beside no other plugin" % other)
     print("FINISHED")
 
 

@@ -1,24 +1,36 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A volume seen through a membrane: an isosurface is where the filter Refracted Geometry puts its
-contour; the membrane follows its pipeline, may have blocks, and can be taken away again."""
+contour; the membrane follows its pipeline, animated or read per time step, may have blocks, and can be
+taken away again."""
+import os
+
 import PluginTesting
 from PluginTesting import covered, screenshot
 from paraview import simple
+from vtkmodules.util.vtkConstants import VTK_STRING
 
 EYE = [6, -9, 40]
 VALUE = 200.0
-WAVES = "coords+kHat*%g*sin(0.5*coordsX)*cos(0.4*coordsY)"
+HEIGHT = "sin(0.5*coordsX)*cos(0.4*coordsY)"
+WAVES = "coords+kHat*%g*" + HEIGHT
+SERIES = """<VTKFile type="Collection"><Collection>
+<DataSet timestep="0" file="waves0.vtp"/><DataSet timestep="1" file="waves1.vtp"/>
+</Collection></VTKFile>
+"""
+FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
 # Of the pixels covered by either, those along the outlines, where pixels of the one are of points and
 # of the other of triangles: a length of about 4 diameters, two pixels wide.
 SHARE_OF_OUTLINES = 0.05
 
 
-def make_waves(height=16.0):
-    plane = simple.Plane(Origin=[-14, -14, height], Point1=[14, -14, height],
-                         Point2=[-14, 14, height], XResolution=60, YResolution=60)
-    return simple.Calculator(Input=plane, CoordinateResults=1,
-                             Function=WAVES % 0.3)
+def make_plane():
+    return simple.Plane(Origin=[-14, -14, 16], Point1=[14, -14, 16], Point2=[-14, 14, 16],
+                        XResolution=60, YResolution=60)
+
+
+def make_waves():
+    return simple.Calculator(Input=make_plane(), CoordinateResults=1, Function=WAVES % 0.3)
 
 
 def show(view, grid):
@@ -82,8 +94,68 @@ def check_empty(view, display, straight):
     """A membrane without cells, as a clip may leave, is told of; rays are straight."""
     nothing = simple.Contour(Input=simple.Wavelet(WholeExtent=[0, 1] * 3),
                              ContourBy=["POINTS", "RTData"], Isosurfaces=[1e9])
+    told = []
+
+    def listen(caller, event, text):
+        told.append(text)
+
+    listen.CallDataType = VTK_STRING
+    representation = display.SMProxy.GetClientSideObject().GetActiveRepresentation()
+    tag = representation.AddObserver("WarningEvent", listen)
     display.Membrane = nothing
     assert screenshot(view, "MembraneEmpty") == straight
+    assert len(told) == 1 and "The membrane has no cells; rays are straight." in told[0], told
+    display.Membrane = None
+    assert screenshot(view, "MembraneEmptyNone") == straight and len(told) == 1, told
+    representation.RemoveObserver(tag)
+
+
+def check_keyframes(view, display, plane, straight):
+    """Waves whose height is animated: each time's picture is that of the height set by hand."""
+    heights = simple.Calculator(Input=plane, ResultArrayName="Height", Function=HEIGHT)
+    waves = simple.GenerateSurfaceNormals(
+        Input=simple.WarpByScalar(Input=heights, Scalars=["POINTS", "Height"], ScaleFactor=0.2))
+    warp = waves.Input
+    display.Membrane = waves
+    pictures = []
+    for name, warp.ScaleFactor in [("Low", 0.2), ("High", 0.6)]:
+        pictures.append(screenshot(view, "Membrane" + name))
+    assert pictures[0] != pictures[1] and straight not in pictures
+    track = simple.GetAnimationTrack("ScaleFactor", proxy=warp)
+    track.KeyFrames = [simple.CompositeKeyFrame(KeyTime=time, KeyValues=[value])
+                       for time, value in [(0, 0.2), (1, 0.6)]]
+    scene = simple.GetAnimationScene()
+    for round_trip in range(2):
+        for time, expected in [(scene.StartTime, pictures[0]), (scene.EndTime, pictures[1])]:
+            scene.AnimationTime = time
+            picture = screenshot(view, "MembraneAtTime%g" % time)
+            assert picture == expected, "time %g, round %d" % (time, round_trip)
+    simple.Delete(track)
+    display.Membrane = None
+
+
+def check_time_steps(view, display, straight):
+    """A membrane that is read from a file per time step."""
+    pictures = []
+    for i, height in enumerate(["0.2", "0.6"]):
+        waves = simple.Calculator(Input=make_plane(), CoordinateResults=1,
+                                  Function="coords+kHat*%s*%s" % (height, HEIGHT))
+        normals = simple.GenerateSurfaceNormals(Input=waves)
+        path = os.path.join(FOLDER, "waves%d.vtp" % i)
+        simple.SaveData(path, normals, DataMode="Ascii")
+        display.Membrane = simple.XMLPolyDataReader(FileName=[path])
+        pictures.append(screenshot(view, "MembraneFile%d" % i))
+    assert pictures[0] != pictures[1] and straight not in pictures
+    series = os.path.join(FOLDER, "waves.pvd")
+    with open(series, "w") as file:
+        file.write(SERIES)
+    display.Membrane = simple.PVDReader(FileName=series)
+    scene = simple.GetAnimationScene()
+    scene.UpdateAnimationUsingDataTimeSteps()
+    for step in [0, 1, 0]:
+        scene.AnimationTime = step
+        picture = screenshot(view, "MembraneStep%d" % step)
+        assert picture == pictures[step], "time step %d" % step
     display.Membrane = None
 
 
@@ -98,6 +170,8 @@ def test():
     check_place(view, display, grid, waves)
     check_changes(view, display, waves, straight)
     check_empty(view, display, straight)
+    check_keyframes(view, display, make_plane(), straight)
+    check_time_steps(view, display, straight)
 
 
 if __name__ == "__main__":
