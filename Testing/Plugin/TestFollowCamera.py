@@ -3,6 +3,8 @@
 """The eye of Refracted Geometry follows the camera of the view that shows it: in every picture, while
 the camera is moved, in one of several views, through other filters; until it is set. That of Refraction
 Error Volume only begins there."""
+import os
+
 import PluginTesting
 from PluginTesting import SIZE, covered, screenshot
 from paraview import servermanager, simple
@@ -160,6 +162,30 @@ def check_error_volume(view):
     simple.Delete(volume)
 
 
+def check_links():
+    """Links of properties, as Tools > Manage Links makes them, go on to work, out of a state file, too."""
+    view = PluginTesting.make_view()
+    refracted = make_filter()
+    link = servermanager.vtkSMPropertyLink()
+    link.AddLinkedProperty(view.SMProxy, "CameraPosition", 1)  # input
+    link.AddLinkedProperty(refracted.SMProxy, "EyePosition", 2)  # output
+    servermanager.ProxyManager().RegisterLink("Eye", link)
+    simple.Show(refracted, view)
+    simple.Render(view)
+    place(view, PLACES[0])
+    assert eye_of(refracted) == PLACES[0] and not refracted.FollowCamera
+    path = os.path.join(os.environ["MENISCUS_OUTPUT_DIR"], "linked.pvsm")
+    simple.SaveState(path)
+    simple.ResetSession()
+    simple.LoadState(path)
+    view = simple.GetActiveView()
+    refracted = simple.FindSource("RefractedGeometry1")
+    assert eye_of(refracted) == PLACES[0] and not refracted.FollowCamera
+    simple.Render(view)
+    place(view, PLACES[1])
+    assert eye_of(refracted) == PLACES[1], eye_of(refracted)
+
+
 def test():
     PluginTesting.load_plugin()
     alone = make_filter()
@@ -181,6 +207,8 @@ def test():
     check_work(view, refracted)
     check_setting(view, refracted)
     check_error_volume(view)
+    simple.ResetSession()
+    check_links()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The state file OlderState.pvsm, as a version would have written it that had no membranes of volumes,
+did not follow the camera and lacked much else, loads and gives the picture of the same scene made now,
+bit for bit. ParaView saved that scene; then what is at its default was taken out of the file, with it
+what later versions added, and properties were put in that no version knows."""
+import os
+
+import PluginTesting
+from PluginTesting import SIZE, covered, screenshot
+from paraview import simple
+
+EYE = [4, 6, 30]
+STATE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "OlderState.pvsm")
+
+
+def make_scene():
+    grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-4, 4] * 3))
+    view = PluginTesting.make_view()
+    view.UseFXAA = 0
+    display = simple.Show(grid, view)
+    display.SetRepresentationType("Tetrahedra Ray Cast")
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    display.SetScalarBarVisibility(view, False)
+    display.BlendMode = "Isosurface"
+    display.IsosurfaceValues = [150.0, 220.0]
+    display.Shade = 1
+    ball = simple.Sphere(Center=[6, 0, 0], Radius=2)
+    water = simple.Plane(Origin=[-9, -9, 6], Point1=[9, -9, 6], Point2=[-9, 9, 6], XResolution=5,
+                         YResolution=5)
+    refracted = simple.RefractedGeometry(Geometry=ball, Membrane=water, EyePosition=EYE)
+    refracted.InteriorIndexOfRefraction = 1.5
+    simple.Show(refracted, view).ColorArrayName = [None, ""]
+    simple.Render(view)
+    view.CameraPosition = [8, 12, 40]
+    view.CameraFocalPoint = [0, 0, 0]
+    view.CameraViewUp = [0, 1, 0]
+    return view
+
+
+def test():
+    PluginTesting.load_plugin()
+    expected = screenshot(make_scene(), "OlderExpected")
+    assert len(covered(expected)) > 0.1 * SIZE**2
+    simple.ResetSession()
+    simple.LoadState(STATE)
+    view = simple.GetActiveView()
+    loaded = screenshot(view, "OlderLoaded")
+    different = sum(a != b for a, b in zip(loaded, expected))
+    assert not different, "%d pixels differ" % different
+
+    grid, = [proxy for proxy in simple.GetSources().values()
+             if proxy.GetXMLName() == "DataSetTriangleFilter"]
+    display = simple.GetDisplayProperties(grid, view)
+    assert display.Membrane is None and display.Backend == "Automatic"
+    refracted, = [proxy for proxy in simple.GetSources().values()
+                  if proxy.GetXMLName() == "RefractedGeometry"]
+    assert not refracted.FollowCamera and list(refracted.EyePosition) == EYE
+    assert refracted.Images == "All images"
+
+
+if __name__ == "__main__":
+    PluginTesting.run(test)
