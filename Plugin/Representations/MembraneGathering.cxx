@@ -28,7 +28,8 @@ namespace
 
 using Pieces = std::vector<vtkSmartPointer<vtkPolyData>>;
 
-/** What rounding can put between two equal numbers of this size: half a unit in the last place each. */
+/** What rounding can put between two equal numbers of this size: half a unit in the last place
+ * each. */
 constexpr double Rounding = std::numeric_limits<float>::epsilon();
 
 /** Adds what the data object has of a surface, without ghost cells. */

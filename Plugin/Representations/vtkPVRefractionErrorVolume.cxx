@@ -36,8 +36,8 @@ bool Contains(const Extent& extent, int i, int j, int k)
 }
 
 //------------------------------------------------------------------------------
-/** The errors measured here, without those of samples that an earlier rank has as well: the parts of
- * neighbours share a layer. */
+/** The errors measured here, without those of samples that an earlier rank has as well: the parts
+ * of neighbours share a layer. */
 std::vector<double> CollectOwnErrors(vtkImageData* output, const std::vector<Extent>& earlier)
 {
   std::vector<double> errors;

@@ -166,8 +166,8 @@ bool vtkTetrahedraRayCastRepresentation::UpdateMembrane(vtkInformationVector* in
 void vtkTetrahedraRayCastRepresentation::WarnOfOrder(vtkDataObject* source)
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  const bool tells = controller && controller->GetNumberOfProcesses() > 1 &&
-    controller->GetLocalProcessId() == 0;
+  const bool tells =
+    controller && controller->GetNumberOfProcesses() > 1 && controller->GetLocalProcessId() == 0;
   if (!tells || !source || source->GetMTime() == this->MembraneTime)
   {
     return;

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What RunRanks.py has ParaView do on each number of ranks: pictures of volumes, and what
 RanksRefraction.py has of the filters. Arguments: the prefix of the files that are written, the number
-of ranks, then the names of meshes in MENISCUS_DATA_DIR, or Waves; without any, scenes made here."""
+of ranks, then the names of meshes in MENISCUS_DATA_DIR, or a scene, Waves, Large or Facets; without any, scenes made here."""
 import math
 import os
 import sys
 import traceback
 
 import PluginTesting
+import RanksMemory
 import RanksRefraction
 from paraview import simple
 
@@ -33,7 +34,7 @@ def made_meshes():
         Function="coordsX+0.5*coordsY-0.7*coordsZ")
     return [
         ("Wavelet", write_mesh("RanksWavelet", simple.Tetrahedralize(Input=wavelet)), "RTData"),
-        ("Six", write_mesh("RanksSix", simple.Tetrahedralize(Input=one)), "RTData"),
+        ("Five", write_mesh("RanksFive", simple.Tetrahedralize(Input=one)), "RTData"),
         ("Slope", simple.Tetrahedralize(Input=slope), "Slope"),
     ]
 
@@ -231,6 +232,10 @@ def main(prefix, ranks, scenes):
         draw_own(prefix, ranks)
     elif scenes == ["Waves"]:
         draw_membranes(prefix + "Waves", WAVES)
+    elif scenes == ["Large"]:
+        RanksMemory.draw_large(prefix + "Large")
+    elif scenes == ["Facets"]:
+        RanksMemory.refract(prefix + "Facets")
     else:
         for mesh in data_meshes(scenes):
             draw_volume(prefix, *mesh, ["Ball"])

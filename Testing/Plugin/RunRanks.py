@@ -3,7 +3,8 @@
 """Runs RanksScene.py on 1, 2 and 4 ranks and compares: pictures of composited volumes must be those
 of one rank up to the rounding of the compositing, what the filters make that of one rank.
 Arguments: mpirun, pvbatch, names of meshes. The environment variable MENISCUS_RANKS names a scene to
-run instead: Waves, whose pictures are only measured.
+run instead, which is only measured: Waves, pictures through membranes; Large, pictures and memory of
+millions of tetrahedra; Facets, memory of a large membrane.
 
 Documentation/parallel.md derives how far apart they can be: less than 3 steps of 8 bits, so at most
 2, for two ranks; for four it is what is demanded here."""
@@ -125,6 +126,18 @@ def compare_samples(name, other):
     return enough and same and worst <= most and exact and off <= bound + most
 
 
+def print_memory(name):
+    """Of the rank that has most, on each number of ranks."""
+    for ranks in (1, 2, 4):
+        start = name.replace("Ranks1", "Ranks%d" % ranks).split("-0.")[0]
+        parts = [[line.split() for line in lines("%s-%d.memory" % (start, rank))]
+                 for rank in range(ranks)]
+        for stage in zip(*parts):
+            cells, resident, most = ([int(part[i]) for part in stage] for i in (1, 2, 3))
+            print("%-20s %-10s %d cells, MiB per rank: %d now, %d at most"
+                  % (start, stage[0][0], sum(cells), max(resident), max(most)))
+
+
 def run(mpirun, pvbatch, ranks, names):
     command = [mpirun, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), pvbatch,
                os.path.join(HERE, "RanksScene.py"), "Ranks%d" % ranks, str(ranks)] + names
@@ -176,6 +189,9 @@ def main():
                   and any(mesh in name for mesh in names or [name]))
     assert made, "nothing was written"
     for name in made:
+        if name.endswith(".memory"):
+            print_memory(name)
+            continue
         compare = compares[name.split(".")[-1]]
         of = name.split("Of")[-1][0]
         for ranks in (2, 4):
