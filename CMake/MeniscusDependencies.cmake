@@ -21,6 +21,15 @@ function (meniscus_module_components output)
   set("${output}" "${components}" PARENT_SCOPE)
 endfunction ()
 
+# meniscus_find(PACKAGE DEBIAN_PACKAGE): finds it or says what to do.
+macro (meniscus_find package debian)
+  find_package("${package}" QUIET)
+  if (NOT ${package}_FOUND)
+    message(FATAL_ERROR "Meniscus needs ${package}, which was not found. On Debian: apt-get install "
+      "${debian}; elsewhere set CMAKE_PREFIX_PATH or ${package}_DIR to where it is.")
+  endif ()
+endmacro ()
+
 meniscus_module_components(MENISCUS_VTK_COMPONENTS DEPENDS PRIVATE_DEPENDS)
 meniscus_module_components(_meniscus_test_components TEST_DEPENDS)
 
@@ -35,9 +44,9 @@ else ()
     OPTIONAL_COMPONENTS ${_meniscus_test_components} WrappingTools Python WrappingPythonCore)
   option(MENISCUS_WRAP_PYTHON "Build the Python package" "${VTK_WRAP_PYTHON}")
 endif ()
-find_package(glm REQUIRED)
-find_package(OpenMesh REQUIRED)
+meniscus_find(glm libglm-dev)
+meniscus_find(OpenMesh libopenmesh-dev)
 if (MENISCUS_BUILD_TESTING AND NOT MENISCUS_BUILD_PARAVIEW_PLUGIN)
-  find_package(GTest REQUIRED)
+  meniscus_find(GTest libgtest-dev)
   include(GoogleTest)
 endif ()

@@ -28,7 +28,7 @@ vtk_module_scan(
   HIDE_MODULES_FROM_CACHE ON)
 
 # vtk_module_build adds the folder of vtk.module as a subdirectory, which is the source root that is
-# being configured. Point it to the folder of the body instead (private property, stable 9.1 to 9.5).
+# being configured. Point it to the folder of the body instead (private property, stable 9.1 to 9.6).
 set_property(GLOBAL PROPERTY "_vtk_module_Meniscus::Meniscus_file"
   "${CMAKE_CURRENT_SOURCE_DIR}/Module/vtk.module")
 if (MENISCUS_BUILD_PARAVIEW_PLUGIN)

@@ -9,7 +9,7 @@ set(MENISCUS_BUILD_PYTHONPATH "${CMAKE_BINARY_DIR}/${MENISCUS_PYTHON_DIR}")
 file(RELATIVE_PATH _meniscus_python_to_library
   "/prefix/${MENISCUS_PYTHON_DIR}/meniscus" "/prefix/${CMAKE_INSTALL_LIBDIR}")
 set(_meniscus_install_rpath "${CMAKE_INSTALL_RPATH}")
-set(CMAKE_INSTALL_RPATH "$ORIGIN/${_meniscus_python_to_library}")
+set(CMAKE_INSTALL_RPATH "$ORIGIN/${_meniscus_python_to_library}" ${_meniscus_install_rpath})
 vtk_module_wrap_python(
   MODULES            ${_meniscus_modules}
   TARGET             Meniscus::Python
@@ -19,25 +19,32 @@ vtk_module_wrap_python(
   INSTALL_HEADERS    OFF)
 set(CMAKE_INSTALL_RPATH "${_meniscus_install_rpath}")
 
-configure_file("${CMAKE_CURRENT_LIST_DIR}/__init__.py.in"
-  "${MENISCUS_BUILD_PYTHONPATH}/meniscus/__init__.py" @ONLY)
-install(
-  FILES       "${MENISCUS_BUILD_PYTHONPATH}/meniscus/__init__.py"
-  DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus"
-  COMPONENT   python)
+# What the package says where it meets another VTK.
+if (VTK_DIR MATCHES "/vtk_sdk/")
+  set(MENISCUS_VTK_HINT "pip install vtk==${VTK_VERSION}")
+else ()
+  set(MENISCUS_VTK_HINT "that of ${Python3_EXECUTABLE}; in a virtual environment use --system-site-packages and install no other vtk")
+endif ()
+set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
+configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in" "${_meniscus_package}/__init__.py" @ONLY)
+configure_file("${PROJECT_SOURCE_DIR}/Python/pyvista.py" "${_meniscus_package}/pyvista.py" COPYONLY)
 
 # Types for editors and type checkers, from the signatures that the wrappers put into doc strings.
-set(_meniscus_stubs "${MENISCUS_BUILD_PYTHONPATH}/meniscus/vtkMeniscus.pyi")
-file(WRITE "${MENISCUS_BUILD_PYTHONPATH}/meniscus/py.typed" "")
+set(_meniscus_stubs "${_meniscus_package}/vtkMeniscus.pyi")
+file(WRITE "${_meniscus_package}/py.typed" "")
 add_custom_command(
   OUTPUT  "${_meniscus_stubs}"
   COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${MENISCUS_BUILD_PYTHONPATH}"
-    "${Python3_EXECUTABLE}" -B "${CMAKE_CURRENT_LIST_DIR}/make_stubs.py" "${_meniscus_stubs}"
-  DEPENDS vtkMeniscusPython "${CMAKE_CURRENT_LIST_DIR}/make_stubs.py"
+    "${Python3_EXECUTABLE}" -B "${PROJECT_SOURCE_DIR}/Python/make_stubs.py" "${_meniscus_stubs}"
+  DEPENDS vtkMeniscusPython "${PROJECT_SOURCE_DIR}/Python/make_stubs.py"
   COMMENT "Writing vtkMeniscus.pyi"
   VERBATIM)
 add_custom_target(meniscus_stubs ALL DEPENDS "${_meniscus_stubs}")
 install(
-  FILES       "${_meniscus_stubs}" "${MENISCUS_BUILD_PYTHONPATH}/meniscus/py.typed"
+  FILES
+    "${_meniscus_package}/__init__.py"
+    "${_meniscus_package}/py.typed"
+    "${_meniscus_package}/pyvista.py"
+    "${_meniscus_stubs}"
   DESTINATION "${MENISCUS_PYTHON_DIR}/meniscus"
   COMPONENT   python)

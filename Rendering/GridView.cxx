@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GridView.h"
 
+#include "VTKVersions.h"
+
 #include "Volume/BlockLoop.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
-#include "vtkCellTypes.h"
 #include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkGenericCell.h"
@@ -120,11 +121,17 @@ bool IsThreadSafe(vtkDataSet* grid)
 /** Whether it holds tetrahedra of four points each, and nothing else. */
 bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
 {
-  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
   const vtkIdType cells = grid->GetNumberOfCells();
-  const auto isOther = [](unsigned char type) { return type != VTK_TETRA; };
-  return grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() == 4 * cells &&
-    std::none_of(types->GetPointer(0), types->GetPointer(0) + cells, isOther);
+  if (grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() != 4 * cells)
+  {
+    return false;
+  }
+  vtkIdType cell = 0;
+  while (cell < cells && grid->GetCellType(cell) == VTK_TETRA)
+  {
+    ++cell;
+  }
+  return cell == cells;
 }
 
 vtkPoints* PointsOf(vtkDataSet* grid)
@@ -412,7 +419,7 @@ std::string GridView::DescribeOmitted() const
   std::ostringstream text;
   for (const auto& omitted : this->Omitted)
   {
-    const char* name = vtkCellTypes::GetClassNameFromTypeId(omitted.first);
+    const char* name = NameOfCellType(omitted.first);
     text << (text.tellp() > 0 ? ", " : "") << omitted.second << " "
          << (name ? name : "of an unknown type");
   }

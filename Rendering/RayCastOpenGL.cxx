@@ -546,6 +546,11 @@ RayStatistics RayCastOpenGL::GetStatistics()
 //------------------------------------------------------------------------------
 bool RayCastOpenGL::ReadStatistics()
 {
+  // In VTK 9.6 a window that gives up its context frees textures before it tells the mappers.
+  if (this->StatisticsImage->GetHandle() == 0)
+  {
+    return false;
+  }
   unsigned int size[2] = { this->StatisticsImage->GetWidth(), this->StatisticsImage->GetHeight() };
   vtkIdType increments[2] = { 0, 0 };
   std::vector<float> values(std::size_t{ 2 } * size[0] * size[1]);

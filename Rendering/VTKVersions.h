@@ -7,6 +7,12 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVersionMacros.h"
 
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+#include "vtkCellTypeUtilities.h"
+#else
+#include "vtkCellTypes.h"
+#endif
+
 namespace meniscus
 {
 
@@ -17,6 +23,16 @@ inline vtkObject* FacesOf(vtkUnstructuredGrid* grid)
   return grid->GetPolyhedronFaces();
 #else
   return grid->GetFaces();
+#endif
+}
+
+/** What a type of cells is called, such as "vtkWedge"; may be null. */
+inline const char* NameOfCellType(int type)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return vtkCellTypeUtilities::GetClassNameFromTypeId(type);
+#else
+  return vtkCellTypes::GetClassNameFromTypeId(type);
 #endif
 }
 

@@ -75,6 +75,12 @@ def indented_commands(text):
 
 
 def pages(root):
+    """The pages of the repository or, without one, of the source tree."""
+    if not os.path.exists(os.path.join(root, ".git")):
+        return [os.path.relpath(os.path.join(folder, name), root)
+                for folder, folders, names in os.walk(root)
+                for name in names if name.endswith(".md")
+                and not os.path.relpath(folder, root).startswith("build")]
     listed = subprocess.run(
         ["git", "-c", "safe.directory=" + root, "-C", root, "ls-files", "--cached", "--others",
          "--exclude-standard", "*.md"], stdout=subprocess.PIPE, text=True, check=True)
@@ -89,6 +95,9 @@ def check(root, page, run, presets):
     for language in re.findall(r"^```(.+)$", text, re.MULTILINE):
         if page + ":" + language not in run:
             faults.append("a block of %s that no test runs" % language)
+    for language in ("cpp", "cmake"):  # of these the tests take a page's first
+        if len(re.findall(r"^```%s$" % language, text, re.MULTILINE)) > 1:
+            faults.append("only the first block of %s is run" % language)
     for command in indented_commands(text):
         faults += command_faults(root, command)
     for script in re.findall(r"(?:^|[\s`/])(scripts/[a-z-]+)", text):

@@ -3,6 +3,7 @@
 """Calls that cannot be right are Python errors, or VTK errors that can be observed; none crashes."""
 import gc
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -26,12 +27,15 @@ class TestBadInput(unittest.TestCase):
         mapper = meniscus.vtkTetrahedraRayCastMapper()
         refraction = meniscus.vtkRefractedGeometryFilter()
         volume = meniscus.vtkRefractionErrorVolume()
+        light = meniscus.vtkRefractedLightFilter()
+        step = meniscus.vtkRefractionPass()
         for call, arguments in [
                 (mapper.SetBackend, ["native"]), (mapper.SetInputData, [vtkPolyData]),
                 (mapper.SetEarlyTerminationOpacity, [None]), (mapper.Render, [None, 3]),
                 (refraction.SetEyePosition, [1, 2]), (refraction.SetCamera, [vtkPolyData()]),
                 (refraction.SetMembraneData, [vtkUnstructuredGrid()]),
-                (volume.SetSampleDimensions, ["a", "b", "c"])]:
+                (volume.SetSampleDimensions, ["a", "b", "c"]),
+                (light.SetLightPosition, ["above"]), (step.AddVolume, [vtkPolyData(), vtkVolume()])]:
             with self.assertRaises(TypeError, msg=call.__name__):
                 call(*arguments)
         with self.assertRaises(AttributeError):
@@ -92,7 +96,22 @@ class TestBadInput(unittest.TestCase):
                     text=True, env=dict(os.environ, PYTHONPATH=path))
                 self.assertEqual(done.returncode, 1)
                 self.assertIn(message, done.stderr)
-                self.assertIn("--system-site-packages", done.stderr)
+                self.assertRegex(done.stderr, "--system-site-packages|pip install vtk==")
+
+    def test_library_missing(self):
+        """A library of ours that does not load is an ImportError that names it."""
+        with tempfile.TemporaryDirectory() as folder:
+            package = os.path.join(folder, "meniscus")
+            os.mkdir(package)
+            shutil.copy(os.path.join(os.path.dirname(meniscus.__file__), "__init__.py"), package)
+            with open(os.path.join(package, "vtkMeniscus.so"), "w") as file:
+                file.write("no library")
+            done = subprocess.run(
+                [sys.executable, "-B", "-c", "import meniscus"], stderr=subprocess.PIPE, text=True,
+                env=dict(os.environ, PYTHONPATH=folder + os.pathsep + os.environ.get("PYTHONPATH", "")))
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("A library that meniscus needs does not load", done.stderr)
+            self.assertIn("vtkMeniscus.so", done.stderr)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,15 @@ class TestStubs(unittest.TestCase):
             self.assertEqual(expected - methods, set(), name)
             self.assertGreater(len(methods), 5, name)
 
+    def test_types(self):
+        """Types of VTK are those of vtkmodules, numbers are numbers."""
+        with open(STUBS) as file:
+            text = file.read()
+        self.assertIn("from vtkmodules.vtkRenderingVolume import vtkUnstructuredGridVolumeMapper", text)
+        self.assertRegex(text, r"def SetCamera\(self, camera: vtkCamera\) -> None")
+        self.assertRegex(text, r"def SetInteriorIndexOfRefraction\(self, \w+: float\) -> None")
+        self.assertNotRegex(text, r"vtk(Camera|PolyData|Renderer) = Any")
+
     def test_marker(self):
         self.assertTrue(os.path.exists(os.path.join(os.path.dirname(STUBS), "py.typed")))
 

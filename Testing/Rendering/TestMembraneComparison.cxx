@@ -28,8 +28,10 @@ namespace
 constexpr int Size = 256;
 constexpr double Range[2] = { -1.0, 1.0 };
 constexpr double Block[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
-// White in the picture of differences.
+// Black in the picture of differences; equal is white.
 constexpr double LargestShown = 2e-6;
+// Behind the volumes, of the pictures only.
+constexpr double Background = 0.95;
 // The goal of the float error.
 constexpr double Tolerance = 1e-4;
 
@@ -87,9 +89,11 @@ double drawRow(Sheet& sheet, int row, const MembraneCase& membrane)
         const double ours = image.pixel(x, y)[c];
         const double difference = std::fabs(ours - truth[static_cast<std::size_t>(c)]);
         largest = std::max(largest, difference);
-        sheet.set(row, 0, x, y, c, ours);
-        sheet.set(row, 1, x, y, c, truth[static_cast<std::size_t>(c)]);
-        sheet.set(row, 2, x, y, c, difference / LargestShown);
+        const double behind[2] = { Background * (1.0 - image.pixel(x, y)[3]),
+          Background * (1.0 - truth[3]) };
+        sheet.set(row, 0, x, y, c, ours + behind[0]);
+        sheet.set(row, 1, x, y, c, truth[static_cast<std::size_t>(c)] + behind[1]);
+        sheet.set(row, 2, x, y, c, 1.0 - difference / LargestShown);
       }
     }
   }

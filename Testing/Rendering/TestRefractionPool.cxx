@@ -44,7 +44,8 @@ void save(const std::string& name, const meniscus::test::ByteImage& drawn, const
       {
         const double exact = truth.Colors[static_cast<std::size_t>(y) * size + x][c];
         const double ours = drawn.pixel(x, y)[c] / 255.0;
-        const double values[3] = { ours, exact, std::min(8.0 * std::fabs(ours - exact), 1.0) };
+        const double values[3] = { ours, exact,
+          1.0 - std::min(8.0 * std::fabs(ours - exact), 1.0) };
         for (int k = 0; k < 3; ++k)
         {
           static_cast<unsigned char*>(image->GetScalarPointer(k * size + x, y, 0))[c] =

@@ -57,10 +57,11 @@ def main():
     classes = [(name, kind) for name, kind in sorted(vars(module).items()) if isinstance(kind, type)]
     body = [line for name, kind in classes for line in class_lines(name, kind)]
     names = set(re.findall(r"\bvtk\w+", "\n".join(body))) - {name for name, _ in classes}
-    bases = {base.__name__: base.__module__ for _, kind in classes for base in kind.__mro__[1:2]}
+    theirs = {name: loaded for loaded in sorted(sys.modules) if loaded.startswith("vtkmodules.vtk")
+              for name in names & set(vars(sys.modules[loaded]))}
     lines = ["from typing import Any, Callable, Mapping, MutableSequence, Sequence, Tuple, overload", ""]
-    lines += ["from %s import %s" % (bases[name], name) for name in sorted(bases)]
-    lines += ["%s = Any" % name for name in sorted(names - set(bases))]
+    lines += ["from %s import %s" % (theirs[name], name) for name in sorted(theirs)]
+    lines += ["%s = Any" % name for name in sorted(names - set(theirs))]
     lines += ["Callback = Callable[..., Any]", "Pointer = Any", "Buffer = Any"]
     with open(sys.argv[1], "w") as file:
         file.write("\n".join(lines + body) + "\n")

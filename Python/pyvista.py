@@ -1,0 +1,76 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""For PyVista: a volume of tetrahedra, and geometry as seen through a surface, in a call each."""
+import pyvista
+from vtkmodules.vtkRenderingCore import vtkVolume
+
+from .vtkMeniscus import vtkRefractedGeometryFilter, vtkTetrahedraRayCastMapper
+
+
+def _set(target, properties):
+    """Calls target's SetX for every X=value; a name that it has not is an AttributeError."""
+    for name, value in properties.items():
+        getattr(target, "Set" + name)(value)
+
+
+def add_volume(plotter, mesh, scalars=None, *, cmap=None, opacity="linear", clim=None,
+               opacity_unit_distance=None, show_scalar_bar=True, name=None, **properties):
+    """Adds a mesh to a plotter as a volume, by vtkTetrahedraRayCastMapper; returns the vtkVolume.
+
+    plotter: pyvista.Plotter.
+    mesh: a dataset of PyVista's, of tetrahedra or other cells.
+    scalars: name of an array of points or cells with one component; default: the active one.
+    cmap, opacity, clim, name: as for plotter.add_volume().
+    opacity_unit_distance: the length along which opacities hold, in the mesh's unit; default: its
+        diagonal by the cube root of its number of cells.
+    properties: of the mapper, such as IntegrationMethod=1.
+    """
+    mesh = pyvista.wrap(mesh)
+    scalars = scalars or mesh.active_scalars_name
+    if scalars is None:
+        raise ValueError("The mesh has no active scalars: name an array by scalars=")
+    in_points = mesh.get_array_association(scalars) == pyvista.FieldAssociation.POINT
+    limits = clim or mesh.get_data_range(scalars)
+    table = pyvista.LookupTable(cmap, scalar_range=limits)
+    table.apply_opacity(opacity)
+
+    mapper = vtkTetrahedraRayCastMapper()
+    mapper.SetInputData(mesh)
+    if in_points:
+        mapper.SetScalarModeToUsePointFieldData()
+    else:
+        mapper.SetScalarModeToUseCellFieldData()
+    mapper.SelectScalarArray(scalars)
+    _set(mapper, properties)
+    volume = vtkVolume()
+    volume.SetMapper(mapper)
+    look = volume.GetProperty()
+    look.SetColor(table.to_color_tf())
+    look.SetScalarOpacity(table.to_opacity_tf())
+    look.SetScalarOpacityUnitDistance(
+        opacity_unit_distance or mesh.length / max(1, mesh.n_cells) ** (1 / 3))
+    plotter.add_actor(volume, name=name)
+    if show_scalar_bar:
+        shown = pyvista.DataSetMapper()
+        shown.lookup_table = pyvista.LookupTable(cmap, scalar_range=limits)
+        plotter.add_scalar_bar(title=scalars, mapper=shown)
+    return volume
+
+
+def refracted(mesh, membrane, eye, index=1.333, **properties):
+    """The virtual geometry of a mesh: drawn as it is, it looks as the mesh does behind the membrane.
+
+    mesh, membrane: datasets of PyVista's; their surfaces are taken.
+    eye: a position, or what has one, as plotter.camera.
+    index: of refraction, behind the membrane.
+    properties: of vtkRefractedGeometryFilter, such as ExteriorIndexOfRefraction=1.5.
+    """
+    refraction = vtkRefractedGeometryFilter()
+    for port, surface in enumerate((pyvista.wrap(mesh), pyvista.wrap(membrane))):
+        is_surface = isinstance(surface, pyvista.PolyData)
+        refraction.SetInputData(port, surface if is_surface else surface.extract_surface())
+    refraction.SetEyePosition(*getattr(eye, "position", eye))
+    refraction.SetInteriorIndexOfRefraction(index)
+    _set(refraction, properties)
+    refraction.Update()
+    return pyvista.wrap(refraction.GetOutput())
