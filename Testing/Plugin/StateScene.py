@@ -7,6 +7,7 @@ import os
 import PluginTesting
 from paraview import simple, smtrace
 
+EYE = [12, 9, 48]
 FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
 STATE = os.path.join(FOLDER, "scene.pvsm")
 OLDER_STATE = os.path.join(FOLDER, "older.pvsm")
@@ -22,9 +23,36 @@ def modified(proxy):
     item.finalize()
 
 
+def show_light(waves, view):
+    """A floor below the waves by the light that it gets."""
+    floor = simple.Plane(Origin=[-12, -12, -8], Point1=[12, -12, -8], Point2=[-12, 12, -8],
+                         XResolution=60, YResolution=60)
+    normals = simple.GenerateSurfaceNormals(Input=waves)
+    light = simple.RefractedLight(Geometry=floor, Membrane=normals)
+    with modified(light):
+        light.LightPosition = [0.2, 0.1, 1]
+        light.InteriorIndexOfRefraction = 1.4
+    display = simple.Show(light, view)
+    simple.ColorBy(display, ("POINTS", "RefractionIrradiance"))
+
+
+def show_error(waves, view):
+    """How far off flat facets of the waves are, on a slice through a box below them."""
+    error = simple.RefractionErrorVolume(Membrane=waves)
+    with modified(error):
+        error.EyePosition = [3, 4, 40]
+        error.MembraneModel = "Flat facets"
+        error.ModelBounds = [-12, -7, -12, 12, 4, 15]
+        error.SampleDimensions = [4, 12, 12]
+    display = simple.Show(error, view)
+    display.SetRepresentationType("Slice")
+    simple.ColorBy(display, ("POINTS", "RefractionError"))
+
+
 def make_scene():
     """A volume with settings of its own, seen through waves; a ball behind a surface of a formula that
-    these waves are put on, the eye at the camera."""
+    these waves are put on, the eye at the camera, which it follows; light through the waves, and how
+    far off their facets are."""
     grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
     view = simple.CreateRenderView()
     with modified(view):
@@ -36,7 +64,7 @@ def make_scene():
         display.BlendMode = "Isosurface"
         display.IsosurfaceValues = [130.0, 210.0]
         display.Shade = 1
-        display.Gradients = "Of cells"
+        display.Gradients = "Per cell (flat)"
         display.ScalarOpacityUnitDistance = 2.5
 
     ball = simple.Sphere(Center=[0, 0, 9], Radius=5, ThetaResolution=32, PhiResolution=32)
@@ -46,12 +74,11 @@ def make_scene():
         Input=plane, CoordinateResults=1,
         Function="coords+kHat*0.4*sin(coordsX)*cos(coordsY)")
     with modified(view):
-        view.CameraPosition = [12, 9, 48]
+        view.CameraPosition = EYE
         view.CameraFocalPoint = [0, 0, 0]
         view.CameraViewUp = [0, 1, 0]
     refracted = simple.RefractedGeometry(Geometry=ball, Membrane=waves)
     with modified(refracted):
-        refracted.EyePosition = [12, 9, 48]
         refracted.InteriorIndexOfRefraction = 1.5
         refracted.AngularTolerance = 0.05
         refracted.ExactMembrane = "Sphere"
@@ -63,4 +90,6 @@ def make_scene():
     with modified(display):
         display.Membrane = waves
         display.InteriorIndexOfRefraction = 1.4
+    show_light(waves, view)
+    show_error(waves, view)
     return view

@@ -10,13 +10,13 @@ from paraview import simple
 
 # Property: its default, another value and what that is in numbers.
 MAPPER = {
-    "Backend": ("Automatic", "Native", 2),
+    "Backend": ("Automatic", "Processor (native)", 2),
     "BlendMode": ("Composite", "Isosurface", 5),
     "Integration": ("Exact", "Pre-integrated", 1),
     "PreIntegrationScalarSize": (256, 64, 64),
     "PreIntegrationLengthSize": (16, 8, 8),
     "OpacityModel": ("Attenuation coefficient", "Opacity per unit distance", 1),
-    "Gradients": ("Of vertices", "Of cells", 0),
+    "Gradients": ("Per vertex (smooth)", "Per cell (flat)", 0),
     "EarlyTerminationOpacity": (1 - 1 / 131072, 0.5, 0.5),
     "AutoAdjustSampleDistances": (1, 0, 0),
     "MaximumImageSampleDistance": (8, 4, 4),

@@ -120,7 +120,7 @@ def test():
     refracted.EyePosition = EYE
     refracted.ExteriorIndexOfRefraction, refracted.InteriorIndexOfRefraction = INDICES
 
-    for model in ["Flat facets", "Curved"]:
+    for model in ["Flat facets (first image only)", "Curved"]:
         refracted.MembraneModel = model
         refracted.Images = "First image"
         source = servermanager.Fetch(sphere)

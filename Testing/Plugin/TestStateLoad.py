@@ -1,12 +1,24 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A state file, that of another version, a Python script of the state and a trace give the picture
-that TestStateSave.py saved, bit for bit. The argument says which of them."""
+that TestStateSave.py saved, bit for bit, and the eye of Refracted Geometry goes on to follow the
+camera; of another version, which could not, it stays. The argument says which of them."""
 import sys
 
 import PluginTesting
 import StateScene
 from paraview import simple
+
+
+def check_eye(view, follows):
+    refracted, = [source for source in simple.GetSources().values()
+                  if source.GetXMLName() == "RefractedGeometry"]
+    assert refracted.FollowCamera == follows, "FollowCamera is %r" % refracted.FollowCamera
+    assert list(refracted.EyePosition) == StateScene.EYE
+    simple.Render(view)  # the first one resets the camera
+    view.CameraPosition = [0, 3, 50]
+    simple.Render(view)
+    assert list(refracted.EyePosition) == ([0, 3, 50] if follows else StateScene.EYE)
 
 
 def test():
@@ -24,6 +36,7 @@ def test():
     pixels = PluginTesting.screenshot(view, "State" + what)
     different = sum(a != b for a, b in zip(pixels, saved))
     assert not different, "%d pixels differ" % different
+    check_eye(view, follows=what != "older")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,8 @@ import StateScene
 from paraview import simple, smstate, smtrace
 
 # What a version without them, at their defaults in the scene, would not have written.
-MISSING = ["CompactTables", "PreIntegrationScalarSize", "OutputPointsPrecision", "ViewCulling"]
+MISSING = ["CompactTables", "PreIntegrationScalarSize", "OutputPointsPrecision", "ViewCulling",
+           "FollowCamera"]
 UNKNOWN = """
       <Property name="NotYetInvented" id="%s.NotYetInvented" number_of_elements="1">
         <Element index="0" value="1"/>

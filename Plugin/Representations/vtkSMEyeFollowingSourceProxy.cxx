@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkSMEyeFollowingSourceProxy.h"
+
+#include "vtkCamera.h"
+#include "vtkCommand.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVXMLElement.h"
+#include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
+#include "vtkSMProxyIterator.h"
+#include "vtkSMProxyManager.h"
+#include "vtkSMProxySelectionModel.h"
+#include "vtkSMRenderViewProxy.h"
+#include "vtkSMRepresentationProxy.h"
+#include "vtkSMSessionProxyManager.h"
+#include "vtkTimerLog.h"
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+#include <vector>
+
+vtkStandardNewMacro(vtkSMEyeFollowingSourceProxy);
+
+namespace
+{
+
+/** Whether what a representation, or the one that it is a part of, draws is visible. */
+bool IsVisible(vtkSMProxy* representation)
+{
+  return vtkSMPropertyHelper(representation->GetTrueParentProxy(), "Visibility", true).GetAsInt() !=
+    0;
+}
+
+/** Adds the views in which an output of the proxy, or of filters behind it, is visible. */
+void AddShowingViews(vtkSMProxy* proxy, std::set<vtkSMProxy*>& views)
+{
+  for (unsigned int i = 0; i < proxy->GetNumberOfConsumers(); ++i)
+  {
+    vtkSMProxy* consumer = proxy->GetConsumerProxy(i); // null if it is gone
+    if (vtkSMRenderViewProxy::SafeDownCast(consumer))
+    {
+      views.insert(consumer);
+    }
+    else if (vtkSMRepresentationProxy::SafeDownCast(consumer)
+        ? IsVisible(consumer)
+        : vtkSMSourceProxy::SafeDownCast(consumer) != nullptr)
+    {
+      AddShowingViews(consumer, views);
+    }
+  }
+}
+
+/** Sets a property if it has other values; an equal one must not modify the pipeline. */
+bool SetIfOther(vtkSMProxy* proxy, const char* name, const double* values, unsigned int number)
+{
+  vtkSMPropertyHelper helper(proxy, name);
+  const std::vector<double> old = helper.GetDoubleArray();
+  if (old.size() == number && std::equal(old.begin(), old.end(), values))
+  {
+    return false;
+  }
+  helper.Set(values, number);
+  return true;
+}
+
+}
+
+//------------------------------------------------------------------------------
+vtkSMEyeFollowingSourceProxy::vtkSMEyeFollowingSourceProxy() = default;
+
+//------------------------------------------------------------------------------
+vtkSMEyeFollowingSourceProxy::~vtkSMEyeFollowingSourceProxy() = default;
+
+//------------------------------------------------------------------------------
+int vtkSMEyeFollowingSourceProxy::ReadXMLAttributes(
+  vtkSMSessionProxyManager* manager, vtkPVXMLElement* element)
+{
+  if (!this->Superclass::ReadXMLAttributes(manager, element))
+  {
+    return 0;
+  }
+  vtkSMProperty* eye = this->GetProperty("EyePosition");
+  if (!eye || !this->GetProperty("FollowCamera"))
+  {
+    vtkErrorMacro("The properties EyePosition and FollowCamera are needed.");
+    return 0;
+  }
+  eye->AddObserver(vtkCommand::ModifiedEvent, this, &vtkSMEyeFollowingSourceProxy::OnEyeModified);
+  if (this->GetHints() && this->GetHints()->FindNestedElementByName("FollowCamera"))
+  {
+    vtkSMPropertyHelper(this, "FollowCamera").Set(1);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::CreateVTKObjects()
+{
+  const bool isNew = !this->ObjectsCreated;
+  this->Superclass::CreateVTKObjects();
+  if (isNew && this->ObjectsCreated)
+  {
+    this->ObserveViews();
+  }
+}
+
+//------------------------------------------------------------------------------
+int vtkSMEyeFollowingSourceProxy::LoadXMLState(vtkPVXMLElement* element, vtkSMProxyLocator* locator)
+{
+  // Of a state without the property the eye stays where it is.
+  vtkSMPropertyHelper(this, "FollowCamera").Set(0);
+  this->EyeIsSet = true;
+  return this->Superclass::LoadXMLState(element, locator);
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::ObserveViews()
+{
+  vtkSMSessionProxyManager* manager = this->GetSessionProxyManager();
+  manager->AddObserver(
+    vtkCommand::RegisterEvent, this, &vtkSMEyeFollowingSourceProxy::OnProxyRegistered);
+  vtkNew<vtkSMProxyIterator> views;
+  views->SetSessionProxyManager(manager);
+  for (views->Begin("views"); !views->IsAtEnd(); views->Next())
+  {
+    this->ObserveView(views->GetProxy());
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::ObserveView(vtkSMProxy* proxy)
+{
+  if (vtkSMRenderViewProxy::SafeDownCast(proxy))
+  {
+    proxy->AddObserver(vtkCommand::StartEvent, this, &vtkSMEyeFollowingSourceProxy::OnViewStarts);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::OnProxyRegistered(
+  vtkObject* vtkNotUsed(caller), unsigned long vtkNotUsed(event), void* information)
+{
+  using Registered = vtkSMProxyManager::RegisteredProxyInformation;
+  const auto* registered = static_cast<Registered*>(information);
+  if (registered && registered->Type == Registered::PROXY &&
+    std::strcmp(registered->GroupName, "views") == 0)
+  {
+    this->ObserveView(registered->Proxy);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::OnViewStarts(
+  vtkObject* caller, unsigned long vtkNotUsed(event), void* interactive)
+{
+  const bool isMoving = interactive && *static_cast<int*>(interactive) != 0;
+  auto* view = vtkSMRenderViewProxy::SafeDownCast(caller);
+  if (!this->Follows() || (isMoving && this->UpdateTime > MaximumUpdateTime) ||
+    view != this->FindShowingView())
+  {
+    return;
+  }
+  if (this->MoveEye(view))
+  {
+    // The view would do it next; here it is timed.
+    const double start = vtkTimerLog::GetUniversalTime();
+    view->Update();
+    this->UpdateTime = vtkTimerLog::GetUniversalTime() - start;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::OnEyeModified()
+{
+  if (!this->IsMovingEye)
+  {
+    this->EyeIsSet = true;
+    vtkSMPropertyHelper(this, "FollowCamera").Set(0);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMEyeFollowingSourceProxy::Follows()
+{
+  return vtkSMPropertyHelper(this, "FollowCamera").GetAsInt() != 0;
+}
+
+//------------------------------------------------------------------------------
+vtkSMRenderViewProxy* vtkSMEyeFollowingSourceProxy::FindShowingView()
+{
+  std::set<vtkSMProxy*> showing;
+  AddShowingViews(this, showing);
+  vtkNew<vtkSMProxyIterator> views;
+  views->SetSessionProxyManager(this->GetSessionProxyManager());
+  for (views->Begin("views"); !views->IsAtEnd(); views->Next())
+  {
+    if (showing.count(views->GetProxy()) > 0)
+    {
+      return vtkSMRenderViewProxy::SafeDownCast(views->GetProxy());
+    }
+  }
+  return nullptr;
+}
+
+//------------------------------------------------------------------------------
+vtkSMRenderViewProxy* vtkSMEyeFollowingSourceProxy::FindActiveView()
+{
+  vtkSMProxySelectionModel* active =
+    this->GetSessionProxyManager()->GetSelectionModel("ActiveView");
+  return vtkSMRenderViewProxy::SafeDownCast(active ? active->GetCurrentProxy() : nullptr);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMEyeFollowingSourceProxy::MoveEye(vtkSMRenderViewProxy* view)
+{
+  vtkCamera* camera = view->GetActiveCamera();
+  if (!camera)
+  {
+    return false;
+  }
+  this->IsMovingEye = true;
+  bool moved = SetIfOther(this, "EyePosition", camera->GetPosition(), 3);
+  this->IsMovingEye = false;
+  // What is not used must not make the filter run again.
+  if (vtkSMPropertyHelper(this, "ViewCulling", true).GetAsInt() != 0)
+  {
+    const double angle = camera->GetViewAngle();
+    moved |= SetIfOther(this, "ViewFocalPoint", camera->GetFocalPoint(), 3);
+    moved |= SetIfOther(this, "ViewUp", camera->GetViewUp(), 3);
+    moved |= SetIfOther(this, "ViewAngle", &angle, 1);
+  }
+  if (moved)
+  {
+    this->UpdateVTKObjects();
+  }
+  return moved;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::MoveEyeBeforeUpdate()
+{
+  vtkSMRenderViewProxy* view = nullptr;
+  if (this->Follows())
+  {
+    view = this->FindShowingView();
+    view = view ? view : this->FindActiveView();
+  }
+  else if (!this->EyeIsSet)
+  {
+    view = this->FindActiveView();
+  }
+  if (view)
+  {
+    this->MoveEye(view);
+    this->EyeIsSet = true;
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::UpdatePipeline()
+{
+  this->MoveEyeBeforeUpdate();
+  this->Superclass::UpdatePipeline();
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::UpdatePipeline(double time)
+{
+  this->MoveEyeBeforeUpdate();
+  this->Superclass::UpdatePipeline(time);
+}
+
+//------------------------------------------------------------------------------
+void vtkSMEyeFollowingSourceProxy::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "EyeIsSet: " << this->EyeIsSet << "\n";
+  os << indent << "UpdateTime: " << this->UpdateTime << "\n";
+}
