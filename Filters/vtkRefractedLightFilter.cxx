@@ -4,7 +4,6 @@
 
 #include "vtkRefractedGeometryFilter.h"
 
-#include "vtkBoundingBox.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -258,6 +257,7 @@ bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkPolyData* membra
   {
     vtkBoundingBox box(input->GetBounds());
     box.AddBounds(membrane->GetBounds());
+    box.AddBox(this->OtherGeometry);
     double center[3];
     box.GetCenter(center);
     light = glm::dvec3(center[0], center[1], center[2]) +

@@ -36,6 +36,7 @@
 #ifndef vtkRefractedLightFilter_h
 #define vtkRefractedLightFilter_h
 
+#include "vtkBoundingBox.h"    // For what the light falls on
 #include "vtkMeniscusModule.h" // For export macro
 #include "vtkNew.h"            // For the filter inside
 #include "vtkPolyDataAlgorithm.h"
@@ -111,6 +112,12 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  /**
+   * Of geometry beside the input that the same light falls on: other pieces and blocks. A light at
+   * infinity is then where it is for all of them together. Default is none.
+   */
+  vtkBoundingBox OtherGeometry;
 
 private:
   vtkRefractedLightFilter(const vtkRefractedLightFilter&) = delete;

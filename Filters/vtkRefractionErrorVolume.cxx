@@ -323,7 +323,6 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
 void vtkRefractionErrorVolume::FillOutput(vtkImageData* output)
 {
   const std::vector<meniscus::ErrorSample>& samples = this->Internals->Samples;
-  this->Internals->Summary = meniscus::Summarize(samples.data(), samples.size());
   vtkNew<vtkDoubleArray> errors;
   errors->SetName("RefractionError");
   errors->SetNumberOfTuples(static_cast<vtkIdType>(samples.size()));
@@ -339,7 +338,17 @@ void vtkRefractionErrorVolume::FillOutput(vtkImageData* output)
   }
   output->GetPointData()->SetScalars(errors);
   output->GetPointData()->AddArray(states);
+  const meniscus::ErrorSummary summary = meniscus::Summarize(samples.data(), samples.size());
+  this->SetStatistics(output, summary.mean, summary.deviation, summary.largest,
+    static_cast<vtkTypeInt64>(summary.count));
+}
 
+//------------------------------------------------------------------------------
+void vtkRefractionErrorVolume::SetStatistics(vtkImageData* output, double meanError,
+  double standardDeviation, double largestError, vtkTypeInt64 numberOfMeasuredSamples)
+{
+  this->Internals->Summary = { meanError, standardDeviation, largestError,
+    static_cast<std::size_t>(numberOfMeasuredSamples) };
   const auto addNumber = [output](const char* name, double value)
   {
     vtkNew<vtkDoubleArray> array;

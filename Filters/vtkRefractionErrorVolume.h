@@ -182,6 +182,13 @@ protected:
   int RequestData(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
+  /**
+   * Replaces the statistics and those in the output's field data, by those of several parts of the
+   * volume, say.
+   */
+  void SetStatistics(vtkImageData* output, double meanError, double standardDeviation,
+    double largestError, vtkTypeInt64 numberOfMeasuredSamples);
+
 private:
   vtkRefractionErrorVolume(const vtkRefractionErrorVolume&) = delete;
   void operator=(const vtkRefractionErrorVolume&) = delete;

@@ -7,13 +7,18 @@
 #include "vtkCleanPolyData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace meniscus
@@ -22,6 +27,10 @@ namespace
 {
 
 using Pieces = std::vector<vtkSmartPointer<vtkPolyData>>;
+
+/** What rounding can put between two equal numbers of this size: half a unit in the last place
+ * each. */
+constexpr double Rounding = std::numeric_limits<float>::epsilon();
 
 /** Adds what the data object has of a surface, without ghost cells. */
 void AddPieces(vtkDataObject* data, Pieces& pieces)
@@ -100,6 +109,34 @@ vtkSmartPointer<vtkPolyData> GatherMembrane(vtkDataObject* local)
     AddPieces(data, pieces);
   }
   return Join(pieces);
+}
+
+//------------------------------------------------------------------------------
+bool IsPlaneAcrossAxis(vtkPolyData* surface)
+{
+  double bounds[6];
+  surface->GetBounds(bounds);
+  vtkDataArray* normals = surface->GetPointData()->GetNormals();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double* range = bounds + 2 * axis;
+    const double largest = std::max(std::fabs(range[0]), std::fabs(range[1]));
+    if (range[1] - range[0] > Rounding * largest)
+    {
+      continue;
+    }
+    bool along = true;
+    for (int other = 0; normals && other < 3; ++other)
+    {
+      const double* tilt = other == axis ? nullptr : normals->GetRange(other);
+      along = along && (!tilt || std::max(-tilt[0], tilt[1]) <= Rounding);
+    }
+    if (along)
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 //------------------------------------------------------------------------------

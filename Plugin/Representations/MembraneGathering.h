@@ -23,6 +23,14 @@ namespace meniscus
  */
 vtkSmartPointer<vtkPolyData> GatherMembrane(vtkDataObject* local);
 
+/**
+ * Whether the surface is a plane across a coordinate axis: all its points have the same coordinate,
+ * and its point normals, if it has them, no other component, up to the rounding of single
+ * precision. Refraction turns no component of a ray round there, so bent rays meet boxes along the
+ * axes in the order of straight ones.
+ */
+bool IsPlaneAcrossAxis(vtkPolyData* surface);
+
 /** Lets a port take composite data beside vtkPolyData, without a loop over its blocks. */
 void AcceptComposite(vtkInformation* port);
 

@@ -4,13 +4,51 @@
 
 #include "MembraneGathering.h"
 
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
 vtkStandardNewMacro(vtkPVRefractedLightFilter);
+
+namespace
+{
+
+/** Of the polygonal blocks of all ranks. To be called by all of them alike. */
+vtkBoundingBox BoundsOfAll(vtkDataObject* local)
+{
+  vtkBoundingBox box;
+  const auto add = [&box](vtkDataObject* data)
+  {
+    auto* geometry = vtkPolyData::SafeDownCast(data);
+    if (geometry && geometry->GetNumberOfPoints() > 0)
+    {
+      box.AddBounds(geometry->GetBounds());
+    }
+  };
+  add(local);
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(local))
+  {
+    auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+    {
+      add(block->GetCurrentDataObject());
+    }
+  }
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  if (controller && controller->GetNumberOfProcesses() > 1)
+  {
+    const vtkBoundingBox own = box;
+    controller->AllReduce(own, box);
+  }
+  return box;
+}
+
+}
 
 //------------------------------------------------------------------------------
 vtkPVRefractedLightFilter::vtkPVRefractedLightFilter() = default;
@@ -64,6 +102,7 @@ int vtkPVRefractedLightFilter::RequestData(
     vtkErrorMacro("The ranks could not exchange their parts of the membrane; the output is empty.");
     return 0;
   }
+  this->OtherGeometry = BoundsOfAll(vtkDataObject::GetData(inputs[0]));
   const auto light = [&](vtkPolyData* geometry, vtkPolyData* output)
   {
     const vtkSmartPointer<vtkInformationVector> ports[] = { meniscus::WrapData(geometry),

@@ -5,8 +5,9 @@
  * @brief   vtkRefractedLightFilter as ParaView runs it on several ranks
  *
  * Every rank lights the geometry that it has, through the whole membrane, as in
- * vtkPVRefractedGeometryFilter. Points on the border of a rank's part have the mean of its own
- * cells.
+ * vtkPVRefractedGeometryFilter. A light at infinity is at the same place for all ranks and blocks,
+ * so that a cell gets the same irradiance wherever it is. Points on the border of a rank's part
+ * have the mean of its own cells.
  */
 #ifndef vtkPVRefractedLightFilter_h
 #define vtkPVRefractedLightFilter_h

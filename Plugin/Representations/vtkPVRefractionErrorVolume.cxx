@@ -4,13 +4,70 @@
 
 #include "MembraneGathering.h"
 
+#include "vtkCommunicator.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
 vtkStandardNewMacro(vtkPVRefractionErrorVolume);
+
+namespace
+{
+
+using Extent = std::array<int, 6>;
+
+//------------------------------------------------------------------------------
+bool Contains(const Extent& extent, int i, int j, int k)
+{
+  return extent[0] <= i && i <= extent[1] && extent[2] <= j && j <= extent[3] && extent[4] <= k &&
+    k <= extent[5];
+}
+
+//------------------------------------------------------------------------------
+/** The errors measured here, without those of samples that an earlier rank has as well: the parts
+ * of neighbours share a layer. */
+std::vector<double> CollectOwnErrors(vtkImageData* output, const std::vector<Extent>& earlier)
+{
+  std::vector<double> errors;
+  auto* all = vtkDoubleArray::SafeDownCast(output->GetPointData()->GetArray("RefractionError"));
+  if (!all)
+  {
+    return errors;
+  }
+  const int* extent = output->GetExtent();
+  vtkIdType sample = 0;
+  for (int k = extent[4]; k <= extent[5]; ++k)
+  {
+    for (int j = extent[2]; j <= extent[3]; ++j)
+    {
+      for (int i = extent[0]; i <= extent[1]; ++i, ++sample)
+      {
+        const double error = all->GetValue(sample);
+        const bool own = std::none_of(earlier.begin(), earlier.end(),
+          [i, j, k](const Extent& other) { return Contains(other, i, j, k); });
+        if (own && !std::isnan(error)) // NaN: not measured
+        {
+          errors.push_back(error);
+        }
+      }
+    }
+  }
+  return errors;
+}
+
+}
 
 //------------------------------------------------------------------------------
 vtkPVRefractionErrorVolume::vtkPVRefractionErrorVolume() = default;
@@ -69,7 +126,53 @@ int vtkPVRefractionErrorVolume::RequestData(
     gathered[port] = meniscus::WrapData(membrane);
   }
   vtkInformationVector* ports[] = { gathered[0], gathered[1] };
-  return this->Superclass::RequestData(request, ports, outputs);
+  const int measured = this->Superclass::RequestData(request, ports, outputs);
+  this->ReduceStatistics(vtkImageData::GetData(outputs)); // also after an abort of this rank alone
+  return measured;
+}
+
+//------------------------------------------------------------------------------
+// In two passes, like those of one rank: no cancellation. To be called by all ranks alike.
+void vtkPVRefractionErrorVolume::ReduceStatistics(vtkImageData* output)
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  const int ranks = controller ? controller->GetNumberOfProcesses() : 1;
+  if (ranks == 1)
+  {
+    return;
+  }
+  Extent own;
+  output->GetExtent(own.data());
+  std::vector<Extent> extents(static_cast<std::size_t>(ranks));
+  controller->AllGather(own.data(), extents.front().data(), 6);
+  extents.resize(static_cast<std::size_t>(controller->GetLocalProcessId()));
+  const std::vector<double> errors = CollectOwnErrors(output, extents);
+
+  double local[2] = { 0.0, static_cast<double>(errors.size()) };
+  double largestHere = 0.0;
+  for (const double error : errors)
+  {
+    local[0] += error;
+    largestHere = std::max(largestHere, error);
+  }
+  double sums[2] = { 0.0, 0.0 };
+  double largest = 0.0;
+  controller->AllReduce(local, sums, 2, vtkCommunicator::SUM_OP);
+  controller->AllReduce(&largestHere, &largest, 1, vtkCommunicator::MAX_OP);
+  const double mean = sums[1] > 0.0 ? sums[0] / sums[1] : 0.0;
+
+  double squaresHere = 0.0;
+  for (const double error : errors)
+  {
+    squaresHere += (error - mean) * (error - mean);
+  }
+  double squares = 0.0;
+  controller->AllReduce(&squaresHere, &squares, 1, vtkCommunicator::SUM_OP);
+  const double deviation = sums[1] > 0.0 ? std::sqrt(squares / sums[1]) : 0.0;
+  if (output->GetFieldData()->HasArray("MeanError"))
+  {
+    this->SetStatistics(output, mean, deviation, largest, static_cast<vtkTypeInt64>(sums[1]));
+  }
 }
 
 //------------------------------------------------------------------------------

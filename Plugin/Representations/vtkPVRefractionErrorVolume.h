@@ -5,7 +5,9 @@
  * @brief   vtkRefractionErrorVolume as ParaView runs it on several ranks
  *
  * Every rank measures its part of the box behind the whole membrane, which is gathered from all
- * ranks and blocks, as is the finer one. The statistics of a rank are of its own samples.
+ * ranks and blocks, as is the finer one. The statistics are of the samples of all ranks, each
+ * counted once, and are the same on all: the number and the largest error are those of one rank to
+ * the last bit, mean and deviation up to the rounding of their sums.
  */
 #ifndef vtkPVRefractionErrorVolume_h
 #define vtkPVRefractionErrorVolume_h
@@ -31,6 +33,8 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
+  void ReduceStatistics(vtkImageData* output);
+
   vtkPVRefractionErrorVolume(const vtkPVRefractionErrorVolume&) = delete;
   void operator=(const vtkPVRefractionErrorVolume&) = delete;
 };

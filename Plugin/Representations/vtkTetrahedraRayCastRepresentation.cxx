@@ -158,7 +158,27 @@ bool vtkTetrahedraRayCastRepresentation::UpdateMembrane(vtkInformationVector* in
     vtkWarningMacro("The membrane has no cells; rays are straight.");
   }
   this->Membrane->ShallowCopy(membrane);
+  this->WarnOfOrder(vtkDataObject::GetData(input));
   return true;
+}
+
+//------------------------------------------------------------------------------
+void vtkTetrahedraRayCastRepresentation::WarnOfOrder(vtkDataObject* source)
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  const bool tells =
+    controller && controller->GetNumberOfProcesses() > 1 && controller->GetLocalProcessId() == 0;
+  if (!tells || !source || source->GetMTime() == this->MembraneTime)
+  {
+    return;
+  }
+  this->MembraneTime = source->GetMTime();
+  if (this->Membrane->GetNumberOfCells() > 0 && !meniscus::IsPlaneAcrossAxis(this->Membrane))
+  {
+    vtkWarningMacro("The membrane is not a plane across an axis: the pictures of several ranks are "
+                    "composited in the order of straight rays, which may not be that of bent ones, "
+                    "so that some pixels may be wrong; load the data on one rank to be sure.");
+  }
 }
 
 //------------------------------------------------------------------------------

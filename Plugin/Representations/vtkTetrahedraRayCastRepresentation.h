@@ -20,7 +20,9 @@
  *
  * Port 1 is a membrane at which rays bend, if it is there: vtkPolyData, or composite data of it.
  * All that the ranks have of it is gathered and delivered to every process that renders. Pictures
- * of several ranks are composited in the order of straight rays; see Documentation/parallel.md.
+ * of several ranks are composited in the order of straight rays, which is that of the bent ones
+ * behind a plane across an axis; any other membrane is warned of, once for each change of it. See
+ * Documentation/parallel.md.
  *
  * While it is shown, the view does not peel volumes: translucent geometry is drawn first and the
  * volume over it. ParaView peels volumes by default, which mappers of unstructured grids cannot do.
@@ -92,12 +94,15 @@ private:
 
   void LeaveOutWithoutArray();
   bool UpdateMembrane(vtkInformationVector* input);
+  void WarnOfOrder(vtkDataObject* source);
   void LetViewPeelVolumes(bool peel);
 
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
   /// As gathered on this rank; empty if there is none, for every process must be delivered
   /// something.
   vtkSmartPointer<vtkPolyData> Membrane;
+  /// Of the input that the user was last told about, if need be.
+  vtkMTimeType MembraneTime = 0;
   bool HasStoppedPeeling = false;
 };
 

@@ -1,17 +1,19 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What RunRanks.py has ParaView do on each number of ranks: pictures of volumes and the points of
-refracted geometry. Arguments: the prefix of the files that are written, then the names of meshes in
-MENISCUS_DATA_DIR; without any, meshes made here."""
+"""What RunRanks.py has ParaView do on each number of ranks: pictures of volumes, and what
+RanksRefraction.py has of the filters. Arguments: the prefix of the files that are written, the number
+of ranks, then the names of meshes in MENISCUS_DATA_DIR, or a scene, Waves, Large or Facets; without any, scenes made here."""
+import math
 import os
 import sys
 import traceback
 
 import PluginTesting
-from paraview import servermanager, simple
+import RanksMemory
+import RanksRefraction
+from paraview import simple
 
 FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
-WAVES = "coords+kHat*(0.3*sin(coordsX)*cos(coordsY))"
 
 
 def write_mesh(name, source):
@@ -32,7 +34,7 @@ def made_meshes():
         Function="coordsX+0.5*coordsY-0.7*coordsZ")
     return [
         ("Wavelet", write_mesh("RanksWavelet", simple.Tetrahedralize(Input=wavelet)), "RTData"),
-        ("Six", write_mesh("RanksSix", simple.Tetrahedralize(Input=one)), "RTData"),
+        ("Five", write_mesh("RanksFive", simple.Tetrahedralize(Input=one)), "RTData"),
         ("Slope", simple.Tetrahedralize(Input=slope), "Slope"),
     ]
 
@@ -102,63 +104,146 @@ if vtkProcessModule.GetProcessModule().GetPartitionId() == 1:
     output.GetPointData().RemoveArray("RTData")
 """
 
+# The cells that all ranks but the second have of the same mesh.
+OTHER_PIECES = """
+from vtkmodules.vtkFiltersCore import vtkAppendFilter
+from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
+from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+append = vtkAppendFilter()
+for piece in range(%d):
+    wavelet = vtkRTAnalyticSource()
+    wavelet.SetWholeExtent(-6, 6, -6, 6, -6, 6)
+    wavelet.UpdatePiece(piece, %d, 0)
+    split = vtkDataSetTriangleFilter()
+    split.SetInputData(wavelet.GetOutput())
+    split.Update()
+    if piece != 1:
+        append.AddInputData(split.GetOutput())
+append.Update()
+self.GetOutputDataObject(0).ShallowCopy(append.GetOutput())
+"""
 
-def draw_without_array(prefix):
+
+def draw_without_array(prefix, ranks, mesh):
     """One rank does not have the array: the others' cells are drawn, its own left out with a
-    warning."""
-    grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
-    mesh = simple.ProgrammableFilter(Input=grid, Script=WITHOUT_ARRAY)
+    warning. One rank draws what the others of so many ranks have."""
+    view = PluginTesting.make_view()
+    view.UseFXAA = 0
+    view.CameraPosition = [17, 12, 23]
+    view.CameraFocalPoint = [0, 0, 0]
+    view.CameraViewUp = [0, 1, 0]
+    display = simple.Show(mesh, view)
+    display.SetRepresentationType("Tetrahedra Ray Cast")
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    display.ScalarOpacityUnitDistance = 0.7
+    set_functions("RTData", 60, 260, False)
+    write_picture(view, prefix + "WithoutArrayOf%d" % ranks)
+    simple.Delete(view)
+
+
+def draw_without_arrays(prefix, ranks):
+    if ranks > 1:
+        grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
+        mesh = simple.ProgrammableFilter(Input=grid, Script=WITHOUT_ARRAY)
+        draw_without_array(prefix, ranks, mesh)
+        return
+    for several in (2, 4):
+        mesh = simple.ProgrammableSource(Script=OTHER_PIECES % (several, several),
+                                         OutputDataSetType="vtkUnstructuredGrid")
+        draw_without_array(prefix, several, mesh)
+
+
+def draw_maximum(prefix):
+    """A blend mode that several ranks cannot have is told of."""
+    mesh = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[0, 1] * 3))
     view = PluginTesting.make_view()
     display = simple.Show(mesh, view)
     display.SetRepresentationType("Tetrahedra Ray Cast")
     simple.ColorBy(display, ("POINTS", "RTData"))
-    simple.ResetCamera(view)
-    drawn = len(PluginTesting.covered(PluginTesting.screenshot(view, prefix + "WithoutArray")))
-    assert drawn > 0.1 * PluginTesting.SIZE**2, "%d pixels drawn" % drawn
+    for mode in ["Isosurface", "Maximum intensity"]:
+        display.BlendMode = mode
+        PluginTesting.screenshot(view, prefix + mode.split()[0])
     simple.Delete(view)
 
 
-def write_points(prefix, name, source):
-    """The points of all ranks, with the depth behind the membrane."""
-    data = servermanager.Fetch(source)
-    depths = data.GetPointData().GetArray("RefractionDepth")
-    with open(os.path.join(FOLDER, prefix + name + ".txt"), "w") as file:
-        for i in range(data.GetNumberOfPoints()):
-            file.write("%.9g %.9g %.9g %.9g\n" % (data.GetPoint(i) + (depths.GetValue(i),)))
+def make_membrane(height=10, slope=0):
+    """A plane that several parts of the volume are seen through, to be moved by a calculator."""
+    flat = simple.Plane(Origin=[-30, -30, height - 30 * slope],
+                        Point1=[30, -30, height + 30 * slope],
+                        Point2=[-30, 30, height - 30 * slope], XResolution=120, YResolution=120)
+    return flat, simple.Calculator(Input=flat, CoordinateResults=1)
 
 
-def refract(prefix):
-    """Distributed vertices behind a membrane that one rank has, and one of which each has a part."""
-    block = simple.Wavelet(WholeExtent=[-4, 4, -4, 4, -5, -1])
-    vertices = simple.MaskPoints(
-        Input=block, OnRatio=1, MaximumNumberofPoints=100000, GenerateVertices=1,
-        SingleVertexPerCell=1, ProportionallyDistributeMaximumNumberOfPoints=0)
-    plane = simple.Plane(Origin=[-8, -8, 0.5], Point1=[8, -8, 0.5], Point2=[-8, 8, 0.5],
-                         XResolution=24, YResolution=24)
-    height = simple.Calculator(
-        Input=simple.Wavelet(WholeExtent=[-8, 8, -8, 8, 0, 1]), ResultArrayName="Height",
-        Function="coordsZ")
-    sheet = simple.Contour(Input=height, ContourBy=["POINTS", "Height"], Isosurfaces=[0.5],
-                           ComputeNormals=0)
-    for name, surface in [("OneRank", plane), ("AllRanks", sheet)]:
-        waves = simple.Calculator(Input=surface, CoordinateResults=1, Function=WAVES)
-        refracted = simple.RefractedGeometry(Geometry=vertices, Membrane=waves)
-        refracted.EyePosition = [1, -3, 12]
-        write_points(prefix, name, refracted)
+# Degrees above the membrane.
+CAMERAS = {"Above": 80, "Aslant": 36}
 
 
-def main(prefix, names):
+def draw_membranes(prefix, membranes):
+    """A linear field, distributed from the start, seen through membranes: name, how the points of
+    a plane move, its slope, directions of CAMERAS."""
+    slope = simple.Calculator(
+        Input=simple.Wavelet(WholeExtent=[-6, 6] * 3), ResultArrayName="Slope",
+        Function="coordsX+0.5*coordsY-0.7*coordsZ")
+    mesh = simple.Tetrahedralize(Input=slope)
+    view = PluginTesting.make_view()
+    view.UseFXAA = 0
+    view.CameraFocalPoint = [0, 0, 0]
+    view.CameraViewUp = [0, 1, 0]
+    display = simple.Show(mesh, view)
+    display.SetRepresentationType("Tetrahedra Ray Cast")
+    simple.ColorBy(display, ("POINTS", "Slope"))
+    display.ScalarOpacityUnitDistance = 0.7
+    set_functions("Slope", -13, 13, False)
+    for name, function, tilt, cameras in membranes:
+        flat, moved = make_membrane(slope=tilt)
+        moved.Function = function
+        display.Membrane = simple.GenerateSurfaceNormals(Input=moved, Splitting=0)
+        for camera in cameras:
+            angle = math.radians(CAMERAS[camera])
+            view.CameraPosition = [3, -40 * math.cos(angle), 40 * math.sin(angle)]
+            write_picture(view, prefix + "Membrane" + name + camera)
+    simple.Delete(view)
+
+
+def waves(amplitude):
+    return "coords+kHat*(%g*sin(coordsX)*cos(0.8*coordsY))" % amplitude
+
+
+BOTH = list(CAMERAS)
+# The last two are warned of.
+MEMBRANES = [("Plane", "coords", 0, BOTH), ("Waves", waves(0.2), 0, ["Above"]),
+             ("Tilted", "coords", 0.1, BOTH)]
+WAVES = [("Waves%g" % a, waves(a), 0, BOTH) for a in (0.2, 0.5, 1)] + [
+    ("Tilted%g" % t, "coords", t, BOTH) for t in (0.1, 0.3, 0.6)]
+
+
+def draw_own(prefix, ranks):
+    for mesh in made_meshes():
+        draw_volume(prefix, *mesh, ["", "Ball"])
+    draw_without_arrays(prefix, ranks)
+    draw_maximum(prefix)
+    draw_membranes(prefix, MEMBRANES)
+    RanksRefraction.main(prefix)
+
+
+def main(prefix, ranks, scenes):
     PluginTesting.load_plugin()
-    for mesh in data_meshes(names) if names else made_meshes():
-        draw_volume(prefix, *mesh, ["Ball"] if names else ["", "Ball"])
-    if not names:
-        draw_without_array(prefix)
-        refract(prefix)
+    if not scenes:
+        draw_own(prefix, ranks)
+    elif scenes == ["Waves"]:
+        draw_membranes(prefix + "Waves", WAVES)
+    elif scenes == ["Large"]:
+        RanksMemory.draw_large(prefix + "Large")
+    elif scenes == ["Facets"]:
+        RanksMemory.refract(prefix + "Facets")
+    else:
+        for mesh in data_meshes(scenes):
+            draw_volume(prefix, *mesh, ["Ball"])
 
 
 if __name__ == "__main__":
     try:
-        main(sys.argv[1], sys.argv[2:])
+        main(sys.argv[1], int(sys.argv[2]), sys.argv[3:])
     except Exception:  # the process must end by itself, or the other ranks are killed
         traceback.print_exc()
     else:
