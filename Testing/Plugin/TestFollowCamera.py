@@ -4,6 +4,7 @@
 the camera is moved, in one of several views, through other filters; until it is set. That of Refraction
 Error Volume only begins there."""
 import os
+import time
 
 import PluginTesting
 from PluginTesting import SIZE, covered, screenshot
@@ -142,6 +143,33 @@ def check_setting(view, refracted):
     assert eye_of(refracted) == PLACES[1]
 
 
+def check_slow(view, refracted):
+    """What takes longer than a fifth of a second follows when the camera has come to rest."""
+    ball = refracted.Geometry
+    ball.ThetaResolution = ball.PhiResolution = 300
+    simple.Render(view)
+    camera = view.SMProxy.GetActiveCamera()
+    camera.SetPosition(*PLACES[0])
+    start = time.time()
+    simple.Render(view)
+    seconds = time.time() - start
+    print("%.2f s" % seconds)
+    assert eye_of(refracted) == PLACES[0]
+    assert seconds > 0.3, "that is not slow"
+    camera.SetPosition(*PLACES[1])
+    view.SMProxy.InteractiveRender()
+    assert eye_of(refracted) == PLACES[0], "it follows though it is slow"
+    simple.Render(view)
+    assert eye_of(refracted) == PLACES[1]
+    ball.ThetaResolution = ball.PhiResolution = 24
+    for position in PLACES[::2]:  # the first one is timed
+        camera.SetPosition(*position)
+        simple.Render(view)
+    camera.SetPosition(*PLACES[1])
+    view.SMProxy.InteractiveRender()
+    assert eye_of(refracted) == PLACES[1], "it is fast again, and does not follow"
+
+
 def check_error_volume(view):
     """The eye begins at the camera and stays there, unless it is told to follow; the box lies around
     the membrane."""
@@ -206,6 +234,7 @@ def test():
     check_culling(view, refracted)
     check_work(view, refracted)
     check_setting(view, refracted)
+    check_slow(view, refracted)
     check_error_volume(view)
     simple.ResetSession()
     check_links()
