@@ -146,7 +146,7 @@ def check_setting(view, refracted):
 def check_slow(view, refracted):
     """What takes longer than a fifth of a second follows when the camera has come to rest."""
     ball = refracted.Geometry
-    ball.ThetaResolution = ball.PhiResolution = 300
+    ball.ThetaResolution = ball.PhiResolution = 400
     simple.Render(view)
     camera = view.SMProxy.GetActiveCamera()
     camera.SetPosition(*PLACES[0])
