@@ -160,7 +160,7 @@ def check_warnings(log, several):
     array, a blend mode, membranes that are drawn from several sides."""
     for warning, reasons in [("There is no array 'RTData' on rank 1", 1),
                              ("right for the blend modes Composite and Isosurface only", 1),
-                             ("The membrane is not a plane across an axis", 2)]:
+                             ("The membrane is not a plane across an axis", 3)]:
         found, wanted = log.count(warning), reasons * several
         if found != wanted:
             print(log)
