@@ -137,6 +137,14 @@ bool RefractionScene::ReportMembrane(
     text << report.turnedNormals << " of " << points
          << " membrane normals point to the other side than their neighbours'; turned. ";
   }
+  if (report.normals.AreMost())
+  {
+    text
+      << report.normals.foreign << " of " << report.normals.examined
+      << " membrane normals do not fit the triangles around them, as if points had been moved and "
+         "normals had not; they are used as they are. Without normals, or with those of "
+         "vtkPolyDataNormals, rays bend as the triangles say. ";
+  }
   messages.warning = text.str();
   return true;
 }

@@ -12,11 +12,12 @@
  * composite data runs block by block. Input port 1 is the membrane, a vtkPolyData with triangles,
  * polygons or strips that separate the eye's medium (exterior) from that of the geometry
  * (interior). Its normals point to the eye's side: its point normals are used where they are valid,
- * others are computed from the facets' winding. Facets that are wound the other way than most of
- * their piece, and normals on the other side than most, are turned, with a warning; a one-sided
- * surface (a Moebius band) is an error. A closed membrane is a body of the interior medium, or a
- * bubble of the exterior one, as its normals say; what is beyond it is shown unchanged. Ghost
- * levels of the membrane are not asked for.
+ * others are computed from the facets' winding; where most do not fit the triangles around them, as
+ * after a filter that moves points only, a warning says so. Facets that are wound the other way
+ * than most of their piece, and normals on the other side than most, are turned, with a warning; a
+ * one-sided surface (a Moebius band) is an error. A closed membrane is a body of the interior
+ * medium, or a bubble of the exterior one, as its normals say; what is beyond it is shown
+ * unchanged. Ghost levels of the membrane are not asked for.
  *
  * The output shows every image of the geometry (ALL_IMAGES), or one per point with the input's own
  * connectivity (FIRST_IMAGE), with all point and cell arrays. Each image of a point of a vertex

@@ -237,6 +237,9 @@ void Membrane::TakeNormals(const MembraneInput& input)
   {
     this->Report.turnedNormals =
       OrientNormals(this->Positions, this->Facets, this->Pieces, this->Normals);
+    const glm::dvec3 origin = glm::abs(this->Origin);
+    this->Report.normals = FindForeignNormals(this->Positions, this->Facets, this->Normals,
+      std::max({ origin.x, origin.y, origin.z }) + this->Radius);
   }
 }
 

@@ -8,6 +8,7 @@
 #ifndef meniscus_Refraction_Membrane_h
 #define meniscus_Refraction_Membrane_h
 
+#include "Refraction/ForeignNormals.h"
 #include "Refraction/MembraneOrientation.h"
 
 #include <glm/vec3.hpp>
@@ -50,6 +51,7 @@ struct MembraneReport
   std::size_t nonManifoldFacets = 0; ///< kept, but not joined to neighbours for computed normals
   std::size_t turnedFacets = 0;      ///< kept, wound the other way than their neighbours
   std::size_t turnedNormals = 0;     ///< kept, turned to the side of their neighbours
+  ForeignNormals normals;            ///< kept, of given ones
 
   std::size_t Skipped() const
   {

@@ -225,6 +225,21 @@ TEST(RefractedGeometryMembrane, InconsistentFacetsAreTurned)
   }
 }
 
+TEST(RefractedGeometryMembrane, NormalsOfAnotherSurfaceAreToldOf)
+{
+  const auto bowl = MakeMembrane(MakeDisc(141.5, 5, 400.0));
+  bowl->GetPointData()->SetNormals(
+    MakeMembrane(MakeDisc(141.5, 5, 0.0))->GetPointData()->GetNormals());
+  const auto filter = MakeAllImages(MakeGrid(9, 80.0, -50.0), bowl);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_NE(messages->text.find("do not fit the triangles"), std::string::npos) << messages->text;
+  bowl->GetPointData()->SetNormals(nullptr);
+  filter->Update();
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+}
+
 TEST(RefractedGeometryMembrane, NormalsOnTheWrongSideAreTurned)
 {
   const auto membrane = MakeMembrane(MakeDisc(141.5, 5, 400.0));

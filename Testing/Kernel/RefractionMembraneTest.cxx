@@ -193,4 +193,54 @@ TEST(RefractionMembrane, FacetsThatCancelOutTakeTheFirstNormal)
   EXPECT_EQ(membrane.GetNormals()[0], glm::dvec3(0.0, 1.0, 0.0));
 }
 
+meniscus::ForeignNormals ForeignNormalsOf(const MembraneMesh& mesh)
+{
+  Membrane membrane;
+  EXPECT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
+  return membrane.GetReport().normals;
+}
+
+TEST(RefractionMembrane, TheSurfacesOwnNormalsAreNotForeign)
+{
+  for (const int cells : { 3, 8, 40, 120 })
+  {
+    for (const double radius : { 0.0, 1.0, 30.0 })
+    {
+      const auto found = ForeignNormalsOf(meniscus::reference::MakeSquare(1.0, cells, radius));
+      EXPECT_GT(found.examined, 0u);
+      EXPECT_EQ(found.foreign, 0u) << cells << " cells, radius " << radius;
+    }
+    const auto found = ForeignNormalsOf(meniscus::reference::MakeWaves(1.0, cells, 0.03, 3.0));
+    EXPECT_FALSE(found.AreMost()) << found.foreign << " of " << found.examined;
+  }
+  // In single precision, far from the origin.
+  for (const double offset : { 10.0, 1e4 })
+  {
+    MembraneMesh far = meniscus::reference::MakeSquare(1.0, 40, 2.0);
+    far.Translate(glm::dvec3(offset, -offset, 0.7 * offset));
+    for (std::vector<double>* values : { &far.points, &far.normals })
+    {
+      for (double& value : *values)
+      {
+        value = static_cast<double>(static_cast<float>(value));
+      }
+    }
+    EXPECT_FALSE(ForeignNormalsOf(far).AreMost()) << offset;
+  }
+}
+
+TEST(RefractionMembrane, NormalsOfAPlaneAreForeignToWaves)
+{
+  // Facets of a seventh of a wave turn as much as the normals differ: that cannot be told.
+  for (const int cells : { 40, 60, 200 })
+  {
+    MembraneMesh waves = meniscus::reference::MakeWaves(1.0, cells, 0.03, 3.0);
+    waves.normals = meniscus::reference::MakeSquare(1.0, cells, 0.0).normals;
+    const auto found = ForeignNormalsOf(waves);
+    EXPECT_TRUE(found.AreMost()) << found.foreign << " of " << found.examined << ", " << cells;
+    EXPECT_GT(found.examined, 16u);
+    EXPECT_LT(found.examined, 128u);
+  }
+}
+
 }
