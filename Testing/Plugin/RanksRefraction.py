@@ -55,8 +55,9 @@ def write_refracted(name, membrane):
 
 
 def write_light(name, membrane):
-    """What cells get, by their points, and what points get; the light is at infinity."""
-    light = simple.RefractedLight(Geometry=sheet(5, -3.5), Membrane=membrane)
+    """What cells get, by their points, and what points get; the light is at infinity. The floor
+    reaches beyond the membrane, so that the parts of it have other bounds than all of it."""
+    light = simple.RefractedLight(Geometry=sheet(10, -3.5), Membrane=membrane)
     light.LightPosition = [0.2, -0.1, 1]
     data = servermanager.Fetch(light)
     cells = data.GetCellData().GetArray("RefractionIrradiance")
@@ -67,9 +68,9 @@ def write_light(name, membrane):
         found = sorted(data.GetPoint(ids.GetId(i)) for i in range(ids.GetNumberOfIds()))
         return [x for point in found for x in point]
 
-    write_lines(name + "Cells.lines", (
+    write_lines(name + "Cells.light", (
         hexed(corners(i) + [cells.GetValue(i)]) for i in range(data.GetNumberOfCells())))
-    write_lines(name + "Points.seamed", (
+    write_lines(name + "Points.light", (
         hexed(data.GetPoint(i) + (points.GetValue(i),)) for i in range(data.GetNumberOfPoints())))
 
 

@@ -166,12 +166,22 @@ def draw_maximum(prefix):
     simple.Delete(view)
 
 
-def make_membrane(height=10, slope=0):
-    """A plane that several parts of the volume are seen through, to be moved by a calculator."""
-    flat = simple.Plane(Origin=[-30, -30, height - 30 * slope],
-                        Point1=[30, -30, height + 30 * slope],
-                        Point2=[-30, 30, height - 30 * slope], XResolution=120, YResolution=120)
-    return flat, simple.Calculator(Input=flat, CoordinateResults=1)
+def plane(slope=0):
+    """That several parts of the volume are seen through."""
+    return simple.Plane(Origin=[-30, -30, 10 - 30 * slope], Point1=[30, -30, 10 + 30 * slope],
+                        Point2=[-30, 30, 10 - 30 * slope], XResolution=120, YResolution=120)
+
+
+def waves(amplitude):
+    moved = simple.Calculator(Input=plane(), CoordinateResults=1, Function=(
+        "coords+kHat*(%g*sin(coordsX)*cos(0.8*coordsY))" % amplitude))
+    return simple.GenerateSurfaceNormals(Input=moved, Splitting=0)
+
+
+def bumps():
+    """A plane with the normals of waves."""
+    return simple.Calculator(Input=plane(), ResultNormals=1, ResultArrayName="Bumps",
+                             Function="norm(kHat-iHat*(0.1*cos(coordsX)))")
 
 
 # Degrees above the membrane.
@@ -179,8 +189,8 @@ CAMERAS = {"Above": 80, "Aslant": 36}
 
 
 def draw_membranes(prefix, membranes):
-    """A linear field, distributed from the start, seen through membranes: name, how the points of
-    a plane move, its slope, directions of CAMERAS."""
+    """A linear field, distributed from the start, seen through membranes: name, how it is made,
+    directions of CAMERAS. Through the last one another field, too."""
     slope = simple.Calculator(
         Input=simple.Wavelet(WholeExtent=[-6, 6] * 3), ResultArrayName="Slope",
         Function="coordsX+0.5*coordsY-0.7*coordsZ")
@@ -194,27 +204,24 @@ def draw_membranes(prefix, membranes):
     simple.ColorBy(display, ("POINTS", "Slope"))
     display.ScalarOpacityUnitDistance = 0.7
     set_functions("Slope", -13, 13, False)
-    for name, function, tilt, cameras in membranes:
-        flat, moved = make_membrane(slope=tilt)
-        moved.Function = function
-        display.Membrane = simple.GenerateSurfaceNormals(Input=moved, Splitting=0)
+    for name, make, cameras in membranes:
+        display.Membrane = make()
         for camera in cameras:
             angle = math.radians(CAMERAS[camera])
             view.CameraPosition = [3, -40 * math.cos(angle), 40 * math.sin(angle)]
             write_picture(view, prefix + "Membrane" + name + camera)
+    slope.Function = "coordsX-0.5*coordsY-0.7*coordsZ"
+    write_picture(view, prefix + "MembraneOtherField")
     simple.Delete(view)
 
 
-def waves(amplitude):
-    return "coords+kHat*(%g*sin(coordsX)*cos(0.8*coordsY))" % amplitude
-
-
 BOTH = list(CAMERAS)
-# The last two are warned of.
-MEMBRANES = [("Plane", "coords", 0, BOTH), ("Waves", waves(0.2), 0, ["Above"]),
-             ("Tilted", "coords", 0.1, BOTH)]
-WAVES = [("Waves%g" % a, waves(a), 0, BOTH) for a in (0.2, 0.5, 1)] + [
-    ("Tilted%g" % t, "coords", t, BOTH) for t in (0.1, 0.3, 0.6)]
+# All but the first are warned of, once each.
+MEMBRANES = [("Plane", plane, BOTH), ("Waves", lambda: waves(0.2), ["Above"]),
+             ("Bumps", bumps, ["Above"]), ("Tilted", lambda: plane(0.1), BOTH)]
+WAVES = [("Waves0.2", lambda: waves(0.2), BOTH), ("Waves0.5", lambda: waves(0.5), BOTH),
+         ("Waves1", lambda: waves(1), BOTH), ("Tilted0.1", lambda: plane(0.1), BOTH),
+         ("Tilted0.3", lambda: plane(0.3), BOTH), ("Tilted0.6", lambda: plane(0.6), BOTH)]
 
 
 def draw_own(prefix, ranks):

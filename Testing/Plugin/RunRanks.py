@@ -9,6 +9,7 @@ millions of tetrahedra; Facets, memory of a large membrane.
 Documentation/parallel.md derives how far apart they can be: less than 3 steps of 8 bits, so at most
 2, for two ranks; for four it is what is demanded here."""
 import collections
+import math
 import os
 import subprocess
 import sys
@@ -23,6 +24,9 @@ POINT_TOLERANCE = 16 * 2**-24
 # Of errors behind the same membrane with its facets in another order: a few hundred roundings of double
 # precision in a scene 16 wide.
 SAMPLE_TOLERANCE = 256 * 16 * 2**-53
+# Of light: cells are divided to a six-thousandth of the scene (vtkRefractedLightFilter.cxx); here they
+# are 1 wide in a scene 25 wide.
+LIGHT_TOLERANCE = 25 / 6000
 SKIP = 125
 
 
@@ -48,15 +52,6 @@ def lines(name):
         return file.read().splitlines()
 
 
-def compare_lines(name, other):
-    """All the same, to the last bit, in any order."""
-    one, several = sorted(lines(name)), sorted(lines(other))
-    different = len(set(one) ^ set(several))
-    print("%-36s %d different of %d lines" % (other, different, len(one)))
-    lit = sum(float.fromhex(line.split()[-1]) > 0 for line in one)
-    return lit > 100 and one == several
-
-
 def numbers(name):
     return [tuple(float.fromhex(word) for word in line.split()) for line in lines(name)]
 
@@ -76,16 +71,23 @@ def compare_points(name, other):
     return len(one) > 300 and behind and worst < POINT_TOLERANCE
 
 
-def compare_seamed(name, other):
-    """To the last bit, but for points that several ranks have, which know their own rank's cells."""
-    one = set(lines(name))
-    several = lines(other)
-    count = collections.Counter(tuple(line.split()[:3]) for line in several)
-    inner = [line for line in several if count[tuple(line.split()[:3])] == 1]
-    different = sum(line not in one for line in inner)
-    print("%-36s %d different of %d points in one part, %d of several parts"
-          % (other, different, len(inner), len(count) - len(inner)))
-    return len(inner) > 50 and different == 0 and len(count) == len(one)
+def compare_light(name, other):
+    """By place, but for points that several ranks have, which know their own rank's cells: to the last
+    bit where one rank has the membrane, else up to where cells are divided: the order of its facets is
+    another."""
+    one = {values[:-1]: values[-1] for values in numbers(name)}
+    found = collections.defaultdict(list)
+    for values in numbers(other):
+        found[values[:-1]].append(values[-1])
+    inner = {place: values[0] for place, values in found.items() if len(values) == 1}
+    worst = max(abs(value - one.get(place, math.inf)) for place, value in inner.items())
+    most = 0 if "OneRank" in name else LIGHT_TOLERANCE
+    different = sum(value != one.get(place) for place, value in inner.items())
+    print("%-36s worst %.1e, %d different of %d, and %d of several parts"
+          % (other, worst, different, len(inner), len(found) - len(inner)))
+    shared = len(found) - len(inner) if "Points" in name else 0
+    lit = sum(value > 0 for value in inner.values())
+    return lit > 100 and worst <= most and len(inner) + shared == len(one)
 
 
 def samples(name):
@@ -160,7 +162,7 @@ def check_warnings(log, several):
     array, a blend mode, membranes that are drawn from several sides."""
     for warning, reasons in [("There is no array 'RTData' on rank 1", 1),
                              ("right for the blend modes Composite and Isosurface only", 1),
-                             ("The membrane is not a plane across an axis", 2)]:
+                             ("The membrane is not a plane across an axis", 3)]:
         found, wanted = log.count(warning), reasons * several
         if found != wanted:
             print(log)
@@ -182,8 +184,8 @@ def main():
     passed = True
     for ranks in (1, 2, 4):
         run(mpirun, pvbatch, ranks, names)
-    compares = {"rgb": compare_pictures, "points": compare_points, "lines": compare_lines,
-                "seamed": compare_seamed, "samples": compare_samples}
+    compares = {"rgb": compare_pictures, "points": compare_points, "light": compare_light,
+                "samples": compare_samples}
     made = sorted(name for name in os.listdir(FOLDER) if name.startswith("Ranks1")
                   and not name.endswith(".png")
                   and any(mesh in name for mesh in names or [name]))
