@@ -23,7 +23,7 @@ def add_volume(plotter, mesh, scalars=None, *, cmap=None, opacity="linear", clim
     cmap, opacity, clim, name: as for plotter.add_volume().
     opacity_unit_distance: the length along which opacities hold, in the mesh's unit; default: its
         diagonal by the cube root of its number of cells.
-    properties: of the mapper, such as IntegrationMethod=1.
+    properties: of the mapper, such as BlendMode=1.
     """
     mesh = pyvista.wrap(mesh)
     scalars = scalars or mesh.active_scalars_name

@@ -33,7 +33,8 @@ bool IsSampled(std::int32_t vertex, std::uint32_t limit)
   return static_cast<std::uint32_t>(vertex) * 2654435761U <= limit; // Knuth's, of the golden ratio
 }
 
-/// A facet's two short-side corners move by half a unit in the last place, its lowest height away.
+/// Corners in single precision are off by sqrt(3) / 2 units in the last place of the largest
+/// coordinate; two of them, over the lowest height, turn a facet by less than twice a unit.
 double RoundingOf(const std::array<glm::dvec3, 3>& corner, double doubleArea, double coordinate)
 {
   double longest = 0.0;

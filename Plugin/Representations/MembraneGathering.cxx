@@ -176,13 +176,22 @@ void AskForPiece(vtkInformationVector* membrane, vtkInformationVector* outputs)
 }
 
 //------------------------------------------------------------------------------
-bool RunBlocks(vtkDataObject* input, vtkDataObject* output,
-  const std::function<int(vtkPolyData*, vtkPolyData*)>& run)
+bool RunBlocks(vtkInformationVector** inputs, vtkInformationVector* outputs, vtkPolyData* membrane,
+  const std::function<int(vtkInformationVector**, vtkInformationVector*)>& run)
 {
+  const auto second = WrapData(membrane);
+  const auto runBlock = [&](vtkDataObject* geometry, vtkDataObject* output)
+  {
+    const auto first = WrapData(geometry);
+    vtkInformationVector* ports[] = { first, second };
+    return run(ports, WrapData(output)) != 0;
+  };
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputs);
   auto* composite = vtkCompositeDataSet::SafeDownCast(input);
   if (!composite)
   {
-    return run(vtkPolyData::SafeDownCast(input), vtkPolyData::SafeDownCast(output)) != 0;
+    return runBlock(input, output);
   }
   auto* compositeOutput = vtkCompositeDataSet::SafeDownCast(output);
   compositeOutput->CopyStructure(composite);
@@ -193,7 +202,7 @@ bool RunBlocks(vtkDataObject* input, vtkDataObject* output,
     if (auto* geometry = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
     {
       vtkNew<vtkPolyData> made;
-      succeeded = run(geometry, made) != 0 && succeeded;
+      succeeded = runBlock(geometry, made) && succeeded;
       compositeOutput->SetDataSet(block, made);
     }
   }

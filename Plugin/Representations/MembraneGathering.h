@@ -44,11 +44,12 @@ int MakeOutputLikeInput(vtkInformationVector* inputs, vtkInformationVector* outp
 void AskForPiece(vtkInformationVector* membrane, vtkInformationVector* outputs);
 
 /**
- * Calls `run` for the input and output, or for each block that is vtkPolyData, with nothing in
- * place of others. False if it does so for any.
+ * Calls `run` with the first input and the output, or with each block of them that is vtkPolyData
+ * and nothing in place of others, and with the membrane as second input. False if it does so for
+ * any.
  */
-bool RunBlocks(vtkDataObject* input, vtkDataObject* output,
-  const std::function<int(vtkPolyData* input, vtkPolyData* output)>& run);
+bool RunBlocks(vtkInformationVector** inputs, vtkInformationVector* outputs, vtkPolyData* membrane,
+  const std::function<int(vtkInformationVector** inputs, vtkInformationVector* outputs)>& run);
 
 /** An input or output that holds the data object alone. */
 vtkSmartPointer<vtkInformationVector> WrapData(vtkDataObject* data);

@@ -102,20 +102,9 @@ int vtkPVRefractedGeometryFilter::RequestData(
     vtkErrorMacro("The ranks could not exchange their parts of the membrane; the output is empty.");
     return 0;
   }
-  const auto refract = [&](vtkPolyData* geometry, vtkPolyData* output)
-  { return this->RefractBlock(request, geometry, membrane, output); };
-  return meniscus::RunBlocks(
-    vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(outputs), refract);
-}
-
-//------------------------------------------------------------------------------
-int vtkPVRefractedGeometryFilter::RefractBlock(
-  vtkInformation* request, vtkPolyData* geometry, vtkPolyData* membrane, vtkPolyData* output)
-{
-  const vtkSmartPointer<vtkInformationVector> ports[] = { meniscus::WrapData(geometry),
-    meniscus::WrapData(membrane) };
-  vtkInformationVector* inputs[] = { ports[0], ports[1] };
-  return this->Superclass::RequestData(request, inputs, meniscus::WrapData(output));
+  return meniscus::RunBlocks(inputs, outputs, membrane,
+    [this, request](vtkInformationVector** ports, vtkInformationVector* output)
+    { return this->Superclass::RequestData(request, ports, output); });
 }
 
 //------------------------------------------------------------------------------

@@ -22,8 +22,6 @@
 #include "vtkNew.h"                           // For the view
 #include "vtkRefractedGeometryFilter.h"
 
-class vtkPolyData;
-
 class VTKMENISCUSREPRESENTATIONS_EXPORT vtkPVRefractedGeometryFilter
   : public vtkRefractedGeometryFilter
 {
@@ -63,9 +61,6 @@ protected:
 private:
   vtkPVRefractedGeometryFilter(const vtkPVRefractedGeometryFilter&) = delete;
   void operator=(const vtkPVRefractedGeometryFilter&) = delete;
-
-  int RefractBlock(
-    vtkInformation* request, vtkPolyData* geometry, vtkPolyData* membrane, vtkPolyData* output);
 
   vtkNew<vtkCamera> View;
 };

@@ -103,15 +103,9 @@ int vtkPVRefractedLightFilter::RequestData(
     return 0;
   }
   this->OtherGeometry = BoundsOfAll(vtkDataObject::GetData(inputs[0]));
-  const auto light = [&](vtkPolyData* geometry, vtkPolyData* output)
-  {
-    const vtkSmartPointer<vtkInformationVector> ports[] = { meniscus::WrapData(geometry),
-      meniscus::WrapData(membrane) };
-    vtkInformationVector* wrapped[] = { ports[0], ports[1] };
-    return this->Superclass::RequestData(request, wrapped, meniscus::WrapData(output));
-  };
-  return meniscus::RunBlocks(
-    vtkDataObject::GetData(inputs[0]), vtkDataObject::GetData(outputs), light);
+  return meniscus::RunBlocks(inputs, outputs, membrane,
+    [this, request](vtkInformationVector** ports, vtkInformationVector* output)
+    { return this->Superclass::RequestData(request, ports, output); });
 }
 
 //------------------------------------------------------------------------------

@@ -54,9 +54,7 @@ def draw_large(name):
     view.CameraPosition = [90, 70, 130]
     view.CameraFocalPoint = [0, 0, 0]
     view.CameraViewUp = [0, 1, 0]
-    display = simple.Show(mesh, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
-    simple.ColorBy(display, ("POINTS", "RTData"))
+    display = RanksScene.show_ray_cast(mesh, view, "RTData")
     display.ScalarOpacityUnitDistance = 5
     RanksScene.set_functions("RTData", -20, 260, False)
     RanksScene.write_picture(view, name)

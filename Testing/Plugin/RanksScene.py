@@ -59,6 +59,13 @@ def set_functions(array, low, high, isosurfaces):
                           high, 0.6, 0.5, 0]
 
 
+def show_ray_cast(mesh, view, array):
+    display = simple.Show(mesh, view)
+    display.SetRepresentationType("Tetrahedra Ray Cast")
+    simple.ColorBy(display, ("POINTS", array))
+    return display
+
+
 def write_picture(view, name):
     """A picture for people, NAME.png, and its bytes for the comparison, NAME.rgb."""
     PluginTesting.screenshot(view, name)
@@ -78,9 +85,7 @@ def draw_volume(prefix, name, mesh, array, balls):
     view.CameraFocalPoint = center
     view.CameraPosition = [c + size * x for c, x in zip(center, (0.8, 0.6, 1.1))]
     view.CameraViewUp = [0, 1, 0]
-    display = simple.Show(mesh, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
-    simple.ColorBy(display, ("POINTS", array))
+    display = show_ray_cast(mesh, view, array)
     display.ScalarOpacityUnitDistance = size / 30
     display.IsosurfaceValues = [low + x * (high - low) for x in (0.3, 0.6)]
     ball = simple.Sphere(Center=center, Radius=size / 8, ThetaResolution=40, PhiResolution=40)
@@ -132,9 +137,7 @@ def draw_without_array(prefix, ranks, mesh):
     view.CameraPosition = [17, 12, 23]
     view.CameraFocalPoint = [0, 0, 0]
     view.CameraViewUp = [0, 1, 0]
-    display = simple.Show(mesh, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
-    simple.ColorBy(display, ("POINTS", "RTData"))
+    display = show_ray_cast(mesh, view, "RTData")
     display.ScalarOpacityUnitDistance = 0.7
     set_functions("RTData", 60, 260, False)
     write_picture(view, prefix + "WithoutArrayOf%d" % ranks)
@@ -157,9 +160,7 @@ def draw_maximum(prefix):
     """A blend mode that several ranks cannot have is told of."""
     mesh = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[0, 1] * 3))
     view = PluginTesting.make_view()
-    display = simple.Show(mesh, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
-    simple.ColorBy(display, ("POINTS", "RTData"))
+    display = show_ray_cast(mesh, view, "RTData")
     for mode in ["Isosurface", "Maximum intensity"]:
         display.BlendMode = mode
         PluginTesting.screenshot(view, prefix + mode.split()[0])
@@ -199,9 +200,7 @@ def draw_membranes(prefix, membranes):
     view.UseFXAA = 0
     view.CameraFocalPoint = [0, 0, 0]
     view.CameraViewUp = [0, 1, 0]
-    display = simple.Show(mesh, view)
-    display.SetRepresentationType("Tetrahedra Ray Cast")
-    simple.ColorBy(display, ("POINTS", "Slope"))
+    display = show_ray_cast(mesh, view, "Slope")
     display.ScalarOpacityUnitDistance = 0.7
     set_functions("Slope", -13, 13, False)
     for name, make, cameras in membranes:
