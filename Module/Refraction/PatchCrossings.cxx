@@ -10,9 +10,9 @@ namespace meniscus
 namespace
 {
 
-// The largest part that derivatives differ by, relative to the interpolant's, for which X counts as
-// injective. Newton's method then starts within 0.06 of the root and stays within 0.15 of the part.
-constexpr double LargestSlope = 0.25;
+// Derivatives that differ from those in the middle by less than 1, relative to these, make X
+// injective. A little less, for rounding.
+constexpr double LargestSlope = 0.95;
 
 // Newton's method converges in three or four steps from there, or rounding forbids it.
 constexpr int NewtonSteps = 12;
@@ -220,16 +220,19 @@ PatchCrossings::Corner PatchCrossings::MakeCorner(const glm::dvec2& b) const
 // B / 2 times the sum of w_i |v_i - b|^2, distances as sums of absolute values, which is s^2 at
 // most (in the middle of the longest side). The same with first derivatives only, H, gives H s:
 // that holds where the normal's length is cut off at ShortestNormal, too, and second derivatives
-// jump. A derivative is off by H'' times the mean distance from the side that stands for it, 2 s
-// at most, and the reach; or by 2 H.
+// jump. Derivatives differ from those in the middle by B times the distance from it, or by 2 H.
 PatchCrossings::Deviation PatchCrossings::BoundDeviation(const Part& part) const
 {
-  if (this->IsFlat)
-  {
-    return { this->Rounding, this->Rounding, 2.0 * this->Rounding };
-  }
   const double s = std::ldexp(1.0, -part.level);
   const glm::dvec2 middle = (part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0;
+  PatchJet at;
+  this->Patch.Evaluate(middle, at);
+  Deviation result{ this->Rounding, this->Rounding, 2.0 * this->Rounding,
+    { s * this->Frame.Project(at.positionBy[0]), s * this->Frame.Project(at.positionBy[1]) } };
+  if (this->IsFlat)
+  {
+    return result;
+  }
   const double reach = (1.0 + Reach) * s; // of a corner from the middle, and beyond
   const NormalJet jet(this->Patch, middle);
   const Bounds normal = jet.Bound(reach, [](const glm::dvec3& v) { return glm::length(v); });
@@ -247,9 +250,10 @@ PatchCrossings::Deviation PatchCrossings::BoundDeviation(const Part& part) const
   const auto interpolate = [s, isSmooth](const Bounds& h)
   { return isSmooth ? std::min(0.5 * s * s * h.second, s * h.first) : s * h.first; };
   const double slope = 2.0 * s * acrossBy.first;
-  return { interpolate(acrossBy) + this->Rounding, interpolate(alongBy) + this->Rounding,
-    (isSmooth ? std::min((2.0 + Reach) * s * s * acrossBy.second, slope) : slope) +
-      2.0 * this->Rounding };
+  result.across += interpolate(acrossBy);
+  result.along += interpolate(alongBy);
+  result.slope += isSmooth ? std::min(reach * s * acrossBy.second, slope) : slope;
+  return result;
 }
 
 //------------------------------------------------------------------------------
@@ -300,27 +304,28 @@ PatchCrossings::Verdict PatchCrossings::Settle(const Part& part, double low, dou
   {
     return Verdict::Settled;
   }
-  const glm::dvec2 u = c[1].x - c[0].x;
-  const glm::dvec2 v = c[2].x - c[0].x;
-  const double area = Cross(u, v);
-  // By Cramer's rule the inverse of the interpolant takes a vector to one no longer than this times
-  // it, as a sum of absolute values.
-  if (!((glm::length(u) + glm::length(v)) * deviation.slope <= LargestSlope * std::fabs(area)))
-  {
-    return Verdict::Unknown;
-  }
-  const double x = Cross(v, c[0].x) / area;
-  const double y = Cross(c[0].x, u) / area;
-  const glm::dvec2 start = c[0].b + x * (c[1].b - c[0].b) + y * (c[2].b - c[0].b);
-  return this->TakeRoot(part, start) ? Verdict::Settled : Verdict::Unknown;
+  const glm::dvec2& u = deviation.middle[0];
+  const glm::dvec2& v = deviation.middle[1];
+  // By Cramer's rule the inverse of these takes a vector to one no longer than this times it, as a
+  // sum of absolute values. Written so that a NaN fails.
+  return (glm::length(u) + glm::length(v)) * deviation.slope <=
+        LargestSlope * std::fabs(Cross(u, v)) &&
+      this->TakeRoot(part)
+    ? Verdict::Settled
+    : Verdict::Unknown;
 }
 
 //------------------------------------------------------------------------------
-// False if Newton's method does not converge, or there is no room for the root.
-bool PatchCrossings::TakeRoot(const Part& part, const glm::dvec2& start)
+// False if Newton's method does not converge to a place where X is known to be injective.
+bool PatchCrossings::TakeRoot(const Part& part)
 {
+  const auto& c = part.corner;
   const double s = std::ldexp(1.0, -part.level);
-  glm::dvec2 b = start;
+  const glm::dvec2 first = c[1].x - c[0].x;
+  const glm::dvec2 second = c[2].x - c[0].x;
+  const double whole = Cross(first, second);
+  glm::dvec2 b = c[0].b + (Cross(second, c[0].x) / whole) * (c[1].b - c[0].b) +
+    (Cross(c[0].x, first) / whole) * (c[2].b - c[0].b);
   PatchJet jet;
   for (int i = 0; i < NewtonSteps; ++i)
   {
@@ -331,9 +336,10 @@ bool PatchCrossings::TakeRoot(const Part& part, const glm::dvec2& start)
     const double area = Cross(u, v);
     const glm::dvec2 move(Cross(v, x) / area, Cross(x, u) / area);
     b += move;
-    const double away = std::fabs(b.x - start.x) + std::fabs(b.y - start.y);
-    // Written so that a NaN fails.
-    if (!(away <= Reach * s))
+    // In the part's coordinates, along the facet's two sides or against them.
+    const glm::dvec2 away = (b - c[0].b) / (c[1].b.x - c[0].b.x);
+    // Two coordinates may be negative. Written so that a NaN fails.
+    if (!(FindOutside(away).least >= -0.5 * Reach))
     {
       return false;
     }

@@ -30,13 +30,14 @@ struct PatchCrossing
  * - Over a part whose sides are s times those of the facet, X is within E = B s^2 / 2 of the linear
  *   interpolant of its corners, B a bound of the second derivatives. If the place is farther than E
  *   from the interpolant's triangle, the part has no root.
- * - The derivatives of X are within (2 + Reach) s B of those of the interpolant. If the interpolant
- *   is so regular that this is less than a quarter of it, X is injective on the part and on what is
- *   within Reach of it, a root exists there, and Newton's method starts next to it.
+ * - The derivatives of X differ from those in the middle of the part by (1 + Reach) s B at most. If
+ *   that is less than they are, as matrices, X is injective on the part and within Reach of it.
+ *   Newton's method then finds the only root there.
  *
- * A part is divided as well if Newton's method does not converge. What is left after MostDivisions,
- * or is smaller than the rounding of coordinates, is not decided: the line touches the patch within
- * rounding (at a fold of X), or runs along it. IsComplete says so; nothing is guessed.
+ * A part is divided as well if Newton's method does not converge there. What is left after
+ * MostDivisions, or is smaller than the rounding of coordinates, is not decided: the line touches
+ * the patch within rounding (at a fold of X), or runs along it. IsComplete says so; nothing is
+ * guessed.
  */
 class PatchCrossings
 {
@@ -76,13 +77,15 @@ private:
     std::array<Corner, 3> corner;
     int level;
   };
-  /// Bounds over a part and its reach: distance to the linear interpolant across the axis and
-  /// along it, and what the derivatives across the axis, times s, differ from its own.
+  /// Derivatives across the axis in the middle of a part, times s, and bounds over the part:
+  /// distances to the linear interpolant across the axis and along it, and, within Reach of the
+  /// part as well, how much the derivatives differ from those in the middle.
   struct Deviation
   {
     double across;
     double along;
     double slope;
+    glm::dvec2 middle[2];
   };
   enum class Verdict
   {
@@ -94,7 +97,7 @@ private:
   Deviation BoundDeviation(const Part& part) const;
   static bool IsSeparated(const Part& part, double reach);
   Verdict Settle(const Part& part, double low, double high);
-  bool TakeRoot(const Part& part, const glm::dvec2& start);
+  bool TakeRoot(const Part& part);
   void MarkOpen(const Part& part);
 
   const CurvedPatch& Patch;
