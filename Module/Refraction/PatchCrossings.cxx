@@ -10,8 +10,8 @@ namespace meniscus
 namespace
 {
 
-// Derivatives that differ from those in the middle by less than 1, relative to these, make X
-// injective. A little less, for rounding.
+// Derivatives that differ from given ones by less than 1, relative to these, make X injective. A
+// little less, for rounding.
 constexpr double LargestSlope = 0.95;
 
 // Newton's method converges in three or four steps from there, or rounding forbids it.
@@ -25,120 +25,179 @@ double Cross(const glm::dvec2& a, const glm::dvec2& b)
   return a.x * b.y - a.y * b.x;
 }
 
-/// A function of b near the middle of a part: bounds of itself and its derivatives.
+constexpr double Largest(const std::array<double, 3>& values)
+{
+  return std::max({ values[0], values[1], values[2] });
+}
+
+/// Bounds of the length of a function and of its first and second derivatives along the edges.
 struct Bounds
 {
-  double value;
-  double first;
-  double second;
+  double value = 0.0;
+  std::array<double, 3> first{};
+  std::array<double, 3> second{};
 };
 
-/// Bounds of a polynomial of third degree within `reach` (sum of absolute values) of a place, from
-/// its largest derivatives there.
-Bounds Extend(double value, double first, double second, double third, double reach)
+/// Bounds of a product.
+Bounds Multiply(const Bounds& f, const Bounds& g)
 {
-  return { value + reach * (first + reach * (second / 2.0 + reach * third / 6.0)),
-    first + reach * (second + reach * third / 2.0), second + reach * third };
-}
-
-/// Bounds of g = 2 q / (l (1 + l)) for bounds of q and of the normal n with l = |n| >= shortest.
-/// The derivatives of 1 / (l + l^2) are -(1 + 2 l) / (l + l^2)^2 and
-/// 2 (1 + 3 l + 3 l^2) / (l + l^2)^3; those of l are at most |n'| and |n''| + |n'|^2 / l.
-Bounds BoundShift(const Bounds& q, const Bounds& n, double shortest)
-{
-  const double l = shortest;
-  const double product = l * (1.0 + l);
-  const double psi = 1.0 / product;
-  const double psiFirst = (1.0 + 2.0 * l) * psi * psi;
-  const double psiSecond = 2.0 * (1.0 + 3.0 * l * (1.0 + l)) * psi * psi * psi;
-  const double lFirst = n.first;
-  const double lSecond = n.second + n.first * n.first / l;
-  const double byFirst = psiFirst * lFirst;
-  return { 2.0 * q.value * psi, 2.0 * (q.first * psi + q.value * byFirst),
-    2.0 *
-      (q.second * psi + 2.0 * q.first * byFirst +
-        q.value * (psiSecond * lFirst * lFirst + psiFirst * lSecond)) };
-}
-
-/// Bounds of a product's derivatives.
-Bounds Multiply(const Bounds& g, const Bounds& n)
-{
-  return { g.value * n.value, g.first * n.value + g.value * n.first,
-    g.second * n.value + 2.0 * g.first * n.first + g.value * n.second };
-}
-
-/// The normal's derivatives; the second ones are constant.
-struct NormalJet
-{
-  glm::dvec3 value;
-  glm::dvec3 first[2];
-  glm::dvec3 second[3];
-
-  NormalJet(const CurvedPatch& patch, const glm::dvec2& b)
-    : value(patch.GetNormal(b))
+  Bounds result;
+  result.value = f.value * g.value;
+  for (std::size_t k = 0; k < 3; ++k)
   {
-    const double c = 1.0 - b.x - b.y;
-    this->first[0] = patch.normal[1] - patch.normal[0] + b.y * (patch.bend[0] - patch.bend[1]) +
-      (c - b.x) * patch.bend[2];
-    this->first[1] = patch.normal[2] - patch.normal[0] + b.x * (patch.bend[0] - patch.bend[2]) +
-      (c - b.y) * patch.bend[1];
-    this->second[0] = -2.0 * patch.bend[2];
-    this->second[1] = patch.bend[0] - patch.bend[1] - patch.bend[2];
-    this->second[2] = -2.0 * patch.bend[1];
+    result.first[k] = f.first[k] * g.value + f.value * g.first[k];
+    result.second[k] =
+      f.second[k] * g.value + 2.0 * f.first[k] * g.first[k] + f.value * g.second[k];
   }
+  return result;
+}
 
-  /// Bounds within `reach`; `length` measures vectors.
-  template <typename Length>
-  Bounds Bound(double reach, const Length& length) const
-  {
-    return Extend(length(this->value), std::max(length(this->first[0]), length(this->first[1])),
-      std::max({ length(this->second[0]), length(this->second[1]), length(this->second[2]) }), 0.0,
-      reach);
-  }
-};
+/// A triangle around a part: its corners, then the middles of its edges.
+using Around = std::array<glm::dvec2, 6>;
 
-/// Bounds of q within `reach` of b.
-/// With p_k = b_i b_j and r_k = b_i - b_j, q is the sum of s_k p_k + d_k p_k r_k over the edges.
-Bounds BoundForm(const CurvedPatch& patch, const glm::dvec2& b, double reach)
+/// Values at the corners and in the middles of the edges as the control points of a function of
+/// second degree.
+std::array<double, 6> GetControls(const std::array<double, 6>& f)
+{
+  return { f[0], f[1], f[2], 2.0 * f[3] - 0.5 * (f[1] + f[2]), 2.0 * f[4] - 0.5 * (f[2] + f[0]),
+    2.0 * f[5] - 0.5 * (f[0] + f[1]) };
+}
+
+/// The gradient of q by b.x and b.y.
+glm::dvec2 GetFormGradient(const CurvedPatch& patch, const glm::dvec2& b)
 {
   const double c = 1.0 - b.x - b.y;
-  const double at[3] = { c, b.x, b.y };
-  // Derivatives of the barycentric coordinates by b.x and b.y.
-  constexpr double by[3][2] = { { -1.0, -1.0 }, { 1.0, 0.0 }, { 0.0, 1.0 } };
-  double value = 0.0;
-  double first[2] = { 0.0, 0.0 };
-  double second[3] = { 0.0, 0.0, 0.0 };
-  double third = 0.0;
-  for (int k = 0; k < 3; ++k)
+  const double* s = patch.symmetric;
+  const double* d = patch.asymmetric;
+  const double bc[3] = { b.x * b.y, b.y * c, c * b.x };
+  const double form[3] = { s[0] + d[0] * (b.x - b.y), s[1] + d[1] * (b.y - c),
+    s[2] + d[2] * (c - b.x) };
+  return { b.y * (form[0] - form[1]) + (c - b.x) * form[2] + bc[0] * d[0] + bc[1] * d[1] -
+      2.0 * bc[2] * d[2],
+    b.x * (form[0] - form[2]) + (c - b.y) * form[1] - bc[0] * d[0] + 2.0 * bc[1] * d[1] -
+      bc[2] * d[2] };
+}
+
+double GetForm(const CurvedPatch& patch, const glm::dvec2& b)
+{
+  const double c = 1.0 - b.x - b.y;
+  return b.x * b.y * (patch.symmetric[0] + patch.asymmetric[0] * (b.x - b.y)) +
+    b.y * c * (patch.symmetric[1] + patch.asymmetric[1] * (b.y - c)) +
+    c * b.x * (patch.symmetric[2] + patch.asymmetric[2] * (c - b.x));
+}
+
+/// Bounds of q, whose sides are `size` times those of the facet. Its derivatives along edges are of
+/// second degree, within their control points; those of these are differences of control points.
+/// No point is farther from the middle than two thirds of edges.
+Bounds BoundForm(const CurvedPatch& patch, const Around& around, double size)
+{
+  std::array<glm::dvec2, 6> gradient;
+  std::transform(around.begin(), around.end(), gradient.begin(),
+    [&patch](const glm::dvec2& b) { return GetFormGradient(patch, b); });
+  Bounds result;
+  for (std::size_t k = 0; k < 3; ++k)
   {
-    const int i = (k + 1) % 3;
-    const int j = (k + 2) % 3;
-    const double s = patch.symmetric[k];
-    const double d = patch.asymmetric[k];
-    const double p = at[i] * at[j];
-    const double r = at[i] - at[j];
-    double pBy[2];
-    double rBy[2];
-    for (int m = 0; m < 2; ++m)
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    const glm::dvec2 edge = (around[j] - around[i]) / size;
+    std::array<double, 6> along;
+    std::transform(gradient.begin(), gradient.end(), along.begin(),
+      [&edge](const glm::dvec2& g) { return glm::dot(g, edge); });
+    const std::array<double, 6> c = GetControls(along);
+    for (const double control : c)
     {
-      pBy[m] = by[i][m] * at[j] + at[i] * by[j][m];
-      rBy[m] = by[i][m] - by[j][m];
-      first[m] += s * pBy[m] + d * (pBy[m] * r + p * rBy[m]);
+      result.first[k] = std::max(result.first[k], std::fabs(control));
     }
-    value += p * (s + d * r);
-    constexpr int pairs[3][2] = { { 0, 0 }, { 0, 1 }, { 1, 1 } };
-    for (int m = 0; m < 3; ++m)
-    {
-      const int u = pairs[m][0];
-      const int v = pairs[m][1];
-      const double pByBoth = by[i][u] * by[j][v] + by[i][v] * by[j][u];
-      second[m] += s * pByBoth + d * (pByBoth * r + pBy[u] * rBy[v] + pBy[v] * rBy[u]);
-    }
-    // |d p_k / du dv| is 2 at most, |d r_k / du| as well, and there are three ways to choose u.
-    third += 12.0 * std::fabs(d);
+    result.second[k] = 2.0 / size *
+      std::max(
+        { std::fabs(c[k + 3] - c[i]), std::fabs(c[j] - c[k + 3]), std::fabs(c[i + 3] - c[j + 3]) });
   }
-  return Extend(std::fabs(value), std::max(std::fabs(first[0]), std::fabs(first[1])),
-    std::max({ std::fabs(second[0]), std::fabs(second[1]), std::fabs(second[2]) }), third, reach);
+  const glm::dvec2 middle = (around[0] + around[1] + around[2]) / 3.0;
+  result.value = std::fabs(GetForm(patch, middle)) + 2.0 / 3.0 * size * Largest(result.first);
+  return result;
+}
+
+/// The normal's values at corners, control points of edges, and derivatives along these.
+struct NormalControls
+{
+  std::array<glm::dvec3, 6> control;
+  std::array<std::array<glm::dvec3, 2>, 3> first; ///< by edge, at its two ends
+  std::array<glm::dvec3, 3> opposite;             ///< by edge, at the other corner
+  std::array<glm::dvec3, 3> second;
+
+  NormalControls(const CurvedPatch& patch, const Around& around, double size)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      this->control[k] = patch.GetNormal(around[k]);
+      this->second[k] = -2.0 * patch.bend[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      this->control[k + 3] = 0.5 * (this->control[(k + 1) % 3] + this->control[(k + 2) % 3]) -
+        0.25 * size * size * this->second[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const std::size_t i = (k + 1) % 3;
+      const std::size_t j = (k + 2) % 3;
+      const double inverse = 2.0 / size;
+      this->first[k] = { inverse * (this->control[k + 3] - this->control[i]),
+        inverse * (this->control[j] - this->control[k + 3]) };
+      this->opposite[k] = inverse * (this->control[i + 3] - this->control[j + 3]);
+    }
+  }
+
+  /// `length` measures vectors.
+  template <typename Length>
+  Bounds Bound(const Length& length) const
+  {
+    Bounds result;
+    for (const glm::dvec3& c : this->control)
+    {
+      result.value = std::max(result.value, length(c));
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      result.first[k] = std::max(
+        { length(this->first[k][0]), length(this->first[k][1]), length(this->opposite[k]) });
+      result.second[k] = length(this->second[k]);
+    }
+    return result;
+  }
+
+  /// No normal is shorter, if positive.
+  double GetShortest() const
+  {
+    const glm::dvec3 along = glm::normalize(this->control[0] + this->control[1] + this->control[2]);
+    double shortest = std::numeric_limits<double>::max();
+    for (const glm::dvec3& c : this->control)
+    {
+      shortest = std::min(shortest, glm::dot(c, along));
+    }
+    return shortest;
+  }
+};
+
+/// Bounds of 2 / (l + l^2) with l = |n| >= shortest. Its derivatives by l are
+/// -2 (1 + 2 l) / (l + l^2)^2 and 4 (1 + 3 l + 3 l^2) / (l + l^2)^3; those of l are at most |n'|
+/// and |n''| + |n'|^2 / l.
+Bounds BoundFactor(const Bounds& normal, double shortest)
+{
+  const double l = shortest;
+  const double inverse = 1.0 / (l * (1.0 + l));
+  const double byLength = 2.0 * (1.0 + 2.0 * l) * inverse * inverse;
+  const double byLengthTwice = 4.0 * (1.0 + 3.0 * l * (1.0 + l)) * inverse * inverse * inverse;
+  Bounds result;
+  result.value = 2.0 * inverse;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double first = normal.first[k];
+    result.first[k] = byLength * first;
+    result.second[k] =
+      byLengthTwice * first * first + byLength * (normal.second[k] + first * first / l);
+  }
+  return result;
 }
 
 }
@@ -215,44 +274,57 @@ PatchCrossings::Corner PatchCrossings::MakeCorner(const glm::dvec2& b) const
 }
 
 //------------------------------------------------------------------------------
-// The linear interpolant of a function f over corners v_i is off by at most the sum of
-// w_i |f''[v_i - b, v_i - b]| / 2. With second derivatives by b.x and b.y of at most B that is
-// B / 2 times the sum of w_i |v_i - b|^2, distances as sums of absolute values, which is s^2 at
-// most (in the middle of the longest side). The same with first derivatives only, H, gives H s:
-// that holds where the normal's length is cut off at ShortestNormal, too, and second derivatives
-// jump. Derivatives differ from those in the middle by B times the distance from it, or by 2 H.
+// The linear interpolant of a function over an equilateral triangle of side s is off by at most
+// s^2 / 6 times its largest second derivative in any direction (half of the squared radius of the
+// circle around it). If the second derivatives along the three sides are at most M, those in any
+// direction are at most 5 M / 3. With first derivatives along the sides of at most H, it is off by
+// H s: that holds where the normal's length is cut off at ShortestNormal, too, and second
+// derivatives jump. An affine map makes any triangle equilateral.
+//
+// A derivative along a side differs from that in the middle by 2 H, and by s M: mixed derivatives
+// along two sides are 3 M / 2 at most, by that of their difference, and no point is farther from
+// the middle than two thirds of sides.
 PatchCrossings::Deviation PatchCrossings::BoundDeviation(const Part& part) const
 {
   const double s = std::ldexp(1.0, -part.level);
-  const glm::dvec2 middle = (part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0;
-  PatchJet at;
-  this->Patch.Evaluate(middle, at);
-  Deviation result{ this->Rounding, this->Rounding, 2.0 * this->Rounding,
-    { s * this->Frame.Project(at.positionBy[0]), s * this->Frame.Project(at.positionBy[1]) } };
+  Deviation result{ this->Rounding, this->Rounding, 2.0 * this->Rounding, 2.0 * this->Rounding };
   if (this->IsFlat)
   {
     return result;
   }
-  const double reach = (1.0 + Reach) * s; // of a corner from the middle, and beyond
-  const NormalJet jet(this->Patch, middle);
-  const Bounds normal = jet.Bound(reach, [](const glm::dvec3& v) { return glm::length(v); });
-  const Bounds across =
-    jet.Bound(reach, [this](const glm::dvec3& v) { return glm::length(this->Frame.Project(v)); });
-  const Bounds along =
-    jet.Bound(reach, [this](const glm::dvec3& v) { return std::fabs(this->Frame.GetHeight(v)); });
-  const double length = glm::length(jet.value);
-  const double shortest = length - (normal.value - length);
+  const double size = s * (1.0 + 3.0 * Reach);
+  const glm::dvec2 middle = (part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0;
+  Around around;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    around[k] = middle + (1.0 + 3.0 * Reach) * (part.corner[k].b - middle);
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    around[k + 3] = 0.5 * (around[(k + 1) % 3] + around[(k + 2) % 3]);
+  }
+  const NormalControls controls(this->Patch, around, size);
+  const double shortest = controls.GetShortest();
   const bool isSmooth = shortest > CurvedPatch::ShortestNormal;
-  const Bounds shift = BoundShift(
-    BoundForm(this->Patch, middle, reach), normal, std::max(shortest, CurvedPatch::ShortestNormal));
-  const Bounds acrossBy = Multiply(shift, across);
-  const Bounds alongBy = Multiply(shift, along);
+  const Bounds normal = controls.Bound([](const glm::dvec3& v) { return glm::length(v); });
+  const Bounds shift = Multiply(BoundForm(this->Patch, around, size),
+    BoundFactor(normal, std::max(shortest, CurvedPatch::ShortestNormal)));
+  const Bounds across = Multiply(shift,
+    controls.Bound([this](const glm::dvec3& v) { return glm::length(this->Frame.Project(v)); }));
+  const Bounds along = Multiply(shift,
+    controls.Bound([this](const glm::dvec3& v) { return std::fabs(this->Frame.GetHeight(v)); }));
+  constexpr double anyDirection = 5.0 / 3.0;
   const auto interpolate = [s, isSmooth](const Bounds& h)
-  { return isSmooth ? std::min(0.5 * s * s * h.second, s * h.first) : s * h.first; };
-  const double slope = 2.0 * s * acrossBy.first;
-  result.across += interpolate(acrossBy);
-  result.along += interpolate(alongBy);
-  result.slope += isSmooth ? std::min(reach * s * acrossBy.second, slope) : slope;
+  {
+    const double byFirst = s * Largest(h.first);
+    return isSmooth ? std::min(anyDirection / 6.0 * s * s * Largest(h.second), byFirst) : byFirst;
+  };
+  result.across += interpolate(across);
+  result.along += interpolate(along);
+  const double steepest = s * Largest(across.first);
+  result.fromFlat += steepest;
+  result.fromMiddle +=
+    isSmooth ? std::min(s * size * Largest(across.second), 2.0 * steepest) : 2.0 * steepest;
   return result;
 }
 
@@ -304,15 +376,32 @@ PatchCrossings::Verdict PatchCrossings::Settle(const Part& part, double low, dou
   {
     return Verdict::Settled;
   }
-  const glm::dvec2& u = deviation.middle[0];
-  const glm::dvec2& v = deviation.middle[1];
-  // By Cramer's rule the inverse of these takes a vector to one no longer than this times it, as a
-  // sum of absolute values. Written so that a NaN fails.
-  return (glm::length(u) + glm::length(v)) * deviation.slope <=
-        LargestSlope * std::fabs(Cross(u, v)) &&
-      this->TakeRoot(part)
-    ? Verdict::Settled
-    : Verdict::Unknown;
+  return this->IsInjective(part, deviation) && this->TakeRoot(part) ? Verdict::Settled
+                                                                    : Verdict::Unknown;
+}
+
+//------------------------------------------------------------------------------
+// Whether derivatives differ from those of the facet, or from those in the middle, by less than
+// these: by Cramer's rule the inverse of two vectors takes a vector to one no longer than this
+// times it, as a sum of absolute values.
+bool PatchCrossings::IsInjective(const Part& part, const Deviation& deviation) const
+{
+  const double s = std::ldexp(1.0, -part.level);
+  // Written so that a NaN fails.
+  const auto dominates = [this, s](const glm::dvec3& first, const glm::dvec3& second, double by)
+  {
+    const glm::dvec2 u = s * this->Frame.Project(first);
+    const glm::dvec2 v = s * this->Frame.Project(second);
+    return (glm::length(u) + glm::length(v)) * by <= LargestSlope * std::fabs(Cross(u, v));
+  };
+  if (dominates(this->Patch.corner[1] - this->Patch.corner[0],
+        this->Patch.corner[2] - this->Patch.corner[0], deviation.fromFlat))
+  {
+    return true;
+  }
+  PatchJet middle;
+  this->Patch.Evaluate((part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0, middle);
+  return dominates(middle.positionBy[0], middle.positionBy[1], deviation.fromMiddle);
 }
 
 //------------------------------------------------------------------------------
@@ -338,8 +427,8 @@ bool PatchCrossings::TakeRoot(const Part& part)
     b += move;
     // In the part's coordinates, along the facet's two sides or against them.
     const glm::dvec2 away = (b - c[0].b) / (c[1].b.x - c[0].b.x);
-    // Two coordinates may be negative. Written so that a NaN fails.
-    if (!(FindOutside(away).least >= -0.5 * Reach))
+    // Written so that a NaN fails.
+    if (!(FindOutside(away).least >= -Reach))
     {
       return false;
     }

@@ -27,12 +27,14 @@ struct PatchCrossing
  * Seen along the axis, the patch is a map X from the facet's triangle to a plane, and crossings are
  * the roots of X(b) = place. The triangle is divided in four until each part is settled:
  *
- * - Over a part whose sides are s times those of the facet, X is within E = B s^2 / 2 of the linear
- *   interpolant of its corners, B a bound of the second derivatives. If the place is farther than E
- *   from the interpolant's triangle, the part has no root.
- * - The derivatives of X differ from those in the middle of the part by (1 + Reach) s B at most. If
- *   that is less than they are, as matrices, X is injective on the part and within Reach of it.
- *   Newton's method then finds the only root there.
+ * - X is within some E of the linear interpolant of the part's corners. If the place is farther
+ *   than E from the interpolant's triangle, the part has no root.
+ * - If the derivatives of X differ from those of the facet, or from those in the middle of the
+ * part, by less than these are, as matrices, X is injective on the part and within Reach of it.
+ * Newton's method then finds the only root there.
+ *
+ * E, and how much derivatives differ, follow from bounds of q, n and |n| (CurvedPatch) and their
+ * derivatives over the part: control points of polynomials and the rule for products.
  *
  * A part is divided as well if Newton's method does not converge there. What is left after
  * MostDivisions, or is smaller than the rounding of coordinates, is not decided: the line touches
@@ -62,8 +64,8 @@ private:
   static constexpr std::size_t Capacity = 16;
   static constexpr int DeepestLevel = 40;
   static constexpr int MostDivisions = 256;
-  /// How far beyond a part, in its coordinates (sum of absolute values), its bounds hold.
-  static constexpr double Reach = 0.25;
+  /// Bounds of a part hold down to this barycentric coordinate of it, negated.
+  static constexpr double Reach = 0.1;
 
   /// A corner of a part: barycentric coordinates, the place relative to the line, the height.
   struct Corner
@@ -77,15 +79,15 @@ private:
     std::array<Corner, 3> corner;
     int level;
   };
-  /// Derivatives across the axis in the middle of a part, times s, and bounds over the part:
-  /// distances to the linear interpolant across the axis and along it, and, within Reach of the
-  /// part as well, how much the derivatives differ from those in the middle.
+  /// Bounds over a part: distances to the linear interpolant across the axis and along it; and,
+  /// within Reach of the part as well, how much the derivatives across the axis, times s, differ
+  /// from those of the flat facet and from those in the middle.
   struct Deviation
   {
     double across;
     double along;
-    double slope;
-    glm::dvec2 middle[2];
+    double fromFlat;
+    double fromMiddle;
   };
   enum class Verdict
   {
@@ -97,6 +99,7 @@ private:
   Deviation BoundDeviation(const Part& part) const;
   static bool IsSeparated(const Part& part, double reach);
   Verdict Settle(const Part& part, double low, double high);
+  bool IsInjective(const Part& part, const Deviation& deviation) const;
   bool TakeRoot(const Part& part);
   void MarkOpen(const Part& part);
 
