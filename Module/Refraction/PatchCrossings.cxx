@@ -148,20 +148,21 @@ struct NormalControls
     }
   }
 
-  /// `length` measures vectors.
-  template <typename Length>
-  Bounds Bound(const Length& length) const
+  /// `square` gives the squared length of a vector.
+  template <typename Square>
+  Bounds Bound(const Square& square) const
   {
     Bounds result;
     for (const glm::dvec3& c : this->control)
     {
-      result.value = std::max(result.value, length(c));
+      result.value = std::max(result.value, square(c));
     }
+    result.value = std::sqrt(result.value);
     for (std::size_t k = 0; k < 3; ++k)
     {
-      result.first[k] = std::max(
-        { length(this->first[k][0]), length(this->first[k][1]), length(this->opposite[k]) });
-      result.second[k] = length(this->second[k]);
+      result.first[k] = std::sqrt(std::max(
+        { square(this->first[k][0]), square(this->first[k][1]), square(this->opposite[k]) }));
+      result.second[k] = std::sqrt(square(this->second[k]));
     }
     return result;
   }
@@ -234,15 +235,15 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
   int divisions = 0;
   parts[waiting++] = { { this->MakeCorner({ 0.0, 0.0 }), this->MakeCorner({ 1.0, 0.0 }),
                          this->MakeCorner({ 0.0, 1.0 }) },
-    0 };
+    1.0, Bend(), Bend() };
   while (waiting > 0)
   {
-    const Part part = parts[--waiting];
+    Part part = parts[--waiting];
     if (this->Settle(part, low, high) == Verdict::Settled)
     {
       continue;
     }
-    if (part.level == DeepestLevel || divisions == MostDivisions)
+    if (part.size <= SmallestPart || divisions == MostDivisions)
     {
       this->MarkOpen(part);
       continue;
@@ -260,9 +261,9 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
       // The corner's part is wound as the whole: middles of the two sides at the corner.
       corner[(k + 1) % 3] = middle[(k + 2) % 3];
       corner[(k + 2) % 3] = middle[(k + 1) % 3];
-      parts[waiting++] = { corner, part.level + 1 };
+      parts[waiting++] = { corner, 0.5 * part.size, part.across, part.along };
     }
-    parts[waiting++] = { middle, part.level + 1 };
+    parts[waiting++] = { middle, 0.5 * part.size, part.across, part.along };
   }
 }
 
@@ -280,24 +281,27 @@ PatchCrossings::Corner PatchCrossings::MakeCorner(const glm::dvec2& b) const
 // direction are at most 5 M / 3. With first derivatives along the sides of at most H, it is off by
 // H s: that holds where the normal's length is cut off at ShortestNormal, too, and second
 // derivatives jump. An affine map makes any triangle equilateral.
-//
-// A derivative along a side differs from that in the middle by 2 H, and by s M: mixed derivatives
-// along two sides are 3 M / 2 at most, by that of their difference, and no point is farther from
-// the middle than two thirds of sides.
-PatchCrossings::Deviation PatchCrossings::BoundDeviation(const Part& part) const
+double PatchCrossings::Bend::GetDeviation(double size) const
 {
-  const double s = std::ldexp(1.0, -part.level);
-  Deviation result{ this->Rounding, this->Rounding, 2.0 * this->Rounding, 2.0 * this->Rounding };
+  return std::min(5.0 / 18.0 * size * size * this->second, size * this->first);
+}
+
+//------------------------------------------------------------------------------
+// Over the part and what is within Reach of it.
+void PatchCrossings::BoundBend(Part& part) const
+{
   if (this->IsFlat)
   {
-    return result;
+    part.across = part.along = { 0.0, 0.0 };
+    return;
   }
-  const double size = s * (1.0 + 3.0 * Reach);
+  constexpr double widened = 1.0 + 3.0 * Reach;
+  const double size = widened * part.size;
   const glm::dvec2 middle = (part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0;
   Around around;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    around[k] = middle + (1.0 + 3.0 * Reach) * (part.corner[k].b - middle);
+    around[k] = middle + widened * (part.corner[k].b - middle);
   }
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -306,26 +310,22 @@ PatchCrossings::Deviation PatchCrossings::BoundDeviation(const Part& part) const
   const NormalControls controls(this->Patch, around, size);
   const double shortest = controls.GetShortest();
   const bool isSmooth = shortest > CurvedPatch::ShortestNormal;
-  const Bounds normal = controls.Bound([](const glm::dvec3& v) { return glm::length(v); });
+  const Bounds normal = controls.Bound([](const glm::dvec3& v) { return glm::dot(v, v); });
+  const Bounds across = controls.Bound(
+    [this](const glm::dvec3& v)
+    {
+      const glm::dvec2 seen = this->Frame.Project(v);
+      return glm::dot(seen, seen);
+    });
   const Bounds shift = Multiply(BoundForm(this->Patch, around, size),
     BoundFactor(normal, std::max(shortest, CurvedPatch::ShortestNormal)));
-  const Bounds across = Multiply(shift,
-    controls.Bound([this](const glm::dvec3& v) { return glm::length(this->Frame.Project(v)); }));
-  const Bounds along = Multiply(shift,
-    controls.Bound([this](const glm::dvec3& v) { return std::fabs(this->Frame.GetHeight(v)); }));
-  constexpr double anyDirection = 5.0 / 3.0;
-  const auto interpolate = [s, isSmooth](const Bounds& h)
+  const auto bend = [isSmooth](const Bounds& h)
   {
-    const double byFirst = s * Largest(h.first);
-    return isSmooth ? std::min(anyDirection / 6.0 * s * s * Largest(h.second), byFirst) : byFirst;
+    return Bend{ Largest(h.first),
+      isSmooth ? Largest(h.second) : std::numeric_limits<double>::infinity() };
   };
-  result.across += interpolate(across);
-  result.along += interpolate(along);
-  const double steepest = s * Largest(across.first);
-  result.fromFlat += steepest;
-  result.fromMiddle +=
-    isSmooth ? std::min(s * size * Largest(across.second), 2.0 * steepest) : 2.0 * steepest;
-  return result;
+  part.across = bend(Multiply(shift, across));
+  part.along = bend(Multiply(shift, normal));
 }
 
 //------------------------------------------------------------------------------
@@ -366,42 +366,60 @@ bool PatchCrossings::IsSeparated(const Part& part, double reach)
 }
 
 //------------------------------------------------------------------------------
-PatchCrossings::Verdict PatchCrossings::Settle(const Part& part, double low, double high)
+// Whether the line does not meet the part at the heights of interest.
+bool PatchCrossings::IsPassed(const Part& part, double low, double high) const
 {
   const auto& c = part.corner;
-  const Deviation deviation = this->BoundDeviation(part);
-  if (std::min({ c[0].height, c[1].height, c[2].height }) - deviation.along > high ||
-    std::max({ c[0].height, c[1].height, c[2].height }) + deviation.along < low ||
-    IsSeparated(part, deviation.across))
+  const double along = part.along.GetDeviation(part.size) + this->Rounding;
+  return std::min({ c[0].height, c[1].height, c[2].height }) - along > high ||
+    std::max({ c[0].height, c[1].height, c[2].height }) + along < low ||
+    IsSeparated(part, part.across.GetDeviation(part.size) + this->Rounding);
+}
+
+//------------------------------------------------------------------------------
+PatchCrossings::Verdict PatchCrossings::Settle(Part& part, double low, double high)
+{
+  // What is known of the whole costs nothing.
+  if (this->IsPassed(part, low, high))
   {
     return Verdict::Settled;
   }
-  return this->IsInjective(part, deviation) && this->TakeRoot(part) ? Verdict::Settled
-                                                                    : Verdict::Unknown;
+  this->BoundBend(part);
+  return this->IsPassed(part, low, high) || (this->IsInjective(part) && this->TakeRoot(part))
+    ? Verdict::Settled
+    : Verdict::Unknown;
 }
 
 //------------------------------------------------------------------------------
 // Whether derivatives differ from those of the facet, or from those in the middle, by less than
 // these: by Cramer's rule the inverse of two vectors takes a vector to one no longer than this
 // times it, as a sum of absolute values.
-bool PatchCrossings::IsInjective(const Part& part, const Deviation& deviation) const
+//
+// A derivative along a side differs from that in the middle by 2 H, and by M times the size: mixed
+// derivatives along two sides are 3 M / 2 at most, by that of their difference, and no point is
+// farther from the middle than two thirds of sides.
+bool PatchCrossings::IsInjective(const Part& part) const
 {
-  const double s = std::ldexp(1.0, -part.level);
   // Written so that a NaN fails.
-  const auto dominates = [this, s](const glm::dvec3& first, const glm::dvec3& second, double by)
+  const double rounding = 2.0 * this->Rounding / part.size; // of differences
+  const auto dominates = [this, rounding](
+                           const glm::dvec3& first, const glm::dvec3& second, double by)
   {
-    const glm::dvec2 u = s * this->Frame.Project(first);
-    const glm::dvec2 v = s * this->Frame.Project(second);
-    return (glm::length(u) + glm::length(v)) * by <= LargestSlope * std::fabs(Cross(u, v));
+    const glm::dvec2 u = this->Frame.Project(first);
+    const glm::dvec2 v = this->Frame.Project(second);
+    return (glm::length(u) + glm::length(v)) * (by + rounding) <=
+      LargestSlope * std::fabs(Cross(u, v));
   };
   if (dominates(this->Patch.corner[1] - this->Patch.corner[0],
-        this->Patch.corner[2] - this->Patch.corner[0], deviation.fromFlat))
+        this->Patch.corner[2] - this->Patch.corner[0], part.across.first))
   {
     return true;
   }
   PatchJet middle;
   this->Patch.Evaluate((part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0, middle);
-  return dominates(middle.positionBy[0], middle.positionBy[1], deviation.fromMiddle);
+  constexpr double widened = 1.0 + 3.0 * Reach;
+  return dominates(middle.positionBy[0], middle.positionBy[1],
+    std::min(widened * part.size * part.across.second, 2.0 * part.across.first));
 }
 
 //------------------------------------------------------------------------------
@@ -409,7 +427,6 @@ bool PatchCrossings::IsInjective(const Part& part, const Deviation& deviation) c
 bool PatchCrossings::TakeRoot(const Part& part)
 {
   const auto& c = part.corner;
-  const double s = std::ldexp(1.0, -part.level);
   const glm::dvec2 first = c[1].x - c[0].x;
   const glm::dvec2 second = c[2].x - c[0].x;
   const double whole = Cross(first, second);
@@ -432,7 +449,7 @@ bool PatchCrossings::TakeRoot(const Part& part)
     {
       return false;
     }
-    if (std::max(std::fabs(move.x), std::fabs(move.y)) >= LastStep * s)
+    if (std::max(std::fabs(move.x), std::fabs(move.y)) >= LastStep * part.size)
     {
       continue;
     }
@@ -456,7 +473,7 @@ bool PatchCrossings::TakeRoot(const Part& part)
 //------------------------------------------------------------------------------
 void PatchCrossings::MarkOpen(const Part& part)
 {
-  const double along = this->BoundDeviation(part).along;
+  const double along = part.along.GetDeviation(part.size);
   for (const Corner& corner : part.corner)
   {
     this->HighestOpen = std::max(this->HighestOpen, corner.height + along);

@@ -63,6 +63,7 @@ public:
 private:
   static constexpr std::size_t Capacity = 16;
   static constexpr int DeepestLevel = 40;
+  static constexpr double SmallestPart = 0x1p-40;
   static constexpr int MostDivisions = 256;
   /// Bounds of a part hold down to this barycentric coordinate of it, negated.
   static constexpr double Reach = 0.1;
@@ -74,20 +75,23 @@ private:
     glm::dvec2 x;
     double height;
   };
+  /// Bounds of the derivatives along sides of what the patch adds to its facet: first ones, and
+  /// second ones, which are infinite where they jump.
+  struct Bend
+  {
+    double first = std::numeric_limits<double>::infinity();
+    double second = std::numeric_limits<double>::infinity();
+
+    /// Largest distance from the linear interpolant of a part's corners.
+    double GetDeviation(double size) const;
+  };
+  /// A triangle of the facet whose sides are `size` times the facet's.
   struct Part
   {
     std::array<Corner, 3> corner;
-    int level;
-  };
-  /// Bounds over a part: distances to the linear interpolant across the axis and along it; and,
-  /// within Reach of the part as well, how much the derivatives across the axis, times s, differ
-  /// from those of the flat facet and from those in the middle.
-  struct Deviation
-  {
-    double across;
-    double along;
-    double fromFlat;
-    double fromMiddle;
+    double size;
+    Bend across; ///< the axis; bounds that hold for a part hold for its parts
+    Bend along;
   };
   enum class Verdict
   {
@@ -96,10 +100,11 @@ private:
   };
 
   Corner MakeCorner(const glm::dvec2& b) const;
-  Deviation BoundDeviation(const Part& part) const;
+  void BoundBend(Part& part) const;
   static bool IsSeparated(const Part& part, double reach);
-  Verdict Settle(const Part& part, double low, double high);
-  bool IsInjective(const Part& part, const Deviation& deviation) const;
+  bool IsPassed(const Part& part, double low, double high) const;
+  Verdict Settle(Part& part, double low, double high);
+  bool IsInjective(const Part& part) const;
   bool TakeRoot(const Part& part);
   void MarkOpen(const Part& part);
 
