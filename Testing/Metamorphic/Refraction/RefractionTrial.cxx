@@ -1,0 +1,422 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefractionTrial.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+using reference::MembraneMesh;
+
+const double Pi = std::acos(-1.0);
+constexpr int PointsPerScene = 60;
+
+// z = sign r^2 / 2 up to a steepness in degrees, y upwards.
+MembraneMesh makeParaboloid(int rings, double steepest, double sign)
+{
+  MembraneMesh mesh;
+  const double rim = std::tan(steepest * Pi / 180.0);
+  const int around = 4 * rings;
+  mesh.AddPoint(glm::dvec3(0.0), { 0.0, 1.0, 0.0 });
+  for (int ring = 1; ring <= rings; ++ring)
+  {
+    const double r = rim * ring / rings;
+    for (int i = 0; i < around; ++i)
+    {
+      const double x = r * std::cos(2.0 * Pi * i / around);
+      const double z = r * std::sin(2.0 * Pi * i / around);
+      mesh.AddPoint(
+        { x, sign * r * r / 2.0, z }, glm::normalize(glm::dvec3(-sign * x, 1.0, -sign * z)));
+      const std::int64_t next = 1 + (ring - 1) * around + (i + 1) % around;
+      const std::int64_t own = 1 + (ring - 1) * around + i;
+      if (ring == 1)
+      {
+        mesh.AddTriangle(0, next, own);
+      }
+      else
+      {
+        mesh.AddTriangle(own - around, next - around, next);
+        mesh.AddTriangle(own - around, next, own);
+      }
+    }
+  }
+  return mesh;
+}
+
+// A closed unit sphere, normals outwards, or inwards.
+MembraneMesh makeSphere(int resolution, double side)
+{
+  MembraneMesh mesh;
+  mesh.AddPoint({ 0.0, 0.0, 1.0 }, { 0.0, 0.0, side });
+  mesh.AddPoint({ 0.0, 0.0, -1.0 }, { 0.0, 0.0, -side });
+  const int rings = resolution / 2 - 1;
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    const double polar = Pi * (ring + 1) / (rings + 1);
+    for (int i = 0; i < resolution; ++i)
+    {
+      const double azimuth = 2.0 * Pi * i / resolution;
+      const glm::dvec3 p(
+        std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar));
+      mesh.AddPoint(p, side * p);
+      const std::int64_t own = 2 + ring * resolution + i;
+      const std::int64_t next = 2 + ring * resolution + (i + 1) % resolution;
+      if (ring == 0)
+      {
+        mesh.AddTriangle(0, own, next);
+      }
+      else
+      {
+        mesh.AddTriangle(own - resolution, own, next);
+        mesh.AddTriangle(own - resolution, next, next - resolution);
+      }
+      if (ring + 1 == rings)
+      {
+        mesh.AddTriangle(1, next, own);
+      }
+    }
+  }
+  return mesh;
+}
+
+void setMembrane(RefractionScene& scene, RandomNumbers& random)
+{
+  switch (random.below(5))
+  {
+    case 0:
+    {
+      scene.Family = "waves";
+      const int cells = 12 + random.below(20);
+      scene.Mesh =
+        reference::MakeWaves(4.0, cells, random.uniform(0.02, 0.15), random.uniform(1.0, 2.5));
+      scene.FacetSize = 4.0 / cells;
+      break;
+    }
+    case 1:
+    {
+      scene.Family = "paraboloid";
+      const double steepest = random.uniform(20.0, 80.0);
+      const int rings = 6 + random.below(14);
+      scene.Mesh = makeParaboloid(rings, steepest, random.below(2) ? 1.0 : -1.0);
+      scene.FacetSize = std::tan(steepest * Pi / 180.0) / rings;
+      break;
+    }
+    case 2:
+    {
+      scene.Family = "sphere";
+      const int resolution = 12 + 2 * random.below(12);
+      scene.Mesh = makeSphere(resolution, random.below(3) ? 1.0 : -1.0);
+      scene.FacetSize = 2.0 * Pi / resolution;
+      scene.IsExact = true;
+      break;
+    }
+    case 3:
+    {
+      scene.Family = "noise";
+      const int cells = 4 + random.below(6);
+      scene.FacetSize = 4.0 / cells;
+      scene.Mesh = reference::MakeRandom(4.0, cells, scene.FacetSize * random.uniform(0.01, 0.4),
+        random.uniform(0.01, 0.8), static_cast<unsigned>(random.bits()));
+      break;
+    }
+    default:
+    {
+      scene.Family = "plane";
+      const int cells = 2 + random.below(8);
+      scene.Mesh = reference::MakeSquare(4.0, cells, 0.0);
+      scene.FacetSize = 4.0 / cells;
+      scene.IsExact = true;
+      break;
+    }
+  }
+}
+
+glm::dvec3 pointOf(const MembraneMesh& mesh, std::size_t i)
+{
+  return { mesh.points[3 * i], mesh.points[3 * i + 1], mesh.points[3 * i + 2] };
+}
+
+glm::dvec3 normalOf(const MembraneMesh& mesh, std::size_t i)
+{
+  return { mesh.normals[3 * i], mesh.normals[3 * i + 1], mesh.normals[3 * i + 2] };
+}
+
+double magnitudeOf(const RefractionScene& scene)
+{
+  double most = glm::length(scene.Eye);
+  for (const double c : scene.Mesh.points)
+  {
+    most = std::max(most, std::fabs(c));
+  }
+  for (const glm::dvec3& p : scene.Points)
+  {
+    most = std::max(most, glm::length(p));
+  }
+  return most;
+}
+
+const VirtualVertex* nearestTo(const std::vector<VirtualVertex>& images, const glm::dvec3& sight)
+{
+  const auto nearest = std::min_element(images.begin(), images.end(),
+    [&sight](const VirtualVertex& a, const VirtualVertex& b)
+    { return glm::length(a.sightPoint - sight) < glm::length(b.sightPoint - sight); });
+  return nearest == images.end() ? nullptr : &*nearest;
+}
+
+// Along the axes and against them.
+glm::dvec3 moveOf(int i)
+{
+  glm::dvec3 move(0.0);
+  move[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
+  return move;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+RefractionScene randomScene(RandomNumbers& random)
+{
+  RefractionScene scene;
+  setMembrane(scene, random);
+  scene.Interior = random.uniform(1.1, 1.9);
+  if (random.below(4) == 0)
+  {
+    std::swap(scene.Exterior, scene.Interior);
+  }
+  const bool isBubble = scene.Family == "sphere" && normalOf(scene.Mesh, 0).z < 0.0;
+  scene.Eye = isBubble
+    ? 0.6 * random.uniform() * random.direction()
+    : glm::dvec3(random.uniform(-2.0, 2.0), random.uniform(1.5, 8.0), random.uniform(-2.0, 2.0));
+  const std::size_t vertices = scene.Mesh.points.size() / 3;
+  for (int i = 0; i < PointsPerScene; ++i)
+  {
+    const auto at = static_cast<std::size_t>(random.below(static_cast<int>(vertices)));
+    const double depth = std::pow(10.0, random.uniform(-2.0, 0.5));
+    const double side = random.below(3) == 0 ? 1.0 : -1.0;
+    scene.Points.push_back(pointOf(scene.Mesh, at) + side * depth * normalOf(scene.Mesh, at) +
+      0.5 * scene.FacetSize * random.direction());
+  }
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<CurvedGeometry> makeGeometry(const RefractionScene& scene)
+{
+  auto geometry = std::make_unique<CurvedGeometry>();
+  if (geometry->SetMembrane(scene.Mesh.AsInput()) != MembraneStatus::Ready ||
+    geometry->SetEye(scene.Eye, scene.Exterior, scene.Interior) != EyeStatus::Ready)
+  {
+    return nullptr;
+  }
+  geometry->PrepareSides();
+  return geometry;
+}
+
+//------------------------------------------------------------------------------
+RefractionScene Motion::apply(const RefractionScene& scene) const
+{
+  RefractionScene moved = scene;
+  moved.Mesh.points.clear();
+  moved.Mesh.normals.clear();
+  for (std::size_t i = 0; i < scene.Mesh.points.size() / 3; ++i)
+  {
+    moved.Mesh.AddPoint(this->apply(pointOf(scene.Mesh, i)), this->Turn * normalOf(scene.Mesh, i));
+  }
+  moved.FacetSize *= this->Scale;
+  moved.Eye = this->apply(scene.Eye);
+  for (glm::dvec3& point : moved.Points)
+  {
+    point = this->apply(point);
+  }
+  return moved;
+}
+
+//------------------------------------------------------------------------------
+RefractionTrial::RefractionTrial(const RefractionScene& scene)
+  : Scene(scene)
+  , Geometry(makeGeometry(scene))
+{
+  this->Tally.Scenes = 1;
+}
+
+//------------------------------------------------------------------------------
+void RefractionTrial::fail(const std::string& words)
+{
+  this->Tally.Failures = 1;
+  if (this->Tally.FirstFailure.empty())
+  {
+    this->Tally.FirstFailure = this->Scene.Family + ": " + words;
+  }
+}
+
+//------------------------------------------------------------------------------
+double RefractionTrial::errorOf(double magnitude, double depth, std::int32_t facet) const
+{
+  double bend = 0.0;
+  if (facet != CurvedPatches::NoFacet)
+  {
+    for (const glm::dvec3& b : this->Geometry->GetPatches().GetPatch(facet).bend)
+    {
+      bend = std::max(bend, glm::length(b));
+    }
+  }
+  return 0x1p-24 * bend * (this->Scene.FacetSize + depth) + 1e-9 * this->Scene.FacetSize +
+    64.0 * std::numeric_limits<double>::epsilon() * magnitude *
+    (1.0 + depth / this->Scene.FacetSize);
+}
+
+//------------------------------------------------------------------------------
+// Whether a point that is moved shows its image next to where it was, turned the same way.
+bool RefractionTrial::isSteady(
+  const glm::dvec3& point, const VirtualVertex& image, double error, double& sensitivity) const
+{
+  const double move = 1000.0 * error;
+  std::vector<VirtualVertex> images;
+  for (int i = 0; i < 6; ++i)
+  {
+    this->Geometry->FindImages(point + move * moveOf(i), images);
+    const VirtualVertex* other = nearestTo(images, image.sightPoint);
+    if (!other || glm::length(other->sightPoint - image.sightPoint) > 0.1 * this->Scene.FacetSize ||
+      other->orientation != image.orientation)
+    {
+      return false;
+    }
+    sensitivity = std::max(sensitivity, glm::length(other->position - image.position) / move);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionTrial::isSideSteady(const glm::dvec3& point, double error) const
+{
+  const glm::dvec3 local = point - this->Geometry->GetMembrane().GetOrigin();
+  const bool front = this->Geometry->IsInFront(local);
+  for (int i = 0; i < 6; ++i)
+  {
+    if (this->Geometry->IsInFront(local + 1000.0 * error * moveOf(i)) != front)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void RefractionTrial::compare(const RefractionScene& changed, const Motion& motion,
+  const std::function<bool(const VirtualVertex&)>& shows)
+{
+  const auto geometry = makeGeometry(changed);
+  if (!geometry || !this->Geometry)
+  {
+    // Refused by both, or by none: an eye on the membrane.
+    if (!geometry != !this->Geometry)
+    {
+      this->fail("one of the scenes is refused");
+    }
+    return;
+  }
+  this->compare(*geometry, motion, magnitudeOf(changed) / motion.Scale, shows);
+}
+
+//------------------------------------------------------------------------------
+void RefractionTrial::compare(const CurvedGeometry& changed, const Motion& motion, double magnitude,
+  const std::function<bool(const VirtualVertex&)>& shows)
+{
+  ++this->Tally.Comparisons;
+  std::vector<VirtualVertex> images;
+  std::vector<VirtualVertex> others;
+  for (const glm::dvec3& point : this->Scene.Points)
+  {
+    const glm::dvec3 moved = motion.apply(point);
+    this->Geometry->FindImages(point, images);
+    changed.FindImages(moved, others);
+    for (const VirtualVertex& image : images)
+    {
+      if (shows && !shows(image))
+      {
+        continue;
+      }
+      const double error = this->errorOf(magnitude, image.depth, image.facet);
+      double sensitivity = 1.0;
+      if (!this->isSteady(point, image, error, sensitivity))
+      {
+        ++this->Tally.Conditioned;
+        continue;
+      }
+      const VirtualVertex* other = nearestTo(others, motion.apply(image.sightPoint));
+      const double deviation = other ? glm::length(motion.undo(other->position) - image.position)
+                                     : std::numeric_limits<double>::infinity();
+      if (!this->Tally.compare(deviation, sensitivity * error))
+      {
+        this->fail("an image is off by " + std::to_string(deviation));
+      }
+    }
+    if (shows)
+    {
+      continue; // sides belong to the whole
+    }
+    const bool front = this->Geometry->IsInFront(point - this->Geometry->GetMembrane().GetOrigin());
+    const bool same = front == changed.IsInFront(moved - changed.GetMembrane().GetOrigin());
+    if (!same && !this->isSideSteady(point, this->errorOf(magnitude, 0.0, CurvedPatches::NoFacet)))
+    {
+      ++this->Tally.Conditioned;
+    }
+    else if (!this->Tally.compare(same ? 0.0 : 1.0, 0.5))
+    {
+      this->fail("a point is on another side");
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void RefractionTrial::compareFirst(const std::vector<std::size_t>& order)
+{
+  if (!this->Geometry)
+  {
+    return;
+  }
+  ++this->Tally.Comparisons;
+  std::vector<glm::dvec3> points;
+  for (const std::size_t i : order)
+  {
+    points.push_back(this->Scene.Points[i]);
+  }
+  std::vector<VirtualVertex> first(points.size());
+  this->Geometry->Solve(&points[0].x, 0, points.size(), first.data());
+  std::vector<VirtualVertex> images;
+  const double magnitude = magnitudeOf(this->Scene);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    this->Geometry->FindImages(points[i], images);
+    const bool isFound = first[i].state == ImageState::Found;
+    const VirtualVertex* same = isFound ? nearestTo(images, first[i].sightPoint) : nullptr;
+    const VirtualVertex& judged = isFound || images.empty() ? first[i] : images[0];
+    const double error = this->errorOf(magnitude, judged.depth, judged.facet);
+    double sensitivity = 1.0;
+    if ((isFound || !images.empty()) && !this->isSteady(points[i], judged, error, sensitivity))
+    {
+      ++this->Tally.Conditioned;
+      continue;
+    }
+    const double deviation = same ? glm::length(same->position - first[i].position)
+                                  : (isFound || !images.empty() ? 1e30 : 0.0);
+    if (!this->Tally.compare(deviation, sensitivity * error))
+    {
+      this->fail("the first image is none of all");
+    }
+  }
+}
+
+} // namespace test
+} // namespace meniscus

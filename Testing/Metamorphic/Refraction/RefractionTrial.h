@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_RefractionTrial_h
+#define meniscus_RefractionTrial_h
+
+#include "MembraneMeshes.h"
+#include "RandomNumbers.h"
+#include "Refraction/CurvedGeometry.h"
+#include "Relation.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+/// A membrane, an eye and points on both sides of it, a few units wide.
+struct RefractionScene
+{
+  std::string Family;
+  reference::MembraneMesh Mesh;
+  /// Length of a facet's sides, about.
+  double FacetSize = 1.0;
+  glm::dvec3 Eye{ 0.0 };
+  double Exterior = 1.0;
+  double Interior = 1.333;
+  std::vector<glm::dvec3> Points;
+  /// Spheres and planes with their normals, which patches reproduce however they are divided.
+  bool IsExact = false;
+};
+
+/// A scene of any family: waves, paraboloids of up to 80 degrees, spheres, noise, planes.
+RefractionScene randomScene(RandomNumbers& random);
+
+/// The scene's membrane and eye as the kernel has them; null if it refuses them.
+std::unique_ptr<CurvedGeometry> makeGeometry(const RefractionScene& scene);
+
+/// A change of coordinates: places, directions, and both back.
+struct Motion
+{
+  double Scale = 1.0;
+  glm::dmat3 Turn{ 1.0 }; ///< orthogonal
+  glm::dvec3 Offset{ 0.0 };
+
+  glm::dvec3 apply(const glm::dvec3& p) const { return Scale * (Turn * p) + Offset; }
+  glm::dvec3 undo(const glm::dvec3& p) const
+  {
+    return glm::transpose(Turn) * ((p - Offset) / Scale);
+  }
+  RefractionScene apply(const RefractionScene& scene) const;
+};
+
+/**
+ * Compares images and sides of a scene's points with those of a changed scene.
+ *
+ * Newton's method leaves 1e-10 of a facet of a sight point (SightEquation::Solve), and coordinates
+ * of magnitude M are rounded to M 2^-53 a few times; positions of vertices change the bend of
+ * patches by that over a facet, which rays carry to the depth of the point. So the error of a point
+ * is within e = 1e-9 f + 64 eps M (1 + depth / f), f the size of a facet; and patches keep the
+ * bends of their normals in single precision, which rounds each component to 2^-24 of them: that
+ * tilts rays by as much, 2^-24 |bend| (f + depth). An image's place changes by that times its
+ * sensitivity, which is measured by moving the point. An image or side that does not stand moves of
+ * 1000 e is at a border, on a caustic or at the critical angle: not compared.
+ */
+class RefractionTrial
+{
+public:
+  explicit RefractionTrial(const RefractionScene& scene);
+
+  /// Adds to the tally. `shows` says which images the changed scene shows at all; null: all.
+  void compare(const RefractionScene& changed, const Motion& motion,
+    const std::function<bool(const VirtualVertex&)>& shows = nullptr);
+  /// The same for geometry that has been made; `magnitude` of its coordinates.
+  void compare(const CurvedGeometry& changed, const Motion& motion, double magnitude,
+    const std::function<bool(const VirtualVertex&)>& shows = nullptr);
+  /// One image each, in an order of the points, is one of all.
+  void compareFirst(const std::vector<std::size_t>& order);
+
+  void fail(const std::string& words);
+  const RefractionScene& scene() const { return this->Scene; }
+  RelationTally& tally() { return this->Tally; }
+
+private:
+  double errorOf(double magnitude, double depth, std::int32_t facet) const;
+  bool isSteady(
+    const glm::dvec3& point, const VirtualVertex& image, double error, double& sensitivity) const;
+  bool isSideSteady(const glm::dvec3& point, double error) const;
+
+  RefractionScene Scene;
+  std::unique_ptr<CurvedGeometry> Geometry;
+  RelationTally Tally;
+};
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Random membranes, eyes and points, and changes that must not change the points' images and sides.
+ * Reports deviations and failures per relation; the exit status is 0 without a failure.
+ */
+#include "RefractionTrial.h"
+#include "RelationRun.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+
+using namespace meniscus;
+using namespace meniscus::test;
+using meniscus::reference::MembraneMesh;
+
+namespace
+{
+
+const char* const Usage =
+  "meniscus_metamorphic_refraction [options]\n"
+  "  --intensity X      1 (default) takes about half a minute; cases grow with it\n"
+  "  --relation TEXT    only relations whose names contain the text\n";
+
+using Check = std::function<void(RefractionTrial&, RandomNumbers&)>;
+
+glm::dmat3 randomTurn(RandomNumbers& random)
+{
+  const glm::dvec3 x = random.direction();
+  const glm::dvec3 y = glm::normalize(glm::cross(x, random.direction()));
+  return { x, y, glm::cross(x, y) };
+}
+
+template <typename Item>
+void shuffle(std::vector<Item>& items, RandomNumbers& random)
+{
+  for (std::size_t i = items.size(); i > 1; --i)
+  {
+    std::swap(items[i - 1], items[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  }
+}
+
+std::vector<std::size_t> randomOrder(std::size_t count, RandomNumbers& random)
+{
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  shuffle(order, random);
+  return order;
+}
+
+//------------------------------------------------------------------------------
+void move(RefractionTrial& trial, const Motion& motion)
+{
+  trial.compare(motion.apply(trial.scene()), motion);
+}
+
+void rotate(RefractionTrial& trial, RandomNumbers& random)
+{
+  Motion motion;
+  motion.Turn = randomTurn(random);
+  move(trial, motion);
+}
+
+void mirror(RefractionTrial& trial, RandomNumbers& random)
+{
+  Motion motion;
+  motion.Turn = -randomTurn(random);
+  move(trial, motion);
+}
+
+void translate(RefractionTrial& trial, RandomNumbers& random)
+{
+  Motion motion;
+  motion.Offset = std::pow(10.0, random.uniform(0.0, 6.0)) * random.direction();
+  move(trial, motion);
+}
+
+void scale(RefractionTrial& trial, RandomNumbers& random)
+{
+  Motion motion;
+  motion.Scale = std::pow(10.0, random.uniform(-6.0, 6.0));
+  move(trial, motion);
+}
+
+//------------------------------------------------------------------------------
+// Facets in another order, each from another corner on.
+void reorderFacets(RefractionTrial& trial, RandomNumbers& random)
+{
+  RefractionScene changed = trial.scene();
+  const std::vector<std::int64_t>& from = trial.scene().Mesh.triangles;
+  changed.Mesh.triangles.clear();
+  for (const std::size_t i : randomOrder(from.size() / 3, random))
+  {
+    const auto first = static_cast<std::size_t>(random.below(3));
+    changed.Mesh.AddTriangle(
+      from[3 * i + first], from[3 * i + (first + 1) % 3], from[3 * i + (first + 2) % 3]);
+  }
+  trial.compare(changed, Motion());
+}
+
+// Normals say which side is the eye's; the winding of facets does not.
+void turnFacets(RefractionTrial& trial, RandomNumbers&)
+{
+  RefractionScene changed = trial.scene();
+  for (std::size_t i = 0; i < changed.Mesh.triangles.size(); i += 3)
+  {
+    std::swap(changed.Mesh.triangles[i + 1], changed.Mesh.triangles[i + 2]);
+  }
+  trial.compare(changed, Motion());
+}
+
+void reorderVertices(RefractionTrial& trial, RandomNumbers& random)
+{
+  const MembraneMesh& from = trial.scene().Mesh;
+  RefractionScene changed = trial.scene();
+  const std::vector<std::size_t> order = randomOrder(from.points.size() / 3, random);
+  std::vector<std::int64_t> placeOf(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    placeOf[order[i]] = static_cast<std::int64_t>(i);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      changed.Mesh.points[3 * i + axis] = from.points[3 * order[i] + axis];
+      changed.Mesh.normals[3 * i + axis] = from.normals[3 * order[i] + axis];
+    }
+  }
+  for (std::int64_t& id : changed.Mesh.triangles)
+  {
+    id = placeOf[static_cast<std::size_t>(id)];
+  }
+  trial.compare(changed, Motion());
+}
+
+//------------------------------------------------------------------------------
+// Each facet in four, at the middles of its patch's edges.
+void divide(RefractionTrial& trial, RandomNumbers&)
+{
+  const auto geometry = makeGeometry(trial.scene());
+  if (!trial.scene().IsExact || !geometry)
+  {
+    return; // other patches are other surfaces when they are divided
+  }
+  RefractionScene changed = trial.scene();
+  changed.Mesh = MembraneMesh();
+  for (std::size_t i = 0; i < geometry->GetMembrane().GetFacets().size(); ++i)
+  {
+    const CurvedPatch patch = geometry->GetPatches().GetPatch(static_cast<std::int32_t>(i));
+    const glm::dvec2 places[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 },
+      { 0.0, 0.5 }, { 0.5, 0.0 } };
+    const auto first = static_cast<std::int64_t>(changed.Mesh.points.size() / 3);
+    for (const glm::dvec2& b : places)
+    {
+      const PatchPoint at = patch.Evaluate(b);
+      changed.Mesh.AddPoint(
+        at.position + geometry->GetMembrane().GetOrigin(), glm::normalize(at.normal));
+    }
+    changed.Mesh.AddTriangle(first, first + 5, first + 4);
+    changed.Mesh.AddTriangle(first + 5, first + 1, first + 3);
+    changed.Mesh.AddTriangle(first + 4, first + 3, first + 2);
+    changed.Mesh.AddTriangle(first + 3, first + 4, first + 5);
+  }
+  // Facets do not share points: a body is open then, and points on it are on borders.
+  trial.compare(changed, Motion(), [](const VirtualVertex&) { return true; });
+}
+
+// A membrane that was another one before, with the same facets, and one that looked elsewhere.
+void editInPlace(RefractionTrial& trial, RandomNumbers& random)
+{
+  const RefractionScene& scene = trial.scene();
+  Motion motion;
+  motion.Scale = random.uniform(0.5, 2.0);
+  motion.Turn = randomTurn(random);
+  const auto geometry = makeGeometry(motion.apply(scene));
+  if (!geometry || geometry->SetMembrane(scene.Mesh.AsInput()) != MembraneStatus::Ready ||
+    geometry->SetEye(scene.Eye, scene.Exterior, scene.Interior) != EyeStatus::Ready)
+  {
+    return; // an eye on the membrane
+  }
+  geometry->PrepareSides();
+  trial.compare(*geometry, Motion(), 0.0);
+}
+
+// The part of a closed membrane that the eye sees, with room around it.
+void keepFacingPart(RefractionTrial& trial, RandomNumbers&)
+{
+  const RefractionScene& scene = trial.scene();
+  if (scene.Family != "sphere")
+  {
+    return;
+  }
+  RefractionScene changed = scene;
+  changed.Mesh.triangles.clear();
+  const auto facing = [&scene](std::int64_t id)
+  {
+    const auto i = static_cast<std::size_t>(3 * id);
+    const glm::dvec3 p(scene.Mesh.points[i], scene.Mesh.points[i + 1], scene.Mesh.points[i + 2]);
+    const glm::dvec3 n(scene.Mesh.normals[i], scene.Mesh.normals[i + 1], scene.Mesh.normals[i + 2]);
+    return glm::dot(glm::normalize(scene.Eye - p), n);
+  };
+  for (std::size_t i = 0; i < scene.Mesh.triangles.size(); i += 3)
+  {
+    const std::int64_t* ids = scene.Mesh.triangles.data() + i;
+    if (std::max({ facing(ids[0]), facing(ids[1]), facing(ids[2]) }) > 0.0)
+    {
+      changed.Mesh.AddTriangle(ids[0], ids[1], ids[2]);
+    }
+  }
+  if (!changed.Mesh.triangles.empty())
+  {
+    // Images that are on facets that stay.
+    trial.compare(changed, Motion(), [](const VirtualVertex& image) { return image.cosine > 0.0; });
+  }
+}
+
+void takeFirst(RefractionTrial& trial, RandomNumbers& random)
+{
+  trial.compareFirst(randomOrder(trial.scene().Points.size(), random));
+}
+
+struct NamedCheck
+{
+  const char* Name;
+  int Cases;
+  Check Run;
+};
+
+std::vector<Relation> allRelations(const ProgrammeOptions& options)
+{
+  const NamedCheck checks[] = { { "rotation", 60, rotate }, { "mirroring", 60, mirror },
+    { "translation", 60, translate }, { "scaling", 60, scale },
+    { "facets-reordered", 60, reorderFacets }, { "facets-turned", 60, turnFacets },
+    { "vertices-reordered", 60, reorderVertices }, { "facets-divided", 90, divide },
+    { "edit-in-place", 60, editInPlace }, { "facing-part", 120, keepFacingPart },
+    { "first-of-all", 60, takeFirst } };
+  std::vector<Relation> result;
+  for (const NamedCheck& check : checks)
+  {
+    const std::string name = check.Name;
+    const auto start = [&options, name, run = check.Run]() -> RelationWork
+    {
+      return [&options, name, run](int index)
+      {
+        RandomNumbers random(seedOfCase(options.Seed, name, index));
+        RefractionTrial trial(randomScene(random));
+        run(trial, random);
+        return trial.tally();
+      };
+    };
+    result.push_back({ name, casesAt(options.Intensity, check.Cases), start });
+  }
+  return result;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+int main(int argc, char* argv[])
+{
+  ProgrammeOptions options;
+  return runMetamorphicProgramme(
+    argc, argv, Usage, options, [](const std::string&, const std::string&) { return false; },
+    [&options]() { return allRelations(options); });
+}
