@@ -43,7 +43,7 @@ struct RayCastOutput
   /** Hardware selection: a value where the image is visible, in place of its colour. */
   bool Selecting = false;
   glm::vec3 SelectionValue{ 0.0f };
-  /** Added to the colour of what is not transparent. */
+  /** Bias of a picture that is composited later, in steps of 1/255. */
   float ColorBias = 0.0f;
 };
 
