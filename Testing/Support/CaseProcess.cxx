@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StressProcess.h"
+#include "CaseProcess.h"
 
 #include <poll.h>
 #include <signal.h>
