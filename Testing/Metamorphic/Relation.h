@@ -52,7 +52,8 @@ struct Relation
   /// Name on the command line and in the report.
   std::string Name;
   int Cases = 0;
-  /// Makes what all cases of a process share (a window), in that process.
+  /// Called in the process that runs its cases, before the first of them. All relations run in one
+  /// process until a case ends it, so that they may share what is slow to make (a window).
   std::function<RelationWork()> Start;
 };
 

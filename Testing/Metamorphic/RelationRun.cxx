@@ -6,10 +6,14 @@
 #include "RandomNumbers.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <map>
+#include <memory>
 #include <sstream>
+#include <utility>
 
 namespace meniscus
 {
@@ -19,13 +23,24 @@ namespace test
 namespace
 {
 
-struct RelationResult : ProcessResult
+struct RelationResult
 {
   RelationTally Tally;
+  int Crashed = 0;
+  int Stuck = 0;
+  double Seconds = 0.0;
 
   bool isGood() const
   {
     return this->Tally.Failures == 0 && this->Crashed == 0 && this->Stuck == 0;
+  }
+
+  void add(const RelationResult& other)
+  {
+    this->Tally.add(other.Tally);
+    this->Crashed += other.Crashed;
+    this->Stuck += other.Stuck;
+    this->Seconds += other.Seconds;
   }
 };
 
@@ -49,30 +64,6 @@ RelationTally decode(const std::string& text)
   line.ignore(1);
   std::getline(line, t.FirstFailure);
   return t;
-}
-
-RelationResult runRelation(const Relation& relation, const ProgrammeOptions& options)
-{
-  RelationResult result;
-  const int only = options.Case;
-  const auto nameOf = [only](int index) { return only < 0 ? index : only; };
-  const auto start = [&relation, nameOf]() -> CaseWork
-  {
-    const RelationWork work = relation.Start();
-    return [work, nameOf](int index) { return encode(work(nameOf(index))); };
-  };
-  const auto take = [&result, nameOf](int index, const std::string& line)
-  {
-    const RelationTally tally = decode(line);
-    result.Tally.add(tally);
-    if (!tally.FirstFailure.empty())
-    {
-      result.note("case " + std::to_string(nameOf(index)) + ": " + tally.FirstFailure);
-    }
-  };
-  const int cases = only < 0 ? relation.Cases : (only < relation.Cases ? 1 : 0);
-  runCases(cases, 1, options.Seconds, start, take, result);
-  return result;
 }
 
 // Whether a deviation is a larger part of its tolerance than another; NaN is. A tolerance below 0:
@@ -108,38 +99,118 @@ void printRow(std::ostream& out, const std::string& name, const RelationResult& 
   out << row.str() << std::flush;
 }
 
+// The chosen cases of the chosen relations in a row, and what came of them.
+class RelationTable
+{
+public:
+  RelationTable(
+    const std::vector<Relation>& relations, const ProgrammeOptions& options, std::ostream& out)
+    : Relations(relations)
+    , Out(out)
+    , Results(relations.size())
+    , Begin(std::chrono::steady_clock::now())
+  {
+    for (std::size_t r = 0; r < relations.size(); ++r)
+    {
+      const bool chosen = options.has(relations[r].Name);
+      for (int i = 0; i < relations[r].Cases && chosen; ++i)
+      {
+        if (options.Case < 0 || options.Case == i)
+        {
+          this->Cases.emplace_back(r, i);
+        }
+      }
+    }
+  }
+
+  int numberOfCases() const { return static_cast<int>(this->Cases.size()); }
+
+  // All cases of a process, whatever their relation.
+  CaseWork start() const
+  {
+    const auto works = std::make_shared<std::map<std::size_t, RelationWork>>();
+    return [this, works](int index)
+    {
+      const auto& one = this->Cases[static_cast<std::size_t>(index)];
+      RelationWork& work = (*works)[one.first];
+      work = work ? work : this->Relations[one.first].Start();
+      return encode(work(one.second));
+    };
+  }
+
+  void take(int index, const std::string& line)
+  {
+    RelationResult result;
+    result.Tally = decode(line);
+    this->take(index, result, result.Tally.FirstFailure);
+  }
+
+  void lose(int index, bool stuck)
+  {
+    RelationResult result;
+    ++(stuck ? result.Stuck : result.Crashed);
+    this->take(index, result, stuck ? "no end" : "the process ended by a signal");
+  }
+
+  // Prints what is left; returns whether all is good.
+  bool finish()
+  {
+    RelationResult sum;
+    for (const RelationResult& result : this->Results)
+    {
+      sum.add(result);
+    }
+    printRow(this->Out, "all", sum);
+    for (const std::string& note : this->Notes)
+    {
+      this->Out << note << '\n';
+    }
+    // Options that choose nothing must not pass as a success.
+    return sum.isGood() && sum.Tally.Comparisons > 0;
+  }
+
+private:
+  void take(int index, const RelationResult& result, const std::string& words)
+  {
+    const auto at = static_cast<std::size_t>(index);
+    const std::size_t relation = this->Cases[at].first;
+    const std::string& name = this->Relations[relation].Name;
+    RelationResult& total = this->Results[relation];
+    total.add(result);
+    if (!words.empty())
+    {
+      this->Notes.push_back(
+        name + ", case " + std::to_string(this->Cases[at].second) + ": " + words);
+    }
+    if (at + 1 == this->Cases.size() || this->Cases[at + 1].first != relation)
+    {
+      const auto now = std::chrono::steady_clock::now();
+      total.Seconds = std::chrono::duration<double>(now - this->Begin).count();
+      this->Begin = now;
+      printRow(this->Out, name, total);
+    }
+  }
+
+  const std::vector<Relation>& Relations;
+  std::ostream& Out;
+  std::vector<RelationResult> Results;
+  // Relation and number.
+  std::vector<std::pair<std::size_t, int>> Cases;
+  std::vector<std::string> Notes;
+  std::chrono::steady_clock::time_point Begin;
+};
+
 bool runAll(
   const std::vector<Relation>& relations, const ProgrammeOptions& options, std::ostream& out)
 {
   printHead(out);
-  RelationResult sum;
-  std::vector<std::string> notes;
-  bool good = true;
-  for (const Relation& relation : relations)
-  {
-    if (!options.has(relation.Name))
-    {
-      continue;
-    }
-    const RelationResult result = runRelation(relation, options);
-    printRow(out, relation.Name, result);
-    good = good && result.isGood();
-    for (const std::string& note : result.Notes)
-    {
-      notes.push_back(relation.Name + ", " + note);
-    }
-    sum.Tally.add(result.Tally);
-    sum.Stuck += result.Stuck;
-    sum.Crashed += result.Crashed;
-    sum.Seconds += result.Seconds;
-  }
-  printRow(out, "all", sum);
-  for (const std::string& note : notes)
-  {
-    out << note << '\n';
-  }
-  // Options that choose nothing must not pass as a success.
-  return good && sum.Tally.Comparisons > 0;
+  RelationTable table(relations, options, out);
+  ProcessResult processes;
+  runCases(
+    table.numberOfCases(), 1, options.Seconds, [&table]() { return table.start(); },
+    [&table](int index, const std::string& line) { table.take(index, line); }, processes,
+    [&table](int index, bool stuck) { table.lose(index, stuck); });
+  return table.finish();
 }
 
 } // anonymous namespace

@@ -75,7 +75,7 @@ void doubleCells(VolumeCase& test, RandomNumbers& random)
 void doubleAcrossBlocks(VolumeCase& test, RandomNumbers& random)
 {
   test.Blocks = splitMesh(test.mesh(), 2, random);
-  const MeshArrays second = test.Blocks[1];
+  const MeshArrays second = test.Blocks.back();
   // Some cells of the second block with their points in the first one, too.
   MeshArrays& first = test.Blocks[0];
   const auto shift = static_cast<vtkIdType>(first.Points.size());

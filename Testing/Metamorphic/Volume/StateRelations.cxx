@@ -112,7 +112,8 @@ void editCells(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice notic
       ids->SetValue(at++, id);
     }
   }
-  vtkObject* const told[3] = { ids, grid->GetCells(), grid };
+  // VTK's cell array does not pass on that the array inside was modified: its owner stands for it.
+  vtkObject* const told[3] = { grid->GetCells(), grid->GetCells(), grid };
   told[static_cast<int>(notice)]->Modified();
 }
 

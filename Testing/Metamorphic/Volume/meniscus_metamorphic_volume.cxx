@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <map>
-#include <memory>
 
 using namespace meniscus::test;
 
@@ -79,13 +78,19 @@ RelationTally runCase(
   return none.done();
 }
 
+// The window of a process, made when it is first asked for: a process is forked without one.
+VolumeStage& stageOfProcess()
+{
+  static VolumeStage stage;
+  return stage;
+}
+
 Relation toRelation(const VolumeRelation& relation, const Options& options)
 {
   const auto start = [&options, relation]() -> RelationWork
   {
-    const auto stage = std::make_shared<VolumeStage>();
-    return [&options, relation, stage](int index)
-    { return runCase(relation, options, index, *stage); };
+    return [&options, relation](int index)
+    { return runCase(relation, options, index, stageOfProcess()); };
   };
   return { relation.Name, casesAt(options.Intensity, relation.Cases), start };
 }
