@@ -459,14 +459,14 @@ private:
   bool HasMembrane();
   bool UpdateMembrane();
   void PrepareBending(const meniscus::OpticsPlace& place, meniscus::RayCastFrame& frame);
-  bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
-  void UpdateTransferFunction(vtkVolume* volume);
+  bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputParts& parts);
+  void UpdateTransferFunction();
   int GetUsedBlendMode();
   int ChooseBackend();
   bool FallsBackToNative(const meniscus::RayCastFrame& frame, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
-  bool Draw(vtkRenderer* renderer, vtkVolume* volume);
+  bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputParts& parts);
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;
