@@ -120,7 +120,7 @@ std::vector<OpenGLTable*> OpenGLTables::List()
 {
   return { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
     &this->TileBegins, &this->TileFaces, &this->NearestDepths, &this->VertexGradients,
-    &this->VertexComponents, &this->Intervals, &this->Isosurfaces };
+    &this->CellGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces };
 }
 
 //------------------------------------------------------------------------------
@@ -234,6 +234,12 @@ std::string OpenGLTables::UploadGradients(const std::vector<glm::vec3>& gradient
 }
 
 //------------------------------------------------------------------------------
+std::string OpenGLTables::UploadCellGradients(const std::vector<glm::vec3>& gradients)
+{
+  return this->UploadVectors(this->CellGradients, gradients);
+}
+
+//------------------------------------------------------------------------------
 std::string OpenGLTables::UploadComponents(const std::vector<glm::vec3>& components)
 {
   return this->UploadVectors(this->VertexComponents, components);
@@ -328,6 +334,10 @@ std::vector<OpenGLTable*> OpenGLTables::Activate(
   if (optics.VertexGradients)
   {
     activate(this->VertexGradients, "vertexGradients");
+  }
+  if (optics.UsesCellGradients())
+  {
+    activate(this->CellGradients, "cellGradients");
   }
   if (optics.HasComponents())
   {

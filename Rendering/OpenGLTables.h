@@ -48,6 +48,7 @@ public:
   bool HasVertices() const;
   bool HasCellScalars() const { return this->CellScalars.IsFilled(); }
   bool HasGradients() const { return this->VertexGradients.IsFilled(); }
+  bool HasCellGradients() const { return this->CellGradients.IsFilled(); }
   bool HasComponents() const { return this->VertexComponents.IsFilled(); }
   bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
   bool HasProperty() const { return this->Intervals.IsFilled(); }
@@ -68,6 +69,8 @@ public:
   std::string UploadCellScalars(const std::vector<float>& scalars);
   /** One gradient per vertex. Needed for optics with VertexGradients. */
   std::string UploadGradients(const std::vector<glm::vec3>& gradients);
+  /** One gradient per cell. Needed for optics that use gradients of cells. */
+  std::string UploadCellGradients(const std::vector<glm::vec3>& gradients);
   /** Needed for optics with PreIntegrated. */
   std::string UploadPreIntegration(const PreIntegrationTable& table);
   /** Up to three further components per vertex. Needed for optics with components. */
@@ -112,6 +115,7 @@ private:
   OpenGLTable NearestDepths;
   int TileColumns = 0;
   OpenGLTable VertexGradients;
+  OpenGLTable CellGradients;
   OpenGLTable VertexComponents;
   /** Of the scalar, of its other components, of the gradient's magnitude. */
   OpenGLTable Intervals;

@@ -497,8 +497,8 @@ std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport
   {
     return error;
   }
-  // Rasterisers in software blend with 8 bits in 8 bits, which rounds three times; a picture that is
-  // composited later is rounded by the shader, which has to know all of the sum.
+  // Rasterisers in software blend with 8 bits in 8 bits, which rounds three times; a picture that
+  // is composited later is rounded by the shader, which has to know all of the sum.
   const bool blends = !this->IsSoftware() && output.ColorBias == 0.0f;
   const bool hasUnder = !output.Selecting && !blends && this->Under.Update(this->Window, viewport);
   if (output.Selecting)

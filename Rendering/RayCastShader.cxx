@@ -117,6 +117,7 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("SHADING", optics.Shading ? 1 : 0);
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
   define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);
+  define("CELL_GRADIENTS", optics.UsesCellGradients() ? 1 : 0);
   define("BENDING", optics.Bending ? 1 : 0);
   define("LONG_LISTS", optics.LongLists ? 1 : 0);
   define("COMPACT_CELLS", optics.CompactCells ? 1 : 0);
@@ -158,6 +159,13 @@ void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
     set3("clippingConstant", Collect(optics.ClippingPlanes, &RayClippingPlane::Constant));
     set3("clippingPerDepth", Collect(optics.ClippingPlanes, &RayClippingPlane::PerDepth));
     set4("clippingInFrame", Collect(optics.ClippingPlanes, &RayClippingPlane::InFrame));
+  }
+  if (optics.BlendMode == vtkVolumeMapper::ADDITIVE_BLEND)
+  {
+    const double width = optics.DataRange.Highest - optics.DataRange.Lowest;
+    const float share[2] = { static_cast<float>(-optics.DataRange.Lowest / width),
+      static_cast<float>(1.0 / width) };
+    program->SetUniform2f("rangeShare", share);
   }
   if (!optics.UsesGradients())
   {

@@ -53,7 +53,8 @@ TileCaster::TileCaster(const Scene& scene)
     const PreIntegrationTable& table = *scene.PreIntegration;
     this->SegmentTable = { table.GetValues().data(), table.GetNumberOfScalars(),
       table.GetNumberOfLengths(), static_cast<float>(1.0 / table.GetShortest()),
-      static_cast<float>(table.GetLengthsPerOctave()) };
+      static_cast<float>(table.GetLengthsPerOctave()), static_cast<float>(table.GetMiddle()),
+      static_cast<float>(table.GetPerHalfRange()) };
   }
   if (scene.Bent.Sight)
   {
@@ -129,10 +130,14 @@ void TileCaster::SetOptics(PacketJob& job) const
   job.NumberOfSurfaces = sizeOf(tables.Surfaces);
   job.Lighting = this->Input.Lighting;
   job.VertexGradients = this->Input.VertexGradients ? &this->Input.VertexGradients->x : nullptr;
+  job.CellGradients = this->Input.CellGradients ? &this->Input.CellGradients->x : nullptr;
   job.GradientToFrame = &this->Input.GradientToFrame;
   job.Intervals = tables.Intervals.data();
   job.NumberOfIntervals = sizeOf(tables.Intervals);
   job.TerminationTransmittance = this->Input.TerminationTransmittance;
+  const ScalarRange& range = this->Input.DataRange;
+  job.SharePerScalar = static_cast<float>(1.0 / (range.Highest - range.Lowest));
+  job.ShareAtZero = static_cast<float>(-range.Lowest / (range.Highest - range.Lowest));
   job.Mixture = this->Input.Mixture;
   job.Components = this->Input.Components ? &this->Input.Components->x : nullptr;
   for (std::size_t i = 0; i < tables.OtherIntervals.size(); ++i)

@@ -58,12 +58,16 @@ public:
     /** How the components of vertices mix in composite blending, and those beside the scalar. */
     PacketMixture Mixture = PacketMixture::None;
     const glm::vec3* Components = nullptr;
+    /** Normalised scalars that additive blending counts as 0 and as 1. */
+    ScalarRange DataRange;
     /** Looked up in place of the transfer function; null for none. */
     const PreIntegrationTable* PreIntegration = nullptr;
     /** Of isosurfaces and of composite blending; null for none. */
     const SurfaceLighting* Lighting = nullptr;
     /** One per vertex, in normalised model coordinates; null for those of the cells. */
     const glm::vec3* VertexGradients = nullptr;
+    /** One per cell, likewise; needed by light and gradient opacity without those of vertices. */
+    const glm::vec3* CellGradients = nullptr;
     glm::dmat3 GradientToFrame{ 1.0 };
     /** Whether gradients change the attenuation, by the table of that. */
     bool GradientOpacity = false;
