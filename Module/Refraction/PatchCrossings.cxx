@@ -18,7 +18,7 @@ constexpr double LargestSlope = 0.95;
 constexpr int NewtonSteps = 12;
 
 // Quadratic convergence leaves the square of the last step, in parts.
-constexpr double LastStep = 1e-6;
+constexpr double LastStep = 1e-7;
 
 double Cross(const glm::dvec2& a, const glm::dvec2& b)
 {
