@@ -421,7 +421,8 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
   if (done)
   {
     images.MeetNeighbours(
-      topology.polygons.AsObject(), topology.polygons.GetCount(), isMapped.data(), result.polygons);
+      topology.polygons.AsObject(), topology.polygons.GetCount(), isMapped.data(),
+      result.wholePolygons, result.polygons);
   }
   return done;
 }

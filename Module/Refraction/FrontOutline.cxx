@@ -21,8 +21,11 @@ bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
 }
 
 // Twice the area in the second and third coordinates.
-double GetArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+double GetArea(const TrianglePoint& first, const TrianglePoint& second, const TrianglePoint& third)
 {
+  const glm::dvec3& a = first.weight;
+  const glm::dvec3& b = second.weight;
+  const glm::dvec3& c = third.weight;
   return (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
 }
 
@@ -43,18 +46,18 @@ bool IsConvex(const FrontOutline::Polygon& polygon)
 bool IsEar(const FrontOutline::Polygon& polygon, std::size_t i)
 {
   const std::size_t count = polygon.size();
-  const glm::dvec3& a = polygon[(i + count - 1) % count];
-  const glm::dvec3& b = polygon[i];
-  const glm::dvec3& c = polygon[(i + 1) % count];
+  const TrianglePoint& a = polygon[(i + count - 1) % count];
+  const TrianglePoint& b = polygon[i];
+  const TrianglePoint& c = polygon[(i + 1) % count];
   if (GetArea(a, b, c) < 0.0)
   {
     return false;
   }
   return std::none_of(polygon.begin(), polygon.end(),
-    [&a, &b, &c](const glm::dvec3& p)
+    [&a, &b, &c](const TrianglePoint& p)
     {
-      return p != a && p != b && p != c && GetArea(a, b, p) >= 0.0 && GetArea(b, c, p) >= 0.0 &&
-        GetArea(c, a, p) >= 0.0;
+      return p.weight != a.weight && p.weight != b.weight && p.weight != c.weight &&
+        GetArea(a, b, p) >= 0.0 && GetArea(b, c, p) >= 0.0 && GetArea(c, a, p) >= 0.0;
     });
 }
 
@@ -84,15 +87,15 @@ bool SplitPolygon(FrontOutline::Polygon polygon, std::vector<FrontOutline::Polyg
 }
 
 //------------------------------------------------------------------------------
-FrontOutline::FrontOutline(
-  const std::vector<WaterlinePiece>& waterline, const std::array<bool, 3>& isFront)
+FrontOutline::FrontOutline(const std::vector<WaterlinePiece>& waterline,
+  const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& isFront)
   : IsFront(isFront)
 {
   for (glm::length_t k = 0; k < 3; ++k)
   {
     glm::dvec3 weight(0.0);
     weight[k] = 1.0;
-    this->FindNode(weight);
+    this->FindNode({ weight, corners[static_cast<std::size_t>(k)] });
   }
   for (const WaterlinePiece& piece : waterline)
   {
@@ -101,17 +104,17 @@ FrontOutline::FrontOutline(
 }
 
 //------------------------------------------------------------------------------
-std::size_t FrontOutline::FindNode(const glm::dvec3& weight)
+std::size_t FrontOutline::FindNode(const TrianglePoint& place)
 {
-  const auto at = std::lower_bound(this->Sorted.begin(), this->Sorted.end(), weight,
-    [this](std::size_t node, const glm::dvec3& value)
-    { return IsBefore(this->Nodes[node].weight, value); });
-  if (at != this->Sorted.end() && this->Nodes[*at].weight == weight)
+  const auto at = std::lower_bound(this->Sorted.begin(), this->Sorted.end(), place.weight,
+    [this](std::size_t node, const glm::dvec3& weight)
+    { return IsBefore(this->Nodes[node].at.weight, weight); });
+  if (at != this->Sorted.end() && this->Nodes[*at].at.weight == place.weight)
   {
     return *at;
   }
   this->Sorted.insert(at, this->Nodes.size());
-  this->Nodes.push_back({ weight });
+  this->Nodes.push_back({ place });
   return this->Nodes.size() - 1;
 }
 
@@ -144,14 +147,14 @@ bool FrontOutline::FollowSide(std::size_t from)
   std::vector<std::size_t> stops;
   for (std::size_t i = 3; i < this->Nodes.size(); ++i)
   {
-    if (this->Nodes[i].weight[outside] == 0.0 && this->IsEnd(i))
+    if (this->Nodes[i].at.weight[outside] == 0.0 && this->IsEnd(i))
     {
       stops.push_back(i);
     }
   }
   std::sort(stops.begin(), stops.end(),
     [this, along](std::size_t a, std::size_t b)
-    { return this->Nodes[a].weight[along] < this->Nodes[b].weight[along]; });
+    { return this->Nodes[a].at.weight[along] < this->Nodes[b].at.weight[along]; });
   // The curve may meet a corner that counts as in front.
   const bool isOdd = stops.size() % 2 == 1;
   if (isOdd != (this->IsFront[from] != this->IsFront[to]))
@@ -200,8 +203,8 @@ bool FrontOutline::CollectLoop(
       return false;
     }
     seen[node] = true;
-    loop.push_back(this->Nodes[node].weight);
-    area += GetArea(loop.front(), this->Nodes[node].weight, this->Nodes[next].weight);
+    loop.push_back(this->Nodes[node].at);
+    area += GetArea(loop.front(), this->Nodes[node].at, this->Nodes[next].at);
     node = next;
   } while (node != first);
   if (loop.size() < 3 || std::fabs(area) <= Rounding)
@@ -222,8 +225,8 @@ bool FrontOutline::Find(std::vector<Polygon>& polygons)
   for (std::size_t i = 3; i < this->Nodes.size() && !this->Broken; ++i)
   {
     // An end that is on no side.
-    this->Broken = this->IsEnd(i) && this->Nodes[i].weight.x != 0.0 &&
-      this->Nodes[i].weight.y != 0.0 && this->Nodes[i].weight.z != 0.0;
+    this->Broken = this->IsEnd(i) && this->Nodes[i].at.weight.x != 0.0 &&
+      this->Nodes[i].at.weight.y != 0.0 && this->Nodes[i].at.weight.z != 0.0;
   }
   std::vector<bool> seen(this->Nodes.size(), false);
   for (std::size_t i = 0; i < this->Nodes.size() && !this->Broken; ++i)

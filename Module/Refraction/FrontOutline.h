@@ -22,11 +22,12 @@ namespace meniscus
 class FrontOutline
 {
 public:
-  /// Corners in barycentric coordinates, wound as the triangle is.
-  using Polygon = std::vector<glm::dvec3>;
+  /// Corners, wound as the triangle is.
+  using Polygon = std::vector<TrianglePoint>;
 
-  /// `isFront` tells which corners of the triangle are in front.
-  FrontOutline(const std::vector<WaterlinePiece>& waterline, const std::array<bool, 3>& isFront);
+  /// `corners` are the triangle's, `isFront` tells which of them are in front.
+  FrontOutline(const std::vector<WaterlinePiece>& waterline,
+    const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& isFront);
 
   /// False if the pieces do not separate the corners in front from the others along each side, or
   /// leave a hole in the part. Otherwise `polygons` becomes the part, as convex polygons.
@@ -37,13 +38,13 @@ private:
 
   struct Node
   {
-    glm::dvec3 weight;
+    TrianglePoint at;
     std::size_t next = None;     ///< along the waterline, the part in front on the left
     std::size_t previous = None; ///< on the waterline
     std::size_t along = None;    ///< next along the triangle's sides
   };
 
-  std::size_t FindNode(const glm::dvec3& weight);
+  std::size_t FindNode(const TrianglePoint& at);
   bool Link(const WaterlinePiece& piece);
   bool IsEnd(std::size_t node) const
   {

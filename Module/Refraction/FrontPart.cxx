@@ -89,17 +89,19 @@ public:
     const Place& end = to.isInFront ? to : crossing;
     if (begin.isInFront && end.isInFront)
     {
-      this->AddCell({ begin.weight, end.weight });
+      this->AddCell({ this->MakePoint(begin.weight), this->MakePoint(end.weight) });
     }
   }
 
-  void AddCell(const std::vector<glm::dvec3>& weights) const
+  void AddCell(const std::vector<TrianglePoint>& corners) const
   {
-    for (const glm::dvec3& weight : weights)
+    for (const TrianglePoint& corner : corners)
     {
       ImagePoint point;
-      point.vertex = this->Geometry.PassThrough(this->GetLocal(weight));
-      point.SetSource(this->Primitive.ids, weight);
+      point.vertex = this->Geometry.PassThrough(this->GetLocal(corner.weight));
+      point.vertex.position = corner.position;
+      point.vertex.sightPoint = corner.position;
+      point.SetSource(this->Primitive.ids, corner.weight);
       this->Images.connectivity.push_back(static_cast<std::int64_t>(this->Images.points.size()));
       this->Images.points.push_back(point);
     }
@@ -107,6 +109,19 @@ public:
   }
 
 private:
+  // Corners of the primitive as they are.
+  TrianglePoint MakePoint(const glm::dvec3& weight) const
+  {
+    for (glm::length_t k = 0; k < 3; ++k)
+    {
+      if (weight[k] == 1.0)
+      {
+        return { weight, this->Primitive.corners[static_cast<std::size_t>(k)] };
+      }
+    }
+    return { weight, this->GetLocal(weight) + this->Geometry.GetMembrane().GetOrigin() };
+  }
+
   glm::dvec3 GetLocal(const glm::dvec3& w) const
   {
     return w.x * this->Corner[0] + w.y * this->Corner[1] + w.z * this->Corner[2];
@@ -157,18 +172,18 @@ private:
 
   void AddPolygon(const std::vector<Place>& polygon) const
   {
-    std::vector<glm::dvec3> front;
+    std::vector<TrianglePoint> front;
     for (std::size_t i = 0; i < polygon.size(); ++i)
     {
       const Place& a = polygon[i];
       const Place& b = polygon[(i + 1) % polygon.size()];
       if (a.isInFront)
       {
-        front.push_back(a.weight);
+        front.push_back(this->MakePoint(a.weight));
       }
       if (a.isInFront != b.isInFront)
       {
-        front.push_back(this->Cross(a, b).weight);
+        front.push_back(this->MakePoint(this->Cross(a, b).weight));
       }
     }
     if (front.size() > 2)
@@ -197,7 +212,8 @@ void AddFrontOfTriangle(const CurvedGeometry& geometry, double tolerance,
     cutter.MakePlace({ 0.0, 1.0, 0.0 }), cutter.MakePlace({ 0.0, 0.0, 1.0 }) };
   std::vector<FrontOutline::Polygon> polygons;
   FrontOutline outline(
-    waterline, { corners[0].isInFront, corners[1].isInFront, corners[2].isInFront });
+    waterline, triangle.corners,
+    { corners[0].isInFront, corners[1].isInFront, corners[2].isInFront });
   if (!outline.Find(polygons))
   {
     cutter.CutTriangle(corners, 0);

@@ -44,12 +44,19 @@ struct MappedTriangle
   std::array<KnownImages, 3> images{};
 };
 
-/// A straight piece of the curve along which a triangle meets the membrane, in barycentric
-/// coordinates. The part behind the membrane is on its left, as the triangle is wound.
+/// A point of a triangle in barycentric and in world coordinates.
+struct TrianglePoint
+{
+  glm::dvec3 weight;
+  glm::dvec3 position;
+};
+
+/// A straight piece of the curve along which a triangle meets the membrane. The part behind the
+/// membrane is on its left, as the triangle is wound.
 struct WaterlinePiece
 {
-  glm::dvec3 from;
-  glm::dvec3 to;
+  TrianglePoint from;
+  TrianglePoint to;
 };
 
 class MembraneMapping
