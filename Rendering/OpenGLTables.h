@@ -4,6 +4,7 @@
 #define OpenGLTables_h
 
 #include "Volume/BoundaryTree.h"
+#include "Volume/EntryTiles.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
@@ -50,6 +51,7 @@ public:
   bool HasComponents() const { return this->VertexComponents.IsFilled(); }
   bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
   bool HasProperty() const { return this->Intervals.IsFilled(); }
+  bool HasEntryTiles() const { return this->TileFaces.IsFilled(); }
   bool HasBentLines() const { return this->BentLines.IsFilled(); }
 
   /**
@@ -71,6 +73,8 @@ public:
   /** Up to three further components per vertex. Needed for optics with components. */
   std::string UploadComponents(const std::vector<glm::vec3>& components);
   std::string UploadProperty(const VolumePropertyTables& tables);
+  /** Lists of entries per tile. Needed for optics with LongLists. */
+  std::string UploadEntryTiles(const EntryTiles& tiles);
   /** A line per pixel. Needed for optics with Bending. */
   std::string UploadBentLines(
     const std::vector<BentLine>& lines, int width, int height, const BentFrames& frames);
@@ -103,6 +107,10 @@ private:
   OpenGLTable CellScalars;
   OpenGLTable TreeNodes;
   OpenGLTable TreeFaces;
+  OpenGLTable TileBegins;
+  OpenGLTable TileFaces;
+  OpenGLTable NearestDepths;
+  int TileColumns = 0;
   OpenGLTable VertexGradients;
   OpenGLTable VertexComponents;
   /** Of the scalar, of its other components, of the gradient's magnitude. */

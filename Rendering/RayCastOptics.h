@@ -38,6 +38,8 @@ struct RayCastOptics
   bool CompactCells = false;
   /** Whether rays go on behind a membrane, for shaders: see OpenGLBentLines. */
   bool Bending = false;
+  /** Whether lists of entries per tile of any length have been uploaded; not with Bending. */
+  bool LongLists = false;
   bool Shading = false;
   bool GradientOpacity = false;
   /** Gradients interpolated between vertices, not those of the cells; only with one of the above.

@@ -12,6 +12,8 @@
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
 
+#include <glm/geometric.hpp>
+
 namespace meniscus
 {
 
@@ -135,13 +137,66 @@ std::string RayCastPipeline::DrawOpenGL(const RayCastFrame& frame)
   }
   if (!bends)
   {
-    return this->OpenGL.Draw(frame);
+    return this->DrawStraight(frame);
   }
   RayCastFrame bent = frame;
   bent.Optics.Bending = true;
   bent.Bending.BeginsInside = this->Membrane.BeginsInside(this->Input);
   bent.Bending.Version = { this->Membrane.GetSightUpdates(), this->Input.GetLinkChanges() };
   return this->OpenGL.Draw(bent);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Whether rays of a tile are expected to enter by more faces than the lists hold that are made on
+ * the device. Those of tiles with more search the tree of the boundary one by one.
+ */
+bool RayCastPipeline::WantsLongLists(const RayCastFrame& frame)
+{
+  if (this->MeasuredLinks != this->Input.GetLinkChanges())
+  {
+    this->Boundary = MeasureBoundary(this->Input.GetMesh());
+    this->MeasuredLinks = this->Input.GetLinkChanges();
+  }
+  // Half of the tiles have more than the mean.
+  constexpr double most = 0.5 * RayCastOpenGL::TileCapacity;
+  const double side = RayCastOpenGL::TileSize * glm::length(frame.Rays.Origin.PerColumn);
+  return ExpectedEntriesPerTile(this->Boundary, side) > most;
+}
+
+//------------------------------------------------------------------------------
+/** Lists entries for shaders, if rays or boundary are others. False if the lists do not fit. */
+bool RayCastPipeline::UpdateEntryTiles(const RayCastFrame& frame)
+{
+  const PixelRays rays(frame.Rays, frame.Output.ImageSize[0], frame.Output.ImageSize[1]);
+  OpenGLTables& tables = this->OpenGL.GetTables();
+  if (this->LinksOfTiles != this->Input.GetLinkChanges() || !rays.SeesAs(this->RaysOfTiles))
+  {
+    this->TilesFit = this->Tiles.Build(this->Input.GetMesh(),
+      this->Input.GetBoundaryTree().GetFaces(), rays, RayCastOpenGL::TileSize, ThreadedLoop);
+    this->RaysOfTiles = rays;
+    this->LinksOfTiles = this->Input.GetLinkChanges();
+    ++this->EntryListBuilds;
+  }
+  const bool uploaded = tables.HasEntryTiles() && this->UploadedTiles == this->EntryListBuilds;
+  if (this->TilesFit && !uploaded)
+  {
+    this->TilesFit = tables.UploadEntryTiles(this->Tiles).empty();
+    this->UploadedTiles = this->EntryListBuilds;
+  }
+  return this->TilesFit;
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastPipeline::DrawStraight(const RayCastFrame& frame)
+{
+  if (!this->WantsLongLists(frame) || !this->UpdateEntryTiles(frame))
+  {
+    return this->OpenGL.Draw(frame);
+  }
+  RayCastFrame listed = frame;
+  listed.Optics.LongLists = true;
+  return this->OpenGL.Draw(listed);
 }
 
 //------------------------------------------------------------------------------

@@ -7,6 +7,8 @@
 #include "RayCastNative.h"
 #include "RayCastOpenGL.h"
 #include "RayCastOptics.h"
+#include "Volume/EntryTiles.h"
+#include "Volume/PixelRays.h"
 #include "VolumeComponents.h"
 #include "VolumeInput.h"
 #include "VolumePreIntegration.h"
@@ -54,6 +56,9 @@ public:
   std::string DrawOpenGL(const RayCastFrame& frame);
   std::string DrawNative(const RayCastFrame& frame);
 
+  /** Times that entries were listed per tile on the processor, for shaders. */
+  std::int64_t GetEntryListBuilds() const { return this->EntryListBuilds; }
+  std::int64_t GetEntryListBytes() const { return this->Tiles.GetBytes(); }
   std::int64_t GetGradientBuilds() const { return this->GradientBuilds; }
   const std::vector<glm::vec3>& GetGradients() const { return this->Gradients; }
 
@@ -63,10 +68,22 @@ private:
   /** Whether rays of the image bend. */
   bool Trace(const RayCastFrame& frame, const int (&imageSize)[2]);
   std::string UploadBentLines(const int (&imageSize)[2]);
+  bool WantsLongLists(const RayCastFrame& frame);
+  bool UpdateEntryTiles(const RayCastFrame& frame);
+  std::string DrawStraight(const RayCastFrame& frame);
   void UpdateNative();
 
   std::vector<glm::vec3> Gradients;
   std::int64_t GradientBuilds = 0;
+
+  /** Entries per tile on the way to the shaders, and the rays and the boundary that they are of. */
+  EntryTiles Tiles;
+  PixelRays RaysOfTiles;
+  std::int64_t LinksOfTiles = 0;
+  bool TilesFit = false;
+  std::int64_t EntryListBuilds = 0;
+  BoundaryMeasure Boundary;
+  std::int64_t MeasuredLinks = 0;
 
   /** What the gradients were computed from, by the input's counters. */
   std::int64_t GradientsOfMesh = 0;
@@ -82,6 +99,7 @@ private:
   std::int64_t UploadedProperty = 0;
   std::int64_t UploadedPreIntegration = 0;
   std::int64_t UploadedSight = 0;
+  std::int64_t UploadedTiles = 0;
   /** The same of the native backend's. */
   std::int64_t NativeProperty = 0;
 };

@@ -4,6 +4,7 @@
 
 #include "vtkTetrahedraComponents.h"
 #include "vtkTetrahedraComposite.h"
+#include "vtkTetrahedraEntries.h"
 #include "vtkTetrahedraFrontToBack.h"
 #include "vtkTetrahedraIsosurfaces.h"
 #include "vtkTetrahedraLights.h"
@@ -117,6 +118,7 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
   define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);
   define("BENDING", optics.Bending ? 1 : 0);
+  define("LONG_LISTS", optics.LongLists ? 1 : 0);
   define("COMPACT_CELLS", optics.CompactCells ? 1 : 0);
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
@@ -139,6 +141,7 @@ std::string RayCastShaderSource(const char* mainShader, const RayCastOptics& opt
     source, "//VTK::TetrahedraOptions::Dec", RayCastShaderOptions(optics));
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraWalk::Dec", vtkTetrahedraWalk);
+  vtkShaderProgram::Substitute(source, "//VTK::TetrahedraEntries::Dec", vtkTetrahedraEntries);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraModel::Dec", ModelSource(optics));
   return source;
 }

@@ -120,8 +120,10 @@ void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, int blend
     default:
       this->Points = ReducePropertyToPoints(property, 0, meaning);
   }
+  this->HasGradientOpacity =
+    blendMode == vtkVolumeMapper::COMPOSITE_BLEND && UsesGradientOpacity(property);
   this->GradientPoints.clear();
-  if (blendMode == vtkVolumeMapper::COMPOSITE_BLEND && UsesGradientOpacity(property))
+  if (this->HasGradientOpacity)
   {
     this->GradientPoints = ReduceGradientOpacityToPoints(property);
   }
@@ -148,7 +150,7 @@ void VolumePropertyTables::NormalizeTables(
     this->OtherIntervals.push_back(BuildIntervals(points, components.GetNormalization(other)));
   }
   this->GradientIntervals.clear();
-  if (!this->GradientPoints.empty())
+  if (this->HasGradientOpacity)
   {
     this->GradientIntervals = BuildIntervals(this->GradientPoints, ScalarNormalization());
   }

@@ -74,6 +74,8 @@ private:
   std::vector<TransferFunctionPoint> Points;
   std::vector<std::vector<TransferFunctionPoint>> OtherPoints;
   std::vector<TransferFunctionPoint> GradientPoints;
+  /** A gradient opacity function is in use; without points it is 0 everywhere. */
+  bool HasGradientOpacity = false;
   std::vector<TransferFunctionPoint> SurfacePoints;
   std::vector<TransferFunctionInterval> Intervals;
   std::vector<std::vector<TransferFunctionInterval>> OtherIntervals;

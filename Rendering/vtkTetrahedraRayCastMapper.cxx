@@ -387,8 +387,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     frame.Output.ImageSize[i] =
       std::max(1, static_cast<int>(std::ceil(viewport[2 + i] / sampleDistance)));
   }
-  constexpr double LargestColor = 255.0;
-  frame.Output.ColorBias = static_cast<float>(this->ColorBias / LargestColor);
+  frame.Output.ColorBias = static_cast<float>(this->ColorBias);
   this->UsedImageSampleDistance = sampleDistance;
   if (selector)
   {

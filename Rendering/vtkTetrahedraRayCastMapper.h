@@ -311,10 +311,13 @@ public:
 
   ///@{
   /**
-   * Added to the colours of what is not transparent before they are rounded to 8 bits, in steps of
-   * these, 1/255. For pictures that will be put one over the other by arithmetic that drops
-   * fractions, as IceT's does: of N pictures, each of N - 1 blends drops half a step in the mean,
-   * for which a bias of (N - 1) / (2 N) in every picture makes up. In [0, 0.5], default 0.
+   * Bias of pictures that are composited afterwards by arithmetic that drops fractions, as IceT's
+   * does, in steps of 8 bits, 1/255. It is added to the colours and the opacity of pixels that are
+   * not transparent, before these are rounded. Of N pictures, each of N - 1 blends drops half a step
+   * on average, for which a bias of (N - 1) / (2 N) in every picture makes up. With a bias greater
+   * than 0 no colour exceeds the opacity in any pixel of the framebuffer, so that sums do not pass
+   * 255; brighter highlights of lit volumes are limited to that. In [0, 0.5], default 0: the picture
+   * is not changed.
    */
   vtkSetClampMacro(ColorBias, double, 0.0, 0.5);
   vtkGetMacro(ColorBias, double);

@@ -76,6 +76,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
     internals.GetGradients().size() + internals.Components.GetValues().size();
   const std::size_t table = internals.PreIntegration.GetTable().GetValues().size();
   return internals.Input.GetBytes() + internals.Native.GetBytes() + internals.Membrane.GetBytes() +
+    internals.GetEntryListBytes() +
     static_cast<vtkTypeInt64>(vectors * sizeof(glm::vec3) + table * sizeof(float));
 }
 

@@ -89,8 +89,7 @@ public:
   /** Room for the work of one thread. */
   struct Workspace
   {
-    std::vector<EntryRaster::Hit> Hits;
-    std::vector<PacketEntry> Entries;
+    EntryRaster::Workspace Entries;
     std::vector<PacketRay> Rays;
     std::vector<PacketResult> Results;
     std::vector<std::int64_t> Pixels;
@@ -106,7 +105,7 @@ public:
 
 private:
   PacketRay RayOf(int column, int row, const float* opaqueDepth, double farthest) const;
-  void TakeHits(
+  void TakeRays(
     int tile, const float* opaqueDepth, const BentRay* bent, Workspace& workspace) const;
   void SetOptics(PacketJob& job) const;
   bool IsMeshInFront(int tile, const BentRay* bent) const;

@@ -215,9 +215,14 @@ void PacketWalk<Simd, Model>::Run()
   unsigned int busy = this->Replace((1u << Width) - 1u);
   while (busy != 0)
   {
-    // The cell ahead is fetched before the segment behind is integrated, which takes as long.
+    // The cell ahead is fetched before the segment behind is integrated, which takes as long; where
+    // cells do not touch there is often none in any lane.
     Ahead ahead;
-    this->Fetch(ahead);
+    const bool inside = (busy & ~Simd::Bits(this->CellFace < zero)) != 0;
+    if (inside)
+    {
+      this->Fetch(ahead);
+    }
     this->Pending = this->Integral.Advance(this->Pending);
     const Mask on =
       Simd::AndNot(this->DepthNow < this->EndDepth, this->CellFace < zero) & this->Integral.IsOn();
@@ -228,6 +233,10 @@ void PacketWalk<Simd, Model>::Run()
     {
       busy = this->Replace(ended);
       continue;
+    }
+    if (!inside)
+    {
+      continue; // segments with further pieces are pending
     }
     this->Step(Simd::AndNot(this->Busy & on, this->Pending), ahead);
   }
