@@ -270,6 +270,10 @@ std::vector<VolumeRelation> valueRelations()
   const CaseNeeds any;
   CaseNeeds single;
   single.OneComponent = true;
+  // Light of gradients of vertices is linear between the places where a segment is split: more
+  // control points make it more exact.
+  CaseNeeds flat;
+  flat.NoVertexGradients = true;
   CaseNeeds medium = single;
   medium.Composite = true;
   CaseNeeds plain = medium;
@@ -301,7 +305,7 @@ std::vector<VolumeRelation> valueRelations()
       },
       roundToWhole },
     relationOf("scalars in other units", 4, single, scaleValues),
-    relationOf("redundant control points", 4, any, addRedundantPoints),
+    relationOf("redundant control points", 4, flat, addRedundantPoints),
     relationOf("opacity in other units", 3, medium, scaleUnit),
     { "component of a vector", 3, single, checkComponent, nullptr },
     { "length of a vector", 3, single, checkMagnitude, makePositive },
