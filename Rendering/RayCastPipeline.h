@@ -7,6 +7,7 @@
 #include "RayCastNative.h"
 #include "RayCastOpenGL.h"
 #include "RayCastOptics.h"
+#include "TableCounter.h"
 #include "VolumeComponents.h"
 #include "VolumeInput.h"
 #include "VolumePreIntegration.h"
@@ -57,6 +58,12 @@ public:
   std::int64_t GetGradientBuilds() const { return this->GradientBuilds; }
   const std::vector<glm::vec3>& GetGradients() const { return this->Gradients; }
 
+  /** Bytes of tables sent to the graphics device, and of those made for the native backend. */
+  std::int64_t GetUploadedBytes() const
+  {
+    return this->OpenGL.GetTables().GetUploadedBytes() + this->NativeTables.GetBytes();
+  }
+
 private:
   void UpdateGradients();
   std::string Upload(const RayCastOptics& optics);
@@ -64,6 +71,7 @@ private:
   bool Trace(const RayCastFrame& frame, const int (&imageSize)[2]);
   std::string UploadBentLines(const int (&imageSize)[2]);
   void UpdateNative();
+  void CountNativeTables(const RayCastOptics& optics);
 
   std::vector<glm::vec3> Gradients;
   std::int64_t GradientBuilds = 0;
@@ -84,6 +92,7 @@ private:
   std::int64_t UploadedSight = 0;
   /** The same of the native backend's. */
   std::int64_t NativeProperty = 0;
+  TableCounter NativeTables;
 };
 
 }

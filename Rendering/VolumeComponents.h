@@ -24,7 +24,7 @@ int MainComponent(ComponentMixture mixture);
 class VolumeComponents
 {
 public:
-  /** Costs nothing if mesh, arrays and mixture are the same. */
+  /** Costs nothing if the input's mesh and scalars and the mixture are the same. */
   InputReport Update(const VolumeInput& input, const InputParts& parts, ComponentMixture mixture);
 
   ComponentMixture GetMixture() const { return this->Mixture; }
@@ -51,7 +51,7 @@ private:
   int NumberOfComponents = 1;
   std::vector<glm::vec3> Values;
   std::array<ScalarNormalization, 3> Normalizations;
-  std::vector<ObjectVersion> BuiltScalars;
+  std::int64_t BuiltScalars = 0;
   std::int64_t BuiltMesh = 0;
   std::int64_t Version = 0;
 };
