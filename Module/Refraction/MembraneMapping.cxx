@@ -280,10 +280,9 @@ std::vector<WaterlinePiece> MembraneMapping::DropInFront(
         images.points.push_back(from.points[id]);
         if ((*context.isOnMembrane)[id] && (*context.isOnMembrane)[to])
         {
-          waterline.push_back(
-            { { weights[static_cast<std::size_t>(i - begin)], from.points[id].vertex.position },
-              { weights[static_cast<std::size_t>(next - begin)],
-                from.points[to].vertex.position } });
+          waterline.push_back({ { weights[static_cast<std::size_t>(i - begin)],
+                                  from.points[id].vertex.position },
+            { weights[static_cast<std::size_t>(next - begin)], from.points[to].vertex.position } });
         }
       }
       images.EndCell(from.sourceCells[cell], from.orientations[cell]);
