@@ -119,7 +119,8 @@ std::string OpenGLTables::DescribeExcess(
 std::vector<OpenGLTable*> OpenGLTables::List()
 {
   return { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
-    &this->VertexGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces };
+    &this->TileBegins, &this->TileFaces, &this->NearestDepths, &this->VertexGradients,
+    &this->CellGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces };
 }
 
 //------------------------------------------------------------------------------
@@ -170,6 +171,28 @@ std::string OpenGLTables::UploadBoundary(const BoundaryTree& tree)
 }
 
 //------------------------------------------------------------------------------
+std::string OpenGLTables::UploadEntryTiles(const EntryTiles& tiles)
+{
+  const auto& begins = tiles.GetBegins();
+  const auto& faces = tiles.GetFaces();
+  const auto& depths = tiles.GetNearestDepths();
+  this->TileColumns = tiles.GetNumberOfColumns();
+  std::string error = this->Count(
+    this->TileBegins, this->TileBegins.Upload(this->Window, begins.data(), begins.size(), 1, 1));
+  // A texture must not be empty.
+  const std::int32_t none = 0;
+  error = error.empty()
+    ? this->Count(this->TileFaces,
+        this->TileFaces.Upload(this->Window, faces.empty() ? &none : faces.data(),
+          std::max<std::size_t>(faces.size(), 1), 1, 1))
+    : error;
+  return error.empty()
+    ? this->Count(this->NearestDepths,
+        this->NearestDepths.Upload(this->Window, depths.data(), depths.size(), 1, 1))
+    : error;
+}
+
+//------------------------------------------------------------------------------
 std::string OpenGLTables::UploadVertices(
   const TetrahedralMesh& mesh, const std::vector<float>& scalars)
 {
@@ -208,6 +231,12 @@ std::string OpenGLTables::UploadVectors(OpenGLTable& table, const std::vector<gl
 std::string OpenGLTables::UploadGradients(const std::vector<glm::vec3>& gradients)
 {
   return this->UploadVectors(this->VertexGradients, gradients);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadCellGradients(const std::vector<glm::vec3>& gradients)
+{
+  return this->UploadVectors(this->CellGradients, gradients);
 }
 
 //------------------------------------------------------------------------------
@@ -288,6 +317,12 @@ std::vector<OpenGLTable*> OpenGLTables::Activate(
     active.push_back(&table);
   };
   activate(this->Cells, "cells");
+  if (optics.LongLists)
+  {
+    activate(this->TileBegins, "tileBegins");
+    activate(this->TileFaces, "tileFaces");
+    activate(this->NearestDepths, "nearestDepths");
+  }
   if (!optics.PreIntegrated)
   {
     activate(this->Intervals, "intervals");
@@ -299,6 +334,10 @@ std::vector<OpenGLTable*> OpenGLTables::Activate(
   if (optics.VertexGradients)
   {
     activate(this->VertexGradients, "vertexGradients");
+  }
+  if (optics.UsesCellGradients())
+  {
+    activate(this->CellGradients, "cellGradients");
   }
   if (optics.HasComponents())
   {
@@ -315,6 +354,7 @@ std::vector<OpenGLTable*> OpenGLTables::Activate(
 void OpenGLTables::SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const
 {
   program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
+  program->SetUniformi("tileColumns", this->TileColumns);
   program->SetUniformi("numberOfSurfaces", static_cast<int>(this->Isosurfaces.GetNumberOfRows()));
   const std::vector<int>& starts = this->FunctionStarts;
   const int first = starts[starts.size() - 2];

@@ -4,6 +4,7 @@
 #define OpenGLTables_h
 
 #include "Volume/BoundaryTree.h"
+#include "Volume/EntryTiles.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
@@ -47,9 +48,11 @@ public:
   bool HasVertices() const;
   bool HasCellScalars() const { return this->CellScalars.IsFilled(); }
   bool HasGradients() const { return this->VertexGradients.IsFilled(); }
+  bool HasCellGradients() const { return this->CellGradients.IsFilled(); }
   bool HasComponents() const { return this->VertexComponents.IsFilled(); }
   bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
   bool HasProperty() const { return this->Intervals.IsFilled(); }
+  bool HasEntryTiles() const { return this->TileFaces.IsFilled(); }
   bool HasBentLines() const { return this->BentLines.IsFilled(); }
 
   /**
@@ -66,11 +69,15 @@ public:
   std::string UploadCellScalars(const std::vector<float>& scalars);
   /** One gradient per vertex. Needed for optics with VertexGradients. */
   std::string UploadGradients(const std::vector<glm::vec3>& gradients);
+  /** One gradient per cell. Needed for optics that use gradients of cells. */
+  std::string UploadCellGradients(const std::vector<glm::vec3>& gradients);
   /** Needed for optics with PreIntegrated. */
   std::string UploadPreIntegration(const PreIntegrationTable& table);
   /** Up to three further components per vertex. Needed for optics with components. */
   std::string UploadComponents(const std::vector<glm::vec3>& components);
   std::string UploadProperty(const VolumePropertyTables& tables);
+  /** Lists of entries per tile. Needed for optics with LongLists. */
+  std::string UploadEntryTiles(const EntryTiles& tiles);
   /** A line per pixel. Needed for optics with Bending. */
   std::string UploadBentLines(
     const std::vector<BentLine>& lines, int width, int height, const BentFrames& frames);
@@ -103,7 +110,12 @@ private:
   OpenGLTable CellScalars;
   OpenGLTable TreeNodes;
   OpenGLTable TreeFaces;
+  OpenGLTable TileBegins;
+  OpenGLTable TileFaces;
+  OpenGLTable NearestDepths;
+  int TileColumns = 0;
   OpenGLTable VertexGradients;
+  OpenGLTable CellGradients;
   OpenGLTable VertexComponents;
   /** Of the scalar, of its other components, of the gradient's magnitude. */
   OpenGLTable Intervals;

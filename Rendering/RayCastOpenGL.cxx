@@ -32,10 +32,6 @@ namespace
 
 /** Texels of four faces that list a tile's entries; also in vtkTetrahedraEntryTilesFS. */
 constexpr unsigned int TileLayers = 8;
-/** Pixels along a tile's side: 8 overflows the lists of 7-14 % of the tiles of meshes of 200k
- * cells. */
-constexpr int TileSize = 4;
-
 void Deactivate(const std::vector<OpenGLTable*>& tables)
 {
   for (OpenGLTable* table : tables)
@@ -155,7 +151,7 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
   return this->DrawImage(frame.Output,
     [this, &frame]()
     {
-      std::string error = frame.Bending.Part == MembranePart::Behind
+      std::string error = frame.Bending.Part == MembranePart::Behind || frame.Optics.LongLists
         ? std::string()
         : this->ListEntries(frame, false);
       if (error.empty() && frame.Optics.Bending)
@@ -404,8 +400,11 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
 {
   const std::vector<OpenGLTable*> rayTables = this->ActivateRays(program, frame.Rays);
   const std::vector<OpenGLTable*> tables = this->Tables.Activate(program, frame.Optics);
-  this->EntryTiles->Activate();
-  program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
+  if (!frame.Optics.LongLists)
+  {
+    this->EntryTiles->Activate();
+    program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
+  }
   this->Depth.GetTexture()->Activate();
   program->SetUniformi("opaqueDepth", this->Depth.GetTexture()->GetTextureUnit());
   this->SetCastUniforms(program, frame);
@@ -433,7 +432,10 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
     this->Tables.GetPreIntegration().Deactivate();
   }
   this->Depth.GetTexture()->Deactivate();
-  this->EntryTiles->Deactivate();
+  if (!frame.Optics.LongLists)
+  {
+    this->EntryTiles->Deactivate();
+  }
   Deactivate(tables);
   Deactivate(rayTables);
   this->StatisticsStale = true;
@@ -495,8 +497,8 @@ std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport
   {
     return error;
   }
-  // Rasterisers in software blend with 8 bits in 8 bits, which rounds three times; a picture that is
-  // composited later is rounded by the shader, which has to know all of the sum.
+  // Rasterisers in software blend with 8 bits in 8 bits, which rounds three times; a picture that
+  // is composited later is rounded by the shader, which has to know all of the sum.
   const bool blends = !this->IsSoftware() && output.ColorBias == 0.0f;
   const bool hasUnder = !output.Selecting && !blends && this->Under.Update(this->Window, viewport);
   if (output.Selecting)

@@ -4,6 +4,7 @@
 #define ValuesOfParts_h
 
 #include "InputParts.h"
+#include "Volume/ScalarNormalization.h"
 
 #include <cstdint>
 #include <vector>
@@ -24,6 +25,20 @@ private:
   const InputParts& Input;
   int Component;
   std::vector<std::int64_t> Firsts;
+};
+
+/** The values of those numbers, as they are in the arrays. */
+std::vector<double> GatherValues(
+  const InputParts& input, int component, const std::vector<std::int32_t>& numbers);
+
+/** The finite ones among some values. */
+struct FiniteValues
+{
+  ScalarDistribution Distribution;
+  std::int64_t NotFinite = 0;
+
+  FiniteValues() = default;
+  explicit FiniteValues(const std::vector<double>& values);
 };
 
 }

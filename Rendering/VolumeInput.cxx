@@ -28,37 +28,6 @@
 
 namespace meniscus
 {
-namespace
-{
-
-/** The range of the finite values among some, and how many others there are. */
-struct ValueRange
-{
-  double Lowest = std::numeric_limits<double>::infinity();
-  double Highest = -std::numeric_limits<double>::infinity();
-  std::int64_t NotFinite = 0;
-
-  void Add(double value)
-  {
-    if (std::isfinite(value))
-    {
-      this->Lowest = std::min(this->Lowest, value);
-      this->Highest = std::max(this->Highest, value);
-    }
-    else
-    {
-      ++this->NotFinite;
-    }
-  }
-  void Add(const ValueRange& other)
-  {
-    this->Lowest = std::min(this->Lowest, other.Lowest);
-    this->Highest = std::max(this->Highest, other.Highest);
-    this->NotFinite += other.NotFinite;
-  }
-};
-
-}
 
 //------------------------------------------------------------------------------
 ObjectVersion::ObjectVersion(vtkObject* object)
@@ -182,7 +151,8 @@ InputReport VolumeInput::BuildMesh(
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::UpdateScalars(const InputParts& input, int component)
+InputReport VolumeInput::UpdateScalars(
+  const InputParts& input, int component, const FunctionFeatures& features)
 {
   InputReport report;
   std::vector<ObjectVersion> version;
@@ -190,44 +160,38 @@ InputReport VolumeInput::UpdateScalars(const InputParts& input, int component)
   {
     version.emplace_back(part.Scalars);
   }
-  if (version == this->BuiltScalars && input.Place == this->BuiltPlace &&
-    component == this->BuiltComponent)
+  const bool same = version == this->BuiltScalars && input.Place == this->BuiltPlace &&
+    component == this->BuiltComponent;
+  if (same && features.Version == this->BuiltFeatures)
   {
     return report;
   }
+  this->BuiltFeatures = features.Version;
   const bool ofCells = input.Place == ScalarPlace::Cells;
-  const std::vector<std::int32_t>& sources =
-    ofCells ? this->Mesh.GetSourceCells() : this->Mesh.GetSourcePoints();
-  const ValuesOfParts valueOf(input, component);
-  std::vector<double> values(sources.size());
-  std::vector<ValueRange> ranges(NumberOfBlocks(values.size()));
-  ForEachBlock(values.size(), ThreadedLoop,
-    [&](std::size_t block, std::size_t first, std::size_t last)
+  std::vector<double> values;
+  if (!same)
+  {
+    values = GatherValues(input, component, this->GetSources(input.Place));
+    const FiniteValues finite(values);
+    this->Distribution = finite.Distribution;
+    if (finite.NotFinite > 0)
     {
-      ValueRange range;
-      for (std::size_t v = first; v < last; ++v)
-      {
-        values[v] = valueOf(sources[v]);
-        range.Add(values[v]);
-      }
-      ranges[block] = range;
-    });
-  ValueRange range;
-  for (const ValueRange& part : ranges)
-  {
-    range.Add(part);
+      report.Warning = std::to_string(finite.NotFinite) + " of " + std::to_string(values.size()) +
+        " scalars of the " + (ofCells ? "tetrahedra" : "vertices") +
+        " are not finite; cells that use them are transparent.";
+    }
   }
-  const std::int64_t notFinite = range.NotFinite;
-  if (notFinite > 0)
+  const ScalarNormalization normalization =
+    ChooseNormalization(this->Distribution, features.Of(0), same ? &this->Normalization : nullptr);
+  if (same && normalization == this->Normalization)
   {
-    report.Warning = std::to_string(notFinite) + " of " + std::to_string(values.size()) +
-      " scalars of the " + (ofCells ? "tetrahedra" : "vertices") +
-      " are not finite; cells that use them are transparent.";
+    return report;
   }
-
-  this->Normalization = notFinite == static_cast<std::int64_t>(values.size())
-    ? ScalarNormalization()
-    : NormalizeRange(range.Lowest, range.Highest);
+  this->Normalization = normalization;
+  if (same)
+  {
+    values = GatherValues(input, component, this->GetSources(input.Place));
+  }
   this->Scalars.clear();
   this->CellScalars.clear();
   std::vector<float>& normalized = ofCells ? this->CellScalars : this->Scalars;
@@ -235,12 +199,10 @@ InputReport VolumeInput::UpdateScalars(const InputParts& input, int component)
   ForEachBlock(values.size(), ThreadedLoop,
     [&](std::size_t, std::size_t first, std::size_t last)
     {
-      const ScalarNormalization& n = this->Normalization;
       for (std::size_t v = first; v < last; ++v)
       {
-        normalized[v] = std::isfinite(values[v])
-          ? static_cast<float>((values[v] - n.Offset) * n.Scale)
-          : std::numeric_limits<float>::quiet_NaN();
+        normalized[v] = std::isfinite(values[v]) ? static_cast<float>(normalization(values[v]))
+                                                 : std::numeric_limits<float>::quiet_NaN();
       }
     });
   this->BuiltScalars = version;
@@ -249,6 +211,22 @@ InputReport VolumeInput::UpdateScalars(const InputParts& input, int component)
   this->ActiveSetStale = true;
   ++this->ScalarUpdates;
   return report;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<std::int32_t>& VolumeInput::GetSources(ScalarPlace place) const
+{
+  return place == ScalarPlace::Cells ? this->Mesh.GetSourceCells() : this->Mesh.GetSourcePoints();
+}
+
+//------------------------------------------------------------------------------
+ScalarRange VolumeInput::GetNormalizedRange() const
+{
+  if (this->Distribution.IsEmpty())
+  {
+    return ScalarRange();
+  }
+  return SampledRange(this->Distribution, {}, this->Normalization);
 }
 
 //------------------------------------------------------------------------------

@@ -53,10 +53,12 @@ public:
   InputReport UpdateMesh(const InputParts& input, const std::function<bool(double)>& progress);
 
   /**
-   * The scalars of that mesh.
+   * The scalars of that mesh, normalised for a function. Another function costs nothing, unless it
+   * changes where so normalised scalars are too coarse: then they are made again.
    * @param component  as of ScalarSelection.
    */
-  InputReport UpdateScalars(const InputParts& input, int component);
+  InputReport UpdateScalars(
+    const InputParts& input, int component, const FunctionFeatures& features);
 
   /**
    * The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same.
@@ -84,6 +86,14 @@ public:
   /** One per cell of the mesh, likewise; empty if of points. */
   const std::vector<float>& GetCellScalars() const { return this->CellScalars; }
   const ScalarNormalization& GetNormalization() const { return this->Normalization; }
+  /** The finite scalars as they are in the input. */
+  const ScalarDistribution& GetDistribution() const { return this->Distribution; }
+  /** The range of the data, normalised. */
+  ScalarRange GetNormalizedRange() const;
+  /** Number of the input's scalar per vertex, or per cell of the mesh. */
+  const std::vector<std::int32_t>& GetSources(ScalarPlace place) const;
+  /** Component that the scalars are, as of ScalarSelection. */
+  int GetComponent() const { return this->BuiltComponent; }
   /** Over the boundary of the active cells; built when first asked for. */
   const BoundaryTree& GetBoundaryTree();
 
@@ -118,6 +128,7 @@ private:
   BoundaryTree Tree;
   std::vector<float> Scalars;
   std::vector<float> CellScalars;
+  ScalarDistribution Distribution;
   ScalarNormalization Normalization;
   VisibleScalars Visible;
   TetrahedralMesh::CellJumps Jumps = TetrahedralMesh::CellJumps::Hidden;
@@ -129,6 +140,7 @@ private:
   std::vector<ObjectVersion> BuiltScalars;
   ScalarPlace BuiltPlace = ScalarPlace::Points;
   int BuiltComponent = 0;
+  std::int64_t BuiltFeatures = 0;
   bool KeepsSourceCells = false;
   bool ActiveSetStale = true;
   std::int64_t TreeOf = 0;

@@ -235,21 +235,29 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateInput(
-  vtkRenderWindow* window, const meniscus::InputParts& parts)
+  vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputParts& parts)
 {
-  meniscus::VolumeInput& input = this->Internals->Input;
+  vtkInternals& internals = *this->Internals;
+  meniscus::VolumeInput& input = internals.Input;
   this->SetAbortExecute(0);
   const auto goOn = [this, window](double fraction)
   {
     this->UpdateProgress(fraction);
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
-  const int component = this->Internals->Mixture == meniscus::ComponentMixture::None
-    ? this->SelectedScalars().Component
-    : MainComponent(this->Internals->Mixture);
-  return this->Tell(input.UpdateMesh(parts, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
-    this->Tell(input.UpdateScalars(parts, component)) &&
-    this->Tell(this->Internals->Components.Update(input, parts, this->Internals->Mixture));
+  const bool mixed = internals.Mixture != meniscus::ComponentMixture::None;
+  const int component =
+    mixed ? MainComponent(internals.Mixture) : this->SelectedScalars().Component;
+  if (!this->Tell(input.UpdateMesh(parts, goOn)) || input.GetMesh().GetNumberOfCells() == 0)
+  {
+    return false;
+  }
+  internals.Property.Reduce(volume->GetProperty(), this->GetUsedBlendMode(),
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
+    mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
+  const meniscus::FunctionFeatures& features = internals.Property.GetFeatures();
+  return this->Tell(input.UpdateScalars(parts, component, features)) &&
+    this->Tell(internals.Components.Update(input, parts, internals.Mixture, features));
 }
 
 //------------------------------------------------------------------------------
@@ -290,12 +298,10 @@ int vtkTetrahedraRayCastMapper::GetUsedBlendMode()
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
+void vtkTetrahedraRayCastMapper::UpdateTransferFunction()
 {
   vtkInternals& internals = *this->Internals;
-  internals.Property.Update(volume->GetProperty(), this->GetUsedBlendMode(),
-    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Input.GetNormalization(),
-    internals.Components);
+  internals.Property.Normalize(internals.Input.GetNormalization(), internals.Components);
   const meniscus::VisibleScalars visible = internals.Property.GetVisibleScalars();
   if (internals.Mixture != meniscus::ComponentMixture::None)
   {
@@ -412,6 +418,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   frame.Optics.Components = internals.Mixture;
   frame.Optics.NumberOfFunctions =
     1 + static_cast<int>(internals.Property.GetOtherIntervals().size());
+  frame.Optics.DataRange = internals.Input.GetNormalizedRange();
   frame.Optics.CompactCells = this->CompactTables != 0;
   frame.Optics.CellScalars = internals.Input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
@@ -429,7 +436,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
+bool vtkTetrahedraRayCastMapper::Draw(
+  vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputParts& parts)
 {
   vtkInternals& internals = *this->Internals;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
@@ -464,6 +472,7 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   if (error.empty())
   {
     frame.Compute = backend == COMPUTE;
+    internals.UpdateGradients(parts, frame.Optics);
     error = backend == NATIVE ? internals.DrawNative(frame) : internals.DrawOpenGL(frame);
   }
   if (!error.empty())
@@ -499,23 +508,23 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   }
   meniscus::InputParts parts;
   if (!this->CollectInput(parts) || parts.Parts.empty() || !this->ChooseMixture(parts, volume) ||
-    !this->UpdateMembrane() || !this->UpdateInput(renderer->GetRenderWindow(), parts))
+    !this->UpdateMembrane() || !this->UpdateInput(renderer->GetRenderWindow(), volume, parts))
   {
     return;
   }
   this->Internals->WorldToModel = glm::inverse(meniscus::ToGlm(volume->GetMatrix()));
   this->WarnAboutUnavailable();
-  this->UpdateTransferFunction(volume);
+  this->UpdateTransferFunction();
   vtkHardwareSelector* selector = renderer->GetSelector();
   if (selector)
   {
     selector->BeginRenderProp();
-    this->Draw(renderer, volume);
+    this->Draw(renderer, volume, parts);
     selector->EndRenderProp();
     return;
   }
   const double start = vtkTimerLog::GetUniversalTime();
-  if (this->Draw(renderer, volume))
+  if (this->Draw(renderer, volume, parts))
   {
     // Drawing is over when the device says so, not when the commands are sent.
     this->Internals->OpenGL.Finish();

@@ -313,11 +313,11 @@ public:
   /**
    * Bias of pictures that are composited afterwards by arithmetic that drops fractions, as IceT's
    * does, in steps of 8 bits, 1/255. It is added to the colours and the opacity of pixels that are
-   * not transparent, before these are rounded. Of N pictures, each of N - 1 blends drops half a step
-   * on average, for which a bias of (N - 1) / (2 N) in every picture makes up. With a bias greater
-   * than 0 no colour exceeds the opacity in any pixel of the framebuffer, so that sums do not pass
-   * 255; brighter highlights of lit volumes are limited to that. In [0, 0.5], default 0: the picture
-   * is not changed.
+   * not transparent, before these are rounded. Of N pictures, each of N - 1 blends drops half a
+   * step on average, for which a bias of (N - 1) / (2 N) in every picture makes up. With a bias
+   * greater than 0 no colour exceeds the opacity in any pixel of the framebuffer, so that sums do
+   * not pass 255; brighter highlights of lit volumes are limited to that. In [0, 0.5], default 0:
+   * the picture is not changed.
    */
   vtkSetClampMacro(ColorBias, double, 0.0, 0.5);
   vtkGetMacro(ColorBias, double);
@@ -462,14 +462,14 @@ private:
   bool HasMembrane();
   bool UpdateMembrane();
   void PrepareBending(const meniscus::OpticsPlace& place, meniscus::RayCastFrame& frame);
-  bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
-  void UpdateTransferFunction(vtkVolume* volume);
+  bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputParts& parts);
+  void UpdateTransferFunction();
   int GetUsedBlendMode();
   int ChooseBackend();
   bool FallsBackToNative(const meniscus::RayCastFrame& frame, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
-  bool Draw(vtkRenderer* renderer, vtkVolume* volume);
+  bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputParts& parts);
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;

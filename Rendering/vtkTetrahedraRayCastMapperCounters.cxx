@@ -72,10 +72,10 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
 {
   const vtkInternals& internals = *this->Internals;
-  const std::size_t vectors =
-    internals.GetGradients().size() + internals.Components.GetValues().size();
+  const std::size_t vectors = internals.Components.GetValues().size();
   const std::size_t table = internals.PreIntegration.GetTable().GetValues().size();
   return internals.Input.GetBytes() + internals.Native.GetBytes() + internals.Membrane.GetBytes() +
+    internals.GetEntryListBytes() + internals.GetGradientBytes() +
     static_cast<vtkTypeInt64>(vectors * sizeof(glm::vec3) + table * sizeof(float));
 }
 

@@ -3,6 +3,7 @@
 #include "Refraction/CurvedGeometry.h"
 
 #include "Refraction/Optics.h"
+#include "Refraction/PatchCrossings.h"
 #include "Refraction/PatchImages.h"
 #include "Refraction/PatchTube.h"
 
@@ -17,7 +18,7 @@ namespace
 {
 
 // A root on an edge is found in both of its facets, up to what Newton's method leaves.
-constexpr double Border = 1e-8;
+constexpr double Border = PatchCrossings::Border;
 
 // Newton steps in one patch while the answers before are followed, how far a step may leave the
 // patch before another one takes over, and how often that may happen.
@@ -108,7 +109,7 @@ void CurvedGeometry::BuildTree(CellTree& tree) const
 //------------------------------------------------------------------------------
 void CurvedGeometry::FindAxis()
 {
-  this->ColumnsReady = false;
+  this->SidesReady = false;
   glm::dvec3 sum(0.0);
   for (const Membrane::Facet& facet : this->Surface.GetFacets())
   {
@@ -119,8 +120,10 @@ void CurvedGeometry::FindAxis()
   }
   this->FindEnclosure();
   const double length = glm::length(sum);
-  // Normals of a closed membrane cancel out.
-  this->Axis = length > 0.0 && !this->Closed ? sum / length : glm::dvec3(0.0, 0.0, 1.0);
+  // Normals of a closed membrane cancel out. No plane with small integers as normal has this
+  // direction: its components' squares are 1, 2 and 3 over 6.
+  const glm::dvec3 oblique(std::sqrt(1.0 / 6.0), std::sqrt(1.0 / 3.0), std::sqrt(0.5));
+  this->Axis = length > 0.0 && !this->Closed ? sum / length : oblique;
   this->Frame = HeightFrame(this->Axis);
   this->FieldReady = false;
   this->ConvexField = false;
@@ -178,59 +181,23 @@ void CurvedGeometry::FindEnclosure()
 //------------------------------------------------------------------------------
 void CurvedGeometry::PrepareSides()
 {
-  if (this->ColumnsReady)
+  if (!this->SidesReady)
   {
-    return;
+    this->Sides.Build(this->Surface, this->Patches, this->Frame);
+    this->SidesReady = true;
   }
-  this->BuildTree(this->Columns);
-  this->Columns.Refit(
-    [this](std::int32_t facet)
-    {
-      const CurvedPatch patch = this->Patches.GetPatch(facet);
-      const glm::dvec3 bulge(BoundBulge(patch));
-      TubeBounds bounds;
-      for (const glm::dvec3& corner : patch.corner)
-      {
-        bounds.Add(corner - bulge, this->Axis);
-        bounds.Add(corner + bulge, this->Axis);
-      }
-      return bounds;
-    },
-    SerialLoop);
-  this->ColumnsReady = true;
 }
 
 //------------------------------------------------------------------------------
 bool CurvedGeometry::IsInFront(const glm::dvec3& local) const
 {
-  // Rounding of a patch's point and of Newton's method.
-  constexpr double rounding = 1024.0 * std::numeric_limits<double>::epsilon();
-  const double slack = rounding * this->Surface.GetRadius();
-  double nearest = std::numeric_limits<double>::max();
-  bool faces = this->Closed ? this->OutsideIsFront : glm::dot(this->Axis, local) > this->Highest;
-  if (faces && !this->Closed)
+  if (!this->Closed && glm::dot(this->Axis, local) > this->Highest)
   {
     return true;
   }
-  VisitTree(this->Columns, local, slack,
-    [this, &local, slack, &nearest, &faces](std::int32_t facet)
-    {
-      const CurvedPatch patch = this->Patches.GetPatch(facet);
-      glm::dvec2 b = Project(patch, local);
-      double distance = 0.0;
-      for (int i = 0; i < FirstSteps; ++i)
-      {
-        const glm::dvec3 rest = local - patch.Evaluate(b).position;
-        distance = glm::dot(this->Axis, rest);
-        b += Project(patch, patch.corner[0] + rest - distance * this->Axis);
-      }
-      if (FindOutside(b).least >= -Border && distance >= -slack && distance < nearest)
-      {
-        nearest = distance;
-        faces = distance <= slack || glm::dot(this->Axis, patch.Evaluate(b).normal) > 0.0;
-      }
-    });
-  return faces;
+  const MembraneSides::Side side = this->Sides.Find(local);
+  return side == MembraneSides::Side::Unknown ? this->OutsideIsFront
+                                              : side == MembraneSides::Side::Front;
 }
 
 //------------------------------------------------------------------------------
@@ -239,7 +206,7 @@ void CurvedGeometry::Clear()
   this->Surface = Membrane();
   this->Patches = CurvedPatches();
   this->Tree = CellTree();
-  this->ColumnsReady = false;
+  this->SidesReady = false;
 }
 
 //------------------------------------------------------------------------------
@@ -279,17 +246,19 @@ bool CurvedGeometry::IsEyeOnPatch(const CurvedPatch& patch) const
   {
     return false;
   }
-  // The foot on the facet, moved by what its point on the patch is away from the eye along the
-  // facet; the surface is close to the facet, so this settles.
-  glm::dvec2 b = Project(patch, this->Optics.eye);
-  for (int i = 0; i < FirstSteps; ++i)
-  {
-    b += Project(patch, patch.corner[0] + this->Optics.eye - patch.Evaluate(b).position);
-  }
+  // The patch is crossed at right angles to its facet, where the eye is.
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-  return FindOutside(b).least >= -Border &&
-    glm::length(patch.Evaluate(b).position - this->Optics.eye) <=
+  const double slack =
     rounding * std::max(this->Surface.GetRadius(), glm::length(this->Optics.eye));
+  const HeightFrame frame(glm::normalize(glm::cross(first, second)));
+  const double height = frame.GetHeight(this->Optics.eye);
+  PatchCrossings crossings(patch, frame);
+  crossings.Find(frame.Project(this->Optics.eye), height - slack, height + slack);
+  // What cannot be told apart from the patch is on it.
+  return !crossings.IsComplete() ||
+    std::any_of(crossings.begin(), crossings.end(),
+      [height, slack](const PatchCrossing& crossing)
+      { return std::fabs(crossing.height - height) <= slack; });
 }
 
 //------------------------------------------------------------------------------

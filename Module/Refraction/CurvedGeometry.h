@@ -16,6 +16,7 @@
 #include "Refraction/HeightField.h"
 #include "Refraction/MappingPlace.h"
 #include "Refraction/Membrane.h"
+#include "Refraction/MembraneSides.h"
 #include "Refraction/SightEquation.h"
 #include "Refraction/VirtualGeometry.h"
 
@@ -136,13 +137,14 @@ public:
   ///@{
   /**
    * The eye's side of the membrane. Along an axis, the mean of the membrane's normals, it is a
-   * height field unless it overhangs: a point is in front if the membrane below it along the axis
-   * faces it, or if it lies on it within rounding. Beside the membrane, a point above all of it is
-   * in front. IsBehindAll is a first test that costs nothing; where it fails, IsInFront needs
-   * PrepareSides, a tree over the facets' columns that is built once per shape.
+   * height field unless it overhangs: a point is in front if the nearest patch below it along the
+   * axis faces it, or if it lies on a patch within rounding. Beyond the border, a point above all
+   * of the membrane is in front. IsBehindAll is a first test that costs nothing; where it fails,
+   * IsInFront needs PrepareSides, a tree over the facets' columns that is built once per shape.
    *
-   * Of a closed membrane any axis will do; without a patch below it a point is outside, and that is
-   * in front if the normals point outwards.
+   * A closed membrane has no such axis and needs none: a direction is taken along which neither
+   * boxes nor cylinders along the axes of coordinates have faces. Without a patch below it a point
+   * is outside, and that is in front if the normals point outwards.
    */
   void PrepareSides();
   bool IsBehindAll(const glm::dvec3& local) const
@@ -151,6 +153,8 @@ public:
   }
   bool IsClosed() const { return this->Closed; }
   bool IsInFront(const glm::dvec3& local) const;
+  /// Points asked for since PrepareSides whose side could not be found out; they are not in front.
+  std::int64_t GetNumberOfUndecidedSides() const { return this->Sides.GetNumberOfUndecided(); }
   ///@}
 
 private:
@@ -179,8 +183,8 @@ private:
   Membrane Surface;
   CurvedPatches Patches;
   CellTree Tree;
-  CellTree Columns;
-  bool ColumnsReady = false;
+  MembraneSides Sides;
+  bool SidesReady = false;
   glm::dvec3 Axis{ 0.0 };
   HeightFrame Frame;
   bool FieldReady = false;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/FrontPart.h"
 
+#include "Refraction/FrontOutline.h"
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -19,6 +21,9 @@ constexpr int DeepestLevel = 5;
 // 2^-44 of a side: the rounding of its ends, nearly.
 constexpr int Bisections = 44;
 
+// To see whether a cut is straight: a thousandth of a side.
+constexpr int CoarseBisections = 10;
+
 /// A place in the primitive, in barycentric coordinates.
 struct Place
 {
@@ -29,9 +34,10 @@ struct Place
 class Cutter
 {
 public:
-  Cutter(const CurvedGeometry& geometry, const MappedTriangle& primitive, std::int64_t sourceCell,
-    ImageMesh& images)
+  Cutter(const CurvedGeometry& geometry, double tolerance, const MappedTriangle& primitive,
+    std::int64_t sourceCell, ImageMesh& images)
     : Geometry(geometry)
+    , Tolerance(tolerance)
     , Primitive(primitive)
     , SourceCell(sourceCell)
     , Images(images)
@@ -57,7 +63,7 @@ public:
       middle[k] = this->MakePlace(0.5 * (corner[(k + 1) % 3].weight + corner[(k + 2) % 3].weight));
       same = same && middle[k].isInFront == corner[0].isInFront;
     }
-    if ((same && level >= FirstLevel) || level == DeepestLevel)
+    if (level == DeepestLevel || (level >= FirstLevel && (same || this->IsCutStraight(corner))))
     {
       this->AddPolygon({ corner.begin(), corner.end() });
       return;
@@ -83,8 +89,21 @@ public:
     const Place& end = to.isInFront ? to : crossing;
     if (begin.isInFront && end.isInFront)
     {
-      this->AddCell({ begin, end });
+      this->AddCell({ begin.weight, end.weight });
     }
+  }
+
+  void AddCell(const std::vector<glm::dvec3>& weights) const
+  {
+    for (const glm::dvec3& weight : weights)
+    {
+      ImagePoint point;
+      point.vertex = this->Geometry.PassThrough(this->GetLocal(weight));
+      point.SetSource(this->Primitive.ids, weight);
+      this->Images.connectivity.push_back(static_cast<std::int64_t>(this->Images.points.size()));
+      this->Images.points.push_back(point);
+    }
+    this->Images.EndCell(this->SourceCell, 1);
   }
 
 private:
@@ -93,12 +112,42 @@ private:
     return w.x * this->Corner[0] + w.y * this->Corner[1] + w.z * this->Corner[2];
   }
 
+  // Whether the membrane passes the middle of the straight cut within the tolerance.
+  bool IsCutStraight(const std::array<Place, 3>& corner) const
+  {
+    std::size_t odd = 0; // the corner that is alone on its side
+    while (odd < 3 && corner[odd].isInFront == corner[(odd + 1) % 3].isInFront)
+    {
+      ++odd;
+    }
+    if (odd == 3)
+    {
+      return false;
+    }
+    odd = corner[odd].isInFront == corner[(odd + 2) % 3].isInFront ? (odd + 1) % 3 : odd;
+    const Place& alone = corner[odd];
+    const Place first = this->Cross(alone, corner[(odd + 1) % 3], CoarseBisections);
+    const Place second = this->Cross(alone, corner[(odd + 2) % 3], CoarseBisections);
+    const glm::dvec3 middle = 0.5 * (first.weight + second.weight);
+    const glm::dvec3 way = alone.weight - middle;
+    const double length = glm::length(this->GetLocal(alone.weight) - this->GetLocal(middle));
+    const double allowed =
+      this->Tolerance * glm::length(this->GetLocal(middle) - this->Geometry.GetMedia().eye);
+    if (length <= allowed)
+    {
+      return true;
+    }
+    const glm::dvec3 step = (allowed / length) * way;
+    return this->MakePlace(middle + step).isInFront == alone.isInFront &&
+      this->MakePlace(middle - step).isInFront != alone.isInFront;
+  }
+
   // The last place in front on the way between two sides.
-  Place Cross(const Place& a, const Place& b) const
+  Place Cross(const Place& a, const Place& b, int bisections = Bisections) const
   {
     Place front = a.isInFront ? a : b;
     Place behind = a.isInFront ? b : a;
-    for (int i = 0; i < Bisections; ++i)
+    for (int i = 0; i < bisections; ++i)
     {
       const Place middle = this->MakePlace(0.5 * (front.weight + behind.weight));
       (middle.isInFront ? front : behind) = middle;
@@ -108,18 +157,18 @@ private:
 
   void AddPolygon(const std::vector<Place>& polygon) const
   {
-    std::vector<Place> front;
+    std::vector<glm::dvec3> front;
     for (std::size_t i = 0; i < polygon.size(); ++i)
     {
       const Place& a = polygon[i];
       const Place& b = polygon[(i + 1) % polygon.size()];
       if (a.isInFront)
       {
-        front.push_back(a);
+        front.push_back(a.weight);
       }
       if (a.isInFront != b.isInFront)
       {
-        front.push_back(this->Cross(a, b));
+        front.push_back(this->Cross(a, b).weight);
       }
     }
     if (front.size() > 2)
@@ -128,20 +177,8 @@ private:
     }
   }
 
-  void AddCell(const std::vector<Place>& places) const
-  {
-    for (const Place& place : places)
-    {
-      ImagePoint point;
-      point.vertex = this->Geometry.PassThrough(this->GetLocal(place.weight));
-      point.SetSource(this->Primitive.ids, place.weight);
-      this->Images.connectivity.push_back(static_cast<std::int64_t>(this->Images.points.size()));
-      this->Images.points.push_back(point);
-    }
-    this->Images.EndCell(this->SourceCell, 1);
-  }
-
   const CurvedGeometry& Geometry;
+  double Tolerance;
   const MappedTriangle& Primitive;
   std::int64_t SourceCell;
   ImageMesh& Images;
@@ -151,20 +188,32 @@ private:
 }
 
 //------------------------------------------------------------------------------
-void AddFrontOfTriangle(const CurvedGeometry& geometry, const MappedTriangle& triangle,
-  std::int64_t sourceCell, ImageMesh& images)
+void AddFrontOfTriangle(const CurvedGeometry& geometry, double tolerance,
+  const MappedTriangle& triangle, std::int64_t sourceCell,
+  const std::vector<WaterlinePiece>& waterline, ImageMesh& images)
 {
-  const Cutter cutter(geometry, triangle, sourceCell, images);
-  cutter.CutTriangle({ cutter.MakePlace({ 1.0, 0.0, 0.0 }), cutter.MakePlace({ 0.0, 1.0, 0.0 }),
-                       cutter.MakePlace({ 0.0, 0.0, 1.0 }) },
-    0);
+  const Cutter cutter(geometry, tolerance, triangle, sourceCell, images);
+  const std::array<Place, 3> corners = { cutter.MakePlace({ 1.0, 0.0, 0.0 }),
+    cutter.MakePlace({ 0.0, 1.0, 0.0 }), cutter.MakePlace({ 0.0, 0.0, 1.0 }) };
+  std::vector<FrontOutline::Polygon> polygons;
+  FrontOutline outline(
+    waterline, { corners[0].isInFront, corners[1].isInFront, corners[2].isInFront });
+  if (!outline.Find(polygons))
+  {
+    cutter.CutTriangle(corners, 0);
+    return;
+  }
+  for (const FrontOutline::Polygon& polygon : polygons)
+  {
+    cutter.AddCell(polygon);
+  }
 }
 
 //------------------------------------------------------------------------------
 void AddFrontOfLine(const CurvedGeometry& geometry, const MappedTriangle& line,
   std::int64_t sourceCell, ImageMesh& images)
 {
-  const Cutter cutter(geometry, line, sourceCell, images);
+  const Cutter cutter(geometry, 0.0, line, sourceCell, images);
   cutter.CutLine(cutter.MakePlace({ 1.0, 0.0, 0.0 }), cutter.MakePlace({ 0.0, 1.0, 0.0 }), 0);
 }
 

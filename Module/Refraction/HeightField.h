@@ -27,6 +27,8 @@ struct HeightFrame
     return { glm::dot(this->First, v), glm::dot(this->Second, v) };
   }
   double GetHeight(const glm::dvec3& v) const { return glm::dot(this->Axis, v); }
+  /// Both: coordinates whose third axis is the axis.
+  glm::dvec3 ToFrame(const glm::dvec3& v) const { return { this->Project(v), this->GetHeight(v) }; }
 
   glm::dvec3 Axis{ 0.0, 0.0, 1.0 };
   glm::dvec3 First{ 1.0, 0.0, 0.0 };

@@ -209,6 +209,21 @@ ImagedPoint ObjectImages::GetImagedPoint(std::int64_t id) const
 }
 
 //------------------------------------------------------------------------------
+MappedTriangle ObjectImages::MakeTriangle(const std::array<std::int64_t, 3>& ids) const
+{
+  MappedTriangle triangle;
+  triangle.ids = ids;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto point = static_cast<std::size_t>(ids[k]);
+    triangle.corners[k] = this->GetPoint(ids[k]);
+    triangle.images[k] = { this->Images.data() + this->First[point],
+      this->GetNumberOfImages(point) };
+  }
+  return triangle;
+}
+
+//------------------------------------------------------------------------------
 // Each of the points, all of them the same way round.
 bool ObjectImages::HaveOneImage(const std::int64_t* ids, std::size_t count) const
 {
@@ -298,9 +313,8 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
         continue;
       }
       isDivided = false;
-      mapping.MapLine({ { ids[k], ids[k + 1], ids[k] },
-                        { this->GetPoint(ids[k]), this->GetPoint(ids[k + 1]), glm::dvec3(0.0) } },
-        cell, side == Side::Both, pieces);
+      mapping.MapLine(
+        this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), cell, side == Side::Both, pieces);
     }
     report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }
@@ -340,11 +354,8 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
       this->DividePolygon(ids, triangles, cell, division, pieces);
     for (std::size_t k = 0; k + 2 < triangles.size() && !isDivided; k += 3)
     {
-      const std::array<std::int64_t, 3> corner = { ids[triangles[k]], ids[triangles[k + 1]],
-        ids[triangles[k + 2]] };
       mapping.MapTriangle(
-        { corner,
-          { this->GetPoint(corner[0]), this->GetPoint(corner[1]), this->GetPoint(corner[2]) } },
+        this->MakeTriangle({ ids[triangles[k]], ids[triangles[k + 1]], ids[triangles[k + 2]] }),
         cell, side == Side::Both, pieces);
     }
     isMapped[i] = isDivided ? 0 : 1;

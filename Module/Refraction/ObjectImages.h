@@ -130,6 +130,7 @@ private:
   bool IsSimple(
     const std::int64_t* ids, std::size_t count, bool isClosed, CellDivision& division) const;
   ImagedPoint GetImagedPoint(std::int64_t id) const;
+  MappedTriangle MakeTriangle(const std::array<std::int64_t, 3>& ids) const;
   bool DividePolygon(const std::int64_t* ids, const std::vector<std::int64_t>& triangles,
     std::int64_t cell, CellDivision& division, ImageMesh& pieces) const;
   void AddWhole(

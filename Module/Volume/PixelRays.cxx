@@ -61,6 +61,16 @@ glm::ivec3 PixelRays::Place(const glm::ivec3& position) const
 }
 
 //------------------------------------------------------------------------------
+bool PixelRays::SeesAs(const PixelRays& other) const
+{
+  const auto same = [](const AffinePixelMap& a, const AffinePixelMap& b)
+  { return a.Base == b.Base && a.PerColumn == b.PerColumn && a.PerRow == b.PerRow; };
+  return this->PlacesAs(other) && this->Width == other.Width && this->Height == other.Height &&
+    same(this->Offset, other.Offset) && same(this->Slope, other.Slope) &&
+    this->Frame.Handedness == other.Frame.Handedness;
+}
+
+//------------------------------------------------------------------------------
 /** @param perDepth  the slope in the frame; the others are in grid units. */
 PacketRay PixelRays::MakeRay(
   const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const

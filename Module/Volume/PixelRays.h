@@ -47,6 +47,8 @@ public:
   glm::ivec3 Place(const glm::ivec3& position) const;
   /** Whether Place() is the same function. */
   bool PlacesAs(const PixelRays& other) const { return this->ToGrid == other.ToGrid; }
+  /** Whether the rays of all pixels are the same, and vertices lie the same about them. */
+  bool SeesAs(const PixelRays& other) const;
 
   /**
    * About the ray of pixel (i, j), counted from the image's centre, u = x - offset - slope * depth,

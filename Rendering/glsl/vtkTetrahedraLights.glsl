@@ -20,6 +20,17 @@ uniform vec4 lightCone[NUMBER_OF_LIGHTS];        // axis, cosine of the angle (-
 uniform vec4 lightFalloff[NUMBER_OF_LIGHTS];     // by distance^0, 1, 2; exponent in the cone
 #endif
 
+#if CELL_GRADIENTS
+uniform samplerBuffer cellGradients;
+
+// Gradient of the scalar in a cell; 0 in one without volume.
+vec3 cellGradient(int index)
+{
+  return texelFetch(cellGradients, index).xyz;
+}
+#endif
+
+#if CELL_SCALARS
 // The vertices of the cell that the ray is leaving; the three first are those of its exit.
 ivec4 cellVertices(int index)
 {
@@ -33,21 +44,6 @@ ivec4 cellVertices(int index)
 #endif
 }
 
-// Gradient of the scalar in that cell; 0 in one without volume.
-vec3 cellGradient(int index)
-{
-  ivec4 v = cellVertices(index);
-  vec4 p = texelFetch(vertices, v.x);
-  vec4 a = texelFetch(vertices, v.y) - p;
-  vec4 b = texelFetch(vertices, v.z) - p;
-  vec4 c = texelFetch(vertices, v.w) - p;
-  vec3 bc = cross(b.xyz, c.xyz);
-  float volume = dot(a.xyz, bc);
-  vec3 sum = a.w * bc + b.w * cross(c.xyz, a.xyz) + c.w * cross(a.xyz, b.xyz);
-  return volume != 0.0 ? sum / volume : vec3(0.0);
-}
-
-#if CELL_SCALARS
 // Normal of the face by which the ray entered that cell: of all vertices but the apex.
 vec3 faceNormal(int index)
 {

@@ -14,9 +14,7 @@
 #define FIRST_LINK 4
 #endif
 uniform isamplerBuffer cells;
-uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetrahedraEntryTilesFS
 #if BENDING
-uniform sampler3D bentTiles;         // the same for the rays behind the membrane
 uniform bool beginsInside;           // whether a ray behind the membrane may begin within the mesh
 uniform int membranePart;            // what is drawn, see MembranePart: all, or
 const int PART_IN_FRONT = 1;
@@ -49,8 +47,6 @@ uniform samplerBuffer vertexComponents;
 #if CELL_SCALARS
 uniform samplerBuffer cellScalars;   // one per cell; those of the vertices do not count
 #endif
-
-const int TILE_CAPACITY = 32;
 
 vec2 rayPixel;       // from the image's centre
 vec2 rayTilePixel;   // from its lower left corner
@@ -343,82 +339,7 @@ SeenFace seeFace(int index)
   return f;
 }
 
-// The next entries of the ray in the order of depth, then number; -1 where there are none.
-vec4 entryDepths;
-ivec4 entryFaces;
-bool moreEntries;
-
-bool isBefore(float depth, int number, float otherDepth, int otherNumber)
-{
-  return depth < otherDepth || (depth == otherDepth && number < otherNumber);
-}
-
-void insertEntry(float depth, int number)
-{
-  moreEntries = moreEntries || entryFaces.w >= 0;
-  for (int i = 0; i < 4; ++i)
-  {
-    if (entryFaces[i] < 0 || isBefore(depth, number, entryDepths[i], entryFaces[i]))
-    {
-      float otherDepth = entryDepths[i];
-      int otherNumber = entryFaces[i];
-      entryDepths[i] = depth;
-      entryFaces[i] = number;
-      depth = otherDepth;
-      number = otherNumber;
-      if (number < 0)
-      {
-        return;
-      }
-    }
-  }
-}
-
-vec4 fetchTile(ivec2 tile, int layer)
-{
-#if BENDING
-  if (rayIsBent)
-  {
-    return texelFetch(bentTiles, ivec3(tile, layer), 0);
-  }
-#endif
-  return texelFetch(entryTiles, ivec3(tile, layer), 0);
-}
-
-// Finds the next entries after (lastDepth, lastFace) among the faces listed for the ray's tile,
-// or among those of the tree if they did not fit.
-void collectEntries(float lastDepth, int lastFace)
-{
-  ivec2 tile = ivec2(rayTilePixel / tileSize);
-  bool listed = fetchTile(tile, 0).x > -1.5;
-  entryFaces = ivec4(-1);
-  entryDepths = vec4(0.0);
-  moreEntries = false;
-  int at = 0;
-  int end = listed ? TILE_CAPACITY : numberOfNodes;
-  while (at < end)
-  {
-    int candidate;
-    if (listed)
-    {
-      candidate = int(fetchTile(tile, at / 4)[at % 4]);
-      at = candidate < 0 ? end : at + 1;
-    }
-    else
-    {
-      meetsBox(at, vec2(0.0), vec2(0.0), vec2(lastDepth, endDepth), at, candidate);
-    }
-    if (candidate >= 0)
-    {
-      SeenFace f = seeFace(candidate);
-      if (f.entered && f.point.x < endDepth &&
-        isBefore(lastDepth, lastFace, f.point.x, candidate))
-      {
-        insertEntry(f.point.x, candidate);
-      }
-    }
-  }
-}
+//VTK::TetrahedraEntries::Dec
 
 // Puts the walk on a face.
 void enter(SeenFace f)
@@ -454,6 +375,9 @@ void enterFirst()
   enter(seeFace(entryFaces.x));
   entryFaces = ivec4(entryFaces.yzw, -1);
   entryDepths = vec4(entryDepths.yzw, 0.0);
+#if LONG_LISTS
+  entryPlaces = ivec4(entryPlaces.yzw, 0);
+#endif
 }
 
 //--- Limits ----------------------------------------------------------------------------------------
@@ -570,10 +494,7 @@ void castPart(float lastDepth, inout int steps, inout int lost)
   int lastFace = -1;
   while (!isRayDone() && depthNow < endDepth)
   {
-    if (entryFaces.x == -1 && moreEntries)
-    {
-      collectEntries(lastDepth, lastFace);
-    }
+    findEntries(lastDepth, lastFace);
     if (entryFaces.x == -1)
     {
       break;
@@ -639,8 +560,7 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * rayAlong);
   startRay();
   float lastDepth = BEFORE_EVERYTHING;
-  entryFaces = ivec4(-1);
-  moreEntries = meetsMesh;
+  startEntries(meetsMesh);
 #if BENDING
   rayIsBent = false;
   cycleStart = -1;

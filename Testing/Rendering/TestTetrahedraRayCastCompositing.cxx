@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of parts of a mesh that are composited afterwards in 8 bits, as IceT does for the ranks of
-// ParaView: no colour exceeds its opacity, and the result is the picture of the whole mesh.
+// Pictures of parts of a mesh that are composited afterwards in 8 bits, as IceT does for the ranks
+// of ParaView: no colour exceeds its opacity, and the result is the picture of the whole mesh.
 #include "RayCastScene.h"
 
 #include <vtkActor.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StressFunctions.h"
+#include "VolumeFunctions.h"
 
 #include "TestTransferFunctions.h"
 #include "VolumeScene.h"
@@ -50,16 +50,16 @@ public:
     return *this;
   }
 
-  StressFunction done() { return std::move(this->Nodes); }
+  VolumeFunction done() { return std::move(this->Nodes); }
 
 private:
   double Low;
   double Width;
   double Length;
-  StressFunction Nodes;
+  VolumeFunction Nodes;
 };
 
-StressFunction manyPoints(Builder builder)
+VolumeFunction manyPoints(Builder builder)
 {
   for (int i = 0; i < 1000; ++i)
   {
@@ -68,7 +68,7 @@ StressFunction manyPoints(Builder builder)
   return builder.done();
 }
 
-StressFunction manySteps(Builder builder)
+VolumeFunction manySteps(Builder builder)
 {
   for (int i = 0; i <= 20; ++i)
   {
@@ -125,7 +125,7 @@ std::vector<NamedFunction> degenerateFunctions(const double range[2], double len
 }
 
 //------------------------------------------------------------------------------
-StressFunction randomFunction(const double range[2], double length, StressRandom& random)
+VolumeFunction randomFunction(const double range[2], double length, RandomNumbers& random)
 {
   Builder builder(range, length);
   std::vector<double> places(1 + random.below(12));
@@ -147,7 +147,7 @@ StressFunction randomFunction(const double range[2], double length, StressRandom
 }
 
 //------------------------------------------------------------------------------
-double largestAttenuation(const StressFunction& function)
+double largestAttenuation(const VolumeFunction& function)
 {
   double largest = 0.0;
   for (const Node& node : function)
@@ -158,7 +158,7 @@ double largestAttenuation(const StressFunction& function)
 }
 
 //------------------------------------------------------------------------------
-double brightestColor(const StressFunction& function)
+double brightestColor(const VolumeFunction& function)
 {
   double brightest = 0.0;
   for (const Node& node : function)
@@ -170,7 +170,7 @@ double brightestColor(const StressFunction& function)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkVolumeProperty> toProperty(const StressFunction& function)
+vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeFunction& function)
 {
   // Opacities up to 1 over a unit distance that gives the largest attenuation.
   const double largest = largestAttenuation(function);

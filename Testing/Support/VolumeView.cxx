@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StressView.h"
+#include "VolumeView.h"
 
 #include <vtkCamera.h>
 #include <vtkMath.h>
 #include <vtkRenderer.h>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +17,7 @@ namespace test
 {
 
 //------------------------------------------------------------------------------
-StressView StressView::towards(
+VolumeView VolumeView::towards(
   const double bounds[6], const glm::dvec3& direction, bool parallel, double zoom)
 {
   const glm::dvec3 low(bounds[0], bounds[2], bounds[4]);
@@ -26,7 +25,7 @@ StressView StressView::towards(
   const double radius = 0.5 * glm::distance(low, high);
   // As seen from 3.8 radii away, half the height at unit depth is the tangent of 15 degrees.
   const double distance = radius / std::sin(vtkMath::RadiansFromDegrees(15.0));
-  StressView view;
+  VolumeView view;
   view.Focus = 0.5 * (low + high);
   view.Eye = view.Focus - distance * glm::normalize(direction);
   view.Up = std::fabs(glm::normalize(direction).y) > 0.9 ? glm::dvec3(0.0, 0.0, 1.0)
@@ -39,7 +38,7 @@ StressView StressView::towards(
 }
 
 //------------------------------------------------------------------------------
-StressView::Axes StressView::axes() const
+VolumeView::Axes VolumeView::axes() const
 {
   Axes axes;
   axes.Forward = glm::normalize(this->Focus - this->Eye);
@@ -49,20 +48,7 @@ StressView::Axes StressView::axes() const
 }
 
 //------------------------------------------------------------------------------
-RayFrameInput StressView::frameInput(int size) const
-{
-  RayFrameInput input;
-  input.WorldToView = glm::lookAt(this->Eye, this->Focus, this->Up);
-  const double h = this->HalfHeight;
-  input.ViewToClip = this->Parallel ? glm::ortho(-h, h, -h, h, this->Near, this->Far)
-                                    : glm::frustum(-h * this->Near, h * this->Near, -h * this->Near,
-                                        h * this->Near, this->Near, this->Far);
-  input.ImageSize = glm::dvec2(size);
-  return input;
-}
-
-//------------------------------------------------------------------------------
-reference::Ray StressView::ray(int x, int y, int size) const
+reference::Ray VolumeView::ray(int x, int y, int size) const
 {
   const Axes a = this->axes();
   const double u = this->HalfHeight * (2.0 * (x + 0.5) / size - 1.0);
@@ -79,7 +65,7 @@ reference::Ray StressView::ray(int x, int y, int size) const
 }
 
 //------------------------------------------------------------------------------
-void StressView::applyTo(vtkRenderer* renderer) const
+void VolumeView::applyTo(vtkRenderer* renderer) const
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->SetPosition(&this->Eye[0]);

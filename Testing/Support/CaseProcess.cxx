@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StressProcess.h"
+#include "CaseProcess.h"
 
 #include <poll.h>
 #include <signal.h>
@@ -75,7 +75,7 @@ int followChild(
 
 // Runs cases from the first one on; returns the case after the last one done or given up.
 int runSome(int cases, int first, int stride, double secondsPerCase, const CaseStart& start,
-  const CaseTaker& take, ProcessResult& result)
+  const CaseTaker& take, ProcessResult& result, const CaseLoss& lose)
 {
   int ends[2];
   if (pipe(ends) != 0)
@@ -114,6 +114,10 @@ int runSome(int cases, int first, int stride, double secondsPerCase, const CaseS
   result.note("case " + std::to_string(next) +
     (silent ? ": no end after " + std::to_string(secondsPerCase) + " s"
             : ": ended by signal or exit, status " + std::to_string(status)));
+  if (lose)
+  {
+    lose(next, silent);
+  }
   return next + stride;
 }
 
@@ -121,12 +125,12 @@ int runSome(int cases, int first, int stride, double secondsPerCase, const CaseS
 
 //------------------------------------------------------------------------------
 void runCases(int cases, int stride, double secondsPerCase, const CaseStart& start,
-  const CaseTaker& take, ProcessResult& result)
+  const CaseTaker& take, ProcessResult& result, const CaseLoss& lose)
 {
   const auto begin = std::chrono::steady_clock::now();
   for (int first = 0; first < cases;)
   {
-    first = runSome(cases, first, stride, secondsPerCase, start, take, result);
+    first = runSome(cases, first, stride, secondsPerCase, start, take, result, lose);
   }
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
   result.Seconds = time.count();

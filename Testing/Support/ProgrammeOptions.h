@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_StressOptions_h
-#define meniscus_StressOptions_h
+#ifndef meniscus_ProgrammeOptions_h
+#define meniscus_ProgrammeOptions_h
 
 #include <cstdint>
 #include <functional>
@@ -14,24 +14,24 @@ namespace meniscus
 namespace test
 {
 
-/// What every stress programme takes on its command line.
-struct StressOptions
+/// What every programme of random cases takes on its command line.
+struct ProgrammeOptions
 {
   double Intensity = 1.0;
   std::uint64_t Seed = 1;
-  std::string Family;
+  /// Name of the option that chooses groups of cases: "--family" or "--relation".
+  std::string GroupOption = "--family";
+  /// Text in the names of the groups to run; empty: all.
+  std::string Group;
   int Case = -1;
   double Seconds = 300.0;
   std::string Report;
 
-  bool has(const std::string& family) const
-  {
-    return family.find(this->Family) != std::string::npos;
-  }
+  bool has(const std::string& group) const { return group.find(this->Group) != std::string::npos; }
 };
 
 /// Their usage, one line each.
-extern const char* const StressOptionsUsage;
+extern const char* const ProgrammeUsage;
 
 template <typename Number>
 bool readNumber(const std::string& text, Number& value)
@@ -44,14 +44,14 @@ bool readNumber(const std::string& text, Number& value)
 using OptionReader = std::function<bool(const std::string& key, const std::string& value)>;
 
 /// Prints the tables and returns whether all is good.
-using StressRunner = std::function<bool(std::ostream&)>;
+using ProgrammeRunner = std::function<bool(std::ostream&)>;
 
 /**
  * main(): reads the options, calls `run` with a stream that goes to standard output and to the
  * file of --report, and returns the exit status: success if all is good.
  */
-int runStressProgramme(int argc, char* argv[], const char* usage, StressOptions& options,
-  const OptionReader& readMore, const StressRunner& run);
+int runProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
+  const OptionReader& readMore, const ProgrammeRunner& run);
 
 } // namespace test
 } // namespace meniscus

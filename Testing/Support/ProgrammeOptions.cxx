@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StressOptions.h"
+#include "ProgrammeOptions.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -11,17 +11,16 @@ namespace meniscus
 namespace test
 {
 
-const char* const StressOptionsUsage =
+const char* const ProgrammeUsage =
   "  --seed N           seed of all random numbers (default 1)\n"
-  "  --family TEXT      only families whose names contain the text\n"
-  "  --case N           only this case of each family\n"
+  "  --case N           only this case of each group\n"
   "  --seconds N        a case that takes longer is stuck (default 300)\n"
   "  --report FILE      write the tables to a file, too\n";
 
 namespace
 {
 
-bool readOption(const std::string& key, const std::string& value, StressOptions& options)
+bool readOption(const std::string& key, const std::string& value, ProgrammeOptions& options)
 {
   if (key == "--intensity")
     return readNumber(value, options.Intensity) && options.Intensity > 0.0;
@@ -31,9 +30,9 @@ bool readOption(const std::string& key, const std::string& value, StressOptions&
     return readNumber(value, options.Case);
   if (key == "--seconds")
     return readNumber(value, options.Seconds) && options.Seconds > 0.0;
-  std::string* const text = key == "--family" ? &options.Family
-    : key == "--report"                       ? &options.Report
-                                              : nullptr;
+  std::string* const text = key == options.GroupOption ? &options.Group
+    : key == "--report"                                ? &options.Report
+                                                       : nullptr;
   if (text)
   {
     *text = value;
@@ -44,22 +43,22 @@ bool readOption(const std::string& key, const std::string& value, StressOptions&
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-int runStressProgramme(int argc, char* argv[], const char* usage, StressOptions& options,
-  const OptionReader& readMore, const StressRunner& run)
+int runProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
+  const OptionReader& readMore, const ProgrammeRunner& run)
 {
   for (int i = 1; i < argc; i += 2)
   {
     const std::string key = argv[i];
     if (key == "--help" || key == "-h")
     {
-      std::cout << usage << StressOptionsUsage;
+      std::cout << usage << ProgrammeUsage;
       return EXIT_SUCCESS;
     }
     const std::string value = i + 1 < argc ? argv[i + 1] : "";
     if (i + 1 >= argc || !(readMore(key, value) || readOption(key, value, options)))
     {
       std::cerr << "unknown option, or bad or missing value: " << key << ' ' << value << '\n'
-                << usage << StressOptionsUsage;
+                << usage << ProgrammeUsage;
       return EXIT_FAILURE;
     }
   }

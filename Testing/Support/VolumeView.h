@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_StressView_h
-#define meniscus_StressView_h
+#ifndef meniscus_VolumeView_h
+#define meniscus_VolumeView_h
 
 #include "ReferenceCellTree.h"
-#include "Volume/RayFrame.h"
 
 #include <glm/vec3.hpp>
 
@@ -19,7 +18,7 @@ namespace test
  * One camera as the kernel, VTK and the reference take it, from the same parameters in double.
  * Images are square.
  */
-struct StressView
+struct VolumeView
 {
   glm::dvec3 Eye{ 0.0, 0.0, 1.0 };
   glm::dvec3 Focus{ 0.0 };
@@ -32,11 +31,8 @@ struct StressView
   double Far = 10.0;
 
   /// Looks at the middle of bounds from a direction. All of a ball around them is seen at zoom 1.
-  static StressView towards(
+  static VolumeView towards(
     const double bounds[6], const glm::dvec3& direction, bool parallel, double zoom = 1.0);
-
-  /// The input of ComputeRayFrame but for the mesh's centre and radius.
-  RayFrameInput frameInput(int size) const;
 
   /// Ray of a pixel of size x size pixels; its parameter is the depth.
   reference::Ray ray(int x, int y, int size) const;

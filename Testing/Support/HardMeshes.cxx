@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "StressMeshes.h"
+#include "HardMeshes.h"
 
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -69,7 +69,7 @@ struct Arrays
 };
 
 template <typename Sequence>
-void shuffle(Sequence& sequence, StressRandom& random)
+void shuffle(Sequence& sequence, RandomNumbers& random)
 {
   for (std::size_t i = sequence.size(); i > 1; --i)
   {
@@ -78,7 +78,7 @@ void shuffle(Sequence& sequence, StressRandom& random)
 }
 
 // Renumbers points and cells, and turns cells over.
-void scramble(Arrays& arrays, StressRandom& random)
+void scramble(Arrays& arrays, RandomNumbers& random)
 {
   std::vector<vtkIdType> newId(arrays.Points.size());
   std::iota(newId.begin(), newId.end(), vtkIdType(0));
@@ -101,7 +101,7 @@ void scramble(Arrays& arrays, StressRandom& random)
 }
 
 // A random part of a block whose points have moved, less than inverts a cell.
-Arrays partOfBlock(StressRandom& random)
+Arrays partOfBlock(RandomNumbers& random)
 {
   const int n = 1 + random.below(4);
   const Grid block = makeBlock(n, constantField(0.0));
@@ -127,7 +127,7 @@ Arrays partOfBlock(StressRandom& random)
 }
 
 // A tetrahedron with points put into random cells; cells become as thin as chance makes them.
-Arrays dividedTetrahedron(StressRandom& random)
+Arrays dividedTetrahedron(RandomNumbers& random)
 {
   Arrays arrays;
   arrays.Points = { { -1, -1, -1 }, { 1, -1, -0.9 }, { -0.2, 1, -1 }, { 0.1, 0, 1 } };
@@ -248,7 +248,7 @@ Grid makeSeam(int n)
 }
 
 //------------------------------------------------------------------------------
-Grid makeRandomMesh(StressRandom& random)
+Grid makeRandomMesh(RandomNumbers& random)
 {
   Arrays arrays = random.below(2) ? partOfBlock(random) : dividedTetrahedron(random);
   // A random affine map, stretched by up to 10.
@@ -275,7 +275,7 @@ Grid makeRandomMesh(StressRandom& random)
 }
 
 //------------------------------------------------------------------------------
-Grid makeSoup(StressRandom& random)
+Grid makeSoup(RandomNumbers& random)
 {
   Arrays arrays;
   const int points = 5 + random.below(20);

@@ -1,22 +1,31 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_StressFunctions_h
-#define meniscus_StressFunctions_h
+#ifndef meniscus_VolumeFunctions_h
+#define meniscus_VolumeFunctions_h
 
-#include "StressCase.h"
+#include "RandomNumbers.h"
+#include "ReferenceTransferFunction.h"
+
+#include <vtkSmartPointer.h>
 
 #include <string>
 #include <vector>
+
+class vtkUnstructuredGrid;
+class vtkVolumeProperty;
 
 namespace meniscus
 {
 namespace test
 {
 
+/// A transfer function as control points of attenuation and colour, ascending.
+using VolumeFunction = std::vector<reference::TransferFunctionNode>;
+
 struct NamedFunction
 {
   std::string Name;
-  StressFunction Function;
+  VolumeFunction Function;
 };
 
 /// Smooth, peaked, opaque and sparse functions of TestTransferFunctions.h for a mesh.
@@ -30,11 +39,14 @@ std::vector<NamedFunction> usualFunctions(vtkUnstructuredGrid* grid);
 std::vector<NamedFunction> degenerateFunctions(const double range[2], double length);
 
 /// Up to 12 points at random places, some jumps.
-StressFunction randomFunction(const double range[2], double length, StressRandom& random);
+VolumeFunction randomFunction(const double range[2], double length, RandomNumbers& random);
 
 /// Largest attenuation, and the largest value of a colour channel where there is attenuation.
-double largestAttenuation(const StressFunction& function);
-double brightestColor(const StressFunction& function);
+double largestAttenuation(const VolumeFunction& function);
+double brightestColor(const VolumeFunction& function);
+
+/// The property that gives a function's attenuation and colour.
+vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeFunction& function);
 
 } // namespace test
 } // namespace meniscus

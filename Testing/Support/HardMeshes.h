@@ -3,10 +3,10 @@
 /**
  * Meshes that are hard on a ray caster, on top of those of TestMeshes.h.
  */
-#ifndef meniscus_StressMeshes_h
-#define meniscus_StressMeshes_h
+#ifndef meniscus_HardMeshes_h
+#define meniscus_HardMeshes_h
 
-#include "StressCase.h"
+#include "RandomNumbers.h"
 #include "TestMeshes.h"
 
 #include <glm/vec3.hpp>
@@ -37,11 +37,11 @@ Grid makeSeam(int n);
  * at random, or a tetrahedron divided at random points over and over. Points, cells and the
  * vertices of each cell in random order.
  */
-Grid makeRandomMesh(StressRandom& random);
+Grid makeRandomMesh(RandomNumbers& random);
 
 /// Unconnected and wrongly connected cells: random vertices, repeated vertices and cells, faces of
 /// more than two cells.
-Grid makeSoup(StressRandom& random);
+Grid makeSoup(RandomNumbers& random);
 
 } // namespace test
 } // namespace meniscus

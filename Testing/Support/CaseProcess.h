@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_StressProcess_h
-#define meniscus_StressProcess_h
+#ifndef meniscus_CaseProcess_h
+#define meniscus_CaseProcess_h
 
 #include <cstddef>
 #include <functional>
@@ -42,12 +42,15 @@ using CaseStart = std::function<CaseWork()>;
 /// Takes a line that a case returned.
 using CaseTaker = std::function<void(int index, const std::string& line)>;
 
+/// Takes a case that came to no end: its process ended by itself, or is stuck.
+using CaseLoss = std::function<void(int index, bool stuck)>;
+
 /**
  * Runs every `stride`-th of `cases` cases in a process of its own, so that a crash or an endless
  * loop costs one case and is counted. A case may take the given time.
  */
 void runCases(int cases, int stride, double secondsPerCase, const CaseStart& start,
-  const CaseTaker& take, ProcessResult& result);
+  const CaseTaker& take, ProcessResult& result, const CaseLoss& lose = nullptr);
 
 } // namespace test
 } // namespace meniscus

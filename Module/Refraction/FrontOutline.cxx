@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/FrontOutline.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace meniscus
+{
+namespace
+{
+
+// Barycentric coordinates are up to 1 and rounded once or twice, a product of two differences of
+// them a few times as often.
+constexpr double Rounding = 16.0 * std::numeric_limits<double>::epsilon();
+
+bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
+{
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+// Twice the area in the second and third coordinates.
+double GetArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+  return (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
+}
+
+bool IsConvex(const FrontOutline::Polygon& polygon)
+{
+  const std::size_t count = polygon.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (GetArea(polygon[i], polygon[(i + 1) % count], polygon[(i + 2) % count]) < -Rounding)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Whether the triangle at corner `i` holds no other corner.
+bool IsEar(const FrontOutline::Polygon& polygon, std::size_t i)
+{
+  const std::size_t count = polygon.size();
+  const glm::dvec3& a = polygon[(i + count - 1) % count];
+  const glm::dvec3& b = polygon[i];
+  const glm::dvec3& c = polygon[(i + 1) % count];
+  if (GetArea(a, b, c) < 0.0)
+  {
+    return false;
+  }
+  return std::none_of(polygon.begin(), polygon.end(),
+    [&a, &b, &c](const glm::dvec3& p)
+    {
+      return p != a && p != b && p != c && GetArea(a, b, p) >= 0.0 && GetArea(b, c, p) >= 0.0 &&
+        GetArea(c, a, p) >= 0.0;
+    });
+}
+
+// Ear clipping; false if rounding leaves no ear.
+bool SplitPolygon(FrontOutline::Polygon polygon, std::vector<FrontOutline::Polygon>& parts)
+{
+  while (!IsConvex(polygon))
+  {
+    std::size_t ear = 0;
+    while (ear < polygon.size() && !IsEar(polygon, ear))
+    {
+      ++ear;
+    }
+    if (ear == polygon.size())
+    {
+      return false;
+    }
+    const std::size_t count = polygon.size();
+    parts.push_back(
+      { polygon[(ear + count - 1) % count], polygon[ear], polygon[(ear + 1) % count] });
+    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  parts.push_back(std::move(polygon));
+  return true;
+}
+
+}
+
+//------------------------------------------------------------------------------
+FrontOutline::FrontOutline(
+  const std::vector<WaterlinePiece>& waterline, const std::array<bool, 3>& isFront)
+  : IsFront(isFront)
+{
+  for (glm::length_t k = 0; k < 3; ++k)
+  {
+    glm::dvec3 weight(0.0);
+    weight[k] = 1.0;
+    this->FindNode(weight);
+  }
+  for (const WaterlinePiece& piece : waterline)
+  {
+    this->Broken = !this->Link(piece) || this->Broken;
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t FrontOutline::FindNode(const glm::dvec3& weight)
+{
+  const auto at = std::lower_bound(this->Sorted.begin(), this->Sorted.end(), weight,
+    [this](std::size_t node, const glm::dvec3& value)
+    { return IsBefore(this->Nodes[node].weight, value); });
+  if (at != this->Sorted.end() && this->Nodes[*at].weight == weight)
+  {
+    return *at;
+  }
+  this->Sorted.insert(at, this->Nodes.size());
+  this->Nodes.push_back({ weight });
+  return this->Nodes.size() - 1;
+}
+
+//------------------------------------------------------------------------------
+// The part behind is on the left of a piece, the part in front on the left of the way back.
+bool FrontOutline::Link(const WaterlinePiece& piece)
+{
+  const std::size_t from = this->FindNode(piece.to);
+  const std::size_t to = this->FindNode(piece.from);
+  if (from == to)
+  {
+    return true;
+  }
+  if (this->Nodes[from].next != None || this->Nodes[to].previous != None)
+  {
+    return false;
+  }
+  this->Nodes[from].next = to;
+  this->Nodes[to].previous = from;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// Links what is in front along the side from one corner to the next.
+bool FrontOutline::FollowSide(std::size_t from)
+{
+  const std::size_t to = (from + 1) % 3;
+  const auto outside = static_cast<glm::length_t>((from + 2) % 3);
+  const auto along = static_cast<glm::length_t>(to);
+  std::vector<std::size_t> stops;
+  for (std::size_t i = 3; i < this->Nodes.size(); ++i)
+  {
+    if (this->Nodes[i].weight[outside] == 0.0 && this->IsEnd(i))
+    {
+      stops.push_back(i);
+    }
+  }
+  std::sort(stops.begin(), stops.end(),
+    [this, along](std::size_t a, std::size_t b)
+    { return this->Nodes[a].weight[along] < this->Nodes[b].weight[along]; });
+  // The curve may meet a corner that counts as in front.
+  const bool isOdd = stops.size() % 2 == 1;
+  if (isOdd != (this->IsFront[from] != this->IsFront[to]))
+  {
+    const std::size_t corner = this->IsFront[from] ? from : to;
+    if (!this->IsFront[corner] || !this->IsEnd(corner))
+    {
+      return false;
+    }
+    stops.insert(corner == from ? stops.begin() : stops.end(), corner);
+  }
+  bool isFront = this->IsFront[from];
+  std::size_t last = from;
+  stops.push_back(to);
+  for (std::size_t i = 0; i < stops.size(); ++i)
+  {
+    const std::size_t stop = stops[i];
+    if (isFront && last != stop)
+    {
+      this->Nodes[last].along = stop;
+    }
+    const bool isCrossing = i + 1 < stops.size();
+    if (isCrossing && (this->Nodes[stop].next == None) == isFront)
+    {
+      return false; // the curve runs the other way
+    }
+    isFront = isFront != isCrossing;
+    last = stop;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool FrontOutline::CollectLoop(
+  std::size_t first, std::vector<bool>& seen, std::vector<Polygon>& polygons)
+{
+  Polygon loop;
+  double area = 0.0;
+  std::size_t node = first;
+  do
+  {
+    const std::size_t next =
+      this->Nodes[node].next != None ? this->Nodes[node].next : this->Nodes[node].along;
+    if (seen[node] || next == None)
+    {
+      return false;
+    }
+    seen[node] = true;
+    loop.push_back(this->Nodes[node].weight);
+    area += GetArea(loop.front(), this->Nodes[node].weight, this->Nodes[next].weight);
+    node = next;
+  } while (node != first);
+  if (loop.size() < 3 || std::fabs(area) <= Rounding)
+  {
+    return true;
+  }
+  return area > 0.0 && SplitPolygon(std::move(loop), polygons);
+}
+
+//------------------------------------------------------------------------------
+bool FrontOutline::Find(std::vector<Polygon>& polygons)
+{
+  polygons.clear();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    this->Broken = this->Broken || !this->FollowSide(k);
+  }
+  for (std::size_t i = 3; i < this->Nodes.size() && !this->Broken; ++i)
+  {
+    // An end that is on no side.
+    this->Broken = this->IsEnd(i) && this->Nodes[i].weight.x != 0.0 &&
+      this->Nodes[i].weight.y != 0.0 && this->Nodes[i].weight.z != 0.0;
+  }
+  std::vector<bool> seen(this->Nodes.size(), false);
+  for (std::size_t i = 0; i < this->Nodes.size() && !this->Broken; ++i)
+  {
+    const bool isIn = this->Nodes[i].next != None || this->Nodes[i].along != None;
+    this->Broken = isIn && !seen[i] && !this->CollectLoop(i, seen, polygons);
+  }
+  return !this->Broken;
+}
+
+}

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The search of a ray's next entries. With LONG_LISTS every tile has a list of faces of any length,
+// see Module/Volume/EntryTiles.h; else one of at most 32, and longer ones are searched in the tree.
+
+// The next entries of the ray in the order of depth, then number; -1 where there are none.
+vec4 entryDepths;
+ivec4 entryFaces;
+bool moreEntries;    // whether there may be others behind them
+
+bool isBefore(float depth, int number, float otherDepth, int otherNumber)
+{
+  return depth < otherDepth || (depth == otherDepth && number < otherNumber);
+}
+
+#if LONG_LISTS
+uniform isamplerBuffer tileBegins;   // where each tile's list begins, and where the last one ends
+uniform isamplerBuffer tileFaces;    // the lists, from near to far
+uniform samplerBuffer nearestDepths; // per face, a depth before which no ray enters by it
+uniform int tileColumns;
+
+int listAt;          // the first face that has not been looked at
+int listEnd;
+ivec4 entryPlaces;   // where the entries found are in the list
+// The entries found that there was no room for: the first place in the list, and the nearest of them.
+int leftOutAt;
+float leftOutDepth;
+int leftOutFace;
+
+// Sets up the search for the straight ray.
+void startEntries(bool meetsMesh)
+{
+  ivec2 tile = ivec2(rayTilePixel / tileSize);
+  int number = tile.y * tileColumns + tile.x;
+  listAt = meetsMesh ? texelFetch(tileBegins, number).r : 0;
+  listEnd = meetsMesh ? texelFetch(tileBegins, number + 1).r : 0;
+  entryFaces = ivec4(-1);
+  entryDepths = vec4(0.0);
+  entryPlaces = ivec4(0);
+  leftOutAt = listEnd;
+  leftOutDepth = AFTER_EVERYTHING;
+  leftOutFace = 0;
+  moreEntries = meetsMesh;
+}
+
+// Nothing behind an entry that is left out is taken, so that all of them come in order.
+void insertEntry(float depth, int number, int place)
+{
+  if (isBefore(depth, number, leftOutDepth, leftOutFace))
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      if (number >= 0 &&
+        (entryFaces[i] < 0 || isBefore(depth, number, entryDepths[i], entryFaces[i])))
+      {
+        float otherDepth = entryDepths[i];
+        int otherNumber = entryFaces[i];
+        int otherPlace = entryPlaces[i];
+        entryDepths[i] = depth;
+        entryFaces[i] = number;
+        entryPlaces[i] = place;
+        depth = otherDepth;
+        number = otherNumber;
+        place = otherPlace;
+      }
+    }
+    leftOutDepth = number >= 0 ? depth : leftOutDepth;
+    leftOutFace = number >= 0 ? number : leftOutFace;
+  }
+  leftOutAt = number >= 0 ? min(leftOutAt, place) : leftOutAt;
+}
+
+// Looks at faces of the list until none of the others can be entered before the next entry after
+// (lastDepth, lastFace).
+void findEntries(float lastDepth, int lastFace)
+{
+  // All entries before those left out have been taken.
+  bool again = entryFaces.x < 0 && leftOutAt < listEnd;
+  listAt = again ? leftOutAt : listAt;
+  leftOutAt = again ? listEnd : leftOutAt;
+  leftOutDepth = again ? AFTER_EVERYTHING : leftOutDepth;
+  bool looks = listAt < listEnd;
+  while (looks)
+  {
+    int candidate = texelFetch(tileFaces, listAt).r;
+    looks = texelFetch(nearestDepths, candidate).r <= (entryFaces.x < 0 ? endDepth : entryDepths.x);
+    if (looks)
+    {
+      SeenFace f = seeFace(candidate);
+      if (f.entered && f.point.x < endDepth &&
+        isBefore(lastDepth, lastFace, f.point.x, candidate))
+      {
+        insertEntry(f.point.x, candidate, listAt);
+      }
+      ++listAt;
+      looks = listAt < listEnd;
+    }
+  }
+}
+
+#else
+uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetrahedraEntryTilesFS
+#if BENDING
+uniform sampler3D bentTiles;         // the same for the rays behind the membrane
+#endif
+
+const int TILE_CAPACITY = 32;
+// Depths of the mesh are less than this in size.
+const float FARTHEST_DEPTH = 2.0;
+
+float searchReach;   // how far behind the last entry the tree is searched for the next
+
+void startEntries(bool meetsMesh)
+{
+  entryFaces = ivec4(-1);
+  entryDepths = vec4(0.0);
+  searchReach = 2.0 * FARTHEST_DEPTH;
+  moreEntries = meetsMesh;
+}
+
+void insertEntry(float depth, int number)
+{
+  moreEntries = moreEntries || entryFaces.w >= 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    if (entryFaces[i] < 0 || isBefore(depth, number, entryDepths[i], entryFaces[i]))
+    {
+      float otherDepth = entryDepths[i];
+      int otherNumber = entryFaces[i];
+      entryDepths[i] = depth;
+      entryFaces[i] = number;
+      depth = otherDepth;
+      number = otherNumber;
+      if (number < 0)
+      {
+        return;
+      }
+    }
+  }
+}
+
+vec4 fetchTile(ivec2 tile, int layer)
+{
+#if BENDING
+  if (rayIsBent)
+  {
+    return texelFetch(bentTiles, ivec3(tile, layer), 0);
+  }
+#endif
+  return texelFetch(entryTiles, ivec3(tile, layer), 0);
+}
+
+// Finds the next entries after (lastDepth, lastFace) among the faces listed for the ray's tile, or
+// among those of the tree if they did not fit. The tree is searched in a range of depths behind the
+// last entry that holds about four, so that each search looks at few of its nodes.
+void collectEntries(float lastDepth, int lastFace)
+{
+  ivec2 tile = ivec2(rayTilePixel / tileSize);
+  bool listed = fetchTile(tile, 0).x > -1.5;
+  float farthest = min(endDepth, FARTHEST_DEPTH);
+  float first = max(lastDepth, -FARTHEST_DEPTH);
+  vec2 range = vec2(first, listed ? farthest : min(first + searchReach, farthest));
+  entryFaces = ivec4(-1);
+  entryDepths = vec4(0.0);
+  moreEntries = false;
+  int at = 0;
+  int end = listed ? TILE_CAPACITY : numberOfNodes;
+  while (at < end)
+  {
+    int candidate;
+    if (listed)
+    {
+      candidate = int(fetchTile(tile, at / 4)[at % 4]);
+      at = candidate < 0 ? end : at + 1;
+    }
+    else
+    {
+      meetsBox(at, vec2(0.0), vec2(0.0), range, at, candidate);
+    }
+    if (candidate >= 0)
+    {
+      SeenFace f = seeFace(candidate);
+      if (f.entered && f.point.x < endDepth && f.point.x <= range.y &&
+        isBefore(lastDepth, lastFace, f.point.x, candidate))
+      {
+        insertEntry(f.point.x, candidate);
+      }
+    }
+    // Nothing in the range: on to the next, of twice the depth.
+    bool goesOn = at >= end && !listed && entryFaces.x < 0 && range.y < farthest;
+    searchReach = goesOn ? 2.0 * searchReach : searchReach;
+    range = goesOn ? vec2(range.y, min(range.y + searchReach, farthest)) : range;
+    at = goesOn ? 0 : at;
+  }
+  // DEPTH_MARGIN is what depths may be off by: less would not get on.
+  searchReach =
+    moreEntries ? max(2.0 * (entryDepths.w - first), DEPTH_MARGIN) : 2.0 * searchReach;
+  moreEntries = moreEntries || range.y < farthest;
+}
+
+void findEntries(float lastDepth, int lastFace)
+{
+  if (entryFaces.x == -1 && moreEntries)
+  {
+    collectEntries(lastDepth, lastFace);
+  }
+}
+#endif

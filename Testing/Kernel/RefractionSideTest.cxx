@@ -1,0 +1,453 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The side of a membrane that a point is on, against analytic surfaces.
+#include "MembraneMeshes.h"
+#include "Refraction/CurvedGeometry.h"
+#include "Refraction/PatchCrossings.h"
+#include "RefractionTestRandom.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace
+{
+
+using meniscus::CurvedGeometry;
+using meniscus::CurvedPatch;
+using meniscus::HeightFrame;
+using meniscus::MembraneStatus;
+using meniscus::PatchCrossing;
+using meniscus::PatchCrossings;
+using meniscus::reference::MembraneMesh;
+using meniscus::testing::Random;
+
+const double Pi = std::acos(-1.0);
+
+constexpr int Points = 20000;
+
+// A grid of rows of vertices around an axis, joined by two triangles a cell.
+void AddRings(MembraneMesh& mesh, std::int64_t first, int rings, int around)
+{
+  for (int ring = 0; ring + 1 < rings; ++ring)
+  {
+    for (int i = 0; i < around; ++i)
+    {
+      const std::int64_t a = first + ring * around + i;
+      const std::int64_t b = first + ring * around + (i + 1) % around;
+      mesh.AddTriangle(a, b, b + around);
+      mesh.AddTriangle(a, b + around, a + around);
+    }
+  }
+}
+
+// As vtkSphereSource makes it: poles on the z axis, `side` 1 for normals outwards.
+MembraneMesh MakeSphere(int resolution, double side)
+{
+  MembraneMesh mesh;
+  const auto add = [&mesh, side](const glm::dvec3& p) { mesh.AddPoint(p, side * p); };
+  add({ 0.0, 0.0, 1.0 });
+  add({ 0.0, 0.0, -1.0 });
+  for (int ring = 1; ring < resolution - 1; ++ring)
+  {
+    const double polar = Pi * ring / (resolution - 1);
+    for (int i = 0; i < resolution; ++i)
+    {
+      const double azimuth = 2.0 * Pi * i / resolution;
+      add({ std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+        std::cos(polar) });
+    }
+  }
+  AddRings(mesh, 2, resolution - 2, resolution);
+  const std::int64_t last = 2 + (resolution - 3) * resolution;
+  for (int i = 0; i < resolution; ++i)
+  {
+    const int next = (i + 1) % resolution;
+    mesh.AddTriangle(0, 2 + next, 2 + i);
+    mesh.AddTriangle(1, last + i, last + next);
+  }
+  return mesh;
+}
+
+// z = r^2 / 2 up to where it is `steepest` degrees steep, the front above; `sign` -1 turns it over.
+MembraneMesh MakeParaboloid(int rings, double steepest, double sign)
+{
+  MembraneMesh mesh;
+  const double rim = std::tan(steepest * Pi / 180.0);
+  const int around = 4 * rings;
+  mesh.AddPoint(glm::dvec3(0.0), { 0.0, 0.0, 1.0 });
+  for (int ring = 1; ring <= rings; ++ring)
+  {
+    const double r = rim * ring / rings;
+    for (int i = 0; i < around; ++i)
+    {
+      const double x = r * std::cos(2.0 * Pi * i / around);
+      const double y = r * std::sin(2.0 * Pi * i / around);
+      mesh.AddPoint(
+        { x, y, sign * r * r / 2.0 }, glm::normalize(glm::dvec3(-sign * x, -sign * y, 1.0)));
+    }
+  }
+  for (int i = 0; i < around; ++i)
+  {
+    mesh.AddTriangle(0, 1 + i, 1 + (i + 1) % around);
+  }
+  AddRings(mesh, 1, rings, around);
+  return mesh;
+}
+
+// A cylinder along z, 1 wide and high both ways: a side of `rings` rows, a cap below, one above
+// unless it is a cup. Normals are those of the sides, between two of them at the edges.
+MembraneMesh MakeCylinder(int rings, int around, double side, bool isCup)
+{
+  MembraneMesh mesh;
+  for (int ring = 0; ring < rings; ++ring)
+  {
+    const double z = -1.0 + 2.0 * ring / (rings - 1);
+    const double lean = ring == 0 ? -1.0 : (ring == rings - 1 && !isCup ? 1.0 : 0.0);
+    for (int i = 0; i < around; ++i)
+    {
+      const glm::dvec3 out(std::cos(2.0 * Pi * i / around), std::sin(2.0 * Pi * i / around), 0.0);
+      mesh.AddPoint(out + glm::dvec3(0.0, 0.0, z), side * (out + glm::dvec3(0.0, 0.0, lean)));
+    }
+  }
+  AddRings(mesh, 0, rings, around);
+  const std::int64_t middle = rings * around;
+  mesh.AddPoint({ 0.0, 0.0, -1.0 }, { 0.0, 0.0, -side });
+  mesh.AddPoint({ 0.0, 0.0, 1.0 }, { 0.0, 0.0, side });
+  for (int i = 0; i < around; ++i)
+  {
+    const int next = (i + 1) % around;
+    mesh.AddTriangle(middle, next, i);
+    if (!isCup)
+    {
+      mesh.AddTriangle(middle + 1, (rings - 1) * around + i, (rings - 1) * around + next);
+    }
+  }
+  return mesh;
+}
+
+MembraneMesh Transform(const MembraneMesh& mesh, const std::function<glm::dvec3(glm::dvec3)>& turn,
+  const glm::dvec3& offset)
+{
+  MembraneMesh result;
+  result.triangles = mesh.triangles;
+  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  {
+    const double* p = mesh.points.data() + i;
+    const double* n = mesh.normals.data() + i;
+    result.AddPoint(turn({ p[0], p[1], p[2] }) + offset, turn({ n[0], n[1], n[2] }));
+  }
+  return result;
+}
+
+// Oblique to everything.
+glm::dvec3 Turn(const glm::dvec3& v)
+{
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
+  return v * std::cos(1.1) + glm::cross(axis, v) * std::sin(1.1) +
+    axis * (glm::dot(axis, v) * (1.0 - std::cos(1.1)));
+}
+
+glm::dvec3 GetDirection(Random& random)
+{
+  glm::dvec3 v(0.0);
+  do
+  {
+    v = random.Point(glm::dvec3(-1.0), glm::dvec3(1.0));
+  } while (glm::length(v) > 1.0 || glm::length(v) < 0.1);
+  return glm::normalize(v);
+}
+
+void Set(CurvedGeometry& geometry, const MembraneMesh& mesh)
+{
+  ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+  geometry.PrepareSides();
+}
+
+bool IsInFront(const CurvedGeometry& geometry, const glm::dvec3& point)
+{
+  return geometry.IsInFront(point - geometry.GetMembrane().GetOrigin());
+}
+
+// Points that `make` draws and that are not in front, or are, as `front` says.
+int CountWrong(const CurvedGeometry& geometry, bool front,
+  const std::function<glm::dvec3(Random&)>& make, unsigned seed, int points = Points)
+{
+  Random random(seed);
+  int wrong = 0;
+  for (int i = 0; i < points; ++i)
+  {
+    wrong += IsInFront(geometry, make(random)) != front;
+  }
+  return wrong;
+}
+
+// Patches reproduce spheres, up to rounding: nothing but that limits how close a point may be.
+TEST(RefractionSide, OfClosedSpheres)
+{
+  for (const int resolution : { 16, 64, 192 })
+  {
+    for (const double side : { 1.0, -1.0 })
+    {
+      CurvedGeometry geometry;
+      Set(geometry, MakeSphere(resolution, side));
+      ASSERT_TRUE(geometry.IsClosed());
+      const auto at = [](double least, double most)
+      {
+        return [least, most](Random& random)
+        {
+          const double distance = random(least, most);
+          return GetDirection(random) * distance;
+        };
+      };
+      EXPECT_EQ(CountWrong(geometry, side < 0.0, at(0.0, 0.95), 1), 0) << resolution << " " << side;
+      EXPECT_EQ(CountWrong(geometry, side > 0.0, at(1.05, 3.0), 2, 5000), 0)
+        << resolution << " " << side;
+      EXPECT_EQ(CountWrong(geometry, side < 0.0, at(1.0 - 1e-9, 1.0 - 1e-9), 3, 2000), 0)
+        << resolution;
+      EXPECT_EQ(CountWrong(geometry, side > 0.0, at(1.0 + 1e-9, 1.0 + 1e-9), 4, 2000), 0)
+        << resolution;
+      EXPECT_EQ(geometry.GetNumberOfUndecidedSides(), 0);
+    }
+  }
+}
+
+// The farthest that patches are from the paraboloid, in height, where they are asked for.
+double MeasureError(const CurvedGeometry& geometry, double sign)
+{
+  double error = 0.0;
+  for (std::size_t i = 0; i < geometry.GetMembrane().GetFacets().size(); ++i)
+  {
+    const CurvedPatch patch = geometry.GetPatches().GetPatch(static_cast<std::int32_t>(i));
+    for (int k = 0; k <= 6; ++k)
+    {
+      for (int l = 0; l <= 6 - k; ++l)
+      {
+        const glm::dvec3 p =
+          patch.Evaluate({ k / 6.0, l / 6.0 }).position + geometry.GetMembrane().GetOrigin();
+        error = std::max(error, std::fabs(p.z - sign * (p.x * p.x + p.y * p.y) / 2.0));
+      }
+    }
+  }
+  return error;
+}
+
+TEST(RefractionSide, OfSteepBowlsAndDomes)
+{
+  for (const double steepest : { 45.0, 70.0, 80.0 })
+  {
+    for (const int rings : { 12, 40, 120 })
+    {
+      for (const double sign : { 1.0, -1.0 })
+      {
+        CurvedGeometry geometry;
+        Set(geometry, MakeParaboloid(rings, steepest, sign));
+        // Twice what was sampled; the rim's chords are within 1 - cos(pi / 48) of it.
+        const double error = 2.0 * MeasureError(geometry, sign);
+        const double rim = 0.99 * std::tan(steepest * Pi / 180.0);
+        ASSERT_LT(error, 0.1 * rim);
+        const auto at = [rim, sign, error](double up)
+        {
+          return [rim, sign, error, up](Random& random)
+          {
+            const double r = rim * std::sqrt(random(0.0, 1.0));
+            const double azimuth = random(0.0, 2.0 * Pi);
+            const double away = error + rim * random(0.0, 1.0);
+            return glm::dvec3(
+              r * std::cos(azimuth), r * std::sin(azimuth), sign * r * r / 2.0 + up * away);
+          };
+        };
+        EXPECT_EQ(CountWrong(geometry, true, at(1.0), 5), 0) << steepest << " " << rings;
+        EXPECT_EQ(CountWrong(geometry, false, at(-1.0), 6, 5000), 0) << steepest << " " << rings;
+        EXPECT_EQ(geometry.GetNumberOfUndecidedSides(), 0);
+      }
+    }
+  }
+}
+
+// Sides of a body that are parallel to any direction one may think of, points next to them.
+TEST(RefractionSide, OfCylinders)
+{
+  for (const bool isTurned : { false, true })
+  {
+    const auto turn = [isTurned](const glm::dvec3& v) { return isTurned ? Turn(v) : v; };
+    for (const bool isCup : { false, true })
+    {
+      CurvedGeometry geometry;
+      // The front of the cup is its inside.
+      const double side = isCup ? -1.0 : 1.0;
+      Set(geometry, Transform(MakeCylinder(20, 60, side, isCup), turn, { 1e3, 2e3, -3e3 }));
+      ASSERT_EQ(geometry.IsClosed(), !isCup);
+      // Patches of an arc of 6 degrees are within 1e-5 of it; rims are chords, 1.4e-3 inside.
+      const auto at = [&turn](double least, double most, double height)
+      {
+        return [&turn, least, most, height](Random& random)
+        {
+          const double r = random(least, most);
+          const double azimuth = random(0.0, 2.0 * Pi);
+          const double z = random(-height, height);
+          return turn({ r * std::cos(azimuth), r * std::sin(azimuth), z }) +
+            glm::dvec3(1e3, 2e3, -3e3);
+        };
+      };
+      EXPECT_EQ(CountWrong(geometry, isCup, at(0.0, 0.99, 0.99), 7, 4000), 0) << isCup << isTurned;
+      EXPECT_EQ(CountWrong(geometry, isCup, at(0.99, 0.998, 0.85), 8, 4000), 0)
+        << isCup << isTurned;
+      EXPECT_EQ(CountWrong(geometry, !isCup, at(1.002, 1.01, 0.85), 9, 4000), 0)
+        << isCup << isTurned;
+      EXPECT_EQ(CountWrong(geometry, !isCup, at(1.01, 2.0, 0.85), 10, 4000), 0)
+        << isCup << isTurned;
+      EXPECT_EQ(geometry.GetNumberOfUndecidedSides(), 0);
+    }
+  }
+}
+
+// Lines along the axis through vertices, edges and walls: points that lie over and under them.
+TEST(RefractionSide, OfPointsInLineWithVerticesAndWalls)
+{
+  // Walls of the cup, and points over, under and inside of them.
+  const MembraneMesh cup = MakeCylinder(9, 16, -1.0, true);
+  CurvedGeometry geometry;
+  Set(geometry, cup);
+  for (int i = 0; i < 16; ++i)
+  {
+    const double x = std::cos(2.0 * Pi * i / 16.0);
+    const double y = std::sin(2.0 * Pi * i / 16.0);
+    EXPECT_TRUE(IsInFront(geometry, { x, y, 1.5 }));
+    EXPECT_FALSE(IsInFront(geometry, { x, y, -1.5 }));
+    EXPECT_FALSE(IsInFront(geometry, { 0.5 * x, 0.5 * y, -1.5 }));
+    for (const double z : { -1.0, -0.5, -0.3, 0.0, 0.75 })
+    {
+      EXPECT_TRUE(IsInFront(geometry, { x, y, z })) << "on the wall " << i << " " << z;
+      EXPECT_TRUE(IsInFront(geometry, { (1.0 - 1e-9) * x, (1.0 - 1e-9) * y, z })) << i << " " << z;
+    }
+  }
+  // A sphere whose poles and meridians are in line with its axis, whatever that is.
+  CurvedGeometry sphere;
+  const glm::dvec3 axis(std::sqrt(1.0 / 6.0), std::sqrt(1.0 / 3.0), std::sqrt(0.5));
+  const HeightFrame frame(axis);
+  Set(sphere,
+    Transform(
+      MakeSphere(16, 1.0),
+      [&frame](const glm::dvec3& v)
+      { return v.x * frame.First + v.y * frame.Second + v.z * frame.Axis; },
+      glm::dvec3(0.0)));
+  const auto& positions = sphere.GetMembrane().GetPositions();
+  for (const glm::dvec3& p : positions)
+  {
+    const glm::dvec3 across = p - axis * glm::dot(axis, p);
+    const double half = std::sqrt(std::max(0.0, 1.0 - glm::dot(across, across)));
+    for (const double height : { -2.0, -1.5, -0.9, -0.1, 0.0, 0.2, 0.9, 1.4 })
+    {
+      if (std::fabs(std::fabs(height) - half) > 1e-6)
+      {
+        EXPECT_EQ(IsInFront(sphere, across + height * axis), std::fabs(height) > half)
+          << glm::length(across) << " " << height;
+      }
+    }
+    EXPECT_TRUE(IsInFront(sphere, p + sphere.GetMembrane().GetOrigin())) << "on the sphere";
+  }
+  EXPECT_EQ(geometry.GetNumberOfUndecidedSides(), 0);
+  EXPECT_EQ(sphere.GetNumberOfUndecidedSides(), 0);
+}
+
+// All crossings of a patch with lines in any direction, in closed form. Patches reproduce spheres.
+TEST(RefractionSide, FindsAllCrossingsOfAPatch)
+{
+  Random random(11);
+  const CurvedPatch sphere = []
+  {
+    CurvedGeometry geometry;
+    EXPECT_EQ(geometry.SetMembrane(MakeSphere(8, 1.0).AsInput()), MembraneStatus::Ready);
+    return geometry.GetPatches().GetPatch(12);
+  }();
+  int crossed[3] = { 0, 0, 0 };
+  for (int i = 0; i < Points; ++i)
+  {
+    const glm::dvec3 direction = GetDirection(random);
+    const HeightFrame frame(direction);
+    const glm::dvec2 b(random.Point(glm::dvec3(-0.2), glm::dvec3(1.0)));
+    const glm::dvec3 through = sphere.Evaluate(b).position;
+    const glm::dvec2 place = frame.Project(through);
+    const double squared = 1.0 - glm::dot(place, place);
+    int expected = 0;
+    bool isClose = squared < 1e-9;
+    for (const double sign : { -1.0, 1.0 })
+    {
+      const glm::dvec3 at = place.x * frame.First + place.y * frame.Second +
+        sign * std::sqrt(std::max(squared, 0.0)) * direction;
+      // Seen from the centre: a flat point times a number.
+      const glm::dvec3 u = sphere.corner[1] - sphere.corner[0];
+      const glm::dvec3 v = sphere.corner[2] - sphere.corner[0];
+      const glm::dvec3 n = glm::cross(u, v);
+      // The normal at b is that of the flat point, up to its length.
+      const glm::dvec3 flat = at * (glm::dot(n, sphere.corner[0]) / glm::dot(n, at));
+      const glm::dvec3 w = flat - sphere.corner[0];
+      const double x = glm::dot(glm::cross(w, v), n) / glm::dot(n, n);
+      const double y = glm::dot(glm::cross(u, w), n) / glm::dot(n, n);
+      const double least = std::min({ x, y, 1.0 - x - y });
+      expected += least > 0.0 && glm::dot(n, at) * glm::dot(n, sphere.corner[0]) > 0.0;
+      isClose = isClose || std::fabs(least) < 1e-7;
+    }
+    if (isClose)
+    {
+      continue;
+    }
+    PatchCrossings crossings(sphere, frame);
+    crossings.Find(place, -2.0, 2.0);
+    EXPECT_TRUE(crossings.IsComplete());
+    std::vector<double> heights;
+    for (const PatchCrossing& crossing : crossings)
+    {
+      EXPECT_NEAR(glm::dot(place, place) + crossing.height * crossing.height, 1.0, 1e-12);
+      EXPECT_EQ(crossing.side, crossing.height > 0.0 ? 1 : -1);
+      if (std::none_of(heights.begin(), heights.end(),
+            [&crossing](double h) { return std::fabs(h - crossing.height) < 1e-9; }))
+      {
+        heights.push_back(crossing.height);
+      }
+    }
+    EXPECT_EQ(static_cast<int>(heights.size()), expected) << i;
+    ++crossed[expected];
+  }
+  EXPECT_GT(crossed[0], 1000);
+  EXPECT_GT(crossed[1], 1000);
+  EXPECT_GT(crossed[2], 100);
+}
+
+// An eye on a patch is found out, however the patch bends; one next to it is not on it.
+TEST(RefractionSide, OfAnEyeOnAPatch)
+{
+  Random random(12);
+  const MembraneMesh meshes[] = { MakeSphere(8, 1.0), MakeParaboloid(4, 80.0, 1.0),
+    meniscus::reference::MakeRandom(8.0, 8, 1.5, 1.2, 13), MakeCylinder(4, 6, 1.0, false) };
+  for (const MembraneMesh& mesh : meshes)
+  {
+    CurvedGeometry geometry;
+    ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+    int found = 0;
+    int false_alarms = 0;
+    constexpr int eyes = 500;
+    for (int i = 0; i < eyes; ++i)
+    {
+      const double facets = static_cast<double>(geometry.GetMembrane().GetFacets().size());
+      const auto facet = static_cast<std::int32_t>(random(0.0, facets));
+      const CurvedPatch patch = geometry.GetPatches().GetPatch(facet);
+      const double x = random(0.01, 0.98);
+      const double y = random(0.01, 0.99 - x);
+      const meniscus::PatchPoint at = patch.Evaluate({ x, y });
+      const glm::dvec3 eye = at.position + geometry.GetMembrane().GetOrigin();
+      found += geometry.SetEye(eye, 1.0, 1.333) == meniscus::EyeStatus::OnTheMembrane;
+      // A rough surface may come back there: not on all of these.
+      const glm::dvec3 beside = eye + 1e-5 * glm::normalize(at.normal);
+      false_alarms += geometry.SetEye(beside, 1.0, 1.333) != meniscus::EyeStatus::Ready;
+    }
+    EXPECT_EQ(found, eyes);
+    EXPECT_EQ(false_alarms, 0);
+  }
+}
+
+}
