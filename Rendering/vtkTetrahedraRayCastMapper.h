@@ -13,14 +13,14 @@
  * vtkAbstractVolumeMapper. Of several components, SetVectorMode() or the colour function chooses
  * one or the length; or two to four mix as described below. Point data is linear within each
  * tetrahedron, cell data constant within each cell. Tetrahedra are drawn as they are; voxels,
- * hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells as tetrahedra that have the
- * same points and fit across shared faces, whatever the cells (each cell is pulled to its point of
- * the smallest number). Other cells are left out with a warning. Any mesh is accepted: non-convex,
- * disconnected, cyclic, with inverted cells, cells of zero volume, duplicate points and faces of
- * more than two cells. Cells that vtkGhostType marks as duplicate or hidden are left out. Cells
- * with a point index out of range, a repeated point or a point that is not finite are left out and
- * counted. Cells with a scalar that is not finite, their own or that of a vertex, are transparent
- * and counted.
+ * hexahedra, wedges, pyramids, prisms, polyhedra and cells of second order as tetrahedra that have
+ * the same points and fit across shared faces, whatever the cells (each cell is pulled to its point
+ * of the smallest number). Other cells are left out with a warning. Any mesh is accepted:
+ * non-convex, disconnected, cyclic, with inverted cells, cells of zero volume, duplicate points and
+ * faces of more than two cells. Cells that vtkGhostType marks as duplicate or hidden are left out.
+ * Cells with a point index out of range, a repeated point or a point that is not finite are left
+ * out and counted. Cells with a scalar that is not finite, their own or that of a vertex, are
+ * transparent and counted.
  *
  * Optical model, by SetBlendMode() with the numbers of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity becomes an
