@@ -288,7 +288,8 @@ std::vector<VolumeRelation> valueRelations()
           VolumeCase changed = trial.scene();
           changed.Storage.PointType = i & 1 ? VTK_FLOAT : VTK_DOUBLE;
           changed.Storage.ValueType = i & 2 ? VTK_FLOAT : VTK_DOUBLE;
-          trial.expectSame(changed, "single precision");
+          trial.expectSame(changed,
+            std::string(i & 1 ? "points" : "") + (i & 2 ? " values" : "") + " in single precision");
         }
       },
       roundToFloat },
