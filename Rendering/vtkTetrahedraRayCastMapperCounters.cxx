@@ -64,8 +64,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 {
-  return this->Internals->OpenGL.GetTables().GetUploadedBytes() +
-    this->Internals->Native.GetTableBytes();
+  return this->Internals->GetUploadedBytes();
 }
 
 //------------------------------------------------------------------------------

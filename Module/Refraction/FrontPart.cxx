@@ -211,8 +211,7 @@ void AddFrontOfTriangle(const CurvedGeometry& geometry, double tolerance,
   const std::array<Place, 3> corners = { cutter.MakePlace({ 1.0, 0.0, 0.0 }),
     cutter.MakePlace({ 0.0, 1.0, 0.0 }), cutter.MakePlace({ 0.0, 0.0, 1.0 }) };
   std::vector<FrontOutline::Polygon> polygons;
-  FrontOutline outline(
-    waterline, triangle.corners,
+  FrontOutline outline(waterline, triangle.corners,
     { corners[0].isInFront, corners[1].isInFront, corners[2].isInFront });
   if (!outline.Find(polygons))
   {

@@ -280,10 +280,9 @@ std::vector<WaterlinePiece> MembraneMapping::DropInFront(
         images.points.push_back(from.points[id]);
         if ((*context.isOnMembrane)[id] && (*context.isOnMembrane)[to])
         {
-          waterline.push_back(
-            { { weights[static_cast<std::size_t>(i - begin)], from.points[id].vertex.position },
-              { weights[static_cast<std::size_t>(next - begin)],
-                from.points[to].vertex.position } });
+          waterline.push_back({ { weights[static_cast<std::size_t>(i - begin)],
+                                  from.points[id].vertex.position },
+            { weights[static_cast<std::size_t>(next - begin)], from.points[to].vertex.position } });
         }
       }
       images.EndCell(from.sourceCells[cell], from.orientations[cell]);
@@ -569,7 +568,7 @@ ImagePoint MembraneMapping::MakePoint(
   }
   if (on.end >= 0)
   {
-    return this->MakeEnd(context, nodes, on.end, corner.b);
+    return this->MakeEnd(context, nodes, on.end);
   }
   if (on.node >= 0 && on.side < 0)
   {
@@ -582,12 +581,11 @@ ImagePoint MembraneMapping::MakePoint(
   const auto side = static_cast<std::size_t>(on.side);
   if (on.node >= 0)
   {
-    return this->MakeOnSide(
-      context, nodes, corner, side, nodes[static_cast<std::size_t>(on.node)].from);
+    return this->MakeOnSide(context, nodes, side, nodes[static_cast<std::size_t>(on.node)].from);
   }
   const Node& a = nodes[static_cast<std::size_t>((on.edge + 1) % 3)];
   const Node& b = nodes[static_cast<std::size_t>((on.edge + 2) % 3)];
-  return this->MakeOnSide(context, nodes, corner, side,
+  return this->MakeOnSide(context, nodes, side,
     MeetLine(SubCellSide(*context.patch, a.b, b.b), this->Geometry.GetMedia(),
       context.sides[side].line, a.from, b.from));
 }
@@ -595,7 +593,7 @@ ImagePoint MembraneMapping::MakePoint(
 //------------------------------------------------------------------------------
 // What a ray shows of a side that it meets. Beyond the side's end the piece ends with the side.
 ImagePoint MembraneMapping::MakeOnSide(const Context& context, const std::array<Node, 3>& nodes,
-  const Corner& corner, std::size_t side, const RefractedPoint& from) const
+  std::size_t side, const RefractedPoint& from) const
 {
   const Context::Side& on = context.sides[side];
   const double l = GetParameter(on.line, from);
@@ -603,7 +601,7 @@ ImagePoint MembraneMapping::MakeOnSide(const Context& context, const std::array<
   const auto last = static_cast<glm::length_t>((side + (on.turned ? 0 : 1)) % 3);
   if (!(l > 0.0 && l < 1.0))
   {
-    return this->MakeEnd(context, nodes, l < 0.5 ? first : last, corner.b);
+    return this->MakeEnd(context, nodes, l < 0.5 ? first : last);
   }
   glm::dvec3 weight(0.0);
   weight[first] = 1.0 - l;
@@ -613,13 +611,13 @@ ImagePoint MembraneMapping::MakeOnSide(const Context& context, const std::array<
 
 //------------------------------------------------------------------------------
 // The image of an end of the primitive: the known one that is seen in the sub-cell or next to it.
-// Near a caustic there may be none; then the end is drawn where interpolation has it.
-ImagePoint MembraneMapping::MakeEnd(const Context& context, const std::array<Node, 3>& nodes,
-  glm::length_t end, const glm::dvec2& guess) const
+// Near a caustic there may be none; then the end is drawn where interpolation has it. Nothing here
+// depends on the primitive's plane.
+ImagePoint MembraneMapping::MakeEnd(
+  const Context& context, const std::array<Node, 3>& nodes, glm::length_t end) const
 {
   const auto index = static_cast<std::size_t>(end);
-  glm::dvec3 weight(0.0);
-  weight[end] = 1.0;
+  const glm::dvec2 guess = GuessSight(nodes, context.corner[index]);
   PatchPoint at = context.patch->Evaluate(guess);
   const glm::dvec3 middle = at.position + this->Geometry.GetMembrane().GetOrigin();
   const auto isNear = [&nodes](double distance)
@@ -628,6 +626,8 @@ ImagePoint MembraneMapping::MakeEnd(const Context& context, const std::array<Nod
     { return glm::length(nodes[i].from.at.position - nodes[j].from.at.position); };
     return distance <= std::max({ size(0, 1), size(1, 2), size(2, 0) });
   };
+  glm::dvec3 weight(0.0);
+  weight[end] = 1.0;
   const KnownImages& known = context.primitive.images[index];
   const ImagePoint* nearest = std::min_element(known.first, known.first + known.count,
     [&middle](const ImagePoint& a, const ImagePoint& b) {
@@ -650,6 +650,29 @@ ImagePoint MembraneMapping::MakeEnd(const Context& context, const std::array<Nod
     at = root.at;
   }
   return this->Finish(context, at, context.corner[index], weight);
+}
+
+//------------------------------------------------------------------------------
+// Where the sub-cell's rays pass a point most closely, if their moments about it are linear.
+glm::dvec2 MembraneMapping::GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point)
+{
+  const auto moment = [&nodes, &point](std::size_t k)
+  { return glm::cross(nodes[k].from.at.position - point, nodes[k].from.ray); };
+  const glm::dvec3 first = moment(0);
+  const glm::dvec3 u = moment(1) - first;
+  const glm::dvec3 v = moment(2) - first;
+  const glm::dvec3 normal = glm::cross(u, v);
+  const double squared = glm::dot(normal, normal);
+  glm::dvec2 place(1.0 / 3.0);
+  if (squared > 0.0)
+  {
+    // The foot of 0 in the plane of the moments.
+    place = { glm::dot(glm::cross(v, first), normal) / squared,
+      glm::dot(glm::cross(first, u), normal) / squared };
+    place = glm::clamp(place, 0.0, 1.0);
+    place /= std::max(1.0, place.x + place.y);
+  }
+  return nodes[0].b + place.x * (nodes[1].b - nodes[0].b) + place.y * (nodes[2].b - nodes[0].b);
 }
 
 //------------------------------------------------------------------------------
@@ -680,27 +703,48 @@ ImagePoint MembraneMapping::MakeCrossing(const Context& context, const std::arra
   }
   if (side >= 0)
   {
-    const Context::Side& line = context.sides[static_cast<std::size_t>(side)];
-    const auto first = static_cast<glm::length_t>((side + (line.turned ? 1 : 0)) % 3);
-    const auto last = static_cast<glm::length_t>((side + (line.turned ? 0 : 1)) % 3);
-    glm::dvec2 b = corner.b;
-    double l = weight[last] / (weight[first] + weight[last]);
-    if (MeetPatchAgain(*context.patch, line.line, b, l))
+    ImagePoint point;
+    if (this->MakeSideCrossing(
+          context, nodes, static_cast<std::size_t>(side), corner.b, weight, point))
     {
-      if (!(l > 0.0 && l < 1.0))
-      {
-        return this->MakeEnd(context, nodes, l < 0.5 ? first : last, b);
-      }
-      weight = glm::dvec3(0.0);
-      weight[first] = 1.0 - l;
-      weight[last] = l;
-      return this->Finish(context, context.patch->Evaluate(b), line.line.GetPoint(l), weight);
+      return point;
     }
   }
   // A line that touches the patch: the guess, within the primitive.
   weight = glm::max(weight, glm::dvec3(0.0));
   weight /= weight.x + weight.y + weight.z;
   return this->Finish(context, context.patch->Evaluate(corner.b), context.GetPoint(weight), weight);
+}
+
+//------------------------------------------------------------------------------
+// Found from a guess, then again by the patch in which it is from a start that is the same for all
+// guesses: every primitive with the side takes the same point.
+bool MembraneMapping::MakeSideCrossing(const Context& context, const std::array<Node, 3>& nodes,
+  std::size_t side, const glm::dvec2& guess, const glm::dvec3& weight, ImagePoint& point) const
+{
+  const Context::Side& on = context.sides[side];
+  const auto first = static_cast<glm::length_t>((side + (on.turned ? 1 : 0)) % 3);
+  const auto last = static_cast<glm::length_t>((side + (on.turned ? 0 : 1)) % 3);
+  Context inPatch = context;
+  glm::dvec2 b = guess;
+  double l = weight[last] / (weight[first] + weight[last]);
+  if (!this->Geometry.MeetLine(on.line, context.patch->GetNormal(guess), inPatch.facet, b, l))
+  {
+    return false;
+  }
+  const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(inPatch.facet);
+  MeetPatchAgain(patch, on.line, b, l);
+  inPatch.patch = &patch;
+  if (!(l > 0.0 && l < 1.0))
+  {
+    point = this->MakeEnd(context, nodes, l < 0.5 ? first : last);
+    return true;
+  }
+  glm::dvec3 place(0.0);
+  place[first] = 1.0 - l;
+  place[last] = l;
+  point = this->Finish(inPatch, patch.Evaluate(b), on.line.GetPoint(l), place);
+  return true;
 }
 
 //------------------------------------------------------------------------------

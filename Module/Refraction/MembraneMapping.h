@@ -98,10 +98,13 @@ private:
     const Context& context, const std::array<Node, 3>& nodes, const Polygon& polygon) const;
   ImagePoint MakePoint(
     const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const;
-  ImagePoint MakeEnd(const Context& context, const std::array<Node, 3>& nodes, glm::length_t end,
-    const glm::dvec2& guess) const;
-  ImagePoint MakeOnSide(const Context& context, const std::array<Node, 3>& nodes,
-    const Corner& corner, std::size_t side, const RefractedPoint& from) const;
+  ImagePoint MakeEnd(
+    const Context& context, const std::array<Node, 3>& nodes, glm::length_t end) const;
+  static glm::dvec2 GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point);
+  ImagePoint MakeOnSide(const Context& context, const std::array<Node, 3>& nodes, std::size_t side,
+    const RefractedPoint& from) const;
+  bool MakeSideCrossing(const Context& context, const std::array<Node, 3>& nodes, std::size_t side,
+    const glm::dvec2& guess, const glm::dvec3& weight, ImagePoint& point) const;
   ImagePoint MakeCrossing(const Context& context, const std::array<Node, 3>& nodes,
     const Corner& corner, const Boundary& on) const;
   ImagePoint Finish(const Context& context, const PatchPoint& at, const glm::dvec3& point,

@@ -108,9 +108,7 @@ void SeamClosure::Collect(const ImageMesh& mesh, const std::vector<ImagePoint>& 
   {
     const std::int64_t end = mesh.ends[cell];
     const auto at = [&mesh, &points](std::int64_t i) -> const ImagePoint&
-    {
-      return points[static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(i)])];
-    };
+    { return points[static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(i)])]; };
     for (std::int64_t i = begin; i < end; ++i)
     {
       this->AddPart(mesh, cell, at(i), at(i + 1 < end ? i + 1 : begin));
@@ -133,8 +131,7 @@ void SeamClosure::AddPart(
   const ImagePoint& larger = count == 2 ? a : b;
   const ImagePoint& smaller = count == 2 ? b : a;
   const std::int64_t first = larger.source[0];
-  const std::int64_t last =
-    larger.GetNumberOfSources() == 2 ? larger.source[1] : smaller.source[0];
+  const std::int64_t last = larger.GetNumberOfSources() == 2 ? larger.source[1] : smaller.source[0];
   const auto isEnd = [first, last](std::int64_t id) { return id == first || id == last; };
   if (first == last || !isEnd(smaller.source[0]) ||
     (smaller.GetNumberOfSources() == 2 && !isEnd(smaller.source[1])))
@@ -183,8 +180,8 @@ void SeamClosure::CloseSeam(Parts parts, ImageMesh& mesh) const
     this->CloseLoops(std::move(parts), mesh);
     return;
   }
-  std::stable_sort(parts.begin(), parts.end(),
-    [](const Part* a, const Part* b) { return a->cell < b->cell; });
+  std::stable_sort(
+    parts.begin(), parts.end(), [](const Part* a, const Part* b) { return a->cell < b->cell; });
   const auto findEnd = [&parts](Parts::iterator begin)
   {
     return std::find_if(
@@ -255,8 +252,7 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
 bool SeamClosure::IsThin(const Loop& loop) const
 {
   const glm::dvec3 begin = FindFarthest(loop, *loop.front())->vertex.position;
-  const glm::dvec3 end =
-    FindFarthest(loop, *FindFarthest(loop, *loop.front()))->vertex.position;
+  const glm::dvec3 end = FindFarthest(loop, *FindFarthest(loop, *loop.front()))->vertex.position;
   const glm::dvec3 across = glm::cross(begin - this->Eye, end - this->Eye);
   const double width = Widest * this->Tolerance * glm::length(across);
   return std::all_of(loop.begin(), loop.end(),

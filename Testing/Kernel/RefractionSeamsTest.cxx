@@ -60,8 +60,8 @@ Object MakeBall(const glm::dvec3& center, double radius, int rings)
       const double turn = 2.0 * Pi * j / columns;
       ball.points.push_back(center +
         radius *
-          glm::dvec3(std::sin(polar) * std::cos(turn), std::cos(polar),
-            std::sin(polar) * std::sin(turn)));
+          glm::dvec3(
+            std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)));
     }
   }
   ball.points.push_back(center - glm::dvec3(0.0, radius, 0.0));
@@ -153,7 +153,8 @@ std::size_t CountOpenSides(const Drawn& drawn, bool print = false)
     {
       for (const ImagePoint& p : side.second)
       {
-        std::printf("[%.6f %.6f %.6f] sight %.4f %.4f %.4f f %d: %lld %.17g %lld %.17g %lld %.17g | ",
+        std::printf(
+          "[%.6f %.6f %.6f] sight %.4f %.4f %.4f f %d: %lld %.17g %lld %.17g %lld %.17g | ",
           p.vertex.position.x, p.vertex.position.y, p.vertex.position.z, p.vertex.sightPoint.x,
           p.vertex.sightPoint.y, p.vertex.sightPoint.z, p.vertex.facet, (long long)p.source[0],
           p.weight[0], (long long)p.source[1], p.weight[1], (long long)p.source[2], p.weight[2]);
@@ -184,9 +185,8 @@ const SeamCase Cases[] = {
     { 13.0, 251.0, 37.0 }, { 3.1, -147.3, 1.7 }, 31.7, 24 },
   { "flat, ball half in water", { HeightField::Shape::Waves, 400.0, 0.0, 0.03 * Pi, 1.0, 1.333 },
     12, { 13.0, 151.0, 37.0 }, { 3.1, 1.7, 1.7 }, 31.7, 8 },
-  { "waves, ball half in water",
-    { HeightField::Shape::Waves, 400.0, 3.0, 0.03 * Pi, 1.0, 1.333 }, 64, { 13.0, 251.0, 37.0 },
-    { 3.1, 1.7, 1.7 }, 31.7, 8 },
+  { "waves, ball half in water", { HeightField::Shape::Waves, 400.0, 3.0, 0.03 * Pi, 1.0, 1.333 },
+    64, { 13.0, 251.0, 37.0 }, { 3.1, 1.7, 1.7 }, 31.7, 8 },
 };
 
 class RefractionSeams : public ::testing::TestWithParam<SeamCase>
@@ -197,11 +197,12 @@ TEST_P(RefractionSeams, Print)
 {
   const SeamCase& test = GetParam();
   CurvedGeometry geometry;
-  ASSERT_EQ(
-    geometry.SetMembrane(test.field.MakeMesh(test.cells).AsInput()), meniscus::MembraneStatus::Ready);
+  ASSERT_EQ(geometry.SetMembrane(test.field.MakeMesh(test.cells).AsInput()),
+    meniscus::MembraneStatus::Ready);
   ASSERT_EQ(geometry.SetEye(test.eye, test.field.exterior, test.field.interior),
     meniscus::EyeStatus::Ready);
-  const Drawn drawn = Draw(geometry, MakeBall(test.center, test.radius, test.rings), 0.005 * Pi / 180);
+  const Drawn drawn =
+    Draw(geometry, MakeBall(test.center, test.radius, test.rings), 0.005 * Pi / 180);
   std::printf("%s: whole %zu divided %zu mapped %zu without %zu; pieces %zu, open %zu\n", test.name,
     drawn.report.whole, drawn.report.divided, drawn.report.mapped, drawn.report.without,
     drawn.pieces.GetNumberOfCells(), CountOpenSides(drawn, std::getenv("SHOW") != nullptr));
