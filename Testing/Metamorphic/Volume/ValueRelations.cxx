@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeRelation.h"
 
+#include <vtkColorTransferFunction.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkTetrahedraRayCastMapper.h>
 #include <vtkVolume.h>
@@ -131,7 +132,13 @@ void scaleUnit(VolumeCase& test, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-// One component of several, chosen by the mapper, against an array of it alone.
+vtkColorTransferFunction* colorsOf(VolumeTrial& trial)
+{
+  return trial.stage().scene().volume()->GetProperty()->GetRGBTransferFunction();
+}
+
+// One component of several, chosen by the mapper or by the function of colours, against an array of
+// it alone.
 void checkComponent(VolumeTrial& trial)
 {
   VolumeCase changed = trial.scene();
@@ -153,6 +160,11 @@ void checkComponent(VolumeTrial& trial)
   trial.stage().mapper()->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
   trial.stage().mapper()->SetVectorComponent(chosen);
   trial.expectSame(trial.stage().render(), "component " + std::to_string(chosen) + " of 3");
+  trial.stage().place(changed);
+  vtkColorTransferFunction* colors = colorsOf(trial);
+  colors->SetVectorModeToComponent();
+  colors->SetVectorComponent(chosen);
+  trial.expectSame(trial.stage().render(), "component " + std::to_string(chosen) + " by colours");
 }
 
 // The length of vectors against an array of it.
@@ -175,6 +187,9 @@ void checkMagnitude(VolumeTrial& trial)
   trial.stage().place(changed);
   trial.stage().mapper()->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE);
   trial.expectSame(trial.stage().render(), "length of vectors");
+  trial.stage().place(changed);
+  colorsOf(trial)->SetVectorModeToMagnitude();
+  trial.expectSame(trial.stage().render(), "length of vectors by colours");
 }
 
 // Lengths are not negative.
@@ -288,7 +303,8 @@ std::vector<VolumeRelation> valueRelations()
           VolumeCase changed = trial.scene();
           changed.Storage.PointType = i & 1 ? VTK_FLOAT : VTK_DOUBLE;
           changed.Storage.ValueType = i & 2 ? VTK_FLOAT : VTK_DOUBLE;
-          trial.expectSame(changed, "single precision");
+          trial.expectSame(changed,
+            std::string(i & 1 ? "points" : "") + (i & 2 ? " values" : "") + " in single precision");
         }
       },
       roundToFloat },
