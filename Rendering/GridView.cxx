@@ -352,6 +352,7 @@ GridView::GridView(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
   {
     this->CopyPoints(grids, loop);
   }
+  this->View.MatchPositions = grids.size() > 1;
   auto* single = grids.size() == 1 ? vtkUnstructuredGrid::SafeDownCast(grids[0]) : nullptr;
   if (single && HasOnlyTetrahedra(single))
   {

@@ -451,6 +451,7 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateRays(
   { program->SetUniform3f(name, glm::value_ptr(glm::vec3(value))); };
 
   program->SetUniformf("tileSize", static_cast<float>(TileSize));
+  program->SetUniformf("longListTileSize", static_cast<float>(LongListTileSize));
   set2("imageCenter", 0.5 * glm::dvec2(this->Size[0], this->Size[1]));
   set3("rowX", rays.RowX);
   set3("rowY", rays.RowY);

@@ -186,8 +186,9 @@ bool RayCastPipeline::UpdateEntryTiles(const RayCastFrame& frame)
   OpenGLTables& tables = this->OpenGL.GetTables();
   if (this->LinksOfTiles != this->Input.GetLinkChanges() || !rays.SeesAs(this->RaysOfTiles))
   {
-    this->TilesFit = this->Tiles.Build(this->Input.GetMesh(),
-      this->Input.GetBoundaryTree().GetFaces(), rays, RayCastOpenGL::TileSize, ThreadedLoop);
+    this->TilesFit =
+      this->Tiles.Build(this->Input.GetMesh(), this->Input.GetBoundaryTree().GetFaces(), rays,
+        RayCastOpenGL::LongListTileSize, ThreadedLoop);
     this->RaysOfTiles = rays;
     this->LinksOfTiles = this->Input.GetLinkChanges();
     ++this->EntryListBuilds;

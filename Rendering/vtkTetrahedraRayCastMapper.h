@@ -375,7 +375,9 @@ public:
    * scalars become visible), computations of vertex gradients, builds of the pre-integration table;
    * of a membrane, times that its shape was taken in and fitted, and that it was found where the
    * rays meet it (when shape, view or indices changed), and that the graphics device listed where
-   * they enter the mesh behind it (then, and for other active cells).
+   * they enter the mesh behind it (then, and for other active cells); times that the processor
+   * listed for shaders where rays enter a mesh of which they cross many layers, such as cells that
+   * share no points (for other rays or other active cells).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
@@ -386,6 +388,7 @@ public:
   vtkTypeInt64 GetNumberOfMembraneBuilds();
   vtkTypeInt64 GetNumberOfSightUpdates();
   vtkTypeInt64 GetNumberOfBentEntryLists();
+  vtkTypeInt64 GetNumberOfEntryListBuilds();
   ///@}
 
   /**
@@ -414,7 +417,7 @@ public:
    * Of the current mesh: tetrahedra that rays can visit, which are those that the transfer function
    * lets be seen and whose scalars are finite; tetrahedra with a scalar that is not finite; and
    * tetrahedra left out because of a point index out of range, a repeated point or a point that is
-   * not finite.
+   * not finite, or because they have the points of one before them.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
   vtkTypeInt64 GetNumberOfTransparentCells();

@@ -21,7 +21,7 @@ namespace
 {
 
 /** Rows of tiles that a thread fills at a time. */
-constexpr std::size_t RowsPerBand = 4;
+constexpr int RowsPerBand = 8;
 
 constexpr std::int64_t MostFaces = std::int64_t{ 1 } << 26;
 
@@ -188,7 +188,8 @@ std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
           // Vertices that are off by less than `Error` span a triangle within that of the face's.
           const glm::dvec3& edge = face.Edges[k];
           const double reach = 0.5 * tileSize * (std::abs(edge[1]) + std::abs(edge[2])) +
-            (bounded ? seen.Error * std::hypot(edge[1], edge[2]) : 0.0) + ProjectedFaces::Margin;
+            (bounded ? seen.Error * std::sqrt(edge[1] * edge[1] + edge[2] * edge[2]) : 0.0) +
+            ProjectedFaces::Margin;
           outline.Constant[k] =
             bounded ? edge[0] + first.x * edge[1] + first.y * edge[2] + reach : 0.0;
           outline.PerColumn[k] = bounded ? tileSize * edge[1] : 0.0;
@@ -235,16 +236,35 @@ void EntryTiles::SortByDepth(std::vector<Outline>& outlines, const RangeLoop& lo
 }
 
 //------------------------------------------------------------------------------
-/** Twice over all faces, by bands of rows: counts them, then fills the lists. */
+/** Indices of the outlines that meet each band of rows of tiles, in their order. */
+std::vector<std::vector<std::int32_t>> EntryTiles::DealToBands(
+  const std::vector<Outline>& outlines) const
+{
+  std::vector<std::vector<std::int32_t>> bands(
+    static_cast<std::size_t>((this->Rows + RowsPerBand - 1) / RowsPerBand));
+  for (std::size_t i = 0; i < outlines.size(); ++i)
+  {
+    const int last = (outlines[i].Tiles.Top - 1) / RowsPerBand;
+    for (int band = outlines[i].Tiles.Bottom / RowsPerBand; band <= last; ++band)
+    {
+      bands[static_cast<std::size_t>(band)].push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  return bands;
+}
+
+//------------------------------------------------------------------------------
+/** Twice over the faces of each band: counts them, then fills the lists. */
 bool EntryTiles::FillTiles(const std::vector<Outline>& outlines, const RangeLoop& loop)
 {
-  const std::size_t bands = (static_cast<std::size_t>(this->Rows) + RowsPerBand - 1) / RowsPerBand;
+  const std::vector<std::vector<std::int32_t>> bands = this->DealToBands(outlines);
   const auto forEachTile = [&](std::size_t band, const auto& body)
   {
-    const auto firstRow = static_cast<int>(band * RowsPerBand);
-    const int lastRow = std::min(firstRow + static_cast<int>(RowsPerBand), this->Rows);
-    for (const Outline& outline : outlines)
+    const int firstRow = static_cast<int>(band) * RowsPerBand;
+    const int lastRow = std::min(firstRow + RowsPerBand, this->Rows);
+    for (const std::int32_t index : bands[band])
     {
+      const Outline& outline = outlines[static_cast<std::size_t>(index)];
       const int last = std::min(lastRow, outline.Tiles.Top);
       for (int row = std::max(firstRow, outline.Tiles.Bottom); row < last; ++row)
       {
@@ -258,7 +278,7 @@ bool EntryTiles::FillTiles(const std::vector<Outline>& outlines, const RangeLoop
   };
   const auto forEachBand = [&](const auto& body)
   {
-    loop(bands,
+    loop(bands.size(),
       [&](std::size_t first, std::size_t last)
       {
         for (std::size_t band = first; band < last; ++band)

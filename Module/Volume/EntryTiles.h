@@ -74,6 +74,7 @@ private:
   std::vector<Outline> OutlineFaces(
     const ProjectedFaces& projected, int tileSize, const RangeLoop& loop) const;
   void SortByDepth(std::vector<Outline>& outlines, const RangeLoop& loop);
+  std::vector<std::vector<std::int32_t>> DealToBands(const std::vector<Outline>& outlines) const;
   bool FillTiles(const std::vector<Outline>& outlines, const RangeLoop& loop);
 
   int Columns = 0;

@@ -19,19 +19,29 @@ uniform isamplerBuffer tileBegins;   // where each tile's list begins, and where
 uniform isamplerBuffer tileFaces;    // the lists, from near to far
 uniform samplerBuffer nearestDepths; // per face, a depth before which no ray enters by it
 uniform int tileColumns;
+uniform float longListTileSize;
 
 int listAt;          // the first face that has not been looked at
 int listEnd;
+int listFace;        // that face and where it may be entered; AFTER_EVERYTHING behind the list
+float listDepth;
 ivec4 entryPlaces;   // where the entries found are in the list
 // The entries found that there was no room for: the first place in the list, and the nearest of them.
 int leftOutAt;
 float leftOutDepth;
 int leftOutFace;
 
+void fetchListed()
+{
+  bool within = listAt < listEnd;
+  listFace = within ? texelFetch(tileFaces, listAt).r : 0;
+  listDepth = within ? texelFetch(nearestDepths, listFace).r : AFTER_EVERYTHING;
+}
+
 // Sets up the search for the straight ray.
 void startEntries(bool meetsMesh)
 {
-  ivec2 tile = ivec2(rayTilePixel / tileSize);
+  ivec2 tile = ivec2(rayTilePixel / longListTileSize);
   int number = tile.y * tileColumns + tile.x;
   listAt = meetsMesh ? texelFetch(tileBegins, number).r : 0;
   listEnd = meetsMesh ? texelFetch(tileBegins, number + 1).r : 0;
@@ -42,6 +52,7 @@ void startEntries(bool meetsMesh)
   leftOutDepth = AFTER_EVERYTHING;
   leftOutFace = 0;
   moreEntries = meetsMesh;
+  fetchListed();
 }
 
 // Nothing behind an entry that is left out is taken, so that all of them come in order.
@@ -72,31 +83,32 @@ void insertEntry(float depth, int number, int place)
 }
 
 // Looks at faces of the list until none of the others can be entered before the next entry after
-// (lastDepth, lastFace).
+// (lastDepth, lastFace). The condition comes last, as in walk().
 void findEntries(float lastDepth, int lastFace)
 {
-  // All entries before those left out have been taken.
-  bool again = entryFaces.x < 0 && leftOutAt < listEnd;
-  listAt = again ? leftOutAt : listAt;
-  leftOutAt = again ? listEnd : leftOutAt;
-  leftOutDepth = again ? AFTER_EVERYTHING : leftOutDepth;
-  bool looks = listAt < listEnd;
-  while (looks)
+  if (entryFaces.x < 0 && leftOutAt < listEnd)
   {
-    int candidate = texelFetch(tileFaces, listAt).r;
-    looks = texelFetch(nearestDepths, candidate).r <= (entryFaces.x < 0 ? endDepth : entryDepths.x);
+    // All entries before those left out have been taken.
+    listAt = leftOutAt;
+    leftOutAt = listEnd;
+    leftOutDepth = AFTER_EVERYTHING;
+    fetchListed();
+  }
+  bool looks = listDepth < endDepth && (entryFaces.x < 0 || listDepth <= entryDepths.x);
+  do
+  {
     if (looks)
     {
-      SeenFace f = seeFace(candidate);
-      if (f.entered && f.point.x < endDepth &&
-        isBefore(lastDepth, lastFace, f.point.x, candidate))
+      SeenFace f = seeFace(listFace);
+      if (f.entered && f.point.x < endDepth && isBefore(lastDepth, lastFace, f.point.x, listFace))
       {
-        insertEntry(f.point.x, candidate, listAt);
+        insertEntry(f.point.x, listFace, listAt);
       }
       ++listAt;
-      looks = listAt < listEnd;
+      fetchListed();
+      looks = listDepth < endDepth && (entryFaces.x < 0 || listDepth <= entryDepths.x);
     }
-  }
+  } while (looks);
 }
 
 #else

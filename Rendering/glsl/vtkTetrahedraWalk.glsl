@@ -260,7 +260,9 @@ bool walk(inout int steps)
 #endif
   // What is read after the loop goes around it: Mesa's llvmpipe (22.3) lets rays that are done go on
   // computing values that are only used behind a loop, and those come out wrong (test of lost rays).
-  while (!ended && !goesRound && steps < limit)
+  // There a loop also takes a turn for nothing if its condition comes first, which in meshes of cells
+  // that share no points is every second.
+  do
   {
     if (!pending)
     {
@@ -271,7 +273,7 @@ bool walk(inout int steps)
     {
       pending = !integratePiece();
     }
-    ended = isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
+    ended = ended || isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
     if (!pending)
     {
       cell = link >> 2;
@@ -280,7 +282,7 @@ bool walk(inout int steps)
       goesRound = !ended && link == cycleStart;
 #endif
     }
-  }
+  } while (!ended && !goesRound && steps < limit);
   return ended;
 }
 
