@@ -111,6 +111,7 @@ std::size_t FrontOutline::FindNode(const TrianglePoint& place)
     { return IsBefore(this->Nodes[node].at.weight, weight); });
   if (at != this->Sorted.end() && this->Nodes[*at].at.weight == place.weight)
   {
+    this->Nodes[*at].at.position = place.position; // a corner, as the refracted part has it
     return *at;
   }
   this->Sorted.insert(at, this->Nodes.size());
@@ -126,6 +127,12 @@ bool FrontOutline::Link(const WaterlinePiece& piece)
   const std::size_t to = this->FindNode(piece.from);
   if (from == to)
   {
+    return true;
+  }
+  if (this->Nodes[to].next == from)
+  {
+    this->Nodes[to].next = None; // there and back
+    this->Nodes[from].previous = None;
     return true;
   }
   if (this->Nodes[from].next != None || this->Nodes[to].previous != None)
@@ -155,16 +162,24 @@ bool FrontOutline::FollowSide(std::size_t from)
   std::sort(stops.begin(), stops.end(),
     [this, along](std::size_t a, std::size_t b)
     { return this->Nodes[a].at.weight[along] < this->Nodes[b].at.weight[along]; });
-  // The curve may meet a corner that counts as in front.
+  // The curve may end in a corner, whichever side that counts to.
   const bool isOdd = stops.size() % 2 == 1;
   if (isOdd != (this->IsFront[from] != this->IsFront[to]))
   {
-    const std::size_t corner = this->IsFront[from] ? from : to;
-    if (!this->IsFront[corner] || !this->IsEnd(corner))
+    const auto crosses = [this](std::size_t corner, bool leavesFront)
+    { return this->IsEnd(corner) && (this->Nodes[corner].next != None) == leavesFront; };
+    if (crosses(from, this->IsFront[from]))
+    {
+      stops.insert(stops.begin(), from);
+    }
+    else if (crosses(to, !this->IsFront[to]))
+    {
+      stops.push_back(to);
+    }
+    else
     {
       return false;
     }
-    stops.insert(corner == from ? stops.begin() : stops.end(), corner);
   }
   bool isFront = this->IsFront[from];
   std::size_t last = from;
