@@ -45,8 +45,8 @@ BentLine LineOf(const BentRay& ray, const glm::dvec2& pixel, const MembraneSight
     const PacketRay packet = frames.Get(index).Rays.RayAlong(of.Origin, of.Slope);
     for (int axis = 0; axis < 2; ++axis)
     {
-      constexpr std::int64_t half = std::int64_t{ 1 } << 31;
-      line.Offset[axis] = static_cast<std::int32_t>((packet.Offset[axis] + half) >> 32);
+      // The nearest whole number: the packet's offset is half a unit more.
+      line.Offset[axis] = static_cast<std::int32_t>(packet.Offset[axis] >> 32);
       line.Slope[axis] = packet.Slope[axis];
     }
     line.Start = static_cast<float>(place.z);

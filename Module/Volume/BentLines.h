@@ -20,8 +20,9 @@ namespace meniscus
  */
 struct BentLine
 {
-  /** As of PacketRay, whole. */
+  /** In grid units. */
   std::int32_t Offset[2];
+  /** Per grid unit of depth, in units of 2^-32. */
   std::int32_t Slope[2];
   /** Of the sight point, on the straight ray; Nowhere where that does not meet the membrane. */
   float MembraneDepth;

@@ -100,7 +100,7 @@ std::array<std::int32_t, 9> PixelRays::GetFixedPointRows() const
 //------------------------------------------------------------------------------
 PixelRays::FixedPointMap PixelRays::GetFixedPointOffset() const
 {
-  return FixedPoint(this->Offset, glm::dvec2(0.5));
+  return FixedPoint(this->Offset, glm::dvec2(0.0));
 }
 
 //------------------------------------------------------------------------------

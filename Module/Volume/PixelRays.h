@@ -68,8 +68,8 @@ public:
   using FixedPointMap = std::array<std::int32_t, 12>;
   /**
    * Offset and slope, the latter in units of 2^-32, of pixels' rays as in PacketRay: to 2^-15 of
-   * the image's width in pixels. Half a unit more: the offset's for what is shifted out of the
-   * product with the slope is rounded down, the slope's so that rounding down gives the nearest.
+   * the image's width in pixels. The slope's holds half a unit more, so that rounding down gives the
+   * nearest.
    */
   FixedPointMap GetFixedPointOffset() const;
   FixedPointMap GetFixedPointSlope() const;

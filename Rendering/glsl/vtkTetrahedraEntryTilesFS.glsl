@@ -29,8 +29,8 @@ const int CAPACITY = 32;
 // of the central ray and of another, and of the sums here changes: 4 * 2^-24 and a few times 2^-24.
 const float AREA_ROUNDING = 9.5367431640625e-07;
 // By how much (u, v) differ from affine functions of the pixel, in grid units: a ray's offset by 1/2
-// (behind a membrane), its slope by 1/8, the product of slope and depth by 1.
-const float GRID_ROUNDING = 2.0;
+// (behind a membrane), its slope by 1/8, the product of slope and depth by 1/8.
+const float GRID_ROUNDING = 1.0;
 
 // Tiles whose rays are farther apart search the tree: the mesh's radius.
 const float LARGEST_REACH = 536870912.0;

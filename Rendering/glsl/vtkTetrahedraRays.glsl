@@ -7,8 +7,8 @@
 //
 // All decisions are taken in the ray-aligned projection: a vertex has coordinates (u, v) about the
 // ray, the same function of vertex and ray wherever it is needed. Vertices are placed once per view in
-// whole numbers (vtkTetrahedraPlaceFS), from which u and v follow in integers, exact and the same for
-// everybody, and are then rounded to floats: what is near the ray keeps all of its digits. The sign of
+// whole numbers (vtkTetrahedraPlaceFS), from which u and v follow as floats by a difference of integers,
+// the same for everybody: what is near the ray keeps all of its digits. The sign of
 // an edge as seen by the ray is that of these floats, exactly; a ray through an edge or a vertex counts
 // as displaced by (e, e^2) for an arbitrarily small e, and edges whose ends coincide are ordered by
 // vertex. So every cell that is entered has exactly one face to leave by, and a walk that begins on the
@@ -78,10 +78,12 @@ const float LARGEST_LIMIT = 1073741824.0;
 // A vertex about the ray: u and v as bits of floats, depth in grid units, bits of the scalar.
 #define RayVertex ivec4
 
-// The ray: (u, v) = (x, y) - rayOffset - floor(depth * raySlope / 2^32) - rayFraction.
+// The ray: (u, v) = (x, y) - rayOffset - rayFraction - depth * raySlope.
 ivec2 rayOffset;
 vec2 rayFraction;
-ivec2 raySlope;
+vec2 raySlope;
+vec2 raySlopeHigh;   // its leading 9 digits
+vec2 raySlopeLow;    // the others
 // The same in floats: u = dot(rayU, p) - rayOrigin.x, likewise v.
 vec3 rayU;
 vec3 rayV;
@@ -101,8 +103,17 @@ float rayGrid;       // grid units of x and y per unit of the frame
 #define RAY_GRID gridPerUnit
 #endif
 
+// Sets the slope in the grid, given in units of 2^-32.
+void setSlope(ivec2 slope)
+{
+  raySlope = vec2(slope) * (1.0 / 4294967296.0);
+  raySlopeHigh = vec2(slope >> 22) * (1.0 / 1024.0);
+  ivec2 low = slope & 4194303;
+  raySlopeLow = vec2(low) * (1.0 / 4294967296.0);
+}
+
 // Sets up the line (x, y) = origin + depth * slope of the frame with these rows, but for rayPlace,
-// rayAlong and the integers. False if it passes by the mesh's bounding sphere by more than `reach` grid
+// rayAlong and the line in the grid. False if it passes by the mesh's bounding sphere by more than `reach` grid
 // units.
 bool setUpLine(vec3 toX, vec3 toY, vec3 toDepth, vec2 origin, vec2 slope, vec2 reach)
 {
@@ -137,7 +148,7 @@ bool setUpRay(vec2 pixel, vec2 reach)
   ivec4 offset = gridValue(gridOffset, halves);
   rayOffset = offset.xy;
   rayFraction = vec2(offset.zw) * (1.0 / 32768.0);
-  raySlope = gridValue(gridSlope, halves).xy;
+  setSlope(gridValue(gridSlope, halves).xy);
 #if BENDING
   rayFirstVertex = 0;
   rayGrid = gridPerUnit;
@@ -153,7 +164,7 @@ bool setUpBentRay(int frame, ivec4 line, vec2 reach)
   rayGrid = frameGridPerUnit[frame];
   rayOffset = line.xy;
   rayFraction = vec2(0.0);
-  raySlope = line.zw;
+  setSlope(line.zw);
   vec2 origin = vec2(line.xy) / rayGrid;
   // Slopes are per grid unit of depth, in units of 2^-32.
   vec2 slope = vec2(line.zw) * (GRID_PER_DEPTH / 4294967296.0 / rayGrid);
@@ -164,31 +175,18 @@ bool setUpBentRay(int frame, ivec4 line, vec2 reach)
 }
 #endif
 
-// floor(a * b / 2^32)
-ivec2 multiplyHigh(ivec2 a, ivec2 b)
-{
-#ifdef GL_ARB_gpu_shader5
-  ivec2 high;
-  ivec2 low;
-  imulExtended(a, b, high, low);
-  return high;
-#else
-  // By halves of 16 bits, the lower ones without sign: H. S. Warren, "Hacker's Delight", 8-2.
-  ivec2 aLow = a & 0xffff;
-  ivec2 bLow = b & 0xffff;
-  ivec2 aHigh = a >> 16;
-  ivec2 bHigh = b >> 16;
-  ivec2 first = aHigh * bLow + ivec2((uvec2(aLow) * uvec2(bLow)) >> 16u);
-  ivec2 second = aLow * bHigh + (first & 0xffff);
-  return aHigh * bHigh + (first >> 16) + (second >> 16);
-#endif
-}
 
+// Depth times slope is taken in parts: the leading 15 digits of the one times the leading 9 of the
+// other are a whole number of 24 digits, subtracted as such; the rest is below 2^21 and known to 1/8.
 RayVertex fetchVertex(int index)
 {
   ivec4 p = texelFetch(vertices, FIRST_VERTEX + index);
-  ivec2 uv = p.xy - rayOffset - multiplyHigh(p.zz, raySlope);
-  return ivec4(floatBitsToInt(vec2(uv) - rayFraction), p.zw);
+  float high = float(p.z & -32768);
+  float low = float(p.z & 32767);
+  EXACTLY_AS_WRITTEN vec2 leading = high * raySlopeHigh;
+  EXACTLY_AS_WRITTEN vec2 rest = high * raySlopeLow + (low * raySlope + rayFraction);
+  EXACTLY_AS_WRITTEN vec2 uv = vec2(p.xy - rayOffset - ivec2(leading)) - rest;
+  return ivec4(floatBitsToInt(uv), p.zw);
 }
 
 vec2 placeOf(RayVertex p)

@@ -159,8 +159,9 @@ bool advance(int exitDepth, float exitScalar)
 #endif
 #else
   float perDepth = (exitScalar - faceScalar) / float(exitDepth - faceDepth);
-  segmentStart = from > faceDepth ? faceScalar + float(from - faceDepth) * perDepth : faceScalar;
-  segmentEnd = to < exitDepth ? faceScalar + float(to - faceDepth) * perDepth : exitScalar;
+  // Exact where nothing is cut off: `from` is not before the face entered by, `to` not behind the exit.
+  segmentStart = faceScalar + float(from - faceDepth) * perDepth;
+  segmentEnd = exitScalar + float(to - exitDepth) * perDepth;
 #endif
   segmentScalar = segmentStart;
   segmentDone = 0.0;
@@ -171,10 +172,8 @@ bool advance(int exitDepth, float exitScalar)
 #endif
 #if VERTEX_VALUES
   VertexValues valuesPerDepth = (exitValues - faceValues) / float(exitDepth - faceDepth);
-  segmentValuesStart =
-    from > faceDepth ? faceValues + float(from - faceDepth) * valuesPerDepth : faceValues;
-  segmentValuesEnd =
-    to < exitDepth ? faceValues + float(to - faceDepth) * valuesPerDepth : exitValues;
+  segmentValuesStart = faceValues + float(from - faceDepth) * valuesPerDepth;
+  segmentValuesEnd = exitValues + float(to - exitDepth) * valuesPerDepth;
   segmentIsNew = true;
   faceValues = exitValues;
 #endif
@@ -198,20 +197,20 @@ bool advance(int exitDepth, float exitScalar)
 
 // Interpolates depth and scalar to where the ray meets the face pqr, from the areas that its edges pq,
 // qr, rp span with the ray, about p: so small faces are as precise as large ones. Differences of depths
-// fit, for depths are below 2^30 in size. Returns 1 / total area, or 0 for a face without projected
-// area, which keeps what is given.
+// fit, for depths are below 2^30 in size. A face without projected area keeps what is given. Returns
+// 1 / total area, 0 for that.
 float meetFace(RayVertex p, RayVertex q, RayVertex r, vec3 areas, inout int depth, inout float scalar)
 {
   float total = areas.x + areas.y + areas.z;
   bool real = total > 0.0;
-  float inverse = real ? 1.0 / total : 0.0;
+  float inverse = 1.0 / total;
   vec2 weights = areas.zx * inverse;
   float ahead = dot(weights, vec2(q.z - p.z, r.z - p.z));
   depth = real ? p.z + int(roundEven(ahead)) : depth;
   float first = vertexScalar(p);
   scalar =
     real ? first + dot(weights, vec2(vertexScalar(q), vertexScalar(r)) - vec2(first)) : scalar;
-  return inverse;
+  return real ? inverse : 0.0;
 }
 
 // Crosses `cell` from `face`. Yields the link to follow; returns whether a segment is pending.
