@@ -41,7 +41,10 @@ public:
     int height, const BentFrames& frames);
 
   /** Rows of the frames with lines, in the order in which their vertices follow the view's. */
-  const std::vector<std::array<std::int32_t, 9>>& GetFixedPointRows() const { return this->FixedRows; }
+  const std::vector<std::array<std::int32_t, 9>>& GetFixedPointRows() const
+  {
+    return this->FixedRows;
+  }
 
   /**
    * Sets the uniforms of vtkTetrahedraRays with BENDING.

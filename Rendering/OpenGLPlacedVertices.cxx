@@ -39,8 +39,7 @@ std::string OpenGLPlacedVertices::Prepare(vtkOpenGLRenderWindow* window, std::in
 {
   if (!this->Quad)
   {
-    this->Quad =
-      std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, vtkTetrahedraPlaceFS, "");
+    this->Quad = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, vtkTetrahedraPlaceFS, "");
   }
   else
   {

@@ -14,9 +14,8 @@ std::string OpenGLTable::DescribeExcess(std::int64_t texels)
 {
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-  return texels <= limit
-    ? std::string()
-    : "a table of " + std::to_string(texels) +
+  return texels <= limit ? std::string()
+                         : "a table of " + std::to_string(texels) +
       " texels exceeds this graphics device's GL_MAX_TEXTURE_BUFFER_SIZE of " +
       std::to_string(limit);
 }
@@ -73,8 +72,8 @@ std::string OpenGLTable::Allocate(vtkOpenGLRenderWindow* window, std::size_t row
     return excess;
   }
   const std::size_t bytes = 4 * sizeof(std::int32_t) * rows;
-  bool made = this->Buffer->GenerateBuffer(vtkOpenGLBufferObject::TextureBuffer) &&
-    this->Buffer->Bind();
+  bool made =
+    this->Buffer->GenerateBuffer(vtkOpenGLBufferObject::TextureBuffer) && this->Buffer->Bind();
   if (made)
   {
     glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_COPY);

@@ -51,8 +51,7 @@ public:
 
 private:
   static std::string DescribeExcess(std::int64_t texels);
-  bool MakeTexture(
-    vtkOpenGLRenderWindow* window, std::int64_t texels, int components, int vtkType);
+  bool MakeTexture(vtkOpenGLRenderWindow* window, std::int64_t texels, int components, int vtkType);
   template <typename T>
   std::string UploadValues(vtkOpenGLRenderWindow* window, const T* values, std::size_t count,
     int components, int texelsPerRow, int vtkType);

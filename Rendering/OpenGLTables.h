@@ -79,7 +79,8 @@ public:
   std::string UploadBentLines(
     const std::vector<BentLine>& lines, int width, int height, const BentFrames& frames);
 
-  /** Places the vertices in the grid of rays, and with optics of Bending in those of their frames. */
+  /** Places the vertices in the grid of rays, and with optics of Bending in those of their frames.
+   */
   std::string PlaceVertices(const PixelRays& rays, bool bending);
 
   std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }

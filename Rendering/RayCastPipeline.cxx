@@ -109,9 +109,8 @@ void RayCastPipeline::UpdateGradients()
 //------------------------------------------------------------------------------
 std::string RayCastPipeline::DescribeExcess(const RayCastFrame& frame, std::int64_t limit) const
 {
-  const std::string error = this->OpenGL.GetTables().DescribeExcess(
-    this->Input.GetMesh(), frame.Optics.CompactCells,
-    frame.Bending.Wanted ? 1 + BentFrames::Number : 1, limit);
+  const std::string error = this->OpenGL.GetTables().DescribeExcess(this->Input.GetMesh(),
+    frame.Optics.CompactCells, frame.Bending.Wanted ? 1 + BentFrames::Number : 1, limit);
   return error.empty() && frame.Bending.Wanted
     ? OpenGLBentLines::DescribeExcess(frame.Output.ImageSize, limit)
     : error;

@@ -26,7 +26,8 @@ std::int32_t RestOf(double depth)
 {
   const std::int32_t grid = GridDepthOf(static_cast<float>(depth));
   const bool atMesh = std::abs(depth) < 1.0;
-  return 128 + (atMesh ? static_cast<std::int32_t>(std::lrint(depth * PacketVertex::GridPerDepth)) - grid : 0);
+  return 128 +
+    (atMesh ? static_cast<std::int32_t>(std::lrint(depth * PacketVertex::GridPerDepth)) - grid : 0);
 }
 
 BentLine LineOf(const BentRay& ray, const glm::dvec2& pixel, const MembraneSight::View& view,

@@ -21,8 +21,8 @@ namespace meniscus
  *
  * Vertices are rounded once, to (x, y, depth) of the frame: depth in units of about 2^-30 of the
  * frame's, x and y in units of about 2^-29 times 1 + the steepest slope, so that |u| and |v| stay
- * below 2^30 where a ray meets the mesh. From there on all is integer arithmetic (PacketRay), the same on every
- * processor and for every user of a ray.
+ * below 2^30 where a ray meets the mesh. From there on all is integer arithmetic (PacketRay), the
+ * same on every processor and for every user of a ray.
  */
 class PixelRays
 {
@@ -68,8 +68,8 @@ public:
   using FixedPointMap = std::array<std::int32_t, 12>;
   /**
    * Offset and slope, the latter in units of 2^-32, of pixels' rays as in PacketRay: to 2^-15 of
-   * the image's width in pixels. The slope's holds half a unit more, so that rounding down gives the
-   * nearest.
+   * the image's width in pixels. The slope's holds half a unit more, so that rounding down gives
+   * the nearest.
    */
   FixedPointMap GetFixedPointOffset() const;
   FixedPointMap GetFixedPointSlope() const;

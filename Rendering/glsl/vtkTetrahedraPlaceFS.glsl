@@ -28,13 +28,13 @@ void multiply(ivec3 a, ivec3 b, out ivec3 high, out uvec3 low)
   low = uvec3(bits);
 #else
   // By halves of 16 bits, the lower ones without sign.
-  ivec3 aLow = a & 0xffff;
-  ivec3 bLow = b & 0xffff;
-  ivec3 aHigh = a >> 16;
-  ivec3 bHigh = b >> 16;
-  ivec3 first = aHigh * bLow + ivec3((uvec3(aLow) * uvec3(bLow)) >> 16u);
-  ivec3 second = aLow * bHigh + (first & 0xffff);
-  high = aHigh * bHigh + (first >> 16) + (second >> 16);
+  ivec3 lowA = a & 0xffff;
+  ivec3 lowB = b & 0xffff;
+  ivec3 highA = a >> 16;
+  ivec3 highB = b >> 16;
+  ivec3 first = highA * lowB + ivec3((uvec3(lowA) * uvec3(lowB)) >> 16u);
+  ivec3 second = lowA * highB + (first & 0xffff);
+  high = highA * highB + (first >> 16) + (second >> 16);
   low = uvec3(a) * uvec3(b);
 #endif
 }

@@ -227,13 +227,13 @@ float edgeArea(RayVertex p, RayVertex q)
 {
   vec2 a = placeOf(p);
   vec2 b = placeOf(q).yx;
-  vec2 aHigh = leadingDigits(a);
-  vec2 bHigh = leadingDigits(b);
-  EXACTLY_AS_WRITTEN vec2 aLow = a - aHigh;
-  EXACTLY_AS_WRITTEN vec2 bLow = b - bHigh;
+  vec2 highA = leadingDigits(a);
+  vec2 highB = leadingDigits(b);
+  EXACTLY_AS_WRITTEN vec2 lowA = a - highA;
+  EXACTLY_AS_WRITTEN vec2 lowB = b - highB;
   EXACTLY_AS_WRITTEN vec2 product = a * b;
   EXACTLY_AS_WRITTEN vec2 rest =
-    ((aHigh * bHigh - product) + aHigh * bLow + aLow * bHigh) + aLow * bLow;
+    ((highA * highB - product) + highA * lowB + lowA * highB) + lowA * lowB;
   EXACTLY_AS_WRITTEN float area = (product.x - product.y) + (rest.x - rest.y);
   return area;
 }
