@@ -30,30 +30,20 @@ constexpr int DepthBits = 30;
 constexpr double DepthSteps = 268435456.0; // 2^28 per unit of depth
 
 /**
- * Bound of the error of a depth in a shader: the position's three and the row's three components in
- * single precision, three products and two sums, and the interpolation across a face, each rounded
- * to 2^-24 of less than 2.
+ * Bound of the error of a depth in a shader: depths of vertices are whole numbers of PixelRays'
+ * grid, and the interpolation across a face rounds three products and two sums to 2^-24 of less
+ * than 2 each; a float that holds the bound itself is rounded likewise. 2^-21 in all, taken four
+ * times.
  */
 constexpr double DepthError = 1.9073486328125e-06; // 2^-19
 
 /**
- * Bound of the error of u and v of a vertex about a ray in a shader, in units of the frame: whole
- * units of a grid of 2^-22 of what u and v may be where a ray meets the mesh (8 of them, see
- * BOX_MARGIN in vtkTetrahedraRays.glsl), and the rounding of rows, offsets and slopes to single
- * precision, eight times 2^-24 of the largest.
+ * Bound of the error of u and v of a vertex about a ray in a shader, in grid units. Both are below
+ * 2^30 near a ray that meets the mesh; a whole number and a difference are rounded to float, by 32
+ * each. Placing the vertex, the ray and the product of depth and slope add less than 4
+ * (fetchVertex in vtkTetrahedraRays.glsl).
  */
-double ErrorInShader(const PixelRays& rays)
-{
-  const RayFrame& frame = rays.GetFrame();
-  const auto largest = [&rays](const AffinePixelMap& map)
-  {
-    return glm::length(map.Base) + 0.5 * rays.GetWidth() * glm::length(map.PerColumn) +
-      0.5 * rays.GetHeight() * glm::length(map.PerRow);
-  };
-  const double slope = largest(frame.Slope);
-  return 8.0 * std::ldexp(1.0 + slope, -22) +
-    8.0 * std::ldexp(1.0 + slope + largest(frame.Origin), -24);
-}
+constexpr double ErrorInShader = 128.0;
 
 /** Tiles of a row. */
 struct TileSpan
@@ -161,7 +151,7 @@ std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
   const ProjectedFaces& projected, int tileSize, const RangeLoop& loop) const
 {
   const PixelRays& rays = projected.GetRays();
-  const double error = ErrorInShader(rays) / rays.GetGridUnit();
+  const double error = ErrorInShader;
   // From the image's centre to the centre of the first tile.
   const glm::dvec2 first =
     0.5 * (glm::dvec2(tileSize) - glm::dvec2(rays.GetWidth(), rays.GetHeight()));

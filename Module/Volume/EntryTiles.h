@@ -40,7 +40,7 @@ double ExpectedEntriesPerTile(const BoundaryMeasure& boundary, double tileSide);
 
 /**
  * Lists of any length of the boundary faces by which rays of a tile of an image may enter the mesh,
- * from near to far. For shaders, which project vertices on a coarser grid than PixelRays.
+ * from near to far. For shaders, whose coordinates about a ray are single-precision numbers.
  */
 class EntryTiles
 {
