@@ -57,7 +57,7 @@ void MarkDuplicates(const std::vector<MortonKey>& keys, std::size_t first, std::
 
 //------------------------------------------------------------------------------
 std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
-  const std::function<glm::dvec3(std::size_t)>& positionOf, const RangeLoop& loop)
+  const std::function<glm::dvec3(std::size_t)>& getPosition, const RangeLoop& loop)
 {
   std::vector<MortonKey> keys(count);
   ForEachBlock(count, loop,
@@ -65,7 +65,7 @@ std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
     {
       for (std::size_t v = first; v < last; ++v)
       {
-        keys[v] = MakeMortonKey(HashOf(positionOf(v)), v);
+        keys[v] = MakeMortonKey(HashOf(getPosition(v)), v);
       }
     });
   SortByCode(keys, loop);
@@ -78,7 +78,7 @@ std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
     for (std::size_t other = i; other > 0 && CodeOf(keys[other - 1]) == CodeOf(keys[i]); --other)
     {
       const std::size_t before = IndexOf(keys[other - 1]);
-      if (positionOf(before) == positionOf(vertex))
+      if (getPosition(before) == getPosition(vertex))
       {
         lowest[vertex] = lowest[before];
         break;

@@ -19,7 +19,7 @@ namespace meniscus
 
 /** Returns for each of `count` vertices the lowest one at the same position, bit for bit. */
 std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
-  const std::function<glm::dvec3(std::size_t)>& positionOf, const RangeLoop& loop);
+  const std::function<glm::dvec3(std::size_t)>& getPosition, const RangeLoop& loop);
 
 /**
  * Removes the keys of cells that have the same vertices as one before them in their code's run, and

@@ -175,9 +175,10 @@ std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
         const bool bounded = seen.Error < std::numeric_limits<double>::infinity();
         for (int k = 0; k < 3; ++k)
         {
-          // Vertices that are off by less than `Error` span a triangle within that of the face's.
+          // The rays are those of pixels' centres. Vertices that are off by less than `Error` span
+          // a triangle within that of the face's.
           const glm::dvec3& edge = face.Edges[k];
-          const double reach = 0.5 * tileSize * (std::abs(edge[1]) + std::abs(edge[2])) +
+          const double reach = 0.5 * (tileSize - 1) * (std::abs(edge[1]) + std::abs(edge[2])) +
             (bounded ? seen.Error * std::sqrt(edge[1] * edge[1] + edge[2] * edge[2]) : 0.0) +
             ProjectedFaces::Margin;
           outline.Constant[k] =

@@ -139,9 +139,10 @@ TEST(EntryTiles, HoldEveryEntryInTheOrderOfDepth)
 
 TEST(EntryTiles, AreFewFacesLongerThanTheEntriesOfTheirRays)
 {
-  // The work of a shader: each of the tile's rays looks at its faces once. A cube's edge is 9
-  // pixels here; a triangle of area A and perimeter P is met by the tiles of side 2 within A + 4 P
-  // / pi + 4 pixels, for A = 35 and P = 28 by 2.1 A: three times is for the shape of these.
+  // The work of a shader: each of a tile's rays looks at its faces once. The pixels' centres of a
+  // tile are a square of side t = 1. Kuhn's faces have a mean area of 0.60 e^2 and perimeter of
+  // 3.78 e, with e = 7.5 pixels here; seen from a random direction A = 17 and P = 22, and tiles
+  // look at A + 2 t P / pi + t^2 = 1.9 A. Half as much again is for one direction and needles.
   TetrahedralMesh mesh;
   ASSERT_EQ(mesh.Build(Apart(KuhnGrid(8), 1.0).View()), MeshStatus::Ok);
   const PixelRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 0.0), Pixels, Pixels);
@@ -149,7 +150,7 @@ TEST(EntryTiles, AreFewFacesLongerThanTheEntriesOfTheirRays)
   ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), rays, TileSize));
   const ListCheck check = CheckLists(mesh, tiles, rays);
   const auto looks = static_cast<std::int64_t>(tiles.GetFaces().size()) * TileSize * TileSize;
-  EXPECT_LT(looks, 3 * check.Entries);
+  EXPECT_LT(looks, 2.85 * static_cast<double>(check.Entries));
 }
 
 TEST(EntryTiles, DoNotDependOnTheLoop)
