@@ -129,8 +129,8 @@ void RayCastPipeline::UpdateGradients(const InputParts& parts, const RayCastOpti
 //------------------------------------------------------------------------------
 std::string RayCastPipeline::DescribeExcess(const RayCastFrame& frame, std::int64_t limit) const
 {
-  const std::string error = this->OpenGL.GetTables().DescribeExcess(
-    this->Input.GetMesh(), frame.Optics.CompactCells, limit);
+  const std::string error = this->OpenGL.GetTables().DescribeExcess(this->Input.GetMesh(),
+    frame.Optics.CompactCells, frame.Bending.Wanted ? 1 + BentFrames::Number : 1, limit);
   return error.empty() && frame.Bending.Wanted
     ? OpenGLBentLines::DescribeExcess(frame.Output.ImageSize, limit)
     : error;
@@ -186,8 +186,9 @@ bool RayCastPipeline::UpdateEntryTiles(const RayCastFrame& frame)
   OpenGLTables& tables = this->OpenGL.GetTables();
   if (this->LinksOfTiles != this->Input.GetLinkChanges() || !rays.SeesAs(this->RaysOfTiles))
   {
-    this->TilesFit = this->Tiles.Build(this->Input.GetMesh(),
-      this->Input.GetBoundaryTree().GetFaces(), rays, RayCastOpenGL::TileSize, ThreadedLoop);
+    this->TilesFit =
+      this->Tiles.Build(this->Input.GetMesh(), this->Input.GetBoundaryTree().GetFaces(), rays,
+        RayCastOpenGL::LongListTileSize, ThreadedLoop);
     this->RaysOfTiles = rays;
     this->LinksOfTiles = this->Input.GetLinkChanges();
     ++this->EntryListBuilds;
@@ -250,6 +251,52 @@ void RayCastPipeline::UpdateNative()
 }
 
 //------------------------------------------------------------------------------
+/** The tables that Upload() sends, which the native backend reads where they were made. */
+void RayCastPipeline::CountNativeTables(const RayCastOptics& optics)
+{
+  TableCounter& tables = this->NativeTables;
+  const VolumeInput& input = this->Input;
+  const TetrahedralMesh& mesh = input.GetMesh();
+  tables.Count(TableCounter::Cells, { input.GetLinkChanges(), 0 },
+    TableCounter::SizeOf(mesh.GetCells()) + TableCounter::SizeOf(mesh.GetBoundary()));
+  const std::int64_t scalars = input.GetScalarUpdates();
+  const std::int64_t positions = TableCounter::SizeOf(mesh.GetFixedPositions());
+  if (optics.CellScalars)
+  {
+    tables.Count(TableCounter::Vertices, { input.GetMeshBuilds(), 0 }, positions);
+    tables.Count(
+      TableCounter::CellScalars, { scalars, 0 }, TableCounter::SizeOf(input.GetCellScalars()));
+  }
+  else
+  {
+    tables.Count(TableCounter::Vertices, { input.GetMeshBuilds(), scalars },
+      positions + TableCounter::SizeOf(input.GetScalars()));
+  }
+  if (optics.VertexGradients)
+  {
+    tables.Count(TableCounter::VertexGradients, { this->VertexGradients.Builds, 0 },
+      TableCounter::SizeOf(this->VertexGradients.Values));
+  }
+  if (optics.UsesCellGradients())
+  {
+    tables.Count(TableCounter::CellGradients, { this->CellGradients.Builds, 0 },
+      TableCounter::SizeOf(this->CellGradients.Values));
+  }
+  if (optics.HasComponents())
+  {
+    tables.Count(TableCounter::Components, { this->Components.GetVersion(), 0 },
+      TableCounter::SizeOf(this->Components.GetValues()));
+  }
+  tables.Count(
+    TableCounter::Functions, { this->Property.GetVersion(), 0 }, this->Native.GetPropertyBytes());
+  if (optics.PreIntegrated)
+  {
+    tables.Count(TableCounter::PreIntegration, { this->PreIntegration.GetNumberOfBuilds(), 0 },
+      TableCounter::SizeOf(this->PreIntegration.GetTable().GetValues()));
+  }
+}
+
+//------------------------------------------------------------------------------
 std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
 {
   this->UpdateNative();
@@ -262,6 +309,7 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
     frame.Optics.VertexGradients ? this->VertexGradients.Values.data() : nullptr;
   scene.CellGradients =
     frame.Optics.UsesCellGradients() ? this->CellGradients.Values.data() : nullptr;
+  this->CountNativeTables(frame.Optics);
   scene.GradientToFrame = frame.Optics.GradientToFrame;
   scene.GradientOpacity = frame.Optics.GradientOpacity;
   scene.GradientMagnitude = frame.Optics.GradientMagnitude;
@@ -281,6 +329,8 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
       if (frame.Bending.Wanted && this->Trace(frame, { width, height }))
       {
         scene.Bent = this->Membrane.See(this->Input);
+        this->NativeTables.Count(TableCounter::RefractedRays,
+          { this->Membrane.GetSightUpdates(), 0 }, this->Membrane.GetSight().GetBytes());
       }
       scene.Bent.Part = frame.Bending.Part;
       const VertexVersion version{ this->Input.GetMeshBuilds(), this->Input.GetScalarUpdates() };

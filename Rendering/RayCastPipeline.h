@@ -7,6 +7,7 @@
 #include "RayCastNative.h"
 #include "RayCastOpenGL.h"
 #include "RayCastOptics.h"
+#include "TableCounter.h"
 #include "Volume/EntryTiles.h"
 #include "Volume/PixelRays.h"
 #include "VolumeComponents.h"
@@ -72,6 +73,12 @@ public:
     return BytesOf(this->VertexGradients.Values) + BytesOf(this->CellGradients.Values);
   }
 
+  /** Bytes of tables sent to the graphics device, and of those made for the native backend. */
+  std::int64_t GetUploadedBytes() const
+  {
+    return this->OpenGL.GetTables().GetUploadedBytes() + this->NativeTables.GetBytes();
+  }
+
 private:
   /** Gradients, and what they were computed from by the input's counters. */
   struct Gradients
@@ -90,6 +97,7 @@ private:
   bool UpdateEntryTiles(const RayCastFrame& frame);
   std::string DrawStraight(const RayCastFrame& frame);
   void UpdateNative();
+  void CountNativeTables(const RayCastOptics& optics);
 
   Gradients VertexGradients;
   Gradients CellGradients;
@@ -117,6 +125,7 @@ private:
   std::int64_t UploadedTiles = 0;
   /** The same of the native backend's. */
   std::int64_t NativeProperty = 0;
+  TableCounter NativeTables;
 };
 
 }

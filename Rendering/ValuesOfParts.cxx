@@ -85,7 +85,7 @@ double ValuesOfParts::operator()(std::int32_t number) const
   const auto tuple = static_cast<vtkIdType>(number - this->Firsts[part]);
   return this->Component == ScalarSelection::Magnitude
     ? LengthOf(array, tuple)
-    : array->GetComponent(tuple, this->Component);
+    : array->GetComponent(tuple, array->GetNumberOfComponents() == 1 ? 0 : this->Component);
 }
 
 //------------------------------------------------------------------------------

@@ -16,7 +16,10 @@ namespace meniscus
 class ValuesOfParts
 {
 public:
-  /** @param component  as of ScalarSelection; of Only the first. */
+  /**
+   * @param component  as in ScalarSelection, the first for Only. An array of one component yields
+   *                   that one.
+   */
   ValuesOfParts(const InputParts& input, int component);
 
   double operator()(std::int32_t number) const;

@@ -94,14 +94,9 @@ int MainComponent(ComponentMixture mixture)
 InputReport VolumeComponents::Update(const VolumeInput& input, const InputParts& parts,
   ComponentMixture mixture, const FunctionFeatures& features)
 {
-  std::vector<ObjectVersion> version;
-  for (const InputPart& part : parts.Parts)
-  {
-    version.emplace_back(part.Scalars);
-  }
   const bool same = mixture == this->Mixture &&
     (mixture == ComponentMixture::None ||
-      (version == this->BuiltScalars && this->BuiltMesh == input.GetMeshBuilds()));
+      (this->BuiltScalars == input.GetScalarUpdates() && this->BuiltMesh == input.GetMeshBuilds()));
   const TetrahedralMesh& mesh = input.GetMesh();
   InputReport report;
   if (same)
@@ -115,7 +110,7 @@ InputReport VolumeComponents::Update(const VolumeInput& input, const InputParts&
     return report;
   }
   this->Mixture = mixture;
-  this->BuiltScalars = version;
+  this->BuiltScalars = input.GetScalarUpdates();
   this->BuiltMesh = input.GetMeshBuilds();
   this->NumberOfComponents =
     mixture == ComponentMixture::None ? 1 : parts.Parts.front().Scalars->GetNumberOfComponents();

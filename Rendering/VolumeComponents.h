@@ -25,8 +25,8 @@ class VolumeComponents
 {
 public:
   /**
-   * Costs nothing if mesh, arrays and mixture are the same. As with VolumeInput, other functions
-   * cost something only where they change the normalisation.
+   * Costs nothing if the input's mesh and scalars and the mixture are the same. As with
+   * VolumeInput, other functions cost something only where they change the normalisation.
    */
   InputReport Update(const VolumeInput& input, const InputParts& parts, ComponentMixture mixture,
     const FunctionFeatures& features);
@@ -60,7 +60,7 @@ private:
   std::array<ScalarDistribution, 3> Distributions;
   std::array<ScalarNormalization, 3> Normalizations;
   std::int64_t BuiltFeatures = 0;
-  std::vector<ObjectVersion> BuiltScalars;
+  std::int64_t BuiltScalars = 0;
   std::int64_t BuiltMesh = 0;
   std::int64_t Version = 0;
 };

@@ -3,22 +3,10 @@
 #include "VolumeInput.h"
 
 #include "GridView.h"
+#include "InputContent.h"
 #include "ThreadedLoop.h"
-#include "VTKVersions.h"
 #include "ValuesOfParts.h"
 #include "Volume/BlockLoop.h"
-
-#include "vtkCellArray.h"
-#include "vtkDataArray.h"
-#include "vtkExplicitStructuredGrid.h"
-#include "vtkImageData.h"
-#include "vtkMatrix3x3.h"
-#include "vtkPointSet.h"
-#include "vtkPoints.h"
-#include "vtkRectilinearGrid.h"
-#include "vtkStructuredGrid.h"
-#include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,72 +18,22 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-ObjectVersion::ObjectVersion(vtkObject* object)
-  : Object(object)
-  , Time(object ? object->GetMTime() : 0)
-{
-}
-
-//------------------------------------------------------------------------------
-void VolumeInput::MeshVersion::Add(vtkDataSet* grid)
-{
-  const auto add = [this](vtkObject* object) { this->Objects.emplace_back(object); };
-  const auto addNumbers = [this](const auto* first, int count)
-  { this->Numbers.insert(this->Numbers.end(), first, first + count); };
-  add(grid->GetCellGhostArray());
-  add(grid->GetPointGhostArray());
-  if (auto* set = vtkPointSet::SafeDownCast(grid))
-  {
-    add(set->GetPoints());
-    add(set->GetPoints() ? set->GetPoints()->GetData() : nullptr);
-  }
-  if (auto* unstructured = vtkUnstructuredGrid::SafeDownCast(grid))
-  {
-    add(unstructured->GetCells());
-    add(FacesOf(unstructured));
-  }
-  else if (auto* structured = vtkStructuredGrid::SafeDownCast(grid))
-  {
-    addNumbers(structured->GetExtent(), 6);
-  }
-  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(grid))
-  {
-    add(rectilinear->GetXCoordinates());
-    add(rectilinear->GetYCoordinates());
-    add(rectilinear->GetZCoordinates());
-    addNumbers(rectilinear->GetExtent(), 6);
-  }
-  else if (auto* image = vtkImageData::SafeDownCast(grid))
-  {
-    addNumbers(image->GetExtent(), 6);
-    addNumbers(image->GetOrigin(), 3);
-    addNumbers(image->GetSpacing(), 3);
-    addNumbers(image->GetDirectionMatrix()->GetData(), 9);
-  }
-  else
-  {
-    add(grid);
-  }
-}
-
-//------------------------------------------------------------------------------
 InputReport VolumeInput::UpdateMesh(
   const InputParts& input, const std::function<bool(double)>& progress)
 {
-  MeshVersion version;
-  std::vector<vtkDataSet*> grids;
-  for (const InputPart& part : input.Parts)
-  {
-    version.Add(part.Grid);
-    grids.push_back(part.Grid);
-  }
+  const bool changed =
+    this->MeshWatch.HasChanged(MeshVersions(input), [&input]() { return DigestMesh(input); });
   const bool lacksSources = input.Place == ScalarPlace::Cells && !this->KeepsSourceCells;
-  if (this->MeshBuilds > 0 && version == this->BuiltMesh && !lacksSources)
+  if (!changed && !lacksSources)
   {
     return InputReport();
   }
   this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
-  this->BuiltMesh = version;
+  std::vector<vtkDataSet*> grids;
+  for (const InputPart& part : input.Parts)
+  {
+    grids.push_back(part.Grid);
+  }
   return this->BuildMesh(grids, progress);
 }
 
@@ -103,7 +41,7 @@ InputReport VolumeInput::UpdateMesh(
 InputReport VolumeInput::BuildMesh(
   const std::vector<vtkDataSet*>& grids, const std::function<bool(double)>& progress)
 {
-  this->BuiltScalars.clear();
+  this->ScalarWatch.Forget();
   this->ActiveSetStale = true;
   ++this->MeshBuilds;
   ++this->LinkChanges;
@@ -129,7 +67,7 @@ InputReport VolumeInput::BuildMesh(
   control.Progress = progress;
   if (this->Mesh.Build(view, control) == MeshStatus::Aborted)
   {
-    this->BuiltMesh = MeshVersion(); // begun again at the next call
+    this->MeshWatch.Forget(); // begun again at the next call
   }
   const std::string omitted = gridView.DescribeOmitted();
   if (!omitted.empty())
@@ -144,7 +82,7 @@ InputReport VolumeInput::BuildMesh(
          << " cells are left out: " << rejected.IndexOutOfRange
          << " with a point index out of range, " << rejected.RepeatedVertex
          << " with a repeated point, " << rejected.PointNotFinite
-         << " with a point that is not finite.";
+         << " with a point that is not finite, " << rejected.Duplicate << " given before.";
     report.Warning = text.str();
   }
   return report;
@@ -155,13 +93,10 @@ InputReport VolumeInput::UpdateScalars(
   const InputParts& input, int component, const FunctionFeatures& features)
 {
   InputReport report;
-  std::vector<ObjectVersion> version;
-  for (const InputPart& part : input.Parts)
-  {
-    version.emplace_back(part.Scalars);
-  }
-  const bool same = version == this->BuiltScalars && input.Place == this->BuiltPlace &&
-    component == this->BuiltComponent;
+  const bool changed = this->ScalarWatch.HasChanged(
+    ScalarVersions(input), [&input]() { return DigestScalars(input); });
+  const bool same =
+    !changed && input.Place == this->BuiltPlace && component == this->BuiltComponent;
   if (same && features.Version == this->BuiltFeatures)
   {
     return report;
@@ -205,7 +140,6 @@ InputReport VolumeInput::UpdateScalars(
                                                  : std::numeric_limits<float>::quiet_NaN();
       }
     });
-  this->BuiltScalars = version;
   this->BuiltPlace = input.Place;
   this->BuiltComponent = component;
   this->ActiveSetStale = true;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "ComponentChoice.h"
 #include "RayCastMapperInternals.h"
 #include "RayCastShader.h"
 
@@ -174,18 +175,31 @@ meniscus::ScalarSelection vtkTetrahedraRayCastMapper::SelectedScalars()
 bool vtkTetrahedraRayCastMapper::ChooseMixture(const meniscus::InputParts& parts, vtkVolume* volume)
 {
   using Mixture = meniscus::ComponentMixture;
-  Mixture& mixture = this->Internals->Mixture;
-  mixture = Mixture::None;
+  vtkInternals& internals = *this->Internals;
+  internals.Mixture = Mixture::None;
+  internals.Component = this->SelectedScalars().Component;
   vtkDataArray* scalars = parts.Parts.front().Scalars;
   const int components = scalars->GetNumberOfComponents();
-  const bool same = std::all_of(parts.Parts.begin(), parts.Parts.end(),
-    [components](const meniscus::InputPart& part)
-    { return part.Scalars->GetNumberOfComponents() == components; });
-  if (this->VectorMode != DISABLED || (components == 1 && same))
+  int most = components;
+  bool same = true;
+  for (const meniscus::InputPart& part : parts.Parts)
+  {
+    most = std::max(most, part.Scalars->GetNumberOfComponents());
+    same = same && part.Scalars->GetNumberOfComponents() == components;
+  }
+  if (this->VectorMode != DISABLED || most == 1)
   {
     return true;
   }
   const bool independent = volume->GetProperty()->GetIndependentComponents() != 0;
+  if (independent)
+  {
+    internals.Component = meniscus::ChooseComponent(volume->GetProperty(), most);
+  }
+  if (internals.Component != meniscus::ScalarSelection::Only)
+  {
+    return this->HasChosenComponent(parts);
+  }
   const bool fits = independent ? components <= 4 : components == 2 || components == 4;
   const char* problem = nullptr;
   if (!same)
@@ -209,9 +223,28 @@ bool vtkTetrahedraRayCastMapper::ChooseMixture(const meniscus::InputParts& parts
                                 << " components" << problem << "; nothing is rendered.");
     return false;
   }
-  mixture = independent ? Mixture::Independent
-    : components == 2   ? Mixture::ColorAndOpacity
-                        : Mixture::RedGreenBlueOpacity;
+  internals.Mixture = independent ? Mixture::Independent
+    : components == 2             ? Mixture::ColorAndOpacity
+                                  : Mixture::RedGreenBlueOpacity;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::HasChosenComponent(const meniscus::InputParts& parts)
+{
+  const int chosen = this->Internals->Component;
+  for (const meniscus::InputPart& part : parts.Parts)
+  {
+    const int components = part.Scalars->GetNumberOfComponents();
+    if (components > 1 && chosen >= components)
+    {
+      const char* name = part.Scalars->GetName();
+      vtkErrorMacro("The array '" << (name ? name : "without a name") << "' has " << components
+                                  << " components, none of number " << chosen
+                                  << ", which the colour function chooses; nothing is rendered.");
+      return false;
+    }
+  }
   return true;
 }
 
@@ -246,8 +279,7 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
   const bool mixed = internals.Mixture != meniscus::ComponentMixture::None;
-  const int component =
-    mixed ? MainComponent(internals.Mixture) : this->SelectedScalars().Component;
+  const int component = mixed ? MainComponent(internals.Mixture) : internals.Component;
   if (!this->Tell(input.UpdateMesh(parts, goOn)) || input.GetMesh().GetNumberOfCells() == 0)
   {
     return false;

@@ -22,11 +22,12 @@ namespace meniscus
 class FrontOutline
 {
 public:
-  /// Corners in barycentric coordinates, wound as the triangle is.
-  using Polygon = std::vector<glm::dvec3>;
+  /// Corners, wound as the triangle is.
+  using Polygon = std::vector<TrianglePoint>;
 
-  /// `isFront` tells which corners of the triangle are in front.
-  FrontOutline(const std::vector<WaterlinePiece>& waterline, const std::array<bool, 3>& isFront);
+  /// `corners` are the triangle's, `isFront` tells which of them are in front.
+  FrontOutline(const std::vector<WaterlinePiece>& waterline,
+    const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& isFront);
 
   /// False if the pieces do not separate the corners in front from the others along each side, or
   /// leave a hole in the part. Otherwise `polygons` becomes the part, as convex polygons.
@@ -37,19 +38,22 @@ private:
 
   struct Node
   {
-    glm::dvec3 weight;
-    std::size_t next = None;     ///< along the waterline, the part in front on the left
-    std::size_t previous = None; ///< on the waterline
-    std::size_t along = None;    ///< next along the triangle's sides
+    TrianglePoint at;
+    std::array<std::size_t, 2> next = { None, None }; ///< neighbours on the waterline
+    std::array<bool, 2> isForward = {};               ///< the part in front is on the left there
+    std::size_t along = None;                         ///< next along the triangle's sides
   };
 
-  std::size_t FindNode(const glm::dvec3& weight);
+  std::size_t FindNode(const TrianglePoint& at);
   bool Link(const WaterlinePiece& piece);
+  bool AddLink(std::size_t from, std::size_t to, bool isForward);
+  bool Unlink(std::size_t from, std::size_t to);
   bool IsEnd(std::size_t node) const
   {
-    return (this->Nodes[node].next == None) != (this->Nodes[node].previous == None);
+    return (this->Nodes[node].next[0] == None) != (this->Nodes[node].next[1] == None);
   }
   bool FollowSide(std::size_t from);
+  std::size_t GoOn(std::size_t node, std::size_t before) const;
   bool CollectLoop(std::size_t first, std::vector<bool>& seen, std::vector<Polygon>& polygons);
 
   std::vector<Node> Nodes;         ///< the triangle's corners first

@@ -44,12 +44,19 @@ struct MappedTriangle
   std::array<KnownImages, 3> images{};
 };
 
-/// A straight piece of the curve along which a triangle meets the membrane, in barycentric
-/// coordinates. The part behind the membrane is on its left, as the triangle is wound.
+/// A point of a triangle in barycentric and in world coordinates.
+struct TrianglePoint
+{
+  glm::dvec3 weight;
+  glm::dvec3 position;
+};
+
+/// A straight piece of the curve along which a triangle meets the membrane. The part behind the
+/// membrane is on its left, as the triangle is wound.
 struct WaterlinePiece
 {
-  glm::dvec3 from;
-  glm::dvec3 to;
+  TrianglePoint from;
+  TrianglePoint to;
 };
 
 class MembraneMapping
@@ -75,6 +82,17 @@ private:
   struct Context;
   struct Boundary;
   using Polygon = std::vector<Corner>;
+  enum class Finding
+  {
+    Found,
+    EndWithoutImage, ///< an end of the primitive that has no image in or next to the sub-cell
+    Elsewhere        ///< a side of the primitive that does not meet the membrane there
+  };
+  struct MappedPoint
+  {
+    ImagePoint point;
+    Finding finding;
+  };
 
   void MapSides(Context& context, const glm::dvec3& middle, double padding, bool mayCross,
     ImageMesh& images) const;
@@ -89,14 +107,19 @@ private:
     double sign) const;
   void EmitLine(
     const Context& context, const std::array<Node, 3>& nodes, const Polygon& polygon) const;
-  ImagePoint MakePoint(
+  MappedPoint MakePoint(
     const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const;
-  ImagePoint MakeEnd(const Context& context, const std::array<Node, 3>& nodes, glm::length_t end,
-    const glm::dvec2& guess) const;
-  ImagePoint MakeOnSide(const Context& context, const std::array<Node, 3>& nodes,
-    const Corner& corner, std::size_t side, const RefractedPoint& from) const;
-  ImagePoint MakeCrossing(const Context& context, const std::array<Node, 3>& nodes,
+  MappedPoint MakeEnd(
+    const Context& context, const std::array<Node, 3>& nodes, glm::length_t end) const;
+  static double GetSize(const std::array<Node, 3>& nodes);
+  static glm::dvec2 GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point);
+  MappedPoint MakeOnSide(const Context& context, const std::array<Node, 3>& nodes, std::size_t side,
+    const RefractedPoint& from) const;
+  MappedPoint MakeCrossing(const Context& context, const std::array<Node, 3>& nodes,
     const Corner& corner, const Boundary& on) const;
+  MappedPoint MakeSideCrossing(const Context& context, const std::array<Node, 3>& nodes,
+    std::size_t side, const glm::dvec2& guess, const glm::dvec3& weight) const;
+  static bool IsSeen(const std::vector<MappedPoint>& points);
   ImagePoint Finish(const Context& context, const PatchPoint& at, const glm::dvec3& point,
     const glm::dvec3& weight) const;
 

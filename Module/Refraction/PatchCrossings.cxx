@@ -462,9 +462,12 @@ bool PatchCrossings::TakeRoot(const Part& part)
     {
       return false;
     }
-    const double height =
-      this->Frame.GetHeight(jet.position + move.x * jet.positionBy[0] + move.y * jet.positionBy[1]);
-    this->Crossings[this->Count++] = { height, area < 0.0 ? -this->Front : this->Front, outside };
+    // Over so short a step the patch is as good as linear.
+    const glm::dvec3 position =
+      jet.position + move.x * jet.positionBy[0] + move.y * jet.positionBy[1];
+    const glm::dvec3 normal = jet.normal + move.x * jet.normalBy[0] + move.y * jet.normalBy[1];
+    this->Crossings[this->Count++] = { this->Frame.GetHeight(position),
+      area < 0.0 ? -this->Front : this->Front, outside, normal };
     return true;
   }
   return false;

@@ -16,9 +16,10 @@ namespace meniscus
 /// A place where a line along an axis crosses a patch.
 struct PatchCrossing
 {
-  double height;  ///< along the axis
-  int side;       ///< +1 if the patch's front faces along the axis there, -1 if its back does
-  double outside; ///< smallest barycentric coordinate, no less than -Border
+  double height;     ///< along the axis
+  int side;          ///< +1 if the patch's front faces along the axis there, -1 if its back does
+  double outside;    ///< smallest barycentric coordinate, no less than -Border
+  glm::dvec3 normal; ///< the patch's, not normalised
 };
 
 /**

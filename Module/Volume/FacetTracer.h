@@ -5,6 +5,7 @@
 
 #include "Refraction/CellTree.h"
 #include "Refraction/CurvedPatch.h"
+#include "Refraction/PatchCrossings.h"
 #include "Refraction/PatchTube.h"
 #include "Volume/SightLanes.h"
 
@@ -102,13 +103,16 @@ private:
   double MarginOf(double slant) const { return this->Overhang * (1.0 + slant) + Border; }
   template <typename Visit>
   void MeetCurved(bool matters, SightLanes& lanes, const Visit& visit) const;
+  /** Every place where one ray meets the patch, for rays that Newton's method fails for. */
+  template <typename Visit>
+  void MeetExactly(bool matters, const SightLanes& lanes, int lane, const Visit& visit) const;
 
   /** A ray through an edge meets both of its patches, up to what Newton's method leaves. */
   static constexpr double Border = 1e-8;
   /** Of Newton's method, in facets. What is left is its square times how much a patch bends, below
    * 1e-9: the walk resolves 4e-9 of the mesh. */
   static constexpr double LastStep = 1e-4;
-  /** It converges quadratically from a place on the facet, or goes elsewhere. */
+  /** It converges quadratically from a place on the facet, or MeetExactly() takes over. */
   static constexpr int Steps = 12;
 
   CurvedPatch Patch;
@@ -171,13 +175,42 @@ void FacetTracer::MeetCurved(bool matters, SightLanes& lanes, const Visit& visit
             MembraneHit{ lanes.Depth[i] + lanes.Behind[i], matters ? normal : glm::dvec3(0.0) });
         }
       }
-      // What goes farther than a facet has left it.
+      // What goes farther than a facet has gone astray.
       else if (std::fabs(lanes.PatchX[i] - lanes.X[i]) <= 1.0 &&
         std::fabs(lanes.PatchY[i] - lanes.Y[i]) <= 1.0 && std::fabs(lanes.Behind[i]) <= this->Scale)
       {
         lanes.Keep(lanes.Count++, i);
       }
+      else
+      {
+        this->MeetExactly(matters, lanes, i, visit);
+      }
     }
+  }
+  for (int i = 0; i < lanes.Count; ++i)
+  {
+    this->MeetExactly(matters, lanes, i, visit);
+  }
+  lanes.Count = 0;
+}
+
+//------------------------------------------------------------------------------
+/** A ray that touches the patch within rounding, which PatchCrossings leaves open, passes it. */
+template <typename Visit>
+void FacetTracer::MeetExactly(
+  bool matters, const SightLanes& lanes, int lane, const Visit& visit) const
+{
+  const glm::dvec3 start = this->Rays.StartOf(lanes.Column[lane], lanes.Row[lane]);
+  const glm::dvec3 direction = this->Rays.DirectionOf(lanes.Column[lane], lanes.Row[lane]);
+  const double length = glm::length(direction);
+  const HeightFrame frame(direction / length);
+  PatchCrossings crossings(this->Patch, frame);
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  crossings.Find(frame.Project(start), -anywhere, anywhere);
+  for (const PatchCrossing& crossing : crossings)
+  {
+    const double depth = (crossing.height - frame.GetHeight(start)) / length;
+    visit(lanes.Index[lane], MembraneHit{ depth, matters ? crossing.normal : glm::dvec3(0.0) });
   }
 }
 

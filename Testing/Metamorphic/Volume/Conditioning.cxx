@@ -30,7 +30,9 @@ constexpr int NumberOfCopies = 12;
 
 struct Rounding
 {
+  /// Of points, in any direction and along the view.
   double Point = 0.0;
+  double Depth = 0.0;
   /// Share of a component's range.
   double Scalar = 0.0;
 };
@@ -44,7 +46,9 @@ Rounding roundingOf(const VolumeCase& test)
   const double slope = test.View.Parallel ? 0.0 : std::sqrt(2.0) * test.View.HalfHeight;
   const bool native = test.Backend == vtkTetrahedraRayCastMapper::NATIVE;
   const double unit = native && !test.Membrane.Mesh ? 0x1p-29 : 0x1p-22;
-  return { 2.0 * 1.5 * unit * radius * (1.0 + slope), 2.0 * (native ? 2.0 : 4.0) * 0x1p-24 };
+  const bool divides = test.Look.Blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND;
+  return { 2.0 * 1.5 * unit * radius * (1.0 + slope), divides ? 2.0 * 3.0 * 0x1p-24 * radius : 0.0,
+    2.0 * (native ? 2.0 : 4.0) * 0x1p-24 };
 }
 
 // The function of one component; opacity as it is where a mode does not measure lengths.
@@ -109,11 +113,13 @@ public:
   {
     const MeshArrays& mesh = test.mesh();
     std::vector<double> points;
+    const glm::dvec3 forward = glm::normalize(test.View.Focus - test.View.Eye);
     for (const glm::dvec3& p : mesh.Points)
     {
+      const double depth = moved(rounding.Depth, random);
       for (int axis = 0; axis < 3; ++axis)
       {
-        points.push_back(p[axis] + moved(rounding.Point, random));
+        points.push_back(p[axis] + depth * forward[axis] + moved(rounding.Point, random));
       }
     }
     std::vector<std::int64_t> ids;

@@ -29,6 +29,8 @@ namespace test
  * - points: to a grid about the ray, of 2^-29 (native) or 2^-22 (shaders) of the mesh's radius
  * times 1 + the steepest slope, by half a unit, and the ray by as much again; 1.5 units with the
  * depth's. Behind a membrane rays are kept in single precision: 2^-22 natively, too.
+ * - depths, and with them lengths: in single precision, 3 units of 2^-24 of the radius. It counts
+ * for the mean along a ray only, which divides by a length that may be short.
  * - scalars: to 2^-24 of the range that they are normalised to, by half a unit, and interpolated
  *   along the ray in single precision: 2 units natively, 4 by shaders.
  * Twice that for two pictures. Points and scalars are moved by all of it, to either side: a random

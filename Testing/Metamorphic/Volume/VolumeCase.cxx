@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeCase.h"
 
+#include "MapScene.h"
 #include "MeshFamilies.h"
 #include "VolumeScene.h"
 
@@ -13,6 +14,7 @@
 #include <vtkVolumeMapper.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -217,7 +219,10 @@ void setFunctions(VolumeCase& test, RandomNumbers& random)
   VolumeLook& look = test.Look;
   double b[6];
   test.mesh().bounds(b);
-  look.Unit = random.uniform(0.05, 0.4) * diagonalOf(b);
+  // Usually some units deep; one in four scenes is nearly opaque on the scale of small cells.
+  const double unit =
+    random.below(4) ? random.uniform(0.05, 0.4) : std::pow(10.0, random.uniform(-4.0, -1.0));
+  look.Unit = unit * diagonalOf(b);
   const int kind = random.below(5);
   test.Name += std::string(", ") + FunctionNames[kind];
   const bool lengthCounts =
@@ -250,6 +255,17 @@ void normaliseColors(MeshArrays& mesh)
       double& value = mesh.Values[i * static_cast<std::size_t>(mesh.Components) + c];
       value = std::clamp((value - range[0]) / width, 0.0, 1.0);
     }
+  }
+}
+
+// Scalars far from 0 for their range.
+void offsetValues(MeshArrays& mesh, RandomNumbers& random)
+{
+  const double offset = std::pow(10.0, random.uniform(0.0, 5.0));
+  const bool colors = mesh.Components == 4;
+  for (double& value : mesh.Values)
+  {
+    value += colors ? 0.0 : offset;
   }
 }
 
@@ -296,8 +312,20 @@ VolumeCase randomCase(const CaseNeeds& needs, RandomNumbers& random)
     moveToCells(test.mesh());
     test.Name += ", cell data";
   }
+  if (random.below(4) == 0)
+  {
+    test.Name += ", offset scalars";
+    offsetValues(test.mesh(), random);
+  }
   setFunctions(test, random);
   setView(test, random);
+  if (!test.Membrane.Mesh && random.below(4) == 0)
+  {
+    test.Name += ", elsewhere";
+    const double scale = std::pow(10.0, random.uniform(-6.0, 6.0));
+    const glm::dvec3 offset = scale * std::pow(10.0, random.uniform(0.0, 6.0)) * random.direction();
+    mapScene(test, glm::scale(glm::translate(glm::dmat4(1.0), offset), glm::dvec3(scale)));
+  }
   // Shaders are slower by far where OpenGL is software: half of the cases.
   const int backends[4] = { vtkTetrahedraRayCastMapper::NATIVE, vtkTetrahedraRayCastMapper::NATIVE,
     vtkTetrahedraRayCastMapper::OPENGL, vtkTetrahedraRayCastMapper::COMPUTE };
