@@ -264,7 +264,8 @@ TEST(TetrahedraRayCastPeers, GreyLevels)
   expectPicturesMatch(scene, "grey");
 }
 
-// Four dependent components: colour and opacity of each point, without functions.
+// Four dependent components: colour and attenuation of each point. The peer has no function of these, so
+// that of opacity is the identity here.
 TEST(TetrahedraRayCastPeers, ColorsAsTheyAre)
 {
   PeerScene scene = makeScene(block());
@@ -272,6 +273,10 @@ TEST(TetrahedraRayCastPeers, ColorsAsTheyAre)
   const auto share = [wavy](double shift)
   { return [=](double x, double y, double z) { return 0.5 + 0.5 * wavy(x + shift, y, z); }; };
   setComponents(scene.Mesh, { share(0.0), share(0.7), share(1.6), share(2.9) });
+  vtkNew<vtkPiecewiseFunction> identity;
+  identity->AddPoint(0.0, 0.0);
+  identity->AddPoint(1.0, 1.0);
+  scene.Property->SetScalarOpacity(identity);
   scene.Property->IndependentComponentsOff();
   expectPicturesMatch(scene, "colours");
 }
