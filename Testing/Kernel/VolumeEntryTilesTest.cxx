@@ -197,7 +197,8 @@ TEST(EntryTiles, ExpectedLengthIsThatOfManyViews)
       faces += length;
       covered += length > 0 ? 1.0 : 0.0;
     }
-    side = TileSize * glm::length(frame.Origin.PerColumn);
+    // The centres of its pixels.
+    side = (TileSize - 1) * glm::length(frame.Origin.PerColumn);
   }
   const double expected = ExpectedEntriesPerTile(MeasureBoundary(mesh), side);
   EXPECT_NEAR(faces / covered / expected, 1.0, 0.25);
