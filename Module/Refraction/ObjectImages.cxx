@@ -431,8 +431,8 @@ void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
   }
   const glm::dvec3 eye = this->Geometry.GetMedia().eye + this->Geometry.GetMembrane().GetOrigin();
   SeamClosure closure(seams, hasDiagonals, eye, this->Tolerance);
-  closure.Collect(pieces, pieces.points);
-  closure.Collect(whole, this->Images);
+  closure.Collect(pieces, pieces.points, false);
+  closure.Collect(whole, this->Images, true);
   closure.Close(pieces);
 }
 

@@ -108,7 +108,8 @@ SeamClosure::SeamClosure(
 }
 
 //------------------------------------------------------------------------------
-void SeamClosure::Collect(const ImageMesh& mesh, const std::vector<ImagePoint>& points)
+void SeamClosure::Collect(
+  const ImageMesh& mesh, const std::vector<ImagePoint>& points, bool areWhole)
 {
   std::int64_t begin = 0;
   for (std::size_t cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
@@ -118,7 +119,7 @@ void SeamClosure::Collect(const ImageMesh& mesh, const std::vector<ImagePoint>& 
     { return points[static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(i)])]; };
     for (std::int64_t i = begin; i < end; ++i)
     {
-      this->AddPart(mesh, cell, at(i), at(i + 1 < end ? i + 1 : begin));
+      this->AddPart(mesh, cell, at(i), at(i + 1 < end ? i + 1 : begin), areWhole);
     }
     begin = end;
   }
@@ -127,7 +128,7 @@ void SeamClosure::Collect(const ImageMesh& mesh, const std::vector<ImagePoint>& 
 //------------------------------------------------------------------------------
 // A side of a cell, if both of its ends come from one side of the object.
 void SeamClosure::AddPart(
-  const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b)
+  const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b, bool isWhole)
 {
   const std::size_t count = a.GetNumberOfSources();
   const std::size_t other = b.GetNumberOfSources();
@@ -158,7 +159,7 @@ void SeamClosure::AddPart(
   if (!AreSame(a, b) && (isSeam ? known->cells > 1 : this->HasDiagonals))
   {
     this->All.push_back(
-      { seam.low, seam.high, a, b, mesh.sourceCells[cell], mesh.orientations[cell] });
+      { seam.low, seam.high, a, b, mesh.sourceCells[cell], mesh.orientations[cell], isWhole });
   }
 }
 
@@ -241,6 +242,7 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
     const Part& first = *left.back();
     left.pop_back();
     Loop loop = { &first.to, &first.from };
+    bool hasWhole = first.isWhole;
     while (!AreSame(*loop.back(), *loop.front()))
     {
       const ImagePoint& last = *loop.back();
@@ -251,12 +253,13 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
         break; // it ends at a border of the membrane or of what is totally reflected
       }
       loop.push_back(AreSame((*next)->from, last) ? &(*next)->to : &(*next)->from);
+      hasWhole = hasWhole || (*next)->isWhole;
       left.erase(next);
     }
     if (loop.size() > 3 && AreSame(*loop.back(), *loop.front()))
     {
       loop.pop_back();
-      this->Fill(loop, first, mesh);
+      this->Fill(loop, first, hasWhole, mesh);
     }
   }
 }
@@ -278,11 +281,12 @@ bool SeamClosure::IsThin(const Loop& loop) const
 }
 
 //------------------------------------------------------------------------------
-void SeamClosure::Fill(const Loop& loop, const Part& first, ImageMesh& mesh) const
+void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, ImageMesh& mesh) const
 {
-  const auto add = [this, &first, &mesh](const Loop& polygon)
+  // A polygon that is drawn as it is may lack an image that its neighbour has: no gap to be filled.
+  const auto add = [this, mustBeThin, &first, &mesh](const Loop& polygon)
   {
-    if (this->IsThin(polygon))
+    if (!mustBeThin || this->IsThin(polygon))
     {
       for (const ImagePoint* point : polygon)
       {

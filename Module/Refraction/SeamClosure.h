@@ -44,8 +44,8 @@ public:
   SeamClosure(
     const std::vector<Seam>& seams, bool hasDiagonals, const glm::dvec3& eye, double tolerance);
 
-  /// Takes the cells of a mesh with points of its own or of another mesh, all borrowed.
-  void Collect(const ImageMesh& mesh, const std::vector<ImagePoint>& points);
+  /// Takes the cells of a mesh; polygons that are drawn as they are, or pieces of others.
+  void Collect(const ImageMesh& mesh, const std::vector<ImagePoint>& points, bool areWhole);
 
   /// Adds the cells that are missing. `mesh` may be one that has been collected.
   void Close(ImageMesh& mesh);
@@ -60,13 +60,16 @@ private:
     ImagePoint to;
     std::int64_t cell;
     signed char orientation;
+    bool isWhole; ///< a side of a polygon that is drawn as it is
   };
   using Parts = std::vector<const Part*>;
 
-  void AddPart(const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b);
+  void AddPart(const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b,
+    bool isWhole);
   void CloseSeam(Parts parts, ImageMesh& mesh) const;
   void CloseLoops(Parts parts, ImageMesh& mesh) const;
-  void Fill(const std::vector<const ImagePoint*>& loop, const Part& first, ImageMesh& mesh) const;
+  void Fill(const std::vector<const ImagePoint*>& loop, const Part& first, bool mustBeThin,
+    ImageMesh& mesh) const;
   bool IsThin(const std::vector<const ImagePoint*>& loop) const;
 
   const std::vector<Seam>& Seams;
