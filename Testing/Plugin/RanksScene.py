@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What RunRanks.py has ParaView do on each number of ranks: pictures of volumes, and what
 RanksRefraction.py has of the filters. Arguments: the prefix of the files that are written, the number
-of ranks, then the names of meshes in MENISCUS_DATA_DIR, or a scene, Colors, Waves, Large or Facets; without any, scenes made here."""
+of ranks, then the names of meshes in MENISCUS_DATA_DIR, or a scene, Colors, Waves, Large or Facets; without
+any, scenes made here."""
 import math
 import os
 import sys

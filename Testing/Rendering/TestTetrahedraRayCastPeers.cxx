@@ -264,14 +264,17 @@ TEST(TetrahedraRayCastPeers, GreyLevels)
   expectPicturesMatch(scene, "grey");
 }
 
-// Four dependent components: colour and attenuation of each point. The peer has no function of these, so
-// that of opacity is the identity here.
+// Four dependent components: colour and attenuation of each point. The peer has no function of
+// these, so that of opacity is the identity here.
 TEST(TetrahedraRayCastPeers, ColorsAsTheyAre)
 {
   PeerScene scene = makeScene(block());
   const Field wavy = wavyField(2.0);
   const auto share = [wavy](double shift)
-  { return [=](double x, double y, double z) { return 0.5 + 0.5 * wavy(x + shift, y, z); }; };
+  {
+    return [=](double x, double y, double z)
+    { return std::clamp(0.5 + 0.5 * wavy(x + shift, y, z), 0.0, 1.0); };
+  };
   setComponents(scene.Mesh, { share(0.0), share(0.7), share(1.6), share(2.9) });
   vtkNew<vtkPiecewiseFunction> identity;
   identity->AddPoint(0.0, 0.0);
