@@ -184,6 +184,7 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
     case EyeStatus::Ready:
       this->Key = { eye, this->PatchBuilds };
       ++this->EyeUpdates;
+      this->ReportEye(messages);
       return true;
     case EyeStatus::BadIndex:
       text << "Indices of refraction must be positive and finite, not " << eye[3] << " and "
@@ -198,6 +199,34 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
   }
   messages.error = text.str();
   return false;
+}
+
+//------------------------------------------------------------------------------
+void RefractionScene::ReportEye(SceneMessages& messages)
+{
+  // A few microseconds each; two sheets one behind the other have many points in sequence.
+  constexpr std::size_t mostPoints = 256;
+  const bool isEnclosed = this->Curves && this->Curved.IsClosed() && !this->Curved.FacesEye();
+  const auto behind = static_cast<vtkTypeInt64>(
+    this->Curves ? this->Curved.CountVerticesBehindOtherPieces(mostPoints) : 0);
+  const bool isNew = this->EyeReportOf != this->PatchBuilds;
+  std::ostringstream text;
+  if (isEnclosed && (isNew || !this->EyeEnclosed))
+  {
+    text << "The eye is inside of a closed membrane whose normals point outwards: what is outside "
+            "passes unchanged. For a bubble around the eye let the normals point inwards. ";
+  }
+  if (behind > 0 && (isNew || this->PointsBehind == 0))
+  {
+    text
+      << "Pieces of the membrane lie behind each other, as the eye sees them: rays that meet two "
+         "of them are refracted at one only, and objects behind both show an image through each. "
+         "Use one piece, or a filter for each. ";
+  }
+  this->EyeEnclosed = isEnclosed;
+  this->PointsBehind = behind;
+  this->EyeReportOf = this->PatchBuilds;
+  messages.warning = text.str();
 }
 
 //------------------------------------------------------------------------------

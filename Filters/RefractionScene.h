@@ -53,7 +53,9 @@ public:
   bool SetMembrane(vtkPolyData* membrane, bool curved, SceneMessages& messages,
     vtkImplicitFunction* function = nullptr);
 
-  /// Takes an eye for the membrane. False, with an error, if it cannot be used.
+  /// Takes an eye for the membrane. False, with an error, if it cannot be used. Warns when the eye
+  /// comes inside of a closed membrane whose normals point outwards, or when pieces of the membrane
+  /// come to lie behind each other, and when the membrane changes meanwhile.
   bool SetEye(const Eye& eye, SceneMessages& messages);
 
   const Eye& GetEye() const { return this->Key.values; }
@@ -80,6 +82,9 @@ public:
 
   vtkTypeInt64 GetNumberOfPatchBuilds() const { return this->PatchBuilds; }
   vtkTypeInt64 GetNumberOfEyeUpdates() const { return this->EyeUpdates; }
+  /// Of the present eye and curved membrane.
+  bool IsEyeEnclosed() const { return this->EyeEnclosed; }
+  vtkTypeInt64 GetNumberOfMembranePointsBehind() const { return this->PointsBehind; }
 
 private:
   /// Values that the refraction rays depend on.
@@ -90,6 +95,7 @@ private:
   };
 
   MembraneStatus BuildMembrane(bool curved);
+  void ReportEye(SceneMessages& messages);
   bool ReportMembrane(MembraneStatus status, std::size_t lost, SceneMessages& messages) const;
 
   VirtualGeometry Flat;
@@ -108,6 +114,9 @@ private:
 
   vtkTypeInt64 PatchBuilds = 0;
   vtkTypeInt64 EyeUpdates = 0;
+  bool EyeEnclosed = false;
+  vtkTypeInt64 PointsBehind = 0;
+  vtkTypeInt64 EyeReportOf = -1; ///< the membrane's build
 };
 
 }

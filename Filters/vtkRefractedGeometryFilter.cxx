@@ -407,6 +407,18 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
 }
 
 //------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::IsEyeEnclosed() const
+{
+  return this->Internals->Scene.IsEyeEnclosed();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfMembranePointsBehind() const
+{
+  return this->Internals->Scene.GetNumberOfMembranePointsBehind();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSolvedVertices() const
 {
   return this->Internals->SolvedVertices;
@@ -634,6 +646,10 @@ bool vtkRefractedGeometryFilter::UpdateEye()
   {
     vtkErrorMacro(<< messages.error << "; the output is empty.");
   }
+  if (!messages.warning.empty())
+  {
+    vtkWarningMacro(<< messages.warning);
+  }
   return ready;
 }
 
@@ -668,5 +684,8 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n";
   os << indent << "NumberOfCulledVertices: " << this->GetNumberOfCulledVertices() << "\n";
   os << indent << "NumberOfCulledCells: " << this->GetNumberOfCulledCells() << "\n";
+  os << indent << "EyeEnclosed: " << (this->IsEyeEnclosed() ? "yes" : "no") << "\n";
+  os << indent << "NumberOfMembranePointsBehind: " << this->GetNumberOfMembranePointsBehind()
+     << "\n";
   os << indent << "NumberOfSkippedFacets: " << this->GetNumberOfSkippedFacets() << "\n";
 }

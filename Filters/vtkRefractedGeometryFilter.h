@@ -327,6 +327,17 @@ public:
    */
   vtkTypeInt64 GetNumberOfSkippedFacets() const;
 
+  ///@{
+  /**
+   * State of the last run with CURVED: whether the eye is inside of a closed membrane whose normals
+   * point outwards, so that all outside of it passes unchanged; and how many points of the
+   * membrane, of up to 256 that are looked at, the eye sees through another piece of it. Rays that
+   * meet both pieces are refracted at one of them only. A warning says so once per change.
+   */
+  bool IsEyeEnclosed() const;
+  vtkTypeInt64 GetNumberOfMembranePointsBehind() const;
+  ///@}
+
   /**
    * Covers the camera and the exact membrane.
    */

@@ -5,10 +5,12 @@
 
 #include "Volume/BoundaryTree.h"
 #include "Volume/EntryTiles.h"
+#include "Volume/PixelRays.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
 #include "OpenGLBentLines.h"
+#include "OpenGLPlacedVertices.h"
 #include "OpenGLPreIntegration.h"
 #include "OpenGLTable.h"
 #include "VolumePropertyTables.h"
@@ -61,7 +63,9 @@ public:
    */
   std::string UploadCells(const TetrahedralMesh& mesh, bool compact);
   /** Which table of a mesh a limit in texels or the device's own forbids; empty if none. */
-  std::string DescribeExcess(const TetrahedralMesh& mesh, bool compact, std::int64_t limit) const;
+  /** @param frames  of the rays that may be needed: 1, more behind a membrane. */
+  std::string DescribeExcess(
+    const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit) const;
   std::string UploadBoundary(const BoundaryTree& tree);
   /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
@@ -82,6 +86,10 @@ public:
   std::string UploadBentLines(
     const std::vector<BentLine>& lines, int width, int height, const BentFrames& frames);
 
+  /** Places the vertices in the grid of rays, and with optics of Bending in those of their frames.
+   */
+  std::string PlaceVertices(const PixelRays& rays, bool bending);
+
   std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
   /** Bytes of the tables that are on the device now. */
   std::int64_t GetTableBytes();
@@ -92,6 +100,11 @@ public:
   std::vector<OpenGLTable*> Activate(vtkShaderProgram* program, const RayCastOptics& optics);
   OpenGLPreIntegration& GetPreIntegration() { return this->PreIntegration; }
   OpenGLBentLines& GetBentLines() { return this->BentLines; }
+  /** Binds the rays behind a membrane. */
+  void ActivateBentLines(vtkShaderProgram* program)
+  {
+    this->BentLines.Activate(program, this->Vertices.GetNumberOfRows());
+  }
   void SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const;
 
   /** @param owner  the window of the tables; null if it is gone. */
@@ -104,7 +117,10 @@ private:
   std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  /** Fixed-point positions and bits of the scalars. */
   OpenGLTable Vertices;
+  std::int64_t VertexUploads = 0;
+  OpenGLPlacedVertices PlacedVertices;
   OpenGLTable Cells;
   bool CellsAreCompact = false;
   OpenGLTable CellScalars;

@@ -3,6 +3,7 @@
 #include "RayCastOpenGL.h"
 
 #include "RayCastShader.h"
+#include "Volume/PixelRays.h"
 
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
@@ -151,9 +152,12 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
   return this->DrawImage(frame.Output,
     [this, &frame]()
     {
-      std::string error = frame.Bending.Part == MembranePart::Behind || frame.Optics.LongLists
-        ? std::string()
-        : this->ListEntries(frame, false);
+      std::string error = this->Tables.PlaceVertices(
+        PixelRays(frame.Rays, this->Size[0], this->Size[1]), frame.Optics.Bending);
+      if (error.empty() && frame.Bending.Part != MembranePart::Behind && !frame.Optics.LongLists)
+      {
+        error = this->ListEntries(frame, false);
+      }
       if (error.empty() && frame.Optics.Bending)
       {
         error = this->ListBentEntries(frame);
@@ -329,7 +333,7 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, bool bent)
   program->SetUniform2f("tileCount", tiles);
   if (bending)
   {
-    this->Tables.GetBentLines().Activate(program);
+    this->Tables.ActivateBentLines(program);
   }
   lister->Render();
   if (bending)
@@ -415,7 +419,7 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
   }
   if (frame.Optics.Bending)
   {
-    this->Tables.GetBentLines().Activate(program);
+    this->Tables.ActivateBentLines(program);
     this->BentTiles->Activate();
     program->SetUniformi("bentTiles", this->BentTiles->GetTextureUnit());
     program->SetUniformi("beginsInside", frame.Bending.BeginsInside ? 1 : 0);
@@ -451,6 +455,7 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateRays(
   { program->SetUniform3f(name, glm::value_ptr(glm::vec3(value))); };
 
   program->SetUniformf("tileSize", static_cast<float>(TileSize));
+  program->SetUniformf("longListTileSize", static_cast<float>(LongListTileSize));
   set2("imageCenter", 0.5 * glm::dvec2(this->Size[0], this->Size[1]));
   set3("rowX", rays.RowX);
   set3("rowY", rays.RowY);
@@ -461,6 +466,12 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateRays(
   set2("slopeBase", rays.Slope.Base);
   set2("slopePerColumn", rays.Slope.PerColumn);
   set2("slopePerRow", rays.Slope.PerRow);
+  const PixelRays grid(rays, this->Size[0], this->Size[1]);
+  const PixelRays::FixedPointMap offset = grid.GetFixedPointOffset();
+  const PixelRays::FixedPointMap slope = grid.GetFixedPointSlope();
+  program->SetUniformf("gridPerUnit", static_cast<float>(1.0 / grid.GetGridUnit()));
+  program->SetUniform1iv("gridOffset", static_cast<int>(offset.size()), offset.data());
+  program->SetUniform1iv("gridSlope", static_cast<int>(slope.size()), slope.data());
   program->SetUniformi("enteringSign", rays.Handedness);
   return this->Tables.ActivateRays(program);
 }

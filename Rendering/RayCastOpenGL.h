@@ -105,6 +105,11 @@ public:
    * 7-14 % of the tiles of meshes of 200k cells.
    */
   static constexpr int TileSize = 4;
+  /**
+   * The same where lists have any length: cells that share no points are many, and small. Lists of
+   * larger tiles have more faces that a ray does not enter by, of smaller ones more bytes in all.
+   */
+  static constexpr int LongListTileSize = 2;
   /** Faces that the lists made on the device hold. */
   static constexpr int TileCapacity = 32;
 

@@ -129,8 +129,8 @@ void RayCastPipeline::UpdateGradients(const InputParts& parts, const RayCastOpti
 //------------------------------------------------------------------------------
 std::string RayCastPipeline::DescribeExcess(const RayCastFrame& frame, std::int64_t limit) const
 {
-  const std::string error = this->OpenGL.GetTables().DescribeExcess(
-    this->Input.GetMesh(), frame.Optics.CompactCells, limit);
+  const std::string error = this->OpenGL.GetTables().DescribeExcess(this->Input.GetMesh(),
+    frame.Optics.CompactCells, frame.Bending.Wanted ? 1 + BentFrames::Number : 1, limit);
   return error.empty() && frame.Bending.Wanted
     ? OpenGLBentLines::DescribeExcess(frame.Output.ImageSize, limit)
     : error;
@@ -186,8 +186,9 @@ bool RayCastPipeline::UpdateEntryTiles(const RayCastFrame& frame)
   OpenGLTables& tables = this->OpenGL.GetTables();
   if (this->LinksOfTiles != this->Input.GetLinkChanges() || !rays.SeesAs(this->RaysOfTiles))
   {
-    this->TilesFit = this->Tiles.Build(this->Input.GetMesh(),
-      this->Input.GetBoundaryTree().GetFaces(), rays, RayCastOpenGL::TileSize, ThreadedLoop);
+    this->TilesFit =
+      this->Tiles.Build(this->Input.GetMesh(), this->Input.GetBoundaryTree().GetFaces(), rays,
+        RayCastOpenGL::LongListTileSize, ThreadedLoop);
     this->RaysOfTiles = rays;
     this->LinksOfTiles = this->Input.GetLinkChanges();
     ++this->EntryListBuilds;

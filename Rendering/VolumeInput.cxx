@@ -82,7 +82,7 @@ InputReport VolumeInput::BuildMesh(
          << " cells are left out: " << rejected.IndexOutOfRange
          << " with a point index out of range, " << rejected.RepeatedVertex
          << " with a repeated point, " << rejected.PointNotFinite
-         << " with a point that is not finite.";
+         << " with a point that is not finite, " << rejected.Duplicate << " given before.";
     report.Warning = text.str();
   }
   return report;

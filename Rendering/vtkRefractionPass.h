@@ -124,6 +124,16 @@ public:
   /**
    * Set/Get a cube map (vtkTexture::CubeMapOn(), world axes) that membranes reflect. Default is
    * none: the renderer's environment texture if that is a cube map, else its background colour.
+   *
+   * Inputs 0 to 5 of the texture are the faces +x, -x, +y, -y, +z, -z, laid out as OpenGL has them.
+   * Pixel (i, j) of a vtkImageData of n x n, (0, 0) its lower left one, with
+   * u = (2 i + 1) / n - 1 and v = (2 j + 1) / n - 1, is the sky in the direction
+   *
+   *     +x: (1, -v, -u)   +y: (u,  1,  v)   +z: ( u, -v,  1)
+   *     -x: (-1, -v, u)   -y: (u, -1, -v)   -z: (-u, -v, -1)
+   *
+   * so that sides of a sky with y upwards stand on their heads: pictures from files go through
+   * vtkImageFlip with SetFilteredAxis(1).
    */
   void SetReflectionTexture(vtkTexture* texture);
   vtkTexture* GetReflectionTexture();

@@ -13,14 +13,14 @@
  * vtkAbstractVolumeMapper. Of several components, SetVectorMode() or the colour function chooses
  * one or the length; or two to four mix as described below. Point data is linear within each
  * tetrahedron, cell data constant within each cell. Tetrahedra are drawn as they are; voxels,
- * hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells as tetrahedra that have the
- * same points and fit across shared faces, whatever the cells (each cell is pulled to its point of
- * the smallest number). Other cells are left out with a warning. Any mesh is accepted: non-convex,
- * disconnected, cyclic, with inverted cells, cells of zero volume, duplicate points and faces of
- * more than two cells. Cells that vtkGhostType marks as duplicate or hidden are left out. Cells
- * with a point index out of range, a repeated point or a point that is not finite are left out and
- * counted. Cells with a scalar that is not finite, their own or that of a vertex, are transparent
- * and counted.
+ * hexahedra, wedges, pyramids, prisms, polyhedra and cells of second order as tetrahedra that have
+ * the same points and fit across shared faces, whatever the cells (each cell is pulled to its point
+ * of the smallest number). Other cells are left out with a warning. Any mesh is accepted:
+ * non-convex, disconnected, cyclic, with inverted cells, cells of zero volume, duplicate points and
+ * faces of more than two cells. Cells that vtkGhostType marks as duplicate or hidden are left out.
+ * Cells with a point index out of range, a repeated point or a point that is not finite are left
+ * out and counted. Cells with a scalar that is not finite, their own or that of a vertex, are
+ * transparent and counted.
  *
  * Optical model, by SetBlendMode() with the numbers of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity becomes an
@@ -375,7 +375,9 @@ public:
    * scalars become visible), computations of vertex gradients, builds of the pre-integration table;
    * of a membrane, times that its shape was taken in and fitted, and that it was found where the
    * rays meet it (when shape, view or indices changed), and that the graphics device listed where
-   * they enter the mesh behind it (then, and for other active cells).
+   * they enter the mesh behind it (then, and for other active cells); times that the processor
+   * listed for shaders where rays enter a mesh of which they cross many layers, such as cells that
+   * share no points (for other rays or other active cells).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
@@ -386,6 +388,7 @@ public:
   vtkTypeInt64 GetNumberOfMembraneBuilds();
   vtkTypeInt64 GetNumberOfSightUpdates();
   vtkTypeInt64 GetNumberOfBentEntryLists();
+  vtkTypeInt64 GetNumberOfEntryListBuilds();
   ///@}
 
   /**
@@ -414,7 +417,7 @@ public:
    * Of the current mesh: tetrahedra that rays can visit, which are those that the transfer function
    * lets be seen and whose scalars are finite; tetrahedra with a scalar that is not finite; and
    * tetrahedra left out because of a point index out of range, a repeated point or a point that is
-   * not finite.
+   * not finite, or because they have the points of one before them.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
   vtkTypeInt64 GetNumberOfTransparentCells();

@@ -56,6 +56,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfBentEntryLists()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfEntryListBuilds()
+{
+  return this->Internals->GetEntryListBuilds();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 {
   return this->Internals->Input.GetActiveSetBuilds();
@@ -150,6 +156,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfMembraneBuilds: " << this->GetNumberOfMembraneBuilds() << "\n";
   os << indent << "NumberOfSightUpdates: " << this->GetNumberOfSightUpdates() << "\n";
   os << indent << "NumberOfBentEntryLists: " << this->GetNumberOfBentEntryLists() << "\n";
+  os << indent << "NumberOfEntryListBuilds: " << this->GetNumberOfEntryListBuilds() << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "CompactTables: " << this->CompactTables << "\n";

@@ -262,6 +262,53 @@ bool CurvedGeometry::IsEyeOnPatch(const CurvedPatch& patch) const
 }
 
 //------------------------------------------------------------------------------
+bool CurvedGeometry::FacesEye() const
+{
+  const auto& facets = this->Surface.GetFacets();
+  return std::any_of(facets.begin(), facets.end(),
+    [this](const Membrane::Facet& facet)
+    {
+      return std::any_of(facet.begin(), facet.end(),
+        [this](std::int32_t vertex)
+        {
+          const auto i = static_cast<std::size_t>(vertex);
+          return glm::dot(this->Surface.GetPositions()[i] - this->Optics.eye,
+                   this->Surface.GetNormals()[i]) < 0.0;
+        });
+    });
+}
+
+//------------------------------------------------------------------------------
+std::size_t CurvedGeometry::CountVerticesBehindOtherPieces(std::size_t most) const
+{
+  const SurfacePieces& pieces = this->Surface.GetPieces();
+  const auto& facets = this->Surface.GetFacets();
+  if (pieces.count < 2)
+  {
+    return 0;
+  }
+  std::size_t count = 0;
+  std::vector<VirtualVertex> images;
+  const std::size_t step = std::max<std::size_t>(facets.size() / most, 1);
+  for (std::size_t i = 0; i < facets.size(); i += step)
+  {
+    const auto vertex = static_cast<std::size_t>(facets[i][0]);
+    const glm::dvec3 point = this->Surface.GetPositions()[vertex] + this->Surface.GetOrigin();
+    this->FindImages(point, images);
+    count += std::any_of(images.begin(), images.end(),
+      [this, &pieces, &point, i, vertex](const VirtualVertex& image)
+      {
+        // Pieces may share places, which are their own images.
+        constexpr double touching = 1e-6;
+        return pieces.pieceOf[static_cast<std::size_t>(image.facet)] != pieces.pieceOf[i] &&
+          image.depth > touching * this->Surface.GetRadius() &&
+          glm::dot(point - image.sightPoint, this->Surface.GetNormals()[vertex]) < 0.0;
+      });
+  }
+  return count;
+}
+
+//------------------------------------------------------------------------------
 bool CurvedGeometry::MayShow(
   const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const
 {

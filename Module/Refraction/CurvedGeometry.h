@@ -103,6 +103,12 @@ public:
   VirtualVertex SolveBetween(
     const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const;
 
+  /// Whether the eye is in front of the surface at any vertex.
+  bool FacesEye() const;
+  /// Vertices that the eye sees through another piece of the membrane, from their front, of at most
+  /// `most` that are looked at: sight rays meet both pieces, one after the other.
+  std::size_t CountVerticesBehindOtherPieces(std::size_t most) const;
+
   /// Where the ray from the eye along the unit vector `direction` meets the membrane near the sight
   /// point of a known image, in world coordinates, with the unit normal. False if it does not.
   bool MeetRay(const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const;

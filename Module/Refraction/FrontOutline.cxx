@@ -111,6 +111,7 @@ std::size_t FrontOutline::FindNode(const TrianglePoint& place)
     { return IsBefore(this->Nodes[node].at.weight, weight); });
   if (at != this->Sorted.end() && this->Nodes[*at].at.weight == place.weight)
   {
+    this->Nodes[*at].at.position = place.position; // a corner, as the refracted part has it
     return *at;
   }
   this->Sorted.insert(at, this->Nodes.size());
@@ -119,22 +120,46 @@ std::size_t FrontOutline::FindNode(const TrianglePoint& place)
 }
 
 //------------------------------------------------------------------------------
-// The part behind is on the left of a piece, the part in front on the left of the way back.
+// The part behind is on the left of a piece, the part in front on the left of the way back. A piece
+// there and back cancels out.
 bool FrontOutline::Link(const WaterlinePiece& piece)
 {
   const std::size_t from = this->FindNode(piece.to);
   const std::size_t to = this->FindNode(piece.from);
-  if (from == to)
+  if (from == to || (this->Unlink(from, to) && this->Unlink(to, from)))
   {
     return true;
   }
-  if (this->Nodes[from].next != None || this->Nodes[to].previous != None)
+  return this->AddLink(from, to, true) && this->AddLink(to, from, false);
+}
+
+//------------------------------------------------------------------------------
+bool FrontOutline::AddLink(std::size_t from, std::size_t to, bool isForward)
+{
+  Node& node = this->Nodes[from];
+  const std::size_t place = node.next[0] == None ? 0 : 1;
+  if (node.next[place] != None)
   {
     return false;
   }
-  this->Nodes[from].next = to;
-  this->Nodes[to].previous = from;
+  node.next[place] = to;
+  node.isForward[place] = isForward;
   return true;
+}
+
+//------------------------------------------------------------------------------
+bool FrontOutline::Unlink(std::size_t from, std::size_t to)
+{
+  Node& node = this->Nodes[from];
+  for (std::size_t& next : node.next)
+  {
+    if (next == to)
+    {
+      next = None;
+      return true;
+    }
+  }
+  return false;
 }
 
 //------------------------------------------------------------------------------
@@ -155,16 +180,15 @@ bool FrontOutline::FollowSide(std::size_t from)
   std::sort(stops.begin(), stops.end(),
     [this, along](std::size_t a, std::size_t b)
     { return this->Nodes[a].at.weight[along] < this->Nodes[b].at.weight[along]; });
-  // The curve may meet a corner that counts as in front.
+  // The curve may end in a corner, whichever side that counts to.
   const bool isOdd = stops.size() % 2 == 1;
   if (isOdd != (this->IsFront[from] != this->IsFront[to]))
   {
-    const std::size_t corner = this->IsFront[from] ? from : to;
-    if (!this->IsFront[corner] || !this->IsEnd(corner))
+    if (!this->IsEnd(from) && !this->IsEnd(to))
     {
       return false;
     }
-    stops.insert(corner == from ? stops.begin() : stops.end(), corner);
+    stops.insert(this->IsEnd(from) ? stops.begin() : stops.end(), this->IsEnd(from) ? from : to);
   }
   bool isFront = this->IsFront[from];
   std::size_t last = from;
@@ -176,15 +200,25 @@ bool FrontOutline::FollowSide(std::size_t from)
     {
       this->Nodes[last].along = stop;
     }
-    const bool isCrossing = i + 1 < stops.size();
-    if (isCrossing && (this->Nodes[stop].next == None) == isFront)
-    {
-      return false; // the curve runs the other way
-    }
-    isFront = isFront != isCrossing;
+    isFront = isFront != (i + 1 < stops.size());
     last = stop;
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+// Along a side where that is in front; otherwise along the waterline, away from the node before, or
+// from none with the part in front on the left.
+std::size_t FrontOutline::GoOn(std::size_t index, std::size_t before) const
+{
+  const Node& node = this->Nodes[index];
+  if (node.along != None)
+  {
+    return node.along;
+  }
+  const bool isSecond =
+    node.next[0] == None || node.next[0] == before || (before == None && !node.isForward[0]);
+  return node.next[isSecond ? 1 : 0];
 }
 
 //------------------------------------------------------------------------------
@@ -194,10 +228,10 @@ bool FrontOutline::CollectLoop(
   Polygon loop;
   double area = 0.0;
   std::size_t node = first;
+  std::size_t before = None;
   do
   {
-    const std::size_t next =
-      this->Nodes[node].next != None ? this->Nodes[node].next : this->Nodes[node].along;
+    const std::size_t next = this->GoOn(node, before);
     if (seen[node] || next == None)
     {
       return false;
@@ -205,6 +239,9 @@ bool FrontOutline::CollectLoop(
     seen[node] = true;
     loop.push_back(this->Nodes[node].at);
     area += GetArea(loop.front(), this->Nodes[node].at, this->Nodes[next].at);
+    // From a side the waterline goes away in the only way it can.
+    before = this->Nodes[node].along != None ? None : node;
+    before = before == None && this->IsEnd(next) ? next : before;
     node = next;
   } while (node != first);
   if (loop.size() < 3 || std::fabs(area) <= Rounding)
@@ -228,11 +265,16 @@ bool FrontOutline::Find(std::vector<Polygon>& polygons)
     this->Broken = this->IsEnd(i) && this->Nodes[i].at.weight.x != 0.0 &&
       this->Nodes[i].at.weight.y != 0.0 && this->Nodes[i].at.weight.z != 0.0;
   }
+  // Loops with sides first: the others are closed by the waterline alone.
   std::vector<bool> seen(this->Nodes.size(), false);
-  for (std::size_t i = 0; i < this->Nodes.size() && !this->Broken; ++i)
+  for (const bool hasSide : { true, false })
   {
-    const bool isIn = this->Nodes[i].next != None || this->Nodes[i].along != None;
-    this->Broken = isIn && !seen[i] && !this->CollectLoop(i, seen, polygons);
+    for (std::size_t i = 0; i < this->Nodes.size() && !this->Broken; ++i)
+    {
+      const Node& node = this->Nodes[i];
+      const bool isIn = hasSide ? node.along != None : node.next[0] != None || node.next[1] != None;
+      this->Broken = isIn && !seen[i] && !this->CollectLoop(i, seen, polygons);
+    }
   }
   return !this->Broken;
 }

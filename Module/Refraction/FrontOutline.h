@@ -39,18 +39,21 @@ private:
   struct Node
   {
     TrianglePoint at;
-    std::size_t next = None;     ///< along the waterline, the part in front on the left
-    std::size_t previous = None; ///< on the waterline
-    std::size_t along = None;    ///< next along the triangle's sides
+    std::array<std::size_t, 2> next = { None, None }; ///< neighbours on the waterline
+    std::array<bool, 2> isForward = {};               ///< the part in front is on the left there
+    std::size_t along = None;                         ///< next along the triangle's sides
   };
 
   std::size_t FindNode(const TrianglePoint& at);
   bool Link(const WaterlinePiece& piece);
+  bool AddLink(std::size_t from, std::size_t to, bool isForward);
+  bool Unlink(std::size_t from, std::size_t to);
   bool IsEnd(std::size_t node) const
   {
-    return (this->Nodes[node].next == None) != (this->Nodes[node].previous == None);
+    return (this->Nodes[node].next[0] == None) != (this->Nodes[node].next[1] == None);
   }
   bool FollowSide(std::size_t from);
+  std::size_t GoOn(std::size_t node, std::size_t before) const;
   bool CollectLoop(std::size_t first, std::vector<bool>& seen, std::vector<Polygon>& polygons);
 
   std::vector<Node> Nodes;         ///< the triangle's corners first

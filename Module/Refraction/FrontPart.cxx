@@ -53,6 +53,41 @@ public:
     return { weight, this->Geometry.IsInFront(this->GetLocal(weight)) };
   }
 
+  // A corner within the tolerance of the membrane may count to either side: the curve may have been
+  // drawn on the other one, or its last bit left out.
+  bool FindOutline(const std::array<Place, 3>& corner, const std::vector<WaterlinePiece>& waterline,
+    std::vector<FrontOutline::Polygon>& polygons) const
+  {
+    unsigned near = 0;
+    for (unsigned turned = 0; turned < 8; ++turned)
+    {
+      if (turned == 1)
+      {
+        near = this->FindNear(corner);
+      }
+      if ((turned & ~near) != 0)
+      {
+        continue;
+      }
+      std::array<glm::dvec3, 3> place = this->Primitive.corners;
+      std::array<bool, 3> isFront;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const bool isTurned = (turned >> k & 1u) != 0;
+        isFront[k] = corner[k].isInFront != isTurned;
+        if (isTurned && isFront[k] && this->Primitive.images[k].count > 0)
+        {
+          place[k] = this->Primitive.images[k].first->vertex.position;
+        }
+      }
+      if (FrontOutline(waterline, place, isFront).Find(polygons))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
   void CutTriangle(const std::array<Place, 3>& corner, int level) const
   {
     std::array<Place, 3> middle; // opposite to the corners
@@ -125,6 +160,26 @@ private:
   glm::dvec3 GetLocal(const glm::dvec3& w) const
   {
     return w.x * this->Corner[0] + w.y * this->Corner[1] + w.z * this->Corner[2];
+  }
+
+  // A bit for each corner that is on the other side after a step of the tolerance into the
+  // triangle.
+  unsigned FindNear(const std::array<Place, 3>& corner) const
+  {
+    unsigned near = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const glm::dvec3 middle = 0.5 * (corner[(k + 1) % 3].weight + corner[(k + 2) % 3].weight);
+      const glm::dvec3 way = middle - corner[k].weight;
+      const glm::dvec3 from = this->GetLocal(corner[k].weight);
+      const double length = glm::length(this->GetLocal(middle) - from);
+      const double step = this->Tolerance * glm::length(from - this->Geometry.GetMedia().eye);
+      const double part = step < length ? step / length : 1.0;
+      const bool isOther =
+        this->MakePlace(corner[k].weight + part * way).isInFront != corner[k].isInFront;
+      near |= isOther ? 1u << k : 0u;
+    }
+    return near;
   }
 
   // Whether the membrane passes the middle of the straight cut within the tolerance.
@@ -211,9 +266,7 @@ void AddFrontOfTriangle(const CurvedGeometry& geometry, double tolerance,
   const std::array<Place, 3> corners = { cutter.MakePlace({ 1.0, 0.0, 0.0 }),
     cutter.MakePlace({ 0.0, 1.0, 0.0 }), cutter.MakePlace({ 0.0, 0.0, 1.0 }) };
   std::vector<FrontOutline::Polygon> polygons;
-  FrontOutline outline(waterline, triangle.corners,
-    { corners[0].isInFront, corners[1].isInFront, corners[2].isInFront });
-  if (!outline.Find(polygons))
+  if (!cutter.FindOutline(corners, waterline, polygons))
   {
     cutter.CutTriangle(corners, 0);
     return;

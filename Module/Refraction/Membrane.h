@@ -82,6 +82,8 @@ public:
     return this->CellIds[static_cast<std::size_t>(facet)];
   }
   const MembraneReport& GetReport() const { return this->Report; }
+  /// Pieces that hang together by edges.
+  const SurfacePieces& GetPieces() const { return this->Pieces; }
 
 private:
   void AcceptFacets(const MembraneInput& input);

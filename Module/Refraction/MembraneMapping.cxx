@@ -517,16 +517,24 @@ void MembraneMapping::Emit(const Context& context, const std::array<Node, 3>& no
   const bool facetTurned = glm::dot(facet, nodes[0].from.ray) < 0.0;
   const bool imageTurned = (area < 0.0) != (sign < 0.0);
   const int orientation = facetTurned == imageTurned ? 1 : -1;
-  const auto first = static_cast<std::int64_t>(context.images->points.size());
-  const auto count = static_cast<std::int64_t>(polygon.size());
+  std::vector<MappedPoint> points;
   for (const Corner& corner : polygon)
   {
-    ImagePoint point = this->MakePoint(context, nodes, corner);
-    point.vertex.orientation = static_cast<signed char>(orientation);
-    context.images->points.push_back(point);
+    points.push_back(this->MakePoint(context, nodes, corner));
+  }
+  if (!IsSeen(points))
+  {
+    return;
+  }
+  const auto first = static_cast<std::int64_t>(context.images->points.size());
+  const auto count = static_cast<std::int64_t>(polygon.size());
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    points[i].point.vertex.orientation = static_cast<signed char>(orientation);
+    context.images->points.push_back(points[i].point);
     if (context.isOnMembrane)
     {
-      context.isOnMembrane->push_back((corner.constraints & 1u) != 0);
+      context.isOnMembrane->push_back((polygon[i].constraints & 1u) != 0);
     }
   }
   for (std::int64_t i = 0; i < count; ++i)
@@ -534,6 +542,20 @@ void MembraneMapping::Emit(const Context& context, const std::array<Node, 3>& no
     context.images->connectivity.push_back(first + (area > 0.0 ? i : count - 1 - i));
   }
   context.images->EndCell(context.sourceCell, orientation);
+}
+
+//------------------------------------------------------------------------------
+// Where rays are nearly parallel to the primitive, or at a caustic, interpolation may find it in a
+// sub-cell that does not show it. Then a side does not meet the membrane there, or only ends of the
+// primitive seem to be there and none of them is.
+bool MembraneMapping::IsSeen(const std::vector<MappedPoint>& points)
+{
+  const auto count = [&points](Finding finding)
+  {
+    return static_cast<std::size_t>(std::count_if(points.begin(), points.end(),
+      [finding](const MappedPoint& point) { return point.finding == finding; }));
+  };
+  return count(Finding::Elsewhere) == 0 && count(Finding::EndWithoutImage) < points.size();
 }
 
 //------------------------------------------------------------------------------
@@ -546,7 +568,7 @@ void MembraneMapping::EmitLine(
   {
     context.images->connectivity.push_back(
       static_cast<std::int64_t>(context.images->points.size()));
-    context.images->points.push_back(this->MakePoint(context, nodes, corner));
+    context.images->points.push_back(this->MakePoint(context, nodes, corner).point);
     if (context.isOnMembrane)
     {
       context.isOnMembrane->push_back((corner.constraints & 1u) != 0);
@@ -558,7 +580,7 @@ void MembraneMapping::EmitLine(
 //------------------------------------------------------------------------------
 // The place of a clipped corner: interpolation is the guess, what the corner lies on decides what
 // is solved for. Corners of sub-cells are exact as they are.
-ImagePoint MembraneMapping::MakePoint(
+MembraneMapping::MappedPoint MembraneMapping::MakePoint(
   const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const
 {
   const Boundary on = context.FindBoundary(corner);
@@ -575,8 +597,9 @@ ImagePoint MembraneMapping::MakePoint(
     // The coordinates have one sign here.
     const glm::dvec3 value(corner.value[1], corner.value[2], corner.value[3]);
     const glm::dvec3 weight = glm::max(value / (value.x + value.y + value.z), glm::dvec3(0.0));
-    return this->Finish(
-      context, nodes[static_cast<std::size_t>(on.node)].from.at, context.GetPoint(weight), weight);
+    return { this->Finish(context, nodes[static_cast<std::size_t>(on.node)].from.at,
+               context.GetPoint(weight), weight),
+      Finding::Found };
   }
   const auto side = static_cast<std::size_t>(on.side);
   if (on.node >= 0)
@@ -592,8 +615,8 @@ ImagePoint MembraneMapping::MakePoint(
 
 //------------------------------------------------------------------------------
 // What a ray shows of a side that it meets. Beyond the side's end the piece ends with the side.
-ImagePoint MembraneMapping::MakeOnSide(const Context& context, const std::array<Node, 3>& nodes,
-  std::size_t side, const RefractedPoint& from) const
+MembraneMapping::MappedPoint MembraneMapping::MakeOnSide(const Context& context,
+  const std::array<Node, 3>& nodes, std::size_t side, const RefractedPoint& from) const
 {
   const Context::Side& on = context.sides[side];
   const double l = GetParameter(on.line, from);
@@ -606,26 +629,21 @@ ImagePoint MembraneMapping::MakeOnSide(const Context& context, const std::array<
   glm::dvec3 weight(0.0);
   weight[first] = 1.0 - l;
   weight[last] = l;
-  return this->Finish(context, from.at, on.line.GetPoint(l), weight);
+  return { this->Finish(context, from.at, on.line.GetPoint(l), weight), Finding::Found };
 }
 
 //------------------------------------------------------------------------------
 // The image of an end of the primitive: the known one that is seen in the sub-cell or next to it.
 // Near a caustic there may be none; then the end is drawn where interpolation has it. Nothing here
 // depends on the primitive's plane.
-ImagePoint MembraneMapping::MakeEnd(
+MembraneMapping::MappedPoint MembraneMapping::MakeEnd(
   const Context& context, const std::array<Node, 3>& nodes, glm::length_t end) const
 {
   const auto index = static_cast<std::size_t>(end);
   const glm::dvec2 guess = GuessSight(nodes, context.corner[index]);
   PatchPoint at = context.patch->Evaluate(guess);
   const glm::dvec3 middle = at.position + this->Geometry.GetMembrane().GetOrigin();
-  const auto isNear = [&nodes](double distance)
-  {
-    const auto size = [&nodes](std::size_t i, std::size_t j)
-    { return glm::length(nodes[i].from.at.position - nodes[j].from.at.position); };
-    return distance <= std::max({ size(0, 1), size(1, 2), size(2, 0) });
-  };
+  const double size = GetSize(nodes);
   glm::dvec3 weight(0.0);
   weight[end] = 1.0;
   const KnownImages& known = context.primitive.images[index];
@@ -634,22 +652,37 @@ ImagePoint MembraneMapping::MakeEnd(
       return glm::length(a.vertex.sightPoint - middle) < glm::length(b.vertex.sightPoint - middle);
     });
   if (known.count > 0 && nearest->vertex.facet != CurvedPatches::NoFacet &&
-    isNear(glm::length(nearest->vertex.sightPoint - middle)))
+    glm::length(nearest->vertex.sightPoint - middle) <= size)
   {
     ImagePoint point;
     point.vertex = nearest->vertex;
     point.SetSource(context.primitive.ids, weight);
-    return point;
+    return { point, Finding::Found };
   }
   constexpr int steps = 10;
   constexpr double reach = 0.5;
   const SightRoot root =
     this->Geometry.MakeEquation(context.corner[index]).Solve(*context.patch, guess, steps, reach);
-  if (root.end == SightRoot::End::Converged && isNear(glm::length(root.at.position - at.position)))
+  const bool isFound =
+    root.end == SightRoot::End::Converged && glm::length(root.at.position - at.position) <= size;
+  if (isFound)
   {
     at = root.at;
   }
-  return this->Finish(context, at, context.corner[index], weight);
+  ImagePoint point = this->Finish(context, at, context.corner[index], weight);
+  if (known.count == 1 && known.first->vertex.facet == CurvedPatches::NoFacet)
+  {
+    point.vertex.position = known.first->vertex.position; // in front, where all others have it
+  }
+  return { point, isFound ? Finding::Found : Finding::EndWithoutImage };
+}
+
+//------------------------------------------------------------------------------
+double MembraneMapping::GetSize(const std::array<Node, 3>& nodes)
+{
+  const auto length = [&nodes](std::size_t i, std::size_t j)
+  { return glm::length(nodes[i].from.at.position - nodes[j].from.at.position); };
+  return std::max({ length(0, 1), length(1, 2), length(2, 0) });
 }
 
 //------------------------------------------------------------------------------
@@ -678,8 +711,8 @@ glm::dvec2 MembraneMapping::GuessSight(const std::array<Node, 3>& nodes, const g
 //------------------------------------------------------------------------------
 // Where the primitive meets the membrane: a side of the sub-cell its plane, or the patch a side of
 // the primitive. Beyond a side of the primitive the first one ends with the second.
-ImagePoint MembraneMapping::MakeCrossing(const Context& context, const std::array<Node, 3>& nodes,
-  const Corner& corner, const Boundary& on) const
+MembraneMapping::MappedPoint MembraneMapping::MakeCrossing(const Context& context,
+  const std::array<Node, 3>& nodes, const Corner& corner, const Boundary& on) const
 {
   glm::dvec3 weight = context.isLine
     ? glm::dvec3(corner.value[2], corner.value[1], 0.0)
@@ -697,30 +730,19 @@ ImagePoint MembraneMapping::MakeCrossing(const Context& context, const std::arra
       weight.x < weight.y ? (weight.x < weight.z ? 0 : 2) : (weight.y < weight.z ? 1 : 2);
     if (weight[least] >= 0.0)
     {
-      return this->Finish(context, from.at, from.at.position, weight);
+      return { this->Finish(context, from.at, from.at.position, weight), Finding::Found };
     }
     side = static_cast<int>(least) + 1;
   }
-  if (side >= 0)
-  {
-    ImagePoint point;
-    if (this->MakeSideCrossing(
-          context, nodes, static_cast<std::size_t>(side), corner.b, weight, point))
-    {
-      return point;
-    }
-  }
-  // A line that touches the patch: the guess, within the primitive.
-  weight = glm::max(weight, glm::dvec3(0.0));
-  weight /= weight.x + weight.y + weight.z;
-  return this->Finish(context, context.patch->Evaluate(corner.b), context.GetPoint(weight), weight);
+  return this->MakeSideCrossing(context, nodes, static_cast<std::size_t>(side), corner.b, weight);
 }
 
 //------------------------------------------------------------------------------
 // Found from a guess, then again by the patch in which it is from a start that is the same for all
 // guesses: every primitive with the side takes the same point.
-bool MembraneMapping::MakeSideCrossing(const Context& context, const std::array<Node, 3>& nodes,
-  std::size_t side, const glm::dvec2& guess, const glm::dvec3& weight, ImagePoint& point) const
+MembraneMapping::MappedPoint MembraneMapping::MakeSideCrossing(const Context& context,
+  const std::array<Node, 3>& nodes, std::size_t side, const glm::dvec2& guess,
+  const glm::dvec3& weight) const
 {
   const Context::Side& on = context.sides[side];
   const auto first = static_cast<glm::length_t>((side + (on.turned ? 1 : 0)) % 3);
@@ -728,23 +750,27 @@ bool MembraneMapping::MakeSideCrossing(const Context& context, const std::array<
   Context inPatch = context;
   glm::dvec2 b = guess;
   double l = weight[last] / (weight[first] + weight[last]);
+  const glm::dvec3 start = context.patch->Evaluate(guess).position;
   if (!this->Geometry.MeetLine(on.line, context.patch->GetNormal(guess), inPatch.facet, b, l))
   {
-    return false;
+    return { {}, Finding::Elsewhere };
   }
   const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(inPatch.facet);
   MeetPatchAgain(patch, on.line, b, l);
   inPatch.patch = &patch;
+  const PatchPoint at = patch.Evaluate(b);
+  if (glm::length(at.position - start) > GetSize(nodes))
+  {
+    return { {}, Finding::Elsewhere };
+  }
   if (!(l > 0.0 && l < 1.0))
   {
-    point = this->MakeEnd(context, nodes, l < 0.5 ? first : last);
-    return true;
+    return this->MakeEnd(context, nodes, l < 0.5 ? first : last);
   }
   glm::dvec3 place(0.0);
   place[first] = 1.0 - l;
   place[last] = l;
-  point = this->Finish(inPatch, patch.Evaluate(b), on.line.GetPoint(l), place);
-  return true;
+  return { this->Finish(inPatch, at, on.line.GetPoint(l), place), Finding::Found };
 }
 
 //------------------------------------------------------------------------------

@@ -82,6 +82,17 @@ private:
   struct Context;
   struct Boundary;
   using Polygon = std::vector<Corner>;
+  enum class Finding
+  {
+    Found,
+    EndWithoutImage, ///< an end of the primitive that has no image in or next to the sub-cell
+    Elsewhere        ///< a side of the primitive that does not meet the membrane there
+  };
+  struct MappedPoint
+  {
+    ImagePoint point;
+    Finding finding;
+  };
 
   void MapSides(Context& context, const glm::dvec3& middle, double padding, bool mayCross,
     ImageMesh& images) const;
@@ -96,17 +107,19 @@ private:
     double sign) const;
   void EmitLine(
     const Context& context, const std::array<Node, 3>& nodes, const Polygon& polygon) const;
-  ImagePoint MakePoint(
+  MappedPoint MakePoint(
     const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const;
-  ImagePoint MakeEnd(
+  MappedPoint MakeEnd(
     const Context& context, const std::array<Node, 3>& nodes, glm::length_t end) const;
+  static double GetSize(const std::array<Node, 3>& nodes);
   static glm::dvec2 GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point);
-  ImagePoint MakeOnSide(const Context& context, const std::array<Node, 3>& nodes, std::size_t side,
+  MappedPoint MakeOnSide(const Context& context, const std::array<Node, 3>& nodes, std::size_t side,
     const RefractedPoint& from) const;
-  bool MakeSideCrossing(const Context& context, const std::array<Node, 3>& nodes, std::size_t side,
-    const glm::dvec2& guess, const glm::dvec3& weight, ImagePoint& point) const;
-  ImagePoint MakeCrossing(const Context& context, const std::array<Node, 3>& nodes,
+  MappedPoint MakeCrossing(const Context& context, const std::array<Node, 3>& nodes,
     const Corner& corner, const Boundary& on) const;
+  MappedPoint MakeSideCrossing(const Context& context, const std::array<Node, 3>& nodes,
+    std::size_t side, const glm::dvec2& guess, const glm::dvec3& weight) const;
+  static bool IsSeen(const std::vector<MappedPoint>& points);
   ImagePoint Finish(const Context& context, const PatchPoint& at, const glm::dvec3& point,
     const glm::dvec3& weight) const;
 

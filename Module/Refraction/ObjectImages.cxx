@@ -20,18 +20,23 @@ constexpr std::size_t FacetsPerPoint = 3;
 constexpr std::size_t Run = 8;
 static_assert(ObjectImages::Chunk % Run == 0, "runs make chunks");
 
-// Calls `visit(cell, side)` for every side of every polygon.
-template <typename Visit>
-void VisitPolygonSides(const ObjectCells& cells, std::size_t count, const Visit& visit)
+// Calls `visit(side)` for every side of every polygon that `isWanted(cell)` tells.
+template <typename IsWanted, typename Visit>
+void VisitPolygonSides(
+  const ObjectCells& cells, std::size_t count, const IsWanted& isWanted, const Visit& visit)
 {
   for (std::size_t cell = 0; cell < count; ++cell)
   {
+    if (!isWanted(cell))
+    {
+      continue;
+    }
     const std::int64_t* ids = cells.connectivity + cells.offsets[cell];
     const std::int64_t size = cells.offsets[cell + 1] - cells.offsets[cell];
     for (std::int64_t k = 0; k < size; ++k)
     {
       const auto [low, high] = std::minmax(ids[k], ids[(k + 1) % size]);
-      visit(cell, Seam{ low, high, 0 });
+      visit(Seam{ low, high, 0 });
     }
   }
 }
@@ -386,22 +391,18 @@ std::vector<Seam> ObjectImages::FindSeams(
   const ObjectCells& cells, std::size_t count, const unsigned char* isMapped)
 {
   std::vector<Seam> seams;
-  VisitPolygonSides(cells, count,
-    [&seams, isMapped](std::size_t cell, const Seam& side)
-    {
-      if (isMapped[cell])
-      {
-        seams.push_back(side);
-      }
-    });
+  VisitPolygonSides(
+    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] != 0; },
+    [&seams](const Seam& side) { seams.push_back(side); });
   std::sort(seams.begin(), seams.end());
   seams.erase(std::unique(seams.begin(), seams.end(),
                 [](const Seam& a, const Seam& b) { return a.low == b.low && a.high == b.high; }),
     seams.end());
   if (!seams.empty())
   {
-    VisitPolygonSides(cells, count,
-      [&seams](std::size_t, const Seam& side)
+    VisitPolygonSides(
+      cells, count, [](std::size_t) { return true; },
+      [&seams](const Seam& side)
       {
         const auto at = std::lower_bound(seams.begin(), seams.end(), side);
         if (at != seams.end() && !(side < *at))
@@ -445,10 +446,11 @@ void ObjectImages::MoveOntoNeighbours(const ObjectCells& cells, std::size_t coun
     const auto at = std::lower_bound(seams.begin(), seams.end(), side);
     return at != seams.end() && !(side < *at) ? at - seams.begin() : -1;
   };
-  VisitPolygonSides(cells, count,
-    [&find, &isCommon, isMapped](std::size_t cell, const Seam& side)
+  VisitPolygonSides(
+    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] == 0; },
+    [&find, &isCommon](const Seam& side)
     {
-      const std::ptrdiff_t at = isMapped[cell] ? -1 : find(side);
+      const std::ptrdiff_t at = find(side);
       if (at >= 0)
       {
         isCommon[static_cast<std::size_t>(at)] = 1;

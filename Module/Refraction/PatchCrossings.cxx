@@ -268,6 +268,55 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
 }
 
 //------------------------------------------------------------------------------
+// As IsInjective for the whole: across the line the facet's sides are no longer, its area is that
+// over the slant.
+double PatchCrossings::GetLargestSlant(const CurvedPatch& patch, double bend)
+{
+  const glm::dvec3 u = patch.corner[1] - patch.corner[0];
+  const glm::dvec3 v = patch.corner[2] - patch.corner[0];
+  return LargestSlope * glm::length(glm::cross(u, v)) / ((glm::length(u) + glm::length(v)) * bend);
+}
+
+//------------------------------------------------------------------------------
+double PatchCrossings::GetLargestSlant()
+{
+  Part whole{ { Corner{ { 0.0, 0.0 }, {}, 0.0 }, Corner{ { 1.0, 0.0 }, {}, 0.0 },
+                Corner{ { 0.0, 1.0 }, {}, 0.0 } },
+    1.0, Bend(), Bend() };
+  this->BoundBend(whole);
+  return GetLargestSlant(this->Patch, whole.along.first + 2.0 * this->Rounding);
+}
+
+//------------------------------------------------------------------------------
+// The rule for products again, with bounds of sums: within Reach of the triangle barycentric
+// coordinates are in [-0.1, 1.2] and differ by 1.3 at most, the products of two are in
+// [-0.12, 0.3], and the sum of their absolute values is 1.4.
+double PatchCrossings::BoundLargestSlant(const CurvedPatch& patch)
+{
+  double s = 0.0;
+  double d = 0.0;
+  double bends = 0.0;
+  double turn = 0.0; // squared
+  for (int k = 0; k < 3; ++k)
+  {
+    s += std::fabs(patch.symmetric[k]);
+    d += std::fabs(patch.asymmetric[k]);
+    bends += std::fabs(patch.bend[k].x) + std::fabs(patch.bend[k].y) + std::fabs(patch.bend[k].z);
+    const glm::dvec3 difference = patch.normal[(k + 1) % 3] - patch.normal[k];
+    turn = std::max(turn, glm::dot(difference, difference));
+  }
+  turn = std::sqrt(turn);
+  const double q = 0.3 * s + 0.3 * 1.3 * d;
+  const double qBy = 1.3 * s + (1.3 * 1.3 + 0.3 * 2.0) * d;
+  const double n = 1.4 + 0.3 * bends;
+  const double nBy = turn + 1.3 * bends;
+  const double l = std::max(1.0 - 1.4 * turn - 0.3 * bends, CurvedPatch::ShortestNormal);
+  const double factor = 2.0 / (l * (1.0 + l));
+  const double factorBy = 0.5 * (1.0 + 2.0 * l) * factor * factor * nBy;
+  return GetLargestSlant(patch, factor * (qBy * n + q * nBy) + factorBy * q * n);
+}
+
+//------------------------------------------------------------------------------
 PatchCrossings::Corner PatchCrossings::MakeCorner(const glm::dvec2& b) const
 {
   const glm::dvec3 position = this->Patch.Evaluate(b).position;

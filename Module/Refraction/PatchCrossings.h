@@ -54,6 +54,14 @@ public:
   /// The crossings over `place` with heights in [low, high]; some beyond these may be there too.
   void Find(const glm::dvec2& place, double low, double high);
 
+  /// Lines that make an angle with the facet's normal whose inverse cosine is no more than this
+  /// cross the patch, and what is within Reach of it, once at most.
+  double GetLargestSlant();
+  /// A lower bound of it that costs little.
+  static double BoundLargestSlant(const CurvedPatch& patch);
+  /// How far out of its triangle, in barycentric coordinates, the bounds of a part hold.
+  static constexpr double Reach = 0.1;
+
   const PatchCrossing* begin() const { return this->Crossings.data(); }
   const PatchCrossing* end() const { return this->Crossings.data() + this->Count; }
 
@@ -66,8 +74,6 @@ private:
   static constexpr int DeepestLevel = 40;
   static constexpr double SmallestPart = 0x1p-40;
   static constexpr int MostDivisions = 256;
-  /// Bounds of a part hold down to this barycentric coordinate of it, negated.
-  static constexpr double Reach = 0.1;
 
   /// A corner of a part: barycentric coordinates, the place relative to the line, the height.
   struct Corner
@@ -101,6 +107,7 @@ private:
   };
 
   Corner MakeCorner(const glm::dvec2& b) const;
+  static double GetLargestSlant(const CurvedPatch& patch, double bend);
   void BoundBend(Part& part) const;
   static bool IsSeparated(const Part& part, double reach);
   bool IsPassed(const Part& part, double low, double high) const;

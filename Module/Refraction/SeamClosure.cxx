@@ -98,6 +98,13 @@ SeamClosure::SeamClosure(
   , Eye(eye)
   , Tolerance(tolerance)
 {
+  for (const Seam& seam : seams)
+  {
+    const auto size = static_cast<std::size_t>(seam.high) + 1;
+    this->HasSeam.resize(std::max(this->HasSeam.size(), size), 0);
+    this->HasSeam[static_cast<std::size_t>(seam.low)] = 1;
+    this->HasSeam[static_cast<std::size_t>(seam.high)] = 1;
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -139,6 +146,13 @@ void SeamClosure::AddPart(
     return;
   }
   const Seam seam{ std::min(first, last), std::max(first, last), 0 };
+  const auto high = static_cast<std::size_t>(seam.high);
+  // A diagonal's ends are corners of a mapped polygon, which has seams at all of them.
+  if (high >= this->HasSeam.size() || !this->HasSeam[high] ||
+    !this->HasSeam[static_cast<std::size_t>(seam.low)])
+  {
+    return;
+  }
   const auto known = std::lower_bound(this->Seams.begin(), this->Seams.end(), seam);
   const bool isSeam = known != this->Seams.end() && !(seam < *known);
   if (!AreSame(a, b) && (isSeam ? known->cells > 1 : this->HasDiagonals))

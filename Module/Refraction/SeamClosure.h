@@ -71,6 +71,7 @@ private:
 
   const std::vector<Seam>& Seams;
   bool HasDiagonals;
+  std::vector<char> HasSeam; ///< by points of the object
   glm::dvec3 Eye;
   double Tolerance;
   std::vector<Part> All;

@@ -21,7 +21,7 @@ namespace
 {
 
 /** Rows of tiles that a thread fills at a time. */
-constexpr std::size_t RowsPerBand = 4;
+constexpr int RowsPerBand = 8;
 
 constexpr std::int64_t MostFaces = std::int64_t{ 1 } << 26;
 
@@ -30,30 +30,20 @@ constexpr int DepthBits = 30;
 constexpr double DepthSteps = 268435456.0; // 2^28 per unit of depth
 
 /**
- * Bound of the error of a depth in a shader: the position's three and the row's three components in
- * single precision, three products and two sums, and the interpolation across a face, each rounded
- * to 2^-24 of less than 2.
+ * Bound of the error of a depth in a shader: depths of vertices are whole numbers of PixelRays'
+ * grid, and the interpolation across a face rounds three products and two sums to 2^-24 of less
+ * than 2 each; a float that holds the bound itself is rounded likewise. 2^-21 in all, taken four
+ * times.
  */
 constexpr double DepthError = 1.9073486328125e-06; // 2^-19
 
 /**
- * Bound of the error of u and v of a vertex about a ray in a shader, in units of the frame: whole
- * units of a grid of 2^-22 of what u and v may be where a ray meets the mesh (8 of them, see
- * BOX_MARGIN in vtkTetrahedraRays.glsl), and the rounding of rows, offsets and slopes to single
- * precision, eight times 2^-24 of the largest.
+ * Bound of the error of u and v of a vertex about a ray in a shader, in grid units. Both are below
+ * 2^30 near a ray that meets the mesh; a whole number and a difference are rounded to float, by 32
+ * each. Placing the vertex, the ray and the product of depth and slope add less than 4
+ * (fetchVertex in vtkTetrahedraRays.glsl).
  */
-double ErrorInShader(const PixelRays& rays)
-{
-  const RayFrame& frame = rays.GetFrame();
-  const auto largest = [&rays](const AffinePixelMap& map)
-  {
-    return glm::length(map.Base) + 0.5 * rays.GetWidth() * glm::length(map.PerColumn) +
-      0.5 * rays.GetHeight() * glm::length(map.PerRow);
-  };
-  const double slope = largest(frame.Slope);
-  return 8.0 * std::ldexp(1.0 + slope, -22) +
-    8.0 * std::ldexp(1.0 + slope + largest(frame.Origin), -24);
-}
+constexpr double ErrorInShader = 128.0;
 
 /** Tiles of a row. */
 struct TileSpan
@@ -161,7 +151,7 @@ std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
   const ProjectedFaces& projected, int tileSize, const RangeLoop& loop) const
 {
   const PixelRays& rays = projected.GetRays();
-  const double error = ErrorInShader(rays) / rays.GetGridUnit();
+  const double error = ErrorInShader;
   // From the image's centre to the centre of the first tile.
   const glm::dvec2 first =
     0.5 * (glm::dvec2(tileSize) - glm::dvec2(rays.GetWidth(), rays.GetHeight()));
@@ -185,10 +175,12 @@ std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
         const bool bounded = seen.Error < std::numeric_limits<double>::infinity();
         for (int k = 0; k < 3; ++k)
         {
-          // Vertices that are off by less than `Error` span a triangle within that of the face's.
+          // The rays are those of pixels' centres. Vertices that are off by less than `Error` span
+          // a triangle within that of the face's.
           const glm::dvec3& edge = face.Edges[k];
-          const double reach = 0.5 * tileSize * (std::abs(edge[1]) + std::abs(edge[2])) +
-            (bounded ? seen.Error * std::hypot(edge[1], edge[2]) : 0.0) + ProjectedFaces::Margin;
+          const double reach = 0.5 * (tileSize - 1) * (std::abs(edge[1]) + std::abs(edge[2])) +
+            (bounded ? seen.Error * std::sqrt(edge[1] * edge[1] + edge[2] * edge[2]) : 0.0) +
+            ProjectedFaces::Margin;
           outline.Constant[k] =
             bounded ? edge[0] + first.x * edge[1] + first.y * edge[2] + reach : 0.0;
           outline.PerColumn[k] = bounded ? tileSize * edge[1] : 0.0;
@@ -235,16 +227,35 @@ void EntryTiles::SortByDepth(std::vector<Outline>& outlines, const RangeLoop& lo
 }
 
 //------------------------------------------------------------------------------
-/** Twice over all faces, by bands of rows: counts them, then fills the lists. */
+/** Indices of the outlines that meet each band of rows of tiles, in their order. */
+std::vector<std::vector<std::int32_t>> EntryTiles::DealToBands(
+  const std::vector<Outline>& outlines) const
+{
+  std::vector<std::vector<std::int32_t>> bands(
+    static_cast<std::size_t>((this->Rows + RowsPerBand - 1) / RowsPerBand));
+  for (std::size_t i = 0; i < outlines.size(); ++i)
+  {
+    const int last = (outlines[i].Tiles.Top - 1) / RowsPerBand;
+    for (int band = outlines[i].Tiles.Bottom / RowsPerBand; band <= last; ++band)
+    {
+      bands[static_cast<std::size_t>(band)].push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  return bands;
+}
+
+//------------------------------------------------------------------------------
+/** Twice over the faces of each band: counts them, then fills the lists. */
 bool EntryTiles::FillTiles(const std::vector<Outline>& outlines, const RangeLoop& loop)
 {
-  const std::size_t bands = (static_cast<std::size_t>(this->Rows) + RowsPerBand - 1) / RowsPerBand;
+  const std::vector<std::vector<std::int32_t>> bands = this->DealToBands(outlines);
   const auto forEachTile = [&](std::size_t band, const auto& body)
   {
-    const auto firstRow = static_cast<int>(band * RowsPerBand);
-    const int lastRow = std::min(firstRow + static_cast<int>(RowsPerBand), this->Rows);
-    for (const Outline& outline : outlines)
+    const int firstRow = static_cast<int>(band) * RowsPerBand;
+    const int lastRow = std::min(firstRow + RowsPerBand, this->Rows);
+    for (const std::int32_t index : bands[band])
     {
+      const Outline& outline = outlines[static_cast<std::size_t>(index)];
       const int last = std::min(lastRow, outline.Tiles.Top);
       for (int row = std::max(firstRow, outline.Tiles.Bottom); row < last; ++row)
       {
@@ -258,7 +269,7 @@ bool EntryTiles::FillTiles(const std::vector<Outline>& outlines, const RangeLoop
   };
   const auto forEachBand = [&](const auto& body)
   {
-    loop(bands,
+    loop(bands.size(),
       [&](std::size_t first, std::size_t last)
       {
         for (std::size_t band = first; band < last; ++band)

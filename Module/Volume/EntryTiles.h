@@ -40,7 +40,7 @@ double ExpectedEntriesPerTile(const BoundaryMeasure& boundary, double tileSide);
 
 /**
  * Lists of any length of the boundary faces by which rays of a tile of an image may enter the mesh,
- * from near to far. For shaders, which project vertices on a coarser grid than PixelRays.
+ * from near to far. For shaders, whose coordinates about a ray are single-precision numbers.
  */
 class EntryTiles
 {
@@ -74,6 +74,7 @@ private:
   std::vector<Outline> OutlineFaces(
     const ProjectedFaces& projected, int tileSize, const RangeLoop& loop) const;
   void SortByDepth(std::vector<Outline>& outlines, const RangeLoop& loop);
+  std::vector<std::vector<std::int32_t>> DealToBands(const std::vector<Outline>& outlines) const;
   bool FillTiles(const std::vector<Outline>& outlines, const RangeLoop& loop);
 
   int Columns = 0;

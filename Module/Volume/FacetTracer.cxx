@@ -81,6 +81,8 @@ FacetTracer::FacetTracer(const CurvedPatch& patch, const SightRays& rays, Instru
   this->Bulge = BoundBulge(patch);
   this->IsFlat = this->Bulge <= FlatBulge * size;
   this->Overhang = this->IsFlat ? 0.0 : this->Bulge * steepest;
+  this->LargestSlant = this->IsFlat ? std::numeric_limits<double>::infinity()
+                                    : PatchCrossings::BoundLargestSlant(patch);
 }
 
 //------------------------------------------------------------------------------
@@ -176,6 +178,17 @@ bool FacetTracer::Matters(
   return mesh.MayBeSeen(BoundDirections(middle, rays.Directions, 4, 0.0),
     this->BoundNormalsOver(hits.Coordinates, hits.Margin), hits.Places, 4,
     this->Bulge * hits.Slant);
+}
+
+//------------------------------------------------------------------------------
+bool FacetTracer::MayMeetTwice(double slant) const
+{
+  if (!this->IsSlantBest)
+  {
+    this->LargestSlant = PatchCrossings(this->Patch, HeightFrame()).GetLargestSlant();
+    this->IsSlantBest = true;
+  }
+  return !(slant <= this->LargestSlant);
 }
 
 //------------------------------------------------------------------------------

@@ -103,7 +103,11 @@ private:
   double MarginOf(double slant) const { return this->Overhang * (1.0 + slant) + Border; }
   template <typename Visit>
   void MeetCurved(bool matters, SightLanes& lanes, const Visit& visit) const;
-  /** Every place where one ray meets the patch, for rays that Newton's method fails for. */
+  bool MayMeetTwice(double slant) const;
+  /**
+   * Every place where one ray meets the patch: for rays that may meet it twice, and those that
+   * Newton's method fails for.
+   */
   template <typename Visit>
   void MeetExactly(bool matters, const SightLanes& lanes, int lane, const Visit& visit) const;
 
@@ -124,6 +128,9 @@ private:
   double Scale;
   double Bulge;
   double Overhang;
+  /** Rays that are no more slanting do not meet the patch twice: a bound, then the best one. */
+  mutable double LargestSlant;
+  mutable bool IsSlantBest = false;
   bool IsFlat;
 };
 
@@ -153,11 +160,19 @@ void FacetTracer::Meet(bool matters, SightLanes& lanes, const Visit& visit) cons
 template <typename Visit>
 void FacetTracer::MeetCurved(bool matters, SightLanes& lanes, const Visit& visit) const
 {
-  for (int i = 0; i < lanes.Count; ++i)
+  const int all = lanes.Count;
+  lanes.Count = 0;
+  for (int i = 0; i < all; ++i)
   {
+    if (!(lanes.Slant[i] <= this->LargestSlant) && this->MayMeetTwice(lanes.Slant[i]))
+    {
+      this->MeetExactly(matters, lanes, i, visit);
+      continue;
+    }
     lanes.PatchX[i] = lanes.X[i];
     lanes.PatchY[i] = lanes.Y[i];
     lanes.Behind[i] = 0.0;
+    lanes.Keep(lanes.Count++, i);
   }
   for (int step = 0; step < Steps && lanes.Count > 0; ++step)
   {
@@ -166,17 +181,18 @@ void FacetTracer::MeetCurved(bool matters, SightLanes& lanes, const Visit& visit
     lanes.Count = 0;
     for (int i = 0; i < count; ++i)
     {
-      if (lanes.Move[i] < LastStep)
+      const double outside = FindOutside(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i])).least;
+      if (lanes.Move[i] < LastStep && outside >= -PatchCrossings::Reach)
       {
-        if (FindOutside(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i])).least >= -Border)
+        if (outside >= -Border)
         {
           const glm::dvec3 normal(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]);
           visit(lanes.Index[i],
             MembraneHit{ lanes.Depth[i] + lanes.Behind[i], matters ? normal : glm::dvec3(0.0) });
         }
       }
-      // What goes farther than a facet has gone astray.
-      else if (std::fabs(lanes.PatchX[i] - lanes.X[i]) <= 1.0 &&
+      // What goes farther than a facet has gone astray. What ends far from the patch, too.
+      else if (lanes.Move[i] >= LastStep && std::fabs(lanes.PatchX[i] - lanes.X[i]) <= 1.0 &&
         std::fabs(lanes.PatchY[i] - lanes.Y[i]) <= 1.0 && std::fabs(lanes.Behind[i]) <= this->Scale)
       {
         lanes.Keep(lanes.Count++, i);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/ProjectedFaces.h"
 
-#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>
@@ -132,8 +132,8 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
       margin += AreaError(face.Vertices[(k + 1) % 3], face.Vertices[(k + 2) % 3], pixel, error);
       // (u, v) changes by at least the smaller singular value per pixel, which is the determinant
       // over the larger one. Both u and v are off.
-      const double largest =
-        std::hypot(std::hypot(vertex.U[1], vertex.U[2]), std::hypot(vertex.V[1], vertex.V[2]));
+      const double largest = std::sqrt(vertex.U[1] * vertex.U[1] + vertex.U[2] * vertex.U[2] +
+        vertex.V[1] * vertex.V[1] + vertex.V[2] * vertex.V[2]);
       pixelError = std::max(pixelError, 1.42 * error * largest / std::abs(side));
     }
     // Within a face that turns the other way, one edge is below a third of its value at the vertex

@@ -71,7 +71,7 @@ void Resolve(const ScalarDistribution& scalars, std::vector<ScalarFeature>& feat
   }
 }
 
-/** Largest distance of a feature from the offset, in widths of the feature. */
+/** Largest distance of a feature from the offset, in widths of the feature; more if it is lost. */
 double CostOf(const ScalarNormalization& normalization, const std::vector<ScalarFeature>& features)
 {
   const double nearEnd = normalization.Farthest > 1.0
@@ -81,6 +81,10 @@ double CostOf(const ScalarNormalization& normalization, const std::vector<Scalar
   for (const ScalarFeature& feature : features)
   {
     const double distance = Distance(feature.Scalar, normalization.Offset);
+    if (feature.Width > 0.0 && 1.0 / normalization.Scale > LargestRatio * feature.Width)
+    {
+      cost = std::max(cost, LostCost); // too small to be computed with, wherever it is
+    }
     if (distance > 0.0)
     {
       const double factor = distance > nearEnd ? LostCost : 1.0;

@@ -5,11 +5,11 @@
 // see Module/Volume/EntryTiles.h; else one of at most 32, and longer ones are searched in the tree.
 
 // The next entries of the ray in the order of depth, then number; -1 where there are none.
-vec4 entryDepths;
+ivec4 entryDepths;   // in grid units
 ivec4 entryFaces;
 bool moreEntries;    // whether there may be others behind them
 
-bool isBefore(float depth, int number, float otherDepth, int otherNumber)
+bool isBefore(int depth, int number, int otherDepth, int otherNumber)
 {
   return depth < otherDepth || (depth == otherDepth && number < otherNumber);
 }
@@ -19,33 +19,44 @@ uniform isamplerBuffer tileBegins;   // where each tile's list begins, and where
 uniform isamplerBuffer tileFaces;    // the lists, from near to far
 uniform samplerBuffer nearestDepths; // per face, a depth before which no ray enters by it
 uniform int tileColumns;
+uniform float longListTileSize;
 
 int listAt;          // the first face that has not been looked at
 int listEnd;
+int listFace;        // that face and where it may be entered; AFTER_EVERYTHING behind the list
+int listDepth;
 ivec4 entryPlaces;   // where the entries found are in the list
 // The entries found that there was no room for: the first place in the list, and the nearest of them.
 int leftOutAt;
-float leftOutDepth;
+int leftOutDepth;
 int leftOutFace;
+
+void fetchListed()
+{
+  bool within = listAt < listEnd;
+  listFace = within ? texelFetch(tileFaces, listAt).r : 0;
+  listDepth = within ? gridDepthOf(texelFetch(nearestDepths, listFace).r) : AFTER_EVERYTHING;
+}
 
 // Sets up the search for the straight ray.
 void startEntries(bool meetsMesh)
 {
-  ivec2 tile = ivec2(rayTilePixel / tileSize);
+  ivec2 tile = ivec2(rayTilePixel / longListTileSize);
   int number = tile.y * tileColumns + tile.x;
   listAt = meetsMesh ? texelFetch(tileBegins, number).r : 0;
   listEnd = meetsMesh ? texelFetch(tileBegins, number + 1).r : 0;
   entryFaces = ivec4(-1);
-  entryDepths = vec4(0.0);
+  entryDepths = ivec4(0);
   entryPlaces = ivec4(0);
   leftOutAt = listEnd;
   leftOutDepth = AFTER_EVERYTHING;
   leftOutFace = 0;
   moreEntries = meetsMesh;
+  fetchListed();
 }
 
 // Nothing behind an entry that is left out is taken, so that all of them come in order.
-void insertEntry(float depth, int number, int place)
+void insertEntry(int depth, int number, int place)
 {
   if (isBefore(depth, number, leftOutDepth, leftOutFace))
   {
@@ -54,7 +65,7 @@ void insertEntry(float depth, int number, int place)
       if (number >= 0 &&
         (entryFaces[i] < 0 || isBefore(depth, number, entryDepths[i], entryFaces[i])))
       {
-        float otherDepth = entryDepths[i];
+        int otherDepth = entryDepths[i];
         int otherNumber = entryFaces[i];
         int otherPlace = entryPlaces[i];
         entryDepths[i] = depth;
@@ -72,31 +83,32 @@ void insertEntry(float depth, int number, int place)
 }
 
 // Looks at faces of the list until none of the others can be entered before the next entry after
-// (lastDepth, lastFace).
-void findEntries(float lastDepth, int lastFace)
+// (lastDepth, lastFace). The condition comes last, as in walk().
+void findEntries(int lastDepth, int lastFace)
 {
-  // All entries before those left out have been taken.
-  bool again = entryFaces.x < 0 && leftOutAt < listEnd;
-  listAt = again ? leftOutAt : listAt;
-  leftOutAt = again ? listEnd : leftOutAt;
-  leftOutDepth = again ? AFTER_EVERYTHING : leftOutDepth;
-  bool looks = listAt < listEnd;
-  while (looks)
+  if (entryFaces.x < 0 && leftOutAt < listEnd)
   {
-    int candidate = texelFetch(tileFaces, listAt).r;
-    looks = texelFetch(nearestDepths, candidate).r <= (entryFaces.x < 0 ? endDepth : entryDepths.x);
+    // All entries before those left out have been taken.
+    listAt = leftOutAt;
+    leftOutAt = listEnd;
+    leftOutDepth = AFTER_EVERYTHING;
+    fetchListed();
+  }
+  bool looks = listDepth < endDepth && (entryFaces.x < 0 || listDepth <= entryDepths.x);
+  do
+  {
     if (looks)
     {
-      SeenFace f = seeFace(candidate);
-      if (f.entered && f.point.x < endDepth &&
-        isBefore(lastDepth, lastFace, f.point.x, candidate))
+      SeenFace f = seeFace(listFace);
+      if (f.entered && f.depth < endDepth && isBefore(lastDepth, lastFace, f.depth, listFace))
       {
-        insertEntry(f.point.x, candidate, listAt);
+        insertEntry(f.depth, listFace, listAt);
       }
       ++listAt;
-      looks = listAt < listEnd;
+      fetchListed();
+      looks = listDepth < endDepth && (entryFaces.x < 0 || listDepth <= entryDepths.x);
     }
-  }
+  } while (looks);
 }
 
 #else
@@ -106,27 +118,42 @@ uniform sampler3D bentTiles;         // the same for the rays behind the membran
 #endif
 
 const int TILE_CAPACITY = 32;
-// Depths of the mesh are less than this in size.
-const float FARTHEST_DEPTH = 2.0;
+// Bounds the depths of the mesh, which are within 2^30 - 2048 plus rounding (GRID_PER_DEPTH); the
+// difference of two such bounds is still an int.
+const int FARTHEST_DEPTH = 1073741823;
+const int LARGEST_REACH = 2147483646;
+// DEPTH_MARGIN in grid units, by which boxes of the tree are larger: less would not get on.
+const int SMALLEST_REACH = 2048;
 
-float searchReach;   // how far behind the last entry the tree is searched for the next
+int searchReach;     // how far behind the last entry the tree is searched for the next
+
+int twice(int reach)
+{
+  return reach > FARTHEST_DEPTH ? LARGEST_REACH : 2 * reach;
+}
+
+// The depth that lies `reach` behind `first`, or `farthest` if that is nearer.
+int behind(int first, int reach, int farthest)
+{
+  return farthest - first < reach ? farthest : first + reach;
+}
 
 void startEntries(bool meetsMesh)
 {
   entryFaces = ivec4(-1);
-  entryDepths = vec4(0.0);
-  searchReach = 2.0 * FARTHEST_DEPTH;
+  entryDepths = ivec4(0);
+  searchReach = LARGEST_REACH;
   moreEntries = meetsMesh;
 }
 
-void insertEntry(float depth, int number)
+void insertEntry(int depth, int number)
 {
   moreEntries = moreEntries || entryFaces.w >= 0;
   for (int i = 0; i < 4; ++i)
   {
     if (entryFaces[i] < 0 || isBefore(depth, number, entryDepths[i], entryFaces[i]))
     {
-      float otherDepth = entryDepths[i];
+      int otherDepth = entryDepths[i];
       int otherNumber = entryFaces[i];
       entryDepths[i] = depth;
       entryFaces[i] = number;
@@ -154,15 +181,15 @@ vec4 fetchTile(ivec2 tile, int layer)
 // Finds the next entries after (lastDepth, lastFace) among the faces listed for the ray's tile, or
 // among those of the tree if they did not fit. The tree is searched in a range of depths behind the
 // last entry that holds about four, so that each search looks at few of its nodes.
-void collectEntries(float lastDepth, int lastFace)
+void collectEntries(int lastDepth, int lastFace)
 {
   ivec2 tile = ivec2(rayTilePixel / tileSize);
   bool listed = fetchTile(tile, 0).x > -1.5;
-  float farthest = min(endDepth, FARTHEST_DEPTH);
-  float first = max(lastDepth, -FARTHEST_DEPTH);
-  vec2 range = vec2(first, listed ? farthest : min(first + searchReach, farthest));
+  int farthest = min(endDepth, FARTHEST_DEPTH);
+  int first = clamp(lastDepth, -FARTHEST_DEPTH, farthest);
+  ivec2 range = ivec2(first, listed ? farthest : behind(first, searchReach, farthest));
   entryFaces = ivec4(-1);
-  entryDepths = vec4(0.0);
+  entryDepths = ivec4(0);
   moreEntries = false;
   int at = 0;
   int end = listed ? TILE_CAPACITY : numberOfNodes;
@@ -181,25 +208,24 @@ void collectEntries(float lastDepth, int lastFace)
     if (candidate >= 0)
     {
       SeenFace f = seeFace(candidate);
-      if (f.entered && f.point.x < endDepth && f.point.x <= range.y &&
-        isBefore(lastDepth, lastFace, f.point.x, candidate))
+      if (f.entered && f.depth < endDepth && f.depth <= range.y &&
+        isBefore(lastDepth, lastFace, f.depth, candidate))
       {
-        insertEntry(f.point.x, candidate);
+        insertEntry(f.depth, candidate);
       }
     }
     // Nothing in the range: on to the next, of twice the depth.
     bool goesOn = at >= end && !listed && entryFaces.x < 0 && range.y < farthest;
-    searchReach = goesOn ? 2.0 * searchReach : searchReach;
-    range = goesOn ? vec2(range.y, min(range.y + searchReach, farthest)) : range;
+    searchReach = goesOn ? twice(searchReach) : searchReach;
+    range = goesOn ? ivec2(range.y, behind(range.y, searchReach, farthest)) : range;
     at = goesOn ? 0 : at;
   }
-  // DEPTH_MARGIN is what depths may be off by: less would not get on.
   searchReach =
-    moreEntries ? max(2.0 * (entryDepths.w - first), DEPTH_MARGIN) : 2.0 * searchReach;
+    moreEntries ? max(twice(entryDepths.w - first), SMALLEST_REACH) : twice(searchReach);
   moreEntries = moreEntries || range.y < farthest;
 }
 
-void findEntries(float lastDepth, int lastFace)
+void findEntries(int lastDepth, int lastFace)
 {
   if (entryFaces.x == -1 && moreEntries)
   {

@@ -4,6 +4,9 @@
 // Gradients and lights. Positions and directions are in the frame of the view (x, y, depth), whose
 // metric is the world's up to a factor.
 
+// Normalised model coordinates in units of MODEL_UNIT; bits of the normalised scalar.
+uniform isamplerBuffer modelVertices;
+const float MODEL_UNIT = 1.0 / 1073741824.0; // TetrahedralMesh::PositionUnit
 uniform mat3 gradientToFrame;        // from normalised model coordinates
 uniform float gradientMagnitude;     // per length in the frame: scalar per world length, normalised
 uniform int firstGradientInterval;   // gradient opacity follows the intervals of the scalar
@@ -44,14 +47,21 @@ ivec4 cellVertices(int index)
 #endif
 }
 
+// A vertex less another, in units of MODEL_UNIT: exact up to the rounding of the float.
+vec4 fromVertex(ivec4 from, int vertex)
+{
+  ivec4 p = texelFetch(modelVertices, vertex);
+  return vec4(vec3(p.xyz - from.xyz), intBitsToFloat(p.w) - intBitsToFloat(from.w));
+}
+
 // Normal of the face by which the ray entered that cell: of all vertices but the apex.
 vec3 faceNormal(int index)
 {
   ivec4 v = cellVertices(index);
   ivec3 entered =
     ivec3(v.x == apex ? v.w : v.x, v.y == apex ? v.w : v.y, v.z == apex ? v.w : v.z);
-  vec3 p = texelFetch(vertices, entered.x).xyz;
-  return cross(texelFetch(vertices, entered.y).xyz - p, texelFetch(vertices, entered.z).xyz - p);
+  ivec4 p = texelFetch(modelVertices, entered.x);
+  return cross(fromVertex(p, entered.y).xyz, fromVertex(p, entered.z).xyz);
 }
 #endif
 

@@ -25,10 +25,11 @@ def blocks(page, language):
 
 
 def write_files():
-    """mesh.vtu, a field on tetrahedra, and object.vtp, a torus; ASCII for every reader."""
+    """mesh.vtu, a field on tetrahedra, object.vtp, a torus, and water.vtp, a plane that it pierces;
+    ASCII for every reader."""
     from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
     from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
-    from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource
+    from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource, vtkPlaneSource
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
     from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 
@@ -37,8 +38,13 @@ def write_files():
     tetrahedra.SetInputConnection(field.GetOutputPort())
     torus = vtkParametricFunctionSource()
     torus.SetParametricFunction(vtkParametricTorus())
+    water = vtkPlaneSource()
+    water.SetOrigin(-2.0, -2.0, 0.2)
+    water.SetPoint1(2.0, -2.0, 0.2)
+    water.SetPoint2(-2.0, 2.0, 0.2)
     for name, writer, source in [("mesh.vtu", vtkXMLUnstructuredGridWriter(), tetrahedra),
-                                 ("object.vtp", vtkXMLPolyDataWriter(), torus)]:
+                                 ("object.vtp", vtkXMLPolyDataWriter(), torus),
+                                 ("water.vtp", vtkXMLPolyDataWriter(), water)]:
         writer.SetInputConnection(source.GetOutputPort())
         writer.SetDataModeToAscii()
         writer.SetFileName(name)

@@ -180,6 +180,64 @@ TEST(RefractedGeometryMembrane, ClosedMembranesAreBubbles)
 }
 
 //------------------------------------------------------------------------------
+// An eye in a body that it should see from outside: told when it comes there, not again on the way.
+TEST(RefractedGeometryMembrane, AnEyeInsideOfABodyIsTold)
+{
+  const auto filter =
+    MakeAllImages(MakeVertices({ { 0, 0, 200 } }), MakeMembrane(MakeSphere(100.0, 24, 1.0)));
+  const auto messages = Observe(filter);
+  const auto look = [&filter](double height)
+  {
+    filter->SetEyePosition(20.0, height, 10.0);
+    filter->Update();
+  };
+  look(300.0);
+  EXPECT_EQ(messages->warnings, 0) << messages->text;
+  EXPECT_FALSE(filter->IsEyeEnclosed());
+  look(30.0);
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_NE(messages->text.find("inside of a closed membrane"), std::string::npos);
+  EXPECT_TRUE(filter->IsEyeEnclosed());
+  look(20.0);
+  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  look(300.0);
+  EXPECT_FALSE(filter->IsEyeEnclosed());
+  look(30.0);
+  EXPECT_EQ(messages->warnings, 2) << messages->text;
+  filter->SetMembraneData(MakeMembrane(MakeSphere(100.0, 24, -1.0))); // a bubble
+  filter->Update();
+  EXPECT_FALSE(filter->IsEyeEnclosed());
+  EXPECT_EQ(messages->warnings, 2) << messages->text;
+}
+
+// Two sheets, above each other or side by side.
+TEST(RefractedGeometryMembrane, SheetsInSequenceAreTold)
+{
+  for (const bool isStacked : { true, false })
+  {
+    MembraneMesh sheets = MakeSquare(200.0, 8, 0.0);
+    MembraneMesh second = MakeSquare(200.0, 8, 0.0);
+    second.Translate(isStacked ? glm::dvec3(0.0, -30.0, 0.0) : glm::dvec3(201.0, 0.0, 0.0));
+    const auto first = static_cast<std::int64_t>(sheets.points.size() / 3);
+    sheets.points.insert(sheets.points.end(), second.points.begin(), second.points.end());
+    sheets.normals.insert(sheets.normals.end(), second.normals.begin(), second.normals.end());
+    for (const std::int64_t id : second.triangles)
+    {
+      sheets.triangles.push_back(first + id);
+    }
+    const auto filter =
+      MakeAllImages(MakeVertices({ { 0, -60, 0 }, { 5, -80, 3 } }), MakeMembrane(sheets));
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_EQ(messages->warnings, isStacked ? 1 : 0) << messages->text;
+    EXPECT_EQ(filter->GetNumberOfMembranePointsBehind() > 0, isStacked);
+    filter->SetEyePosition(25.0, 310.0, 12.0);
+    filter->Update();
+    EXPECT_EQ(messages->warnings, isStacked ? 1 : 0) << messages->text;
+  }
+}
+
+//------------------------------------------------------------------------------
 // Facets wound at random, without normals: oriented as most of them are.
 TEST(RefractedGeometryMembrane, InconsistentFacetsAreTurned)
 {

@@ -97,6 +97,17 @@ TEST(VolumeNormalization, FillValuesLeaveTheFunctionItsPrecision)
   }
 }
 
+TEST(VolumeNormalization, FillValuesOfBothSignsAboutTheFunction)
+{
+  // The middle of the range is where the function is; its unit would be too large.
+  const ScalarDistribution data = DistributionOf(Scalars({ 1.0e36, -1.0e36 }));
+  const ScalarNormalization normalization = ChooseNormalization(data, Ramp(0.0, 1.0), nullptr);
+  EXPECT_GT(normalization.Scale, std::ldexp(1.0, -64));
+  EXPECT_EQ(normalization(1.0e36), 1.0);
+  EXPECT_EQ(normalization(-1.0e36), -1.0);
+  EXPECT_LE(LargestError(normalization, 0.0, 1.0), 6.0e-8);
+}
+
 TEST(VolumeNormalization, AscendsAndKeepsProportionsOfFarScalars)
 {
   for (const double below : { -1.0e30, -1.0e36, -1.0e25 })

@@ -240,7 +240,7 @@ TEST(MembraneSight, MeetsSpheresAtTheirOutlines)
   int met = 0;
   int wrong = 0;
   int close = 0;
-  for (const int resolution : { 6, 8, 12, 24 })
+  for (const int resolution : { 10, 16, 24 })
   {
     Membrane surface;
     CurvedPatches patches;

@@ -20,6 +20,9 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 WORST = 2
 # The same of random colour maps, by the number of ranks.
 WORST_OF_COLORS = {2: 2, 4: 3}
+# Of the pixels of a mesh with inverted cells, those that may be further off: which of two overlapping cells a
+# ray meets first changes where ParaView cuts them.
+SHARE_OF_INVERTED = {"crushed_can": 1e-4}
 # The rounding of what the filter is given, single precision in a scene 16 wide. An image is found from
 # its neighbour's, which may be on another rank: it differs by what Newton's method leaves.
 POINT_TOLERANCE = 16 * 2**-24
@@ -37,24 +40,32 @@ def pixels(name):
         return file.read()
 
 
-def compare_pictures(name, other, most=WORST, share=0):
-    """At most so far apart, and above WORST in at most that share of the pixels that are not black."""
+def count_differences(name, other):
+    """Number of pixels that are off by 0, 1, 2 ..., and of those that are not black."""
     one, several = pixels(name), pixels(other)
     assert len(one) == len(several), other
-    differences = [abs(a - b) for a, b in zip(one, several)]
-    of_pixels = [max(differences[i:i + 3]) for i in range(0, len(differences), 3)]
-    worst = max(of_pixels)
-    above = sum(difference > WORST for difference in of_pixels)
-    lit = sum(max(one[i:i + 3]) > 2 for i in range(0, len(one), 3))
-    counts = collections.Counter(min(difference, 4) for difference in of_pixels)
-    print("%-36s worst %d, of %d pixels %s" % (other, worst, lit, ", ".join(
-        "%d off by %d%s" % (counts[i], i, " or more" * (i == 4)) for i in (1, 2, 3, 4) if counts[i])))
-    return lit > 500 and worst <= most and above <= share * lit
+    counts, lit = collections.Counter(), 0
+    for i in range(0, len(one), 3):
+        counts[max(abs(a - b) for a, b in zip(one[i:i + 3], several[i:i + 3]))] += 1
+        lit += max(one[i:i + 3]) > 2
+    print("%-36s worst %d, of %d pixels %s" % (other, max(counts), lit, ", ".join(
+        "%d off by %d" % (counts[step], step) for step in sorted(counts)[:6] if step > 0)))
+    return counts, lit
+
+
+def compare_pictures(name, other, most=WORST, share=0):
+    """At most so far apart, and above WORST in at most that share of the pixels that are not black."""
+    counts, lit = count_differences(name, other)
+    above = sum(number for step, number in counts.items() if step > WORST)
+    return lit > 500 and max(counts) <= most and above <= share * lit
 
 
 def compare_colors(name, other):
-    ranks = 2 if "Ranks2" in other else 4
-    return compare_pictures(name, other, WORST_OF_COLORS[ranks], 1)
+    counts, lit = count_differences(name, other)
+    most = WORST_OF_COLORS[2 if "Ranks2" in other else 4]
+    share = max(part for mesh, part in [("", 0), *SHARE_OF_INVERTED.items()] if mesh in name)
+    above = sum(number for step, number in counts.items() if step > most)
+    return lit > 500 and above <= share * lit
 
 
 def lines(name):

@@ -10,6 +10,7 @@
 #include <vtkCamera.h>
 #include <vtkCubeSource.h>
 #include <vtkImageData.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkOpenGLFXAAPass.h>
 #include <vtkPolyDataMapper.h>
@@ -250,6 +251,95 @@ TEST(RefractionPass, ReflectanceIsFresnels)
         const double f = schlick(sight);
         return (1.0 - f) * floor[channel] + f * sky[channel];
       });
+  }
+}
+
+/// The layout of the faces, as the documentation of SetReflectionTexture() has it, seen in mirrors
+/// that face along each axis: the sky's colour is a function of the direction.
+TEST(RefractionPass, CubeMapFacesLieAsDocumented)
+{
+  constexpr int FaceSize = 64;
+  const auto colorOf = [](const double* direction, int channel)
+  {
+    const double longest =
+      std::max({ std::fabs(direction[0]), std::fabs(direction[1]), std::fabs(direction[2]) });
+    return 0.5 + 0.4 * direction[channel] / longest;
+  };
+  vtkNew<vtkTexture> sky;
+  sky->CubeMapOn();
+  sky->InterpolateOn();
+  for (int face = 0; face < 6; ++face)
+  {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(FaceSize, FaceSize, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    for (int j = 0; j < FaceSize; ++j)
+    {
+      for (int i = 0; i < FaceSize; ++i)
+      {
+        const double u = (2.0 * i + 1.0) / FaceSize - 1.0;
+        const double v = (2.0 * j + 1.0) / FaceSize - 1.0;
+        const double table[6][3] = { { 1, -v, -u }, { -1, -v, u }, { u, 1, v }, { u, -1, -v },
+          { u, -v, 1 }, { -u, -v, -1 } };
+        auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
+        for (int channel = 0; channel < 3; ++channel)
+        {
+          pixel[channel] =
+            static_cast<unsigned char>(std::lround(255.0 * colorOf(table[face], channel)));
+        }
+      }
+    }
+    sky->SetInputDataObject(face, image);
+  }
+  constexpr double index = 20.0; // reflects more than four fifths
+  for (int face = 0; face < 6; ++face)
+  {
+    SCOPED_TRACE(face);
+    double axis[3] = { 0.0, 0.0, 0.0 };
+    axis[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
+    Pool pool;
+    pool.renderer()->SetBackground(0.0, 0.0, 0.0);
+    setFlatColor(pool.Floor, 0.0, 0.0, 0.0);
+    pool.Filter->SetInteriorIndexOfRefraction(index);
+    pool.Pass->SetReflectionTexture(sky);
+    pool.Surface->SetNormal(axis);
+    pool.Bottom->SetCenter(-axis[0], -axis[1], -axis[2]);
+    pool.Bottom->SetNormal(axis);
+    vtkCamera* camera = pool.camera();
+    camera->SetPosition(EyeHeight * axis[0], EyeHeight * axis[1], EyeHeight * axis[2]);
+    camera->SetViewUp(axis[1], axis[2], axis[0]);
+    const ByteImage image = pool.render();
+    double up[3];
+    double forward[3];
+    camera->GetViewUp(up);
+    camera->GetDirectionOfProjection(forward);
+    double right[3];
+    vtkMath::Cross(forward, up, right);
+    const double scale = std::tan(vtkMath::RadiansFromDegrees(30.0)) / (0.5 * Size);
+    for (int y = 20; y < Size - 20; y += 3)
+    {
+      for (int x = 20; x < Size - 20; x += 3)
+      {
+        double mirrored[3];
+        for (int i = 0; i < 3; ++i)
+        {
+          mirrored[i] = -forward[i] + (x + 0.5 - 0.5 * Size) * scale * right[i] +
+            (y + 0.5 - 0.5 * Size) * scale * up[i];
+        }
+        const double cosine = 1.0 / vtkMath::Norm(mirrored);
+        const double refracted = std::sqrt(1.0 - (1.0 - cosine * cosine) / (index * index));
+        const double s = (cosine - index * refracted) / (cosine + index * refracted);
+        const double p = (index * cosine - refracted) / (index * cosine + refracted);
+        const double reflectance = 0.5 * (s * s + p * p);
+        for (int channel = 0; channel < 3; ++channel)
+        {
+          // The texture's bytes are rounded, too.
+          ASSERT_NEAR(image.pixel(x, y)[channel] / 255.0, reflectance * colorOf(mirrored, channel),
+            Rounding + 0.5 / 255.0)
+            << x << " " << y << " " << channel;
+        }
+      }
+    }
   }
 }
 

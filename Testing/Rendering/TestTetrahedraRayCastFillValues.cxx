@@ -4,6 +4,7 @@
 // picture must not suffer, in any mode.
 #include "OpticsTruth.h"
 
+#include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkContourValues.h>
 #include <vtkDoubleArray.h>
@@ -19,7 +20,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
+#include <sstream>
+#include <utility>
 
 using namespace meniscus::test;
 using namespace meniscus::reference;
@@ -108,9 +110,9 @@ void expectFills(const std::string& mode, vtkVolumeProperty* property, const Sce
     const FloatImage image = scene.renderFloat();
     const TracedComparison comparison = compareToTrace(
       image, PixelRays(scene.renderer()), makeTrace(scene, *integrator, gradients), tolerance, 0.0);
-    const std::string what = mode + ", fill " + std::to_string(fill.First) + ", " +
-      std::to_string(fill.Second) + ": " + comparison.text();
-    std::cout << what << std::endl;
+    std::ostringstream text;
+    text << mode << ", fill " << fill.First << ", " << fill.Second << ": " << comparison.text();
+    const std::string what = text.str();
     EXPECT_GT(comparison.Visible, 1000u) << what;
     EXPECT_LE(
       static_cast<double>(comparison.Wrong), LargestShare * static_cast<double>(comparison.Visible))
@@ -258,6 +260,73 @@ TEST(TetrahedraRayCastFillValues, Projections)
         };
       });
   }
+}
+
+TEST(TetrahedraRayCastFillValues, CellData)
+{
+  // A cell has one value: any fill value shows what another beyond the function does, exactly.
+  const auto property = makeFunction(true);
+  for (const int mode : { vtkVolumeMapper::COMPOSITE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
+  {
+    FloatImage images[3];
+    const double fills[3] = { 3.0, 1.0e10, 1.0e36 };
+    for (int i = 0; i < 3; ++i)
+    {
+      const Grid grid = makeBlock(5, wavyField(3.0));
+      vtkNew<vtkDoubleArray> values;
+      values->SetNumberOfTuples(grid->GetNumberOfCells());
+      for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+      {
+        values->SetValue(c, c % 97 == 5 ? fills[i] : std::sin(0.37 * static_cast<double>(c)));
+      }
+      grid->GetPointData()->Initialize();
+      grid->GetCellData()->SetScalars(values);
+      RayCastScene scene(grid, property, Size, Size);
+      scene.rayCaster()->SetBlendMode(mode);
+      lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+      images[i] = scene.renderFloat();
+    }
+    expectSamePicture(images[0], images[1], "1e10");
+    expectSamePicture(images[0], images[2], "1e36");
+  }
+}
+
+TEST(TetrahedraRayCastFillValues, Components)
+{
+  // Fill values in either component. In a cell with one the rest of the function takes 1e-5 of the
+  // cell for the first, 1e-36 for the second.
+  const auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  const auto second = makeProperty(FunctionKind::Peaked, Range, 3.4);
+  property->SetColor(1, second->GetRGBTransferFunction());
+  property->SetScalarOpacity(1, second->GetScalarOpacity());
+  property->SetScalarOpacityUnitDistance(1, second->GetScalarOpacityUnitDistance());
+  FloatImage images[2];
+  const double fills[2] = { 1.0e5, 1.0e36 };
+  for (int i = 0; i < 2; ++i)
+  {
+    const Grid grid = makeBlock(6, wavyField(3.0));
+    vtkDataArray* scalars = grid->GetPointData()->GetScalars();
+    vtkNew<vtkDoubleArray> pairs;
+    pairs->SetNumberOfComponents(2);
+    pairs->SetNumberOfTuples(grid->GetNumberOfPoints());
+    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    {
+      const double scalar = scalars->GetComponent(p, 0);
+      pairs->SetTuple2(p, p == 171 ? fills[i] : scalar, p == 30 ? -fills[i] : 0.5 - scalar);
+    }
+    grid->GetPointData()->SetScalars(pairs);
+    RayCastScene scene(grid, property, Size, Size);
+    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+    images[i] = scene.renderFloat();
+  }
+  ASSERT_EQ(images[0].Rgba.size(), images[1].Rgba.size());
+  float opacity = 0.0f;
+  for (std::size_t i = 0; i < images[0].Rgba.size(); ++i)
+  {
+    ASSERT_NEAR(images[0].Rgba[i], images[1].Rgba[i], 2e-4) << i;
+    opacity = std::max(opacity, images[0].Rgba[i]);
+  }
+  EXPECT_GT(opacity, 0.5f);
 }
 
 TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)

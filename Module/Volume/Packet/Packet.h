@@ -26,7 +26,12 @@ struct PacketVertex
   /** Normalised; NaN makes the vertex's cells transparent. */
   float Scalar;
 
-  static constexpr float DepthUnit = 1.0f / 1073741824.0f; // 2^-30
+  /**
+   * Grid units of depth per unit of the frame: 2^30 - 2^11, a float. The mesh's depths are within
+   * the frame's unit, so that differences of depths, interpolated in floats, fit in 32 bits.
+   */
+  static constexpr double GridPerDepth = 1073739776.0;
+  static constexpr float DepthUnit = static_cast<float>(1.0 / GridPerDepth);
 };
 
 /** A TransferFunctionInterval in three groups of four. */
