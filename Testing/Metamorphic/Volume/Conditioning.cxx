@@ -294,17 +294,31 @@ Conditioning::Conditioning(const VolumeCase& test)
 Conditioning::~Conditioning() = default;
 
 //------------------------------------------------------------------------------
+void Conditioning::makeCopies()
+{
+  if (!this->Copies.empty())
+  {
+    return;
+  }
+  RandomNumbers random(1);
+  this->Copies.push_back(std::make_unique<Truth>(this->Case, Rounding(), random));
+  for (int i = 0; i < NumberOfCopies; ++i)
+  {
+    this->Copies.push_back(std::make_unique<Truth>(this->Case, roundingOf(this->Case), random));
+  }
+}
+
+//------------------------------------------------------------------------------
+std::array<double, 4> Conditioning::exact(int x, int y)
+{
+  this->makeCopies();
+  return this->Copies.front()->trace(x, y, *this->Copies.front());
+}
+
+//------------------------------------------------------------------------------
 double Conditioning::spread(int x, int y)
 {
-  if (this->Copies.empty())
-  {
-    RandomNumbers random(1);
-    this->Copies.push_back(std::make_unique<Truth>(this->Case, Rounding(), random));
-    for (int i = 0; i < NumberOfCopies; ++i)
-    {
-      this->Copies.push_back(std::make_unique<Truth>(this->Case, roundingOf(this->Case), random));
-    }
-  }
+  this->makeCopies();
   Color low;
   Color high;
   low.fill(1e300);

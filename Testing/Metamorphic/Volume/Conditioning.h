@@ -45,8 +45,12 @@ public:
   /// Range of the exact results of a pixel, the largest of the channels.
   double spread(int x, int y);
 
+  /// Exact colour of a pixel, premultiplied.
+  std::array<double, 4> exact(int x, int y);
+
 private:
   class Truth;
+  void makeCopies();
 
   const VolumeCase& Case;
   std::vector<std::unique_ptr<Truth>> Copies;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 namespace meniscus
@@ -117,6 +118,21 @@ vtkSmartPointer<vtkDataArray> makeArray(
   return array;
 }
 
+// A value that the array's type does not have would be a fault of the relation: it ends the case.
+void setTuple(vtkDataArray* array, std::size_t at, const double* tuple)
+{
+  const auto id = static_cast<vtkIdType>(at);
+  array->SetTuple(id, tuple);
+  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+  {
+    const double kept = array->GetComponent(id, c);
+    if (kept != tuple[c] && !(std::isnan(kept) && std::isnan(tuple[c])))
+    {
+      std::abort();
+    }
+  }
+}
+
 void setCells(const MeshArrays& mesh, bool smallIds, vtkUnstructuredGrid* grid)
 {
   vtkNew<vtkCellArray> cells;
@@ -146,14 +162,14 @@ Grid toGrid(const MeshArrays& mesh, const MeshStorage& storage)
     makeArray(storage.PointType, storage.PerComponent, 3, mesh.Points.size());
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
   {
-    coordinates->SetTuple(static_cast<vtkIdType>(i), &mesh.Points[i][0]);
+    setTuple(coordinates, i, &mesh.Points[i][0]);
   }
   const auto values =
     makeArray(storage.ValueType, storage.PerComponent, mesh.Components, mesh.tuples());
   values->SetName(ScalarName);
   for (std::size_t i = 0; i < mesh.tuples(); ++i)
   {
-    values->SetTuple(static_cast<vtkIdType>(i), &mesh.Values[i * mesh.Components]);
+    setTuple(values, i, &mesh.Values[i * mesh.Components]);
   }
   vtkNew<vtkPoints> points;
   points->SetData(coordinates);

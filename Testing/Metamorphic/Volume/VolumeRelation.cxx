@@ -46,6 +46,8 @@ struct WorstPixel
   int Count = 0;
   double Deviation = 0.0;
   double Tolerance = 0.0;
+  int X = 0;
+  int Y = 0;
   std::string Text;
 
   void take(int x, int y, double deviation, double tolerance, const float* a, const float* b)
@@ -56,6 +58,8 @@ struct WorstPixel
     }
     this->Deviation = deviation;
     this->Tolerance = tolerance;
+    this->X = x;
+    this->Y = y;
     std::ostringstream text;
     text << "pixel (" << x << ", " << y << ") is";
     for (int c = 0; c < 4; ++c)
@@ -147,7 +151,11 @@ void VolumeTrial::expectSame(
   {
     std::ostringstream text;
     text << words << ": " << worst.Count << " pixels, largest " << worst.Deviation << " of "
-         << worst.Tolerance << ", " << worst.Text;
+         << worst.Tolerance << ", " << worst.Text << ", exactly";
+    for (const double value : this->Condition.exact(worst.X, worst.Y))
+    {
+      text << ' ' << value;
+    }
     this->fail(text.str());
   }
 }
