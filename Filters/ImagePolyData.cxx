@@ -257,7 +257,7 @@ private:
     for (const ImagePoint* origin : this->Origins)
     {
       glm::dvec3 sum(0.0);
-      for (std::size_t k = 0; k < 3 && origin->weight[k] != 0.0; ++k)
+      for (std::size_t k = 0; k < origin->GetNumberOfSources(); ++k)
       {
         glm::dvec3 corner;
         this->Input->GetPoint(origin->source[k], &corner.x);
@@ -335,7 +335,7 @@ private:
       const ImagePoint& point = *this->Origins[i];
       double weights[3];
       ids->Reset();
-      for (std::size_t k = 0; k < 3 && point.weight[k] != 0.0; ++k)
+      for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
       {
         ids->InsertNextId(point.source[k]);
         weights[k] = point.weight[k];
@@ -420,8 +420,8 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
       result.polygons, result.wholePolygons, result.cellsWithoutImage);
   if (done)
   {
-    images.MeetNeighbours(
-      topology.polygons.AsObject(), topology.polygons.GetCount(), isMapped.data(), result.polygons);
+    images.MeetNeighbours(topology.polygons.AsObject(), topology.polygons.GetCount(),
+      isMapped.data(), result.wholePolygons, result.polygons);
   }
   return done;
 }

@@ -4,6 +4,8 @@
 
 #include "Refraction/PatchTube.h"
 
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
 #include "vtkImplicitFunction.h"
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
@@ -38,6 +40,21 @@ const char* NameFault(MembraneStatus status)
   return "The membrane has no usable triangle";
 }
 
+/**
+ * The latest time that a membrane or an object that holds its values was modified. A vtkPolyData's
+ * own time leaves out the arrays of its cells.
+ */
+vtkMTimeType TimeOf(vtkPolyData* membrane)
+{
+  vtkMTimeType time = membrane->GetMTime();
+  for (vtkCellArray* cells : { membrane->GetPolys(), membrane->GetStrips() })
+  {
+    time = std::max(
+      { time, cells->GetConnectivityArray()->GetMTime(), cells->GetOffsetsArray()->GetMTime() });
+  }
+  return time;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -52,9 +69,10 @@ void FacetLoop(std::size_t count, const RangeBody& body)
 bool RefractionScene::SetMembrane(
   vtkPolyData* membrane, bool curved, SceneMessages& messages, vtkImplicitFunction* function)
 {
+  const vtkMTimeType membraneTime = TimeOf(membrane);
   const vtkMTimeType functionTime = function ? function->GetMTime() : 0;
   const bool known = this->MembraneReady && this->Curves == curved;
-  if (known && this->MembraneSource == membrane && this->MembraneTime == membrane->GetMTime() &&
+  if (known && this->MembraneSource == membrane && this->MembraneTime == membraneTime &&
     this->Function == function && this->FunctionTime == functionTime)
   {
     return true;
@@ -62,7 +80,7 @@ bool RefractionScene::SetMembrane(
   MembraneArrays arrays = ExtractMembrane(membrane);
   const std::size_t lost = function ? FitToFunction(function, arrays) : 0;
   this->MembraneSource = membrane;
-  this->MembraneTime = membrane->GetMTime();
+  this->MembraneTime = membraneTime;
   this->Function = function;
   this->FunctionTime = functionTime;
   if (known && arrays == this->Arrays)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """For PyVista: a volume of tetrahedra, and geometry as seen through a surface, in a call each."""
 import pyvista
-from vtkmodules.vtkRenderingCore import vtkVolume
+from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
+from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkVolume
 
 from .vtkMeniscus import vtkRefractedGeometryFilter, vtkTetrahedraRayCastMapper
 
@@ -11,6 +12,34 @@ def _set(target, properties):
     """Calls target's SetX for every X=value; a name that it has not is an AttributeError."""
     for name, value in properties.items():
         getattr(target, "Set" + name)(value)
+
+
+def _find_limits(mesh, scalars, clim):
+    """The range of the colour map, by the rules of plotter.add_volume()."""
+    if clim is None:
+        is_bytes = mesh[scalars].dtype == "uint8"
+        return (0.0, 255.0) if is_bytes else tuple(float(end) for end in mesh.get_data_range(scalars))
+    if isinstance(clim, (int, float)):
+        return -float(clim), float(clim)
+    lowest, highest = clim
+    return float(lowest), float(highest)
+
+
+def _make_functions(table, limits):
+    """Colour and opacity of a vtkLookupTable over a range of scalars.
+
+    PyVista's own functions of a table lie on the numbers of its entries up to version 0.44 and on its range
+    from 0.45 on; entries read by VTK's interface are the same in all versions.
+    """
+    colors = vtkColorTransferFunction()
+    opacity = vtkPiecewiseFunction()
+    last = max(1, table.GetNumberOfTableValues() - 1)
+    for entry in range(table.GetNumberOfTableValues()):
+        scalar = limits[0] + (limits[1] - limits[0]) * entry / last
+        red, green, blue, alpha = table.GetTableValue(entry)
+        colors.AddRGBPoint(scalar, red, green, blue)
+        opacity.AddPoint(scalar, alpha)
+    return colors, opacity
 
 
 def add_volume(plotter, mesh, scalars=None, *, cmap=None, opacity="linear", clim=None,
@@ -30,8 +59,9 @@ def add_volume(plotter, mesh, scalars=None, *, cmap=None, opacity="linear", clim
     if scalars is None:
         raise ValueError("The mesh has no active scalars: name an array by scalars=")
     in_points = mesh.get_array_association(scalars) == pyvista.FieldAssociation.POINT
-    limits = clim or mesh.get_data_range(scalars)
-    table = pyvista.LookupTable(cmap, scalar_range=limits)
+    limits = _find_limits(mesh, scalars, clim)
+    cmap = plotter.theme.cmap if cmap is None else cmap
+    table = pyvista.LookupTable(cmap=cmap, scalar_range=limits)
     table.apply_opacity(opacity)
 
     mapper = vtkTetrahedraRayCastMapper()
@@ -45,14 +75,16 @@ def add_volume(plotter, mesh, scalars=None, *, cmap=None, opacity="linear", clim
     volume = vtkVolume()
     volume.SetMapper(mapper)
     look = volume.GetProperty()
-    look.SetColor(table.to_color_tf())
-    look.SetScalarOpacity(table.to_opacity_tf())
+    colors, opacities = _make_functions(table, limits)
+    look.SetColor(colors)
+    look.SetScalarOpacity(opacities)
     look.SetScalarOpacityUnitDistance(
         opacity_unit_distance or mesh.length / max(1, mesh.n_cells) ** (1 / 3))
     plotter.add_actor(volume, name=name)
     if show_scalar_bar:
         shown = pyvista.DataSetMapper()
-        shown.lookup_table = pyvista.LookupTable(cmap, scalar_range=limits)
+        shown.lookup_table = pyvista.LookupTable(cmap=cmap, scalar_range=limits)
+        shown.scalar_range = limits
         plotter.add_scalar_bar(title=scalars, mapper=shown)
     return volume
 

@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <sstream>
 
 namespace meniscus
@@ -47,37 +48,69 @@ std::vector<T> CopyValues(vtkDataArray* array)
   return values;
 }
 
-/** Whether a cell of more than one type has quadratic triangles among its faces. */
-bool SharesQuadraticTriangles(int type)
+constexpr int NoPoint = -1;
+
+/** The place of the point inside a cell, or NoPoint. */
+int CenterOfCell(int type)
 {
-  return type == VTK_QUADRATIC_WEDGE || type == VTK_QUADRATIC_PYRAMID;
+  switch (type)
+  {
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+      return 26;
+    case VTK_TRIQUADRATIC_PYRAMID:
+      return 18;
+    default:
+      return NoPoint;
+  }
 }
 
-/** The points around a face, by their places in it; empty for a type that is not known. */
-std::vector<int> AroundFace(vtkCell* face)
+/** The parts that a face is split into, by the places of its points. */
+struct FaceSplit
+{
+  /** Polygons; none for a type that is not known. */
+  std::vector<std::vector<int>> Parts;
+  /** The point inside the face, or NoPoint. */
+  int Center = NoPoint;
+};
+
+/** Triangles about the point inside a face, for the points around it. */
+FaceSplit SplitAbout(int center, const std::vector<int>& around)
+{
+  FaceSplit split{ {}, center };
+  for (std::size_t i = 0; i < around.size(); ++i)
+  {
+    split.Parts.push_back({ center, around[i], around[(i + 1) % around.size()] });
+  }
+  return split;
+}
+
+/**
+ * The split of a face. It follows from the face alone, so it is the same on both sides, and is that
+ * of the cells that Tetrahedralizer has rules for.
+ */
+FaceSplit SplitFace(vtkCell* face)
 {
   switch (face->GetCellType())
   {
     case VTK_TRIANGLE:
-      return { 0, 1, 2 };
+      return { { { 0, 1, 2 } } };
     case VTK_QUAD:
-      return { 0, 1, 2, 3 };
+      return { { { 0, 1, 2, 3 } } };
     case VTK_PIXEL:
-      return { 0, 1, 3, 2 };
+      return { { { 0, 1, 3, 2 } } };
     case VTK_QUADRATIC_TRIANGLE:
-      return { 0, 3, 1, 4, 2, 5 };
+      return { { { 0, 3, 5 }, { 1, 4, 3 }, { 2, 5, 4 }, { 3, 4, 5 } } };
     case VTK_QUADRATIC_QUAD:
-      return { 0, 4, 1, 5, 2, 6, 3, 7 };
-    case VTK_QUADRATIC_LINEAR_QUAD:
-      return { 0, 4, 1, 2, 5, 3 };
+      return { { { 0, 4, 7 }, { 1, 5, 4 }, { 2, 6, 5 }, { 3, 7, 6 }, { 4, 5, 6, 7 } } };
+    case VTK_BIQUADRATIC_TRIANGLE:
+      return SplitAbout(6, { 0, 3, 1, 4, 2, 5 });
+    case VTK_BIQUADRATIC_QUAD:
+      return SplitAbout(8, { 0, 4, 1, 5, 2, 6, 3, 7 });
     case VTK_POLYGON:
     {
       std::vector<int> around(face->GetNumberOfPoints());
-      for (std::size_t i = 0; i < around.size(); ++i)
-      {
-        around[i] = static_cast<int>(i);
-      }
-      return around;
+      std::iota(around.begin(), around.end(), 0);
+      return { { around } };
     }
     default:
       return {};
@@ -98,6 +131,22 @@ int TetrahedraOf(int type)
       return 2;
     case VTK_QUADRATIC_TETRA:
       return 8;
+    case VTK_QUADRATIC_HEXAHEDRON:
+      return 22;
+    case VTK_QUADRATIC_WEDGE:
+      return 15;
+    case VTK_QUADRATIC_LINEAR_WEDGE:
+      return 12;
+    case VTK_QUADRATIC_PYRAMID:
+      return 13;
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+      return 48;
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
+      return 36;
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+      return 24;
+    case VTK_TRIQUADRATIC_PYRAMID:
+      return 32;
     case VTK_EMPTY_CELL:
       return 0;
     default:
@@ -148,8 +197,6 @@ struct GridView::Part
   Tetrahedralizer Tetrahedra;
   std::vector<std::int32_t> Sources;
   std::map<int, std::int64_t> Omitted;
-  /** Whether quadratic triangles may belong to other cells than tetrahedra. */
-  bool QuadraticByFaces = false;
   /** What is added to the data set's numbers. */
   std::int64_t FirstPoint = 0;
   std::int64_t FirstCell = 0;
@@ -186,7 +233,7 @@ void GridView::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdLi
     return; // blanked
   }
   // Most points that a cell of a type with a rule of its own has.
-  constexpr vtkIdType MostPoints = 10;
+  constexpr vtkIdType MostPoints = 20;
   std::array<std::int64_t, MostPoints> points{};
   grid->GetCellPoints(cell, ids);
   const vtkIdType size = ids->GetNumberOfIds();
@@ -214,9 +261,25 @@ void GridView::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdLi
   {
     this->Tetrahedra.AddPyramid(points.data());
   }
-  else if (type == VTK_QUADRATIC_TETRA && size == 10 && !this->QuadraticByFaces)
+  else if (type == VTK_QUADRATIC_TETRA && size == 10)
   {
     this->Tetrahedra.AddQuadraticTetrahedron(points.data());
+  }
+  else if (type == VTK_QUADRATIC_HEXAHEDRON && size == 20)
+  {
+    this->Tetrahedra.AddQuadraticHexahedron(points.data());
+  }
+  else if (type == VTK_QUADRATIC_WEDGE && size == 15)
+  {
+    this->Tetrahedra.AddQuadraticWedge(points.data());
+  }
+  else if (type == VTK_QUADRATIC_LINEAR_WEDGE && size == 12)
+  {
+    this->Tetrahedra.AddQuadraticLinearWedge(points.data());
+  }
+  else if (type == VTK_QUADRATIC_PYRAMID && size == 13)
+  {
+    this->Tetrahedra.AddQuadraticPyramid(points.data());
   }
   else
   {
@@ -232,23 +295,45 @@ void GridView::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdLi
 //------------------------------------------------------------------------------
 bool GridView::Part::AddByFaces(vtkCell* cell)
 {
+  const auto pointOf = [this](vtkCell* of, int place)
+  { return this->FirstPoint + static_cast<std::int64_t>(of->GetPointId(place)); };
   std::vector<std::int64_t> faces;
+  std::size_t numberOfFaces = 0;
+  // A point inside the cell, or the smallest inside a face: in no plane of another face.
+  const int inside = CenterOfCell(cell->GetCellType());
+  std::int64_t apex = inside == NoPoint ? NoPoint : pointOf(cell, inside);
   for (int f = 0; f < cell->GetNumberOfFaces(); ++f)
   {
     vtkCell* face = cell->GetFace(f);
-    const std::vector<int> around = AroundFace(face);
-    if (around.empty())
+    const FaceSplit split = SplitFace(face);
+    if (split.Parts.empty())
     {
       return false;
     }
-    faces.push_back(static_cast<std::int64_t>(around.size()));
-    for (const int place : around)
+    for (const std::vector<int>& part : split.Parts)
     {
-      faces.push_back(this->FirstPoint + face->GetPointId(place));
+      faces.push_back(static_cast<std::int64_t>(part.size()));
+      for (const int place : part)
+      {
+        faces.push_back(pointOf(face, place));
+      }
+    }
+    numberOfFaces += split.Parts.size();
+    if (inside == NoPoint && split.Center != NoPoint)
+    {
+      const std::int64_t center = pointOf(face, split.Center);
+      apex = apex == NoPoint ? center : std::min(apex, center);
     }
   }
-  this->Tetrahedra.AddPolyhedron(faces.data(), static_cast<std::size_t>(cell->GetNumberOfFaces()));
-  return cell->GetNumberOfFaces() > 0;
+  if (apex == NoPoint)
+  {
+    this->Tetrahedra.AddPolyhedron(faces.data(), numberOfFaces);
+  }
+  else
+  {
+    this->Tetrahedra.AddCone(apex, faces.data(), numberOfFaces);
+  }
+  return numberOfFaces > 0;
 }
 
 //------------------------------------------------------------------------------
@@ -267,6 +352,7 @@ GridView::GridView(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
   {
     this->CopyPoints(grids, loop);
   }
+  this->View.MatchPositions = grids.size() > 1;
   auto* single = grids.size() == 1 ? vtkUnstructuredGrid::SafeDownCast(grids[0]) : nullptr;
   if (single && HasOnlyTetrahedra(single))
   {
@@ -347,14 +433,6 @@ void GridView::ViewTetrahedra(vtkUnstructuredGrid* grid)
 //------------------------------------------------------------------------------
 void GridView::Tetrahedralize(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
 {
-  bool quadraticByFaces = false;
-  for (vtkDataSet* grid : grids)
-  {
-    for (vtkIdType c = 0; c < grid->GetNumberOfCells() && !HasOneType(grid); ++c)
-    {
-      quadraticByFaces = quadraticByFaces || SharesQuadraticTriangles(grid->GetCellType(c));
-    }
-  }
   std::vector<Part> parts;
   std::int64_t firstPoint = 0;
   std::int64_t firstCell = 0;
@@ -370,7 +448,6 @@ void GridView::Tetrahedralize(const std::vector<vtkDataSet*>& grids, const Range
       [&](std::size_t block, std::size_t first, std::size_t last)
       {
         Part& part = parts[firstPart + block];
-        part.QuadraticByFaces = quadraticByFaces;
         part.FirstPoint = firstPoint;
         part.FirstCell = firstCell;
         part.AddBlock(grid, first, last);

@@ -34,15 +34,19 @@ std::string OpenGLBentLines::DescribeExcess(const int (&imageSize)[2], std::int6
 std::string OpenGLBentLines::Upload(vtkOpenGLRenderWindow* window,
   const std::vector<BentLine>& lines, int width, int height, const BentFrames& frames)
 {
-  static_assert(sizeof(BentLine) == 8 * sizeof(float), "two texels of four numbers");
+  static_assert(sizeof(BentLine) == 8 * sizeof(std::int32_t), "two texels of four numbers");
   this->Release(window);
   auto texture = vtkSmartPointer<vtkTextureObject>::New();
   texture->SetContext(window);
   texture->SetMinificationFilter(vtkTextureObject::Nearest);
   texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  // VTK 9.1 has no default formats for integers.
+  texture->SetInternalFormat(GL_RGBA32I);
+  texture->SetFormat(GL_RGBA_INTEGER);
+  texture->SetDataType(GL_INT);
   // VTK only reads the values, but wants a pointer to what is not const.
   auto* values = const_cast<BentLine*>(lines.data());
-  if (!texture->Create2DFromRaw(2 * width, height, 4, VTK_FLOAT, values))
+  if (!texture->Create2DFromRaw(2 * width, height, 4, VTK_INT, values))
   {
     return "a table of " + std::to_string(lines.size() * sizeof(BentLine)) +
       " bytes for the rays behind the membrane could not be created on the graphics device";
@@ -54,6 +58,9 @@ std::string OpenGLBentLines::Upload(vtkOpenGLRenderWindow* window,
     this->Rows[k].clear();
     this->Axes[k].clear();
   }
+  this->GridPerUnit.clear();
+  this->Places.clear();
+  this->FixedRows.clear();
   const auto append = [](std::vector<float>& values3, const glm::dvec3& v)
   {
     const glm::vec3 rounded(v);
@@ -70,12 +77,19 @@ std::string OpenGLBentLines::Upload(vtkOpenGLRenderWindow* window,
     {
       append(this->Axes[k], glm::row(frame.FromView, k));
     }
+    const bool needed = frame.Extent > 0.0;
+    if (needed)
+    {
+      this->FixedRows.push_back(frame.Rays.GetFixedPointRows());
+    }
+    this->GridPerUnit.push_back(static_cast<float>(1.0 / frame.Rays.GetGridUnit()));
+    this->Places.push_back(needed ? static_cast<int>(this->FixedRows.size()) : 0);
   }
   return std::string();
 }
 
 //------------------------------------------------------------------------------
-void OpenGLBentLines::Activate(vtkShaderProgram* program)
+void OpenGLBentLines::Activate(vtkShaderProgram* program, std::int64_t vertices)
 {
   this->Texture->Activate();
   program->SetUniformi("bentLines", this->Texture->GetTextureUnit());
@@ -86,6 +100,13 @@ void OpenGLBentLines::Activate(vtkShaderProgram* program)
     program->SetUniform3fv(rows[k], BentFrames::Number, this->Rows[k].data());
     program->SetUniform3fv(axes[k], BentFrames::Number, this->Axes[k].data());
   }
+  std::vector<int> firsts(this->Places);
+  for (int& first : firsts)
+  {
+    first *= static_cast<int>(vertices);
+  }
+  program->SetUniform1fv("frameGridPerUnit", BentFrames::Number, this->GridPerUnit.data());
+  program->SetUniform1iv("frameFirstVertex", BentFrames::Number, firsts.data());
 }
 
 //------------------------------------------------------------------------------

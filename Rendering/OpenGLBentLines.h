@@ -9,6 +9,11 @@
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
 
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -35,8 +40,17 @@ public:
   std::string Upload(vtkOpenGLRenderWindow* window, const std::vector<BentLine>& lines, int width,
     int height, const BentFrames& frames);
 
-  /** Sets the uniforms of vtkTetrahedraRays with BENDING. */
-  void Activate(vtkShaderProgram* program);
+  /** Rows of the frames with lines, in the order in which their vertices follow the view's. */
+  const std::vector<std::array<std::int32_t, 9>>& GetFixedPointRows() const
+  {
+    return this->FixedRows;
+  }
+
+  /**
+   * Sets the uniforms of vtkTetrahedraRays with BENDING.
+   * @param vertices  number of vertices of a frame.
+   */
+  void Activate(vtkShaderProgram* program, std::int64_t vertices);
   void Deactivate() { this->Texture->Deactivate(); }
   /** Wants the window's context to be current. */
   void Release(vtkWindow* window);
@@ -47,6 +61,10 @@ private:
   /** By frame: rows of the frame, then its axes in that of the view; three numbers each. */
   std::vector<float> Rows[3];
   std::vector<float> Axes[3];
+  /** By frame: grid units of x and y per unit; which of FixedRows is its, from 1 on. */
+  std::vector<float> GridPerUnit;
+  std::vector<int> Places;
+  std::vector<std::array<std::int32_t, 9>> FixedRows;
 };
 
 }

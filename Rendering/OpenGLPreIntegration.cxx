@@ -49,6 +49,8 @@ std::string OpenGLPreIntegration::Upload(
   this->Size[1] = lengths;
   this->Shortest = table.GetShortest();
   this->LengthsPerOctave = table.GetLengthsPerOctave();
+  this->Range[0] = static_cast<float>(table.GetMiddle());
+  this->Range[1] = static_cast<float>(table.GetPerHalfRange());
   this->Bytes = static_cast<std::int64_t>(table.GetValues().size() * sizeof(float));
   return std::string();
 }
@@ -60,6 +62,7 @@ void OpenGLPreIntegration::Activate(vtkShaderProgram* program)
   program->SetUniformi("preIntegrated", this->Texture->GetTextureUnit());
   const float size[2] = { static_cast<float>(this->Size[0]), static_cast<float>(this->Size[1]) };
   program->SetUniform2f("preIntegratedSize", size);
+  program->SetUniform2f("preIntegratedRange", this->Range);
   program->SetUniformf("shortestLengthReciprocal", static_cast<float>(1.0 / this->Shortest));
   program->SetUniformf("lengthsPerOctave", static_cast<float>(this->LengthsPerOctave));
 }

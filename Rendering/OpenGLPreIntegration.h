@@ -39,6 +39,8 @@ private:
   int Size[2] = { 0, 0 };
   double Shortest = 1.0;
   int LengthsPerOctave = 1;
+  /** Middle of the scalars and the reciprocal of half their range. */
+  float Range[2] = { 0.0f, 1.0f };
   std::int64_t Bytes = 0;
 };
 

@@ -10,21 +10,21 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-template <typename T>
-std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const T* values,
-  std::size_t count, int components, int texelsPerRow, int vtkType)
+std::string OpenGLTable::DescribeExcess(std::int64_t texels)
 {
-  this->Release(window);
-  const std::int64_t texels = static_cast<std::int64_t>(count) / components;
   GLint limit = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-  if (texels > limit)
-  {
-    return "a table of " + std::to_string(texels) +
+  return texels <= limit ? std::string()
+                         : "a table of " + std::to_string(texels) +
       " texels exceeds this graphics device's GL_MAX_TEXTURE_BUFFER_SIZE of " +
       std::to_string(limit);
-  }
-  this->Buffer->SetType(vtkOpenGLBufferObject::TextureBuffer);
+}
+
+//------------------------------------------------------------------------------
+/** Of the buffer. */
+bool OpenGLTable::MakeTexture(
+  vtkOpenGLRenderWindow* window, std::int64_t texels, int components, int vtkType)
+{
   this->Texture->SetContext(window);
   if (vtkType == VTK_INT)
   {
@@ -33,9 +33,25 @@ std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const T* va
     this->Texture->SetFormat(components == 1 ? GL_RED_INTEGER : GL_RGBA_INTEGER);
     this->Texture->SetDataType(GL_INT);
   }
+  return this->Texture->CreateTextureBuffer(
+    static_cast<unsigned int>(texels), components, vtkType, this->Buffer);
+}
+
+//------------------------------------------------------------------------------
+template <typename T>
+std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const T* values,
+  std::size_t count, int components, int texelsPerRow, int vtkType)
+{
+  this->Release(window);
+  const std::int64_t texels = static_cast<std::int64_t>(count) / components;
+  const std::string excess = DescribeExcess(texels);
+  if (!excess.empty())
+  {
+    return excess;
+  }
+  this->Buffer->SetType(vtkOpenGLBufferObject::TextureBuffer);
   if (!this->Buffer->Upload(values, count, vtkOpenGLBufferObject::TextureBuffer) ||
-    !this->Texture->CreateTextureBuffer(
-      static_cast<unsigned int>(texels), components, vtkType, this->Buffer))
+    !this->MakeTexture(window, texels, components, vtkType))
   {
     return "a table of " + std::to_string(count * sizeof(T)) +
       " bytes could not be created on the graphics device";
@@ -43,6 +59,41 @@ std::string OpenGLTable::UploadValues(vtkOpenGLRenderWindow* window, const T* va
   this->Rows = texels / texelsPerRow;
   this->Bytes = static_cast<std::int64_t>(count * sizeof(T));
   return std::string();
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTable::Allocate(vtkOpenGLRenderWindow* window, std::size_t rows)
+{
+  this->Release(window);
+  const auto texels = static_cast<std::int64_t>(rows);
+  const std::string excess = DescribeExcess(texels);
+  if (!excess.empty())
+  {
+    return excess;
+  }
+  const std::size_t bytes = 4 * sizeof(std::int32_t) * rows;
+  bool made =
+    this->Buffer->GenerateBuffer(vtkOpenGLBufferObject::TextureBuffer) && this->Buffer->Bind();
+  if (made)
+  {
+    glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_COPY);
+    made = glGetError() == GL_NO_ERROR && this->Buffer->Release() &&
+      this->MakeTexture(window, texels, 4, VTK_INT);
+  }
+  if (!made)
+  {
+    return "a table of " + std::to_string(bytes) +
+      " bytes could not be created on the graphics device";
+  }
+  this->Rows = texels;
+  this->Bytes = static_cast<std::int64_t>(bytes);
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+unsigned int OpenGLTable::GetBufferHandle() const
+{
+  return static_cast<unsigned int>(this->Buffer->GetHandle());
 }
 
 //------------------------------------------------------------------------------

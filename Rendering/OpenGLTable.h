@@ -40,12 +40,18 @@ public:
   std::string Upload(vtkOpenGLRenderWindow* window, const std::int32_t* values, std::size_t count,
     int components, int texelsPerRow);
 
+  /** Makes room for rows of a texel of 4 integers each, to be filled on the device. */
+  std::string Allocate(vtkOpenGLRenderWindow* window, std::size_t rows);
+  unsigned int GetBufferHandle() const;
+
   void Activate(vtkShaderProgram* program, const char* name);
   void Deactivate() { this->Texture->Deactivate(); }
   /** Wants the window's context to be current. */
   void Release(vtkWindow* window);
 
 private:
+  static std::string DescribeExcess(std::int64_t texels);
+  bool MakeTexture(vtkOpenGLRenderWindow* window, std::int64_t texels, int components, int vtkType);
   template <typename T>
   std::string UploadValues(vtkOpenGLRenderWindow* window, const T* values, std::size_t count,
     int components, int texelsPerRow, int vtkType);

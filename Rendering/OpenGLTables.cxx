@@ -10,7 +10,10 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 namespace meniscus
@@ -101,14 +104,14 @@ std::string OpenGLTables::UploadCells(const TetrahedralMesh& mesh, bool compact)
 
 //------------------------------------------------------------------------------
 std::string OpenGLTables::DescribeExcess(
-  const TetrahedralMesh& mesh, bool compact, std::int64_t limit) const
+  const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit) const
 {
   GLint ofDevice = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &ofDevice);
   const std::int64_t largest = std::min(limit, static_cast<std::int64_t>(ofDevice));
   const std::int64_t texels =
     std::max((compact ? CompactCellTexels : FullCellTexels) * mesh.GetNumberOfCells(),
-      mesh.GetNumberOfVertices());
+      frames * mesh.GetNumberOfVertices());
   return texels <= largest ? std::string()
                            : "a table of " + std::to_string(texels) + " texels for " +
       std::to_string(mesh.GetNumberOfCells()) +
@@ -119,13 +122,15 @@ std::string OpenGLTables::DescribeExcess(
 std::vector<OpenGLTable*> OpenGLTables::List()
 {
   return { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
-    &this->VertexGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces };
+    &this->TileBegins, &this->TileFaces, &this->NearestDepths, &this->VertexGradients,
+    &this->CellGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces };
 }
 
 //------------------------------------------------------------------------------
 std::int64_t OpenGLTables::GetTableBytes()
 {
-  std::int64_t bytes = this->PreIntegration.GetBytes() + this->BentLines.GetBytes();
+  std::int64_t bytes = this->PreIntegration.GetBytes() + this->BentLines.GetBytes() +
+    this->PlacedVertices.GetTable().GetBytes();
   for (const OpenGLTable* table : this->List())
   {
     bytes += table->GetBytes();
@@ -170,18 +175,64 @@ std::string OpenGLTables::UploadBoundary(const BoundaryTree& tree)
 }
 
 //------------------------------------------------------------------------------
+std::string OpenGLTables::UploadEntryTiles(const EntryTiles& tiles)
+{
+  const auto& begins = tiles.GetBegins();
+  const auto& faces = tiles.GetFaces();
+  const auto& depths = tiles.GetNearestDepths();
+  this->TileColumns = tiles.GetNumberOfColumns();
+  std::string error = this->Count(
+    this->TileBegins, this->TileBegins.Upload(this->Window, begins.data(), begins.size(), 1, 1));
+  // A texture must not be empty.
+  const std::int32_t none = 0;
+  error = error.empty()
+    ? this->Count(this->TileFaces,
+        this->TileFaces.Upload(this->Window, faces.empty() ? &none : faces.data(),
+          std::max<std::size_t>(faces.size(), 1), 1, 1))
+    : error;
+  return error.empty()
+    ? this->Count(this->NearestDepths,
+        this->NearestDepths.Upload(this->Window, depths.data(), depths.size(), 1, 1))
+    : error;
+}
+
+//------------------------------------------------------------------------------
 std::string OpenGLTables::UploadVertices(
   const TetrahedralMesh& mesh, const std::vector<float>& scalars)
 {
-  std::vector<float> values;
-  values.reserve(4 * static_cast<std::size_t>(mesh.GetNumberOfVertices()));
-  for (std::int64_t v = 0; v < mesh.GetNumberOfVertices(); ++v)
-  {
-    const glm::vec3 p(mesh.GetPosition(v));
-    values.insert(values.end(), { p.x, p.y, p.z, scalars.empty() ? 0.0f : scalars[v] });
-  }
+  // Differences of coordinates have to fit in 32 bits.
+  constexpr std::int32_t largest = (std::int32_t{ 1 } << 30) - 1;
+  const std::vector<glm::ivec3>& positions = mesh.GetFixedPositions();
+  std::vector<std::int32_t> values(4 * positions.size());
+  ForEachBlock(positions.size(), ThreadedLoop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t v = first; v < last; ++v)
+      {
+        const glm::ivec3 p = glm::clamp(positions[v], -largest, largest);
+        const float scalar = scalars.empty() ? 0.0f : scalars[v];
+        std::int32_t* value = &values[4 * v];
+        value[0] = p.x;
+        value[1] = p.y;
+        value[2] = p.z;
+        std::memcpy(value + 3, &scalar, sizeof(scalar));
+      }
+    });
+  ++this->VertexUploads;
   const std::string error = this->Vertices.Upload(this->Window, values.data(), values.size(), 4, 1);
   return this->Count(this->Vertices, error);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::PlaceVertices(const PixelRays& rays, bool bending)
+{
+  std::vector<OpenGLPlacedVertices::FrameRows> frames{ rays.GetFixedPointRows() };
+  if (bending)
+  {
+    const auto& turned = this->BentLines.GetFixedPointRows();
+    frames.insert(frames.end(), turned.begin(), turned.end());
+  }
+  return this->PlacedVertices.Update(this->Window, this->Vertices, this->VertexUploads, frames);
 }
 
 //------------------------------------------------------------------------------
@@ -208,6 +259,12 @@ std::string OpenGLTables::UploadVectors(OpenGLTable& table, const std::vector<gl
 std::string OpenGLTables::UploadGradients(const std::vector<glm::vec3>& gradients)
 {
   return this->UploadVectors(this->VertexGradients, gradients);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadCellGradients(const std::vector<glm::vec3>& gradients)
+{
+  return this->UploadVectors(this->CellGradients, gradients);
 }
 
 //------------------------------------------------------------------------------
@@ -288,6 +345,16 @@ std::vector<OpenGLTable*> OpenGLTables::Activate(
     active.push_back(&table);
   };
   activate(this->Cells, "cells");
+  if (optics.LongLists)
+  {
+    activate(this->TileBegins, "tileBegins");
+    activate(this->TileFaces, "tileFaces");
+    activate(this->NearestDepths, "nearestDepths");
+  }
+  if (optics.UsesGradients())
+  {
+    activate(this->Vertices, "modelVertices");
+  }
   if (!optics.PreIntegrated)
   {
     activate(this->Intervals, "intervals");
@@ -299,6 +366,10 @@ std::vector<OpenGLTable*> OpenGLTables::Activate(
   if (optics.VertexGradients)
   {
     activate(this->VertexGradients, "vertexGradients");
+  }
+  if (optics.UsesCellGradients())
+  {
+    activate(this->CellGradients, "cellGradients");
   }
   if (optics.HasComponents())
   {
@@ -315,6 +386,7 @@ std::vector<OpenGLTable*> OpenGLTables::Activate(
 void OpenGLTables::SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const
 {
   program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
+  program->SetUniformi("tileColumns", this->TileColumns);
   program->SetUniformi("numberOfSurfaces", static_cast<int>(this->Isosurfaces.GetNumberOfRows()));
   const std::vector<int>& starts = this->FunctionStarts;
   const int first = starts[starts.size() - 2];
@@ -333,11 +405,12 @@ void OpenGLTables::SetUniforms(vtkShaderProgram* program, const RayCastOptics& o
 //------------------------------------------------------------------------------
 std::vector<OpenGLTable*> OpenGLTables::ActivateRays(vtkShaderProgram* program)
 {
-  this->Vertices.Activate(program, "vertices");
+  OpenGLTable& placed = this->PlacedVertices.GetTable();
+  placed.Activate(program, "vertices");
   this->TreeNodes.Activate(program, "treeNodes");
   this->TreeFaces.Activate(program, "treeFaces");
   program->SetUniformi("numberOfNodes", static_cast<int>(this->TreeNodes.GetNumberOfRows()));
-  return { &this->Vertices, &this->TreeNodes, &this->TreeFaces };
+  return { &placed, &this->TreeNodes, &this->TreeFaces };
 }
 
 //------------------------------------------------------------------------------
@@ -347,6 +420,7 @@ void OpenGLTables::Release(vtkOpenGLRenderWindow* owner)
   {
     table->Release(owner);
   }
+  this->PlacedVertices.Release(owner);
   this->PreIntegration.Release(owner);
   this->BentLines.Release(owner);
 }

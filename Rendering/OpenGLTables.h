@@ -4,10 +4,13 @@
 #define OpenGLTables_h
 
 #include "Volume/BoundaryTree.h"
+#include "Volume/EntryTiles.h"
+#include "Volume/PixelRays.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 
 #include "OpenGLBentLines.h"
+#include "OpenGLPlacedVertices.h"
 #include "OpenGLPreIntegration.h"
 #include "OpenGLTable.h"
 #include "VolumePropertyTables.h"
@@ -47,9 +50,11 @@ public:
   bool HasVertices() const;
   bool HasCellScalars() const { return this->CellScalars.IsFilled(); }
   bool HasGradients() const { return this->VertexGradients.IsFilled(); }
+  bool HasCellGradients() const { return this->CellGradients.IsFilled(); }
   bool HasComponents() const { return this->VertexComponents.IsFilled(); }
   bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
   bool HasProperty() const { return this->Intervals.IsFilled(); }
+  bool HasEntryTiles() const { return this->TileFaces.IsFilled(); }
   bool HasBentLines() const { return this->BentLines.IsFilled(); }
 
   /**
@@ -58,7 +63,9 @@ public:
    */
   std::string UploadCells(const TetrahedralMesh& mesh, bool compact);
   /** Which table of a mesh a limit in texels or the device's own forbids; empty if none. */
-  std::string DescribeExcess(const TetrahedralMesh& mesh, bool compact, std::int64_t limit) const;
+  /** @param frames  of the rays that may be needed: 1, more behind a membrane. */
+  std::string DescribeExcess(
+    const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit) const;
   std::string UploadBoundary(const BoundaryTree& tree);
   /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
@@ -66,14 +73,22 @@ public:
   std::string UploadCellScalars(const std::vector<float>& scalars);
   /** One gradient per vertex. Needed for optics with VertexGradients. */
   std::string UploadGradients(const std::vector<glm::vec3>& gradients);
+  /** One gradient per cell. Needed for optics that use gradients of cells. */
+  std::string UploadCellGradients(const std::vector<glm::vec3>& gradients);
   /** Needed for optics with PreIntegrated. */
   std::string UploadPreIntegration(const PreIntegrationTable& table);
   /** Up to three further components per vertex. Needed for optics with components. */
   std::string UploadComponents(const std::vector<glm::vec3>& components);
   std::string UploadProperty(const VolumePropertyTables& tables);
+  /** Lists of entries per tile. Needed for optics with LongLists. */
+  std::string UploadEntryTiles(const EntryTiles& tiles);
   /** A line per pixel. Needed for optics with Bending. */
   std::string UploadBentLines(
     const std::vector<BentLine>& lines, int width, int height, const BentFrames& frames);
+
+  /** Places the vertices in the grid of rays, and with optics of Bending in those of their frames.
+   */
+  std::string PlaceVertices(const PixelRays& rays, bool bending);
 
   std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
   /** Bytes of the tables that are on the device now. */
@@ -85,6 +100,11 @@ public:
   std::vector<OpenGLTable*> Activate(vtkShaderProgram* program, const RayCastOptics& optics);
   OpenGLPreIntegration& GetPreIntegration() { return this->PreIntegration; }
   OpenGLBentLines& GetBentLines() { return this->BentLines; }
+  /** Binds the rays behind a membrane. */
+  void ActivateBentLines(vtkShaderProgram* program)
+  {
+    this->BentLines.Activate(program, this->Vertices.GetNumberOfRows());
+  }
   void SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const;
 
   /** @param owner  the window of the tables; null if it is gone. */
@@ -97,13 +117,21 @@ private:
   std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  /** Fixed-point positions and bits of the scalars. */
   OpenGLTable Vertices;
+  std::int64_t VertexUploads = 0;
+  OpenGLPlacedVertices PlacedVertices;
   OpenGLTable Cells;
   bool CellsAreCompact = false;
   OpenGLTable CellScalars;
   OpenGLTable TreeNodes;
   OpenGLTable TreeFaces;
+  OpenGLTable TileBegins;
+  OpenGLTable TileFaces;
+  OpenGLTable NearestDepths;
+  int TileColumns = 0;
   OpenGLTable VertexGradients;
+  OpenGLTable CellGradients;
   OpenGLTable VertexComponents;
   /** Of the scalar, of its other components, of the gradient's magnitude. */
   OpenGLTable Intervals;

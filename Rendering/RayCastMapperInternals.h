@@ -14,6 +14,8 @@ class vtkTetrahedraRayCastMapper::vtkInternals : public meniscus::RayCastPipelin
 {
 public:
   meniscus::ComponentMixture Mixture = meniscus::ComponentMixture::None;
+  /** The component of the scalars that is drawn if they do not mix, as in ScalarSelection. */
+  int Component = meniscus::ScalarSelection::Only;
   /** Seconds that the last frame would have taken with a ray per pixel; 0 before it. */
   double FullImageTime = 0.0;
 

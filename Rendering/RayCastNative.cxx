@@ -36,7 +36,6 @@ void RayCastNative::UpdateProperty(const VolumePropertyTables& property)
     this->Tables.Surfaces.push_back(
       { surface.Scalar, surface.Opacity, { color.r, color.g, color.b } });
   }
-  this->TableBytes += this->GetPropertyBytes();
 }
 
 //------------------------------------------------------------------------------

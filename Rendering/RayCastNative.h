@@ -45,17 +45,14 @@ public:
   {
     return BytesOf(this->Tables.Vertices) + this->GetPropertyBytes();
   }
-  /** Bytes of tables made, ever. */
-  std::int64_t GetTableBytes() const { return this->TableBytes; }
-
-private:
+  /** Bytes of the tables of the transfer function. */
   std::int64_t GetPropertyBytes() const;
 
+private:
   PacketTables Tables;
   PixelRays PlacedBy;
   VertexVersion PlacedVersion{ 0, 0 };
   InstructionSet Set;
-  std::int64_t TableBytes = 0;
 };
 
 }

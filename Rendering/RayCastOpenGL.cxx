@@ -3,6 +3,7 @@
 #include "RayCastOpenGL.h"
 
 #include "RayCastShader.h"
+#include "Volume/PixelRays.h"
 
 #include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
@@ -32,10 +33,6 @@ namespace
 
 /** Texels of four faces that list a tile's entries; also in vtkTetrahedraEntryTilesFS. */
 constexpr unsigned int TileLayers = 8;
-/** Pixels along a tile's side: 8 overflows the lists of 7-14 % of the tiles of meshes of 200k
- * cells. */
-constexpr int TileSize = 4;
-
 void Deactivate(const std::vector<OpenGLTable*>& tables)
 {
   for (OpenGLTable* table : tables)
@@ -155,9 +152,12 @@ std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
   return this->DrawImage(frame.Output,
     [this, &frame]()
     {
-      std::string error = frame.Bending.Part == MembranePart::Behind
-        ? std::string()
-        : this->ListEntries(frame, false);
+      std::string error = this->Tables.PlaceVertices(
+        PixelRays(frame.Rays, this->Size[0], this->Size[1]), frame.Optics.Bending);
+      if (error.empty() && frame.Bending.Part != MembranePart::Behind && !frame.Optics.LongLists)
+      {
+        error = this->ListEntries(frame, false);
+      }
       if (error.empty() && frame.Optics.Bending)
       {
         error = this->ListBentEntries(frame);
@@ -333,7 +333,7 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, bool bent)
   program->SetUniform2f("tileCount", tiles);
   if (bending)
   {
-    this->Tables.GetBentLines().Activate(program);
+    this->Tables.ActivateBentLines(program);
   }
   lister->Render();
   if (bending)
@@ -404,8 +404,11 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
 {
   const std::vector<OpenGLTable*> rayTables = this->ActivateRays(program, frame.Rays);
   const std::vector<OpenGLTable*> tables = this->Tables.Activate(program, frame.Optics);
-  this->EntryTiles->Activate();
-  program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
+  if (!frame.Optics.LongLists)
+  {
+    this->EntryTiles->Activate();
+    program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
+  }
   this->Depth.GetTexture()->Activate();
   program->SetUniformi("opaqueDepth", this->Depth.GetTexture()->GetTextureUnit());
   this->SetCastUniforms(program, frame);
@@ -416,7 +419,7 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
   }
   if (frame.Optics.Bending)
   {
-    this->Tables.GetBentLines().Activate(program);
+    this->Tables.ActivateBentLines(program);
     this->BentTiles->Activate();
     program->SetUniformi("bentTiles", this->BentTiles->GetTextureUnit());
     program->SetUniformi("beginsInside", frame.Bending.BeginsInside ? 1 : 0);
@@ -433,7 +436,10 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
     this->Tables.GetPreIntegration().Deactivate();
   }
   this->Depth.GetTexture()->Deactivate();
-  this->EntryTiles->Deactivate();
+  if (!frame.Optics.LongLists)
+  {
+    this->EntryTiles->Deactivate();
+  }
   Deactivate(tables);
   Deactivate(rayTables);
   this->StatisticsStale = true;
@@ -449,6 +455,7 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateRays(
   { program->SetUniform3f(name, glm::value_ptr(glm::vec3(value))); };
 
   program->SetUniformf("tileSize", static_cast<float>(TileSize));
+  program->SetUniformf("longListTileSize", static_cast<float>(LongListTileSize));
   set2("imageCenter", 0.5 * glm::dvec2(this->Size[0], this->Size[1]));
   set3("rowX", rays.RowX);
   set3("rowY", rays.RowY);
@@ -459,6 +466,12 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateRays(
   set2("slopeBase", rays.Slope.Base);
   set2("slopePerColumn", rays.Slope.PerColumn);
   set2("slopePerRow", rays.Slope.PerRow);
+  const PixelRays grid(rays, this->Size[0], this->Size[1]);
+  const PixelRays::FixedPointMap offset = grid.GetFixedPointOffset();
+  const PixelRays::FixedPointMap slope = grid.GetFixedPointSlope();
+  program->SetUniformf("gridPerUnit", static_cast<float>(1.0 / grid.GetGridUnit()));
+  program->SetUniform1iv("gridOffset", static_cast<int>(offset.size()), offset.data());
+  program->SetUniform1iv("gridSlope", static_cast<int>(slope.size()), slope.data());
   program->SetUniformi("enteringSign", rays.Handedness);
   return this->Tables.ActivateRays(program);
 }
@@ -495,9 +508,10 @@ std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport
   {
     return error;
   }
-  // Rasterisers in software blend with 8 bits in 8 bits, which rounds three times.
-  const bool hasUnder =
-    !output.Selecting && this->IsSoftware() && this->Under.Update(this->Window, viewport);
+  // Rasterisers in software blend with 8 bits in 8 bits, which rounds three times; a picture that
+  // is composited later is rounded by the shader, which has to know all of the sum.
+  const bool blends = !this->IsSoftware() && output.ColorBias == 0.0f;
+  const bool hasUnder = !output.Selecting && !blends && this->Under.Update(this->Window, viewport);
   if (output.Selecting)
   {
     state->vtkglDisable(GL_BLEND);

@@ -104,7 +104,7 @@ void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const Opt
   const RayFrame& frame = place.Frame;
   const glm::dmat3 rows(frame.RowX, frame.RowY, frame.RowDepth);
   optics.GradientToFrame = glm::inverse(rows); // the inverse of the transpose of the map
-  optics.GradientMagnitude = 1.0 / (UnitOf(frame) * place.ScalarScale);
+  optics.GradientMagnitude = 1.0 / (UnitOf(frame) * place.GradientScale);
   optics.Lighting.Ambient = property->GetAmbient();
   optics.Lighting.Diffuse = property->GetDiffuse();
   optics.Lighting.Specular = property->GetSpecular();

@@ -6,6 +6,7 @@
 #include "ComponentMixture.h"
 #include "Volume/ClippingPlanes.h"
 #include "Volume/RayFrame.h"
+#include "Volume/ScalarNormalization.h"
 #include "Volume/SurfaceLighting.h"
 
 #include <glm/mat3x3.hpp>
@@ -32,12 +33,16 @@ struct RayCastOptics
   ComponentMixture Components = ComponentMixture::None;
   /** Of the scalars' components, the main one first. */
   int NumberOfFunctions = 1;
+  /** Normalised scalars that additive blending counts as 0 and as 1. */
+  ScalarRange DataRange;
   /** Composite blending by a table of segments; neither shading nor gradient opacity. */
   bool PreIntegrated = false;
   /** How the table of cells is laid out: see RayCastOpenGL::UploadCells(). */
   bool CompactCells = false;
   /** Whether rays go on behind a membrane, for shaders: see OpenGLBentLines. */
   bool Bending = false;
+  /** Whether lists of entries per tile of any length have been uploaded; not with Bending. */
+  bool LongLists = false;
   bool Shading = false;
   bool GradientOpacity = false;
   /** Gradients interpolated between vertices, not those of the cells; only with one of the above.
@@ -52,6 +57,11 @@ struct RayCastOptics
 
   bool HasComponents() const { return this->Components != ComponentMixture::None; }
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
+  /** Gradients of the cells; without those of vertices. Scalars of cells have no gradient. */
+  bool UsesCellGradients() const
+  {
+    return this->UsesGradients() && !this->VertexGradients && !this->CellScalars;
+  }
   /** Composite blending of one scalar of the vertices by the transfer function as it is. */
   bool IsComposite() const
   {
@@ -67,8 +77,8 @@ struct OpticsPlace
   RayFrame Frame;
   glm::dvec3 CenterInWorld{ 0.0 };
   glm::dmat4 WorldToView{ 1.0 };
-  /** Normalised scalars per scalar. */
-  double ScalarScale = 1.0;
+  /** Unit of gradients, times which a scalar counts. */
+  double GradientScale = 1.0;
 };
 
 /**

@@ -3,14 +3,17 @@
 #include "RayCastPipeline.h"
 
 #include "ThreadedLoop.h"
+#include "ValuesOfParts.h"
 #include "Volume/BentLines.h"
 #include "Volume/RayFrame.h"
-#include "Volume/VertexGradients.h"
+#include "Volume/ScalarGradients.h"
 
 #include "vtkCamera.h"
 #include "vtkMatrix4x4.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
+
+#include <glm/geometric.hpp>
 
 namespace meniscus
 {
@@ -62,12 +65,19 @@ std::string RayCastPipeline::Upload(const RayCastOptics& optics)
     error = this->OpenGL.GetTables().UploadCellScalars(input.GetCellScalars());
     this->UploadedCellScalars = error.empty() ? input.GetScalarUpdates() : 0;
   }
-  const bool gradientsStale = this->UploadedGradients != this->GradientBuilds;
+  const bool gradientsStale = this->UploadedGradients != this->VertexGradients.Builds;
   if (error.empty() && optics.VertexGradients &&
     (gradientsStale || !this->OpenGL.GetTables().HasGradients()))
   {
-    error = this->OpenGL.GetTables().UploadGradients(this->Gradients);
-    this->UploadedGradients = error.empty() ? this->GradientBuilds : 0;
+    error = this->OpenGL.GetTables().UploadGradients(this->VertexGradients.Values);
+    this->UploadedGradients = error.empty() ? this->VertexGradients.Builds : 0;
+  }
+  const bool cellGradientsStale = this->UploadedCellGradients != this->CellGradients.Builds;
+  if (error.empty() && optics.UsesCellGradients() &&
+    (cellGradientsStale || !this->OpenGL.GetTables().HasCellGradients()))
+  {
+    error = this->OpenGL.GetTables().UploadCellGradients(this->CellGradients.Values);
+    this->UploadedCellGradients = error.empty() ? this->CellGradients.Builds : 0;
   }
   const bool componentsStale = this->UploadedComponents != this->Components.GetVersion();
   if (error.empty() && optics.HasComponents() &&
@@ -93,24 +103,34 @@ std::string RayCastPipeline::Upload(const RayCastOptics& optics)
 }
 
 //------------------------------------------------------------------------------
-void RayCastPipeline::UpdateGradients()
+void RayCastPipeline::UpdateGradients(const InputParts& parts, const RayCastOptics& optics)
 {
-  const VolumeInput& input = this->Input;
-  if (this->GradientsOfMesh != input.GetMeshBuilds() ||
-    this->GradientsOfScalars != input.GetScalarUpdates())
+  if (!optics.VertexGradients && !optics.UsesCellGradients())
   {
-    this->Gradients = ComputeVertexGradients(input.GetMesh(), input.GetScalars());
-    this->GradientsOfMesh = input.GetMeshBuilds();
-    this->GradientsOfScalars = input.GetScalarUpdates();
-    ++this->GradientBuilds;
+    return;
   }
+  const VolumeInput& input = this->Input;
+  Gradients& gradients = optics.VertexGradients ? this->VertexGradients : this->CellGradients;
+  if (gradients.Mesh == input.GetMeshBuilds() && gradients.Scalars == input.GetScalarUpdates())
+  {
+    return;
+  }
+  const std::vector<double> scalars =
+    GatherValues(parts, input.GetComponent(), input.GetSources(ScalarPlace::Points));
+  const double scale = input.GetNormalization().GradientScale;
+  gradients.Values = optics.VertexGradients
+    ? ComputeVertexGradients(input.GetMesh(), scalars, scale)
+    : ComputeCellGradients(input.GetMesh(), scalars, scale, ThreadedLoop);
+  gradients.Mesh = input.GetMeshBuilds();
+  gradients.Scalars = input.GetScalarUpdates();
+  ++gradients.Builds;
 }
 
 //------------------------------------------------------------------------------
 std::string RayCastPipeline::DescribeExcess(const RayCastFrame& frame, std::int64_t limit) const
 {
-  const std::string error = this->OpenGL.GetTables().DescribeExcess(
-    this->Input.GetMesh(), frame.Optics.CompactCells, limit);
+  const std::string error = this->OpenGL.GetTables().DescribeExcess(this->Input.GetMesh(),
+    frame.Optics.CompactCells, frame.Bending.Wanted ? 1 + BentFrames::Number : 1, limit);
   return error.empty() && frame.Bending.Wanted
     ? OpenGLBentLines::DescribeExcess(frame.Output.ImageSize, limit)
     : error;
@@ -119,10 +139,6 @@ std::string RayCastPipeline::DescribeExcess(const RayCastFrame& frame, std::int6
 //------------------------------------------------------------------------------
 std::string RayCastPipeline::DrawOpenGL(const RayCastFrame& frame)
 {
-  if (frame.Optics.VertexGradients)
-  {
-    this->UpdateGradients();
-  }
   std::string error = this->Upload(frame.Optics);
   const bool bends = frame.Bending.Wanted && this->Trace(frame, frame.Output.ImageSize);
   if (error.empty() && bends)
@@ -135,13 +151,67 @@ std::string RayCastPipeline::DrawOpenGL(const RayCastFrame& frame)
   }
   if (!bends)
   {
-    return this->OpenGL.Draw(frame);
+    return this->DrawStraight(frame);
   }
   RayCastFrame bent = frame;
   bent.Optics.Bending = true;
   bent.Bending.BeginsInside = this->Membrane.BeginsInside(this->Input);
   bent.Bending.Version = { this->Membrane.GetSightUpdates(), this->Input.GetLinkChanges() };
   return this->OpenGL.Draw(bent);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Whether rays of a tile are expected to enter by more faces than the lists hold that are made on
+ * the device. Those of tiles with more search the tree of the boundary one by one.
+ */
+bool RayCastPipeline::WantsLongLists(const RayCastFrame& frame)
+{
+  if (this->MeasuredLinks != this->Input.GetLinkChanges())
+  {
+    this->Boundary = MeasureBoundary(this->Input.GetMesh());
+    this->MeasuredLinks = this->Input.GetLinkChanges();
+  }
+  // Half of the tiles have more than the mean.
+  constexpr double most = 0.5 * RayCastOpenGL::TileCapacity;
+  const double side = RayCastOpenGL::TileSize * glm::length(frame.Rays.Origin.PerColumn);
+  return ExpectedEntriesPerTile(this->Boundary, side) > most;
+}
+
+//------------------------------------------------------------------------------
+/** Lists entries for shaders, if rays or boundary are others. False if the lists do not fit. */
+bool RayCastPipeline::UpdateEntryTiles(const RayCastFrame& frame)
+{
+  const PixelRays rays(frame.Rays, frame.Output.ImageSize[0], frame.Output.ImageSize[1]);
+  OpenGLTables& tables = this->OpenGL.GetTables();
+  if (this->LinksOfTiles != this->Input.GetLinkChanges() || !rays.SeesAs(this->RaysOfTiles))
+  {
+    this->TilesFit =
+      this->Tiles.Build(this->Input.GetMesh(), this->Input.GetBoundaryTree().GetFaces(), rays,
+        RayCastOpenGL::LongListTileSize, ThreadedLoop);
+    this->RaysOfTiles = rays;
+    this->LinksOfTiles = this->Input.GetLinkChanges();
+    ++this->EntryListBuilds;
+  }
+  const bool uploaded = tables.HasEntryTiles() && this->UploadedTiles == this->EntryListBuilds;
+  if (this->TilesFit && !uploaded)
+  {
+    this->TilesFit = tables.UploadEntryTiles(this->Tiles).empty();
+    this->UploadedTiles = this->EntryListBuilds;
+  }
+  return this->TilesFit;
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastPipeline::DrawStraight(const RayCastFrame& frame)
+{
+  if (!this->WantsLongLists(frame) || !this->UpdateEntryTiles(frame))
+  {
+    return this->OpenGL.Draw(frame);
+  }
+  RayCastFrame listed = frame;
+  listed.Optics.LongLists = true;
+  return this->OpenGL.Draw(listed);
 }
 
 //------------------------------------------------------------------------------
@@ -181,6 +251,52 @@ void RayCastPipeline::UpdateNative()
 }
 
 //------------------------------------------------------------------------------
+/** The tables that Upload() sends, which the native backend reads where they were made. */
+void RayCastPipeline::CountNativeTables(const RayCastOptics& optics)
+{
+  TableCounter& tables = this->NativeTables;
+  const VolumeInput& input = this->Input;
+  const TetrahedralMesh& mesh = input.GetMesh();
+  tables.Count(TableCounter::Cells, { input.GetLinkChanges(), 0 },
+    TableCounter::SizeOf(mesh.GetCells()) + TableCounter::SizeOf(mesh.GetBoundary()));
+  const std::int64_t scalars = input.GetScalarUpdates();
+  const std::int64_t positions = TableCounter::SizeOf(mesh.GetFixedPositions());
+  if (optics.CellScalars)
+  {
+    tables.Count(TableCounter::Vertices, { input.GetMeshBuilds(), 0 }, positions);
+    tables.Count(
+      TableCounter::CellScalars, { scalars, 0 }, TableCounter::SizeOf(input.GetCellScalars()));
+  }
+  else
+  {
+    tables.Count(TableCounter::Vertices, { input.GetMeshBuilds(), scalars },
+      positions + TableCounter::SizeOf(input.GetScalars()));
+  }
+  if (optics.VertexGradients)
+  {
+    tables.Count(TableCounter::VertexGradients, { this->VertexGradients.Builds, 0 },
+      TableCounter::SizeOf(this->VertexGradients.Values));
+  }
+  if (optics.UsesCellGradients())
+  {
+    tables.Count(TableCounter::CellGradients, { this->CellGradients.Builds, 0 },
+      TableCounter::SizeOf(this->CellGradients.Values));
+  }
+  if (optics.HasComponents())
+  {
+    tables.Count(TableCounter::Components, { this->Components.GetVersion(), 0 },
+      TableCounter::SizeOf(this->Components.GetValues()));
+  }
+  tables.Count(
+    TableCounter::Functions, { this->Property.GetVersion(), 0 }, this->Native.GetPropertyBytes());
+  if (optics.PreIntegrated)
+  {
+    tables.Count(TableCounter::PreIntegration, { this->PreIntegration.GetNumberOfBuilds(), 0 },
+      TableCounter::SizeOf(this->PreIntegration.GetTable().GetValues()));
+  }
+}
+
+//------------------------------------------------------------------------------
 std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
 {
   this->UpdateNative();
@@ -189,11 +305,11 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
   scene.Boundary = &this->Input.GetMesh().GetBoundary();
   scene.CellScalars = frame.Optics.CellScalars ? this->Input.GetCellScalars().data() : nullptr;
   scene.Lighting = frame.Optics.Shading ? &frame.Optics.Lighting : nullptr;
-  if (frame.Optics.VertexGradients)
-  {
-    this->UpdateGradients();
-    scene.VertexGradients = this->Gradients.data();
-  }
+  scene.VertexGradients =
+    frame.Optics.VertexGradients ? this->VertexGradients.Values.data() : nullptr;
+  scene.CellGradients =
+    frame.Optics.UsesCellGradients() ? this->CellGradients.Values.data() : nullptr;
+  this->CountNativeTables(frame.Optics);
   scene.GradientToFrame = frame.Optics.GradientToFrame;
   scene.GradientOpacity = frame.Optics.GradientOpacity;
   scene.GradientMagnitude = frame.Optics.GradientMagnitude;
@@ -201,6 +317,7 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
   scene.Blending = static_cast<PacketBlending>(frame.Optics.BlendMode);
   scene.Mixture = static_cast<PacketMixture>(frame.Optics.Components);
   scene.Components = frame.Optics.HasComponents() ? this->Components.GetValues().data() : nullptr;
+  scene.DataRange = frame.Optics.DataRange;
   scene.PreIntegration = frame.Optics.PreIntegrated ? &this->PreIntegration.GetTable() : nullptr;
   scene.ClippingPlanes = frame.Optics.ClippingPlanes;
   scene.TerminationTransmittance = static_cast<float>(frame.TerminationTransmittance());
@@ -212,6 +329,8 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
       if (frame.Bending.Wanted && this->Trace(frame, { width, height }))
       {
         scene.Bent = this->Membrane.See(this->Input);
+        this->NativeTables.Count(TableCounter::RefractedRays,
+          { this->Membrane.GetSightUpdates(), 0 }, this->Membrane.GetSight().GetBytes());
       }
       scene.Bent.Part = frame.Bending.Part;
       const VertexVersion version{ this->Input.GetMeshBuilds(), this->Input.GetScalarUpdates() };
@@ -235,7 +354,7 @@ std::string RayCastPipeline::ComputeFrame(
   input.ImageSize = glm::dvec2(imageSize[0], imageSize[1]);
   place.CenterInWorld = glm::dvec3(input.ModelToWorld * glm::dvec4(input.Center, 1.0));
   place.WorldToView = input.WorldToView;
-  place.ScalarScale = this->Input.GetNormalization().Scale;
+  place.GradientScale = this->Input.GetNormalization().GradientScale;
   switch (ComputeRayFrame(input, place.Frame))
   {
     case RayFrameStatus::Ok:

@@ -7,6 +7,9 @@
 #include "RayCastNative.h"
 #include "RayCastOpenGL.h"
 #include "RayCastOptics.h"
+#include "TableCounter.h"
+#include "Volume/EntryTiles.h"
+#include "Volume/PixelRays.h"
 #include "VolumeComponents.h"
 #include "VolumeInput.h"
 #include "VolumePreIntegration.h"
@@ -54,23 +57,59 @@ public:
   std::string DrawOpenGL(const RayCastFrame& frame);
   std::string DrawNative(const RayCastFrame& frame);
 
-  std::int64_t GetGradientBuilds() const { return this->GradientBuilds; }
-  const std::vector<glm::vec3>& GetGradients() const { return this->Gradients; }
+  /** Times that entries were listed per tile on the processor, for shaders. */
+  std::int64_t GetEntryListBuilds() const { return this->EntryListBuilds; }
+  std::int64_t GetEntryListBytes() const { return this->Tiles.GetBytes(); }
+  /**
+   * Brings the gradients that optics need up to date.
+   * @param parts  what the input's scalars were taken from.
+   */
+  void UpdateGradients(const InputParts& parts, const RayCastOptics& optics);
+  /** Computations of gradients at the vertices. */
+  std::int64_t GetGradientBuilds() const { return this->VertexGradients.Builds; }
+  /** Bytes of gradients. */
+  std::int64_t GetGradientBytes() const
+  {
+    return BytesOf(this->VertexGradients.Values) + BytesOf(this->CellGradients.Values);
+  }
+
+  /** Bytes of tables sent to the graphics device, and of those made for the native backend. */
+  std::int64_t GetUploadedBytes() const
+  {
+    return this->OpenGL.GetTables().GetUploadedBytes() + this->NativeTables.GetBytes();
+  }
 
 private:
-  void UpdateGradients();
+  /** Gradients, and what they were computed from by the input's counters. */
+  struct Gradients
+  {
+    std::vector<glm::vec3> Values;
+    std::int64_t Builds = 0;
+    std::int64_t Mesh = 0;
+    std::int64_t Scalars = 0;
+  };
+
   std::string Upload(const RayCastOptics& optics);
   /** Whether rays of the image bend. */
   bool Trace(const RayCastFrame& frame, const int (&imageSize)[2]);
   std::string UploadBentLines(const int (&imageSize)[2]);
+  bool WantsLongLists(const RayCastFrame& frame);
+  bool UpdateEntryTiles(const RayCastFrame& frame);
+  std::string DrawStraight(const RayCastFrame& frame);
   void UpdateNative();
+  void CountNativeTables(const RayCastOptics& optics);
 
-  std::vector<glm::vec3> Gradients;
-  std::int64_t GradientBuilds = 0;
+  Gradients VertexGradients;
+  Gradients CellGradients;
 
-  /** What the gradients were computed from, by the input's counters. */
-  std::int64_t GradientsOfMesh = 0;
-  std::int64_t GradientsOfScalars = 0;
+  /** Entries per tile on the way to the shaders, and the rays and the boundary that they are of. */
+  EntryTiles Tiles;
+  PixelRays RaysOfTiles;
+  std::int64_t LinksOfTiles = 0;
+  bool TilesFit = false;
+  std::int64_t EntryListBuilds = 0;
+  BoundaryMeasure Boundary;
+  std::int64_t MeasuredLinks = 0;
 
   /** What the tables on the graphics device were made of, by counters. */
   std::int64_t UploadedLinks = 0;
@@ -78,12 +117,15 @@ private:
   std::int64_t UploadedScalars = 0;
   std::int64_t UploadedCellScalars = 0;
   std::int64_t UploadedGradients = 0;
+  std::int64_t UploadedCellGradients = 0;
   std::int64_t UploadedComponents = 0;
   std::int64_t UploadedProperty = 0;
   std::int64_t UploadedPreIntegration = 0;
   std::int64_t UploadedSight = 0;
+  std::int64_t UploadedTiles = 0;
   /** The same of the native backend's. */
   std::int64_t NativeProperty = 0;
+  TableCounter NativeTables;
 };
 
 }

@@ -4,6 +4,7 @@
 
 #include "vtkTetrahedraComponents.h"
 #include "vtkTetrahedraComposite.h"
+#include "vtkTetrahedraEntries.h"
 #include "vtkTetrahedraFrontToBack.h"
 #include "vtkTetrahedraIsosurfaces.h"
 #include "vtkTetrahedraLights.h"
@@ -116,7 +117,9 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("SHADING", optics.Shading ? 1 : 0);
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
   define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);
+  define("CELL_GRADIENTS", optics.UsesCellGradients() ? 1 : 0);
   define("BENDING", optics.Bending ? 1 : 0);
+  define("LONG_LISTS", optics.LongLists ? 1 : 0);
   define("COMPACT_CELLS", optics.CompactCells ? 1 : 0);
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
@@ -139,6 +142,7 @@ std::string RayCastShaderSource(const char* mainShader, const RayCastOptics& opt
     source, "//VTK::TetrahedraOptions::Dec", RayCastShaderOptions(optics));
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraWalk::Dec", vtkTetrahedraWalk);
+  vtkShaderProgram::Substitute(source, "//VTK::TetrahedraEntries::Dec", vtkTetrahedraEntries);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraModel::Dec", ModelSource(optics));
   return source;
 }
@@ -155,6 +159,13 @@ void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
     set3("clippingConstant", Collect(optics.ClippingPlanes, &RayClippingPlane::Constant));
     set3("clippingPerDepth", Collect(optics.ClippingPlanes, &RayClippingPlane::PerDepth));
     set4("clippingInFrame", Collect(optics.ClippingPlanes, &RayClippingPlane::InFrame));
+  }
+  if (optics.BlendMode == vtkVolumeMapper::ADDITIVE_BLEND)
+  {
+    const double width = optics.DataRange.Highest - optics.DataRange.Lowest;
+    const float share[2] = { static_cast<float>(-optics.DataRange.Lowest / width),
+      static_cast<float>(1.0 / width) };
+    program->SetUniform2f("rangeShare", share);
   }
   if (!optics.UsesGradients())
   {

@@ -4,8 +4,12 @@
 #ifndef VTKVersions_h
 #define VTKVersions_h
 
+#include "vtkCellArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkVersionMacros.h"
+
+#include <vector>
 
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
 #include "vtkCellTypeUtilities.h"
@@ -16,13 +20,21 @@
 namespace meniscus
 {
 
-/** The object that holds the faces of polyhedra; none if there are no polyhedra. */
-inline vtkObject* FacesOf(vtkUnstructuredGrid* grid)
+/** Adds the objects and the arrays that hold the faces of polyhedra; null if there are none. */
+inline void AddFaces(
+  vtkUnstructuredGrid* grid, std::vector<vtkObject*>& holders, std::vector<vtkDataArray*>& arrays)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
-  return grid->GetPolyhedronFaces();
+  for (vtkCellArray* cells : { grid->GetPolyhedronFaces(), grid->GetPolyhedronFaceLocations() })
+  {
+    holders.push_back(cells);
+    arrays.push_back(cells ? cells->GetConnectivityArray() : nullptr);
+    arrays.push_back(cells ? cells->GetOffsetsArray() : nullptr);
+  }
 #else
-  return grid->GetFaces();
+  static_cast<void>(holders); // the arrays are the grid's own
+  arrays.push_back(grid->GetFaces());
+  arrays.push_back(grid->GetFaceLocations());
 #endif
 }
 

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ValuesOfParts.h"
 
+#include "ThreadedLoop.h"
+#include "Volume/BlockLoop.h"
+
 #include "vtkDataArray.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus
 {
@@ -29,6 +33,33 @@ double LengthOf(vtkDataArray* array, vtkIdType tuple)
   }
   return length;
 }
+
+/** The range of the finite values among some, and how many others there are. */
+struct ValueRange
+{
+  double Lowest = std::numeric_limits<double>::infinity();
+  double Highest = -std::numeric_limits<double>::infinity();
+  std::int64_t NotFinite = 0;
+
+  void Add(double value)
+  {
+    if (std::isfinite(value))
+    {
+      this->Lowest = std::min(this->Lowest, value);
+      this->Highest = std::max(this->Highest, value);
+    }
+    else
+    {
+      ++this->NotFinite;
+    }
+  }
+  void Add(const ValueRange& other)
+  {
+    this->Lowest = std::min(this->Lowest, other.Lowest);
+    this->Highest = std::max(this->Highest, other.Highest);
+    this->NotFinite += other.NotFinite;
+  }
+};
 
 }
 
@@ -54,7 +85,50 @@ double ValuesOfParts::operator()(std::int32_t number) const
   const auto tuple = static_cast<vtkIdType>(number - this->Firsts[part]);
   return this->Component == ScalarSelection::Magnitude
     ? LengthOf(array, tuple)
-    : array->GetComponent(tuple, this->Component);
+    : array->GetComponent(tuple, array->GetNumberOfComponents() == 1 ? 0 : this->Component);
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> GatherValues(
+  const InputParts& input, int component, const std::vector<std::int32_t>& numbers)
+{
+  const ValuesOfParts valueOf(input, component);
+  std::vector<double> values(numbers.size());
+  ForEachBlock(values.size(), ThreadedLoop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        values[i] = valueOf(numbers[i]);
+      }
+    });
+  return values;
+}
+
+//------------------------------------------------------------------------------
+FiniteValues::FiniteValues(const std::vector<double>& values)
+{
+  std::vector<ValueRange> ranges(NumberOfBlocks(values.size()));
+  ForEachBlock(values.size(), ThreadedLoop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      ValueRange range;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        range.Add(values[i]);
+      }
+      ranges[block] = range;
+    });
+  ValueRange all;
+  for (const ValueRange& range : ranges)
+  {
+    all.Add(range);
+  }
+  this->NotFinite = all.NotFinite;
+  if (all.Lowest <= all.Highest)
+  {
+    this->Distribution = ScalarDistribution(all.Lowest, all.Highest, values);
+  }
 }
 
 }

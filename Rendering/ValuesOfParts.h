@@ -4,6 +4,7 @@
 #define ValuesOfParts_h
 
 #include "InputParts.h"
+#include "Volume/ScalarNormalization.h"
 
 #include <cstdint>
 #include <vector>
@@ -15,7 +16,10 @@ namespace meniscus
 class ValuesOfParts
 {
 public:
-  /** @param component  as of ScalarSelection; of Only the first. */
+  /**
+   * @param component  as in ScalarSelection, the first for Only. An array of one component yields
+   *                   that one.
+   */
   ValuesOfParts(const InputParts& input, int component);
 
   double operator()(std::int32_t number) const;
@@ -24,6 +28,20 @@ private:
   const InputParts& Input;
   int Component;
   std::vector<std::int64_t> Firsts;
+};
+
+/** The values of those numbers, as they are in the arrays. */
+std::vector<double> GatherValues(
+  const InputParts& input, int component, const std::vector<std::int32_t>& numbers);
+
+/** The finite ones among some values. */
+struct FiniteValues
+{
+  ScalarDistribution Distribution;
+  std::int64_t NotFinite = 0;
+
+  FiniteValues() = default;
+  explicit FiniteValues(const std::vector<double>& values);
 };
 
 }

@@ -29,6 +29,21 @@ double FullIntensity(const InputParts& parts)
   return parts.Parts.front().Scalars->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
 }
 
+/** The components beside the main one that are scalars with a function of their own. */
+std::vector<int> OtherScalars(ComponentMixture mixture, int components)
+{
+  std::vector<int> others;
+  if (mixture == ComponentMixture::ColorAndOpacity)
+  {
+    others.push_back(0);
+  }
+  for (int c = 1; mixture == ComponentMixture::Independent && c < components; ++c)
+  {
+    others.push_back(c);
+  }
+  return others;
+}
+
 /** Makes all of a vertex NaN if one component is not finite, the main one included. Counts them. */
 std::int64_t MarkUnknown(const std::vector<std::int32_t>& points, const InputParts& parts,
   int components, std::vector<glm::vec3>& values)
@@ -76,50 +91,48 @@ int MainComponent(ComponentMixture mixture)
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeComponents::Update(
-  const VolumeInput& input, const InputParts& parts, ComponentMixture mixture)
+InputReport VolumeComponents::Update(const VolumeInput& input, const InputParts& parts,
+  ComponentMixture mixture, const FunctionFeatures& features)
 {
-  std::vector<ObjectVersion> version;
-  for (const InputPart& part : parts.Parts)
-  {
-    version.emplace_back(part.Scalars);
-  }
   const bool same = mixture == this->Mixture &&
     (mixture == ComponentMixture::None ||
-      (version == this->BuiltScalars && this->BuiltMesh == input.GetMeshBuilds()));
+      (this->BuiltScalars == input.GetScalarUpdates() && this->BuiltMesh == input.GetMeshBuilds()));
+  const TetrahedralMesh& mesh = input.GetMesh();
   InputReport report;
   if (same)
   {
+    if (this->BuiltFeatures != features.Version && this->ChooseNormalizations(features, true))
+    {
+      ++this->Version;
+      this->TakeScalars(mesh, parts);
+      MarkUnknown(mesh.GetSourcePoints(), parts, this->NumberOfComponents, this->Values);
+    }
     return report;
   }
   this->Mixture = mixture;
-  this->BuiltScalars = version;
+  this->BuiltScalars = input.GetScalarUpdates();
   this->BuiltMesh = input.GetMeshBuilds();
   this->NumberOfComponents =
     mixture == ComponentMixture::None ? 1 : parts.Parts.front().Scalars->GetNumberOfComponents();
   this->Values.clear();
+  this->Others = OtherScalars(mixture, this->NumberOfComponents);
   ++this->Version;
   if (mixture == ComponentMixture::None)
   {
     return report;
   }
-  const TetrahedralMesh& mesh = input.GetMesh();
   this->Values.assign(mesh.GetSourcePoints().size(), glm::vec3(0.0f));
   if (mixture == ComponentMixture::RedGreenBlueOpacity)
   {
     this->TakeColors(mesh, parts);
   }
-  else if (mixture == ComponentMixture::ColorAndOpacity)
+  for (std::size_t other = 0; other < this->Others.size(); ++other)
   {
-    this->TakeScalars(mesh, parts, 0, 0);
+    this->Distributions[other] =
+      FiniteValues(GatherValues(parts, this->Others[other], mesh.GetSourcePoints())).Distribution;
   }
-  else
-  {
-    for (int component = 1; component < this->NumberOfComponents; ++component)
-    {
-      this->TakeScalars(mesh, parts, component, component - 1);
-    }
-  }
+  this->ChooseNormalizations(features, false);
+  this->TakeScalars(mesh, parts);
   const std::int64_t unknown =
     MarkUnknown(mesh.GetSourcePoints(), parts, this->NumberOfComponents, this->Values);
   if (unknown > 0)
@@ -131,33 +144,43 @@ InputReport VolumeComponents::Update(
 }
 
 //------------------------------------------------------------------------------
-void VolumeComponents::TakeScalars(
-  const TetrahedralMesh& mesh, const InputParts& parts, int component, int other)
+/**
+ * @param keep  the normalisations that there are, as long as they serve.
+ * @return  whether one changed.
+ */
+bool VolumeComponents::ChooseNormalizations(const FunctionFeatures& features, bool keep)
+{
+  bool changed = false;
+  for (std::size_t other = 0; other < this->Others.size(); ++other)
+  {
+    ScalarNormalization& normalization = this->Normalizations[other];
+    const ScalarNormalization chosen = ChooseNormalization(
+      this->Distributions[other], features.Of(other + 1), keep ? &normalization : nullptr);
+    changed = changed || chosen != normalization;
+    normalization = chosen;
+  }
+  this->BuiltFeatures = features.Version;
+  return changed;
+}
+
+//------------------------------------------------------------------------------
+void VolumeComponents::TakeScalars(const TetrahedralMesh& mesh, const InputParts& parts)
 {
   const std::vector<std::int32_t>& points = mesh.GetSourcePoints();
-  const ValuesOfParts valueOf(parts, component);
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (const std::int32_t point : points)
+  for (std::size_t other = 0; other < this->Others.size(); ++other)
   {
-    const double value = valueOf(point);
-    if (std::isfinite(value))
-    {
-      lowest = std::min(lowest, value);
-      highest = std::max(highest, value);
-    }
-  }
-  const ScalarNormalization n =
-    lowest <= highest ? NormalizeRange(lowest, highest) : ScalarNormalization();
-  this->Normalizations[other] = n;
-  vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
-    [&](vtkIdType first, vtkIdType last)
-    {
-      for (vtkIdType v = first; v < last; ++v)
+    const ValuesOfParts valueOf(parts, this->Others[other]);
+    const ScalarNormalization& normalization = this->Normalizations[other];
+    const auto at = static_cast<int>(other);
+    vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
+      [&](vtkIdType first, vtkIdType last)
       {
-        this->Values[v][other] = static_cast<float>((valueOf(points[v]) - n.Offset) * n.Scale);
-      }
-    });
+        for (vtkIdType v = first; v < last; ++v)
+        {
+          this->Values[v][at] = static_cast<float>(normalization(valueOf(points[v])));
+        }
+      });
+  }
 }
 
 //------------------------------------------------------------------------------

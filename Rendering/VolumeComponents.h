@@ -24,8 +24,12 @@ int MainComponent(ComponentMixture mixture);
 class VolumeComponents
 {
 public:
-  /** Costs nothing if mesh, arrays and mixture are the same. */
-  InputReport Update(const VolumeInput& input, const InputParts& parts, ComponentMixture mixture);
+  /**
+   * Costs nothing if the input's mesh and scalars and the mixture are the same. As with
+   * VolumeInput, other functions cost something only where they change the normalisation.
+   */
+  InputReport Update(const VolumeInput& input, const InputParts& parts, ComponentMixture mixture,
+    const FunctionFeatures& features);
 
   ComponentMixture GetMixture() const { return this->Mixture; }
   /** Of the array; 1 if there is no mixture. */
@@ -44,14 +48,19 @@ public:
   std::int64_t GetVersion() const { return this->Version; }
 
 private:
-  void TakeScalars(const TetrahedralMesh& mesh, const InputParts& parts, int component, int other);
+  bool ChooseNormalizations(const FunctionFeatures& features, bool keep);
+  void TakeScalars(const TetrahedralMesh& mesh, const InputParts& parts);
   void TakeColors(const TetrahedralMesh& mesh, const InputParts& parts);
 
   ComponentMixture Mixture = ComponentMixture::None;
   int NumberOfComponents = 1;
   std::vector<glm::vec3> Values;
+  /** The other components that are scalars: number in the array, scalars, normalisation. */
+  std::vector<int> Others;
+  std::array<ScalarDistribution, 3> Distributions;
   std::array<ScalarNormalization, 3> Normalizations;
-  std::vector<ObjectVersion> BuiltScalars;
+  std::int64_t BuiltFeatures = 0;
+  std::int64_t BuiltScalars = 0;
   std::int64_t BuiltMesh = 0;
   std::int64_t Version = 0;
 };

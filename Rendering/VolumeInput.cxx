@@ -3,22 +3,10 @@
 #include "VolumeInput.h"
 
 #include "GridView.h"
+#include "InputContent.h"
 #include "ThreadedLoop.h"
-#include "VTKVersions.h"
 #include "ValuesOfParts.h"
 #include "Volume/BlockLoop.h"
-
-#include "vtkCellArray.h"
-#include "vtkDataArray.h"
-#include "vtkExplicitStructuredGrid.h"
-#include "vtkImageData.h"
-#include "vtkMatrix3x3.h"
-#include "vtkPointSet.h"
-#include "vtkPoints.h"
-#include "vtkRectilinearGrid.h"
-#include "vtkStructuredGrid.h"
-#include "vtkUnsignedCharArray.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,105 +16,24 @@
 
 namespace meniscus
 {
-namespace
-{
-
-/** The range of the finite values among some, and how many others there are. */
-struct ValueRange
-{
-  double Lowest = std::numeric_limits<double>::infinity();
-  double Highest = -std::numeric_limits<double>::infinity();
-  std::int64_t NotFinite = 0;
-
-  void Add(double value)
-  {
-    if (std::isfinite(value))
-    {
-      this->Lowest = std::min(this->Lowest, value);
-      this->Highest = std::max(this->Highest, value);
-    }
-    else
-    {
-      ++this->NotFinite;
-    }
-  }
-  void Add(const ValueRange& other)
-  {
-    this->Lowest = std::min(this->Lowest, other.Lowest);
-    this->Highest = std::max(this->Highest, other.Highest);
-    this->NotFinite += other.NotFinite;
-  }
-};
-
-}
-
-//------------------------------------------------------------------------------
-ObjectVersion::ObjectVersion(vtkObject* object)
-  : Object(object)
-  , Time(object ? object->GetMTime() : 0)
-{
-}
-
-//------------------------------------------------------------------------------
-void VolumeInput::MeshVersion::Add(vtkDataSet* grid)
-{
-  const auto add = [this](vtkObject* object) { this->Objects.emplace_back(object); };
-  const auto addNumbers = [this](const auto* first, int count)
-  { this->Numbers.insert(this->Numbers.end(), first, first + count); };
-  add(grid->GetCellGhostArray());
-  add(grid->GetPointGhostArray());
-  if (auto* set = vtkPointSet::SafeDownCast(grid))
-  {
-    add(set->GetPoints());
-    add(set->GetPoints() ? set->GetPoints()->GetData() : nullptr);
-  }
-  if (auto* unstructured = vtkUnstructuredGrid::SafeDownCast(grid))
-  {
-    add(unstructured->GetCells());
-    add(FacesOf(unstructured));
-  }
-  else if (auto* structured = vtkStructuredGrid::SafeDownCast(grid))
-  {
-    addNumbers(structured->GetExtent(), 6);
-  }
-  else if (auto* rectilinear = vtkRectilinearGrid::SafeDownCast(grid))
-  {
-    add(rectilinear->GetXCoordinates());
-    add(rectilinear->GetYCoordinates());
-    add(rectilinear->GetZCoordinates());
-    addNumbers(rectilinear->GetExtent(), 6);
-  }
-  else if (auto* image = vtkImageData::SafeDownCast(grid))
-  {
-    addNumbers(image->GetExtent(), 6);
-    addNumbers(image->GetOrigin(), 3);
-    addNumbers(image->GetSpacing(), 3);
-    addNumbers(image->GetDirectionMatrix()->GetData(), 9);
-  }
-  else
-  {
-    add(grid);
-  }
-}
 
 //------------------------------------------------------------------------------
 InputReport VolumeInput::UpdateMesh(
   const InputParts& input, const std::function<bool(double)>& progress)
 {
-  MeshVersion version;
-  std::vector<vtkDataSet*> grids;
-  for (const InputPart& part : input.Parts)
-  {
-    version.Add(part.Grid);
-    grids.push_back(part.Grid);
-  }
+  const bool changed =
+    this->MeshWatch.HasChanged(MeshVersions(input), [&input]() { return DigestMesh(input); });
   const bool lacksSources = input.Place == ScalarPlace::Cells && !this->KeepsSourceCells;
-  if (this->MeshBuilds > 0 && version == this->BuiltMesh && !lacksSources)
+  if (!changed && !lacksSources)
   {
     return InputReport();
   }
   this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
-  this->BuiltMesh = version;
+  std::vector<vtkDataSet*> grids;
+  for (const InputPart& part : input.Parts)
+  {
+    grids.push_back(part.Grid);
+  }
   return this->BuildMesh(grids, progress);
 }
 
@@ -134,7 +41,7 @@ InputReport VolumeInput::UpdateMesh(
 InputReport VolumeInput::BuildMesh(
   const std::vector<vtkDataSet*>& grids, const std::function<bool(double)>& progress)
 {
-  this->BuiltScalars.clear();
+  this->ScalarWatch.Forget();
   this->ActiveSetStale = true;
   ++this->MeshBuilds;
   ++this->LinkChanges;
@@ -160,7 +67,7 @@ InputReport VolumeInput::BuildMesh(
   control.Progress = progress;
   if (this->Mesh.Build(view, control) == MeshStatus::Aborted)
   {
-    this->BuiltMesh = MeshVersion(); // begun again at the next call
+    this->MeshWatch.Forget(); // begun again at the next call
   }
   const std::string omitted = gridView.DescribeOmitted();
   if (!omitted.empty())
@@ -175,59 +82,51 @@ InputReport VolumeInput::BuildMesh(
          << " cells are left out: " << rejected.IndexOutOfRange
          << " with a point index out of range, " << rejected.RepeatedVertex
          << " with a repeated point, " << rejected.PointNotFinite
-         << " with a point that is not finite.";
+         << " with a point that is not finite, " << rejected.Duplicate << " given before.";
     report.Warning = text.str();
   }
   return report;
 }
 
 //------------------------------------------------------------------------------
-InputReport VolumeInput::UpdateScalars(const InputParts& input, int component)
+InputReport VolumeInput::UpdateScalars(
+  const InputParts& input, int component, const FunctionFeatures& features)
 {
   InputReport report;
-  std::vector<ObjectVersion> version;
-  for (const InputPart& part : input.Parts)
-  {
-    version.emplace_back(part.Scalars);
-  }
-  if (version == this->BuiltScalars && input.Place == this->BuiltPlace &&
-    component == this->BuiltComponent)
+  const bool changed = this->ScalarWatch.HasChanged(
+    ScalarVersions(input), [&input]() { return DigestScalars(input); });
+  const bool same =
+    !changed && input.Place == this->BuiltPlace && component == this->BuiltComponent;
+  if (same && features.Version == this->BuiltFeatures)
   {
     return report;
   }
+  this->BuiltFeatures = features.Version;
   const bool ofCells = input.Place == ScalarPlace::Cells;
-  const std::vector<std::int32_t>& sources =
-    ofCells ? this->Mesh.GetSourceCells() : this->Mesh.GetSourcePoints();
-  const ValuesOfParts valueOf(input, component);
-  std::vector<double> values(sources.size());
-  std::vector<ValueRange> ranges(NumberOfBlocks(values.size()));
-  ForEachBlock(values.size(), ThreadedLoop,
-    [&](std::size_t block, std::size_t first, std::size_t last)
+  std::vector<double> values;
+  if (!same)
+  {
+    values = GatherValues(input, component, this->GetSources(input.Place));
+    const FiniteValues finite(values);
+    this->Distribution = finite.Distribution;
+    if (finite.NotFinite > 0)
     {
-      ValueRange range;
-      for (std::size_t v = first; v < last; ++v)
-      {
-        values[v] = valueOf(sources[v]);
-        range.Add(values[v]);
-      }
-      ranges[block] = range;
-    });
-  ValueRange range;
-  for (const ValueRange& part : ranges)
-  {
-    range.Add(part);
+      report.Warning = std::to_string(finite.NotFinite) + " of " + std::to_string(values.size()) +
+        " scalars of the " + (ofCells ? "tetrahedra" : "vertices") +
+        " are not finite; cells that use them are transparent.";
+    }
   }
-  const std::int64_t notFinite = range.NotFinite;
-  if (notFinite > 0)
+  const ScalarNormalization normalization =
+    ChooseNormalization(this->Distribution, features.Of(0), same ? &this->Normalization : nullptr);
+  if (same && normalization == this->Normalization)
   {
-    report.Warning = std::to_string(notFinite) + " of " + std::to_string(values.size()) +
-      " scalars of the " + (ofCells ? "tetrahedra" : "vertices") +
-      " are not finite; cells that use them are transparent.";
+    return report;
   }
-
-  this->Normalization = notFinite == static_cast<std::int64_t>(values.size())
-    ? ScalarNormalization()
-    : NormalizeRange(range.Lowest, range.Highest);
+  this->Normalization = normalization;
+  if (same)
+  {
+    values = GatherValues(input, component, this->GetSources(input.Place));
+  }
   this->Scalars.clear();
   this->CellScalars.clear();
   std::vector<float>& normalized = ofCells ? this->CellScalars : this->Scalars;
@@ -235,20 +134,33 @@ InputReport VolumeInput::UpdateScalars(const InputParts& input, int component)
   ForEachBlock(values.size(), ThreadedLoop,
     [&](std::size_t, std::size_t first, std::size_t last)
     {
-      const ScalarNormalization& n = this->Normalization;
       for (std::size_t v = first; v < last; ++v)
       {
-        normalized[v] = std::isfinite(values[v])
-          ? static_cast<float>((values[v] - n.Offset) * n.Scale)
-          : std::numeric_limits<float>::quiet_NaN();
+        normalized[v] = std::isfinite(values[v]) ? static_cast<float>(normalization(values[v]))
+                                                 : std::numeric_limits<float>::quiet_NaN();
       }
     });
-  this->BuiltScalars = version;
   this->BuiltPlace = input.Place;
   this->BuiltComponent = component;
   this->ActiveSetStale = true;
   ++this->ScalarUpdates;
   return report;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<std::int32_t>& VolumeInput::GetSources(ScalarPlace place) const
+{
+  return place == ScalarPlace::Cells ? this->Mesh.GetSourceCells() : this->Mesh.GetSourcePoints();
+}
+
+//------------------------------------------------------------------------------
+ScalarRange VolumeInput::GetNormalizedRange() const
+{
+  if (this->Distribution.IsEmpty())
+  {
+    return ScalarRange();
+  }
+  return SampledRange(this->Distribution, {}, this->Normalization);
 }
 
 //------------------------------------------------------------------------------

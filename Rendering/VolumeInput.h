@@ -3,13 +3,12 @@
 #ifndef VolumeInput_h
 #define VolumeInput_h
 
+#include "ContentWatch.h"
 #include "InputParts.h"
 #include "Volume/BoundaryTree.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TransferFunction.h"
 #include "Volume/VisibleScalars.h"
-
-#include "vtkType.h"
 
 #include <glm/vec3.hpp>
 
@@ -18,24 +17,8 @@
 #include <string>
 #include <vector>
 
-class vtkObject;
-
 namespace meniscus
 {
-
-/** An object and its modification time: equal as long as it is the same object, unmodified. */
-struct ObjectVersion
-{
-  const vtkObject* Object = nullptr;
-  vtkMTimeType Time = 0;
-
-  ObjectVersion() = default;
-  explicit ObjectVersion(vtkObject* object);
-  bool operator==(const ObjectVersion& other) const
-  {
-    return this->Object == other.Object && this->Time == other.Time;
-  }
-};
 
 /**
  * What is drawn, as the kernel's tables: mesh, normalised scalars, active cells. Each is remade
@@ -45,7 +28,7 @@ class VolumeInput
 {
 public:
   /**
-   * The mesh of an input, all parts in one. Another that shares its points and cells is the same.
+   * The mesh of an input, all parts in one. Another with equal points and cells is the same.
    * For scalars of cells it takes 4 bytes more per cell, which is kept up from then on; a mesh
    * without is made again.
    * @param progress  told the fraction done; false aborts, which leaves no mesh and no report.
@@ -53,10 +36,12 @@ public:
   InputReport UpdateMesh(const InputParts& input, const std::function<bool(double)>& progress);
 
   /**
-   * The scalars of that mesh.
+   * The scalars of that mesh, normalised for a function. Another function costs nothing, unless it
+   * changes where so normalised scalars are too coarse: then they are made again.
    * @param component  as of ScalarSelection.
    */
-  InputReport UpdateScalars(const InputParts& input, int component);
+  InputReport UpdateScalars(
+    const InputParts& input, int component, const FunctionFeatures& features);
 
   /**
    * The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same.
@@ -84,6 +69,14 @@ public:
   /** One per cell of the mesh, likewise; empty if of points. */
   const std::vector<float>& GetCellScalars() const { return this->CellScalars; }
   const ScalarNormalization& GetNormalization() const { return this->Normalization; }
+  /** The finite scalars as they are in the input. */
+  const ScalarDistribution& GetDistribution() const { return this->Distribution; }
+  /** The range of the data, normalised. */
+  ScalarRange GetNormalizedRange() const;
+  /** Number of the input's scalar per vertex, or per cell of the mesh. */
+  const std::vector<std::int32_t>& GetSources(ScalarPlace place) const;
+  /** Component that the scalars are, as of ScalarSelection. */
+  int GetComponent() const { return this->BuiltComponent; }
   /** Over the boundary of the active cells; built when first asked for. */
   const BoundaryTree& GetBoundaryTree();
 
@@ -98,19 +91,6 @@ public:
   std::int64_t GetLinkChanges() const { return this->LinkChanges; }
 
 private:
-  /** What the mesh was built from: objects, and numbers where there is no object. */
-  struct MeshVersion
-  {
-    std::vector<ObjectVersion> Objects;
-    std::vector<double> Numbers;
-
-    bool operator==(const MeshVersion& other) const
-    {
-      return this->Objects == other.Objects && this->Numbers == other.Numbers;
-    }
-    void Add(vtkDataSet* grid);
-  };
-
   InputReport BuildMesh(
     const std::vector<vtkDataSet*>& grids, const std::function<bool(double)>& progress);
 
@@ -118,6 +98,7 @@ private:
   BoundaryTree Tree;
   std::vector<float> Scalars;
   std::vector<float> CellScalars;
+  ScalarDistribution Distribution;
   ScalarNormalization Normalization;
   VisibleScalars Visible;
   TetrahedralMesh::CellJumps Jumps = TetrahedralMesh::CellJumps::Hidden;
@@ -125,10 +106,11 @@ private:
   /** Of the values beside the scalars; 0 without. */
   std::int64_t OthersVersion = 0;
 
-  MeshVersion BuiltMesh;
-  std::vector<ObjectVersion> BuiltScalars;
+  ContentWatch MeshWatch;
+  ContentWatch ScalarWatch;
   ScalarPlace BuiltPlace = ScalarPlace::Points;
   int BuiltComponent = 0;
+  std::int64_t BuiltFeatures = 0;
   bool KeepsSourceCells = false;
   bool ActiveSetStale = true;
   std::int64_t TreeOf = 0;

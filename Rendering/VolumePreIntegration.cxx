@@ -65,7 +65,10 @@ void VolumePreIntegration::Update(const VolumeInput& input, const VolumeProperty
   {
     return;
   }
-  this->Table.Build(property.GetIntervals(), needed, size.Scalars, size.Lengths, ThreadedLoop);
+  const ScalarRange range =
+    SampledRange(input.GetDistribution(), property.GetFeatures().Of(0), input.GetNormalization());
+  this->Table.Build(
+    property.GetIntervals(), needed, size.Scalars, size.Lengths, ThreadedLoop, range);
   this->BuiltProperty = property.GetVersion();
   this->BuiltSize = size;
   ++this->Builds;

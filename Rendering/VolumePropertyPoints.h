@@ -37,7 +37,8 @@ TransferFunctionPoint EvaluateProperty(vtkVolumeProperty* property, double scala
 
 /**
  * The gradient opacity function of a property's first component, likewise: Attenuation holds the
- * factor, >= 0; Scalar the gradient's magnitude. Empty without a node, which means a factor of 1.
+ * factor, >= 0; Scalar the gradient's magnitude. Empty without a node, which means a factor of 0,
+ * as vtkPiecewiseFunction evaluates and as VTK's mappers of image data draw.
  */
 std::vector<TransferFunctionPoint> ReduceGradientOpacityToPoints(vtkVolumeProperty* property);
 

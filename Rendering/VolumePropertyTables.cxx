@@ -46,11 +46,9 @@ void MakeDefaultFunctions(vtkVolumeProperty* property, int components)
 }
 
 /** Components whose functions are used. */
-int NumberOfUsedComponents(const VolumeComponents& components)
+int NumberOfUsedComponents(ComponentMixture mixture, int components)
 {
-  return components.GetMixture() == ComponentMixture::Independent
-    ? components.GetNumberOfComponents()
-    : 1;
+  return mixture == ComponentMixture::Independent ? components : 1;
 }
 
 std::vector<TransferFunctionPoint> ReduceWeighted(
@@ -67,48 +65,55 @@ std::vector<TransferFunctionPoint> ReduceWeighted(
 }
 
 //------------------------------------------------------------------------------
-void VolumePropertyTables::Update(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
-  const ScalarNormalization& normalization, const VolumeComponents& components)
+void VolumePropertyTables::Reduce(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
+  ComponentMixture mixture, int components)
 {
-  MakeDefaultFunctions(property, NumberOfUsedComponents(components));
+  MakeDefaultFunctions(property, NumberOfUsedComponents(mixture, components));
   const ObjectVersion version(property);
   const ObjectVersion isovalues(property->GetIsoSurfaceValues());
   const OpacityMeaning meaning = MeaningOf(blendMode, perUnitDistance);
   const bool reduced = version == this->BuiltProperty && isovalues == this->BuiltIsovalues &&
     meaning == this->BuiltMeaning && blendMode == this->BuiltBlendMode &&
-    components.GetMixture() == this->BuiltMixture &&
-    components.GetNumberOfComponents() == this->BuiltNumberOfComponents;
+    mixture == this->BuiltMixture && components == this->BuiltNumberOfComponents;
   if (!reduced)
   {
-    this->ReduceProperty(property, blendMode, meaning, components);
+    this->ReduceProperty(property, blendMode, meaning, mixture, components);
     this->BuiltProperty = version;
     this->BuiltIsovalues = isovalues;
     this->BuiltMeaning = meaning;
     this->BuiltBlendMode = blendMode;
-    this->BuiltMixture = components.GetMixture();
-    this->BuiltNumberOfComponents = components.GetNumberOfComponents();
+    this->BuiltMixture = mixture;
+    this->BuiltNumberOfComponents = components;
+    this->FindFeatures();
   }
-  if (!reduced || normalization != this->BuiltNormalization ||
+}
+
+//------------------------------------------------------------------------------
+void VolumePropertyTables::Normalize(
+  const ScalarNormalization& normalization, const VolumeComponents& components)
+{
+  if (this->BuiltPoints != this->Builds || normalization != this->BuiltNormalization ||
     components.GetVersion() != this->BuiltComponents)
   {
     this->NormalizeTables(normalization, components);
     this->BuiltNormalization = normalization;
     this->BuiltComponents = components.GetVersion();
+    this->BuiltPoints = this->Builds;
     ++this->Version;
   }
 }
 
 //------------------------------------------------------------------------------
 void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, int blendMode,
-  OpacityMeaning meaning, const VolumeComponents& components)
+  OpacityMeaning meaning, ComponentMixture mixture, int components)
 {
   ++this->Builds;
   this->OtherPoints.clear();
-  switch (components.GetMixture())
+  switch (mixture)
   {
     case ComponentMixture::Independent:
       this->Points = ReduceWeighted(property, 0, meaning);
-      for (int component = 1; component < components.GetNumberOfComponents(); ++component)
+      for (int component = 1; component < components; ++component)
       {
         this->OtherPoints.push_back(ReduceWeighted(property, component, meaning));
       }
@@ -120,8 +125,10 @@ void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, int blend
     default:
       this->Points = ReducePropertyToPoints(property, 0, meaning);
   }
+  this->HasGradientOpacity =
+    blendMode == vtkVolumeMapper::COMPOSITE_BLEND && UsesGradientOpacity(property);
   this->GradientPoints.clear();
-  if (blendMode == vtkVolumeMapper::COMPOSITE_BLEND && UsesGradientOpacity(property))
+  if (this->HasGradientOpacity)
   {
     this->GradientPoints = ReduceGradientOpacityToPoints(property);
   }
@@ -137,6 +144,25 @@ void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, int blend
 }
 
 //------------------------------------------------------------------------------
+void VolumePropertyTables::FindFeatures()
+{
+  this->Features.Version = this->Builds;
+  this->Features.OfScalars.assign(1, FeaturesOf(this->Points));
+  if (this->BuiltBlendMode == vtkVolumeMapper::ISOSURFACE_BLEND)
+  {
+    this->Features.OfScalars[0].clear();
+    for (const TransferFunctionPoint& point : this->SurfacePoints)
+    {
+      this->Features.OfScalars[0].push_back({ point.Scalar, 0.0 });
+    }
+  }
+  for (const auto& points : this->OtherPoints)
+  {
+    this->Features.OfScalars.push_back(FeaturesOf(points));
+  }
+}
+
+//------------------------------------------------------------------------------
 void VolumePropertyTables::NormalizeTables(
   const ScalarNormalization& normalization, const VolumeComponents& components)
 {
@@ -148,14 +174,14 @@ void VolumePropertyTables::NormalizeTables(
     this->OtherIntervals.push_back(BuildIntervals(points, components.GetNormalization(other)));
   }
   this->GradientIntervals.clear();
-  if (!this->GradientPoints.empty())
+  if (this->HasGradientOpacity)
   {
     this->GradientIntervals = BuildIntervals(this->GradientPoints, ScalarNormalization());
   }
   this->Isosurfaces.clear();
   for (const TransferFunctionPoint& point : this->SurfacePoints)
   {
-    const double scalar = (point.Scalar - normalization.Offset) * normalization.Scale;
+    const double scalar = normalization(point.Scalar);
     // Nothing is met beyond the data, and a NaN is no value.
     if (scalar >= -1.0 && scalar <= 1.0)
     {

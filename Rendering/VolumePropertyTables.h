@@ -32,14 +32,22 @@ class VolumePropertyTables
 {
 public:
   /**
+   * Reduces a property to points, which needs no scalars.
    * @param blendMode  a number of vtkVolumeMapper::BlendModes; says how opacity is meant.
    * @param perUnitDistance  for composite blending: opacity is the alpha of one unit distance.
+   * @param components  of the scalars; their number counts if they are independent.
+   */
+  void Reduce(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
+    ComponentMixture mixture, int components);
+  /**
+   * Brings the tables to normalised scalars.
    * @param normalization  of the main scalar, the components have their own.
    */
-  void Update(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
-    const ScalarNormalization& normalization, const VolumeComponents& components);
+  void Normalize(const ScalarNormalization& normalization, const VolumeComponents& components);
 
   const std::vector<TransferFunctionPoint>& GetPoints() const { return this->Points; }
+  /** Where the functions change, or surfaces are; for the normalisation of scalars. */
+  const FunctionFeatures& GetFeatures() const { return this->Features; }
   /** Of the main scalar. */
   const std::vector<TransferFunctionInterval>& GetIntervals() const { return this->Intervals; }
   /** Of the other components that are scalars. */
@@ -67,14 +75,18 @@ public:
 
 private:
   void ReduceProperty(vtkVolumeProperty* property, int blendMode, OpacityMeaning meaning,
-    const VolumeComponents& components);
+    ComponentMixture mixture, int components);
+  void FindFeatures();
   void NormalizeTables(
     const ScalarNormalization& normalization, const VolumeComponents& components);
 
   std::vector<TransferFunctionPoint> Points;
   std::vector<std::vector<TransferFunctionPoint>> OtherPoints;
   std::vector<TransferFunctionPoint> GradientPoints;
+  /** A gradient opacity function is in use; without points it is 0 everywhere. */
+  bool HasGradientOpacity = false;
   std::vector<TransferFunctionPoint> SurfacePoints;
+  FunctionFeatures Features;
   std::vector<TransferFunctionInterval> Intervals;
   std::vector<std::vector<TransferFunctionInterval>> OtherIntervals;
   std::vector<TransferFunctionInterval> GradientIntervals;
@@ -87,6 +99,8 @@ private:
   ComponentMixture BuiltMixture = ComponentMixture::None;
   int BuiltNumberOfComponents = 1;
   std::int64_t BuiltComponents = 0;
+  /** Of the points that the tables were made of. */
+  std::int64_t BuiltPoints = 0;
   std::int64_t Version = 0;
   std::int64_t Builds = 0;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "ComponentChoice.h"
 #include "RayCastMapperInternals.h"
 #include "RayCastShader.h"
 
@@ -174,18 +175,31 @@ meniscus::ScalarSelection vtkTetrahedraRayCastMapper::SelectedScalars()
 bool vtkTetrahedraRayCastMapper::ChooseMixture(const meniscus::InputParts& parts, vtkVolume* volume)
 {
   using Mixture = meniscus::ComponentMixture;
-  Mixture& mixture = this->Internals->Mixture;
-  mixture = Mixture::None;
+  vtkInternals& internals = *this->Internals;
+  internals.Mixture = Mixture::None;
+  internals.Component = this->SelectedScalars().Component;
   vtkDataArray* scalars = parts.Parts.front().Scalars;
   const int components = scalars->GetNumberOfComponents();
-  const bool same = std::all_of(parts.Parts.begin(), parts.Parts.end(),
-    [components](const meniscus::InputPart& part)
-    { return part.Scalars->GetNumberOfComponents() == components; });
-  if (this->VectorMode != DISABLED || (components == 1 && same))
+  int most = components;
+  bool same = true;
+  for (const meniscus::InputPart& part : parts.Parts)
+  {
+    most = std::max(most, part.Scalars->GetNumberOfComponents());
+    same = same && part.Scalars->GetNumberOfComponents() == components;
+  }
+  if (this->VectorMode != DISABLED || most == 1)
   {
     return true;
   }
   const bool independent = volume->GetProperty()->GetIndependentComponents() != 0;
+  if (independent)
+  {
+    internals.Component = meniscus::ChooseComponent(volume->GetProperty(), most);
+  }
+  if (internals.Component != meniscus::ScalarSelection::Only)
+  {
+    return this->HasChosenComponent(parts);
+  }
   const bool fits = independent ? components <= 4 : components == 2 || components == 4;
   const char* problem = nullptr;
   if (!same)
@@ -209,9 +223,28 @@ bool vtkTetrahedraRayCastMapper::ChooseMixture(const meniscus::InputParts& parts
                                 << " components" << problem << "; nothing is rendered.");
     return false;
   }
-  mixture = independent ? Mixture::Independent
-    : components == 2   ? Mixture::ColorAndOpacity
-                        : Mixture::RedGreenBlueOpacity;
+  internals.Mixture = independent ? Mixture::Independent
+    : components == 2             ? Mixture::ColorAndOpacity
+                                  : Mixture::RedGreenBlueOpacity;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::HasChosenComponent(const meniscus::InputParts& parts)
+{
+  const int chosen = this->Internals->Component;
+  for (const meniscus::InputPart& part : parts.Parts)
+  {
+    const int components = part.Scalars->GetNumberOfComponents();
+    if (components > 1 && chosen >= components)
+    {
+      const char* name = part.Scalars->GetName();
+      vtkErrorMacro("The array '" << (name ? name : "without a name") << "' has " << components
+                                  << " components, none of number " << chosen
+                                  << ", which the colour function chooses; nothing is rendered.");
+      return false;
+    }
+  }
   return true;
 }
 
@@ -235,21 +268,28 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateInput(
-  vtkRenderWindow* window, const meniscus::InputParts& parts)
+  vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputParts& parts)
 {
-  meniscus::VolumeInput& input = this->Internals->Input;
+  vtkInternals& internals = *this->Internals;
+  meniscus::VolumeInput& input = internals.Input;
   this->SetAbortExecute(0);
   const auto goOn = [this, window](double fraction)
   {
     this->UpdateProgress(fraction);
     return !this->GetAbortExecute() && !window->CheckAbortStatus();
   };
-  const int component = this->Internals->Mixture == meniscus::ComponentMixture::None
-    ? this->SelectedScalars().Component
-    : MainComponent(this->Internals->Mixture);
-  return this->Tell(input.UpdateMesh(parts, goOn)) && input.GetMesh().GetNumberOfCells() > 0 &&
-    this->Tell(input.UpdateScalars(parts, component)) &&
-    this->Tell(this->Internals->Components.Update(input, parts, this->Internals->Mixture));
+  const bool mixed = internals.Mixture != meniscus::ComponentMixture::None;
+  const int component = mixed ? MainComponent(internals.Mixture) : internals.Component;
+  if (!this->Tell(input.UpdateMesh(parts, goOn)) || input.GetMesh().GetNumberOfCells() == 0)
+  {
+    return false;
+  }
+  internals.Property.Reduce(volume->GetProperty(), this->GetUsedBlendMode(),
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
+    mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
+  const meniscus::FunctionFeatures& features = internals.Property.GetFeatures();
+  return this->Tell(input.UpdateScalars(parts, component, features)) &&
+    this->Tell(internals.Components.Update(input, parts, internals.Mixture, features));
 }
 
 //------------------------------------------------------------------------------
@@ -290,12 +330,10 @@ int vtkTetrahedraRayCastMapper::GetUsedBlendMode()
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::UpdateTransferFunction(vtkVolume* volume)
+void vtkTetrahedraRayCastMapper::UpdateTransferFunction()
 {
   vtkInternals& internals = *this->Internals;
-  internals.Property.Update(volume->GetProperty(), this->GetUsedBlendMode(),
-    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Input.GetNormalization(),
-    internals.Components);
+  internals.Property.Normalize(internals.Input.GetNormalization(), internals.Components);
   const meniscus::VisibleScalars visible = internals.Property.GetVisibleScalars();
   if (internals.Mixture != meniscus::ComponentMixture::None)
   {
@@ -387,8 +425,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     frame.Output.ImageSize[i] =
       std::max(1, static_cast<int>(std::ceil(viewport[2 + i] / sampleDistance)));
   }
-  constexpr double LargestColor = 255.0;
-  frame.Output.ColorBias = static_cast<float>(this->ColorBias / LargestColor);
+  frame.Output.ColorBias = static_cast<float>(this->ColorBias);
   this->UsedImageSampleDistance = sampleDistance;
   if (selector)
   {
@@ -413,6 +450,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   frame.Optics.Components = internals.Mixture;
   frame.Optics.NumberOfFunctions =
     1 + static_cast<int>(internals.Property.GetOtherIntervals().size());
+  frame.Optics.DataRange = internals.Input.GetNormalizedRange();
   frame.Optics.CompactCells = this->CompactTables != 0;
   frame.Optics.CellScalars = internals.Input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
@@ -430,7 +468,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
+bool vtkTetrahedraRayCastMapper::Draw(
+  vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputParts& parts)
 {
   vtkInternals& internals = *this->Internals;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
@@ -465,6 +504,7 @@ bool vtkTetrahedraRayCastMapper::Draw(vtkRenderer* renderer, vtkVolume* volume)
   if (error.empty())
   {
     frame.Compute = backend == COMPUTE;
+    internals.UpdateGradients(parts, frame.Optics);
     error = backend == NATIVE ? internals.DrawNative(frame) : internals.DrawOpenGL(frame);
   }
   if (!error.empty())
@@ -500,23 +540,23 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   }
   meniscus::InputParts parts;
   if (!this->CollectInput(parts) || parts.Parts.empty() || !this->ChooseMixture(parts, volume) ||
-    !this->UpdateMembrane() || !this->UpdateInput(renderer->GetRenderWindow(), parts))
+    !this->UpdateMembrane() || !this->UpdateInput(renderer->GetRenderWindow(), volume, parts))
   {
     return;
   }
   this->Internals->WorldToModel = glm::inverse(meniscus::ToGlm(volume->GetMatrix()));
   this->WarnAboutUnavailable();
-  this->UpdateTransferFunction(volume);
+  this->UpdateTransferFunction();
   vtkHardwareSelector* selector = renderer->GetSelector();
   if (selector)
   {
     selector->BeginRenderProp();
-    this->Draw(renderer, volume);
+    this->Draw(renderer, volume, parts);
     selector->EndRenderProp();
     return;
   }
   const double start = vtkTimerLog::GetUniversalTime();
-  if (this->Draw(renderer, volume))
+  if (this->Draw(renderer, volume, parts))
   {
     // Drawing is over when the device says so, not when the commands are sent.
     this->Internals->OpenGL.Finish();

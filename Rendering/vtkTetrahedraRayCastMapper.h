@@ -10,24 +10,25 @@
  * Input: a vtkUnstructuredGrid, structured, rectilinear or image grid, or a composite data set of
  * such (whose leaves make one mesh, so that they may interlock; leaves without the array are left
  * out with a warning) with a point or cell array, chosen by the scalar mode and array selection of
- * vtkAbstractVolumeMapper. Of several components, SetVectorMode() chooses one or the length; else
- * two to four mix as described below. Point data is linear within each tetrahedron, cell data
- * constant within each cell. Tetrahedra are drawn as
- * they are; voxels, hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells as
- * tetrahedra that have the same points and fit across shared faces, whatever the cells (each cell
- * is pulled to its point of the smallest number). Other cells are left out with a warning. Any mesh
- * is accepted: non-convex, disconnected, cyclic, with inverted cells, cells of zero volume,
- * duplicate points and faces of more than two cells. Cells that vtkGhostType marks as duplicate or
- * hidden are left out. Cells with a point index out of range, a repeated point or a point that is
- * not finite are left out and counted. Cells with a scalar that is not finite, their own or that of
- * a vertex, are transparent and counted.
+ * vtkAbstractVolumeMapper. Of several components, SetVectorMode() or the colour function chooses
+ * one or the length; or two to four mix as described below. Point data is linear within each
+ * tetrahedron, cell data constant within each cell. Tetrahedra are drawn as they are; voxels,
+ * hexahedra, wedges, pyramids, prisms, polyhedra and cells of second order as tetrahedra that have
+ * the same points and fit across shared faces, whatever the cells (each cell is pulled to its point
+ * of the smallest number). Other cells are left out with a warning. Any mesh is accepted:
+ * non-convex, disconnected, cyclic, with inverted cells, cells of zero volume, duplicate points and
+ * faces of more than two cells. Cells that vtkGhostType marks as duplicate or hidden are left out.
+ * Cells with a point index out of range, a repeated point or a point that is not finite are left
+ * out and counted. Cells with a scalar that is not finite, their own or that of a vertex, are
+ * transparent and counted.
  *
  * Optical model, by SetBlendMode() with the numbers of vtkVolumeMapper::BlendModes:
  * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity becomes an
  *   attenuation coefficient as SetOpacityModel() says, per ScalarOpacityUnitDistance. Emitted
  *   colour is weighted by the attenuation. Shade and the property's material light the colour (by
  *   Phong's model, two-sided, by the renderer's lights); the gradient opacity function, of the
- *   gradient's length in scalar per world length, multiplies the attenuation. See SetGradients().
+ *   gradient's length in scalar per world length, multiplies the attenuation; without points it is
+ *   0, as in VTK. See SetGradients().
  * - MAXIMUM_INTENSITY_BLEND, MINIMUM_INTENSITY_BLEND, AVERAGE_INTENSITY_BLEND: the largest or
  *   smallest scalar of the ray, or its mean over the length, shown by colour and opacity of the
  *   property; lengths do not count.
@@ -40,10 +41,11 @@
  * Cell data has no gradient: of Shade and gradient opacity, only light on isosurfaces is left.
  *
  * Several components, with COMPOSITE_BLEND, by vtkVolumeProperty's IndependentComponents: if on,
- * two to four scalars, each with its own functions and weight, as media in the same place
- * (attenuations add up, emissions too; not lit). If off, two: colour by the first, opacity by the
- * second; or four: the first three are the colour (unsigned char, or 0 to 1), opacity by the
- * fourth. Light then goes by the gradient of the last. See Documentation/volume.md.
+ * and if a component beyond the first has a colour or opacity function (see SetVectorMode()), two
+ * to four scalars, each with its own functions and weight, as media in the same place (attenuations
+ * add up, emissions too; not lit). If off, two: colour by the first, opacity by the second; or
+ * four: the first three are the colour (unsigned char, or 0 to 1), opacity by the fourth. Light
+ * then goes by the gradient of the last. See Documentation/volume.md.
  *
  * Lengths are measured in world coordinates. Output is premultiplied RGBA, blended over what is in
  * the framebuffer; rays end at the opaque geometry there. Clipping planes cut cells exactly. A
@@ -181,10 +183,17 @@ public:
 
   ///@{
   /**
-   * What is drawn of an array of several components, as in vtkSmartVolumeMapper: MAGNITUDE, the
-   * length of the vector (a single component with its sign); COMPONENT, the one of number
-   * VectorComponent (from 0, the default).
-   * DISABLED, the default, draws arrays of one component, and mixes two to four (see the class).
+   * Selects the part of an array of several components that is drawn, as in vtkSmartVolumeMapper:
+   * MAGNITUDE, the length of the vector (a single component with its sign); COMPONENT, the one of
+   * number VectorComponent (from 0, the default). Both take precedence over the volume's property.
+   *
+   * DISABLED, the default, leaves it to the property. If its IndependentComponents are off, two or
+   * four components mix (see the class). If they are on, the first colour function decides, as in
+   * vtkProjectedTetrahedraMapper: MAGNITUDE of vtkScalarsToColors::SetVectorMode() draws the
+   * length, COMPONENT the component of SetVectorComponent(), with the functions of the first
+   * component. With COMPONENT 0, which every colour function has unless told otherwise, two to four
+   * components mix if the property has a colour or opacity function for one beyond the first; if it
+   * has none, the first component is drawn.
    */
   vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
   vtkGetMacro(VectorMode, int);
@@ -311,10 +320,13 @@ public:
 
   ///@{
   /**
-   * Added to the colours of what is not transparent before they are rounded to 8 bits, in steps of
-   * these, 1/255. For pictures that will be put one over the other by arithmetic that drops
-   * fractions, as IceT's does: of N pictures, each of N - 1 blends drops half a step in the mean,
-   * for which a bias of (N - 1) / (2 N) in every picture makes up. In [0, 0.5], default 0.
+   * Bias of pictures that are composited afterwards by arithmetic that drops fractions, as IceT's
+   * does, in steps of 8 bits, 1/255. It is added to the colours and the opacity of pixels that are
+   * not transparent, before these are rounded. Of N pictures, each of N - 1 blends drops half a
+   * step on average, for which a bias of (N - 1) / (2 N) in every picture makes up. With a bias
+   * greater than 0 no colour exceeds the opacity in any pixel of the framebuffer, so that sums do
+   * not pass 255; brighter highlights of lit volumes are limited to that. In [0, 0.5], default 0:
+   * the picture is not changed.
    */
   vtkSetClampMacro(ColorBias, double, 0.0, 0.5);
   vtkGetMacro(ColorBias, double);
@@ -356,12 +368,16 @@ public:
 
   ///@{
   /**
-   * Work done since construction: builds of the mesh tables, updates of vertex scalars, reductions
-   * of the volume property to control points, builds of the set of active cells (on a new mesh,
-   * new scalars, or when other scalars become visible), computations of vertex gradients, builds of
-   * the pre-integration table; of a membrane, times that its shape was taken in and fitted, and
-   * that it was found where the rays meet it (when shape, view or indices changed), and that the
-   * graphics device listed where they enter the mesh behind it (then, and for other active cells).
+   * Work done since construction: builds of the mesh tables and updates of the scalars (when the
+   * values changed, whichever object of the input was told of it by Modified(): where a
+   * modification time moved, values are compared by a digest), reductions of the volume property to
+   * control points, builds of the set of active cells (on a new mesh, new scalars, or when other
+   * scalars become visible), computations of vertex gradients, builds of the pre-integration table;
+   * of a membrane, times that its shape was taken in and fitted, and that it was found where the
+   * rays meet it (when shape, view or indices changed), and that the graphics device listed where
+   * they enter the mesh behind it (then, and for other active cells); times that the processor
+   * listed for shaders where rays enter a mesh of which they cross many layers, such as cells that
+   * share no points (for other rays or other active cells).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
@@ -372,12 +388,17 @@ public:
   vtkTypeInt64 GetNumberOfMembraneBuilds();
   vtkTypeInt64 GetNumberOfSightUpdates();
   vtkTypeInt64 GetNumberOfBentEntryLists();
+  vtkTypeInt64 GetNumberOfEntryListBuilds();
   ///@}
 
   /**
-   * Bytes of mesh, scalar and transfer function tables sent to the graphics device, or made for the
-   * native backend, since construction. A camera move sends none, but with a membrane in view 32
-   * bytes per pixel.
+   * Bytes of tables that backends took in because an input changed, since construction: mesh,
+   * scalars, gradients, components, transfer function, pre-integration table. OPENGL and COMPUTE
+   * count them as they are sent to the graphics device. NATIVE reads the same tables in the
+   * computer's memory and counts each once when it first draws with it. A camera move adds nothing,
+   * but with a membrane in view the refracted rays: 32 bytes per pixel of the image on the graphics
+   * device, per pixel that the membrane covers (by tiles) natively. Images, and vertices as NATIVE
+   * places them for a view, do not count.
    */
   vtkTypeInt64 GetUploadedBytes();
 
@@ -396,7 +417,7 @@ public:
    * Of the current mesh: tetrahedra that rays can visit, which are those that the transfer function
    * lets be seen and whose scalars are finite; tetrahedra with a scalar that is not finite; and
    * tetrahedra left out because of a point index out of range, a repeated point or a point that is
-   * not finite.
+   * not finite, or because they have the points of one before them.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
   vtkTypeInt64 GetNumberOfTransparentCells();
@@ -453,20 +474,21 @@ private:
   bool CollectInput(meniscus::InputParts& parts);
   bool Tell(const meniscus::InputReport& report);
   bool ChooseMixture(const meniscus::InputParts& parts, vtkVolume* volume);
+  bool HasChosenComponent(const meniscus::InputParts& parts);
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
   void ChooseIntegration(vtkVolume* volume, meniscus::RayCastOptics& optics);
   bool HasMembrane();
   bool UpdateMembrane();
   void PrepareBending(const meniscus::OpticsPlace& place, meniscus::RayCastFrame& frame);
-  bool UpdateInput(vtkRenderWindow* window, const meniscus::InputParts& parts);
-  void UpdateTransferFunction(vtkVolume* volume);
+  bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputParts& parts);
+  void UpdateTransferFunction();
   int GetUsedBlendMode();
   int ChooseBackend();
   bool FallsBackToNative(const meniscus::RayCastFrame& frame, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
-  bool Draw(vtkRenderer* renderer, vtkVolume* volume);
+  bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputParts& parts);
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;

@@ -56,6 +56,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfBentEntryLists()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfEntryListBuilds()
+{
+  return this->Internals->GetEntryListBuilds();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 {
   return this->Internals->Input.GetActiveSetBuilds();
@@ -64,18 +70,17 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 {
-  return this->Internals->OpenGL.GetTables().GetUploadedBytes() +
-    this->Internals->Native.GetTableBytes();
+  return this->Internals->GetUploadedBytes();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
 {
   const vtkInternals& internals = *this->Internals;
-  const std::size_t vectors =
-    internals.GetGradients().size() + internals.Components.GetValues().size();
+  const std::size_t vectors = internals.Components.GetValues().size();
   const std::size_t table = internals.PreIntegration.GetTable().GetValues().size();
   return internals.Input.GetBytes() + internals.Native.GetBytes() + internals.Membrane.GetBytes() +
+    internals.GetEntryListBytes() + internals.GetGradientBytes() +
     static_cast<vtkTypeInt64>(vectors * sizeof(glm::vec3) + table * sizeof(float));
 }
 
@@ -151,6 +156,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfMembraneBuilds: " << this->GetNumberOfMembraneBuilds() << "\n";
   os << indent << "NumberOfSightUpdates: " << this->GetNumberOfSightUpdates() << "\n";
   os << indent << "NumberOfBentEntryLists: " << this->GetNumberOfBentEntryLists() << "\n";
+  os << indent << "NumberOfEntryListBuilds: " << this->GetNumberOfEntryListBuilds() << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";
   os << indent << "CompactTables: " << this->CompactTables << "\n";

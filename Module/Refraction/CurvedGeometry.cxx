@@ -395,35 +395,47 @@ bool CurvedGeometry::MeetRay(
   const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const
 {
   const glm::dvec3& eye = this->Optics.eye;
-  glm::dvec3 target = near.sightPoint - this->Surface.GetOrigin();
+  const glm::dvec3 target = near.sightPoint - this->Surface.GetOrigin();
   // As long as the way to the surface, so that its parameter is about 1.
   const double distance =
     std::max(glm::dot(target - eye, direction), std::numeric_limits<double>::min());
   const ObjectLine ray{ eye, distance * direction };
   std::int32_t facet = near.facet;
+  glm::dvec2 b = Project(this->Patches.GetPatch(facet), target);
+  double l = 1.0;
+  if (!this->MeetLine(ray, -direction, facet, b, l))
+  {
+    return false;
+  }
+  at = this->Patches.GetPatch(facet).Evaluate(b);
+  at.normal = glm::normalize(at.normal);
+  at.position += this->Surface.GetOrigin();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedGeometry::MeetLine(const ObjectLine& line, const glm::dvec3& seenAlong,
+  std::int32_t& facet, glm::dvec2& b, double& l) const
+{
   for (int i = 0; i < LongestChase; ++i)
   {
     const CurvedPatch patch = this->Patches.GetPatch(facet);
-    glm::dvec2 b = Project(patch, target);
-    double l = 1.0;
-    if (!MeetPatch(patch, ray, b, l))
+    if (!MeetPatch(patch, line, b, l))
     {
       return false;
     }
     if (FindOutside(b).least >= -Border)
     {
-      at = patch.Evaluate(b);
-      at.normal = glm::normalize(at.normal);
-      at.position += this->Surface.GetOrigin();
       return true;
     }
-    target = patch.GetFlatPoint(b);
-    const std::int32_t next = this->Patches.Walk(facet, target, -direction, LongestWalk);
+    const glm::dvec3 target = patch.GetFlatPoint(b);
+    const std::int32_t next = this->Patches.Walk(facet, target, seenAlong, LongestWalk);
     if (next == facet)
     {
       return false; // beyond the border
     }
     facet = next;
+    b = Project(this->Patches.GetPatch(facet), target);
   }
   return false;
 }

@@ -113,6 +113,12 @@ public:
   /// point of a known image, in world coordinates, with the unit normal. False if it does not.
   bool MeetRay(const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const;
 
+  /// Where a line in local coordinates meets the membrane near a place in the patch of `facet`,
+  /// with the line's parameter near `l`: in this patch, or in those that the way there leads to
+  /// over edges that are crossed as seen along `seenAlong`. False if it does not.
+  bool MeetLine(const ObjectLine& line, const glm::dvec3& seenAlong, std::int32_t& facet,
+    glm::dvec2& b, double& l) const;
+
   /// Eye and indices, in local coordinates: relative to the membrane's origin.
   const Media& GetMedia() const { return this->Optics; }
   SightEquation MakeEquation(const glm::dvec3& local) const

@@ -95,6 +95,22 @@ struct CurvedPatch
     return result;
   }
 
+  /// The point of edge k with the weights of its ends: the same bit by bit in both patches that
+  /// share the edge, and the same as Evaluate where the weights are exact.
+  PatchPoint EvaluateEdge(int k, double first, double second) const
+  {
+    const int i = (k + 1) % 3;
+    const int j = (k + 2) % 3;
+    const double product = first * second;
+    PatchPoint result;
+    result.normal = first * this->normal[i] + second * this->normal[j] + product * this->bend[k];
+    const double q = product * (this->symmetric[k] + this->asymmetric[k] * (first - second));
+    const double length = std::max(glm::length(result.normal), ShortestNormal);
+    result.position = first * this->corner[i] + second * this->corner[j] +
+      (2.0 * q / (length * (1.0 + length))) * result.normal;
+    return result;
+  }
+
   void Evaluate(const glm::dvec2& b, PatchJet& jet) const
   {
     const double c = 1.0 - b.x - b.y;

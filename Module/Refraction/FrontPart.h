@@ -8,17 +8,21 @@
 #include "Refraction/MembraneMapping.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace meniscus
 {
 
 /**
  * Adds the part of a triangle or line that is in front of the membrane (CurvedGeometry::IsInFront,
- * prepared), as it is. The primitive is halved to a 32nd along the membrane; there its cut is
- * straight between exact crossings of the parts' sides.
+ * prepared), as it is. Of a triangle it is bounded by `waterline` where that is complete
+ * (FrontOutline). Otherwise, as where the membrane faces away from the eye, and of a line, the
+ * primitive is halved where it crosses the membrane until its cut is straight within `tolerance`,
+ * an angle in radians at the eye, to a 32nd at most.
  */
-void AddFrontOfTriangle(const CurvedGeometry& geometry, const MappedTriangle& triangle,
-  std::int64_t sourceCell, ImageMesh& images);
+void AddFrontOfTriangle(const CurvedGeometry& geometry, double tolerance,
+  const MappedTriangle& triangle, std::int64_t sourceCell,
+  const std::vector<WaterlinePiece>& waterline, ImageMesh& images);
 void AddFrontOfLine(const CurvedGeometry& geometry, const MappedTriangle& line,
   std::int64_t sourceCell, ImageMesh& images);
 

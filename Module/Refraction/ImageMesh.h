@@ -14,7 +14,8 @@
 namespace meniscus
 {
 
-/// A virtual vertex and where in the object it comes from: a mean of at most three of its points.
+/// A virtual vertex and its place in the object: a mean of at most three of its points. The weights
+/// are not negative, fall from the first on, and add up to 1.
 struct ImagePoint
 {
   VirtualVertex vertex;
@@ -24,7 +25,13 @@ struct ImagePoint
   /// The point of the object that this is an image of; -1 for a point made in between.
   std::int64_t GetSource() const { return this->weight[0] == 1.0 ? this->source[0] : -1; }
 
-  /// The largest weight first, so that a whole one is told at once.
+  /// Points with a weight; they come first.
+  std::size_t GetNumberOfSources() const
+  {
+    return this->weight[1] == 0.0 ? 1 : (this->weight[2] == 0.0 ? 2 : 3);
+  }
+
+  /// The largest weight first, so that a whole one is told at once. None may be negative.
   void SetSource(const std::array<std::int64_t, 3>& ids, const glm::dvec3& weights)
   {
     std::array<glm::length_t, 3> order = { 0, 1, 2 };

@@ -2,7 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/MappingPlace.h"
 
+#include "Refraction/Optics.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace meniscus
 {
@@ -18,87 +25,183 @@ constexpr double LastStep = 1e-7;
 // the length of the curve has left it.
 constexpr double Reach = 1.0;
 
+// Part of a side that its zero is bracketed to. The side itself is known to some 1e-15 of its
+// length.
+constexpr double Bracket = 1e-14;
+
+// Bisection alone brackets a zero in 47 steps; it is taken at least every other time.
+constexpr int BracketSteps = 100;
+
+constexpr double Epsilon = std::numeric_limits<double>::epsilon();
+
 bool IsNear(double value, double guess)
 {
   return std::fabs(value - guess) <= Reach;
 }
 
+bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
+{
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+struct Sample
+{
+  double s;
+  double value;
+};
+
+// Chandrupatla's method (Advances in Engineering Software 28, 1997): inverse quadratic
+// interpolation where the values at three samples are monotone enough for it to land inside the
+// bracket, else bisection. `measure(s, value)` tells whether the value is zero within its rounding.
+template <typename Measure>
+double FindZero(double atStart, double atEnd, const Measure& measure)
+{
+  Sample a{ 0.0, atStart };
+  Sample b{ 1.0, atEnd };
+  if (!(a.value * b.value < 0.0))
+  {
+    return std::fabs(a.value) < std::fabs(b.value) ? a.s : b.s;
+  }
+  double part = a.value / (a.value - b.value);
+  for (int i = 0; i < BracketSteps; ++i)
+  {
+    Sample next{ a.s + part * (b.s - a.s), 0.0 };
+    if (measure(next.s, next.value))
+    {
+      return next.s;
+    }
+    Sample c = a;
+    if ((next.value < 0.0) != (a.value < 0.0))
+    {
+      c = b;
+      b = a;
+    }
+    a = next;
+    const double least = 0.5 * Bracket / std::fabs(b.s - a.s);
+    if (!(least < 0.5))
+    {
+      break;
+    }
+    const double xi = (a.s - b.s) / (c.s - b.s);
+    const double phi = (a.value - b.value) / (c.value - b.value);
+    part = 0.5;
+    if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
+    {
+      part = a.value / (b.value - a.value) * (c.value / (b.value - c.value)) +
+        (c.s - a.s) / (b.s - a.s) * (a.value / (c.value - a.value)) *
+          (b.value / (c.value - b.value));
+    }
+    part = std::clamp(part, least, 1.0 - least);
+  }
+  return std::fabs(a.value) < std::fabs(b.value) ? a.s : b.s;
+}
+
 }
 
 //------------------------------------------------------------------------------
-bool LookAlong(const CurvedPatch& patch, const Media& media, const PatchLine& curve,
-  const ObjectLine& line, double& s, double& l)
+ObjectLine ObjectLine::Order(const glm::dvec3& a, const glm::dvec3& b, bool& turned)
 {
-  double atS = s;
-  double atL = l;
-  PatchJet jet;
-  for (int i = 0; i < Steps; ++i)
-  {
-    patch.Evaluate(curve.origin + atS * curve.direction, jet);
-    const glm::dvec3 by =
-      curve.direction.x * jet.positionBy[0] + curve.direction.y * jet.positionBy[1];
-    const glm::dvec3 normalBy =
-      curve.direction.x * jet.normalBy[0] + curve.direction.y * jet.normalBy[1];
-    const glm::dvec3 a = jet.position - media.eye;
-    const glm::dvec3 p = line.origin + atL * line.direction - jet.position;
-    const double outer = media.exterior * glm::length(p);
-    const double inner = media.interior * glm::length(a);
-    if (!(outer > 0.0) || !(inner > 0.0))
-    {
-      return false;
-    }
-    // As in SightEquation; the point moves as well.
-    const glm::dvec3 h = outer * a - inner * p;
-    const double eta = glm::dot(h, jet.normal) / glm::dot(jet.normal, jet.normal);
-    const glm::dvec3 alongP = (media.exterior * media.exterior / outer) * p;
-    const glm::dvec3 alongA = (media.interior * media.interior / inner) * a;
-    const glm::dvec3 byS =
-      (outer + inner) * by - glm::dot(alongP, by) * a - glm::dot(alongA, by) * p - eta * normalBy;
-    const glm::dvec3 byL = glm::dot(alongP, line.direction) * a - inner * line.direction;
-    const glm::dvec3 first = glm::cross(byL, jet.normal);
-    const double determinant = glm::dot(byS, first);
-    const double moveS = -glm::dot(h, first) / determinant;
-    const double moveL = -glm::dot(h, glm::cross(jet.normal, byS)) / determinant;
-    atS += moveS;
-    atL += moveL;
-    if (!IsNear(atS, s) || !IsNear(atL, l))
-    {
-      return false;
-    }
-    if (std::fabs(moveS) < LastStep && std::fabs(moveL) < LastStep)
-    {
-      s = atS;
-      l = atL;
-      return true;
-    }
-  }
-  return false;
+  turned = IsBefore(b, a);
+  return turned ? ObjectLine{ b, a - b } : ObjectLine{ a, b - a };
 }
 
 //------------------------------------------------------------------------------
-bool MeetPlane(const CurvedPatch& patch, const PatchLine& curve, const glm::dvec3& point,
-  const glm::dvec3& normal, double& s)
+RefractedPoint RefractAt(const PatchPoint& at, const Media& media)
 {
-  double at = s;
-  PatchJet jet;
-  for (int i = 0; i < Steps; ++i)
+  const RefractionRay ray = ComputeRefractionRay(glm::normalize(at.position - media.eye),
+    glm::normalize(at.normal), media.exterior / media.interior);
+  return { at, ray.direction,
+    ray.kind == RayKind::Refracted && glm::length(at.normal) > CurvedPatch::ShortestNormal };
+}
+
+//------------------------------------------------------------------------------
+double GetParameter(const ObjectLine& line, const RefractedPoint& from)
+{
+  // p + t r = o + l d, so (p - o) x r = l d x r.
+  const glm::dvec3 across = glm::cross(line.direction, from.ray);
+  const double squared = glm::dot(across, across);
+  return squared > 0.0
+    ? glm::dot(glm::cross(from.at.position - line.origin, from.ray), across) / squared
+    : 0.0;
+}
+
+//------------------------------------------------------------------------------
+SubCellSide::SubCellSide(const CurvedPatch& patch, const glm::dvec2& a, const glm::dvec2& b)
+  : Patch(patch)
+{
+  const double first[3] = { 1.0 - a.x - a.y, a.x, a.y };
+  const double last[3] = { 1.0 - b.x - b.y, b.x, b.y };
+  for (int k = 0; k < 3; ++k)
   {
-    patch.Evaluate(curve.origin + at * curve.direction, jet);
-    const glm::dvec3 by =
-      curve.direction.x * jet.positionBy[0] + curve.direction.y * jet.positionBy[1];
-    const double move = glm::dot(normal, point - jet.position) / glm::dot(normal, by);
-    at += move;
-    if (!IsNear(at, s))
+    if (first[k] == 0.0 && last[k] == 0.0)
     {
-      return false;
-    }
-    if (std::fabs(move) < LastStep)
-    {
-      s = at;
-      return true;
+      this->Edge = k;
     }
   }
-  return false;
+  if (this->Edge < 0)
+  {
+    this->Turned = std::tie(b.x, b.y) < std::tie(a.x, a.y);
+    this->From = this->Turned ? b : a;
+    this->To = this->Turned ? a : b;
+    return;
+  }
+  // In x the weight of the edge's end with the greater coordinates, which grows.
+  const int i = (this->Edge + 1) % 3;
+  const int j = (this->Edge + 2) % 3;
+  this->FarIsFirst = IsBefore(patch.corner[j], patch.corner[i]);
+  const int far = this->FarIsFirst ? i : j;
+  this->Turned = last[far] < first[far];
+  this->From.x = std::min(first[far], last[far]);
+  this->To.x = std::max(first[far], last[far]);
+}
+
+//------------------------------------------------------------------------------
+PatchPoint SubCellSide::Evaluate(double s) const
+{
+  if (this->Edge < 0)
+  {
+    return this->Patch.Evaluate(this->From + s * (this->To - this->From));
+  }
+  const double far = this->From.x + s * (this->To.x - this->From.x);
+  return this->FarIsFirst ? this->Patch.EvaluateEdge(this->Edge, far, 1.0 - far)
+                          : this->Patch.EvaluateEdge(this->Edge, 1.0 - far, far);
+}
+
+//------------------------------------------------------------------------------
+RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const ObjectLine& line,
+  const RefractedPoint& a, const RefractedPoint& b)
+{
+  const RefractedPoint& start = side.IsTurned() ? b : a;
+  const RefractedPoint& end = side.IsTurned() ? a : b;
+  const double length = glm::length(line.direction);
+  const double zero = FindZero(GetMoment(line, start), GetMoment(line, end),
+    [&side, &media, &line, length](double s, double& value)
+    {
+      const RefractedPoint from = RefractAt(side.Evaluate(s), media);
+      value = GetMoment(line, from);
+      // The moment is a sum of products of three lengths, each rounded a few times.
+      return std::fabs(value) <=
+        4.0 * Epsilon * length * glm::length(from.at.position - line.origin);
+    });
+  return zero == 0.0 ? start : (zero == 1.0 ? end : RefractAt(side.Evaluate(zero), media));
+}
+
+//------------------------------------------------------------------------------
+RefractedPoint MeetPlane(const SubCellSide& side, const Media& media, const glm::dvec3& point,
+  const glm::dvec3& normal, const RefractedPoint& a, const RefractedPoint& b)
+{
+  const RefractedPoint& start = side.IsTurned() ? b : a;
+  const RefractedPoint& end = side.IsTurned() ? a : b;
+  const double length = glm::length(normal);
+  const double zero =
+    FindZero(glm::dot(normal, start.at.position - point), glm::dot(normal, end.at.position - point),
+      [&side, &point, &normal, length](double s, double& value)
+      {
+        const glm::dvec3 away = side.Evaluate(s).position - point;
+        value = glm::dot(normal, away);
+        return std::fabs(value) <= 4.0 * Epsilon * length * glm::length(away);
+      });
+  return zero == 0.0 ? start : (zero == 1.0 ? end : RefractAt(side.Evaluate(zero), media));
 }
 
 //------------------------------------------------------------------------------
@@ -106,6 +209,24 @@ bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, 
 {
   glm::dvec3 normal;
   return MeetPatch(patch, line, LastStep, b, l, normal);
+}
+
+//------------------------------------------------------------------------------
+bool MeetPatchAgain(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l)
+{
+  if (!MeetPatch(patch, line, b, l))
+  {
+    return false;
+  }
+  constexpr double grid = 1024.0; // near enough for two or three steps
+  glm::dvec2 again = glm::round(grid * b) / grid;
+  double alongAgain = std::round(grid * l) / grid;
+  if (MeetPatch(patch, line, again, alongAgain))
+  {
+    b = again;
+    l = alongAgain;
+  }
+  return true;
 }
 
 //------------------------------------------------------------------------------

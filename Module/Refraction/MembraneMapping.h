@@ -9,8 +9,12 @@
  * image. So caustics, borders of the membrane and places where the primitive crosses it need no
  * case of their own: an image is there exactly where a sub-cell looks at the primitive.
  *
- * Nothing is cracked: an edge of a sub-cell is divided for reasons that lie in the edge alone, and
- * where it meets an edge of the primitive the place is solved for on both, whatever the plane.
+ * Pieces meet bit by bit. A side of a sub-cell is divided for reasons that lie in the side alone.
+ * Where it passes a side of the primitive, a node looks at the primitive's plane, or an end of the
+ * primitive is seen, the corner is computed from the two that meet there alone (MappingPlace), and
+ * a corner that the exact place would put beyond an end of the primitive is that end's image. Which
+ * sub-cell holds an end is told by linear interpolation, which two triangles with the end in common
+ * may see differently: SeamClosure closes what that leaves open along their common side.
  */
 #ifndef meniscus_Refraction_MembraneMapping_h
 #define meniscus_Refraction_MembraneMapping_h
@@ -25,11 +29,34 @@
 namespace meniscus
 {
 
-/// Corners of a primitive in world coordinates, and their indices in the object.
+/// The images of a point of the object, borrowed.
+struct KnownImages
+{
+  const ImagePoint* first = nullptr;
+  std::size_t count = 0;
+};
+
+/// Corners of a primitive in world coordinates, their indices in the object and their images.
 struct MappedTriangle
 {
   std::array<std::int64_t, 3> ids;
   std::array<glm::dvec3, 3> corners;
+  std::array<KnownImages, 3> images{};
+};
+
+/// A point of a triangle in barycentric and in world coordinates.
+struct TrianglePoint
+{
+  glm::dvec3 weight;
+  glm::dvec3 position;
+};
+
+/// A straight piece of the curve along which a triangle meets the membrane. The part behind the
+/// membrane is on its left, as the triangle is wound.
+struct WaterlinePiece
+{
+  TrianglePoint from;
+  TrianglePoint to;
 };
 
 class MembraneMapping
@@ -51,18 +78,27 @@ public:
 
 private:
   struct Node;
-  struct Plane;
   struct Corner;
   struct Context;
   struct Boundary;
   using Polygon = std::vector<Corner>;
+  enum class Finding
+  {
+    Found,
+    EndWithoutImage, ///< an end of the primitive that has no image in or next to the sub-cell
+    Elsewhere        ///< a side of the primitive that does not meet the membrane there
+  };
+  struct MappedPoint
+  {
+    ImagePoint point;
+    Finding finding;
+  };
 
   void MapSides(Context& context, const glm::dvec3& middle, double padding, bool mayCross,
     ImageMesh& images) const;
   void Map(const Context& context, const glm::dvec3& middle, double padding) const;
-  void DropInFront(const Context& context, const ImageMesh& from, ImageMesh& images) const;
-  void FindSight(const Context& context, const glm::dvec3& weight, glm::dvec2& b) const;
-  ImagePoint Finish(const Context& context, const glm::dvec2& b, const glm::dvec3& weight) const;
+  std::vector<WaterlinePiece> DropInFront(
+    const Context& context, const ImageMesh& from, ImageMesh& images) const;
   Node MakeNode(const CurvedPatch& patch, const glm::dvec2& b) const;
   bool IsSplit(const Node& a, const Node& middle, const Node& b) const;
   void Divide(const Context& context, const std::array<Node, 3>& nodes, int depth) const;
@@ -71,8 +107,21 @@ private:
     double sign) const;
   void EmitLine(
     const Context& context, const std::array<Node, 3>& nodes, const Polygon& polygon) const;
-  ImagePoint MakePoint(
+  MappedPoint MakePoint(
     const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const;
+  MappedPoint MakeEnd(
+    const Context& context, const std::array<Node, 3>& nodes, glm::length_t end) const;
+  static double GetSize(const std::array<Node, 3>& nodes);
+  static glm::dvec2 GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point);
+  MappedPoint MakeOnSide(const Context& context, const std::array<Node, 3>& nodes, std::size_t side,
+    const RefractedPoint& from) const;
+  MappedPoint MakeCrossing(const Context& context, const std::array<Node, 3>& nodes,
+    const Corner& corner, const Boundary& on) const;
+  MappedPoint MakeSideCrossing(const Context& context, const std::array<Node, 3>& nodes,
+    std::size_t side, const glm::dvec2& guess, const glm::dvec3& weight) const;
+  static bool IsSeen(const std::vector<MappedPoint>& points);
+  ImagePoint Finish(const Context& context, const PatchPoint& at, const glm::dvec3& point,
+    const glm::dvec3& weight) const;
 
   const CurvedGeometry& Geometry;
   double Tolerance;

@@ -20,6 +20,27 @@ constexpr std::size_t FacetsPerPoint = 3;
 constexpr std::size_t Run = 8;
 static_assert(ObjectImages::Chunk % Run == 0, "runs make chunks");
 
+// Calls `visit(side)` for every side of every polygon that `isWanted(cell)` tells.
+template <typename IsWanted, typename Visit>
+void VisitPolygonSides(
+  const ObjectCells& cells, std::size_t count, const IsWanted& isWanted, const Visit& visit)
+{
+  for (std::size_t cell = 0; cell < count; ++cell)
+  {
+    if (!isWanted(cell))
+    {
+      continue;
+    }
+    const std::int64_t* ids = cells.connectivity + cells.offsets[cell];
+    const std::int64_t size = cells.offsets[cell + 1] - cells.offsets[cell];
+    for (std::int64_t k = 0; k < size; ++k)
+    {
+      const auto [low, high] = std::minmax(ids[k], ids[(k + 1) % size]);
+      visit(Seam{ low, high, 0 });
+    }
+  }
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -209,6 +230,21 @@ ImagedPoint ObjectImages::GetImagedPoint(std::int64_t id) const
 }
 
 //------------------------------------------------------------------------------
+MappedTriangle ObjectImages::MakeTriangle(const std::array<std::int64_t, 3>& ids) const
+{
+  MappedTriangle triangle;
+  triangle.ids = ids;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto point = static_cast<std::size_t>(ids[k]);
+    triangle.corners[k] = this->GetPoint(ids[k]);
+    triangle.images[k] = { this->Images.data() + this->First[point],
+      this->GetNumberOfImages(point) };
+  }
+  return triangle;
+}
+
+//------------------------------------------------------------------------------
 // Each of the points, all of them the same way round.
 bool ObjectImages::HaveOneImage(const std::int64_t* ids, std::size_t count) const
 {
@@ -298,9 +334,8 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
         continue;
       }
       isDivided = false;
-      mapping.MapLine({ { ids[k], ids[k + 1], ids[k] },
-                        { this->GetPoint(ids[k]), this->GetPoint(ids[k + 1]), glm::dvec3(0.0) } },
-        cell, side == Side::Both, pieces);
+      mapping.MapLine(
+        this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), cell, side == Side::Both, pieces);
     }
     report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }
@@ -340,11 +375,8 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
       this->DividePolygon(ids, triangles, cell, division, pieces);
     for (std::size_t k = 0; k + 2 < triangles.size() && !isDivided; k += 3)
     {
-      const std::array<std::int64_t, 3> corner = { ids[triangles[k]], ids[triangles[k + 1]],
-        ids[triangles[k + 2]] };
       mapping.MapTriangle(
-        { corner,
-          { this->GetPoint(corner[0]), this->GetPoint(corner[1]), this->GetPoint(corner[2]) } },
+        this->MakeTriangle({ ids[triangles[k]], ids[triangles[k + 1]], ids[triangles[k + 2]] }),
         cell, side == Side::Both, pieces);
     }
     isMapped[i] = isDivided ? 0 : 1;
@@ -354,69 +386,93 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
 }
 
 //------------------------------------------------------------------------------
-void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, ImageMesh& pieces) const
+// The sides of mapped polygons and how many polygons have each.
+std::vector<Seam> ObjectImages::FindSeams(
+  const ObjectCells& cells, std::size_t count, const unsigned char* isMapped)
 {
-  using Edge = std::pair<std::int64_t, std::int64_t>;
-  const auto sides = [&cells](std::size_t cell, const auto& visit)
+  std::vector<Seam> seams;
+  VisitPolygonSides(
+    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] != 0; },
+    [&seams](const Seam& side) { seams.push_back(side); });
+  std::sort(seams.begin(), seams.end());
+  seams.erase(std::unique(seams.begin(), seams.end(),
+                [](const Seam& a, const Seam& b) { return a.low == b.low && a.high == b.high; }),
+    seams.end());
+  if (!seams.empty())
   {
-    const std::int64_t begin = cells.offsets[cell];
-    const std::int64_t size = cells.offsets[cell + 1] - begin;
-    for (std::int64_t k = 0; k < size; ++k)
-    {
-      visit(std::minmax(cells.connectivity[begin + k], cells.connectivity[begin + (k + 1) % size]));
-    }
-  };
-  std::vector<Edge> mapped;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (isMapped[i])
-    {
-      sides(i, [&mapped](const Edge& side) { mapped.push_back(side); });
-    }
+    VisitPolygonSides(
+      cells, count, [](std::size_t) { return true; },
+      [&seams](const Seam& side)
+      {
+        const auto at = std::lower_bound(seams.begin(), seams.end(), side);
+        if (at != seams.end() && !(side < *at))
+        {
+          ++at->cells;
+        }
+      });
   }
-  if (mapped.empty())
+  return seams;
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
+  const unsigned char* isMapped, const ImageMesh& whole, ImageMesh& pieces) const
+{
+  const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
+  if (seams.empty())
   {
     return;
   }
-  std::sort(mapped.begin(), mapped.end());
-  mapped.erase(std::unique(mapped.begin(), mapped.end()), mapped.end());
-  std::vector<char> isCommon(mapped.size(), 0);
-  const auto find = [&mapped](const Edge& side)
+  this->MoveOntoNeighbours(cells, count, isMapped, seams, pieces);
+  bool hasDiagonals = false;
+  for (std::size_t i = 0; i < count && !hasDiagonals; ++i)
   {
-    const auto at = std::lower_bound(mapped.begin(), mapped.end(), side);
-    return at != mapped.end() && *at == side ? at - mapped.begin() : -1;
-  };
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (!isMapped[i])
-    {
-      sides(i,
-        [&find, &isCommon](const Edge& side)
-        {
-          const auto at = find(side);
-          if (at >= 0)
-          {
-            isCommon[static_cast<std::size_t>(at)] = 1;
-          }
-        });
-    }
+    hasDiagonals = isMapped[i] && cells.offsets[i + 1] - cells.offsets[i] > 3;
   }
-  CellDivision division(this->Geometry, this->Tolerance);
-  for (std::size_t i = 0; i < pieces.points.size(); ++i)
+  const glm::dvec3 eye = this->Geometry.GetMedia().eye + this->Geometry.GetMembrane().GetOrigin();
+  SeamClosure closure(seams, hasDiagonals, eye, this->Tolerance);
+  closure.Collect(pieces, pieces.points, false);
+  closure.Collect(whole, this->Images, true);
+  closure.Close(pieces);
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
+  const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces) const
+{
+  std::vector<char> isCommon(seams.size(), 0);
+  const auto find = [&seams](const Seam& side) -> std::ptrdiff_t
   {
-    ImagePoint& point = pieces.points[i];
-    if (!(point.weight[1] > 0.0 && point.weight[2] == 0.0))
+    const auto at = std::lower_bound(seams.begin(), seams.end(), side);
+    return at != seams.end() && !(side < *at) ? at - seams.begin() : -1;
+  };
+  VisitPolygonSides(
+    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] == 0; },
+    [&find, &isCommon](const Seam& side)
+    {
+      const std::ptrdiff_t at = find(side);
+      if (at >= 0)
+      {
+        isCommon[static_cast<std::size_t>(at)] = 1;
+      }
+    });
+  CellDivision division(this->Geometry, this->Tolerance);
+  for (ImagePoint& point : pieces.points)
+  {
+    if (point.GetNumberOfSources() != 2)
     {
       continue;
     }
-    const auto at = find(std::minmax(point.source[0], point.source[1]));
+    const std::ptrdiff_t at = find({ std::min(point.source[0], point.source[1]),
+      std::max(point.source[0], point.source[1]), 0 });
     if (at >= 0 && isCommon[static_cast<std::size_t>(at)] &&
       this->HaveOneImage(point.source.data(), 2) &&
       this->FindSide(point.source.data(), 2) == Side::Behind)
     {
-      division.MoveOntoEdge(this->GetImagedPoint(point.source[0]),
-        this->GetImagedPoint(point.source[1]), point.weight[1], point.vertex);
+      // From the lower end, whichever has the larger weight: all copies move alike.
+      const std::size_t low = point.source[0] < point.source[1] ? 0 : 1;
+      division.MoveOntoEdge(this->GetImagedPoint(point.source[low]),
+        this->GetImagedPoint(point.source[1 - low]), point.weight[1 - low], point.vertex);
     }
   }
 }

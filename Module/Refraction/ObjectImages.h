@@ -14,6 +14,7 @@
 #include "Refraction/ImageMesh.h"
 #include "Refraction/MembraneMapping.h"
 #include "Refraction/RangeLoop.h"
+#include "Refraction/SeamClosure.h"
 #include "Refraction/UniqueImages.h"
 
 #include <array>
@@ -106,11 +107,11 @@ public:
     std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole,
     unsigned char* isMapped) const;
 
-  /// After all polygons have been mapped to `pieces`: makes those that have been mapped from the
-  /// membrane, `isMapped`, end where their neighbours do, which draw common sides as straight
-  /// pieces, up to the tolerance off.
+  /// After all polygons have been mapped to `pieces` and `whole`: makes those that have been mapped
+  /// from the membrane, `isMapped`, end where their neighbours do, which draw common sides as
+  /// straight pieces, up to the tolerance off, and closes the seams between them.
   void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
-    ImageMesh& pieces) const;
+    const ImageMesh& whole, ImageMesh& pieces) const;
 
 private:
   enum class Side
@@ -130,6 +131,11 @@ private:
   bool IsSimple(
     const std::int64_t* ids, std::size_t count, bool isClosed, CellDivision& division) const;
   ImagedPoint GetImagedPoint(std::int64_t id) const;
+  static std::vector<Seam> FindSeams(
+    const ObjectCells& cells, std::size_t count, const unsigned char* isMapped);
+  void MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
+    const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces) const;
+  MappedTriangle MakeTriangle(const std::array<std::int64_t, 3>& ids) const;
   bool DividePolygon(const std::int64_t* ids, const std::vector<std::int64_t>& triangles,
     std::int64_t cell, CellDivision& division, ImageMesh& pieces) const;
   void AddWhole(

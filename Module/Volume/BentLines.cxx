@@ -3,6 +3,7 @@
 #include "Volume/BentLines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace meniscus
@@ -12,10 +13,27 @@ namespace
 
 constexpr int TileSize = MembraneSight::TileSize;
 
+/** Grid depth of a float, as vtkTetrahedraRays has it. */
+std::int32_t GridDepthOf(float depth)
+{
+  constexpr float Largest = 1073741824.0f; // 2^30
+  const float grid = depth * static_cast<float>(PacketVertex::GridPerDepth);
+  return static_cast<std::int32_t>(std::clamp(grid, -Largest, Largest));
+}
+
+/** What has to be added to that, plus 128: a float below 1, and its product, are off by 2^-25. */
+std::int32_t RestOf(double depth)
+{
+  const std::int32_t grid = GridDepthOf(static_cast<float>(depth));
+  const bool atMesh = std::abs(depth) < 1.0;
+  return 128 +
+    (atMesh ? static_cast<std::int32_t>(std::lrint(depth * PacketVertex::GridPerDepth)) - grid : 0);
+}
+
 BentLine LineOf(const BentRay& ray, const glm::dvec2& pixel, const MembraneSight::View& view,
   const BentFrames& frames)
 {
-  BentLine line{ {}, {}, static_cast<float>(ray.Depth), 0.0f, 0.0f, 0.0f };
+  BentLine line{ {}, {}, static_cast<float>(ray.Depth), 0.0f, 0.0f, RestOf(ray.Depth) << 8 };
   if (ray.GoesOn())
   {
     const int index = frames.IndexOf(ray.Step);
@@ -25,18 +43,32 @@ BentLine LineOf(const BentRay& ray, const glm::dvec2& pixel, const MembraneSight
     const glm::dvec3 place = turn * glm::dvec3(across, ray.Depth);
     const glm::dvec3 step = turn * ray.Step;
     const FrameLine of = FrameLine::Through(place, step);
+    const PacketRay packet = frames.Get(index).Rays.RayAlong(of.Origin, of.Slope);
     for (int axis = 0; axis < 2; ++axis)
     {
-      line.Origin[axis] = static_cast<float>(of.Origin[axis]);
-      line.Slope[axis] = static_cast<float>(of.Slope[axis]);
+      // The nearest whole number: the packet's offset is half a unit more.
+      line.Offset[axis] = static_cast<std::int32_t>(packet.Offset[axis] >> 32);
+      line.Slope[axis] = packet.Slope[axis];
     }
     line.Start = static_cast<float>(place.z);
     line.PerDepth = static_cast<float>(step.z);
-    line.Frame = static_cast<float>(index);
+    line.FrameAndRests |= index | RestOf(place.z) << 16;
   }
   return line;
 }
 
+}
+
+//------------------------------------------------------------------------------
+std::int32_t BentLine::GetGridMembraneDepth() const
+{
+  return GridDepthOf(this->MembraneDepth) + (this->FrameAndRests >> 8 & 255) - 128;
+}
+
+//------------------------------------------------------------------------------
+std::int32_t BentLine::GetGridStart() const
+{
+  return GridDepthOf(this->Start) + (this->FrameAndRests >> 16 & 255) - 128;
 }
 
 //------------------------------------------------------------------------------
@@ -47,7 +79,7 @@ void LayOutBentLines(const MembraneSight& sight, const BentFrames& frames, const
   const auto width = static_cast<std::size_t>(view.Width);
   lines.resize(width * static_cast<std::size_t>(view.Height));
   const int columns = (view.Width + TileSize - 1) / TileSize;
-  constexpr BentLine straight{ {}, {}, BentLine::Nowhere, 0.0f, 0.0f, 0.0f };
+  constexpr BentLine straight{ {}, {}, BentLine::Nowhere, 0.0f, 0.0f, 128 << 8 | 128 << 16 };
   const auto layOutTile = [&](int tile)
   {
     const BentRay* rays = sight.GetTile(tile);

@@ -7,29 +7,39 @@
 #include "Volume/BentFrames.h"
 #include "Volume/MembraneSight.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace meniscus
 {
 
 /**
- * What a shader wants to know of a pixel's ray behind the membrane, in two texels. Like a straight
- * ray it is a line (x, y) = Origin + depth * Slope, of one of the BentFrames in place of the frame
- * of the view, so that single precision does to it what it does to those: slopes are within 1, and
- * the origin is within 2 radii of the mesh where the line meets that.
+ * What a shader wants to know of a pixel's ray behind the membrane, in two texels of integers. Like
+ * a straight ray it is a line in a grid, that of one of the BentFrames in place of the grid of the
+ * view.
  */
 struct BentLine
 {
-  float Origin[2];
-  float Slope[2];
+  /** In grid units. */
+  std::int32_t Offset[2];
+  /** Per grid unit of depth, in units of 2^-32. */
+  std::int32_t Slope[2];
   /** Of the sight point, on the straight ray; Nowhere where that does not meet the membrane. */
   float MembraneDepth;
   /** The sight point's depth in the line's frame. */
   float Start;
   /** Depth in the line's frame per depth on the straight ray; 0 where nothing goes on. */
   float PerDepth;
-  /** Index of the frame. */
-  float Frame;
+  /**
+   * Index of the frame; from bit 8 and 16 on what has to be added to the grid depths of
+   * MembraneDepth and Start, plus 128, for floats have too few digits.
+   */
+  std::int32_t FrameAndRests;
+
+  int GetFrame() const { return this->FrameAndRests & 255; }
+  /** Depths in grid units, exact where the mesh may be; as a shader finds them. */
+  std::int32_t GetGridMembraneDepth() const;
+  std::int32_t GetGridStart() const;
 
   static constexpr float Nowhere = 1.0e+30f;
 };

@@ -3,11 +3,12 @@
 #ifndef meniscus_Volume_EntryRaster_h
 #define meniscus_Volume_EntryRaster_h
 
+#include "Volume/EntryLists.h"
 #include "Volume/Packet/Packet.h"
-#include "Volume/PixelRays.h"
-#include "Volume/TetrahedralMesh.h"
+#include "Volume/ProjectedFaces.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace meniscus
@@ -34,52 +35,36 @@ public:
     const PixelRays& rays);
 
   int GetNumberOfTiles() const { return this->Columns * this->Rows; }
-  const PixelRays& GetRays() const { return this->Rays; }
+  const PixelRays& GetRays() const { return this->Faces.GetRays(); }
 
-  struct PixelBox
-  {
-    int Left;
-    int Right; // exclusive
-    int Bottom;
-    int Top; // exclusive
-  };
+  using PixelBox = ProjectedFaces::PixelBox;
   PixelBox BoxOfTile(int tile) const;
 
   /** Least depth of the faces that a tile's rays may enter by; infinite without one. */
   double NearestDepth(int tile) const;
 
-  struct Hit
+  /** Room for the work of one thread. */
+  struct Workspace
   {
-    /** In the tile: (row - Bottom) * TileSize + column - Left. */
-    std::int32_t Pixel;
-    PacketEntry Entry;
+    /** Entries of the tile's rays, numbered (row - Bottom) * TileSize + column - Left. */
+    EntryLists Lists;
+    /** The tile's faces with their nearest depths. */
+    std::vector<std::pair<float, std::int32_t>> Faces;
   };
-  /** Entries of a tile's rays by pixel, then depth, then face. Replaces `hits`. */
-  void CollectHits(int tile, std::vector<Hit>& hits) const;
+  /** Replaces the lists of the workspace by the entries of a tile's rays. */
+  void CollectEntries(int tile, Workspace& workspace) const;
 
 private:
-  /** u and v of a vertex as functions of the pixel: constant, per column, per row. */
-  struct SeenVertex
-  {
-    glm::dvec3 U;
-    glm::dvec3 V;
-    double Depth;
-  };
-  struct SeenFace;
+  bool EntersExactly(
+    const ProjectedFaces::Face& face, const glm::ivec2& pixel, double (&areas)[3]) const;
+  static double DepthAt(const ProjectedFaces::Face& face, const double (&areas)[3]);
+  void CollectFace(std::int32_t index, const PixelBox& tile, EntryLists& lists) const;
 
-  SeenVertex See(std::int32_t vertex) const;
-  SeenFace See(const BoundaryFace& face) const;
-  PixelBox BoxOf(const SeenFace& face) const;
-  bool EntersExactly(const SeenFace& face, const glm::ivec2& pixel, double (&areas)[3]) const;
-  static double DepthAt(const SeenFace& face, const double (&areas)[3]);
-  void CollectFace(
-    const BoundaryFace& boundary, const PixelBox& tile, std::vector<Hit>& hits) const;
-
-  const std::vector<PacketVertex>* Vertices = nullptr;
-  const std::vector<BoundaryFace>* Faces = nullptr;
-  PixelRays Rays;
+  ProjectedFaces Faces;
   int Columns = 0;
   int Rows = 0;
+  /** Pixels whose rays may enter by each face. */
+  std::vector<PixelBox> Boxes;
   /** Faces of tile t: FaceOfSlot[TileBegin[t]] to [TileBegin[t + 1]]. */
   std::vector<std::int32_t> TileBegin;
   std::vector<std::int32_t> FaceOfSlot;

@@ -136,7 +136,7 @@ bool LineEntries::MayFace(const PacketFace& face, const Bundle& bundle) const
   const glm::dvec3 corner = placeOf(0);
   // A unit of depth in units of the grid across.
   const glm::dvec3 scale(
-    1.0, 1.0, double{ PacketVertex::DepthUnit } / this->Frame.Rays.GetGridUnit());
+    1.0, 1.0, 1.0 / PacketVertex::GridPerDepth / this->Frame.Rays.GetGridUnit());
   const glm::dvec3 first = scale * (placeOf(1) - corner);
   const glm::dvec3 second = scale * (placeOf(2) - corner);
   const glm::dvec3 normal = glm::cross(first, second);

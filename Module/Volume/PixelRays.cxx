@@ -15,13 +15,35 @@ namespace meniscus
 namespace
 {
 
-constexpr double GridRadius = 536870912.0;      // 2^29
+// 2^29 - 2^12: slopes per grid unit of depth stay below 1/2, up to views of nearly 180 degrees.
+constexpr double GridRadius = 536866816.0;
 constexpr double FractionOfGrid = 4294967296.0; // 2^32, what PacketRay shifts out
 constexpr double LargestSlope = 2147483647.0;
 
 AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
 {
   return { map.Base * scale, map.PerColumn * scale, map.PerRow * scale };
+}
+
+/** A map in whole numbers and fractions of 2^-15, `more` added to its base. */
+PixelRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::dvec2& more)
+{
+  constexpr double Fractions = 32768.0;
+  // Whole numbers count modulo 2^32: where a ray meets the mesh, their sum fits.
+  constexpr double Largest = 70368744177664.0; // 2^46
+  const glm::dvec2 values[3] = { map.Base + more, 0.5 * map.PerColumn, 0.5 * map.PerRow };
+  PixelRays::FixedPointMap fixed{};
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const std::int64_t value =
+        std::llrint(std::clamp(values[i][axis], -Largest, Largest) * Fractions);
+      fixed[4 * i + axis] = static_cast<std::int32_t>(static_cast<std::uint32_t>(value >> 15));
+      fixed[4 * i + 2 + axis] = static_cast<std::int32_t>(value & 32767);
+    }
+  }
+  return fixed;
 }
 
 }
@@ -61,6 +83,43 @@ glm::ivec3 PixelRays::Place(const glm::ivec3& position) const
 }
 
 //------------------------------------------------------------------------------
+bool PixelRays::SeesAs(const PixelRays& other) const
+{
+  const auto same = [](const AffinePixelMap& a, const AffinePixelMap& b)
+  { return a.Base == b.Base && a.PerColumn == b.PerColumn && a.PerRow == b.PerRow; };
+  return this->PlacesAs(other) && this->Width == other.Width && this->Height == other.Height &&
+    same(this->Offset, other.Offset) && same(this->Slope, other.Slope) &&
+    this->Frame.Handedness == other.Frame.Handedness;
+}
+
+//------------------------------------------------------------------------------
+std::array<std::int32_t, 9> PixelRays::GetFixedPointRows() const
+{
+  // Coefficients of x and y are below 1/2, those of depth below 1.
+  std::array<std::int32_t, 9> rows{};
+  for (int i = 0; i < 9; ++i)
+  {
+    const double scaled =
+      this->ToGrid[i % 3][i / 3] * (i < 6 ? FractionOfGrid : 0.5 * FractionOfGrid);
+    rows[static_cast<std::size_t>(i)] =
+      static_cast<std::int32_t>(std::clamp(std::rint(scaled), -LargestSlope, LargestSlope));
+  }
+  return rows;
+}
+
+//------------------------------------------------------------------------------
+PixelRays::FixedPointMap PixelRays::GetFixedPointOffset() const
+{
+  return FixedPoint(this->Offset, glm::dvec2(0.0));
+}
+
+//------------------------------------------------------------------------------
+PixelRays::FixedPointMap PixelRays::GetFixedPointSlope() const
+{
+  return FixedPoint(Scaled(this->Slope, FractionOfGrid), glm::dvec2(0.5));
+}
+
+//------------------------------------------------------------------------------
 /** @param perDepth  the slope in the frame; the others are in grid units. */
 PacketRay PixelRays::MakeRay(
   const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const
@@ -71,7 +130,6 @@ PacketRay PixelRays::MakeRay(
     // Half a unit more, for what is shifted out is rounded down.
     ray.Offset[axis] =
       std::llrint((std::clamp(offset[axis], -LargestOffset, LargestOffset) + 0.5) * FractionOfGrid);
-    // Below 1/2 in theory, and not to be rounded up to it for views of nearly 180 degrees.
     ray.Slope[axis] = static_cast<std::int32_t>(
       std::clamp(std::rint(slope[axis] * FractionOfGrid), -LargestSlope, LargestSlope));
   }

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 
 namespace meniscus
@@ -18,10 +19,10 @@ namespace meniscus
 /**
  * The rays of an image's pixels and where vertices lie about them, in whole grid units.
  *
- * Vertices are rounded once, to (x, y, depth) of the frame: depth in units of 2^-30 of the frame's,
- * x and y in units of 2^-29 times 1 + the steepest slope, so that |u| and |v| stay below 2^30 where
- * a ray meets the mesh. From there on all is integer arithmetic (PacketRay), the same on every
- * processor and for every user of a ray.
+ * Vertices are rounded once, to (x, y, depth) of the frame: depth in units of about 2^-30 of the
+ * frame's, x and y in units of about 2^-29 times 1 + the steepest slope, so that |u| and |v| stay
+ * below 2^30 where a ray meets the mesh. From there on all is integer arithmetic (PacketRay), the
+ * same on every processor and for every user of a ray.
  */
 class PixelRays
 {
@@ -47,6 +48,8 @@ public:
   glm::ivec3 Place(const glm::ivec3& position) const;
   /** Whether Place() is the same function. */
   bool PlacesAs(const PixelRays& other) const { return this->ToGrid == other.ToGrid; }
+  /** Whether the rays of all pixels are the same, and vertices lie the same about them. */
+  bool SeesAs(const PixelRays& other) const;
 
   /**
    * About the ray of pixel (i, j), counted from the image's centre, u = x - offset - slope * depth,
@@ -54,6 +57,25 @@ public:
    */
   const AffinePixelMap& GetOffset() const { return this->Offset; }
   const AffinePixelMap& GetSlope() const { return this->Slope; }
+  /**
+   * Rows of the matrix from fixed-point positions to the grid, those of x and y in units of 2^-32,
+   * that of depth in units of 2^-31.
+   */
+  std::array<std::int32_t, 9> GetFixedPointRows() const;
+
+  /**
+   * An affine function of the pixel for shaders, as whole numbers: three times (x, y, fractions of
+   * x and y in units of 2^-15), the base, then per half column and per half row.
+   */
+  using FixedPointMap = std::array<std::int32_t, 12>;
+  /**
+   * Offset and slope, the latter in units of 2^-32, of pixels' rays as in PacketRay: to 2^-15 of
+   * the image's width in pixels. The slope's holds half a unit more, so that rounding down gives
+   * the nearest.
+   */
+  FixedPointMap GetFixedPointOffset() const;
+  FixedPointMap GetFixedPointSlope() const;
+
   /** Of x and y, in units of the frame. */
   double GetGridUnit() const { return this->GridUnit; }
   int GetWidth() const { return this->Width; }
@@ -68,7 +90,7 @@ public:
   static double DepthOf(std::int32_t gridDepth) { return gridDepth / GridPerDepth; }
 
 private:
-  static constexpr double GridPerDepth = 1.0 / PacketVertex::DepthUnit;
+  static constexpr double GridPerDepth = PacketVertex::GridPerDepth;
 
   PacketRay MakeRay(
     const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace meniscus
 {
@@ -47,6 +48,25 @@ glm::dvec3 EmissionAt(const TransferFunctionInterval& interval, double scalar)
 double Opacity(double attenuation, double length)
 {
   return -std::expm1(-std::min(attenuation * length, LargestDepth));
+}
+
+/** The same function of (scalar - middle) * perHalfRange. */
+std::vector<TransferFunctionInterval> Moved(
+  std::vector<TransferFunctionInterval> intervals, double middle, double perHalfRange)
+{
+  for (TransferFunctionInterval& interval : intervals)
+  {
+    const auto move = [=](float scalar)
+    {
+      constexpr double beyond = std::numeric_limits<float>::max();
+      return static_cast<float>(std::clamp((scalar - middle) * perHalfRange, -beyond, beyond));
+    };
+    interval.Lower = move(interval.Lower);
+    interval.Upper = move(interval.Upper);
+    interval.AttenuationSlope = static_cast<float>(interval.AttenuationSlope / perHalfRange);
+    interval.ColorSlope = glm::vec3(glm::dvec3(interval.ColorSlope) / perHalfRange);
+  }
+  return intervals;
 }
 
 /** Whether every scalar in [-1, 1] that can be seen has the same colour. */
@@ -273,9 +293,13 @@ void PreIntegrationTable::Store(int length, const Slice& slice, const RangeLoop&
 }
 
 //------------------------------------------------------------------------------
-void PreIntegrationTable::Build(const std::vector<TransferFunctionInterval>& intervals,
-  double longest, int scalars, int lengths, const RangeLoop& loop)
+void PreIntegrationTable::Build(const std::vector<TransferFunctionInterval>& function,
+  double longest, int scalars, int lengths, const RangeLoop& loop, const ScalarRange& range)
 {
+  this->Middle = 0.5 * (range.Lowest + range.Highest);
+  this->PerHalfRange = 2.0 / (range.Highest - range.Lowest);
+  const std::vector<TransferFunctionInterval> intervals =
+    Moved(function, this->Middle, this->PerHalfRange);
   this->Scalars = scalars;
   this->ChooseLengths(intervals, longest, lengths);
   this->SampleFunction(intervals);

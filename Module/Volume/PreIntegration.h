@@ -38,13 +38,18 @@ class PreIntegrationTable
 {
 public:
   /**
-   * @param intervals  of the transfer function, in normalised scalars.
+   * @param function   intervals of the transfer function, in normalised scalars.
    * @param longest    length of the longest segment, in the unit of the attenuation; > 0.
-   * @param scalars    samples of the scalar range [-1, 1], >= 2.
+   * @param scalars    samples of the scalar range, >= 2.
    * @param lengths    samples of the length, >= 1; 1 neglects what a segment absorbs of itself.
+   * @param range      of scalars; at its ends and beyond, the function is taken as constant.
    */
-  void Build(const std::vector<TransferFunctionInterval>& intervals, double longest, int scalars,
-    int lengths, const RangeLoop& loop = SerialLoop);
+  void Build(const std::vector<TransferFunctionInterval>& function, double longest, int scalars,
+    int lengths, const RangeLoop& loop = SerialLoop, const ScalarRange& range = ScalarRange());
+
+  /** A scalar has the place (scalar - middle) * perHalfRange in the table, in [-1, 1]. */
+  double GetMiddle() const { return this->Middle; }
+  double GetPerHalfRange() const { return this->PerHalfRange; }
 
   int GetNumberOfScalars() const { return this->Scalars; }
   /** As many as asked for, or 1 where one is as good. */
@@ -94,6 +99,8 @@ private:
   double Shortest = 0.0;
   double Longest = 0.0;
   double LargestAttenuation = 0.0;
+  double Middle = 0.0;
+  double PerHalfRange = 1.0;
 };
 
 }

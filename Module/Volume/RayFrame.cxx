@@ -88,7 +88,17 @@ RayFrameStatus ComputeRayFrame(const RayFrameInput& input, RayFrame& frame)
     return input.Radius *
       glm::dvec3(At(modelToView, i, 0), At(modelToView, i, 1), At(modelToView, i, 2));
   };
-  const double unit = std::max({ glm::length(row(0)), glm::length(row(1)), glm::length(row(2)) });
+  // Bounds how much the matrix stretches any direction (the largest sum of a row of M M^T), so that
+  // the mesh is within the unit also along the axes of frames that are turned: for a similarity it
+  // is the scale.
+  double stretch = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    stretch = std::max(stretch,
+      std::abs(glm::dot(row(i), row(0))) + std::abs(glm::dot(row(i), row(1))) +
+        std::abs(glm::dot(row(i), row(2))));
+  }
+  const double unit = std::sqrt(stretch);
   frame.RowX = row(0) / unit;
   frame.RowY = row(1) / unit;
   frame.RowDepth = -row(2) / unit;

@@ -3,6 +3,7 @@
 #include "Volume/TetrahedralMesh.h"
 
 #include "Volume/BlockLoop.h"
+#include "Volume/DuplicateCells.h"
 #include "Volume/MortonOrder.h"
 
 #include <glm/common.hpp>
@@ -100,6 +101,8 @@ private:
   void ReadBlock(const Id* cells, std::size_t first, std::size_t last, RejectedCells& rejected,
     std::size_t& accepted);
   std::vector<MortonKey> KeysOfUsedPoints();
+  void TakeCodesOfCells(const MortonCurve& curve, std::vector<MortonKey>& keys);
+  void RemoveDuplicates(std::vector<MortonKey>& keys);
 
   TetrahedralMesh& Mesh;
   const TetrahedraView& Input;
@@ -327,7 +330,58 @@ std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
       }
     });
   this->Mesh.Radius = *std::max_element(radii.begin(), radii.end());
+  if (keys.size() > this->NumberOfCells)
+  {
+    this->TakeCodesOfCells(curve, keys);
+  }
   return keys;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Replaces the code of each point by the lowest of the centres of its cells. Where cells share no
+ * points, those of a cell then lie side by side in memory.
+ */
+void TetrahedralMesh::Builder::TakeCodesOfCells(
+  const MortonCurve& curve, std::vector<MortonKey>& keys)
+{
+  const std::unique_ptr<std::atomic<std::uint32_t>[]> codes(
+    new std::atomic<std::uint32_t>[this->Input.NumberOfPoints]);
+  for (std::int64_t p = 0; p < this->Input.NumberOfPoints; ++p)
+  {
+    codes[p].store(std::numeric_limits<std::uint32_t>::max(), std::memory_order_relaxed);
+  }
+  ForEachBlock(this->Input.NumberOfCells, this->Loop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const Quad& corners = this->CornersOf(c);
+        if (corners[0] < 0)
+        {
+          continue;
+        }
+        glm::dvec3 center(0.0);
+        for (const std::int32_t corner : corners)
+        {
+          center += 0.25 * PointAt(this->Input, corner);
+        }
+        const std::uint32_t code = curve.Code(center);
+        for (const std::int32_t corner : corners)
+        {
+          std::uint32_t lowest = codes[corner].load(std::memory_order_relaxed);
+          while (code < lowest &&
+            !codes[corner].compare_exchange_weak(lowest, code, std::memory_order_relaxed))
+          {
+          }
+        }
+      }
+    });
+  for (MortonKey& key : keys)
+  {
+    const std::size_t point = IndexOf(key);
+    key = MakeMortonKey(codes[point].load(std::memory_order_relaxed), point);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -351,6 +405,34 @@ void TetrahedralMesh::Builder::NumberVertices()
           glm::round((PointAt(this->Input, point) - this->Mesh.Center) * scale);
       }
     });
+}
+
+//------------------------------------------------------------------------------
+/** Removes the keys of cells that have the same four vertices as one before them in the input. */
+void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<MortonKey>& keys)
+{
+  std::vector<std::int32_t> lowest;
+  if (this->Input.MatchPositions)
+  {
+    const auto& points = this->Mesh.SourcePoints;
+    lowest = FindLowestCoincident(
+      points.size(), [&](std::size_t v) { return PointAt(this->Input, points[v]); }, this->Loop);
+  }
+  const auto verticesOf = [this, &lowest](std::size_t cell)
+  {
+    Quad vertices = this->CornersOf(cell);
+    if (!lowest.empty())
+    {
+      for (std::int32_t& vertex : vertices)
+      {
+        vertex = lowest[vertex];
+      }
+      SortFour(vertices);
+    }
+    return vertices;
+  };
+  this->Mesh.Rejected.Duplicate =
+    static_cast<std::int64_t>(RemoveDuplicateCells(keys, verticesOf, this->Loop));
 }
 
 //------------------------------------------------------------------------------
@@ -384,6 +466,7 @@ void TetrahedralMesh::Builder::NumberCells()
       }
     });
   SortByCode(keys, this->Loop);
+  this->RemoveDuplicates(keys);
   ResizeTable(this->Mesh.SourceCells, this->Input.KeepSourceCells ? keys.size() : 0);
   ForEachBlock(keys.size(), this->Loop,
     [this, &keys](std::size_t, std::size_t first, std::size_t last)

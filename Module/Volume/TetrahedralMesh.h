@@ -6,16 +6,18 @@
  *
  * Method:
  * 1. Cells with an index out of range, a repeated vertex or a vertex that is not finite are
- *    rejected and counted. Zero-volume and inverted cells are kept: the mesh needs them to be
- *    conforming.
+ *    rejected and counted, and so is each cell that has the same four vertices as one before it in
+ *    the input. Zero-volume and inverted cells are kept: the mesh needs them to be conforming.
  * 2. Vertices and cells are renumbered along a Morton curve, so that neighbours on a ray are
- *    neighbours in memory. The vertices of a cell are stored in ascending order; the local index of
- *    a vertex is its rank, which gives every tie in the walk one answer in all cells.
+ *    neighbours in memory; vertices by the cells that use them, if they outnumber the cells. The
+ * vertices of a cell are stored in ascending order; the local index of a vertex is its rank, which
+ * gives every tie in the walk one answer in all cells.
  * 3. Cells are linked across faces that exactly two cells share. A face of three or more cells is
  *    boundary on all sides, and rays cross it as a gap of length zero.
  * 4. Orientation is combinatorial: a flood fill over linked faces, not the sign of each volume. A
  *    link that contradicts the flood fill (a non-orientable ring of cells) is cut. The sign of a
- *    component is that of the sum of its volumes.
+ *    component is that of the sum of its volumes; one whose volumes cancel, a region filled twice
+ *    with different cells of the same points, is taken apart into cells on opposite sides of faces.
  *
  * Cells that cannot be seen can be made inactive: links to them read as negative, like the
  * boundary, and GetBoundary() is that of the active cells. So rays enter, and leave, where the
@@ -54,6 +56,8 @@ struct TetrahedraView
   bool KeepSourceCells = false;
   /** Per cell, what GetSourceCells() says of it; null for its own number. */
   const std::int32_t* SourceCells = nullptr;
+  /** Whether points at the same position make cells duplicates of each other: several data sets. */
+  bool MatchPositions = false;
 };
 
 /** How a mesh is built. */
@@ -81,8 +85,13 @@ struct RejectedCells
   std::int64_t IndexOutOfRange = 0;
   std::int64_t RepeatedVertex = 0;
   std::int64_t PointNotFinite = 0;
+  /** Cells that have the same vertices as one before them, which is kept. */
+  std::int64_t Duplicate = 0;
 
-  std::int64_t Total() const { return IndexOutOfRange + RepeatedVertex + PointNotFinite; }
+  std::int64_t Total() const
+  {
+    return IndexOutOfRange + RepeatedVertex + PointNotFinite + Duplicate;
+  }
 };
 
 class VisibleScalars;
@@ -186,7 +195,7 @@ public:
   /** A face of an active cell as the boundary has it: see BoundaryFace. */
   BoundaryFace GetFace(std::int64_t cell, int face) const;
   const RejectedCells& GetRejectedCells() const { return this->Rejected; }
-  /** Links cut because they contradict the flood fill. */
+  /** Links cut because they contradict the flood fill, or in components whose volumes cancel. */
   std::int64_t GetNumberOfCutLinks() const { return this->CutLinks; }
   /** Bytes of all tables. */
   std::int64_t GetBytes() const

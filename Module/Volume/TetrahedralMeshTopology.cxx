@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <numeric>
 
@@ -300,6 +301,8 @@ private:
   struct Block
   {
     std::vector<double> Volumes;
+    /** Sums of the volumes' sizes. */
+    std::vector<double> Sizes;
     std::vector<std::int32_t> LinksOut;
     std::int64_t CutLinks = 0;
     std::int32_t FirstPatch = 0;
@@ -338,13 +341,15 @@ private:
       signs[patch] = static_cast<std::int8_t>(sign);
     }
     block.Volumes.assign(static_cast<std::size_t>(next), 0.0);
+    block.Sizes = block.Volumes;
     for (std::size_t c = first; c < last; ++c)
     {
       const std::int32_t patch = this->PatchOf[c];
       this->Orientation[c] = static_cast<std::int8_t>(this->Orientation[c] * signs[patch]);
       this->PatchOf[c] = numbers[patch];
-      block.Volumes[numbers[patch]] +=
-        this->Orientation[c] * SignedVolume(this->Mesh.GetFixedPositions(), this->Cells[c]);
+      const double volume = SignedVolume(this->Mesh.GetFixedPositions(), this->Cells[c]);
+      block.Volumes[numbers[patch]] += this->Orientation[c] * volume;
+      block.Sizes[numbers[patch]] += std::abs(volume);
     }
   }
 
@@ -394,11 +399,13 @@ private:
     std::int32_t numberOfPatches = 0;
     std::int64_t cutLinks = 0;
     std::vector<double> volumes;
+    std::vector<double> sizes;
     for (Block& block : this->Blocks)
     {
       block.FirstPatch = numberOfPatches;
       numberOfPatches += static_cast<std::int32_t>(block.Volumes.size());
       volumes.insert(volumes.end(), block.Volumes.begin(), block.Volumes.end());
+      sizes.insert(sizes.end(), block.Sizes.begin(), block.Sizes.end());
       cutLinks += block.CutLinks;
     }
     SignedSets sets(volumes.size());
@@ -417,8 +424,7 @@ private:
         }
       }
     }
-    this->ApplySigns(sets, volumes);
-    return cutLinks;
+    return cutLinks + this->ApplySigns(sets, volumes, sizes);
   }
 
   std::int32_t PatchAt(std::int32_t cell) const
@@ -426,10 +432,15 @@ private:
     return this->Blocks[cell / BlockSize].FirstPatch + this->PatchOf[cell];
   }
 
-  /** The volume of every component becomes positive. */
-  void ApplySigns(SignedSets& sets, const std::vector<double>& volumes)
+  /**
+   * Makes the volume of every component positive, and takes those apart whose volumes cancel.
+   * Returns the number of links cut.
+   */
+  std::int64_t ApplySigns(
+    SignedSets& sets, const std::vector<double>& volumes, const std::vector<double>& sizes)
   {
     std::vector<double> volumeOfSet(volumes.size(), 0.0);
+    std::vector<double> sizeOfSet(volumes.size(), 0.0);
     std::vector<std::int8_t> signs(volumes.size());
     for (std::size_t patch = 0; patch < volumes.size(); ++patch)
     {
@@ -437,12 +448,18 @@ private:
       // Not in one expression: the right side of += comes before the left one, which sets the sign.
       const std::int32_t set = sets.Find(static_cast<std::int32_t>(patch), sign);
       volumeOfSet[set] += sign * volumes[patch];
+      sizeOfSet[set] += sizes[patch];
     }
+    std::vector<std::uint8_t> cancels(volumes.size());
+    bool anyCancels = false;
     for (std::size_t patch = 0; patch < volumes.size(); ++patch)
     {
       int sign = 1;
       const std::int32_t set = sets.Find(static_cast<std::int32_t>(patch), sign);
       signs[patch] = static_cast<std::int8_t>(volumeOfSet[set] < 0.0 ? -sign : sign);
+      cancels[patch] =
+        sizeOfSet[set] > 0.0 && std::abs(volumeOfSet[set]) <= NegligibleVolume * sizeOfSet[set];
+      anyCancels = anyCancels || cancels[patch];
     }
     ForEachBlock(this->Cells.size(), this->Loop,
       [&](std::size_t, std::size_t first, std::size_t last)
@@ -453,7 +470,48 @@ private:
             this->Orientation[c] * signs[this->PatchAt(static_cast<std::int32_t>(c))]);
         }
       });
+    return anyCancels ? this->TakeApart(cancels) : 0;
   }
+
+  /**
+   * A part of the mesh that is filled twice, with different cells of the same points, hangs
+   * together at the faces that both fillings have outside: as one, half of its cells would be
+   * inverted, and it would have no boundary. Its cells are oriented one by one, and links between
+   * cells on the same side of their face are cut. Returns the number of links cut.
+   */
+  std::int64_t TakeApart(const std::vector<std::uint8_t>& cancels)
+  {
+    const auto isApart = [&](std::int32_t cell) { return cancels[this->PatchAt(cell)] != 0; };
+    const auto size = static_cast<std::int32_t>(this->Cells.size());
+    for (std::int32_t c = 0; c < size; ++c)
+    {
+      const double volume =
+        isApart(c) ? SignedVolume(this->Mesh.GetFixedPositions(), this->Cells[c]) : 0.0;
+      this->Orientation[c] =
+        volume != 0.0 ? static_cast<std::int8_t>(volume > 0.0 ? 1 : -1) : this->Orientation[c];
+    }
+    std::int64_t cutLinks = 0;
+    for (std::int32_t c = 0; c < size; ++c)
+    {
+      for (int face = 0; isApart(c) && face < 4; ++face)
+      {
+        const std::int32_t link = this->Cells[c].Links[face];
+        if (link != TetrahedralMesh::NoNeighbor &&
+          Product(face, link) != this->Orientation[c] * this->Orientation[link / 4])
+        {
+          this->CutLink(c, face);
+          ++cutLinks;
+        }
+      }
+    }
+    return cutLinks;
+  }
+
+  /**
+   * Share of a component's volume that rounding may leave of volumes that cancel: 2^-52 of each of
+   * up to 2^29 cells.
+   */
+  static constexpr double NegligibleVolume = 1.0 / (1 << 23);
 
   const TetrahedralMesh& Mesh;
   std::vector<TetrahedralMesh::Cell>& Cells;

@@ -53,7 +53,8 @@ TileCaster::TileCaster(const Scene& scene)
     const PreIntegrationTable& table = *scene.PreIntegration;
     this->SegmentTable = { table.GetValues().data(), table.GetNumberOfScalars(),
       table.GetNumberOfLengths(), static_cast<float>(1.0 / table.GetShortest()),
-      static_cast<float>(table.GetLengthsPerOctave()) };
+      static_cast<float>(table.GetLengthsPerOctave()), static_cast<float>(table.GetMiddle()),
+      static_cast<float>(table.GetPerHalfRange()) };
   }
   if (scene.Bent.Sight)
   {
@@ -86,43 +87,33 @@ PacketRay TileCaster::RayOf(int column, int row, const float* opaqueDepth, doubl
 }
 
 //------------------------------------------------------------------------------
-/** One ray for each pixel with a hit and a part that counts. */
-void TileCaster::TakeHits(
+/** Sets up a ray for each pixel with an entry and a part that counts. */
+void TileCaster::TakeRays(
   int tile, const float* opaqueDepth, const BentRay* bent, Workspace& workspace) const
 {
   const EntryRaster::PixelBox box = this->Raster.BoxOfTile(tile);
-  workspace.Entries.clear();
-  workspace.Rays.clear();
-  workspace.Pixels.clear();
-  std::int32_t lastPixel = -1;
-  bool counts = false;
-  for (const EntryRaster::Hit& hit : workspace.Hits)
+  const EntryLists& entries = workspace.Entries.Lists;
+  for (int number = 0; number < EntryRaster::TileSize * EntryRaster::TileSize; ++number)
   {
-    if (hit.Pixel != lastPixel)
+    const auto inTile = static_cast<std::size_t>(number);
+    if (entries.GetBegin(inTile) == entries.GetBegin(inTile + 1))
     {
-      lastPixel = hit.Pixel;
-      const int column = box.Left + hit.Pixel % EntryRaster::TileSize;
-      const int row = box.Bottom + hit.Pixel / EntryRaster::TileSize;
-      const std::int64_t pixel = std::int64_t{ row } * this->Input.Rays.GetWidth() + column;
-      const PacketRay ray =
-        this->RayOf(column, row, opaqueDepth, bent ? bent[hit.Pixel].Depth : 1.0e+30);
-      counts = ray.StartDepth < ray.EndDepth;
-      if (counts)
-      {
-        workspace.Pixels.push_back(pixel);
-        workspace.Rays.push_back(ray);
-        workspace.Rays.back().FirstEntry = static_cast<std::int32_t>(workspace.Entries.size());
-      }
-      else if (bent)
-      {
-        // The membrane may be within the mesh all the same.
-        workspace.Bent.Straight.Ends[static_cast<std::size_t>(hit.Pixel)] = PacketResult::Somewhere;
-      }
+      continue;
     }
-    if (counts)
+    const int column = box.Left + number % EntryRaster::TileSize;
+    const int row = box.Bottom + number / EntryRaster::TileSize;
+    PacketRay ray = this->RayOf(column, row, opaqueDepth, bent ? bent[number].Depth : 1.0e+30);
+    if (ray.StartDepth < ray.EndDepth)
     {
-      workspace.Entries.push_back(hit.Entry);
-      workspace.Rays.back().EndEntry = static_cast<std::int32_t>(workspace.Entries.size());
+      ray.FirstEntry = entries.GetBegin(inTile);
+      ray.EndEntry = entries.GetBegin(inTile + 1);
+      workspace.Pixels.push_back(std::int64_t{ row } * this->Input.Rays.GetWidth() + column);
+      workspace.Rays.push_back(ray);
+    }
+    else if (bent)
+    {
+      // The membrane may be within the mesh all the same.
+      workspace.Bent.Straight.Ends[inTile] = PacketResult::Somewhere;
     }
   }
 }
@@ -139,10 +130,14 @@ void TileCaster::SetOptics(PacketJob& job) const
   job.NumberOfSurfaces = sizeOf(tables.Surfaces);
   job.Lighting = this->Input.Lighting;
   job.VertexGradients = this->Input.VertexGradients ? &this->Input.VertexGradients->x : nullptr;
+  job.CellGradients = this->Input.CellGradients ? &this->Input.CellGradients->x : nullptr;
   job.GradientToFrame = &this->Input.GradientToFrame;
   job.Intervals = tables.Intervals.data();
   job.NumberOfIntervals = sizeOf(tables.Intervals);
   job.TerminationTransmittance = this->Input.TerminationTransmittance;
+  const ScalarRange& range = this->Input.DataRange;
+  job.SharePerScalar = static_cast<float>(1.0 / (range.Highest - range.Lowest));
+  job.ShareAtZero = static_cast<float>(-range.Lowest / (range.Highest - range.Lowest));
   job.Mixture = this->Input.Mixture;
   job.Components = this->Input.Components ? &this->Input.Components->x : nullptr;
   for (std::size_t i = 0; i < tables.OtherIntervals.size(); ++i)
@@ -165,7 +160,7 @@ void TileCaster::CastStraight(PacketJob& job, Workspace& workspace) const
   }
   job.Rays = workspace.Rays.data();
   job.NumberOfRays = static_cast<std::int32_t>(workspace.Rays.size());
-  job.Entries = workspace.Entries.data();
+  job.Entries = workspace.Entries.Lists.GetEntries().data();
   job.Results = workspace.Results.data();
   CastPackets(job, this->Input.Set);
 }
@@ -243,17 +238,18 @@ RayStatistics TileCaster::Cast(
     workspace.Bent.Straight.Clear(
       this->Input.Blending, behindOnly ? PacketResult::Somewhere : PacketResult::Outside);
   }
-  workspace.Hits.clear();
   const bool straight = !bent || (!behindOnly && this->IsMeshInFront(tile, bent));
   if (!straight && this->Input.Bent.Part == MembranePart::InFront)
   {
     return RayStatistics();
   }
+  workspace.Rays.clear();
+  workspace.Pixels.clear();
   if (straight)
   {
-    this->Raster.CollectHits(tile, workspace.Hits);
+    this->Raster.CollectEntries(tile, workspace.Entries);
+    this->TakeRays(tile, opaqueDepth, bent, workspace);
   }
-  this->TakeHits(tile, opaqueDepth, bent, workspace);
   const TetrahedralMesh& mesh = *this->Input.Mesh;
   PacketJob job{};
   this->SetOptics(job);

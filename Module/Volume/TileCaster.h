@@ -58,12 +58,16 @@ public:
     /** How the components of vertices mix in composite blending, and those beside the scalar. */
     PacketMixture Mixture = PacketMixture::None;
     const glm::vec3* Components = nullptr;
+    /** Normalised scalars that additive blending counts as 0 and as 1. */
+    ScalarRange DataRange;
     /** Looked up in place of the transfer function; null for none. */
     const PreIntegrationTable* PreIntegration = nullptr;
     /** Of isosurfaces and of composite blending; null for none. */
     const SurfaceLighting* Lighting = nullptr;
     /** One per vertex, in normalised model coordinates; null for those of the cells. */
     const glm::vec3* VertexGradients = nullptr;
+    /** One per cell, likewise; needed by light and gradient opacity without those of vertices. */
+    const glm::vec3* CellGradients = nullptr;
     glm::dmat3 GradientToFrame{ 1.0 };
     /** Whether gradients change the attenuation, by the table of that. */
     bool GradientOpacity = false;
@@ -89,8 +93,7 @@ public:
   /** Room for the work of one thread. */
   struct Workspace
   {
-    std::vector<EntryRaster::Hit> Hits;
-    std::vector<PacketEntry> Entries;
+    EntryRaster::Workspace Entries;
     std::vector<PacketRay> Rays;
     std::vector<PacketResult> Results;
     std::vector<std::int64_t> Pixels;
@@ -106,7 +109,7 @@ public:
 
 private:
   PacketRay RayOf(int column, int row, const float* opaqueDepth, double farthest) const;
-  void TakeHits(
+  void TakeRays(
     int tile, const float* opaqueDepth, const BentRay* bent, Workspace& workspace) const;
   void SetOptics(PacketJob& job) const;
   bool IsMeshInFront(int tile, const BentRay* bent) const;

@@ -28,15 +28,6 @@ TransferFunctionInterval ConstantInterval(
 }
 
 //------------------------------------------------------------------------------
-ScalarNormalization NormalizeRange(double minimum, double maximum)
-{
-  const double half = 0.5 * maximum - 0.5 * minimum;
-  const double scale = 1.0 / half;
-  return { 0.5 * minimum + 0.5 * maximum,
-    scale <= std::numeric_limits<double>::max() && scale > 0.0 ? scale : 1.0 };
-}
-
-//------------------------------------------------------------------------------
 std::vector<TransferFunctionInterval> BuildIntervals(
   const std::vector<TransferFunctionPoint>& points, const ScalarNormalization& normalization)
 {
@@ -47,7 +38,7 @@ std::vector<TransferFunctionInterval> BuildIntervals(
     return intervals;
   }
   const auto normalized = [&normalization](const TransferFunctionPoint& point)
-  { return ToFloat((point.Scalar - normalization.Offset) * normalization.Scale); };
+  { return ToFloat(normalization(point.Scalar)); };
 
   intervals.reserve(points.size() + 1);
   intervals.push_back(ConstantInterval(-Beyond, normalized(points.front()), points.front()));
@@ -66,6 +57,24 @@ std::vector<TransferFunctionInterval> BuildIntervals(
   }
   intervals.push_back(ConstantInterval(normalized(points.back()), Beyond, points.back()));
   return intervals;
+}
+
+//------------------------------------------------------------------------------
+std::vector<ScalarFeature> FeaturesOf(const std::vector<TransferFunctionPoint>& points)
+{
+  std::vector<ScalarFeature> features;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  {
+    const TransferFunctionPoint& a = points[i];
+    const TransferFunctionPoint& b = points[i + 1];
+    if (a.Attenuation != b.Attenuation || a.Color != b.Color)
+    {
+      const double width = b.Scalar - a.Scalar;
+      features.push_back({ a.Scalar, width });
+      features.push_back({ b.Scalar, width });
+    }
+  }
+  return features;
 }
 
 }

@@ -3,6 +3,8 @@
 #ifndef meniscus_Volume_TransferFunction_h
 #define meniscus_Volume_TransferFunction_h
 
+#include "Volume/ScalarNormalization.h"
+
 #include <glm/vec3.hpp>
 
 #include <vector>
@@ -31,21 +33,6 @@ struct TransferFunctionInterval
   glm::vec3 ColorSlope;
 };
 
-/** Normalised scalar = (scalar - Offset) * Scale; maps the data's range to [-1, 1]. */
-struct ScalarNormalization
-{
-  double Offset = 0.0;
-  double Scale = 1.0;
-
-  bool operator==(const ScalarNormalization& other) const
-  {
-    return this->Offset == other.Offset && this->Scale == other.Scale;
-  }
-  bool operator!=(const ScalarNormalization& other) const { return !(*this == other); }
-};
-
-ScalarNormalization NormalizeRange(double minimum, double maximum);
-
 /**
  * The intervals of a transfer function for float evaluation: piecewise linear attenuation and
  * colour between `points` (ascending scalars), constant outside of them. They cover every finite
@@ -53,6 +40,9 @@ ScalarNormalization NormalizeRange(double minimum, double maximum);
  */
 std::vector<TransferFunctionInterval> BuildIntervals(
   const std::vector<TransferFunctionPoint>& points, const ScalarNormalization& normalization);
+
+/** The features of the function of such points: where it changes, and over which width. */
+std::vector<ScalarFeature> FeaturesOf(const std::vector<TransferFunctionPoint>& points);
 
 }
 

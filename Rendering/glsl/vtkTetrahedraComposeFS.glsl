@@ -10,20 +10,48 @@ in vec2 texCoord;
 //VTK::Output::Dec
 
 uniform sampler2D image;
-// What is there, from the viewport's corner on, if it is not blended with by the framebuffer.
+// Contents of the framebuffer from the viewport's corner on, if the framebuffer does not blend.
 uniform sampler2D under;
 uniform vec2 corner;
 uniform bool hasUnder;
-// Added to the colour of what is not transparent.
+// Bias of a picture that is composited later, in steps of 1/255; 0 if it is not.
 uniform float colorBias;
+
+const float STEPS = 255.0;
+
+// Rounds to whole steps, up or down by the bias, such that no colour exceeds the opacity: the sum of
+// whole steps front + back (255 - opacity) / 255 is then at most 255. Whatever the rounding of the
+// opacity takes from a colour behind, between none and all of it, half is made up for: half a step of
+// error in place of a whole one for a colour that is not known here.
+vec4 roundForCompositing(vec4 exact)
+{
+  vec4 inSteps = STEPS * exact;
+  float opacity = min(floor(inSteps.a + colorBias + 0.5), STEPS);
+  float behind = 0.5 * (opacity - inSteps.a);
+  vec3 color = floor(inSteps.rgb + colorBias + behind + 0.5);
+  return vec4(clamp(color, 0.0, opacity), opacity) / STEPS;
+}
+
+// The same where the framebuffer blends and rounds: a rounding that is monotonous keeps the order of
+// colour and opacity.
+vec4 biasForCompositing(vec4 exact)
+{
+  float opacity = min(exact.a + colorBias / STEPS, 1.0);
+  return vec4(min(exact.rgb + colorBias / STEPS, opacity), opacity);
+}
 
 void main()
 {
   vec4 color = texture(image, texCoord);
-  color.rgb += color.a > 0.0 ? colorBias : 0.0;
+  bool biased = colorBias > 0.0 && color.a > 0.0;
   if (hasUnder)
   {
     color += (1.0 - color.a) * texelFetch(under, ivec2(gl_FragCoord.xy - corner), 0);
+    color = biased ? roundForCompositing(color) : color;
+  }
+  else
+  {
+    color = biased ? biasForCompositing(color) : color;
   }
   gl_FragData[0] = color;
 }

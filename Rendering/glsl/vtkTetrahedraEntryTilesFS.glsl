@@ -1,5 +1,6 @@
 //VTK::System::Dec
 #extension GL_ARB_gpu_shader5 : enable
+#extension GL_ARB_shader_bit_encoding : enable
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
@@ -25,8 +26,17 @@ uniform float tileSize;
 uniform vec2 tileCount;
 
 const int CAPACITY = 32;
-// Bounds rounding of a sum of three edge areas, each to 2^24.
-const float AREA_MARGIN = 67108864.0;
+// Bounds, relative to the products that areas are made of, what rounding of u and v to floats (2^-24),
+// of the central ray and of another, and of the sums here changes: 4 * 2^-24 and a few times 2^-24.
+const float AREA_ROUNDING = 9.5367431640625e-07;
+// By how much (u, v) differ from affine functions of the pixel, in grid units: a ray's offset by 1/2
+// (behind a membrane), its slope by 1/8, the product of slope and depth by 1/8.
+const float GRID_ROUNDING = 1.0;
+
+// Tiles whose rays are farther apart search the tree: the mesh's radius.
+const float LARGEST_REACH = 536870912.0;
+// The most by which a sight point's depth is refined.
+const int DEPTH_SLACK = 128;
 
 // By how much (u, v) of a vertex at depth 0, and more per unit of depth, differs among the rays.
 vec2 reach;
@@ -34,23 +44,38 @@ vec2 reachPerDepth;
 
 // By how much the area of (ray, p, q) differs among the rays: with p and q displaced by d and
 // d + t (q.z - p.z), it changes by d x (q - p) + t (q.z - p.z) x p and the product of the two.
-float areaReach(RayVertex p, RayVertex q)
+float areaReach(vec3 p, vec3 q)
 {
   vec2 d = reach + reachPerDepth * abs(p.z);
   vec2 t = reachPerDepth * abs(q.z - p.z);
   vec2 edge = abs(q.xy - p.xy);
   vec2 from = abs(p.xy) + d;
-  return d.x * edge.y + d.y * edge.x + t.x * from.y + t.y * from.x + AREA_MARGIN;
+  return d.x * edge.y + d.y * edge.x + t.x * from.y + t.y * from.x;
+}
+
+// By how much rounding changes that area for any of the rays.
+float areaRounding(vec3 p, vec3 q)
+{
+  vec2 from = abs(p.xy) + reach + reachPerDepth * abs(p.z) + vec2(GRID_ROUNDING);
+  vec2 to = abs(q.xy) + reach + reachPerDepth * abs(q.z) + vec2(GRID_ROUNDING);
+  return AREA_ROUNDING * (from.x * to.y + from.y * to.x) +
+    GRID_ROUNDING * (from.x + from.y + to.x + to.y);
 }
 
 // By how much the area of (p, q, r) seen along the rays differs: by the slopes only.
-float faceAreaReach(RayVertex p, RayVertex q, RayVertex r)
+float faceAreaReach(vec3 p, vec3 q, vec3 r)
 {
-  vec3 e = abs(q.xyz - p.xyz);
-  vec3 f = abs(r.xyz - p.xyz);
+  vec3 e = abs(q - p);
+  vec3 f = abs(r - p);
   vec2 te = reachPerDepth * e.z;
   vec2 tf = reachPerDepth * f.z;
-  return te.x * (f.y + tf.y) + te.y * (f.x + tf.x) + tf.x * e.y + tf.y * e.x + AREA_MARGIN;
+  return te.x * (f.y + tf.y) + te.y * (f.x + tf.x) + tf.x * e.y + tf.y * e.x;
+}
+
+// A vertex about the central ray: u and v in grid units, depth in the frame.
+vec3 seen(RayVertex p)
+{
+  return vec3(placeOf(p), frameDepthOf(p.z));
 }
 
 // Whether some ray of the tile may enter the mesh by the face.
@@ -62,14 +87,18 @@ bool mayEnter(int index)
   RayVertex r = fetchVertex(record.z);
   float entering = float((record.x < 0 ? -1 : 1) * enteringSign);
   vec3 areas = entering * vec3(edgeArea(p, q), edgeArea(q, r), edgeArea(r, p));
-  vec3 reaches = vec3(areaReach(p, q), areaReach(q, r), areaReach(r, p));
+  vec3 a = seen(p);
+  vec3 b = seen(q);
+  vec3 c = seen(r);
+  areas += vec3(areaRounding(a, b), areaRounding(b, c), areaRounding(c, a));
+  vec3 reaches = vec3(areaReach(a, b), areaReach(b, c), areaReach(c, a));
   return all(greaterThanEqual(areas + reaches, vec3(0.0))) &&
-    areas.x + areas.y + areas.z + faceAreaReach(p, q, r) >= 0.0;
+    areas.x + areas.y + areas.z + faceAreaReach(a, b, c) >= 0.0;
 }
 
 #if BENDING
 // A texel of the tile's pixel number i; those outside of the image are the next in it.
-vec4 fetchLine(int i, int texel)
+ivec4 fetchLine(int i, int texel)
 {
   int columns = int(tileSize);
   ivec2 size = ivec2(textureSize(bentLines, 0).x / 2, textureSize(bentLines, 0).y);
@@ -82,53 +111,54 @@ vec4 fetchLine(int i, int texel)
 // Sets up the central ray. Yields where all rays end; whether there is one for all. False if there is
 // none.
 #if BEHIND
-bool setUpTile(out float end, out bool alike)
+bool setUpTile(out int end, out bool alike)
 {
-  // Origin and slope.
-  vec4 least = vec4(1.0e+30);
-  vec4 most = vec4(-1.0e+30);
+  // Offset and slope.
+  ivec4 least = ivec4(2147483647);
+  ivec4 most = ivec4(-2147483647);
   int frame = -1;
   end = AFTER_EVERYTHING;
   alike = true;
   for (int i = 0; i < int(tileSize * tileSize); ++i)
   {
-    vec4 place = fetchLine(i, 1);
-    if (place.z > 0.0)
+    ivec4 place = fetchLine(i, 1);
+    if (intBitsToFloat(place.z) > 0.0)
     {
-      vec4 line = fetchLine(i, 0);
+      ivec4 line = fetchLine(i, 0);
       least = min(least, line);
       most = max(most, line);
-      alike = alike && (frame < 0 || frame == int(place.w));
-      frame = int(place.w);
+      alike = alike && (frame < 0 || frame == (place.w & 255));
+      frame = place.w & 255;
     }
   }
   if (frame < 0)
   {
     return false;
   }
-  vec4 middle = 0.5 * (least + most);
-  setUpBentRay(frame, middle.xy, middle.zw, vec2(0.0));
+  // To 2 units, for halves are rounded.
+  setUpBentRay(frame, (least >> 1) + (most >> 1), vec2(0.0));
   // The lines are those of the pixels' centres: there is no room between for rounding to the grid.
-  vec4 spread = 0.5 * (most - least);
-  reach = spread.xy * gridScale + vec2(BOX_MARGIN);
-  reachPerDepth = spread.zw * gridScale;
+  vec4 spread = 0.5 * (vec4(most) - vec4(least));
+  reach = spread.xy + vec2(BOX_MARGIN);
+  // Slopes are per grid unit of depth, in units of 2^-32.
+  reachPerDepth = spread.zw * (GRID_PER_DEPTH / 4294967296.0) + vec2(BOX_MARGIN);
   return true;
 }
 #else
-bool setUpTile(out float end, out bool alike)
+bool setUpTile(out int end, out bool alike)
 {
   vec2 pixel = (floor(texCoord * tileCount) + vec2(0.5)) * tileSize - imageCenter;
   setUpRay(pixel, vec2(0.0));
   vec2 originReach = 0.5 * tileSize * (abs(originPerColumn) + abs(originPerRow));
   vec2 slopeReach = 0.5 * tileSize * (abs(slopePerColumn) + abs(slopePerRow));
-  reach = originReach * gridScale;
-  reachPerDepth = slopeReach * gridScale;
+  reach = originReach * gridPerUnit;
+  reachPerDepth = slopeReach * gridPerUnit;
   alike = true;
 #if BENDING
   end = BEFORE_EVERYTHING;
   for (int i = 0; i < int(tileSize * tileSize); ++i)
   {
-    end = max(end, fetchLine(i, 1).x);
+    end = max(end, gridDepthOf(intBitsToFloat(fetchLine(i, 1).x)) + DEPTH_SLACK);
   }
 #else
   end = AFTER_EVERYTHING;
@@ -139,11 +169,14 @@ bool setUpTile(out float end, out bool alike)
 
 void main()
 {
-  float end;
+  int end;
   bool alike;
-  bool nearMesh = setUpTile(end, alike) && alike &&
-    all(lessThanEqual(
-      abs(rayOrigin), vec2(GRID_RADIUS + BOX_MARGIN) + reach + 2.0 * reachPerDepth));
+  bool nearMesh = setUpTile(end, alike) &&
+    all(lessThanEqual(abs(rayOrigin),
+      vec2(length(rayU), length(rayV)) + vec2(BOX_MARGIN) + reach + 2.0 * reachPerDepth));
+  // Coordinates about the central ray of a tile that is larger than the mesh may not fit.
+  alike = alike && !(nearMesh && any(greaterThan(reach + reachPerDepth, vec2(LARGEST_REACH))));
+  nearMesh = nearMesh && alike;
 
   vec4 list[8];
   for (int i = 0; i < 8; ++i)
@@ -155,7 +188,7 @@ void main()
   while (node < numberOfNodes && count <= CAPACITY)
   {
     int leaf;
-    meetsBox(node, reach, reachPerDepth, vec2(BEFORE_EVERYTHING, end), node, leaf);
+    meetsBox(node, reach, reachPerDepth, ivec2(BEFORE_EVERYTHING, end), node, leaf);
     if (leaf >= 0 && mayEnter(leaf))
     {
       if (count < CAPACITY)

@@ -4,6 +4,9 @@
 // Gradients and lights. Positions and directions are in the frame of the view (x, y, depth), whose
 // metric is the world's up to a factor.
 
+// Normalised model coordinates in units of MODEL_UNIT; bits of the normalised scalar.
+uniform isamplerBuffer modelVertices;
+const float MODEL_UNIT = 1.0 / 1073741824.0; // TetrahedralMesh::PositionUnit
 uniform mat3 gradientToFrame;        // from normalised model coordinates
 uniform float gradientMagnitude;     // per length in the frame: scalar per world length, normalised
 uniform int firstGradientInterval;   // gradient opacity follows the intervals of the scalar
@@ -20,6 +23,17 @@ uniform vec4 lightCone[NUMBER_OF_LIGHTS];        // axis, cosine of the angle (-
 uniform vec4 lightFalloff[NUMBER_OF_LIGHTS];     // by distance^0, 1, 2; exponent in the cone
 #endif
 
+#if CELL_GRADIENTS
+uniform samplerBuffer cellGradients;
+
+// Gradient of the scalar in a cell; 0 in one without volume.
+vec3 cellGradient(int index)
+{
+  return texelFetch(cellGradients, index).xyz;
+}
+#endif
+
+#if CELL_SCALARS
 // The vertices of the cell that the ray is leaving; the three first are those of its exit.
 ivec4 cellVertices(int index)
 {
@@ -33,29 +47,21 @@ ivec4 cellVertices(int index)
 #endif
 }
 
-// Gradient of the scalar in that cell; 0 in one without volume.
-vec3 cellGradient(int index)
+// A vertex less another, in units of MODEL_UNIT: exact up to the rounding of the float.
+vec4 fromVertex(ivec4 from, int vertex)
 {
-  ivec4 v = cellVertices(index);
-  vec4 p = texelFetch(vertices, v.x);
-  vec4 a = texelFetch(vertices, v.y) - p;
-  vec4 b = texelFetch(vertices, v.z) - p;
-  vec4 c = texelFetch(vertices, v.w) - p;
-  vec3 bc = cross(b.xyz, c.xyz);
-  float volume = dot(a.xyz, bc);
-  vec3 sum = a.w * bc + b.w * cross(c.xyz, a.xyz) + c.w * cross(a.xyz, b.xyz);
-  return volume != 0.0 ? sum / volume : vec3(0.0);
+  ivec4 p = texelFetch(modelVertices, vertex);
+  return vec4(vec3(p.xyz - from.xyz), intBitsToFloat(p.w) - intBitsToFloat(from.w));
 }
 
-#if CELL_SCALARS
 // Normal of the face by which the ray entered that cell: of all vertices but the apex.
 vec3 faceNormal(int index)
 {
   ivec4 v = cellVertices(index);
   ivec3 entered =
     ivec3(v.x == apex ? v.w : v.x, v.y == apex ? v.w : v.y, v.z == apex ? v.w : v.z);
-  vec3 p = texelFetch(vertices, entered.x).xyz;
-  return cross(texelFetch(vertices, entered.y).xyz - p, texelFetch(vertices, entered.z).xyz - p);
+  ivec4 p = texelFetch(modelVertices, entered.x);
+  return cross(fromVertex(p, entered.y).xyz, fromVertex(p, entered.z).xyz);
 }
 #endif
 

@@ -7,21 +7,42 @@ uniform sampler3D preIntegrated;     // colour / opacity, mean attenuation
 uniform vec2 preIntegratedSize;      // numbers of scalars and of lengths
 uniform float shortestLengthReciprocal;
 uniform float lengthsPerOctave;
+uniform vec2 preIntegratedRange;     // its middle, and the reciprocal of half its width
 
 void startPart(float scalar)
 {
 }
 
-bool integratePiece()
+// A part of the segment between two places of the table, in [-1, 1].
+void addPart(vec2 places, float partLength)
 {
   // The lengths are 0, then a geometric sequence.
-  float relative = segmentLength * shortestLengthReciprocal;
+  float relative = partLength * shortestLengthReciprocal;
   float at = relative < 1.0 ? relative : 1.0 + lengthsPerOctave * log2(relative);
-  vec2 scalars = (0.5 * vec2(segmentStart, segmentEnd) + 0.5) * (preIntegratedSize.x - 1.0);
+  vec2 scalars = (0.5 * places + 0.5) * (preIntegratedSize.x - 1.0);
   vec4 mean = textureLod(
     preIntegrated, (vec3(scalars, at) + vec3(0.5)) / preIntegratedSize.xxy, 0.0);
-  float gone = 1.0 - exp(-mean.a * segmentLength);
+  float gone = 1.0 - exp(-mean.a * partLength);
   color += transmittance * gone * mean.rgb;
   transmittance -= transmittance * gone;
+}
+
+bool integratePiece()
+{
+  vec2 ends = (vec2(segmentStart, segmentEnd) - preIntegratedRange.x) * preIntegratedRange.y;
+  vec2 within = clamp(ends, -1.0, 1.0);
+  if (ends == within)
+  {
+    addPart(ends, segmentLength);
+    return true;
+  }
+  // Beyond the range of the table the function is constant.
+  float change = ends.y - ends.x;
+  float before = ends.x == within.x ? 0.0 : change == 0.0 ? 1.0 : (within.x - ends.x) / change;
+  before = clamp(before, 0.0, 1.0);
+  float inside = change == 0.0 ? 0.0 : clamp((within.y - within.x) / change, 0.0, 1.0 - before);
+  addPart(within.xx, before * segmentLength);
+  addPart(within, inside * segmentLength);
+  addPart(within.yy, (1.0 - before - inside) * segmentLength);
   return true;
 }

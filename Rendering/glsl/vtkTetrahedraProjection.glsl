@@ -42,6 +42,8 @@ void collect(float term)
 
 #if BLEND_MODE == ADDITIVE
 
+uniform vec2 rangeShare;             // share of the data's range: at 0, per normalised scalar
+
 void startPart(float scalar)
 {
   findInterval(scalar);
@@ -59,7 +61,7 @@ bool integratePiece()
   vec3 scalars = vec3(segmentScalar, 0.5 * (segmentScalar + to), to);
   vec3 attenuations = intervalRange.z + (scalars - intervalRange.x) * intervalRange.w;
   collect(pieceLength / 6.0 *
-    dot(vec3(1.0, 4.0, 1.0), max(attenuations, 0.0) * (0.5 * scalars + 0.5)));
+    dot(vec3(1.0, 4.0, 1.0), max(attenuations, 0.0) * (rangeShare.x + rangeShare.y * scalars)));
   visibleLength += pieceLength;
   segmentDone = reached;
   segmentScalar = to;

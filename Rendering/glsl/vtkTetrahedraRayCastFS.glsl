@@ -1,5 +1,6 @@
 //VTK::System::Dec
 #extension GL_ARB_gpu_shader5 : enable
+#extension GL_ARB_shader_bit_encoding : enable
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause

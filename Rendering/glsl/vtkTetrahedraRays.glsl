@@ -6,10 +6,12 @@
 // TetrahedralMesh.h and BoundaryTree.h.
 //
 // All decisions are taken in the ray-aligned projection: a vertex has coordinates (u, v) about the
-// ray, the same function of vertex and ray wherever it is needed, rounded to whole grid units. The
-// sign of an edge as seen by the ray is exact, a ray through an edge or a vertex counts as displaced
-// by (e, e^2) for an arbitrarily small e, and edges whose ends coincide are ordered by vertex. So
-// every cell that is entered has exactly one face to leave by, and a walk that begins on the
+// ray, the same function of vertex and ray wherever it is needed. Vertices are placed once per view in
+// whole numbers (vtkTetrahedraPlaceFS), from which u and v follow as floats by a difference of integers,
+// the same for everybody: what is near the ray keeps all of its digits. The sign of
+// an edge as seen by the ray is that of these floats, exactly; a ray through an edge or a vertex counts
+// as displaced by (e, e^2) for an arbitrarily small e, and edges whose ends coincide are ordered by
+// vertex. So every cell that is entered has exactly one face to leave by, and a walk that begins on the
 // boundary ends on the boundary.
 
 #ifdef GL_ARB_gpu_shader5
@@ -18,7 +20,7 @@
 #define EXACTLY_AS_WRITTEN
 #endif
 
-uniform samplerBuffer vertices;      // position, normalised scalar
+uniform isamplerBuffer vertices;     // placed: x, y, depth in grid units; bits of the normalised scalar
 uniform samplerBuffer treeNodes;     // per node: (center, skip), (half, face or -1)
 uniform isamplerBuffer treeFaces;    // 3 vertices (first one complemented: faces in), cell face
 
@@ -33,67 +35,106 @@ uniform vec2 originPerRow;
 uniform vec2 slopeBase;
 uniform vec2 slopePerColumn;
 uniform vec2 slopePerRow;
+// Grid units of x and y per unit of the frame.
+uniform float gridPerUnit;
+// Offset and slope of a pixel's ray in the grid, see PixelRays::GetGridMaps(): three times (x, y,
+// fractions of x and y in units of 2^-15), the base, then per half column and per half row.
+uniform int gridOffset[12];
+uniform int gridSlope[12];
 uniform int enteringSign;            // outward * enteringSign > 0: counter-clockwise is entering
 #if BENDING
 // Rays go on behind a membrane: per pixel two texels side by side, see Module/Volume/BentLines.h, in
 // one of several frames, given by their rows and by their axes in the frame of the view.
-uniform sampler2D bentLines;
+uniform isampler2D bentLines;
 uniform vec3 frameRowX[6];
 uniform vec3 frameRowY[6];
 uniform vec3 frameRowDepth[6];
 uniform vec3 frameAxisX[6];
 uniform vec3 frameAxisY[6];
 uniform vec3 frameAxisDepth[6];
+uniform float frameGridPerUnit[6];
+uniform int frameFirstVertex[6];     // where the vertices placed in it begin
 #endif
 
-// The mesh's radius in grid units: coordinates about a ray that meets the mesh stay below 2^23,
-// where floats are whole numbers.
-const float GRID_RADIUS = 4194304.0;
-// Bounds, in grid units, the difference between a vertex's rounded coordinate and the same sum over
-// a box that holds the vertex: 3.5 of rounding sums below 2^23, 1.25 of the half extent's, 0.5 of
-// rounding to the grid.
-const float BOX_MARGIN = 8.0;
+// Grid units of depth per unit of the frame: PacketVertex::GridPerDepth.
+const float GRID_PER_DEPTH = 1073739776.0;
+const float DEPTH_UNIT = 1.0 / GRID_PER_DEPTH;
+// The mesh's radius in grid units, seen along a ray, is at most 2^29 (PixelRays), and coordinates
+// about a ray that meets the mesh are below 2^30.
+//
+// Bounds, in grid units, the difference between a vertex's u or v and the same sum in floats over a
+// box that holds the vertex. Terms are below 2^29 and rounded to 2^-24 of themselves: 3.5 * 32 for
+// those of a dot product and their sums, 3 * 32 for the rows, 3 * 16 for the box (of vertices in floats),
+// 1.25 * 32 for the half extent, 2 * 32 for the origin, 33 for u itself and its rounding to float: 393.
+const float BOX_MARGIN = 512.0;
 // The same for depths, which are below 2 in size.
 const float DEPTH_MARGIN = 1.9073486328125e-06;
-// Products of grid coordinates are below 2^46, so rounding puts their difference off by less than
-// 2^24. 32-bit integers know it up to a multiple of 2^32.
-const float WRAP = 4294967296.0;
 
-// Depths.
-const float BEFORE_EVERYTHING = -1.0e+30;
-const float AFTER_EVERYTHING = 1.0e+30;
+// Depths, in grid units. The mesh is within 2^30; limits of rays are moved to that.
+const int BEFORE_EVERYTHING = -2147483647;
+const int AFTER_EVERYTHING = 2147483647;
+const float LARGEST_LIMIT = 1073741824.0;
 
-// A vertex about the ray: u, v (grid units), depth, scalar.
-#define RayVertex vec4
+// A vertex about the ray: u and v as bits of floats, depth in grid units, bits of the scalar.
+#define RayVertex ivec4
 
-// The ray: u = dot(rayU, p) - rayOrigin.x, likewise v.
+// The ray: (u, v) = (x, y) - rayOffset - rayFraction - depth * raySlope.
+ivec2 rayOffset;
+vec2 rayFraction;
+vec2 raySlope;
+vec2 raySlopeHigh;   // its leading 9 digits
+vec2 raySlopeLow;    // the others
+// The same in floats: u = dot(rayU, p) - rayOrigin.x, likewise v.
 vec3 rayU;
 vec3 rayV;
 vec2 rayOrigin;
-vec2 gridScale;      // grid units per frame unit, in u and v
 vec3 rayPlace;       // at depth 0, in the frame of the view
 vec3 rayAlong;       // what is added to it per depth
 #if BENDING
 vec3 rayDepth;       // depth = dot(rayDepth, p)
+int rayFirstVertex;  // where the vertices placed for the ray begin
+float rayGrid;       // grid units of x and y per unit of the frame
 #define ROW_DEPTH rayDepth
+#define FIRST_VERTEX rayFirstVertex
+#define RAY_GRID rayGrid
 #else
 #define ROW_DEPTH rowDepth
+#define FIRST_VERTEX 0
+#define RAY_GRID gridPerUnit
 #endif
 
-// Sets up the line (x, y) = origin + depth * slope of the frame with these rows, but for rayPlace and
-// rayAlong. False if it passes by the mesh's bounding sphere by more than `reach` grid units.
+// Sets the slope in the grid, given in units of 2^-32.
+void setSlope(ivec2 slope)
+{
+  raySlope = vec2(slope) * (1.0 / 4294967296.0);
+  raySlopeHigh = vec2(slope >> 22) * (1.0 / 1024.0);
+  ivec2 low = slope & 4194303;
+  raySlopeLow = vec2(low) * (1.0 / 4294967296.0);
+}
+
+// Sets up the line (x, y) = origin + depth * slope of the frame with these rows, but for rayPlace,
+// rayAlong and the line in the grid. False if it passes by the mesh's bounding sphere by more than `reach` grid
+// units.
 bool setUpLine(vec3 toX, vec3 toY, vec3 toDepth, vec2 origin, vec2 slope, vec2 reach)
 {
 #if BENDING
   rayDepth = toDepth;
 #endif
-  rayU = toX - slope.x * toDepth;
-  rayV = toY - slope.y * toDepth;
-  gridScale = vec2(GRID_RADIUS) / vec2(length(rayU), length(rayV));
-  rayU *= gridScale.x;
-  rayV *= gridScale.y;
-  rayOrigin = origin * gridScale;
-  return all(lessThanEqual(abs(rayOrigin), vec2(GRID_RADIUS + BOX_MARGIN) + reach));
+  rayU = (toX - slope.x * toDepth) * RAY_GRID;
+  rayV = (toY - slope.y * toDepth) * RAY_GRID;
+  rayOrigin = origin * RAY_GRID;
+  return all(lessThanEqual(
+    abs(rayOrigin), vec2(length(rayU), length(rayV)) + vec2(BOX_MARGIN) + reach));
+}
+
+// An affine function of the pixel in the grid, rounded down, and what that leaves out, in units of
+// 2^-15; `halves` counts half pixels from the image's centre.
+ivec4 gridValue(int map[12], ivec2 halves)
+{
+  ivec4 sum = ivec4(map[0], map[1], map[2], map[3]) +
+    halves.x * ivec4(map[4], map[5], map[6], map[7]) +
+    halves.y * ivec4(map[8], map[9], map[10], map[11]);
+  return ivec4(sum.xy + (sum.zw >> 15), sum.zw & 32767);
 }
 
 // Sets up the ray of a pixel counted from the image's centre.
@@ -103,13 +144,30 @@ bool setUpRay(vec2 pixel, vec2 reach)
   vec2 slope = slopeBase + pixel.x * slopePerColumn + pixel.y * slopePerRow;
   rayPlace = vec3(origin, 0.0);
   rayAlong = vec3(slope, 1.0);
+  ivec2 halves = ivec2(floor(2.0 * pixel + vec2(0.5)));
+  ivec4 offset = gridValue(gridOffset, halves);
+  rayOffset = offset.xy;
+  rayFraction = vec2(offset.zw) * (1.0 / 32768.0);
+  setSlope(gridValue(gridSlope, halves).xy);
+#if BENDING
+  rayFirstVertex = 0;
+  rayGrid = gridPerUnit;
+#endif
   return setUpLine(rowX, rowY, rowDepth, origin, slope, reach);
 }
 
 #if BENDING
-// Sets up a line of a frame.
-bool setUpBentRay(int frame, vec2 origin, vec2 slope, vec2 reach)
+// Sets up a line of a frame, its offset and slope in the grid.
+bool setUpBentRay(int frame, ivec4 line, vec2 reach)
 {
+  rayFirstVertex = frameFirstVertex[frame];
+  rayGrid = frameGridPerUnit[frame];
+  rayOffset = line.xy;
+  rayFraction = vec2(0.0);
+  setSlope(line.zw);
+  vec2 origin = vec2(line.xy) / rayGrid;
+  // Slopes are per grid unit of depth, in units of 2^-32.
+  vec2 slope = vec2(line.zw) * (GRID_PER_DEPTH / 4294967296.0 / rayGrid);
   rayPlace = origin.x * frameAxisX[frame] + origin.y * frameAxisY[frame];
   rayAlong = slope.x * frameAxisX[frame] + slope.y * frameAxisY[frame] + frameAxisDepth[frame];
   return setUpLine(
@@ -117,35 +175,83 @@ bool setUpBentRay(int frame, vec2 origin, vec2 slope, vec2 reach)
 }
 #endif
 
+
+// Depth times slope is taken in parts: the leading 15 digits of the one times the leading 9 of the
+// other are a whole number of 24 digits, subtracted as such; the rest is below 2^21 and known to 1/8.
 RayVertex fetchVertex(int index)
 {
-  vec4 p = texelFetch(vertices, index);
-  EXACTLY_AS_WRITTEN vec2 uv =
-    floor(vec2(dot(rayU, p.xyz), dot(rayV, p.xyz)) - rayOrigin + vec2(0.5));
-  return vec4(uv, dot(ROW_DEPTH, p.xyz), p.w);
+  ivec4 p = texelFetch(vertices, FIRST_VERTEX + index);
+  float high = float(p.z & -32768);
+  float low = float(p.z & 32767);
+  EXACTLY_AS_WRITTEN vec2 leading = high * raySlopeHigh;
+  EXACTLY_AS_WRITTEN vec2 rest = high * raySlopeLow + (low * raySlope + rayFraction);
+  EXACTLY_AS_WRITTEN vec2 uv = vec2(p.xy - rayOffset - ivec2(leading)) - rest;
+  return ivec4(floatBitsToInt(uv), p.zw);
 }
 
-// Twice the area of (ray, p, q): its sign and zero are exact, its size is to 2^-23, however much of
-// the products cancels. On needles of 1e4 seen aslant that is all but 2^-11: what a face's depth is
-// interpolated by.
+vec2 placeOf(RayVertex p)
+{
+  return intBitsToFloat(p.xy);
+}
+
+float vertexScalar(RayVertex p)
+{
+  return intBitsToFloat(p.w);
+}
+
+// Depth in the frame.
+float frameDepthOf(int depth)
+{
+  return float(depth) * DEPTH_UNIT;
+}
+
+// A depth of the frame in grid units, or what is likewise before or behind all of the mesh.
+int gridDepthOf(float depth)
+{
+  return int(clamp(depth * GRID_PER_DEPTH, -LARGEST_LIMIT, LARGEST_LIMIT));
+}
+
+// The 12 leading of a float's 24 binary digits; the others are the difference.
+vec2 leadingDigits(vec2 x)
+{
+  return intBitsToFloat(floatBitsToInt(x) & -4096);
+}
+
+// Twice the area of (ray, p, q), a.x b.y - a.y b.x: its sign and zero are exact, its size is to 2^-22,
+// however much of the products cancels. The products' rounding errors are found without error (T. J.
+// Dekker, 1971; products of 12 digits are exact, whether fused or not) and added: the method of Cornea,
+// Harrison and Tang, whose relative error is at most 2^-23 or so (C.-P. Jeannerod, "A radix-independent
+// error analysis of the Cornea-Harrison-Tang method", 2016). Coordinates are multiples of 2^-15 below
+// 2^31, so nothing under- or overflows.
 float edgeArea(RayVertex p, RayVertex q)
 {
-  float rounded = p.x * q.y - p.y * q.x;
-  float wrapped = float(int(p.x) * int(q.y) - int(p.y) * int(q.x));
-  return wrapped + WRAP * floor((rounded - wrapped) * (1.0 / WRAP) + 0.5);
+  vec2 a = placeOf(p);
+  vec2 b = placeOf(q).yx;
+  vec2 highA = leadingDigits(a);
+  vec2 highB = leadingDigits(b);
+  EXACTLY_AS_WRITTEN vec2 lowA = a - highA;
+  EXACTLY_AS_WRITTEN vec2 lowB = b - highB;
+  EXACTLY_AS_WRITTEN vec2 product = a * b;
+  EXACTLY_AS_WRITTEN vec2 rest =
+    ((highA * highB - product) + highA * lowB + lowA * highB) + lowA * lowB;
+  EXACTLY_AS_WRITTEN float area = (product.x - product.y) + (rest.x - rest.y);
+  return area;
 }
 
 // Whether (ray, p, q) is counter-clockwise, with the ray displaced by (e, e^2): the area less
 // e (q.y - p.y) plus e^2 (q.x - p.x).
 bool edgeTurnsLeft(RayVertex p, RayVertex q, float area, bool pBeforeQ)
 {
-  float decisive = area != 0.0 ? area : (p.y != q.y ? p.y - q.y : q.x - p.x);
+  vec2 a = placeOf(p);
+  vec2 b = placeOf(q);
+  float decisive = area != 0.0 ? area : (a.y != b.y ? a.y - b.y : b.x - a.x);
   return decisive > 0.0 || (decisive == 0.0 && pBeforeQ);
 }
 
 // Whether the boundary tree's box number `node` may hold a vertex within `reach` grid units of the
-// ray, given per unit of 1 and of depth. Yields the node to go on with and the leaf's face, or -1.
-bool meetsBox(int node, vec2 reach, vec2 reachPerDepth, vec2 depthRange, out int next, out int leaf)
+// ray, given per unit of 1 and of depth, in a range of depths in grid units. Yields
+// the node to go on with and the leaf's face, or -1.
+bool meetsBox(int node, vec2 reach, vec2 reachPerDepth, ivec2 depthRange, out int next, out int leaf)
 {
   vec4 center = texelFetch(treeNodes, 2 * node);
   vec4 extent = texelFetch(treeNodes, 2 * node + 1);
@@ -155,7 +261,8 @@ bool meetsBox(int node, vec2 reach, vec2 reachPerDepth, vec2 depthRange, out int
   vec2 extentUV = vec2(dot(abs(rayU), extent.xyz), dot(abs(rayV), extent.xyz)) + vec2(BOX_MARGIN) +
     reach + reachPerDepth * (abs(depth) + depthReach);
   bool hit = abs(middle.x) <= extentUV.x && abs(middle.y) <= extentUV.y &&
-    depth - depthReach <= depthRange.y && depth + depthReach >= depthRange.x;
+    depth - depthReach <= frameDepthOf(depthRange.y) &&
+    depth + depthReach >= frameDepthOf(depthRange.x);
   leaf = hit ? int(extent.w) : -1;
   next = hit ? node + 1 : int(center.w);
   return hit;

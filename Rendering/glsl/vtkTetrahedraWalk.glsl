@@ -14,11 +14,10 @@
 #define FIRST_LINK 4
 #endif
 uniform isamplerBuffer cells;
-uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetrahedraEntryTilesFS
 #if BENDING
-uniform sampler3D bentTiles;         // the same for the rays behind the membrane
 uniform bool beginsInside;           // whether a ray behind the membrane may begin within the mesh
 uniform int membranePart;            // what is drawn, see MembranePart: all, or
+const float NOWHERE = 1.0e+30; // BentLine::Nowhere
 const int PART_IN_FRONT = 1;
 const int PART_BEHIND = 2;
 #endif
@@ -50,16 +49,15 @@ uniform samplerBuffer vertexComponents;
 uniform samplerBuffer cellScalars;   // one per cell; those of the vertices do not count
 #endif
 
-const int TILE_CAPACITY = 32;
-
 vec2 rayPixel;       // from the image's centre
 vec2 rayTilePixel;   // from its lower left corner
-float rayLengthPerDepth;
-float startDepth;
-float endDepth;
+float rayLengthPerDepth; // per grid unit of depth
+int startDepth;
+int endDepth;
 #if BENDING
 bool rayIsBent;      // behind the membrane
-float membraneDepth; // where it is on the straight ray
+float membraneDepth; // where it is on the straight ray, in the frame
+int membraneAt;      // the same in grid units
 int cycleStart;      // link to the face within the mesh by which the walk began; else -1
 ivec4 nearFace;      // that face: vertices, counter-clockwise, and link
 const int NEAR_FACE = -2;
@@ -74,9 +72,9 @@ int apex;            // the vertex of the cell that the face entered by does not
 vec3 edges;          // twice the areas that edges ab, bc, ca span with the ray
 int cell;
 int face;
-float faceDepth;     // where the ray meets that face
+int faceDepth;       // where the ray meets that face
 float faceScalar;    // of scalars of cells, the last one that counted
-float depthNow;      // the largest depth reached
+int depthNow;        // the largest depth reached
 
 // The segment whose ray integral is pending.
 float segmentLength;
@@ -139,13 +137,13 @@ vec4 finishRay();
 // lies before the largest depth reached, because of rounding, an inverted cell or cells that overlap,
 // has been passed already and does not count again. Nor does a cell with a vertex without scalar.
 #if VERTEX_VALUES
-bool advance(float exitDepth, float exitScalar, VertexValues exitValues)
+bool advance(int exitDepth, float exitScalar, VertexValues exitValues)
 #else
-bool advance(float exitDepth, float exitScalar)
+bool advance(int exitDepth, float exitScalar)
 #endif
 {
-  float from = max(depthNow, startDepth);
-  float to = min(exitDepth, endDepth);
+  int from = max(depthNow, startDepth);
+  int to = min(exitDepth, endDepth);
 #if CELL_SCALARS
   // One scalar throughout the cell. Isosurfaces also see the jump to it, unless the ray begins behind
   // that.
@@ -156,23 +154,22 @@ bool advance(float exitDepth, float exitScalar)
   segmentStart = segmentEnd;
 #endif
 #else
-  float perDepth = (exitScalar - faceScalar) / (exitDepth - faceDepth);
-  segmentStart = from > faceDepth ? faceScalar + (from - faceDepth) * perDepth : faceScalar;
-  segmentEnd = to < exitDepth ? faceScalar + (to - faceDepth) * perDepth : exitScalar;
+  float perDepth = (exitScalar - faceScalar) / float(exitDepth - faceDepth);
+  // Exact where nothing is cut off: `from` is not before the face entered by, `to` not behind the exit.
+  segmentStart = faceScalar + float(from - faceDepth) * perDepth;
+  segmentEnd = exitScalar + float(to - exitDepth) * perDepth;
 #endif
   segmentScalar = segmentStart;
   segmentDone = 0.0;
-  segmentLength = (to - from) * rayLengthPerDepth;
+  segmentLength = float(to - from) * rayLengthPerDepth;
 #if NEEDS_POSITION
-  segmentStartDepth = from;
-  segmentEndDepth = to;
+  segmentStartDepth = frameDepthOf(from);
+  segmentEndDepth = frameDepthOf(to);
 #endif
 #if VERTEX_VALUES
-  VertexValues valuesPerDepth = (exitValues - faceValues) / (exitDepth - faceDepth);
-  segmentValuesStart =
-    from > faceDepth ? faceValues + (from - faceDepth) * valuesPerDepth : faceValues;
-  segmentValuesEnd =
-    to < exitDepth ? faceValues + (to - faceDepth) * valuesPerDepth : exitValues;
+  VertexValues valuesPerDepth = (exitValues - faceValues) / float(exitDepth - faceDepth);
+  segmentValuesStart = faceValues + float(from - faceDepth) * valuesPerDepth;
+  segmentValuesEnd = exitValues + float(to - exitDepth) * valuesPerDepth;
   segmentIsNew = true;
   faceValues = exitValues;
 #endif
@@ -192,6 +189,24 @@ bool advance(float exitDepth, float exitScalar)
   faceScalar = exitScalar;
 #endif
   return counts;
+}
+
+// Interpolates depth and scalar to where the ray meets the face pqr, from the areas that its edges pq,
+// qr, rp span with the ray, about p: so small faces are as precise as large ones. Differences of depths
+// fit, for depths are below 2^30 in size. A face without projected area keeps what is given. Returns
+// 1 / total area, 0 for that.
+float meetFace(RayVertex p, RayVertex q, RayVertex r, vec3 areas, inout int depth, inout float scalar)
+{
+  float total = areas.x + areas.y + areas.z;
+  bool real = total > 0.0;
+  float inverse = 1.0 / total;
+  vec2 weights = areas.zx * inverse;
+  float ahead = dot(weights, vec2(q.z - p.z, r.z - p.z));
+  depth = real ? p.z + int(roundEven(ahead)) : depth;
+  float first = vertexScalar(p);
+  scalar =
+    real ? first + dot(weights, vec2(vertexScalar(q), vertexScalar(r)) - vec2(first)) : scalar;
+  return real ? inverse : 0.0;
 }
 
 // Crosses `cell` from `face`. Yields the link to follow; returns whether a segment is pending.
@@ -229,21 +244,19 @@ bool stepThroughCell(out int link)
   corners = ivec3(
     dropA ? number : corners.x, dropB ? number : corners.y, dropC ? number : corners.z);
 
-  // A face without projected area keeps depth and scalar.
-  float total = edges.x + edges.y + edges.z;
-  vec2 exit = total > 0.0 ? (edges.y * a.zw + edges.z * b.zw + edges.x * c.zw) * (1.0 / total)
-                          : vec2(faceDepth, faceScalar);
+  int exitDepth = faceDepth;
+  float exitScalar = faceScalar;
+  float inverse = meetFace(a, b, c, edges, exitDepth, exitScalar);
 #if VERTEX_VALUES
   VertexValues valuesX = fetchValues(number);
   valuesA = dropA ? valuesX : valuesA;
   valuesB = dropB ? valuesX : valuesB;
   valuesC = dropC ? valuesX : valuesC;
-  return advance(exit.x, exit.y,
-    total > 0.0
-      ? (edges.y * valuesA + edges.z * valuesB + edges.x * valuesC) * (1.0 / total)
-      : faceValues);
+  return advance(exitDepth, exitScalar,
+    inverse > 0.0 ? (edges.y * valuesA + edges.z * valuesB + edges.x * valuesC) * inverse
+                  : faceValues);
 #else
-  return advance(exit.x, exit.y);
+  return advance(exitDepth, exitScalar);
 #endif
 }
 
@@ -264,7 +277,9 @@ bool walk(inout int steps)
 #endif
   // What is read after the loop goes around it: Mesa's llvmpipe (22.3) lets rays that are done go on
   // computing values that are only used behind a loop, and those come out wrong (test of lost rays).
-  while (!ended && !goesRound && steps < limit)
+  // There a loop also takes a turn for nothing if its condition comes first, which in meshes of cells
+  // that share no points is every second.
+  do
   {
     if (!pending)
     {
@@ -275,7 +290,7 @@ bool walk(inout int steps)
     {
       pending = !integratePiece();
     }
-    ended = isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
+    ended = ended || isRayDone() || (!pending && (link < 0 || depthNow >= endDepth));
     if (!pending)
     {
       cell = link >> 2;
@@ -284,7 +299,7 @@ bool walk(inout int steps)
       goesRound = !ended && link == cycleStart;
 #endif
     }
-  }
+  } while (!ended && !goesRound && steps < limit);
   return ended;
 }
 
@@ -298,7 +313,8 @@ struct SeenFace
   RayVertex r;
   ivec3 numbers;
   vec3 areas;
-  vec2 point;   // depth and scalar where the ray meets it
+  int depth;    // where the ray meets it
+  float scalar; // there
   bool left;    // pqr is counter-clockwise if entered
   bool entered;
   int cellFace;
@@ -318,11 +334,10 @@ SeenFace seeTriangle(ivec3 numbers, bool left)
     edgeTurnsLeft(f.q, f.r, f.areas.y, numbers.y < numbers.z) == left &&
     edgeTurnsLeft(f.r, f.p, f.areas.z, numbers.z < numbers.x) == left;
   f.areas = abs(f.areas);
-  float total = f.areas.x + f.areas.y + f.areas.z;
   // A face without projected area is met at its first vertex.
-  f.point = total > 0.0
-    ? (f.areas.y * f.p.zw + f.areas.z * f.q.zw + f.areas.x * f.r.zw) / total
-    : f.p.zw;
+  f.depth = f.p.z;
+  f.scalar = vertexScalar(f.p);
+  meetFace(f.p, f.q, f.r, f.areas, f.depth, f.scalar);
   return f;
 }
 
@@ -343,82 +358,7 @@ SeenFace seeFace(int index)
   return f;
 }
 
-// The next entries of the ray in the order of depth, then number; -1 where there are none.
-vec4 entryDepths;
-ivec4 entryFaces;
-bool moreEntries;
-
-bool isBefore(float depth, int number, float otherDepth, int otherNumber)
-{
-  return depth < otherDepth || (depth == otherDepth && number < otherNumber);
-}
-
-void insertEntry(float depth, int number)
-{
-  moreEntries = moreEntries || entryFaces.w >= 0;
-  for (int i = 0; i < 4; ++i)
-  {
-    if (entryFaces[i] < 0 || isBefore(depth, number, entryDepths[i], entryFaces[i]))
-    {
-      float otherDepth = entryDepths[i];
-      int otherNumber = entryFaces[i];
-      entryDepths[i] = depth;
-      entryFaces[i] = number;
-      depth = otherDepth;
-      number = otherNumber;
-      if (number < 0)
-      {
-        return;
-      }
-    }
-  }
-}
-
-vec4 fetchTile(ivec2 tile, int layer)
-{
-#if BENDING
-  if (rayIsBent)
-  {
-    return texelFetch(bentTiles, ivec3(tile, layer), 0);
-  }
-#endif
-  return texelFetch(entryTiles, ivec3(tile, layer), 0);
-}
-
-// Finds the next entries after (lastDepth, lastFace) among the faces listed for the ray's tile,
-// or among those of the tree if they did not fit.
-void collectEntries(float lastDepth, int lastFace)
-{
-  ivec2 tile = ivec2(rayTilePixel / tileSize);
-  bool listed = fetchTile(tile, 0).x > -1.5;
-  entryFaces = ivec4(-1);
-  entryDepths = vec4(0.0);
-  moreEntries = false;
-  int at = 0;
-  int end = listed ? TILE_CAPACITY : numberOfNodes;
-  while (at < end)
-  {
-    int candidate;
-    if (listed)
-    {
-      candidate = int(fetchTile(tile, at / 4)[at % 4]);
-      at = candidate < 0 ? end : at + 1;
-    }
-    else
-    {
-      meetsBox(at, vec2(0.0), vec2(0.0), vec2(lastDepth, endDepth), at, candidate);
-    }
-    if (candidate >= 0)
-    {
-      SeenFace f = seeFace(candidate);
-      if (f.entered && f.point.x < endDepth &&
-        isBefore(lastDepth, lastFace, f.point.x, candidate))
-      {
-        insertEntry(f.point.x, candidate);
-      }
-    }
-  }
-}
+//VTK::TetrahedraEntries::Dec
 
 // Puts the walk on a face.
 void enter(SeenFace f)
@@ -430,11 +370,11 @@ void enter(SeenFace f)
   edges = f.left ? f.areas : f.areas.xzy;
   cell = f.cellFace >> 2;
   face = f.cellFace & 3;
-  faceDepth = f.point.x;
+  faceDepth = f.depth;
 #if CELL_SCALARS
   faceScalar = texelFetch(cellScalars, cell).r;
 #else
-  faceScalar = f.point.y;
+  faceScalar = f.scalar;
 #endif
   depthNow = max(depthNow, faceDepth);
 #if VERTEX_VALUES
@@ -453,10 +393,19 @@ void enterFirst()
 {
   enter(seeFace(entryFaces.x));
   entryFaces = ivec4(entryFaces.yzw, -1);
-  entryDepths = vec4(entryDepths.yzw, 0.0);
+  entryDepths = ivec4(entryDepths.yzw, 0);
+#if LONG_LISTS
+  entryPlaces = ivec4(entryPlaces.yzw, 0);
+#endif
 }
 
 //--- Limits ----------------------------------------------------------------------------------------
+
+// World length of a grid unit of depth.
+float lengthPerGridDepth()
+{
+  return viewToWorldUnit * length(viewToWorld * rayAlong) * DEPTH_UNIT;
+}
 
 // On the straight ray, of a depth of the window.
 float depthOf(float opaque)
@@ -466,10 +415,10 @@ float depthOf(float opaque)
   return fraction.x / fraction.y;
 }
 
-// Narrows the ray to where height + depth * perDepth is not negative.
+// Narrows the ray to where height + depth * perDepth, with the depth in the frame, is not negative.
 void clip(float height, float perDepth)
 {
-  float met = -height / perDepth;
+  int met = gridDepthOf(-height / perDepth);
   startDepth = perDepth > 0.0 ? max(startDepth, met) : startDepth;
   endDepth = perDepth < 0.0 ? min(endDepth, met) : endDepth;
   endDepth = perDepth == 0.0 && height < 0.0 ? BEFORE_EVERYTHING : endDepth;
@@ -478,10 +427,11 @@ void clip(float height, float perDepth)
 #if BENDING
 //--- Behind the membrane ---------------------------------------------------------------------------
 
-// In units of the frame, by how much an entry may lie before the sight point that the straight ray
-// says is outside of the mesh. Vertices are off by 2^-22; along a ray that leaves the boundary at an
-// angle of 2^-12 that is 2^-10. To take an entry too many costs a few steps, and changes nothing.
-const float START_MARGIN = 1.0 / 1024.0;
+// By how much an entry may lie before the sight point that the straight ray says is outside of the
+// mesh: 2^-10 of the frame's unit. Vertices are off by less than 2^-24, with u and v rounded to floats;
+// along a ray that leaves the boundary at an angle of 2^-14 that is 2^-10. To take an entry too many
+// costs a few steps, and changes nothing.
+const int START_MARGIN = 1048576;
 
 // The vertex of a cell that a face of it does not have.
 int oppositeVertex(int index, ivec3 numbers)
@@ -498,7 +448,7 @@ int oppositeVertex(int index, ivec3 numbers)
 // Finds the face by which the ray behind the membrane enters one of the two cells about the face that
 // the straight ray came to last, if that is not behind the sight point: from there a walk comes to
 // that. False if the ray passes by them.
-bool findNearFace(float sightDepth)
+bool findNearFace(int sightDepth)
 {
   int front = texelFetch(cells, CELL_SIZE * cell + FIRST_LINK + face).r >> 2;
   int number = front < 0 ? 4 : 0;
@@ -519,19 +469,56 @@ bool findNearFace(float sightDepth)
     nearFace.w = 4 * index + int(n.x < opposite) + int(n.y < opposite) + int(n.z < opposite) +
       int(last < opposite);
     SeenFace f = seeFace(NEAR_FACE);
-    found = f.entered && f.point.x <= sightDepth;
+    found = f.entered && f.depth <= sightDepth;
     number += found ? 0 : 1;
   }
   return found;
 }
 
+// A pixel's texels of bentLines.
+struct BentLine
+{
+  ivec4 line;       // offset and slope in the grid
+  float depth;      // of the sight point on the straight ray
+  float start;      // its depth in the line's frame
+  float perDepth;   // depth there per depth on the straight ray; 0 where nothing goes on
+  int frame;
+  int depthAt;      // the depths in grid units
+  int startAt;
+};
+
+// A float's depth in grid units, with the grid units by which that is off.
+int refinedDepth(float depth, int rest)
+{
+  return gridDepthOf(depth) + (rest & 255) - 128;
+}
+
+BentLine fetchBentLine(ivec2 pixel)
+{
+  BentLine line;
+  line.line = texelFetch(bentLines, ivec2(2, 1) * pixel, 0);
+  ivec4 place = texelFetch(bentLines, ivec2(2, 1) * pixel + ivec2(1, 0), 0);
+  line.depth = intBitsToFloat(place.x);
+  line.start = intBitsToFloat(place.y);
+  line.perDepth = intBitsToFloat(place.z);
+  line.frame = place.w & 255;
+  line.depthAt = refinedDepth(line.depth, place.w >> 8);
+  line.startAt = refinedDepth(line.start, place.w >> 16);
+  return line;
+}
+
 // The part of the ray behind the membrane that counts. What is in the depth buffer there is drawn at
 // the depths of straight rays (Eq. 2.4), where nothing is drawn the far plane does not matter.
-void limitBentRay(float opaque, float start, float perDepth)
+void limitBentRay(float opaque, BentLine line)
 {
-  startDepth = start + max(0.0, nearDepth - membraneDepth) * perDepth;
-  endDepth =
-    opaque < 1.0 ? start + (depthOf(opaque) - membraneDepth) * perDepth : AFTER_EVERYTHING;
+  startDepth = line.startAt;
+  if (nearDepth > membraneDepth)
+  {
+    startDepth = gridDepthOf(line.start + (nearDepth - membraneDepth) * line.perDepth);
+  }
+  endDepth = opaque < 1.0
+    ? gridDepthOf(line.start + (depthOf(opaque) - membraneDepth) * line.perDepth)
+    : AFTER_EVERYTHING;
 #if NUMBER_OF_CLIPPING_PLANES > 0
   for (int i = 0; i < NUMBER_OF_CLIPPING_PLANES; ++i)
   {
@@ -547,10 +534,10 @@ void limitBentRay(float opaque, float start, float perDepth)
 // The visible part of the ray: from the near plane to opaque geometry, within the clipping planes.
 void limitRay(float opaque)
 {
-  startDepth = nearDepth;
-  endDepth = depthOf(opaque);
+  startDepth = gridDepthOf(nearDepth);
+  endDepth = gridDepthOf(depthOf(opaque));
 #if BENDING
-  endDepth = min(endDepth, membraneDepth);
+  endDepth = min(endDepth, membraneAt);
 #endif
 #if NUMBER_OF_CLIPPING_PLANES > 0
   vec3 place = vec3(1.0, rayPixel);
@@ -565,22 +552,19 @@ void limitRay(float opaque)
 // Casts what is set up of the ray: from nearFace on, if that is the first of its entries, then from
 // those after `lastDepth`, if there are more. Adds cells crossed and walks that did not end on the
 // boundary.
-void castPart(float lastDepth, inout int steps, inout int lost)
+void castPart(int lastDepth, inout int steps, inout int lost)
 {
   int lastFace = -1;
   while (!isRayDone() && depthNow < endDepth)
   {
-    if (entryFaces.x == -1 && moreEntries)
-    {
-      collectEntries(lastDepth, lastFace);
-    }
+    findEntries(lastDepth, lastFace);
     if (entryFaces.x == -1)
     {
       break;
     }
     lastFace = entryFaces.x;
     enterFirst();
-    float entryDepth = faceDepth;
+    int entryDepth = faceDepth;
     startPart(faceScalar);
     bool ended = walk(steps);
 #if BENDING
@@ -599,29 +583,27 @@ void castPart(float lastDepth, inout int steps, inout int lost)
 #if BENDING
 // Sets up what is behind the membrane, when the straight ray has come there. Yields the depth from
 // which on entries count. False if nothing of it does.
-bool goOnBehind(float opaque, out float lastDepth)
+bool goOnBehind(float opaque, out int lastDepth)
 {
-  ivec2 texel = ivec2(2, 1) * ivec2(rayTilePixel);
-  vec4 line = texelFetch(bentLines, texel, 0);
-  vec4 place = texelFetch(bentLines, texel + ivec2(1, 0), 0);
+  BentLine line = fetchBentLine(ivec2(rayTilePixel));
   // Where the straight ray has come to, if clipping planes did not end it.
-  bool arrived = membranePart != PART_BEHIND && endDepth == membraneDepth && entryFaces.x < 0 &&
+  bool arrived = membranePart != PART_BEHIND && endDepth == membraneAt && entryFaces.x < 0 &&
     !moreEntries;
   bool inside = depthNow >= endDepth;
   lastDepth = BEFORE_EVERYTHING;
-  if (!(place.z > 0.0) || !setUpBentRay(int(place.w), line.xy, line.zw, vec2(0.0)))
+  if (!(line.perDepth > 0.0) || !setUpBentRay(line.frame, line.line, vec2(0.0)))
   {
     return false;
   }
   rayIsBent = true;
-  rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * rayAlong);
-  limitBentRay(opaque, place.y, place.z);
+  rayLengthPerDepth = lengthPerGridDepth();
+  limitBentRay(opaque, line);
   depthNow = BEFORE_EVERYTHING;
-  bool within = arrived && inside && beginsInside && cell >= 0 && findNearFace(place.y);
+  bool within = arrived && inside && beginsInside && cell >= 0 && findNearFace(line.startAt);
   entryFaces = ivec4(within ? NEAR_FACE : -1, -1, -1, -1);
   cycleStart = within ? nearFace.w : -1;
   moreEntries = true;
-  lastDepth = within || (arrived && !inside) ? place.y - START_MARGIN : lastDepth;
+  lastDepth = within || (arrived && !inside) ? line.startAt - START_MARGIN : lastDepth;
   return startDepth < endDepth;
 }
 #endif
@@ -636,16 +618,17 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   steps = 0;
   lost = 0;
   bool meetsMesh = setUpRay(rayPixel, vec2(0.0));
-  rayLengthPerDepth = viewToWorldUnit * length(viewToWorld * rayAlong);
+  rayLengthPerDepth = lengthPerGridDepth();
   startRay();
-  float lastDepth = BEFORE_EVERYTHING;
-  entryFaces = ivec4(-1);
-  moreEntries = meetsMesh;
+  int lastDepth = BEFORE_EVERYTHING;
+  startEntries(meetsMesh);
 #if BENDING
   rayIsBent = false;
   cycleStart = -1;
-  membraneDepth = texelFetch(bentLines, ivec2(2, 1) * ivec2(pixel) + ivec2(1, 0), 0).x;
-  bool bends = membraneDepth < AFTER_EVERYTHING && membranePart != PART_IN_FRONT;
+  BentLine behind = fetchBentLine(ivec2(pixel));
+  membraneDepth = behind.depth;
+  membraneAt = behind.depthAt;
+  bool bends = membraneDepth < NOWHERE && membranePart != PART_IN_FRONT;
   limitRay(opaque);
   // First what is straight, if a ray of the tile enters the mesh there, then what is behind the
   // membrane: in one loop, of which rays side by side take the turns that they need.

@@ -27,11 +27,13 @@ COMMANDS = [
     (r"/usr/bin/python3 -m venv --system-site-packages ", ["scripts/wheel"]),
     (r"env/bin/pip install ", ["scripts/wheel"]),
 ]
-# Programs of ours, with the folder in whose sources their options are.
+# Programs of ours, with the folders in whose sources their options are.
 PROGRAMS = {
-    "meniscus_benchmark_volume": "Benchmarks",
-    "meniscus_benchmark_refraction": "Benchmarks",
-    "meniscus_stress_volume": "Testing/Stress",
+    "meniscus_benchmark_volume": ["Benchmarks"],
+    "meniscus_benchmark_refraction": ["Benchmarks"],
+    "meniscus_stress_volume": ["Testing/Stress", "Testing/Support"],
+    "meniscus_metamorphic_volume": ["Testing/Metamorphic", "Testing/Support"],
+    "meniscus_metamorphic_refraction": ["Testing/Metamorphic", "Testing/Support"],
 }
 
 
@@ -56,7 +58,7 @@ def command_faults(root, command):
     if program:
         if program.group(1) not in PROGRAMS:
             return ["%s is run by nothing" % program.group(1)]
-        sources = text_below(root, PROGRAMS[program.group(1)])
+        sources = "\n".join(text_below(root, folder) for folder in PROGRAMS[program.group(1)])
         return ["%s has no option %s" % (program.group(1), option)
                 for option in re.findall(r"--[a-z]+", command) if option not in sources]
     files = [files for pattern, files in COMMANDS if re.match(pattern, command)]

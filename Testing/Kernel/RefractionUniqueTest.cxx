@@ -223,7 +223,7 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
   const auto place = [&points](const meniscus::ImagePoint& point)
   {
     glm::dvec3 sum(0.0);
-    for (std::size_t k = 0; k < 3 && point.weight[k] != 0.0; ++k)
+    for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
     {
       sum += point.weight[k] * points[point.source[k]];
     }

@@ -4,12 +4,13 @@
 #include "VolumeTestMeshes.h"
 
 #include "Volume/ClippingPlanes.h"
-#include "Volume/VertexGradients.h"
+#include "Volume/ScalarGradients.h"
 
 #include <glm/geometric.hpp>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,12 +22,12 @@ namespace
 
 /** One value per vertex of a mesh, by its normalised position. */
 template <typename Function>
-std::vector<float> Evaluate(const TetrahedralMesh& mesh, const Function& field)
+std::vector<double> Evaluate(const TetrahedralMesh& mesh, const Function& field)
 {
-  std::vector<float> values;
+  std::vector<double> values;
   for (std::int64_t v = 0; v < mesh.GetNumberOfVertices(); ++v)
   {
-    values.push_back(static_cast<float>(field(mesh.GetPosition(v))));
+    values.push_back(field(mesh.GetPosition(v)));
   }
   return values;
 }
@@ -77,10 +78,92 @@ TEST(VolumeVertexGradients, LinearFieldIsExact)
   mesh.Build(arrays.View());
   const glm::dvec3 slope(0.5, -1.0, 0.25);
   const auto scalars = Evaluate(mesh, [&](const glm::dvec3& p) { return glm::dot(slope, p); });
-  for (const glm::vec3& gradient : ComputeVertexGradients(mesh, scalars))
+  for (const glm::vec3& gradient : ComputeVertexGradients(mesh, scalars, 1.0))
   {
-    // Scalars are rounded by 2^-24 and cells are about 0.2 wide.
-    EXPECT_NEAR(glm::length(glm::dvec3(gradient) - slope), 0.0, 5e-6);
+    // Three components of up to 1, each rounded by 2^-25 of itself.
+    EXPECT_NEAR(glm::length(glm::dvec3(gradient) - slope), 0.0, 6e-8);
+  }
+}
+
+TEST(VolumeCellGradients, NearlyEqualScalarsKeepTheDirection)
+{
+  // Changes of 1e-12 beside a scalar of 1: normalised floats would all be equal.
+  MeshArrays arrays = KuhnGrid(4);
+  Jitter(arrays, 0.05, 3);
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  const glm::dvec3 slope(0.5, -1.0, 0.25);
+  constexpr double change = 1.0e-12;
+  const auto scalars =
+    Evaluate(mesh, [&](const glm::dvec3& p) { return 1.0 + change * glm::dot(slope, p); });
+  const auto gradients = ComputeCellGradients(mesh, scalars, 1.0 / change);
+  ASSERT_EQ(static_cast<std::int64_t>(gradients.size()), mesh.GetNumberOfCells());
+  for (const glm::vec3& gradient : gradients)
+  {
+    // Scalars are rounded by 2^-53, 1.1e-4 of the change; cells are about 0.2 wide.
+    EXPECT_NEAR(glm::length(glm::dvec3(gradient) - slope), 0.0, 5e-3);
+  }
+}
+
+TEST(VolumeCellGradients, EqualScalarsHaveNone)
+{
+  MeshArrays arrays = KuhnGrid(3);
+  Jitter(arrays, 0.05, 5);
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  const auto scalars = Evaluate(mesh, [](const glm::dvec3&) { return 0.1; });
+  for (const glm::vec3& gradient : ComputeCellGradients(mesh, scalars, 1.0))
+  {
+    EXPECT_EQ(gradient, glm::vec3(0.0f));
+  }
+  for (const glm::vec3& gradient : ComputeVertexGradients(mesh, scalars, 1.0))
+  {
+    EXPECT_EQ(gradient, glm::vec3(0.0f));
+  }
+}
+
+TEST(VolumeCellGradients, FarScalarsHaveFiniteSquares)
+{
+  const MeshArrays arrays{ { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 1, 2, 3 } };
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  const double largest = std::numeric_limits<double>::max();
+  for (const double fill : { 1.0e36, 1.0e300, largest })
+  {
+    for (const double other : { 0.0, -fill })
+    {
+      std::vector<double> scalars(4, other);
+      scalars[1] = fill;
+      const glm::vec3 gradient = ComputeCellGradients(mesh, scalars, 1.0)[0];
+      const float square = glm::dot(gradient, gradient);
+      EXPECT_TRUE(std::isfinite(square)) << fill;
+      EXPECT_GT(square, 1.0e35f) << fill;
+    }
+  }
+}
+
+TEST(VolumeCellGradients, CellsWithoutVolumeOrScalarHaveNone)
+{
+  const MeshArrays arrays{ { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1 },
+    { 0, 1, 2, 3, 0, 1, 2, 4 } };
+  TetrahedralMesh mesh;
+  mesh.Build(arrays.View());
+  for (const double scalar :
+    { 1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+  {
+    std::vector<double> scalars = Evaluate(mesh, [](const glm::dvec3& p) { return p.x; });
+    for (std::size_t v = 0; v < scalars.size(); ++v)
+    {
+      scalars[v] = mesh.GetSourcePoints()[v] == 4 ? scalar : scalars[v];
+    }
+    for (std::size_t c = 0; c < 2; ++c)
+    {
+      const auto& vertices = mesh.GetCells()[c].Vertices;
+      const bool flat = std::none_of(vertices.begin(), vertices.end(),
+        [&mesh](std::int32_t v) { return mesh.GetSourcePoints()[v] == 4; });
+      const bool none = flat || !std::isfinite(scalar);
+      EXPECT_EQ(ComputeCellGradients(mesh, scalars, 1.0)[c] == glm::vec3(0.0f), none) << scalar;
+    }
   }
 }
 
@@ -95,7 +178,7 @@ TEST(VolumeVertexGradients, MeansAreWeightedByVolume)
   const auto scalars = Evaluate(mesh,
     [&](const glm::dvec3& p)
     { return std::abs(p.z * mesh.GetRadius() + mesh.GetCenter().z) / mesh.GetRadius(); });
-  const auto gradients = ComputeVertexGradients(mesh, scalars);
+  const auto gradients = ComputeVertexGradients(mesh, scalars, 1.0);
   for (std::size_t v = 0; v < gradients.size(); ++v)
   {
     const std::int64_t point = mesh.GetSourcePoints()[v];
@@ -122,8 +205,8 @@ TEST(VolumeVertexGradients, CellsWithoutVolumeOrScalarDoNotCount)
     lonely = mesh.GetSourcePoints()[v] == points ? v : lonely;
     broken = mesh.GetSourcePoints()[v] == points - 1 ? v : broken;
   }
-  scalars[broken] = std::numeric_limits<float>::quiet_NaN();
-  const auto gradients = ComputeVertexGradients(mesh, scalars);
+  scalars[broken] = std::numeric_limits<double>::quiet_NaN();
+  const auto gradients = ComputeVertexGradients(mesh, scalars, 1.0);
   EXPECT_EQ(gradients[lonely], glm::vec3(0.0f));
   for (std::size_t v = 0; v < gradients.size(); ++v)
   {

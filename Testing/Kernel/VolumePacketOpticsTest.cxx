@@ -8,8 +8,8 @@
 #include "Volume/Packet/PacketLights.h"
 #include "Volume/Packet/SimdPortable.h"
 #include "Volume/PreIntegration.h"
+#include "Volume/ScalarGradients.h"
 #include "Volume/SurfaceLighting.h"
-#include "Volume/VertexGradients.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -90,7 +90,8 @@ public:
   }
   void UseVertexGradients()
   {
-    this->Gradients = ComputeVertexGradients(this->Picture.Mesh, this->Picture.Scalars);
+    this->Gradients = ComputeVertexGradients(
+      this->Picture.Mesh, { this->Picture.Scalars.begin(), this->Picture.Scalars.end() }, 1.0);
     this->Picture.Optics.VertexGradients = this->Gradients.data();
   }
   void SetComponents(PacketMixture mixture, const std::vector<std::vector<float>>& others)

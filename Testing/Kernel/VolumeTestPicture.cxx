@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeTestPicture.h"
 
+#include "Volume/ScalarGradients.h"
+
 namespace meniscus
 {
 namespace test
@@ -20,6 +22,13 @@ Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, flo
     tables.OtherIntervals.push_back(PackIntervals(intervals));
   }
   TileCaster::Scene cast = scene.Optics;
+  const std::vector<double> scalars(scene.Scalars.begin(), scene.Scalars.end());
+  std::vector<glm::vec3> gradients;
+  if (!cast.CellScalars)
+  {
+    gradients = ComputeCellGradients(scene.Mesh, scalars, 1.0);
+    cast.CellGradients = gradients.data();
+  }
   cast.GradientOpacity = !scene.GradientIntervals.empty();
   cast.Mesh = &scene.Mesh;
   cast.Boundary = &scene.Mesh.GetBoundary();

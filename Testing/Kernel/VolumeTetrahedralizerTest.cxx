@@ -194,3 +194,68 @@ TEST(Tetrahedralizer, QuadraticTetrahedron)
   EXPECT_NEAR(VolumeOf(cells.GetTetrahedra(), points), 8.0 / 6.0, 1e-12);
   EXPECT_EQ(BuildMesh(points, cells.GetTetrahedra()).GetBoundary().size(), 16u);
 }
+
+TEST(Tetrahedralizer, QuadraticCellsHaveNoFlatTetrahedra)
+{
+  // Corners of a cell of known volume and the edges that have a point in the middle. Whatever the
+  // numbers of the points, the tetrahedra are not flat and fill the cell.
+  struct Case
+  {
+    std::vector<glm::dvec3> Points;
+    std::vector<std::array<int, 2>> Edges;
+    void (Tetrahedralizer::*Add)(const std::int64_t*);
+    double Volume;
+    std::size_t Most;
+  };
+  const std::vector<glm::dvec3> cube{ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+    { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+  const std::vector<glm::dvec3> wedge{ cube[0], cube[1], cube[3], cube[4], cube[5], cube[7] };
+  const std::vector<std::array<int, 2>> wedgeEdges{ { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 },
+    { 4, 5 }, { 5, 3 }, { 0, 3 }, { 1, 4 }, { 2, 5 } };
+  const Case cases[] = { { cube,
+                           { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 }, { 6, 7 },
+                             { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 } },
+                           &Tetrahedralizer::AddQuadraticHexahedron, 1.0, 22 },
+    { wedge, wedgeEdges, &Tetrahedralizer::AddQuadraticWedge, 0.5, 15 },
+    { wedge, { wedgeEdges.begin(), wedgeEdges.begin() + 6 },
+      &Tetrahedralizer::AddQuadraticLinearWedge, 0.5, 12 },
+    { { cube[0], cube[1], cube[2], cube[3], { 0.4, 0.6, 1.0 } },
+      { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 }, { 2, 4 }, { 3, 4 } },
+      &Tetrahedralizer::AddQuadraticPyramid, 1.0 / 3.0, 13 } };
+  std::mt19937 random(7);
+  for (const Case& item : cases)
+  {
+    std::vector<glm::dvec3> all = item.Points;
+    for (const auto& edge : item.Edges)
+    {
+      all.push_back(0.5 * (all[edge[0]] + all[edge[1]]));
+    }
+    for (int repetition = 0; repetition < 50; ++repetition)
+    {
+      Ids ids(all.size());
+      std::iota(ids.begin(), ids.end(), 0);
+      std::shuffle(ids.begin(), ids.end(), random);
+      std::vector<double> points(3 * all.size());
+      for (std::size_t i = 0; i < all.size(); ++i)
+      {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          points[3 * static_cast<std::size_t>(ids[i]) + axis] = all[i][axis];
+        }
+      }
+      Tetrahedralizer cells;
+      (cells.*item.Add)(ids.data());
+      const Ids& tetrahedra = cells.GetTetrahedra();
+      EXPECT_LE(tetrahedra.size(), 4 * item.Most);
+      // Products of numbers with few digits: sums are exact to rounding.
+      EXPECT_NEAR(VolumeOf(tetrahedra, points), item.Volume, 1e-14);
+      for (std::size_t t = 0; t < tetrahedra.size(); t += 4)
+      {
+        EXPECT_GT(VolumeOf({ tetrahedra.begin() + static_cast<std::ptrdiff_t>(t),
+                             tetrahedra.begin() + static_cast<std::ptrdiff_t>(t + 4) },
+                    points),
+          1e-3);
+      }
+    }
+  }
+}

@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What RunRanks.py has ParaView do on each number of ranks: pictures of volumes, and what
 RanksRefraction.py has of the filters. Arguments: the prefix of the files that are written, the number
-of ranks, then the names of meshes in MENISCUS_DATA_DIR, or a scene, Waves, Large or Facets; without any, scenes made here."""
+of ranks, then the names of meshes in MENISCUS_DATA_DIR, or a scene, Colors, Waves, Large or Facets; without
+any, scenes made here."""
 import math
 import os
 import sys
 import traceback
 
 import PluginTesting
+import RanksColors
 import RanksMemory
 import RanksRefraction
 from paraview import simple
@@ -236,6 +238,8 @@ def main(prefix, ranks, scenes):
     PluginTesting.load_plugin()
     if not scenes:
         draw_own(prefix, ranks)
+    elif scenes == ["Colors"]:
+        RanksColors.main(prefix)
     elif scenes == ["Waves"]:
         draw_membranes(prefix + "Waves", WAVES)
     elif scenes == ["Large"]:

@@ -5,9 +5,12 @@
 #include "OpticsTruth.h"
 #include "ReferenceComponents.h"
 
+#include <vtkCellData.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkContourValues.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
+#include <vtkIdList.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
 #include <vtkPointData.h>
@@ -420,7 +423,8 @@ TEST(TetrahedraRayCastComponents, NumbersThatDoNotFitAreErrors)
          Case{ 2, true, 1 }, Case{ 4, false, 5 } })
   {
     const Grid grid = makeComponents<vtkDoubleArray>(std::vector<int>(item.Components, 0), 1.0);
-    auto property = combine(makeParts(1, FunctionKind::Smooth), Weights);
+    // With functions for more than the first, which independent components would mix by.
+    auto property = combine(makeParts(2, FunctionKind::Smooth), Weights);
     property->SetIndependentComponents(item.Independent);
     RayCastScene scene(grid, property, Size, Size);
     scene.rayCaster()->SetBlendMode(item.BlendMode);
@@ -432,6 +436,162 @@ TEST(TetrahedraRayCastComponents, NumbersThatDoNotFitAreErrors)
     EXPECT_EQ(std::count(image.Rgba.begin(), image.Rgba.end(), 0.0f),
       static_cast<std::ptrdiff_t>(image.Rgba.size()));
   }
+}
+
+namespace
+{
+
+// The same mesh with one component of its scalars as the only one, or their length for -1.
+Grid extract(vtkUnstructuredGrid* grid, int component, bool ofCells)
+{
+  auto copy = Grid::New();
+  copy->CopyStructure(grid);
+  vtkDataSetAttributes* from =
+    ofCells ? static_cast<vtkDataSetAttributes*>(grid->GetCellData()) : grid->GetPointData();
+  vtkDataSetAttributes* to =
+    ofCells ? static_cast<vtkDataSetAttributes*>(copy->GetCellData()) : copy->GetPointData();
+  vtkNew<vtkDoubleArray> values;
+  values->SetName(ScalarName);
+  for (vtkIdType i = 0; i < from->GetScalars()->GetNumberOfTuples(); ++i)
+  {
+    double square = 0.0;
+    for (int c = 0; c < from->GetScalars()->GetNumberOfComponents(); ++c)
+    {
+      square += std::pow(from->GetScalars()->GetComponent(i, c), 2);
+    }
+    values->InsertNextValue(
+      component < 0 ? std::sqrt(square) : from->GetScalars()->GetComponent(i, component));
+  }
+  to->SetScalars(values);
+  return copy;
+}
+
+FloatImage draw(vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int blendMode,
+  const std::function<void(vtkTetrahedraRayCastMapper*)>& prepare = nullptr)
+{
+  RayCastScene scene(grid, property, 64, 64);
+  scene.rayCaster()->SetBlendMode(blendMode);
+  if (prepare)
+  {
+    prepare(scene.rayCaster());
+  }
+  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  errors->observe(scene.rayCaster());
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  const FloatImage image = scene.renderFloat();
+  EXPECT_TRUE(errors->Errors.empty()) << errors->text();
+  return image;
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastComponents, ColorFunctionChoosesTheComponent)
+{
+  // As vtkAbstractVolumeMapper says and vtkProjectedTetrahedraMapper does, whatever the blend mode,
+  // of points and of cells, of numbers of components that can mix and of others.
+  const auto property = makeParts(1, FunctionKind::Smooth)[0];
+  property->GetIsoSurfaceValues()->SetValue(0, 0.5);
+  property->GetIsoSurfaceValues()->SetValue(1, 1.05); // the length of several components
+  vtkColorTransferFunction* colors = property->GetRGBTransferFunction();
+  for (const std::vector<int>& ofFields : { std::vector<int>{ 0, 3, 2 }, { 0, 1, 2, 3, 1 } })
+  {
+    const Grid points = makeComponents<vtkDoubleArray>(ofFields, 1.0);
+    const auto cells = Grid::New();
+    cells->CopyStructure(points);
+    vtkNew<vtkDoubleArray> ofCells;
+    ofCells->SetName(ScalarName);
+    ofCells->SetNumberOfComponents(static_cast<int>(ofFields.size()));
+    ofCells->SetNumberOfTuples(cells->GetNumberOfCells());
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType c = 0; c < cells->GetNumberOfCells(); ++c)
+    {
+      cells->GetCellPoints(c, ids);
+      ofCells->SetTuple(c, ids->GetId(0), points->GetPointData()->GetScalars());
+    }
+    cells->GetCellData()->SetScalars(ofCells);
+    for (const bool isOfCells : { false, true })
+    {
+      const Grid& grid = isOfCells ? cells : points;
+      for (const int blendMode : { 0, 1, 5 })
+      {
+        for (const int chosen : { 0, 1, 2, -1 })
+        {
+          const std::string what = std::to_string(ofFields.size()) + " components, of cells " +
+            std::to_string(isOfCells) + ", mode " + std::to_string(blendMode) + ", component " +
+            std::to_string(chosen);
+          colors->SetVectorModeToComponent();
+          colors->SetVectorComponent(0);
+          const FloatImage expected = draw(extract(grid, chosen, isOfCells), property, blendMode);
+          colors->SetVectorComponent(std::max(chosen, 0));
+          if (chosen < 0)
+          {
+            colors->SetVectorModeToMagnitude();
+          }
+          expectSamePicture(draw(grid, property, blendMode), expected, what);
+          if (blendMode != 0)
+          {
+            continue;
+          }
+          // The mapper's own choice takes precedence.
+          const FloatImage other = draw(grid, property, blendMode,
+            [](vtkTetrahedraRayCastMapper* mapper)
+            {
+              mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
+              mapper->SetVectorComponent(2);
+            });
+          EXPECT_EQ(largestDifference(other, expected) == 0.0, chosen == 2) << what;
+        }
+      }
+    }
+  }
+}
+
+TEST(TetrahedraRayCastComponents, ChoiceOrMixture)
+{
+  const Grid grid = makeComponents<vtkDoubleArray>({ 0, 3 }, 1.0);
+  const auto parts = makeParts(2, FunctionKind::Smooth);
+  const auto property = combine(parts, { 1.0, 1.0 });
+  vtkColorTransferFunction* colors = property->GetRGBTransferFunction();
+  const FloatImage first = draw(extract(grid, 0, false), parts[0], 0);
+  const FloatImage second = draw(extract(grid, 1, false), parts[0], 0);
+  // A function for the second component mixes both, unless the first colour function chooses.
+  const FloatImage mixture = draw(grid, property, 0);
+  EXPECT_GT(largestDifference(mixture, first), 0.1);
+  colors->SetVectorComponent(1);
+  expectSamePicture(draw(grid, property, 0), second, "chosen in spite of other functions");
+  colors->SetVectorComponent(0);
+  expectSamePicture(draw(grid, property, 0), mixture, "mixed again");
+  // An opacity function alone makes the second component one that mixes.
+  vtkNew<vtkVolumeProperty> opacityOnly;
+  opacityOnly->SetColor(0, parts[0]->GetRGBTransferFunction());
+  opacityOnly->SetScalarOpacity(0, parts[0]->GetScalarOpacity());
+  opacityOnly->SetScalarOpacityUnitDistance(0, parts[0]->GetScalarOpacityUnitDistance());
+  expectSamePicture(draw(grid, opacityOnly, 0), first, "nothing but functions of the first");
+  opacityOnly->SetScalarOpacity(1, parts[1]->GetScalarOpacity());
+  EXPECT_GT(largestDifference(draw(grid, opacityOnly, 0), first), 0.1);
+  // Dependent components have their roles whatever the vector mode.
+  property->IndependentComponentsOff();
+  const FloatImage dependent = draw(grid, property, 0);
+  colors->SetVectorModeToMagnitude();
+  expectSamePicture(draw(grid, property, 0), dependent, "dependent");
+  // An array of one component has nothing to choose from.
+  colors->SetVectorModeToComponent();
+  colors->SetVectorComponent(2);
+  property->IndependentComponentsOn();
+  expectSamePicture(draw(extract(grid, 0, false), property, 0), first, "a single component");
+}
+
+TEST(TetrahedraRayCastComponents, ChosenComponentOutOfRangeIsAnError)
+{
+  const Grid grid = makeComponents<vtkDoubleArray>({ 0, 3 }, 1.0);
+  const auto property = makeParts(1, FunctionKind::Smooth)[0];
+  property->GetRGBTransferFunction()->SetVectorComponent(2);
+  RayCastScene scene(grid, property, Size, Size);
+  const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+  errors->observe(scene.rayCaster());
+  scene.window()->Render();
+  ASSERT_EQ(errors->Errors.size(), 1u);
+  EXPECT_NE(errors->Errors[0].find("none of number 2"), std::string::npos) << errors->text();
 }
 
 TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)

@@ -119,7 +119,7 @@ TEST_F(TetrahedraRayCastMemory, BytesAreThoseOfTheTables)
   this->Scene.window()->Render();
   EXPECT_EQ(this->Mapper->GetHostBytes(), 33 * this->cells() + 20 * points + 20 * faces + tree);
   const vtkTypeInt64 full = this->Mapper->GetDeviceBytes();
-  const vtkTypeInt64 property = full - 32 * this->cells() - 16 * points - 80 * faces + 32;
+  const vtkTypeInt64 property = full - 32 * this->cells() - 32 * points - 80 * faces + 32;
   EXPECT_GT(property, 0);
   EXPECT_LT(property, 10000);
   const vtkTypeInt64 uploaded = this->Mapper->GetUploadedBytes();

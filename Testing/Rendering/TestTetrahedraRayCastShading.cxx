@@ -310,6 +310,34 @@ TEST(TetrahedraRayCastShading, GradientOpacityAlone)
   expectShadedMedium(scene, true, FloatTolerance, "scaled volume");
 }
 
+TEST(TetrahedraRayCastShading, GradientOpacityWithoutPointsHidesAll)
+{
+  // A function without points evaluates to 0, for the gradient opacity as for the scalar opacity.
+  const Grid grid = makeBlock(4, wavyField(3.0));
+  for (const int gradients : { 0, 1 })
+  {
+    for (const bool shade : { false, true })
+    {
+      RayCastScene scene(grid, mediumProperty(shade, false), 64, 64);
+      scene.rayCaster()->SetGradients(gradients);
+      lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+      const FloatImage without = scene.renderFloat();
+      vtkNew<vtkPiecewiseFunction> empty;
+      scene.volume()->GetProperty()->SetGradientOpacity(empty);
+      const FloatImage hidden = scene.renderFloat();
+      EXPECT_EQ(std::count(hidden.Rgba.begin(), hidden.Rgba.end(), 0.0f),
+        static_cast<std::ptrdiff_t>(hidden.Rgba.size()));
+      vtkNew<vtkPiecewiseFunction> one;
+      one->AddPoint(0.0, 1.0);
+      scene.volume()->GetProperty()->SetGradientOpacity(one);
+      expectSamePicture(scene.renderFloat(), without, "a factor of 1");
+      scene.volume()->GetProperty()->SetGradientOpacity(empty);
+      scene.volume()->GetProperty()->SetDisableGradientOpacity(1);
+      expectSamePicture(scene.renderFloat(), without, "switched off");
+    }
+  }
+}
+
 TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
 {
   // Light is linear between the ends of a cell's segment: not what the interpolated normal gives
@@ -372,6 +400,7 @@ TEST(TetrahedraRayCastShading, GradientsAreComputedOnlyForLight)
   scene.window()->Render();
   scene.window()->Render();
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 1);
+  grid->GetPointData()->GetScalars()->SetComponent(0, 0, 0.5);
   grid->GetPointData()->GetScalars()->Modified();
   scene.window()->Render();
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 2);

@@ -3,17 +3,15 @@
 #ifndef meniscus_StressCase_h
 #define meniscus_StressCase_h
 
-#include "ReferenceTransferFunction.h"
-#include "StressRandom.h"
-#include "StressView.h"
+#include "RandomNumbers.h"
 #include "TestMeshes.h"
+#include "VolumeFunctions.h"
+#include "VolumeView.h"
 
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
-
-class vtkVolumeProperty;
 
 namespace meniscus
 {
@@ -34,16 +32,13 @@ enum class StressRule
   Bounds
 };
 
-/// A transfer function as control points of attenuation and colour, ascending.
-using StressFunction = std::vector<reference::TransferFunctionNode>;
-
 /// A mesh, a function and views of it.
 struct StressCase
 {
   std::string Name;
   Grid Mesh; ///< tetrahedra with point scalars; null: not available, the case is skipped
-  StressFunction Function;
-  std::vector<StressView> Views;
+  VolumeFunction Function;
+  std::vector<VolumeView> Views;
   StressRule Rule = StressRule::Reference;
   int Size = 64; ///< pixels per side
   /// Pixels on silhouettes that are excused, as a share of those covered. Aligned rays run in the
@@ -64,9 +59,6 @@ struct StressFamily
  * @param intensity  1 takes seconds; random meshes grow with it, repetitions with its square root.
  */
 std::vector<StressFamily> stressFamilies(double intensity, std::uint64_t seed);
-
-/// The property that gives a function's attenuation and colour.
-vtkSmartPointer<vtkVolumeProperty> toProperty(const StressFunction& function);
 
 } // namespace test
 } // namespace meniscus

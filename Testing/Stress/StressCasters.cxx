@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StressCasters.h"
 
+#include "Volume/RayFrame.h"
 #include "Volume/TetrahedralMesh.h"
 #include "Volume/TileCaster.h"
 #include "Volume/TransferFunction.h"
@@ -17,6 +18,8 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolumeProperty.h>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 
 namespace meniscus
@@ -26,6 +29,19 @@ namespace test
 
 namespace
 {
+
+/// The input of ComputeRayFrame but for the mesh's centre and radius.
+RayFrameInput frameInput(const VolumeView& view, int size)
+{
+  RayFrameInput input;
+  input.WorldToView = glm::lookAt(view.Eye, view.Focus, view.Up);
+  const double h = view.HalfHeight;
+  input.ViewToClip = view.Parallel ? glm::ortho(-h, h, -h, h, view.Near, view.Far)
+                                   : glm::frustum(-h * view.Near, h * view.Near, -h * view.Near,
+                                       h * view.Near, view.Near, view.Far);
+  input.ImageSize = glm::dvec2(size);
+  return input;
+}
 
 /// The kernel alone, without VTK's pipeline and without a window.
 class KernelCaster : public StressCaster
@@ -59,7 +75,7 @@ public:
     this->Tables.Intervals = PackIntervals(this->Intervals);
   }
 
-  StressImage cast(const StressView& view) override
+  StressImage cast(const VolumeView& view) override
   {
     StressImage result;
     result.Image.Width = result.Image.Height = this->Size;
@@ -70,7 +86,7 @@ public:
     scene.Tables = &this->Tables;
     scene.TerminationTransmittance = Transmittance;
     scene.Set = BestInstructionSet();
-    RayFrameInput input = view.frameInput(this->Size);
+    RayFrameInput input = frameInput(view, this->Size);
     input.Center = this->Mesh.GetCenter();
     input.Radius = this->Mesh.GetRadius();
     RayFrame frame;
@@ -145,7 +161,7 @@ public:
     this->Scene.window()->SetSize(stress.Size, stress.Size);
   }
 
-  StressImage cast(const StressView& view) override
+  StressImage cast(const VolumeView& view) override
   {
     view.applyTo(this->Scene.renderer());
     StressImage result;

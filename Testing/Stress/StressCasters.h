@@ -32,7 +32,7 @@ class StressCaster
 public:
   virtual ~StressCaster() = default;
   virtual void take(const StressCase& stress) = 0;
-  virtual StressImage cast(const StressView& view) = 0;
+  virtual StressImage cast(const VolumeView& view) = 0;
 };
 
 /// "kernel", "opengl" or "native" (the last two: the mapper with that backend); null for others.

@@ -3,7 +3,7 @@
 #include "StressCheck.h"
 
 #include "ReferenceImage.h"
-#include "StressFunctions.h"
+#include "VolumeFunctions.h"
 
 #include <vtkUnstructuredGrid.h>
 
@@ -62,7 +62,7 @@ bool isWithinBounds(const float* rgba, double largestDepth, double brightest)
 struct View
 {
   const StressCase& Stress;
-  const StressView& Camera;
+  const VolumeView& Camera;
   RayOfPixel RayOf;
 };
 
@@ -156,7 +156,7 @@ StressTally checkCase(StressCaster& caster, const StressCase& stress)
     stress.Rule == StressRule::Reference ? makeReference(stress.Mesh) : nullptr;
   for (std::size_t i = 0; i < stress.Views.size(); ++i)
   {
-    const StressView& camera = stress.Views[i];
+    const VolumeView& camera = stress.Views[i];
     const View view{ stress, camera,
       [&camera, &stress](int x, int y) { return camera.ray(x, y, stress.Size); } };
     const StressImage image = caster.cast(camera);

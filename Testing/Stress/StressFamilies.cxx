@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "HardMeshes.h"
 #include "StressCase.h"
-#include "StressFunctions.h"
-#include "StressMeshes.h"
 #include "TestMeshes.h"
+#include "VolumeFunctions.h"
 #include "VolumeScene.h"
 
 #include <vtkDataArray.h>
@@ -31,7 +31,7 @@ struct CaseSeed
 {
   int Variant;
   int Repetition;
-  StressRandom Random;
+  RandomNumbers Random;
 };
 
 using Maker = std::function<StressCase(CaseSeed&)>;
@@ -58,7 +58,7 @@ public:
       [=](int index)
       {
         CaseSeed seed{ index % variants, index / variants,
-          StressRandom(stream ^ (static_cast<std::uint64_t>(index) << 32)) };
+          RandomNumbers(stream ^ (static_cast<std::uint64_t>(index) << 32)) };
         return make(seed);
       } });
   }
@@ -72,11 +72,11 @@ private:
 };
 
 // One perspective and one parallel view from random directions.
-std::vector<StressView> randomViews(vtkUnstructuredGrid* grid, StressRandom& random)
+std::vector<VolumeView> randomViews(vtkUnstructuredGrid* grid, RandomNumbers& random)
 {
   const double* bounds = grid->GetBounds();
-  return { StressView::towards(bounds, random.direction(), false),
-    StressView::towards(bounds, random.direction(), true) };
+  return { VolumeView::towards(bounds, random.direction(), false),
+    VolumeView::towards(bounds, random.direction(), true) };
 }
 
 void takeFunction(StressCase& stress, const std::vector<NamedFunction>& functions, int i)
@@ -127,7 +127,7 @@ StressCase alignedRays(CaseSeed& seed)
   takeFunction(stress, usualFunctions(mesh), seed.Variant / 3 + seed.Repetition);
   glm::dvec3 direction(0.0);
   direction[seed.Variant % 3] = seed.Repetition % 2 ? -1.0 : 1.0;
-  StressView view = StressView::towards(mesh->GetBounds(), direction, true);
+  VolumeView view = VolumeView::towards(mesh->GetBounds(), direction, true);
   stress.Size = 65;
   view.HalfHeight = 0.5 * 65 / 16.0;
   stress.Views = { view };
@@ -146,8 +146,8 @@ StressCase diagonalRays(CaseSeed& seed)
   stress.Mesh = mesh;
   takeFunction(stress, usualFunctions(mesh), seed.Repetition);
   stress.Size = 65; // the ray in the middle runs through vertices
-  StressView view =
-    StressView::towards(mesh->GetBounds(), directions[seed.Variant % 4], seed.Variant < 4);
+  VolumeView view =
+    VolumeView::towards(mesh->GetBounds(), directions[seed.Variant % 4], seed.Variant < 4);
   view.HalfHeight *= seed.Repetition % 2 ? 0.1 : 1.0;
   if (seed.Variant >= 8)
   {
@@ -188,9 +188,9 @@ StressCase flattened(CaseSeed& seed)
   stress.Views = randomViews(mesh, seed.Random);
   glm::dvec3 direction(0.0);
   direction[axis] = 1.0;
-  stress.Views.push_back(StressView::towards(mesh->GetBounds(), direction, true));
+  stress.Views.push_back(VolumeView::towards(mesh->GetBounds(), direction, true));
   direction[(axis + 1) % 3] = 1e-3;
-  stress.Views.push_back(StressView::towards(mesh->GetBounds(), direction, false));
+  stress.Views.push_back(VolumeView::towards(mesh->GetBounds(), direction, false));
   if (dense)
   {
     stress.Name += ", dense";
@@ -243,8 +243,8 @@ StressCase slivers(CaseSeed& seed)
     stress.Name += ", dense";
     stress.Rule = StressRule::Bounds;
     const glm::dvec3 direction = seed.Random.direction();
-    stress.Views = { StressView::towards(mesh->GetBounds(), direction, false, 3000.0),
-      StressView::towards(mesh->GetBounds(), direction, true, 3000.0) };
+    stress.Views = { VolumeView::towards(mesh->GetBounds(), direction, false, 3000.0),
+      VolumeView::towards(mesh->GetBounds(), direction, true, 3000.0) };
     for (auto& node : stress.Function)
     {
       node.Value.Attenuation *= 1e3;
@@ -264,7 +264,7 @@ StressCase zeroVolume(CaseSeed& seed)
     // Along the layers, in the plane of the flat cells.
     glm::dvec3 direction(0.0);
     direction[seed.Variant % 3] = 1.0;
-    stress.Views = { StressView::towards(mesh->GetBounds(), direction, true) };
+    stress.Views = { VolumeView::towards(mesh->GetBounds(), direction, true) };
     stress.Size = 65;
     // Scalars on the two sides of a flat layer differ: a row and a column of 37 * 37 rays run where
     // the field jumps, and either side is right.
@@ -323,7 +323,7 @@ StressCase randomSmall(CaseSeed& seed)
   double range[2];
   stress.Mesh->GetPointData()->GetScalars()->GetFiniteRange(range);
   stress.Function = randomFunction(range, diagonalOf(stress.Mesh->GetBounds()), seed.Random);
-  stress.Views = { StressView::towards(
+  stress.Views = { VolumeView::towards(
     stress.Mesh->GetBounds(), seed.Random.direction(), seed.Repetition % 3 == 0) };
   stress.Size = 32;
   return stress;

@@ -3,8 +3,8 @@
 #ifndef meniscus_StressRun_h
 #define meniscus_StressRun_h
 
+#include "CaseProcess.h"
 #include "StressCheck.h"
-#include "StressProcess.h"
 
 #include <string>
 

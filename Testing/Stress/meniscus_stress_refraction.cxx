@@ -5,9 +5,9 @@
  * interval Newton method on the smooth surface or a dense search on the patches. Reports missed,
  * false, wrong and failed per family; the exit status is 0 without any.
  */
+#include "CaseProcess.h"
+#include "ProgrammeOptions.h"
 #include "RefractionCheck.h"
-#include "StressOptions.h"
-#include "StressProcess.h"
 
 #include <iomanip>
 #include <limits>
@@ -22,6 +22,7 @@ namespace
 
 const char* const Usage =
   "meniscus_stress_refraction [options]\n"
+  "  --family TEXT      only families whose names contain the text\n"
   "  --intensity X      1 (default) takes half a minute; cases grow with it\n";
 
 struct FamilyResult : ProcessResult
@@ -51,7 +52,7 @@ RefractionTally decode(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-FamilyResult runFamily(const RefractionFamily& family, const StressOptions& options)
+FamilyResult runFamily(const RefractionFamily& family, const ProgrammeOptions& options)
 {
   FamilyResult result;
   const int only = options.Case;
@@ -88,7 +89,7 @@ void printRow(std::ostream& out, const std::string& family, const FamilyResult& 
 }
 
 //------------------------------------------------------------------------------
-bool runAll(const StressOptions& options, std::ostream& out)
+bool runAll(const ProgrammeOptions& options, std::ostream& out)
 {
   out << "| family | cases | points | images | uncertain | given up | missed | false | wrong | "
          "failed | stuck | crashed | max error | s |\n"
@@ -128,8 +129,8 @@ bool runAll(const StressOptions& options, std::ostream& out)
 //------------------------------------------------------------------------------
 int main(int argc, char* argv[])
 {
-  StressOptions options;
-  return runStressProgramme(
+  ProgrammeOptions options;
+  return runProgramme(
     argc, argv, Usage, options, [](const std::string&, const std::string&) { return false; },
     [&options](std::ostream& out) { return runAll(options, out); });
 }

@@ -4,7 +4,7 @@
  * Meshes, rays and transfer functions that are hard on a tetrahedral ray caster, judged by the
  * double reference. Reports lost, stuck and wrong per family; the exit status is 0 without any.
  */
-#include "StressOptions.h"
+#include "ProgrammeOptions.h"
 #include "StressRun.h"
 
 #include <algorithm>
@@ -24,12 +24,13 @@ const char* const Usage =
   "meniscus_stress_volume [options]\n"
   "Real meshes are those of the folder in the environment's MENISCUS_DATA_DIR, or ../shared/data\n"
   "beside the sources.\n"
+  "  --family TEXT      only families whose names contain the text\n"
   "  --intensity X      1 (default) takes about a minute, 100 includes 10,000 random meshes\n"
   "  --casters LIST     of kernel, opengl, native (the mapper's backends); default all; the last\n"
   "                     two take part of the cases and are left out without a display\n"
   "  --every N          every N-th case through the mapper (default 5)\n";
 
-struct Options : StressOptions
+struct Options : ProgrammeOptions
 {
   std::string Casters = "kernel,opengl,native";
   int Every = 5;
@@ -137,7 +138,7 @@ bool runAll(const Options& options, std::ostream& out)
 int main(int argc, char* argv[])
 {
   Options options;
-  return runStressProgramme(
+  return runProgramme(
     argc, argv, Usage, options,
     [&options](const std::string& key, const std::string& value)
     {

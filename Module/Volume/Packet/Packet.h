@@ -26,7 +26,12 @@ struct PacketVertex
   /** Normalised; NaN makes the vertex's cells transparent. */
   float Scalar;
 
-  static constexpr float DepthUnit = 1.0f / 1073741824.0f; // 2^-30
+  /**
+   * Grid units of depth per unit of the frame: 2^30 - 2^11, a float. The mesh's depths are within
+   * the frame's unit, so that differences of depths, interpolated in floats, fit in 32 bits.
+   */
+  static constexpr double GridPerDepth = 1073739776.0;
+  static constexpr float DepthUnit = static_cast<float>(1.0 / GridPerDepth);
 };
 
 /** A TransferFunctionInterval in three groups of four. */
@@ -158,6 +163,10 @@ struct PacketSegmentTable
   std::int32_t Lengths;
   float ShortestReciprocal;
   float LengthsPerOctave;
+  /** A scalar has the place (scalar - Middle) * PerHalfRange in [-1, 1]; beyond, all is constant.
+   */
+  float Middle;
+  float PerHalfRange;
 };
 
 struct PacketJob
@@ -171,6 +180,9 @@ struct PacketJob
   const float* CellScalars;
   const PacketInterval* Intervals;
   std::int32_t NumberOfIntervals;
+  /** Share of the data's range that a scalar is: ShareAtZero + SharePerScalar * scalar. */
+  float ShareAtZero;
+  float SharePerScalar;
   PacketMixture Mixture;
   /** Three numbers per vertex: scalars beside the main one, normalised, or a colour; if mixed. */
   const float* Components;
@@ -186,8 +198,10 @@ struct PacketJob
   std::int32_t NumberOfSurfaces;
   /** Of surfaces; null for none. */
   const SurfaceLighting* Lighting;
-  /** Gradients at the vertices in normalised model coordinates; null for those of the cells. */
+  /** Three numbers per vertex, in normalised model coordinates; null for those of the cells. */
   const float* VertexGradients;
+  /** The same per cell, where gradients of cells are needed. */
+  const float* CellGradients;
   const glm::dmat3* GradientToFrame;
   /** Grid unit of x and y, in units of the frame. */
   double GridUnit;
@@ -262,7 +276,7 @@ struct PacketFaceJob
 };
 
 /**
- * Colour over opacity and mean attenuation of a segment between two scalars, by linear
+ * Colour over opacity and mean attenuation of a segment between two places in [-1, 1], by linear
  * interpolation in the table's scalars and in the number of its length.
  */
 void LookUpSegment(

@@ -203,12 +203,13 @@ inline void PacketLitMedium<Simd, OfVertices>::Begin(Mask lanes, const Place& pl
   }
   else
   {
-    const End front = this->Evaluate(lanes, place.CellGradient, place.StartDepth, place.Ray);
+    const Vector gradient = this->ToFrame(place.CellGradient);
+    const End front = this->Evaluate(lanes, gradient, place.StartDepth, place.Ray);
     this->Front.Replace(lanes, front);
     End back = front;
     if (this->Medium.Shading && this->Lights.DependOnPlace())
     {
-      back.Light = this->Lights.Light(place.CellGradient, place.EndDepth, place.Ray);
+      back.Light = this->Lights.Light(gradient, place.EndDepth, place.Ray);
     }
     this->Back.Replace(lanes, back);
   }

@@ -72,6 +72,7 @@ public:
 
 private:
   void Add(Mask lanes, Float from, Float to, Float length);
+  void AddWithin(Mask lanes, Float from, Float to, Float length);
 
   const PacketSegmentTable& Table;
   Float Termination;
@@ -80,8 +81,39 @@ private:
 };
 
 //------------------------------------------------------------------------------
+/** Beyond the range of the table the function is constant: a segment has up to three parts. */
 template <class Simd>
 void PacketPreIntegrated<Simd>::Add(Mask lanes, Float from, Float to, Float length)
+{
+  const Float one = Simd::Splat(1.0f);
+  const Float zero = Simd::Splat(0.0f);
+  const auto placeOf = [this](Float scalar)
+  { return (scalar - Simd::Splat(this->Table.Middle)) * Simd::Splat(this->Table.PerHalfRange); };
+  const auto within = [&](Float place) { return Simd::Min(Simd::Max(place, zero - one), one); };
+  const Float front = placeOf(from);
+  const Float back = placeOf(to);
+  const Float enters = within(front);
+  const Float leaves = within(back);
+  const Mask beyond = (Simd::Abs(front) > one) | (Simd::Abs(back) > one);
+  if (Simd::Bits(lanes & beyond) == 0)
+  {
+    this->AddWithin(lanes, front, back, length);
+    return;
+  }
+  // Without a change of scalar a share is 0 / 0 or infinite, which Min() makes 1.
+  const auto share = [&](Float part)
+  { return Simd::Max(Simd::Min(part / (back - front), one), zero); };
+  const Float before = Simd::Select(Simd::Abs(front) > one, share(enters - front), zero);
+  const Float inside =
+    Simd::Select(beyond, Simd::Min(share(leaves - enters), one - before), one - before);
+  this->AddWithin(lanes, enters, enters, before * length);
+  this->AddWithin(lanes, enters, leaves, inside * length);
+  this->AddWithin(lanes, leaves, leaves, (one - before - inside) * length);
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+void PacketPreIntegrated<Simd>::AddWithin(Mask lanes, Float from, Float to, Float length)
 {
   float fromOf[Simd::Width];
   float toOf[Simd::Width];

@@ -31,6 +31,8 @@ public:
     , From(Simd::Splat(0.0f))
     , To(Simd::Splat(0.0f))
     , Remaining(Simd::Splat(0.0f))
+    , ShareAtZero(Simd::Splat(job.ShareAtZero))
+    , SharePerScalar(Simd::Splat(job.SharePerScalar))
   {
   }
 
@@ -87,6 +89,9 @@ private:
   Float From;
   Float To;
   Float Remaining;
+  /** Share of the data's range that a scalar is. */
+  Float ShareAtZero;
+  Float SharePerScalar;
 };
 
 //------------------------------------------------------------------------------
@@ -156,7 +161,8 @@ auto PacketProjection<Simd>::Advance(Mask lanes) -> Mask
   {
     const Float attenuation =
       Simd::Fma(scalar - fields.Lower, fields.AttenuationSlope, fields.Attenuation);
-    return Simd::Max(attenuation, zero) * Simd::Fma(half, scalar, half);
+    return Simd::Max(attenuation, zero) *
+      Simd::Fma(this->SharePerScalar, scalar, this->ShareAtZero);
   };
   const Float sum =
     valueAt(this->From) + valueAt(to) + Simd::Splat(4.0f) * valueAt(half * (this->From + to));

@@ -44,28 +44,17 @@ SeenCell SeeCell(const PacketJob& job, std::int32_t cell)
   return seen;
 }
 
-/** Gradient of the cell's linear scalar; 0 without volume. */
-glm::dvec3 CellGradient(const PacketJob& job, const SeenCell& cell)
+/** One of a table of three numbers each. */
+glm::dvec3 TripleAt(const float* table, std::int64_t index)
 {
-  const glm::dmat3 edges = cell.Edges();
-  if (glm::determinant(edges) == 0.0)
-  {
-    return glm::dvec3(0.0);
-  }
-  const auto scalarOf = [&](int k) { return double{ job.Vertices[cell.Ids[k]].Scalar }; };
-  const glm::dvec3 changes(
-    scalarOf(1) - scalarOf(0), scalarOf(2) - scalarOf(0), scalarOf(3) - scalarOf(0));
-  return changes * glm::inverse(edges);
+  const float* triple = table + 3 * index;
+  return { triple[0], triple[1], triple[2] };
 }
 
 /** The gradients of the cell's vertices, interpolated at a place in it. */
 glm::dvec3 VertexGradient(const PacketJob& job, const SeenCell& cell, const glm::dvec3& place)
 {
-  const auto gradientOf = [&](int k)
-  {
-    const float* gradient = job.VertexGradients + 3 * std::int64_t{ cell.Ids[k] };
-    return glm::dvec3(gradient[0], gradient[1], gradient[2]);
-  };
+  const auto gradientOf = [&](int k) { return TripleAt(job.VertexGradients, cell.Ids[k]); };
   const glm::dmat3 edges = cell.Edges();
   if (glm::determinant(edges) == 0.0)
   {
@@ -113,7 +102,7 @@ glm::dvec3 LitColor(
   }
   else
   {
-    normal = CellGradient(job, cell);
+    normal = *job.GradientToFrame * TripleAt(job.CellGradients, segment.CellFace / 4);
   }
   const ReflectedLight light = Light(*job.Lighting, normal, place, slope);
   return emitted * light.Reflected + light.Highlight;

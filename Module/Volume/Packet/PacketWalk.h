@@ -38,6 +38,7 @@ private:
   using Mask = typename Simd::Mask;
   using Grid = ExactGrid<Simd>;
   using VertexValues = PacketValues<Simd, Model::NumberOfTriples>;
+  using CellValues = PacketValues<Simd, Model::UsesCellGradients ? 1 : 0>;
   static constexpr int Width = Simd::Width;
 
   /** A vertex about the ray of each lane. */
@@ -49,9 +50,8 @@ private:
     Float Scalar;
     /** By vertex among those of its face: 0, 1 or 2. Cells and faces order vertices alike. */
     Int Rank;
-    /** What models want beside, and depth in grid units for gradients of cells. */
+    /** What models want beside. */
     VertexValues Others{};
-    std::array<Int, Model::UsesCellGradients ? 1 : 0> GridDepth{};
   };
   /** What an axis of PacketRay takes off, by lane; even and odd lanes are multiplied apart. */
   struct Shift
@@ -80,13 +80,14 @@ private:
     Corner X;
     /** Only with scalars of cells. */
     Float CellScalar;
+    CellValues Gradient;
   };
   void Fetch(Ahead& ahead) const;
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
   void Interpolate(Float& depth, Float& scalar, VertexValues& others) const;
-  void FindCellGradient(const Corner& x);
   Int OppositeVertices(Int cellFace) const;
+  CellValues GradientsOf(Int cellFace) const;
   void LoadLines();
   /** Where a segment is, for models that ask. */
   struct SegmentPlace
@@ -102,11 +103,11 @@ private:
     Mask Late;
     const VertexValues& StartValues;
     const VertexValues& EndValues;
-    /** Of the scalar in the cell, in the frame of the rays. */
-    const std::array<Float, 3>& CellGradient;
+    /** Gradient of the scalar in the cell, in normalised model coordinates. */
+    const CellValues& CellGradient;
     const PacketLine<Simd>& Ray;
   };
-  void Pass(Mask lanes, Int cellFace, Float cellScalar);
+  void Pass(Mask lanes, Int cellFace, const Ahead& crossed);
 
   unsigned int Replace(unsigned int ended);
   bool NextEntry(int lane);
@@ -138,8 +139,7 @@ private:
   Float FaceDepth;
   Float FaceScalar;
   VertexValues FaceValues;
-  /** Of the cell just crossed, and each lane's ray; for models that ask. */
-  std::array<Float, 3> CellGradient;
+  /** Each lane's ray, for models that ask. */
   PacketLine<Simd> Line;
   /** The largest depth reached. */
   Float DepthNow;
@@ -179,12 +179,10 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   const Float zero = Simd::Splat(0.0f);
   this->A = Corner{ zero, zero, zero, zero, none };
   this->A.Others.Clear();
-  this->A.GridDepth.fill(none);
   this->B = this->C = this->A;
   this->AreaAB = this->AreaBC = this->AreaCA = zero;
   this->FaceDepth = this->FaceScalar = zero;
   this->FaceValues.Clear();
-  this->CellGradient.fill(zero);
   this->Line = { zero, zero, zero, zero };
   // Of gradients first.
   const bool gradients = job.Medium && job.VertexGradients;
@@ -215,9 +213,14 @@ void PacketWalk<Simd, Model>::Run()
   unsigned int busy = this->Replace((1u << Width) - 1u);
   while (busy != 0)
   {
-    // The cell ahead is fetched before the segment behind is integrated, which takes as long.
+    // The cell ahead is fetched before the segment behind is integrated, which takes as long; where
+    // cells do not touch there is often none in any lane.
     Ahead ahead;
-    this->Fetch(ahead);
+    const bool inside = (busy & ~Simd::Bits(this->CellFace < zero)) != 0;
+    if (inside)
+    {
+      this->Fetch(ahead);
+    }
     this->Pending = this->Integral.Advance(this->Pending);
     const Mask on =
       Simd::AndNot(this->DepthNow < this->EndDepth, this->CellFace < zero) & this->Integral.IsOn();
@@ -228,6 +231,10 @@ void PacketWalk<Simd, Model>::Run()
     {
       busy = this->Replace(ended);
       continue;
+    }
+    if (!inside)
+    {
+      continue; // segments with further pieces are pending
     }
     this->Step(Simd::AndNot(this->Busy & on, this->Pending), ahead);
   }
@@ -248,7 +255,6 @@ inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& cor
   corner.V = aboutRay(this->Axes[1], vertex[1]);
   corner.Depth = Simd::ToFloat(depth) * Simd::Splat(PacketVertex::DepthUnit);
   corner.Scalar = vertex[3];
-  corner.GridDepth.fill(depth);
 }
 
 //------------------------------------------------------------------------------
@@ -292,6 +298,10 @@ inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
   {
     ahead.X.Others.Gather(this->ValueTables, this->OppositeVertices(cellFace));
   }
+  if constexpr (Model::UsesCellGradients)
+  {
+    ahead.Gradient = this->GradientsOf(cellFace);
+  }
   ahead.CellScalar = this->Job.CellScalars
     ? Simd::GatherCellScalars(this->Job.CellScalars, cellFace)
     : Simd::Splat(0.0f);
@@ -332,11 +342,6 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
   const Int link = Simd::Pick(opposite, ahead.Links);
   const Int dropped = Simd::Select(lanes, opposite, last);
 
-  if constexpr (Model::UsesCellGradients)
-  {
-    this->FindCellGradient(x);
-  }
-
   // The exit face: x takes the dropped vertex's place, which keeps the sense of rotation.
   const Mask replaceA = dropA & lanes;
   const Mask replaceC = dropC & lanes;
@@ -360,7 +365,7 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
   const Int crossed = this->CellFace;
   this->CellFace = Simd::Select(lanes, link, this->CellFace);
   this->Steps = this->Steps + Simd::One(lanes);
-  this->Pass(lanes, crossed, ahead.CellScalar);
+  this->Pass(lanes, crossed, ahead);
 }
 
 //------------------------------------------------------------------------------
@@ -373,10 +378,6 @@ inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, 
   corner.Depth = Simd::Select(lanes, x.Depth, corner.Depth);
   corner.Scalar = Simd::Select(lanes, x.Scalar, corner.Scalar);
   corner.Others.Replace(lanes, x.Others);
-  for (std::size_t i = 0; i < corner.GridDepth.size(); ++i)
-  {
-    corner.GridDepth[i] = Simd::Select(lanes, x.GridDepth[i], corner.GridDepth[i]);
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -402,7 +403,7 @@ inline void PacketWalk<Simd, Model>::Interpolate(
 //------------------------------------------------------------------------------
 /** Gives the integral what lies between the last face and this one. */
 template <class Simd, class Model>
-inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, Float cellScalar)
+inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead& crossed)
 {
   Float depth = this->FaceDepth;
   Float scalar = this->FaceScalar;
@@ -421,7 +422,7 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, Float cellSc
   if (this->Job.CellScalars)
   {
     // A jump counts where the cell is entered, unless the ray begins behind that.
-    to = cellScalar;
+    to = crossed.CellScalar;
     from = Simd::Select(this->StartDepth > this->FaceDepth, to, this->FaceScalar);
     from = Model::SeesJumps ? from : to;
   }
@@ -441,7 +442,7 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, Float cellSc
   }
   const Mask segment = lanes & (end > start);
   const SegmentPlace place{ start, end, cellFace, this->Ray, lanes, late, fromValues, toValues,
-    this->CellGradient, this->Line };
+    crossed.Gradient, this->Line };
   this->Pending = this->Pending |
     this->Integral.Begin(segment, from, to, (end - start) * this->LengthPerDepth, place);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
@@ -453,7 +454,7 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, Float cellSc
     // Of the last cell that counted.
     known = SegmentsOf<Simd>(segment, from, to, end - start) |
       Simd::AndNot(lanes, depth > this->StartDepth);
-    scalar = cellScalar;
+    scalar = crossed.CellScalar;
   }
   this->FaceScalar = Simd::Select(known, scalar, this->FaceScalar);
 }

@@ -190,10 +190,12 @@ Vector3 ReferenceGradients::ofCell(std::int64_t cell) const
 {
   const std::int64_t* ids = this->Mesh.cell(static_cast<std::size_t>(cell));
   const CellPlanes& planes = this->Mesh.planes(static_cast<std::size_t>(cell));
+  // Of differences: equal scalars have no gradient, not one of rounding.
   Vector3 gradient{ 0.0, 0.0, 0.0 };
-  for (int i = 0; i < 4; ++i)
+  for (int i = 1; i < 4; ++i)
   {
-    gradient = add(gradient, this->Mesh.scalar(ids[i]), planes.Gradient[i]);
+    gradient =
+      add(gradient, this->Mesh.scalar(ids[i]) - this->Mesh.scalar(ids[0]), planes.Gradient[i]);
   }
   return gradient;
 }

@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""usage: Benchmarks/compare.py BEFORE AFTER [--rounds N] [--part volume|refraction] [--json FILE]
+
+Compares the benchmarks of two build trees on one machine. BEFORE and AFTER are build folders; their
+programs run in turns, in alternating order, and each row takes the smallest processor time of all
+rounds: what disturbs a run only adds to it. Prints a table in Markdown and exits with 1 if a row of
+AFTER is more than 3 % slower. Meshes are taken from the folder that MENISCUS_DATA_DIR names, or from
+../shared/data beside the clone; without them a generated block stands alone. Needs a display.
+"""
+import argparse
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SLOWER = 1.03
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BACKENDS = "meniscus/native/exact,meniscus/opengl/exact,meniscus/compute/exact"
+# Rows of the growth of the refraction benchmark; those of brute force take minutes and change nothing.
+PER_MEMBRANE = (
+    "shape_s", "eye_s", "us_per_vertex_grid_order", "us_per_vertex_random_order", "curved_shape_s",
+    "curved_deform_s", "curved_eye_s", "curved_us_per_vertex_one_image",
+    "curved_us_per_vertex_all_images")
+
+
+def run(command):
+    """Runs a program of a build tree and returns the JSON that it writes."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "figures.json")
+        result = subprocess.run(
+            [*command, "--json", name], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        if result.returncode != 0 or not os.path.exists(name):
+            sys.exit("failed: " + " ".join(command) + "\n" + result.stderr)
+        with open(name, encoding="utf-8") as file:
+            return json.load(file)
+
+
+def volume_cases():
+    """Arguments of the volume benchmark per case."""
+    data = pathlib.Path(os.environ.get("MENISCUS_DATA_DIR", ROOT.parent / "shared" / "data"))
+    meshes = [("block", [])]
+    for name in ("blunt_fin", "combustor"):
+        if (data / (name + ".vtu")).exists():
+            meshes.append((name, ["--mesh", str(data / (name + ".vtu"))]))
+    for mesh, arguments in meshes:
+        for function in ("smooth", "opaque", "sparse"):
+            yield f"{mesh}, {function}", [*arguments, "--function", function]
+
+
+def measure_volume(build, arguments):
+    """Processor milliseconds per frame by mapper; the least of all frames' views."""
+    figures = run([
+        str(build / "bin/meniscus_benchmark_volume"), *arguments, "--mappers", BACKENDS, "--views", "4",
+        "--repetitions", "3", "--error-views", "0"])
+    rows = {}
+    for mapper in figures["mappers"]:
+        if mapper["name"].endswith("/exact"):
+            rows[mapper["name"] + " (ms)"] = mapper["cpu_ms"]
+            rows[mapper["name"] + ", set-up (ms)"] = mapper["set_up_ms"]
+    return rows
+
+
+def measure_refraction(build):
+    """Times by number of facets."""
+    figures = run([str(build / "bin/meniscus_benchmark_refraction"), "--growth"])
+    rows = {}
+    for row in figures["growth"]:
+        for name in PER_MEMBRANE:
+            rows[f"{row['facets']} facets: {name}"] = row[name]
+    for row in figures["vertices"]:
+        name = "curved_us_per_vertex_one_image"
+        rows[f"{row['vertices']} vertices: {name}"] = row[name]
+    return rows
+
+
+def compare(measure, before, after, rounds):
+    """Smallest time of each row, of both trees."""
+    best = ({}, {})
+    for number in range(rounds):
+        pair = [(0, before), (1, after)]
+        for index, build in pair if number % 2 == 0 else reversed(pair):
+            for name, value in measure(build).items():
+                best[index][name] = min(value, best[index].get(name, value))
+    return {name: (value, best[1][name]) for name, value in best[0].items() if name in best[1]}
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("before", type=pathlib.Path)
+    parser.add_argument("after", type=pathlib.Path)
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--part", choices=("volume", "refraction"))
+    parser.add_argument("--json")
+    options = parser.parse_args()
+    rows = {}
+    if options.part != "refraction":
+        for title, arguments in volume_cases():
+            measured = compare(
+                lambda build, a=arguments: measure_volume(build, a), options.before, options.after,
+                options.rounds)
+            rows.update({f"{title}: {name}": value for name, value in measured.items()})
+    if options.part != "volume":
+        rows.update(compare(measure_refraction, options.before, options.after, options.rounds))
+    print("| row | before | after | after / before |\n|---|---|---|---|")
+    slower = 0
+    for name, (old, new) in rows.items():
+        ratio = new / old if old > 0.0 else float("nan")
+        slower += ratio > SLOWER
+        mark = "**" if ratio > SLOWER else ""
+        print(f"| {name} | {old:.4g} | {new:.4g} | {mark}{ratio:.3f}{mark} |")
+    print(f"\n{slower} of {len(rows)} rows are more than 3 % slower.")
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(rows, file, indent=1)
+    return 1 if slower else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

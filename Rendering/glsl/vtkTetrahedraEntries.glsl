@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The search of a ray's next entries. With LONG_LISTS every tile has a list of faces of any length,
+// see Module/Volume/EntryTiles.h; else one of at most 32, and longer ones are searched in the tree.
+
+// The next entries of the ray in the order of depth, then number; -1 where there are none.
+ivec4 entryDepths;   // in grid units
+ivec4 entryFaces;
+bool moreEntries;    // whether there may be others behind them
+
+bool isBefore(int depth, int number, int otherDepth, int otherNumber)
+{
+  return depth < otherDepth || (depth == otherDepth && number < otherNumber);
+}
+
+#if LONG_LISTS
+uniform isamplerBuffer tileBegins;   // where each tile's list begins, and where the last one ends
+uniform isamplerBuffer tileFaces;    // the lists, from near to far
+uniform samplerBuffer nearestDepths; // per face, a depth before which no ray enters by it
+uniform int tileColumns;
+uniform float longListTileSize;
+
+int listAt;          // the first face that has not been looked at
+int listEnd;
+int listFace;        // that face and where it may be entered; AFTER_EVERYTHING behind the list
+int listDepth;
+ivec4 entryPlaces;   // where the entries found are in the list
+// The entries found that there was no room for: the first place in the list, and the nearest of them.
+int leftOutAt;
+int leftOutDepth;
+int leftOutFace;
+
+void fetchListed()
+{
+  bool within = listAt < listEnd;
+  listFace = within ? texelFetch(tileFaces, listAt).r : 0;
+  listDepth = within ? gridDepthOf(texelFetch(nearestDepths, listFace).r) : AFTER_EVERYTHING;
+}
+
+// Sets up the search for the straight ray.
+void startEntries(bool meetsMesh)
+{
+  ivec2 tile = ivec2(rayTilePixel / longListTileSize);
+  int number = tile.y * tileColumns + tile.x;
+  listAt = meetsMesh ? texelFetch(tileBegins, number).r : 0;
+  listEnd = meetsMesh ? texelFetch(tileBegins, number + 1).r : 0;
+  entryFaces = ivec4(-1);
+  entryDepths = ivec4(0);
+  entryPlaces = ivec4(0);
+  leftOutAt = listEnd;
+  leftOutDepth = AFTER_EVERYTHING;
+  leftOutFace = 0;
+  moreEntries = meetsMesh;
+  fetchListed();
+}
+
+// Nothing behind an entry that is left out is taken, so that all of them come in order.
+void insertEntry(int depth, int number, int place)
+{
+  if (isBefore(depth, number, leftOutDepth, leftOutFace))
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      if (number >= 0 &&
+        (entryFaces[i] < 0 || isBefore(depth, number, entryDepths[i], entryFaces[i])))
+      {
+        int otherDepth = entryDepths[i];
+        int otherNumber = entryFaces[i];
+        int otherPlace = entryPlaces[i];
+        entryDepths[i] = depth;
+        entryFaces[i] = number;
+        entryPlaces[i] = place;
+        depth = otherDepth;
+        number = otherNumber;
+        place = otherPlace;
+      }
+    }
+    leftOutDepth = number >= 0 ? depth : leftOutDepth;
+    leftOutFace = number >= 0 ? number : leftOutFace;
+  }
+  leftOutAt = number >= 0 ? min(leftOutAt, place) : leftOutAt;
+}
+
+// Looks at faces of the list until none of the others can be entered before the next entry after
+// (lastDepth, lastFace). The condition comes last, as in walk().
+void findEntries(int lastDepth, int lastFace)
+{
+  if (entryFaces.x < 0 && leftOutAt < listEnd)
+  {
+    // All entries before those left out have been taken.
+    listAt = leftOutAt;
+    leftOutAt = listEnd;
+    leftOutDepth = AFTER_EVERYTHING;
+    fetchListed();
+  }
+  bool looks = listDepth < endDepth && (entryFaces.x < 0 || listDepth <= entryDepths.x);
+  do
+  {
+    if (looks)
+    {
+      SeenFace f = seeFace(listFace);
+      if (f.entered && f.depth < endDepth && isBefore(lastDepth, lastFace, f.depth, listFace))
+      {
+        insertEntry(f.depth, listFace, listAt);
+      }
+      ++listAt;
+      fetchListed();
+      looks = listDepth < endDepth && (entryFaces.x < 0 || listDepth <= entryDepths.x);
+    }
+  } while (looks);
+}
+
+#else
+uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetrahedraEntryTilesFS
+#if BENDING
+uniform sampler3D bentTiles;         // the same for the rays behind the membrane
+#endif
+
+const int TILE_CAPACITY = 32;
+// Bounds the depths of the mesh, which are within 2^30 - 2048 plus rounding (GRID_PER_DEPTH); the
+// difference of two such bounds is still an int.
+const int FARTHEST_DEPTH = 1073741823;
+const int LARGEST_REACH = 2147483646;
+// DEPTH_MARGIN in grid units, by which boxes of the tree are larger: less would not get on.
+const int SMALLEST_REACH = 2048;
+
+int searchReach;     // how far behind the last entry the tree is searched for the next
+
+int twice(int reach)
+{
+  return reach > FARTHEST_DEPTH ? LARGEST_REACH : 2 * reach;
+}
+
+// The depth that lies `reach` behind `first`, or `farthest` if that is nearer.
+int behind(int first, int reach, int farthest)
+{
+  return farthest - first < reach ? farthest : first + reach;
+}
+
+void startEntries(bool meetsMesh)
+{
+  entryFaces = ivec4(-1);
+  entryDepths = ivec4(0);
+  searchReach = LARGEST_REACH;
+  moreEntries = meetsMesh;
+}
+
+void insertEntry(int depth, int number)
+{
+  moreEntries = moreEntries || entryFaces.w >= 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    if (entryFaces[i] < 0 || isBefore(depth, number, entryDepths[i], entryFaces[i]))
+    {
+      int otherDepth = entryDepths[i];
+      int otherNumber = entryFaces[i];
+      entryDepths[i] = depth;
+      entryFaces[i] = number;
+      depth = otherDepth;
+      number = otherNumber;
+      if (number < 0)
+      {
+        return;
+      }
+    }
+  }
+}
+
+vec4 fetchTile(ivec2 tile, int layer)
+{
+#if BENDING
+  if (rayIsBent)
+  {
+    return texelFetch(bentTiles, ivec3(tile, layer), 0);
+  }
+#endif
+  return texelFetch(entryTiles, ivec3(tile, layer), 0);
+}
+
+// Finds the next entries after (lastDepth, lastFace) among the faces listed for the ray's tile, or
+// among those of the tree if they did not fit. The tree is searched in a range of depths behind the
+// last entry that holds about four, so that each search looks at few of its nodes.
+void collectEntries(int lastDepth, int lastFace)
+{
+  ivec2 tile = ivec2(rayTilePixel / tileSize);
+  bool listed = fetchTile(tile, 0).x > -1.5;
+  int farthest = min(endDepth, FARTHEST_DEPTH);
+  int first = clamp(lastDepth, -FARTHEST_DEPTH, farthest);
+  ivec2 range = ivec2(first, listed ? farthest : behind(first, searchReach, farthest));
+  entryFaces = ivec4(-1);
+  entryDepths = ivec4(0);
+  moreEntries = false;
+  int at = 0;
+  int end = listed ? TILE_CAPACITY : numberOfNodes;
+  while (at < end)
+  {
+    int candidate;
+    if (listed)
+    {
+      candidate = int(fetchTile(tile, at / 4)[at % 4]);
+      at = candidate < 0 ? end : at + 1;
+    }
+    else
+    {
+      meetsBox(at, vec2(0.0), vec2(0.0), range, at, candidate);
+    }
+    if (candidate >= 0)
+    {
+      SeenFace f = seeFace(candidate);
+      if (f.entered && f.depth < endDepth && f.depth <= range.y &&
+        isBefore(lastDepth, lastFace, f.depth, candidate))
+      {
+        insertEntry(f.depth, candidate);
+      }
+    }
+    // Nothing in the range: on to the next, of twice the depth.
+    bool goesOn = at >= end && !listed && entryFaces.x < 0 && range.y < farthest;
+    searchReach = goesOn ? twice(searchReach) : searchReach;
+    range = goesOn ? ivec2(range.y, behind(range.y, searchReach, farthest)) : range;
+    at = goesOn ? 0 : at;
+  }
+  searchReach =
+    moreEntries ? max(twice(entryDepths.w - first), SMALLEST_REACH) : twice(searchReach);
+  moreEntries = moreEntries || range.y < farthest;
+}
+
+void findEntries(int lastDepth, int lastFace)
+{
+  if (entryFaces.x == -1 && moreEntries)
+  {
+    collectEntries(lastDepth, lastFace);
+  }
+}
+#endif

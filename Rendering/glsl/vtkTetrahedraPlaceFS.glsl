@@ -1,0 +1,61 @@
+//VTK::System::Dec
+#extension GL_ARB_gpu_shader5 : enable
+
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Places vertices in the grid of a view (Module/Volume/PixelRays.h), one per fragment. The kernel does
+// the same in double; here it is done in 64-bit fixed point. Coefficients are off by 2^-33 across and by
+// 2^-32 along, which moves the mesh by up to 3/8 and 3/4 of a grid unit, and results are rounded by 1/2.
+// All that reads the vertices reads these integers.
+
+in vec2 texCoord;
+
+out ivec4 placed;
+
+uniform isamplerBuffer modelVertices; // fixed-point position, bits of the normalised scalar
+uniform int firstVertex;              // of the fragments
+uniform int columns;                  // vertices in a row of fragments
+uniform int rows;                     // of fragments
+uniform int toGrid[9];                // rows for x and y, in units of 2^-32, for depth of 2^-31
+
+// a * b = high * 2^32 + low
+void multiply(ivec3 a, ivec3 b, out ivec3 high, out uvec3 low)
+{
+#ifdef GL_ARB_gpu_shader5
+  ivec3 bits;
+  imulExtended(a, b, high, bits);
+  low = uvec3(bits);
+#else
+  // By halves of 16 bits, the lower ones without sign.
+  ivec3 lowA = a & 0xffff;
+  ivec3 lowB = b & 0xffff;
+  ivec3 highA = a >> 16;
+  ivec3 highB = b >> 16;
+  ivec3 first = highA * lowB + ivec3((uvec3(lowA) * uvec3(lowB)) >> 16u);
+  ivec3 second = lowA * highB + (first & 0xffff);
+  high = highA * highB + (first >> 16) + (second >> 16);
+  low = uvec3(a) * uvec3(b);
+#endif
+}
+
+// A row times a position, in whole units: the 64-bit sum of three products over 2^32, or 2^31 with
+// `doubled`, rounded. The last two bits of each are left out, so that the sum of the lower words fits.
+int along(int row, ivec3 position, int doubled)
+{
+  ivec3 high;
+  uvec3 low;
+  multiply(ivec3(toGrid[row], toGrid[row + 1], toGrid[row + 2]), position, high, low);
+  low >>= 2u;
+  uint one = 30u - uint(doubled);
+  uint sum = low.x + low.y + low.z + (1u << (one - 1u));
+  return ((high.x + high.y + high.z) << doubled) + int(sum >> one);
+}
+
+void main()
+{
+  ivec2 fragment = ivec2(texCoord * vec2(float(columns), float(rows)));
+  ivec4 vertex = texelFetch(modelVertices, firstVertex + fragment.y * columns + fragment.x);
+  placed =
+    ivec4(along(0, vertex.xyz, 0), along(3, vertex.xyz, 0), along(6, vertex.xyz, 1), vertex.w);
+}

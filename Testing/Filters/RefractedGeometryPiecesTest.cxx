@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// ALL_IMAGES in a pipeline: arrays at points that were made, and pictures without cracks.
+#include "HeightField.h"
+#include "RefractedGeometryTestHelpers.h"
+#include "RefractionPicture.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkSphereSource.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+using namespace meniscus::testing;
+using meniscus::reference::HeightField;
+
+const double Pi = std::acos(-1.0);
+
+struct PiecesCase
+{
+  const char* name;
+  HeightField field;
+  int cells;
+  glm::dvec3 eye;
+};
+
+const PiecesCase Cases[] = {
+  { "plane", { HeightField::Shape::Waves, 200.0, 0.0, 0.03 * Pi, 1.0, 1.333 }, 8,
+    { 20.0, 130.0, 10.0 } },
+  { "waves", { HeightField::Shape::Waves, 200.0, 4.0, 0.03 * Pi, 1.0, 1.333 }, 48,
+    { 20.0, 300.0, 10.0 } },
+  { "dome", { HeightField::Shape::Dome, 200.0, 25.0, 0.02, 1.0, 1.5 }, 32, { 5.0, 250.0, 90.0 } },
+  { "hollow", { HeightField::Shape::Dome, 200.0, -20.0, 0.02, 1.0, 1.5 }, 32,
+    { 5.0, 250.0, 30.0 } },
+  { "waves from below", { HeightField::Shape::Waves, 200.0, 3.0, 0.03 * Pi, 1.333, 1.0 }, 48,
+    { 20.0, 200.0, 10.0 } },
+};
+
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(const PiecesCase& test, vtkPolyData* data)
+{
+  auto filter = MakeFilter(data, MakeMembrane(test.field.MakeMesh(test.cells)));
+  filter->SetMembraneModelToCurved();
+  filter->SetImagesToAllImages();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  filter->SetEyePosition(test.eye.x, test.eye.y, test.eye.z);
+  filter->SetExteriorIndexOfRefraction(test.field.exterior);
+  filter->SetInteriorIndexOfRefraction(test.field.interior);
+  return filter;
+}
+
+class RefractedGeometryPieces : public ::testing::TestWithParam<PiecesCase>
+{
+};
+
+// An array of ones stays one, texture coordinates are those of the true position, which lies on
+// the floor at the end of the refracted path, and no piece reaches beyond its tile.
+TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
+{
+  const PiecesCase& test = GetParam();
+  constexpr double side = 120.0;
+  constexpr int count = 9;
+  const double depth = -90.0;
+  const auto floor = MakeGrid(count, side, depth);
+  AddTruth(floor);
+  const vtkIdType points = floor->GetNumberOfPoints();
+  vtkNew<vtkDoubleArray> ones;
+  ones->SetName("Ones");
+  ones->SetNumberOfTuples(points);
+  ones->Fill(1.0);
+  floor->GetPointData()->AddArray(ones);
+  vtkNew<vtkDoubleArray> texture;
+  texture->SetName("Texture");
+  texture->SetNumberOfComponents(2);
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    const double* p = floor->GetPoint(i);
+    texture->InsertNextTuple2(p[0] / side + 0.5, p[2] / side + 0.5);
+  }
+  floor->GetPointData()->SetTCoords(texture);
+  const auto filter = MakeAllImages(test, floor);
+  filter->Update();
+  vtkPointData* output = filter->GetOutput()->GetPointData();
+  ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  double worstOne = 0.0;
+  double worstTexture = 0.0;
+  double worstPath = 0.0;
+  double worstFloor = 0.0;
+  double farthest = 0.0;
+  for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
+  {
+    double truth[3];
+    double sight[3];
+    double at[2];
+    output->GetArray("Truth")->GetTuple(i, truth);
+    output->GetArray("SightPoint")->GetTuple(i, sight);
+    output->GetTCoords()->GetTuple(i, at);
+    const glm::dvec3 place(truth[0], truth[1], truth[2]);
+    const glm::dvec3 from(sight[0], sight[1], sight[2]);
+    worstOne = std::max(worstOne, std::fabs(output->GetArray("Ones")->GetTuple1(i) - 1.0));
+    worstTexture = std::max({ worstTexture, std::fabs(at[0] - (place.x / side + 0.5)),
+      std::fabs(at[1] - (place.z / side + 0.5)) });
+    worstFloor = std::max(worstFloor, std::fabs(place.y - depth));
+    worstPath = std::max(worstPath,
+      std::fabs(glm::length(place - from) - output->GetArray("RefractionDepth")->GetTuple1(i)));
+    farthest = std::max({ farthest, std::fabs(place.x), std::fabs(place.z) });
+  }
+  // Three products and their sum.
+  EXPECT_LE(worstOne, 4.0 * epsilon);
+  EXPECT_LE(worstTexture, 8.0 * epsilon);
+  EXPECT_LE(worstFloor, 4.0 * epsilon * std::fabs(depth));
+  EXPECT_LE(farthest, 0.5 * side * (1.0 + 4.0 * epsilon));
+  EXPECT_LE(worstPath, 1e-9);
+}
+
+// A pixel with nothing in it between pixels that show the ball, two at most away on either side.
+TEST_P(RefractedGeometryPieces, NoPixelShowsThroughABall)
+{
+  const PiecesCase& test = GetParam();
+  vtkNew<vtkSphereSource> source;
+  source->SetCenter(3.0, -85.0, 2.0);
+  source->SetRadius(45.0);
+  source->SetThetaResolution(60);
+  source->SetPhiResolution(40);
+  source->Update();
+  vtkNew<vtkPolyData> ball;
+  ball->DeepCopy(source->GetOutput());
+  AddPlaces(ball);
+  const auto filter = MakeAllImages(test, ball);
+  filter->Update();
+  constexpr int pixels = 1500;
+  const PixelCamera camera(test.eye, { 3.0, -30.0, 2.0 }, 0.2, pixels);
+  const PlacePicture picture = DrawPlaces(filter->GetOutput(), camera);
+  const auto covers = [&picture](int x, int y)
+  { return picture[static_cast<std::size_t>(y * pixels + x)].covered; };
+  int covered = 0;
+  int cracks = 0;
+  for (int y = 2; y + 2 < pixels; ++y)
+  {
+    for (int x = 2; x + 2 < pixels; ++x)
+    {
+      covered += covers(x, y);
+      cracks += !covers(x, y) && (covers(x - 1, y) || covers(x - 2, y)) &&
+        (covers(x + 1, y) || covers(x + 2, y)) && (covers(x, y - 1) || covers(x, y - 2)) &&
+        (covers(x, y + 1) || covers(x, y + 2));
+    }
+  }
+  EXPECT_GT(covered, pixels * pixels / 40);
+  EXPECT_EQ(cracks, 0) << covered << " pixels show the ball";
+}
+
+INSTANTIATE_TEST_SUITE_P(Membranes, RefractedGeometryPieces, ::testing::ValuesIn(Cases));
+
+}

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists of the faces that rays may enter by, for meshes of cells that share no points.
+#include "VolumeTestMeshes.h"
+
+#include "Volume/EntryRaster.h"
+#include "Volume/EntryTiles.h"
+#include "Volume/TileCaster.h"
+
+#include <glm/ext/matrix_clip_space.hpp>
+#include <glm/ext/matrix_transform.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+using namespace meniscus;
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Pixels = 96;
+constexpr int TileSize = 2;
+
+/** Each cell with points of its own, shrunk about their mean. */
+MeshArrays Apart(const MeshArrays& arrays, double factor)
+{
+  MeshArrays apart;
+  for (std::size_t c = 0; c < arrays.Cells.size(); c += 4)
+  {
+    glm::dvec3 mean(0.0);
+    for (int i = 0; i < 4; ++i)
+    {
+      mean += 0.25 * arrays.PointAt(arrays.Cells[c + i]);
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      const glm::dvec3 point = mean + factor * (arrays.PointAt(arrays.Cells[c + i]) - mean);
+      apart.Points.insert(apart.Points.end(), { point.x, point.y, point.z });
+      apart.Cells.push_back(static_cast<std::int64_t>(c) + i);
+    }
+  }
+  return apart;
+}
+
+/** A view from outside, from within, or parallel. */
+RayFrame FrameFrom(const TetrahedralMesh& mesh, const glm::dvec3& eye, double degrees)
+{
+  RayFrameInput input;
+  input.WorldToView = glm::lookAt(eye, glm::dvec3(0.5, 0.52, 0.47), glm::dvec3(0.1, 1.0, 0.2));
+  input.ViewToClip = degrees > 0.0 ? glm::perspective(glm::radians(degrees), 1.0, 0.01, 20.0)
+                                   : glm::ortho(-0.8, 0.8, -0.8, 0.8, 0.01, 20.0);
+  input.Center = mesh.GetCenter();
+  input.Radius = mesh.GetRadius();
+  input.ImageSize = glm::dvec2(Pixels);
+  RayFrame frame;
+  EXPECT_EQ(ComputeRayFrame(input, frame), RayFrameStatus::Ok);
+  return frame;
+}
+
+struct ListCheck
+{
+  std::int64_t Entries = 0;
+  std::int64_t Missing = 0;
+  std::int64_t TooNear = 0;
+  std::int64_t Disorder = 0;
+};
+
+/** Every entry that the native backend finds has to be in the list of its tile, not before it. */
+ListCheck CheckLists(const TetrahedralMesh& mesh, const EntryTiles& tiles, const PixelRays& rays)
+{
+  std::vector<PacketVertex> vertices;
+  PlaceVertices(mesh, {}, rays, SerialLoop, vertices);
+  EntryRaster raster;
+  raster.Build(vertices, mesh.GetBoundary(), rays);
+  ListCheck check;
+  EntryRaster::Workspace workspace;
+  for (int tile = 0; tile < raster.GetNumberOfTiles(); ++tile)
+  {
+    raster.CollectEntries(tile, workspace);
+    const ProjectedFaces::PixelBox box = raster.BoxOfTile(tile);
+    for (int pixel = 0; pixel < EntryRaster::TileSize * EntryRaster::TileSize; ++pixel)
+    {
+      const int column = box.Left + pixel % EntryRaster::TileSize;
+      const int row = box.Bottom + pixel / EntryRaster::TileSize;
+      const EntryLists& lists = workspace.Lists;
+      for (std::int32_t e = lists.GetBegin(pixel); e < lists.GetBegin(pixel + 1); ++e)
+      {
+        const PacketEntry& entry = lists.GetEntries()[e];
+        const int number = row / TileSize * tiles.GetNumberOfColumns() + column / TileSize;
+        const auto first = tiles.GetFaces().begin() + tiles.GetBegins()[number];
+        const auto last = tiles.GetFaces().begin() + tiles.GetBegins()[number + 1];
+        const auto found = std::find_if(first, last,
+          [&](std::int32_t f) { return mesh.GetBoundary()[f].CellFace == entry.CellFace; });
+        ++check.Entries;
+        check.Missing += found == last;
+        check.TooNear += found != last && entry.Depth < tiles.GetNearestDepths()[*found];
+      }
+    }
+  }
+  for (std::size_t t = 0; t + 1 < tiles.GetBegins().size(); ++t)
+  {
+    for (std::int32_t i = tiles.GetBegins()[t] + 1; i < tiles.GetBegins()[t + 1]; ++i)
+    {
+      check.Disorder += tiles.GetNearestDepths()[tiles.GetFaces()[i]] <
+        tiles.GetNearestDepths()[tiles.GetFaces()[i - 1]];
+    }
+  }
+  return check;
+}
+
+}
+
+TEST(EntryTiles, HoldEveryEntryInTheOrderOfDepth)
+{
+  for (const double factor : { 1.0, 0.999, 0.5 })
+  {
+    TetrahedralMesh mesh;
+    ASSERT_EQ(mesh.Build(Apart(KuhnGrid(5), factor).View()), MeshStatus::Ok);
+    const std::vector<std::pair<glm::dvec3, double>> views{ { { 1.9, 1.3, 2.2 }, 30.0 },
+      { { 1.9, 1.3, 2.2 }, 0.0 }, { { 0.5, 0.52, 3.0 }, 0.0 }, { { 0.41, 0.37, 0.9 }, 100.0 },
+      { { 0.9, 0.8, 1.1 }, 5.0 } };
+    for (const auto& view : views)
+    {
+      const PixelRays rays(FrameFrom(mesh, view.first, view.second), Pixels, Pixels);
+      EntryTiles tiles;
+      ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), rays, TileSize));
+      const ListCheck check = CheckLists(mesh, tiles, rays);
+      EXPECT_GT(check.Entries, 1000);
+      EXPECT_EQ(check.Missing, 0);
+      EXPECT_EQ(check.TooNear, 0);
+      EXPECT_EQ(check.Disorder, 0);
+    }
+  }
+}
+
+TEST(EntryTiles, AreFewFacesLongerThanTheEntriesOfTheirRays)
+{
+  // The work of a shader: each of a tile's rays looks at its faces once. The pixels' centres of a
+  // tile are a square of side t = 1. Kuhn's faces have a mean area of 0.60 e^2 and perimeter of
+  // 3.78 e, with e = 7.5 pixels here; seen from a random direction A = 17 and P = 22, and tiles
+  // look at A + 2 t P / pi + t^2 = 1.9 A. Half as much again is for one direction and needles.
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(Apart(KuhnGrid(8), 1.0).View()), MeshStatus::Ok);
+  const PixelRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 0.0), Pixels, Pixels);
+  EntryTiles tiles;
+  ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), rays, TileSize));
+  const ListCheck check = CheckLists(mesh, tiles, rays);
+  const auto looks = static_cast<std::int64_t>(tiles.GetFaces().size()) * TileSize * TileSize;
+  EXPECT_LT(looks, 2.85 * static_cast<double>(check.Entries));
+}
+
+TEST(EntryTiles, DoNotDependOnTheLoop)
+{
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(Apart(KuhnGrid(7), 0.8).View()), MeshStatus::Ok);
+  const PixelRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 30.0), Pixels, Pixels);
+  EntryTiles serial;
+  EntryTiles other;
+  ASSERT_TRUE(serial.Build(mesh, mesh.GetBoundary(), rays, TileSize));
+  ASSERT_TRUE(other.Build(mesh, mesh.GetBoundary(), rays, TileSize,
+    [](std::size_t count, const RangeBody& body)
+    {
+      for (std::size_t i = count; i > 0; --i)
+      {
+        body(i - 1, i);
+      }
+    }));
+  EXPECT_EQ(serial.GetBegins(), other.GetBegins());
+  EXPECT_EQ(serial.GetFaces(), other.GetFaces());
+  EXPECT_EQ(serial.GetNearestDepths(), other.GetNearestDepths());
+}
+
+TEST(EntryTiles, ExpectedLengthIsThatOfManyViews)
+{
+  // The estimate is a mean over directions: that of 24 random ones is near it.
+  TetrahedralMesh mesh;
+  ASSERT_EQ(mesh.Build(Apart(KuhnGrid(6), 0.9).View()), MeshStatus::Ok);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  double faces = 0.0;
+  double covered = 0.0;
+  double side = 0.0;
+  for (int i = 0; i < 24; ++i)
+  {
+    const glm::dvec3 direction(normal(random), normal(random), normal(random));
+    const glm::dvec3 eye = glm::dvec3(0.5) + 3.0 * glm::normalize(direction);
+    const RayFrame frame = FrameFrom(mesh, eye, 0.0);
+    EntryTiles tiles;
+    ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), PixelRays(frame, Pixels, Pixels), TileSize));
+    for (std::size_t t = 0; t + 1 < tiles.GetBegins().size(); ++t)
+    {
+      const std::int32_t length = tiles.GetBegins()[t + 1] - tiles.GetBegins()[t];
+      faces += length;
+      covered += length > 0 ? 1.0 : 0.0;
+    }
+    // The centres of its pixels.
+    side = (TileSize - 1) * glm::length(frame.Origin.PerColumn);
+  }
+  const double expected = ExpectedEntriesPerTile(MeasureBoundary(mesh), side);
+  EXPECT_NEAR(faces / covered / expected, 1.0, 0.25);
+}
+
+TEST(EntryLists, OrderEntriesHoweverTheyCome)
+{
+  std::mt19937 random(11);
+  for (const int count : { 1, 2, 17, 400 })
+  {
+    EntryLists lists;
+    lists.Start(3);
+    std::map<std::pair<float, std::int32_t>, int> expected[3];
+    for (int i = 0; i < count; ++i)
+    {
+      const auto ray = static_cast<std::int32_t>(random() % 3);
+      // Depths that are often equal, in no order.
+      const float depth = static_cast<float>(random() % 20);
+      lists.Add(ray, { { 0, 1, 2 }, i, depth });
+      expected[ray][{ depth, i }] = 1;
+    }
+    lists.Sort();
+    for (int ray = 0; ray < 3; ++ray)
+    {
+      std::int32_t at = lists.GetBegin(ray);
+      for (const auto& entry : expected[ray])
+      {
+        ASSERT_LT(at, lists.GetBegin(ray + 1));
+        EXPECT_EQ(lists.GetEntries()[at].Depth, entry.first.first);
+        EXPECT_EQ(lists.GetEntries()[at].CellFace, entry.first.second);
+        ++at;
+      }
+      EXPECT_EQ(at, lists.GetBegin(ray + 1));
+    }
+  }
+}

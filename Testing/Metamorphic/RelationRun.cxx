@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RelationRun.h"
+
+#include "CaseProcess.h"
+#include "RandomNumbers.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <map>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+struct RelationResult
+{
+  RelationTally Tally;
+  int Crashed = 0;
+  int Stuck = 0;
+  double Seconds = 0.0;
+
+  bool isGood() const
+  {
+    return this->Tally.Failures == 0 && this->Crashed == 0 && this->Stuck == 0;
+  }
+
+  void add(const RelationResult& other)
+  {
+    this->Tally.add(other.Tally);
+    this->Crashed += other.Crashed;
+    this->Stuck += other.Stuck;
+    this->Seconds += other.Seconds;
+  }
+};
+
+// One case as the child reports it: a line of numbers, then the words.
+std::string encode(const RelationTally& t)
+{
+  std::ostringstream line;
+  line.precision(std::numeric_limits<double>::max_digits10);
+  line << t.Scenes << ' ' << t.Comparisons << ' ' << t.Values << ' ' << t.Conditioned << ' '
+       << t.Wrong << ' ' << t.Failures << ' ' << t.Deviation << ' ' << t.Tolerance << ' '
+       << t.FirstFailure;
+  return line.str();
+}
+
+RelationTally decode(const std::string& text)
+{
+  std::istringstream line(text);
+  RelationTally t;
+  line >> t.Scenes >> t.Comparisons >> t.Values >> t.Conditioned >> t.Wrong >> t.Failures >>
+    t.Deviation >> t.Tolerance;
+  line.ignore(1);
+  std::getline(line, t.FirstFailure);
+  return t;
+}
+
+// Whether a deviation is a larger part of its tolerance than another; NaN is. A tolerance below 0:
+// there is no other yet.
+bool outranks(double deviation, double tolerance, double other, double toleranceOfOther)
+{
+  return toleranceOfOther < 0.0 || !(deviation * toleranceOfOther <= other * tolerance);
+}
+
+void printHead(std::ostream& out)
+{
+  out << "| relation | scenes | comparisons | values | conditioned | largest deviation | of "
+         "tolerance | wrong values | failures | stuck | crashed | s |\n"
+      << "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+}
+
+void printRow(std::ostream& out, const std::string& name, const RelationResult& r)
+{
+  const RelationTally& t = r.Tally;
+  std::ostringstream row;
+  row << "| " << name << " | " << t.Scenes << " | " << t.Comparisons << " | " << t.Values << " | "
+      << t.Conditioned << " | " << std::scientific << std::setprecision(1);
+  if (t.Tolerance >= 0.0)
+  {
+    row << t.Deviation << " | " << t.Tolerance;
+  }
+  else
+  {
+    row << " | ";
+  }
+  row << " | " << t.Wrong << " | " << t.Failures << " | " << r.Stuck << " | " << r.Crashed << " | "
+      << std::fixed << r.Seconds << " |\n";
+  out << row.str() << std::flush;
+}
+
+// The chosen cases of the chosen relations in a row, and what came of them.
+class RelationTable
+{
+public:
+  RelationTable(
+    const std::vector<Relation>& relations, const ProgrammeOptions& options, std::ostream& out)
+    : Relations(relations)
+    , Out(out)
+    , Results(relations.size())
+    , Begin(std::chrono::steady_clock::now())
+  {
+    for (std::size_t r = 0; r < relations.size(); ++r)
+    {
+      const bool chosen = options.has(relations[r].Name);
+      for (int i = 0; i < relations[r].Cases && chosen; ++i)
+      {
+        if (options.Case < 0 || options.Case == i)
+        {
+          this->Cases.emplace_back(r, i);
+        }
+      }
+    }
+  }
+
+  int numberOfCases() const { return static_cast<int>(this->Cases.size()); }
+
+  // All cases of a process, whatever their relation.
+  CaseWork start() const
+  {
+    const auto works = std::make_shared<std::map<std::size_t, RelationWork>>();
+    return [this, works](int index)
+    {
+      const auto& one = this->Cases[static_cast<std::size_t>(index)];
+      RelationWork& work = (*works)[one.first];
+      work = work ? work : this->Relations[one.first].Start();
+      return encode(work(one.second));
+    };
+  }
+
+  void take(int index, const std::string& line)
+  {
+    RelationResult result;
+    result.Tally = decode(line);
+    this->take(index, result, result.Tally.FirstFailure);
+  }
+
+  void lose(int index, bool stuck)
+  {
+    RelationResult result;
+    ++(stuck ? result.Stuck : result.Crashed);
+    this->take(index, result, stuck ? "no end" : "the process ended by a signal");
+  }
+
+  // Prints what is left; returns whether all is good.
+  bool finish()
+  {
+    RelationResult sum;
+    for (const RelationResult& result : this->Results)
+    {
+      sum.add(result);
+    }
+    printRow(this->Out, "all", sum);
+    for (const std::string& note : this->Notes)
+    {
+      this->Out << note << '\n';
+    }
+    // Options that choose nothing must not pass as a success.
+    return sum.isGood() && sum.Tally.Comparisons > 0;
+  }
+
+private:
+  void take(int index, const RelationResult& result, const std::string& words)
+  {
+    const auto at = static_cast<std::size_t>(index);
+    const std::size_t relation = this->Cases[at].first;
+    const std::string& name = this->Relations[relation].Name;
+    RelationResult& total = this->Results[relation];
+    total.add(result);
+    if (!words.empty())
+    {
+      this->Notes.push_back(
+        name + ", case " + std::to_string(this->Cases[at].second) + ": " + words);
+    }
+    if (at + 1 == this->Cases.size() || this->Cases[at + 1].first != relation)
+    {
+      const auto now = std::chrono::steady_clock::now();
+      total.Seconds = std::chrono::duration<double>(now - this->Begin).count();
+      this->Begin = now;
+      printRow(this->Out, name, total);
+    }
+  }
+
+  const std::vector<Relation>& Relations;
+  std::ostream& Out;
+  std::vector<RelationResult> Results;
+  // Relation and number.
+  std::vector<std::pair<std::size_t, int>> Cases;
+  std::vector<std::string> Notes;
+  std::chrono::steady_clock::time_point Begin;
+};
+
+bool runAll(
+  const std::vector<Relation>& relations, const ProgrammeOptions& options, std::ostream& out)
+{
+  printHead(out);
+  RelationTable table(relations, options, out);
+  ProcessResult processes;
+  runCases(
+    table.numberOfCases(), 1, options.Seconds, [&table]() { return table.start(); },
+    [&table](int index, const std::string& line) { table.take(index, line); }, processes,
+    [&table](int index, bool stuck) { table.lose(index, stuck); });
+  return table.finish();
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+bool RelationTally::compare(double deviation, double tolerance)
+{
+  ++this->Values;
+  const bool good = deviation <= tolerance; // false for NaN
+  this->Wrong += !good;
+  if (outranks(deviation, tolerance, this->Deviation, this->Tolerance))
+  {
+    this->Deviation = deviation;
+    this->Tolerance = tolerance;
+  }
+  return good;
+}
+
+//------------------------------------------------------------------------------
+void RelationTally::add(const RelationTally& other)
+{
+  this->Scenes += other.Scenes;
+  this->Comparisons += other.Comparisons;
+  this->Values += other.Values;
+  this->Conditioned += other.Conditioned;
+  this->Wrong += other.Wrong;
+  this->Failures += other.Failures;
+  if (other.Tolerance >= 0.0 &&
+    outranks(other.Deviation, other.Tolerance, this->Deviation, this->Tolerance))
+  {
+    this->Deviation = other.Deviation;
+    this->Tolerance = other.Tolerance;
+  }
+  this->FirstFailure = this->FirstFailure.empty() ? other.FirstFailure : this->FirstFailure;
+}
+
+//------------------------------------------------------------------------------
+int runMetamorphicProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
+  const OptionReader& readMore, const RelationMaker& make)
+{
+  options.GroupOption = "--relation";
+  return runProgramme(argc, argv, usage, options, readMore,
+    [&options, &make](std::ostream& out) { return runAll(make(), options, out); });
+}
+
+//------------------------------------------------------------------------------
+int casesAt(double intensity, int atOne)
+{
+  return std::max(1, static_cast<int>(std::lround(intensity * atOne)));
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t seedOfCase(std::uint64_t seed, const std::string& relation, int index)
+{
+  // FNV-1a of the name: a relation's scenes do not change when another one is added before it.
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : relation)
+  {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  }
+  RandomNumbers mix(seed ^ hash);
+  return RandomNumbers(mix.bits() + static_cast<std::uint64_t>(index)).bits();
+}
+
+} // namespace test
+} // namespace meniscus

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_RelationRun_h
+#define meniscus_RelationRun_h
+
+#include "ProgrammeOptions.h"
+#include "Relation.h"
+
+#include <functional>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+/// Makes all relations once the options are known. Cases grow with the intensity; every case draws
+/// from a stream of its own (see seedOfCase()), so that it can be run alone.
+using RelationMaker = std::function<std::vector<Relation>()>;
+
+/**
+ * main() of a metamorphic programme: reads the options (--relation, --case, --seed, --intensity,
+ * --seconds, --report, and those of `readMore`), runs every case in a process that a crash or an
+ * endless loop does not take the others along with, prints the table and what failed. Returns the
+ * exit status: success if no relation failed.
+ */
+int runMetamorphicProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
+  const OptionReader& readMore, const RelationMaker& make);
+
+/// Cases at an intensity: the number at 1, times the intensity, at least 1.
+int casesAt(double intensity, int atOne);
+
+/// Seed of the random numbers of one case of the relation with a name.
+std::uint64_t seedOfCase(std::uint64_t seed, const std::string& relation, int index);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

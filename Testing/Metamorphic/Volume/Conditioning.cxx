@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Conditioning.h"
+
+#include "ReferenceComponents.h"
+#include "ReferenceOptics.h"
+#include "TestTransferFunctions.h"
+
+#include <vtkTetrahedraRayCastMapper.h>
+#include <vtkVolumeMapper.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+using reference::Ray;
+using reference::RaySegment;
+using Color = std::array<double, 4>;
+
+constexpr int NumberOfCopies = 12;
+
+struct Rounding
+{
+  /// Of points, in any direction and along the view.
+  double Point = 0.0;
+  double Depth = 0.0;
+  /// Share of a component's range.
+  double Scalar = 0.0;
+};
+
+// See the class: two pictures.
+Rounding roundingOf(const VolumeCase& test)
+{
+  double b[6];
+  test.mesh().bounds(b);
+  const double radius = 0.5 * diagonalOf(b);
+  const double slope = test.View.Parallel ? 0.0 : std::sqrt(2.0) * test.View.HalfHeight;
+  const bool native = test.Backend == vtkTetrahedraRayCastMapper::NATIVE;
+  const double unit = native && !test.Membrane.Mesh ? 0x1p-29 : 0x1p-22;
+  const bool divides = test.Look.Blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND;
+  return { 2.0 * 1.5 * unit * radius * (1.0 + slope), divides ? 2.0 * 3.0 * 0x1p-24 * radius : 0.0,
+    2.0 * (native ? 2.0 : 4.0) * 0x1p-24 };
+}
+
+// The function of one component; opacity as it is where a mode does not measure lengths.
+reference::ReferenceTransferFunction functionOf(const VolumeLook& look, std::size_t component)
+{
+  VolumeLook one;
+  one.Functions = { look.Functions[component] };
+  const bool measures =
+    look.Blend == vtkVolumeMapper::COMPOSITE_BLEND || look.Blend == vtkVolumeMapper::ADDITIVE_BLEND;
+  one.Unit = measures ? look.Unit : 1.0;
+  auto nodes = toReference(toProperty(one)).nodes();
+  const bool weighted = look.Functions.size() > 1 && look.Independent;
+  for (auto& node : nodes)
+  {
+    node.Value.Attenuation *= weighted ? look.Functions[component].Weight : 1.0;
+  }
+  return reference::ReferenceTransferFunction(nodes);
+}
+
+reference::Material materialOf(const VolumeCase& test)
+{
+  reference::Material material;
+  material.Ambient = test.Look.Ambient;
+  material.Diffuse = test.Look.Diffuse;
+  material.Specular = test.Look.Specular;
+  material.Power = test.Look.SpecularPower;
+  const glm::dvec3 toEye = test.View.Eye - test.View.Focus; // the renderer's headlight
+  reference::Light light;
+  light.Place = { toEye.x, toEye.y, toEye.z };
+  material.Lights = { light };
+  return material;
+}
+
+double gradientFactor(const VolumeLook& look, double size)
+{
+  const auto& points = look.GradientOpacity;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (size < points[i].Scalar)
+    {
+      if (i == 0)
+      {
+        break;
+      }
+      const double u = (size - points[i - 1].Scalar) / (points[i].Scalar - points[i - 1].Scalar);
+      return points[i - 1].Opacity + u * (points[i].Opacity - points[i - 1].Opacity);
+    }
+  }
+  return size < points.front().Scalar ? points.front().Opacity : points.back().Opacity;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+/// The exact picture of a case whose points and scalars are moved by given amounts at random.
+class Conditioning::Truth
+{
+public:
+  Truth(const VolumeCase& test, const Rounding& rounding, RandomNumbers& random)
+    : Case(test)
+    , Material(materialOf(test))
+  {
+    const MeshArrays& mesh = test.mesh();
+    std::vector<double> points;
+    const glm::dvec3 forward = glm::normalize(test.View.Focus - test.View.Eye);
+    for (const glm::dvec3& p : mesh.Points)
+    {
+      const double depth = moved(rounding.Depth, random);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        points.push_back(p[axis] + depth * forward[axis] + moved(rounding.Point, random));
+      }
+    }
+    std::vector<std::int64_t> ids;
+    for (const MeshTetrahedron& tetrahedron : tetrahedraOf(mesh))
+    {
+      ids.insert(ids.end(), tetrahedron.Ids.begin(), tetrahedron.Ids.end());
+      this->Cells.push_back(tetrahedron.Cell);
+    }
+    for (int c = 0; c < mesh.Components; ++c)
+    {
+      const auto range = mesh.range(c);
+      std::vector<double> values;
+      for (std::size_t i = 0; i < mesh.tuples(); ++i)
+      {
+        values.push_back(mesh.value(i, c) + moved(rounding.Scalar * (range[1] - range[0]), random));
+      }
+      this->CellValues = mesh.OnCells ? values : std::vector<double>();
+      values.resize(mesh.Points.size());
+      this->Integrators.push_back(
+        std::make_unique<reference::ReferenceRayIntegrator>(points, ids, values));
+      this->Functions.push_back(functionOf(test.Look, static_cast<std::size_t>(c)));
+    }
+    for (const double value : test.Look.IsoValues)
+    {
+      const reference::OpticalSample sample = this->Functions[0].value(value);
+      this->Surfaces.push_back({ value, sample.Attenuation, sample.Color });
+    }
+  }
+
+  /// @param exact  the copy that is not moved: gradients are those of the input, not of its
+  /// rounding.
+  Color trace(int x, int y, const Truth& exact)
+  {
+    const Ray ray = this->Case.View.ray(x, y, this->Case.Size);
+    if (!this->Case.Membrane.Mesh)
+    {
+      return this->tracePart(ray, this->segments(ray), exact);
+    }
+    const auto refracted = reference::refract(this->Case.Membrane.Surface, ray, 0.0, false);
+    if (this->isProjection())
+    {
+      std::vector<RaySegment> both = reference::findSegments(*this->Integrators[0],
+        { this->clipped(refracted.Straight), this->clipped(refracted.Bent) });
+      this->takeCellValues(both);
+      return this->tracePart(refracted.Straight, both, exact);
+    }
+    return reference::compose(refracted,
+      [&](const Ray& part) { return this->tracePart(part, this->segments(part), exact); });
+  }
+
+  const reference::ReferenceGradients& gradients() const
+  {
+    if (!this->Gradients)
+    {
+      this->Gradients = std::make_unique<reference::ReferenceGradients>(
+        this->Integrators[0]->mesh(), this->Case.Look.Gradients != 0);
+    }
+    return *this->Gradients;
+  }
+
+private:
+  static double moved(double amount, RandomNumbers& random)
+  {
+    return random.below(2) ? amount : -amount;
+  }
+
+  bool isProjection() const
+  {
+    return this->Case.Look.Blend != vtkVolumeMapper::COMPOSITE_BLEND &&
+      this->Case.Look.Blend != vtkVolumeMapper::ISOSURFACE_BLEND;
+  }
+
+  Ray clipped(const Ray& ray) const
+  {
+    std::vector<reference::HalfSpace> halves;
+    for (const auto& plane : this->Case.Planes)
+    {
+      halves.push_back(
+        { { plane[1].x, plane[1].y, plane[1].z }, { plane[0].x, plane[0].y, plane[0].z } });
+    }
+    return reference::clipRay(ray, halves);
+  }
+
+  std::vector<RaySegment> segments(const Ray& ray) const
+  {
+    std::vector<RaySegment> segments;
+    this->Integrators[0]->findSegments(this->clipped(ray), segments);
+    this->takeCellValues(segments);
+    return segments;
+  }
+
+  void takeCellValues(std::vector<RaySegment>& segments) const
+  {
+    for (RaySegment& segment : segments)
+    {
+      if (!this->CellValues.empty())
+      {
+        segment.ScalarBegin = segment.ScalarEnd =
+          this->CellValues[this->Cells[static_cast<std::size_t>(segment.Cell)]];
+      }
+    }
+  }
+
+  Color project(const Ray& ray, const std::vector<RaySegment>& segments) const
+  {
+    const int blend = this->Case.Look.Blend;
+    const auto range = this->Case.mesh().range(0);
+    const auto projection = blend == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND
+      ? reference::Projection::Maximum
+      : blend == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND ? reference::Projection::Minimum
+      : blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND ? reference::Projection::Average
+                                                          : reference::Projection::Additive;
+    return reference::project(ray, segments, projection, this->Functions[0], range.data());
+  }
+
+  Color mix(const Ray& ray) const
+  {
+    std::vector<std::vector<RaySegment>> segments(this->Integrators.size());
+    for (std::size_t c = 0; c < segments.size(); ++c)
+    {
+      this->Integrators[c]->findSegments(this->clipped(ray), segments[c]);
+    }
+    const auto mixture = this->Case.Look.Independent ? reference::Mixture::Independent
+      : segments.size() == 2                         ? reference::Mixture::ColorAndOpacity
+                                                     : reference::Mixture::RedGreenBlueOpacity;
+    return reference::integrateComponents(ray, segments, mixture, this->Functions);
+  }
+
+  Color tracePart(const Ray& ray, const std::vector<RaySegment>& segments, const Truth& exact) const
+  {
+    const VolumeLook& look = this->Case.Look;
+    if (this->isProjection())
+    {
+      return this->project(ray, segments);
+    }
+    if (this->Integrators.size() > 1)
+    {
+      return this->mix(ray);
+    }
+    const reference::Material* const material = look.Shade ? &this->Material : nullptr;
+    if (look.Blend == vtkVolumeMapper::ISOSURFACE_BLEND)
+    {
+      return reference::blendSurfaces(
+        ray, segments, this->Surfaces, material ? &exact.gradients() : nullptr, this->Material);
+    }
+    if (!this->Case.hasGradients())
+    {
+      return reference::ReferenceRayIntegrator::integrate(ray, segments, this->Functions[0]);
+    }
+    const auto factor = [&look](double size) { return gradientFactor(look, size); };
+    return reference::integrateShaded(ray, segments, this->Functions[0], exact.gradients(),
+      material, look.GradientOpacity.empty() ? std::function<double(double)>() : factor, 8);
+  }
+
+  const VolumeCase& Case;
+  reference::Material Material;
+  std::vector<std::size_t> Cells;
+  std::vector<double> CellValues;
+  std::vector<std::unique_ptr<reference::ReferenceRayIntegrator>> Integrators;
+  std::vector<reference::ReferenceTransferFunction> Functions;
+  std::vector<reference::Surface> Surfaces;
+  mutable std::unique_ptr<reference::ReferenceGradients> Gradients;
+};
+
+//------------------------------------------------------------------------------
+Conditioning::Conditioning(const VolumeCase& test)
+  : Case(test)
+{
+}
+
+//------------------------------------------------------------------------------
+Conditioning::~Conditioning() = default;
+
+//------------------------------------------------------------------------------
+void Conditioning::makeCopies()
+{
+  if (!this->Copies.empty())
+  {
+    return;
+  }
+  RandomNumbers random(1);
+  this->Copies.push_back(std::make_unique<Truth>(this->Case, Rounding(), random));
+  for (int i = 0; i < NumberOfCopies; ++i)
+  {
+    this->Copies.push_back(std::make_unique<Truth>(this->Case, roundingOf(this->Case), random));
+  }
+}
+
+//------------------------------------------------------------------------------
+std::array<double, 4> Conditioning::exact(int x, int y)
+{
+  this->makeCopies();
+  return this->Copies.front()->trace(x, y, *this->Copies.front());
+}
+
+//------------------------------------------------------------------------------
+double Conditioning::spread(int x, int y)
+{
+  this->makeCopies();
+  Color low;
+  Color high;
+  low.fill(1e300);
+  high.fill(-1e300);
+  for (const auto& copy : this->Copies)
+  {
+    const Color color = copy->trace(x, y, *this->Copies.front());
+    for (std::size_t c = 0; c < 4; ++c)
+    {
+      low[c] = std::min(low[c], color[c]);
+      high[c] = std::max(high[c], color[c]);
+    }
+  }
+  double largest = 0.0;
+  for (std::size_t c = 0; c < 4; ++c)
+  {
+    largest = std::max(largest, high[c] - low[c]);
+  }
+  return largest;
+}
+
+//------------------------------------------------------------------------------
+double plainTolerance(int backend)
+{
+  return backend == vtkTetrahedraRayCastMapper::NATIVE ? 2e-5 : 1e-4;
+}
+
+} // namespace test
+} // namespace meniscus

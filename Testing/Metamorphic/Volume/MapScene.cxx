@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MapScene.h"
+
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+glm::dvec3 vectorBy(const glm::dmat4& map, const glm::dvec3& v)
+{
+  return glm::dvec3(map * glm::dvec4(v, 0.0));
+}
+
+// A membrane's triangles turn over where the map mirrors, so that they face where its normals do.
+vtkSmartPointer<vtkPolyData> mapped(vtkPolyData* membrane, const glm::dmat4& map)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->DeepCopy(membrane);
+  vtkDataArray* normals = result->GetPointData()->GetNormals();
+  const double length = glm::length(vectorBy(map, glm::dvec3(1.0, 0.0, 0.0)));
+  for (vtkIdType i = 0; i < result->GetNumberOfPoints(); ++i)
+  {
+    const double* x = result->GetPoint(i);
+    const glm::dvec3 moved = pointBy(map, glm::dvec3(x[0], x[1], x[2]));
+    result->GetPoints()->SetPoint(i, &moved[0]);
+    double n[3];
+    normals->GetTuple(i, n);
+    const glm::dvec3 turned = vectorBy(map, glm::dvec3(n[0], n[1], n[2])) / length;
+    normals->SetTuple(i, &turned[0]);
+  }
+  if (glm::determinant(map) < 0.0)
+  {
+    for (vtkIdType c = 0; c < result->GetNumberOfCells(); ++c)
+    {
+      result->ReverseCell(c);
+    }
+  }
+  return result;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+glm::dvec3 pointBy(const glm::dmat4& map, const glm::dvec3& p)
+{
+  return glm::dvec3(map * glm::dvec4(p, 1.0));
+}
+
+//------------------------------------------------------------------------------
+void mapScene(VolumeCase& test, const glm::dmat4& map)
+{
+  const double scale = glm::length(vectorBy(map, glm::dvec3(1.0, 0.0, 0.0)));
+  for (MeshArrays& mesh : test.Blocks)
+  {
+    for (glm::dvec3& p : mesh.Points)
+    {
+      p = pointBy(map, p);
+    }
+  }
+  VolumeView& view = test.View;
+  view.Eye = pointBy(map, view.Eye);
+  view.Focus = pointBy(map, view.Focus);
+  view.Up = vectorBy(map, view.Up) / scale;
+  view.Near *= scale;
+  view.Far *= scale;
+  view.HalfHeight *= view.Parallel ? scale : 1.0;
+  if (test.Membrane.Mesh)
+  {
+    test.Membrane.Mesh = mapped(test.Membrane.Mesh, map);
+  }
+  mapScalars(test.Look, 1.0, 0.0, scale);
+}
+
+} // namespace test
+} // namespace meniscus

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_MapScene_h
+#define meniscus_MapScene_h
+
+#include "VolumeCase.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace meniscus
+{
+namespace test
+{
+
+glm::dvec3 pointBy(const glm::dmat4& map, const glm::dvec3& p);
+
+/**
+ * Maps all of a scene by a similarity: mesh, camera, membrane, unit distance. The membrane's
+ * surface, which only the conditioning of a scene asks for, stays.
+ */
+void mapScene(VolumeCase& test, const glm::dmat4& map);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_MeshArrays_h
+#define meniscus_MeshArrays_h
+
+#include "TestMeshes.h"
+
+#include <vtkCellType.h>
+#include <vtkType.h>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+/// A cell of VTK: its type and its points in VTK's order.
+struct MeshCell
+{
+  int Type = VTK_TETRA;
+  std::vector<vtkIdType> Ids;
+};
+
+/// An unstructured grid as plain arrays in double, which relations rewrite.
+struct MeshArrays
+{
+  std::vector<glm::dvec3> Points;
+  std::vector<MeshCell> Cells;
+  int Components = 1;
+  /// Whether values belong to cells; else to points.
+  bool OnCells = false;
+  /// Components of the first tuple, of the second, ...
+  std::vector<double> Values;
+
+  std::size_t tuples() const { return this->OnCells ? this->Cells.size() : this->Points.size(); }
+  double value(std::size_t tuple, int component) const
+  {
+    return this->Values[tuple * static_cast<std::size_t>(this->Components) + component];
+  }
+  /// Appends the tuple of another mesh with as many components.
+  void addTuple(const MeshArrays& from, std::size_t tuple);
+  /// Appends a point or a cell with the value, or with a tuple, of another mesh.
+  vtkIdType addPoint(const MeshArrays& from, std::size_t point);
+  void addCell(const MeshArrays& from, std::size_t cell);
+
+  void bounds(double result[6]) const;
+  /// Smallest and largest finite value of a component.
+  std::array<double, 2> range(int component) const;
+  bool isTetrahedral() const;
+};
+
+/// How VTK stores a mesh.
+struct MeshStorage
+{
+  int PointType = VTK_DOUBLE;
+  int ValueType = VTK_DOUBLE;
+  /// Ids of 32 bits in the cell array; else of 64.
+  bool SmallIds = false;
+  /// One array per component for points and values.
+  bool PerComponent = false;
+};
+
+/// Values have to be representable in the types of the storage.
+Grid toGrid(const MeshArrays& mesh, const MeshStorage& storage = MeshStorage());
+
+/// The active point scalars of a grid, or its active cell scalars.
+MeshArrays toArrays(vtkUnstructuredGrid* grid, bool onCells = false);
+
+/// Tetrahedron of a mesh: four points and the cell that it is a part of.
+struct MeshTetrahedron
+{
+  std::array<std::int64_t, 4> Ids;
+  std::size_t Cell;
+};
+
+/**
+ * Tetrahedra of all cells, by the rule that the mapper documents: a cell is divided by pulling its
+ * point of the smallest number, and so is each face.
+ */
+std::vector<MeshTetrahedron> tetrahedraOf(const MeshArrays& mesh);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Meshes rewritten so that they describe the same field.
+ */
+#ifndef meniscus_MeshChanges_h
+#define meniscus_MeshChanges_h
+
+#include "MeshArrays.h"
+#include "RandomNumbers.h"
+
+#include <vtkSmartPointer.h>
+
+#include <vector>
+
+class vtkRectilinearGrid;
+
+namespace meniscus
+{
+namespace test
+{
+
+template <typename Sequence>
+void shuffle(Sequence& sequence, RandomNumbers& random)
+{
+  for (std::size_t i = sequence.size(); i > 1; --i)
+  {
+    std::swap(sequence[i - 1], sequence[random.below(static_cast<int>(i))]);
+  }
+}
+
+void shuffleCells(MeshArrays& mesh, RandomNumbers& random);
+/// Permutes the vertices of each tetrahedron, half of them to the other orientation.
+void turnCells(MeshArrays& mesh, RandomNumbers& random);
+void shufflePoints(MeshArrays& mesh, RandomNumbers& random);
+
+/// Appends points that no cell uses, within the bounds.
+void addIdlePoints(MeshArrays& mesh, RandomNumbers& random);
+
+/// Gives every cell points of its own, numbered in the order that they had within the cell.
+void unsharePoints(MeshArrays& mesh);
+
+/// Cells in parts at random, each with its points only, in the order that they had.
+std::vector<MeshArrays> splitMesh(const MeshArrays& mesh, int parts, RandomNumbers& random);
+
+/// One mesh after the other, points numbered through.
+MeshArrays appendMeshes(const std::vector<MeshArrays>& meshes);
+
+/// Divides each tetrahedron in 4 at its middle, or in 8 at the middles of its edges.
+void divideTetrahedra(MeshArrays& mesh, int parts);
+
+/// Makes tetrahedra, hexahedra, wedges and pyramids cells of second order with straight edges;
+/// hexahedra of 20 or 27 points, and so on, at random.
+void makeQuadratic(MeshArrays& mesh, RandomNumbers& random);
+
+/// The cells of a rectilinear grid as hexahedra or voxels, without values.
+MeshArrays makeRectilinearCells(RandomNumbers& random);
+/// The grid whose cells they are, with their values.
+vtkSmartPointer<vtkRectilinearGrid> toRectilinear(const MeshArrays& mesh);
+
+/// Random fields with as many components, and on the same place, as those of another mesh.
+void setRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumbers& random);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,413 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshFamilies.h"
+
+#include "HardMeshes.h"
+
+#include <vtkDelaunay3D.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+using PointField = std::function<double(const glm::dvec3&)>;
+
+// A field of about the size of the box [-1, 1]^3: linear, waves, a peak, a radius, steps.
+PointField randomField(bool linear, RandomNumbers& random)
+{
+  const glm::dvec3 slope = random.uniform(0.5, 2.0) * random.direction();
+  const glm::dvec3 place = 0.7 * random.direction();
+  const double frequency = random.uniform(1.0, 5.0);
+  const double base = random.uniform(-1.0, 1.0);
+  switch (linear ? 0 : random.below(6))
+  {
+    case 0:
+      return [=](const glm::dvec3& p) { return base + glm::dot(slope, p); };
+    case 1:
+      return [=](const glm::dvec3& p)
+      { return base + std::sin(frequency * p.x) * std::cos(frequency * p.y) + 0.3 * p.z; };
+    case 2:
+      return [=](const glm::dvec3& p)
+      {
+        const double r = glm::distance(p, place);
+        return base + 3.0 * std::exp(-4.0 * r * r);
+      };
+    case 3:
+      return [=](const glm::dvec3& p) { return base + glm::distance(p, place); };
+    case 4: // whole steps: cells without a gradient next to steep ones
+      return [=](const glm::dvec3& p) { return std::floor(2.0 * glm::dot(slope, p)); };
+    default: // nearly constant in large parts
+      return [=](const glm::dvec3& p) { return std::tanh(6.0 * glm::dot(slope, p)); };
+  }
+}
+
+MeshArrays fromGrid(vtkUnstructuredGrid* grid)
+{
+  return toArrays(grid);
+}
+
+MeshArrays randomPoints(RandomNumbers& random)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const int count = 12 + random.below(150);
+  for (int i = 0; i < count; ++i)
+  {
+    const double x[3] = { random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1) };
+    points->InsertNextPoint(x);
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  vtkNew<vtkDelaunay3D> delaunay;
+  delaunay->SetInputData(cloud);
+  delaunay->Update();
+  MeshArrays mesh;
+  vtkUnstructuredGrid* grid = delaunay->GetOutput();
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    const double* x = grid->GetPoint(i);
+    mesh.Points.emplace_back(x[0], x[1], x[2]);
+  }
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    grid->GetCellPoints(c, ids);
+    if (grid->GetCellType(c) == VTK_TETRA)
+    {
+      mesh.Cells.push_back({ VTK_TETRA, { ids->begin(), ids->end() } });
+    }
+  }
+  return mesh;
+}
+
+// Cubes of a block: the corners of cube (i, j, k) in the order of VTK_HEXAHEDRON.
+class CubeBlock
+{
+public:
+  CubeBlock(int n)
+    : N(n)
+  {
+    for (int k = 0; k <= n; ++k)
+    {
+      for (int j = 0; j <= n; ++j)
+      {
+        for (int i = 0; i <= n; ++i)
+        {
+          this->Mesh.Points.push_back(2.0 / n * glm::dvec3(i, j, k) - 1.0);
+        }
+      }
+    }
+  }
+
+  std::array<vtkIdType, 8> corners(int cube) const
+  {
+    const int i = cube % this->N;
+    const int j = cube / this->N % this->N;
+    const int k = cube / (this->N * this->N);
+    const auto id = [this](int x, int y, int z)
+    { return vtkIdType(x) + (this->N + 1) * (y + vtkIdType(this->N + 1) * z); };
+    return { id(i, j, k), id(i + 1, j, k), id(i + 1, j + 1, k), id(i, j + 1, k), id(i, j, k + 1),
+      id(i + 1, j, k + 1), id(i + 1, j + 1, k + 1), id(i, j + 1, k + 1) };
+  }
+
+  void addHexahedron(int cube)
+  {
+    const auto c = this->corners(cube);
+    this->Mesh.Cells.push_back({ VTK_HEXAHEDRON, { c.begin(), c.end() } });
+  }
+
+  void addWedges(int cube)
+  {
+    const auto c = this->corners(cube);
+    this->Mesh.Cells.push_back({ VTK_WEDGE, { c[0], c[1], c[2], c[4], c[5], c[6] } });
+    this->Mesh.Cells.push_back({ VTK_WEDGE, { c[0], c[2], c[3], c[4], c[6], c[7] } });
+  }
+
+  void addPyramids(int cube)
+  {
+    const auto c = this->corners(cube);
+    glm::dvec3 middle(0.0);
+    for (const vtkIdType id : c)
+    {
+      middle += 0.125 * this->Mesh.Points[static_cast<std::size_t>(id)];
+    }
+    const auto apex = static_cast<vtkIdType>(this->Mesh.Points.size());
+    this->Mesh.Points.push_back(middle);
+    const int bases[6][4] = { { 0, 1, 2, 3 }, { 4, 7, 6, 5 }, { 0, 4, 5, 1 }, { 1, 5, 6, 2 },
+      { 2, 6, 7, 3 }, { 3, 7, 4, 0 } };
+    for (const auto& b : bases)
+    {
+      this->Mesh.Cells.push_back({ VTK_PYRAMID, { c[b[0]], c[b[1]], c[b[2]], c[b[3]], apex } });
+    }
+  }
+
+  int N;
+  MeshArrays Mesh;
+};
+
+// Wedges in whole columns, so that their triangles meet triangles.
+MeshArrays cubes(MeshFamily family, RandomNumbers& random)
+{
+  const int n = 1 + random.below(5);
+  CubeBlock block(n);
+  const bool holes = random.below(4) == 0;
+  std::vector<int> column(static_cast<std::size_t>(n * n));
+  for (int& kind : column)
+  {
+    kind = random.below(3);
+  }
+  for (int cube = 0; cube < n * n * n; ++cube)
+  {
+    if (holes && cube > 0 && random.below(4) == 0)
+    {
+      continue;
+    }
+    const bool wedges = column[static_cast<std::size_t>(cube % (n * n))] == 0;
+    if (family == MeshFamily::Wedges || (family == MeshFamily::Mixed && wedges))
+    {
+      block.addWedges(cube);
+    }
+    else if (family == MeshFamily::Pyramids || (family == MeshFamily::Mixed && random.below(2)))
+    {
+      block.addPyramids(cube);
+    }
+    else
+    {
+      block.addHexahedron(cube);
+    }
+  }
+  return block.Mesh;
+}
+
+// Moves points within the box by up to a share of a cell.
+void shake(MeshArrays& mesh, double amount, RandomNumbers& random)
+{
+  for (glm::dvec3& p : mesh.Points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] += random.uniform(-amount, amount);
+    }
+  }
+}
+
+// An affine map about the origin that keeps lengths within a factor of 2.
+void shear(MeshArrays& mesh, RandomNumbers& random)
+{
+  glm::dmat3 map(1.0);
+  for (int column = 0; column < 3; ++column)
+  {
+    map[column] += 0.25 * random.direction();
+  }
+  for (glm::dvec3& p : mesh.Points)
+  {
+    p = map * p;
+  }
+}
+
+MeshArrays graded(RandomNumbers& random)
+{
+  const int n = 4 + random.below(5);
+  const Grid grid = makeBlock(n, constantField(0.0));
+  jitter(grid, 0.15 / n, static_cast<unsigned int>(random.bits()));
+  MeshArrays mesh = fromGrid(grid);
+  // The first of n cells is n^-power of the domain: down to 1 / 30,000.
+  const double power = random.uniform(1.5, std::log(3e4) / std::log(n));
+  for (glm::dvec3& p : mesh.Points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double u = 0.5 * (p[axis] + 1.0);
+      p[axis] = 2.0 * std::copysign(std::pow(std::fabs(u), power), u) - 1.0;
+    }
+  }
+  return mesh;
+}
+
+MeshArrays slivers(RandomNumbers& random)
+{
+  const int n = 3 + random.below(4);
+  if (random.below(2))
+  {
+    return fromGrid(makeLayeredBlock(n, std::pow(10.0, random.uniform(-4.0, -1.0))));
+  }
+  const Grid grid = makeBlock(n, constantField(0.0));
+  jitter(grid, 0.2 / n, static_cast<unsigned int>(random.bits()));
+  const int axis = random.below(3);
+  const double factor = std::pow(10.0, random.uniform(-4.0, -1.0));
+  MeshArrays mesh = fromGrid(grid);
+  for (glm::dvec3& p : mesh.Points)
+  {
+    p[axis] *= factor;
+  }
+  return mesh;
+}
+
+MeshArrays parts(RandomNumbers& random)
+{
+  const Region regions[4] = { lShape(), shell(0.4, 1.2), torus(0.6, 0.35), twoBlocks(0.6) };
+  const int n = 5 + random.below(4);
+  const Grid grid = makeBlock(n, constantField(0.0), regions[random.below(4)]);
+  jitter(grid, 0.2 / n, static_cast<unsigned int>(random.bits()));
+  return fromGrid(grid);
+}
+
+// Centre of the bounds to the origin, the longest side to 2.
+void normalise(MeshArrays& mesh)
+{
+  double b[6];
+  mesh.bounds(b);
+  const glm::dvec3 center = 0.5 * glm::dvec3(b[0] + b[1], b[2] + b[3], b[4] + b[5]);
+  const double side = std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] });
+  for (glm::dvec3& p : mesh.Points)
+  {
+    p = 2.0 / side * (p - center);
+  }
+}
+
+bool takeData(FamilyMesh& result, RandomNumbers& random)
+{
+  const char* const names[3] = { "blunt_fin", "combustor", "crushed_can" };
+  const char* const name = names[random.below(3)];
+  static std::map<std::string, Grid> read; // reading takes longer than drawing
+  if (read.count(name) == 0)
+  {
+    read[name] = readDataMesh(name);
+  }
+  if (!read[name] || !read[name]->GetPointData()->GetScalars() ||
+    read[name]->GetPointData()->GetScalars()->GetNumberOfComponents() != 1)
+  {
+    return false;
+  }
+  result.Name = name;
+  result.Mesh = toArrays(read[name]);
+  normalise(result.Mesh);
+  return true;
+}
+
+const char* nameOf(MeshFamily family)
+{
+  const char* const names[] = { "random points", "hexahedra", "wedges", "pyramids", "mixed cells",
+    "slivers", "graded", "parts", "random", "data" };
+  return names[static_cast<int>(family)];
+}
+
+void makeMesh(MeshFamily family, FamilyMesh& result, bool linear, RandomNumbers& random)
+{
+  switch (family)
+  {
+    case MeshFamily::Hexahedra:
+    case MeshFamily::Wedges:
+    case MeshFamily::Pyramids:
+    case MeshFamily::Mixed:
+      result.Mesh = cubes(family, random);
+      if (linear || random.below(2))
+      {
+        shear(result.Mesh, random);
+      }
+      else
+      {
+        // A cube of five has 0.4; less than a sixth inverts no tetrahedron.
+        shake(result.Mesh, 0.06, random);
+      }
+      return;
+    case MeshFamily::Slivers:
+      result.Mesh = slivers(random);
+      return;
+    case MeshFamily::Graded:
+      result.Mesh = graded(random);
+      return;
+    case MeshFamily::Parts:
+      result.Mesh = parts(random);
+      return;
+    case MeshFamily::Random:
+      result.Mesh = toArrays(makeRandomMesh(random));
+      normalise(result.Mesh);
+      return;
+    default:
+      result.Mesh = randomPoints(random);
+  }
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+void setRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumbers& random)
+{
+  std::vector<PointField> fields;
+  for (int c = 0; c < components; ++c)
+  {
+    fields.push_back(randomField(linear, random));
+  }
+  const double noise = !linear && random.below(4) == 0 ? 0.5 : 0.0;
+  mesh.Components = components;
+  mesh.OnCells = false;
+  mesh.Values.clear();
+  for (const glm::dvec3& p : mesh.Points)
+  {
+    for (const PointField& field : fields)
+    {
+      mesh.Values.push_back(field(p) + noise * random.uniform(-1.0, 1.0));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void moveToCells(MeshArrays& mesh)
+{
+  std::vector<double> values;
+  for (const MeshCell& cell : mesh.Cells)
+  {
+    for (int c = 0; c < mesh.Components; ++c)
+    {
+      double sum = 0.0;
+      for (const vtkIdType id : cell.Ids)
+      {
+        sum += mesh.value(static_cast<std::size_t>(id), c);
+      }
+      values.push_back(sum / static_cast<double>(cell.Ids.size()));
+    }
+  }
+  mesh.OnCells = true;
+  mesh.Values = values;
+}
+
+//------------------------------------------------------------------------------
+MeshFamily randomFamily(RandomNumbers& random)
+{
+  return random.below(30) == 0 ? MeshFamily::Data : static_cast<MeshFamily>(random.below(9));
+}
+
+//------------------------------------------------------------------------------
+FamilyMesh makeFamilyMesh(MeshFamily family, bool linear, RandomNumbers& random)
+{
+  FamilyMesh result;
+  result.Name = nameOf(family);
+  result.Linear = linear;
+  if (family == MeshFamily::Data && !linear && takeData(result, random))
+  {
+    return result;
+  }
+  makeMesh(family, result, linear, random);
+  setRandomFields(result.Mesh, 1, linear, random);
+  return result;
+}
+
+} // namespace test
+} // namespace meniscus

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MapScene.h"
+#include "VolumeRelation.h"
+
+#include <vtkCamera.h>
+#include <vtkMath.h>
+#include <vtkRenderer.h>
+
+#include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+glm::dmat4 randomRotation(RandomNumbers& random)
+{
+  const double angle = random.uniform(0.0, 2.0 * vtkMath::Pi());
+  return glm::rotate(glm::dmat4(1.0), angle, random.direction());
+}
+
+glm::dmat4 randomReflection(RandomNumbers& random)
+{
+  const glm::dvec3 normal = random.direction();
+  return glm::dmat4(glm::dmat3(1.0) - 2.0 * glm::outerProduct(normal, normal));
+}
+
+//------------------------------------------------------------------------------
+void checkMirror(VolumeTrial& trial)
+{
+  VolumeCase changed = trial.scene();
+  mapScene(changed, randomReflection(trial.random()));
+  trial.picture();
+  const int last = changed.Size - 1;
+  trial.expectSame(
+    trial.stage().draw(changed),
+    [last](int x, int y) {
+      return std::array<int, 2>{ last - x, y };
+    },
+    plainTolerance(changed.Backend), "mirrored");
+}
+
+// Points in model coordinates that an affine matrix brings to where they were.
+void moveToMatrix(VolumeCase& test, RandomNumbers& random)
+{
+  glm::dmat3 linear(1.0);
+  for (int column = 0; column < 3; ++column)
+  {
+    linear[column] += 0.4 * random.direction();
+  }
+  linear *= std::pow(10.0, random.uniform(-3.0, 3.0)) * (random.below(2) ? 1.0 : -1.0);
+  test.Matrix = glm::dmat4(linear);
+  test.Matrix[3] = glm::dvec4(10.0 * random.direction(), 1.0);
+  const glm::dmat4 inverse = glm::inverse(test.Matrix);
+  for (glm::dvec3& p : test.mesh().Points)
+  {
+    p = pointBy(inverse, p);
+  }
+}
+
+// Planes that keep all of the mesh, some of them touching its ball.
+void addIdlePlanes(VolumeCase& test, RandomNumbers& random)
+{
+  double b[6];
+  test.mesh().bounds(b);
+  const glm::dvec3 center = 0.5 * glm::dvec3(b[0] + b[1], b[2] + b[3], b[4] + b[5]);
+  const double radius = 0.5 * diagonalOf(b);
+  for (int i = 1 + random.below(6); i > 0; --i)
+  {
+    const glm::dvec3 normal = random.direction();
+    test.Planes.push_back({ center - random.uniform(1.001, 2.0) * radius * normal, normal });
+  }
+}
+
+// A plane that cuts, once and several times.
+void checkRepeatedPlane(VolumeTrial& trial)
+{
+  VolumeCase changed = trial.scene();
+  const auto plane = changed.Planes.front();
+  changed.Planes.push_back({ plane[0], 3.0 * plane[1] });
+  changed.Planes.push_back({ plane[0] - 0.1 * plane[1], plane[1] });
+  trial.expectSame(changed, "plane repeated");
+}
+
+void addCuttingPlane(VolumeCase& test, RandomNumbers& random)
+{
+  double b[6];
+  test.mesh().bounds(b);
+  const glm::dvec3 center = 0.5 * glm::dvec3(b[0] + b[1], b[2] + b[3], b[4] + b[5]);
+  test.Planes.push_back({ center, random.direction() });
+}
+
+// A parallel camera sees the same from farther away; clipping planes may lie anywhere outside.
+void moveClippingRange(VolumeCase& test, RandomNumbers& random)
+{
+  VolumeView& view = test.View;
+  double b[6];
+  test.mesh().bounds(b);
+  const glm::dvec3 center = 0.5 * glm::dvec3(b[0] + b[1], b[2] + b[3], b[4] + b[5]);
+  if (view.Parallel)
+  {
+    const glm::dvec3 back = view.Eye - view.Focus;
+    const double more = random.uniform(0.1, 10.0);
+    view.Eye += more * back;
+    view.Near += more * glm::length(back);
+    view.Far += more * glm::length(back);
+  }
+  // The near plane matters to an eye in the mesh.
+  const bool outside = glm::distance(view.Eye, center) > 0.51 * diagonalOf(b);
+  view.Near *= outside ? random.uniform(0.9, 1.0) : 1.0;
+  view.Far *= random.uniform(1.0, 2.0);
+}
+
+//------------------------------------------------------------------------------
+// The quarters of the picture, each drawn as a picture of its own by a camera with a window centre,
+// as vtkWindowToImageFilter does for large images.
+void checkTiles(VolumeTrial& trial)
+{
+  FloatImage whole = trial.picture();
+  VolumeCase tile = trial.scene();
+  tile.Size /= 2;
+  tile.View.HalfHeight /= 2.0;
+  for (int i = 0; i < 4; ++i)
+  {
+    const int column = i % 2;
+    const int row = i / 2;
+    trial.stage().place(tile);
+    vtkCamera* camera = trial.stage().scene().renderer()->GetActiveCamera();
+    camera->SetWindowCenter(2.0 * column - 1.0, 2.0 * row - 1.0);
+    const FloatImage part = trial.stage().render();
+    camera->SetWindowCenter(0.0, 0.0);
+    for (int y = 0; y < tile.Size; ++y)
+    {
+      for (int x = 0; x < tile.Size; ++x)
+      {
+        const auto at =
+          std::size_t(row * tile.Size + y) * whole.Width + std::size_t(column * tile.Size + x);
+        std::copy_n(part.pixel(x, y), 4, &whole.Rgba[4 * at]);
+      }
+    }
+  }
+  trial.expectSame(whole, "tiles");
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::vector<VolumeRelation> placeRelations()
+{
+  const CaseNeeds any;
+  CaseNeeds noMembrane;
+  noMembrane.NoMembrane = true;
+  return {
+    relationOf("rotation", 4, any,
+      [](VolumeCase& test, RandomNumbers& random) { mapScene(test, randomRotation(random)); }),
+    { "mirroring", 4, any, checkMirror, nullptr },
+    relationOf("translation", 4, any,
+      [](VolumeCase& test, RandomNumbers& random)
+      {
+        const glm::dvec3 offset = std::pow(10.0, random.uniform(0.0, 6.0)) * random.direction();
+        mapScene(test, glm::translate(glm::dmat4(1.0), offset));
+      }),
+    relationOf("scaling", 4, any,
+      [](VolumeCase& test, RandomNumbers& random)
+      {
+        const double factor = std::pow(10.0, random.uniform(-6.0, 6.0));
+        mapScene(test, glm::scale(glm::dmat4(1.0), glm::dvec3(factor)));
+      }),
+    relationOf("matrix of the volume", 4, any, moveToMatrix),
+    relationOf("planes that cut nothing", 4, any, addIdlePlanes),
+    { "plane repeated", 3, any, checkRepeatedPlane, addCuttingPlane },
+    relationOf("clipping range", 4, noMembrane, moveClippingRange),
+    { "tiles", 3, any, checkTiles, nullptr },
+  };
+}
+
+} // namespace test
+} // namespace meniscus

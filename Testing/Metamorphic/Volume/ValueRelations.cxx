@@ -1,0 +1,353 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumeRelation.h"
+
+#include <vtkColorTransferFunction.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkTetrahedraRayCastMapper.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+// The nearest number that single precision has. By way of memory: GCC 12 drops the rounding of two
+// neighbouring doubles to single precision and back when it vectorises.
+double inSinglePrecision(double value)
+{
+  const volatile float rounded = static_cast<float>(value);
+  return rounded;
+}
+
+// Makes points and values those that single precision has.
+void roundToFloat(VolumeCase& test, RandomNumbers&)
+{
+  for (glm::dvec3& p : test.mesh().Points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = inSinglePrecision(p[axis]);
+    }
+  }
+  for (double& value : test.mesh().Values)
+  {
+    value = inSinglePrecision(value);
+  }
+}
+
+// Makes values whole ones from 0 to 200.
+void roundToWhole(VolumeCase& test, RandomNumbers&)
+{
+  MeshArrays& mesh = test.mesh();
+  const auto range = mesh.range(0);
+  const double width = range[1] > range[0] ? range[1] - range[0] : 1.0;
+  const double factor = 200.0 / width;
+  for (double& value : mesh.Values)
+  {
+    value = std::round(factor * (value - range[0]));
+  }
+  mapScalars(test.Look, factor, -factor * range[0], 1.0);
+}
+
+void storeAs(VolumeCase& test, RandomNumbers& random)
+{
+  const int types[8] = { VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_UNSIGNED_SHORT, VTK_INT,
+    VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_FLOAT, VTK_UNSIGNED_LONG_LONG };
+  test.Storage.ValueType = types[random.below(8)];
+}
+
+//------------------------------------------------------------------------------
+void scaleValues(VolumeCase& test, RandomNumbers& random)
+{
+  const double factor = std::pow(10.0, random.uniform(-6.0, 6.0));
+  // Rounding of an offset in double precision is far below that of single precision to the range.
+  const double offset = factor * random.uniform(-1e3, 1e3);
+  for (double& value : test.mesh().Values)
+  {
+    value = factor * value + offset;
+  }
+  mapScalars(test.Look, factor, offset, 1.0);
+}
+
+//------------------------------------------------------------------------------
+// More control points on the straight lines between those there are, and beyond the outer ones.
+template <typename Point, typename Mix>
+void addBetween(std::vector<Point>& points, RandomNumbers& random, const Mix& mix)
+{
+  std::vector<Point> more;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    more.push_back(points[i]);
+    if (i + 1 < points.size() && points[i + 1].Scalar > points[i].Scalar)
+    {
+      const int count = random.below(4);
+      for (int k = 1; k <= count; ++k)
+      {
+        more.push_back(mix(points[i], points[i + 1], double(k) / (count + 1)));
+      }
+    }
+  }
+  Point first = more.front();
+  first.Scalar -= 1.0 + std::fabs(first.Scalar);
+  more.insert(more.begin(), first);
+  Point last = more.back();
+  last.Scalar += 1.0 + std::fabs(last.Scalar);
+  more.push_back(last);
+  points = more;
+}
+
+void addRedundantPoints(VolumeCase& test, RandomNumbers& random)
+{
+  for (LookFunction& function : test.Look.Functions)
+  {
+    addBetween(function.Opacity, random,
+      [](const auto& a, const auto& b, double u)
+      {
+        return LookFunction::OpacityPoint{ a.Scalar + u * (b.Scalar - a.Scalar),
+          a.Opacity + u * (b.Opacity - a.Opacity) };
+      });
+    addBetween(function.Color, random,
+      [](const auto& a, const auto& b, double u)
+      {
+        LookFunction::ColorPoint point{ a.Scalar + u * (b.Scalar - a.Scalar), a.Color };
+        for (std::size_t c = 0; c < 3; ++c)
+        {
+          point.Color[c] += u * (b.Color[c] - a.Color[c]);
+        }
+        return point;
+      });
+  }
+}
+
+// Opacities and the unit distance by one factor; opacities stay within [0, 1].
+void scaleUnit(VolumeCase& test, RandomNumbers& random)
+{
+  const double factor = random.uniform(0.1, 1.0);
+  for (LookFunction& function : test.Look.Functions)
+  {
+    for (auto& point : function.Opacity)
+    {
+      point.Opacity *= factor;
+    }
+  }
+  test.Look.Unit *= factor;
+}
+
+//------------------------------------------------------------------------------
+vtkColorTransferFunction* colorsOf(VolumeTrial& trial)
+{
+  return trial.stage().scene().volume()->GetProperty()->GetRGBTransferFunction();
+}
+
+// One component of several, chosen by the mapper or by the function of colours, against an array of
+// it alone.
+void checkComponent(VolumeTrial& trial)
+{
+  VolumeCase changed = trial.scene();
+  const MeshArrays before = changed.mesh();
+  MeshArrays& mesh = changed.mesh();
+  mesh.Components = 3;
+  mesh.Values.clear();
+  const int chosen = trial.random().below(3);
+  for (std::size_t i = 0; i < before.tuples(); ++i)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      const double other = trial.random().uniform(-1e3, 1e3);
+      mesh.Values.push_back(c == chosen ? before.value(i, 0) : other);
+    }
+  }
+  trial.picture();
+  trial.stage().place(changed);
+  trial.stage().mapper()->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
+  trial.stage().mapper()->SetVectorComponent(chosen);
+  trial.expectSame(trial.stage().render(), "component " + std::to_string(chosen) + " of 3");
+  trial.stage().place(changed);
+  vtkColorTransferFunction* colors = colorsOf(trial);
+  colors->SetVectorModeToComponent();
+  colors->SetVectorComponent(chosen);
+  trial.expectSame(trial.stage().render(), "component " + std::to_string(chosen) + " by colours");
+}
+
+// The length of vectors against an array of it.
+void checkMagnitude(VolumeTrial& trial)
+{
+  VolumeCase changed = trial.scene();
+  const MeshArrays before = changed.mesh();
+  MeshArrays& mesh = changed.mesh();
+  mesh.Components = 3;
+  mesh.Values.clear();
+  for (std::size_t i = 0; i < before.tuples(); ++i)
+  {
+    const glm::dvec3 direction = trial.random().direction();
+    for (int c = 0; c < 3; ++c)
+    {
+      mesh.Values.push_back(before.value(i, 0) * direction[c]);
+    }
+  }
+  trial.picture();
+  trial.stage().place(changed);
+  trial.stage().mapper()->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE);
+  trial.expectSame(trial.stage().render(), "length of vectors");
+  trial.stage().place(changed);
+  colorsOf(trial)->SetVectorModeToMagnitude();
+  trial.expectSame(trial.stage().render(), "length of vectors by colours");
+}
+
+// Lengths are not negative.
+void makePositive(VolumeCase& test, RandomNumbers&)
+{
+  const double shift = 1.0 - test.mesh().range(0)[0];
+  for (double& value : test.mesh().Values)
+  {
+    value += shift;
+  }
+  mapScalars(test.Look, 1.0, shift, 1.0);
+}
+
+// Independent components with their functions in another order, and one that weighs nothing.
+void permuteComponents(VolumeCase& test, RandomNumbers& random)
+{
+  const MeshArrays before = test.mesh();
+  MeshArrays& mesh = test.mesh();
+  const int first = random.below(before.Components);
+  mesh.Values.clear();
+  for (std::size_t i = 0; i < before.tuples(); ++i)
+  {
+    for (int c = 0; c < before.Components; ++c)
+    {
+      mesh.Values.push_back(before.value(i, (c + first) % before.Components));
+    }
+  }
+  auto& functions = test.Look.Functions;
+  std::rotate(functions.begin(), functions.begin() + first, functions.end());
+}
+
+void makeIndependent(VolumeCase& test, RandomNumbers& random)
+{
+  MeshArrays& mesh = test.mesh();
+  const MeshArrays before = mesh;
+  mesh.Components = 2 + random.below(3);
+  mesh.Values.clear();
+  const double width = before.range(0)[1] - before.range(0)[0];
+  for (std::size_t i = 0; i < before.tuples(); ++i)
+  {
+    for (int c = 0; c < mesh.Components; ++c)
+    {
+      mesh.Values.push_back(before.value(i, 0) + 0.2 * c * width * random.uniform());
+    }
+  }
+  test.Look.Independent = true;
+  while (int(test.Look.Functions.size()) < mesh.Components)
+  {
+    LookFunction function = test.Look.Functions.front();
+    function.Weight = random.uniform(0.2, 1.0);
+    for (auto& point : function.Opacity)
+    {
+      point.Opacity *= random.uniform();
+    }
+    test.Look.Functions.push_back(function);
+  }
+}
+
+//------------------------------------------------------------------------------
+// A gradient opacity of 1 against none.
+void checkPlainGradientOpacity(VolumeTrial& trial)
+{
+  trial.picture();
+  trial.stage().place(trial.scene());
+  vtkNew<vtkPiecewiseFunction> function;
+  function->AddPoint(0.0, 1.0);
+  function->AddPoint(3.0, 1.0);
+  trial.stage().scene().volume()->GetProperty()->SetGradientOpacity(function);
+  trial.expectSame(trial.stage().render(), "gradient opacity of 1");
+}
+
+// A gradient opacity without points, which is 0 everywhere as VTK evaluates it.
+void checkEmptyGradientOpacity(VolumeTrial& trial)
+{
+  trial.picture();
+  trial.stage().place(trial.scene());
+  vtkVolumeProperty* property = trial.stage().scene().volume()->GetProperty();
+  property->SetGradientOpacity(vtkSmartPointer<vtkPiecewiseFunction>::New());
+  const FloatImage empty = trial.stage().render();
+  if (std::any_of(empty.Rgba.begin(), empty.Rgba.end(), [](float v) { return v != 0.0f; }))
+  {
+    trial.fail("a gradient opacity without points shows something");
+  }
+  property->DisableGradientOpacityOn();
+  trial.expectSame(trial.stage().render(), "no gradient opacity again");
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+std::vector<VolumeRelation> valueRelations()
+{
+  const CaseNeeds any;
+  CaseNeeds single;
+  single.OneComponent = true;
+  // Light of gradients of vertices is linear between the places where a segment is split: more
+  // control points make it more exact.
+  CaseNeeds flat;
+  flat.NoVertexGradients = true;
+  CaseNeeds medium = single;
+  medium.Composite = true;
+  CaseNeeds plain = medium;
+  plain.NoGradients = true;
+  plain.NoCellData = true;
+  return {
+    { "single precision", 4, any,
+      [](VolumeTrial& trial)
+      {
+        for (int i = 1; i < 4; ++i)
+        {
+          VolumeCase changed = trial.scene();
+          changed.Storage.PointType = i & 1 ? VTK_FLOAT : VTK_DOUBLE;
+          changed.Storage.ValueType = i & 2 ? VTK_FLOAT : VTK_DOUBLE;
+          trial.expectSame(changed,
+            std::string(i & 1 ? "points" : "") + (i & 2 ? " values" : "") + " in single precision");
+        }
+      },
+      roundToFloat },
+    relationOf("ids of 32 bits", 2, any,
+      [](VolumeCase& test, RandomNumbers&) { test.Storage.SmallIds = true; }),
+    relationOf("an array per component", 2, any,
+      [](VolumeCase& test, RandomNumbers&) { test.Storage.PerComponent = true; }),
+    { "whole scalars", 4, single,
+      [](VolumeTrial& trial)
+      {
+        VolumeCase changed = trial.scene();
+        storeAs(changed, trial.random());
+        trial.expectSame(changed, "stored as type " + std::to_string(changed.Storage.ValueType));
+      },
+      roundToWhole },
+    relationOf("scalars in other units", 4, single, scaleValues),
+    relationOf("redundant control points", 4, flat, addRedundantPoints),
+    relationOf("opacity in other units", 3, medium, scaleUnit),
+    { "component of a vector", 3, single, checkComponent, nullptr },
+    { "length of a vector", 3, single, checkMagnitude, makePositive },
+    { "order of components", 3, plain,
+      [](VolumeTrial& trial)
+      {
+        VolumeCase changed = trial.scene();
+        permuteComponents(changed, trial.random());
+        trial.expectSame(changed, "order of components");
+      },
+      makeIndependent },
+    { "gradient opacity of 1", 3, plain, checkPlainGradientOpacity, nullptr },
+    { "gradient opacity without points", 3, plain, checkEmptyGradientOpacity, nullptr },
+  };
+}
+
+} // namespace test
+} // namespace meniscus

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Random scenes of volumes and changes that must not change their pictures. Reports deviations and
+ * failures per relation; the exit status is 0 without a failure.
+ */
+#include "RelationRun.h"
+#include "VolumeRelation.h"
+
+#include <vtkTetrahedraRayCastMapper.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <map>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+const char* const Usage =
+  "meniscus_metamorphic_volume [options]\n"
+  "Real meshes are those of the folder in the environment's MENISCUS_DATA_DIR, or ../shared/data\n"
+  "beside the sources.\n"
+  "  --intensity X      1 (default) takes about half a minute; cases grow with it\n"
+  "  --relation TEXT    only relations whose names contain the text\n"
+  "  --backend NAME     native, opengl or compute for all scenes (default: all in turn)\n";
+
+// VTK's skip code of the tests.
+constexpr int Skipped = 125;
+
+const std::map<std::string, int> Backends{ { "native", vtkTetrahedraRayCastMapper::NATIVE },
+  { "opengl", vtkTetrahedraRayCastMapper::OPENGL },
+  { "compute", vtkTetrahedraRayCastMapper::COMPUTE } };
+
+struct Options : ProgrammeOptions
+{
+  int Backend = vtkTetrahedraRayCastMapper::AUTOMATIC;
+};
+
+bool isBlank(const FloatImage& image)
+{
+  int drawn = 0;
+  for (std::size_t i = 3; i < image.Rgba.size(); i += 4)
+  {
+    drawn += image.Rgba[i] > 0.02f;
+  }
+  return drawn < 20;
+}
+
+//------------------------------------------------------------------------------
+// A trial whose picture is not blank, of the first of the case's scenes that shows one.
+RelationTally runCase(
+  const VolumeRelation& relation, const Options& options, int index, VolumeStage& stage)
+{
+  RandomNumbers random(seedOfCase(options.Seed, relation.Name, index));
+  constexpr int mostScenes = 50;
+  for (int i = 0; i < mostScenes; ++i)
+  {
+    VolumeCase test = randomCase(relation.Needs, random);
+    if (options.Backend != vtkTetrahedraRayCastMapper::AUTOMATIC)
+    {
+      test.Backend = options.Backend;
+    }
+    if (relation.Prepare)
+    {
+      relation.Prepare(test, random);
+    }
+    VolumeTrial trial(test, random, stage);
+    if (!isBlank(trial.picture()))
+    {
+      relation.Check(trial);
+      return trial.done();
+    }
+  }
+  VolumeTrial none(VolumeCase(), random, stage);
+  none.fail("no scene that shows anything");
+  return none.done();
+}
+
+// The window of a process, made when it is first asked for: a process is forked without one.
+VolumeStage& stageOfProcess()
+{
+  static VolumeStage stage;
+  return stage;
+}
+
+Relation toRelation(const VolumeRelation& relation, const Options& options)
+{
+  const auto start = [&options, relation]() -> RelationWork
+  {
+    return [&options, relation](int index)
+    { return runCase(relation, options, index, stageOfProcess()); };
+  };
+  return { relation.Name, casesAt(options.Intensity, relation.Cases), start };
+}
+
+std::vector<Relation> allRelations(const Options& options)
+{
+  std::vector<Relation> result;
+  for (const auto& group :
+    { placeRelations(), meshRelations(), valueRelations(), stateRelations(), membraneRelations() })
+  {
+    for (const VolumeRelation& relation : group)
+    {
+      result.push_back(toRelation(relation, options));
+    }
+  }
+  return result;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+int main(int argc, char* argv[])
+{
+  if (!hasDisplay())
+  {
+    std::cerr << "no display (run under xvfb-run)\n";
+    return Skipped;
+  }
+  Options options;
+  return runMetamorphicProgramme(
+    argc, argv, Usage, options,
+    [&options](const std::string& key, const std::string& value)
+    {
+      const auto known = Backends.find(value);
+      if (key != "--backend" || known == Backends.end())
+      {
+        return false;
+      }
+      options.Backend = known->second;
+      return true;
+    },
+    [&options]() { return allRelations(options); });
+}

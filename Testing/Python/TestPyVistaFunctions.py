@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The functions that meniscus.pyvista gives a volume, with a stand-in for the little of PyVista that it uses.
+
+Real pictures are those of TestPyVista.py, which needs PyVista.
+"""
+import sys
+import types
+import unittest
+
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkImageData
+
+ENTRIES = 4
+
+
+class LookupTable(vtkLookupTable):
+    """Grey levels, and opacities as they are given; its own functions must not be asked for."""
+
+    def __init__(self, cmap=None, scalar_range=(0.0, 1.0)):
+        self.cmap = cmap
+        self.SetNumberOfTableValues(ENTRIES)
+        self.SetTableRange(scalar_range)
+        for entry in range(ENTRIES):
+            self.SetTableValue(entry, *[entry / (ENTRIES - 1)] * 3, 1.0)
+
+    def apply_opacity(self, opacity):
+        for entry, alpha in enumerate(opacity):
+            self.SetTableValue(entry, *self.GetTableValue(entry)[:3], alpha)
+
+
+class Values:
+    dtype = "float64"
+
+
+class Mesh(vtkImageData):
+    active_scalars_name = "height"
+    length = 8.0
+    n_cells = 8
+
+    def __init__(self):
+        self.SetDimensions(3, 3, 3)
+        values = vtkDoubleArray()
+        values.SetName("height")
+        values.SetNumberOfTuples(27)
+        values.FillComponent(0, 1.0)
+        self.GetPointData().SetScalars(values)
+
+    def __getitem__(self, name):
+        return Values()
+
+    def get_array_association(self, name):
+        return "point"
+
+    def get_data_range(self, name):
+        return 2.0, 5.0
+
+
+class Plotter:
+    theme = types.SimpleNamespace(cmap="the theme's")
+
+    def __init__(self):
+        self.bars = []
+
+    def add_actor(self, actor, name=None):
+        self.actor = actor
+
+    def add_scalar_bar(self, title, mapper):
+        self.bars.append(mapper)
+
+
+sys.modules["pyvista"] = types.SimpleNamespace(
+    LookupTable=LookupTable, DataSetMapper=types.SimpleNamespace, wrap=lambda mesh: mesh,
+    FieldAssociation=types.SimpleNamespace(POINT="point"))
+from meniscus.pyvista import add_volume  # noqa: E402
+
+
+class TestPyVistaFunctions(unittest.TestCase):
+    def nodes(self, clim):
+        plotter = Plotter()
+        volume = add_volume(plotter, Mesh(), opacity=[0.0, 0.5, 0.25, 1.0], clim=clim)
+        self.assertIs(plotter.actor, volume)
+        self.assertEqual(plotter.bars[0].lookup_table.cmap, "the theme's")
+        look = volume.GetProperty()
+        opacity = look.GetScalarOpacity()
+        colors = look.GetRGBTransferFunction()
+        self.assertEqual(opacity.GetSize(), ENTRIES)
+        self.assertEqual(colors.GetSize(), ENTRIES)
+        limits = colors.GetRange()
+        for entry, alpha in enumerate([0.0, 0.5, 0.25, 1.0]):
+            share = entry / (ENTRIES - 1)
+            scalar = limits[0] + share * (limits[1] - limits[0])
+            # Bytes in the table.
+            self.assertAlmostEqual(opacity.GetValue(scalar), alpha, delta=0.5 / 255 + 1e-12)
+            self.assertAlmostEqual(colors.GetRedValue(scalar), share, delta=0.5 / 255 + 1e-12)
+        self.assertEqual(opacity.GetRange(), limits)
+        self.assertEqual(plotter.bars[0].scalar_range, limits)
+        return limits
+
+    def test_limits(self):
+        self.assertEqual(self.nodes(None), (2.0, 5.0))
+        self.assertEqual(self.nodes((-3.0, 6.0)), (-3.0, 6.0))
+        self.assertEqual(self.nodes(4), (-4.0, 4.0))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,315 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Edits of the input in place: seen whichever object was told of them, and nothing is rebuilt for
+// an object that was modified without another value. The counters and the pictures of new objects
+// say so.
+#include "RayCastScene.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 72;
+
+using NamedObjects = std::vector<std::pair<std::string, vtkObject*>>;
+
+// Builds of the mesh, updates of the scalars, uploaded bytes.
+struct Work
+{
+  vtkTypeInt64 Mesh;
+  vtkTypeInt64 Scalars;
+  vtkTypeInt64 Bytes;
+
+  explicit Work(vtkTetrahedraRayCastMapper* mapper)
+    : Mesh(mapper->GetNumberOfMeshBuilds())
+    , Scalars(mapper->GetNumberOfScalarUpdates())
+    , Bytes(mapper->GetUploadedBytes())
+  {
+  }
+};
+
+class TetrahedraRayCastEdits : public testing::Test
+{
+protected:
+  TetrahedraRayCastEdits()
+    : Mesh(makeBlock(4, wavyField(3.0)))
+  {
+    const double range[2] = { -1.5, 1.5 };
+    this->Property = makeProperty(FunctionKind::Smooth, range, 3.5);
+  }
+
+  std::unique_ptr<RayCastScene> makeScene(vtkDataSet* data)
+  {
+    auto scene = std::make_unique<RayCastScene>(nullptr, this->Property, Size, Size);
+    scene->rayCaster()->SetInputData(data);
+    // Of all data sets here: an edit that changes bounds does not move the camera.
+    const double bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+    lookAt(scene->renderer(), bounds, 30.0, 20.0);
+    scene->window()->Render();
+    return scene;
+  }
+
+  // Makes an edit that is different each time, tells one object after the other, and expects the
+  // work and the picture of new objects.
+  void expectSeen(vtkDataSet* data, const NamedObjects& told, const std::function<void(int)>& edit,
+    int meshBuilds)
+  {
+    const auto scene = this->makeScene(data);
+    FloatImage last = scene->renderFloat();
+    for (std::size_t i = 0; i < told.size(); ++i)
+    {
+      SCOPED_TRACE(told[i].first);
+      const Work before(scene->rayCaster());
+      edit(static_cast<int>(i));
+      told[i].second->Modified();
+      const FloatImage picture = scene->renderFloat();
+      const Work after(scene->rayCaster());
+      EXPECT_EQ(after.Mesh - before.Mesh, meshBuilds);
+      EXPECT_EQ(after.Scalars - before.Scalars, 1);
+      EXPECT_GT(after.Bytes, before.Bytes);
+      EXPECT_NE(picture.Rgba, last.Rgba);
+      const auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
+      copy->DeepCopy(data);
+      EXPECT_EQ(this->makeScene(copy)->renderFloat().Rgba, picture.Rgba);
+      last = picture;
+    }
+  }
+
+  Grid Mesh;
+  vtkSmartPointer<vtkVolumeProperty> Property;
+};
+
+vtkDoubleArray* addCellScalars(vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkDoubleArray> values;
+  values->SetName(ScalarName);
+  for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+  {
+    values->InsertNextValue(std::sin(0.1 * static_cast<double>(c)));
+  }
+  grid->GetCellData()->SetScalars(values);
+  return vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetScalars());
+}
+
+} // anonymous namespace
+
+TEST_F(TetrahedraRayCastEdits, ScalarsOfPoints)
+{
+  vtkDataArray* scalars = this->Mesh->GetPointData()->GetScalars();
+  this->expectSeen(
+    this->Mesh,
+    { { "array", scalars }, { "point data", this->Mesh->GetPointData() }, { "grid", this->Mesh } },
+    [scalars](int i)
+    {
+      // One value: of a vertex inside, of which every ray of its cells shows something.
+      scalars->SetComponent(62, 0, 0.3 + 0.3 * i);
+    },
+    0);
+}
+
+TEST_F(TetrahedraRayCastEdits, ScalarsOfCells)
+{
+  this->Mesh->GetPointData()->Initialize();
+  vtkDoubleArray* scalars = addCellScalars(this->Mesh);
+  this->expectSeen(
+    this->Mesh,
+    { { "array", scalars }, { "cell data", this->Mesh->GetCellData() }, { "grid", this->Mesh } },
+    [scalars](int i) { scalars->SetValue(scalars->GetNumberOfTuples() / 2, 0.3 + 0.3 * i); }, 0);
+}
+
+TEST_F(TetrahedraRayCastEdits, Points)
+{
+  vtkPoints* points = this->Mesh->GetPoints();
+  this->expectSeen(
+    this->Mesh,
+    { { "points", points }, { "array", points->GetData() }, { "grid", this->Mesh },
+      { "point data", this->Mesh->GetPointData() } },
+    [points](int i)
+    {
+      double x[3];
+      points->GetPoint(62, x);
+      points->SetPoint(62, x[0], x[1] + 0.02 * (i + 1), x[2]);
+    },
+    1);
+}
+
+TEST_F(TetrahedraRayCastEdits, Connectivity)
+{
+  vtkCellArray* cells = this->Mesh->GetCells();
+  this->expectSeen(
+    this->Mesh,
+    { { "cells", cells }, { "array", cells->GetConnectivityArray() }, { "grid", this->Mesh },
+      { "cell data", this->Mesh->GetCellData() } },
+    [cells](int i)
+    {
+      // A cell with a repeated point is left out.
+      vtkDataArray* ids = cells->GetConnectivityArray();
+      ids->SetComponent(4 * (100 + i) + 1, 0, ids->GetComponent(4 * (100 + i), 0));
+    },
+    1);
+}
+
+TEST_F(TetrahedraRayCastEdits, HiddenCells)
+{
+  this->Mesh->AllocateCellGhostArray();
+  vtkUnsignedCharArray* ghosts = this->Mesh->GetCellGhostArray();
+  this->expectSeen(
+    this->Mesh,
+    { { "array", ghosts }, { "cell data", this->Mesh->GetCellData() }, { "grid", this->Mesh } },
+    [ghosts](int i) { ghosts->SetValue(100 + i, vtkDataSetAttributes::HIDDENCELL); }, 1);
+}
+
+TEST_F(TetrahedraRayCastEdits, CoordinatesOfARectilinearGrid)
+{
+  vtkNew<vtkRectilinearGrid> grid;
+  grid->SetDimensions(4, 4, 4);
+  vtkNew<vtkDoubleArray> axes[3];
+  for (vtkDoubleArray* axis : { axes[0].Get(), axes[1].Get(), axes[2].Get() })
+  {
+    for (const double value : { -0.8, -0.3, 0.2, 0.7 })
+    {
+      axis->InsertNextValue(value);
+    }
+  }
+  grid->SetXCoordinates(axes[0]);
+  grid->SetYCoordinates(axes[1]);
+  grid->SetZCoordinates(axes[2]);
+  vtkNew<vtkDoubleArray> scalars;
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    scalars->InsertNextValue(std::sin(static_cast<double>(p)));
+  }
+  grid->GetPointData()->SetScalars(scalars);
+  this->expectSeen(
+    grid, { { "array", axes[1] }, { "grid", grid } },
+    [&axes](int i) { axes[1]->SetValue(3, 0.8 + 0.1 * i); }, 1);
+}
+
+TEST_F(TetrahedraRayCastEdits, Membrane)
+{
+  vtkNew<vtkPlaneSource> source;
+  source->SetOrigin(-2.0, -2.0, 0.2);
+  source->SetPoint1(2.0, -2.0, 0.2);
+  source->SetPoint2(-2.0, 2.0, 0.2);
+  source->SetResolution(4, 4);
+  source->Update();
+  vtkPolyData* membrane = source->GetOutput();
+  membrane->GetPointData()->Initialize(); // normals follow from the shape
+  const auto draw = [this](vtkPolyData* surface)
+  {
+    auto scene = this->makeScene(this->Mesh);
+    scene->rayCaster()->SetMembraneData(surface);
+    lookAt(scene->renderer(), this->Mesh->GetBounds(), 30.0, 60.0);
+    return scene;
+  };
+  const auto scene = draw(membrane);
+  FloatImage last = scene->renderFloat();
+  vtkCellArray* polys = membrane->GetPolys();
+  const NamedObjects told{ { "points", membrane->GetPoints() },
+    { "coordinates", membrane->GetPoints()->GetData() }, { "point data", membrane->GetPointData() },
+    { "cells", polys }, { "connectivity", polys->GetConnectivityArray() },
+    { "membrane", membrane } };
+  vtkTypeInt64 builds = scene->rayCaster()->GetNumberOfMembraneBuilds();
+  for (std::size_t i = 0; i < told.size(); ++i)
+  {
+    SCOPED_TRACE(told[i].first);
+    membrane->GetPoints()->SetPoint(12, 0.0, 0.0, 0.25 + 0.05 * static_cast<double>(i));
+    told[i].second->Modified();
+    const FloatImage picture = scene->renderFloat();
+    EXPECT_EQ(scene->rayCaster()->GetNumberOfMembraneBuilds(), ++builds);
+    EXPECT_NE(picture.Rgba, last.Rgba);
+    vtkNew<vtkPolyData> copy;
+    copy->DeepCopy(membrane);
+    EXPECT_EQ(draw(copy)->renderFloat().Rgba, picture.Rgba);
+    last = picture;
+    told[i].second->Modified();
+    scene->window()->Render();
+    EXPECT_EQ(scene->rayCaster()->GetNumberOfMembraneBuilds(), builds);
+  }
+}
+
+TEST_F(TetrahedraRayCastEdits, ModifiedWithoutAnotherValueCostsNothing)
+{
+  addCellScalars(this->Mesh);
+  const auto scene = this->makeScene(this->Mesh);
+  const NamedObjects objects{ { "scalars", this->Mesh->GetPointData()->GetScalars() },
+    { "point data", this->Mesh->GetPointData() }, { "cell data", this->Mesh->GetCellData() },
+    { "points", this->Mesh->GetPoints() }, { "coordinates", this->Mesh->GetPoints()->GetData() },
+    { "cells", this->Mesh->GetCells() },
+    { "connectivity", this->Mesh->GetCells()->GetConnectivityArray() },
+    { "offsets", this->Mesh->GetCells()->GetOffsetsArray() },
+    { "cell scalars", this->Mesh->GetCellData()->GetScalars() }, { "grid", this->Mesh } };
+  for (const auto& object : objects)
+  {
+    const Work before(scene->rayCaster());
+    object.second->Modified();
+    scene->window()->Render();
+    const Work after(scene->rayCaster());
+    EXPECT_EQ(after.Mesh, before.Mesh) << object.first;
+    EXPECT_EQ(after.Scalars, before.Scalars) << object.first;
+    EXPECT_EQ(after.Bytes, before.Bytes) << object.first;
+  }
+}
+
+TEST_F(TetrahedraRayCastEdits, EqualObjectsAreTheSameMesh)
+{
+  const auto scene = this->makeScene(this->Mesh);
+  vtkNew<vtkUnstructuredGrid> copy;
+  copy->DeepCopy(this->Mesh);
+  scene->rayCaster()->SetInputData(copy);
+  scene->window()->Render();
+  EXPECT_EQ(scene->rayCaster()->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(scene->rayCaster()->GetNumberOfScalarUpdates(), 1);
+  // The copy is what is watched from now on.
+  copy->GetPointData()->GetScalars()->SetComponent(62, 0, 0.4);
+  copy->Modified();
+  scene->window()->Render();
+  EXPECT_EQ(scene->rayCaster()->GetNumberOfScalarUpdates(), 2);
+}
+
+TEST_F(TetrahedraRayCastEdits, UploadedBytesAreThoseOfTheTables)
+{
+  // 32 bytes per cell, 16 per vertex, at least 20 per boundary face, and the transfer function.
+  const auto scene = this->makeScene(this->Mesh);
+  vtkTetrahedraRayCastMapper* mapper = scene->rayCaster();
+  const vtkTypeInt64 cells = 32 * this->Mesh->GetNumberOfCells();
+  const vtkTypeInt64 vertices = 16 * this->Mesh->GetNumberOfPoints();
+  const vtkTypeInt64 faces = 6 * 4 * 4 * 2;
+  const vtkTypeInt64 all = mapper->GetUploadedBytes();
+  EXPECT_GE(all, cells + vertices + 20 * faces);
+  EXPECT_LE(all, cells + vertices + 80 * faces + 48 * 1000);
+  // Another view: nothing. Other scalars: those of the vertices. Another function: its points.
+  lookAt(scene->renderer(), this->Mesh->GetBounds(), 70.0, -20.0);
+  scene->window()->Render();
+  EXPECT_EQ(mapper->GetUploadedBytes(), all);
+  this->Mesh->GetPointData()->GetScalars()->SetComponent(62, 0, 0.4);
+  this->Mesh->GetPointData()->GetScalars()->Modified();
+  scene->window()->Render();
+  EXPECT_EQ(mapper->GetUploadedBytes() - all, vertices);
+  this->Property->SetScalarOpacityUnitDistance(0.7);
+  scene->window()->Render();
+  EXPECT_GT(mapper->GetUploadedBytes() - all, vertices);
+  EXPECT_LE(mapper->GetUploadedBytes() - all, vertices + 48 * 1000);
+}

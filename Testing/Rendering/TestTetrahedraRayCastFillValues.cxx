@@ -1,0 +1,362 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A fill value far outside of the transfer function's range at a few vertices: the rest of the
+// picture must not suffer, in any mode.
+#include "OpticsTruth.h"
+
+#include <vtkCellData.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkContourValues.h>
+#include <vtkDoubleArray.h>
+#include <vtkLight.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+using namespace meniscus::test;
+using namespace meniscus::reference;
+
+namespace
+{
+
+constexpr int Size = 100;
+constexpr double Range[2] = { -1.0, 1.0 };
+// A share of pixels may be off by more than two levels of 255.
+constexpr double TwoLevels = 2.0 / 255.0;
+constexpr double LargestShare = 0.005;
+
+struct Fill
+{
+  double First;
+  double Second; // 0: none
+};
+
+const std::vector<Fill> Fills = { { 1.0e6, 0.0 }, { -1.0e6, 0.0 }, { 1.0e10, 0.0 }, { 1.0e20, 0.0 },
+  { -1.0e20, 0.0 }, { 9.97e36, 0.0 }, { -1.0e36, 0.0 }, { 1.0e36, -1.0e36 }, { 1.0e36, -1.0e34 },
+  { 1.0e300, 0.0 } };
+
+// The truth's fill values, up to 1e8 in the same proportion: beyond that nothing that can be seen
+// depends on them, and in double, too, weights rounded to 1e-16 times 1e36 would exceed the
+// scalars.
+Fill forTruth(const Fill& fill)
+{
+  const double largest = std::max(std::fabs(fill.First), std::fabs(fill.Second));
+  const double factor = std::min(1.0, 1.0e8 / largest);
+  return { factor * fill.First, factor * fill.Second };
+}
+
+Grid makeFilled(const Fill& fill)
+{
+  const Grid grid = makeBlock(6, wavyField(3.0));
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->DeepCopy(grid->GetPointData()->GetScalars());
+  scalars->SetName(ScalarName);
+  // Points inside of the block and on its boundary.
+  scalars->SetValue(171, fill.First);
+  scalars->SetValue(30, fill.First);
+  if (fill.Second != 0.0)
+  {
+    scalars->SetValue(250, fill.Second);
+  }
+  grid->GetPointData()->SetScalars(scalars);
+  return grid;
+}
+
+vtkSmartPointer<vtkVolumeProperty> makeFunction(bool shade)
+{
+  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  property->SetShade(shade);
+  property->SetAmbient(0.2);
+  property->SetDiffuse(0.6);
+  property->SetSpecular(0.4);
+  property->SetSpecularPower(12.0);
+  property->GetIsoSurfaceValues()->SetValue(0, 0.45);
+  property->GetIsoSurfaceValues()->SetValue(1, -0.3);
+  return property;
+}
+
+using SceneMaker = std::function<void(RayCastScene& scene)>;
+using TraceMaker = std::function<TraceRay(RayCastScene& scene,
+  const ReferenceRayIntegrator& integrator, const ReferenceGradients& gradients)>;
+
+// Compares the mapper's picture of each fill value with the truth.
+void expectFills(const std::string& mode, vtkVolumeProperty* property, const SceneMaker& prepare,
+  const TraceMaker& makeTrace, double tolerance = TwoLevels)
+{
+  for (const Fill& fill : Fills)
+  {
+    const Grid grid = makeFilled(fill);
+    RayCastScene scene(grid, property, Size, Size);
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToSceneLight();
+    light->SetPosition(4.0, 2.0, 1.0);
+    scene.renderer()->AddLight(light);
+    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+    prepare(scene);
+    scene.window()->Render();
+    const Grid trueGrid = makeFilled(forTruth(fill));
+    const auto integrator = makeReference(trueGrid);
+    const ReferenceGradients gradients(integrator->mesh(), false);
+    const FloatImage image = scene.renderFloat();
+    const TracedComparison comparison = compareToTrace(
+      image, PixelRays(scene.renderer()), makeTrace(scene, *integrator, gradients), tolerance, 0.0);
+    std::ostringstream text;
+    text << mode << ", fill " << fill.First << ", " << fill.Second << ": " << comparison.text();
+    const std::string what = text.str();
+    EXPECT_GT(comparison.Visible, 1000u) << what;
+    EXPECT_LE(
+      static_cast<double>(comparison.Wrong), LargestShare * static_cast<double>(comparison.Visible))
+      << what;
+    EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << what;
+  }
+}
+
+TraceRay traceMedium(RayCastScene& scene, const ReferenceRayIntegrator& integrator,
+  const ReferenceGradients& gradients, const std::function<double(double)>& factor)
+{
+  const auto function = toReference(scene.volume()->GetProperty());
+  const bool lit = scene.volume()->GetProperty()->GetShade() != 0;
+  const Material material = toMaterial(scene.volume()->GetProperty(), scene.renderer());
+  return [=, &integrator, &gradients](const Ray& ray)
+  {
+    std::vector<RaySegment> segments;
+    integrator.findSegments(ray, segments);
+    return integrateShaded(
+      ray, segments, function, gradients, lit ? &material : nullptr, factor, 16);
+  };
+}
+
+double gradientFactor(double size)
+{
+  return std::min(std::max((size - 0.5) / 2.0, 0.0), 1.0) * 0.9 + 0.05;
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastFillValues, Composite)
+{
+  for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
+  {
+    const auto property = makeProperty(kind, Range, 3.4);
+    expectFills(
+      kind == FunctionKind::Smooth ? "smooth" : "peaked", property, [](RayCastScene&) {},
+      [](RayCastScene& scene, const ReferenceRayIntegrator& integrator, const ReferenceGradients&)
+      {
+        const auto function = toReference(scene.volume()->GetProperty());
+        return [function, &integrator](const Ray& ray) { return integrator.trace(ray, function); };
+      });
+  }
+}
+
+TEST(TetrahedraRayCastFillValues, PreIntegrated)
+{
+  const auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  expectFills(
+    "pre-integrated", property,
+    [](RayCastScene& scene)
+    { scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED); },
+    [](RayCastScene& scene, const ReferenceRayIntegrator& integrator, const ReferenceGradients&)
+    {
+      const auto function = toReference(scene.volume()->GetProperty());
+      return [function, &integrator](const Ray& ray) { return integrator.trace(ray, function); };
+    });
+}
+
+TEST(TetrahedraRayCastFillValues, LightInTheMedium)
+{
+  const auto property = makeFunction(true);
+  expectFills(
+    "lit", property,
+    [](RayCastScene& scene)
+    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
+    [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
+      const ReferenceGradients& gradients)
+    { return traceMedium(scene, integrator, gradients, nullptr); });
+}
+
+TEST(TetrahedraRayCastFillValues, GradientOpacity)
+{
+  const auto property = makeFunction(false);
+  vtkNew<vtkPiecewiseFunction> function;
+  function->AddPoint(0.5, gradientFactor(0.5));
+  function->AddPoint(2.5, gradientFactor(2.5));
+  property->SetGradientOpacity(function);
+  expectFills(
+    "gradient opacity", property,
+    [](RayCastScene& scene)
+    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
+    [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
+      const ReferenceGradients& gradients)
+    { return traceMedium(scene, integrator, gradients, gradientFactor); });
+}
+
+TEST(TetrahedraRayCastFillValues, Isosurfaces)
+{
+  const auto property = makeFunction(true);
+  expectFills(
+    "isosurfaces", property,
+    [](RayCastScene& scene)
+    {
+      scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+    },
+    [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
+      const ReferenceGradients& gradients)
+    {
+      const std::vector<Surface> surfaces = toSurfaces(scene.volume()->GetProperty());
+      const Material material = toMaterial(scene.volume()->GetProperty(), scene.renderer());
+      return [=, &integrator, &gradients](const Ray& ray)
+      {
+        std::vector<RaySegment> segments;
+        integrator.findSegments(ray, segments);
+        return blendSurfaces(ray, segments, surfaces, &gradients, material);
+      };
+    });
+}
+
+TEST(TetrahedraRayCastFillValues, Projections)
+{
+  const std::pair<int, Projection> modes[4] = { { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
+                                                  Projection::Maximum },
+    { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
+    { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
+    { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
+  const auto property = makeFunction(false);
+  for (const auto& mode : modes)
+  {
+    expectFills(
+      "projection " + std::to_string(mode.first), property,
+      [&mode](RayCastScene& scene) { scene.rayCaster()->SetBlendMode(mode.first); },
+      [&mode](
+        RayCastScene& scene, const ReferenceRayIntegrator& integrator, const ReferenceGradients&)
+      {
+        const bool additive = mode.second == Projection::Additive;
+        const auto function = additive ? toReference(scene.volume()->GetProperty())
+                                       : toAlphas(scene.volume()->GetProperty());
+        std::array<double, 2> range{ 0.0, 0.0 };
+        for (std::size_t c = 0; c < integrator.mesh().numberOfCells(); ++c)
+        {
+          for (int i = 0; i < 4; ++i)
+          {
+            const double scalar = integrator.mesh().scalar(integrator.mesh().cell(c)[i]);
+            range = { std::min(range[0], scalar), std::max(range[1], scalar) };
+          }
+        }
+        return [=, &mode, &integrator](const Ray& ray)
+        {
+          std::vector<RaySegment> segments;
+          integrator.findSegments(ray, segments);
+          return project(ray, segments, mode.second, function, range.data());
+        };
+      });
+  }
+}
+
+TEST(TetrahedraRayCastFillValues, CellData)
+{
+  // A cell has one value: any fill value shows what another beyond the function does, exactly.
+  const auto property = makeFunction(true);
+  for (const int mode : { vtkVolumeMapper::COMPOSITE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
+  {
+    FloatImage images[3];
+    const double fills[3] = { 3.0, 1.0e10, 1.0e36 };
+    for (int i = 0; i < 3; ++i)
+    {
+      const Grid grid = makeBlock(5, wavyField(3.0));
+      vtkNew<vtkDoubleArray> values;
+      values->SetNumberOfTuples(grid->GetNumberOfCells());
+      for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
+      {
+        values->SetValue(c, c % 97 == 5 ? fills[i] : std::sin(0.37 * static_cast<double>(c)));
+      }
+      grid->GetPointData()->Initialize();
+      grid->GetCellData()->SetScalars(values);
+      RayCastScene scene(grid, property, Size, Size);
+      scene.rayCaster()->SetBlendMode(mode);
+      lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+      images[i] = scene.renderFloat();
+    }
+    expectSamePicture(images[0], images[1], "1e10");
+    expectSamePicture(images[0], images[2], "1e36");
+  }
+}
+
+TEST(TetrahedraRayCastFillValues, Components)
+{
+  // Fill values in either component. In a cell with one the rest of the function takes 1e-5 of the
+  // cell for the first, 1e-36 for the second.
+  const auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  const auto second = makeProperty(FunctionKind::Peaked, Range, 3.4);
+  property->SetColor(1, second->GetRGBTransferFunction());
+  property->SetScalarOpacity(1, second->GetScalarOpacity());
+  property->SetScalarOpacityUnitDistance(1, second->GetScalarOpacityUnitDistance());
+  FloatImage images[2];
+  const double fills[2] = { 1.0e5, 1.0e36 };
+  for (int i = 0; i < 2; ++i)
+  {
+    const Grid grid = makeBlock(6, wavyField(3.0));
+    vtkDataArray* scalars = grid->GetPointData()->GetScalars();
+    vtkNew<vtkDoubleArray> pairs;
+    pairs->SetNumberOfComponents(2);
+    pairs->SetNumberOfTuples(grid->GetNumberOfPoints());
+    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    {
+      const double scalar = scalars->GetComponent(p, 0);
+      pairs->SetTuple2(p, p == 171 ? fills[i] : scalar, p == 30 ? -fills[i] : 0.5 - scalar);
+    }
+    grid->GetPointData()->SetScalars(pairs);
+    RayCastScene scene(grid, property, Size, Size);
+    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+    images[i] = scene.renderFloat();
+  }
+  ASSERT_EQ(images[0].Rgba.size(), images[1].Rgba.size());
+  float opacity = 0.0f;
+  for (std::size_t i = 0; i < images[0].Rgba.size(); ++i)
+  {
+    ASSERT_NEAR(images[0].Rgba[i], images[1].Rgba[i], 2e-4) << i;
+    opacity = std::max(opacity, images[0].Rgba[i]);
+  }
+  EXPECT_GT(opacity, 0.5f);
+}
+
+TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
+{
+  const Grid grid = makeFilled({ 1.0e20, 0.0 });
+  const auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  RayCastScene scene(grid, property, Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  scene.window()->Render();
+  EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1);
+  // A node dragged through the data, and out of it.
+  vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
+  double last = 0.1;
+  opacity->AddPoint(last, 0.9);
+  for (const double at : { 0.15, 0.3, 0.5, -0.2, -0.9, -1.3, 1.7, 3.0 })
+  {
+    opacity->RemovePoint(last);
+    opacity->AddPoint(at, 0.9);
+    last = at;
+    scene.window()->Render();
+    EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1) << at;
+  }
+  // A function of the fill value does, once.
+  property->GetScalarOpacity()->RemoveAllPoints();
+  property->GetScalarOpacity()->AddPoint(0.0, 0.0);
+  property->GetScalarOpacity()->AddPoint(1.0e20, 1.0);
+  property->GetRGBTransferFunction()->RemoveAllPoints();
+  property->GetRGBTransferFunction()->AddRGBPoint(0.0, 1.0, 1.0, 1.0);
+  scene.window()->Render();
+  scene.window()->Render();
+  EXPECT_LE(mapper->GetNumberOfScalarUpdates(), 2);
+}

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Light in the medium with gradients of cells on real and on graded meshes, where cells have nearly
+// equal scalars and very different sizes.
+#include "OpticsTruth.h"
+
+#include <vtkDataArray.h>
+#include <vtkLight.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+using namespace meniscus::test;
+using namespace meniscus::reference;
+
+namespace
+{
+
+constexpr int Size = 128;
+// Midpoints per piece; the truth is extrapolated from these and from twice as many.
+constexpr int Steps = 6;
+
+// Cells from 0.44 to 1/32,768 of the domain.
+Grid makeGradedBlock()
+{
+  Grid grid = makeBlock(8, constantField(0.0));
+  vtkDataArray* scalars = grid->GetPointData()->GetScalars();
+  const Field field = wavyField(3.0);
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    grid->GetPoint(i, p);
+    for (double& x : p)
+    {
+      x = std::copysign(std::pow(std::fabs(x), 7.0), x);
+    }
+    grid->GetPoints()->SetPoint(i, p);
+    scalars->SetComponent(i, 0, field(p[0], p[1], p[2]));
+  }
+  return grid;
+}
+
+// Every term of light that is constant in a cell. The denser a medium, the more a single cell
+// shows.
+TracedComparison compareLit(vtkUnstructuredGrid* grid, int view, double density)
+{
+  double range[2];
+  grid->GetPointData()->GetScalars()->GetFiniteRange(range);
+  const auto property = makeProperty(FunctionKind::Smooth, range, diagonalOf(grid->GetBounds()));
+  property->SetScalarOpacityUnitDistance(property->GetScalarOpacityUnitDistance() / density);
+  property->ShadeOn();
+  property->SetAmbient(0.2);
+  property->SetDiffuse(0.6);
+  property->SetSpecular(0.4);
+  property->SetSpecularPower(12.0);
+  RayCastScene scene(grid, property, Size, Size);
+  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToSceneLight();
+  light->SetPosition(4.0, 2.0, 1.0);
+  light->SetDiffuseColor(1.0, 0.6, 0.2);
+  scene.renderer()->AddLight(light);
+  const auto angles = viewAngles(view);
+  lookAt(scene.renderer(), grid->GetBounds(), angles[0], angles[1]);
+  scene.window()->Render();
+  const auto integrator = makeReference(grid);
+  const ReferenceGradients gradients(integrator->mesh(), false);
+  const Material material = toMaterial(property, scene.renderer());
+  const auto function = toReference(property);
+  const FloatImage image = scene.renderFloat();
+  return compareToTrace(
+    image, PixelRays(scene.renderer()),
+    [&](const Ray& ray)
+    {
+      std::vector<RaySegment> segments;
+      integrator->findSegments(ray, segments);
+      const auto traced = [&](int steps)
+      {
+        return integrateShaded(
+          ray, segments, function, gradients, &material, std::function<double(double)>(), steps);
+      };
+      // The midpoint rule is off by a series in the square of the step.
+      const auto coarse = traced(Steps);
+      auto result = traced(2 * Steps);
+      for (int c = 0; c < 4; ++c)
+      {
+        result[c] += (result[c] - coarse[c]) / 3.0;
+      }
+      return result;
+    },
+    // Silhouettes move with the rounding of rays and vertices.
+    1e-4, RoundingDistance * diagonalOf(grid->GetBounds()));
+}
+
+double largestError()
+{
+  return backendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 2e-5 : 1e-4;
+}
+
+void expectLit(vtkUnstructuredGrid* grid, const std::string& name)
+{
+  for (const double density : { 1.0, 8.0 })
+  {
+    for (const int view : { 0, 1 })
+    {
+      const TracedComparison comparison = compareLit(grid, view, density);
+      std::ostringstream text;
+      text << name << ", density " << density << ", view " << view << ": " << comparison.text();
+      std::cout << text.str() << std::endl;
+      EXPECT_GT(comparison.Visible, 1000u) << text.str();
+      EXPECT_LE(comparison.Largest, largestError()) << text.str();
+      EXPECT_LE(static_cast<double>(comparison.Excused),
+        LargestSilhouetteShare * static_cast<double>(comparison.Visible))
+        << text.str();
+    }
+  }
+}
+
+class TetrahedraRayCastLightOnData : public testing::TestWithParam<const char*>
+{
+};
+
+} // anonymous namespace
+
+TEST_P(TetrahedraRayCastLightOnData, MatchesReference)
+{
+  const Grid grid = readDataMesh(GetParam());
+  if (!grid)
+  {
+    GTEST_SKIP() << GetParam() << ".vtu not found: set MENISCUS_DATA_DIR";
+  }
+  expectLit(grid, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(, TetrahedraRayCastLightOnData,
+  testing::Values("blunt_fin", "combustor", "crushed_can"),
+  [](const testing::TestParamInfo<const char*>& mesh) { return std::string(mesh.param); });
+
+TEST(TetrahedraRayCastLight, CellsOfAllSizes)
+{
+  expectLit(makeGradedBlock(), "graded block");
+}

@@ -1,0 +1,315 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes with the purposes of VTK's own tests of unstructured grid mappers, drawn by this mapper
+// and by vtkUnstructuredGridVolumeRayCastMapper in the same run: meshes with cavities, opaque
+// blocks, moved volumes, a close camera, grey levels, colours as they are, several components, cell
+// data, attenuation greater than 1, a component chosen by the colour function.
+//
+// The tolerance is what the peer documents in its source. Its linear integrator is exact for
+// piecewise linear functions, its homogeneous one for cell data. Its picture is made of
+//  - rays through the lower left corners of the pixels: the camera's window centre is moved by half
+//  a
+//    pixel for it;
+//  - colours and opacities cut to whole steps of 1/255: up to one step too small, never too large;
+//  - rays that end at an opacity of 0.99: colour and opacity too small by at most 0.01 in addition;
+//  - scalars interpolated linearly on the projected faces, which is exact without perspective only:
+//  the
+//    scenes are parallel projections;
+//  - an image that is stretched over the window by n pixels to n - 1 and interpolated: it is read
+//  before.
+// So 255 times the picture of this mapper minus the peer's lies in [0, 1], or in [0, 1 + 2.55]
+// where the opacity is 0.99 or more, up to the single precision of both, 1e-4 of a step and more
+// for hundreds of terms: a fiftieth of a step is granted.
+#include "RayCastScene.h"
+
+#include <vtkCamera.h>
+#include <vtkCellData.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkDoubleArray.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPointData.h>
+#include <vtkPointDataToCellData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTransform.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridHomogeneousRayIntegrator.h>
+#include <vtkUnstructuredGridLinearRayIntegrator.h>
+#include <vtkUnstructuredGridVolumeRayCastMapper.h>
+#include <vtkVolume.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 90;
+constexpr double Rounding = 0.02;
+constexpr double EndOpacity = 0.99;
+
+// VTK's ray caster, whose image can be read before it is stretched over the window.
+class PeerMapper : public vtkUnstructuredGridVolumeRayCastMapper
+{
+public:
+  static PeerMapper* New() { return new PeerMapper; }
+
+  FloatImage picture() const
+  {
+    FloatImage image;
+    image.Width = image.Height = Size;
+    image.Rgba.resize(std::size_t{ 4 } * Size * Size);
+    for (int y = 0; y < this->ImageInUseSize[1]; ++y)
+    {
+      for (int x = 0; x < this->ImageInUseSize[0]; ++x)
+      {
+        const unsigned char* rgba = this->Image + 4 * (y * this->ImageMemorySize[0] + x);
+        float* to = &image.Rgba[4 * ((y + this->ImageOrigin[1]) * Size + x + this->ImageOrigin[0])];
+        std::copy(rgba, rgba + 4, to);
+      }
+    }
+    return image;
+  }
+};
+
+struct PeerScene
+{
+  Grid Mesh;
+  /// Given to the peer in place of the mesh, if set.
+  Grid PeerMesh;
+  vtkSmartPointer<vtkVolumeProperty> Property;
+  vtkSmartPointer<vtkTransform> Transform;
+  double Azimuth = 20.0;
+  double Elevation = 10.0;
+  double Zoom = 1.0;
+  bool Cells = false;
+};
+
+void place(VolumeScene& view, const PeerScene& scene, vtkUnstructuredGridVolumeMapper* mapper)
+{
+  view.setMapper(mapper);
+  view.setProperty(scene.Property);
+  if (scene.Transform)
+  {
+    view.volume()->SetUserTransform(scene.Transform);
+  }
+  lookAt(
+    view.renderer(), view.volume()->GetBounds(), scene.Azimuth, scene.Elevation, scene.Zoom, true);
+}
+
+FloatImage drawOurs(const PeerScene& scene)
+{
+  VolumeScene view(Size, Size);
+  vtkNew<vtkTetrahedraRayCastMapper> mapper;
+  mapper->SetBackend(backendUnderTest());
+  mapper->SetInputData(scene.Mesh);
+  place(view, scene, mapper);
+  return view.renderFloat();
+}
+
+FloatImage drawPeer(const PeerScene& scene)
+{
+  VolumeScene view(Size, Size);
+  const auto mapper = vtkSmartPointer<PeerMapper>::Take(PeerMapper::New());
+  mapper->SetImageSampleDistance(1.0);
+  mapper->AutoAdjustSampleDistancesOff();
+  vtkNew<vtkUnstructuredGridLinearRayIntegrator> linear;
+  vtkNew<vtkUnstructuredGridHomogeneousRayIntegrator> homogeneous;
+  mapper->SetRayIntegrator(linear);
+  if (scene.Cells)
+  {
+    // By default 1024 entries; so many that the nearest one is exact to the rounding granted.
+    homogeneous->SetTransferFunctionTableSize(1 << 20);
+    mapper->SetRayIntegrator(homogeneous);
+  }
+  mapper->SetInputData(scene.PeerMesh ? scene.PeerMesh : scene.Mesh);
+  place(view, scene, mapper);
+  view.renderer()->GetActiveCamera()->SetWindowCenter(1.0 / Size, 1.0 / Size);
+  view.window()->Render();
+  return mapper->picture();
+}
+
+void expectPicturesMatch(const PeerScene& scene, const std::string& what)
+{
+  const FloatImage ours = drawOurs(scene);
+  const FloatImage peer = drawPeer(scene);
+  std::size_t covered = 0;
+  std::size_t outside = 0;
+  double least = 0.0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < ours.Rgba.size(); ++i)
+  {
+    const double opacity = ours.Rgba[i | 3];
+    const double bound =
+      1.0 + Rounding + (opacity >= EndOpacity ? 255.0 * (1.0 - EndOpacity) : 0.0);
+    // A colour beyond 1 is cut by the peer.
+    const double difference = 255.0 * std::min(1.0f, ours.Rgba[i]) - peer.Rgba[i];
+    covered += i % 4 == 3 && opacity > 0.0;
+    outside += difference < -Rounding || difference > bound;
+    least = std::min(least, difference);
+    most = std::max(most, difference);
+  }
+  EXPECT_GT(covered, 1000u) << what;
+  EXPECT_EQ(outside, 0u) << what << ": differences of " << least << " to " << most << ", "
+                         << covered << " pixels covered";
+}
+
+vtkSmartPointer<vtkColorTransferFunction> rainbow()
+{
+  auto colors = vtkSmartPointer<vtkColorTransferFunction>::New();
+  colors->AddRGBPoint(-2.0, 0.0, 0.0, 0.0);
+  colors->AddRGBPoint(-0.2, 0.0, 0.0, 1.0);
+  colors->AddRGBPoint(0.1, 1.0, 0.0, 0.0);
+  colors->AddRGBPoint(0.5, 0.0, 1.0, 0.0);
+  colors->AddRGBPoint(2.0, 0.0, 1.0, 1.0);
+  return colors;
+}
+
+// Nodes where the colours have theirs: the peer does not look for others.
+vtkSmartPointer<vtkPiecewiseFunction> ramp(double factor)
+{
+  auto opacities = vtkSmartPointer<vtkPiecewiseFunction>::New();
+  opacities->AddPoint(-2.0, 0.0);
+  opacities->AddPoint(-0.2, 0.1 * factor);
+  opacities->AddPoint(0.5, 0.5 * factor);
+  opacities->AddPoint(2.0, 0.2 * factor);
+  return opacities;
+}
+
+PeerScene makeScene(const Grid& mesh, double factor = 1.0)
+{
+  PeerScene scene;
+  scene.Mesh = mesh;
+  scene.Property = vtkSmartPointer<vtkVolumeProperty>::New();
+  scene.Property->SetColor(rainbow());
+  scene.Property->SetScalarOpacity(ramp(factor));
+  scene.Property->SetScalarOpacityUnitDistance(0.8);
+  scene.Property->SetInterpolationTypeToLinear();
+  return scene;
+}
+
+Grid block(const Region& region = nullptr)
+{
+  return makeBlock(4, wavyField(3.0), region);
+}
+
+// The points' array of several fields: the mesh's own, a linear one and so on.
+void setComponents(const Grid& mesh, const std::vector<Field>& fields)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(ScalarName);
+  array->SetNumberOfComponents(static_cast<int>(fields.size()));
+  array->SetNumberOfTuples(mesh->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < mesh->GetNumberOfPoints(); ++p)
+  {
+    const double* x = mesh->GetPoint(p);
+    for (std::size_t c = 0; c < fields.size(); ++c)
+    {
+      array->SetComponent(p, static_cast<int>(c), fields[c](x[0], x[1], x[2]));
+    }
+  }
+  mesh->GetPointData()->SetScalars(array);
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastPeers, MeshesWithCavities)
+{
+  for (const Region& region : { Region(nullptr), shell(0.4, 1.2), lShape() })
+  {
+    expectPicturesMatch(makeScene(block(region)), "region");
+  }
+}
+
+TEST(TetrahedraRayCastPeers, CloseCamera)
+{
+  PeerScene scene = makeScene(block());
+  scene.Zoom = 5.0;
+  expectPicturesMatch(scene, "close");
+}
+
+// Opacities are attenuation per unit distance and may exceed 1; rays end early.
+TEST(TetrahedraRayCastPeers, AttenuationGreaterThanOne)
+{
+  for (const double factor : { 5.0, 60.0 })
+  {
+    expectPicturesMatch(makeScene(block(), factor), "factor " + std::to_string(factor));
+  }
+}
+
+TEST(TetrahedraRayCastPeers, MovedVolume)
+{
+  PeerScene scene = makeScene(block(lShape()));
+  scene.Transform = vtkSmartPointer<vtkTransform>::New();
+  scene.Transform->Translate(2.0, -3.0, 1.0);
+  scene.Transform->RotateWXYZ(35.0, 1.0, 2.0, 0.5);
+  expectPicturesMatch(scene, "moved");
+}
+
+TEST(TetrahedraRayCastPeers, GreyLevels)
+{
+  PeerScene scene = makeScene(block());
+  vtkNew<vtkPiecewiseFunction> grey;
+  grey->AddPoint(-2.0, 0.0);
+  grey->AddPoint(-0.2, 0.7);
+  grey->AddPoint(0.5, 0.2);
+  grey->AddPoint(2.0, 1.0);
+  scene.Property->SetColor(grey);
+  expectPicturesMatch(scene, "grey");
+}
+
+// Four dependent components: colour and attenuation of each point. The peer has no function of
+// these, so that of opacity is the identity here.
+TEST(TetrahedraRayCastPeers, ColorsAsTheyAre)
+{
+  PeerScene scene = makeScene(block());
+  const Field wavy = wavyField(2.0);
+  const auto share = [wavy](double shift)
+  {
+    return [=](double x, double y, double z)
+    { return std::clamp(0.5 + 0.5 * wavy(x + shift, y, z), 0.0, 1.0); };
+  };
+  setComponents(scene.Mesh, { share(0.0), share(0.7), share(1.6), share(2.9) });
+  vtkNew<vtkPiecewiseFunction> identity;
+  identity->AddPoint(0.0, 0.0);
+  identity->AddPoint(1.0, 1.0);
+  scene.Property->SetScalarOpacity(identity);
+  scene.Property->IndependentComponentsOff();
+  expectPicturesMatch(scene, "colours");
+}
+
+TEST(TetrahedraRayCastPeers, CellsOfOneValue)
+{
+  PeerScene scene = makeScene(block());
+  vtkNew<vtkPointDataToCellData> average;
+  average->SetInputData(scene.Mesh);
+  average->PassPointDataOff();
+  average->Update();
+  scene.Mesh = vtkUnstructuredGrid::SafeDownCast(average->GetOutput());
+  scene.Mesh->GetCellData()->SetActiveScalars(ScalarName);
+  scene.Cells = true;
+  expectPicturesMatch(scene, "cells");
+}
+
+// The component that the colour function chooses is drawn; the peer is given that component alone.
+TEST(TetrahedraRayCastPeers, ComponentOfTheColorFunction)
+{
+  PeerScene scene = makeScene(block());
+  scene.PeerMesh = block();
+  const std::vector<Field> fields{ linearField(0.5, 0.2, 0.1), wavyField(3.0), radialField() };
+  setComponents(scene.Mesh, fields);
+  for (int component = 0; component < 3; ++component)
+  {
+    setComponents(scene.PeerMesh, { fields[component] });
+    vtkColorTransferFunction* colors = scene.Property->GetRGBTransferFunction();
+    colors->SetVectorModeToComponent();
+    colors->SetVectorComponent(component);
+    expectPicturesMatch(scene, "component " + std::to_string(component));
+  }
+}

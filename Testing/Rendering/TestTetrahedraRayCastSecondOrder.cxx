@@ -1,0 +1,413 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells of second order, alone and beside each other: the picture of linear cells with the same
+// corners, whose field is the same as long as it is linear; links across all shared faces; closed
+// forms where the points inside a face or a cell have values of their own.
+#include "RayCastScene.h"
+
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkContourValues.h>
+#include <vtkDoubleArray.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr int Size = 80;
+using Corners = std::vector<int>;
+
+// The corners that each further point of a type is the mean of, in VTK's order.
+std::vector<Corners> furtherPoints(int type)
+{
+  const std::vector<Corners> hexahedron{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 },
+    { 6, 7 }, { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 }, { 0, 4, 7, 3 }, { 1, 2, 6, 5 },
+    { 0, 1, 5, 4 }, { 3, 7, 6, 2 }, { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 2, 3, 4, 5, 6, 7 } };
+  const std::vector<Corners> wedge{ { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 },
+    { 0, 3 }, { 1, 4 }, { 2, 5 }, { 0, 3, 4, 1 }, { 1, 4, 5, 2 }, { 2, 5, 3, 0 } };
+  const std::vector<Corners> pyramid{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 },
+    { 2, 4 }, { 3, 4 }, { 0, 1, 2, 3 }, { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 3, 0, 4 },
+    { 0, 1, 2, 3, 4 } };
+  const std::vector<Corners> tetrahedron{ { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 3 },
+    { 2, 3 } };
+  const auto first = [](const std::vector<Corners>& all, std::size_t count)
+  { return std::vector<Corners>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)); };
+  switch (type)
+  {
+    case VTK_QUADRATIC_HEXAHEDRON:
+      return first(hexahedron, 12);
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
+      return first(hexahedron, 16);
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+      return hexahedron;
+    case VTK_QUADRATIC_LINEAR_WEDGE:
+      return first(wedge, 6);
+    case VTK_QUADRATIC_WEDGE:
+      return first(wedge, 9);
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+      return wedge;
+    case VTK_QUADRATIC_PYRAMID:
+      return first(pyramid, 8);
+    case VTK_TRIQUADRATIC_PYRAMID:
+      return pyramid;
+    case VTK_QUADRATIC_TETRA:
+      return tetrahedron;
+    default:
+      return {};
+  }
+}
+
+struct LinearCell
+{
+  int LinearType;
+  /** Of second order. */
+  int Type;
+  /** Numbers of points of the mesh. */
+  Corners Points;
+};
+
+struct LinearMesh
+{
+  std::vector<std::array<double, 3>> Points;
+  std::vector<LinearCell> Cells;
+};
+
+double fieldAt(const double* x)
+{
+  return 0.7 * x[0] - 0.4 * x[1] + 0.5 * x[2];
+}
+
+// The mesh with cells of second order or of linear ones; cell data counts 0, 1, 0, 1. Points are
+// numbered at random, as the splits follow the numbers.
+Grid makeMesh(const LinearMesh& mesh, bool secondOrder, unsigned int seed)
+{
+  std::map<Corners, int> places;
+  std::vector<std::vector<int>> cells;
+  for (const LinearCell& cell : mesh.Cells)
+  {
+    std::vector<Corners> sets;
+    for (const int point : cell.Points)
+    {
+      sets.push_back({ point });
+    }
+    for (const Corners& further : secondOrder ? furtherPoints(cell.Type) : std::vector<Corners>())
+    {
+      Corners set;
+      for (const int corner : further)
+      {
+        set.push_back(cell.Points[corner]);
+      }
+      std::sort(set.begin(), set.end());
+      sets.push_back(set);
+    }
+    std::vector<int> ids;
+    for (const Corners& set : sets)
+    {
+      ids.push_back(places.emplace(set, static_cast<int>(places.size())).first->second);
+    }
+    cells.push_back(ids);
+  }
+  std::vector<vtkIdType> numbers(places.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  std::shuffle(numbers.begin(), numbers.end(), std::mt19937(seed));
+  auto grid = Grid::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(places.size()));
+  vtkNew<vtkDoubleArray> scalars;
+  scalars->SetName(ScalarName);
+  scalars->SetNumberOfTuples(points->GetNumberOfPoints());
+  for (const auto& place : places)
+  {
+    double mean[3] = { 0.0, 0.0, 0.0 };
+    for (const int corner : place.first)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        mean[axis] += mesh.Points[corner][axis] / static_cast<double>(place.first.size());
+      }
+    }
+    points->SetPoint(numbers[place.second], mean);
+    scalars->SetValue(numbers[place.second], fieldAt(mean));
+  }
+  grid->SetPoints(points);
+  grid->GetPointData()->SetScalars(scalars);
+  vtkNew<vtkDoubleArray> ofCells;
+  ofCells->SetName("cells");
+  for (std::size_t c = 0; c < cells.size(); ++c)
+  {
+    std::vector<vtkIdType> ids;
+    for (const int id : cells[c])
+    {
+      ids.push_back(numbers[id]);
+    }
+    grid->InsertNextCell(secondOrder ? mesh.Cells[c].Type : mesh.Cells[c].LinearType,
+      static_cast<vtkIdType>(ids.size()), ids.data());
+    ofCells->InsertNextValue(static_cast<double>(c % 2));
+  }
+  grid->GetCellData()->AddArray(ofCells);
+  return grid;
+}
+
+enum Shape
+{
+  Hexahedron,
+  Wedges,
+  Pyramids
+};
+
+// A box of n[0] x n[1] x n[2] cubes within [-1, 1], each of a shape and a type.
+LinearMesh makeBox(
+  const int (&n)[3], const std::function<std::pair<Shape, int>(int i, int j, int k)>& typeOf)
+{
+  LinearMesh mesh;
+  for (int k = 0; k <= n[2]; ++k)
+  {
+    for (int j = 0; j <= n[1]; ++j)
+    {
+      for (int i = 0; i <= n[0]; ++i)
+      {
+        mesh.Points.push_back({ 2.0 * i / n[0] - 1.0, 2.0 * j / n[1] - 1.0, 2.0 * k / n[2] - 1.0 });
+      }
+    }
+  }
+  for (int cube = 0; cube < n[0] * n[1] * n[2]; ++cube)
+  {
+    const int i = cube % n[0];
+    const int j = cube / n[0] % n[1];
+    const int k = cube / (n[0] * n[1]);
+    const int dy = n[0] + 1;
+    const int dz = dy * (n[1] + 1);
+    const int o = i + j * dy + k * dz;
+    const int p[8] = { o, o + 1, o + dy + 1, o + dy, o + dz, o + dz + 1, o + dz + dy + 1,
+      o + dz + dy };
+    const std::pair<Shape, int> what = typeOf(i, j, k);
+    if (what.first == Hexahedron)
+    {
+      mesh.Cells.push_back({ VTK_HEXAHEDRON, what.second, Corners(p, p + 8) });
+    }
+    else if (what.first == Wedges)
+    {
+      mesh.Cells.push_back({ VTK_WEDGE, what.second, { p[0], p[1], p[3], p[4], p[5], p[7] } });
+      mesh.Cells.push_back({ VTK_WEDGE, what.second, { p[1], p[2], p[3], p[5], p[6], p[7] } });
+    }
+    else
+    {
+      const int apex = static_cast<int>(mesh.Points.size());
+      mesh.Points.push_back({ (2.0 * i + 1.0) / n[0] - 1.0, (2.0 * j + 1.0) / n[1] - 1.0,
+        (2.0 * k + 1.0) / n[2] - 1.0 });
+      const int sides[6][4] = { { 0, 1, 2, 3 }, { 7, 6, 5, 4 }, { 0, 4, 5, 1 }, { 1, 5, 6, 2 },
+        { 2, 6, 7, 3 }, { 3, 7, 4, 0 } };
+      for (const auto& s : sides)
+      {
+        mesh.Cells.push_back(
+          { VTK_PYRAMID, what.second, { p[s[0]], p[s[1]], p[s[2]], p[s[3]], apex } });
+      }
+    }
+  }
+  return mesh;
+}
+
+std::unique_ptr<RayCastScene> makeScene(vtkUnstructuredGrid* grid, vtkVolumeProperty* property)
+{
+  auto scene = std::make_unique<RayCastScene>(grid, property, Size, Size);
+  const double bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
+  lookAt(scene->renderer(), bounds, 25.0, 15.0);
+  return scene;
+}
+
+void expectLinearTwin(const LinearMesh& mesh, const std::string& what)
+{
+  const double range[2] = { -2.0, 2.0 };
+  const auto property = makeProperty(FunctionKind::Smooth, range, 3.5);
+  property->GetIsoSurfaceValues()->SetValue(0, 0.5);
+  for (const unsigned int seed : { 1u, 2u })
+  {
+    const Grid linear = makeMesh(mesh, false, seed);
+    const Grid quadratic = makeMesh(mesh, true, seed + 10);
+    const auto expected = makeScene(linear, property);
+    const auto scene = makeScene(quadratic, property);
+    const auto told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
+    told->observe(scene->rayCaster());
+    expectSamePicture(scene->renderFloat(), expected->renderFloat(), what);
+    EXPECT_TRUE(told->Warnings.empty()) << what << ": " << told->Warnings.front();
+    EXPECT_TRUE(told->Errors.empty()) << what << ": " << told->text();
+    EXPECT_EQ(scene->rayCaster()->GetNumberOfLostRays(), 0) << what;
+    // Isosurfaces of cell data are the faces between cells of value 0 and 1: those that are linked.
+    for (RayCastScene* both : { scene.get(), expected.get() })
+    {
+      both->rayCaster()->SetScalarModeToUseCellFieldData();
+      both->rayCaster()->SelectScalarArray("cells");
+      both->rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+    }
+    expectSamePicture(scene->renderFloat(), expected->renderFloat(), what + ", shared faces");
+  }
+}
+
+// Alpha of the pixel in the middle, whose ray goes through the centre of the box along an axis,
+// with an attenuation equal to the scalar.
+double alphaAlong(vtkUnstructuredGrid* grid, int axis)
+{
+  auto property = vtkSmartPointer<vtkVolumeProperty>::New();
+  vtkNew<vtkPiecewiseFunction> opacity;
+  opacity->AddPoint(0.0, 0.0);
+  opacity->AddPoint(1.0, 1.0);
+  property->SetScalarOpacity(opacity);
+  RayCastScene scene(grid, property, 33, 33);
+  lookAlongAxis(scene.renderer(), grid->GetBounds(), axis);
+  return scene.renderFloat().pixel(16, 16)[3];
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastSecondOrder, EachTypeAlone)
+{
+  const std::pair<Shape, int> types[] = { { Hexahedron, VTK_QUADRATIC_HEXAHEDRON },
+    { Hexahedron, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON },
+    { Hexahedron, VTK_TRIQUADRATIC_HEXAHEDRON }, { Wedges, VTK_QUADRATIC_LINEAR_WEDGE },
+    { Wedges, VTK_QUADRATIC_WEDGE }, { Wedges, VTK_BIQUADRATIC_QUADRATIC_WEDGE },
+    { Pyramids, VTK_QUADRATIC_PYRAMID }, { Pyramids, VTK_TRIQUADRATIC_PYRAMID } };
+  for (const auto& type : types)
+  {
+    expectLinearTwin(
+      makeBox({ 2, 2, 2 }, [&type](int, int, int) { return type; }), std::to_string(type.second));
+  }
+}
+
+TEST(TetrahedraRayCastSecondOrder, NeighboursThatShareBiquadraticFaces)
+{
+  expectLinearTwin(
+    makeBox({ 3, 3, 1 },
+      [](int i, int j, int)
+      {
+        const std::pair<Shape, int> types[] = { { Hexahedron, VTK_TRIQUADRATIC_HEXAHEDRON },
+          { Wedges, VTK_BIQUADRATIC_QUADRATIC_WEDGE }, { Pyramids, VTK_TRIQUADRATIC_PYRAMID },
+          { Hexahedron, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON } };
+        return types[(i + 2 * j) % 4];
+      }),
+    "biquadratic faces");
+}
+
+TEST(TetrahedraRayCastSecondOrder, NeighboursThatShareQuadraticFaces)
+{
+  expectLinearTwin(makeBox({ 2, 2, 4 },
+                     [](int, int, int k)
+                     {
+                       return std::make_pair(Hexahedron,
+                         static_cast<int>(k % 2 == 0 ? VTK_QUADRATIC_HEXAHEDRON
+                                                     : VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON));
+                     }),
+    "quadratic quadrilaterals");
+  const int wedges[] = { VTK_BIQUADRATIC_QUADRATIC_WEDGE, VTK_QUADRATIC_WEDGE,
+    VTK_QUADRATIC_LINEAR_WEDGE };
+  expectLinearTwin(
+    makeBox({ 2, 2, 3 }, [&wedges](int, int, int k) { return std::make_pair(Wedges, wedges[k]); }),
+    "quadratic triangles");
+  // A wedge of each type with a tetrahedron on top.
+  for (const int wedge : wedges)
+  {
+    LinearMesh mesh;
+    mesh.Points = { { -0.8, -0.8, -0.9 }, { 0.9, -0.7, -0.9 }, { 0.0, 0.9, -0.9 },
+      { -0.8, -0.8, 0.1 }, { 0.9, -0.7, 0.1 }, { 0.0, 0.9, 0.1 }, { 0.0, 0.0, 0.9 } };
+    mesh.Cells = { { VTK_WEDGE, wedge, { 0, 1, 2, 3, 4, 5 } },
+      { VTK_TETRA, VTK_QUADRATIC_TETRA, { 3, 4, 5, 6 } } };
+    expectLinearTwin(mesh, "a tetrahedron on a wedge of type " + std::to_string(wedge));
+  }
+}
+
+TEST(TetrahedraRayCastSecondOrder, CurvedFacesFitWithoutGapsOrOverlaps)
+{
+  // Points inside the box are moved: faces are no longer plane, and still every ray crosses the box
+  // once. Its chord gives alpha, as without the moves.
+  const std::pair<Shape, int> types[] = { { Hexahedron, VTK_TRIQUADRATIC_HEXAHEDRON },
+    { Wedges, VTK_BIQUADRATIC_QUADRATIC_WEDGE }, { Pyramids, VTK_TRIQUADRATIC_PYRAMID },
+    { Hexahedron, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON }, { Hexahedron, VTK_QUADRATIC_HEXAHEDRON },
+    { Wedges, VTK_QUADRATIC_WEDGE }, { Pyramids, VTK_QUADRATIC_PYRAMID },
+    { Wedges, VTK_QUADRATIC_LINEAR_WEDGE } };
+  std::vector<LinearMesh> meshes{ makeBox(
+    { 3, 3, 1 }, [&types](int i, int j, int) { return types[(i + j) % 3]; }) };
+  for (const auto& type : types)
+  {
+    meshes.push_back(makeBox({ 2, 2, 2 }, [&type](int, int, int) { return type; }));
+  }
+  const auto property = makeConstantProperty(0.5, 1.0, 0.2, 0.1, 1.0);
+  for (std::size_t m = 0; m < meshes.size(); ++m)
+  {
+    const Grid grid = makeMesh(meshes[m], true, 3);
+    const FloatImage expected = makeScene(grid, property)->renderFloat();
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> move(-0.04, 0.04);
+    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    {
+      double x[3];
+      grid->GetPoint(p, x);
+      if (std::max({ std::fabs(x[0]), std::fabs(x[1]), std::fabs(x[2]) }) < 0.999)
+      {
+        for (double& coordinate : x)
+        {
+          coordinate += move(random);
+        }
+        grid->GetPoints()->SetPoint(p, x);
+      }
+    }
+    const auto scene = makeScene(grid, property);
+    expectSamePicture(scene->renderFloat(), expected, "moved, mesh " + std::to_string(m));
+    EXPECT_EQ(scene->rayCaster()->GetNumberOfLostRays(), 0);
+  }
+}
+
+TEST(TetrahedraRayCastSecondOrder, PointsInsideFacesAndCellsCount)
+{
+  // A cell of edge 2 with the scalar 1 at one point inside and 0 elsewhere: along an axis through
+  // that point the scalar rises from 0 to 1 and falls again, so the optical depth is 2 * 1/2.
+  const double expected = 1.0 - std::exp(-1.0);
+  const auto withOne = [](int type, const double(&at)[3])
+  {
+    const Grid grid = makeMesh(
+      makeBox({ 1, 1, 1 }, [type](int, int, int) { return std::make_pair(Hexahedron, type); }),
+      true, 5);
+    auto* scalars = vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetScalars());
+    scalars->Fill(0.0);
+    vtkIdType found = 0;
+    for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+    {
+      const double* x = grid->GetPoint(p);
+      if (x[0] == at[0] && x[1] == at[1] && x[2] == at[2])
+      {
+        scalars->SetValue(p, 1.0);
+        ++found;
+      }
+    }
+    EXPECT_EQ(found, 1);
+    return grid;
+  };
+  for (const int axis : { 0, 1, 2 })
+  {
+    EXPECT_NEAR(alphaAlong(withOne(VTK_TRIQUADRATIC_HEXAHEDRON, { 0.0, 0.0, 0.0 }), axis), expected,
+      FloatTolerance);
+    // Through the centres of two faces: with a point inside the cell the scalar is back at 0 there.
+    double face[3] = { 0.0, 0.0, 0.0 };
+    face[axis] = 1.0;
+    EXPECT_NEAR(alphaAlong(withOne(VTK_TRIQUADRATIC_HEXAHEDRON, face), axis), 1.0 - std::exp(-0.5),
+      FloatTolerance);
+  }
+}

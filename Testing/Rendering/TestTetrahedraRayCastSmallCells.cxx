@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells from a third down to 1/30,000 of the domain, seen whole and from as near as the smallest
+// ones want, in every blend mode, straight and through a membrane, against the double reference.
+#include "MembraneScene.h"
+#include "OpticsTruth.h"
+
+#include <vtkCamera.h>
+#include <vtkContourValues.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+#include <vtkVolumeMapper.h>
+#include <vtkVolumeProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+using namespace meniscus::reference;
+
+namespace
+{
+
+constexpr int Size = 120;
+constexpr int Cubes = 14;
+constexpr double Range[2] = { -1.0, 1.0 };
+
+// Parts of the domain that the pictures show. The smallest cells are 1/30,000 of it.
+constexpr double Views[4] = { 1.0, 3e-2, 1e-3, 2e-4 };
+
+const double Radius = std::sqrt(3.0);
+
+// By how much a ray may miss what it should meet in a picture of a part of the domain. Shaders
+// place vertices to 2^-29 of the radius times 1 + the steepest slope, less than 2^-28, and
+// coordinates about a ray are rounded to 2^-24 of themselves: those of the needles between large
+// and small cells are as large as the picture. The native backend has depths in single precision,
+// too. A pixel may be excused if the truth itself changes by half of its error when the ray moves
+// by that: where a ray only touches an isosurface, or passes a silhouette.
+double roundingOf(double part)
+{
+  const bool native = backendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE;
+  return Radius * (native ? std::pow(2.0, -24) : std::pow(2.0, -28) + part * std::pow(2.0, -24));
+}
+
+// Natively a depth's last digit, 2^-25 of the radius, is 8e-4 of the width of the smallest cells,
+// over which the functions change colours by up to 1.
+double toleranceOf()
+{
+  return backendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 8e-4 : FloatTolerance;
+}
+
+// The cube [-1, 1]^3, its cubes ever smaller towards the corner (1, 1, 1): their sides grow by a
+// constant factor. The scalar waves with the cubes' numbers, so that every size of cells shows it.
+Grid makeGradedBlock()
+{
+  // (q - 1) / (q^n - 1) is the smallest side over the domain's.
+  double low = 1.5;
+  double high = 3.0;
+  for (int i = 0; i < 60; ++i)
+  {
+    const double q = 0.5 * (low + high);
+    const bool larger = (q - 1.0) / (std::pow(q, Cubes) - 1.0) > 1.0 / 30000.0;
+    low = larger ? q : low;
+    high = larger ? high : q;
+  }
+  const double factor = low;
+  const Grid grid = makeBlock(Cubes, wavyField(3.0));
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    double x[3];
+    grid->GetPoint(p, x);
+    for (double& value : x)
+    {
+      const double fromCorner = 0.5 * (1.0 - value) * Cubes;
+      value = 1.0 - 2.0 * (std::pow(factor, fromCorner) - 1.0) / (std::pow(factor, Cubes) - 1.0);
+    }
+    grid->GetPoints()->SetPoint(p, x);
+  }
+  return grid;
+}
+
+// A part of the domain about the corner of the smallest cells, and a function for its size.
+struct CornerScene
+{
+  RayCastScene Scene;
+  double Part;
+
+  CornerScene(vtkUnstructuredGrid* grid, double part, FunctionKind kind, bool parallel = false)
+    : Scene(grid, makeProperty(kind, Range, 3.4 * part), Size, Size)
+    , Part(part)
+  {
+    const double near = 1.0 - 2.0 * part;
+    const double bounds[6] = { near, 1.0, near, 1.0, near, 1.0 };
+    lookAt(this->Scene.renderer(), bounds, 30.0, 35.0, 1.2, parallel);
+    vtkCamera* camera = this->Scene.renderer()->GetActiveCamera();
+    camera->SetClippingRange(0.3 * camera->GetDistance(), camera->GetDistance() + 8.0);
+    for (const double value : { -0.31, 0.12, 0.43 })
+    {
+      vtkContourValues* values = this->Scene.volume()->GetProperty()->GetIsoSurfaceValues();
+      values->SetValue(values->GetNumberOfContours(), value);
+    }
+  }
+};
+
+using TraceSegments =
+  std::function<std::array<double, 4>(const Ray&, const std::vector<RaySegment>&)>;
+
+// Renders and expects each pixel to be within the tolerance of the backend.
+void expectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrator& integrator,
+  const RefractingSurface* membrane, const TraceSegments& show, const std::string& what)
+{
+  const TraceRay trace = [&](const Ray& ray)
+  {
+    if (membrane)
+    {
+      const RefractedRay refracted = refract(*membrane, ray, 0.0, false);
+      return show(refracted.Straight, findSegments(integrator, refracted));
+    }
+    std::vector<RaySegment> segments;
+    integrator.findSegments(ray, segments);
+    return show(ray, segments);
+  };
+  const FloatImage image = scene.renderFloat();
+  const TracedComparison comparison =
+    compareToTrace(image, PixelRays(scene.renderer()), trace, toleranceOf(), roundingOf(part));
+  SCOPED_TRACE(what + ": " + comparison.text());
+  EXPECT_GT(comparison.Visible, static_cast<std::size_t>(Size * Size / 4));
+  EXPECT_EQ(comparison.Wrong, 0u);
+  EXPECT_LE(comparison.Excused, 1u);
+  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
+  testing::Test::RecordProperty(what, comparison.text());
+  printf("%s: %s\n", what.c_str(), comparison.text().c_str()); // TODO
+}
+
+void expectMode(CornerScene& corner, const ReferenceRayIntegrator& integrator,
+  const RefractingSurface* membrane, int mode, const std::string& what)
+{
+  RayCastScene& scene = corner.Scene;
+  scene.rayCaster()->SetBlendMode(mode);
+  scene.window()->Render();
+  vtkVolumeProperty* property = scene.volume()->GetProperty();
+  const std::vector<Surface> surfaces = toSurfaces(property);
+  const bool lengths =
+    mode == vtkVolumeMapper::COMPOSITE_BLEND || mode == vtkVolumeMapper::ADDITIVE_BLEND;
+  const ReferenceTransferFunction function = lengths ? toReference(property) : toAlphas(property);
+  double range[2];
+  scene.grid()->GetPointData()->GetScalars()->GetFiniteRange(range);
+  expectSegments(
+    scene, corner.Part, integrator, membrane,
+    [&](const Ray& ray, const std::vector<RaySegment>& segments) -> std::array<double, 4>
+    {
+      switch (mode)
+      {
+        case vtkVolumeMapper::COMPOSITE_BLEND:
+          return ReferenceRayIntegrator::integrate(ray, segments, function);
+        case vtkVolumeMapper::ISOSURFACE_BLEND:
+          return blendSurfaces(ray, segments, surfaces, nullptr, Material());
+        case vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND:
+          return project(ray, segments, Projection::Maximum, function, range);
+        case vtkVolumeMapper::MINIMUM_INTENSITY_BLEND:
+          return project(ray, segments, Projection::Minimum, function, range);
+        case vtkVolumeMapper::AVERAGE_INTENSITY_BLEND:
+          return project(ray, segments, Projection::Average, function, range);
+        default:
+          return project(ray, segments, Projection::Additive, function, range);
+      }
+    },
+    what + ", mode " + std::to_string(mode));
+}
+
+} // anonymous namespace
+
+TEST(TetrahedraRayCastSmallCells, CompositeInEveryView)
+{
+  const Grid grid = makeGradedBlock();
+  const auto integrator = makeReference(grid);
+  for (const double part : Views)
+  {
+    for (const FunctionKind kind :
+      { FunctionKind::Smooth, FunctionKind::Peaked, FunctionKind::Opaque })
+    {
+      // Peaks are a tenth of a cell wide: 2^-29 of the radius is 5e-4 of one in the smallest cells.
+      if (kind == FunctionKind::Peaked && part < 1e-3)
+      {
+        continue;
+      }
+      for (const bool parallel : { false, true })
+      {
+        CornerScene corner(grid, part, kind, parallel);
+        expectMode(corner, *integrator, nullptr, vtkVolumeMapper::COMPOSITE_BLEND,
+          "part " + std::to_string(part) + ", function " + std::to_string(static_cast<int>(kind)) +
+            (parallel ? ", parallel" : ""));
+      }
+    }
+  }
+}
+
+TEST(TetrahedraRayCastSmallCells, OtherModes)
+{
+  const Grid grid = makeGradedBlock();
+  const auto integrator = makeReference(grid);
+  for (const double part : Views)
+  {
+    CornerScene corner(grid, part, FunctionKind::Smooth);
+    for (const int mode : { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
+           vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
+           vtkVolumeMapper::ADDITIVE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
+    {
+      expectMode(corner, *integrator, nullptr, mode, "part " + std::to_string(part));
+    }
+  }
+}
+
+TEST(TetrahedraRayCastSmallCells, RefractedRays)
+{
+  // Above the corner, and through the cells that are seen.
+  const Grid grid = makeGradedBlock();
+  const auto integrator = makeReference(grid);
+  for (const double part : Views)
+  {
+    for (const double above : { 0.1, -0.7 })
+    {
+      const MembraneCase membrane = makePlaneCase(1.0 + above * part, 8.0, 2);
+      for (const int mode :
+        { vtkVolumeMapper::COMPOSITE_BLEND, vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
+          vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
+          vtkVolumeMapper::ADDITIVE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
+      {
+        CornerScene corner(grid, part,
+          mode == vtkVolumeMapper::COMPOSITE_BLEND ? FunctionKind::Opaque : FunctionKind::Smooth);
+        corner.Scene.rayCaster()->SetMembraneData(membrane.Mesh);
+        expectMode(corner, *integrator, &membrane.Surface, mode,
+          "membrane at " + std::to_string(above) + ", part " + std::to_string(part));
+      }
+    }
+  }
+}

@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HardMeshes.h"
+
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace meniscus
+{
+namespace test
+{
+
+namespace
+{
+
+using Tetrahedron = std::array<vtkIdType, 4>;
+
+struct Arrays
+{
+  std::vector<glm::dvec3> Points;
+  std::vector<Tetrahedron> Cells;
+
+  explicit Arrays(vtkUnstructuredGrid* grid = nullptr)
+  {
+    for (vtkIdType p = 0; grid && p < grid->GetNumberOfPoints(); ++p)
+    {
+      const double* x = grid->GetPoint(p);
+      this->Points.emplace_back(x[0], x[1], x[2]);
+    }
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType c = 0; grid && c < grid->GetNumberOfCells(); ++c)
+    {
+      grid->GetCellPoints(c, ids);
+      this->Cells.push_back({ ids->GetId(0), ids->GetId(1), ids->GetId(2), ids->GetId(3) });
+    }
+  }
+
+  Grid toGrid(const Field& field) const
+  {
+    std::vector<double> points;
+    for (const glm::dvec3& p : this->Points)
+    {
+      points.insert(points.end(), { p.x, p.y, p.z });
+    }
+    std::vector<vtkIdType> cells;
+    for (const Tetrahedron& cell : this->Cells)
+    {
+      cells.insert(cells.end(), cell.begin(), cell.end());
+    }
+    return makeGrid(points, cells, field);
+  }
+
+  double volume(const Tetrahedron& cell) const
+  {
+    const glm::dvec3& o = this->Points[cell[0]];
+    return glm::dot(
+      this->Points[cell[1]] - o, glm::cross(this->Points[cell[2]] - o, this->Points[cell[3]] - o));
+  }
+};
+
+template <typename Sequence>
+void shuffle(Sequence& sequence, RandomNumbers& random)
+{
+  for (std::size_t i = sequence.size(); i > 1; --i)
+  {
+    std::swap(sequence[i - 1], sequence[random.below(static_cast<int>(i))]);
+  }
+}
+
+// Renumbers points and cells, and turns cells over.
+void scramble(Arrays& arrays, RandomNumbers& random)
+{
+  std::vector<vtkIdType> newId(arrays.Points.size());
+  std::iota(newId.begin(), newId.end(), vtkIdType(0));
+  shuffle(newId, random);
+  std::vector<glm::dvec3> points(arrays.Points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[newId[i]] = arrays.Points[i];
+  }
+  arrays.Points = points;
+  for (Tetrahedron& cell : arrays.Cells)
+  {
+    for (vtkIdType& id : cell)
+    {
+      id = newId[id];
+    }
+    shuffle(cell, random);
+  }
+  shuffle(arrays.Cells, random);
+}
+
+// A random part of a block whose points have moved, less than inverts a cell.
+Arrays partOfBlock(RandomNumbers& random)
+{
+  const int n = 1 + random.below(4);
+  const Grid block = makeBlock(n, constantField(0.0));
+  // The least width of the tetrahedra of a unit cube is 0.577, between opposite edges. Moves of up
+  // to a in each axis from both sides close it for a >= 0.167.
+  jitter(block, 2.0 / n * 0.1 * random.uniform(), static_cast<unsigned int>(random.bits()));
+  Arrays all(block);
+  Arrays arrays;
+  arrays.Points = all.Points;
+  const double keep = random.below(2) ? 1.0 : random.uniform(0.3, 1.0);
+  for (const Tetrahedron& cell : all.Cells)
+  {
+    if (random.uniform() <= keep)
+    {
+      arrays.Cells.push_back(cell);
+    }
+  }
+  if (arrays.Cells.empty())
+  {
+    arrays.Cells.push_back(all.Cells.front());
+  }
+  return arrays;
+}
+
+// A tetrahedron with points put into random cells; cells become as thin as chance makes them.
+Arrays dividedTetrahedron(RandomNumbers& random)
+{
+  Arrays arrays;
+  arrays.Points = { { -1, -1, -1 }, { 1, -1, -0.9 }, { -0.2, 1, -1 }, { 0.1, 0, 1 } };
+  arrays.Cells = { { 0, 1, 2, 3 } };
+  const int divisions = 1 + random.below(30);
+  for (int i = 0; i < divisions; ++i)
+  {
+    const int at = random.below(static_cast<int>(arrays.Cells.size()));
+    const Tetrahedron old = arrays.Cells[at];
+    double weights[4];
+    double sum = 0.0;
+    for (double& weight : weights)
+    {
+      weight = random.uniform(0.05, 1.0);
+      sum += weight;
+    }
+    glm::dvec3 inside(0.0);
+    for (int k = 0; k < 4; ++k)
+    {
+      inside += weights[k] / sum * arrays.Points[old[k]];
+    }
+    const auto middle = static_cast<vtkIdType>(arrays.Points.size());
+    arrays.Points.push_back(inside);
+    for (int k = 0; k < 4; ++k)
+    {
+      Tetrahedron part = old;
+      part[k] = middle;
+      if (k == 0)
+      {
+        arrays.Cells[at] = part;
+      }
+      else
+      {
+        arrays.Cells.push_back(part);
+      }
+    }
+  }
+  return arrays;
+}
+
+} // anonymous namespace
+
+//------------------------------------------------------------------------------
+void mapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map)
+{
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    const double* x = grid->GetPoint(p);
+    const glm::dvec3 moved = map(glm::dvec3(x[0], x[1], x[2]));
+    grid->GetPoints()->SetPoint(p, &moved[0]);
+  }
+  grid->GetPoints()->Modified();
+}
+
+//------------------------------------------------------------------------------
+double invertedShare(vtkUnstructuredGrid* grid)
+{
+  const Arrays arrays(grid);
+  const auto negative = std::count_if(arrays.Cells.begin(), arrays.Cells.end(),
+    [&arrays](const Tetrahedron& cell) { return arrays.volume(cell) < 0.0; });
+  const double share = static_cast<double>(negative) / static_cast<double>(arrays.Cells.size());
+  return std::min(share, 1.0 - share);
+}
+
+//------------------------------------------------------------------------------
+Grid makeTangledBlock(int n, double share, unsigned int seed)
+{
+  const double cube = 2.0 / n;
+  for (double amount = 0.3;; amount += 0.02)
+  {
+    const Grid grid = makeBlock(n, wavyField(3.0));
+    jitter(grid, amount * cube, seed);
+    // Half of all cells are inverted once the moves are much larger than a cube.
+    if (invertedShare(grid) >= share || amount > 10.0)
+    {
+      return grid;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+Grid makeLayeredBlock(int n, double share)
+{
+  const Grid grid = makeBlock(n, wavyField(3.0));
+  std::vector<double> at(1, 0.0);
+  for (int i = 0; i < n; ++i)
+  {
+    at.push_back(at.back() + (i % 2 ? share : 1.0));
+  }
+  const auto place = [&at, n](double x) {
+    return 2.0 * at[static_cast<std::size_t>(std::lround(0.5 * n * (x + 1.0)))] / at.back() - 1.0;
+  };
+  mapPoints(
+    grid, [&place](const glm::dvec3& p) { return glm::dvec3(place(p.x), place(p.y), place(p.z)); });
+  return grid;
+}
+
+//------------------------------------------------------------------------------
+Grid makeSeam(int n)
+{
+  Arrays both(makeBlock(n, constantField(0.0)));
+  const std::size_t points = both.Points.size();
+  const std::size_t cells = both.Cells.size();
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    both.Points.push_back(both.Points[i] + glm::dvec3(2.0, 0.0, 0.0));
+  }
+  for (std::size_t i = 0; i < cells; ++i)
+  {
+    Tetrahedron cell = both.Cells[i];
+    for (vtkIdType& id : cell)
+    {
+      id += static_cast<vtkIdType>(points);
+    }
+    both.Cells.push_back(cell);
+  }
+  return both.toGrid(wavyField(2.0));
+}
+
+//------------------------------------------------------------------------------
+Grid makeRandomMesh(RandomNumbers& random)
+{
+  Arrays arrays = random.below(2) ? partOfBlock(random) : dividedTetrahedron(random);
+  // A random affine map, stretched by up to 10.
+  glm::dmat3 map(1.0);
+  for (int column = 0; column < 3; ++column)
+  {
+    map[column] = random.direction() * std::pow(10.0, random.uniform(-0.5, 0.5));
+  }
+  const bool flattens = std::fabs(glm::dot(map[0], glm::cross(map[1], map[2]))) < 0.01;
+  const glm::dvec3 offset = std::pow(10.0, random.uniform(-3.0, 3.0)) * random.direction();
+  for (glm::dvec3& point : arrays.Points)
+  {
+    point = (flattens ? point : map * point) + offset;
+  }
+  scramble(arrays, random);
+  const glm::dvec3 slope = random.direction();
+  const double frequency = random.uniform(0.5, 4.0);
+  return arrays.toGrid(
+    [=](double x, double y, double z)
+    {
+      const glm::dvec3 p = glm::dvec3(x, y, z) - offset;
+      return glm::dot(slope, p) + 0.5 * std::sin(frequency * p.x) * std::cos(frequency * p.y);
+    });
+}
+
+//------------------------------------------------------------------------------
+Grid makeSoup(RandomNumbers& random)
+{
+  Arrays arrays;
+  const int points = 5 + random.below(20);
+  for (int i = 0; i < points; ++i)
+  {
+    // Some points coincide, some lie on a coarse lattice.
+    glm::dvec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    p = random.below(3) ? p : glm::dvec3(random.below(3), random.below(3), random.below(3)) - 1.0;
+    arrays.Points.push_back(p);
+  }
+  const int cells = 1 + random.below(60);
+  for (int i = 0; i < cells; ++i)
+  {
+    Tetrahedron cell;
+    for (vtkIdType& id : cell)
+    {
+      id = random.below(points);
+    }
+    arrays.Cells.push_back(cell);
+  }
+  return arrays.toGrid(wavyField(2.0));
+}
+
+} // namespace test
+} // namespace meniscus

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_ProgrammeOptions_h
+#define meniscus_ProgrammeOptions_h
+
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <sstream>
+#include <string>
+
+namespace meniscus
+{
+namespace test
+{
+
+/// What every programme of random cases takes on its command line.
+struct ProgrammeOptions
+{
+  double Intensity = 1.0;
+  std::uint64_t Seed = 1;
+  /// Name of the option that chooses groups of cases: "--family" or "--relation".
+  std::string GroupOption = "--family";
+  /// Text in the names of the groups to run; empty: all.
+  std::string Group;
+  int Case = -1;
+  double Seconds = 300.0;
+  std::string Report;
+
+  bool has(const std::string& group) const { return group.find(this->Group) != std::string::npos; }
+};
+
+/// Their usage, one line each.
+extern const char* const ProgrammeUsage;
+
+template <typename Number>
+bool readNumber(const std::string& text, Number& value)
+{
+  std::istringstream in(text);
+  return in >> value && in.eof() && value >= Number(0);
+}
+
+/// Takes an option that only one programme has; false if it is unknown or its value is bad.
+using OptionReader = std::function<bool(const std::string& key, const std::string& value)>;
+
+/// Prints the tables and returns whether all is good.
+using ProgrammeRunner = std::function<bool(std::ostream&)>;
+
+/**
+ * main(): reads the options, calls `run` with a stream that goes to standard output and to the
+ * file of --report, and returns the exit status: success if all is good.
+ */
+int runProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
+  const OptionReader& readMore, const ProgrammeRunner& run);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_VolumeFunctions_h
+#define meniscus_VolumeFunctions_h
+
+#include "RandomNumbers.h"
+#include "ReferenceTransferFunction.h"
+
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+class vtkUnstructuredGrid;
+class vtkVolumeProperty;
+
+namespace meniscus
+{
+namespace test
+{
+
+/// A transfer function as control points of attenuation and colour, ascending.
+using VolumeFunction = std::vector<reference::TransferFunctionNode>;
+
+struct NamedFunction
+{
+  std::string Name;
+  VolumeFunction Function;
+};
+
+/// Smooth, peaked, opaque and sparse functions of TestTransferFunctions.h for a mesh.
+std::vector<NamedFunction> usualFunctions(vtkUnstructuredGrid* grid);
+
+/**
+ * Functions at the edge of what a user can make, for scalars in a range: none, one point, zero,
+ * steps, jumps, many points, all out of range, a window too narrow to see, all but solid.
+ * @param length  about the length of a ray in the mesh.
+ */
+std::vector<NamedFunction> degenerateFunctions(const double range[2], double length);
+
+/// Up to 12 points at random places, some jumps.
+VolumeFunction randomFunction(const double range[2], double length, RandomNumbers& random);
+
+/// Largest attenuation, and the largest value of a colour channel where there is attenuation.
+double largestAttenuation(const VolumeFunction& function);
+double brightestColor(const VolumeFunction& function);
+
+/// The property that gives a function's attenuation and colour.
+vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeFunction& function);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

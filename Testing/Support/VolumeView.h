@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_VolumeView_h
+#define meniscus_VolumeView_h
+
+#include "ReferenceCellTree.h"
+
+#include <glm/vec3.hpp>
+
+class vtkRenderer;
+
+namespace meniscus
+{
+namespace test
+{
+
+/**
+ * One camera as the kernel, VTK and the reference take it, from the same parameters in double.
+ * Images are square.
+ */
+struct VolumeView
+{
+  glm::dvec3 Eye{ 0.0, 0.0, 1.0 };
+  glm::dvec3 Focus{ 0.0 };
+  glm::dvec3 Up{ 0.0, 1.0, 0.0 };
+  bool Parallel = false;
+  /// Half the height of what is seen, at unit depth (perspective) or anywhere (parallel).
+  double HalfHeight = 0.27;
+  /// Depths of the clipping planes.
+  double Near = 0.1;
+  double Far = 10.0;
+
+  /// Looks at the middle of bounds from a direction. All of a ball around them is seen at zoom 1.
+  static VolumeView towards(
+    const double bounds[6], const glm::dvec3& direction, bool parallel, double zoom = 1.0);
+
+  /// Ray of a pixel of size x size pixels; its parameter is the depth.
+  reference::Ray ray(int x, int y, int size) const;
+
+  void applyTo(vtkRenderer* renderer) const;
+
+private:
+  struct Axes
+  {
+    glm::dvec3 Right;
+    glm::dvec3 Up;
+    glm::dvec3 Forward;
+  };
+  Axes axes() const;
+};
+
+} // namespace test
+} // namespace meniscus
+
+#endif
