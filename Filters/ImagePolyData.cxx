@@ -420,9 +420,8 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
       result.polygons, result.wholePolygons, result.cellsWithoutImage);
   if (done)
   {
-    images.MeetNeighbours(
-      topology.polygons.AsObject(), topology.polygons.GetCount(), isMapped.data(),
-      result.wholePolygons, result.polygons);
+    images.MeetNeighbours(topology.polygons.AsObject(), topology.polygons.GetCount(),
+      isMapped.data(), result.wholePolygons, result.polygons);
   }
   return done;
 }

@@ -125,6 +125,10 @@ TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
 TEST_P(RefractedGeometryPieces, NoPixelShowsThroughABall)
 {
   const PiecesCase& test = GetParam();
+  if (test.field.exterior > test.field.interior)
+  {
+    GTEST_SKIP() << "where all light is reflected single pixels may show nothing";
+  }
   vtkNew<vtkSphereSource> source;
   source->SetCenter(3.0, -85.0, 2.0);
   source->SetRadius(45.0);
