@@ -94,7 +94,12 @@ TEST_P(TetrahedraRayCastSkipping, BuiltOnlyWhenOtherScalarsBecomeVisible)
   this->setWindow(-0.4, -0.3);
   this->Scene.window()->Render();
   EXPECT_EQ(this->builds(), 2);
-  this->Mesh->GetPointData()->GetScalars()->Modified();
+  vtkDataArray* scalars = this->Mesh->GetPointData()->GetScalars();
+  scalars->Modified();
+  this->Scene.window()->Render();
+  EXPECT_EQ(this->builds(), 2); // the same values
+  scalars->SetComponent(0, 0, scalars->GetComponent(0, 0) + 0.01);
+  scalars->Modified();
   this->Scene.window()->Render();
   EXPECT_EQ(this->builds(), 3);
   EXPECT_EQ(this->Scene.rayCaster()->GetNumberOfMeshBuilds(), 1);
