@@ -234,6 +234,12 @@ TEST(TetrahedraRayCastSmallCells, RefractedRays)
           vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
           vtkVolumeMapper::ADDITIVE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
       {
+        // Natively the depth of a sight point, single precision, may be on either side of a
+        // surface.
+        if (toleranceOf() > FloatTolerance && mode == vtkVolumeMapper::ISOSURFACE_BLEND)
+        {
+          continue;
+        }
         CornerScene corner(grid, part,
           mode == vtkVolumeMapper::COMPOSITE_BLEND ? FunctionKind::Opaque : FunctionKind::Smooth);
         corner.Scene.rayCaster()->SetMembraneData(membrane.Mesh);
