@@ -45,7 +45,7 @@ Rounding roundingOf(const VolumeCase& test)
   const double radius = 0.5 * diagonalOf(b);
   const double slope = test.View.Parallel ? 0.0 : std::sqrt(2.0) * test.View.HalfHeight;
   const bool native = test.Backend == vtkTetrahedraRayCastMapper::NATIVE;
-  const double unit = native && !test.Membrane.Mesh ? 0x1p-29 : 0x1p-22;
+  const double unit = test.Membrane.Mesh ? 0x1p-22 : native ? 0x1p-29 : 0x1p-24;
   const bool divides = test.Look.Blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND;
   return { 2.0 * 1.5 * unit * radius * (1.0 + slope), divides ? 2.0 * 3.0 * 0x1p-24 * radius : 0.0,
     2.0 * (native ? 2.0 : 4.0) * 0x1p-24 };

@@ -26,9 +26,10 @@ namespace test
  * results is what two pictures may differ by, over and above the plain tolerance.
  *
  * Rounding of a picture:
- * - points: to a grid about the ray, of 2^-29 (native) or 2^-22 (shaders) of the mesh's radius
- * times 1 + the steepest slope, by half a unit, and the ray by as much again; 1.5 units with the
- * depth's. Behind a membrane rays are kept in single precision: 2^-22 natively, too.
+ * - points: to a grid of 2^-29 of the mesh's radius times 1 + the steepest slope, by half a unit,
+ * and the ray by as much again; 1.5 units with the depth's. Shaders round coordinates about the
+ * ray, at most the radius, to 2^-24 of themselves. Behind a membrane rays are kept in single
+ * precision, and their origin and slope add up: 2^-22.
  * - depths, and with them lengths: in single precision, 3 units of 2^-24 of the radius. It counts
  * for the mean along a ray only, which divides by a length that may be short.
  * - scalars: to 2^-24 of the range that they are normalised to, by half a unit, and interpolated

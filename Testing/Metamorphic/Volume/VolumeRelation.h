@@ -34,6 +34,9 @@ public:
   /// The scene as it is, drawn once.
   const FloatImage& picture();
 
+  /// Exact colour of a pixel of the scene.
+  std::array<double, 4> exact(int x, int y) { return this->Condition.exact(x, y); }
+
   /// Expects a changed scene to show the same.
   void expectSame(const VolumeCase& changed, const std::string& words);
   /// Expects a picture to be that of the scene.
