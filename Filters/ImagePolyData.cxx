@@ -395,7 +395,7 @@ ObjectTopology ExtractTopology(vtkPolyData* input)
 
 //------------------------------------------------------------------------------
 bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectImages& images,
-  const ProgressLoop& loop, AllImages& result)
+  bool closesSeams, const ProgressLoop& loop, AllImages& result)
 {
   const auto split =
     [input](const std::int64_t* ids, std::size_t count, std::vector<std::int64_t>& triangles)
@@ -421,7 +421,7 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
   if (done)
   {
     images.MeetNeighbours(topology.polygons.AsObject(), topology.polygons.GetCount(),
-      isMapped.data(), result.wholePolygons, result.polygons);
+      isMapped.data(), closesSeams, result.wholePolygons, result.polygons);
   }
   return done;
 }

@@ -42,6 +42,7 @@ struct SolvedBlock
 
   /// All images only.
   double tolerance = 0.0;
+  bool closesSeams = false;
   bool cellsReady = false;
   ObjectTopology selected; ///< the cells in view
   std::unique_ptr<ObjectImages> images;

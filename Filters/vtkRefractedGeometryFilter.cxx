@@ -256,7 +256,8 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
   const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
   block.UpdateTopology();
   const bool pointsReady = block.eyeUpdate == this->Scene.GetNumberOfEyeUpdates() && block.all;
-  if (pointsReady && block.cellsReady && block.tolerance == tolerance)
+  if (pointsReady && block.cellsReady && block.tolerance == tolerance &&
+    block.closesSeams == self->CloseSeams)
   {
     return true;
   }
@@ -266,6 +267,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
     return false;
   }
   block.tolerance = tolerance;
+  block.closesSeams = self->CloseSeams;
   block.cells = meniscus::AllImages();
   block.images->SetTolerance(tolerance);
   const auto loop = [this, self](std::size_t parts, const meniscus::RangeBody& body)
@@ -276,7 +278,8 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
     block.selected = meniscus::SelectCells(block.topology, block.selection);
     topology = &block.selected;
   }
-  block.cellsReady = meniscus::MapCells(input, *topology, *block.images, loop, block.cells);
+  block.cellsReady =
+    meniscus::MapCells(input, *topology, *block.images, self->CloseSeams, loop, block.cells);
   return block.cellsReady;
 }
 
@@ -669,6 +672,7 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ExactMembrane: " << this->ExactMembrane.Get() << "\n";
   os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
   os << indent << "AngularTolerance: " << this->AngularTolerance << "\n";
+  os << indent << "CloseSeams: " << this->CloseSeams << "\n";
   os << indent
      << "ReflectanceModel: " << (this->ReflectanceModel == SCHLICK ? "SCHLICK" : "FRESNEL") << "\n";
   os << indent << "VirtualNormals: " << (this->VirtualNormals ? "on" : "off") << "\n";

@@ -238,6 +238,18 @@ public:
 
   ///@{
   /**
+   * With ALL_IMAGES, whether gaps and overlaps between the images of neighbouring polygons, which
+   * are within AngularTolerance, are covered by cells of their own, so that no pixel shows through.
+   * Such a cell has no extent at the true positions. Turn it off for sums over the cells of the
+   * output: gaps and overlaps cancel out on average, covered ones count twice. Default is on.
+   */
+  vtkSetMacro(CloseSeams, bool);
+  vtkGetMacro(CloseSeams, bool);
+  vtkBooleanMacro(CloseSeams, bool);
+  ///@}
+
+  ///@{
+  /**
    * Set/Get the model of the array Reflectance, FRESNEL or SCHLICK. Default is FRESNEL. Nothing is
    * solved again for it. SCHLICK knows no critical angle: from a denser exterior (n1 > n2) it is
    * wrong near and beyond it.
@@ -372,6 +384,7 @@ private:
   vtkSmartPointer<vtkImplicitFunction> ExactMembrane;
   int Images = ALL_IMAGES;
   double AngularTolerance = 0.005;
+  bool CloseSeams = true;
   int ReflectanceModel = FRESNEL;
   bool VirtualNormals = false;
   double LightDirection[3] = { 0.0, 0.0, 0.0 };

@@ -178,6 +178,7 @@ vtkRefractedLightFilter::vtkRefractedLightFilter()
 {
   this->SetNumberOfInputPorts(2);
   this->View->SetImagesToAllImages();
+  this->View->CloseSeamsOff(); // the light of covered gaps and overlaps would count twice
   vtkNew<vtkCallbackCommand> teller;
   teller->SetClientData(this);
   teller->SetCallback(

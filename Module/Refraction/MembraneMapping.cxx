@@ -590,7 +590,7 @@ MembraneMapping::MappedPoint MembraneMapping::MakePoint(
   }
   if (on.end >= 0)
   {
-    return this->MakeEnd(context, nodes, on.end);
+    return this->MakeEnd(context, nodes, on.end, corner.b);
   }
   if (on.node >= 0 && on.side < 0)
   {
@@ -604,19 +604,22 @@ MembraneMapping::MappedPoint MembraneMapping::MakePoint(
   const auto side = static_cast<std::size_t>(on.side);
   if (on.node >= 0)
   {
-    return this->MakeOnSide(context, nodes, side, nodes[static_cast<std::size_t>(on.node)].from);
+    return this->MakeOnSide(
+      context, nodes, side, nodes[static_cast<std::size_t>(on.node)].from, corner.b);
   }
   const Node& a = nodes[static_cast<std::size_t>((on.edge + 1) % 3)];
   const Node& b = nodes[static_cast<std::size_t>((on.edge + 2) % 3)];
   return this->MakeOnSide(context, nodes, side,
     MeetLine(SubCellSide(*context.patch, a.b, b.b), this->Geometry.GetMedia(),
-      context.sides[side].line, a.from, b.from));
+      context.sides[side].line, a.from, b.from),
+    corner.b);
 }
 
 //------------------------------------------------------------------------------
 // What a ray shows of a side that it meets. Beyond the side's end the piece ends with the side.
 MembraneMapping::MappedPoint MembraneMapping::MakeOnSide(const Context& context,
-  const std::array<Node, 3>& nodes, std::size_t side, const RefractedPoint& from) const
+  const std::array<Node, 3>& nodes, std::size_t side, const RefractedPoint& from,
+  const glm::dvec2& interpolated) const
 {
   const Context::Side& on = context.sides[side];
   const double l = GetParameter(on.line, from);
@@ -624,7 +627,7 @@ MembraneMapping::MappedPoint MembraneMapping::MakeOnSide(const Context& context,
   const auto last = static_cast<glm::length_t>((side + (on.turned ? 0 : 1)) % 3);
   if (!(l > 0.0 && l < 1.0))
   {
-    return this->MakeEnd(context, nodes, l < 0.5 ? first : last);
+    return this->MakeEnd(context, nodes, l < 0.5 ? first : last, interpolated);
   }
   glm::dvec3 weight(0.0);
   weight[first] = 1.0 - l;
@@ -636,13 +639,12 @@ MembraneMapping::MappedPoint MembraneMapping::MakeOnSide(const Context& context,
 // The image of an end of the primitive: the known one that is seen in the sub-cell or next to it.
 // Near a caustic there may be none; then the end is drawn where interpolation has it. Nothing here
 // depends on the primitive's plane.
-MembraneMapping::MappedPoint MembraneMapping::MakeEnd(
-  const Context& context, const std::array<Node, 3>& nodes, glm::length_t end) const
+MembraneMapping::MappedPoint MembraneMapping::MakeEnd(const Context& context,
+  const std::array<Node, 3>& nodes, glm::length_t end, const glm::dvec2& interpolated) const
 {
   const auto index = static_cast<std::size_t>(end);
-  const glm::dvec2 guess = GuessSight(nodes, context.corner[index]);
-  PatchPoint at = context.patch->Evaluate(guess);
-  const glm::dvec3 middle = at.position + this->Geometry.GetMembrane().GetOrigin();
+  const glm::dvec3 middle =
+    context.patch->Evaluate(interpolated).position + this->Geometry.GetMembrane().GetOrigin();
   const double size = GetSize(nodes);
   glm::dvec3 weight(0.0);
   weight[end] = 1.0;
@@ -661,6 +663,8 @@ MembraneMapping::MappedPoint MembraneMapping::MakeEnd(
   }
   constexpr int steps = 10;
   constexpr double reach = 0.5;
+  const glm::dvec2 guess = GuessSight(nodes, context.corner[index]);
+  PatchPoint at = context.patch->Evaluate(guess);
   const SightRoot root =
     this->Geometry.MakeEquation(context.corner[index]).Solve(*context.patch, guess, steps, reach);
   const bool isFound =
@@ -765,7 +769,7 @@ MembraneMapping::MappedPoint MembraneMapping::MakeSideCrossing(const Context& co
   }
   if (!(l > 0.0 && l < 1.0))
   {
-    return this->MakeEnd(context, nodes, l < 0.5 ? first : last);
+    return this->MakeEnd(context, nodes, l < 0.5 ? first : last, guess);
   }
   glm::dvec3 place(0.0);
   place[first] = 1.0 - l;

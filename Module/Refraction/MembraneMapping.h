@@ -109,12 +109,12 @@ private:
     const Context& context, const std::array<Node, 3>& nodes, const Polygon& polygon) const;
   MappedPoint MakePoint(
     const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const;
-  MappedPoint MakeEnd(
-    const Context& context, const std::array<Node, 3>& nodes, glm::length_t end) const;
+  MappedPoint MakeEnd(const Context& context, const std::array<Node, 3>& nodes, glm::length_t end,
+    const glm::dvec2& interpolated) const;
   static double GetSize(const std::array<Node, 3>& nodes);
   static glm::dvec2 GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point);
   MappedPoint MakeOnSide(const Context& context, const std::array<Node, 3>& nodes, std::size_t side,
-    const RefractedPoint& from) const;
+    const RefractedPoint& from, const glm::dvec2& interpolated) const;
   MappedPoint MakeCrossing(const Context& context, const std::array<Node, 3>& nodes,
     const Corner& corner, const Boundary& on) const;
   MappedPoint MakeSideCrossing(const Context& context, const std::array<Node, 3>& nodes,

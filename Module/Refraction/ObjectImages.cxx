@@ -416,7 +416,7 @@ std::vector<Seam> ObjectImages::FindSeams(
 
 //------------------------------------------------------------------------------
 void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
-  const unsigned char* isMapped, const ImageMesh& whole, ImageMesh& pieces) const
+  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const
 {
   const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
   if (seams.empty())
@@ -424,6 +424,10 @@ void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
     return;
   }
   this->MoveOntoNeighbours(cells, count, isMapped, seams, pieces);
+  if (!closesSeams)
+  {
+    return;
+  }
   bool hasDiagonals = false;
   for (std::size_t i = 0; i < count && !hasDiagonals; ++i)
   {

@@ -109,9 +109,9 @@ public:
 
   /// After all polygons have been mapped to `pieces` and `whole`: makes those that have been mapped
   /// from the membrane, `isMapped`, end where their neighbours do, which draw common sides as
-  /// straight pieces, up to the tolerance off, and closes the seams between them.
+  /// straight pieces, up to the tolerance off. With `closesSeams`, closes the seams between them.
   void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
-    const ImageMesh& whole, ImageMesh& pieces) const;
+    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const;
 
 private:
   enum class Side

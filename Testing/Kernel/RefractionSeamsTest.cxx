@@ -106,7 +106,8 @@ Drawn Draw(CurvedGeometry& geometry, const Object& object, double tolerance)
   const meniscus::ObjectCells cells{ object.offsets.data(), object.connectivity.data() };
   drawn.report = images.MapPolygons(cells, object.names.data(), 0, object.names.size(), nullptr,
     drawn.pieces, drawn.whole, isMapped.data());
-  images.MeetNeighbours(cells, object.names.size(), isMapped.data(), drawn.whole, drawn.pieces);
+  images.MeetNeighbours(
+    cells, object.names.size(), isMapped.data(), true, drawn.whole, drawn.pieces);
   drawn.points = images.GetPointImages();
   return drawn;
 }
