@@ -632,7 +632,16 @@ MembraneMapping::MappedPoint MembraneMapping::MakeOnSide(const Context& context,
   glm::dvec3 weight(0.0);
   weight[first] = 1.0 - l;
   weight[last] = l;
-  return { this->Finish(context, from.at, on.line.GetPoint(l), weight), Finding::Found };
+  const glm::dvec3 place = on.line.GetPoint(l);
+  ImagePoint point = this->Finish(context, from.at, place, weight);
+  if (glm::dot(place - from.at.position, from.ray) < 0.0)
+  {
+    // Where the primitive meets the membrane, interpolation may take a bit of what is in front.
+    point.vertex.position = place + this->Geometry.GetMembrane().GetOrigin();
+    point.vertex.sightPoint = point.vertex.position;
+    point.vertex.depth = 0.0;
+  }
+  return { point, Finding::Found };
 }
 
 //------------------------------------------------------------------------------
