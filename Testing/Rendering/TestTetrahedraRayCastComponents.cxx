@@ -469,7 +469,7 @@ Grid extract(vtkUnstructuredGrid* grid, int component, bool ofCells)
 FloatImage draw(vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int blendMode,
   const std::function<void(vtkTetrahedraRayCastMapper*)>& prepare = nullptr)
 {
-  RayCastScene scene(grid, property, 64, 64);
+  RayCastScene scene(grid, property, 32, 32);
   scene.rayCaster()->SetBlendMode(blendMode);
   if (prepare)
   {
@@ -490,12 +490,13 @@ TEST(TetrahedraRayCastComponents, ColorFunctionChoosesTheComponent)
   // As vtkAbstractVolumeMapper says and vtkProjectedTetrahedraMapper does, whatever the blend mode,
   // of points and of cells, of numbers of components that can mix and of others.
   const auto property = makeParts(1, FunctionKind::Smooth)[0];
-  property->GetIsoSurfaceValues()->SetValue(0, 0.5);
-  property->GetIsoSurfaceValues()->SetValue(1, 1.05); // the length of several components
+  // Values that components of up to 0.5 meet, and their length.
+  property->GetIsoSurfaceValues()->SetValue(0, 0.3);
+  property->GetIsoSurfaceValues()->SetValue(1, 0.6);
   vtkColorTransferFunction* colors = property->GetRGBTransferFunction();
   for (const std::vector<int>& ofFields : { std::vector<int>{ 0, 3, 2 }, { 0, 1, 2, 3, 1 } })
   {
-    const Grid points = makeComponents<vtkDoubleArray>(ofFields, 1.0);
+    const Grid points = makeComponents<vtkDoubleArray>(ofFields, 0.5);
     const auto cells = Grid::New();
     cells->CopyStructure(points);
     vtkNew<vtkDoubleArray> ofCells;
