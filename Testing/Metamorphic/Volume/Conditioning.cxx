@@ -4,7 +4,6 @@
 
 #include "ReferenceComponents.h"
 #include "ReferenceOptics.h"
-#include "TestTransferFunctions.h"
 
 #include <vtkTetrahedraRayCastMapper.h>
 #include <vtkVolumeMapper.h>
@@ -47,25 +46,79 @@ Rounding roundingOf(const VolumeCase& test)
   const bool native = test.Backend == vtkTetrahedraRayCastMapper::NATIVE;
   const double unit = test.Membrane.Mesh ? 0x1p-22 : native ? 0x1p-29 : 0x1p-24;
   const bool divides = test.Look.Blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND;
+  // A ray meets about 3 cells per layer of a cube of cells, and as many terms are added up.
+  const double terms = divides ? 3.0 * std::cbrt(double(test.mesh().Cells.size())) : 0.0;
   return { 2.0 * 1.5 * unit * radius * (1.0 + slope), divides ? 2.0 * 3.0 * 0x1p-24 * radius : 0.0,
-    2.0 * (native ? 2.0 : 4.0) * 0x1p-24 };
+    2.0 * ((native ? 2.0 : 4.0) + 0.5 * terms) * 0x1p-24 };
+}
+
+// One-sided limit of a piecewise linear function of control points: `next` is the first point at or
+// above a scalar (limit from below), or the first above it (limit from above).
+template <typename Point, typename Get>
+double limitAt(
+  const std::vector<Point>& points, std::size_t next, double scalar, const Get& valueOf)
+{
+  if (next == 0 || next == points.size())
+  {
+    return valueOf(next == 0 ? points.front() : points.back());
+  }
+  const Point& low = points[next - 1];
+  const Point& high = points[next];
+  const double u = (scalar - low.Scalar) / (high.Scalar - low.Scalar);
+  return valueOf(low) + u * (valueOf(high) - valueOf(low));
+}
+
+template <typename Point>
+std::size_t nextOf(const std::vector<Point>& points, double scalar, bool above)
+{
+  const auto found = std::find_if(points.begin(), points.end(),
+    [=](const Point& p) { return above ? p.Scalar > scalar : p.Scalar >= scalar; });
+  return static_cast<std::size_t>(found - points.begin());
+}
+
+// Opacity and colour as a function of both. Two nodes at each control point: it may be a jump.
+reference::ReferenceTransferFunction merged(const LookFunction& function, double factor)
+{
+  std::vector<double> scalars;
+  for (const auto& point : function.Opacity)
+  {
+    scalars.push_back(point.Scalar);
+  }
+  for (const auto& point : function.Color)
+  {
+    scalars.push_back(point.Scalar);
+  }
+  std::sort(scalars.begin(), scalars.end());
+  scalars.erase(std::unique(scalars.begin(), scalars.end()), scalars.end());
+  std::vector<reference::TransferFunctionNode> nodes;
+  for (const double scalar : scalars)
+  {
+    for (const bool above : { false, true })
+    {
+      reference::TransferFunctionNode node;
+      node.Scalar = scalar;
+      node.Value.Attenuation = factor *
+        limitAt(function.Opacity, nextOf(function.Opacity, scalar, above), scalar,
+          [](const LookFunction::OpacityPoint& p) { return p.Opacity; });
+      for (std::size_t c = 0; c < 3; ++c)
+      {
+        node.Value.Color[c] = limitAt(function.Color, nextOf(function.Color, scalar, above), scalar,
+          [c](const LookFunction::ColorPoint& p) { return p.Color[c]; });
+      }
+      nodes.push_back(node);
+    }
+  }
+  return reference::ReferenceTransferFunction(nodes);
 }
 
 // The function of one component; opacity as it is where a mode does not measure lengths.
 reference::ReferenceTransferFunction functionOf(const VolumeLook& look, std::size_t component)
 {
-  VolumeLook one;
-  one.Functions = { look.Functions[component] };
+  const LookFunction& function = look.Functions[std::min(component, look.Functions.size() - 1)];
   const bool measures =
     look.Blend == vtkVolumeMapper::COMPOSITE_BLEND || look.Blend == vtkVolumeMapper::ADDITIVE_BLEND;
-  one.Unit = measures ? look.Unit : 1.0;
-  auto nodes = toReference(toProperty(one)).nodes();
-  const bool weighted = look.Functions.size() > 1 && look.Independent;
-  for (auto& node : nodes)
-  {
-    node.Value.Attenuation *= weighted ? look.Functions[component].Weight : 1.0;
-  }
-  return reference::ReferenceTransferFunction(nodes);
+  const double weight = look.Functions.size() > 1 ? function.Weight : 1.0;
+  return merged(function, weight / (measures ? look.Unit : 1.0));
 }
 
 reference::Material materialOf(const VolumeCase& test)

@@ -34,6 +34,7 @@ namespace test
  * for the mean along a ray only, which divides by a length that may be short.
  * - scalars: to 2^-24 of the range that they are normalised to, by half a unit, and interpolated
  *   along the ray in single precision: 2 units natively, 4 by shaders.
+ *   The mean adds up a term per cell, half a unit each.
  * Twice that for two pictures. Points and scalars are moved by all of it, to either side: a random
  * move of vertices displaces an edge by its whole size in one of a few draws only, and 12 are made.
  */

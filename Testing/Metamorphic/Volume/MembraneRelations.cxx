@@ -265,7 +265,9 @@ std::vector<VolumeRelation> membraneRelations()
   return {
     prepared(relationOf("membrane divided", 4, membrane, divideFacets), makeExactMembrane),
     relationOf("order of facets", 3, membrane, shuffleFacets),
-    relationOf("points given per facet", 3, membrane, unshareFacets),
+    // Patches are fitted to the neighbours that a point is shared with: of other surfaces than
+    // planes and spheres a membrane without shared points makes another, coarser one.
+    prepared(relationOf("points given per facet", 3, membrane, unshareFacets), makeExactMembrane),
     relationOf("membrane turned over", 3, membrane, turnMembrane),
     prepared(relationOf("equal indices", 3, membrane, removeMembrane), makeEqual),
     relationOf("membrane behind the eye", 3, none, addIdleMembrane),

@@ -233,6 +233,11 @@ void setFunctions(VolumeCase& test, RandomNumbers& random)
     look.Functions.push_back(randomFunction(kind, range, lengthCounts, random));
     look.Functions.back().Weight = random.uniform(0.2, 1.0);
   }
+  if (!look.Independent)
+  {
+    look.Functions.front().Opacity = look.Functions.back().Opacity;
+    look.Functions.resize(1);
+  }
   const std::array<double, 2> range = test.mesh().range(0);
   if (look.Blend == vtkVolumeMapper::ISOSURFACE_BLEND)
   {

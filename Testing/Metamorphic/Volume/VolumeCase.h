@@ -44,7 +44,7 @@ struct VolumeLook
 {
   /// One of vtkVolumeMapper::BlendModes.
   int Blend = 0;
-  /// One per component; with dependent components the first (colour) and the last (opacity) count.
+  /// One per component. Of dependent components one: colour of the first, opacity of the last.
   std::vector<LookFunction> Functions;
   bool Independent = true;
   /// ScalarOpacityUnitDistance.
