@@ -11,15 +11,14 @@ Documentation/parallel.md derives how far apart they can be: less than 3 steps o
 import collections
 import math
 import os
+import re
 import subprocess
 import sys
 
 FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
 HERE = os.path.dirname(os.path.abspath(__file__))
-# Of 255.
-WORST = 2
-# The same of random colour maps, by the number of ranks.
-WORST_OF_COLORS = {2: 2, 4: 3}
+# Largest difference of a picture's pixels, of 255, by the number of ranks.
+WORST = {2: 2, 4: 3}
 # Of the pixels of a mesh with inverted cells, those that may be further off: which of two overlapping cells a
 # ray meets first changes where ParaView cuts them.
 SHARE_OF_INVERTED = {"crushed_can": 1e-4}
@@ -53,16 +52,21 @@ def count_differences(name, other):
     return counts, lit
 
 
-def compare_pictures(name, other, most=WORST, share=0):
+def worst_of(other):
+    return WORST[2 if re.search("(Ranks|Server)2", other) else 4]
+
+
+def compare_pictures(name, other, most=None, share=0):
     """At most so far apart, and above WORST in at most that share of the pixels that are not black."""
     counts, lit = count_differences(name, other)
-    above = sum(number for step, number in counts.items() if step > WORST)
-    return lit > 500 and max(counts) <= most and above <= share * lit
+    worst = worst_of(other)
+    above = sum(number for step, number in counts.items() if step > worst)
+    return lit > 500 and max(counts) <= (most or worst) and above <= share * lit
 
 
 def compare_colors(name, other):
     counts, lit = count_differences(name, other)
-    most = WORST_OF_COLORS[2 if "Ranks2" in other else 4]
+    most = worst_of(other)
     share = max(part for mesh, part in [("", 0), *SHARE_OF_INVERTED.items()] if mesh in name)
     above = sum(number for step, number in counts.items() if step > most)
     return lit > 500 and above <= share * lit
