@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractedGeometryFilter.h"
 
-#include "RefractionScene.h"
-#include "SolvedBlock.h"
-#include "ViewSelection.h"
-#include "VirtualPolyData.h"
+#include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Membrane/RefractionScene.h"
+#include "Filters/Object/ViewSelection.h"
+#include "Filters/Output/VirtualPolyData.h"
+#include "Filters/Solver/SolvedBlock.h"
 
 #include "vtkCamera.h"
 #include "vtkDataObject.h"
@@ -35,7 +36,7 @@ constexpr vtkIdType Grain = 128;
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 256 * Grain;
 static_assert(
-  Grain % meniscus::CurvedGeometry::Chain == 0 && Grain % meniscus::ObjectImages::Chunk == 0,
+  Grain % meniscus::CurvedMembraneSolver::Chain == 0 && Grain % meniscus::ObjectImages::Chunk == 0,
   "Ranges are made of whole chains and chunks");
 
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionErrorVolume.h"
 
-#include "ImplicitSurface.h"
-#include "Refraction/ErrorSamples.h"
-#include "RefractionScene.h"
+#include "Filters/Membrane/ImplicitSurface.h"
+#include "Filters/Membrane/RefractionScene.h"
+#include "Refraction/Curved/ErrorSamples.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef RayCastMapperInternals_h
-#define RayCastMapperInternals_h
+#ifndef meniscus_Rendering_RayCastMapperInternals_h
+#define meniscus_Rendering_RayCastMapperInternals_h
 
-#include "RayCastPipeline.h"
+#include "Rendering/Pipeline/RayCastPipeline.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include <glm/mat4x4.hpp>
@@ -20,7 +20,7 @@ public:
   double FullImageTime = 0.0;
 
   /** What was last said of data sets that are left out. */
-  std::string ToldOfParts;
+  std::string LastInputWarning;
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedComponents = false;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
-#include "RefractionTarget.h"
-#include "ViewBounds.h"
+#include "Rendering/Pass/RefractionTarget.h"
+#include "Rendering/Pass/ViewBounds.h"
 
 #include "vtkRefractedGeometryFilter.h"
 #include "vtkRefractionMembraneFS.h"

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
-#include "ComponentChoice.h"
-#include "RayCastMapperInternals.h"
-#include "RayCastShader.h"
+#include "Rendering/Backends/OpenGL/RayCastShader.h"
+#include "Rendering/Input/ComponentChoice.h"
+#include "Rendering/RayCastMapperInternals.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCompositeDataSet.h"
@@ -140,17 +140,17 @@ bool vtkTetrahedraRayCastMapper::Tell(const meniscus::InputReport& report)
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::CollectInput(meniscus::InputParts& parts)
+bool vtkTetrahedraRayCastMapper::CollectInput(meniscus::InputBlocks& parts)
 {
   if (this->GetNumberOfInputConnections(0) > 0)
   {
     this->GetInputAlgorithm()->Update();
   }
   meniscus::InputReport report =
-    meniscus::CollectInputParts(this->GetDataObjectInput(), this->SelectedScalars(), parts);
+    meniscus::CollectInputBlocks(this->GetDataObjectInput(), this->SelectedScalars(), parts);
   // The same parts are left out again in every frame.
-  const bool told = report.Warning == this->Internals->ToldOfParts;
-  this->Internals->ToldOfParts = report.Warning;
+  const bool told = report.Warning == this->Internals->LastInputWarning;
+  this->Internals->LastInputWarning = report.Warning;
   report.Warning = told ? std::string() : report.Warning;
   return this->Tell(report);
 }
@@ -172,7 +172,8 @@ meniscus::ScalarSelection vtkTetrahedraRayCastMapper::SelectedScalars()
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::ChooseMixture(const meniscus::InputParts& parts, vtkVolume* volume)
+bool vtkTetrahedraRayCastMapper::ChooseMixture(
+  const meniscus::InputBlocks& parts, vtkVolume* volume)
 {
   using Mixture = meniscus::ComponentMixture;
   vtkInternals& internals = *this->Internals;
@@ -211,7 +212,7 @@ bool vtkTetrahedraRayCastMapper::ChooseMixture(const meniscus::InputParts& parts
     problem = independent ? "; 1 to 4 are needed, or a VectorMode"
                           : "; 1, 2 or 4 are needed, or a VectorMode";
   }
-  else if (parts.Place == meniscus::ScalarPlace::Cells ||
+  else if (parts.Place == meniscus::FieldAssociation::Cells ||
     this->GetUsedBlendMode() != vtkVolumeMapper::COMPOSITE_BLEND)
   {
     problem = "; cell data and other than composite blending need 1, or a VectorMode";
@@ -230,7 +231,7 @@ bool vtkTetrahedraRayCastMapper::ChooseMixture(const meniscus::InputParts& parts
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::HasChosenComponent(const meniscus::InputParts& parts)
+bool vtkTetrahedraRayCastMapper::HasChosenComponent(const meniscus::InputBlocks& parts)
 {
   const int chosen = this->Internals->Component;
   for (const meniscus::InputPart& part : parts.Parts)
@@ -268,7 +269,7 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateInput(
-  vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputParts& parts)
+  vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts)
 {
   vtkInternals& internals = *this->Internals;
   meniscus::VolumeInput& input = internals.Input;
@@ -305,20 +306,20 @@ bool vtkTetrahedraRayCastMapper::UpdateMembrane()
 }
 
 //------------------------------------------------------------------------------
-void vtkTetrahedraRayCastMapper::PrepareBending(
-  const meniscus::OpticsPlace& place, meniscus::RayCastFrame& frame)
+void vtkTetrahedraRayCastMapper::PrepareRefraction(
+  const meniscus::ViewContext& place, meniscus::RayCastFrame& frame)
 {
-  meniscus::RayCastBending& bending = frame.Bending;
-  bending.Part =
+  meniscus::RayCastRefraction& refracting = frame.Refracting;
+  refracting.Part =
     static_cast<meniscus::MembranePart>(this->MembranePart); // the numbers are the same
-  bending.Wanted = this->HasMembrane() &&
+  refracting.Wanted = this->HasMembrane() &&
     (this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction ||
       this->MembranePart != WHOLE);
-  bending.Exterior = this->ExteriorIndexOfRefraction;
-  bending.Interior = this->InteriorIndexOfRefraction;
-  bending.Center = place.CenterInWorld;
+  refracting.Exterior = this->ExteriorIndexOfRefraction;
+  refracting.Interior = this->InteriorIndexOfRefraction;
+  refracting.Center = place.CenterInWorld;
   const glm::dvec3 eye(glm::inverse(place.WorldToView) * glm::dvec4(0.0, 0.0, 0.0, 1.0));
-  bending.EyeDepth = (glm::inverse(frame.Rays.ViewToWorld) * (eye - bending.Center)).z;
+  refracting.EyeDepth = (glm::inverse(frame.Rays.ViewToWorld) * (eye - refracting.Center)).z;
 }
 
 //------------------------------------------------------------------------------
@@ -437,14 +438,14 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
       propPass ? glm::vec3(value[0], value[1], value[2]) : glm::vec3(0.0f);
   }
 
-  meniscus::OpticsPlace place;
+  meniscus::ViewContext place;
   const std::string error = internals.ComputeFrame(renderer, volume, frame.Output.ImageSize, place);
   if (!error.empty())
   {
     return error;
   }
   frame.Rays = place.Frame;
-  this->PrepareBending(place, frame);
+  this->PrepareRefraction(place, frame);
   frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
   frame.Optics.BlendMode = this->GetUsedBlendMode();
   frame.Optics.Components = internals.Mixture;
@@ -452,7 +453,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     1 + static_cast<int>(internals.Property.GetOtherIntervals().size());
   frame.Optics.DataRange = internals.Input.GetNormalizedRange();
   frame.Optics.CompactCells = this->CompactTables != 0;
-  frame.Optics.CellScalars = internals.Input.GetScalarPlace() == meniscus::ScalarPlace::Cells;
+  frame.Optics.CellScalars =
+    internals.Input.GetFieldAssociation() == meniscus::FieldAssociation::Cells;
   meniscus::GatherShading(volume->GetProperty(), renderer, place, frame.Optics);
   this->WarnOnce(internals.Mixture == meniscus::ComponentMixture::Independent &&
       (volume->GetProperty()->GetShade() != 0 ||
@@ -469,7 +471,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
 
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::Draw(
-  vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputParts& parts)
+  vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputBlocks& parts)
 {
   vtkInternals& internals = *this->Internals;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
@@ -538,7 +540,7 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   {
     return;
   }
-  meniscus::InputParts parts;
+  meniscus::InputBlocks parts;
   if (!this->CollectInput(parts) || parts.Parts.empty() || !this->ChooseMixture(parts, volume) ||
     !this->UpdateMembrane() || !this->UpdateInput(renderer->GetRenderWindow(), volume, parts))
   {

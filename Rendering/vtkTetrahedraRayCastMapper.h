@@ -104,10 +104,10 @@ class vtkRenderWindow;
 
 namespace meniscus
 {
-struct InputParts;
+struct InputBlocks;
 struct InputReport;
 struct RayCastFrame;
-struct OpticsPlace;
+struct ViewContext;
 struct RayCastOptics;
 struct ScalarSelection;
 }
@@ -140,8 +140,8 @@ public:
    * Where it is totally reflected nothing behind the membrane is seen; beside the membrane rays are
    * straight. What is in the framebuffer behind the membrane counts as virtual geometry, such as
    * vtkRefractedGeometryFilter makes: at a distance l behind the sight point it hides what is
-   * n2 / n1 * l along the bent ray and farther (the thesis's Eq. 2.4). A membrane that is drawn
-   * opaque itself hides all that is behind it.
+   * n2 / n1 * l along the refracted ray and farther (the thesis's Eq. 2.4). A membrane that is
+   * drawn opaque itself hides all that is behind it.
    *
    * Bounds of the mapper include those of the membrane, where the volume is seen. A membrane that
    * cannot be used is an error, and nothing is rendered.
@@ -387,7 +387,7 @@ public:
   vtkTypeInt64 GetNumberOfPreIntegrationBuilds();
   vtkTypeInt64 GetNumberOfMembraneBuilds();
   vtkTypeInt64 GetNumberOfSightUpdates();
-  vtkTypeInt64 GetNumberOfBentEntryLists();
+  vtkTypeInt64 GetNumberOfRefractedEntryLists();
   vtkTypeInt64 GetNumberOfEntryListBuilds();
   ///@}
 
@@ -471,24 +471,24 @@ private:
   void operator=(const vtkTetrahedraRayCastMapper&) = delete;
 
   meniscus::ScalarSelection SelectedScalars();
-  bool CollectInput(meniscus::InputParts& parts);
+  bool CollectInput(meniscus::InputBlocks& parts);
   bool Tell(const meniscus::InputReport& report);
-  bool ChooseMixture(const meniscus::InputParts& parts, vtkVolume* volume);
-  bool HasChosenComponent(const meniscus::InputParts& parts);
+  bool ChooseMixture(const meniscus::InputBlocks& parts, vtkVolume* volume);
+  bool HasChosenComponent(const meniscus::InputBlocks& parts);
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
   void ChooseIntegration(vtkVolume* volume, meniscus::RayCastOptics& optics);
   bool HasMembrane();
   bool UpdateMembrane();
-  void PrepareBending(const meniscus::OpticsPlace& place, meniscus::RayCastFrame& frame);
-  bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputParts& parts);
+  void PrepareRefraction(const meniscus::ViewContext& place, meniscus::RayCastFrame& frame);
+  bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts);
   void UpdateTransferFunction();
   int GetUsedBlendMode();
   int ChooseBackend();
   bool FallsBackToNative(const meniscus::RayCastFrame& frame, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
-  bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputParts& parts);
+  bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputBlocks& parts);
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // What vtkTetrahedraRayCastMapper tells of itself.
-#include "RayCastMapperInternals.h"
+#include "Rendering/RayCastMapperInternals.h"
 
 #include "vtkTetrahedraRayCastMapper.h"
 
@@ -50,9 +50,9 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfSightUpdates()
 }
 
 //------------------------------------------------------------------------------
-vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfBentEntryLists()
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRefractedEntryLists()
 {
-  return this->Internals->OpenGL.GetNumberOfBentEntryLists();
+  return this->Internals->OpenGL.GetNumberOfRefractedEntryLists();
 }
 
 //------------------------------------------------------------------------------
@@ -155,7 +155,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "NumberOfMembraneBuilds: " << this->GetNumberOfMembraneBuilds() << "\n";
   os << indent << "NumberOfSightUpdates: " << this->GetNumberOfSightUpdates() << "\n";
-  os << indent << "NumberOfBentEntryLists: " << this->GetNumberOfBentEntryLists() << "\n";
+  os << indent << "NumberOfRefractedEntryLists: " << this->GetNumberOfRefractedEntryLists() << "\n";
   os << indent << "NumberOfEntryListBuilds: " << this->GetNumberOfEntryListBuilds() << "\n";
   os << indent << "NumberOfActiveSetBuilds: " << this->GetNumberOfActiveSetBuilds() << "\n";
   os << indent << "UploadedBytes: " << this->GetUploadedBytes() << "\n";

@@ -4,8 +4,8 @@
 
 #include "AnalyticMembrane.h"
 #include "HeightField.h"
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/VirtualGeometry.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
 #include "SightOracle.h"
 #include "ThesisTables.h"
 
@@ -111,7 +111,7 @@ std::vector<ImageScene> makeImageScenes()
     { waves(3.0, 0.04 * Pi), 1.0, 1.333, { 120.0, 90.0, 20.0 }, 96, 80.0 } };
 }
 
-reference::SurfaceError errorOf(const CurvedGeometry& geometry, const SmoothSurface& surface)
+reference::SurfaceError errorOf(const CurvedMembraneSolver& geometry, const SmoothSurface& surface)
 {
   reference::SurfaceError error;
   const auto facets = static_cast<std::int32_t>(geometry.GetMembrane().GetFacets().size());
@@ -206,10 +206,10 @@ WaveError measureWaveError(int cells)
   const HeightField field{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
   const glm::dvec3 eye(20.0, 300.0, 10.0);
   const auto mesh = field.MakeMesh(cells);
-  CurvedGeometry curved;
+  CurvedMembraneSolver curved;
   curved.SetMembrane(mesh.AsInput());
   curved.SetEye(eye, field.exterior, field.interior);
-  VirtualGeometry flat;
+  FlatMembraneSolver flat;
   flat.SetMembrane(mesh.AsInput());
   flat.SetEye(eye, field.exterior, field.interior);
   Random random;
@@ -240,7 +240,7 @@ ImageCount countImages()
   Random random;
   for (const ImageScene& scene : makeImageScenes())
   {
-    CurvedGeometry geometry;
+    CurvedMembraneSolver geometry;
     const auto mesh = scene.surface.MakeMesh(scene.cells);
     geometry.SetMembrane(mesh.AsInput());
     geometry.SetEye(scene.eye, scene.exterior, scene.interior);
@@ -266,7 +266,7 @@ double measureHemispherePixels()
   const glm::dvec3 eye(0.0, 450.0, 0.0);
   const reference::AnalyticMembrane exact{ radius, 1.0, 1.51 };
   const auto mesh = reference::MakeDisc(radius, 5, radius);
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   geometry.SetMembrane(mesh.AsInput());
   geometry.SetEye(eye, 1.0, 1.51);
   // The opening is at the height of the sphere's centre.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frames.h"
 
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/VirtualGeometry.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
 #include "Timing.h"
 #include "WellScene.h"
 
@@ -108,9 +108,9 @@ void printShares(std::ostream& out)
                            .Cpu;
       out << " | " << 100.0 * eye / all << ", " << 100.0 * solve / all;
     };
-    VirtualGeometry flat;
+    FlatMembraneSolver flat;
     share(flat, vtkRefractedGeometryFilter::FLAT_FACETS);
-    CurvedGeometry curved;
+    CurvedMembraneSolver curved;
     share(curved, vtkRefractedGeometryFilter::CURVED);
     out << " |\n";
   }

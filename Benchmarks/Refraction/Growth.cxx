@@ -5,9 +5,9 @@
 #include "Accuracy.h"
 #include "Chart.h"
 #include "MembraneMeshes.h"
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/ObjectImages.h"
-#include "Refraction/VirtualGeometry.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Refraction/Images/ObjectImages.h"
 #include "Timing.h"
 
 #include <vtkSMPTools.h>
@@ -79,7 +79,7 @@ double microsecondsPerVertex(const Geometry& geometry, const std::vector<double>
 void measureFlat(
   const MembraneMesh& mesh, const std::vector<double>& points, GrowthFigures& figures)
 {
-  VirtualGeometry geometry;
+  FlatMembraneSolver geometry;
   figures.FlatShape = timeMedian([&] { geometry.SetMembrane(mesh.AsInput()); }).Cpu;
   figures.FlatEye = timeMedian([&] { geometry.SetEye(Eye, Exterior, Interior); }).Cpu;
   figures.FlatCoherent = microsecondsPerVertex(geometry, points);
@@ -103,7 +103,7 @@ void measureFlat(
 void measureCurved(
   const MembraneMesh& mesh, const std::vector<double>& points, GrowthFigures& figures)
 {
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   figures.CurvedShape = timeMedian(
     [&]
     {
@@ -173,7 +173,7 @@ std::string growByVertices()
   std::ostringstream json;
   json << "  \"vertices\": [\n";
   const MembraneMesh mesh = makeWaves(128);
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   geometry.SetMembrane(mesh.AsInput());
   geometry.SetEye(Eye, Exterior, Interior);
   std::printf("\n32768 facets, CURVED\n%9s | %9s\n", "vertices", "us one");
@@ -265,7 +265,7 @@ ThreadedFigures measureThreaded(int cells)
       { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
   };
   MembraneMesh mesh = makeWaves(cells);
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   geometry.SetMembrane(mesh.AsInput(), loop);
   ThreadedFigures figures;
   figures.Facets = mesh.GetNumberOfFacets();

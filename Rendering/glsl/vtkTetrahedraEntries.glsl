@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The search of a ray's next entries. With LONG_LISTS every tile has a list of faces of any length,
-// see Module/Volume/EntryTiles.h; else one of at most 32, and longer ones are searched in the tree.
+// see Module/Volume/Entries/EntryTiles.h; else one of at most 32, and longer ones are searched in the tree.
 
 // The next entries of the ray in the order of depth, then number; -1 where there are none.
 ivec4 entryDepths;   // in grid units
@@ -99,7 +99,7 @@ void findEntries(int lastDepth, int lastFace)
   {
     if (looks)
     {
-      SeenFace f = seeFace(listFace);
+      ProjectedFace f = seeFace(listFace);
       if (f.entered && f.depth < endDepth && isBefore(lastDepth, lastFace, f.depth, listFace))
       {
         insertEntry(f.depth, listFace, listAt);
@@ -113,8 +113,8 @@ void findEntries(int lastDepth, int lastFace)
 
 #else
 uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetrahedraEntryTilesFS
-#if BENDING
-uniform sampler3D bentTiles;         // the same for the rays behind the membrane
+#if REFRACTED
+uniform sampler3D refractedTiles;         // the same for the rays behind the membrane
 #endif
 
 const int TILE_CAPACITY = 32;
@@ -169,10 +169,10 @@ void insertEntry(int depth, int number)
 
 vec4 fetchTile(ivec2 tile, int layer)
 {
-#if BENDING
-  if (rayIsBent)
+#if REFRACTED
+  if (rayIsRefracted)
   {
-    return texelFetch(bentTiles, ivec3(tile, layer), 0);
+    return texelFetch(refractedTiles, ivec3(tile, layer), 0);
   }
 #endif
   return texelFetch(entryTiles, ivec3(tile, layer), 0);
@@ -207,7 +207,7 @@ void collectEntries(int lastDepth, int lastFace)
     }
     if (candidate >= 0)
     {
-      SeenFace f = seeFace(candidate);
+      ProjectedFace f = seeFace(candidate);
       if (f.entered && f.depth < endDepth && f.depth <= range.y &&
         isBefore(lastDepth, lastFace, f.depth, candidate))
       {

@@ -9,7 +9,7 @@
 // mesh: up to 32 faces in 8 targets, filled up with -1. The list of a tile with more begins with -2.
 // Works with the tile's central ray, in its grid units, and bounds the difference to the others.
 //
-// With BENDING, rays straight on end at the membrane. With BEHIND the rays are those behind it; the list
+// With REFRACTED, rays straight on end at the membrane. With BEHIND the rays are those behind it; the list
 // of a tile where these are of several frames begins with -2, too.
 
 in vec2 texCoord;
@@ -96,15 +96,15 @@ bool mayEnter(int index)
     areas.x + areas.y + areas.z + faceAreaReach(a, b, c) >= 0.0;
 }
 
-#if BENDING
+#if REFRACTED
 // A texel of the tile's pixel number i; those outside of the image are the next in it.
 ivec4 fetchLine(int i, int texel)
 {
   int columns = int(tileSize);
-  ivec2 size = ivec2(textureSize(bentLines, 0).x / 2, textureSize(bentLines, 0).y);
+  ivec2 size = ivec2(textureSize(refractedRays, 0).x / 2, textureSize(refractedRays, 0).y);
   ivec2 corner = ivec2(floor(texCoord * tileCount) * tileSize);
   ivec2 pixel = min(corner + ivec2(i % columns, i / columns), size - 1);
-  return texelFetch(bentLines, ivec2(2 * pixel.x + texel, pixel.y), 0);
+  return texelFetch(refractedRays, ivec2(2 * pixel.x + texel, pixel.y), 0);
 }
 #endif
 
@@ -136,7 +136,7 @@ bool setUpTile(out int end, out bool alike)
     return false;
   }
   // To 2 units, for halves are rounded.
-  setUpBentRay(frame, (least >> 1) + (most >> 1), vec2(0.0));
+  setUpRefractedRay(frame, (least >> 1) + (most >> 1), vec2(0.0));
   // The lines are those of the pixels' centres: there is no room between for rounding to the grid.
   vec4 spread = 0.5 * (vec4(most) - vec4(least));
   reach = spread.xy + vec2(BOX_MARGIN);
@@ -154,7 +154,7 @@ bool setUpTile(out int end, out bool alike)
   reach = originReach * gridPerUnit;
   reachPerDepth = slopeReach * gridPerUnit;
   alike = true;
-#if BENDING
+#if REFRACTED
   end = BEFORE_EVERYTHING;
   for (int i = 0; i < int(tileSize * tileSize); ++i)
   {

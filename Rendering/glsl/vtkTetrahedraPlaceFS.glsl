@@ -4,7 +4,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Places vertices in the grid of a view (Module/Volume/PixelRays.h), one per fragment. The kernel does
+// Places vertices in the grid of a view (Module/Volume/Rays/FixedPointRays.h), one per fragment. The kernel does
 // the same in double; here it is done in 64-bit fixed point. Coefficients are off by 2^-33 across and by
 // 2^-32 along, which moves the mesh by up to 3/8 and 3/4 of a grid unit, and results are rounded by 1/2.
 // All that reads the vertices reads these integers.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The rays of an image and the mesh's boundary as seen by one of them: the part that the passes
-// share. The frame and its names are those of Module/Volume/RayFrame.h, the tables those of
+// share. The frame and its names are those of Module/Volume/Rays/RayFrame.h, the tables those of
 // TetrahedralMesh.h and BoundaryTree.h.
 //
 // All decisions are taken in the ray-aligned projection: a vertex has coordinates (u, v) about the
@@ -37,15 +37,15 @@ uniform vec2 slopePerColumn;
 uniform vec2 slopePerRow;
 // Grid units of x and y per unit of the frame.
 uniform float gridPerUnit;
-// Offset and slope of a pixel's ray in the grid, see PixelRays::GetGridMaps(): three times (x, y,
+// Offset and slope of a pixel's ray in the grid, see FixedPointRays::GetGridMaps(): three times (x, y,
 // fractions of x and y in units of 2^-15), the base, then per half column and per half row.
 uniform int gridOffset[12];
 uniform int gridSlope[12];
 uniform int enteringSign;            // outward * enteringSign > 0: counter-clockwise is entering
-#if BENDING
-// Rays go on behind a membrane: per pixel two texels side by side, see Module/Volume/BentLines.h, in
+#if REFRACTED
+// Rays go on behind a membrane: per pixel two texels side by side, see Module/Volume/Refracted/RefractedRayTexels.h, in
 // one of several frames, given by their rows and by their axes in the frame of the view.
-uniform isampler2D bentLines;
+uniform isampler2D refractedRays;
 uniform vec3 frameRowX[6];
 uniform vec3 frameRowY[6];
 uniform vec3 frameRowDepth[6];
@@ -59,7 +59,7 @@ uniform int frameFirstVertex[6];     // where the vertices placed in it begin
 // Grid units of depth per unit of the frame: PacketVertex::GridPerDepth.
 const float GRID_PER_DEPTH = 1073739776.0;
 const float DEPTH_UNIT = 1.0 / GRID_PER_DEPTH;
-// The mesh's radius in grid units, seen along a ray, is at most 2^29 (PixelRays), and coordinates
+// The mesh's radius in grid units, seen along a ray, is at most 2^29 (FixedPointRays), and coordinates
 // about a ray that meets the mesh are below 2^30.
 //
 // Bounds, in grid units, the difference between a vertex's u or v and the same sum in floats over a
@@ -90,7 +90,7 @@ vec3 rayV;
 vec2 rayOrigin;
 vec3 rayPlace;       // at depth 0, in the frame of the view
 vec3 rayAlong;       // what is added to it per depth
-#if BENDING
+#if REFRACTED
 vec3 rayDepth;       // depth = dot(rayDepth, p)
 int rayFirstVertex;  // where the vertices placed for the ray begin
 float rayGrid;       // grid units of x and y per unit of the frame
@@ -117,7 +117,7 @@ void setSlope(ivec2 slope)
 // units.
 bool setUpLine(vec3 toX, vec3 toY, vec3 toDepth, vec2 origin, vec2 slope, vec2 reach)
 {
-#if BENDING
+#if REFRACTED
   rayDepth = toDepth;
 #endif
   rayU = (toX - slope.x * toDepth) * RAY_GRID;
@@ -149,16 +149,16 @@ bool setUpRay(vec2 pixel, vec2 reach)
   rayOffset = offset.xy;
   rayFraction = vec2(offset.zw) * (1.0 / 32768.0);
   setSlope(gridValue(gridSlope, halves).xy);
-#if BENDING
+#if REFRACTED
   rayFirstVertex = 0;
   rayGrid = gridPerUnit;
 #endif
   return setUpLine(rowX, rowY, rowDepth, origin, slope, reach);
 }
 
-#if BENDING
+#if REFRACTED
 // Sets up a line of a frame, its offset and slope in the grid.
-bool setUpBentRay(int frame, ivec4 line, vec2 reach)
+bool setUpRefractedRay(int frame, ivec4 line, vec2 reach)
 {
   rayFirstVertex = frameFirstVertex[frame];
   rayGrid = frameGridPerUnit[frame];

@@ -14,10 +14,10 @@
 #define FIRST_LINK 4
 #endif
 uniform isamplerBuffer cells;
-#if BENDING
+#if REFRACTED
 uniform bool beginsInside;           // whether a ray behind the membrane may begin within the mesh
 uniform int membranePart;            // what is drawn, see MembranePart: all, or
-const float NOWHERE = 1.0e+30; // BentLine::Nowhere
+const float NOWHERE = 1.0e+30; // RefractedRayLine::Nowhere
 const int PART_IN_FRONT = 1;
 const int PART_BEHIND = 2;
 #endif
@@ -33,7 +33,7 @@ uniform vec2 depthDenominator;
 // the pixel (i, j) counted from the image's centre.
 uniform vec3 clippingConstant[NUMBER_OF_CLIPPING_PLANES];
 uniform vec3 clippingPerDepth[NUMBER_OF_CLIPPING_PLANES];
-#if BENDING
+#if REFRACTED
 // Of a place of the frame of the view: dot(clippingInFrame, (x, y, depth, 1)).
 uniform vec4 clippingInFrame[NUMBER_OF_CLIPPING_PLANES];
 #endif
@@ -54,8 +54,8 @@ vec2 rayTilePixel;   // from its lower left corner
 float rayLengthPerDepth; // per grid unit of depth
 int startDepth;
 int endDepth;
-#if BENDING
-bool rayIsBent;      // behind the membrane
+#if REFRACTED
+bool rayIsRefracted;      // behind the membrane
 float membraneDepth; // where it is on the straight ray, in the frame
 int membraneAt;      // the same in grid units
 int cycleStart;      // link to the face within the mesh by which the walk began; else -1
@@ -270,10 +270,10 @@ bool walk(inout int steps)
   int link = 0;
   bool pending = false;
   bool ended = false;
-#if BENDING
-  bool goesRound = false;
+#if REFRACTED
+  bool closedCycle = false;
 #else
-  const bool goesRound = false;
+  const bool closedCycle = false;
 #endif
   // What is read after the loop goes around it: Mesa's llvmpipe (22.3) lets rays that are done go on
   // computing values that are only used behind a loop, and those come out wrong (test of lost rays).
@@ -295,18 +295,18 @@ bool walk(inout int steps)
     {
       cell = link >> 2;
       face = link & 3;
-#if BENDING
-      goesRound = !ended && link == cycleStart;
+#if REFRACTED
+      closedCycle = !ended && link == cycleStart;
 #endif
     }
-  } while (!ended && !goesRound && steps < limit);
+  } while (!ended && !closedCycle && steps < limit);
   return ended;
 }
 
 //--- Entry -----------------------------------------------------------------------------------------
 
 // A boundary face as seen by the ray.
-struct SeenFace
+struct ProjectedFace
 {
   RayVertex p;
   RayVertex q;
@@ -321,9 +321,9 @@ struct SeenFace
 };
 
 // @param left  whether the vertices are counter-clockwise if the face is entered.
-SeenFace seeTriangle(ivec3 numbers, bool left)
+ProjectedFace seeTriangle(ivec3 numbers, bool left)
 {
-  SeenFace f;
+  ProjectedFace f;
   f.left = left;
   f.numbers = numbers;
   f.p = fetchVertex(numbers.x);
@@ -341,10 +341,10 @@ SeenFace seeTriangle(ivec3 numbers, bool left)
   return f;
 }
 
-// A face of the boundary; with BENDING, also one within the mesh that nearFace holds: number -2.
-SeenFace seeFace(int index)
+// A face of the boundary; with REFRACTED, also one within the mesh that nearFace holds: number -2.
+ProjectedFace seeFace(int index)
 {
-#if BENDING
+#if REFRACTED
   bool isNear = index == NEAR_FACE;
   ivec4 record = texelFetch(treeFaces, isNear ? 0 : index);
   record = isNear ? nearFace : record;
@@ -353,7 +353,7 @@ SeenFace seeFace(int index)
   ivec4 record = texelFetch(treeFaces, index);
   bool left = (record.x < 0 ? -1 : 1) * enteringSign > 0;
 #endif
-  SeenFace f = seeTriangle(ivec3(record.x < 0 ? ~record.x : record.x, record.yz), left);
+  ProjectedFace f = seeTriangle(ivec3(record.x < 0 ? ~record.x : record.x, record.yz), left);
   f.cellFace = record.w;
   return f;
 }
@@ -361,7 +361,7 @@ SeenFace seeFace(int index)
 //VTK::TetrahedraEntries::Dec
 
 // Puts the walk on a face.
-void enter(SeenFace f)
+void enter(ProjectedFace f)
 {
   a = f.left ? f.p : f.q;
   b = f.left ? f.q : f.p;
@@ -424,7 +424,7 @@ void clip(float height, float perDepth)
   endDepth = perDepth == 0.0 && height < 0.0 ? BEFORE_EVERYTHING : endDepth;
 }
 
-#if BENDING
+#if REFRACTED
 //--- Behind the membrane ---------------------------------------------------------------------------
 
 // By how much an entry may lie before the sight point that the straight ray says is outside of the
@@ -468,15 +468,15 @@ bool findNearFace(int sightDepth)
       : ivec3(last, k == 1 ? n.yz : (k == 2 ? n.zx : n.xy));
     nearFace.w = 4 * index + int(n.x < opposite) + int(n.y < opposite) + int(n.z < opposite) +
       int(last < opposite);
-    SeenFace f = seeFace(NEAR_FACE);
+    ProjectedFace f = seeFace(NEAR_FACE);
     found = f.entered && f.depth <= sightDepth;
     number += found ? 0 : 1;
   }
   return found;
 }
 
-// A pixel's texels of bentLines.
-struct BentLine
+// A pixel's texels of refractedRays.
+struct RefractedRayLine
 {
   ivec4 line;       // offset and slope in the grid
   float depth;      // of the sight point on the straight ray
@@ -493,11 +493,11 @@ int refinedDepth(float depth, int rest)
   return gridDepthOf(depth) + (rest & 255) - 128;
 }
 
-BentLine fetchBentLine(ivec2 pixel)
+RefractedRayLine fetchRefractedRayLine(ivec2 pixel)
 {
-  BentLine line;
-  line.line = texelFetch(bentLines, ivec2(2, 1) * pixel, 0);
-  ivec4 place = texelFetch(bentLines, ivec2(2, 1) * pixel + ivec2(1, 0), 0);
+  RefractedRayLine line;
+  line.line = texelFetch(refractedRays, ivec2(2, 1) * pixel, 0);
+  ivec4 place = texelFetch(refractedRays, ivec2(2, 1) * pixel + ivec2(1, 0), 0);
   line.depth = intBitsToFloat(place.x);
   line.start = intBitsToFloat(place.y);
   line.perDepth = intBitsToFloat(place.z);
@@ -509,7 +509,7 @@ BentLine fetchBentLine(ivec2 pixel)
 
 // The part of the ray behind the membrane that counts. What is in the depth buffer there is drawn at
 // the depths of straight rays (Eq. 2.4), where nothing is drawn the far plane does not matter.
-void limitBentRay(float opaque, BentLine line)
+void limitRefractedRay(float opaque, RefractedRayLine line)
 {
   startDepth = line.startAt;
   if (nearDepth > membraneDepth)
@@ -536,7 +536,7 @@ void limitRay(float opaque)
 {
   startDepth = gridDepthOf(nearDepth);
   endDepth = gridDepthOf(depthOf(opaque));
-#if BENDING
+#if REFRACTED
   endDepth = min(endDepth, membraneAt);
 #endif
 #if NUMBER_OF_CLIPPING_PLANES > 0
@@ -567,7 +567,7 @@ void castPart(int lastDepth, inout int steps, inout int lost)
     int entryDepth = faceDepth;
     startPart(faceScalar);
     bool ended = walk(steps);
-#if BENDING
+#if REFRACTED
     // A walk that goes round within the mesh has passed nothing twice; the rest is from the boundary on.
     bool wasNear = lastFace == NEAR_FACE;
     entryDepth = wasNear ? (ended ? lastDepth : BEFORE_EVERYTHING) : entryDepth;
@@ -580,24 +580,24 @@ void castPart(int lastDepth, inout int steps, inout int lost)
   }
 }
 
-#if BENDING
+#if REFRACTED
 // Sets up what is behind the membrane, when the straight ray has come there. Yields the depth from
 // which on entries count. False if nothing of it does.
 bool goOnBehind(float opaque, out int lastDepth)
 {
-  BentLine line = fetchBentLine(ivec2(rayTilePixel));
+  RefractedRayLine line = fetchRefractedRayLine(ivec2(rayTilePixel));
   // Where the straight ray has come to, if clipping planes did not end it.
   bool arrived = membranePart != PART_BEHIND && endDepth == membraneAt && entryFaces.x < 0 &&
     !moreEntries;
   bool inside = depthNow >= endDepth;
   lastDepth = BEFORE_EVERYTHING;
-  if (!(line.perDepth > 0.0) || !setUpBentRay(line.frame, line.line, vec2(0.0)))
+  if (!(line.perDepth > 0.0) || !setUpRefractedRay(line.frame, line.line, vec2(0.0)))
   {
     return false;
   }
-  rayIsBent = true;
+  rayIsRefracted = true;
   rayLengthPerDepth = lengthPerGridDepth();
-  limitBentRay(opaque, line);
+  limitRefractedRay(opaque, line);
   depthNow = BEFORE_EVERYTHING;
   bool within = arrived && inside && beginsInside && cell >= 0 && findNearFace(line.startAt);
   entryFaces = ivec4(within ? NEAR_FACE : -1, -1, -1, -1);
@@ -622,10 +622,10 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   startRay();
   int lastDepth = BEFORE_EVERYTHING;
   startEntries(meetsMesh);
-#if BENDING
-  rayIsBent = false;
+#if REFRACTED
+  rayIsRefracted = false;
   cycleStart = -1;
-  BentLine behind = fetchBentLine(ivec2(pixel));
+  RefractedRayLine behind = fetchRefractedRayLine(ivec2(pixel));
   membraneDepth = behind.depth;
   membraneAt = behind.depthAt;
   bool bends = membraneDepth < NOWHERE && membranePart != PART_IN_FRONT;
@@ -643,7 +643,7 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
     {
       castPart(lastDepth, steps, lost);
     }
-    goesOn = goesOn && bends && !rayIsBent && !isRayDone();
+    goesOn = goesOn && bends && !rayIsRefracted && !isRayDone();
     straight = false;
   }
 #else

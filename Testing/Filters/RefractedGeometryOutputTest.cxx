@@ -3,7 +3,7 @@
 // What comes out: positions, arrays, cells of every kind.
 #include "AnalyticMembrane.h"
 #include "RefractedGeometryTestHelpers.h"
-#include "Refraction/Optics.h"
+#include "Refraction/Membrane/Optics.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -3,9 +3,9 @@
 // Curved patches and the sight points on them: closed forms, analytic membranes, a dense search.
 #include "HeightField.h"
 #include "MembraneMeshes.h"
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/Optics.h"
-#include "Refraction/PatchTube.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Membrane/Optics.h"
+#include "Refraction/Tubes/RefractedRayBounds.h"
 #include "RefractionTestRandom.h"
 #include "ThesisTables.h"
 
@@ -20,7 +20,7 @@
 namespace
 {
 
-using meniscus::CurvedGeometry;
+using meniscus::CurvedMembraneSolver;
 using meniscus::CurvedPatch;
 using meniscus::CurvedPatches;
 using meniscus::EyeStatus;
@@ -31,14 +31,14 @@ using meniscus::reference::HeightField;
 using meniscus::reference::MembraneMesh;
 using meniscus::testing::Random;
 
-void Set(CurvedGeometry& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
+void Set(CurvedMembraneSolver& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
   double exterior = 1.0, double interior = 1.333)
 {
   ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
   ASSERT_EQ(geometry.SetEye(eye, exterior, interior), EyeStatus::Ready);
 }
 
-VirtualVertex SolveOne(const CurvedGeometry& geometry, const glm::dvec3& point)
+VirtualVertex SolveOne(const CurvedMembraneSolver& geometry, const glm::dvec3& point)
 {
   VirtualVertex vertex;
   geometry.Solve(&point.x, 0, 1, &vertex);
@@ -71,7 +71,7 @@ TEST(RefractionCurved, ReachesTheTargetsOfTheThesisTables)
 double MeasureWaves(int cells)
 {
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(geometry, Waves.MakeMesh(cells), eye);
   Random random(5);
   double sum = 0.0;
@@ -269,7 +269,7 @@ TEST(RefractionCurved, FindsAllImagesAndNoOthers)
   };
   for (const OracleCase& test : cases)
   {
-    CurvedGeometry geometry;
+    CurvedMembraneSolver geometry;
     Set(geometry, test.field.MakeMesh(test.cells), test.eye, test.field.exterior,
       test.field.interior);
     Random random(83);
@@ -323,7 +323,7 @@ TEST(RefractionCurved, RingsOfImagesDoNotHoldUp)
   const HeightField dome{ HeightField::Shape::Dome, 200.0, 30.0, 0.025, 1.0, 1.5 };
   const glm::dvec3 eye(0.0, 400.0, 0.0);
   const glm::dvec3 point(0.0, -200.0, 0.0);
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(geometry, dome.MakeMesh(32), eye, 1.0, 1.5);
   std::vector<VirtualVertex> images;
   EXPECT_EQ(geometry.FindImages(point, images), ImageState::Found);
@@ -341,7 +341,7 @@ TEST(RefractionCurved, RingsOfImagesDoNotHoldUp)
 //------------------------------------------------------------------------------
 TEST(RefractionCurved, TheOneImageIsOneOfAll)
 {
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(geometry, meniscus::reference::MakeWaves(200.0, 40, 5.0, 3.0), { 20.0, 300.0, 10.0 });
   std::vector<double> points;
   Random random(89);
@@ -369,9 +369,9 @@ TEST(RefractionCurved, TheOneImageIsOneOfAll)
 //------------------------------------------------------------------------------
 TEST(RefractionCurved, ResultsDoNotDependOnTheRanges)
 {
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(geometry, meniscus::reference::MakeWaves(200.0, 40, 5.0, 3.0), { 20.0, 300.0, 10.0 });
-  constexpr std::size_t count = 5 * CurvedGeometry::Chain;
+  constexpr std::size_t count = 5 * CurvedMembraneSolver::Chain;
   std::vector<double> points;
   Random random(91);
   for (std::size_t i = 0; i < 3 * count; ++i)
@@ -383,8 +383,8 @@ TEST(RefractionCurved, ResultsDoNotDependOnTheRanges)
   geometry.Solve(points.data(), 0, count, a.data());
   for (std::size_t k = 5; k-- > 0;)
   {
-    geometry.Solve(
-      points.data(), k * CurvedGeometry::Chain, (k + 1) * CurvedGeometry::Chain, b.data());
+    geometry.Solve(points.data(), k * CurvedMembraneSolver::Chain,
+      (k + 1) * CurvedMembraneSolver::Chain, b.data());
   }
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -397,10 +397,10 @@ TEST(RefractionCurved, ResultsDoNotDependOnTheRanges)
 TEST(RefractionCurved, ADeformedMembraneIsAsGoodAsANewOne)
 {
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  CurvedGeometry moved;
+  CurvedMembraneSolver moved;
   Set(moved, meniscus::reference::MakeWaves(200.0, 24, 1.0, 2.0), eye);
   Set(moved, meniscus::reference::MakeWaves(200.0, 24, 4.0, 3.0), eye);
-  CurvedGeometry fresh;
+  CurvedMembraneSolver fresh;
   Set(fresh, meniscus::reference::MakeWaves(200.0, 24, 4.0, 3.0), eye);
   Random random(97);
   std::vector<VirtualVertex> a;
@@ -421,7 +421,7 @@ TEST(RefractionCurved, ADeformedMembraneIsAsGoodAsANewOne)
 //------------------------------------------------------------------------------
 TEST(RefractionCurved, EqualIndicesAreTheIdentity)
 {
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(
     geometry, meniscus::reference::MakeWaves(200.0, 24, 3.0, 2.0), { 20.0, 300.0, 10.0 }, 1.5, 1.5);
   Random random(101);
@@ -440,7 +440,7 @@ TEST(RefractionCurved, OffsetsAndScalesDoNotMatter)
 {
   const MembraneMesh mesh = meniscus::reference::MakeWaves(200.0, 16, 3.0, 2.0);
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  CurvedGeometry here;
+  CurvedMembraneSolver here;
   Set(here, mesh, eye);
   for (const double scale : { 0x1p-20, 1.0, 0x1p20 })
   {
@@ -453,7 +453,7 @@ TEST(RefractionCurved, OffsetsAndScalesDoNotMatter)
         x *= scale;
       }
       other.Translate(offset);
-      CurvedGeometry there;
+      CurvedMembraneSolver there;
       Set(there, other, scale * eye + offset);
       Random random(103);
       for (int i = 0; i < 200; ++i)
@@ -472,7 +472,7 @@ TEST(RefractionCurved, OffsetsAndScalesDoNotMatter)
 //------------------------------------------------------------------------------
 TEST(RefractionCurved, BadPointsAndEyes)
 {
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
   Set(geometry, mesh, { 0.0, 100.0, 0.0 });
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -489,7 +489,7 @@ TEST(RefractionCurved, BadPointsAndEyes)
   EXPECT_EQ(geometry.SetEye({ 7.0, 1.0, 3.0 }, 1.0, -1.3), EyeStatus::BadIndex);
   EXPECT_EQ(geometry.SetEye({ 7.0, -50.0, 3.0 }, 1.0, 1.3), EyeStatus::Ready);
   EXPECT_EQ(SolveOne(geometry, { 0.0, -10.0, 0.0 }).state, ImageState::NoImage); // from behind
-  CurvedGeometry empty;
+  CurvedMembraneSolver empty;
   EXPECT_EQ(empty.SetMembrane(meniscus::MembraneInput()), MembraneStatus::Empty);
 }
 

@@ -3,7 +3,7 @@
 // Virtual vertices against closed forms, and the tree against a loop over all facets.
 #include "AnalyticMembrane.h"
 #include "MembraneMeshes.h"
-#include "Refraction/VirtualGeometry.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
 #include "RefractionTestRandom.h"
 
 #include <glm/geometric.hpp>
@@ -16,18 +16,18 @@ namespace
 {
 
 using meniscus::EyeStatus;
+using meniscus::FlatMembraneSolver;
 using meniscus::ImageState;
 using meniscus::MembraneStatus;
-using meniscus::VirtualGeometry;
 using meniscus::VirtualVertex;
 using meniscus::reference::AnalyticMembrane;
 using meniscus::reference::MembraneMesh;
 using meniscus::testing::Random;
 
-VirtualGeometry Make(
+FlatMembraneSolver Make(
   const MembraneMesh& mesh, const glm::dvec3& eye, double exterior, double interior)
 {
-  VirtualGeometry geometry;
+  FlatMembraneSolver geometry;
   EXPECT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
   EXPECT_EQ(geometry.SetEye(eye, exterior, interior), EyeStatus::Ready);
   return geometry;
@@ -47,7 +47,7 @@ TEST(RefractionGeometry, IsExactOnTheRaysOfTheVertices)
 {
   const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
   const glm::dvec3 eye(13.0, 310.0, -7.0);
-  const VirtualGeometry geometry = Make(mesh, eye, 1.0, 1.333);
+  const FlatMembraneSolver geometry = Make(mesh, eye, 1.0, 1.333);
   const AnalyticMembrane exact{ 0.0, 1.0, 1.333 };
   for (std::size_t v = 20; v < 60; v += 3)
   {
@@ -78,7 +78,7 @@ TEST(RefractionGeometry, PlanarSightPointsConvergeToTheClosedForm)
   double coarse = 0.0;
   for (const int cells : { 8, 16, 32 })
   {
-    const VirtualGeometry geometry =
+    const FlatMembraneSolver geometry =
       Make(meniscus::reference::MakeSquare(200.0, cells, 0.0), eye, 1.0, 1.333);
     Random random(7);
     double worst = 0.0;
@@ -111,7 +111,7 @@ TEST(RefractionGeometry, SphericalSightPointsConvergeToTheOracle)
   double coarse = 0.0;
   for (const int cells : { 8, 16, 32 })
   {
-    const VirtualGeometry geometry =
+    const FlatMembraneSolver geometry =
       Make(meniscus::reference::MakeSquare(200.0, cells, radius), eye, 1.0, 1.51);
     Random random(11);
     double worst = 0.0;
@@ -136,7 +136,7 @@ TEST(RefractionGeometry, EqualIndicesAreTheIdentityOnVertexRays)
 {
   const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
   const glm::dvec3 eye(5.0, 200.0, 9.0);
-  const VirtualGeometry geometry = Make(mesh, eye, 1.333, 1.333);
+  const FlatMembraneSolver geometry = Make(mesh, eye, 1.333, 1.333);
   for (std::size_t v = 0; v < 81; ++v)
   {
     const glm::dvec3 s(mesh.points[3 * v], mesh.points[3 * v + 1], mesh.points[3 * v + 2]);
@@ -183,7 +183,7 @@ TEST(RefractionGeometry, TreeAgreesWithBruteForce)
 {
   for (const BruteForceCase& test : MakeBruteForceCases())
   {
-    const VirtualGeometry geometry = Make(test.mesh, test.eye, test.exterior, test.interior);
+    const FlatMembraneSolver geometry = Make(test.mesh, test.eye, test.exterior, test.interior);
     Random random(23);
     int found = 0;
     int mirrored = 0;
@@ -219,7 +219,7 @@ TEST(RefractionGeometry, TreeAgreesOnPointsMadeForWallsAndVertices)
 {
   const MembraneMesh mesh = meniscus::reference::MakeRandom(200.0, 16, 3.0, 0.3, 31);
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  const VirtualGeometry geometry = Make(mesh, eye, 1.0, 1.333);
+  const FlatMembraneSolver geometry = Make(mesh, eye, 1.0, 1.333);
   Random random(37);
   int found = 0;
   for (int i = 0; i < 3000; ++i)
@@ -262,7 +262,7 @@ TEST(RefractionGeometry, FirstFacetOfSeveralWins)
   {
     mesh.triangles.push_back(id + 25);
   }
-  const VirtualGeometry geometry = Make(mesh, { 3.0, 300.0, 4.0 }, 1.0, 1.333);
+  const FlatMembraneSolver geometry = Make(mesh, { 3.0, 300.0, 4.0 }, 1.0, 1.333);
   Random random(41);
   for (int i = 0; i < 500; ++i)
   {
@@ -289,8 +289,8 @@ TEST(RefractionGeometry, OffsetCoordinatesCostNothing)
   MembraneMesh moved = mesh;
   moved.Translate(offset);
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  const VirtualGeometry here = Make(mesh, eye, 1.0, 1.333);
-  const VirtualGeometry there = Make(moved, eye + offset, 1.0, 1.333);
+  const FlatMembraneSolver here = Make(mesh, eye, 1.0, 1.333);
+  const FlatMembraneSolver there = Make(moved, eye + offset, 1.0, 1.333);
   Random random(43);
   for (int i = 0; i < 1000; ++i)
   {
@@ -310,7 +310,7 @@ TEST(RefractionGeometry, ScalesDoNotMatter)
 {
   const MembraneMesh mesh = meniscus::reference::MakeWaves(200.0, 8, 3.0, 2.0);
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  const VirtualGeometry geometry = Make(mesh, eye, 1.0, 1.333);
+  const FlatMembraneSolver geometry = Make(mesh, eye, 1.0, 1.333);
   for (const double scale : { 0x1p-60, 0x1p-20, 0x1p20, 0x1p60 })
   {
     MembraneMesh scaled = mesh;
@@ -318,7 +318,7 @@ TEST(RefractionGeometry, ScalesDoNotMatter)
     {
       x *= scale;
     }
-    const VirtualGeometry other = Make(scaled, scale * eye, 1.0, 1.333);
+    const FlatMembraneSolver other = Make(scaled, scale * eye, 1.0, 1.333);
     Random random(47);
     for (int i = 0; i < 300; ++i)
     {
@@ -343,7 +343,7 @@ TEST(RefractionGeometry, PointsCloseToTheMembraneKeepTheirImage)
     for (const int cells : { 8, 16, 32 })
     {
       const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, cells, 0.0);
-      const VirtualGeometry geometry = Make(mesh, { 150.0, 60.0, 10.0 }, 1.0, 1.333);
+      const FlatMembraneSolver geometry = Make(mesh, { 150.0, 60.0, 10.0 }, 1.0, 1.333);
       Random random(53);
       int lost = 0;
       double worst = 0.0;
@@ -365,7 +365,7 @@ TEST(RefractionGeometry, PointsCloseToTheMembraneKeepTheirImage)
 TEST(RefractionGeometry, PointsInFrontHaveNoImage)
 {
   const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
-  const VirtualGeometry geometry = Make(mesh, { 15.0, 260.0, 10.0 }, 1.0, 1.333);
+  const FlatMembraneSolver geometry = Make(mesh, { 15.0, 260.0, 10.0 }, 1.0, 1.333);
   Random random(59);
   for (int i = 0; i < 300; ++i)
   {
@@ -380,7 +380,7 @@ TEST(RefractionGeometry, PointsInFrontHaveNoImage)
 //------------------------------------------------------------------------------
 TEST(RefractionGeometry, PointsThatAreNotFiniteSaySo)
 {
-  const VirtualGeometry geometry =
+  const FlatMembraneSolver geometry =
     Make(meniscus::reference::MakeSquare(200.0, 8, 0.0), { 0.0, 100.0, 0.0 }, 1.0, 1.333);
   const double bad[] = { std::numeric_limits<double>::quiet_NaN(),
     std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 1e300 };
@@ -400,7 +400,7 @@ TEST(RefractionGeometry, RefusesBadEyesAndIndices)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
-  VirtualGeometry geometry;
+  FlatMembraneSolver geometry;
   const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
   ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
   const glm::dvec3 eye(0.0, 100.0, 0.0);
@@ -421,7 +421,7 @@ TEST(RefractionGeometry, RefusesBadEyesAndIndices)
 
 TEST(RefractionGeometry, EmptyMembraneHasNoImages)
 {
-  VirtualGeometry geometry;
+  FlatMembraneSolver geometry;
   EXPECT_EQ(geometry.SetMembrane(meniscus::MembraneInput()), MembraneStatus::Empty);
   EXPECT_EQ(geometry.SetEye({ 0.0, 1.0, 0.0 }, 1.0, 1.3), EyeStatus::Ready);
   EXPECT_NE(geometry.SolvePoint({ 0.0, -1.0, 0.0 }).state, ImageState::Found);
@@ -432,8 +432,8 @@ TEST(RefractionGeometry, ResultsDoNotDependOnTheRanges)
 {
   const MembraneMesh mesh = meniscus::reference::MakeWaves(200.0, 20, 8.0, 3.0);
   const glm::dvec3 eye(20.0, 300.0, 10.0);
-  const VirtualGeometry serial = Make(mesh, eye, 1.0, 1.333);
-  VirtualGeometry chopped;
+  const FlatMembraneSolver serial = Make(mesh, eye, 1.0, 1.333);
+  FlatMembraneSolver chopped;
   chopped.SetMembrane(mesh.AsInput());
   // Backwards in ranges of seven.
   const auto loop = [](std::size_t count, const meniscus::RangeBody& body)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a membrane accepts, what it skips and counts, and the normals that it computes.
 #include "MembraneMeshes.h"
-#include "Refraction/Membrane.h"
+#include "Refraction/Membrane/Membrane.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -193,7 +193,7 @@ TEST(RefractionMembrane, FacetsThatCancelOutTakeTheFirstNormal)
   EXPECT_EQ(membrane.GetNormals()[0], glm::dvec3(0.0, 1.0, 0.0));
 }
 
-meniscus::ForeignNormals ForeignNormalsOf(const MembraneMesh& mesh)
+meniscus::MismatchedNormals GetMismatchedNormals(const MembraneMesh& mesh)
 {
   Membrane membrane;
   EXPECT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
@@ -206,11 +206,11 @@ TEST(RefractionMembrane, TheSurfacesOwnNormalsAreNotForeign)
   {
     for (const double radius : { 0.0, 1.0, 30.0 })
     {
-      const auto found = ForeignNormalsOf(meniscus::reference::MakeSquare(1.0, cells, radius));
+      const auto found = GetMismatchedNormals(meniscus::reference::MakeSquare(1.0, cells, radius));
       EXPECT_GT(found.examined, 0u);
       EXPECT_EQ(found.foreign, 0u) << cells << " cells, radius " << radius;
     }
-    const auto found = ForeignNormalsOf(meniscus::reference::MakeWaves(1.0, cells, 0.03, 3.0));
+    const auto found = GetMismatchedNormals(meniscus::reference::MakeWaves(1.0, cells, 0.03, 3.0));
     EXPECT_FALSE(found.AreMost()) << found.foreign << " of " << found.examined;
   }
   // In single precision, far from the origin.
@@ -225,7 +225,7 @@ TEST(RefractionMembrane, TheSurfacesOwnNormalsAreNotForeign)
         value = static_cast<double>(static_cast<float>(value));
       }
     }
-    EXPECT_FALSE(ForeignNormalsOf(far).AreMost()) << offset;
+    EXPECT_FALSE(GetMismatchedNormals(far).AreMost()) << offset;
   }
 }
 
@@ -236,7 +236,7 @@ TEST(RefractionMembrane, NormalsOfAPlaneAreForeignToWaves)
   {
     MembraneMesh waves = meniscus::reference::MakeWaves(1.0, cells, 0.03, 3.0);
     waves.normals = meniscus::reference::MakeSquare(1.0, cells, 0.0).normals;
-    const auto found = ForeignNormalsOf(waves);
+    const auto found = GetMismatchedNormals(waves);
     EXPECT_TRUE(found.AreMost()) << found.foreign << " of " << found.examined << ", " << cells;
     EXPECT_GT(found.examined, 16u);
     EXPECT_LT(found.examined, 128u);

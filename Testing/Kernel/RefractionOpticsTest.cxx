@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Snell's law, its extrapolations and Fresnel's equations against closed forms.
-#include "Refraction/Optics.h"
+#include "Refraction/Membrane/Optics.h"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(RefractionOptics, ObeysSnellsLaw)
   }
 }
 
-TEST(RefractionOptics, EqualIndicesDoNotBend)
+TEST(RefractionOptics, EqualIndicesDoNotRefract)
 {
   const auto ray = ComputeRefractionRay(Sight(0.7), Up, 1.0);
   EXPECT_NEAR(glm::length(ray.direction - Sight(0.7)), 0.0, Rounding);

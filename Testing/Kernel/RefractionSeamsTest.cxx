@@ -3,8 +3,8 @@
 // Pieces of images: within their cells, and without cracks between them.
 #include "HeightField.h"
 #include "MembraneMeshes.h"
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/ObjectImages.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Images/ObjectImages.h"
 #include "RefractionTestRandom.h"
 
 #include <glm/geometric.hpp>
@@ -21,7 +21,7 @@
 namespace
 {
 
-using meniscus::CurvedGeometry;
+using meniscus::CurvedMembraneSolver;
 using meniscus::ImageMesh;
 using meniscus::ImagePoint;
 using meniscus::ObjectImages;
@@ -90,7 +90,7 @@ struct Drawn
   meniscus::CellReport report;
 };
 
-Drawn Draw(CurvedGeometry& geometry, const Object& object, double tolerance)
+Drawn Draw(CurvedMembraneSolver& geometry, const Object& object, double tolerance)
 {
   geometry.PrepareField();
   geometry.PrepareSides();
@@ -129,8 +129,8 @@ void VisitSides(const ImageMesh& mesh, const std::vector<ImagePoint>& points, co
 }
 
 /// Whether the membrane shows a point of the object at a sight point.
-bool HasImage(
-  const CurvedGeometry& geometry, const glm::dvec3& point, const glm::dvec3& sight, double distance)
+bool HasImage(const CurvedMembraneSolver& geometry, const glm::dvec3& point,
+  const glm::dvec3& sight, double distance)
 {
   std::vector<VirtualVertex> images;
   geometry.FindImages(point, images);
@@ -141,7 +141,7 @@ bool HasImage(
 
 /// Whether a piece ends here at a caustic: it draws a corner of the object where that has no image.
 bool IsBeyondCaustic(
-  const CurvedGeometry& geometry, const Object& object, double size, const ImagePoint& point)
+  const CurvedMembraneSolver& geometry, const Object& object, double size, const ImagePoint& point)
 {
   return point.GetSource() >= 0 && point.vertex.facet >= 0 &&
     !HasImage(geometry, object.points[static_cast<std::size_t>(point.GetSource())],
@@ -227,7 +227,7 @@ class RefractionSeams : public ::testing::TestWithParam<int>
 TEST_P(RefractionSeams, PiecesOfABallHaveNoBorder)
 {
   const SeamScene scene = MakeScene(GetParam());
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   ASSERT_EQ(geometry.SetMembrane(scene.field.MakeMesh(scene.cells).AsInput()),
     meniscus::MembraneStatus::Ready);
   ASSERT_EQ(geometry.SetEye(scene.eye, scene.field.exterior, scene.field.interior),
@@ -252,7 +252,7 @@ TEST_P(RefractionSeams, PiecesOfABallHaveNoBorder)
 TEST_P(RefractionSeams, CornersAreImagesOfPlacesInTheirCells)
 {
   const SeamScene scene = MakeScene(GetParam());
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   geometry.SetMembrane(scene.field.MakeMesh(scene.cells).AsInput());
   geometry.SetEye(scene.eye, scene.field.exterior, scene.field.interior);
   const Drawn drawn = Draw(geometry, scene.ball, 0.005 * Pi / 180.0);
@@ -298,7 +298,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(RefractionSeamsCost, TrianglesThatPierceTheMembraneAreNotShredded)
 {
   const HeightField field{ HeightField::Shape::Waves, 400.0, 0.5, 0.03 * Pi, 1.0, 1.333 };
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   geometry.SetMembrane(field.MakeMesh(64).AsInput());
   geometry.SetEye({ 20.0, 300.0, 10.0 }, field.exterior, field.interior);
   const Object ball = MakeBall({ 3.1, -1.7, 1.7 }, 31.7, 48);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The side of a membrane that a point is on, against analytic surfaces.
 #include "MembraneMeshes.h"
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/PatchCrossings.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Curved/PatchCrossings.h"
 #include "RefractionTestRandom.h"
 
 #include <glm/geometric.hpp>
@@ -16,7 +16,7 @@
 namespace
 {
 
-using meniscus::CurvedGeometry;
+using meniscus::CurvedMembraneSolver;
 using meniscus::CurvedPatch;
 using meniscus::HeightFrame;
 using meniscus::MembraneStatus;
@@ -161,19 +161,19 @@ glm::dvec3 GetDirection(Random& random)
   return glm::normalize(v);
 }
 
-void Set(CurvedGeometry& geometry, const MembraneMesh& mesh)
+void Set(CurvedMembraneSolver& geometry, const MembraneMesh& mesh)
 {
   ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
   geometry.PrepareSides();
 }
 
-bool IsInFront(const CurvedGeometry& geometry, const glm::dvec3& point)
+bool IsInFront(const CurvedMembraneSolver& geometry, const glm::dvec3& point)
 {
   return geometry.IsInFront(point - geometry.GetMembrane().GetOrigin());
 }
 
 // Points that `make` draws and that are not in front, or are, as `front` says.
-int CountWrong(const CurvedGeometry& geometry, bool front,
+int CountWrong(const CurvedMembraneSolver& geometry, bool front,
   const std::function<glm::dvec3(Random&)>& make, unsigned seed, int points = Points)
 {
   Random random(seed);
@@ -192,7 +192,7 @@ TEST(RefractionSide, OfClosedSpheres)
   {
     for (const double side : { 1.0, -1.0 })
     {
-      CurvedGeometry geometry;
+      CurvedMembraneSolver geometry;
       Set(geometry, MakeSphere(resolution, side));
       ASSERT_TRUE(geometry.IsClosed());
       const auto at = [](double least, double most)
@@ -216,7 +216,7 @@ TEST(RefractionSide, OfClosedSpheres)
 }
 
 // The farthest that patches are from the paraboloid, in height, where they are asked for.
-double MeasureError(const CurvedGeometry& geometry, double sign)
+double MeasureError(const CurvedMembraneSolver& geometry, double sign)
 {
   double error = 0.0;
   for (std::size_t i = 0; i < geometry.GetMembrane().GetFacets().size(); ++i)
@@ -243,7 +243,7 @@ TEST(RefractionSide, OfSteepBowlsAndDomes)
     {
       for (const double sign : { 1.0, -1.0 })
       {
-        CurvedGeometry geometry;
+        CurvedMembraneSolver geometry;
         Set(geometry, MakeParaboloid(rings, steepest, sign));
         // Twice what was sampled; the rim's chords are within 1 - cos(pi / 48) of it.
         const double error = 2.0 * MeasureError(geometry, sign);
@@ -276,7 +276,7 @@ TEST(RefractionSide, OfCylinders)
     const auto turn = [isTurned](const glm::dvec3& v) { return isTurned ? Turn(v) : v; };
     for (const bool isCup : { false, true })
     {
-      CurvedGeometry geometry;
+      CurvedMembraneSolver geometry;
       // The front of the cup is its inside.
       const double side = isCup ? -1.0 : 1.0;
       Set(geometry, Transform(MakeCylinder(20, 60, side, isCup), turn, { 1e3, 2e3, -3e3 }));
@@ -310,7 +310,7 @@ TEST(RefractionSide, OfPointsInLineWithVerticesAndWalls)
 {
   // Walls of the cup, and points over, under and inside of them.
   const MembraneMesh cup = MakeCylinder(9, 16, -1.0, true);
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(geometry, cup);
   for (int i = 0; i < 16; ++i)
   {
@@ -326,7 +326,7 @@ TEST(RefractionSide, OfPointsInLineWithVerticesAndWalls)
     }
   }
   // A sphere whose poles and meridians are in line with its axis, whatever that is.
-  CurvedGeometry sphere;
+  CurvedMembraneSolver sphere;
   const glm::dvec3 axis(std::sqrt(1.0 / 6.0), std::sqrt(1.0 / 3.0), std::sqrt(0.5));
   const HeightFrame frame(axis);
   Set(sphere,
@@ -360,7 +360,7 @@ TEST(RefractionSide, FindsAllCrossingsOfAPatch)
   Random random(11);
   const CurvedPatch sphere = []
   {
-    CurvedGeometry geometry;
+    CurvedMembraneSolver geometry;
     EXPECT_EQ(geometry.SetMembrane(MakeSphere(8, 1.0).AsInput()), MembraneStatus::Ready);
     return geometry.GetPatches().GetPatch(12);
   }();
@@ -426,7 +426,7 @@ TEST(RefractionSide, OfAnEyeOnAPatch)
     meniscus::reference::MakeRandom(8.0, 8, 1.5, 1.2, 13), MakeCylinder(4, 6, 1.0, false) };
   for (const MembraneMesh& mesh : meshes)
   {
-    CurvedGeometry geometry;
+    CurvedMembraneSolver geometry;
     ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
     int found = 0;
     int false_alarms = 0;

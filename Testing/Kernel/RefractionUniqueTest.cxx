@@ -3,10 +3,10 @@
 // Where points have one image at most, against a search for all of them; cells divided there.
 #include "HeightField.h"
 #include "MembraneMeshes.h"
-#include "Refraction/CellDivision.h"
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/HeightField.h"
-#include "Refraction/UniqueImages.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Curved/InjectivityGrid.h"
+#include "Refraction/Images/EdgeSubdivision.h"
+#include "Refraction/Membrane/HeightField.h"
 #include "RefractionTestRandom.h"
 
 #include <gtest/gtest.h>
@@ -19,14 +19,14 @@
 namespace
 {
 
-using meniscus::CellDivision;
-using meniscus::CurvedGeometry;
+using meniscus::CurvedMembraneSolver;
+using meniscus::EdgeSubdivision;
 using meniscus::EyeStatus;
 using meniscus::ImagedPoint;
 using meniscus::ImageMesh;
 using meniscus::ImageState;
+using meniscus::InjectivityGrid;
 using meniscus::MembraneStatus;
-using meniscus::UniqueImages;
 using meniscus::VirtualVertex;
 using meniscus::reference::HeightField;
 using meniscus::reference::MembraneMesh;
@@ -34,16 +34,16 @@ using meniscus::testing::Random;
 
 constexpr double Pi = 3.14159265358979323846;
 
-void Set(CurvedGeometry& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
+void Set(CurvedMembraneSolver& geometry, const MembraneMesh& mesh, const glm::dvec3& eye,
   double interior = 1.333)
 {
   ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
   ASSERT_EQ(geometry.SetEye(eye, 1.0, interior), EyeStatus::Ready);
 }
 
-UniqueImages Build(const CurvedGeometry& geometry, double low, double high)
+InjectivityGrid Build(const CurvedMembraneSolver& geometry, double low, double high)
 {
-  UniqueImages unique;
+  InjectivityGrid unique;
   unique.Build(geometry.GetMembrane(), geometry.GetPatches(), geometry.GetFrame(),
     geometry.GetLargestBulge(), geometry.GetMedia(), low, high, meniscus::SerialLoop);
   return unique;
@@ -82,12 +82,12 @@ class RefractionUnique : public testing::TestWithParam<UniqueCase>
 TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
 {
   const UniqueCase& test = GetParam();
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(geometry, test.field.MakeMesh(test.cells), test.eye, test.field.interior);
   geometry.PrepareField();
   ASSERT_TRUE(geometry.HasConvexField());
   const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
-  const UniqueImages unique = Build(geometry, -test.depth - origin.y, -40.0 - origin.y);
+  const InjectivityGrid unique = Build(geometry, -test.depth - origin.y, -40.0 - origin.y);
   Random random(5);
   std::vector<VirtualVertex> found;
   int boxes = 0;
@@ -116,15 +116,15 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, testing::ValuesIn(Cases));
 //------------------------------------------------------------------------------
 TEST(RefractionUnique, HeightsOutOfRangeAreNotTold)
 {
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(geometry, Cases[0].field.MakeMesh(8), Cases[0].eye);
-  const UniqueImages unique = Build(geometry, -100.0, -50.0);
+  const InjectivityGrid unique = Build(geometry, -100.0, -50.0);
   EXPECT_TRUE(unique.HoldsAtMostOne({ 0.0, -100.0, 0.0 }, { 1.0, -50.0, 1.0 }));
   EXPECT_FALSE(unique.HoldsAtMostOne({ 0.0, -101.0, 0.0 }, { 1.0, -60.0, 1.0 }));
   EXPECT_FALSE(unique.HoldsAtMostOne({ 0.0, -60.0, 0.0 }, { 1.0, -49.0, 1.0 }));
   const double nan = std::nan("");
   EXPECT_FALSE(unique.HoldsAtMostOne(glm::dvec3(nan), glm::dvec3(nan)));
-  EXPECT_FALSE(UniqueImages().HoldsAtMostOne(glm::dvec3(0.0), glm::dvec3(0.0)));
+  EXPECT_FALSE(InjectivityGrid().HoldsAtMostOne(glm::dvec3(0.0), glm::dvec3(0.0)));
 }
 
 //------------------------------------------------------------------------------
@@ -161,7 +161,7 @@ MembraneMesh MakeSheet(int cells, const std::function<glm::dvec3(int, int)>& poi
 
 bool IsConvex(const MembraneMesh& mesh)
 {
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   EXPECT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
   EXPECT_FALSE(geometry.HasConvexField()); // not found out yet
   geometry.PrepareField();
@@ -201,7 +201,7 @@ TEST(RefractionHeightField, OnlyAConvexSheetWithoutHolesIsOne)
 TEST(RefractionDivision, TrianglesAreStraightAndTile)
 {
   const UniqueCase& test = Cases[1];
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(geometry, test.field.MakeMesh(test.cells), test.eye);
   constexpr double tolerance = 1e-4;
   const glm::dvec3 points[4] = { { -50.0, -90.0, -50.0 }, { 50.0, -90.0, -50.0 },
@@ -214,7 +214,7 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
     ASSERT_EQ(vertices[i].state, ImageState::Found);
     corners[i] = { static_cast<std::int64_t>(i), points[i], &vertices[i] };
   }
-  CellDivision division(geometry, tolerance);
+  EdgeSubdivision division(geometry, tolerance);
   ImageMesh images;
   ASSERT_TRUE(division.AddTriangle({ corners[0], corners[1], corners[2] }, 7, images));
   ASSERT_TRUE(division.AddTriangle({ corners[0], corners[2], corners[3] }, 7, images));
@@ -278,7 +278,7 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
 TEST(RefractionDivision, NothingIsAddedWhereAnImageIsMissing)
 {
   const UniqueCase& test = Cases[0];
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   Set(geometry,
     MakeSheet(
       20, [](int i, int j) { return glm::dvec3(i - 10.0, 0.0, j - 10.0); },
@@ -289,7 +289,7 @@ TEST(RefractionDivision, NothingIsAddedWhereAnImageIsMissing)
   geometry.Solve(&points[0].x, 0, 2, vertices.data());
   ASSERT_EQ(vertices[0].state, ImageState::Found);
   ASSERT_EQ(vertices[1].state, ImageState::Found);
-  CellDivision division(geometry, 1e-4);
+  EdgeSubdivision division(geometry, 1e-4);
   ImageMesh images;
   EXPECT_FALSE(
     division.AddLine({ 0, points[0], &vertices[0] }, { 1, points[1], &vertices[1] }, 0, images));

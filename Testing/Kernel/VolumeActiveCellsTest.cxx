@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Which cells rays visit, counted by a plain search over cells and neighbours.
-#include "Volume/VisibleScalars.h"
+#include "Simd/InstructionSets.h"
+#include "Volume/Optics/VisibleScalars.h"
 #include "VolumeTestMeshes.h"
 #include "VolumeTestPicture.h"
 

@@ -3,10 +3,14 @@
 // Rays that bend at a membrane inside the mesh, by the kernel alone.
 #include "VolumeTestMeshes.h"
 
-#include "Refraction/CurvedPatches.h"
-#include "Refraction/Membrane.h"
-#include "Volume/BentLines.h"
-#include "Volume/TileCaster.h"
+#include "Refraction/Membrane/CurvedPatches.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Simd/InstructionSets.h"
+#include "Volume/Caster/PacketTables.h"
+#include "Volume/Caster/TileCaster.h"
+#include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Rays/PlacedVertices.h"
+#include "Volume/Refracted/RefractedRayTexels.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -25,10 +29,10 @@ namespace
 constexpr int Size = 64;
 
 /** A mesh seen along z, cut in the middle by a membrane that slopes by 1 / 4. */
-class BentPicture
+class RefractedPicture
 {
 public:
-  explicit BentPicture(const MeshArrays& mesh)
+  explicit RefractedPicture(const MeshArrays& mesh)
   {
     EXPECT_EQ(this->Mesh.Build(mesh.View()), MeshStatus::Ok);
     this->Tree.Build(this->Mesh);
@@ -43,10 +47,10 @@ public:
     this->Patches.Build(this->Surface, SerialLoop);
 
     const RayFrame frame = FrameAlongZ(this->Mesh, 0.7, Size);
-    this->Scene.Rays = PixelRays(frame, Size, Size);
+    this->Scene.Rays = FixedPointRays(frame, Size, Size);
     PlaceVertices(this->Mesh, this->Scalars, this->Scene.Rays, SerialLoop, this->Tables.Vertices);
     this->Tables.Intervals = PackIntervals(ConstantFunction(1.5));
-    const MembraneSight::View view{ frame, Size, Size, this->Mesh.GetCenter(), -50.0, 1.0, 1.5,
+    const RefractedRayField::View view{ frame, Size, Size, this->Mesh.GetCenter(), -50.0, 1.0, 1.5,
       BoxOf(this->Tree, frame) };
     this->Sight.Build(this->Surface, this->Patches, view);
     this->Frames.Turn(this->Sight, frame, SerialLoop);
@@ -54,12 +58,12 @@ public:
     this->Scene.Mesh = &this->Mesh;
     this->Scene.Boundary = &this->Mesh.GetBoundary();
     this->Scene.Tables = &this->Tables;
-    this->Scene.Bent = { &this->Sight, &this->Frames, &this->Tree, false };
+    this->Scene.Refracted = { &this->Sight, &this->Frames, &this->Tree, false };
   }
 
   std::vector<float> Cast(bool beginsInside, InstructionSet set, RayStatistics& sums)
   {
-    this->Scene.Bent.BeginsInside = beginsInside;
+    this->Scene.Refracted.BeginsInside = beginsInside;
     this->Scene.Set = set;
     std::vector<float> image(std::size_t{ 4 } * Size * Size, 0.0f);
     const TileCaster caster(this->Scene);
@@ -76,8 +80,8 @@ public:
   }
 
   TetrahedralMesh Mesh;
-  MembraneSight Sight;
-  BentFrames Frames;
+  RefractedRayField Sight;
+  RefractionFrames Frames;
 
 private:
   BoundaryTree Tree;
@@ -100,18 +104,13 @@ float LargestDifference(const std::vector<float>& a, const std::vector<float>& b
 
 }
 
-TEST(BentRays, BeginningInsideOrOnTheBoundaryIsTheSame)
+TEST(RefractedRays, BeginningInsideOrOnTheBoundaryIsTheSame)
 {
-  BentPicture picture(KuhnGrid(6));
+  RefractedPicture picture(KuhnGrid(6));
   ASSERT_TRUE(picture.Sight.IsSeen());
   EXPECT_FALSE(HasInvertedCells(picture.Mesh));
-  for (const InstructionSet set :
-    { InstructionSet::Portable, InstructionSet::AVX2, InstructionSet::AVX512 })
+  for (const InstructionSet set : GetInstructionSets())
   {
-    if (!HasInstructionSet(set))
-    {
-      continue;
-    }
     RayStatistics boundary;
     RayStatistics inside;
     const std::vector<float> a = picture.Cast(false, set, boundary);
@@ -124,11 +123,11 @@ TEST(BentRays, BeginningInsideOrOnTheBoundaryIsTheSame)
   }
 }
 
-TEST(BentRays, NoneIsLostInAMeshTurnedInsideOut)
+TEST(RefractedRays, NoneIsLostInAMeshTurnedInsideOut)
 {
   MeshArrays mesh = KuhnGrid(5);
   Jitter(mesh, 0.2, 7);
-  BentPicture picture(mesh);
+  RefractedPicture picture(mesh);
   EXPECT_TRUE(HasInvertedCells(picture.Mesh));
   for (const bool beginsInside : { false, true })
   {
@@ -140,35 +139,36 @@ TEST(BentRays, NoneIsLostInAMeshTurnedInsideOut)
   }
 }
 
-TEST(BentRays, LinesForShadersAreTheRays)
+TEST(RefractedRays, LinesForShadersAreTheRays)
 {
-  const BentPicture picture(KuhnGrid(6));
-  std::vector<BentLine> lines;
-  LayOutBentLines(picture.Sight, picture.Frames, SerialLoop, lines);
+  const RefractedPicture picture(KuhnGrid(6));
+  std::vector<RefractedRayLine> lines;
+  LayOutRefractedRays(picture.Sight, picture.Frames, SerialLoop, lines);
   ASSERT_EQ(lines.size(), std::size_t{ Size } * Size);
   const RayFrame& frame = picture.Sight.GetView().Frame;
-  constexpr int tileSize = MembraneSight::TileSize;
-  int bent = 0;
+  constexpr int tileSize = RefractedRayField::TileSize;
+  int refracted = 0;
   for (int pixel = 0; pixel < Size * Size; ++pixel)
   {
     const int column = pixel % Size;
     const int row = pixel / Size;
-    const BentLine& line = lines[static_cast<std::size_t>(pixel)];
-    const BentRay* tile =
+    const RefractedRayLine& line = lines[static_cast<std::size_t>(pixel)];
+    const RefractedRay* tile =
       picture.Sight.GetTile(row / tileSize * (Size / tileSize) + column / tileSize);
-    const BentRay ray = tile ? tile[row % tileSize * tileSize + column % tileSize] : BentRay();
+    const RefractedRay ray =
+      tile ? tile[row % tileSize * tileSize + column % tileSize] : RefractedRay();
     if (!ray.MeetsMembrane() || !ray.GoesOn())
     {
       EXPECT_EQ(line.PerDepth, 0.0f);
-      EXPECT_EQ(line.MembraneDepth == BentLine::Nowhere, !ray.MeetsMembrane());
+      EXPECT_EQ(line.MembraneDepth == RefractedRayLine::Nowhere, !ray.MeetsMembrane());
       continue;
     }
-    ++bent;
+    ++refracted;
     EXPECT_EQ(line.MembraneDepth, static_cast<float>(ray.Depth));
     // Offsets are rounded to grid units, and so are depths within the unit of the frame.
     const auto depthOf = [](std::int32_t grid, float depth)
-    { return std::abs(depth) < 1.0f ? PixelRays::DepthOf(grid) : double{ depth }; };
-    const BentFrame& turned = picture.Frames.Get(line.GetFrame());
+    { return std::abs(depth) < 1.0f ? FixedPointRays::DepthOf(grid) : double{ depth }; };
+    const RefractionFrame& turned = picture.Frames.Get(line.GetFrame());
     const double unit = turned.Rays.GetGridUnit();
     const double slopeUnit = unit * PacketVertex::GridPerDepth / 4294967296.0;
     const glm::dmat3 toView = glm::transpose(turned.FromView);
@@ -184,5 +184,5 @@ TEST(BentRays, LinesForShadersAreTheRays)
     EXPECT_LE(glm::length(place - glm::dvec3(across, ray.Depth)), 5.0 * precision) << pixel;
     EXPECT_LE(glm::length(double{ line.PerDepth } * along - ray.Step), 2e-7) << pixel;
   }
-  EXPECT_GT(bent, 1000);
+  EXPECT_GT(refracted, 1000);
 }

@@ -3,9 +3,11 @@
 // Lists of the faces that rays may enter by, for meshes of cells that share no points.
 #include "VolumeTestMeshes.h"
 
-#include "Volume/EntryRaster.h"
-#include "Volume/EntryTiles.h"
-#include "Volume/TileCaster.h"
+#include "Volume/Caster/TileCaster.h"
+#include "Volume/Entries/BoundaryRaster.h"
+#include "Volume/Entries/EntryTiles.h"
+#include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Rays/PlacedVertices.h"
 
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
@@ -70,22 +72,23 @@ struct ListCheck
 };
 
 /** Every entry that the native backend finds has to be in the list of its tile, not before it. */
-ListCheck CheckLists(const TetrahedralMesh& mesh, const EntryTiles& tiles, const PixelRays& rays)
+ListCheck CheckLists(
+  const TetrahedralMesh& mesh, const EntryTiles& tiles, const FixedPointRays& rays)
 {
   std::vector<PacketVertex> vertices;
   PlaceVertices(mesh, {}, rays, SerialLoop, vertices);
-  EntryRaster raster;
+  BoundaryRaster raster;
   raster.Build(vertices, mesh.GetBoundary(), rays);
   ListCheck check;
-  EntryRaster::Workspace workspace;
+  BoundaryRaster::Workspace workspace;
   for (int tile = 0; tile < raster.GetNumberOfTiles(); ++tile)
   {
     raster.CollectEntries(tile, workspace);
     const ProjectedFaces::PixelBox box = raster.BoxOfTile(tile);
-    for (int pixel = 0; pixel < EntryRaster::TileSize * EntryRaster::TileSize; ++pixel)
+    for (int pixel = 0; pixel < BoundaryRaster::TileSize * BoundaryRaster::TileSize; ++pixel)
     {
-      const int column = box.Left + pixel % EntryRaster::TileSize;
-      const int row = box.Bottom + pixel / EntryRaster::TileSize;
+      const int column = box.Left + pixel % BoundaryRaster::TileSize;
+      const int row = box.Bottom + pixel / BoundaryRaster::TileSize;
       const EntryLists& lists = workspace.Lists;
       for (std::int32_t e = lists.GetBegin(pixel); e < lists.GetBegin(pixel + 1); ++e)
       {
@@ -125,7 +128,7 @@ TEST(EntryTiles, HoldEveryEntryInTheOrderOfDepth)
       { { 0.9, 0.8, 1.1 }, 5.0 } };
     for (const auto& view : views)
     {
-      const PixelRays rays(FrameFrom(mesh, view.first, view.second), Pixels, Pixels);
+      const FixedPointRays rays(FrameFrom(mesh, view.first, view.second), Pixels, Pixels);
       EntryTiles tiles;
       ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), rays, TileSize));
       const ListCheck check = CheckLists(mesh, tiles, rays);
@@ -145,7 +148,7 @@ TEST(EntryTiles, AreFewFacesLongerThanTheEntriesOfTheirRays)
   // look at A + 2 t P / pi + t^2 = 1.9 A. Half as much again is for one direction and needles.
   TetrahedralMesh mesh;
   ASSERT_EQ(mesh.Build(Apart(KuhnGrid(8), 1.0).View()), MeshStatus::Ok);
-  const PixelRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 0.0), Pixels, Pixels);
+  const FixedPointRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 0.0), Pixels, Pixels);
   EntryTiles tiles;
   ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), rays, TileSize));
   const ListCheck check = CheckLists(mesh, tiles, rays);
@@ -157,7 +160,7 @@ TEST(EntryTiles, DoNotDependOnTheLoop)
 {
   TetrahedralMesh mesh;
   ASSERT_EQ(mesh.Build(Apart(KuhnGrid(7), 0.8).View()), MeshStatus::Ok);
-  const PixelRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 30.0), Pixels, Pixels);
+  const FixedPointRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 30.0), Pixels, Pixels);
   EntryTiles serial;
   EntryTiles other;
   ASSERT_TRUE(serial.Build(mesh, mesh.GetBoundary(), rays, TileSize));
@@ -190,7 +193,8 @@ TEST(EntryTiles, ExpectedLengthIsThatOfManyViews)
     const glm::dvec3 eye = glm::dvec3(0.5) + 3.0 * glm::normalize(direction);
     const RayFrame frame = FrameFrom(mesh, eye, 0.0);
     EntryTiles tiles;
-    ASSERT_TRUE(tiles.Build(mesh, mesh.GetBoundary(), PixelRays(frame, Pixels, Pixels), TileSize));
+    ASSERT_TRUE(
+      tiles.Build(mesh, mesh.GetBoundary(), FixedPointRays(frame, Pixels, Pixels), TileSize));
     for (std::size_t t = 0; t + 1 < tiles.GetBegins().size(); ++t)
     {
       const std::int32_t length = tiles.GetBegins()[t + 1] - tiles.GetBegins()[t];

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Volume/Packet/PacketIntegral.h"
-#include "Volume/Packet/SimdPortable.h"
-#include "Volume/TileCaster.h"
+#include "Simd/SimdPortable.h"
+#include "Volume/Caster/PacketTables.h"
+#include "Volume/Caster/TileCaster.h"
+#include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/CompositeModel.h"
 #include "VolumeTestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -76,7 +78,7 @@ private:
 
   static constexpr int Lane = 1;
   std::vector<PacketInterval> Intervals;
-  PacketIntegral<SimdPortable> Packet;
+  CompositeModel<SimdPortable> Packet;
 };
 
 std::vector<TransferFunctionInterval> Ramp(double t0, double t1, double c0, double c1)

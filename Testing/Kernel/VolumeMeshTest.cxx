@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeTestMeshes.h"
 
-#include "Volume/MortonOrder.h"
+#include "Common/MortonOrder.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the precision of normalised scalars is spent.
-#include "Volume/ScalarNormalization.h"
-#include "Volume/TransferFunction.h"
+#include "Volume/Optics/ScalarNormalization.h"
+#include "Volume/Optics/TransferFunction.h"
 
 #include <gtest/gtest.h>
 

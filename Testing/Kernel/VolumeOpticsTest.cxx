@@ -3,8 +3,8 @@
 // Clipping planes as rays see them, gradients at vertices.
 #include "VolumeTestMeshes.h"
 
-#include "Volume/ClippingPlanes.h"
-#include "Volume/ScalarGradients.h"
+#include "Volume/Mesh/ScalarGradients.h"
+#include "Volume/Rays/ClippingPlanes.h"
 
 #include <glm/geometric.hpp>
 

@@ -4,12 +4,15 @@
 #include "VolumeTestMeshes.h"
 #include "VolumeTestPicture.h"
 
-#include "Volume/Packet/PacketExponential.h"
-#include "Volume/Packet/PacketLights.h"
-#include "Volume/Packet/SimdPortable.h"
-#include "Volume/PreIntegration.h"
-#include "Volume/ScalarGradients.h"
-#include "Volume/SurfaceLighting.h"
+#include "Simd/InstructionSets.h"
+#include "Simd/PacketExponential.h"
+#include "Simd/SimdPortable.h"
+#include "Volume/Mesh/ScalarGradients.h"
+#include "Volume/Optics/PreIntegration.h"
+#include "Volume/Optics/SurfaceLighting.h"
+#include "Volume/Packet/Data/PacketOptics.h"
+#include "Volume/Packet/Models/PacketLights.h"
+#include "Volume/Packet/Models/PacketSegmentTable.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -141,21 +144,10 @@ std::vector<TransferFunctionInterval> Bumps(double shift)
 
 class PacketOpticsTest : public testing::TestWithParam<InstructionSet>
 {
-protected:
-  void SetUp() override
-  {
-    if (!HasInstructionSet(GetParam()))
-    {
-      GTEST_SKIP() << "this processor has no " << NameOf(GetParam());
-    }
-  }
 };
 
-INSTANTIATE_TEST_SUITE_P(Sets, PacketOpticsTest,
-  testing::Values(InstructionSet::Portable, InstructionSet::AVX2, InstructionSet::AVX512),
-  [](const testing::TestParamInfo<InstructionSet>& tested) {
-    return std::string(tested.param == InstructionSet::AVX512 ? "AVX512" : NameOf(tested.param));
-  });
+INSTANTIATE_TEST_SUITE_P(
+  Sets, PacketOpticsTest, testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 
@@ -360,8 +352,8 @@ TEST(PacketSegmentTable, LinearBetweenTheSamples)
   table.Build(Bumps(0.0), 2.0, 8, 6);
   ASSERT_EQ(table.GetNumberOfLengths(), 6);
   const PacketSegmentTable packed{ table.GetValues().data(), 8, 6,
-    static_cast<float>(1.0 / table.GetShortest()),
-    static_cast<float>(table.GetLengthsPerOctave()) };
+    static_cast<float>(1.0 / table.GetShortest()), static_cast<float>(table.GetLengthsPerOctave()),
+    0.0f, 1.0f };
   const auto scalarOf = [](double at) { return static_cast<float>(2.0 * at / 7.0 - 1.0); };
   const auto valueOf = [&table](int front, int back, int length, int i)
   { return table.GetValues()[4 * (8 * (8 * length + back) + front) + i]; };

@@ -3,7 +3,8 @@
 // Entries of the pre-integration table against the integral that they stand for.
 #include "VolumeTestMeshes.h"
 
-#include "Volume/PreIntegration.h"
+#include "Volume/Mesh/LongestEdge.h"
+#include "Volume/Optics/PreIntegration.h"
 
 #include <glm/common.hpp>
 

@@ -3,9 +3,10 @@
 // Where rays meet a membrane: what is left out, and instruction sets.
 #include "RefractionTestRandom.h"
 
-#include "Refraction/CurvedPatches.h"
-#include "Refraction/Membrane.h"
-#include "Volume/MembraneSight.h"
+#include "Refraction/Membrane/CurvedPatches.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Simd/InstructionSets.h"
+#include "Volume/Refracted/RefractedRayField.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -83,12 +84,12 @@ struct WorldBox
 };
 
 /** From an eye, or along parallel rays. */
-MembraneSight::View LookAt(
+RefractedRayField::View LookAt(
   const glm::dvec3& eye, const glm::dvec3& target, double width, bool parallel)
 {
   const glm::dvec3 depth = glm::normalize(target - eye);
   const glm::dvec3 right = glm::normalize(glm::cross(depth, glm::dvec3(0.1, 0.9, 0.2)));
-  MembraneSight::View view;
+  RefractedRayField::View view;
   view.Frame.ViewToWorld = glm::dmat3(right, glm::cross(depth, right), depth);
   AffinePixelMap& map = parallel ? view.Frame.Origin : view.Frame.Slope;
   const double step = (parallel ? width : width / glm::length(target - eye)) / Size;
@@ -101,7 +102,7 @@ MembraneSight::View LookAt(
   return view;
 }
 
-void SetMesh(MembraneSight::View& view, const WorldBox& box)
+void SetMesh(RefractedRayField::View& view, const WorldBox& box)
 {
   const glm::dmat3 toFrame = glm::transpose(view.Frame.ViewToWorld);
   view.Mesh.Center = toFrame * (box.Center - view.Center);
@@ -109,12 +110,12 @@ void SetMesh(MembraneSight::View& view, const WorldBox& box)
     toFrame * glm::dmat3(box.Half.x, 0.0, 0.0, 0.0, box.Half.y, 0.0, 0.0, 0.0, box.Half.z);
 }
 
-BentRay RayOf(const MembraneSight& sight, int column, int row)
+RefractedRay RayOf(const RefractedRayField& sight, int column, int row)
 {
-  constexpr int Columns = (Size + MembraneSight::TileSize - 1) / MembraneSight::TileSize;
-  constexpr int Side = MembraneSight::TileSize;
-  const BentRay* tile = sight.GetTile(row / Side * Columns + column / Side);
-  return tile ? tile[row % Side * Side + column % Side] : BentRay();
+  constexpr int Columns = (Size + RefractedRayField::TileSize - 1) / RefractedRayField::TileSize;
+  constexpr int Side = RefractedRayField::TileSize;
+  const RefractedRay* tile = sight.GetTile(row / Side * Columns + column / Side);
+  return tile ? tile[row % Side * Side + column % Side] : RefractedRay();
 }
 
 struct Counts
@@ -126,9 +127,9 @@ struct Counts
 
 /** Rays that come to the box, among all of a sight that leaves none out. */
 void Compare(
-  const MembraneSight& all, const MembraneSight& some, const WorldBox& box, Counts& counts)
+  const RefractedRayField& all, const RefractedRayField& some, const WorldBox& box, Counts& counts)
 {
-  const MembraneSight::View& view = all.GetView();
+  const RefractedRayField::View& view = all.GetView();
   const glm::dmat3& toWorld = view.Frame.ViewToWorld;
   for (int row = 0; row < Size; ++row)
   {
@@ -136,8 +137,8 @@ void Compare(
     {
       const double i = column + 0.5 - 0.5 * Size;
       const double j = row + 0.5 - 0.5 * Size;
-      const BentRay exact = RayOf(all, column, row);
-      const BentRay ray = RayOf(some, column, row);
+      const RefractedRay exact = RayOf(all, column, row);
+      const RefractedRay ray = RayOf(some, column, row);
       const bool same = exact.Depth == ray.Depth && exact.Step == ray.Step;
       const glm::dvec3 start = view.Center + toWorld * glm::dvec3(view.Frame.Origin.At(i, j), 0.0);
       const glm::dvec3 along = toWorld * glm::dvec3(view.Frame.Slope.At(i, j), 1.0);
@@ -162,7 +163,7 @@ const std::function<double(double, double)> Shapes[] = { [](double, double) { re
 
 }
 
-TEST(MembraneSight, LeavesOutOnlyRaysThatDoNotComeToTheMesh)
+TEST(RefractedRayField, LeavesOutOnlyRaysThatDoNotComeToTheMesh)
 {
   Random random(11);
   Counts counts;
@@ -177,14 +178,14 @@ TEST(MembraneSight, LeavesOutOnlyRaysThatDoNotComeToTheMesh)
         const glm::dvec3 eye(random(-2.0, 2.0), random(-2.0, 2.0), side * random(0.2, 3.0));
         const glm::dvec3 target =
           random.Point(glm::dvec3(-0.8, -0.8, -0.1), glm::dvec3(0.8, 0.8, 0.1));
-        MembraneSight::View looking = LookAt(eye, target, random(0.5, 3.0), view % 3 == 0);
+        RefractedRayField::View looking = LookAt(eye, target, random(0.5, 3.0), view % 3 == 0);
         const WorldBox box{ random.Point(glm::dvec3(-1.0, -1.0, -1.0), glm::dvec3(1.0, 1.0, 0.5)),
           random.Point(glm::dvec3(0.05), glm::dvec3(0.5)) };
         SetMesh(looking, { glm::dvec3(0.0), glm::dvec3(1e3) });
-        MembraneSight all;
+        RefractedRayField all;
         all.Build(sheet.Surface, sheet.Patches, looking);
         SetMesh(looking, box);
-        MembraneSight some;
+        RefractedRayField some;
         some.Build(sheet.Surface, sheet.Patches, looking);
         Compare(all, some, box, counts);
         ASSERT_EQ(counts.Wrong, 0) << cells << " cells, view " << view;
@@ -234,7 +235,7 @@ void BuildSphere(int resolution, Membrane& surface, CurvedPatches& patches)
  * Every ray meets a coarse sphere where the sphere itself is met, its outline included, where a ray
  * meets one patch twice and Newton's method goes astray.
  */
-TEST(MembraneSight, MeetsSpheresAtTheirOutlines)
+TEST(RefractedRayField, MeetsSpheresAtTheirOutlines)
 {
   Random random(31);
   int met = 0;
@@ -250,10 +251,10 @@ TEST(MembraneSight, MeetsSpheresAtTheirOutlines)
       const double distance = i % 4 == 3 ? 0.7 : random(1.2, 5.0);
       const glm::dvec3 eye =
         distance * glm::normalize(random.Point(glm::dvec3(-1.0), glm::dvec3(1.0)));
-      MembraneSight::View looking = LookAt(eye,
+      RefractedRayField::View looking = LookAt(eye,
         0.1 * random.Point(glm::dvec3(-1.0), glm::dvec3(1.0)), 2.5, i % 3 == 2 && distance > 1.0);
       SetMesh(looking, { glm::dvec3(0.0), glm::dvec3(1e3) });
-      MembraneSight sight;
+      RefractedRayField sight;
       sight.Build(surface, patches, looking);
       for (int pixel = 0; pixel < Size * Size; ++pixel)
       {
@@ -273,7 +274,7 @@ TEST(MembraneSight, MeetsSpheresAtTheirOutlines)
         }
         const double root = std::sqrt(std::max(squared, 0.0));
         const double first = -half - root > looking.EyeDepth ? -half - root : -half + root;
-        const BentRay ray = RayOf(sight, pixel % Size, pixel / Size);
+        const RefractedRay ray = RayOf(sight, pixel % Size, pixel / Size);
         const bool meets = squared > 0.0 && first > looking.EyeDepth;
         met += meets;
         // Newton's method leaves 1e-8 of a facet, more where the ray touches it.
@@ -286,21 +287,21 @@ TEST(MembraneSight, MeetsSpheresAtTheirOutlines)
   EXPECT_LT(close, 100);
 }
 
-TEST(MembraneSight, InstructionSetsSeeTheSame)
+TEST(RefractedRayField, InstructionSetsSeeTheSame)
 {
   const Sheet sheet(Shapes[2], 3);
   Random random(5);
   const SightRays rays{ { glm::dvec3(0.1, 0.2, 2.0), glm::dvec3(0.0), glm::dvec3(0.0) },
     { glm::dvec3(0.0, 0.05, -1.0), glm::dvec3(0.01, 0.0, 0.0), glm::dvec3(0.0, 0.01, 0.001) } };
-  SightLanes lanes;
-  for (int i = 0; i < SightLanes::Size - 3; ++i)
+  PatchIntersectionBatch lanes;
+  for (int i = 0; i < PatchIntersectionBatch::Size - 3; ++i)
   {
     lanes.Add(i, random(-40.0, 40.0), random(-40.0, 40.0));
   }
   const CurvedPatch patch = sheet.Patches.GetPatch(4);
   const auto run = [&](InstructionSet set)
   {
-    SightLanes result = lanes;
+    PatchIntersectionBatch result = lanes;
     const glm::dvec3 u = patch.corner[1] - patch.corner[0];
     const glm::dvec3 v = patch.corner[2] - patch.corner[0];
     const glm::dvec3 normal = glm::cross(u, v);
@@ -318,14 +319,10 @@ TEST(MembraneSight, InstructionSetsSeeTheSame)
     Refract(rays, 1.5, set, result); // some beyond the critical angle
     return result;
   };
-  const SightLanes expected = run(InstructionSet::Portable);
-  for (const InstructionSet set : { InstructionSet::AVX2, InstructionSet::AVX512 })
+  const PatchIntersectionBatch expected = run(InstructionSet::Portable);
+  for (const InstructionSet set : GetInstructionSets())
   {
-    if (!HasInstructionSet(set))
-    {
-      continue;
-    }
-    const SightLanes result = run(set);
+    const PatchIntersectionBatch result = run(set);
     for (int i = 0; i < lanes.Count; ++i)
     {
       EXPECT_EQ(result.Depth[i], expected.Depth[i]) << NameOf(set);

@@ -3,10 +3,10 @@
 #ifndef VolumeTestMeshes_h
 #define VolumeTestMeshes_h
 
-#include "Volume/BoundaryTree.h"
-#include "Volume/RayFrame.h"
-#include "Volume/TetrahedralMesh.h"
-#include "Volume/TransferFunction.h"
+#include "Volume/Mesh/BoundaryTree.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Optics/TransferFunction.h"
+#include "Volume/Rays/RayFrame.h"
 
 #include <glm/vec3.hpp>
 

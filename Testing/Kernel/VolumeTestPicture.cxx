@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeTestPicture.h"
 
-#include "Volume/ScalarGradients.h"
+#include "Volume/Caster/PacketTables.h"
+#include "Volume/Mesh/ScalarGradients.h"
+#include "Volume/Rays/PlacedVertices.h"
+
+#include <algorithm>
 
 namespace meniscus
 {
@@ -13,7 +17,7 @@ namespace test
 Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, float windowDepth)
 {
   PacketTables tables;
-  const PixelRays rays(scene.Frame, size, size);
+  const FixedPointRays rays(scene.Frame, size, size);
   PlaceVertices(scene.Mesh, scene.Scalars, rays, SerialLoop, tables.Vertices);
   tables.Intervals = PackIntervals(scene.Intervals);
   tables.GradientIntervals = PackIntervals(scene.GradientIntervals);
@@ -49,6 +53,14 @@ Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, flo
     picture.Statistics.Lost += sums.Lost;
   }
   return picture;
+}
+
+//------------------------------------------------------------------------------
+std::string TestNameOf(const ::testing::TestParamInfo<InstructionSet>& tested)
+{
+  std::string name = NameOf(tested.param);
+  name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
+  return name;
 }
 
 }

@@ -3,10 +3,14 @@
 #ifndef VolumeTestPicture_h
 #define VolumeTestPicture_h
 
-#include "Volume/TileCaster.h"
+#include "Simd/InstructionSets.h"
+#include "Volume/Caster/TileCaster.h"
 
 #include <glm/vec4.hpp>
 
+#include <gtest/gtest.h>
+
+#include <string>
 #include <vector>
 
 namespace meniscus
@@ -42,6 +46,9 @@ struct Picture
  */
 Picture CastPicture(
   const PictureScene& scene, int size, InstructionSet set, float windowDepth = 1.0f);
+
+/** Name of a test of an instruction set: letters and digits. */
+std::string TestNameOf(const ::testing::TestParamInfo<InstructionSet>& tested);
 
 }
 }

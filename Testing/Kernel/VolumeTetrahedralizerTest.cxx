@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Tetrahedra in place of other cells: they fill the same volume and fit across shared faces.
-#include "Volume/TetrahedralMesh.h"
-#include "Volume/Tetrahedralizer.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Mesh/Tetrahedralizer.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

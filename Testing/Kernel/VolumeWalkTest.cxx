@@ -36,21 +36,9 @@ PictureScene MakeScene(const MeshArrays& arrays, double attenuation)
 /** Each test with every instruction set that this processor has. */
 class PacketWalkTest : public testing::TestWithParam<InstructionSet>
 {
-protected:
-  void SetUp() override
-  {
-    if (!HasInstructionSet(GetParam()))
-    {
-      GTEST_SKIP() << "this processor has no " << NameOf(GetParam());
-    }
-  }
 };
 
-INSTANTIATE_TEST_SUITE_P(Sets, PacketWalkTest,
-  testing::Values(InstructionSet::Portable, InstructionSet::AVX2, InstructionSet::AVX512),
-  [](const testing::TestParamInfo<InstructionSet>& tested) {
-    return std::string(tested.param == InstructionSet::AVX512 ? "AVX512" : NameOf(tested.param));
-  });
+INSTANTIATE_TEST_SUITE_P(Sets, PacketWalkTest, testing::ValuesIn(GetInstructionSets()), TestNameOf);
 
 }
 

@@ -177,7 +177,7 @@ public:
     lookAt(this->renderer(), grid->GetBounds(), 30.0, 20.0);
   }
 
-  void bendAt(const MembraneCase& membrane)
+  void refractionAt(const MembraneCase& membrane)
   {
     this->Membrane = membrane;
     this->rayCaster()->SetMembraneData(membrane.Mesh);
@@ -310,12 +310,12 @@ TEST(TetrahedraRayCastCellData, ThroughAMembrane)
     { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
   {
     CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
-    scene.bendAt(membrane);
+    scene.refractionAt(membrane);
     scene.expectComposite("composite");
     scene.expectComposite("clipped", addPlane(scene));
     CellScene surfaces(grid, surfaceProperty());
     surfaces.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-    surfaces.bendAt(membrane);
+    surfaces.refractionAt(membrane);
     surfaces.expectSurfaces("isosurfaces");
     surfaces.volume()->GetProperty()->ShadeOn();
     surfaces.expectSurfaces("lit isosurfaces");

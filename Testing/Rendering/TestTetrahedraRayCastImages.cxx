@@ -79,7 +79,7 @@ TEST(TetrahedraRayCastImages, OpaqueSphereInTwoBlocks)
 
 TEST(TetrahedraRayCastImages, ThroughAPlane)
 {
-  // Lit surfaces stand out of the water and go on below it, bent.
+  // Lit surfaces stand out of the water and go on below it, refracted.
   const Grid grid = makeBlock(16, wavyField(3.0));
   auto property = makeProperty(FunctionKind::Opaque, Range, 3.5);
   property->GetIsoSurfaceValues()->SetValue(0, 0.2);

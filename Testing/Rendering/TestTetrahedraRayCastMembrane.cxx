@@ -385,9 +385,9 @@ TEST(TetrahedraRayCastMembrane, Projections)
         scene,
         [&](const Ray& ray)
         {
-          const RefractedRay bent = refract(membrane.Surface, ray, 0.0, false);
+          const RefractedRay refracted = refract(membrane.Surface, ray, 0.0, false);
           return project(
-            bent.Straight, findSegments(*integrator, bent), mode.second, function, range);
+            refracted.Straight, findSegments(*integrator, refracted), mode.second, function, range);
         },
         "mode " + std::to_string(mode.first));
     }

@@ -58,7 +58,7 @@ struct Counters
     , Active(mapper->GetNumberOfActiveSetBuilds())
     , Membranes(mapper->GetNumberOfMembraneBuilds())
     , Sights(mapper->GetNumberOfSightUpdates())
-    , Lists(mapper->GetNumberOfBentEntryLists())
+    , Lists(mapper->GetNumberOfRefractedEntryLists())
     , Bytes(mapper->GetUploadedBytes())
   {
   }
@@ -290,12 +290,12 @@ TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
     const Outcome straight = renderWith(nullptr, prepare);
     EXPECT_EQ(straight.Backend, int(vtkTetrahedraRayCastMapper::OPENGL));
     EXPECT_TRUE(straight.Told->Warnings.empty()) << straight.Told->text();
-    const Outcome bent = renderWith(plane.Mesh, prepare);
-    EXPECT_EQ(bent.Backend,
+    const Outcome refracted = renderWith(plane.Mesh, prepare);
+    EXPECT_EQ(refracted.Backend,
       int(fits ? vtkTetrahedraRayCastMapper::OPENGL : vtkTetrahedraRayCastMapper::NATIVE));
-    EXPECT_EQ(bent.Told->Warnings.size(), fits ? 0u : 1u);
-    EXPECT_TRUE(bent.Told->Errors.empty()) << bent.Told->text();
-    EXPECT_FALSE(isEmpty(bent.Picture));
+    EXPECT_EQ(refracted.Told->Warnings.size(), fits ? 0u : 1u);
+    EXPECT_TRUE(refracted.Told->Errors.empty()) << refracted.Told->text();
+    EXPECT_FALSE(isEmpty(refracted.Picture));
   }
 }
 

@@ -3,7 +3,7 @@
 #ifndef meniscus_PatchSearch_h
 #define meniscus_PatchSearch_h
 
-#include "Refraction/CurvedGeometry.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
 
 #include <glm/vec3.hpp>
 

@@ -3,8 +3,8 @@
 #include "RefractionCheck.h"
 
 #include "PatchSearch.h"
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/ObjectImages.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Images/ObjectImages.h"
 #include "RefractionTriangles.h"
 #include "SightOracle.h"
 
@@ -436,7 +436,7 @@ private:
   }
 
   const RefractionCase& Test;
-  CurvedGeometry Geometry;
+  CurvedMembraneSolver Geometry;
   RefractionTally Tally;
   SurfaceError Error;
   double Rounding = 0.0;

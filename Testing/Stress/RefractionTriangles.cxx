@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RefractionTriangles.h"
 
-#include "Refraction/ObjectImages.h"
+#include "Refraction/Images/ObjectImages.h"
 
 #include <glm/geometric.hpp>
 
@@ -72,7 +72,7 @@ void addPieces(
   }
 }
 
-std::vector<Piece> draw(const CurvedGeometry& geometry, const Triangle& triangle)
+std::vector<Piece> draw(const CurvedMembraneSolver& geometry, const Triangle& triangle)
 {
   ObjectImages images(geometry);
   images.SetTolerance(Tolerance);
@@ -119,7 +119,7 @@ public:
   {
   }
 
-  void check(const CurvedGeometry& geometry, const Triangle& triangle, StressRandom& random)
+  void check(const CurvedMembraneSolver& geometry, const Triangle& triangle, StressRandom& random)
   {
     const std::vector<Piece> pieces = draw(geometry, triangle);
     for (int i = 0; i < PlacesPerTriangle; ++i)
@@ -275,7 +275,7 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-RefractionTally checkTriangles(const RefractionCase& test, const CurvedGeometry& geometry,
+RefractionTally checkTriangles(const RefractionCase& test, const CurvedMembraneSolver& geometry,
   const reference::SightOracle& oracle, const reference::SurfaceError& error)
 {
   TriangleChecker checker(test, oracle, error);

@@ -3,7 +3,7 @@
 #ifndef meniscus_RefractionTriangles_h
 #define meniscus_RefractionTriangles_h
 
-#include "Refraction/CurvedGeometry.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "RefractionCheck.h"
 #include "SightOracle.h"
 
@@ -17,7 +17,7 @@ namespace test
  * certain image of the place must be shown by a polygon, and every polygon that shows the place
  * must show it where light from there goes.
  */
-RefractionTally checkTriangles(const RefractionCase& test, const CurvedGeometry& geometry,
+RefractionTally checkTriangles(const RefractionCase& test, const CurvedMembraneSolver& geometry,
   const reference::SightOracle& oracle, const reference::SurfaceError& error);
 
 } // namespace test

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StressCasters.h"
 
-#include "Volume/RayFrame.h"
-#include "Volume/TetrahedralMesh.h"
-#include "Volume/TileCaster.h"
-#include "Volume/TransferFunction.h"
-#include "Volume/VisibleScalars.h"
+#include "Simd/InstructionSets.h"
+#include "Volume/Caster/PacketTables.h"
+#include "Volume/Caster/TileCaster.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Optics/TransferFunction.h"
+#include "Volume/Optics/VisibleScalars.h"
+#include "Volume/Rays/PlacedVertices.h"
+#include "Volume/Rays/RayFrame.h"
 
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
@@ -95,7 +98,7 @@ public:
     {
       return result;
     }
-    scene.Rays = PixelRays(frame, this->Size, this->Size);
+    scene.Rays = FixedPointRays(frame, this->Size, this->Size);
     PlaceVertices(this->Mesh, this->Scalars, scene.Rays, SerialLoop, this->Tables.Vertices);
     const TileCaster caster(scene);
     TileCaster::Workspace workspace;

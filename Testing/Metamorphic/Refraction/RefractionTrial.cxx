@@ -211,9 +211,9 @@ RefractionScene randomScene(RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<CurvedGeometry> makeGeometry(const RefractionScene& scene)
+std::unique_ptr<CurvedMembraneSolver> makeGeometry(const RefractionScene& scene)
 {
-  auto geometry = std::make_unique<CurvedGeometry>();
+  auto geometry = std::make_unique<CurvedMembraneSolver>();
   if (geometry->SetMembrane(scene.Mesh.AsInput()) != MembraneStatus::Ready ||
     geometry->SetEye(scene.Eye, scene.Exterior, scene.Interior) != EyeStatus::Ready)
   {
@@ -330,8 +330,8 @@ void RefractionTrial::compare(const RefractionScene& changed, const Motion& moti
 }
 
 //------------------------------------------------------------------------------
-void RefractionTrial::compare(const CurvedGeometry& changed, const Motion& motion, double magnitude,
-  const std::function<bool(const VirtualVertex&)>& shows)
+void RefractionTrial::compare(const CurvedMembraneSolver& changed, const Motion& motion,
+  double magnitude, const std::function<bool(const VirtualVertex&)>& shows)
 {
   ++this->Tally.Comparisons;
   std::vector<VirtualVertex> images;

@@ -5,7 +5,7 @@
 
 #include "MembraneMeshes.h"
 #include "RandomNumbers.h"
-#include "Refraction/CurvedGeometry.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Relation.h"
 
 #include <glm/mat3x3.hpp>
@@ -41,7 +41,7 @@ struct RefractionScene
 RefractionScene randomScene(RandomNumbers& random);
 
 /// The scene's membrane and eye as the kernel has them; null if it refuses them.
-std::unique_ptr<CurvedGeometry> makeGeometry(const RefractionScene& scene);
+std::unique_ptr<CurvedMembraneSolver> makeGeometry(const RefractionScene& scene);
 
 /// A change of coordinates: places, directions, and both back.
 struct Motion
@@ -79,7 +79,7 @@ public:
   void compare(const RefractionScene& changed, const Motion& motion,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
   /// The same for geometry that has been made; `magnitude` of its coordinates.
-  void compare(const CurvedGeometry& changed, const Motion& motion, double magnitude,
+  void compare(const CurvedMembraneSolver& changed, const Motion& motion, double magnitude,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
   /// One image each, in an order of the points, is one of all.
   void compareFirst(const std::vector<std::size_t>& order);
@@ -95,7 +95,7 @@ private:
   bool isSideSteady(const glm::dvec3& point, double error) const;
 
   RefractionScene Scene;
-  std::unique_ptr<CurvedGeometry> Geometry;
+  std::unique_ptr<CurvedMembraneSolver> Geometry;
   RelationTally Tally;
 };
 

@@ -7,7 +7,7 @@
 #ifndef meniscus_MembraneMeshes_h
 #define meniscus_MembraneMeshes_h
 
-#include "Refraction/Membrane.h"
+#include "Refraction/Membrane/Membrane.h"
 
 #include <glm/vec3.hpp>
 

@@ -4,8 +4,8 @@
 
 #include "AnalyticMembrane.h"
 #include "MembraneMeshes.h"
-#include "Refraction/CurvedGeometry.h"
-#include "Refraction/VirtualGeometry.h"
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
 
 #include <glm/geometric.hpp>
 
@@ -162,7 +162,7 @@ bool IsReproducible(const ThesisRow& row)
 //------------------------------------------------------------------------------
 ErrorStatistics MeasureThesisRow(const ThesisRow& row)
 {
-  VirtualGeometry geometry;
+  FlatMembraneSolver geometry;
   geometry.SetMembrane(MakeMesh(row).AsInput());
   geometry.SetEye(GetEye(row), row.exterior, row.interior);
   return MeasureRow(row,
@@ -180,7 +180,7 @@ ErrorStatistics MeasureThesisRow(const ThesisRow& row)
 //------------------------------------------------------------------------------
 ErrorStatistics MeasureThesisRowCurved(const ThesisRow& row)
 {
-  CurvedGeometry geometry;
+  CurvedMembraneSolver geometry;
   geometry.SetMembrane(MakeMesh(row).AsInput());
   geometry.SetEye(GetEye(row), row.exterior, row.interior);
   std::vector<VirtualVertex> images;

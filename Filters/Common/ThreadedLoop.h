@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Loops of the kernel on the threads of vtkSMPTools. */
+#ifndef meniscus_Filters_Common_ThreadedLoop_h
+#define meniscus_Filters_Common_ThreadedLoop_h
+
+#include "Common/RangeLoop.h"
+
+#include "vtkSMPTools.h"
+#include "vtkType.h"
+
+#include <cstddef>
+
+namespace meniscus
+{
+
+/** Calls `body` for ranges of [0, count), each of at least `grain` numbers, on several threads. */
+inline void ThreadedRanges(std::size_t count, vtkIdType grain, const RangeBody& body)
+{
+  vtkSMPTools::For(0, static_cast<vtkIdType>(count), grain,
+    [&body](vtkIdType begin, vtkIdType end)
+    { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
+}
+
+/** Loop over blocks: each is large enough to be a thread's unit of work. */
+inline void ThreadedLoop(std::size_t count, const RangeBody& body)
+{
+  ThreadedRanges(count, 1, body);
+}
+
+/** Loop over facets: 512 of them are tens of microseconds of work. */
+inline void FacetLoop(std::size_t count, const RangeBody& body)
+{
+  ThreadedRanges(count, 512, body);
+}
+
+}
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Membrane/ImplicitSurface.h"
+
+#include "vtkImplicitFunction.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+ImplicitSurface::ImplicitSurface(
+  vtkImplicitFunction* function, const Membrane& membrane, const glm::dvec3& eye)
+  : Function(function)
+  , Eye(eye)
+{
+  double along = 0.0;
+  for (const Membrane::Facet& facet : membrane.GetFacets())
+  {
+    const auto vertex = static_cast<std::size_t>(facet[0]);
+    const glm::dvec3 gradient =
+      this->GetGradient(membrane.GetPositions()[vertex] + membrane.GetOrigin());
+    const double length = glm::length(gradient);
+    along += length > 0.0 ? glm::dot(gradient, membrane.GetNormals()[vertex]) / length : 0.0;
+  }
+  this->Sign = along < 0.0 ? -1.0 : 1.0;
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 ImplicitSurface::GetGradient(const glm::dvec3& at) const
+{
+  double gradient[3] = { 0.0, 0.0, 0.0 };
+  this->Function->FunctionGradient(&at.x, gradient);
+  return { gradient[0], gradient[1], gradient[2] };
+}
+
+//------------------------------------------------------------------------------
+bool ImplicitSurface::Meet(
+  const glm::dvec3&, const VirtualVertex& vertex, const glm::dvec3& direction, PatchPoint& at) const
+{
+  // Quadratic convergence leaves the square of the last step, relative to the scene.
+  constexpr double lastStep = 1e-8;
+  constexpr int steps = 50;
+  double distance = glm::dot(vertex.sightPoint - this->Eye, direction);
+  const double size = std::max(glm::length(this->Eye), std::fabs(distance));
+  for (int i = 0; i < steps; ++i)
+  {
+    at.position = this->Eye + distance * direction;
+    const double value = this->Function->FunctionValue(&at.position.x);
+    at.normal = this->Sign * this->GetGradient(at.position);
+    const double step = value * this->Sign / glm::dot(at.normal, direction);
+    if (!std::isfinite(step))
+    {
+      return false;
+    }
+    distance -= step;
+    if (std::fabs(step) <= lastStep * size)
+    {
+      at.position = this->Eye + distance * direction;
+      at.normal = glm::normalize(this->Sign * this->GetGradient(at.position));
+      return distance > 0.0 && glm::dot(at.normal, direction) < 0.0;
+    }
+  }
+  return false;
+}
+
+}

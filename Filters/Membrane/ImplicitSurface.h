@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Filters_Membrane_ImplicitSurface_h
+#define meniscus_Filters_Membrane_ImplicitSurface_h
+
+#include "Refraction/Curved/ErrorSamples.h"
+
+class vtkImplicitFunction;
+
+namespace meniscus
+{
+
+/// The zero set of an implicit function as the exact surface of a membrane.
+class ImplicitSurface : public ExactSurface
+{
+public:
+  /// The eye's side is the one that the normals of `membrane` point to in the mean.
+  ImplicitSurface(vtkImplicitFunction* function, const Membrane& membrane, const glm::dvec3& eye);
+
+  /// Newton's method along the ray, from the sight point. Thread-safe if the function is.
+  bool Meet(const glm::dvec3& point, const VirtualVertex& vertex, const glm::dvec3& direction,
+    PatchPoint& at) const override;
+
+private:
+  glm::dvec3 GetGradient(const glm::dvec3& at) const;
+
+  vtkImplicitFunction* Function;
+  glm::dvec3 Eye;
+  double Sign = 1.0;
+};
+
+}
+
+#endif

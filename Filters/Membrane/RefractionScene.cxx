@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Membrane/RefractionScene.h"
+
+#include "Filters/Common/ThreadedLoop.h"
+#include "Refraction/Tubes/RefractedRayBounds.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkImplicitFunction.h"
+#include "vtkPolyData.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace meniscus
+{
+namespace
+{
+
+const char* NameFault(MembraneStatus status)
+{
+  switch (status)
+  {
+    case MembraneStatus::TooLarge:
+      return "The membrane has more points or triangles than 32-bit indices can name";
+    case MembraneStatus::OneSided:
+      return "The membrane is one-sided, as a Moebius band is: no side is the eye's";
+    case MembraneStatus::Empty:
+    case MembraneStatus::Ready:
+      break;
+  }
+  return "The membrane has no usable triangle";
+}
+
+/**
+ * The latest time that a membrane or an object that holds its values was modified. A vtkPolyData's
+ * own time leaves out the arrays of its cells.
+ */
+vtkMTimeType TimeOf(vtkPolyData* membrane)
+{
+  vtkMTimeType time = membrane->GetMTime();
+  for (vtkCellArray* cells : { membrane->GetPolys(), membrane->GetStrips() })
+  {
+    time = std::max(
+      { time, cells->GetConnectivityArray()->GetMTime(), cells->GetOffsetsArray()->GetMTime() });
+  }
+  return time;
+}
+
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::SetMembrane(
+  vtkPolyData* membrane, bool curved, SceneMessages& messages, vtkImplicitFunction* function)
+{
+  const vtkMTimeType membraneTime = TimeOf(membrane);
+  const vtkMTimeType functionTime = function ? function->GetMTime() : 0;
+  const bool known = this->MembraneReady && this->Curves == curved;
+  if (known && this->MembraneSource == membrane && this->MembraneTime == membraneTime &&
+    this->Function == function && this->FunctionTime == functionTime)
+  {
+    return true;
+  }
+  MembraneArrays arrays = ExtractMembrane(membrane);
+  const std::size_t lost = function ? FitToFunction(function, arrays) : 0;
+  this->MembraneSource = membrane;
+  this->MembraneTime = membraneTime;
+  this->Function = function;
+  this->FunctionTime = functionTime;
+  if (known && arrays == this->Arrays)
+  {
+    return true;
+  }
+  this->Arrays = std::move(arrays);
+  const MembraneStatus status = this->BuildMembrane(curved);
+  this->MembraneReady = status == MembraneStatus::Ready;
+  ++this->PatchBuilds;
+  return this->ReportMembrane(status, lost, messages);
+}
+
+//------------------------------------------------------------------------------
+MembraneStatus RefractionScene::BuildMembrane(bool curved)
+{
+  if (curved != this->Curves)
+  {
+    this->Flat = FlatMembraneSolver();
+    this->Curved.Clear();
+    this->Curves = curved;
+  }
+  const MembraneInput input = this->Arrays.AsInput();
+  return curved ? this->Curved.SetMembrane(input, FacetLoop) : this->Flat.SetMembrane(input);
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::ReportMembrane(
+  MembraneStatus status, std::size_t lost, SceneMessages& messages) const
+{
+  const MembraneReport& report = this->GetMembrane().GetReport();
+  const std::size_t triangles = this->Arrays.triangles.size() / 3;
+  const std::size_t points = this->Arrays.points.size() / 3;
+  std::ostringstream text;
+  if (status != MembraneStatus::Ready)
+  {
+    text << NameFault(status) << " (" << report.Skipped() << " of " << triangles
+         << " triangles skipped)";
+    messages.error = text.str();
+    return false;
+  }
+  if (report.Skipped() > 0)
+  {
+    text << report.Skipped() << " of " << triangles
+         << " membrane triangles skipped: " << report.zeroArea << " without area, "
+         << report.notFinite << " with coordinates that are not finite, " << report.outOfRange
+         << " with points that do not exist, " << report.duplicated << " repeated. ";
+  }
+  if (lost > 0)
+  {
+    text << lost << " of " << points
+         << " membrane points have no place on the exact membrane's zero set; they stay where they "
+            "are. ";
+  }
+  if (this->Arrays.normalsRejected)
+  {
+    text << "The membrane's normals do not have 3 components for each of its " << points
+         << " points; normals are computed. ";
+  }
+  else if (report.computedNormals > lost && !this->Arrays.normals.empty())
+  {
+    text << report.computedNormals << " of " << points
+         << " membrane normals are zero or not finite; these are computed. ";
+  }
+  if (report.turnedFacets > 0)
+  {
+    text << report.turnedFacets << " of " << triangles
+         << " membrane triangles are wound the other way than their neighbours; turned. ";
+  }
+  if (report.turnedNormals > 0)
+  {
+    text << report.turnedNormals << " of " << points
+         << " membrane normals point to the other side than their neighbours'; turned. ";
+  }
+  if (report.normals.AreMost())
+  {
+    text
+      << report.normals.foreign << " of " << report.normals.examined
+      << " membrane normals do not fit the triangles around them, as if points had been moved and "
+         "normals had not; they are used as they are. Without normals, or with those of "
+         "vtkPolyDataNormals, rays bend as the triangles say. ";
+  }
+  messages.warning = text.str();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
+{
+  if (eye == this->Key.values && this->PatchBuilds == this->Key.membraneBuild)
+  {
+    return true;
+  }
+  this->Key = EyeKey(); // stale until the update succeeds
+  const glm::dvec3 position(eye[0], eye[1], eye[2]);
+  const EyeStatus status = this->Curves ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop)
+                                        : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
+  std::ostringstream text;
+  switch (status)
+  {
+    case EyeStatus::Ready:
+      this->Key = { eye, this->PatchBuilds };
+      ++this->EyeUpdates;
+      this->ReportEye(messages);
+      return true;
+    case EyeStatus::BadIndex:
+      text << "Indices of refraction must be positive and finite, not " << eye[3] << " and "
+           << eye[4];
+      break;
+    case EyeStatus::NotFinite:
+      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2] << ") is not finite";
+      break;
+    case EyeStatus::OnTheMembrane:
+      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2] << ") lies on the membrane";
+      break;
+  }
+  messages.error = text.str();
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void RefractionScene::ReportEye(SceneMessages& messages)
+{
+  // A few microseconds each; two sheets one behind the other have many points in sequence.
+  constexpr std::size_t mostPoints = 256;
+  const bool isEnclosed = this->Curves && this->Curved.IsClosed() && !this->Curved.FacesEye();
+  const auto behind = static_cast<vtkTypeInt64>(
+    this->Curves ? this->Curved.CountVerticesBehindOtherPieces(mostPoints) : 0);
+  const bool isNew = this->EyeReportOf != this->PatchBuilds;
+  std::ostringstream text;
+  if (isEnclosed && (isNew || !this->EyeEnclosed))
+  {
+    text << "The eye is inside of a closed membrane whose normals point outwards: what is outside "
+            "passes unchanged. For a bubble around the eye let the normals point inwards. ";
+  }
+  if (behind > 0 && (isNew || this->PointsBehind == 0))
+  {
+    text
+      << "Pieces of the membrane lie behind each other, as the eye sees them: rays that meet two "
+         "of them are refracted at one only, and objects behind both show an image through each. "
+         "Use one piece, or a filter for each. ";
+  }
+  this->EyeEnclosed = isEnclosed;
+  this->PointsBehind = behind;
+  this->EyeReportOf = this->PatchBuilds;
+  messages.warning = text.str();
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
+{
+  const Membrane& membrane = this->GetMembrane();
+  const auto& facets = membrane.GetFacets();
+  // Of a sum of three products of coordinates, and of planes that come through two matrices.
+  constexpr double rounding = 1e-12;
+  std::vector<bool> inView(facets.size(), true);
+  bool any = false;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    const double bulge = this->Curves
+      ? BoundBulge(this->Curved.GetPatches().GetPatch(static_cast<std::int32_t>(i)))
+      : 0.0;
+    for (const ViewPlane& plane : planes)
+    {
+      double most = std::numeric_limits<double>::lowest();
+      double reach = std::fabs(plane.offset);
+      for (const std::int32_t vertex : facets[i])
+      {
+        const glm::dvec3 point =
+          membrane.GetPositions()[static_cast<std::size_t>(vertex)] + membrane.GetOrigin();
+        most = std::max(most, glm::dot(plane.normal, point) + plane.offset);
+        reach = std::max(reach, glm::length(point));
+      }
+      // Not a number: nothing is known, so it is in view.
+      inView[i] = inView[i] && !(most < -bulge - rounding * reach);
+    }
+    any = any || !inView[i];
+  }
+  if (inView != this->FacetsInView)
+  {
+    this->FacetsInView = std::move(inView);
+    ++this->ViewChange;
+  }
+  return any;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionScene::MayBeInView(const glm::dvec3& low, const glm::dvec3& high) const
+{
+  if (this->Curves)
+  {
+    return this->Curved.MayShow(low, high, this->FacetsInView);
+  }
+  const glm::dvec3 half = 0.5 * high - 0.5 * low;
+  return this->Flat.MayShow(
+    0.5 * low + 0.5 * high, std::max({ half.x, half.y, half.z }), this->FacetsInView);
+}
+
+//------------------------------------------------------------------------------
+void RefractionScene::Solve(
+  const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const
+{
+  if (this->Curves)
+  {
+    this->Curved.Solve(points, from, to, vertices);
+  }
+  else
+  {
+    this->Flat.Solve(points, from, to, vertices);
+  }
+}
+
+}

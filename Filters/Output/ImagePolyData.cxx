@@ -1,0 +1,359 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Output/ImagePolyData.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolygon.h"
+#include "vtkSmartPointer.h"
+
+#include <algorithm>
+
+namespace meniscus
+{
+namespace
+{
+
+// Cells that one result collects: enough work for a thread, and the results do not depend on the
+// threads.
+constexpr std::size_t CellsPerPart = 64;
+
+// Whether the diagonal from corner 0 to corner 2 splits a quad into two triangles that face the
+// same way.
+bool IsSplitByDiagonal(vtkPolyData* input, const std::int64_t* ids)
+{
+  glm::dvec3 corner[4];
+  for (int i = 0; i < 4; ++i)
+  {
+    input->GetPoint(ids[i], &corner[i].x);
+  }
+  const glm::dvec3 diagonal = corner[2] - corner[0];
+  return glm::dot(glm::cross(corner[1] - corner[0], diagonal),
+           glm::cross(diagonal, corner[3] - corner[0])) > 0.0;
+}
+
+// Ear clipping, which also splits polygons that are not convex. A polygon that it cannot split, or
+// that has fewer than three points, has no area.
+void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count,
+  std::vector<std::int64_t>& triangles)
+{
+  triangles.clear();
+  if (count < 3)
+  {
+    return;
+  }
+  if (count == 4 && IsSplitByDiagonal(input, ids))
+  {
+    triangles = { 0, 1, 2, 0, 2, 3 };
+    return;
+  }
+  vtkNew<vtkPolygon> polygon;
+  polygon->GetPoints()->SetDataTypeToDouble();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    double p[3];
+    input->GetPoints()->GetPoint(ids[i], p);
+    polygon->GetPoints()->InsertNextPoint(p);
+    polygon->GetPointIds()->InsertNextId(static_cast<vtkIdType>(i));
+  }
+  vtkNew<vtkIdList> corners;
+  vtkNew<vtkPoints> places; // the overload that all versions of VTK have
+  polygon->Triangulate(0, corners, places);
+  for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
+  {
+    triangles.push_back(corners->GetId(i));
+  }
+}
+
+/// Results of parts of the cells, put together in their order.
+struct Part
+{
+  ImageMesh pieces;
+  ImageMesh whole;
+  CellReport report;
+};
+
+template <typename MapRange>
+bool MapParts(std::size_t count, const ProgressLoop& loop, const MapRange& map, ImageMesh& pieces,
+  ImageMesh& whole, vtkIdType& without)
+{
+  std::vector<Part> parts((count + CellsPerPart - 1) / CellsPerPart);
+  const bool done = loop(parts.size(),
+    [&parts, &map, count](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        map(i * CellsPerPart, std::min((i + 1) * CellsPerPart, count), parts[i]);
+      }
+    });
+  for (const Part& part : parts)
+  {
+    pieces.Append(part.pieces);
+    whole.Append(part.whole);
+    without += static_cast<vtkIdType>(part.report.without);
+  }
+  return done;
+}
+
+/// Collects points and cells of the output.
+class Builder
+{
+public:
+  Builder(vtkPolyData* input, const ObjectTopology& topology, const ObjectImages& images,
+    const AllImages& cells, const Membrane& membrane, vtkPolyData* output)
+    : Input(input)
+    , Topology(topology)
+    , Images(images)
+    , Cells(cells)
+    , Surface(membrane)
+    , Output(output)
+  {
+  }
+
+  VirtualPolyDataReport Run(const OutputOptions& options)
+  {
+    this->Output->GetFieldData()->PassData(this->Input->GetFieldData());
+    this->ListPointsWithoutImage();
+    this->TakePoints(this->Images.GetPointImages());
+    const vtkIdType firstOfLines = this->TakePoints(this->Cells.lines.points);
+    const vtkIdType firstOfPolygons = this->TakePoints(this->Cells.polygons.points);
+    this->MakeVertices();
+    this->MakeCells(this->Cells.wholeLines, this->Cells.lines, firstOfLines, this->Lines);
+    this->MakeCells(
+      this->Cells.wholePolygons, this->Cells.polygons, firstOfPolygons, this->Polygons);
+    this->Output->SetVerts(this->Vertices);
+    this->Output->SetLines(this->Lines);
+    this->Output->SetPolys(this->Polygons);
+
+    this->InterpolatePointArrays();
+    MakePoints(this->Input, this->Points, this->PointSources, this->Surface, options, this->Output);
+    if (options.virtualNormals)
+    {
+      MakeVirtualNormals(this->Points, this->FindTruePoints(), options, this->Output);
+    }
+    vtkNew<vtkDataSetAttributes> fitting;
+    const vtkIdType cells = this->Input->GetNumberOfCells();
+    this->Report.arraysOfWrongSize += TakeFittingArrays(this->Input->GetCellData(), cells, fitting);
+    CopyTuples(fitting, cells, this->CellSources, this->Output->GetCellData());
+    MakeCellArrays(this->CellSources, this->Orientations, this->Output);
+    this->Report.brokenCells = this->Topology.brokenCells;
+    this->Report.skippedCells += this->Cells.cellsWithoutImage;
+    return this->Report;
+  }
+
+private:
+  void ListPointsWithoutImage()
+  {
+    vtkNew<vtkIdTypeArray> without;
+    without->SetName("PointsWithoutImage");
+    for (vtkIdType i = 0; i < this->Input->GetNumberOfPoints(); ++i)
+    {
+      const auto point = static_cast<std::size_t>(i);
+      if (this->Images.IsWanted(point) && this->Images.GetNumberOfImages(point) == 0)
+      {
+        without->InsertNextValue(i);
+      }
+    }
+    this->Output->GetFieldData()->AddArray(without);
+  }
+
+  // Returns the place of the first.
+  vtkIdType TakePoints(const std::vector<ImagePoint>& points)
+  {
+    const auto first = static_cast<vtkIdType>(this->Points.size());
+    for (const ImagePoint& point : points)
+    {
+      this->Points.push_back(&point.vertex);
+      this->PointSources.push_back(point.GetSource());
+      this->Origins.push_back(&point);
+    }
+    return first;
+  }
+
+  std::vector<glm::dvec3> FindTruePoints() const
+  {
+    std::vector<glm::dvec3> points;
+    points.reserve(this->Origins.size());
+    for (const ImagePoint* origin : this->Origins)
+    {
+      glm::dvec3 sum(0.0);
+      for (std::size_t k = 0; k < origin->GetNumberOfSources(); ++k)
+      {
+        glm::dvec3 corner;
+        this->Input->GetPoint(origin->source[k], &corner.x);
+        sum += origin->weight[k] * corner;
+      }
+      points.push_back(sum);
+    }
+    return points;
+  }
+
+  void MakeVertices()
+  {
+    // The images of a point follow each other.
+    std::vector<vtkIdType> first(static_cast<std::size_t>(this->Input->GetNumberOfPoints()) + 1, 0);
+    for (std::size_t i = 0; i + 1 < first.size(); ++i)
+    {
+      first[i + 1] = first[i] + static_cast<vtkIdType>(this->Images.GetNumberOfImages(i));
+    }
+    const ObjectTopology::Cells& cells = this->Topology.vertices;
+    for (std::size_t i = 0; i < cells.GetCount(); ++i)
+    {
+      const auto point = static_cast<std::size_t>(cells.connectivity[i]);
+      this->Report.skippedCells += first[point] == first[point + 1];
+      for (vtkIdType id = first[point]; id < first[point + 1]; ++id)
+      {
+        this->Vertices->InsertNextCell(1, &id);
+        this->CellSources.push_back(cells.ids[i]);
+        this->Orientations.push_back(this->Points[static_cast<std::size_t>(id)]->orientation);
+      }
+    }
+  }
+
+  void MakeCells(
+    const ImageMesh& whole, const ImageMesh& pieces, vtkIdType firstOfPieces, vtkCellArray* cells)
+  {
+    this->AddCells(whole, 0, cells);
+    this->AddCells(pieces, firstOfPieces, cells);
+  }
+
+  void AddCells(const ImageMesh& mesh, vtkIdType firstPoint, vtkCellArray* cells)
+  {
+    vtkNew<vtkIdList> ids;
+    std::int64_t begin = 0;
+    for (std::size_t i = 0; i < mesh.GetNumberOfCells(); ++i)
+    {
+      ids->Reset();
+      for (std::int64_t k = begin; k < mesh.ends[i]; ++k)
+      {
+        ids->InsertNextId(firstPoint + mesh.connectivity[static_cast<std::size_t>(k)]);
+      }
+      cells->InsertNextCell(ids);
+      this->CellSources.push_back(mesh.sourceCells[i]);
+      this->Orientations.push_back(mesh.orientations[i]);
+      begin = mesh.ends[i];
+    }
+  }
+
+  void InterpolatePointArrays()
+  {
+    vtkNew<vtkDataSetAttributes> fitting;
+    const vtkIdType points = this->Input->GetNumberOfPoints();
+    this->Report.arraysOfWrongSize +=
+      TakeFittingArrays(this->Input->GetPointData(), points, fitting);
+    vtkPointData* to = this->Output->GetPointData();
+    const bool copiesOnly = this->Cells.lines.points.empty() && this->Cells.polygons.points.empty();
+    if (copiesOnly)
+    {
+      CopyTuples(fitting, points, this->PointSources, to);
+      return;
+    }
+    to->InterpolateAllocate(fitting, static_cast<vtkIdType>(this->Points.size()));
+    vtkNew<vtkIdList> ids;
+    for (std::size_t i = 0; i < this->Origins.size(); ++i)
+    {
+      const ImagePoint& point = *this->Origins[i];
+      double weights[3];
+      ids->Reset();
+      for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
+      {
+        ids->InsertNextId(point.source[k]);
+        weights[k] = point.weight[k];
+      }
+      to->InterpolatePoint(fitting, static_cast<vtkIdType>(i), ids, weights);
+    }
+    this->CopyIds(fitting);
+  }
+
+  // VTK leaves out what is an id: there is no id in between. The nearest point's is taken.
+  void CopyIds(vtkDataSetAttributes* fitting)
+  {
+    vtkPointData* to = this->Output->GetPointData();
+    for (int k = 0; k < fitting->GetNumberOfArrays(); ++k)
+    {
+      vtkAbstractArray* from = fitting->GetAbstractArray(k);
+      if (!from->GetName() || to->HasArray(from->GetName()))
+      {
+        continue;
+      }
+      const auto copy = vtk::TakeSmartPointer(from->NewInstance());
+      copy->SetName(from->GetName());
+      copy->SetNumberOfComponents(from->GetNumberOfComponents());
+      copy->SetNumberOfTuples(static_cast<vtkIdType>(this->Origins.size()));
+      for (std::size_t i = 0; i < this->Origins.size(); ++i)
+      {
+        copy->SetTuple(static_cast<vtkIdType>(i), this->Origins[i]->source[0], from);
+      }
+      to->AddArray(copy);
+    }
+  }
+
+  vtkPolyData* Input;
+  const ObjectTopology& Topology;
+  const ObjectImages& Images;
+  const AllImages& Cells;
+  const Membrane& Surface;
+  vtkPolyData* Output;
+  std::vector<const VirtualVertex*> Points;
+  std::vector<const ImagePoint*> Origins;
+  std::vector<vtkIdType> PointSources;
+  std::vector<vtkIdType> CellSources;
+  std::vector<signed char> Orientations;
+  vtkNew<vtkCellArray> Vertices;
+  vtkNew<vtkCellArray> Lines;
+  vtkNew<vtkCellArray> Polygons;
+  VirtualPolyDataReport Report;
+};
+
+}
+
+//------------------------------------------------------------------------------
+bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectImages& images,
+  bool closesSeams, const ProgressLoop& loop, AllImages& result)
+{
+  const auto split =
+    [input](const std::int64_t* ids, std::size_t count, std::vector<std::int64_t>& triangles)
+  { SplitPolygon(input, ids, count, triangles); };
+  const bool linesDone = MapParts(
+    topology.lines.GetCount(), loop,
+    [&topology, &images](std::size_t begin, std::size_t end, Part& part)
+    {
+      part.report = images.MapLines(
+        topology.lines.AsObject(), topology.lines.ids.data(), begin, end, part.pieces, part.whole);
+    },
+    result.lines, result.wholeLines, result.cellsWithoutImage);
+  std::vector<unsigned char> isMapped(topology.polygons.GetCount(), 0);
+  const bool done = linesDone &&
+    MapParts(
+      topology.polygons.GetCount(), loop,
+      [&topology, &images, &split, &isMapped](std::size_t begin, std::size_t end, Part& part)
+      {
+        part.report = images.MapPolygons(topology.polygons.AsObject(), topology.polygons.ids.data(),
+          begin, end, split, part.pieces, part.whole, isMapped.data());
+      },
+      result.polygons, result.wholePolygons, result.cellsWithoutImage);
+  if (done)
+  {
+    images.MeetNeighbours(topology.polygons.AsObject(), topology.polygons.GetCount(),
+      isMapped.data(), closesSeams, result.wholePolygons, result.polygons);
+  }
+  return done;
+}
+
+//------------------------------------------------------------------------------
+VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopology& topology,
+  const ObjectImages& images, const AllImages& cells, const Membrane& membrane,
+  const OutputOptions& options, vtkPolyData* output)
+{
+  return Builder(input, topology, images, cells, membrane, output).Run(options);
+}
+
+}

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Output/OutputArrays.h"
+
+#include "Refraction/Membrane/Optics.h"
+#include "Refraction/Membrane/VirtualNormal.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkSignedCharArray.h"
+#include "vtkSmartPointer.h"
+
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+template <typename Array>
+vtkSmartPointer<Array> MakeArray(const char* name, int components, std::size_t tuples)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
+  return array;
+}
+
+int GetPointType(vtkPolyData* input, int precision)
+{
+  if (precision == vtkAlgorithm::DEFAULT_PRECISION)
+  {
+    return input->GetPoints() && input->GetPoints()->GetDataType() == VTK_DOUBLE ? VTK_DOUBLE
+                                                                                 : VTK_FLOAT;
+  }
+  return precision == vtkAlgorithm::DOUBLE_PRECISION ? VTK_DOUBLE : VTK_FLOAT;
+}
+
+}
+
+//------------------------------------------------------------------------------
+void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& vertices,
+  const std::vector<vtkIdType>& sources, const Membrane& membrane, const OutputOptions& options,
+  vtkPolyData* output)
+{
+  const std::size_t count = vertices.size();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(GetPointType(input, options.pointsPrecision));
+  points->SetNumberOfPoints(static_cast<vtkIdType>(count));
+  const auto sightPoint = MakeArray<vtkDoubleArray>("SightPoint", 3, count);
+  const auto depth = MakeArray<vtkDoubleArray>("RefractionDepth", 1, count);
+  const auto reflectance = MakeArray<vtkDoubleArray>("Reflectance", 1, count);
+  const auto facet = MakeArray<vtkIdTypeArray>("SightFacet", 1, count);
+  const auto source = MakeArray<vtkIdTypeArray>("SourcePointId", 1, count);
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const auto i = static_cast<vtkIdType>(k);
+    const VirtualVertex& vertex = *vertices[k];
+    points->SetPoint(i, vertex.position.x, vertex.position.y, vertex.position.z);
+    sightPoint->SetTypedTuple(i, &vertex.sightPoint.x);
+    depth->SetValue(i, vertex.depth);
+    reflectance->SetValue(i,
+      options.schlick && vertex.facet >= 0
+        ? SchlickReflectance(vertex.cosine, options.exterior, options.interior)
+        : vertex.reflectance);
+    facet->SetValue(
+      i, vertex.facet < 0 ? -1 : static_cast<vtkIdType>(membrane.GetCellId(vertex.facet)));
+    source->SetValue(i, sources[k]);
+  }
+  output->SetPoints(points);
+  vtkPointData* data = output->GetPointData();
+  data->AddArray(sightPoint);
+  data->AddArray(depth);
+  data->AddArray(reflectance);
+  data->AddArray(facet);
+  data->AddArray(source);
+}
+
+//------------------------------------------------------------------------------
+void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
+  const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output)
+{
+  vtkPointData* data = output->GetPointData();
+  vtkDataArray* trueNormals = data->GetNormals();
+  if (!trueNormals)
+  {
+    return;
+  }
+  const auto normals = MakeArray<vtkDoubleArray>("VirtualNormals", 3, vertices.size());
+  for (std::size_t k = 0; k < vertices.size(); ++k)
+  {
+    const auto i = static_cast<vtkIdType>(k);
+    glm::dvec3 normal(0.0);
+    trueNormals->GetTuple(i, &normal.x);
+    const double length = glm::length(normal);
+    const VirtualVertex& vertex = *vertices[k];
+    if (length > 0.0 && std::isfinite(length) && vertex.facet >= 0)
+    {
+      normal = ComputeVirtualNormal(normal / length, truePoints[k], vertex.sightPoint, options.eye,
+        options.exterior, options.interior, options.isLightAtEye ? nullptr : &options.light);
+    }
+    normals->SetTypedTuple(i, &normal.x);
+  }
+  data->AddArray(normals);
+  data->SetActiveNormals(normals->GetName()); // SetNormals would drop the true ones
+}
+
+//------------------------------------------------------------------------------
+void MakeCellArrays(const std::vector<vtkIdType>& sources,
+  const std::vector<signed char>& orientations, vtkPolyData* output)
+{
+  const auto source = MakeArray<vtkIdTypeArray>("SourceCellId", 1, sources.size());
+  const auto orientation = MakeArray<vtkSignedCharArray>("ImageOrientation", 1, sources.size());
+  for (std::size_t k = 0; k < sources.size(); ++k)
+  {
+    source->SetValue(static_cast<vtkIdType>(k), sources[k]);
+    orientation->SetValue(static_cast<vtkIdType>(k), orientations[k]);
+  }
+  output->GetCellData()->AddArray(source);
+  output->GetCellData()->AddArray(orientation);
+}
+
+//------------------------------------------------------------------------------
+int TakeFittingArrays(vtkDataSetAttributes* from, vtkIdType tuples, vtkDataSetAttributes* fitting)
+{
+  int removed = 0;
+  fitting->ShallowCopy(from);
+  for (int i = fitting->GetNumberOfArrays(); i-- > 0;)
+  {
+    if (fitting->GetAbstractArray(i)->GetNumberOfTuples() != tuples)
+    {
+      fitting->RemoveArray(i);
+      ++removed;
+    }
+  }
+  return removed;
+}
+
+//------------------------------------------------------------------------------
+void CopyTuples(vtkDataSetAttributes* from, vtkIdType tuples, const std::vector<vtkIdType>& sources,
+  vtkDataSetAttributes* to)
+{
+  to->CopyAllOn();
+  const auto count = static_cast<vtkIdType>(sources.size());
+  bool same = count == tuples;
+  for (vtkIdType i = 0; same && i < count; ++i)
+  {
+    same = sources[static_cast<std::size_t>(i)] == i;
+  }
+  if (same)
+  {
+    to->PassData(from);
+    return;
+  }
+  to->CopyAllocate(from, count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    to->CopyData(from, sources[static_cast<std::size_t>(i)], i);
+  }
+}
+
+}

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Output/VirtualPolyData.h"
+
+#include "Filters/Object/ViewSelection.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+namespace meniscus
+{
+namespace
+{
+
+class Builder
+{
+public:
+  Builder(vtkPolyData* input, const std::vector<VirtualVertex>& vertices,
+    const ViewSelection& selection, const Membrane& membrane, vtkPolyData* output)
+    : Input(input)
+    , Vertices(vertices)
+    , Selection(selection)
+    , Surface(membrane)
+    , Output(output)
+  {
+  }
+
+  VirtualPolyDataReport Run(const OutputOptions& options)
+  {
+    this->Output->GetFieldData()->PassData(this->Input->GetFieldData());
+    this->NumberPoints();
+    this->CopyArrays(this->Input->GetPointData(), this->Input->GetNumberOfPoints(),
+      this->SourcePoints, this->Output->GetPointData());
+    MakePoints(this->Input, this->Images, this->SourcePoints, this->Surface, options, this->Output);
+    if (options.virtualNormals)
+    {
+      std::vector<glm::dvec3> truePoints(this->SourcePoints.size());
+      for (std::size_t i = 0; i < truePoints.size(); ++i)
+      {
+        this->Input->GetPoint(this->SourcePoints[i], &truePoints[i].x);
+      }
+      MakeVirtualNormals(this->Images, truePoints, options, this->Output);
+    }
+
+    this->Output->SetVerts(this->CopyVertices(this->Input->GetVerts()));
+    this->Output->SetLines(this->CopyCells(this->Input->GetLines()));
+    this->Output->SetPolys(this->CopyCells(this->Input->GetPolys()));
+    this->Output->SetStrips(this->CopyCells(this->Input->GetStrips()));
+    this->CopyArrays(this->Input->GetCellData(), this->Input->GetNumberOfCells(), this->SourceCells,
+      this->Output->GetCellData());
+    MakeCellArrays(this->SourceCells, this->Orientations, this->Output);
+    return this->Report;
+  }
+
+private:
+  // Places of the points that have an image; -1 for the others.
+  void NumberPoints()
+  {
+    const auto count = static_cast<vtkIdType>(this->Vertices.size());
+    this->NewIds.resize(this->Vertices.size(), -1);
+    vtkNew<vtkIdTypeArray> without;
+    without->SetName("PointsWithoutImage");
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      if (!this->Selection.HasPoint(static_cast<std::size_t>(i)))
+      {
+        continue; // whether it has an image is not known
+      }
+      if (this->GetVertex(i).state == ImageState::Found)
+      {
+        this->NewIds[static_cast<std::size_t>(i)] =
+          static_cast<vtkIdType>(this->SourcePoints.size());
+        this->SourcePoints.push_back(i);
+        this->Images.push_back(&this->GetVertex(i));
+      }
+      else
+      {
+        without->InsertNextValue(i);
+      }
+    }
+    this->Output->GetFieldData()->AddArray(without);
+  }
+
+  void CopyArrays(vtkDataSetAttributes* from, vtkIdType tuples,
+    const std::vector<vtkIdType>& sources, vtkDataSetAttributes* to)
+  {
+    vtkNew<vtkDataSetAttributes> fitting;
+    this->Report.arraysOfWrongSize += TakeFittingArrays(from, tuples, fitting);
+    CopyTuples(fitting, tuples, sources, to);
+  }
+
+  bool IsPoint(vtkIdType id) const
+  {
+    return id >= 0 && id < static_cast<vtkIdType>(this->Vertices.size());
+  }
+  const VirtualVertex& GetVertex(vtkIdType id) const
+  {
+    return this->Vertices[static_cast<std::size_t>(id)];
+  }
+  void AddSource(vtkIdType cell, vtkIdType firstPoint)
+  {
+    this->SourceCells.push_back(cell);
+    this->Orientations.push_back(this->GetVertex(firstPoint).orientation);
+  }
+
+  vtkSmartPointer<vtkCellArray> CopyVertices(vtkCellArray* cells)
+  {
+    auto copy = vtkSmartPointer<vtkCellArray>::New();
+    const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
+    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+    {
+      vtkIdType count = 0;
+      const vtkIdType* ids = nullptr;
+      iterator->GetCurrentCell(count, ids);
+      bool broken = false;
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        if (!this->IsPoint(ids[i]))
+        {
+          broken = true;
+        }
+        else if (!this->Selection.HasCell(this->Cell))
+        {
+          continue;
+        }
+        else if (const vtkIdType id = this->NewIds[static_cast<std::size_t>(ids[i])]; id >= 0)
+        {
+          copy->InsertNextCell(1, &id);
+          this->AddSource(this->Cell, ids[i]);
+        }
+        else
+        {
+          ++this->Report.skippedCells;
+        }
+      }
+      this->Report.brokenCells += broken;
+      ++this->Cell;
+    }
+    return copy;
+  }
+
+  vtkSmartPointer<vtkCellArray> CopyCells(vtkCellArray* cells)
+  {
+    auto copy = vtkSmartPointer<vtkCellArray>::New();
+    vtkNew<vtkIdList> points;
+    const auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
+    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+    {
+      vtkIdType count = 0;
+      const vtkIdType* ids = nullptr;
+      iterator->GetCurrentCell(count, ids);
+      bool broken = count == 0;
+      bool complete = true;
+      points->Reset();
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        broken = broken || !this->IsPoint(ids[i]);
+        const vtkIdType id = broken ? -1 : this->NewIds[static_cast<std::size_t>(ids[i])];
+        complete = complete && id >= 0;
+        points->InsertNextId(id);
+      }
+      const bool selected = this->Selection.HasCell(this->Cell);
+      if (!broken && complete && selected)
+      {
+        copy->InsertNextCell(points);
+        this->AddSource(this->Cell, ids[0]);
+      }
+      this->Report.brokenCells += broken;
+      this->Report.skippedCells += !broken && !complete && selected;
+      ++this->Cell;
+    }
+    return copy;
+  }
+
+  vtkPolyData* Input;
+  const std::vector<VirtualVertex>& Vertices;
+  const ViewSelection& Selection;
+  const Membrane& Surface;
+  vtkPolyData* Output;
+  std::vector<vtkIdType> NewIds;
+  std::vector<vtkIdType> SourcePoints;
+  std::vector<const VirtualVertex*> Images;
+  std::vector<vtkIdType> SourceCells;
+  std::vector<signed char> Orientations;
+  vtkIdType Cell = 0; // of the input: vertices, lines, polygons, strips
+  VirtualPolyDataReport Report;
+};
+
+}
+
+//------------------------------------------------------------------------------
+VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
+  const std::vector<VirtualVertex>& vertices, const ViewSelection& selection,
+  const Membrane& membrane, const OutputOptions& options, vtkPolyData* output)
+{
+  return Builder(input, vertices, selection, membrane, output).Run(options);
+}
+
+}

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Filters_Output_VirtualPolyData_h
+#define meniscus_Filters_Output_VirtualPolyData_h
+
+#include "Filters/Output/OutputArrays.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
+
+#include "vtkType.h"
+
+#include <vector>
+
+class vtkPolyData;
+
+namespace meniscus
+{
+
+struct ViewSelection;
+
+/// What did not make it to the output.
+struct VirtualPolyDataReport
+{
+  vtkIdType skippedCells = 0; ///< cells that need a point without an image
+  vtkIdType brokenCells = 0;  ///< cells that name a point that does not exist
+  int arraysOfWrongSize = 0;  ///< attribute arrays that do not fit the input, not passed on
+};
+
+/**
+ * Fills `output` with the cells of `input` at the virtual points, and with the arrays of
+ * vtkRefractedGeometryFilter. `vertices` has one entry per point of `input`; what `selection` has
+ * is solved with `membrane`.
+ */
+VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
+  const std::vector<VirtualVertex>& vertices, const ViewSelection& selection,
+  const Membrane& membrane, const OutputOptions& options, vtkPolyData* output);
+
+}
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Solver/SolvedBlock.h"
+
+#include <cstring>
+#include <utility>
+
+namespace meniscus
+{
+namespace
+{
+
+std::vector<double> CopyPoints(vtkPolyData* input)
+{
+  const vtkIdType count = input->GetNumberOfPoints();
+  std::vector<double> points(3 * static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    input->GetPoint(i, points.data() + 3 * i);
+  }
+  return points;
+}
+
+// Bit by bit, so that a NaN equals itself.
+bool SameValues(const std::vector<double>& a, const std::vector<double>& b)
+{
+  return a.size() == b.size() &&
+    (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+}
+
+//------------------------------------------------------------------------------
+void SolvedBlock::UpdatePoints()
+{
+  if (this->sourceTime == this->source->GetMTime())
+  {
+    return;
+  }
+  std::vector<double> values = CopyPoints(this->source);
+  if (!SameValues(values, this->points))
+  {
+    this->points = std::move(values);
+    this->eyeUpdate = -1;
+  }
+  this->sourceTime = this->source->GetMTime();
+}
+
+//------------------------------------------------------------------------------
+void SolvedBlock::UpdateTopology()
+{
+  if (this->topologyTime == this->source->GetMTime())
+  {
+    return;
+  }
+  ObjectTopology values = ExtractTopology(this->source);
+  if (!(values == this->topology))
+  {
+    this->topology = std::move(values);
+    this->cellsReady = false;
+    this->viewChange = -1;
+  }
+  this->topologyTime = this->source->GetMTime();
+}
+
+}

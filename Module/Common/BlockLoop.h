@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Common_BlockLoop_h
+#define meniscus_Common_BlockLoop_h
+
+#include "Common/RangeLoop.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace meniscus
+{
+
+/** Items of a block: many blocks for each thread of any machine, each tens of microseconds. */
+constexpr std::size_t BlockSize = 8192;
+
+inline std::size_t NumberOfBlocks(std::size_t count)
+{
+  return (count + BlockSize - 1) / BlockSize;
+}
+
+/**
+ * Calls body(block, first, last) for blocks that cover [0, count). They do not depend on the number
+ * of threads, so neither does what is put together from them in order.
+ */
+template <typename Body>
+void ForEachBlock(std::size_t count, const RangeLoop& loop, Body&& body)
+{
+  loop(NumberOfBlocks(count),
+    [&body, count](std::size_t firstBlock, std::size_t lastBlock)
+    {
+      for (std::size_t block = firstBlock; block < lastBlock; ++block)
+      {
+        body(block, block * BlockSize, std::min(count, (block + 1) * BlockSize));
+      }
+    });
+}
+
+}
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Common_RangeLoop_h
+#define meniscus_Common_RangeLoop_h
+
+#include <cstddef>
+#include <functional>
+
+namespace meniscus
+{
+
+/**
+ * How the caller wants independent work done: `loop(count, body)` calls `body(begin, end)` for
+ * ranges that cover [0, count) once each, in any order and from any number of threads.
+ */
+using RangeBody = std::function<void(std::size_t begin, std::size_t end)>;
+using RangeLoop = std::function<void(std::size_t count, const RangeBody& body)>;
+
+/// All of it at once on the calling thread.
+inline void SerialLoop(std::size_t count, const RangeBody& body)
+{
+  body(0, count);
+}
+
+}
+
+#endif

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Curved/CurveCrossings.h"
+
+#include "Refraction/Membrane/Optics.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr int Steps = 12;
+
+// Quadratic convergence leaves the square of the last step.
+constexpr double LastStep = 1e-7;
+
+// The guess comes from linear interpolation over a curve that bends little; what goes farther than
+// the length of the curve has left it.
+constexpr double Reach = 1.0;
+
+// Part of a side that its zero is bracketed to. The side itself is known to some 1e-15 of its
+// length.
+constexpr double Bracket = 1e-14;
+
+// Bisection alone brackets a zero in 47 steps; it is taken at least every other time.
+constexpr int BracketSteps = 100;
+
+constexpr double Epsilon = std::numeric_limits<double>::epsilon();
+
+bool IsNear(double value, double guess)
+{
+  return std::fabs(value - guess) <= Reach;
+}
+
+bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
+{
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+struct Sample
+{
+  double s;
+  double value;
+};
+
+// Chandrupatla's method (Advances in Engineering Software 28, 1997): inverse quadratic
+// interpolation where the values at three samples are monotone enough for it to land inside the
+// bracket, else bisection. `measure(s, value)` tells whether the value is zero within its rounding.
+template <typename Measure>
+double FindZero(double atStart, double atEnd, const Measure& measure)
+{
+  Sample a{ 0.0, atStart };
+  Sample b{ 1.0, atEnd };
+  if (!(a.value * b.value < 0.0))
+  {
+    return std::fabs(a.value) < std::fabs(b.value) ? a.s : b.s;
+  }
+  double part = a.value / (a.value - b.value);
+  for (int i = 0; i < BracketSteps; ++i)
+  {
+    Sample next{ a.s + part * (b.s - a.s), 0.0 };
+    if (measure(next.s, next.value))
+    {
+      return next.s;
+    }
+    Sample c = a;
+    if ((next.value < 0.0) != (a.value < 0.0))
+    {
+      c = b;
+      b = a;
+    }
+    a = next;
+    const double least = 0.5 * Bracket / std::fabs(b.s - a.s);
+    if (!(least < 0.5))
+    {
+      break;
+    }
+    const double xi = (a.s - b.s) / (c.s - b.s);
+    const double phi = (a.value - b.value) / (c.value - b.value);
+    part = 0.5;
+    if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
+    {
+      part = a.value / (b.value - a.value) * (c.value / (b.value - c.value)) +
+        (c.s - a.s) / (b.s - a.s) * (a.value / (c.value - a.value)) *
+          (b.value / (c.value - b.value));
+    }
+    part = std::clamp(part, least, 1.0 - least);
+  }
+  return std::fabs(a.value) < std::fabs(b.value) ? a.s : b.s;
+}
+
+}
+
+//------------------------------------------------------------------------------
+ObjectLine ObjectLine::Order(const glm::dvec3& a, const glm::dvec3& b, bool& turned)
+{
+  turned = IsBefore(b, a);
+  return turned ? ObjectLine{ b, a - b } : ObjectLine{ a, b - a };
+}
+
+//------------------------------------------------------------------------------
+RefractedPoint RefractAt(const PatchPoint& at, const Media& media)
+{
+  const RefractionRay ray = ComputeRefractionRay(glm::normalize(at.position - media.eye),
+    glm::normalize(at.normal), media.exterior / media.interior);
+  return { at, ray.direction,
+    ray.kind == RayKind::Refracted && glm::length(at.normal) > CurvedPatch::ShortestNormal };
+}
+
+//------------------------------------------------------------------------------
+double GetParameter(const ObjectLine& line, const RefractedPoint& from)
+{
+  // p + t r = o + l d, so (p - o) x r = l d x r.
+  const glm::dvec3 across = glm::cross(line.direction, from.ray);
+  const double squared = glm::dot(across, across);
+  return squared > 0.0
+    ? glm::dot(glm::cross(from.at.position - line.origin, from.ray), across) / squared
+    : 0.0;
+}
+
+//------------------------------------------------------------------------------
+SubCellSide::SubCellSide(const CurvedPatch& patch, const glm::dvec2& a, const glm::dvec2& b)
+  : Patch(patch)
+{
+  const double first[3] = { 1.0 - a.x - a.y, a.x, a.y };
+  const double last[3] = { 1.0 - b.x - b.y, b.x, b.y };
+  for (int k = 0; k < 3; ++k)
+  {
+    if (first[k] == 0.0 && last[k] == 0.0)
+    {
+      this->Edge = k;
+    }
+  }
+  if (this->Edge < 0)
+  {
+    this->Turned = std::tie(b.x, b.y) < std::tie(a.x, a.y);
+    this->From = this->Turned ? b : a;
+    this->To = this->Turned ? a : b;
+    return;
+  }
+  // In x the weight of the edge's end with the greater coordinates, which grows.
+  const int i = (this->Edge + 1) % 3;
+  const int j = (this->Edge + 2) % 3;
+  this->FarIsFirst = IsBefore(patch.corner[j], patch.corner[i]);
+  const int far = this->FarIsFirst ? i : j;
+  this->Turned = last[far] < first[far];
+  this->From.x = std::min(first[far], last[far]);
+  this->To.x = std::max(first[far], last[far]);
+}
+
+//------------------------------------------------------------------------------
+PatchPoint SubCellSide::Evaluate(double s) const
+{
+  if (this->Edge < 0)
+  {
+    return this->Patch.Evaluate(this->From + s * (this->To - this->From));
+  }
+  const double far = this->From.x + s * (this->To.x - this->From.x);
+  return this->FarIsFirst ? this->Patch.EvaluateEdge(this->Edge, far, 1.0 - far)
+                          : this->Patch.EvaluateEdge(this->Edge, 1.0 - far, far);
+}
+
+//------------------------------------------------------------------------------
+RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const ObjectLine& line,
+  const RefractedPoint& a, const RefractedPoint& b)
+{
+  const RefractedPoint& start = side.IsTurned() ? b : a;
+  const RefractedPoint& end = side.IsTurned() ? a : b;
+  const double length = glm::length(line.direction);
+  const double zero = FindZero(GetMoment(line, start), GetMoment(line, end),
+    [&side, &media, &line, length](double s, double& value)
+    {
+      const RefractedPoint from = RefractAt(side.Evaluate(s), media);
+      value = GetMoment(line, from);
+      // The moment is a sum of products of three lengths, each rounded a few times.
+      return std::fabs(value) <=
+        4.0 * Epsilon * length * glm::length(from.at.position - line.origin);
+    });
+  return zero == 0.0 ? start : (zero == 1.0 ? end : RefractAt(side.Evaluate(zero), media));
+}
+
+//------------------------------------------------------------------------------
+RefractedPoint MeetPlane(const SubCellSide& side, const Media& media, const glm::dvec3& point,
+  const glm::dvec3& normal, const RefractedPoint& a, const RefractedPoint& b)
+{
+  const RefractedPoint& start = side.IsTurned() ? b : a;
+  const RefractedPoint& end = side.IsTurned() ? a : b;
+  const double length = glm::length(normal);
+  const double zero =
+    FindZero(glm::dot(normal, start.at.position - point), glm::dot(normal, end.at.position - point),
+      [&side, &point, &normal, length](double s, double& value)
+      {
+        const glm::dvec3 away = side.Evaluate(s).position - point;
+        value = glm::dot(normal, away);
+        return std::fabs(value) <= 4.0 * Epsilon * length * glm::length(away);
+      });
+  return zero == 0.0 ? start : (zero == 1.0 ? end : RefractAt(side.Evaluate(zero), media));
+}
+
+//------------------------------------------------------------------------------
+bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l)
+{
+  glm::dvec3 normal;
+  return MeetPatch(patch, line, LastStep, b, l, normal);
+}
+
+//------------------------------------------------------------------------------
+bool MeetPatchAgain(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l)
+{
+  if (!MeetPatch(patch, line, b, l))
+  {
+    return false;
+  }
+  constexpr double grid = 1024.0; // near enough for two or three steps
+  glm::dvec2 again = glm::round(grid * b) / grid;
+  double alongAgain = std::round(grid * l) / grid;
+  if (MeetPatch(patch, line, again, alongAgain))
+  {
+    b = again;
+    l = alongAgain;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
+  double& l, glm::dvec3& normal)
+{
+  glm::dvec2 atB = b;
+  double atL = l;
+  PatchJet jet;
+  for (int i = 0; i < Steps; ++i)
+  {
+    patch.Evaluate(atB, jet);
+    // Cramer's rule for by0 x + by1 y - direction l = rest.
+    const glm::dvec3 rest = line.origin + atL * line.direction - jet.position;
+    const glm::dvec3 byX = glm::cross(jet.positionBy[1], line.direction);
+    const double inverse = 1.0 / glm::dot(jet.positionBy[0], byX);
+    const glm::dvec2 moveB(inverse * glm::dot(rest, byX),
+      inverse * glm::dot(jet.positionBy[0], glm::cross(rest, line.direction)));
+    const double moveL =
+      -inverse * glm::dot(rest, glm::cross(jet.positionBy[0], jet.positionBy[1]));
+    atB += moveB;
+    atL += moveL;
+    if (!IsNear(atB.x, b.x) || !IsNear(atB.y, b.y) || !IsNear(atL, l))
+    {
+      return false;
+    }
+    if (std::max({ std::fabs(moveB.x), std::fabs(moveB.y), std::fabs(moveL) }) < lastStep)
+    {
+      b = atB;
+      l = atL;
+      // Over so short a step the normal is as good as linear.
+      normal = jet.normal + moveB.x * jet.normalBy[0] + moveB.y * jet.normalBy[1];
+      return true;
+    }
+  }
+  return false;
+}
+
+}

@@ -1,0 +1,606 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+
+#include "Refraction/Curved/PatchCrossings.h"
+#include "Refraction/Curved/PatchRoots.h"
+#include "Refraction/Membrane/Optics.h"
+#include "Refraction/Tubes/RefractedRayBounds.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// A root on an edge is found in both of its facets, up to what Newton's method leaves.
+constexpr double Border = PatchCrossings::Border;
+
+// Newton steps in one patch while the answers before are followed, how far a step may leave the
+// patch before another one takes over, and how often that may happen.
+constexpr int FollowSteps = 8;
+constexpr double FollowReach = 0.3;
+constexpr int LongestChase = 8;
+
+// Facets to cross on the way from the last answer. Farther away the tree is faster.
+constexpr int LongestWalk = 64;
+
+// Points go on as before, and their sight points as well, if the step differs by no more than this
+// part of itself.
+constexpr double SameStep = 0.5;
+
+constexpr int FirstSteps = 10;
+constexpr double FirstReach = 1.5;
+
+// Images of one point in two patches are one if their sight points are this close, in units of
+// the patch's size: images on a common edge, up to what Newton's method leaves.
+constexpr double SamePlace = 1e-6;
+
+constexpr std::int32_t AllFacets = std::numeric_limits<std::int32_t>::max();
+
+double GetSize(const CurvedPatch& patch)
+{
+  const auto squared = [&patch](int i, int j)
+  {
+    const glm::dvec3 edge = patch.corner[j] - patch.corner[i];
+    return glm::dot(edge, edge);
+  };
+  return std::sqrt(std::max({ squared(0, 1), squared(1, 2), squared(2, 0) }));
+}
+
+// Barycentric coordinates of the foot of `point` in the facet's plane.
+glm::dvec2 Project(const CurvedPatch& patch, const glm::dvec3& point)
+{
+  const glm::dvec3 u = patch.corner[1] - patch.corner[0];
+  const glm::dvec3 v = patch.corner[2] - patch.corner[0];
+  const glm::dvec3 w = point - patch.corner[0];
+  const glm::dvec3 normal = glm::cross(u, v);
+  const double squared = glm::dot(normal, normal);
+  return { glm::dot(glm::cross(w, v), normal) / squared,
+    glm::dot(glm::cross(u, w), normal) / squared };
+}
+
+}
+
+//------------------------------------------------------------------------------
+MembraneStatus CurvedMembraneSolver::SetMembrane(const MembraneInput& input, const RangeLoop& loop)
+{
+  const std::vector<Membrane::Facet> before = this->Surface.GetFacets();
+  const std::size_t pointsBefore = this->Surface.GetPositions().size();
+  const MembraneStatus status = this->Surface.Build(input);
+  const auto& facets = this->Surface.GetFacets();
+  const auto& positions = this->Surface.GetPositions();
+  if (facets == before && positions.size() == pointsBefore && !facets.empty())
+  {
+    this->Patches.Refit(loop);
+    this->Tree.SetUnit(this->Surface.GetRadius());
+    this->FindAxis();
+    return status;
+  }
+  this->Patches.Build(this->Surface, loop);
+  this->BuildTree(this->Tree);
+  this->FindAxis();
+  return status;
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::BuildTree(RayTubeTree& tree) const
+{
+  const auto& positions = this->Surface.GetPositions();
+  const auto& facets = this->Surface.GetFacets();
+  std::vector<glm::dvec3> centroids;
+  centroids.reserve(facets.size());
+  for (const Membrane::Facet& facet : facets)
+  {
+    glm::dvec3 sum(0.0);
+    for (const std::int32_t vertex : facet)
+    {
+      sum += positions[static_cast<std::size_t>(vertex)];
+    }
+    centroids.push_back(sum / 3.0);
+  }
+  tree.Build(centroids, facets.empty() ? 1.0 : this->Surface.GetRadius());
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::FindAxis()
+{
+  this->SidesReady = false;
+  glm::dvec3 sum(0.0);
+  for (const Membrane::Facet& facet : this->Surface.GetFacets())
+  {
+    for (const std::int32_t vertex : facet)
+    {
+      sum += this->Surface.GetNormals()[static_cast<std::size_t>(vertex)];
+    }
+  }
+  this->FindEnclosure();
+  const double length = glm::length(sum);
+  // Normals of a closed membrane cancel out. No plane with small integers as normal has this
+  // direction: its components' squares are 1, 2 and 3 over 6.
+  const glm::dvec3 oblique(std::sqrt(1.0 / 6.0), std::sqrt(1.0 / 3.0), std::sqrt(0.5));
+  this->Axis = length > 0.0 && !this->Closed ? sum / length : oblique;
+  this->Frame = HeightFrame(this->Axis);
+  this->FieldReady = false;
+  this->ConvexField = false;
+  this->LargestBulge = 0.0;
+  this->Lowest = std::numeric_limits<double>::max();
+  this->Highest = std::numeric_limits<double>::lowest();
+  for (std::size_t i = 0; i < this->Surface.GetFacets().size(); ++i)
+  {
+    const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
+    const double bulge = BoundBulge(patch);
+    this->LargestBulge = std::max(this->LargestBulge, bulge);
+    for (const glm::dvec3& corner : patch.corner)
+    {
+      const double height = glm::dot(this->Axis, corner);
+      this->Lowest = std::min(this->Lowest, height - bulge);
+      this->Highest = std::max(this->Highest, height + bulge);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::PrepareField()
+{
+  if (!this->FieldReady)
+  {
+    this->ConvexField = !this->Closed && IsConvexField(this->Surface, this->Patches, this->Frame);
+    this->FieldReady = true;
+  }
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::FindEnclosure()
+{
+  const auto& facets = this->Surface.GetFacets();
+  this->Closed = !facets.empty();
+  double volume = 0.0; // by the divergence theorem, six times, positive for normals outwards
+  for (std::size_t i = 0; i < facets.size() && this->Closed; ++i)
+  {
+    const auto at = [this, &facets, i](std::size_t k) -> const glm::dvec3&
+    { return this->Surface.GetPositions()[static_cast<std::size_t>(facets[i][k])]; };
+    const glm::dvec3 winding = glm::cross(at(1) - at(0), at(2) - at(0));
+    glm::dvec3 normal(0.0);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const bool isBorder = this->Patches.GetNeighbour(static_cast<std::int32_t>(i),
+                              static_cast<int>(k)) == CurvedPatches::NoFacet;
+      this->Closed = this->Closed && !isBorder;
+      normal += this->Surface.GetNormals()[static_cast<std::size_t>(facets[i][k])];
+    }
+    volume += std::copysign(1.0, glm::dot(winding, normal)) * glm::dot(at(0), winding);
+  }
+  this->OutsideIsFront = this->Closed && volume > 0.0;
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::PrepareSides()
+{
+  if (!this->SidesReady)
+  {
+    this->Sides.Build(this->Surface, this->Patches, this->Frame);
+    this->SidesReady = true;
+  }
+}
+
+//------------------------------------------------------------------------------
+bool CurvedMembraneSolver::IsInFront(const glm::dvec3& local) const
+{
+  if (!this->Closed && glm::dot(this->Axis, local) > this->Highest)
+  {
+    return true;
+  }
+  const MembraneSides::Side side = this->Sides.Find(local);
+  return side == MembraneSides::Side::Unknown ? this->OutsideIsFront
+                                              : side == MembraneSides::Side::Front;
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::Clear()
+{
+  this->Surface = Membrane();
+  this->Patches = CurvedPatches();
+  this->Tree = RayTubeTree();
+  this->SidesReady = false;
+}
+
+//------------------------------------------------------------------------------
+EyeStatus CurvedMembraneSolver::SetEye(
+  const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop)
+{
+  const EyeStatus status = CheckEye(eye, exterior, interior);
+  if (status != EyeStatus::Ready)
+  {
+    return status;
+  }
+  this->Optics = { eye - this->Surface.GetOrigin(), exterior, interior };
+  std::atomic<bool> touched{ false };
+  this->Tree.Refit(
+    [this, &touched](std::int32_t facet)
+    {
+      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      if (this->IsEyeOnPatch(patch))
+      {
+        touched = true;
+      }
+      return BoundRefractedRays(
+        patch, this->Optics.eye, this->Optics.exterior / this->Optics.interior);
+    },
+    loop);
+  return touched ? EyeStatus::OnTheMembrane : EyeStatus::Ready;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedMembraneSolver::IsEyeOnPatch(const CurvedPatch& patch) const
+{
+  const glm::dvec3 away = this->Optics.eye - patch.corner[0];
+  const glm::dvec3 first = patch.corner[1] - patch.corner[0];
+  const glm::dvec3 second = patch.corner[2] - patch.corner[0];
+  // The patch bulges by less than half of its longest edge, which is below the sum of two.
+  if (glm::dot(away, away) > 8.0 * (glm::dot(first, first) + glm::dot(second, second)))
+  {
+    return false;
+  }
+  // The patch is crossed at right angles to its facet, where the eye is.
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  const double slack =
+    rounding * std::max(this->Surface.GetRadius(), glm::length(this->Optics.eye));
+  const HeightFrame frame(glm::normalize(glm::cross(first, second)));
+  const double height = frame.GetHeight(this->Optics.eye);
+  PatchCrossings crossings(patch, frame);
+  crossings.Find(frame.Project(this->Optics.eye), height - slack, height + slack);
+  // What cannot be told apart from the patch is on it.
+  return !crossings.IsComplete() ||
+    std::any_of(crossings.begin(), crossings.end(),
+      [height, slack](const PatchCrossing& crossing)
+      { return std::fabs(crossing.height - height) <= slack; });
+}
+
+//------------------------------------------------------------------------------
+bool CurvedMembraneSolver::FacesEye() const
+{
+  const auto& facets = this->Surface.GetFacets();
+  return std::any_of(facets.begin(), facets.end(),
+    [this](const Membrane::Facet& facet)
+    {
+      return std::any_of(facet.begin(), facet.end(),
+        [this](std::int32_t vertex)
+        {
+          const auto i = static_cast<std::size_t>(vertex);
+          return glm::dot(this->Surface.GetPositions()[i] - this->Optics.eye,
+                   this->Surface.GetNormals()[i]) < 0.0;
+        });
+    });
+}
+
+//------------------------------------------------------------------------------
+std::size_t CurvedMembraneSolver::CountVerticesBehindOtherPieces(std::size_t most) const
+{
+  const SurfacePieces& pieces = this->Surface.GetPieces();
+  const auto& facets = this->Surface.GetFacets();
+  if (pieces.count < 2)
+  {
+    return 0;
+  }
+  std::size_t count = 0;
+  std::vector<VirtualVertex> images;
+  const std::size_t step = std::max<std::size_t>(facets.size() / most, 1);
+  for (std::size_t i = 0; i < facets.size(); i += step)
+  {
+    const auto vertex = static_cast<std::size_t>(facets[i][0]);
+    const glm::dvec3 point = this->Surface.GetPositions()[vertex] + this->Surface.GetOrigin();
+    this->FindImages(point, images);
+    count += std::any_of(images.begin(), images.end(),
+      [this, &pieces, &point, i, vertex](const VirtualVertex& image)
+      {
+        // Pieces may share places, which are their own images.
+        constexpr double touching = 1e-6;
+        return pieces.pieceOf[static_cast<std::size_t>(image.facet)] != pieces.pieceOf[i] &&
+          image.depth > touching * this->Surface.GetRadius() &&
+          glm::dot(point - image.sightPoint, this->Surface.GetNormals()[vertex]) < 0.0;
+      });
+  }
+  return count;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedMembraneSolver::MayShow(
+  const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const
+{
+  const glm::dvec3 middle = 0.5 * low + 0.5 * high - this->Surface.GetOrigin();
+  const glm::dvec3 half = 0.5 * high - 0.5 * low;
+  const double padding = std::max({ half.x, half.y, half.z });
+  const glm::dvec3 top(std::copysign(half.x, this->Axis.x), std::copysign(half.y, this->Axis.y),
+    std::copysign(half.z, this->Axis.z));
+  return !this->IsInReach(middle) || !this->IsBehindAll(middle + top) ||
+    this->Tree.HasAny(middle, padding, chosen);
+}
+
+//------------------------------------------------------------------------------
+bool CurvedMembraneSolver::IsInReach(const glm::dvec3& local) const
+{
+  const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
+  // Written so that a NaN fails: it may hide from max() in one component but not in the sum.
+  return reach / this->Surface.GetRadius() < RayTubeTree::FarthestRadii &&
+    std::isfinite(local.x + local.y + local.z);
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::Solve(
+  const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const
+{
+  Memory memory;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    if (i % Chain == 0)
+    {
+      memory = Memory();
+    }
+    const double* p = points + 3 * i;
+    vertices[i] = this->SolvePoint(glm::dvec3(p[0], p[1], p[2]), memory);
+  }
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex CurvedMembraneSolver::SolvePoint(const glm::dvec3& point, Memory& memory) const
+{
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  VirtualVertex vertex;
+  vertex.position = point;
+  if (!this->IsInReach(local))
+  {
+    vertex.state = ImageState::NotFinite;
+    return vertex;
+  }
+  const SightEquation equation = this->MakeEquation(local);
+  SightPlace place;
+  if (!this->Follow(equation, local, memory, place) && !this->FindFirst(equation, local, place))
+  {
+    return vertex;
+  }
+  const bool first = memory.place.facet == CurvedPatches::NoFacet;
+  memory.pointStep = first ? glm::dvec3(0.0) : local - memory.point;
+  memory.sightStep =
+    first ? glm::dvec3(0.0) : place.root.at.position - memory.place.root.at.position;
+  memory.point = local;
+  memory.place = place;
+  return this->MakeVertex(local, this->Patches.GetPatch(place.facet), place);
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex CurvedMembraneSolver::SolveBetween(
+  const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const
+{
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  Memory memory;
+  memory.place.facet = first.facet;
+  memory.place.root.at.position =
+    0.5 * (first.sightPoint + second.sightPoint) - this->Surface.GetOrigin();
+  memory.place.root.at.normal = this->Optics.eye - memory.place.root.at.position;
+  memory.point = local;
+  SightPlace place;
+  VirtualVertex vertex;
+  return this->IsInReach(local) && this->Follow(this->MakeEquation(local), local, memory, place)
+    ? this->MakeVertex(local, this->Patches.GetPatch(place.facet), place)
+    : vertex;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedMembraneSolver::MeetRay(
+  const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const
+{
+  const glm::dvec3& eye = this->Optics.eye;
+  const glm::dvec3 target = near.sightPoint - this->Surface.GetOrigin();
+  // As long as the way to the surface, so that its parameter is about 1.
+  const double distance =
+    std::max(glm::dot(target - eye, direction), std::numeric_limits<double>::min());
+  const ObjectLine ray{ eye, distance * direction };
+  std::int32_t facet = near.facet;
+  glm::dvec2 b = Project(this->Patches.GetPatch(facet), target);
+  double l = 1.0;
+  if (!this->MeetLine(ray, -direction, facet, b, l))
+  {
+    return false;
+  }
+  at = this->Patches.GetPatch(facet).Evaluate(b);
+  at.normal = glm::normalize(at.normal);
+  at.position += this->Surface.GetOrigin();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& seenAlong,
+  std::int32_t& facet, glm::dvec2& b, double& l) const
+{
+  for (int i = 0; i < LongestChase; ++i)
+  {
+    const CurvedPatch patch = this->Patches.GetPatch(facet);
+    if (!MeetPatch(patch, line, b, l))
+    {
+      return false;
+    }
+    if (FindOutside(b).least >= -Border)
+    {
+      return true;
+    }
+    const glm::dvec3 target = patch.GetFlatPoint(b);
+    const std::int32_t next = this->Patches.Walk(facet, target, seenAlong, LongestWalk);
+    if (next == facet)
+    {
+      return false; // beyond the border
+    }
+    facet = next;
+    b = Project(this->Patches.GetPatch(facet), target);
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+// Newton's method across patches, from where the answers of the points before point to.
+bool CurvedMembraneSolver::Follow(const SightEquation& equation, const glm::dvec3& local,
+  const Memory& memory, SightPlace& place) const
+{
+  place = memory.place;
+  if (place.facet == CurvedPatches::NoFacet)
+  {
+    return false;
+  }
+  glm::dvec3 target = place.root.at.position;
+  const glm::dvec3 turn = local - memory.point - memory.pointStep;
+  if (glm::dot(turn, turn) < SameStep * SameStep * glm::dot(memory.pointStep, memory.pointStep))
+  {
+    target += memory.sightStep;
+  }
+  for (int i = 0; i < LongestChase; ++i)
+  {
+    place.facet = this->Patches.Walk(place.facet, target, place.root.at.normal, LongestWalk);
+    const CurvedPatch patch = this->Patches.GetPatch(place.facet);
+    const glm::dvec2 start = Project(patch, target);
+    if (FindOutside(start).least < -FollowReach)
+    {
+      return false;
+    }
+    place.root = equation.Solve(patch, start, FollowSteps, FollowReach);
+    if (place.root.end == SightRoot::End::Failed)
+    {
+      return false;
+    }
+    if (place.root.end == SightRoot::End::Converged && FindOutside(place.root.b).least >= -Border)
+    {
+      return equation.IsImage(place.root.at);
+    }
+    target = patch.GetFlatPoint(place.root.b);
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool CurvedMembraneSolver::FindFirst(
+  const SightEquation& equation, const glm::dvec3& local, SightPlace& place) const
+{
+  // First what costs little: Newton's method from the middle of each patch that may show the
+  // point.
+  place.facet = CurvedPatches::NoFacet;
+  this->Tree.Visit(local, 0.0,
+    [this, &equation, &place](std::int32_t facet)
+    {
+      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      const SightRoot root = equation.Solve(patch, glm::dvec2(1.0 / 3.0), FirstSteps, FirstReach);
+      if (root.end == SightRoot::End::Converged && FindOutside(root.b).least >= -Border &&
+        equation.IsImage(root.at))
+      {
+        place = { facet, root };
+        return std::int32_t(0);
+      }
+      return AllFacets;
+    });
+  if (place.facet == CurvedPatches::NoFacet)
+  {
+    std::vector<SightPlace> places;
+    this->FindPlaces(equation, local, places);
+    if (!places.empty())
+    {
+      place = places.front();
+    }
+  }
+  return place.facet != CurvedPatches::NoFacet;
+}
+
+//------------------------------------------------------------------------------
+void CurvedMembraneSolver::FindPlaces(
+  const SightEquation& equation, const glm::dvec3& local, std::vector<SightPlace>& places) const
+{
+  places.clear();
+  this->Tree.Visit(local, 0.0,
+    [this, &equation, &places](std::int32_t facet)
+    {
+      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      PatchRoots images(equation, patch);
+      images.Find();
+      for (const SightRoot& root : images)
+      {
+        if (equation.IsImage(root.at))
+        {
+          places.push_back({ facet, root });
+        }
+      }
+      return AllFacets;
+    });
+  std::sort(places.begin(), places.end(),
+    [](const SightPlace& a, const SightPlace& b)
+    {
+      const glm::dvec2& first = a.root.b;
+      const glm::dvec2& second = b.root.b;
+      return a.facet != b.facet ? a.facet < b.facet
+                                : (first.x != second.x ? first.x < second.x : first.y < second.y);
+    });
+}
+
+//------------------------------------------------------------------------------
+ImageState CurvedMembraneSolver::FindImages(
+  const glm::dvec3& point, std::vector<VirtualVertex>& images) const
+{
+  images.clear();
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  if (!this->IsInReach(local))
+  {
+    return ImageState::NotFinite;
+  }
+  const SightEquation equation = this->MakeEquation(local);
+  thread_local std::vector<SightPlace> places; // kept from point to point for its memory alone
+  this->FindPlaces(equation, local, places);
+  for (const SightPlace& place : places)
+  {
+    const CurvedPatch patch = this->Patches.GetPatch(place.facet);
+    const VirtualVertex vertex = this->MakeVertex(local, patch, place);
+    const double same = SamePlace * GetSize(patch);
+    const bool known = std::any_of(images.begin(), images.end(),
+      [&vertex, same](const VirtualVertex& other)
+      { return glm::length(other.sightPoint - vertex.sightPoint) < same; });
+    if (!known)
+    {
+      images.push_back(vertex);
+    }
+  }
+  return images.empty() ? ImageState::NoImage : ImageState::Found;
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex CurvedMembraneSolver::MakeVertex(
+  const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const
+{
+  const PatchPoint& at = place.root.at;
+  const glm::dvec3 sight = glm::normalize(at.position - this->Optics.eye);
+  VirtualVertex vertex;
+  vertex.depth = glm::length(local - at.position);
+  vertex.sightPoint = at.position + this->Surface.GetOrigin();
+  // Eq. 2.4; the identity where nothing is refracted.
+  const glm::dvec3 virtualPoint = this->Optics.exterior == this->Optics.interior
+    ? local
+    : at.position + sight * (vertex.depth * this->Optics.exterior / this->Optics.interior);
+  vertex.position = virtualPoint + this->Surface.GetOrigin();
+  vertex.cosine = -glm::dot(sight, at.normal) / glm::length(at.normal);
+  vertex.reflectance =
+    FresnelReflectance(vertex.cosine, this->Optics.exterior, this->Optics.interior);
+  vertex.facet = place.facet;
+  vertex.state = ImageState::Found;
+  vertex.orientation = static_cast<signed char>(SightEquation::GetOrientation(patch, place.root));
+  return vertex;
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex CurvedMembraneSolver::PassThrough(const glm::dvec3& local) const
+{
+  VirtualVertex vertex;
+  vertex.position = local + this->Surface.GetOrigin();
+  vertex.sightPoint = vertex.position;
+  vertex.state = ImageState::Found;
+  return vertex;
+}
+
+}

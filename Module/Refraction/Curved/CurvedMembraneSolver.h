@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Virtual vertices behind a membrane of curved patches: a membrane, its patches, a tree of ray
+ * tubes over them, and Newton's method on Snell's law. World coordinates outside, local ones
+ * inside.
+ *
+ * Patches are kept as long as the shape, the tree's bounds as long as eye and indices. Solving
+ * changes nothing and may run on any number of threads at once.
+ */
+#ifndef meniscus_Refraction_Curved_CurvedMembraneSolver_h
+#define meniscus_Refraction_Curved_CurvedMembraneSolver_h
+
+#include "Refraction/Curved/CurveCrossings.h"
+#include "Refraction/Curved/MembraneSides.h"
+#include "Refraction/Curved/SightEquation.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Refraction/Membrane/CurvedPatches.h"
+#include "Refraction/Membrane/HeightField.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Tubes/RayTubeTree.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace meniscus
+{
+
+/// A sight point and the facet whose patch it lies in.
+struct SightPlace
+{
+  std::int32_t facet = CurvedPatches::NoFacet;
+  SightRoot root{};
+};
+
+class CurvedMembraneSolver
+{
+public:
+  CurvedMembraneSolver() = default;
+  CurvedMembraneSolver(const CurvedMembraneSolver&) = delete; ///< the patches point to the membrane
+  CurvedMembraneSolver& operator=(const CurvedMembraneSolver&) = delete;
+
+  /// Points that share a chain of warm starts. Ranges that begin and end at multiples of it give
+  /// the same result whoever solves them.
+  static constexpr std::size_t Chain = 128;
+
+  /// Takes a shape. If only points and normals differ from the last one, patches are refitted and
+  /// the topology is kept. The eye must be set again afterwards.
+  MembraneStatus SetMembrane(const MembraneInput& input, const RangeLoop& loop = SerialLoop);
+
+  /// Forgets the membrane.
+  void Clear();
+
+  const Membrane& GetMembrane() const { return this->Surface; }
+  const CurvedPatches& GetPatches() const { return this->Patches; }
+
+  /// Fits the tree for an eye in world coordinates. Unless `Ready`, nothing may be solved.
+  EyeStatus SetEye(
+    const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop = SerialLoop);
+
+  /// One image of each of `points` (x, y, z each) in [begin, end), written to the same places of
+  /// `vertices`. Of several images it is the one that continues that of the point before, or, at
+  /// the start of a chain and where this ends, the first that the tree meets.
+  void Solve(
+    const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const;
+
+  /// Replaces `images` by every image of a point, in the order of their facets. `Found` if there is
+  /// any.
+  ImageState FindImages(const glm::dvec3& point, std::vector<VirtualVertex>& images) const;
+
+  /// What a chain of points remembers: the last two answers.
+  struct Memory
+  {
+    SightPlace place;
+    glm::dvec3 point{ 0.0 };
+    glm::dvec3 pointStep{ 0.0 };
+    glm::dvec3 sightStep{ 0.0 };
+  };
+
+  /// One image of a point, as Solve finds it after the points that `memory` has seen.
+  VirtualVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
+
+  ///@{
+  /**
+   * The directions that InjectivityGrid takes, along the mean of the membrane's normals, and
+   * whether the membrane is a convex field along them, which PrepareField finds out once per shape.
+   */
+  void PrepareField();
+  const HeightFrame& GetFrame() const { return this->Frame; }
+  bool HasConvexField() const { return this->ConvexField; }
+  ///@}
+  /// No patch is farther than this from its flat facet.
+  double GetLargestBulge() const { return this->LargestBulge; }
+
+  /// The image of a point that continues a known image of a point nearby, or two of points on both
+  /// sides; NoImage if Newton's method does not get there.
+  VirtualVertex SolveNear(const glm::dvec3& point, const VirtualVertex& known) const
+  {
+    return this->SolveBetween(point, known, known);
+  }
+  VirtualVertex SolveBetween(
+    const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const;
+
+  /// Whether the eye is in front of the surface at any vertex.
+  bool FacesEye() const;
+  /// Vertices that the eye sees through another piece of the membrane, from their front, of at most
+  /// `most` that are looked at: sight rays meet both pieces, one after the other.
+  std::size_t CountVerticesBehindOtherPieces(std::size_t most) const;
+
+  /// Where the ray from the eye along the unit vector `direction` meets the membrane near the sight
+  /// point of a known image, in world coordinates, with the unit normal. False if it does not.
+  bool MeetRay(const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const;
+
+  /// Where a line in local coordinates meets the membrane near a place in the patch of `facet`,
+  /// with the line's parameter near `l`: in this patch, or in those that the way there leads to
+  /// over edges that are crossed as seen along `seenAlong`. False if it does not.
+  bool MeetLine(const ObjectLine& line, const glm::dvec3& seenAlong, std::int32_t& facet,
+    glm::dvec2& b, double& l) const;
+
+  /// Eye and indices, in local coordinates: relative to the membrane's origin.
+  const Media& GetMedia() const { return this->Optics; }
+  SightEquation MakeEquation(const glm::dvec3& local) const
+  {
+    return { this->Optics.eye, local, this->Optics.exterior, this->Optics.interior };
+  }
+  bool IsInReach(const glm::dvec3& local) const;
+
+  /// Calls `visit(facet)` for every facet that may show a point of the cube of half side `padding`.
+  template <typename Visitor>
+  void VisitFacets(const glm::dvec3& local, double padding, Visitor&& visit) const
+  {
+    VisitTree(this->Tree, local, padding, visit);
+  }
+
+  /// Whether a patch that `chosen` marks may show a point of the box from `low` to `high`, in world
+  /// coordinates, or whether the box is not behind all of the membrane.
+  bool MayShow(
+    const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const;
+
+  /// The virtual vertex of a local point with the sight point `place`.
+  VirtualVertex MakeVertex(
+    const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const;
+
+  /// A local point that is its own image, on the eye's side of the membrane.
+  VirtualVertex PassThrough(const glm::dvec3& local) const;
+
+  ///@{
+  /**
+   * The eye's side of the membrane. Along an axis, the mean of the membrane's normals, it is a
+   * height field unless it overhangs: a point is in front if the nearest patch below it along the
+   * axis faces it, or if it lies on a patch within rounding. Beyond the border, a point above all
+   * of the membrane is in front. IsBehindAll is a first test that costs nothing; where it fails,
+   * IsInFront needs PrepareSides, a tree over the facets' columns that is built once per shape.
+   *
+   * A closed membrane has no such axis and needs none: a direction is taken along which neither
+   * boxes nor cylinders along the axes of coordinates have faces. Without a patch below it a point
+   * is outside, and that is in front if the normals point outwards.
+   */
+  void PrepareSides();
+  bool IsBehindAll(const glm::dvec3& local) const
+  {
+    return !this->OutsideIsFront && glm::dot(this->Axis, local) < this->Lowest;
+  }
+  bool IsClosed() const { return this->Closed; }
+  bool IsInFront(const glm::dvec3& local) const;
+  /// Points asked for since PrepareSides whose side could not be found out; they are not in front.
+  std::int64_t GetNumberOfUndecidedSides() const { return this->Sides.GetNumberOfUndecided(); }
+  ///@}
+
+private:
+  template <typename Visitor>
+  static void VisitTree(
+    const RayTubeTree& tree, const glm::dvec3& local, double padding, Visitor&& visit)
+  {
+    tree.Visit(local, padding,
+      [&visit](std::int32_t facet)
+      {
+        visit(facet);
+        return std::numeric_limits<std::int32_t>::max();
+      });
+  }
+
+  void FindAxis();
+  void FindEnclosure();
+  void BuildTree(RayTubeTree& tree) const;
+  bool IsEyeOnPatch(const CurvedPatch& patch) const;
+  bool Follow(const SightEquation& equation, const glm::dvec3& local, const Memory& memory,
+    SightPlace& place) const;
+  bool FindFirst(const SightEquation& equation, const glm::dvec3& local, SightPlace& place) const;
+  void FindPlaces(
+    const SightEquation& equation, const glm::dvec3& local, std::vector<SightPlace>& places) const;
+
+  Membrane Surface;
+  CurvedPatches Patches;
+  RayTubeTree Tree;
+  MembraneSides Sides;
+  bool SidesReady = false;
+  glm::dvec3 Axis{ 0.0 };
+  HeightFrame Frame;
+  bool FieldReady = false;
+  bool ConvexField = false;
+  double LargestBulge = 0.0;
+  double Lowest = 0.0;
+  double Highest = 0.0;
+  bool Closed = false;
+  bool OutsideIsFront = false; ///< closed, with normals that point outwards
+  Media Optics{ glm::dvec3(0.0), 1.0, 1.0 };
+};
+
+}
+
+#endif

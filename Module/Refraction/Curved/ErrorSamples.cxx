@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Curved/ErrorSamples.h"
+
+#include "Refraction/Membrane/Optics.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace meniscus
+{
+namespace
+{
+
+// A point whose barycentric coordinates in two cells are this close to a wall is in both: what
+// reproduces the thesis's numbers of points (Documentation/refraction.md).
+constexpr double Wall = 1e-7;
+
+}
+
+//------------------------------------------------------------------------------
+// The patch that shows the point is the one that the ray meets, or close to it.
+bool PatchesAsSurface::Meet(const glm::dvec3& point, const VirtualVertex& vertex,
+  const glm::dvec3& direction, PatchPoint& at) const
+{
+  std::vector<VirtualVertex> images;
+  if (this->Geometry.FindImages(point, images) != ImageState::Found)
+  {
+    return false;
+  }
+  const auto nearest = std::min_element(images.begin(), images.end(),
+    [&vertex](const VirtualVertex& a, const VirtualVertex& b)
+    {
+      const glm::dvec3 first = a.sightPoint - vertex.sightPoint;
+      const glm::dvec3 second = b.sightPoint - vertex.sightPoint;
+      return glm::dot(first, first) < glm::dot(second, second);
+    });
+  return this->Geometry.MeetRay(direction, *nearest, at);
+}
+
+//------------------------------------------------------------------------------
+ErrorSample ErrorSampler::Measure(const FlatMembraneSolver& geometry, const glm::dvec3& point) const
+{
+  const VirtualVertex vertex = geometry.SolvePoint(point);
+  switch (vertex.state)
+  {
+    case ImageState::NotFinite:
+      return { 0.0, SampleState::NotFinite };
+    case ImageState::NoImage:
+    case ImageState::NotAsked:
+      return { 0.0, SampleState::NoImage };
+    case ImageState::Found:
+      break;
+  }
+  return geometry.HasOneCell(point, Wall) ? this->Compare(point, vertex)
+                                          : ErrorSample{ 0.0, SampleState::SeveralImages };
+}
+
+//------------------------------------------------------------------------------
+ErrorSample ErrorSampler::Measure(
+  const CurvedMembraneSolver& geometry, const glm::dvec3& point) const
+{
+  std::vector<VirtualVertex> images;
+  const ImageState state = geometry.FindImages(point, images);
+  if (state != ImageState::Found)
+  {
+    return { 0.0, state == ImageState::NotFinite ? SampleState::NotFinite : SampleState::NoImage };
+  }
+  return images.size() == 1 ? this->Compare(point, images.front())
+                            : ErrorSample{ 0.0, SampleState::SeveralImages };
+}
+
+//------------------------------------------------------------------------------
+ErrorSample ErrorSampler::Compare(const glm::dvec3& point, const VirtualVertex& vertex) const
+{
+  const glm::dvec3 direction = glm::normalize(vertex.position - this->Optics.eye);
+  PatchPoint at;
+  if (!this->Exact.Meet(point, vertex, direction, at))
+  {
+    return { 0.0, SampleState::NoExactPoint };
+  }
+  const RefractionRay ray =
+    ComputeRefractionRay(direction, at.normal, this->Optics.exterior / this->Optics.interior);
+  // A virtual vertex on the eye's side of the exact surface has no point behind it.
+  const double apparent = glm::dot(vertex.position - at.position, direction);
+  if (ray.kind != RayKind::Refracted || apparent < 0.0)
+  {
+    return { 0.0, SampleState::NoExactPoint };
+  }
+  const double depth = apparent * this->Optics.interior / this->Optics.exterior;
+  const double error = glm::length(at.position + depth * ray.direction - point);
+  return std::isfinite(error) ? ErrorSample{ error, SampleState::Measured }
+                              : ErrorSample{ 0.0, SampleState::NotFinite };
+}
+
+//------------------------------------------------------------------------------
+ErrorSummary Summarize(const ErrorSample* samples, std::size_t count)
+{
+  ErrorSummary summary;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (samples[i].state == SampleState::Measured)
+    {
+      summary.mean += samples[i].error;
+      summary.largest = std::max(summary.largest, samples[i].error);
+      ++summary.count;
+    }
+  }
+  if (summary.count == 0)
+  {
+    return summary;
+  }
+  summary.mean /= static_cast<double>(summary.count);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double away = samples[i].error - summary.mean;
+    squares += samples[i].state == SampleState::Measured ? away * away : 0.0;
+  }
+  summary.deviation = std::sqrt(squares / static_cast<double>(summary.count));
+  return summary;
+}
+
+}

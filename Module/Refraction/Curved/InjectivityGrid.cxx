@@ -1,0 +1,392 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Curved/InjectivityGrid.h"
+
+#include "Refraction/Membrane/Optics.h"
+
+#include <glm/common.hpp>
+#include <glm/mat2x2.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// The part of higher degree, relative to that of second degree, as in the search for roots: on a
+// mesh that resolves the membrane each degree is a fraction of the one before.
+constexpr double HigherDegree = 0.5;
+
+// About two facets in a cell of the grid, and not more memory than for the facets.
+constexpr int LargestWidth = 512;
+
+// A box of sight points that is not smaller than this part of the last one is small enough.
+constexpr double Shrinks = 0.9;
+constexpr int MostSteps = 12;
+
+// Cells along an axis that are collected one by one; a box that holds more is looked up in a
+// coarser level.
+constexpr int MostCells = 3;
+
+/// Where the ray behind a place of a patch meets the plane at height z: base - z slope.
+struct SlopedRay
+{
+  glm::dvec2 base;
+  glm::dvec2 slope;
+  double height;
+};
+
+bool MakeRay(const CurvedPatch& patch, const glm::dvec2& b, const HeightFrame& frame,
+  const Media& media, SlopedRay& ray)
+{
+  const PatchPoint at = patch.Evaluate(b);
+  const double length = glm::length(at.normal);
+  if (!(length > CurvedPatch::ShortestNormal))
+  {
+    return false;
+  }
+  const RefractionRay refracted = ComputeRefractionRay(
+    glm::normalize(at.position - media.eye), at.normal / length, media.exterior / media.interior);
+  const double drop = -frame.GetHeight(refracted.direction);
+  if (refracted.kind != RayKind::Refracted || !(drop > 0.0))
+  {
+    return false;
+  }
+  ray.height = frame.GetHeight(at.position);
+  ray.slope = frame.Project(refracted.direction) / drop;
+  ray.base = frame.Project(at.position) + ray.height * ray.slope;
+  return true;
+}
+
+/// Derivatives of a Bezier triangle of second degree at its three corners, by the plane's axes.
+using CornerDerivatives = std::array<glm::dmat2, 3>;
+
+// `f` holds the values at the corners and in the middles of the edges opposite to them.
+CornerDerivatives Differentiate(const std::array<glm::dvec2, 6>& f, const glm::dmat2& inverse)
+{
+  std::array<glm::dvec2, 6> c = f;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    c[k + 3] = 2.0 * f[k + 3] - 0.5 * (f[(k + 1) % 3] + f[(k + 2) % 3]);
+  }
+  return { 2.0 * glm::dmat2(c[5] - c[0], c[4] - c[0]) * inverse,
+    2.0 * glm::dmat2(c[1] - c[5], c[3] - c[5]) * inverse,
+    2.0 * glm::dmat2(c[3] - c[4], c[2] - c[4]) * inverse };
+}
+
+// The smaller eigenvalue of the symmetric part.
+double FindLeastStretch(const glm::dmat2& m)
+{
+  const double difference = 0.5 * (m[0][0] - m[1][1]);
+  const double shear = 0.5 * (m[0][1] + m[1][0]);
+  return 0.5 * (m[0][0] + m[1][1]) - std::sqrt(difference * difference + shear * shear);
+}
+
+double SquareOf(const glm::dmat2& m)
+{
+  return glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]);
+}
+
+// Concave in the height: a smallest eigenvalue of an affine function, less a norm of one.
+double FindMargin(const CornerDerivatives& base, const CornerDerivatives& slope, double height)
+{
+  CornerDerivatives m;
+  double least = std::numeric_limits<double>::max();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    m[k] = base[k] - height * slope[k];
+    least = std::min(least, FindLeastStretch(m[k]));
+  }
+  const double varies =
+    std::sqrt(std::max({ SquareOf(m[1] - m[0]), SquareOf(m[2] - m[1]), SquareOf(m[0] - m[2]) }));
+  return least - HigherDegree * varies;
+}
+
+// Floats that are no nearer to zero than what they stand for is.
+float RoundDown(double value)
+{
+  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::lowest());
+}
+float RoundUp(double value)
+{
+  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::max());
+}
+
+}
+
+//------------------------------------------------------------------------------
+InjectivityGrid::Cell InjectivityGrid::MakeEmpty()
+{
+  Cell cell;
+  cell.low.fill(std::numeric_limits<float>::max());
+  cell.high.fill(std::numeric_limits<float>::lowest());
+  cell.slabs = AllSlabs;
+  return cell;
+}
+
+//------------------------------------------------------------------------------
+void InjectivityGrid::Merge(Cell& cell, const Cell& other)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    cell.low[i] = std::min(cell.low[i], other.low[i]);
+    cell.high[i] = std::max(cell.high[i], other.high[i]);
+  }
+  cell.slabs = static_cast<std::uint8_t>(cell.slabs & other.slabs);
+}
+
+//------------------------------------------------------------------------------
+// Slopes are unbounded where a place of the patch has no refracted ray: then nothing is known.
+InjectivityGrid::Cell InjectivityGrid::Judge(
+  const CurvedPatch& patch, const HeightFrame& frame, const Media& media) const
+{
+  constexpr std::array<glm::dvec2, 6> places = { glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0),
+    glm::dvec2(0.0, 1.0), glm::dvec2(0.5, 0.5), glm::dvec2(0.0, 0.5), glm::dvec2(0.5, 0.0) };
+  std::array<glm::dvec2, 6> base;
+  std::array<glm::dvec2, 6> slope;
+  Cell cell = MakeEmpty();
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    SlopedRay ray;
+    if (!MakeRay(patch, places[i], frame, media, ray))
+    {
+      cell.low.fill(std::numeric_limits<float>::lowest());
+      cell.high.fill(std::numeric_limits<float>::max());
+      cell.slabs = 0;
+      return cell;
+    }
+    base[i] = ray.base;
+    slope[i] = ray.slope;
+    cell.low[2] = std::min(cell.low[2], RoundDown(ray.height - this->Bulge));
+    cell.high[2] = std::max(cell.high[2], RoundUp(ray.height + this->Bulge));
+  }
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const double mean = 0.5 * (slope[(k + 1) % 3][axis] + slope[(k + 2) % 3][axis]);
+      const double bend = slope[k + 3][axis] - mean;
+      const double rest = (1.0 + HigherDegree) * std::fabs(bend);
+      const double low = std::min(slope[k][axis], mean + bend) - rest;
+      const double high = std::max(slope[k][axis], mean + bend) + rest;
+      const auto i = static_cast<std::size_t>(axis);
+      cell.low[i] = std::min(cell.low[i], RoundDown(low));
+      cell.high[i] = std::max(cell.high[i], RoundUp(high));
+    }
+  }
+  const glm::dmat2 sides(frame.Project(patch.corner[1] - patch.corner[0]),
+    frame.Project(patch.corner[2] - patch.corner[0]));
+  const glm::dmat2 inverse = glm::inverse(sides);
+  const CornerDerivatives baseBy = Differentiate(base, inverse);
+  const CornerDerivatives slopeBy = Differentiate(slope, inverse);
+  bool before = FindMargin(baseBy, slopeBy, this->LowHeight) > 0.0;
+  for (int i = 0; i < Slabs; ++i)
+  {
+    const bool after =
+      FindMargin(baseBy, slopeBy, this->LowHeight + (i + 1) * this->SlabHeight) > 0.0;
+    cell.slabs = static_cast<std::uint8_t>(
+      before && after ? cell.slabs : cell.slabs & ~(1u << static_cast<unsigned>(i)));
+    before = after;
+  }
+  return cell;
+}
+
+//------------------------------------------------------------------------------
+void InjectivityGrid::FitGrid(const Membrane& membrane)
+{
+  Box bounds{ glm::dvec2(std::numeric_limits<double>::max()),
+    glm::dvec2(std::numeric_limits<double>::lowest()) };
+  for (const Membrane::Facet& facet : membrane.GetFacets())
+  {
+    for (const std::int32_t vertex : facet)
+    {
+      const glm::dvec2 place =
+        this->Frame.Project(membrane.GetPositions()[static_cast<std::size_t>(vertex)]);
+      bounds.low = glm::min(bounds.low, place);
+      bounds.high = glm::max(bounds.high, place);
+    }
+  }
+  const auto facets = static_cast<double>(membrane.GetFacets().size());
+  this->Width = 1;
+  while (this->Width < LargestWidth && 2.0 * this->Width * this->Width < facets)
+  {
+    this->Width *= 2;
+  }
+  this->Corner = bounds.low;
+  this->Far = bounds.high;
+  this->Scale = double(this->Width) / (bounds.high - bounds.low);
+}
+
+//------------------------------------------------------------------------------
+// Monotonic, so that what lies within bounds lies between the bounds' cells.
+int InjectivityGrid::FindIndex(double place, int axis) const
+{
+  const double cells = (place - this->Corner[axis]) * this->Scale[axis];
+  return static_cast<int>(std::clamp(cells, 0.0, this->Width - 1.0));
+}
+
+//------------------------------------------------------------------------------
+void InjectivityGrid::Build(const Membrane& membrane, const CurvedPatches& patches,
+  const HeightFrame& frame, double bulge, const Media& media, double low, double high,
+  const RangeLoop& loop)
+{
+  this->Frame = frame;
+  this->Bulge = bulge;
+  this->LowHeight = low;
+  this->SlabHeight = (high - low) / Slabs;
+  const auto& facets = membrane.GetFacets();
+  this->FitGrid(membrane);
+  std::vector<Cell> judged(facets.size());
+  loop(facets.size(),
+    [this, &patches, &frame, &media, &judged](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        judged[i] = this->Judge(patches.GetPatch(static_cast<std::int32_t>(i)), frame, media);
+      }
+    });
+  this->Levels.assign(1, Level(static_cast<std::size_t>(this->Width) * this->Width, MakeEmpty()));
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    const auto place = [this, &membrane, &facets, i](std::size_t k) {
+      return this->Frame.Project(membrane.GetPositions()[static_cast<std::size_t>(facets[i][k])]);
+    };
+    const glm::dvec2 low2 = glm::min(place(0), glm::min(place(1), place(2)));
+    const glm::dvec2 high2 = glm::max(place(0), glm::max(place(1), place(2)));
+    for (int y = this->FindIndex(low2.y, 1); y <= this->FindIndex(high2.y, 1); ++y)
+    {
+      for (int x = this->FindIndex(low2.x, 0); x <= this->FindIndex(high2.x, 0); ++x)
+      {
+        Merge(this->Levels[0][static_cast<std::size_t>(y) * this->Width + x], judged[i]);
+      }
+    }
+  }
+  for (int width = this->Width / 2; width >= 1; width /= 2)
+  {
+    Level level(static_cast<std::size_t>(width) * width, MakeEmpty());
+    const Level& finer = this->Levels.back();
+    for (int y = 0; y < 2 * width; ++y)
+    {
+      for (int x = 0; x < 2 * width; ++x)
+      {
+        Merge(level[static_cast<std::size_t>(y / 2) * width + x / 2],
+          finer[static_cast<std::size_t>(y) * 2 * width + x]);
+      }
+    }
+    this->Levels.push_back(std::move(level));
+  }
+}
+
+//------------------------------------------------------------------------------
+InjectivityGrid::Cell InjectivityGrid::Collect(const Box& box) const
+{
+  int x0 = this->FindIndex(box.low.x, 0);
+  int x1 = this->FindIndex(box.high.x, 0);
+  int y0 = this->FindIndex(box.low.y, 1);
+  int y1 = this->FindIndex(box.high.y, 1);
+  std::size_t level = 0;
+  while (x1 - x0 >= MostCells || y1 - y0 >= MostCells)
+  {
+    x0 /= 2;
+    x1 /= 2;
+    y0 /= 2;
+    y1 /= 2;
+    ++level;
+  }
+  const std::size_t width = static_cast<std::size_t>(this->Width) >> level;
+  Cell cell = MakeEmpty();
+  for (int y = y0; y <= y1; ++y)
+  {
+    for (int x = x0; x <= x1; ++x)
+    {
+      Merge(cell, this->Levels[level][static_cast<std::size_t>(y) * width + x]);
+    }
+  }
+  return cell;
+}
+
+//------------------------------------------------------------------------------
+// Those that the heights touch; none if some of the heights are in no slab.
+std::uint8_t InjectivityGrid::FindSlabs(double low, double high) const
+{
+  const double top = this->LowHeight + Slabs * this->SlabHeight;
+  if (!(low >= this->LowHeight && high <= top))
+  {
+    return 0;
+  }
+  const auto index = [this](double height)
+  {
+    const double slab =
+      this->SlabHeight > 0.0 ? (height - this->LowHeight) / this->SlabHeight : 0.0;
+    return static_cast<unsigned>(std::clamp(slab, 0.0, Slabs - 1.0));
+  };
+  const unsigned below = (1u << index(low)) - 1u;
+  const unsigned through = (2u << index(high)) - 1u;
+  return static_cast<std::uint8_t>(through & ~below);
+}
+
+//------------------------------------------------------------------------------
+bool InjectivityGrid::HoldsAtMostOne(const glm::dvec3& low, const glm::dvec3& high) const
+{
+  if (this->IsEmpty())
+  {
+    return false;
+  }
+  const glm::dvec3 middle = 0.5 * (low + high);
+  const glm::dvec3 half = 0.5 * (high - low);
+  const glm::dvec2 at = this->Frame.Project(middle);
+  const glm::dvec2 reach(
+    glm::dot(glm::abs(this->Frame.First), half), glm::dot(glm::abs(this->Frame.Second), half));
+  const double height = this->Frame.GetHeight(middle);
+  const double rise = glm::dot(glm::abs(this->Frame.Axis), half);
+  const std::uint8_t slabs = this->FindSlabs(height - rise, height + rise);
+  if (slabs == 0)
+  {
+    return false;
+  }
+  Box box{ this->Corner, this->Far };
+  for (int step = 0; step < MostSteps; ++step)
+  {
+    const Cell cell = this->Collect(box);
+    if ((cell.slabs & slabs) == slabs)
+    {
+      return true;
+    }
+    // S(u) = P - (h - z) m, with 0 < h - z for an image, and u within a bulge of S.
+    const double least = std::max(cell.low[2] - (height + rise), 0.0);
+    const double most = cell.high[2] - (height - rise);
+    if (!(most > 0.0))
+    {
+      return true; // all of the box is in front
+    }
+    Box next;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const double m0 = cell.low[static_cast<std::size_t>(axis)];
+      const double m1 = cell.high[static_cast<std::size_t>(axis)];
+      const double pad = reach[axis] + this->Bulge;
+      next.low[axis] = at[axis] - pad - std::max(least * m1, most * m1);
+      next.high[axis] = at[axis] + pad - std::min(least * m0, most * m0);
+    }
+    next.low = glm::max(next.low, box.low);
+    next.high = glm::min(next.high, box.high);
+    if (!(next.low.x <= next.high.x && next.low.y <= next.high.y))
+    {
+      return true; // no sight point anywhere
+    }
+    const glm::dvec2 before = box.high - box.low;
+    const glm::dvec2 after = next.high - next.low;
+    if (!(after.x < Shrinks * before.x || after.y < Shrinks * before.y))
+    {
+      return false;
+    }
+    box = next;
+  }
+  return false;
+}
+
+}

@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Curved/MembraneSides.h"
+
+#include "Refraction/Curved/PatchCrossings.h"
+#include "Refraction/Tubes/RefractedRayBounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// Crossings are in the order of their heights if these differ by more than this part of a patch's
+// size: two of one edge do by what PatchCrossings::Border is of both of its facets.
+constexpr double SameHeight = 4.0 * PatchCrossings::Border;
+
+// Ways to take if the axis decides nothing. One decides nothing with a probability of the order of
+// the rounding of coordinates, or where the patch is crumpled.
+constexpr int Ways = 12;
+
+constexpr double Lowest = std::numeric_limits<double>::lowest();
+
+glm::dvec3 GetWinding(const CurvedPatch& patch)
+{
+  return glm::cross(patch.corner[1] - patch.corner[0], patch.corner[2] - patch.corner[0]);
+}
+
+double GetSize(const CurvedPatch& patch)
+{
+  return std::max({ glm::length(patch.corner[1] - patch.corner[0]),
+    glm::length(patch.corner[2] - patch.corner[1]),
+    glm::length(patch.corner[0] - patch.corner[2]) });
+}
+
+/// The highest of the crossings, and whether others at its height agree with it.
+struct NearestCrossing
+{
+  double height = Lowest;
+  int side = 0;
+  std::int32_t facet = CurvedPatches::NoFacet;
+  double same = 0.0;
+  bool isInside = false; ///< of its patch, or in the patches on both sides of an edge
+  bool isDisputed = false;
+
+  /// Crossings below this are farther.
+  double GetLowest() const { return this->height - this->same; }
+
+  /// Just outside of one facet, and not in its neighbour, an edge may be passed that both facets
+  /// turn away from.
+  bool IsSure() const { return this->isInside && !this->isDisputed; }
+
+  void Add(const PatchCrossing& crossing, std::int32_t of, double tie)
+  {
+    const double slack = std::max(tie, this->same);
+    if (crossing.height > this->height + slack)
+    {
+      *this = { crossing.height, crossing.side, of, tie, crossing.outside >= 0.0, false };
+    }
+    else if (crossing.height >= this->height - slack)
+    {
+      this->isInside = this->isInside || of != this->facet || crossing.outside >= 0.0;
+      this->isDisputed = this->isDisputed || crossing.side != this->side;
+      this->height = std::max(this->height, crossing.height);
+      this->same = slack;
+    }
+  }
+};
+
+// Directions all around, no two of them parallel: along a spiral by the golden angle.
+glm::dvec3 GetWay(int i)
+{
+  constexpr double goldenAngle = 2.399963229728653;
+  const double z = 1.0 - (2.0 * i + 1.0) / Ways;
+  const double radius = std::sqrt(1.0 - z * z);
+  return { radius * std::cos(goldenAngle * i), radius * std::sin(goldenAngle * i), z };
+}
+
+}
+
+//------------------------------------------------------------------------------
+void MembraneSides::Build(
+  const Membrane& surface, const CurvedPatches& patches, const HeightFrame& frame)
+{
+  this->Surface = &surface;
+  this->Patches = &patches;
+  this->Frame = frame;
+  this->Undecided = 0;
+  // Rounding of a patch's point and of Newton's method.
+  this->Slack = 1024.0 * std::numeric_limits<double>::epsilon() * surface.GetRadius();
+  const std::size_t count = surface.GetFacets().size();
+  this->Columns.resize(count);
+  std::vector<glm::dvec3> centroids(count, glm::dvec3(0.0));
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const CurvedPatch patch = patches.GetPatch(static_cast<std::int32_t>(i));
+    const glm::dvec3 sum = patch.normal[0] + patch.normal[1] + patch.normal[2];
+    this->Columns[i] = { std::nextafter(static_cast<float>(BoundBulge(patch)),
+                           std::numeric_limits<float>::infinity()),
+      static_cast<signed char>(glm::dot(GetWinding(patch), sum) < 0.0 ? -1 : 1) };
+    for (const glm::dvec3& corner : patch.corner)
+    {
+      centroids[i] += frame.ToFrame(corner) / 3.0;
+    }
+  }
+  this->Tree.Build(centroids, count == 0 ? 1.0 : surface.GetRadius());
+  this->Tree.Refit(
+    [this](std::int32_t facet)
+    {
+      const glm::dvec3 bulge(
+        static_cast<double>(this->Columns[static_cast<std::size_t>(facet)].bulge));
+      TubeBounds bounds;
+      for (const std::int32_t vertex : this->Surface->GetFacets()[static_cast<std::size_t>(facet)])
+      {
+        const glm::dvec3 corner =
+          this->Frame.ToFrame(this->Surface->GetPositions()[static_cast<std::size_t>(vertex)]);
+        bounds.Add(corner - bulge, { 0.0, 0.0, 1.0 });
+        bounds.Add(corner + bulge, { 0.0, 0.0, 1.0 });
+      }
+      return bounds;
+    },
+    SerialLoop);
+}
+
+//------------------------------------------------------------------------------
+MembraneSides::Side MembraneSides::Find(const glm::dvec3& local) const
+{
+  const Look look = this->LookAlong(this->Frame, local, std::numeric_limits<double>::infinity());
+  return look.openFacet == CurvedPatches::NoFacet ? look.side
+                                                  : this->FindAround(local, look.openFacet);
+}
+
+//------------------------------------------------------------------------------
+MembraneSides::Look MembraneSides::MakeLook(int side)
+{
+  return { side > 0 ? Side::Front : (side < 0 ? Side::Behind : Side::Unknown),
+    CurvedPatches::NoFacet };
+}
+
+//------------------------------------------------------------------------------
+MembraneSides::Side MembraneSides::FindAround(const glm::dvec3& local, std::int32_t openFacet) const
+{
+  const double size = GetSize(this->Patches->GetPatch(openFacet));
+  for (int i = 0; i < Ways; ++i)
+  {
+    // Half of a facet or so: past what the line runs along, and not past much else.
+    const double reach = size * (0.3 + 0.4 * i / Ways);
+    const glm::dvec3 way = GetWay(i);
+    Look look = this->LookAlong(HeightFrame(-way), local, reach);
+    if (look.openFacet == CurvedPatches::NoFacet && look.side == Side::Unknown)
+    {
+      look =
+        this->LookAlong(this->Frame, local + reach * way, std::numeric_limits<double>::infinity());
+    }
+    if (look.openFacet == CurvedPatches::NoFacet)
+    {
+      return look.side;
+    }
+  }
+  ++this->Undecided;
+  return Side::Behind;
+}
+
+//------------------------------------------------------------------------------
+// The side of the nearest patch below the point along the frame's axis, if it is no farther than
+// `reach`.
+MembraneSides::Look MembraneSides::LookAlong(
+  const HeightFrame& frame, const glm::dvec3& local, double reach) const
+{
+  thread_local std::vector<Candidate> candidates; // kept from point to point for its memory alone
+  candidates.clear();
+  const double low = frame.GetHeight(local) - reach - this->Slack;
+  double floor = low;
+  const bool isAcross = reach < std::numeric_limits<double>::infinity();
+  this->Tree.Visit(this->Frame.ToFrame(local), isAcross ? reach + this->Slack : this->Slack,
+    [this, &frame, &local, low, &floor](std::int32_t facet)
+    {
+      const Candidate candidate = this->Classify(facet, frame, local, low);
+      if (candidate.high >= floor)
+      {
+        candidates.push_back(candidate);
+        floor = candidate.side != 0 ? std::max(floor, candidate.low) : floor;
+      }
+      return std::numeric_limits<std::int32_t>::max();
+    });
+  // By facet where heights are equal: the order of a sort must not depend on the library.
+  std::sort(candidates.begin(), candidates.end(),
+    [](const Candidate& a, const Candidate& b)
+    { return a.high != b.high ? a.high > b.high : a.facet < b.facet; });
+  if (candidates.empty())
+  {
+    return MakeLook(0);
+  }
+  const Candidate& first = candidates.front();
+  if (first.side != 0 && (candidates.size() == 1 || candidates[1].high < first.low))
+  {
+    return MakeLook(first.side);
+  }
+  return this->LookExactly(candidates, frame, local, low);
+}
+
+//------------------------------------------------------------------------------
+// A candidate without heights, `high` the lowest number, is none.
+MembraneSides::Candidate MembraneSides::Classify(
+  std::int32_t facet, const HeightFrame& frame, const glm::dvec3& local, double low) const
+{
+  const auto& corners = this->Surface->GetFacets()[static_cast<std::size_t>(facet)];
+  const Column& column = this->Columns[static_cast<std::size_t>(facet)];
+  const double bulge = static_cast<double>(column.bulge) + this->Slack;
+  glm::dvec2 place[3];
+  double lowest = std::numeric_limits<double>::max();
+  double highest = Lowest;
+  for (int k = 0; k < 3; ++k)
+  {
+    const glm::dvec3 away =
+      this->Surface
+        ->GetPositions()[static_cast<std::size_t>(corners[static_cast<std::size_t>(k)])] -
+      local;
+    place[k] = frame.Project(away);
+    const double height = frame.GetHeight(away);
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  }
+  const double own = frame.GetHeight(local);
+  const Candidate none{ facet, Lowest, Lowest, 0 };
+  if (lowest - bulge > this->Slack || own + highest + bulge < low)
+  {
+    return none; // above the point, or too far below
+  }
+  const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
+  const double area = cross(place[1] - place[0], place[2] - place[0]);
+  const double sign = area < 0.0 ? -1.0 : 1.0;
+  bool isInside = true;
+  for (int k = 0; k < 3; ++k)
+  {
+    const glm::dvec2& from = place[(k + 1) % 3];
+    const glm::dvec2 side = place[(k + 2) % 3] - from;
+    const double distance = sign * cross(from, side); // times the side's length, positive inside
+    const double margin = bulge * glm::length(side);
+    if (distance < -margin)
+    {
+      return none;
+    }
+    isInside = isInside && distance > margin;
+  }
+  const bool isBelow = highest + bulge < -this->Slack && own + lowest - bulge > low;
+  return { facet, own + lowest - bulge, own + highest + bulge,
+    isInside && isBelow ? (area < 0.0 ? -column.front : column.front) : 0 };
+}
+
+//------------------------------------------------------------------------------
+MembraneSides::Look MembraneSides::LookExactly(const std::vector<Candidate>& candidates,
+  const HeightFrame& frame, const glm::dvec3& local, double low) const
+{
+  const glm::dvec2 place = frame.Project(local);
+  const double own = frame.GetHeight(local);
+  NearestCrossing nearest;
+  double open = Lowest;
+  std::int32_t openFacet = CurvedPatches::NoFacet;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+  {
+    const Candidate& candidate = candidates[i];
+    if (candidate.high < nearest.GetLowest())
+    {
+      break; // in their order
+    }
+    const bool isNext = i + 1 == candidates.size() || candidates[i + 1].high < candidate.low;
+    if (candidate.side != 0 && isNext && std::max(open, nearest.height) < candidate.low)
+    {
+      return MakeLook(candidate.side);
+    }
+    const CurvedPatch patch = this->Patches->GetPatch(candidate.facet);
+    PatchCrossings crossings(patch, frame);
+    crossings.Find(place, std::max(low, nearest.GetLowest()), own + this->Slack);
+    if (crossings.GetHighestOpen() > open)
+    {
+      open = crossings.GetHighestOpen();
+      openFacet = candidate.facet;
+    }
+    for (const PatchCrossing& crossing : crossings)
+    {
+      const double distance = own - crossing.height;
+      if (distance < -this->Slack || crossing.height < low)
+      {
+        continue;
+      }
+      if (distance <= this->Slack)
+      {
+        return MakeLook(1);
+      }
+      nearest.Add(crossing, candidate.facet, SameHeight * GetSize(patch));
+    }
+  }
+  if (openFacet != CurvedPatches::NoFacet && open >= nearest.GetLowest())
+  {
+    return { Side::Unknown, openFacet };
+  }
+  return nearest.facet == CurvedPatches::NoFacet || nearest.IsSure()
+    ? MakeLook(nearest.side)
+    : Look{ Side::Unknown, nearest.facet };
+}
+
+}

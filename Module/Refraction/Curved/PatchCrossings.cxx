@@ -1,0 +1,535 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Curved/PatchCrossings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+// Derivatives that differ from given ones by less than 1, relative to these, make X injective. A
+// little less, for rounding.
+constexpr double LargestSlope = 0.95;
+
+// Newton's method converges in three or four steps from there, or rounding forbids it.
+constexpr int NewtonSteps = 12;
+
+// Quadratic convergence leaves the square of the last step, in parts.
+constexpr double LastStep = 1e-7;
+
+double Cross(const glm::dvec2& a, const glm::dvec2& b)
+{
+  return a.x * b.y - a.y * b.x;
+}
+
+constexpr double Largest(const std::array<double, 3>& values)
+{
+  return std::max({ values[0], values[1], values[2] });
+}
+
+/// Bounds of the length of a function and of its first and second derivatives along the edges.
+struct Bounds
+{
+  double value = 0.0;
+  std::array<double, 3> first{};
+  std::array<double, 3> second{};
+};
+
+/// Bounds of a product.
+Bounds Multiply(const Bounds& f, const Bounds& g)
+{
+  Bounds result;
+  result.value = f.value * g.value;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    result.first[k] = f.first[k] * g.value + f.value * g.first[k];
+    result.second[k] =
+      f.second[k] * g.value + 2.0 * f.first[k] * g.first[k] + f.value * g.second[k];
+  }
+  return result;
+}
+
+/// A triangle around a part: its corners, then the middles of its edges.
+using Around = std::array<glm::dvec2, 6>;
+
+/// Values at the corners and in the middles of the edges as the control points of a function of
+/// second degree.
+std::array<double, 6> GetControls(const std::array<double, 6>& f)
+{
+  return { f[0], f[1], f[2], 2.0 * f[3] - 0.5 * (f[1] + f[2]), 2.0 * f[4] - 0.5 * (f[2] + f[0]),
+    2.0 * f[5] - 0.5 * (f[0] + f[1]) };
+}
+
+/// The gradient of q by b.x and b.y.
+glm::dvec2 GetFormGradient(const CurvedPatch& patch, const glm::dvec2& b)
+{
+  const double c = 1.0 - b.x - b.y;
+  const double* s = patch.symmetric;
+  const double* d = patch.asymmetric;
+  const double bc[3] = { b.x * b.y, b.y * c, c * b.x };
+  const double form[3] = { s[0] + d[0] * (b.x - b.y), s[1] + d[1] * (b.y - c),
+    s[2] + d[2] * (c - b.x) };
+  return { b.y * (form[0] - form[1]) + (c - b.x) * form[2] + bc[0] * d[0] + bc[1] * d[1] -
+      2.0 * bc[2] * d[2],
+    b.x * (form[0] - form[2]) + (c - b.y) * form[1] - bc[0] * d[0] + 2.0 * bc[1] * d[1] -
+      bc[2] * d[2] };
+}
+
+double GetForm(const CurvedPatch& patch, const glm::dvec2& b)
+{
+  const double c = 1.0 - b.x - b.y;
+  return b.x * b.y * (patch.symmetric[0] + patch.asymmetric[0] * (b.x - b.y)) +
+    b.y * c * (patch.symmetric[1] + patch.asymmetric[1] * (b.y - c)) +
+    c * b.x * (patch.symmetric[2] + patch.asymmetric[2] * (c - b.x));
+}
+
+/// Bounds of q, whose sides are `size` times those of the facet. Its derivatives along edges are of
+/// second degree, within their control points; those of these are differences of control points.
+/// No point is farther from the middle than two thirds of edges.
+Bounds BoundForm(const CurvedPatch& patch, const Around& around, double size)
+{
+  std::array<glm::dvec2, 6> gradient;
+  std::transform(around.begin(), around.end(), gradient.begin(),
+    [&patch](const glm::dvec2& b) { return GetFormGradient(patch, b); });
+  Bounds result;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    const glm::dvec2 edge = (around[j] - around[i]) / size;
+    std::array<double, 6> along;
+    std::transform(gradient.begin(), gradient.end(), along.begin(),
+      [&edge](const glm::dvec2& g) { return glm::dot(g, edge); });
+    const std::array<double, 6> c = GetControls(along);
+    for (const double control : c)
+    {
+      result.first[k] = std::max(result.first[k], std::fabs(control));
+    }
+    result.second[k] = 2.0 / size *
+      std::max(
+        { std::fabs(c[k + 3] - c[i]), std::fabs(c[j] - c[k + 3]), std::fabs(c[i + 3] - c[j + 3]) });
+  }
+  const glm::dvec2 middle = (around[0] + around[1] + around[2]) / 3.0;
+  result.value = std::fabs(GetForm(patch, middle)) + 2.0 / 3.0 * size * Largest(result.first);
+  return result;
+}
+
+/// The normal's values at corners, control points of edges, and derivatives along these.
+struct NormalControls
+{
+  std::array<glm::dvec3, 6> control;
+  std::array<std::array<glm::dvec3, 2>, 3> first; ///< by edge, at its two ends
+  std::array<glm::dvec3, 3> opposite;             ///< by edge, at the other corner
+  std::array<glm::dvec3, 3> second;
+
+  NormalControls(const CurvedPatch& patch, const Around& around, double size)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      this->control[k] = patch.GetNormal(around[k]);
+      this->second[k] = -2.0 * patch.bend[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      this->control[k + 3] = 0.5 * (this->control[(k + 1) % 3] + this->control[(k + 2) % 3]) -
+        0.25 * size * size * this->second[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const std::size_t i = (k + 1) % 3;
+      const std::size_t j = (k + 2) % 3;
+      const double inverse = 2.0 / size;
+      this->first[k] = { inverse * (this->control[k + 3] - this->control[i]),
+        inverse * (this->control[j] - this->control[k + 3]) };
+      this->opposite[k] = inverse * (this->control[i + 3] - this->control[j + 3]);
+    }
+  }
+
+  /// `square` gives the squared length of a vector.
+  template <typename Square>
+  Bounds Bound(const Square& square) const
+  {
+    Bounds result;
+    for (const glm::dvec3& c : this->control)
+    {
+      result.value = std::max(result.value, square(c));
+    }
+    result.value = std::sqrt(result.value);
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      result.first[k] = std::sqrt(std::max(
+        { square(this->first[k][0]), square(this->first[k][1]), square(this->opposite[k]) }));
+      result.second[k] = std::sqrt(square(this->second[k]));
+    }
+    return result;
+  }
+
+  /// No normal is shorter, if positive.
+  double GetShortest() const
+  {
+    const glm::dvec3 along = glm::normalize(this->control[0] + this->control[1] + this->control[2]);
+    double shortest = std::numeric_limits<double>::max();
+    for (const glm::dvec3& c : this->control)
+    {
+      shortest = std::min(shortest, glm::dot(c, along));
+    }
+    return shortest;
+  }
+};
+
+/// Bounds of 2 / (l + l^2) with l = |n| >= shortest. Its derivatives by l are
+/// -2 (1 + 2 l) / (l + l^2)^2 and 4 (1 + 3 l + 3 l^2) / (l + l^2)^3; those of l are at most |n'|
+/// and |n''| + |n'|^2 / l.
+Bounds BoundFactor(const Bounds& normal, double shortest)
+{
+  const double l = shortest;
+  const double inverse = 1.0 / (l * (1.0 + l));
+  const double byLength = 2.0 * (1.0 + 2.0 * l) * inverse * inverse;
+  const double byLengthTwice = 4.0 * (1.0 + 3.0 * l * (1.0 + l)) * inverse * inverse * inverse;
+  Bounds result;
+  result.value = 2.0 * inverse;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double first = normal.first[k];
+    result.first[k] = byLength * first;
+    result.second[k] =
+      byLengthTwice * first * first + byLength * (normal.second[k] + first * first / l);
+  }
+  return result;
+}
+
+}
+
+//------------------------------------------------------------------------------
+PatchCrossings::PatchCrossings(const CurvedPatch& patch, const HeightFrame& frame)
+  : Patch(patch)
+  , Frame(frame)
+{
+  const glm::dvec3 winding =
+    glm::cross(patch.corner[1] - patch.corner[0], patch.corner[2] - patch.corner[0]);
+  this->Front =
+    glm::dot(winding, patch.normal[0] + patch.normal[1] + patch.normal[2]) < 0.0 ? -1 : 1;
+  this->IsFlat = true;
+  double reach = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    reach = std::max(reach, glm::length(patch.corner[k]));
+    this->IsFlat = this->IsFlat && patch.symmetric[k] == 0.0 && patch.asymmetric[k] == 0.0;
+  }
+  // A position is a sum of a dozen products of such numbers, three of which make a coordinate.
+  this->Rounding = 16.0 * std::numeric_limits<double>::epsilon() * reach;
+}
+
+//------------------------------------------------------------------------------
+void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
+{
+  this->Place = place;
+  this->Count = 0;
+  this->HighestOpen = std::numeric_limits<double>::lowest();
+  // Each level leaves three more parts than it takes.
+  std::array<Part, 3 * DeepestLevel + 4> parts;
+  std::size_t waiting = 0;
+  int divisions = 0;
+  parts[waiting++] = { { this->MakeCorner({ 0.0, 0.0 }), this->MakeCorner({ 1.0, 0.0 }),
+                         this->MakeCorner({ 0.0, 1.0 }) },
+    1.0, Bend(), Bend() };
+  while (waiting > 0)
+  {
+    Part part = parts[--waiting];
+    if (this->Settle(part, low, high) == Verdict::Settled)
+    {
+      continue;
+    }
+    if (part.size <= SmallestPart || divisions == MostDivisions)
+    {
+      this->MarkOpen(part);
+      continue;
+    }
+    ++divisions;
+    std::array<Corner, 3> middle; // opposite to the corners
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      middle[k] = this->MakeCorner(0.5 * (part.corner[(k + 1) % 3].b + part.corner[(k + 2) % 3].b));
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      std::array<Corner, 3> corner = middle;
+      corner[k] = part.corner[k];
+      // The corner's part is wound as the whole: middles of the two sides at the corner.
+      corner[(k + 1) % 3] = middle[(k + 2) % 3];
+      corner[(k + 2) % 3] = middle[(k + 1) % 3];
+      parts[waiting++] = { corner, 0.5 * part.size, part.across, part.along };
+    }
+    parts[waiting++] = { middle, 0.5 * part.size, part.across, part.along };
+  }
+}
+
+//------------------------------------------------------------------------------
+// As IsInjective for the whole: across the line the facet's sides are no longer, its area is that
+// over the slant.
+double PatchCrossings::GetLargestSlant(const CurvedPatch& patch, double bend)
+{
+  const glm::dvec3 u = patch.corner[1] - patch.corner[0];
+  const glm::dvec3 v = patch.corner[2] - patch.corner[0];
+  return LargestSlope * glm::length(glm::cross(u, v)) / ((glm::length(u) + glm::length(v)) * bend);
+}
+
+//------------------------------------------------------------------------------
+double PatchCrossings::GetLargestSlant()
+{
+  Part whole{ { Corner{ { 0.0, 0.0 }, {}, 0.0 }, Corner{ { 1.0, 0.0 }, {}, 0.0 },
+                Corner{ { 0.0, 1.0 }, {}, 0.0 } },
+    1.0, Bend(), Bend() };
+  this->BoundDeflection(whole);
+  return GetLargestSlant(this->Patch, whole.along.first + 2.0 * this->Rounding);
+}
+
+//------------------------------------------------------------------------------
+// The rule for products again, with bounds of sums: within Reach of the triangle barycentric
+// coordinates are in [-0.1, 1.2] and differ by 1.3 at most, the products of two are in
+// [-0.12, 0.3], and the sum of their absolute values is 1.4.
+double PatchCrossings::BoundLargestSlant(const CurvedPatch& patch)
+{
+  double s = 0.0;
+  double d = 0.0;
+  double bends = 0.0;
+  double turn = 0.0; // squared
+  for (int k = 0; k < 3; ++k)
+  {
+    s += std::fabs(patch.symmetric[k]);
+    d += std::fabs(patch.asymmetric[k]);
+    bends += std::fabs(patch.bend[k].x) + std::fabs(patch.bend[k].y) + std::fabs(patch.bend[k].z);
+    const glm::dvec3 difference = patch.normal[(k + 1) % 3] - patch.normal[k];
+    turn = std::max(turn, glm::dot(difference, difference));
+  }
+  turn = std::sqrt(turn);
+  const double q = 0.3 * s + 0.3 * 1.3 * d;
+  const double qBy = 1.3 * s + (1.3 * 1.3 + 0.3 * 2.0) * d;
+  const double n = 1.4 + 0.3 * bends;
+  const double nBy = turn + 1.3 * bends;
+  const double l = std::max(1.0 - 1.4 * turn - 0.3 * bends, CurvedPatch::ShortestNormal);
+  const double factor = 2.0 / (l * (1.0 + l));
+  const double factorBy = 0.5 * (1.0 + 2.0 * l) * factor * factor * nBy;
+  return GetLargestSlant(patch, factor * (qBy * n + q * nBy) + factorBy * q * n);
+}
+
+//------------------------------------------------------------------------------
+PatchCrossings::Corner PatchCrossings::MakeCorner(const glm::dvec2& b) const
+{
+  const glm::dvec3 position = this->Patch.Evaluate(b).position;
+  return { b, this->Frame.Project(position) - this->Place, this->Frame.GetHeight(position) };
+}
+
+//------------------------------------------------------------------------------
+// The linear interpolant of a function over an equilateral triangle of side s is off by at most
+// s^2 / 6 times its largest second derivative in any direction (half of the squared radius of the
+// circle around it). If the second derivatives along the three sides are at most M, those in any
+// direction are at most 5 M / 3. With first derivatives along the sides of at most H, it is off by
+// H s: that holds where the normal's length is cut off at ShortestNormal, too, and second
+// derivatives jump. An affine map makes any triangle equilateral.
+double PatchCrossings::Bend::GetDeviation(double size) const
+{
+  return std::min(5.0 / 18.0 * size * size * this->second, size * this->first);
+}
+
+//------------------------------------------------------------------------------
+// Over the part and what is within Reach of it.
+void PatchCrossings::BoundDeflection(Part& part) const
+{
+  if (this->IsFlat)
+  {
+    part.across = part.along = { 0.0, 0.0 };
+    return;
+  }
+  constexpr double widened = 1.0 + 3.0 * Reach;
+  const double size = widened * part.size;
+  const glm::dvec2 middle = (part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0;
+  Around around;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    around[k] = middle + widened * (part.corner[k].b - middle);
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    around[k + 3] = 0.5 * (around[(k + 1) % 3] + around[(k + 2) % 3]);
+  }
+  const NormalControls controls(this->Patch, around, size);
+  const double shortest = controls.GetShortest();
+  const bool isSmooth = shortest > CurvedPatch::ShortestNormal;
+  const Bounds normal = controls.Bound([](const glm::dvec3& v) { return glm::dot(v, v); });
+  const Bounds across = controls.Bound(
+    [this](const glm::dvec3& v)
+    {
+      const glm::dvec2 seen = this->Frame.Project(v);
+      return glm::dot(seen, seen);
+    });
+  const Bounds shift = Multiply(BoundForm(this->Patch, around, size),
+    BoundFactor(normal, std::max(shortest, CurvedPatch::ShortestNormal)));
+  const auto bend = [isSmooth](const Bounds& h)
+  {
+    return Bend{ Largest(h.first),
+      isSmooth ? Largest(h.second) : std::numeric_limits<double>::infinity() };
+  };
+  part.across = bend(Multiply(shift, across));
+  part.along = bend(Multiply(shift, normal));
+}
+
+//------------------------------------------------------------------------------
+// Whether the line is farther than `reach` from the triangle of the corners: beyond one of its
+// sides, or, if it is next to a segment, beyond an end of the longest side.
+bool PatchCrossings::IsSeparated(const Part& part, double reach)
+{
+  const auto& c = part.corner;
+  const double area = Cross(c[1].x - c[0].x, c[2].x - c[0].x);
+  const double sign = area < 0.0 ? -1.0 : 1.0;
+  glm::dvec2 longest(0.0);
+  double squared = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec2& from = c[(k + 1) % 3].x;
+    const glm::dvec2 side = c[(k + 2) % 3].x - from;
+    const double length = glm::dot(side, side);
+    if (sign * Cross(from, side) < -reach * std::sqrt(length))
+    {
+      return true;
+    }
+    if (length > squared)
+    {
+      squared = length;
+      longest = side;
+    }
+  }
+  const double slack = reach * std::sqrt(squared);
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+  for (const Corner& corner : c)
+  {
+    const double at = glm::dot(longest, corner.x);
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  return low > slack || high < -slack;
+}
+
+//------------------------------------------------------------------------------
+// Whether the line does not meet the part at the heights of interest.
+bool PatchCrossings::IsPassed(const Part& part, double low, double high) const
+{
+  const auto& c = part.corner;
+  const double along = part.along.GetDeviation(part.size) + this->Rounding;
+  return std::min({ c[0].height, c[1].height, c[2].height }) - along > high ||
+    std::max({ c[0].height, c[1].height, c[2].height }) + along < low ||
+    IsSeparated(part, part.across.GetDeviation(part.size) + this->Rounding);
+}
+
+//------------------------------------------------------------------------------
+PatchCrossings::Verdict PatchCrossings::Settle(Part& part, double low, double high)
+{
+  // What is known of the whole costs nothing.
+  if (this->IsPassed(part, low, high))
+  {
+    return Verdict::Settled;
+  }
+  this->BoundDeflection(part);
+  return this->IsPassed(part, low, high) || (this->IsInjective(part) && this->TakeRoot(part))
+    ? Verdict::Settled
+    : Verdict::Unknown;
+}
+
+//------------------------------------------------------------------------------
+// Whether derivatives differ from those of the facet, or from those in the middle, by less than
+// these: by Cramer's rule the inverse of two vectors takes a vector to one no longer than this
+// times it, as a sum of absolute values.
+//
+// A derivative along a side differs from that in the middle by 2 H, and by M times the size: mixed
+// derivatives along two sides are 3 M / 2 at most, by that of their difference, and no point is
+// farther from the middle than two thirds of sides.
+bool PatchCrossings::IsInjective(const Part& part) const
+{
+  // Written so that a NaN fails.
+  const double rounding = 2.0 * this->Rounding / part.size; // of differences
+  const auto dominates = [this, rounding](
+                           const glm::dvec3& first, const glm::dvec3& second, double by)
+  {
+    const glm::dvec2 u = this->Frame.Project(first);
+    const glm::dvec2 v = this->Frame.Project(second);
+    return (glm::length(u) + glm::length(v)) * (by + rounding) <=
+      LargestSlope * std::fabs(Cross(u, v));
+  };
+  if (dominates(this->Patch.corner[1] - this->Patch.corner[0],
+        this->Patch.corner[2] - this->Patch.corner[0], part.across.first))
+  {
+    return true;
+  }
+  PatchJet middle;
+  this->Patch.Evaluate((part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0, middle);
+  constexpr double widened = 1.0 + 3.0 * Reach;
+  return dominates(middle.positionBy[0], middle.positionBy[1],
+    std::min(widened * part.size * part.across.second, 2.0 * part.across.first));
+}
+
+//------------------------------------------------------------------------------
+// False if Newton's method does not converge to a place where X is known to be injective.
+bool PatchCrossings::TakeRoot(const Part& part)
+{
+  const auto& c = part.corner;
+  const glm::dvec2 first = c[1].x - c[0].x;
+  const glm::dvec2 second = c[2].x - c[0].x;
+  const double whole = Cross(first, second);
+  glm::dvec2 b = c[0].b + (Cross(second, c[0].x) / whole) * (c[1].b - c[0].b) +
+    (Cross(c[0].x, first) / whole) * (c[2].b - c[0].b);
+  PatchJet jet;
+  for (int i = 0; i < NewtonSteps; ++i)
+  {
+    this->Patch.Evaluate(b, jet);
+    const glm::dvec2 x = this->Frame.Project(jet.position) - this->Place;
+    const glm::dvec2 u = this->Frame.Project(jet.positionBy[0]);
+    const glm::dvec2 v = this->Frame.Project(jet.positionBy[1]);
+    const double area = Cross(u, v);
+    const glm::dvec2 move(Cross(v, x) / area, Cross(x, u) / area);
+    b += move;
+    // In the part's coordinates, along the facet's two sides or against them.
+    const glm::dvec2 away = (b - c[0].b) / (c[1].b.x - c[0].b.x);
+    // Written so that a NaN fails.
+    if (!(FindOutside(away).least >= -Reach))
+    {
+      return false;
+    }
+    if (std::max(std::fabs(move.x), std::fabs(move.y)) >= LastStep * part.size)
+    {
+      continue;
+    }
+    const double outside = FindOutside(b).least;
+    if (outside < -Border)
+    {
+      return true; // the root is beyond the patch
+    }
+    if (this->Count == Capacity)
+    {
+      return false;
+    }
+    // Over so short a step the patch is as good as linear.
+    const glm::dvec3 position =
+      jet.position + move.x * jet.positionBy[0] + move.y * jet.positionBy[1];
+    const glm::dvec3 normal = jet.normal + move.x * jet.normalBy[0] + move.y * jet.normalBy[1];
+    this->Crossings[this->Count++] = { this->Frame.GetHeight(position),
+      area < 0.0 ? -this->Front : this->Front, outside, normal };
+    return true;
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+void PatchCrossings::MarkOpen(const Part& part)
+{
+  const double along = part.along.GetDeviation(part.size);
+  for (const Corner& corner : part.corner)
+  {
+    this->HighestOpen = std::max(this->HighestOpen, corner.height + along);
+  }
+}
+
+}

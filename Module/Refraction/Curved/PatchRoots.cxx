@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Curved/PatchRoots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// Roots closer than this, in facets, are one: near a caustic two of them merge, and there Newton's
+// last step of 1e-5 leaves an error of that order.
+constexpr double SameRoot = 1e-5;
+
+// A root on the border of a triangle belongs to both sides. Newton's method leaves 1e-10.
+constexpr double Border = 1e-8;
+
+// 2^-14 of a facet. A triangle that is still undecided there holds a double root, on a caustic, and
+// Newton's method decides.
+constexpr int DeepestLevel = 14;
+
+// Isolated roots take a dozen divisions each at most, a few near a caustic. A ring of roots would
+// take one for every triangle that it crosses, on every level.
+constexpr int MostDivisions = 1000;
+
+// Newton's method starts at the root of a nearly linear map.
+constexpr int NewtonSteps = 12;
+
+// A root this far outside of a triangle, in triangles, says nothing of the triangle.
+constexpr double FarthestRoot = 0.5;
+
+// The part of second degree, relative to the linear part, above which the interpolant is a guess.
+constexpr double LargestDeflection = 0.5;
+
+// The part of higher degree, relative to that of second degree. In a triangle half as large it is
+// half of this, so the margin that is really needed shrinks with the subdivision.
+constexpr double HigherDegree = 0.5;
+constexpr double HigherDegreeOfGuess = 2.0;
+
+// Determinants that differ by more are too close to a caustic to call the map injective.
+constexpr double SmallestDeterminant = 0.05;
+
+double Cross(const glm::dvec2& a, const glm::dvec2& b)
+{
+  return a.x * b.y - a.y * b.x;
+}
+
+using Control = std::array<glm::dvec2, 6>;
+
+// Whether one of the lines along the sides of the linear part has all control points, each a disc
+// of radius `margin`, on the side away from zero.
+bool IsSeparated(const Control& control, double margin)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec2 side = control[(k + 2) % 3] - control[(k + 1) % 3];
+    double low = std::numeric_limits<double>::max();
+    double high = std::numeric_limits<double>::lowest();
+    for (const glm::dvec2& point : control)
+    {
+      const double distance = Cross(side, point);
+      low = std::min(low, distance);
+      high = std::max(high, distance);
+    }
+    const double slack = margin * glm::length(side);
+    if (low > slack || high < -slack)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Whether the corners alone keep the map away from zero, if its part of second degree is within
+// LargestDeflection: control points of edges are then within twice that from the edges' middles.
+bool IsFarFromZero(const Control& f)
+{
+  const double size =
+    std::max({ glm::length(f[1] - f[0]), glm::length(f[2] - f[1]), glm::length(f[0] - f[2]) });
+  Control corners = f;
+  std::copy(f.begin(), f.begin() + 3, corners.begin() + 3);
+  return IsSeparated(corners, (2.0 * LargestDeflection + HigherDegree) * size);
+}
+
+// Each of the control points is off by up to `margin`, so each side of a determinant by twice that.
+bool IsInjective(const Control& c, double margin)
+{
+  const glm::dvec2 first[3] = { c[5] - c[0], c[1] - c[5], c[3] - c[4] };
+  const glm::dvec2 second[3] = { c[4] - c[0], c[3] - c[5], c[2] - c[4] };
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+  double longest = 0.0;
+  for (const glm::dvec2& u : first)
+  {
+    for (const glm::dvec2& v : second)
+    {
+      const double determinant = Cross(u, v);
+      low = std::min(low, determinant);
+      high = std::max(high, determinant);
+      longest = std::max(longest, glm::length(u) + glm::length(v));
+    }
+  }
+  const double slack = 2.0 * margin * longest;
+  return low - slack > SmallestDeterminant * high || -high - slack > SmallestDeterminant * -low;
+}
+
+}
+
+//------------------------------------------------------------------------------
+void PatchRoots::Find()
+{
+  Triangle whole;
+  whole.b = { glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
+    glm::dvec2(0.5, 0.5), glm::dvec2(0.0, 0.5), glm::dvec2(0.5, 0.0) };
+  this->Count = 0;
+  this->Divisions = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    whole.f[i] = this->Equation.GetResidual(this->Patch, whole.b[i]);
+  }
+  if (this->IsFar() && IsFarFromZero(whole.f))
+  {
+    return;
+  }
+  for (std::size_t i = 3; i < 6; ++i)
+  {
+    whole.f[i] = this->Equation.GetResidual(this->Patch, whole.b[i]);
+  }
+  this->Search(whole, 0);
+}
+
+//------------------------------------------------------------------------------
+// Eye and point are so far that lines of sight turn by less than half a radian in the patch, and so
+// do its normals, which hardly bend on the way: the map bends by less than LargestDeflection.
+bool PatchRoots::IsFar() const
+{
+  const glm::dvec3 first = this->Patch.corner[1] - this->Patch.corner[0];
+  const glm::dvec3 second = this->Patch.corner[2] - this->Patch.corner[0];
+  const double squared = 4.0 * (glm::dot(first, first) + glm::dot(second, second));
+  constexpr double smallest = 0.875;  // cos 0.5
+  constexpr double straightest = 0.1; // a quarter of the largest bend of an edge
+  const auto turns = [this](int i, int j)
+  {
+    const glm::dvec3& bend = this->Patch.bend[3 - i - j];
+    return glm::dot(this->Patch.normal[i], this->Patch.normal[j]) < smallest ||
+      glm::dot(bend, bend) > straightest * straightest;
+  };
+  return this->Equation.GetSquaredDistance(this->Patch.corner[0]) > squared && !turns(0, 1) &&
+    !turns(1, 2) && !turns(2, 0);
+}
+
+//------------------------------------------------------------------------------
+PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle)
+{
+  Control control = triangle.f;
+  double bend = 0.0;
+  double size = 0.0;
+  double reach = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec2& a = triangle.f[(k + 1) % 3];
+    const glm::dvec2& b = triangle.f[(k + 2) % 3];
+    control[k + 3] = 2.0 * triangle.f[k + 3] - 0.5 * (a + b);
+    bend = std::max(bend, glm::length(triangle.f[k + 3] - 0.5 * (a + b)));
+    size = std::max(size, glm::length(b - a));
+    reach = std::max(reach, glm::length(a));
+  }
+  const bool isGuess = !(bend <= LargestDeflection * size);
+  // A residual is a difference of products of two lengths: a few roundings of the largest.
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  const double margin = (isGuess ? HigherDegreeOfGuess : HigherDegree) * bend + rounding * reach;
+  if (IsSeparated(control, margin))
+  {
+    return Verdict::None;
+  }
+  return !isGuess && IsInjective(control, margin) ? Verdict::AtMostOne : Verdict::Unknown;
+}
+
+//------------------------------------------------------------------------------
+void PatchRoots::Search(const Triangle& triangle, int depth)
+{
+  const Verdict verdict = Judge(triangle);
+  if (verdict == Verdict::None)
+  {
+    return;
+  }
+  const bool last = depth == DeepestLevel || this->Divisions >= MostDivisions;
+  if ((verdict == Verdict::AtMostOne || last) && (this->TakeRoot(triangle) || last))
+  {
+    return;
+  }
+  this->Divide(triangle, depth);
+}
+
+//------------------------------------------------------------------------------
+// False if Newton's method gave no answer. A root just outside the triangle is an answer: there is
+// none inside.
+bool PatchRoots::TakeRoot(const Triangle& triangle)
+{
+  const glm::dvec2 u = triangle.f[1] - triangle.f[0];
+  const glm::dvec2 v = triangle.f[2] - triangle.f[0];
+  const double determinant = Cross(u, v);
+  double s = Cross(-triangle.f[0], v) / determinant;
+  double t = Cross(u, -triangle.f[0]) / determinant;
+  if (!(std::min({ s, t, 1.0 - s - t }) > -1.0))
+  {
+    s = 1.0 / 3.0;
+    t = 1.0 / 3.0;
+  }
+  const glm::dvec2 side1 = triangle.b[1] - triangle.b[0];
+  const glm::dvec2 side2 = triangle.b[2] - triangle.b[0];
+  const SightRoot root =
+    this->Equation.Solve(this->Patch, triangle.b[0] + s * side1 + t * side2, NewtonSteps, 2.0);
+  if (root.end != SightRoot::End::Converged)
+  {
+    return false;
+  }
+  const double area = Cross(side1, side2);
+  const glm::dvec2 inside(
+    Cross(root.b - triangle.b[0], side2) / area, Cross(side1, root.b - triangle.b[0]) / area);
+  // Newton's method may have gone to another root far away; the map is known here only.
+  if (FindOutside(inside).least < -FarthestRoot)
+  {
+    return false;
+  }
+  // A triangle's border is as wide as the facet's, whatever its size.
+  const double border = Border / std::sqrt(std::fabs(area));
+  if (FindOutside(inside).least >= -border && FindOutside(root.b).least >= -Border)
+  {
+    this->Add(root);
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void PatchRoots::Divide(const Triangle& t, int depth)
+{
+  ++this->Divisions;
+  const auto evaluate = [this](const glm::dvec2& b)
+  { return this->Equation.GetResidual(this->Patch, b); };
+  // Three children at the corners, one in the middle with the middles of the edges as corners.
+  Triangle middle;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    middle.b[k] = t.b[k + 3];
+    middle.f[k] = t.f[k + 3];
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    middle.b[k + 3] = 0.5 * (middle.b[(k + 1) % 3] + middle.b[(k + 2) % 3]);
+    middle.f[k + 3] = evaluate(middle.b[k + 3]);
+  }
+  this->Search(middle, depth + 1);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    Triangle child;
+    child.b = { t.b[k], t.b[j + 3], t.b[i + 3], middle.b[k + 3], 0.5 * (t.b[k] + t.b[i + 3]),
+      0.5 * (t.b[k] + t.b[j + 3]) };
+    child.f = { t.f[k], t.f[j + 3], t.f[i + 3], middle.f[k + 3], evaluate(child.b[4]),
+      evaluate(child.b[5]) };
+    this->Search(child, depth + 1);
+  }
+}
+
+//------------------------------------------------------------------------------
+void PatchRoots::Add(const SightRoot& root)
+{
+  for (const SightRoot& other : *this)
+  {
+    if (std::max(std::fabs(root.b.x - other.b.x), std::fabs(root.b.y - other.b.y)) < SameRoot)
+    {
+      return;
+    }
+  }
+  if (this->Count < Capacity)
+  {
+    this->Roots[this->Count++] = root;
+  }
+}
+
+}

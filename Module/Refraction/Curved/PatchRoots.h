@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Refraction_Curved_PatchRoots_h
+#define meniscus_Refraction_Curved_PatchRoots_h
+
+#include "Refraction/Curved/SightEquation.h"
+
+#include <array>
+#include <cstddef>
+
+namespace meniscus
+{
+
+/**
+ * Every root of the sight equation in one patch.
+ *
+ * The residual is a map from the facet's triangle to a plane. On a triangle it is interpolated by
+ * second degree from its corners and the middles of its edges; the control points of the
+ * interpolant bound it, with a margin for what is of higher degree. If a line separates them from
+ * zero there is no root. If the determinants of all pairs of control vectors of its two derivatives
+ * have one sign the map is injective, so there is one root at most and Newton's method finds it.
+ * Otherwise the triangle is divided in four.
+ *
+ * Where the patch focuses on the point the roots are not isolated: a dome on whose axis eye and
+ * point lie shows a ring. The number of divisions is limited then, and what is found stands for the
+ * rest.
+ */
+class PatchRoots
+{
+public:
+  /// A patch that focuses on a point may show any number of images; a smooth one shows few.
+  static constexpr std::size_t Capacity = 16;
+
+  PatchRoots(const SightEquation& equation, const CurvedPatch& patch)
+    : Equation(equation)
+    , Patch(patch)
+  {
+  }
+
+  /// Roots inside the facet, images or not, are in [begin, end) afterwards.
+  void Find();
+
+  const SightRoot* begin() const { return this->Roots.data(); }
+  const SightRoot* end() const { return this->Roots.data() + this->Count; }
+
+private:
+  /// Corners, then middles of the edges opposite to them.
+  struct Triangle
+  {
+    std::array<glm::dvec2, 6> b;
+    std::array<glm::dvec2, 6> f;
+  };
+  enum class Verdict
+  {
+    None,
+    AtMostOne,
+    Unknown
+  };
+
+  bool IsFar() const;
+  void Search(const Triangle& triangle, int depth);
+  void Divide(const Triangle& triangle, int depth);
+  bool TakeRoot(const Triangle& triangle);
+  static Verdict Judge(const Triangle& triangle);
+  void Add(const SightRoot& root);
+
+  const SightEquation& Equation;
+  const CurvedPatch& Patch;
+  std::array<SightRoot, Capacity> Roots;
+  std::size_t Count = 0;
+  int Divisions = 0;
+};
+
+}
+
+#endif

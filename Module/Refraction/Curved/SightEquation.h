@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Snell's law between eye and point at a point S of a patch, without the root of Eq. 2.2 and
+ * without unit vectors. With a = S - eye and p = point - S,
+ *
+ *   h(S) = n1 |p| a - n2 |a| p
+ *
+ * is parallel to the normal where the ray along a is refracted along p. It is |a| |p| times the
+ * difference that the tangential part of Eq. 2.2 makes, stays smooth beyond the critical angle and
+ * where the surface faces away, and has no pole at the eye or at the point.
+ */
+#ifndef meniscus_Refraction_Curved_SightEquation_h
+#define meniscus_Refraction_Curved_SightEquation_h
+
+#include "Refraction/Membrane/CurvedPatch.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <limits>
+
+namespace meniscus
+{
+
+/// Where Newton's method ended.
+struct SightRoot
+{
+  enum class End
+  {
+    Converged, ///< anywhere in the plane of barycentric coordinates
+    Left,      ///< went out of the facet by more than it was allowed to
+    Failed     ///< singular, or too many steps
+  };
+  End end;
+  glm::dvec2 b;
+  PatchPoint at;      ///< the root's point, if converged
+  double determinant; ///< of the Jacobian in the tangent plane; its sign turns at caustics
+};
+
+class SightEquation
+{
+public:
+  SightEquation(const glm::dvec3& eye, const glm::dvec3& point, double exterior, double interior)
+    : Eye(eye)
+    , Point(point)
+    , Exterior(exterior)
+    , Interior(interior)
+  {
+  }
+
+  /// h without its part along the normal, in the two directions of the facet's edges; zero at a
+  /// sight point. Multiplied by the square of the normal's length.
+  glm::dvec2 GetResidual(const CurvedPatch& patch, const glm::dvec2& b) const;
+
+  /// Newton's method from `b`, at most `steps` steps, leaving the facet by `reach` at most.
+  SightRoot Solve(const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const;
+
+  /// Whether a root is an image: eye in front of the surface, point behind it.
+  bool IsImage(const PatchPoint& at) const;
+
+  /// Of a place from the eye or from the point, whichever is nearer.
+  double GetSquaredDistance(const glm::dvec3& place) const
+  {
+    const glm::dvec3 a = place - this->Eye;
+    const glm::dvec3 p = place - this->Point;
+    return std::min(glm::dot(a, a), glm::dot(p, p));
+  }
+
+  /// Which way round the image of a facet is: +1, or -1 where it is mirrored.
+  static int GetOrientation(const CurvedPatch& patch, const SightRoot& root);
+
+private:
+  struct Step
+  {
+    glm::dvec2 move;
+    double determinant;
+    double nearest; ///< of eye and point, the distance
+  };
+  Step GetStep(const PatchJet& jet) const;
+
+  glm::dvec3 Eye;
+  glm::dvec3 Point;
+  double Exterior;
+  double Interior;
+};
+
+//------------------------------------------------------------------------------
+inline glm::dvec2 SightEquation::GetResidual(const CurvedPatch& patch, const glm::dvec2& b) const
+{
+  const PatchPoint at = patch.Evaluate(b);
+  const glm::dvec3 a = at.position - this->Eye;
+  const glm::dvec3 p = this->Point - at.position;
+  const glm::dvec3 h =
+    (this->Exterior * glm::length(p)) * a - (this->Interior * glm::length(a)) * p;
+  const double squared = glm::dot(at.normal, at.normal);
+  const double along = glm::dot(h, at.normal);
+  const glm::dvec3 first = patch.corner[1] - patch.corner[0];
+  const glm::dvec3 second = patch.corner[2] - patch.corner[0];
+  return { squared * glm::dot(h, first) - along * glm::dot(at.normal, first),
+    squared * glm::dot(h, second) - along * glm::dot(at.normal, second) };
+}
+
+//------------------------------------------------------------------------------
+// The tangential part of h + dh / du du + dh / dv dv - eta (n + dn) vanishes, eta = h.n / n.n:
+// terms with the residual times a derivative of n are left out, which vanish at a root. Solved by
+// Cramer's rule in the tangent plane.
+inline SightEquation::Step SightEquation::GetStep(const PatchJet& jet) const
+{
+  const glm::dvec3 a = jet.position - this->Eye;
+  const glm::dvec3 p = this->Point - jet.position;
+  const double lengthA = glm::length(a);
+  const double lengthP = glm::length(p);
+  const double outer = this->Exterior * lengthP;
+  const double inner = this->Interior * lengthA;
+  const glm::dvec3 h = outer * a - inner * p;
+  const double eta = glm::dot(h, jet.normal) / glm::dot(jet.normal, jet.normal);
+  const glm::dvec3 alongP = lengthP > 0.0 ? (this->Exterior / lengthP) * p : glm::dvec3(0.0);
+  const glm::dvec3 alongA = lengthA > 0.0 ? (this->Interior / lengthA) * a : glm::dvec3(0.0);
+  glm::dvec3 by[2];
+  for (int k = 0; k < 2; ++k)
+  {
+    const glm::dvec3& d = jet.positionBy[k];
+    by[k] = (outer + inner) * d - glm::dot(alongP, d) * a - glm::dot(alongA, d) * p -
+      eta * jet.normalBy[k];
+  }
+  const glm::dvec3 first = glm::cross(by[1], jet.normal);
+  const glm::dvec3 second = glm::cross(jet.normal, by[0]);
+  const double determinant = glm::dot(by[0], first);
+  const double inverse = -1.0 / determinant;
+  return { { inverse * glm::dot(h, first), inverse * glm::dot(h, second) }, determinant,
+    std::min(lengthA, lengthP) };
+}
+
+//------------------------------------------------------------------------------
+inline SightRoot SightEquation::Solve(
+  const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const
+{
+  // The error after a step is of the order of the step's square, in facets: what is left is below
+  // 1e-10 of a facet but near a caustic. Where eye or point is closer to the surface than a facet
+  // is wide, that distance takes the facet's place.
+  constexpr double lastStep = 1e-5;
+  const auto isLast = [](const Step& step, const PatchJet& at, double size)
+  {
+    const double width = std::max(
+      glm::dot(at.positionBy[0], at.positionBy[0]), glm::dot(at.positionBy[1], at.positionBy[1]));
+    const double longest = lastStep * step.nearest;
+    return size < lastStep && size * size * width <= longest * longest;
+  };
+  PatchJet jet;
+  for (int i = 0; i < steps; ++i)
+  {
+    patch.Evaluate(b, jet);
+    const Step step = this->GetStep(jet);
+    const double size = std::max(std::fabs(step.move.x), std::fabs(step.move.y));
+    if (!(size <= std::numeric_limits<double>::max()))
+    {
+      break;
+    }
+    b += step.move;
+    if (isLast(step, jet, size))
+    {
+      // Over so short a step the patch is as good as linear.
+      const PatchPoint at{ jet.position + step.move.x * jet.positionBy[0] +
+          step.move.y * jet.positionBy[1],
+        jet.normal + step.move.x * jet.normalBy[0] + step.move.y * jet.normalBy[1] };
+      return { SightRoot::End::Converged, b, at, step.determinant };
+    }
+    if (FindOutside(b).least < -reach)
+    {
+      return { SightRoot::End::Left, b, jet, step.determinant };
+    }
+  }
+  return { SightRoot::End::Failed, b, jet, 0.0 };
+}
+
+//------------------------------------------------------------------------------
+inline bool SightEquation::IsImage(const PatchPoint& at) const
+{
+  return glm::dot(at.normal, at.normal) >
+    CurvedPatch::ShortestNormal * CurvedPatch::ShortestNormal &&
+    glm::dot(at.position - this->Eye, at.normal) < 0.0 &&
+    glm::dot(this->Point - at.position, at.normal) < 0.0;
+}
+
+//------------------------------------------------------------------------------
+inline int SightEquation::GetOrientation(const CurvedPatch& patch, const SightRoot& root)
+{
+  const glm::dvec3 facet =
+    glm::cross(patch.corner[1] - patch.corner[0], patch.corner[2] - patch.corner[0]);
+  return (root.determinant < 0.0) == (glm::dot(facet, root.at.normal) < 0.0) ? 1 : -1;
+}
+
+}
+
+#endif

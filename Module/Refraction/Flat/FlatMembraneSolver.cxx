@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Flat/FlatMembraneSolver.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+MembraneStatus FlatMembraneSolver::SetMembrane(const MembraneInput& input)
+{
+  const MembraneStatus status = this->Surface.Build(input);
+  const auto& positions = this->Surface.GetPositions();
+  std::vector<glm::dvec3> centroids;
+  centroids.reserve(this->Surface.GetFacets().size());
+  for (const Membrane::Facet& facet : this->Surface.GetFacets())
+  {
+    glm::dvec3 sum(0.0);
+    for (const std::int32_t vertex : facet)
+    {
+      sum += positions[static_cast<std::size_t>(vertex)];
+    }
+    centroids.push_back(sum / 3.0);
+  }
+  this->Tree.Build(centroids, status == MembraneStatus::Ready ? this->Surface.GetRadius() : 1.0);
+  return status;
+}
+
+//------------------------------------------------------------------------------
+EyeStatus FlatMembraneSolver::SetEye(
+  const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop)
+{
+  this->Exterior = exterior;
+  this->Interior = interior;
+  const EyeStatus status =
+    this->Cells.Update(this->Surface, eye - this->Surface.GetOrigin(), exterior, interior, loop);
+  if (status == EyeStatus::Ready)
+  {
+    this->Tree.Refit([this](std::int32_t facet) { return this->Cells.GetBounds(facet); }, loop);
+  }
+  return status;
+}
+
+//------------------------------------------------------------------------------
+void FlatMembraneSolver::Solve(
+  const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const
+{
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const double* p = points + 3 * i;
+    vertices[i] = this->SolvePoint(glm::dvec3(p[0], p[1], p[2]));
+  }
+}
+
+//------------------------------------------------------------------------------
+bool FlatMembraneSolver::IsInReach(const glm::dvec3& local) const
+{
+  const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
+  // Written so that a NaN fails: it may hide from max() in one component but not in the sum.
+  return reach / this->Surface.GetRadius() < RayTubeTree::FarthestRadii &&
+    std::isfinite(local.x + local.y + local.z);
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
+{
+  VirtualVertex vertex;
+  vertex.position = point;
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  if (!this->IsInReach(local))
+  {
+    vertex.state = ImageState::NotFinite;
+    return vertex;
+  }
+  std::int32_t first = std::numeric_limits<std::int32_t>::max();
+  CellHit firstHit{};
+  this->Tree.Visit(local, 0.0,
+    [this, &local, &first, &firstHit](std::int32_t facet)
+    {
+      CellHit hit;
+      if (this->Cells.Contains(facet, local, hit))
+      {
+        first = facet;
+        firstHit = hit;
+      }
+      return first;
+    });
+  return first < std::numeric_limits<std::int32_t>::max() ? this->MakeVertex(local, first, firstHit)
+                                                          : vertex;
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex FlatMembraneSolver::SolvePointByBruteForce(const glm::dvec3& point) const
+{
+  VirtualVertex vertex;
+  vertex.position = point;
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  if (!this->IsInReach(local))
+  {
+    vertex.state = ImageState::NotFinite;
+    return vertex;
+  }
+  const auto count = static_cast<std::int32_t>(this->Surface.GetFacets().size());
+  for (std::int32_t facet = 0; facet < count; ++facet)
+  {
+    CellHit hit;
+    if (this->Cells.Contains(facet, local, hit))
+    {
+      return this->MakeVertex(local, facet, hit);
+    }
+  }
+  return vertex;
+}
+
+//------------------------------------------------------------------------------
+bool FlatMembraneSolver::MayShow(
+  const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
+{
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  return !this->IsInReach(local) || this->Tree.HasAny(local, padding, chosen);
+}
+
+//------------------------------------------------------------------------------
+bool FlatMembraneSolver::HasOneCell(const glm::dvec3& point, double wall) const
+{
+  const glm::dvec3 local = point - this->Surface.GetOrigin();
+  if (!this->IsInReach(local))
+  {
+    return false;
+  }
+  // A point that is outside by `wall` in each coordinate is at most 2 wall edges away from the
+  // cell.
+  const double edge = 2.0 * RefractionCells::GetLargestStretch() *
+    (glm::length(local) + std::sqrt(3.0) * this->Surface.GetRadius());
+  int count = 0;
+  this->Tree.Visit(local, 2.0 * wall * edge,
+    [this, &local, wall, &count](std::int32_t facet)
+    {
+      CellHit hit;
+      count += this->Cells.Contains(facet, local, wall, hit);
+      return count < 2 ? std::numeric_limits<std::int32_t>::max() : 0;
+    });
+  return count == 1;
+}
+
+//------------------------------------------------------------------------------
+VirtualVertex FlatMembraneSolver::MakeVertex(
+  const glm::dvec3& local, std::int32_t facet, const CellHit& hit) const
+{
+  const Membrane::Facet& ids = this->Surface.GetFacets()[static_cast<std::size_t>(facet)];
+  glm::dvec3 sightPoint(0.0);
+  glm::dvec3 normal(0.0);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double weight = hit.weights[static_cast<int>(i)];
+    sightPoint += weight * this->Surface.GetPositions()[static_cast<std::size_t>(ids[i])];
+    normal += weight * this->Surface.GetNormals()[static_cast<std::size_t>(ids[i])];
+  }
+  const glm::dvec3 sight = glm::normalize(sightPoint - this->Cells.GetEye());
+  const double bent = glm::length(normal);
+
+  VirtualVertex vertex;
+  vertex.depth = glm::length(local - sightPoint);
+  vertex.sightPoint = sightPoint + this->Surface.GetOrigin();
+  // Eq. 2.4.
+  vertex.position = sightPoint + sight * (vertex.depth * this->Exterior / this->Interior) +
+    this->Surface.GetOrigin();
+  // Where normals cancel out the ray only grazes.
+  vertex.cosine = bent > 0.0 ? -glm::dot(sight, normal) / bent : 0.0;
+  vertex.reflectance = FresnelReflectance(vertex.cosine, this->Exterior, this->Interior);
+  vertex.facet = facet;
+  vertex.state = ImageState::Found;
+  vertex.orientation = static_cast<signed char>(hit.orientation);
+  return vertex;
+}
+
+}

@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Flat/RefractionCells.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr double Epsilon = std::numeric_limits<double>::epsilon();
+
+// A corner of the cross-section is w - r (w.m / r.m) with w = position - point. The subtraction,
+// the two dot products, the quotient, the product and the last subtraction make fewer than 16
+// roundings of at most |w| |m| / r.m each.
+constexpr double CornerRounding = 16.0 * Epsilon;
+
+// Cells whose rays part further from their mean than 89.1 degrees hold nothing: the cross-section
+// would run away and its rounding with it (by 1 / cosine). Unit rays that obey Snell's law stay far
+// from this; only extrapolated ones (Eqs. 3.1, 3.2) get there.
+constexpr double SmallestCosine = 0x1p-6;
+
+// A cross-section thinner than this, height over longest edge, is a cell edge-on or at a focus: it
+// holds nothing. The bound keeps what wall rounding adds at a sharp corner, at most
+// 2 CornerRounding / (SmallestCosine Thinnest) = 2^-21 of the reach, within the padding that the
+// tree adds, 4 float epsilons = 2^-21 of the reach.
+constexpr double Thinnest = 0x1p-20;
+
+bool IsOpen(double cosine, double squaredMean)
+{
+  return cosine > 0.0 && cosine * cosine > SmallestCosine * SmallestCosine * squaredMean;
+}
+
+}
+
+/// The triangle in which the plane through a point cuts the rays of a cell, relative to the point.
+struct RefractionCells::CrossSection
+{
+  glm::dvec3 toCorner[3];
+  glm::dvec3 cut[3];
+  double depth[3];
+  double cosine[3];
+  double squaredMean = 0.0;
+
+  /// Rounding of a corner of the cut, times the length of the mean ray.
+  double GetTolerance() const
+  {
+    const double mean = std::sqrt(this->squaredMean);
+    double reach = 0.0;
+    for (int i = 0; i < 3; ++i)
+    {
+      reach = std::max(reach, glm::length(this->toCorner[i]) * (1.0 + mean / this->cosine[i]));
+    }
+    return CornerRounding * reach * mean;
+  }
+
+  /// Whether no area is more negative than rounding or `wallArea` explains. The first pass takes no
+  /// square root and a reach that is too large: almost every cell that is tested fails it.
+  bool IsInside(const glm::dvec3& area, double wallArea) const
+  {
+    constexpr double factor = CornerRounding * (1.0 + 1.0 / SmallestCosine);
+    double squaredReach = 0.0;
+    for (const glm::dvec3& w : this->toCorner)
+    {
+      squaredReach = std::max(squaredReach, glm::dot(w, w));
+    }
+    const double squaredTolerance = factor * factor * squaredReach * this->squaredMean;
+    double longest = 0.0;
+    double edge[3];
+    for (int i = 0; i < 3; ++i)
+    {
+      const glm::dvec3 side = this->cut[(i + 1) % 3] - this->cut[(i + 2) % 3];
+      edge[i] = glm::dot(side, side);
+      longest = std::max(longest, edge[i]);
+      if (!(area[i] >= 0.0) &&
+        !(area[i] * area[i] <= std::max(squaredTolerance * edge[i], wallArea * wallArea)))
+      {
+        return false;
+      }
+    }
+    if (!(area.x + area.y + area.z > Thinnest * longest * std::sqrt(this->squaredMean)))
+    {
+      return false;
+    }
+    if (area.x >= 0.0 && area.y >= 0.0 && area.z >= 0.0)
+    {
+      return true;
+    }
+    const double tolerance = this->GetTolerance();
+    return area.x >= -std::max(tolerance * std::sqrt(edge[0]), wallArea) &&
+      area.y >= -std::max(tolerance * std::sqrt(edge[1]), wallArea) &&
+      area.z >= -std::max(tolerance * std::sqrt(edge[2]), wallArea);
+  }
+};
+
+//------------------------------------------------------------------------------
+EyeStatus CheckEye(const glm::dvec3& eye, double exterior, double interior)
+{
+  if (!(exterior > 0.0) || !(interior > 0.0) || !std::isfinite(exterior / interior) ||
+    !std::isfinite(interior / exterior))
+  {
+    return EyeStatus::BadIndex;
+  }
+  return std::isfinite(eye.x) && std::isfinite(eye.y) && std::isfinite(eye.z)
+    ? EyeStatus::Ready
+    : EyeStatus::NotFinite;
+}
+
+//------------------------------------------------------------------------------
+EyeStatus RefractionCells::Update(const Membrane& membrane, const glm::dvec3& eye, double exterior,
+  double interior, const RangeLoop& loop)
+{
+  const EyeStatus status = CheckEye(eye, exterior, interior);
+  if (status != EyeStatus::Ready)
+  {
+    return status;
+  }
+  this->Surface = &membrane;
+  this->Eye = eye;
+
+  std::atomic<bool> touched{ false };
+  const auto& facets = membrane.GetFacets();
+  loop(facets.size(),
+    [this, &facets, &touched](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end && !touched; ++i)
+      {
+        if (this->IsEyeOnFacet(facets[i]))
+        {
+          touched = true;
+        }
+      }
+    });
+  if (touched)
+  {
+    return EyeStatus::OnTheMembrane;
+  }
+
+  const auto& positions = membrane.GetPositions();
+  const auto& normals = membrane.GetNormals();
+  const double ratio = exterior / interior;
+  std::vector<RayKind> kinds(positions.size());
+  this->Corners.resize(positions.size());
+  loop(positions.size(),
+    [this, &positions, &normals, &kinds, ratio](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const RefractionRay ray =
+          ComputeRefractionRay(glm::normalize(positions[i] - this->Eye), normals[i], ratio);
+        this->Corners[i] = { positions[i], ray.direction };
+        kinds[i] = ray.kind;
+      }
+    });
+  this->CountRays(kinds);
+  return EyeStatus::Ready;
+}
+
+//------------------------------------------------------------------------------
+RefractionCells::CornerTriple RefractionCells::GetCorners(std::int32_t facet) const
+{
+  const Membrane::Facet& ids = this->Surface->GetFacets()[static_cast<std::size_t>(facet)];
+  return { &this->Corners[static_cast<std::size_t>(ids[0])],
+    &this->Corners[static_cast<std::size_t>(ids[1])],
+    &this->Corners[static_cast<std::size_t>(ids[2])] };
+}
+
+//------------------------------------------------------------------------------
+bool RefractionCells::IsEyeOnFacet(const Membrane::Facet& facet) const
+{
+  const auto& positions = this->Surface->GetPositions();
+  const glm::dvec3 a = positions[static_cast<std::size_t>(facet[0])] - this->Eye;
+  const glm::dvec3 b = positions[static_cast<std::size_t>(facet[1])] - this->Eye;
+  const glm::dvec3 c = positions[static_cast<std::size_t>(facet[2])] - this->Eye;
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  // Six times the volume of eye and facet, and its rounding: three products of three lengths, each
+  // within a few roundings of the local coordinates.
+  const double size = std::max({ glm::length(a), glm::length(b), glm::length(c) });
+  const double reach = std::max(size, this->Surface->GetRadius());
+  const double volume = glm::dot(a, normal);
+  if (std::fabs(volume) > CornerRounding * reach * glm::length(normal))
+  {
+    return false;
+  }
+  const double slack = CornerRounding * reach * size * glm::length(normal);
+  return glm::dot(normal, glm::cross(b, c)) >= -slack &&
+    glm::dot(normal, glm::cross(c, a)) >= -slack && glm::dot(normal, glm::cross(a, b)) >= -slack;
+}
+
+//------------------------------------------------------------------------------
+double RefractionCells::GetLargestStretch()
+{
+  return 1.0 + 1.0 / SmallestCosine;
+}
+
+//------------------------------------------------------------------------------
+void RefractionCells::CountRays(const std::vector<RayKind>& kinds)
+{
+  this->Report = RayReport();
+  std::vector<bool> counted(kinds.size(), false);
+  for (const Membrane::Facet& facet : this->Surface->GetFacets())
+  {
+    for (const std::int32_t corner : facet)
+    {
+      const auto vertex = static_cast<std::size_t>(corner);
+      if (!counted[vertex])
+      {
+        counted[vertex] = true;
+        this->Report.refracted += kinds[vertex] == RayKind::Refracted;
+        this->Report.backFacing += kinds[vertex] == RayKind::BackFacing;
+        this->Report.totallyReflected += kinds[vertex] == RayKind::TotallyReflected;
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool RefractionCells::Contains(
+  std::int32_t facet, const glm::dvec3& point, double wall, CellHit& hit) const
+{
+  const CornerTriple corner = this->GetCorners(facet);
+  const glm::dvec3 mean = corner[0]->ray + corner[1]->ray + corner[2]->ray;
+  CrossSection cross;
+  cross.squaredMean = glm::dot(mean, mean);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    cross.cosine[i] = glm::dot(corner[i]->ray, mean);
+    if (!IsOpen(cross.cosine[i], cross.squaredMean))
+    {
+      return false;
+    }
+    cross.toCorner[i] = corner[i]->position - point;
+    cross.depth[i] = -glm::dot(cross.toCorner[i], mean);
+    cross.cut[i] = cross.toCorner[i] + corner[i]->ray * (cross.depth[i] / cross.cosine[i]);
+  }
+
+  // Twice the signed areas, times the length of the mean ray.
+  glm::dvec3 area(glm::dot(mean, glm::cross(cross.cut[1], cross.cut[2])),
+    glm::dot(mean, glm::cross(cross.cut[2], cross.cut[0])),
+    glm::dot(mean, glm::cross(cross.cut[0], cross.cut[1])));
+  const double sum = area.x + area.y + area.z;
+  const double sign = sum < 0.0 ? -1.0 : 1.0;
+  area *= sign;
+  if (!cross.IsInside(area, wall * sign * sum))
+  {
+    return false;
+  }
+  hit.weights = area / (sign * sum);
+  if (!this->IsBehind(corner, cross, hit.weights))
+  {
+    return false;
+  }
+  const double upright = glm::dot(mean,
+    glm::cross(
+      corner[1]->position - corner[0]->position, corner[2]->position - corner[0]->position));
+  hit.orientation = upright * sign >= 0.0 ? 1 : -1;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionCells::IsBehind(
+  const CornerTriple& corner, const CrossSection& cross, const glm::dvec3& weights) const
+{
+  const double tolerance = cross.GetTolerance();
+  const glm::dvec3 depth(cross.depth[0], cross.depth[1], cross.depth[2]);
+  if (glm::dot(weights, depth) >= -tolerance)
+  {
+    return true;
+  }
+  // Just behind a facet the plane cuts some rays in front of their corners, and the sight point
+  // that follows may lie behind the point by a second-order amount. The facet itself decides then,
+  // as long as the plane does not pass in front of all of it.
+  if (!(std::max({ depth.x, depth.y, depth.z }) >= -tolerance))
+  {
+    return false;
+  }
+  const glm::dvec3 normal = glm::cross(
+    corner[1]->position - corner[0]->position, corner[2]->position - corner[0]->position);
+  const double eyeSide = glm::dot(this->Eye - corner[0]->position, normal);
+  const double pointSide = -glm::dot(cross.toCorner[0], normal);
+  return (eyeSide < 0.0 ? -pointSide : pointSide) <=
+    CornerRounding * glm::length(cross.toCorner[0]) * glm::length(normal);
+}
+
+//------------------------------------------------------------------------------
+TubeBounds RefractionCells::GetBounds(std::int32_t facet) const
+{
+  const CornerTriple corner = this->GetCorners(facet);
+  const glm::dvec3 mean = corner[0]->ray + corner[1]->ray + corner[2]->ray;
+  double height[3];
+  double cosine[3];
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    height[i] = glm::dot(corner[i]->position, mean);
+    cosine[i] = glm::dot(corner[i]->ray, mean);
+    if (!IsOpen(cosine[i], glm::dot(mean, mean)))
+    {
+      return TubeBounds();
+    }
+  }
+  // A plane through a point just behind the facet may cut a ray in front of its corner. No plane
+  // cuts it in front of the highest corner, so the tube starts there; behind it all three cuts are
+  // at non-negative distances and the point is a mean of starts plus a mean of directions.
+  const double highest = std::min({ height[0], height[1], height[2] });
+  TubeBounds bounds;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    bounds.Add(
+      corner[i]->position - corner[i]->ray * ((height[i] - highest) / cosine[i]), corner[i]->ray);
+  }
+  return bounds;
+}
+
+}

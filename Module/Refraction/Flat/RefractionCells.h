@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The cells of a membrane for one eye (thesis 3.1.1 and 3.1.2): a cell is a facet and the
+ * refraction rays at its corners. It holds a point if the plane through the point, normal to the
+ * mean of the three rays, cuts the rays in a triangle around the point, and if the point lies on
+ * the far side of the facet. Each cell has planes of its own, so neighbouring cells may overlap or
+ * leave gaps.
+ */
+#ifndef meniscus_Refraction_Flat_RefractionCells_h
+#define meniscus_Refraction_Flat_RefractionCells_h
+
+#include "Common/RangeLoop.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Refraction/Membrane/Optics.h"
+#include "Refraction/Tubes/RayTubeTree.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+enum class EyeStatus
+{
+  Ready,
+  BadIndex,     ///< an index of refraction that is not a positive finite number
+  NotFinite,    ///< an eye coordinate that is NaN or infinite
+  OnTheMembrane ///< the eye lies on a facet, so there is no sight ray
+};
+
+/// What can be said of an eye and two indices without a membrane: never OnTheMembrane.
+EyeStatus CheckEye(const glm::dvec3& eye, double exterior, double interior);
+
+/// How the rays of the vertices that facets use came about.
+struct RayReport
+{
+  std::size_t refracted = 0;
+  std::size_t backFacing = 0;
+  std::size_t totallyReflected = 0;
+};
+
+/// Where a point is seen in a cell.
+struct CellHit
+{
+  glm::dvec3 weights; ///< barycentric coordinates of the sight point in the facet
+  int orientation;    ///< +1: the cell is upright at the point, -1: turned over by a caustic
+};
+
+class RefractionCells
+{
+public:
+  /// Computes all rays. `eye` is relative to the membrane's origin, the membrane must outlive this.
+  EyeStatus Update(const Membrane& membrane, const glm::dvec3& eye, double exterior,
+    double interior, const RangeLoop& loop);
+
+  /// Whether the cell of `facet` holds `point`, borders included within rounding.
+  bool Contains(std::int32_t facet, const glm::dvec3& point, CellHit& hit) const
+  {
+    return this->Contains(facet, point, 0.0, hit);
+  }
+
+  /// The same with walls widened by `wall`, in barycentric coordinates.
+  bool Contains(std::int32_t facet, const glm::dvec3& point, double wall, CellHit& hit) const;
+
+  /// A tube around everything that Contains accepts for `facet` without wall.
+  TubeBounds GetBounds(std::int32_t facet) const;
+
+  /// How many times farther from a point than the corner of a cell its ray may cut the plane.
+  static double GetLargestStretch();
+
+  const glm::dvec3& GetEye() const { return this->Eye; }
+  const RayReport& GetReport() const { return this->Report; }
+
+private:
+  struct Corner
+  {
+    glm::dvec3 position;
+    glm::dvec3 ray;
+  };
+
+  using CornerTriple = std::array<const Corner*, 3>;
+
+  struct CrossSection;
+
+  CornerTriple GetCorners(std::int32_t facet) const;
+  bool IsBehind(
+    const CornerTriple& corner, const CrossSection& cross, const glm::dvec3& weights) const;
+  bool IsEyeOnFacet(const Membrane::Facet& facet) const;
+  void CountRays(const std::vector<RayKind>& kinds);
+
+  const Membrane* Surface = nullptr;
+  glm::dvec3 Eye{ 0.0 };
+  std::vector<Corner> Corners;
+  RayReport Report;
+};
+
+}
+
+#endif

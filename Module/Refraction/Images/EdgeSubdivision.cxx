@@ -1,0 +1,370 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Images/EdgeSubdivision.h"
+
+#include <algorithm>
+#include <cstring>
+#include <tuple>
+
+namespace meniscus
+{
+namespace
+{
+
+// Edges are as short as 2^-14 of the primitive's then: where the virtual geometry has a corner, at
+// a crease of the membrane, the error shrinks with the length.
+constexpr int DeepestLevel = 14;
+
+// Those of a few dozen cells.
+constexpr std::size_t CacheSize = 512;
+
+// Doubled where it does not do.
+constexpr std::size_t SmallestEdgeTable = 64;
+
+constexpr std::int32_t NotSplit = -1;
+
+std::size_t Hash(const glm::dvec3& point)
+{
+  std::uint64_t bits[3];
+  std::memcpy(bits, &point.x, sizeof(bits));
+  // Multipliers of a well mixed linear congruence, one for each coordinate.
+  std::uint64_t sum =
+    bits[0] * 0x9e3779b97f4a7c15u + bits[1] * 0xbf58476d1ce4e5b9u + bits[2] * 0x94d049bb133111ebu;
+  sum ^= sum >> 32;
+  return static_cast<std::size_t>(sum * 0x9e3779b97f4a7c15u >> 32);
+}
+
+bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
+{
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+}
+
+//------------------------------------------------------------------------------
+EdgeSubdivision::EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance)
+  : Geometry(geometry)
+  , Tolerance(tolerance)
+  , Cache(CacheSize)
+  , Edges(SmallestEdgeTable, Edge{ 0, NotSplit, 0 })
+{
+}
+
+//------------------------------------------------------------------------------
+// Solved from the ends in an order that is theirs, so that both neighbours get one answer.
+const VirtualVertex& EdgeSubdivision::FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,
+  const glm::dvec3& b, const VirtualVertex& imageOfB)
+{
+  const glm::dvec3 point = 0.5 * (a + b);
+  Middle& middle = this->Cache[Hash(point) % CacheSize];
+  if (middle.point != point)
+  {
+    middle.point = point;
+    middle.vertex = IsBefore(a, b) ? this->Geometry.SolveBetween(point, imageOfA, imageOfB)
+                                   : this->Geometry.SolveBetween(point, imageOfB, imageOfA);
+  }
+  return middle.vertex;
+}
+
+//------------------------------------------------------------------------------
+bool EdgeSubdivision::IsDrawnWell(
+  const glm::dvec3& drawn, const VirtualVertex& image, double parts) const
+{
+  const glm::dvec3 eye = this->Geometry.GetMedia().eye + this->Geometry.GetMembrane().GetOrigin();
+  const glm::dvec3 there = drawn - eye;
+  const glm::dvec3 seen = image.position - eye;
+  const glm::dvec3 across = glm::cross(there, seen);
+  const double squared = glm::dot(there, there) * glm::dot(seen, seen);
+  const double largest = parts * this->Tolerance;
+  return glm::dot(across, across) <= largest * largest * squared;
+}
+
+//------------------------------------------------------------------------------
+double EdgeSubdivision::GetSquaredSize(std::int32_t facet) const
+{
+  const Membrane& membrane = this->Geometry.GetMembrane();
+  const Membrane::Facet& f = membrane.GetFacets()[static_cast<std::size_t>(facet)];
+  const auto squared = [&membrane, &f](std::size_t i, std::size_t j)
+  {
+    const glm::dvec3 edge = membrane.GetPositions()[static_cast<std::size_t>(f[i])] -
+      membrane.GetPositions()[static_cast<std::size_t>(f[j])];
+    return glm::dot(edge, edge);
+  };
+  return std::max({ squared(0, 1), squared(1, 2), squared(2, 0) });
+}
+
+//------------------------------------------------------------------------------
+// Whether sight points are no farther apart than the membrane's vertices there.
+bool EdgeSubdivision::AreNeighbours(const VirtualVertex& a, const VirtualVertex& b) const
+{
+  const glm::dvec3 way = a.sightPoint - b.sightPoint;
+  return a.facet == b.facet ||
+    glm::dot(way, way) <= std::min(this->GetSquaredSize(a.facet), this->GetSquaredSize(b.facet));
+}
+
+//------------------------------------------------------------------------------
+EdgeSubdivision::Shape EdgeSubdivision::FindShape(const Stretch& part, int depth)
+{
+  // A copy: what is found next may take its place in the cache.
+  const VirtualVertex middle =
+    this->FindMiddle(part.point[0], *part.image[0], part.point[1], *part.image[1]);
+  if (middle.state != ImageState::Found)
+  {
+    return Shape::Open;
+  }
+  const glm::dvec3 drawn = 0.5 * (part.drawn[0] + part.drawn[1]);
+  if (!this->IsDrawnWell(drawn, middle))
+  {
+    return Shape::Bent;
+  }
+  if (depth == DeepestLevel || this->AreNeighbours(*part.image[0], *part.image[1]))
+  {
+    return Shape::Straight;
+  }
+  const glm::dvec3 point = 0.5 * (part.point[0] + part.point[1]);
+  const Shape first = this->FindShape(
+    { { part.point[0], point }, { part.drawn[0], drawn }, { part.image[0], &middle } }, depth + 1);
+  return first != Shape::Straight
+    ? first
+    : this->FindShape(
+        { { point, part.point[1] }, { drawn, part.drawn[1] }, { &middle, part.image[1] } },
+        depth + 1);
+}
+
+//------------------------------------------------------------------------------
+EdgeSubdivision::Shape EdgeSubdivision::FindShape(const glm::dvec3& a,
+  const VirtualVertex& imageOfA, const glm::dvec3& b, const VirtualVertex& imageOfB)
+{
+  return this->FindShape(
+    { { a, b }, { imageOfA.position, imageOfB.position }, { &imageOfA, &imageOfB } }, 0);
+}
+
+//------------------------------------------------------------------------------
+bool EdgeSubdivision::IsStraight(const ImagedPoint& a, const ImagedPoint& b)
+{
+  return this->FindShape(a.point, *a.image, b.point, *b.image) == Shape::Straight;
+}
+
+//------------------------------------------------------------------------------
+void EdgeSubdivision::MoveOntoEdge(
+  const ImagedPoint& a, const ImagedPoint& b, double l, VirtualVertex& image)
+{
+  glm::dvec3 point[2] = { a.point, b.point };
+  VirtualVertex end[2] = { *a.image, *b.image };
+  for (int depth = 0; depth <= DeepestLevel; ++depth)
+  {
+    const Shape shape =
+      depth == DeepestLevel ? Shape::Straight : this->FindShape(point[0], end[0], point[1], end[1]);
+    if (shape == Shape::Open)
+    {
+      return;
+    }
+    if (shape == Shape::Straight)
+    {
+      // Between the places that were tested the edge bends by little more than there.
+      constexpr double sameBranch = 2.0;
+      const glm::dvec3 drawn = (1.0 - l) * end[0].position + l * end[1].position;
+      image.position = this->IsDrawnWell(drawn, image, sameBranch) ? drawn : image.position;
+      return;
+    }
+    const VirtualVertex middle = this->FindMiddle(point[0], end[0], point[1], end[1]);
+    const int half = l < 0.5 ? 0 : 1;
+    point[1 - half] = 0.5 * (point[0] + point[1]);
+    end[1 - half] = middle;
+    l = 2.0 * l - half;
+  }
+}
+
+//------------------------------------------------------------------------------
+void EdgeSubdivision::Start(const std::array<ImagedPoint, 3>& corners, std::size_t count)
+{
+  this->Failed = false;
+  this->Nodes.clear();
+  this->EdgeCount = 0;
+  ++this->Round; // empties the table
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    glm::dvec3 weight(0.0);
+    weight[static_cast<glm::length_t>(k)] = 1.0;
+    this->Nodes.push_back({ weight, corners[k].point, *corners[k].image });
+  }
+}
+
+//------------------------------------------------------------------------------
+// The edge's place, or a free one for it.
+EdgeSubdivision::Edge& EdgeSubdivision::FindEdge(std::uint64_t key)
+{
+  const std::size_t mask = this->Edges.size() - 1;
+  std::size_t at = static_cast<std::size_t>(key * 0x9e3779b97f4a7c15u >> 32) & mask;
+  while (this->Edges[at].round == this->Round && this->Edges[at].key != key)
+  {
+    at = (at + 1) & mask;
+  }
+  return this->Edges[at];
+}
+
+//------------------------------------------------------------------------------
+void EdgeSubdivision::GrowEdges()
+{
+  std::vector<Edge> before(2 * this->Edges.size(), Edge{ 0, NotSplit, this->Round - 1 });
+  before.swap(this->Edges);
+  for (const Edge& edge : before)
+  {
+    if (edge.round == this->Round)
+    {
+      this->FindEdge(edge.key) = edge;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// The node in the middle, or NotSplit.
+std::int32_t EdgeSubdivision::Split(std::int32_t a, std::int32_t b, int depth)
+{
+  if (depth == DeepestLevel)
+  {
+    return NotSplit;
+  }
+  const auto low = static_cast<std::uint64_t>(std::min(a, b));
+  const auto high = static_cast<std::uint64_t>(std::max(a, b));
+  const std::uint64_t key = low << 32 | high;
+  Edge& edge = this->FindEdge(key);
+  if (edge.round == this->Round)
+  {
+    return edge.middle;
+  }
+  const Node& first = this->Nodes[static_cast<std::size_t>(a)];
+  const Node& second = this->Nodes[static_cast<std::size_t>(b)];
+  const Shape shape = this->FindShape(first.point, first.vertex, second.point, second.vertex);
+  std::int32_t result = NotSplit;
+  this->Failed = this->Failed || shape == Shape::Open;
+  if (shape == Shape::Bent)
+  {
+    result = static_cast<std::int32_t>(this->Nodes.size());
+    const Node node{ 0.5 * (first.weight + second.weight), 0.5 * (first.point + second.point),
+      this->FindMiddle(first.point, first.vertex, second.point, second.vertex) };
+    this->Nodes.push_back(node);
+  }
+  edge = { key, result, this->Round };
+  if (2 * ++this->EdgeCount > this->Edges.size())
+  {
+    this->GrowEdges();
+  }
+  return result;
+}
+
+//------------------------------------------------------------------------------
+template <std::size_t N>
+void EdgeSubdivision::Emit(const Cell& cell, const std::array<std::int32_t, N>& nodes)
+{
+  for (const std::int32_t index : nodes)
+  {
+    Node& node = this->Nodes[static_cast<std::size_t>(index)];
+    if (node.output < 0)
+    {
+      node.output = static_cast<std::int64_t>(cell.images->points.size());
+      ImagePoint point;
+      point.vertex = node.vertex;
+      point.SetSource(cell.ids, node.weight);
+      cell.images->points.push_back(point);
+    }
+    cell.images->connectivity.push_back(node.output);
+  }
+  cell.images->EndCell(cell.source, cell.orientation);
+}
+
+//------------------------------------------------------------------------------
+void EdgeSubdivision::Divide(const Cell& cell, const std::array<std::int32_t, 3>& nodes, int depth)
+{
+  std::array<std::int32_t, 3> middle; // of the edge opposite to each node
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    middle[k] = this->Split(nodes[(k + 1) % 3], nodes[(k + 2) % 3], depth);
+  }
+  if (this->Failed)
+  {
+    return;
+  }
+  const auto splits =
+    std::count_if(middle.begin(), middle.end(), [](std::int32_t m) { return m != NotSplit; });
+  if (splits == 0)
+  {
+    this->Emit(cell, nodes);
+    return;
+  }
+  // Turned so that edge 0 is split, if two are edge 1 as well.
+  std::size_t k = 0;
+  while (middle[k] == NotSplit || (splits == 2 && middle[(k + 1) % 3] == NotSplit))
+  {
+    ++k;
+  }
+  const std::array<std::int32_t, 3> n = { nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3] };
+  const std::array<std::int32_t, 3> m = { middle[k], middle[(k + 1) % 3], middle[(k + 2) % 3] };
+  const int next = depth + 1;
+  if (splits == 1)
+  {
+    this->Divide(cell, { n[0], n[1], m[0] }, next);
+    this->Divide(cell, { n[0], m[0], n[2] }, next);
+    return;
+  }
+  this->Divide(cell, { m[0], n[2], m[1] }, next);
+  if (splits == 2)
+  {
+    this->Divide(cell, { n[0], n[1], m[0] }, next);
+    this->Divide(cell, { n[0], m[0], m[1] }, next);
+    return;
+  }
+  this->Divide(cell, { n[0], m[2], m[1] }, next);
+  this->Divide(cell, { m[2], n[1], m[0] }, next);
+  this->Divide(cell, { m[2], m[0], m[1] }, next);
+}
+
+//------------------------------------------------------------------------------
+void EdgeSubdivision::DivideLine(const Cell& cell, std::int32_t a, std::int32_t b, int depth)
+{
+  const std::int32_t middle = this->Split(a, b, depth);
+  if (this->Failed)
+  {
+    return;
+  }
+  if (middle == NotSplit)
+  {
+    this->Emit(cell, std::array<std::int32_t, 2>{ a, b });
+    return;
+  }
+  this->DivideLine(cell, a, middle, depth + 1);
+  this->DivideLine(cell, middle, b, depth + 1);
+}
+
+//------------------------------------------------------------------------------
+bool EdgeSubdivision::AddTriangle(
+  const std::array<ImagedPoint, 3>& corners, std::int64_t sourceCell, ImageMesh& images)
+{
+  const ImageMesh::Mark before = images.GetMark();
+  this->Start(corners, 3);
+  this->Divide({ { corners[0].id, corners[1].id, corners[2].id }, sourceCell,
+                 corners[0].image->orientation, &images },
+    { 0, 1, 2 }, 0);
+  if (this->Failed)
+  {
+    images.ReturnTo(before);
+  }
+  return !this->Failed;
+}
+
+//------------------------------------------------------------------------------
+bool EdgeSubdivision::AddLine(
+  const ImagedPoint& from, const ImagedPoint& to, std::int64_t sourceCell, ImageMesh& images)
+{
+  const ImageMesh::Mark before = images.GetMark();
+  this->Start({ from, to, from }, 2);
+  this->DivideLine(
+    { { from.id, to.id, from.id }, sourceCell, from.image->orientation, &images }, 0, 1, 0);
+  if (this->Failed)
+  {
+    images.ReturnTo(before);
+  }
+  return !this->Failed;
+}
+
+}

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Images/FrontOutline.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace meniscus
+{
+namespace
+{
+
+// Barycentric coordinates are up to 1 and rounded once or twice, a product of two differences of
+// them a few times as often.
+constexpr double Rounding = 16.0 * std::numeric_limits<double>::epsilon();
+
+bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
+{
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+// Twice the area in the second and third coordinates.
+double GetArea(const TrianglePoint& first, const TrianglePoint& second, const TrianglePoint& third)
+{
+  const glm::dvec3& a = first.weight;
+  const glm::dvec3& b = second.weight;
+  const glm::dvec3& c = third.weight;
+  return (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
+}
+
+bool IsConvex(const FrontOutline::Polygon& polygon)
+{
+  const std::size_t count = polygon.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (GetArea(polygon[i], polygon[(i + 1) % count], polygon[(i + 2) % count]) < -Rounding)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Whether the triangle at corner `i` holds no other corner.
+bool IsEar(const FrontOutline::Polygon& polygon, std::size_t i)
+{
+  const std::size_t count = polygon.size();
+  const TrianglePoint& a = polygon[(i + count - 1) % count];
+  const TrianglePoint& b = polygon[i];
+  const TrianglePoint& c = polygon[(i + 1) % count];
+  if (GetArea(a, b, c) < 0.0)
+  {
+    return false;
+  }
+  return std::none_of(polygon.begin(), polygon.end(),
+    [&a, &b, &c](const TrianglePoint& p)
+    {
+      return p.weight != a.weight && p.weight != b.weight && p.weight != c.weight &&
+        GetArea(a, b, p) >= 0.0 && GetArea(b, c, p) >= 0.0 && GetArea(c, a, p) >= 0.0;
+    });
+}
+
+// Ear clipping; false if rounding leaves no ear.
+bool SplitPolygon(FrontOutline::Polygon polygon, std::vector<FrontOutline::Polygon>& parts)
+{
+  while (!IsConvex(polygon))
+  {
+    std::size_t ear = 0;
+    while (ear < polygon.size() && !IsEar(polygon, ear))
+    {
+      ++ear;
+    }
+    if (ear == polygon.size())
+    {
+      return false;
+    }
+    const std::size_t count = polygon.size();
+    parts.push_back(
+      { polygon[(ear + count - 1) % count], polygon[ear], polygon[(ear + 1) % count] });
+    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  parts.push_back(std::move(polygon));
+  return true;
+}
+
+}
+
+//------------------------------------------------------------------------------
+FrontOutline::FrontOutline(const std::vector<WaterlinePiece>& waterline,
+  const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& isFront)
+  : IsFront(isFront)
+{
+  for (glm::length_t k = 0; k < 3; ++k)
+  {
+    glm::dvec3 weight(0.0);
+    weight[k] = 1.0;
+    this->FindNode({ weight, corners[static_cast<std::size_t>(k)] });
+  }
+  for (const WaterlinePiece& piece : waterline)
+  {
+    this->Broken = !this->Link(piece) || this->Broken;
+  }
+}
+
+//------------------------------------------------------------------------------
+std::size_t FrontOutline::FindNode(const TrianglePoint& place)
+{
+  const auto at = std::lower_bound(this->Sorted.begin(), this->Sorted.end(), place.weight,
+    [this](std::size_t node, const glm::dvec3& weight)
+    { return IsBefore(this->Nodes[node].at.weight, weight); });
+  if (at != this->Sorted.end() && this->Nodes[*at].at.weight == place.weight)
+  {
+    this->Nodes[*at].at.position = place.position; // a corner, as the refracted part has it
+    return *at;
+  }
+  this->Sorted.insert(at, this->Nodes.size());
+  this->Nodes.push_back({ place });
+  return this->Nodes.size() - 1;
+}
+
+//------------------------------------------------------------------------------
+// The part behind is on the left of a piece, the part in front on the left of the way back. A piece
+// there and back cancels out.
+bool FrontOutline::Link(const WaterlinePiece& piece)
+{
+  const std::size_t from = this->FindNode(piece.to);
+  const std::size_t to = this->FindNode(piece.from);
+  if (from == to || (this->Unlink(from, to) && this->Unlink(to, from)))
+  {
+    return true;
+  }
+  return this->AddLink(from, to, true) && this->AddLink(to, from, false);
+}
+
+//------------------------------------------------------------------------------
+bool FrontOutline::AddLink(std::size_t from, std::size_t to, bool isForward)
+{
+  Node& node = this->Nodes[from];
+  const std::size_t place = node.next[0] == None ? 0 : 1;
+  if (node.next[place] != None)
+  {
+    return false;
+  }
+  node.next[place] = to;
+  node.isForward[place] = isForward;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool FrontOutline::Unlink(std::size_t from, std::size_t to)
+{
+  Node& node = this->Nodes[from];
+  for (std::size_t& next : node.next)
+  {
+    if (next == to)
+    {
+      next = None;
+      return true;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+// Links what is in front along the side from one corner to the next.
+bool FrontOutline::FollowSide(std::size_t from)
+{
+  const std::size_t to = (from + 1) % 3;
+  const auto outside = static_cast<glm::length_t>((from + 2) % 3);
+  const auto along = static_cast<glm::length_t>(to);
+  std::vector<std::size_t> stops;
+  for (std::size_t i = 3; i < this->Nodes.size(); ++i)
+  {
+    if (this->Nodes[i].at.weight[outside] == 0.0 && this->IsEnd(i))
+    {
+      stops.push_back(i);
+    }
+  }
+  std::sort(stops.begin(), stops.end(),
+    [this, along](std::size_t a, std::size_t b)
+    { return this->Nodes[a].at.weight[along] < this->Nodes[b].at.weight[along]; });
+  // The curve may end in a corner, whichever side that counts to.
+  const bool isOdd = stops.size() % 2 == 1;
+  if (isOdd != (this->IsFront[from] != this->IsFront[to]))
+  {
+    if (!this->IsEnd(from) && !this->IsEnd(to))
+    {
+      return false;
+    }
+    stops.insert(this->IsEnd(from) ? stops.begin() : stops.end(), this->IsEnd(from) ? from : to);
+  }
+  bool isFront = this->IsFront[from];
+  std::size_t last = from;
+  stops.push_back(to);
+  for (std::size_t i = 0; i < stops.size(); ++i)
+  {
+    const std::size_t stop = stops[i];
+    if (isFront && last != stop)
+    {
+      this->Nodes[last].along = stop;
+    }
+    isFront = isFront != (i + 1 < stops.size());
+    last = stop;
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+// Along a side where that is in front; otherwise along the waterline, away from the node before, or
+// from none with the part in front on the left.
+std::size_t FrontOutline::GoOn(std::size_t index, std::size_t before) const
+{
+  const Node& node = this->Nodes[index];
+  if (node.along != None)
+  {
+    return node.along;
+  }
+  const bool isSecond =
+    node.next[0] == None || node.next[0] == before || (before == None && !node.isForward[0]);
+  return node.next[isSecond ? 1 : 0];
+}
+
+//------------------------------------------------------------------------------
+bool FrontOutline::CollectLoop(
+  std::size_t first, std::vector<bool>& seen, std::vector<Polygon>& polygons)
+{
+  Polygon loop;
+  double area = 0.0;
+  std::size_t node = first;
+  std::size_t before = None;
+  do
+  {
+    const std::size_t next = this->GoOn(node, before);
+    if (seen[node] || next == None)
+    {
+      return false;
+    }
+    seen[node] = true;
+    loop.push_back(this->Nodes[node].at);
+    area += GetArea(loop.front(), this->Nodes[node].at, this->Nodes[next].at);
+    // From a side the waterline goes away in the only way it can.
+    before = this->Nodes[node].along != None ? None : node;
+    before = before == None && this->IsEnd(next) ? next : before;
+    node = next;
+  } while (node != first);
+  if (loop.size() < 3 || std::fabs(area) <= Rounding)
+  {
+    return true;
+  }
+  return area > 0.0 && SplitPolygon(std::move(loop), polygons);
+}
+
+//------------------------------------------------------------------------------
+bool FrontOutline::Find(std::vector<Polygon>& polygons)
+{
+  polygons.clear();
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    this->Broken = this->Broken || !this->FollowSide(k);
+  }
+  for (std::size_t i = 3; i < this->Nodes.size() && !this->Broken; ++i)
+  {
+    // An end that is on no side.
+    this->Broken = this->IsEnd(i) && this->Nodes[i].at.weight.x != 0.0 &&
+      this->Nodes[i].at.weight.y != 0.0 && this->Nodes[i].at.weight.z != 0.0;
+  }
+  // Loops with sides first: the others are closed by the waterline alone.
+  std::vector<bool> seen(this->Nodes.size(), false);
+  for (const bool hasSide : { true, false })
+  {
+    for (std::size_t i = 0; i < this->Nodes.size() && !this->Broken; ++i)
+    {
+      const Node& node = this->Nodes[i];
+      const bool isIn = hasSide ? node.along != None : node.next[0] != None || node.next[1] != None;
+      this->Broken = isIn && !seen[i] && !this->CollectLoop(i, seen, polygons);
+    }
+  }
+  return !this->Broken;
+}
+
+}

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The part of a triangle in front of the membrane, as polygons between the triangle's sides and the
+ * curve along which it meets the membrane. The curve's pieces are those at which the refracted part
+ * ends, so the two parts meet bit by bit and neither is finer than the other.
+ */
+#ifndef meniscus_Refraction_Images_FrontOutline_h
+#define meniscus_Refraction_Images_FrontOutline_h
+
+#include "Refraction/Images/PrimitiveMapper.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace meniscus
+{
+
+class FrontOutline
+{
+public:
+  /// Corners, wound as the triangle is.
+  using Polygon = std::vector<TrianglePoint>;
+
+  /// `corners` are the triangle's, `isFront` tells which of them are in front.
+  FrontOutline(const std::vector<WaterlinePiece>& waterline,
+    const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& isFront);
+
+  /// False if the pieces do not separate the corners in front from the others along each side, or
+  /// leave a hole in the part. Otherwise `polygons` becomes the part, as convex polygons.
+  bool Find(std::vector<Polygon>& polygons);
+
+private:
+  static constexpr std::size_t None = static_cast<std::size_t>(-1);
+
+  struct Node
+  {
+    TrianglePoint at;
+    std::array<std::size_t, 2> next = { None, None }; ///< neighbours on the waterline
+    std::array<bool, 2> isForward = {};               ///< the part in front is on the left there
+    std::size_t along = None;                         ///< next along the triangle's sides
+  };
+
+  std::size_t FindNode(const TrianglePoint& at);
+  bool Link(const WaterlinePiece& piece);
+  bool AddLink(std::size_t from, std::size_t to, bool isForward);
+  bool Unlink(std::size_t from, std::size_t to);
+  bool IsEnd(std::size_t node) const
+  {
+    return (this->Nodes[node].next[0] == None) != (this->Nodes[node].next[1] == None);
+  }
+  bool FollowSide(std::size_t from);
+  std::size_t GoOn(std::size_t node, std::size_t before) const;
+  bool CollectLoop(std::size_t first, std::vector<bool>& seen, std::vector<Polygon>& polygons);
+
+  std::vector<Node> Nodes;         ///< the triangle's corners first
+  std::vector<std::size_t> Sorted; ///< nodes by their coordinates
+  std::array<bool, 3> IsFront;
+  bool Broken = false;
+};
+
+}
+
+#endif

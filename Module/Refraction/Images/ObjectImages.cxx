@@ -1,0 +1,505 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Images/ObjectImages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace meniscus
+{
+namespace
+{
+
+// What a facet costs is a third of what a point saves.
+constexpr std::size_t FacetsPerPoint = 3;
+
+// Points that are tested together, a part of a chunk.
+constexpr std::size_t Run = 8;
+static_assert(ObjectImages::Chunk % Run == 0, "runs make chunks");
+
+// Calls `visit(side)` for every side of every polygon that `isWanted(cell)` tells.
+template <typename IsWanted, typename Visit>
+void VisitPolygonSides(
+  const ObjectCells& cells, std::size_t count, const IsWanted& isWanted, const Visit& visit)
+{
+  for (std::size_t cell = 0; cell < count; ++cell)
+  {
+    if (!isWanted(cell))
+    {
+      continue;
+    }
+    const std::int64_t* ids = cells.connectivity + cells.offsets[cell];
+    const std::int64_t size = cells.offsets[cell + 1] - cells.offsets[cell];
+    for (std::int64_t k = 0; k < size; ++k)
+    {
+      const auto [low, high] = std::minmax(ids[k], ids[(k + 1) % size]);
+      visit(Seam{ low, high, 0 });
+    }
+  }
+}
+
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::SetPoints(const double* points, std::size_t count, bool mayCross)
+{
+  this->Points = points;
+  this->MayCross = mayCross;
+  this->Chunks.assign((count + Chunk - 1) / Chunk, {});
+  this->Wanted.clear();
+  this->Counts.assign(count, 0);
+  this->States.assign(count, ImageState::NotAsked);
+  this->Images.clear();
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 ObjectImages::GetPoint(std::int64_t id) const
+{
+  const double* p = this->Points + 3 * id;
+  return { p[0], p[1], p[2] };
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::PrepareUnique(std::size_t wanted, const RangeLoop& loop)
+{
+  const std::size_t facets = this->Geometry.GetMembrane().GetFacets().size();
+  if (!this->Geometry.HasConvexField() || FacetsPerPoint * wanted < facets)
+  {
+    return;
+  }
+  const HeightFrame& frame = this->Geometry.GetFrame();
+  const double origin = frame.GetHeight(this->Geometry.GetMembrane().GetOrigin());
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
+    if (this->Geometry.IsInReach(point - this->Geometry.GetMembrane().GetOrigin()))
+    {
+      low = std::min(low, frame.GetHeight(point));
+      high = std::max(high, frame.GetHeight(point));
+    }
+  }
+  if (low <= high)
+  {
+    // A point's height is off by a few roundings of its coordinates.
+    const double slack = 16.0 * std::numeric_limits<double>::epsilon() *
+      (std::fabs(low) + std::fabs(high) + std::fabs(origin) +
+        this->Geometry.GetMembrane().GetRadius());
+    this->Unique.Build(this->Geometry.GetMembrane(), this->Geometry.GetPatches(), frame,
+      this->Geometry.GetLargestBulge(), this->Geometry.GetMedia(), low - origin - slack,
+      high - origin + slack, loop);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Whether no point of the points' bounds has several images.
+bool ObjectImages::IsUnique(const std::int64_t* ids, std::size_t count) const
+{
+  if (this->Unique.IsEmpty())
+  {
+    return false;
+  }
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const glm::dvec3 point = this->GetPoint(ids[i]);
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
+  return this->Unique.HoldsAtMostOne(low - origin, high - origin);
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::SolvePoints(std::size_t begin, std::size_t end)
+{
+  CurvedMembraneSolver::Memory memory;
+  for (std::size_t i = begin; i < end; i += Run)
+  {
+    if (i % Chunk == 0)
+    {
+      memory = CurvedMembraneSolver::Memory(); // a chunk does not depend on who solves it
+    }
+    this->SolveRun(i, std::min(i + Run, end), memory);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Points that follow each other are near each other in most objects: one test for a few of them.
+void ObjectImages::SolveRun(
+  std::size_t begin, std::size_t end, CurvedMembraneSolver::Memory& memory)
+{
+  if (!this->IsWanted(begin) || this->States[begin] != ImageState::NotAsked)
+  {
+    return;
+  }
+  std::array<std::int64_t, Run> ids;
+  std::iota(ids.begin(), ids.end(), static_cast<std::int64_t>(begin));
+  const bool areUnique = this->IsUnique(ids.data(), end - begin);
+  std::vector<VirtualVertex>& chunk = this->Chunks[begin / Chunk];
+  std::vector<VirtualVertex> images;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
+    const glm::dvec3 local = point - this->Geometry.GetMembrane().GetOrigin();
+    if (this->MayCross && this->Geometry.IsInReach(local) && !this->Geometry.IsBehindAll(local) &&
+      this->Geometry.IsInFront(local))
+    {
+      images.assign(1, this->Geometry.PassThrough(local));
+      images.front().position = point;
+      images.front().sightPoint = point;
+      this->States[i] = ImageState::Found;
+    }
+    else
+    {
+      const bool isUnique = areUnique || this->IsUnique(&ids[i - begin], 1);
+      this->States[i] = this->FindImages(point, isUnique, memory, images);
+    }
+    this->Counts[i] = static_cast<std::uint32_t>(images.size());
+    chunk.insert(chunk.end(), images.begin(), images.end());
+  }
+}
+
+//------------------------------------------------------------------------------
+ImageState ObjectImages::FindImages(const glm::dvec3& point, bool isUnique,
+  CurvedMembraneSolver::Memory& memory, std::vector<VirtualVertex>& images) const
+{
+  if (!isUnique)
+  {
+    return this->Geometry.FindImages(point, images);
+  }
+  images.assign(1, this->Geometry.SolvePoint(point, memory));
+  const ImageState state = images.front().state;
+  if (state != ImageState::Found)
+  {
+    images.clear();
+  }
+  return state;
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::FinishPoints()
+{
+  this->Nearest = std::numeric_limits<double>::max();
+  this->Farthest = 0.0;
+  this->InFront.assign(this->States.size(), false);
+  this->First.assign(this->States.size() + 1, 0);
+  this->Images.clear();
+  for (std::size_t i = 0, inChunk = 0; i < this->States.size(); ++i)
+  {
+    inChunk = i % Chunk == 0 ? 0 : inChunk;
+    const std::size_t count = this->IsWanted(i) ? this->Counts[i] : 0;
+    this->First[i + 1] = this->First[i] + count;
+    const VirtualVertex* images = this->Chunks[i / Chunk].data() + inChunk;
+    inChunk += count;
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      ImagePoint image;
+      image.vertex = images[k];
+      image.source[0] = static_cast<std::int64_t>(i);
+      this->Images.push_back(image);
+      this->Nearest = std::min(this->Nearest, images[k].depth);
+      this->Farthest = std::max(this->Farthest, images[k].depth);
+    }
+    this->InFront[i] = count == 1 && images[0].facet == CurvedPatches::NoFacet;
+  }
+  if (this->Wanted.empty())
+  {
+    this->Chunks.clear(); // nothing can be wanted later
+  }
+  this->Nearest = std::min(this->Nearest, this->Farthest);
+}
+
+//------------------------------------------------------------------------------
+ObjectImages::Side ObjectImages::FindSide(const std::int64_t* ids, std::size_t count) const
+{
+  const auto inFront = static_cast<std::size_t>(std::count_if(ids, ids + count,
+    [this](std::int64_t id) { return this->InFront[static_cast<std::size_t>(id)]; }));
+  return inFront == 0 ? Side::Behind : (inFront == count ? Side::InFront : Side::Both);
+}
+
+//------------------------------------------------------------------------------
+ImagedPoint ObjectImages::GetImagedPoint(std::int64_t id) const
+{
+  return { id, this->GetPoint(id),
+    &this->Images[this->First[static_cast<std::size_t>(id)]].vertex };
+}
+
+//------------------------------------------------------------------------------
+MappedTriangle ObjectImages::MakeTriangle(const std::array<std::int64_t, 3>& ids) const
+{
+  MappedTriangle triangle;
+  triangle.ids = ids;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto point = static_cast<std::size_t>(ids[k]);
+    triangle.corners[k] = this->GetPoint(ids[k]);
+    triangle.images[k] = { this->Images.data() + this->First[point],
+      this->GetNumberOfImages(point) };
+  }
+  return triangle;
+}
+
+//------------------------------------------------------------------------------
+// Each of the points, all of them the same way round.
+bool ObjectImages::HaveOneImage(const std::int64_t* ids, std::size_t count) const
+{
+  return std::all_of(ids, ids + count,
+    [this, ids](std::int64_t id)
+    {
+      return this->GetNumberOfImages(static_cast<std::size_t>(id)) == 1 &&
+        this->GetImagedPoint(id).image->orientation ==
+        this->GetImagedPoint(ids[0]).image->orientation;
+    });
+}
+
+//------------------------------------------------------------------------------
+// Of points with one image each.
+bool ObjectImages::IsSimple(
+  const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const
+{
+  glm::dvec3 middle(0.0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    middle += this->GetPoint(ids[i]) / static_cast<double>(count);
+    const bool hasSide = i + 1 < count || isClosed;
+    if (hasSide &&
+      !division.IsStraight(
+        this->GetImagedPoint(ids[i]), this->GetImagedPoint(ids[(i + 1) % count])))
+    {
+      return false;
+    }
+  }
+  // Between sight points in one facet the membrane holds no surprise; over several it may.
+  const VirtualVertex& first = *this->GetImagedPoint(ids[0]).image;
+  if (std::all_of(ids, ids + count,
+        [this, &first](std::int64_t id)
+        { return this->GetImagedPoint(id).image->facet == first.facet; }))
+  {
+    return true;
+  }
+  if (this->IsUnique(ids, count))
+  {
+    return this->Geometry.SolveNear(middle, first).state == ImageState::Found;
+  }
+  std::vector<VirtualVertex> images;
+  return this->Geometry.FindImages(middle, images) == ImageState::Found && images.size() == 1;
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::AddWhole(
+  const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    whole.connectivity.push_back(
+      static_cast<std::int64_t>(this->First[static_cast<std::size_t>(ids[i])]));
+  }
+  whole.EndCell(
+    cell, this->Images[this->First[static_cast<std::size_t>(ids[0])]].vertex.orientation);
+}
+
+//------------------------------------------------------------------------------
+CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
+  std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
+{
+  const PrimitiveMapper mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
+  EdgeSubdivision division(this->Geometry, this->Tolerance);
+  CellReport report;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const std::int64_t* ids = cells.connectivity + cells.offsets[i];
+    const auto count = static_cast<std::size_t>(cells.offsets[i + 1] - cells.offsets[i]);
+    const std::int64_t cell = names[i];
+    const Side side = this->FindSide(ids, count);
+    const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
+    if (side == Side::InFront || (isOne && this->IsSimple(ids, count, false, division)))
+    {
+      this->AddWhole(ids, count, cell, whole);
+      ++report.whole;
+      continue;
+    }
+    const std::size_t before = pieces.GetNumberOfCells();
+    bool isDivided = isOne;
+    for (std::size_t k = 0; k + 1 < count; ++k)
+    {
+      if (isOne && this->IsUnique(ids + k, 2) &&
+        division.AddLine(
+          this->GetImagedPoint(ids[k]), this->GetImagedPoint(ids[k + 1]), cell, pieces))
+      {
+        continue;
+      }
+      isDivided = false;
+      mapping.MapLine(
+        this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), cell, side == Side::Both, pieces);
+    }
+    report.Count(isDivided, pieces.GetNumberOfCells() > before);
+  }
+  return report;
+}
+
+//------------------------------------------------------------------------------
+CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_t* names,
+  std::size_t begin, std::size_t end, const Triangulate& triangulate, ImageMesh& pieces,
+  ImageMesh& whole, unsigned char* isMapped) const
+{
+  const PrimitiveMapper mapping(this->Geometry, this->Tolerance, this->Nearest, this->Farthest);
+  EdgeSubdivision division(this->Geometry, this->Tolerance);
+  CellReport report;
+  std::vector<std::int64_t> triangles;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const std::int64_t* ids = cells.connectivity + cells.offsets[i];
+    const auto count = static_cast<std::size_t>(cells.offsets[i + 1] - cells.offsets[i]);
+    const std::int64_t cell = names[i];
+    const Side side = this->FindSide(ids, count);
+    const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
+    isMapped[i] = 0;
+    if (side == Side::InFront || (isOne && this->IsSimple(ids, count, true, division)))
+    {
+      this->AddWhole(ids, count, cell, whole);
+      ++report.whole;
+      continue;
+    }
+    triangles = { 0, 1, 2 };
+    if (count != 3)
+    {
+      triangulate(ids, count, triangles);
+    }
+    const std::size_t before = pieces.GetNumberOfCells();
+    const bool isDivided = isOne && this->IsUnique(ids, count) &&
+      this->DividePolygon(ids, triangles, cell, division, pieces);
+    for (std::size_t k = 0; k + 2 < triangles.size() && !isDivided; k += 3)
+    {
+      mapping.MapTriangle(
+        this->MakeTriangle({ ids[triangles[k]], ids[triangles[k + 1]], ids[triangles[k + 2]] }),
+        cell, side == Side::Both, pieces);
+    }
+    isMapped[i] = isDivided ? 0 : 1;
+    report.Count(isDivided, pieces.GetNumberOfCells() > before);
+  }
+  return report;
+}
+
+//------------------------------------------------------------------------------
+// The sides of mapped polygons and how many polygons have each.
+std::vector<Seam> ObjectImages::FindSeams(
+  const ObjectCells& cells, std::size_t count, const unsigned char* isMapped)
+{
+  std::vector<Seam> seams;
+  VisitPolygonSides(
+    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] != 0; },
+    [&seams](const Seam& side) { seams.push_back(side); });
+  std::sort(seams.begin(), seams.end());
+  seams.erase(std::unique(seams.begin(), seams.end(),
+                [](const Seam& a, const Seam& b) { return a.low == b.low && a.high == b.high; }),
+    seams.end());
+  if (!seams.empty())
+  {
+    VisitPolygonSides(
+      cells, count, [](std::size_t) { return true; },
+      [&seams](const Seam& side)
+      {
+        const auto at = std::lower_bound(seams.begin(), seams.end(), side);
+        if (at != seams.end() && !(side < *at))
+        {
+          ++at->cells;
+        }
+      });
+  }
+  return seams;
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
+  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const
+{
+  const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
+  if (seams.empty())
+  {
+    return;
+  }
+  this->MoveOntoNeighbours(cells, count, isMapped, seams, pieces);
+  if (!closesSeams)
+  {
+    return;
+  }
+  bool hasDiagonals = false;
+  for (std::size_t i = 0; i < count && !hasDiagonals; ++i)
+  {
+    hasDiagonals = isMapped[i] && cells.offsets[i + 1] - cells.offsets[i] > 3;
+  }
+  const glm::dvec3 eye = this->Geometry.GetMedia().eye + this->Geometry.GetMembrane().GetOrigin();
+  SeamClosure closure(seams, hasDiagonals, eye, this->Tolerance);
+  closure.Collect(pieces, pieces.points, false);
+  closure.Collect(whole, this->Images, true);
+  closure.Close(pieces);
+}
+
+//------------------------------------------------------------------------------
+void ObjectImages::MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
+  const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces) const
+{
+  std::vector<char> isCommon(seams.size(), 0);
+  const auto find = [&seams](const Seam& side) -> std::ptrdiff_t
+  {
+    const auto at = std::lower_bound(seams.begin(), seams.end(), side);
+    return at != seams.end() && !(side < *at) ? at - seams.begin() : -1;
+  };
+  VisitPolygonSides(
+    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] == 0; },
+    [&find, &isCommon](const Seam& side)
+    {
+      const std::ptrdiff_t at = find(side);
+      if (at >= 0)
+      {
+        isCommon[static_cast<std::size_t>(at)] = 1;
+      }
+    });
+  EdgeSubdivision division(this->Geometry, this->Tolerance);
+  for (ImagePoint& point : pieces.points)
+  {
+    if (point.GetNumberOfSources() != 2)
+    {
+      continue;
+    }
+    const std::ptrdiff_t at = find({ std::min(point.source[0], point.source[1]),
+      std::max(point.source[0], point.source[1]), 0 });
+    if (at >= 0 && isCommon[static_cast<std::size_t>(at)] &&
+      this->HaveOneImage(point.source.data(), 2) &&
+      this->FindSide(point.source.data(), 2) == Side::Behind)
+    {
+      // From the lower end, whichever has the larger weight: all copies move alike.
+      const std::size_t low = point.source[0] < point.source[1] ? 0 : 1;
+      division.MoveOntoEdge(this->GetImagedPoint(point.source[low]),
+        this->GetImagedPoint(point.source[1 - low]), point.weight[1 - low], point.vertex);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool ObjectImages::DividePolygon(const std::int64_t* ids,
+  const std::vector<std::int64_t>& triangles, std::int64_t cell, EdgeSubdivision& division,
+  ImageMesh& pieces) const
+{
+  const ImageMesh::Mark before = pieces.GetMark();
+  for (std::size_t k = 0; k + 2 < triangles.size(); k += 3)
+  {
+    if (!division.AddTriangle(
+          { this->GetImagedPoint(ids[triangles[k]]), this->GetImagedPoint(ids[triangles[k + 1]]),
+            this->GetImagedPoint(ids[triangles[k + 2]]) },
+          cell, pieces))
+    {
+      pieces.ReturnTo(before);
+      return false;
+    }
+  }
+  return true;
+}
+
+}

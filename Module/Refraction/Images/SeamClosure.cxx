@@ -1,0 +1,322 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Images/SeamClosure.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace meniscus
+{
+namespace
+{
+
+// Two chains are each within a tolerance of the true image, between the places where that is tested
+// by a little more, and a mapped one may have been moved by two.
+constexpr double Widest = 4.0;
+
+auto GetKey(const ImagePoint& point)
+{
+  const glm::dvec3& p = point.vertex.position;
+  return std::make_tuple(p.x, p.y, p.z);
+}
+
+bool AreSame(const ImagePoint& a, const ImagePoint& b)
+{
+  return a.vertex.position == b.vertex.position;
+}
+
+// Place of a point on a seam, from its lower end.
+double GetPlace(const ImagePoint& point, std::int64_t high)
+{
+  for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
+  {
+    if (point.source[k] == high)
+    {
+      return point.weight[k];
+    }
+  }
+  return 0.0;
+}
+
+using Loop = std::vector<const ImagePoint*>;
+
+const ImagePoint* FindFarthest(const Loop& loop, const ImagePoint& from)
+{
+  return *std::max_element(loop.begin(), loop.end(),
+    [&from](const ImagePoint* a, const ImagePoint* b)
+    {
+      const glm::dvec3 first = a->vertex.position - from.vertex.position;
+      const glm::dvec3 second = b->vertex.position - from.vertex.position;
+      return glm::dot(first, first) < glm::dot(second, second);
+    });
+}
+
+// The two ways from the loop's lowest place on the seam to its highest; empty if the place falls on
+// either.
+std::pair<Loop, Loop> FindWays(const Loop& loop, std::int64_t high)
+{
+  const auto isBefore = [high](const ImagePoint* a, const ImagePoint* b)
+  { return GetPlace(*a, high) < GetPlace(*b, high); };
+  const auto ends = std::minmax_element(loop.begin(), loop.end(), isBefore);
+  const auto low = static_cast<std::size_t>(ends.first - loop.begin());
+  const auto top = static_cast<std::size_t>(ends.second - loop.begin());
+  const std::size_t count = loop.size();
+  std::pair<Loop, Loop> ways;
+  for (std::size_t i = low;; i = (i + 1) % count)
+  {
+    ways.first.push_back(loop[i]);
+    if (i == top)
+    {
+      break;
+    }
+  }
+  for (std::size_t i = low;; i = (i + count - 1) % count)
+  {
+    ways.second.push_back(loop[i]);
+    if (i == top)
+    {
+      break;
+    }
+  }
+  return std::is_sorted(ways.first.begin(), ways.first.end(), isBefore) &&
+      std::is_sorted(ways.second.begin(), ways.second.end(), isBefore)
+    ? ways
+    : std::pair<Loop, Loop>();
+}
+
+}
+
+//------------------------------------------------------------------------------
+SeamClosure::SeamClosure(
+  const std::vector<Seam>& seams, bool hasDiagonals, const glm::dvec3& eye, double tolerance)
+  : Seams(seams)
+  , HasDiagonals(hasDiagonals)
+  , Eye(eye)
+  , Tolerance(tolerance)
+{
+  for (const Seam& seam : seams)
+  {
+    const auto size = static_cast<std::size_t>(seam.high) + 1;
+    this->HasSeam.resize(std::max(this->HasSeam.size(), size), 0);
+    this->HasSeam[static_cast<std::size_t>(seam.low)] = 1;
+    this->HasSeam[static_cast<std::size_t>(seam.high)] = 1;
+  }
+}
+
+//------------------------------------------------------------------------------
+void SeamClosure::Collect(
+  const ImageMesh& mesh, const std::vector<ImagePoint>& points, bool areWhole)
+{
+  std::int64_t begin = 0;
+  for (std::size_t cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
+  {
+    const std::int64_t end = mesh.ends[cell];
+    const auto at = [&mesh, &points](std::int64_t i) -> const ImagePoint&
+    { return points[static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(i)])]; };
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      this->AddPart(mesh, cell, at(i), at(i + 1 < end ? i + 1 : begin), areWhole);
+    }
+    begin = end;
+  }
+}
+
+//------------------------------------------------------------------------------
+// A side of a cell, if both of its ends come from one side of the object.
+void SeamClosure::AddPart(
+  const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b, bool isWhole)
+{
+  const std::size_t count = a.GetNumberOfSources();
+  const std::size_t other = b.GetNumberOfSources();
+  if (count > 2 || other > 2)
+  {
+    return;
+  }
+  const ImagePoint& larger = count == 2 ? a : b;
+  const ImagePoint& smaller = count == 2 ? b : a;
+  const std::int64_t first = larger.source[0];
+  const std::int64_t last = larger.GetNumberOfSources() == 2 ? larger.source[1] : smaller.source[0];
+  const auto isEnd = [first, last](std::int64_t id) { return id == first || id == last; };
+  if (first == last || !isEnd(smaller.source[0]) ||
+    (smaller.GetNumberOfSources() == 2 && !isEnd(smaller.source[1])))
+  {
+    return;
+  }
+  const Seam seam{ std::min(first, last), std::max(first, last), 0 };
+  const auto high = static_cast<std::size_t>(seam.high);
+  // A diagonal's ends are corners of a mapped polygon, which has seams at all of them.
+  if (high >= this->HasSeam.size() || !this->HasSeam[high] ||
+    !this->HasSeam[static_cast<std::size_t>(seam.low)])
+  {
+    return;
+  }
+  const auto known = std::lower_bound(this->Seams.begin(), this->Seams.end(), seam);
+  const bool isSeam = known != this->Seams.end() && !(seam < *known);
+  if (!AreSame(a, b) && (isSeam ? known->cells > 1 : this->HasDiagonals))
+  {
+    this->All.push_back(
+      { seam.low, seam.high, a, b, mesh.sourceCells[cell], mesh.orientations[cell], isWhole });
+  }
+}
+
+//------------------------------------------------------------------------------
+void SeamClosure::Close(ImageMesh& mesh)
+{
+  Parts order;
+  order.reserve(this->All.size());
+  for (const Part& part : this->All)
+  {
+    order.push_back(&part);
+  }
+  const auto isBefore = [](const Part* a, const Part* b)
+  { return std::tie(a->low, a->high) < std::tie(b->low, b->high); };
+  std::stable_sort(order.begin(), order.end(), isBefore);
+  for (auto begin = order.begin(); begin != order.end();)
+  {
+    const auto end = std::upper_bound(begin, order.end(), *begin, isBefore);
+    this->CloseSeam({ begin, end }, mesh);
+    begin = end;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Where more than two cells have the seam, each of them meets the first.
+void SeamClosure::CloseSeam(Parts parts, ImageMesh& mesh) const
+{
+  const Seam seam{ parts.front()->low, parts.front()->high, 0 };
+  const auto known = std::lower_bound(this->Seams.begin(), this->Seams.end(), seam);
+  const bool isSeam = known != this->Seams.end() && !(seam < *known);
+  if (!isSeam || known->cells == 2)
+  {
+    this->CloseLoops(std::move(parts), mesh);
+    return;
+  }
+  std::stable_sort(
+    parts.begin(), parts.end(), [](const Part* a, const Part* b) { return a->cell < b->cell; });
+  const auto findEnd = [&parts](Parts::iterator begin)
+  {
+    return std::find_if(
+      begin, parts.end(), [begin](const Part* part) { return part->cell != (*begin)->cell; });
+  };
+  const auto firstEnd = findEnd(parts.begin());
+  for (auto begin = firstEnd; begin != parts.end();)
+  {
+    const auto end = findEnd(begin);
+    Parts both(parts.begin(), firstEnd);
+    both.insert(both.end(), begin, end);
+    this->CloseLoops(std::move(both), mesh);
+    begin = end;
+  }
+}
+
+//------------------------------------------------------------------------------
+void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
+{
+  const auto getKeys = [](const Part* part)
+  {
+    const auto from = GetKey(part->from);
+    const auto to = GetKey(part->to);
+    return from < to ? std::make_pair(from, to) : std::make_pair(to, from);
+  };
+  std::stable_sort(parts.begin(), parts.end(),
+    [&getKeys](const Part* a, const Part* b) { return getKeys(a) < getKeys(b); });
+  Parts left;
+  for (const Part* part : parts)
+  {
+    if (!left.empty() && getKeys(left.back()) == getKeys(part))
+    {
+      left.pop_back();
+    }
+    else
+    {
+      left.push_back(part);
+    }
+  }
+  // From each part against the sense of its cell, on by any that goes on, back to where it began.
+  while (!left.empty())
+  {
+    const Part& first = *left.back();
+    left.pop_back();
+    Loop loop = { &first.to, &first.from };
+    bool hasWhole = first.isWhole;
+    while (!AreSame(*loop.back(), *loop.front()))
+    {
+      const ImagePoint& last = *loop.back();
+      const auto next = std::find_if(left.begin(), left.end(),
+        [&last](const Part* part) { return AreSame(part->from, last) || AreSame(part->to, last); });
+      if (next == left.end())
+      {
+        break; // it ends at a border of the membrane or of what is totally reflected
+      }
+      loop.push_back(AreSame((*next)->from, last) ? &(*next)->to : &(*next)->from);
+      hasWhole = hasWhole || (*next)->isWhole;
+      left.erase(next);
+    }
+    if (loop.size() > 3 && AreSame(*loop.back(), *loop.front()))
+    {
+      loop.pop_back();
+      this->Fill(loop, first, hasWhole, mesh);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Whether the loop is within a few tolerances of a straight line.
+bool SeamClosure::IsThin(const Loop& loop) const
+{
+  const glm::dvec3 begin = FindFarthest(loop, *loop.front())->vertex.position;
+  const glm::dvec3 end = FindFarthest(loop, *FindFarthest(loop, *loop.front()))->vertex.position;
+  const glm::dvec3 across = glm::cross(begin - this->Eye, end - this->Eye);
+  const double width = Widest * this->Tolerance * glm::length(across);
+  return std::all_of(loop.begin(), loop.end(),
+    [this, &across, width](const ImagePoint* point)
+    {
+      const glm::dvec3 way = point->vertex.position - this->Eye;
+      return std::fabs(glm::dot(across, way)) <= width * glm::length(way);
+    });
+}
+
+//------------------------------------------------------------------------------
+void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, ImageMesh& mesh) const
+{
+  // A polygon that is drawn as it is may lack an image that its neighbour has: no gap to be filled.
+  const auto add = [this, mustBeThin, &first, &mesh](const Loop& polygon)
+  {
+    if (!mustBeThin || this->IsThin(polygon))
+    {
+      for (const ImagePoint* point : polygon)
+      {
+        mesh.connectivity.push_back(static_cast<std::int64_t>(mesh.points.size()));
+        mesh.points.push_back(*point);
+      }
+      mesh.EndCell(first.cell, first.orientation);
+    }
+  };
+  if (loop.size() == 3 || this->IsThin(loop))
+  {
+    add(loop);
+    return;
+  }
+  // Along a bend: triangles between the two chains.
+  const auto [forward, backward] = FindWays(loop, first.high);
+  std::size_t i = 0;
+  std::size_t j = 0;
+  while (i + 1 < forward.size() || j + 1 < backward.size())
+  {
+    const bool isForward = j + 1 == backward.size() ||
+      (i + 1 < forward.size() &&
+        GetPlace(*forward[i + 1], first.high) < GetPlace(*backward[j + 1], first.high));
+    const Loop triangle = { forward[i], isForward ? forward[i + 1] : backward[j + 1], backward[j] };
+    (isForward ? i : j) += 1;
+    if (triangle[0] != triangle[2] && triangle[1] != triangle[0] && triangle[1] != triangle[2])
+    {
+      add(triangle);
+    }
+  }
+}
+
+}

@@ -1,0 +1,288 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Images/UnrefractedPart.h"
+
+#include "Refraction/Images/FrontOutline.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace meniscus
+{
+namespace
+{
+
+// A primitive that crosses the membrane is looked at this finely at least, and this finely along
+// the membrane.
+constexpr int FirstLevel = 2;
+constexpr int DeepestLevel = 5;
+
+// 2^-44 of a side: the rounding of its ends, nearly.
+constexpr int Bisections = 44;
+
+// To see whether a cut is straight: a thousandth of a side.
+constexpr int CoarseBisections = 10;
+
+/// A place in the primitive, in barycentric coordinates.
+struct Place
+{
+  glm::dvec3 weight;
+  bool isInFront;
+};
+
+class Cutter
+{
+public:
+  Cutter(const CurvedMembraneSolver& geometry, double tolerance, const MappedTriangle& primitive,
+    std::int64_t sourceCell, ImageMesh& images)
+    : Geometry(geometry)
+    , Tolerance(tolerance)
+    , Primitive(primitive)
+    , SourceCell(sourceCell)
+    , Images(images)
+  {
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      this->Corner[i] = primitive.corners[i] - geometry.GetMembrane().GetOrigin();
+    }
+  }
+
+  Place MakePlace(const glm::dvec3& weight) const
+  {
+    return { weight, this->Geometry.IsInFront(this->GetLocal(weight)) };
+  }
+
+  // A corner within the tolerance of the membrane may count to either side: the curve may have been
+  // drawn on the other one, or its last bit left out.
+  bool FindOutline(const std::array<Place, 3>& corner, const std::vector<WaterlinePiece>& waterline,
+    std::vector<FrontOutline::Polygon>& polygons) const
+  {
+    unsigned near = 0;
+    for (unsigned turned = 0; turned < 8; ++turned)
+    {
+      if (turned == 1)
+      {
+        near = this->FindNear(corner);
+      }
+      if ((turned & ~near) != 0)
+      {
+        continue;
+      }
+      std::array<glm::dvec3, 3> place = this->Primitive.corners;
+      std::array<bool, 3> isFront;
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const bool isTurned = (turned >> k & 1u) != 0;
+        isFront[k] = corner[k].isInFront != isTurned;
+        if (isTurned && isFront[k] && this->Primitive.images[k].count > 0)
+        {
+          place[k] = this->Primitive.images[k].first->vertex.position;
+        }
+      }
+      if (FrontOutline(waterline, place, isFront).Find(polygons))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void CutTriangle(const std::array<Place, 3>& corner, int level) const
+  {
+    std::array<Place, 3> middle; // opposite to the corners
+    bool same =
+      corner[0].isInFront == corner[1].isInFront && corner[0].isInFront == corner[2].isInFront;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      middle[k] = this->MakePlace(0.5 * (corner[(k + 1) % 3].weight + corner[(k + 2) % 3].weight));
+      same = same && middle[k].isInFront == corner[0].isInFront;
+    }
+    if (level == DeepestLevel || (level >= FirstLevel && (same || this->IsCutStraight(corner))))
+    {
+      this->AddPolygon({ corner.begin(), corner.end() });
+      return;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      this->CutTriangle({ corner[k], middle[(k + 2) % 3], middle[(k + 1) % 3] }, level + 1);
+    }
+    this->CutTriangle(middle, level + 1);
+  }
+
+  void CutLine(const Place& from, const Place& to, int level) const
+  {
+    if (level < DeepestLevel)
+    {
+      const Place middle = this->MakePlace(0.5 * (from.weight + to.weight));
+      this->CutLine(from, middle, level + 1);
+      this->CutLine(middle, to, level + 1);
+      return;
+    }
+    const Place crossing = from.isInFront != to.isInFront ? this->Cross(from, to) : from;
+    const Place& begin = from.isInFront ? from : crossing;
+    const Place& end = to.isInFront ? to : crossing;
+    if (begin.isInFront && end.isInFront)
+    {
+      this->AddCell({ this->MakePoint(begin.weight), this->MakePoint(end.weight) });
+    }
+  }
+
+  void AddCell(const std::vector<TrianglePoint>& corners) const
+  {
+    for (const TrianglePoint& corner : corners)
+    {
+      ImagePoint point;
+      point.vertex = this->Geometry.PassThrough(this->GetLocal(corner.weight));
+      point.vertex.position = corner.position;
+      point.vertex.sightPoint = corner.position;
+      point.SetSource(this->Primitive.ids, corner.weight);
+      this->Images.connectivity.push_back(static_cast<std::int64_t>(this->Images.points.size()));
+      this->Images.points.push_back(point);
+    }
+    this->Images.EndCell(this->SourceCell, 1);
+  }
+
+private:
+  // Corners of the primitive as they are.
+  TrianglePoint MakePoint(const glm::dvec3& weight) const
+  {
+    for (glm::length_t k = 0; k < 3; ++k)
+    {
+      if (weight[k] == 1.0)
+      {
+        return { weight, this->Primitive.corners[static_cast<std::size_t>(k)] };
+      }
+    }
+    return { weight, this->GetLocal(weight) + this->Geometry.GetMembrane().GetOrigin() };
+  }
+
+  glm::dvec3 GetLocal(const glm::dvec3& w) const
+  {
+    return w.x * this->Corner[0] + w.y * this->Corner[1] + w.z * this->Corner[2];
+  }
+
+  // A bit for each corner that is on the other side after a step of the tolerance into the
+  // triangle.
+  unsigned FindNear(const std::array<Place, 3>& corner) const
+  {
+    unsigned near = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const glm::dvec3 middle = 0.5 * (corner[(k + 1) % 3].weight + corner[(k + 2) % 3].weight);
+      const glm::dvec3 way = middle - corner[k].weight;
+      const glm::dvec3 from = this->GetLocal(corner[k].weight);
+      const double length = glm::length(this->GetLocal(middle) - from);
+      const double step = this->Tolerance * glm::length(from - this->Geometry.GetMedia().eye);
+      const double part = step < length ? step / length : 1.0;
+      const bool isOther =
+        this->MakePlace(corner[k].weight + part * way).isInFront != corner[k].isInFront;
+      near |= isOther ? 1u << k : 0u;
+    }
+    return near;
+  }
+
+  // Whether the membrane passes the middle of the straight cut within the tolerance.
+  bool IsCutStraight(const std::array<Place, 3>& corner) const
+  {
+    std::size_t odd = 0; // the corner that is alone on its side
+    while (odd < 3 && corner[odd].isInFront == corner[(odd + 1) % 3].isInFront)
+    {
+      ++odd;
+    }
+    if (odd == 3)
+    {
+      return false;
+    }
+    odd = corner[odd].isInFront == corner[(odd + 2) % 3].isInFront ? (odd + 1) % 3 : odd;
+    const Place& alone = corner[odd];
+    const Place first = this->Cross(alone, corner[(odd + 1) % 3], CoarseBisections);
+    const Place second = this->Cross(alone, corner[(odd + 2) % 3], CoarseBisections);
+    const glm::dvec3 middle = 0.5 * (first.weight + second.weight);
+    const glm::dvec3 way = alone.weight - middle;
+    const double length = glm::length(this->GetLocal(alone.weight) - this->GetLocal(middle));
+    const double allowed =
+      this->Tolerance * glm::length(this->GetLocal(middle) - this->Geometry.GetMedia().eye);
+    if (length <= allowed)
+    {
+      return true;
+    }
+    const glm::dvec3 step = (allowed / length) * way;
+    return this->MakePlace(middle + step).isInFront == alone.isInFront &&
+      this->MakePlace(middle - step).isInFront != alone.isInFront;
+  }
+
+  // The last place in front on the way between two sides.
+  Place Cross(const Place& a, const Place& b, int bisections = Bisections) const
+  {
+    Place front = a.isInFront ? a : b;
+    Place behind = a.isInFront ? b : a;
+    for (int i = 0; i < bisections; ++i)
+    {
+      const Place middle = this->MakePlace(0.5 * (front.weight + behind.weight));
+      (middle.isInFront ? front : behind) = middle;
+    }
+    return front;
+  }
+
+  void AddPolygon(const std::vector<Place>& polygon) const
+  {
+    std::vector<TrianglePoint> front;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+    {
+      const Place& a = polygon[i];
+      const Place& b = polygon[(i + 1) % polygon.size()];
+      if (a.isInFront)
+      {
+        front.push_back(this->MakePoint(a.weight));
+      }
+      if (a.isInFront != b.isInFront)
+      {
+        front.push_back(this->MakePoint(this->Cross(a, b).weight));
+      }
+    }
+    if (front.size() > 2)
+    {
+      this->AddCell(front);
+    }
+  }
+
+  const CurvedMembraneSolver& Geometry;
+  double Tolerance;
+  const MappedTriangle& Primitive;
+  std::int64_t SourceCell;
+  ImageMesh& Images;
+  std::array<glm::dvec3, 3> Corner;
+};
+
+}
+
+//------------------------------------------------------------------------------
+void AddFrontOfTriangle(const CurvedMembraneSolver& geometry, double tolerance,
+  const MappedTriangle& triangle, std::int64_t sourceCell,
+  const std::vector<WaterlinePiece>& waterline, ImageMesh& images)
+{
+  const Cutter cutter(geometry, tolerance, triangle, sourceCell, images);
+  const std::array<Place, 3> corners = { cutter.MakePlace({ 1.0, 0.0, 0.0 }),
+    cutter.MakePlace({ 0.0, 1.0, 0.0 }), cutter.MakePlace({ 0.0, 0.0, 1.0 }) };
+  std::vector<FrontOutline::Polygon> polygons;
+  if (!cutter.FindOutline(corners, waterline, polygons))
+  {
+    cutter.CutTriangle(corners, 0);
+    return;
+  }
+  for (const FrontOutline::Polygon& polygon : polygons)
+  {
+    cutter.AddCell(polygon);
+  }
+}
+
+//------------------------------------------------------------------------------
+void AddFrontOfLine(const CurvedMembraneSolver& geometry, const MappedTriangle& line,
+  std::int64_t sourceCell, ImageMesh& images)
+{
+  const Cutter cutter(geometry, 0.0, line, sourceCell, images);
+  cutter.CutLine(cutter.MakePlace({ 1.0, 0.0, 0.0 }), cutter.MakePlace({ 0.0, 1.0, 0.0 }), 0);
+}
+
+}

@@ -1,0 +1,472 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Membrane/CurvedPatches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// cos 60 degrees, between the normals at the two ends of an edge. An arc that turns further is far
+// from a cubic.
+constexpr double SmoothCosine = 0.5;
+
+// sin 30 degrees: what a normal leans along an edge that is an arc of 60 degrees.
+constexpr double LargestLean = 0.5;
+
+// Of the normal at the middle of an edge: 5.7 degrees away from linear interpolation. The bend of a
+// mesh that resolves its surface is the square of the angle per facet over eight, far smaller.
+constexpr double LargestDeflection = 0.1;
+
+// A regular vertex has six neighbours; five give ten equations for the seven unknowns.
+constexpr std::size_t FewNeighbours = 5;
+
+// A pivot of the normal equations relative to its diagonal before elimination. The equations are
+// squared and double has 2^-52: half of the digits.
+constexpr double SmallestPivot = 0x1p-26;
+
+constexpr int Unknowns = 7;
+using Matrix = double[Unknowns][Unknowns];
+
+glm::dvec3 Apply(const std::array<double, 6>& w, const glm::dvec3& e)
+{
+  return { w[0] * e.x + w[1] * e.y + w[2] * e.z, w[1] * e.x + w[3] * e.y + w[4] * e.z,
+    w[2] * e.x + w[4] * e.y + w[5] * e.z };
+}
+
+// Solves the leading `size` equations by Cholesky's method, in place. False if singular.
+bool SolveSymmetric(Matrix& a, double* x, int size)
+{
+  for (int j = 0; j < size; ++j)
+  {
+    const double diagonal = a[j][j];
+    double pivot = diagonal;
+    for (int k = 0; k < j; ++k)
+    {
+      pivot -= a[j][k] * a[j][k];
+    }
+    if (!(pivot > SmallestPivot * diagonal))
+    {
+      return false;
+    }
+    const double inverse = 1.0 / std::sqrt(pivot);
+    a[j][j] = inverse;
+    for (int i = j + 1; i < size; ++i)
+    {
+      double sum = a[i][j];
+      for (int k = 0; k < j; ++k)
+      {
+        sum -= a[i][k] * a[j][k];
+      }
+      a[i][j] = sum * inverse;
+    }
+    double right = x[j];
+    for (int k = 0; k < j; ++k)
+    {
+      right -= a[j][k] * x[k];
+    }
+    x[j] = right * inverse;
+  }
+  for (int j = size; j-- > 0;)
+  {
+    for (int i = j + 1; i < size; ++i)
+    {
+      x[j] -= a[i][j] * x[i];
+    }
+    x[j] *= a[j][j];
+  }
+  return true;
+}
+
+/// Least squares for (nx, ny) = gradient of a x^2/2 + b xy + c y^2/2 + d x^3/3 + e x^2 y + f x y^2
+/// + g y^3/3. All normal equations are moments of the neighbours' places.
+class GradientFit
+{
+public:
+  void Add(double x, double y, double nx, double ny)
+  {
+    const double xx = x * x;
+    const double xy = x * y;
+    const double yy = y * y;
+    const double weight = 1.0 / (xx + yy);
+    const double wxx = weight * xx;
+    const double wxy = weight * xy;
+    const double wyy = weight * yy;
+    this->Second[0] += wxx;
+    this->Second[1] += wxy;
+    this->Second[2] += wyy;
+    this->Third[0] += wxx * x;
+    this->Third[1] += wxx * y;
+    this->Third[2] += wyy * x;
+    this->Third[3] += wyy * y;
+    this->Fourth[0] += wxx * xx;
+    this->Fourth[1] += wxx * xy;
+    this->Fourth[2] += wxx * yy;
+    this->Fourth[3] += wyy * xy;
+    this->Fourth[4] += wyy * yy;
+    nx *= weight;
+    ny *= weight;
+    this->Right[0] += nx * x;
+    this->Right[1] += nx * y + ny * x;
+    this->Right[2] += ny * y;
+    this->Right[3] += nx * xx;
+    this->Right[4] += 2.0 * nx * xy + ny * xx;
+    this->Right[5] += nx * yy + 2.0 * ny * xy;
+    this->Right[6] += ny * yy;
+  }
+
+  /// a, b and c in x; false if not even they are determined.
+  bool Solve(double* x) const
+  {
+    for (const int size : { Unknowns, 3 })
+    {
+      Matrix matrix;
+      this->Fill(matrix);
+      std::copy(this->Right, this->Right + Unknowns, x);
+      if (SolveSymmetric(matrix, x, size))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  // The lower triangle.
+  void Fill(Matrix& m) const
+  {
+    const double* s = this->Second;
+    const double* t = this->Third;
+    const double* f = this->Fourth;
+    const double lower[] = { s[0],                                                       //
+      s[1], s[0] + s[2],                                                                 //
+      0.0, s[1], s[2],                                                                   //
+      t[0], t[1], 0.0, f[0],                                                             //
+      2.0 * t[1], 2.0 * t[2] + t[0], t[1], 2.0 * f[1], 4.0 * f[2] + f[0],                //
+      t[2], t[3] + 2.0 * t[1], 2.0 * t[2], f[2], 2.0 * (f[3] + f[1]), f[4] + 4.0 * f[2], //
+      0.0, t[2], t[3], 0.0, f[2], 2.0 * f[3], f[4] };
+    const double* from = lower;
+    for (int i = 0; i < Unknowns; ++i)
+    {
+      for (int j = 0; j <= i; ++j)
+      {
+        m[i][j] = *from++;
+      }
+    }
+  }
+
+  double Second[3] = {}; ///< x2, xy, y2
+  double Third[4] = {};  ///< x3, x2y, xy2, y3
+  double Fourth[5] = {}; ///< x4, x3y, x2y2, xy3, y4
+  double Right[Unknowns] = {};
+};
+
+}
+
+//------------------------------------------------------------------------------
+void CurvedPatches::Build(const Membrane& membrane, const RangeLoop& loop)
+{
+  this->Surface = &membrane;
+  this->Patches.assign(membrane.GetFacets().size(), Patch());
+  for (std::size_t i = 0; i < this->Patches.size(); ++i)
+  {
+    std::copy(
+      membrane.GetFacets()[i].begin(), membrane.GetFacets()[i].end(), this->Patches[i].vertex);
+  }
+  this->FindNeighbours();
+  this->FindRings();
+  this->AddSecondRings();
+  this->Refit(loop);
+}
+
+//------------------------------------------------------------------------------
+void CurvedPatches::Refit(const RangeLoop& loop)
+{
+  this->Curvature.resize(this->Surface->GetPositions().size());
+  loop(this->Curvature.size(),
+    [this](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->Curvature[i] = this->FitCurvature(static_cast<std::int32_t>(i));
+      }
+    });
+  loop(this->Patches.size(),
+    [this](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->FitFacet(this->Patches[i]);
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+void CurvedPatches::FindNeighbours()
+{
+  struct Side
+  {
+    std::int32_t low;
+    std::int32_t high;
+    std::int32_t facet;
+    std::int32_t corner;
+    bool operator<(const Side& o) const
+    {
+      return this->low != o.low
+        ? this->low < o.low
+        : (this->high != o.high ? this->high < o.high : this->facet < o.facet);
+    }
+    bool SameEdge(const Side& o) const { return this->low == o.low && this->high == o.high; }
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * this->Patches.size());
+  for (std::size_t i = 0; i < this->Patches.size(); ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t a = this->Patches[i].vertex[(k + 1) % 3];
+      const std::int32_t b = this->Patches[i].vertex[(k + 2) % 3];
+      sides.push_back({ std::min(a, b), std::max(a, b), static_cast<std::int32_t>(i), k });
+      this->Patches[i].neighbour[k] = NoFacet;
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size();)
+  {
+    std::size_t next = i + 1;
+    while (next < sides.size() && sides[next].SameEdge(sides[i]))
+    {
+      ++next;
+    }
+    if (next - i == 2)
+    {
+      const Side& a = sides[i];
+      const Side& b = sides[i + 1];
+      this->Patches[static_cast<std::size_t>(a.facet)].neighbour[a.corner] = b.facet;
+      this->Patches[static_cast<std::size_t>(b.facet)].neighbour[b.corner] = a.facet;
+    }
+    i = next;
+  }
+}
+
+//------------------------------------------------------------------------------
+// Vertices that share a facet, per vertex, in the order of their indices.
+void CurvedPatches::FindRings()
+{
+  const std::size_t count = this->Surface->GetPositions().size();
+  std::vector<std::int32_t> start(count + 1, 0);
+  for (const Patch& patch : this->Patches)
+  {
+    for (const std::int32_t vertex : patch.vertex)
+    {
+      start[static_cast<std::size_t>(vertex) + 1] += 2;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    start[i + 1] += start[i];
+  }
+  std::vector<std::int32_t> ring(static_cast<std::size_t>(start[count]));
+  std::vector<std::int32_t> place(start.begin(), start.end() - 1);
+  for (const Patch& patch : this->Patches)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      std::int32_t& at = place[static_cast<std::size_t>(patch.vertex[k])];
+      ring[static_cast<std::size_t>(at++)] = patch.vertex[(k + 1) % 3];
+      ring[static_cast<std::size_t>(at++)] = patch.vertex[(k + 2) % 3];
+    }
+  }
+  this->RingStart.assign(1, 0);
+  this->Ring.clear();
+  this->Ring.reserve(ring.size() / 2 + count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto begin = ring.begin() + start[i];
+    const auto end = ring.begin() + start[i + 1];
+    std::sort(begin, end);
+    this->Ring.insert(this->Ring.end(), begin, std::unique(begin, end));
+    this->RingStart.push_back(static_cast<std::int32_t>(this->Ring.size()));
+  }
+}
+
+//------------------------------------------------------------------------------
+// Vertices of borders and with few neighbours also use the neighbours of these.
+void CurvedPatches::AddSecondRings()
+{
+  const std::size_t count = this->RingStart.size() - 1;
+  std::vector<bool> border(count, false);
+  for (const Patch& patch : this->Patches)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      if (patch.neighbour[k] == NoFacet)
+      {
+        border[static_cast<std::size_t>(patch.vertex[(k + 1) % 3])] = true;
+        border[static_cast<std::size_t>(patch.vertex[(k + 2) % 3])] = true;
+      }
+    }
+  }
+  const std::vector<std::int32_t> start = this->RingStart;
+  const std::vector<std::int32_t> ring = this->Ring;
+  const auto append = [&start, &ring](std::vector<std::int32_t>& to, std::size_t vertex)
+  { to.insert(to.end(), ring.begin() + start[vertex], ring.begin() + start[vertex + 1]); };
+  this->Ring.clear();
+  std::vector<std::int32_t> all;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    all.clear();
+    append(all, i);
+    const std::size_t first = all.size();
+    if (first > 0 && (border[i] || first < FewNeighbours))
+    {
+      for (std::size_t k = 0; k < first; ++k)
+      {
+        append(all, static_cast<std::size_t>(all[k]));
+      }
+      std::sort(all.begin(), all.end());
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+      all.erase(std::find(all.begin(), all.end(), static_cast<std::int32_t>(i)));
+    }
+    this->Ring.insert(this->Ring.end(), all.begin(), all.end());
+    this->RingStart[i + 1] = static_cast<std::int32_t>(this->Ring.size());
+  }
+}
+
+//------------------------------------------------------------------------------
+bool CurvedPatches::IsSmooth(std::int32_t from, std::int32_t to) const
+{
+  const auto i = static_cast<std::size_t>(from);
+  const auto j = static_cast<std::size_t>(to);
+  const glm::dvec3& a = this->Surface->GetNormals()[i];
+  const glm::dvec3& b = this->Surface->GetNormals()[j];
+  const glm::dvec3 edge = this->Surface->GetPositions()[j] - this->Surface->GetPositions()[i];
+  const double limit = LargestLean * LargestLean * glm::dot(edge, edge);
+  const double first = glm::dot(edge, a);
+  const double second = glm::dot(edge, b);
+  return glm::dot(a, b) >= SmoothCosine && first * first <= limit && second * second <= limit;
+}
+
+//------------------------------------------------------------------------------
+CurvedPatches::Tensor CurvedPatches::FitCurvature(std::int32_t vertex) const
+{
+  const auto index = static_cast<std::size_t>(vertex);
+  const glm::dvec3& position = this->Surface->GetPositions()[index];
+  const glm::dvec3& normal = this->Surface->GetNormals()[index];
+  const glm::dvec3 aside = std::fabs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 first =
+    glm::normalize(aside - normal * normal[std::fabs(normal.x) < 0.6 ? 0 : 1]);
+  const glm::dvec3 second = glm::cross(normal, first);
+
+  double unit = 0.0;
+  for (std::int32_t k = this->RingStart[index]; k < this->RingStart[index + 1]; ++k)
+  {
+    const auto other = static_cast<std::size_t>(this->Ring[static_cast<std::size_t>(k)]);
+    const glm::dvec3 edge = this->Surface->GetPositions()[other] - position;
+    unit = std::max(unit, glm::dot(edge, edge));
+  }
+  const double scale = unit > 0.0 ? 1.0 / std::sqrt(unit) : 0.0;
+  GradientFit fit;
+  for (std::int32_t k = this->RingStart[index]; k < this->RingStart[index + 1]; ++k)
+  {
+    const std::int32_t other = this->Ring[static_cast<std::size_t>(k)];
+    const glm::dvec3 edge =
+      scale * (this->Surface->GetPositions()[static_cast<std::size_t>(other)] - position);
+    const double x = glm::dot(edge, first);
+    const double y = glm::dot(edge, second);
+    if (x * x + y * y > 0.0 && this->IsSmooth(vertex, other))
+    {
+      const glm::dvec3& n = this->Surface->GetNormals()[static_cast<std::size_t>(other)];
+      fit.Add(x, y, glm::dot(n, first), glm::dot(n, second));
+    }
+  }
+  double s[Unknowns];
+  if (!fit.Solve(s))
+  {
+    return Tensor{};
+  }
+  const glm::dvec3 a = scale * (s[0] * first + s[1] * second);
+  const glm::dvec3 b = scale * (s[1] * first + s[2] * second);
+  return { a.x * first.x + b.x * second.x, a.x * first.y + b.x * second.y,
+    a.x * first.z + b.x * second.z, a.y * first.y + b.y * second.y, a.y * first.z + b.y * second.z,
+    a.z * first.z + b.z * second.z };
+}
+
+//------------------------------------------------------------------------------
+void CurvedPatches::FitFacet(Patch& patch) const
+{
+  patch.straight = 0;
+  for (int k = 0; k < 3; ++k)
+  {
+    // The same order of the ends on both sides of the edge gives the same rounding.
+    const std::int32_t low = std::min(patch.vertex[(k + 1) % 3], patch.vertex[(k + 2) % 3]);
+    const std::int32_t high = std::max(patch.vertex[(k + 1) % 3], patch.vertex[(k + 2) % 3]);
+    const auto i = static_cast<std::size_t>(low);
+    const auto j = static_cast<std::size_t>(high);
+    glm::dvec3 bend(0.0);
+    if (this->IsSmooth(low, high))
+    {
+      const glm::dvec3 edge = this->Surface->GetPositions()[j] - this->Surface->GetPositions()[i];
+      const glm::dvec3 sum = this->Surface->GetNormals()[i] + this->Surface->GetNormals()[j];
+      bend = 0.125 * (Apply(this->Curvature[i], edge) - Apply(this->Curvature[j], edge));
+      bend -= sum * (glm::dot(bend, sum) / glm::dot(sum, sum));
+      const double squared = glm::dot(bend, bend);
+      if (squared > LargestDeflection * LargestDeflection)
+      {
+        bend *= LargestDeflection / std::sqrt(squared);
+      }
+    }
+    else
+    {
+      patch.straight |= 1u << k;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      patch.bend[k][axis] = static_cast<float>(4.0 * bend[axis]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::int32_t CurvedPatches::Walk(
+  std::int32_t facet, const glm::dvec3& target, const glm::dvec3& normal, int steps) const
+{
+  for (int i = 0; i < steps; ++i)
+  {
+    const Patch& patch = this->Patches[static_cast<std::size_t>(facet)];
+    glm::dvec3 away[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      away[k] = this->Surface->GetPositions()[static_cast<std::size_t>(patch.vertex[k])] - target;
+    }
+    const glm::dvec3 turned = glm::cross(normal, away[0]);
+    const double area[3] = { glm::dot(normal, glm::cross(away[1], away[2])),
+      -glm::dot(turned, away[2]), glm::dot(turned, away[1]) };
+    const double sign = area[0] + area[1] + area[2] < 0.0 ? -1.0 : 1.0;
+    const int corner = sign * area[0] < sign * area[1] ? (sign * area[0] < sign * area[2] ? 0 : 2)
+                                                       : (sign * area[1] < sign * area[2] ? 1 : 2);
+    if (sign * area[corner] >= 0.0 || patch.neighbour[corner] == NoFacet)
+    {
+      return facet;
+    }
+    facet = patch.neighbour[corner];
+  }
+  return facet;
+}
+
+//------------------------------------------------------------------------------
+std::size_t CurvedPatches::GetNumberOfStraightEdges() const
+{
+  std::size_t count = 0;
+  for (const Patch& patch : this->Patches)
+  {
+    count += (patch.straight & 1u) + (patch.straight >> 1 & 1u) + (patch.straight >> 2 & 1u);
+  }
+  return count;
+}
+
+}

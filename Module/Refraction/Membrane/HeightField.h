@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A membrane seen along an axis, as a field of heights over a plane.
+ */
+#ifndef meniscus_Refraction_Membrane_HeightField_h
+#define meniscus_Refraction_Membrane_HeightField_h
+
+#include "Refraction/Membrane/CurvedPatches.h"
+#include "Refraction/Membrane/Membrane.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace meniscus
+{
+
+/// Two directions across an axis, and the height along it.
+struct HeightFrame
+{
+  HeightFrame() = default;
+  explicit HeightFrame(const glm::dvec3& axis);
+
+  glm::dvec2 Project(const glm::dvec3& v) const
+  {
+    return { glm::dot(this->First, v), glm::dot(this->Second, v) };
+  }
+  double GetHeight(const glm::dvec3& v) const { return glm::dot(this->Axis, v); }
+  /// Both: coordinates whose third axis is the axis.
+  glm::dvec3 ToFrame(const glm::dvec3& v) const { return { this->Project(v), this->GetHeight(v) }; }
+
+  glm::dvec3 Axis{ 0.0, 0.0, 1.0 };
+  glm::dvec3 First{ 1.0, 0.0, 0.0 };
+  glm::dvec3 Second{ 0.0, 1.0, 0.0 };
+};
+
+/**
+ * Whether the flat facets, seen along the axis, are a triangulation of one convex polygon: all are
+ * wound alike, and their border is one loop that turns to one side only and once around. No place
+ * of the polygon is then covered twice, and the way between two of its places stays inside.
+ */
+bool IsConvexField(
+  const Membrane& membrane, const CurvedPatches& patches, const HeightFrame& frame);
+
+}
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The refracting surface: validated triangles with one unit normal per vertex, about a local
+ * origin. What depends on the shape alone lives here and is built once per shape; what depends on
+ * the eye is in RefractionCells.
+ */
+#ifndef meniscus_Refraction_Membrane_Membrane_h
+#define meniscus_Refraction_Membrane_Membrane_h
+
+#include "Refraction/Membrane/MembraneOrientation.h"
+#include "Refraction/Membrane/MismatchedNormals.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/// A triangle surface as plain arrays, borrowed for the length of a call.
+struct MembraneInput
+{
+  const double* points = nullptr; ///< x, y, z per point
+  std::size_t numberOfPoints = 0;
+  const std::int64_t* triangles = nullptr; ///< three point indices per triangle
+  std::size_t numberOfTriangles = 0;
+  const std::int64_t* cellIds = nullptr; ///< caller's name of each triangle; null: its index
+  const double* normals = nullptr;       ///< x, y, z per point, any length; null: computed
+};
+
+enum class MembraneStatus
+{
+  Ready,
+  Empty,    ///< no triangle at all, or none that passed
+  TooLarge, ///< more points or triangles than 32-bit indices can name
+  OneSided  ///< a Moebius band has no side for the eye
+};
+
+/// What validation found. Skipped triangles are counted once, under the first fault found.
+struct MembraneReport
+{
+  std::size_t outOfRange = 0;        ///< skipped: a point index that does not exist
+  std::size_t notFinite = 0;         ///< skipped: a corner with a NaN or infinite coordinate
+  std::size_t zeroArea = 0;          ///< skipped: area within the rounding of its cross product
+  std::size_t duplicated = 0;        ///< skipped: same three points as an earlier triangle
+  std::size_t computedNormals = 0;   ///< vertices whose normal was missing, zero or not finite
+  std::size_t nonManifoldFacets = 0; ///< kept, but not joined to neighbours for computed normals
+  std::size_t turnedFacets = 0;      ///< kept, wound the other way than their neighbours
+  std::size_t turnedNormals = 0;     ///< kept, turned to the side of their neighbours
+  MismatchedNormals normals;         ///< kept, of given ones
+
+  std::size_t Skipped() const
+  {
+    return this->outOfRange + this->notFinite + this->zeroArea + this->duplicated;
+  }
+};
+
+class Membrane
+{
+public:
+  using Facet = std::array<std::int32_t, 3>;
+
+  /// Replaces the surface. Unless `Ready` is returned, the membrane is empty afterwards.
+  MembraneStatus Build(const MembraneInput& input);
+
+  /// Centre of the bounds of the used vertices. All positions below are relative to it, so that
+  /// large coordinate offsets cost no accuracy after the subtraction.
+  const glm::dvec3& GetOrigin() const { return this->Origin; }
+
+  /// Largest absolute local coordinate of a used vertex, a positive number for a ready membrane.
+  double GetRadius() const { return this->Radius; }
+
+  const std::vector<glm::dvec3>& GetPositions() const { return this->Positions; }
+  const std::vector<glm::dvec3>& GetNormals() const { return this->Normals; }
+  const std::vector<Facet>& GetFacets() const { return this->Facets; }
+  std::int64_t GetCellId(std::int32_t facet) const
+  {
+    return this->CellIds[static_cast<std::size_t>(facet)];
+  }
+  const MembraneReport& GetReport() const { return this->Report; }
+  /// Pieces that hang together by edges.
+  const SurfacePieces& GetPieces() const { return this->Pieces; }
+
+private:
+  void AcceptFacets(const MembraneInput& input);
+  void DropDuplicates();
+  bool OrientFacets(std::size_t points);
+  void MoveToLocalOrigin(const MembraneInput& input);
+  void TakeNormals(const MembraneInput& input);
+
+  glm::dvec3 Origin{ 0.0 };
+  double Radius = 0.0;
+  std::vector<glm::dvec3> Positions;
+  std::vector<glm::dvec3> Normals;
+  std::vector<Facet> Facets;
+  std::vector<std::int64_t> CellIds;
+  MembraneReport Report;
+
+  /// Kept from shape to shape: a deforming membrane is wound as it was.
+  std::vector<Facet> WoundFacets;
+  std::vector<Facet> OrientedFacets;
+  SurfacePieces Pieces;
+};
+
+}
+
+#endif

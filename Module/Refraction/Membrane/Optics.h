@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Refraction and reflection of one ray at one point of a surface. Directions and normals are unit
+ * vectors; a normal points to the side that the ray comes from. Equation numbers are those of the
+ * thesis "Refraction by geometric transforms" that Documentation/refraction.md retells.
+ */
+#ifndef meniscus_Refraction_Membrane_Optics_h
+#define meniscus_Refraction_Membrane_Optics_h
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+
+/// Which equation a refraction ray comes from.
+enum class RayKind : unsigned char
+{
+  Refracted,       ///< Eq. 2.2, Snell's law.
+  BackFacing,      ///< Eq. 3.1, extrapolated: the surface faces away from the ray.
+  TotallyReflected ///< Eq. 3.2, extrapolated: beyond the critical angle.
+};
+
+struct RefractionRay
+{
+  glm::dvec3 direction;
+  RayKind kind;
+};
+
+/// The square of the refracted ray's cosine, negative beyond the critical angle.
+inline double RefractionRadicand(double cosine, double ratio)
+{
+  return 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+}
+
+/// Of the ray below.
+inline glm::dvec3 RefractionDirection(
+  const glm::dvec3& sight, const glm::dvec3& normal, double ratio, double cosine, double radicand)
+{
+  const glm::dvec3 tangential = ratio * (sight - cosine * normal);
+  const double root = radicand >= 0.0 ? std::sqrt(radicand) : -std::sqrt(-radicand);
+  return glm::normalize(tangential - root * normal);
+}
+
+/**
+ * The ray of direction `sight` behind a surface of normal `normal`, with `ratio` = n1 / n2
+ * (Eq. 2.2). Where there is none the ray is extrapolated, so that a facet with one bad corner keeps
+ * its cell: a positive D.N counts as zero (Eq. 3.1), and beyond the critical angle the signs of the
+ * radicand and of the root are flipped (Eq. 3.2). The result is normalised, which changes Eq. 2.2
+ * by rounding only. It is not finite if and only if the arguments are not.
+ */
+inline RefractionRay ComputeRefractionRay(
+  const glm::dvec3& sight, const glm::dvec3& normal, double ratio)
+{
+  const double facing = glm::dot(sight, normal);
+  const double cosine = std::min(facing, 0.0);
+  const double radicand = RefractionRadicand(cosine, ratio);
+  const RayKind kind = radicand < 0.0 ? RayKind::TotallyReflected
+                                      : (facing > 0.0 ? RayKind::BackFacing : RayKind::Refracted);
+  return { RefractionDirection(sight, normal, ratio, cosine, radicand), kind };
+}
+
+/**
+ * Fresnel reflectance of unpolarised light (Eq. 2.6 with n = n2 / n1), in [0, 1]. `cosine` is that
+ * of the angle of incidence in the exterior; 1 beyond the critical angle, 0 for equal indices.
+ */
+inline double FresnelReflectance(double cosine, double exterior, double interior)
+{
+  if (exterior == interior)
+  {
+    return 0.0;
+  }
+  const double c = std::clamp(cosine, 0.0, 1.0);
+  const double n = interior / exterior;
+  const double squared = n * n + c * c - 1.0;
+  if (squared <= 0.0)
+  {
+    return 1.0;
+  }
+  const double g = std::sqrt(squared);
+  const double first = (g - c) / (g + c);
+  const double second = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
+  return std::clamp(0.5 * first * first * (1.0 + second * second), 0.0, 1.0);
+}
+
+/**
+ * Schlick's approximation of the Fresnel reflectance (Eq. 2.7), which the thesis draws with:
+ * r + (1 - r) (1 - c)^5 with r = ((n1 - n2) / (n1 + n2))^2. It knows no critical angle. 0 for equal
+ * indices, where the formula has (1 - c)^5.
+ */
+inline double SchlickReflectance(double cosine, double exterior, double interior)
+{
+  if (exterior == interior)
+  {
+    return 0.0;
+  }
+  const double c = std::clamp(cosine, 0.0, 1.0);
+  const double n = exterior / interior;
+  const double normal = (n - 1.0) * (n - 1.0) / ((n + 1.0) * (n + 1.0));
+  return normal + (1.0 - normal) * std::pow(1.0 - c, 5.0);
+}
+
+}
+
+#endif

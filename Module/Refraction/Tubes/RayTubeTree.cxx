@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Tubes/RayTubeTree.h"
+
+#include <glm/common.hpp>
+
+#include <numeric>
+
+namespace meniscus
+{
+namespace
+{
+
+using Iterator = std::vector<std::int32_t>::iterator;
+
+// A float that is not below the value, and at most two units in its last place above. Values beyond
+// float become infinite, which bounds them as well.
+float RoundUp(double value)
+{
+  const auto rounded = static_cast<float>(value);
+  return static_cast<double>(rounded) >= value ? rounded
+                                               : rounded +
+      std::max(std::fabs(rounded) * std::numeric_limits<float>::epsilon(),
+        std::numeric_limits<float>::min());
+}
+
+// A rate of exactly zero would make 0 / 0 of a touching point; the next larger bound is as valid.
+float RoundUpRate(double value)
+{
+  const float rounded = RoundUp(value);
+  return std::fabs(rounded) < std::numeric_limits<float>::min() ? std::numeric_limits<float>::min()
+                                                                : rounded;
+}
+
+Iterator SplitInHalf(Iterator begin, Iterator end, const std::vector<glm::dvec3>& centroids)
+{
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
+  for (Iterator i = begin; i != end; ++i)
+  {
+    low = glm::min(low, centroids[static_cast<std::size_t>(*i)]);
+    high = glm::max(high, centroids[static_cast<std::size_t>(*i)]);
+  }
+  const glm::dvec3 extent = high - low;
+  const int axis =
+    extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
+  const Iterator middle = begin + (end - begin) / 2;
+  // Ties go by facet index: the topology depends on the facets alone, not on the library's sort.
+  std::nth_element(begin, middle, end,
+    [axis, &centroids](std::int32_t a, std::int32_t b)
+    {
+      const double first = centroids[static_cast<std::size_t>(a)][axis];
+      const double second = centroids[static_cast<std::size_t>(b)][axis];
+      return first != second ? first < second : a < b;
+    });
+  return middle;
+}
+
+}
+
+//------------------------------------------------------------------------------
+void TubeBounds::Add(const glm::dvec3& start, const glm::dvec3& direction)
+{
+  this->startLow = glm::min(this->startLow, start);
+  this->startHigh = glm::max(this->startHigh, start);
+  this->directionLow = glm::min(this->directionLow, direction);
+  this->directionHigh = glm::max(this->directionHigh, direction);
+}
+
+//------------------------------------------------------------------------------
+void RayTubeTree::Build(const std::vector<glm::dvec3>& centroids, double unit)
+{
+  this->Scale = 1.0 / unit;
+  this->Nodes.clear();
+  std::vector<std::int32_t> order(centroids.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (!order.empty())
+  {
+    // A node of the bottom has two leaves at least, a node above four children: 2/3 per leaf at
+    // most.
+    this->Nodes.reserve(order.size() + 1);
+    this->BuildNode(order.begin(), order.end(), centroids);
+    this->Nodes.shrink_to_fit();
+  }
+}
+
+//------------------------------------------------------------------------------
+std::int32_t RayTubeTree::BuildNode(
+  Iterator begin, Iterator end, const std::vector<glm::dvec3>& centroids)
+{
+  const std::size_t index = this->Nodes.size();
+  this->Nodes.emplace_back();
+  const auto half = [&centroids](Iterator from, Iterator to)
+  { return to - from > 1 ? SplitInHalf(from, to, centroids) : to; };
+  const Iterator middle = half(begin, end);
+  const std::array<Iterator, Width + 1> cut = { begin, half(begin, middle), middle,
+    half(middle, end), end };
+  for (std::size_t child = 0; child < Width; ++child)
+  {
+    const Iterator from = cut[child];
+    const Iterator to = cut[child + 1];
+    const std::int32_t link = to - from > 1 ? this->BuildNode(from, to, centroids) : NoNode;
+    Node& node = this->Nodes[index]; // only now: BuildNode may move the nodes
+    node.link[child] = link;
+    node.firstFacet[child] = from != to ? *std::min_element(from, to) : NoFacet;
+    ClearBounds(node, static_cast<int>(child));
+  }
+  return static_cast<std::int32_t>(index);
+}
+
+//------------------------------------------------------------------------------
+void RayTubeTree::Refit(
+  const std::function<TubeBounds(std::int32_t)>& bounds, const RangeLoop& loop)
+{
+  loop(this->Nodes.size(),
+    [this, &bounds](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Node& node = this->Nodes[i];
+        for (int child = 0; child < Width; ++child)
+        {
+          ClearBounds(node, child);
+          if (node.link[child] == NoNode && node.firstFacet[child] != NoFacet)
+          {
+            this->StoreBounds(node, child, bounds(node.firstFacet[child]));
+          }
+        }
+      }
+    });
+  // Children come after their parents.
+  for (std::size_t i = this->Nodes.size(); i-- > 0;)
+  {
+    Node& node = this->Nodes[i];
+    for (int child = 0; child < Width; ++child)
+    {
+      if (node.link[child] != NoNode)
+      {
+        MergeChild(node, child, this->Nodes[static_cast<std::size_t>(node.link[child])]);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void RayTubeTree::ClearBounds(Node& node, int child)
+{
+  // A start box turned inside out that leaves to the wrong side: no t is allowed. No component of a
+  // unit direction is below -1, so merging this by maxima changes nothing.
+  constexpr float outside = std::numeric_limits<float>::lowest() / 2.0f;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    node.startHigh[axis][child] = outside;
+    node.negatedStartLow[axis][child] = outside;
+    node.directionHigh[axis][child] = -1.0f;
+    node.negatedDirectionLow[axis][child] = -1.0f;
+  }
+}
+
+//------------------------------------------------------------------------------
+void RayTubeTree::StoreBounds(Node& node, int child, const TubeBounds& bounds) const
+{
+  if (!bounds.IsValid())
+  {
+    return;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    node.startHigh[axis][child] = RoundUp(bounds.startHigh[axis] * this->Scale);
+    node.negatedStartLow[axis][child] = RoundUp(-bounds.startLow[axis] * this->Scale);
+    node.directionHigh[axis][child] = RoundUpRate(bounds.directionHigh[axis]);
+    node.negatedDirectionLow[axis][child] = RoundUpRate(-bounds.directionLow[axis]);
+  }
+}
+
+//------------------------------------------------------------------------------
+void RayTubeTree::MergeChild(Node& node, int child, const Node& from)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto largest = [](const float(&lanes)[Width])
+    { return *std::max_element(lanes, lanes + Width); };
+    node.startHigh[axis][child] = largest(from.startHigh[axis]);
+    node.negatedStartLow[axis][child] = largest(from.negatedStartLow[axis]);
+    node.directionHigh[axis][child] = largest(from.directionHigh[axis]);
+    node.negatedDirectionLow[axis][child] = largest(from.negatedDirectionLow[axis]);
+  }
+}
+
+}

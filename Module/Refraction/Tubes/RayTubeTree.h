@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * A bounding volume hierarchy of ray tubes.
+ *
+ * A cell is unbounded below its facet, so boxes do not help. A tube is the set of points s + t r
+ * with s in a box of start points, r in a box of ray directions and t >= 0: its cross-section is a
+ * box whose faces move linearly with t. Tubes merge exactly (box by box), so a refit for a new eye
+ * is one pass of minima and maxima, and a point is tested by intersecting six half-lines of t.
+ *
+ * Topology depends on the facets alone and is built once per shape; bounds are refitted per eye.
+ * Bounds are floats rounded outwards, in units of the membrane's radius; queries add the rounding
+ * of the point and of the test itself, so no cell is missed.
+ */
+#ifndef meniscus_Refraction_Tubes_RayTubeTree_h
+#define meniscus_Refraction_Tubes_RayTubeTree_h
+
+#include "Common/RangeLoop.h"
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace meniscus
+{
+
+/// Box of start points and box of directions, in local units.
+struct TubeBounds
+{
+  glm::dvec3 startLow{ std::numeric_limits<double>::max() };
+  glm::dvec3 startHigh{ std::numeric_limits<double>::lowest() };
+  glm::dvec3 directionLow{ std::numeric_limits<double>::max() };
+  glm::dvec3 directionHigh{ std::numeric_limits<double>::lowest() };
+
+  /// False for the bounds of a facet without a cell.
+  bool IsValid() const { return this->startLow.x <= this->startHigh.x; }
+  void Add(const glm::dvec3& start, const glm::dvec3& direction);
+};
+
+class RayTubeTree
+{
+public:
+  /// Points farther than this many units from the origin do not fit the floats of the tests.
+  static constexpr double FarthestRadii = 0x1p100;
+
+  /// Facets are told apart by their index; `centroids` are those of all facets in local units.
+  /// `unit` is the length that becomes 1 inside.
+  void Build(const std::vector<glm::dvec3>& centroids, double unit);
+
+  /// Another unit for the same topology; Refit must follow.
+  void SetUnit(double unit) { this->Scale = 1.0 / unit; }
+
+  /// Fits all bounds. `bounds(facet)` is called once per facet, from the threads of `loop`.
+  void Refit(const std::function<TubeBounds(std::int32_t)>& bounds, const RangeLoop& loop);
+
+  /**
+   * Calls `visit(facet)` for every facet whose tube may hold `point`, in an order fixed by the
+   * topology. `visit` returns a facet limit: facets from that index on are of no interest any more.
+   * `padding` widens every tube, in local units. The point must lie within FarthestRadii.
+   */
+  template <typename Visitor>
+  void Visit(const glm::dvec3& point, double padding, Visitor&& visit) const;
+
+  /// Whether the tube, widened by `padding`, of any facet that `chosen` marks may hold `point`.
+  bool HasAny(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
+  {
+    bool found = false;
+    this->Visit(point, padding,
+      [&found, &chosen](std::int32_t facet)
+      {
+        found = found || chosen[static_cast<std::size_t>(facet)];
+        return found ? 0 : NoFacet;
+      });
+    return found;
+  }
+
+private:
+  static constexpr int Width = 4;
+  static constexpr std::int32_t NoNode = -1;
+  static constexpr std::int32_t NoFacet = std::numeric_limits<std::int32_t>::max();
+  // The ranges are halved by count, so 2^31 facets need at most 16 levels of four children, each of
+  // which leaves at most three more entries on the stack.
+  static constexpr std::size_t StackSize = 64;
+
+  /// Four children, each a node or one facet, side by side, so that one test of all four is one
+  /// loop over lanes. Rates are never zero and the lower ones are negated, so that all six
+  /// constraints read a + t b >= 0.
+  struct Node
+  {
+    float startHigh[3][Width];
+    float negatedStartLow[3][Width];
+    float directionHigh[3][Width];
+    float negatedDirectionLow[3][Width];
+    std::int32_t link[Width];       ///< inner child: node; otherwise NoNode
+    std::int32_t firstFacet[Width]; ///< smallest facet below; leaf: the facet; none: NoFacet
+  };
+
+  struct Query
+  {
+    float point[3];
+    float padding;
+  };
+
+  std::int32_t BuildNode(std::vector<std::int32_t>::iterator begin,
+    std::vector<std::int32_t>::iterator end, const std::vector<glm::dvec3>& centroids);
+  void StoreBounds(Node& node, int child, const TubeBounds& bounds) const;
+  static void MergeChild(Node& node, int child, const Node& from);
+  static void ClearBounds(Node& node, int child);
+  void Prefetch(std::int32_t node) const;
+  static unsigned Overlaps(const Node& node, const Query& query);
+
+  double Scale = 1.0;
+  std::vector<Node> Nodes;
+};
+
+//------------------------------------------------------------------------------
+// Children are far apart in memory: the ones that wait on the stack are fetched meanwhile.
+inline void RayTubeTree::Prefetch(std::int32_t node) const
+{
+#if defined(__GNUC__)
+  constexpr std::size_t line = 64;
+  const auto* first = reinterpret_cast<const char*>(&this->Nodes[static_cast<std::size_t>(node)]);
+  for (std::size_t offset = 0; offset < sizeof(Node); offset += line)
+  {
+    __builtin_prefetch(first + offset);
+  }
+#else
+  static_cast<void>(node);
+#endif
+}
+
+//------------------------------------------------------------------------------
+inline unsigned RayTubeTree::Overlaps(const Node& node, const Query& query)
+{
+  // Each of the two subtractions and the division is off by one rounding at most; 4 ulp of the
+  // terms and of the quotient cover them.
+  constexpr float rounding = 4.0f * std::numeric_limits<float>::epsilon();
+  float low[Width] = { 0.0f, 0.0f, 0.0f, 0.0f };
+  float high[Width];
+  std::fill(high, high + Width, std::numeric_limits<float>::max());
+  const auto constrain = [&low, &high](int lane, float offset, float rate)
+  {
+    const float bound = -offset / rate;
+    const float raised = bound > low[lane] ? bound : low[lane];
+    const float lowered = bound < high[lane] ? bound : high[lane];
+    low[lane] = rate > 0.0f ? raised : low[lane];
+    high[lane] = rate > 0.0f ? high[lane] : lowered;
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const float p = query.point[axis];
+    for (int lane = 0; lane < Width; ++lane)
+    {
+      const float start = node.startHigh[axis][lane];
+      const float slack = query.padding + rounding * std::fabs(start);
+      constrain(lane, (start - p) + slack, node.directionHigh[axis][lane]);
+    }
+    for (int lane = 0; lane < Width; ++lane)
+    {
+      const float start = node.negatedStartLow[axis][lane];
+      const float slack = query.padding + rounding * std::fabs(start);
+      constrain(lane, (start + p) + slack, node.negatedDirectionLow[axis][lane]);
+    }
+  }
+  unsigned hits = 0;
+  for (int lane = 0; lane < Width; ++lane)
+  {
+    hits |= static_cast<unsigned>(low[lane] <= high[lane] * (1.0f + rounding)) << lane;
+  }
+  return hits;
+}
+
+//------------------------------------------------------------------------------
+template <typename Visitor>
+void RayTubeTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit) const
+{
+  if (this->Nodes.empty())
+  {
+    return;
+  }
+  const glm::dvec3 scaled = point * this->Scale;
+  const double reach =
+    std::max({ std::fabs(scaled.x), std::fabs(scaled.y), std::fabs(scaled.z), 1.0 });
+  const Query query{
+    { static_cast<float>(scaled.x), static_cast<float>(scaled.y), static_cast<float>(scaled.z) },
+    static_cast<float>(padding * this->Scale + 4.0 * std::numeric_limits<float>::epsilon() * reach)
+  };
+
+  struct Entry
+  {
+    std::int32_t node;
+    std::int32_t firstFacet;
+  };
+  std::int32_t limit = NoFacet;
+  std::array<Entry, StackSize> stack;
+  std::size_t depth = 0;
+  stack[depth++] = { 0, 0 };
+  while (depth > 0)
+  {
+    const Entry entry = stack[--depth];
+    if (entry.firstFacet >= limit)
+    {
+      continue;
+    }
+    const Node& node = this->Nodes[static_cast<std::size_t>(entry.node)];
+    const unsigned hits = Overlaps(node, query);
+    for (int child = Width - 1; child >= 0; --child)
+    {
+      if (!(hits >> child & 1u) || node.firstFacet[child] >= limit)
+      {
+        continue;
+      }
+      if (node.link[child] == NoNode)
+      {
+        limit = visit(node.firstFacet[child]);
+      }
+      else
+      {
+        this->Prefetch(node.link[child]);
+        stack[depth++] = { node.link[child], node.firstFacet[child] };
+      }
+    }
+  }
+}
+
+}
+
+#endif

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Tubes/RefractedRayBounds.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// The largest of |b_i b_j (b_i - b_j)| is 1 / (6 sqrt 3), of b_i b_j 1 / 4.
+constexpr double LargestAsymmetric = 0.0962250448649377;
+
+// The normal is a Bezier triangle of second degree.
+std::array<glm::dvec3, 6> NormalControls(const CurvedPatch& patch)
+{
+  std::array<glm::dvec3, 6> control;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    control[k] = patch.normal[k];
+    control[k + 3] = 0.5 * (patch.normal[(k + 1) % 3] + patch.normal[(k + 2) % 3] + patch.bend[k]);
+  }
+  return control;
+}
+
+}
+
+//------------------------------------------------------------------------------
+// 2 |q| / (1 + |n|). The sum of b_i b_j is 1 / 3 at most, |n| no less than the least of its control
+// points along one direction.
+double BoundBulge(const CurvedPatch& patch)
+{
+  double sum = 0.0;
+  double largest = 0.0;
+  double q = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    sum += std::fabs(patch.symmetric[k]);
+    largest = std::max(largest, std::fabs(patch.symmetric[k]));
+    q += LargestAsymmetric * std::fabs(patch.asymmetric[k]);
+  }
+  q += std::min(0.25 * sum, largest / 3.0);
+  const glm::dvec3 along = glm::normalize(patch.normal[0] + patch.normal[1] + patch.normal[2]);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& control : NormalControls(patch))
+  {
+    shortest = std::min(shortest, glm::dot(control, along));
+  }
+  return 2.0 * q / (1.0 + std::max(CurvedPatch::ShortestNormal, shortest));
+}
+
+//------------------------------------------------------------------------------
+// Along n + d for |d| within `ball` and d within `half`: n / |n| + (d - u (u.d)) / |n| and a rest
+// below (|d| / |n|)^2 as long as |d| < |n| / 2.
+DirectionBox BoundDirections(
+  const glm::dvec3& middle, const glm::dvec3* hull, int count, double reach)
+{
+  const double length = glm::length(middle);
+  const glm::dvec3 direction = middle / length;
+  glm::dvec3 half(0.0);
+  double ball = 0.0;
+  for (int i = 0; i < count; ++i)
+  {
+    const glm::dvec3 d = hull[i] - middle;
+    half = glm::max(half, glm::abs(d - direction * glm::dot(d, direction)));
+    ball = std::max(ball, glm::dot(d, d));
+  }
+  const double part = (std::sqrt(ball) + reach) / length;
+  if (!(part < 0.5))
+  {
+    return DirectionBox();
+  }
+  return { direction, (half + glm::dvec3(reach)) / length + glm::dvec3(part * part) };
+}
+
+//------------------------------------------------------------------------------
+// Inside the hull of the control points.
+DirectionBox BoundNormals(const CurvedPatch& patch)
+{
+  const std::array<glm::dvec3, 6> control = NormalControls(patch);
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
+  for (const glm::dvec3& c : control)
+  {
+    low = glm::min(low, c);
+    high = glm::max(high, c);
+  }
+  return BoundDirections(0.5 * (low + high), control.data(), 6, 0.0);
+}
+
+//------------------------------------------------------------------------------
+CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal)
+{
+  const double middle = glm::dot(sight.middle, normal.middle);
+  const glm::dvec3 sightReach = glm::abs(sight.middle) + sight.half;
+  const double half =
+    glm::dot(glm::abs(normal.middle), sight.half) + glm::dot(sightReach, normal.half);
+  return { std::max(middle - half, -1.0), std::min(middle + half, 1.0) };
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundRays(const glm::dvec3& lowest, const glm::dvec3& highest, const glm::dvec3* points,
+  int count, double reach)
+{
+  TubeBounds bounds;
+  for (int i = 0; i < count; ++i)
+  {
+    bounds.startLow = glm::min(bounds.startLow, points[i] - glm::dvec3(reach));
+    bounds.startHigh = glm::max(bounds.startHigh, points[i] + glm::dvec3(reach));
+  }
+  bounds.directionLow = lowest;
+  bounds.directionHigh = highest;
+  return bounds;
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& normal, double ratio,
+  const glm::dvec3* points, int count, double reach)
+{
+  const CosineBounds cosine = BoundCosine(sight, normal);
+  const double least = cosine.least;
+  const double most = std::min(cosine.most, 0.0);
+  const auto radicand = [ratio](double c) { return 1.0 - ratio * ratio * (1.0 - c * c); };
+  if (!(least < 0.0) || !(radicand(least) > 0.0))
+  {
+    return TubeBounds();
+  }
+  const auto factor = [ratio, &radicand](double c)
+  { return -ratio * c - std::sqrt(std::max(radicand(c), 0.0)); };
+  // At the critical angle the root is zero and c = -sqrt(1 - 1 / ratio^2).
+  const double last =
+    radicand(most) > 0.0 ? most : -std::sqrt(std::max(1.0 - 1.0 / (ratio * ratio), 0.0));
+  const double ends[2] = { factor(least), factor(last) };
+  const double g = 0.5 * (ends[0] + ends[1]);
+  const double gHalf = 0.5 * std::fabs(ends[0] - ends[1]);
+
+  const glm::dvec3 direction = ratio * sight.middle + g * normal.middle;
+  const glm::dvec3 spread = ratio * sight.half + std::fabs(g) * normal.half +
+    gHalf * (glm::abs(normal.middle) + normal.half);
+  // The rays are unit vectors.
+  const glm::dvec3 lowest = glm::max(direction - spread, glm::dvec3(-1.0));
+  const glm::dvec3 highest = glm::min(direction + spread, glm::dvec3(1.0));
+  return BoundRays(lowest, highest, points, count, reach);
+}
+
+//------------------------------------------------------------------------------
+TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, double ratio)
+{
+  const double bulge = BoundBulge(patch);
+  const glm::dvec3 sights[3] = { patch.corner[0] - eye, patch.corner[1] - eye,
+    patch.corner[2] - eye };
+  const DirectionBox sight =
+    BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
+  return BoundRefractedRays(sight, BoundNormals(patch), ratio, patch.corner, 3, bulge);
+}
+
+}

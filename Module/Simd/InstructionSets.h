@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Registry of the instruction sets that kernels are compiled for. Simd/CMakeLists.txt has one line
+ * per set, from which the build makes MENISCUS_INSTRUCTION_SETS, widest set first, Portable last.
+ */
+#ifndef meniscus_Simd_InstructionSets_h
+#define meniscus_Simd_InstructionSets_h
+
+#include "Simd/InstructionSetList.h"
+
+#include <vector>
+
+namespace meniscus
+{
+
+#define MENISCUS_ENUMERATOR(name, label, isSupported, target) name,
+/** The sets that this build has code for. */
+enum class InstructionSet
+{
+  MENISCUS_INSTRUCTION_SETS(MENISCUS_ENUMERATOR)
+};
+#undef MENISCUS_ENUMERATOR
+
+/** Sets that this build and this processor have, widest first. Never empty: Portable is the last.
+ */
+const std::vector<InstructionSet>& GetInstructionSets();
+
+/** Widest set that this build and this processor have. */
+InstructionSet BestInstructionSet();
+
+/** Name for messages: "AVX-512", "AVX2", "NEON" or "portable". */
+const char* NameOf(InstructionSet set);
+
+}
+
+#endif

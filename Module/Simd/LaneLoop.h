@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Plain loops over lanes, compiled once per instruction set by target attributes. All functions
+ * that the body calls become part of the loop (flatten), so that the compiler can take several
+ * lanes at a time and no inline function compiled for a set is shared with other code.
+ */
+#ifndef meniscus_Simd_LaneLoop_h
+#define meniscus_Simd_LaneLoop_h
+
+#include "Simd/InstructionSets.h"
+
+namespace meniscus
+{
+
+#define MENISCUS_LANE_LOOP(name, label, isSupported, target)                                       \
+  template <class Kernel, class Lanes>                                                             \
+  target __attribute__((flatten)) void RunLanes##name(const Kernel& kernel, Lanes& lanes)          \
+  {                                                                                                \
+    for (int i = 0; i < lanes.Count; ++i)                                                          \
+    {                                                                                              \
+      kernel(lanes, i);                                                                            \
+    }                                                                                              \
+  }
+MENISCUS_INSTRUCTION_SETS(MENISCUS_LANE_LOOP)
+#undef MENISCUS_LANE_LOOP
+
+/**
+ * Calls kernel(lanes, i) for i in [0, lanes.Count) with the instructions of `set`.
+ * @pre GetInstructionSets() has the set
+ */
+template <class Kernel, class Lanes>
+void RunLanes(const Kernel& kernel, InstructionSet set, Lanes& lanes)
+{
+  switch (set)
+  {
+#define MENISCUS_LANE_CASE(name, label, isSupported, target)                                       \
+  case InstructionSet::name:                                                                       \
+    RunLanes##name(kernel, lanes);                                                                 \
+    break;
+    MENISCUS_INSTRUCTION_SETS(MENISCUS_LANE_CASE)
+#undef MENISCUS_LANE_CASE
+  }
+}
+
+}
+
+#endif

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Packets of 16 lanes for processors with AVX-512F; see SimdPortable.h for what each name does. */
+#ifndef meniscus_Simd_SimdAVX512_h
+#define meniscus_Simd_SimdAVX512_h
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+namespace meniscus
+{
+
+struct SimdAVX512
+{
+  static constexpr int Width = 16;
+
+  struct Mask
+  {
+    __mmask16 Lanes;
+    friend Mask operator&(Mask a, Mask b) { return { _mm512_kand(a.Lanes, b.Lanes) }; }
+    friend Mask operator|(Mask a, Mask b) { return { _mm512_kor(a.Lanes, b.Lanes) }; }
+  };
+
+  struct Float
+  {
+    __m512 V;
+    friend Float operator+(Float a, Float b) { return { _mm512_add_ps(a.V, b.V) }; }
+    friend Float operator-(Float a, Float b) { return { _mm512_sub_ps(a.V, b.V) }; }
+    friend Float operator*(Float a, Float b) { return { _mm512_mul_ps(a.V, b.V) }; }
+    friend Float operator/(Float a, Float b) { return { _mm512_div_ps(a.V, b.V) }; }
+    friend Mask operator<(Float a, Float b) { return { _mm512_cmp_ps_mask(a.V, b.V, _CMP_LT_OQ) }; }
+    friend Mask operator>(Float a, Float b) { return { _mm512_cmp_ps_mask(a.V, b.V, _CMP_GT_OQ) }; }
+  };
+
+  struct Int
+  {
+    __m512i V;
+    friend Int operator+(Int a, Int b) { return { _mm512_add_epi32(a.V, b.V) }; }
+    friend Int operator-(Int a, Int b) { return { _mm512_sub_epi32(a.V, b.V) }; }
+    friend Mask operator<(Int a, Int b) { return { _mm512_cmplt_epi32_mask(a.V, b.V) }; }
+    friend Mask operator>(Int a, Int b) { return { _mm512_cmpgt_epi32_mask(a.V, b.V) }; }
+  };
+
+  static Float Load(const float* from) { return { _mm512_loadu_ps(from) }; }
+  static Int Load(const std::int32_t* from) { return { _mm512_loadu_si512(from) }; }
+  static void Store(float* to, Float x) { _mm512_storeu_ps(to, x.V); }
+  static void Store(std::int32_t* to, Int x) { _mm512_storeu_si512(to, x.V); }
+  static Float Splat(float value) { return { _mm512_set1_ps(value) }; }
+  static Int Splat(std::int32_t value) { return { _mm512_set1_epi32(value) }; }
+
+  static Float Fma(Float a, Float b, Float c) { return { _mm512_fmadd_ps(a.V, b.V, c.V) }; }
+  static Float CrossProduct(Float a, Float b, Float c, Float d)
+  {
+    // Kahan's difference of products, within 1.5 units in the last place of the result.
+    const __m512 bc = _mm512_mul_ps(b.V, c.V);
+    const __m512 roundOff = _mm512_fnmadd_ps(b.V, c.V, bc);
+    return { _mm512_add_ps(_mm512_fmsub_ps(a.V, d.V, bc), roundOff) };
+  }
+  static Float Min(Float a, Float b) { return { _mm512_min_ps(a.V, b.V) }; }
+  static Float Max(Float a, Float b) { return { _mm512_max_ps(a.V, b.V) }; }
+  static Float Abs(Float a) { return { _mm512_abs_ps(a.V) }; }
+  static Float Sqrt(Float a) { return { _mm512_sqrt_ps(a.V) }; }
+
+  static Float Select(Mask mask, Float yes, Float no)
+  {
+    return { _mm512_mask_blend_ps(mask.Lanes, no.V, yes.V) };
+  }
+  static Int Select(Mask mask, Int yes, Int no)
+  {
+    return { _mm512_mask_blend_epi32(mask.Lanes, no.V, yes.V) };
+  }
+  static Int One(Mask mask) { return { _mm512_maskz_set1_epi32(mask.Lanes, 1) }; }
+  static Mask AndNot(Mask a, Mask b) { return { _mm512_kandn(b.Lanes, a.Lanes) }; }
+  static Mask Not(Mask a) { return { _mm512_knot(a.Lanes) }; }
+  static unsigned int Bits(Mask mask) { return mask.Lanes; }
+  static Mask FromBits(unsigned int bits) { return { static_cast<__mmask16>(bits) }; }
+
+  static Int Increment(Mask mask, Int a)
+  {
+    return { _mm512_mask_add_epi32(a.V, mask.Lanes, a.V, _mm512_set1_epi32(1)) };
+  }
+  static Int Decrement(Mask mask, Int a)
+  {
+    return { _mm512_mask_sub_epi32(a.V, mask.Lanes, a.V, _mm512_set1_epi32(1)) };
+  }
+  static Int And(Int a, Int b) { return { _mm512_and_si512(a.V, b.V) }; }
+  static Float ToFloat(Int a) { return { _mm512_cvtepi32_ps(a.V) }; }
+  static Int MultiplyHigh(
+    Int a, const std::int32_t* b, const std::int64_t* evenAddend, const std::int64_t* oddAddend)
+  {
+    const __m512i factor = _mm512_loadu_si512(b);
+    const __m512i even =
+      _mm512_add_epi64(_mm512_mul_epi32(a.V, factor), _mm512_loadu_si512(evenAddend));
+    const __m512i odd =
+      _mm512_add_epi64(_mm512_mul_epi32(_mm512_srli_epi64(a.V, 32), _mm512_srli_epi64(factor, 32)),
+        _mm512_loadu_si512(oddAddend));
+    return { _mm512_mask_blend_epi32(0xaaaa, _mm512_srli_epi64(even, 32), odd) };
+  }
+  static Int Pick(Int index, const Int (&of)[4])
+  {
+    const Mask odd{ _mm512_test_epi32_mask(index.V, _mm512_set1_epi32(1)) };
+    const Mask high{ _mm512_test_epi32_mask(index.V, _mm512_set1_epi32(2)) };
+    return Select(high, Select(odd, of[3], of[2]), Select(odd, of[1], of[0]));
+  }
+
+  template <int Stride>
+  static void GatherQuads(const float* from, Int index, Float& x, Float& y, Float& z, Float& w)
+  {
+    std::int32_t at[Width];
+    Store(at, index);
+    const float* rows[Width];
+    for (int i = 0; i < Width; ++i)
+    {
+      rows[i] = from + std::int64_t{ Stride } * at[i];
+    }
+    Transpose(rows, x, y, z, w);
+  }
+  static void GatherTriples(const float* from, Int index, Float& x, Float& y, Float& z)
+  {
+    std::int32_t at[Width];
+    Store(at, index);
+    const float* rows[Width];
+    for (int i = 0; i < Width; ++i)
+    {
+      rows[i] = from + std::int64_t{ 3 } * at[i];
+    }
+    // Nothing is read behind the third.
+    const __m128i three = _mm_setr_epi32(-1, -1, -1, 0);
+    Float none;
+    TransposeAs(
+      [three](const float* row) { return _mm_maskload_ps(row, three); }, rows, x, y, z, none);
+  }
+  static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
+    Int (&links)[4], Float (&vertex)[4])
+  {
+    const __m512i face = _mm512_and_si512(cellFace.V, _mm512_set1_epi32(3));
+    const __m512i cell = _mm512_slli_epi32(_mm512_sub_epi32(cellFace.V, face), 1);
+    // Up to 8 * 2^29 - 1: unsigned.
+    std::uint32_t cellAt[Width];
+    std::uint32_t oppositeAt[Width];
+    _mm512_storeu_si512(cellAt, cell);
+    _mm512_storeu_si512(oppositeAt, _mm512_or_si512(cell, face));
+    const float* linkRows[Width];
+    const float* vertexRows[Width];
+    for (int i = 0; i < Width; ++i)
+    {
+      vertexRows[i] = vertices + 4 * std::int64_t{ cells[oppositeAt[i]] };
+      linkRows[i] = reinterpret_cast<const float*>(cells + 4 + cellAt[i]);
+    }
+    Transpose(vertexRows, vertex[0], vertex[1], vertex[2], vertex[3]);
+    Float bits[4];
+    Transpose(linkRows, bits[0], bits[1], bits[2], bits[3]);
+    for (int k = 0; k < 4; ++k)
+    {
+      links[k] = AsInt(bits[k]);
+    }
+  }
+  /** Four floats from each of the rows. */
+  static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
+  {
+    TransposeAs([](const float* row) { return _mm_loadu_ps(row); }, rows, x, y, z, w);
+  }
+  template <typename LoadRow>
+  static void TransposeAs(
+    const LoadRow& load, const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
+  {
+    const auto row = [&rows, &load](int i)
+    {
+      __m512 r = _mm512_castps128_ps512(load(rows[i]));
+      r = _mm512_insertf32x4(r, load(rows[i + 4]), 1);
+      r = _mm512_insertf32x4(r, load(rows[i + 8]), 2);
+      return _mm512_insertf32x4(r, load(rows[i + 12]), 3);
+    };
+    const __m512 r0 = row(0);
+    const __m512 r1 = row(1);
+    const __m512 r2 = row(2);
+    const __m512 r3 = row(3);
+    const __m512 xy01 = _mm512_unpacklo_ps(r0, r1);
+    const __m512 xy23 = _mm512_unpacklo_ps(r2, r3);
+    const __m512 zw01 = _mm512_unpackhi_ps(r0, r1);
+    const __m512 zw23 = _mm512_unpackhi_ps(r2, r3);
+    x.V = _mm512_shuffle_ps(xy01, xy23, _MM_SHUFFLE(1, 0, 1, 0));
+    y.V = _mm512_shuffle_ps(xy01, xy23, _MM_SHUFFLE(3, 2, 3, 2));
+    z.V = _mm512_shuffle_ps(zw01, zw23, _MM_SHUFFLE(1, 0, 1, 0));
+    w.V = _mm512_shuffle_ps(zw01, zw23, _MM_SHUFFLE(3, 2, 3, 2));
+  }
+  static Float GatherCellScalars(const float* scalars, Int cellFace)
+  {
+    return { _mm512_i32gather_ps(_mm512_srli_epi32(cellFace.V, 2), scalars, 4) };
+  }
+  static constexpr int LookupBlock = 16;
+  template <int Blocks>
+  static Float Lookup(const float* table, Int index)
+  {
+    if (Blocks == 1)
+    {
+      return { _mm512_permutexvar_ps(index.V, _mm512_loadu_ps(table)) };
+    }
+    return { _mm512_permutex2var_ps(_mm512_loadu_ps(table), index.V, _mm512_loadu_ps(table + 16)) };
+  }
+  static Int AsInt(Float a) { return { _mm512_castps_si512(a.V) }; }
+};
+
+}
+
+#endif

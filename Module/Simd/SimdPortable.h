@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Simd_SimdPortable_h
+#define meniscus_Simd_SimdPortable_h
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+namespace meniscus
+{
+
+constexpr int PortableWidth = 4;
+
+template <typename T>
+struct PortableLanes
+{
+  T Of[PortableWidth];
+};
+
+/** Applies a function of lane values to each lane. */
+template <typename Result, typename Function, typename... Arguments>
+inline PortableLanes<Result> EachLane(const Function& function, const Arguments&... arguments)
+{
+  PortableLanes<Result> result;
+  for (int i = 0; i < PortableWidth; ++i)
+  {
+    result.Of[i] = function(arguments.Of[i]...);
+  }
+  return result;
+}
+
+template <typename T>
+inline PortableLanes<T> operator+(const PortableLanes<T>& a, const PortableLanes<T>& b)
+{
+  return EachLane<T>([](T x, T y) { return x + y; }, a, b);
+}
+template <typename T>
+inline PortableLanes<T> operator-(const PortableLanes<T>& a, const PortableLanes<T>& b)
+{
+  return EachLane<T>([](T x, T y) { return x - y; }, a, b);
+}
+template <typename T>
+inline PortableLanes<T> operator*(const PortableLanes<T>& a, const PortableLanes<T>& b)
+{
+  return EachLane<T>([](T x, T y) { return x * y; }, a, b);
+}
+template <typename T>
+inline PortableLanes<T> operator/(const PortableLanes<T>& a, const PortableLanes<T>& b)
+{
+  return EachLane<T>([](T x, T y) { return x / y; }, a, b);
+}
+template <typename T>
+inline PortableLanes<bool> operator<(const PortableLanes<T>& a, const PortableLanes<T>& b)
+{
+  return EachLane<bool>([](T x, T y) { return x < y; }, a, b);
+}
+template <typename T>
+inline PortableLanes<bool> operator>(const PortableLanes<T>& a, const PortableLanes<T>& b)
+{
+  return b < a;
+}
+inline PortableLanes<bool> operator&(const PortableLanes<bool>& a, const PortableLanes<bool>& b)
+{
+  return EachLane<bool>([](bool x, bool y) { return x && y; }, a, b);
+}
+inline PortableLanes<bool> operator|(const PortableLanes<bool>& a, const PortableLanes<bool>& b)
+{
+  return EachLane<bool>([](bool x, bool y) { return x || y; }, a, b);
+}
+
+/**
+ * Packets of 4 lanes in plain C++, for any processor. SimdAVX2 and SimdAVX512 offer the same names
+ * with intrinsics; they are all that the templates of the ray caster use.
+ *
+ * Float, Int (32 bits) and Mask hold one value per lane. Comparisons with NaN are false;
+ * Min and Max return their second argument then.
+ */
+struct SimdPortable
+{
+  static constexpr int Width = PortableWidth;
+  using Float = PortableLanes<float>;
+  using Int = PortableLanes<std::int32_t>;
+  using Mask = PortableLanes<bool>;
+
+  template <typename T>
+  static PortableLanes<T> Load(const T* from)
+  {
+    PortableLanes<T> result;
+    std::memcpy(result.Of, from, sizeof(result.Of));
+    return result;
+  }
+  template <typename T>
+  static void Store(T* to, const PortableLanes<T>& x)
+  {
+    std::memcpy(to, x.Of, sizeof(x.Of));
+  }
+  template <typename T>
+  static PortableLanes<T> Splat(T value)
+  {
+    return EachLane<T>([value](T) { return value; }, PortableLanes<T>());
+  }
+
+  /** a * b + c. */
+  template <typename T>
+  static PortableLanes<T> Fma(
+    const PortableLanes<T>& a, const PortableLanes<T>& b, const PortableLanes<T>& c)
+  {
+    return a * b + c;
+  }
+  /**
+   * a * d - b * c. The sign may be wrong, and the value off, by 2^-22 of |b c|, where the factors
+   * are exact.
+   */
+  static Float CrossProduct(const Float& a, const Float& b, const Float& c, const Float& d)
+  {
+    return a * d - b * c;
+  }
+  static Float Min(const Float& a, const Float& b)
+  {
+    return EachLane<float>([](float x, float y) { return x < y ? x : y; }, a, b);
+  }
+  static Float Max(const Float& a, const Float& b)
+  {
+    return EachLane<float>([](float x, float y) { return x > y ? x : y; }, a, b);
+  }
+  static Float Abs(const Float& a)
+  {
+    return EachLane<float>([](float x) { return std::fabs(x); }, a);
+  }
+  static Float Sqrt(const Float& a)
+  {
+    return EachLane<float>([](float x) { return std::sqrt(x); }, a);
+  }
+
+  template <typename T>
+  static PortableLanes<T> Select(
+    const Mask& mask, const PortableLanes<T>& yes, const PortableLanes<T>& no)
+  {
+    return EachLane<T>([](bool m, T x, T y) { return m ? x : y; }, mask, yes, no);
+  }
+  /** 1 where set, else 0. */
+  static Int One(const Mask& mask)
+  {
+    return EachLane<std::int32_t>([](bool m) { return m ? 1 : 0; }, mask);
+  }
+  /** a and not b. */
+  static Mask AndNot(const Mask& a, const Mask& b)
+  {
+    return EachLane<bool>([](bool x, bool y) { return x && !y; }, a, b);
+  }
+  static Mask Not(const Mask& a)
+  {
+    return EachLane<bool>([](bool x) { return !x; }, a);
+  }
+  /** Bit i is lane i. */
+  static unsigned int Bits(const Mask& mask)
+  {
+    unsigned int bits = 0;
+    for (int i = 0; i < Width; ++i)
+    {
+      bits |= (mask.Of[i] ? 1u : 0u) << i;
+    }
+    return bits;
+  }
+  static Mask FromBits(unsigned int bits)
+  {
+    Mask mask;
+    for (int i = 0; i < Width; ++i)
+    {
+      mask.Of[i] = (bits >> i & 1u) != 0;
+    }
+    return mask;
+  }
+
+  /** a + 1 and a - 1 where set. */
+  static Int Increment(const Mask& mask, const Int& a) { return a + One(mask); }
+  static Int Decrement(const Mask& mask, const Int& a) { return a - One(mask); }
+  static Int And(const Int& a, const Int& b)
+  {
+    return EachLane<std::int32_t>([](std::int32_t x, std::int32_t y) { return x & y; }, a, b);
+  }
+  static Float ToFloat(const Int& a)
+  {
+    return EachLane<float>([](std::int32_t x) { return static_cast<float>(x); }, a);
+  }
+  /**
+   * The upper half of a * b + addend in 64 bits, rounded down; the addends of even and of odd lanes
+   * are apart.
+   */
+  static Int MultiplyHigh(const Int& a, const std::int32_t* b, const std::int64_t* evenAddend,
+    const std::int64_t* oddAddend)
+  {
+    Int result;
+    for (int i = 0; i < Width; ++i)
+    {
+      const std::int64_t addend = (i % 2 == 0 ? evenAddend : oddAddend)[i / 2];
+      result.Of[i] = static_cast<std::int32_t>((std::int64_t{ a.Of[i] } * b[i] + addend) >> 32);
+    }
+    return result;
+  }
+  /** Per lane, of[index]. */
+  static Int Pick(const Int& index, const Int (&of)[4])
+  {
+    Int result;
+    for (int i = 0; i < Width; ++i)
+    {
+      result.Of[i] = of[index.Of[i]].Of[i];
+    }
+    return result;
+  }
+
+  /** Per lane, the four floats from `from + Stride * index`. */
+  template <int Stride>
+  static void GatherQuads(
+    const float* from, const Int& index, Float& x, Float& y, Float& z, Float& w)
+  {
+    for (int i = 0; i < Width; ++i)
+    {
+      const float* quad = from + std::int64_t{ Stride } * index.Of[i];
+      x.Of[i] = quad[0];
+      y.Of[i] = quad[1];
+      z.Of[i] = quad[2];
+      w.Of[i] = quad[3];
+    }
+  }
+  /** Per lane, the three floats from `from + 3 * index`. */
+  static void GatherTriples(const float* from, const Int& index, Float& x, Float& y, Float& z)
+  {
+    for (int i = 0; i < Width; ++i)
+    {
+      const float* triple = from + std::int64_t{ 3 } * index.Of[i];
+      x.Of[i] = triple[0];
+      y.Of[i] = triple[1];
+      z.Of[i] = triple[2];
+    }
+  }
+  /**
+   * For cell and face number cellFace / 4 and cellFace % 4: the links of the cell, of the integers
+   * from `cells + 8 cell` the last four, and the four floats of its vertex opposite to the face.
+   */
+  static void GatherCells(const std::int32_t* cells, const float* vertices, const Int& cellFace,
+    Int (&links)[4], Float (&vertex)[4])
+  {
+    for (int i = 0; i < Width; ++i)
+    {
+      const std::int64_t face = cellFace.Of[i] % 4;
+      const std::int32_t* cell = cells + 2 * (cellFace.Of[i] - face);
+      const float* opposite = vertices + 4 * std::int64_t{ cell[face] };
+      for (int k = 0; k < 4; ++k)
+      {
+        links[k].Of[i] = cell[4 + k];
+        vertex[k].Of[i] = opposite[k];
+      }
+    }
+  }
+  /** scalars[cellFace / 4]. */
+  static Float GatherCellScalars(const float* scalars, const Int& cellFace)
+  {
+    return EachLane<float>([scalars](std::int32_t i) { return scalars[i / 4]; }, cellFace);
+  }
+  /** table[index], of a table of `Blocks` (1 or 2) times LookupBlock entries. */
+  static constexpr int LookupBlock = 8;
+  template <int Blocks>
+  static Float Lookup(const float* table, const Int& index)
+  {
+    return EachLane<float>([table](std::int32_t i) { return table[i]; }, index);
+  }
+  /** The same bits. */
+  static Int AsInt(const Float& a)
+  {
+    Int result;
+    std::memcpy(result.Of, a.Of, sizeof(a.Of));
+    return result;
+  }
+};
+
+}
+
+#endif

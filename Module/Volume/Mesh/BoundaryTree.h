@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Mesh_BoundaryTree_h
+#define meniscus_Volume_Mesh_BoundaryTree_h
+
+#include "Volume/Mesh/TetrahedralMesh.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * A bounding volume hierarchy over boundary faces, in preorder, for traversal without a stack: a
+ * node that is hit is followed by the next node, one that is missed by its Skip.
+ */
+class BoundaryTree
+{
+public:
+  struct Node
+  {
+    /** Centre and half extents of the box, relative to the mesh's centre. */
+    glm::vec3 Center;
+    glm::vec3 Half;
+    /** The node that follows this node's subtree. */
+    std::int32_t Skip;
+    /** A leaf's face in GetFaces(); -1 for an inner node. */
+    std::int32_t Face;
+  };
+
+  void Build(const TetrahedralMesh& mesh);
+
+  const std::vector<Node>& GetNodes() const { return this->Nodes; }
+  /** Boundary faces in leaf order. */
+  const std::vector<BoundaryFace>& GetFaces() const { return this->Faces; }
+
+private:
+  struct Item;
+  void BuildSubtree(
+    const TetrahedralMesh& mesh, std::vector<Item>& items, std::size_t first, std::size_t last);
+
+  std::vector<Node> Nodes;
+  std::vector<BoundaryFace> Faces;
+};
+
+}
+
+#endif

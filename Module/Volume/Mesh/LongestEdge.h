@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Mesh_LongestEdge_h
+#define meniscus_Volume_Mesh_LongestEdge_h
+
+#include "Common/RangeLoop.h"
+
+namespace meniscus
+{
+
+class TetrahedralMesh;
+
+/** Longest edge of a cell, in units of the mesh's radius; 0 without cells. */
+double ComputeLongestEdge(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
+
+}
+
+#endif

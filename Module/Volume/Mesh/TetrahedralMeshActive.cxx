@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Which cells of a TetrahedralMesh are active, and the boundary of those.
+#include "Common/BlockLoop.h"
+#include "Volume/Mesh/CellFaces.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Optics/VisibleScalars.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+namespace meniscus
+{
+namespace
+{
+
+/** What a block of cells adds to the sums over all. */
+struct BlockCount
+{
+  std::int64_t Active = 0;
+  std::int64_t Changed = 0;
+  std::int64_t Unknown = 0;
+};
+
+}
+
+/** The scalars that a cell can show. */
+struct TetrahedralMesh::ScalarRange
+{
+  float Lowest;
+  float Highest;
+  bool Known;
+};
+
+//------------------------------------------------------------------------------
+bool TetrahedralMesh::UpdateActiveCells(
+  const std::vector<float>& scalars, const VisibleScalars& visible, const RangeLoop& loop)
+{
+  return this->ActivateCells(
+    [this, &scalars](std::size_t c)
+    {
+      const auto& v = this->Cells[c].Vertices;
+      const float s[4] = { scalars[v[0]], scalars[v[1]], scalars[v[2]], scalars[v[3]] };
+      // The sum of normalised scalars is NaN if one of them is.
+      return ScalarRange{ std::min(std::min(s[0], s[1]), std::min(s[2], s[3])),
+        std::max(std::max(s[0], s[1]), std::max(s[2], s[3])),
+        !std::isnan(s[0] + s[1] + s[2] + s[3]) };
+    },
+    visible, loop);
+}
+
+//------------------------------------------------------------------------------
+bool TetrahedralMesh::UpdateActiveCells(const std::vector<float>& cellScalars, CellJumps jumps,
+  const VisibleScalars& visible, const RangeLoop& loop)
+{
+  return this->ActivateCells(
+    [this, &cellScalars, jumps](std::size_t c)
+    {
+      ScalarRange range{ cellScalars[c], cellScalars[c], !std::isnan(cellScalars[c]) };
+      if (jumps == CellJumps::Hidden || !range.Known)
+      {
+        return range;
+      }
+      for (const std::int32_t link : this->Cells[c].Links)
+      {
+        if (link != NoNeighbor)
+        {
+          // fmin and fmax pass over a NaN: to a cell without a value there is no jump.
+          const float across = cellScalars[(link < NoNeighbor ? MarkedLink(link) : link) / 4];
+          range.Lowest = std::fmin(range.Lowest, across);
+          range.Highest = std::fmax(range.Highest, across);
+        }
+      }
+      return range;
+    },
+    visible, loop);
+}
+
+//------------------------------------------------------------------------------
+template <typename RangeOf>
+bool TetrahedralMesh::ActivateCells(
+  RangeOf&& rangeOf, const VisibleScalars& visible, const RangeLoop& loop)
+{
+  std::vector<std::uint8_t> active(this->Cells.size());
+  std::vector<BlockCount> counts(NumberOfBlocks(this->Cells.size()));
+  ForEachBlock(this->Cells.size(), loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      BlockCount count;
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const ScalarRange range = rangeOf(c);
+        active[c] = range.Known && visible.Meets(range.Lowest, range.Highest);
+        count.Active += active[c];
+        count.Unknown += !range.Known;
+        count.Changed += active[c] != (std::abs(this->Orientation[c]) == 1);
+      }
+      counts[block] = count;
+    });
+  BlockCount total;
+  for (const BlockCount& count : counts)
+  {
+    total.Active += count.Active;
+    total.Changed += count.Changed;
+    total.Unknown += count.Unknown;
+  }
+  this->UnknownCells = total.Unknown;
+  if (total.Changed == 0)
+  {
+    return false;
+  }
+  this->ActiveCells = total.Active;
+  this->MarkLinks(active, loop);
+  this->CollectBoundary(loop);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool TetrahedralMesh::SetActiveCells(
+  const std::vector<std::uint8_t>& active, std::int64_t unknown, const RangeLoop& loop)
+{
+  std::int64_t number = 0;
+  bool changed = false;
+  for (std::size_t c = 0; c < this->Cells.size(); ++c)
+  {
+    number += active[c];
+    changed = changed || active[c] != (std::abs(this->Orientation[c]) == 1);
+  }
+  this->UnknownCells = unknown;
+  if (changed)
+  {
+    this->ActiveCells = number;
+    this->MarkLinks(active, loop);
+    this->CollectBoundary(loop);
+  }
+  return changed;
+}
+
+//------------------------------------------------------------------------------
+void TetrahedralMesh::MarkLinks(const std::vector<std::uint8_t>& active, const RangeLoop& loop)
+{
+  ForEachBlock(this->Cells.size(), loop,
+    [this, &active](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const int sign = this->Orientation[c] > 0 ? 1 : -1;
+        this->Orientation[c] = static_cast<std::int8_t>(active[c] ? sign : 2 * sign);
+        for (std::int32_t& link : this->Cells[c].Links)
+        {
+          if (link != NoNeighbor)
+          {
+            const std::int32_t neighbor = link < NoNeighbor ? MarkedLink(link) : link;
+            link = active[neighbor / 4] ? neighbor : MarkedLink(neighbor);
+          }
+        }
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+BoundaryFace TetrahedralMesh::GetFace(std::int64_t cell, int face) const
+{
+  return { FaceVertices(this->Cells[cell].Vertices, face),
+    FaceParity(face) * this->Orientation[cell], static_cast<std::int32_t>(4 * cell + face) };
+}
+
+//------------------------------------------------------------------------------
+void TetrahedralMesh::CollectBoundary(const RangeLoop& loop)
+{
+  const auto isBoundary = [this](std::size_t c, int face)
+  { return std::abs(this->Orientation[c]) == 1 && this->Cells[c].Links[face] < 0; };
+
+  // Counted before they are written, so that the order is that of the cells on any threads.
+  std::vector<std::size_t> starts(NumberOfBlocks(this->Cells.size()) + 1, 0);
+  ForEachBlock(this->Cells.size(), loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        for (int face = 0; face < 4; ++face)
+        {
+          starts[block + 1] += isBoundary(c, face);
+        }
+      }
+    });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  this->Boundary.resize(starts.back());
+  ForEachBlock(this->Cells.size(), loop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      std::size_t next = starts[block];
+      for (std::size_t c = first; c < last; ++c)
+      {
+        for (int face = 0; face < 4; ++face)
+        {
+          if (isBoundary(c, face))
+          {
+            this->Boundary[next++] = this->GetFace(static_cast<std::int64_t>(c), face);
+          }
+        }
+      }
+    });
+}
+
+}

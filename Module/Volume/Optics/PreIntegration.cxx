@@ -1,0 +1,300 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Optics/PreIntegration.h"
+
+#include "Common/BlockLoop.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+/**
+ * Up to this optical depth d a segment's colour is nearly that without attenuation in itself: with
+ * linear colour from 0 to 1 and constant attenuation it is off by d^2 / 12, here 2e-5.
+ */
+constexpr double ShallowDepth = 1.0 / 64.0;
+/** Optical depth of the first length above 0, if there are enough lengths. */
+constexpr double FirstDepth = 1.0 / 16.0;
+/** The doubling begins with segments of this depth: off by d^2 / 12 = 8e-8. */
+constexpr double SeedDepth = 1.0 / 1024.0;
+/** Keeps products with lengths finite. */
+constexpr double LargestDepth = 1.0e+30;
+
+double AttenuationAt(const TransferFunctionInterval& interval, double scalar)
+{
+  const double offset = scalar - interval.Lower;
+  return std::max(0.0, interval.Attenuation + offset * interval.AttenuationSlope);
+}
+
+glm::dvec3 ColorAt(const TransferFunctionInterval& interval, double scalar)
+{
+  return glm::dvec3(interval.Color) + (scalar - interval.Lower) * glm::dvec3(interval.ColorSlope);
+}
+
+glm::dvec3 EmissionAt(const TransferFunctionInterval& interval, double scalar)
+{
+  return AttenuationAt(interval, scalar) * ColorAt(interval, scalar);
+}
+
+/** Opacity of a length of constant or mean attenuation. */
+double Opacity(double attenuation, double length)
+{
+  return -std::expm1(-std::min(attenuation * length, LargestDepth));
+}
+
+/** The same function of (scalar - middle) * perHalfRange. */
+std::vector<TransferFunctionInterval> Moved(
+  std::vector<TransferFunctionInterval> intervals, double middle, double perHalfRange)
+{
+  for (TransferFunctionInterval& interval : intervals)
+  {
+    const auto move = [=](float scalar)
+    {
+      constexpr double beyond = std::numeric_limits<float>::max();
+      return static_cast<float>(std::clamp((scalar - middle) * perHalfRange, -beyond, beyond));
+    };
+    interval.Lower = move(interval.Lower);
+    interval.Upper = move(interval.Upper);
+    interval.AttenuationSlope = static_cast<float>(interval.AttenuationSlope / perHalfRange);
+    interval.ColorSlope = glm::vec3(glm::dvec3(interval.ColorSlope) / perHalfRange);
+  }
+  return intervals;
+}
+
+/** Whether every scalar in [-1, 1] that can be seen has the same colour. */
+bool HasOneColor(const std::vector<TransferFunctionInterval>& intervals)
+{
+  const TransferFunctionInterval* first = nullptr;
+  for (const TransferFunctionInterval& interval : intervals)
+  {
+    const bool seen = interval.Lower <= 1.0f && interval.Upper >= -1.0f &&
+      (interval.Attenuation > 0.0f || interval.AttenuationSlope > 0.0f);
+    if (!seen)
+    {
+      continue;
+    }
+    first = first ? first : &interval;
+    if (interval.ColorSlope != glm::vec3(0.0f) || interval.Color != first->Color)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+double LargestAttenuationOf(const std::vector<TransferFunctionInterval>& intervals)
+{
+  double largest = 0.0;
+  for (const TransferFunctionInterval& interval : intervals)
+  {
+    const double lower = std::max(-1.0, static_cast<double>(interval.Lower));
+    const double upper = std::min(1.0, static_cast<double>(interval.Upper));
+    if (lower <= upper)
+    {
+      largest =
+        std::max({ largest, AttenuationAt(interval, lower), AttenuationAt(interval, upper) });
+    }
+  }
+  return largest;
+}
+
+}
+
+//------------------------------------------------------------------------------
+double PreIntegrationTable::GetLength(int k) const
+{
+  return k == 0 ? 0.0
+                : this->Shortest * std::exp2((k - 1) / static_cast<double>(this->LengthsPerOctave));
+}
+
+//------------------------------------------------------------------------------
+void PreIntegrationTable::SampleFunction(const std::vector<TransferFunctionInterval>& intervals)
+{
+  const int count = 2 * this->Scalars - 1;
+  const auto scalarOf = [count](int i) { return -1.0 + 2.0 * i / (count - 1); };
+  this->Samples.assign(count, Sample());
+  Sample sum;
+  std::size_t at = 0;
+  double from = scalarOf(0);
+  for (int i = 0; i < count; ++i)
+  {
+    const double to = scalarOf(i);
+    // Attenuation is linear in an interval, its product with colour quadratic: the rule of the
+    // middle and Simpson's are exact.
+    const auto add = [&](double end)
+    {
+      const TransferFunctionInterval& interval = intervals[at];
+      const double middle = 0.5 * (from + end);
+      sum.Depth += (end - from) * AttenuationAt(interval, middle);
+      sum.Emission += (end - from) / 6.0 *
+        (EmissionAt(interval, from) + 4.0 * EmissionAt(interval, middle) +
+          EmissionAt(interval, end));
+      from = end;
+    };
+    while (at + 1 < intervals.size() && intervals[at].Upper < to)
+    {
+      if (intervals[at].Upper > from)
+      {
+        add(intervals[at].Upper);
+      }
+      ++at;
+    }
+    add(to);
+    sum.Attenuation = AttenuationAt(intervals[at], to);
+    sum.Color = ColorAt(intervals[at], to);
+    this->Samples[i] = sum;
+  }
+}
+
+//------------------------------------------------------------------------------
+void PreIntegrationTable::ChooseLengths(
+  const std::vector<TransferFunctionInterval>& intervals, double longest, int lengths)
+{
+  this->Longest = longest;
+  this->Shortest = longest;
+  this->LengthsPerOctave = 1;
+  this->LargestAttenuation = LargestAttenuationOf(intervals);
+  const double deepest = this->LargestAttenuation * longest;
+  this->Lengths = deepest <= ShallowDepth || HasOneColor(intervals) ? 1 : lengths;
+  if (this->Lengths > 2)
+  {
+    const int steps = this->Lengths - 2;
+    const double octaves = std::max(1.0, std::ceil(std::log2(deepest / FirstDepth)));
+    this->LengthsPerOctave = std::max(1, static_cast<int>(steps / octaves));
+    this->Shortest = longest * std::exp2(-steps / static_cast<double>(this->LengthsPerOctave));
+  }
+}
+
+//------------------------------------------------------------------------------
+double PreIntegrationTable::MeanAttenuation(int front, int back) const
+{
+  const Sample& a = this->Samples[front];
+  const Sample& b = this->Samples[back];
+  const double perSample = 2.0 / static_cast<double>(this->Samples.size() - 1);
+  return front == back ? a.Attenuation
+                       : std::max(0.0, (b.Depth - a.Depth) / ((back - front) * perSample));
+}
+
+//------------------------------------------------------------------------------
+PreIntegrationTable::Slice PreIntegrationTable::ShortSegments(const RangeLoop& loop) const
+{
+  const int count = this->Scalars;
+  Slice slice(static_cast<std::size_t>(count) * count);
+  loop(count,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b)
+      {
+        for (int f = 0; f < count; ++f)
+        {
+          const Sample& front = this->Samples[2 * f];
+          const Sample& back = this->Samples[2 * b];
+          const double depth = back.Depth - front.Depth;
+          // What cannot be seen has a colour too: that of the middle, for interpolation.
+          slice[static_cast<std::size_t>(b) * count + f] = depth != 0.0
+            ? glm::vec3((back.Emission - front.Emission) / depth)
+            : glm::vec3(this->Samples[f + b].Color);
+        }
+      }
+    });
+  return slice;
+}
+
+//------------------------------------------------------------------------------
+PreIntegrationTable::Slice PreIntegrationTable::DoubleLength(
+  const Slice& halves, double length, const RangeLoop& loop) const
+{
+  const int count = this->Scalars;
+  const auto at = [&halves, count](int f, int b)
+  { return halves[static_cast<std::size_t>(b) * count + f]; };
+  Slice slice(halves.size());
+  loop(count,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b)
+      {
+        for (int f = 0; f < count; ++f)
+        {
+          const int middle = f + b; // among the samples, of which there are two to a scalar
+          const int below = middle / 2;
+          const int above = below + middle % 2;
+          const double front = Opacity(this->MeanAttenuation(2 * f, middle), 0.5 * length);
+          const double back =
+            (1.0 - front) * Opacity(this->MeanAttenuation(middle, 2 * b), 0.5 * length);
+          const glm::vec3 frontColor = 0.5f * (at(f, below) + at(f, above));
+          const glm::vec3 backColor = 0.5f * (at(below, b) + at(above, b));
+          const double whole = front + back;
+          const float share = whole > 0.0 ? static_cast<float>(front / whole) : 0.5f;
+          slice[static_cast<std::size_t>(b) * count + f] =
+            share * frontColor + (1.0f - share) * backColor;
+        }
+      }
+    });
+  return slice;
+}
+
+//------------------------------------------------------------------------------
+void PreIntegrationTable::Store(int length, const Slice& slice, const RangeLoop& loop)
+{
+  const int count = this->Scalars;
+  float* values = &this->Values[4 * static_cast<std::size_t>(length) * slice.size()];
+  loop(count,
+    [&](std::size_t first, std::size_t last)
+    {
+      for (int b = static_cast<int>(first); b < static_cast<int>(last); ++b)
+      {
+        for (int f = 0; f < count; ++f)
+        {
+          const std::size_t i = static_cast<std::size_t>(b) * count + f;
+          values[4 * i] = slice[i].r;
+          values[4 * i + 1] = slice[i].g;
+          values[4 * i + 2] = slice[i].b;
+          values[4 * i + 3] = static_cast<float>(this->MeanAttenuation(2 * f, 2 * b));
+        }
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+void PreIntegrationTable::Build(const std::vector<TransferFunctionInterval>& function,
+  double longest, int scalars, int lengths, const RangeLoop& loop, const ScalarRange& range)
+{
+  this->Middle = 0.5 * (range.Lowest + range.Highest);
+  this->PerHalfRange = 2.0 / (range.Highest - range.Lowest);
+  const std::vector<TransferFunctionInterval> intervals =
+    Moved(function, this->Middle, this->PerHalfRange);
+  this->Scalars = scalars;
+  this->ChooseLengths(intervals, longest, lengths);
+  this->SampleFunction(intervals);
+  const Slice seed = this->ShortSegments(loop);
+  this->Values.assign(4 * static_cast<std::size_t>(this->Lengths) * seed.size(), 0.0f);
+  this->Store(0, seed, loop);
+  const int chains = std::min(this->LengthsPerOctave, this->Lengths - 1);
+  for (int chain = 1; chain <= chains; ++chain)
+  {
+    const double first = this->GetLength(chain);
+    const double depth = this->LargestAttenuation * first;
+    const int doublings =
+      depth > SeedDepth ? static_cast<int>(std::ceil(std::log2(depth / SeedDepth))) : 0;
+    Slice slice = seed;
+    for (int i = 1; i <= doublings; ++i)
+    {
+      slice = this->DoubleLength(slice, std::ldexp(first, i - doublings), loop);
+    }
+    this->Store(chain, slice, loop);
+    for (int k = chain + this->LengthsPerOctave; k < this->Lengths; k += this->LengthsPerOctave)
+    {
+      slice = this->DoubleLength(slice, this->GetLength(k), loop);
+      this->Store(k, slice, loop);
+    }
+  }
+}
+
+}

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Optics/SurfaceLighting.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
+  const glm::dvec3& place, const glm::dvec2& raySlope)
+{
+  ReflectedLight light{ glm::dvec3(lighting.Ambient), glm::dvec3(0.0) };
+  const glm::dvec3 sizes = glm::abs(normal);
+  const double largest = std::max({ sizes.x, sizes.y, sizes.z });
+  if (!(largest > 0.0))
+  {
+    return light;
+  }
+  const glm::dvec3 toEye = -glm::normalize(glm::dvec3(raySlope.x, raySlope.y, 1.0));
+  glm::dvec3 facing = glm::normalize(normal / largest);
+  facing = glm::dot(facing, toEye) < 0.0 ? -facing : facing;
+  for (const RayCastLight& source : lighting.Lights)
+  {
+    glm::dvec3 toLight = glm::dvec3(source.Position) - source.Position.w * place;
+    const double distance = glm::length(toLight);
+    toLight /= distance;
+    const glm::dvec3 powers(1.0, distance, distance * distance);
+    double strength = 1.0 / glm::dot(glm::dvec3(source.Falloff), powers);
+    const double inCone = -glm::dot(toLight, glm::dvec3(source.Cone));
+    if (source.Cone.w >= -1.0 && source.Falloff.w != 0.0)
+    {
+      strength *= std::pow(std::max(inCone, 0.0), source.Falloff.w);
+    }
+    const double cosine = glm::dot(facing, toLight);
+    if (inCone >= source.Cone.w && cosine > 0.0)
+    {
+      const double glance = glm::dot(2.0 * cosine * facing - toLight, toEye);
+      light.Reflected += strength * lighting.Diffuse * cosine * source.Diffuse;
+      if (glance > 0.0)
+      {
+        light.Highlight +=
+          strength * lighting.Specular * std::pow(glance, lighting.SpecularPower) * source.Specular;
+      }
+    }
+  }
+  return light;
+}
+
+}

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Optics_SurfaceLighting_h
+#define meniscus_Volume_Optics_SurfaceLighting_h
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <vector>
+
+namespace meniscus
+{
+
+/** A light in the frame of the rays (RayFrame): x, y, depth about the mesh's centre. */
+struct RayCastLight
+{
+  /** Position and 1, or the direction towards the light and 0. */
+  glm::dvec4 Position{ 0.0 };
+  /** Colours times intensity. */
+  glm::dvec3 Diffuse{ 0.0 };
+  glm::dvec3 Specular{ 0.0 };
+  /** Axis and cosine of the cone's half angle; -2 without a cone. */
+  glm::dvec4 Cone{ 0.0, 0.0, 1.0, -2.0 };
+  /** Coefficients of the powers 0, 1, 2 of the distance, then the exponent within the cone. */
+  glm::dvec4 Falloff{ 1.0, 0.0, 0.0, 0.0 };
+};
+
+/** Material and lights of surfaces. */
+struct SurfaceLighting
+{
+  double Ambient = 0.0;
+  double Diffuse = 0.0;
+  double Specular = 0.0;
+  double SpecularPower = 1.0;
+  std::vector<RayCastLight> Lights;
+};
+
+/** What light does to an emitted colour: multiplied by Reflected, then Highlight added. */
+struct ReflectedLight
+{
+  glm::dvec3 Reflected;
+  glm::dvec3 Highlight;
+};
+
+/**
+ * Phong's model, two-sided: the normal is turned to the viewer.
+ * @param normal    in the frame, any length; 0 leaves the ambient light.
+ * @param place     of the surface, in the frame.
+ * @param raySlope  of the ray that sees it: change of x and y per depth.
+ */
+ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
+  const glm::dvec3& place, const glm::dvec2& raySlope);
+
+}
+
+#endif

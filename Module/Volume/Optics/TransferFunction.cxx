@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Optics/TransferFunction.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Beyond every normalised scalar, and its double still a finite float. */
+constexpr float Beyond = std::numeric_limits<float>::max() / 4.0f;
+
+float ToFloat(double value)
+{
+  return static_cast<float>(std::min(std::max(value, -double{ Beyond }), double{ Beyond }));
+}
+
+TransferFunctionInterval ConstantInterval(
+  float lower, float upper, const TransferFunctionPoint& value)
+{
+  return { lower, upper, ToFloat(value.Attenuation), 0.0f, glm::vec3(value.Color),
+    glm::vec3(0.0f) };
+}
+
+}
+
+//------------------------------------------------------------------------------
+std::vector<TransferFunctionInterval> BuildIntervals(
+  const std::vector<TransferFunctionPoint>& points, const ScalarNormalization& normalization)
+{
+  std::vector<TransferFunctionInterval> intervals;
+  if (points.empty())
+  {
+    intervals.push_back(ConstantInterval(-Beyond, Beyond, { 0.0, 0.0, glm::dvec3(0.0) }));
+    return intervals;
+  }
+  const auto normalized = [&normalization](const TransferFunctionPoint& point)
+  { return ToFloat(normalization(point.Scalar)); };
+
+  intervals.reserve(points.size() + 1);
+  intervals.push_back(ConstantInterval(-Beyond, normalized(points.front()), points.front()));
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  {
+    const TransferFunctionPoint& a = points[i];
+    const TransferFunctionPoint& b = points[i + 1];
+    TransferFunctionInterval interval = ConstantInterval(normalized(a), normalized(b), a);
+    const double width = static_cast<double>(interval.Upper) - interval.Lower;
+    if (width > 0.0)
+    {
+      interval.AttenuationSlope = ToFloat((b.Attenuation - a.Attenuation) / width);
+      interval.ColorSlope = glm::vec3((b.Color - a.Color) / width);
+    }
+    intervals.push_back(interval);
+  }
+  intervals.push_back(ConstantInterval(normalized(points.back()), Beyond, points.back()));
+  return intervals;
+}
+
+//------------------------------------------------------------------------------
+std::vector<ScalarFeature> FeaturesOf(const std::vector<TransferFunctionPoint>& points)
+{
+  std::vector<ScalarFeature> features;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  {
+    const TransferFunctionPoint& a = points[i];
+    const TransferFunctionPoint& b = points[i + 1];
+    if (a.Attenuation != b.Attenuation || a.Color != b.Color)
+    {
+      const double width = b.Scalar - a.Scalar;
+      features.push_back({ a.Scalar, width });
+      features.push_back({ b.Scalar, width });
+    }
+  }
+  return features;
+}
+
+}

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Optics_TransferFunction_h
+#define meniscus_Volume_Optics_TransferFunction_h
+
+#include "Volume/Optics/ScalarNormalization.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace meniscus
+{
+
+/** A control point. Two points at one scalar make a jump: the first holds below, the second above.
+ */
+struct TransferFunctionPoint
+{
+  double Scalar;
+  /** Attenuation coefficient per unit length, >= 0. */
+  double Attenuation;
+  glm::dvec3 Color;
+};
+
+/** Linear piece of a transfer function between two of its points, in normalised scalars. */
+struct TransferFunctionInterval
+{
+  float Lower;
+  float Upper;
+  float Attenuation;
+  float AttenuationSlope;
+  glm::vec3 Color;
+  glm::vec3 ColorSlope;
+};
+
+/**
+ * The intervals of a transfer function for float evaluation: piecewise linear attenuation and
+ * colour between `points` (ascending scalars), constant outside of them. They cover every finite
+ * normalised scalar, ascending and without gaps. No point gives one interval of no attenuation.
+ */
+std::vector<TransferFunctionInterval> BuildIntervals(
+  const std::vector<TransferFunctionPoint>& points, const ScalarNormalization& normalization);
+
+/** The features of the function of such points: where it changes, and over which width. */
+std::vector<ScalarFeature> FeaturesOf(const std::vector<TransferFunctionPoint>& points);
+
+}
+
+#endif

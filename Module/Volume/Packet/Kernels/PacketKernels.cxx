@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Packet/Kernels/PacketKernels.h"
+
+namespace meniscus
+{
+
+// Defined once per set, by PacketKernelsOfSet.cxx.in.
+#define MENISCUS_DECLARE_KERNELS(name, label, isSupported, target)                                 \
+  void CastPackets##name(const PacketJob& job);                                                    \
+  void FindEntered##name(const PacketFaceJob& job);
+MENISCUS_INSTRUCTION_SETS(MENISCUS_DECLARE_KERNELS)
+#undef MENISCUS_DECLARE_KERNELS
+
+//------------------------------------------------------------------------------
+void CastPackets(const PacketJob& job, InstructionSet set)
+{
+#define MENISCUS_KERNEL(name, label, isSupported, target) CastPackets##name,
+  constexpr void (*kernels[])(const PacketJob&) = { MENISCUS_INSTRUCTION_SETS(MENISCUS_KERNEL) };
+#undef MENISCUS_KERNEL
+  kernels[static_cast<int>(set)](job);
+}
+
+//------------------------------------------------------------------------------
+void FindEntered(const PacketFaceJob& job, InstructionSet set)
+{
+#define MENISCUS_KERNEL(name, label, isSupported, target) FindEntered##name,
+  constexpr void (*kernels[])(
+    const PacketFaceJob&) = { MENISCUS_INSTRUCTION_SETS(MENISCUS_KERNEL) };
+#undef MENISCUS_KERNEL
+  kernels[static_cast<int>(set)](job);
+}
+
+}

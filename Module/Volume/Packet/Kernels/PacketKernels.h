@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Entry points of the packet kernels, dispatched to the code of an instruction set. */
+#ifndef meniscus_Volume_Packet_Kernels_PacketKernels_h
+#define meniscus_Volume_Packet_Kernels_PacketKernels_h
+
+#include "Simd/InstructionSets.h"
+#include "Volume/Packet/Data/PacketJob.h"
+
+namespace meniscus
+{
+
+/** Casts all rays of the job on the calling thread. @pre GetInstructionSets() has the set */
+void CastPackets(const PacketJob& job, InstructionSet set);
+
+/** Tests all faces with all rays. @pre GetInstructionSets() has the set */
+void FindEntered(const PacketFaceJob& job, InstructionSet set);
+
+}
+
+#endif

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Packet_Models_IsosurfaceModel_h
+#define meniscus_Volume_Packet_Models_IsosurfaceModel_h
+
+#include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/PacketIntervals.h"
+#include "Volume/Packet/Models/PacketSurfaces.h"
+
+#include <cstdint>
+
+namespace meniscus
+{
+
+/**
+ * Isosurfaces, met where the scalar, linear along a segment, passes an isovalue; scalars of cells
+ * pass isovalues on the faces where they jump. A scalar equal to an isovalue counts as above it.
+ * Segments are sifted in packets; the few that meet a surface are dealt with one by one
+ * (CrossSurfaces). The same interface as CompositeModel.
+ */
+template <class Simd>
+class IsosurfaceModel
+{
+public:
+  using Float = typename Simd::Float;
+  using Int = typename Simd::Int;
+  using Mask = typename Simd::Mask;
+
+  explicit IsosurfaceModel(const PacketJob& job)
+    : Job(job)
+    , Transmittance(Simd::Splat(1.0f))
+    , Lower(Simd::Splat(1.0f))
+    , Upper(Simd::Splat(-1.0f))
+  {
+    this->Reset(Simd::FromBits((1u << Simd::Width) - 1u));
+  }
+
+  void Reset(Mask lanes)
+  {
+    // A range that holds nothing: the first segment finds its own.
+    this->Transmittance = Simd::Select(lanes, Simd::Splat(1.0f), this->Transmittance);
+    this->Lower = Simd::Select(lanes, Simd::Splat(1.0f), this->Lower);
+    this->Upper = Simd::Select(lanes, Simd::Splat(-1.0f), this->Upper);
+    const unsigned int bits = Simd::Bits(lanes);
+    for (int lane = 0; lane < Simd::Width; ++lane)
+    {
+      if (bits >> lane & 1u)
+      {
+        this->States[lane] = { { 0.0f, 0.0f, 0.0f }, 1.0f, 1.0f, -1.0f };
+      }
+    }
+  }
+
+  /** Takes segments in whole: none is left pending. */
+  template <class Place>
+  Mask Begin(Mask lanes, Float from, Float to, Float length, const Place& place)
+  {
+    const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
+    const auto beyond = [this](Float scalar)
+    { return (scalar < this->Lower) | Simd::Not(scalar < this->Upper); };
+    const unsigned int crossing = Simd::Bits(valid & (beyond(from) | beyond(to)));
+    if (crossing != 0)
+    {
+      this->Cross(crossing, from, to, place);
+    }
+    return Simd::FromBits(0);
+  }
+  Mask Advance(Mask lanes) { return lanes; }
+  void Enter(Mask) {}
+
+  Mask IsOn() const
+  {
+    return this->Transmittance > Simd::Splat(this->Job.TerminationTransmittance);
+  }
+
+  /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
+  static constexpr bool SeesJumps = true;
+  static constexpr int NumberOfTriples = 0;
+  static constexpr bool UsesCellGradients = false;
+  static constexpr bool UsesLines = false;
+  static constexpr int NumberOfValues = 4;
+  static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
+  /** Premultiplied colour and transmittance of each lane. */
+  void Store(float (&values)[NumberOfValues][Simd::Width]) const
+  {
+    for (int lane = 0; lane < Simd::Width; ++lane)
+    {
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        values[channel][lane] = this->States[lane].Color[channel];
+      }
+      values[3][lane] = this->States[lane].Transmittance;
+    }
+  }
+  static void Finish(const PacketJob&, const float (&values)[NumberOfValues], float (&color)[4])
+  {
+    FinishBlended<Simd>(values, color);
+  }
+
+private:
+  template <class Place>
+  void Cross(unsigned int lanes, Float from, Float to, const Place& place);
+
+  const PacketJob& Job;
+  PacketSurfaceState States[Simd::Width];
+  Float Transmittance;
+  /** The isovalues next to the scalar. */
+  Float Lower;
+  Float Upper;
+};
+
+//------------------------------------------------------------------------------
+template <class Simd>
+template <class Place>
+void IsosurfaceModel<Simd>::Cross(unsigned int lanes, Float from, Float to, const Place& place)
+{
+  float starts[Simd::Width];
+  float ends[Simd::Width];
+  float startDepths[Simd::Width];
+  float endDepths[Simd::Width];
+  std::int32_t cellFaces[Simd::Width];
+  Simd::Store(starts, from);
+  Simd::Store(ends, to);
+  Simd::Store(startDepths, place.StartDepth);
+  Simd::Store(endDepths, place.EndDepth);
+  Simd::Store(cellFaces, place.CellFace);
+  float transmittances[Simd::Width];
+  float lower[Simd::Width];
+  float upper[Simd::Width];
+  Simd::Store(lower, this->Lower);
+  Simd::Store(upper, this->Upper);
+  for (int lane = 0; lane < Simd::Width; ++lane)
+  {
+    PacketSurfaceState& state = this->States[lane];
+    if (lanes >> lane & 1u)
+    {
+      const PacketSegment segment{ starts[lane], ends[lane], startDepths[lane], endDepths[lane],
+        cellFaces[lane], place.Rays[lane] };
+      CrossSurfaces(this->Job, segment, state);
+      lower[lane] = state.Lower;
+      upper[lane] = state.Upper;
+    }
+    transmittances[lane] = state.Transmittance;
+  }
+  this->Lower = Simd::Load(lower);
+  this->Upper = Simd::Load(upper);
+  this->Transmittance = Simd::Load(transmittances);
+}
+
+}
+
+#endif

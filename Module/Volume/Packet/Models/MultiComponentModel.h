@@ -1,0 +1,388 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Packet_Models_MultiComponentModel_h
+#define meniscus_Volume_Packet_Models_MultiComponentModel_h
+
+#include "Simd/PacketExponential.h"
+#include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/PacketGradientShading.h"
+#include "Volume/Packet/Models/PacketIntervals.h"
+
+#include <cstddef>
+#include <utility>
+
+namespace meniscus
+{
+
+/**
+ * The density-emitter integral of scalars of several components, each linear along a segment: as
+ * vtkTetrahedraComponents.glsl has it. A segment is split where one of the scalars passes a point
+ * of its function, and into pieces of optical depth <= 1/2. On a piece attenuation is linear, and
+ * emission, attenuation times colour, quadratic; Gauss' rule of three points integrates it times
+ * the transmittance to 1e-6 of the largest emission. The same interface as CompositeModel.
+ *
+ * Functions: the number of scalars that have a function of their own.
+ */
+template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+class MultiComponentModel
+{
+public:
+  using Float = typename Simd::Float;
+  using Mask = typename Simd::Mask;
+
+  explicit MultiComponentModel(const PacketJob& job)
+    : MultiComponentModel(job, std::make_index_sequence<Functions>())
+  {
+  }
+
+  void Reset(Mask lanes)
+  {
+    for (Float& channel : this->Color)
+    {
+      channel = Simd::Select(lanes, Simd::Splat(0.0f), channel);
+    }
+    this->Transmittance = Simd::Select(lanes, Simd::Splat(1.0f), this->Transmittance);
+  }
+  void Enter(Mask lanes) { this->Optics.Enter(lanes); }
+
+  template <class Place>
+  Mask Begin(Mask lanes, Float from, Float to, Float length, const Place& place);
+  Mask Advance(Mask lanes);
+  Mask IsOn() const { return this->Transmittance > this->Termination; }
+
+  static constexpr bool SeesJumps = false;
+  static constexpr int NumberOfTriples = Medium::NumberOfTriples + 1;
+  static constexpr bool UsesCellGradients = Medium::UsesCellGradients;
+  static constexpr bool UsesLines = Medium::UsesGradients;
+  static constexpr int NumberOfValues = 4;
+  static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
+  void Store(float (&values)[NumberOfValues][Simd::Width]) const
+  {
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      Simd::Store(values[channel], this->Color[channel]);
+    }
+    Simd::Store(values[3], this->Transmittance);
+  }
+  static void Finish(const PacketJob&, const float (&values)[NumberOfValues], float (&color)[4])
+  {
+    FinishBlended<Simd>(values, color);
+  }
+
+private:
+  using Fields = typename PacketIntervals<Simd>::Fields;
+
+  template <std::size_t... Number>
+  MultiComponentModel(const PacketJob& job, std::index_sequence<Number...>)
+    : Intervals{ IntervalsOf(job, static_cast<int>(Number))... }
+    // Where transmittances are so small, they have no digits left to shrink by.
+    , Termination(Simd::Max(Simd::Splat(job.TerminationTransmittance), Simd::Splat(1.0e-30f)))
+    , Transmittance(Simd::Splat(1.0f))
+    , Done(Simd::Splat(0.0f))
+    , Length(Simd::Splat(0.0f))
+    , Optics(job)
+  {
+    const Float zero = Simd::Splat(0.0f);
+    for (Float* values : { this->Start, this->End, this->Now })
+    {
+      for (int f = 0; f < Functions; ++f)
+      {
+        values[f] = zero;
+      }
+    }
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      this->Color[channel] = this->StartColor[channel] = this->EndColor[channel] = zero;
+    }
+  }
+  static PacketIntervals<Simd> IntervalsOf(const PacketJob& job, int function)
+  {
+    return function == 0 ? PacketIntervals<Simd>(job.Intervals, job.NumberOfIntervals)
+                         : PacketIntervals<Simd>(job.OtherIntervals[function - 1],
+                             job.NumberOfOtherIntervals[function - 1]);
+  }
+
+  /** Up to where a function goes in a piece, as a fraction of the segment. */
+  struct Course
+  {
+    Mask Upward;
+    Mask Downward;
+    Float Leaves;
+  };
+  Course FindCourse(int f) const;
+
+  /** A piece of the segments; all of it is of lanes. */
+  struct Piece
+  {
+    Float Reached;
+    Float Length;
+    Float Front[Functions];
+    Float Back[Functions];
+    /** Optical density at both ends. */
+    Float Density;
+    Float DensityTo;
+    /** What of it is integrated: up to an optical depth of 1/2. */
+    Float Part;
+    Float Depth;
+    Mask Whole;
+  };
+  void FindBacks(const Course (&courses)[Functions], Piece& piece) const;
+  void FindDensity(Piece& piece) const;
+  void Emission(const Piece& piece, Float at, Float (&emission)[3]) const;
+  void Integrate(const Piece& piece);
+  Mask Move(Mask lanes, const Course (&courses)[Functions], const Piece& piece);
+
+  static Float Mix(Float from, Float to, Float at) { return Simd::Fma(at, to - from, from); }
+  static Float DensityAt(const Fields& fields, Float scalar, Float length)
+  {
+    // Beyond a depth of 1e18 nothing can be told apart; its square is finite.
+    const Float attenuation =
+      Simd::Fma(scalar - fields.Lower, fields.AttenuationSlope, fields.Attenuation);
+    return Simd::Min(Simd::Max(attenuation * length, Simd::Splat(0.0f)), Simd::Splat(1.0e+18f));
+  }
+  static Float ColorAt(const Fields& fields, Float scalar, int channel)
+  {
+    return Simd::Fma(scalar - fields.Lower, fields.ColorSlope[channel], fields.Color[channel]);
+  }
+
+  PacketIntervals<Simd> Intervals[Functions];
+  Float Termination;
+  Float Color[3];
+  Float Transmittance;
+  // The pending segment: scalars at its ends and where it has been integrated to.
+  Float Start[Functions];
+  Float End[Functions];
+  Float Now[Functions];
+  Float StartColor[3];
+  Float EndColor[3];
+  /** As a fraction. */
+  Float Done;
+  /** Of the whole segment; 0 where there is none. */
+  Float Length;
+  Medium Optics;
+};
+
+//------------------------------------------------------------------------------
+template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Place>
+inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Begin(
+  Mask lanes, Float from, Float to, Float length, const Place& place) -> Mask
+{
+  const Mask valid = SegmentsOf<Simd>(lanes, from, to, length);
+  constexpr int first = 3 * Medium::NumberOfTriples;
+  for (int f = 0; f < Functions; ++f)
+  {
+    const Float start = f == 0 ? from : place.StartValues.Of[first + f - 1];
+    const Float end = f == 0 ? to : place.EndValues.Of[first + f - 1];
+    this->Start[f] = Simd::Select(valid, start, this->Start[f]);
+    this->End[f] = Simd::Select(valid, end, this->End[f]);
+    this->Now[f] = Simd::Select(valid, start, this->Now[f]);
+  }
+  if constexpr (Mixture == PacketMixture::RedGreenBlueOpacity)
+  {
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      Float& start = this->StartColor[channel];
+      Float& end = this->EndColor[channel];
+      start = Simd::Select(valid, place.StartValues.Of[first + channel], start);
+      end = Simd::Select(valid, place.EndValues.Of[first + channel], end);
+    }
+  }
+  this->Done = Simd::Select(valid, Simd::Splat(0.0f), this->Done);
+  this->Length = Simd::Select(valid, length, this->Length);
+  this->Optics.Begin(valid, place);
+  return valid;
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::FindCourse(int f) const -> Course
+{
+  const Fields& fields = this->Intervals[f].GetFields();
+  const Float one = Simd::Splat(1.0f);
+  Course course;
+  course.Upward = this->End[f] > fields.Upper;
+  course.Downward = this->End[f] < fields.Lower;
+  const Float bound = Simd::Select(course.Upward, fields.Upper, fields.Lower);
+  const Float place = (bound - this->Start[f]) / (this->End[f] - this->Start[f]);
+  course.Leaves = Simd::Select(course.Upward | course.Downward,
+    Simd::Max(Simd::Min(place, one), this->Done), Simd::Splat(2.0f));
+  return course;
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindBacks(
+  const Course (&courses)[Functions], Piece& piece) const
+{
+  const Mask partly = piece.Reached < Simd::Splat(1.0f);
+  for (int f = 0; f < Functions; ++f)
+  {
+    const Fields& fields = this->Intervals[f].GetFields();
+    Float ahead =
+      Simd::Select(partly, Mix(this->Start[f], this->End[f], piece.Reached), this->End[f]);
+    ahead = Simd::Min(Simd::Max(ahead, fields.Lower), fields.Upper);
+    const Float bound = Simd::Select(courses[f].Upward, fields.Upper, fields.Lower);
+    piece.Front[f] = this->Now[f];
+    piece.Back[f] = Simd::Select(courses[f].Leaves > piece.Reached, ahead, bound);
+  }
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindDensity(Piece& piece) const
+{
+  const Float zero = Simd::Splat(0.0f);
+  const Float one = Simd::Splat(1.0f);
+  const Float largest = Simd::Splat(0.5f);
+  constexpr int dense = Mixture == PacketMixture::Independent ? Functions : 1;
+  piece.Density = piece.DensityTo = zero;
+  for (int f = 0; f < dense; ++f)
+  {
+    const Fields& fields = this->Intervals[f].GetFields();
+    piece.Density = piece.Density + DensityAt(fields, piece.Front[f], piece.Length);
+    piece.DensityTo = piece.DensityTo + DensityAt(fields, piece.Back[f], piece.Length);
+  }
+  piece.Density = this->Optics.ApplyGradientOpacity(piece.Density, this->Done);
+  piece.DensityTo = this->Optics.ApplyGradientOpacity(piece.DensityTo, piece.Reached);
+  piece.Depth = Simd::Splat(0.5f) * (piece.Density + piece.DensityTo);
+  const Mask thick = piece.Depth > largest;
+  piece.Whole = Simd::Not(thick);
+  piece.Part = one;
+  if (Simd::Bits(thick) != 0)
+  {
+    // part (density + part slope / 2) = 1/2, the root without cancellation.
+    const Float slope = piece.DensityTo - piece.Density;
+    const Float root = Simd::Sqrt(Simd::Max(Simd::Fma(piece.Density, piece.Density, slope), zero));
+    const Float part = Simd::Min(one / (piece.Density + root), one);
+    piece.Part = Simd::Select(thick, part, one);
+    piece.Depth = Simd::Min(piece.Depth, largest);
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Attenuation times colour at a fraction of the piece, over its length. */
+template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Emission(
+  const Piece& piece, Float at, Float (&emission)[3]) const
+{
+  if constexpr (Mixture == PacketMixture::Independent)
+  {
+    for (Float& channel : emission)
+    {
+      channel = Simd::Splat(0.0f);
+    }
+    for (int f = 0; f < Functions; ++f)
+    {
+      const Fields& fields = this->Intervals[f].GetFields();
+      const Float scalar = Mix(piece.Front[f], piece.Back[f], at);
+      const Float density = DensityAt(fields, scalar, piece.Length);
+      for (int channel = 0; channel < 3; ++channel)
+      {
+        emission[channel] = Simd::Fma(density, ColorAt(fields, scalar, channel), emission[channel]);
+      }
+    }
+  }
+  else
+  {
+    const Float done = Mix(this->Done, piece.Reached, at);
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      if constexpr (Mixture == PacketMixture::ColorAndOpacity)
+      {
+        emission[channel] =
+          ColorAt(this->Intervals[1].GetFields(), Mix(piece.Front[1], piece.Back[1], at), channel);
+      }
+      else
+      {
+        emission[channel] = Mix(this->StartColor[channel], this->EndColor[channel], done);
+      }
+    }
+    this->Optics.Shade(emission, done);
+    const Float density = Mix(piece.Density, piece.DensityTo, at);
+    for (Float& channel : emission)
+    {
+      channel = density * channel;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Integrate(const Piece& piece)
+{
+  const Float one = Simd::Splat(1.0f);
+  const Float slope = piece.DensityTo - piece.Density;
+  constexpr float fromMiddle = 0.3872983346207417f; // sqrt(3/5) / 2
+  constexpr float places[3] = { 0.5f - fromMiddle, 0.5f, 0.5f + fromMiddle };
+  constexpr float weights[3] = { 5.0f / 18.0f, 8.0f / 18.0f, 5.0f / 18.0f };
+  for (int q = 0; q < 3; ++q)
+  {
+    const Float at = piece.Part * Simd::Splat(places[q]);
+    Float emission[3];
+    this->Emission(piece, at, emission);
+    const Float before = at * Simd::Fma(Simd::Splat(0.5f) * at, slope, piece.Density);
+    const Float weight = Simd::Splat(weights[q]) * this->Transmittance * piece.Part *
+      (one - Absorbed<Simd>(Simd::Min(before, one)));
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      this->Color[channel] = Simd::Fma(weight, emission[channel], this->Color[channel]);
+    }
+  }
+  this->Transmittance = this->Transmittance - this->Transmittance * Absorbed<Simd>(piece.Depth);
+}
+
+//------------------------------------------------------------------------------
+/** Goes on behind the piece; returns the lanes that have more. */
+template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Move(
+  Mask lanes, const Course (&courses)[Functions], const Piece& piece) -> Mask
+{
+  Mask more = Simd::AndNot(lanes, piece.Whole);
+  this->Done = Simd::Select(piece.Whole, piece.Reached, Mix(this->Done, piece.Reached, piece.Part));
+  for (int f = 0; f < Functions; ++f)
+  {
+    const Course& course = courses[f];
+    more = more | (lanes & (course.Upward | course.Downward));
+    this->Now[f] =
+      Simd::Select(piece.Whole, piece.Back[f], Mix(piece.Front[f], piece.Back[f], piece.Part));
+    const Mask moved = Simd::AndNot(lanes & piece.Whole, course.Leaves > piece.Reached);
+    this->Intervals[f].Move(moved & course.Upward, moved & course.Downward);
+  }
+  more = more & this->IsOn();
+  this->Length = Simd::Select(more, this->Length, Simd::Splat(0.0f));
+  return more;
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Advance(Mask lanes) -> Mask
+{
+  if (Simd::Bits(lanes) == 0)
+  {
+    return lanes;
+  }
+  Course courses[Functions];
+  Piece piece;
+  piece.Reached = Simd::Splat(1.0f);
+  for (int f = 0; f < Functions; ++f)
+  {
+    const Fields& fields = this->Intervals[f].GetFields();
+    const Mask outside = lanes & ((this->Now[f] < fields.Lower) | (this->Now[f] > fields.Upper));
+    if (Simd::Bits(outside) != 0)
+    {
+      this->Intervals[f].Find(outside, this->Now[f]);
+    }
+    courses[f] = this->FindCourse(f);
+    piece.Reached = Simd::Min(piece.Reached, Simd::Max(courses[f].Leaves, this->Done));
+  }
+  piece.Length = (piece.Reached - this->Done) * this->Length;
+  this->FindBacks(courses, piece);
+  this->FindDensity(piece);
+  this->Integrate(piece);
+  return this->Move(lanes, courses, piece);
+}
+
+}
+
+#endif

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Packet_Models_PacketGradientShading_h
+#define meniscus_Volume_Packet_Models_PacketGradientShading_h
+
+#include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/PacketIntervals.h"
+#include "Volume/Packet/Models/PacketLights.h"
+
+#include <array>
+
+namespace meniscus
+{
+
+/** A medium that gradients do nothing to: all of it vanishes in what is made of it. */
+template <class Simd>
+class PacketNoGradientShading
+{
+public:
+  using Float = typename Simd::Float;
+  using Mask = typename Simd::Mask;
+
+  static constexpr bool UsesGradients = false;
+  static constexpr bool UsesCellGradients = false;
+  /** Of the vertices, the first ones of the values that are interpolated. */
+  static constexpr int NumberOfTriples = 0;
+
+  explicit PacketNoGradientShading(const PacketJob&) {}
+
+  void Enter(Mask) {}
+  template <class Place>
+  void Begin(Mask, const Place&)
+  {
+  }
+  Float ApplyGradientOpacity(Float density, Float) const { return density; }
+  void Shade(Float (&)[3], Float) const {}
+};
+
+/**
+ * What gradients do to the segments of composite blending: light that multiplies the colour, light
+ * that is added to it, and a factor of the attenuation; computed at the ends of a segment, linear
+ * between. Gradients are interpolated between vertices or those of the cells.
+ */
+template <class Simd, bool OfVertices>
+class PacketGradientShading
+{
+public:
+  using Float = typename Simd::Float;
+  using Mask = typename Simd::Mask;
+
+  static constexpr bool UsesGradients = true;
+  static constexpr bool UsesCellGradients = !OfVertices;
+  static constexpr int NumberOfTriples = OfVertices ? 1 : 0;
+
+  explicit PacketGradientShading(const PacketJob& job)
+    : Medium(*job.Medium)
+    , Lights(*job.Medium)
+    , Opacity(job.Medium->NumberOfOpacityIntervals > 0 ? job.Medium->Opacity : job.Intervals,
+        job.Medium->NumberOfOpacityIntervals > 0 ? job.Medium->NumberOfOpacityIntervals : 1)
+    , Continues(Simd::FromBits(0))
+  {
+    this->Front.SetNeutral();
+    this->Back.SetNeutral();
+  }
+
+  /** The rays of some lanes enter the mesh: what was before is not next to what comes. */
+  void Enter(Mask lanes) { this->Continues = Simd::AndNot(this->Continues, lanes); }
+
+  /** New segments for `lanes`, a part of those that made a step. */
+  template <class Place>
+  void Begin(Mask lanes, const Place& place);
+
+  /** The density of the medium at a fraction of the segment. */
+  Float ApplyGradientOpacity(Float density, Float done) const
+  {
+    return density * Simd::Fma(done, this->Back.Opacity - this->Front.Opacity, this->Front.Opacity);
+  }
+  /** Lights a colour emitted there. */
+  void Shade(Float (&color)[3], Float done) const
+  {
+    if (!this->Medium.Shading)
+    {
+      return;
+    }
+    const auto mix = [done](Float from, Float to) { return Simd::Fma(done, to - from, from); };
+    for (int c = 0; c < 3; ++c)
+    {
+      color[c] =
+        Simd::Fma(color[c], mix(this->Front.Light.Reflected[c], this->Back.Light.Reflected[c]),
+          mix(this->Front.Light.Highlight[c], this->Back.Light.Highlight[c]));
+    }
+  }
+
+private:
+  using Vector = std::array<Float, 3>;
+
+  /** At one end of the segments. */
+  struct End
+  {
+    PacketLit<Simd> Light;
+    Float Opacity;
+
+    void SetNeutral()
+    {
+      this->Light.Reflected.fill(Simd::Splat(1.0f));
+      this->Light.Highlight.fill(Simd::Splat(0.0f));
+      this->Opacity = Simd::Splat(1.0f);
+    }
+    void Replace(Mask lanes, const End& by)
+    {
+      for (int c = 0; c < 3; ++c)
+      {
+        Float& reflected = this->Light.Reflected[c];
+        Float& highlight = this->Light.Highlight[c];
+        reflected = Simd::Select(lanes, by.Light.Reflected[c], reflected);
+        highlight = Simd::Select(lanes, by.Light.Highlight[c], highlight);
+      }
+      this->Opacity = Simd::Select(lanes, by.Opacity, this->Opacity);
+    }
+  };
+
+  template <class Line>
+  End Evaluate(Mask lanes, const Vector& gradient, Float depth, const Line& ray);
+  template <class Values>
+  Vector ToFrame(const Values& values) const;
+
+  const GradientShading& Medium;
+  PacketLights<Simd> Lights;
+  PacketIntervals<Simd> Opacity;
+  End Front;
+  End Back;
+  /** Lanes whose next segment begins where the last one ended, with the same gradient. */
+  Mask Continues;
+};
+
+//------------------------------------------------------------------------------
+template <class Simd, bool OfVertices>
+template <class Values>
+inline auto PacketGradientShading<Simd, OfVertices>::ToFrame(const Values& values) const -> Vector
+{
+  Vector gradient;
+  for (int row = 0; row < 3; ++row)
+  {
+    const float(&matrix)[3] = this->Medium.GradientToFrame[row];
+    gradient[row] = Simd::Fma(Simd::Splat(matrix[0]), values.Of[0],
+      Simd::Fma(Simd::Splat(matrix[1]), values.Of[1], Simd::Splat(matrix[2]) * values.Of[2]));
+  }
+  return gradient;
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, bool OfVertices>
+template <class Line>
+inline auto PacketGradientShading<Simd, OfVertices>::Evaluate(
+  Mask lanes, const Vector& gradient, Float depth, const Line& ray) -> End
+{
+  End end;
+  end.SetNeutral();
+  if (this->Medium.Shading)
+  {
+    end.Light = this->Lights.Light(gradient, depth, ray);
+  }
+  if (this->Medium.NumberOfOpacityIntervals > 0)
+  {
+    const Float square = Simd::Fma(
+      gradient[0], gradient[0], Simd::Fma(gradient[1], gradient[1], gradient[2] * gradient[2]));
+    const Float size = Simd::Splat(this->Medium.GradientMagnitude) * Simd::Sqrt(square);
+    const auto& fields = this->Opacity.GetFields();
+    const Mask outside = lanes & ((size < fields.Lower) | (size > fields.Upper));
+    if (Simd::Bits(outside) != 0)
+    {
+      this->Opacity.Find(outside, size);
+    }
+    end.Opacity =
+      Simd::Max(Simd::Fma(size - fields.Lower, fields.AttenuationSlope, fields.Attenuation),
+        Simd::Splat(0.0f));
+  }
+  return end;
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, bool OfVertices>
+template <class Place>
+inline void PacketGradientShading<Simd, OfVertices>::Begin(Mask lanes, const Place& place)
+{
+  if (Simd::Bits(lanes) == 0)
+  {
+    this->Continues = Simd::AndNot(this->Continues, place.Stepped);
+    return;
+  }
+  if constexpr (OfVertices)
+  {
+    this->Front.Replace(lanes, this->Back);
+    const Mask elsewhere = lanes & (Simd::Not(this->Continues) | place.Late);
+    if (Simd::Bits(elsewhere) != 0)
+    {
+      const End front =
+        this->Evaluate(elsewhere, this->ToFrame(place.StartValues), place.StartDepth, place.Ray);
+      this->Front.Replace(elsewhere, front);
+    }
+    this->Back.Replace(
+      lanes, this->Evaluate(lanes, this->ToFrame(place.EndValues), place.EndDepth, place.Ray));
+    this->Continues = Simd::AndNot(this->Continues, place.Stepped) | lanes;
+  }
+  else
+  {
+    const Vector gradient = this->ToFrame(place.CellGradient);
+    const End front = this->Evaluate(lanes, gradient, place.StartDepth, place.Ray);
+    this->Front.Replace(lanes, front);
+    End back = front;
+    if (this->Medium.Shading && this->Lights.DependOnPlace())
+    {
+      back.Light = this->Lights.Light(gradient, place.EndDepth, place.Ray);
+    }
+    this->Back.Replace(lanes, back);
+  }
+}
+
+}
+
+#endif

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Packet_Models_PacketLights_h
+#define meniscus_Volume_Packet_Models_PacketLights_h
+
+#include "Volume/Packet/Data/PacketOptics.h"
+
+#include <array>
+#include <cstdint>
+
+namespace meniscus
+{
+
+/** x^y for x in [0, 1], by lane; 0^0 = 1. Whole exponents by squaring: off by about y 2^-24. */
+template <class Simd>
+class PacketPower
+{
+public:
+  using Float = typename Simd::Float;
+
+  explicit PacketPower(float exponent)
+    : Exponent(exponent)
+    , Whole(exponent >= 0.0f && exponent <= LargestWhole &&
+        exponent == static_cast<float>(static_cast<std::int32_t>(exponent)))
+  {
+  }
+
+  Float operator()(Float x) const
+  {
+    if (this->Whole)
+    {
+      Float result = Simd::Splat(1.0f);
+      for (auto left = static_cast<std::int32_t>(this->Exponent); left > 0; left /= 2)
+      {
+        result = left % 2 != 0 ? result * x : result;
+        x = x * x;
+      }
+      return result;
+    }
+    float lanes[Simd::Width];
+    Simd::Store(lanes, x);
+    for (float& lane : lanes)
+    {
+      lane = __builtin_powf(lane, this->Exponent);
+    }
+    return Simd::Load(lanes);
+  }
+
+private:
+  /** Beyond, the general function is as fast. */
+  static constexpr float LargestWhole = 1024.0f;
+
+  float Exponent;
+  bool Whole;
+};
+
+/** What light does to a colour: multiplied by Reflected, then Highlight added. */
+template <class Simd>
+struct PacketLit
+{
+  std::array<typename Simd::Float, 3> Reflected;
+  std::array<typename Simd::Float, 3> Highlight;
+};
+
+/** A ray per lane in its frame: (X + depth SlopeX, Y + depth SlopeY, depth). */
+template <class Simd>
+struct PacketLine
+{
+  typename Simd::Float X;
+  typename Simd::Float Y;
+  typename Simd::Float SlopeX;
+  typename Simd::Float SlopeY;
+};
+
+/** Light() of SurfaceLighting.h, single precision, one place per lane. */
+template <class Simd>
+class PacketLights
+{
+public:
+  using Float = typename Simd::Float;
+  using Mask = typename Simd::Mask;
+  using Vector = std::array<Float, 3>;
+
+  explicit PacketLights(const GradientShading& medium)
+    : Medium(medium)
+    , SpecularPower(medium.SpecularPower)
+  {
+    for (std::int32_t i = 0; i < medium.NumberOfLights; ++i)
+    {
+      this->Positional = this->Positional || medium.Lights[i].Position[3] != 0.0f;
+    }
+  }
+
+  /** Whether it matters where on a ray a normal is. */
+  bool DependOnPlace() const { return this->Positional; }
+
+  /** Of a surface with a normal of any length, in the frame; 0 leaves the ambient light. */
+  PacketLit<Simd> Light(const Vector& normal, Float depth, const PacketLine<Simd>& ray) const;
+
+private:
+  static Float Dot(const Vector& a, const Vector& b)
+  {
+    return Simd::Fma(a[0], b[0], Simd::Fma(a[1], b[1], a[2] * b[2]));
+  }
+  static Vector Scaled(const Vector& a, Float by) { return { a[0] * by, a[1] * by, a[2] * by }; }
+  static Vector Splat(const float* of)
+  {
+    return { Simd::Splat(of[0]), Simd::Splat(of[1]), Simd::Splat(of[2]) };
+  }
+  static Float Reciprocal(Float x) { return Simd::Splat(1.0f) / x; }
+
+  void Add(const PacketLight& light, const Vector& place, const Vector& normal, const Vector& toEye,
+    PacketLit<Simd>& sum) const;
+
+  const GradientShading& Medium;
+  PacketPower<Simd> SpecularPower;
+  bool Positional = false;
+};
+
+//------------------------------------------------------------------------------
+template <class Simd>
+inline void PacketLights<Simd>::Add(const PacketLight& light, const Vector& place,
+  const Vector& normal, const Vector& toEye, PacketLit<Simd>& sum) const
+{
+  const Float zero = Simd::Splat(0.0f);
+  const Float one = Simd::Splat(1.0f);
+  Vector toLight = Splat(light.Position);
+  Float strength = one;
+  if (light.Position[3] != 0.0f)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      toLight[i] = toLight[i] - place[i];
+    }
+    const Float distance = Simd::Sqrt(Dot(toLight, toLight));
+    toLight = Scaled(toLight, Reciprocal(distance));
+    const Float quadratic = Simd::Splat(light.Falloff[2]);
+    strength =
+      Reciprocal(Simd::Fma(distance, Simd::Fma(distance, quadratic, Simd::Splat(light.Falloff[1])),
+        Simd::Splat(light.Falloff[0])));
+  }
+  // A light in the very place shines from nowhere: NaN, which Max() makes 0.
+  const Float facing = Simd::Max(Dot(normal, toLight), zero);
+  Mask lit = facing > zero;
+  if (light.Cone[3] >= -1.0f)
+  {
+    const Float inCone = zero - Dot(toLight, Splat(light.Cone));
+    lit = lit & Simd::Not(inCone < Simd::Splat(light.Cone[3]));
+    if (light.Falloff[3] != 0.0f)
+    {
+      strength = strength * PacketPower<Simd>(light.Falloff[3])(Simd::Max(inCone, zero));
+    }
+  }
+  strength = Simd::Select(lit, strength, zero);
+  const Vector mirrored = Scaled(normal, facing + facing);
+  const Float glance =
+    Dot({ mirrored[0] - toLight[0], mirrored[1] - toLight[1], mirrored[2] - toLight[2] }, toEye);
+  const Float diffuse = strength * Simd::Splat(this->Medium.Diffuse) * facing;
+  const Float shine = Simd::Select(glance > zero,
+    strength * Simd::Splat(this->Medium.Specular) * this->SpecularPower(Simd::Max(glance, zero)),
+    zero);
+  for (int c = 0; c < 3; ++c)
+  {
+    sum.Reflected[c] = Simd::Fma(diffuse, Simd::Splat(light.Diffuse[c]), sum.Reflected[c]);
+    sum.Highlight[c] = Simd::Fma(shine, Simd::Splat(light.Specular[c]), sum.Highlight[c]);
+  }
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+PacketLit<Simd> PacketLights<Simd>::Light(
+  const Vector& normal, Float depth, const PacketLine<Simd>& ray) const
+{
+  const Float zero = Simd::Splat(0.0f);
+  const Float one = Simd::Splat(1.0f);
+  PacketLit<Simd> lit;
+  lit.Reflected.fill(Simd::Splat(this->Medium.Ambient));
+  lit.Highlight.fill(zero);
+
+  const Float largest =
+    Simd::Max(Simd::Abs(normal[0]), Simd::Max(Simd::Abs(normal[1]), Simd::Abs(normal[2])));
+  const Mask any = largest > zero;
+  Vector facing = Scaled(normal, Reciprocal(Simd::Select(any, largest, one)));
+  facing = Scaled(facing, Reciprocal(Simd::Sqrt(Simd::Select(any, Dot(facing, facing), one))));
+  const Float perDepth = Reciprocal(
+    Simd::Sqrt(Simd::Fma(ray.SlopeX, ray.SlopeX, Simd::Fma(ray.SlopeY, ray.SlopeY, one))));
+  const Vector toEye = { zero - ray.SlopeX * perDepth, zero - ray.SlopeY * perDepth,
+    zero - perDepth };
+  const Mask away = Dot(facing, toEye) < zero;
+  facing = Scaled(facing, Simd::Select(away, zero - one, one));
+  const Vector place = { Simd::Fma(depth, ray.SlopeX, ray.X), Simd::Fma(depth, ray.SlopeY, ray.Y),
+    depth };
+  PacketLit<Simd> sum = lit;
+  for (std::int32_t i = 0; i < this->Medium.NumberOfLights; ++i)
+  {
+    this->Add(this->Medium.Lights[i], place, facing, toEye, sum);
+  }
+  for (int c = 0; c < 3; ++c)
+  {
+    lit.Reflected[c] = Simd::Select(any, sum.Reflected[c], lit.Reflected[c]);
+    lit.Highlight[c] = Simd::Select(any, sum.Highlight[c], lit.Highlight[c]);
+  }
+  return lit;
+}
+
+}
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Packet_Models_PacketSegmentTable_h
+#define meniscus_Volume_Packet_Models_PacketSegmentTable_h
+
+#include "Volume/Packet/Data/PacketOptics.h"
+
+namespace meniscus
+{
+
+/**
+ * Colour over opacity and mean attenuation of a segment between two places in [-1, 1], by linear
+ * interpolation in the table's scalars and in the number of its length.
+ */
+void LookUpSegment(
+  const PacketSegmentTable& table, float from, float to, float length, float (&mean)[4]);
+
+}
+
+#endif

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Packet/Models/PacketSurfaces.h"
+#include "Volume/Optics/SurfaceLighting.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+/** A cell in the frame of the rays, double precision from whole grid units. */
+struct SeenCell
+{
+  const std::int32_t* Ids;
+  glm::dvec3 Corners[4];
+
+  /** Columns are the edges from corner 0. */
+  glm::dmat3 Edges() const
+  {
+    return { this->Corners[1] - this->Corners[0], this->Corners[2] - this->Corners[0],
+      this->Corners[3] - this->Corners[0] };
+  }
+};
+
+SeenCell SeeCell(const PacketJob& job, std::int32_t cell)
+{
+  SeenCell seen;
+  seen.Ids = job.Cells + 8 * std::int64_t{ cell };
+  for (int k = 0; k < 4; ++k)
+  {
+    const std::int32_t(&place)[3] = job.Vertices[seen.Ids[k]].Place;
+    seen.Corners[k] = { job.GridUnit * place[0], job.GridUnit * place[1],
+      double{ PacketVertex::DepthUnit } * place[2] };
+  }
+  return seen;
+}
+
+/** One of a table of three numbers each. */
+glm::dvec3 TripleAt(const float* table, std::int64_t index)
+{
+  const float* triple = table + 3 * index;
+  return { triple[0], triple[1], triple[2] };
+}
+
+/** The gradients of the cell's vertices, interpolated at a place in it. */
+glm::dvec3 VertexGradient(const PacketJob& job, const SeenCell& cell, const glm::dvec3& place)
+{
+  const auto gradientOf = [&](int k) { return TripleAt(job.VertexGradients, cell.Ids[k]); };
+  const glm::dmat3 edges = cell.Edges();
+  if (glm::determinant(edges) == 0.0)
+  {
+    return gradientOf(0);
+  }
+  const glm::dvec3 weights = glm::inverse(edges) * (place - cell.Corners[0]);
+  return (1.0 - weights.x - weights.y - weights.z) * gradientOf(0) + weights.x * gradientOf(1) +
+    weights.y * gradientOf(2) + weights.z * gradientOf(3);
+}
+
+glm::dvec3 FaceNormal(const SeenCell& cell, int opposite)
+{
+  const glm::dvec3& p = cell.Corners[opposite == 0 ? 1 : 0];
+  return glm::cross(
+    cell.Corners[opposite <= 1 ? 2 : 1] - p, cell.Corners[opposite == 3 ? 2 : 3] - p);
+}
+
+/** Colour of a surface as lit where a ray meets it. */
+glm::dvec3 LitColor(
+  const PacketJob& job, const PacketSegment& segment, const PacketSurface& surface, double at)
+{
+  const glm::dvec3 emitted(surface.Color[0], surface.Color[1], surface.Color[2]);
+  if (!job.Lighting)
+  {
+    return emitted;
+  }
+  const PacketRay& ray = job.Rays[segment.Ray];
+  constexpr double fraction = 1.0 / 4294967296.0; // 2^-32
+  const glm::dvec2 slope = glm::dvec2(ray.Slope[0], ray.Slope[1]) * fraction * job.GridUnit /
+    double{ PacketVertex::DepthUnit };
+  const glm::dvec2 origin =
+    (glm::dvec2(ray.Offset[0], ray.Offset[1]) * fraction - 0.5) * job.GridUnit;
+  const double depth = segment.StartDepth + at * (double{ segment.EndDepth } - segment.StartDepth);
+  const glm::dvec3 place(origin.x + depth * slope.x, origin.y + depth * slope.y, depth);
+
+  const SeenCell cell = SeeCell(job, segment.CellFace / 4);
+  glm::dvec3 normal;
+  if (job.CellScalars)
+  {
+    normal = FaceNormal(cell, segment.CellFace % 4);
+  }
+  else if (job.VertexGradients)
+  {
+    normal = *job.GradientToFrame * VertexGradient(job, cell, place);
+  }
+  else
+  {
+    normal = *job.GradientToFrame * TripleAt(job.CellGradients, segment.CellFace / 4);
+  }
+  const ReflectedLight light = Light(*job.Lighting, normal, place, slope);
+  return emitted * light.Reflected + light.Highlight;
+}
+
+}
+
+//------------------------------------------------------------------------------
+void CrossSurfaces(const PacketJob& job, const PacketSegment& segment, PacketSurfaceState& state)
+{
+  const PacketSurface* const first = job.Surfaces;
+  const PacketSurface* const end = first + job.NumberOfSurfaces;
+  const auto firstAbove = [&](float scalar)
+  {
+    return std::upper_bound(first, end, scalar,
+      [](float value, const PacketSurface& surface) { return value < surface.Scalar; });
+  };
+  const PacketSurface* now = firstAbove(segment.From);
+  const PacketSurface* const last = firstAbove(segment.To);
+  while (now != last && state.Transmittance > job.TerminationTransmittance)
+  {
+    const bool upward = now < last;
+    const PacketSurface& surface = upward ? *now : *(now - 1);
+    now += upward ? 1 : -1;
+    const double change = double{ segment.To } - segment.From;
+    const double at = job.CellScalars
+      ? 0.0
+      : std::clamp((double{ surface.Scalar } - segment.From) / change, 0.0, 1.0);
+    const glm::dvec3 color = LitColor(job, segment, surface, at);
+    const float weight = state.Transmittance * surface.Opacity;
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      state.Color[channel] += weight * static_cast<float>(color[channel]);
+    }
+    state.Transmittance -= weight;
+  }
+  constexpr float beyond = std::numeric_limits<float>::max();
+  state.Lower = last == first ? -beyond : (last - 1)->Scalar;
+  state.Upper = last == end ? beyond : last->Scalar;
+}
+
+}

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Packet_Models_PacketSurfaces_h
+#define meniscus_Volume_Packet_Models_PacketSurfaces_h
+
+#include "Volume/Packet/Data/PacketJob.h"
+
+#include <cstdint>
+
+namespace meniscus
+{
+
+/** What isosurfaces have left of a ray. */
+struct PacketSurfaceState
+{
+  /** Premultiplied. */
+  float Color[3];
+  float Transmittance;
+  /** The isovalues next to the scalar, the lower one included. */
+  float Lower;
+  float Upper;
+};
+
+/** Part of a ray within a cell, where the scalar is linear. */
+struct PacketSegment
+{
+  float From;
+  float To;
+  float StartDepth;
+  float EndDepth;
+  /** 4 * cell + the face entered by. */
+  std::int32_t CellFace;
+  std::int32_t Ray;
+};
+
+/** Adds the isosurfaces that a segment meets, front to back. */
+void CrossSurfaces(const PacketJob& job, const PacketSegment& segment, PacketSurfaceState& state);
+
+}
+
+#endif

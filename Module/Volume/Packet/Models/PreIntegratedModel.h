@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Packet_Models_PreIntegratedModel_h
+#define meniscus_Volume_Packet_Models_PreIntegratedModel_h
+
+#include "Simd/PacketExponential.h"
+#include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/PacketIntervals.h"
+#include "Volume/Packet/Models/PacketSegmentTable.h"
+
+namespace meniscus
+{
+
+/**
+ * Composite blending of segments looked up in a table (PreIntegration.h), one by one: the table
+ * is there to be compared with CompositeModel, which has the same interface.
+ */
+template <class Simd>
+class PreIntegratedModel
+{
+public:
+  using Float = typename Simd::Float;
+  using Mask = typename Simd::Mask;
+
+  explicit PreIntegratedModel(const PacketJob& job)
+    : Table(*job.SegmentTable)
+    , Termination(Simd::Splat(job.TerminationTransmittance))
+    , Transmittance(Simd::Splat(1.0f))
+  {
+    for (Float& channel : this->Color)
+    {
+      channel = Simd::Splat(0.0f);
+    }
+  }
+
+  void Reset(Mask lanes)
+  {
+    for (Float& channel : this->Color)
+    {
+      channel = Simd::Select(lanes, Simd::Splat(0.0f), channel);
+    }
+    this->Transmittance = Simd::Select(lanes, Simd::Splat(1.0f), this->Transmittance);
+  }
+  void Enter(Mask) {}
+
+  /** Takes segments in whole: none is left pending. */
+  template <class Place>
+  Mask Begin(Mask lanes, Float from, Float to, Float length, const Place&)
+  {
+    this->Add(SegmentsOf<Simd>(lanes, from, to, length), from, to, length);
+    return Simd::FromBits(0);
+  }
+  Mask Advance(Mask lanes) { return lanes; }
+  Mask IsOn() const { return this->Transmittance > this->Termination; }
+
+  static constexpr bool SeesJumps = false;
+  static constexpr int NumberOfTriples = 0;
+  static constexpr bool UsesCellGradients = false;
+  static constexpr bool UsesLines = false;
+  static constexpr int NumberOfValues = 4;
+  static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
+  void Store(float (&values)[NumberOfValues][Simd::Width]) const
+  {
+    for (int channel = 0; channel < 3; ++channel)
+    {
+      Simd::Store(values[channel], this->Color[channel]);
+    }
+    Simd::Store(values[3], this->Transmittance);
+  }
+  static void Finish(const PacketJob&, const float (&values)[NumberOfValues], float (&color)[4])
+  {
+    FinishBlended<Simd>(values, color);
+  }
+
+private:
+  void Add(Mask lanes, Float from, Float to, Float length);
+  void AddWithin(Mask lanes, Float from, Float to, Float length);
+
+  const PacketSegmentTable& Table;
+  Float Termination;
+  Float Color[3];
+  Float Transmittance;
+};
+
+//------------------------------------------------------------------------------
+/** Beyond the range of the table the function is constant: a segment has up to three parts. */
+template <class Simd>
+void PreIntegratedModel<Simd>::Add(Mask lanes, Float from, Float to, Float length)
+{
+  const Float one = Simd::Splat(1.0f);
+  const Float zero = Simd::Splat(0.0f);
+  const auto placeOf = [this](Float scalar)
+  { return (scalar - Simd::Splat(this->Table.Middle)) * Simd::Splat(this->Table.PerHalfRange); };
+  const auto within = [&](Float place) { return Simd::Min(Simd::Max(place, zero - one), one); };
+  const Float front = placeOf(from);
+  const Float back = placeOf(to);
+  const Float enters = within(front);
+  const Float leaves = within(back);
+  const Mask beyond = (Simd::Abs(front) > one) | (Simd::Abs(back) > one);
+  if (Simd::Bits(lanes & beyond) == 0)
+  {
+    this->AddWithin(lanes, front, back, length);
+    return;
+  }
+  // Without a change of scalar a share is 0 / 0 or infinite, which Min() makes 1.
+  const auto share = [&](Float part)
+  { return Simd::Max(Simd::Min(part / (back - front), one), zero); };
+  const Float before = Simd::Select(Simd::Abs(front) > one, share(enters - front), zero);
+  const Float inside =
+    Simd::Select(beyond, Simd::Min(share(leaves - enters), one - before), one - before);
+  this->AddWithin(lanes, enters, enters, before * length);
+  this->AddWithin(lanes, enters, leaves, inside * length);
+  this->AddWithin(lanes, leaves, leaves, (one - before - inside) * length);
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+void PreIntegratedModel<Simd>::AddWithin(Mask lanes, Float from, Float to, Float length)
+{
+  float fromOf[Simd::Width];
+  float toOf[Simd::Width];
+  float lengthOf[Simd::Width];
+  float means[4][Simd::Width];
+  Simd::Store(fromOf, from);
+  Simd::Store(toOf, to);
+  Simd::Store(lengthOf, length);
+  const unsigned int bits = Simd::Bits(lanes);
+  for (int lane = 0; lane < Simd::Width; ++lane)
+  {
+    float mean[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+    if (bits >> lane & 1u)
+    {
+      LookUpSegment(this->Table, fromOf[lane], toOf[lane], lengthOf[lane], mean);
+    }
+    else
+    {
+      lengthOf[lane] = 0.0f;
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      means[i][lane] = mean[i];
+    }
+  }
+  const Float depth = Simd::Load(means[3]) * Simd::Load(lengthOf);
+  const Float weight = this->Transmittance * AbsorbedAll<Simd>(depth);
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    this->Color[channel] = Simd::Fma(weight, Simd::Load(means[channel]), this->Color[channel]);
+  }
+  this->Transmittance = this->Transmittance - weight;
+}
+
+}
+
+#endif

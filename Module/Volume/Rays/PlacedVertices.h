@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Rays_PlacedVertices_h
+#define meniscus_Volume_Rays_PlacedVertices_h
+
+#include "Common/RangeLoop.h"
+#include "Volume/Packet/Data/PacketRays.h"
+
+#include <vector>
+
+namespace meniscus
+{
+
+class FixedPointRays;
+class TetrahedralMesh;
+
+/**
+ * Places the vertices of a mesh in the fixed-point frame of an image's rays.
+ * @param scalars   one normalised scalar per mesh vertex; NaN makes its cells transparent. Empty
+ * for none, where cells have scalars.
+ * @param vertices  replaced.
+ */
+void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
+  const FixedPointRays& rays, const RangeLoop& loop, std::vector<PacketVertex>& vertices);
+
+}
+
+#endif

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Rays/ProjectedFaces.h"
+#include "Volume/Packet/Data/PacketRays.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+static_assert(
+  4.0 * FixedPointRays::RoundingOfRay * 1073741826.0 < ProjectedFaces::Margin, "rounding of rays");
+
+/** u or v of a vertex, a function of the pixel. */
+glm::dvec3 Coefficients(
+  const AffinePixelMap& offset, const AffinePixelMap& slope, int axis, const PacketVertex& vertex)
+{
+  const double depth = vertex.Place[2];
+  return { vertex.Place[axis] - offset.Base[axis] - depth * slope.Base[axis],
+    -offset.PerColumn[axis] - depth * slope.PerColumn[axis],
+    -offset.PerRow[axis] - depth * slope.PerRow[axis] };
+}
+
+/** The affine function u_p v_q - v_p u_q of the pixel, whose second-order terms vanish. */
+glm::dvec3 EdgeFunction(
+  const glm::dvec3& up, const glm::dvec3& vp, const glm::dvec3& uq, const glm::dvec3& vq)
+{
+  return { up[0] * vq[0] - vp[0] * uq[0],
+    up[0] * vq[1] + up[1] * vq[0] - vp[0] * uq[1] - vp[1] * uq[0],
+    up[0] * vq[2] + up[2] * vq[0] - vp[0] * uq[2] - vp[2] * uq[0] };
+}
+
+double At(const glm::dvec3& function, const glm::dvec2& pixel)
+{
+  return function[0] + pixel.x * function[1] + pixel.y * function[2];
+}
+
+/**
+ * Bound of the change of the doubled area of a face about the ray through one of its vertices, if
+ * u and v of each vertex are off by `error`: the length of a vertex's displacement, sqrt(2) of it,
+ * times the edges, and the products of two displacements.
+ */
+double AreaError(const ProjectedFaces::Vertex& p, const ProjectedFaces::Vertex& q,
+  const glm::dvec2& pixel, double error)
+{
+  const glm::dvec2 toP(At(p.U, pixel), At(p.V, pixel));
+  const glm::dvec2 toQ(At(q.U, pixel), At(q.V, pixel));
+  const double edges =
+    std::hypot(toP.x, toP.y) + std::hypot(toQ.x, toQ.y) + std::hypot(toP.x - toQ.x, toP.y - toQ.y);
+  return 1.42 * error * edges + 6.0 * error * error;
+}
+
+}
+
+//------------------------------------------------------------------------------
+void ProjectedFaces::Set(const std::vector<PacketVertex>& vertices,
+  const std::vector<BoundaryFace>& faces, const FixedPointRays& rays)
+{
+  this->Vertices = &vertices;
+  this->Faces = &faces;
+  this->Rays = rays;
+}
+
+//------------------------------------------------------------------------------
+ProjectedFaces::Vertex ProjectedFaces::ProjectVertex(std::int32_t vertex) const
+{
+  const PacketVertex& seen = this->GetVertex(vertex);
+  const AffinePixelMap& offset = this->Rays.GetOffset();
+  const AffinePixelMap& slope = this->Rays.GetSlope();
+  return { Coefficients(offset, slope, 0, seen), Coefficients(offset, slope, 1, seen),
+    FixedPointRays::DepthOf(seen.Place[2]) };
+}
+
+//------------------------------------------------------------------------------
+ProjectedFaces::Face ProjectedFaces::Project(std::int32_t index) const
+{
+  const BoundaryFace& face = this->GetFace(index);
+  const bool counterClockwise = face.Outward * this->Rays.GetFrame().Handedness > 0;
+  Face seen;
+  seen.Ids[0] = face.Vertices[counterClockwise ? 0 : 1];
+  seen.Ids[1] = face.Vertices[counterClockwise ? 1 : 0];
+  seen.Ids[2] = face.Vertices[2];
+  for (int i = 0; i < 3; ++i)
+  {
+    seen.Vertices[i] = this->ProjectVertex(seen.Ids[i]);
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    const Vertex& p = seen.Vertices[i];
+    const Vertex& q = seen.Vertices[(i + 1) % 3];
+    seen.Edges[i] = EdgeFunction(p.U, p.V, q.U, q.V);
+  }
+  return seen;
+}
+
+//------------------------------------------------------------------------------
+ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double error) const
+{
+  const PixelBox whole{ 0, this->Rays.GetWidth(), 0, this->Rays.GetHeight() };
+  glm::dvec2 lower(1.0e30);
+  glm::dvec2 upper(-1.0e30);
+  double pixelError = 0.0;
+  bool facesAway = true;
+  const Vertex& first = face.Vertices[0];
+  for (int k = 0; k < 3; ++k)
+  {
+    // The pixel whose ray passes through the vertex: u = v = 0. How u and v change with the column
+    // is 0 in the plane of the eye and the other way behind it.
+    const Vertex& vertex = face.Vertices[k];
+    const double side = vertex.U[1] * vertex.V[2] - vertex.U[2] * vertex.V[1];
+    const bool together = vertex.U[1] * first.U[1] + vertex.V[1] * first.V[1] > 0.0;
+    const glm::dvec2 pixel = glm::dvec2(vertex.U[2] * vertex.V[0] - vertex.U[0] * vertex.V[2],
+                               vertex.U[0] * vertex.V[1] - vertex.U[1] * vertex.V[0]) /
+      side;
+    if (!together || !(std::abs(pixel.x) < 1.0e9) || !(std::abs(pixel.y) < 1.0e9))
+    {
+      // About the plane of the eye, where the face is seen without bounds.
+      return { whole, std::numeric_limits<double>::infinity() };
+    }
+    lower = glm::dvec2(std::min(lower.x, pixel.x), std::min(lower.y, pixel.y));
+    upper = glm::dvec2(std::max(upper.x, pixel.x), std::max(upper.y, pixel.y));
+    const double opposite = At(face.Edges[(k + 1) % 3], pixel);
+    double margin = Margin;
+    if (error > 0.0)
+    {
+      margin += AreaError(face.Vertices[(k + 1) % 3], face.Vertices[(k + 2) % 3], pixel, error);
+      // (u, v) changes by at least the smaller singular value per pixel, which is the determinant
+      // over the larger one. Both u and v are off.
+      const double largest = std::sqrt(vertex.U[1] * vertex.U[1] + vertex.U[2] * vertex.U[2] +
+        vertex.V[1] * vertex.V[1] + vertex.V[2] * vertex.V[2]);
+      pixelError = std::max(pixelError, 1.42 * error * largest / std::abs(side));
+    }
+    // Within a face that turns the other way, one edge is below a third of its value at the vertex
+    // opposite.
+    facesAway = facesAway && opposite < -3.0 * margin;
+  }
+  if (facesAway)
+  {
+    return { { 0, 0, 0, 0 }, 0.0 };
+  }
+  const auto clamped = [](double value, int size)
+  { return static_cast<int>(std::min(std::max(value, 0.0), static_cast<double>(size))); };
+  const glm::dvec2 center(0.5 * whole.Right, 0.5 * whole.Top);
+  // Pixel p has its centre at p + 0.5; one more on each side for rounding.
+  const double reach = 1.5 + pixelError;
+  return { { clamped(lower.x + center.x - reach, whole.Right),
+             clamped(upper.x + center.x + reach, whole.Right),
+             clamped(lower.y + center.y - reach, whole.Top),
+             clamped(upper.y + center.y + reach, whole.Top) },
+    pixelError };
+}
+
+//------------------------------------------------------------------------------
+double ProjectedFaces::GetNearestDepth(std::int32_t index) const
+{
+  std::int32_t nearest = std::numeric_limits<std::int32_t>::max();
+  for (const std::int32_t vertex : this->GetFace(index).Vertices)
+  {
+    nearest = std::min(nearest, this->GetVertex(vertex).Place[2]);
+  }
+  return FixedPointRays::DepthOf(nearest);
+}
+
+}

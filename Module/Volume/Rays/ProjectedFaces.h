@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Rays_ProjectedFaces_h
+#define meniscus_Volume_Rays_ProjectedFaces_h
+
+#include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Rays/FixedPointRays.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/** Boundary faces as the rays of an image see them. */
+class ProjectedFaces
+{
+public:
+  /**
+   * @param vertices  those of the mesh in the grid of the rays; must outlive this.
+   * @param faces     the boundary that rays may enter by; must outlive this.
+   */
+  void Set(const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& faces,
+    const FixedPointRays& rays);
+
+  std::size_t GetNumberOfFaces() const { return this->Faces->size(); }
+  const FixedPointRays& GetRays() const { return this->Rays; }
+  const PacketVertex& GetVertex(std::int32_t index) const
+  {
+    return (*this->Vertices)[static_cast<std::size_t>(index)];
+  }
+  const BoundaryFace& GetFace(std::int32_t index) const
+  {
+    return (*this->Faces)[static_cast<std::size_t>(index)];
+  }
+
+  /** u and v of a vertex as functions of the pixel: constant, per column, per row. */
+  struct Vertex
+  {
+    glm::dvec3 U;
+    glm::dvec3 V;
+    double Depth;
+  };
+  /** A face, its vertices counter-clockwise about the rays that enter by it. */
+  struct Face
+  {
+    std::int32_t Ids[3];
+    Vertex Vertices[3];
+    /** Areas that the edges 01, 12, 20 span with a ray, doubled: affine functions of the pixel. */
+    glm::dvec3 Edges[3];
+  };
+  Face Project(std::int32_t index) const;
+
+  struct PixelBox
+  {
+    int Left;
+    int Right; // exclusive
+    int Bottom;
+    int Top; // exclusive
+
+    bool IsEmpty() const { return this->Left >= this->Right || this->Bottom >= this->Top; }
+  };
+  /** A box of pixels and the error of a vertex in pixels. */
+  struct Footprint
+  {
+    PixelBox Box;
+    double Error;
+  };
+  /**
+   * The pixels whose rays may enter by a face; empty if it surely faces away.
+   * @param error  grid units by which u and v of a vertex may be off for whoever asks.
+   */
+  Footprint BoundPixels(const Face& face, double error = 0.0) const;
+
+  /** Least depth of a face. */
+  double GetNearestDepth(std::int32_t index) const;
+
+  /**
+   * Bound of the change of an edge's area by rounding to the grid: FixedPointRays::RoundingOfRay in
+   * each of four numbers, each the factor of another of at most 2^30 + 2, and the double
+   * arithmetic, much less.
+   */
+  static constexpr double Margin = 4294967296.0; // 2^32
+
+private:
+  Vertex ProjectVertex(std::int32_t vertex) const;
+
+  const std::vector<PacketVertex>* Vertices = nullptr;
+  const std::vector<BoundaryFace>* Faces = nullptr;
+  FixedPointRays Rays;
+};
+
+}
+
+#endif

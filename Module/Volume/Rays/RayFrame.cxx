@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Rays/RayFrame.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Element of a column-vector matrix by row and column. */
+double At(const glm::dmat4& m, int row, int column)
+{
+  return m[column][row];
+}
+
+/**
+ * View (x, y) of the ray at clip position `clip` in the plane at view z: the two linear equations
+ * clip_i * w(z) = P_i (x, y, z, 1), where w does not depend on x and y.
+ */
+glm::dvec2 RayPoint(const glm::dmat4& p, const glm::dvec2& clip, double z)
+{
+  const double w = At(p, 3, 2) * z + At(p, 3, 3);
+  const glm::dvec2 right(
+    clip.x * w - At(p, 0, 2) * z - At(p, 0, 3), clip.y * w - At(p, 1, 2) * z - At(p, 1, 3));
+  const double determinant = At(p, 0, 0) * At(p, 1, 1) - At(p, 0, 1) * At(p, 1, 0);
+  return glm::dvec2(At(p, 1, 1) * right.x - At(p, 0, 1) * right.y,
+           At(p, 0, 0) * right.y - At(p, 1, 0) * right.x) /
+    determinant;
+}
+
+/** Slope d(x, y) / d(depth) of the ray; depth is -z. */
+glm::dvec2 RaySlope(const glm::dmat4& p, const glm::dvec2& clip)
+{
+  // RayPoint is linear in z: the difference over one unit, free of the point itself.
+  const double determinant = At(p, 0, 0) * At(p, 1, 1) - At(p, 0, 1) * At(p, 1, 0);
+  const glm::dvec2 right(clip.x * At(p, 3, 2) - At(p, 0, 2), clip.y * At(p, 3, 2) - At(p, 1, 2));
+  return -glm::dvec2(At(p, 1, 1) * right.x - At(p, 0, 1) * right.y,
+           At(p, 0, 0) * right.y - At(p, 1, 0) * right.x) /
+    determinant;
+}
+
+/** The affine map through its values at the image's centre, right edge and top edge. */
+template <typename Function>
+AffinePixelMap MapOfPixels(const glm::dvec2& imageSize, const Function& valueAt)
+{
+  AffinePixelMap map;
+  map.Base = valueAt(glm::dvec2(0.0, 0.0));
+  map.PerColumn = (valueAt(glm::dvec2(1.0, 0.0)) - map.Base) * (2.0 / imageSize.x);
+  map.PerRow = (valueAt(glm::dvec2(0.0, 1.0)) - map.Base) * (2.0 / imageSize.y);
+  return map;
+}
+
+bool IsFinite(const AffinePixelMap& map)
+{
+  const glm::dvec2 sum = map.Base + map.PerColumn + map.PerRow;
+  return std::isfinite(sum.x) && std::isfinite(sum.y);
+}
+
+}
+
+//------------------------------------------------------------------------------
+RayFrameStatus ComputeRayFrame(const RayFrameInput& input, RayFrame& frame)
+{
+  const glm::dmat4& p = input.ViewToClip;
+  if (At(p, 3, 0) != 0.0 || At(p, 3, 1) != 0.0)
+  {
+    return RayFrameStatus::NotACamera;
+  }
+  const glm::dmat4 modelToView = input.WorldToView * input.ModelToWorld;
+  const glm::dmat3 linear(modelToView);
+  const double determinant = glm::determinant(linear);
+  const double worldDeterminant = glm::determinant(glm::dmat3(input.WorldToView));
+  if (!(std::abs(determinant) > 0.0) || !std::isfinite(determinant) ||
+    !(std::abs(worldDeterminant) > 0.0) || !std::isfinite(worldDeterminant))
+  {
+    return RayFrameStatus::Singular;
+  }
+
+  const auto row = [&](int i)
+  {
+    return input.Radius *
+      glm::dvec3(At(modelToView, i, 0), At(modelToView, i, 1), At(modelToView, i, 2));
+  };
+  // Bounds how much the matrix stretches any direction (the largest sum of a row of M M^T), so that
+  // the mesh is within the unit also along the axes of frames that are turned: for a similarity it
+  // is the scale.
+  double stretch = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    stretch = std::max(stretch,
+      std::abs(glm::dot(row(i), row(0))) + std::abs(glm::dot(row(i), row(1))) +
+        std::abs(glm::dot(row(i), row(2))));
+  }
+  const double unit = std::sqrt(stretch);
+  frame.RowX = row(0) / unit;
+  frame.RowY = row(1) / unit;
+  frame.RowDepth = -row(2) / unit;
+  frame.Handedness = determinant > 0.0 ? 1 : -1;
+  frame.ViewToWorld = unit * glm::inverse(glm::dmat3(input.WorldToView));
+  frame.ViewToWorld[2] = -frame.ViewToWorld[2]; // depth counts along -z
+
+  const glm::dvec3 center(modelToView * glm::dvec4(input.Center, 1.0));
+  const glm::dvec2 centerXY(center);
+  frame.Origin = MapOfPixels(input.ImageSize,
+    [&](const glm::dvec2& clip) { return (RayPoint(p, clip, center.z) - centerXY) / unit; });
+  frame.Slope =
+    MapOfPixels(input.ImageSize, [&](const glm::dvec2& clip) { return RaySlope(p, clip); });
+  if (!IsFinite(frame.Origin) || !IsFinite(frame.Slope))
+  {
+    return RayFrameStatus::Singular;
+  }
+
+  // d * w = P_2: z = (P_23 - d P_33) / (d P_32 - P_22), depth = (center.z - z) / unit.
+  frame.DepthDenominator = glm::dvec2(At(p, 3, 2), -At(p, 2, 2)) * unit;
+  frame.DepthNumerator = { center.z * At(p, 3, 2) + At(p, 3, 3),
+    -center.z * At(p, 2, 2) - At(p, 2, 3) };
+  frame.NearDepth = frame.DepthAt(-1.0);
+  return std::isfinite(frame.NearDepth) ? RayFrameStatus::Ok : RayFrameStatus::Singular;
+}
+
+}

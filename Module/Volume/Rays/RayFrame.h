@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * The rays of an image in the frame of the view, as affine functions of the pixel.
+ *
+ * Frame: x to the right, y up, depth away from the viewer, all in view coordinates relative to the
+ * mesh's centre and in units of about the mesh's radius. The ray of a pixel is
+ * (x, y) = Origin + depth * Slope. With p a model position relative to the mesh's centre in units
+ * of its radius, the ray-aligned projection of a vertex is u = RowX p - Origin_x - Slope_x * depth,
+ * likewise v, and depth = RowDepth p. Numbers stay about 1 however far away the camera or the
+ * origin of coordinates is, however large or small the mesh; all are computed in double precision
+ * and rounded once.
+ */
+#ifndef meniscus_Volume_Rays_RayFrame_h
+#define meniscus_Volume_Rays_RayFrame_h
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace meniscus
+{
+
+struct RayFrameInput
+{
+  /** Model to world, world to view and view to clip coordinates; column vectors. */
+  glm::dmat4 ModelToWorld{ 1.0 };
+  glm::dmat4 WorldToView{ 1.0 };
+  glm::dmat4 ViewToClip{ 1.0 };
+  /** Centre of the mesh, model coordinates. */
+  glm::dvec3 Center{ 0.0 };
+  /** Radius of the mesh about its centre, model coordinates, > 0. */
+  double Radius = 1.0;
+  /** Pixels of the image that the clip coordinates [-1, 1] span. */
+  glm::dvec2 ImageSize{ 1.0 };
+};
+
+/** base + i * PerColumn + j * PerRow, (i, j) counted from the image's centre to a pixel's centre.
+ */
+struct AffinePixelMap
+{
+  glm::dvec2 Base{ 0.0 };
+  glm::dvec2 PerColumn{ 0.0 };
+  glm::dvec2 PerRow{ 0.0 };
+
+  glm::dvec2 At(double i, double j) const { return this->Base + i * PerColumn + j * PerRow; }
+};
+
+struct RayFrame
+{
+  /** Normalised model position to x, y and depth. */
+  glm::dvec3 RowX{ 0.0 };
+  glm::dvec3 RowY{ 0.0 };
+  glm::dvec3 RowDepth{ 0.0 };
+  AffinePixelMap Origin;
+  AffinePixelMap Slope;
+  /** World length of a vector (x, y, depth) is the length of this matrix times it. */
+  glm::dmat3 ViewToWorld{ 1.0 };
+  /** -1 if model to view mirrors, which exchanges entering and leaving faces; else 1. */
+  int Handedness = 1;
+  /** Depth of the near clipping plane. */
+  double NearDepth = 0.0;
+  /** Depth = (d * DepthNumerator.x + .y) / (d * DepthDenominator.x + .y), d = clip depth in [-1,
+   * 1]. */
+  glm::dvec2 DepthNumerator{ 0.0 };
+  glm::dvec2 DepthDenominator{ 1.0 };
+
+  double DepthAt(double clipDepth) const
+  {
+    return (clipDepth * this->DepthNumerator.x + this->DepthNumerator.y) /
+      (clipDepth * this->DepthDenominator.x + this->DepthDenominator.y);
+  }
+};
+
+enum class RayFrameStatus
+{
+  Ok,
+  /** A matrix is singular or not finite. */
+  Singular,
+  /** The homogeneous coordinate varies within planes parallel to the image: not a camera's matrix.
+   */
+  NotACamera
+};
+
+RayFrameStatus ComputeRayFrame(const RayFrameInput& input, RayFrame& frame);
+
+}
+
+#endif

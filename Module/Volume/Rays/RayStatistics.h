@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Rays_RayStatistics_h
+#define meniscus_Volume_Rays_RayStatistics_h
+
+#include <cstdint>
+
+namespace meniscus
+{
+
+/** Sums over the rays of a frame. */
+struct RayStatistics
+{
+  /** Cells crossed. */
+  std::int64_t Steps = 0;
+  /** Rays that entered the mesh. */
+  std::int64_t Rays = 0;
+  /** Rays whose walk did not end on the boundary. */
+  std::int64_t Lost = 0;
+};
+
+}
+
+#endif

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Refracted/PatchIntersectionBatch.h"
+
+#include "Refraction/Membrane/Optics.h"
+#include "Simd/InstructionSets.h"
+#include "Simd/LaneLoop.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Of one lane each: what the loops do. */
+struct PlaneKernel
+{
+  FacetPlane Plane;
+  SightRays Rays;
+  double NormalLength;
+
+  void operator()(PatchIntersectionBatch& lanes, int i) const
+  {
+    const glm::dvec3 direction = this->Rays.DirectionOf(lanes.Column[i], lanes.Row[i]);
+    const glm::dvec3 toCorner =
+      this->Plane.Corner - this->Rays.StartOf(lanes.Column[i], lanes.Row[i]);
+    const double along = glm::dot(this->Plane.Normal, direction);
+    const double depth = glm::dot(this->Plane.Normal, toCorner) / along;
+    const glm::dvec3 inPlane = depth * direction - toCorner;
+    lanes.Depth[i] = depth;
+    const double x = glm::dot(inPlane, this->Plane.ByX);
+    const double y = glm::dot(inPlane, this->Plane.ByY);
+    lanes.X[i] = x;
+    lanes.Y[i] = y;
+    lanes.Least[i] = std::min(std::min(x, y), 1.0 - x - y);
+    lanes.Slant[i] = this->NormalLength * glm::length(direction) / std::fabs(along);
+  }
+};
+
+struct PatchKernel
+{
+  CurvedPatch Patch;
+  SightRays Rays;
+  double Scale;
+
+  void operator()(PatchIntersectionBatch& lanes, int i) const
+  {
+    const glm::dvec3 direction = this->Rays.DirectionOf(lanes.Column[i], lanes.Row[i]);
+    const glm::dvec3 start = this->Rays.StartOf(lanes.Column[i], lanes.Row[i]);
+    PatchJet jet;
+    this->Patch.Evaluate(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i]), jet);
+    // Cramer's rule for by0 x + by1 y - direction l = rest.
+    const glm::dvec3 along = this->Scale * direction;
+    const glm::dvec3 rest = start + (lanes.Depth[i] + lanes.Behind[i]) * direction - jet.position;
+    const glm::dvec3 byX = glm::cross(jet.positionBy[1], along);
+    const double inverse = 1.0 / glm::dot(jet.positionBy[0], byX);
+    const double x = inverse * glm::dot(rest, byX);
+    const double y = inverse * glm::dot(jet.positionBy[0], glm::cross(rest, along));
+    const double l = -inverse * glm::dot(rest, glm::cross(jet.positionBy[0], jet.positionBy[1]));
+    lanes.PatchX[i] += x;
+    lanes.PatchY[i] += y;
+    lanes.Behind[i] += l * this->Scale;
+    lanes.Move[i] = std::max(std::max(std::fabs(x), std::fabs(y)), std::fabs(l));
+    // Over so short a step as the last the normal is as good as linear.
+    const glm::dvec3 normal = jet.normal + x * jet.normalBy[0] + y * jet.normalBy[1];
+    lanes.Normal[0][i] = normal.x;
+    lanes.Normal[1][i] = normal.y;
+    lanes.Normal[2][i] = normal.z;
+  }
+};
+
+struct RefractKernel
+{
+  SightRays Rays;
+  double Ratio;
+
+  void operator()(PatchIntersectionBatch& lanes, int i) const
+  {
+    const glm::dvec3 direction = this->Rays.DirectionOf(lanes.Column[i], lanes.Row[i]);
+    const double length = glm::length(direction);
+    const glm::dvec3 sight = direction / length;
+    const glm::dvec3 normal =
+      glm::normalize(glm::dvec3(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]));
+    // From behind, light goes from the interior into the exterior.
+    const double facing = glm::dot(sight, normal);
+    const double sign = facing > 0.0 ? -1.0 : 1.0;
+    const double ratio = facing > 0.0 ? 1.0 / this->Ratio : this->Ratio;
+    const double cosine = sign * facing;
+    const double radicand = RefractionRadicand(cosine, ratio);
+    // What is drawn at a distance behind the sight point is that times n2 / n1 away (Eq. 2.4).
+    const glm::dvec3 step =
+      length / ratio * RefractionDirection(sight, sign * normal, ratio, cosine, radicand);
+    lanes.Normal[0][i] = step.x;
+    lanes.Normal[1][i] = step.y;
+    lanes.Normal[2][i] = step.z;
+    lanes.Refracted[i] = radicand < 0.0 ? 0.0 : 1.0;
+  }
+};
+
+}
+
+//------------------------------------------------------------------------------
+void PatchIntersectionBatch::Add(std::int32_t index, double column, double row)
+{
+  this->Index[this->Count] = index;
+  this->Column[this->Count] = column;
+  this->Row[this->Count] = row;
+  ++this->Count;
+}
+
+//------------------------------------------------------------------------------
+void PatchIntersectionBatch::Keep(int to, int from)
+{
+  if (to == from)
+  {
+    return;
+  }
+  this->Index[to] = this->Index[from];
+  for (double* of : { this->Column, this->Row, this->Depth, this->X, this->Y, this->Least,
+         this->Slant, this->PatchX, this->PatchY, this->Behind })
+  {
+    of[to] = of[from];
+  }
+}
+
+//------------------------------------------------------------------------------
+void MeetPlane(
+  const FacetPlane& plane, const SightRays& rays, InstructionSet set, PatchIntersectionBatch& lanes)
+{
+  RunLanes(PlaneKernel{ plane, rays, glm::length(plane.Normal) }, set, lanes);
+}
+
+//------------------------------------------------------------------------------
+void StepToPatch(const CurvedPatch& patch, const SightRays& rays, double scale, InstructionSet set,
+  PatchIntersectionBatch& lanes)
+{
+  RunLanes(PatchKernel{ patch, rays, scale }, set, lanes);
+}
+
+//------------------------------------------------------------------------------
+void Refract(const SightRays& rays, double ratio, InstructionSet set, PatchIntersectionBatch& lanes)
+{
+  RunLanes(RefractKernel{ rays, ratio }, set, lanes);
+}
+
+}

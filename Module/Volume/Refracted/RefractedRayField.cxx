@@ -1,0 +1,513 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Refracted/RefractedRayField.h"
+
+#include "Refraction/Curved/CurveCrossings.h"
+#include "Refraction/Membrane/Optics.h"
+#include "Refraction/Tubes/RefractedRayBounds.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Pixels of a block, along each side: what its rays come to is bounded together. */
+constexpr int BlockSize = 8;
+
+bool operator==(const AffinePixelMap& a, const AffinePixelMap& b)
+{
+  return a.Base == b.Base && a.PerColumn == b.PerColumn && a.PerRow == b.PerRow;
+}
+
+bool operator==(const BoundsInFrame& a, const BoundsInFrame& b)
+{
+  return a.Center == b.Center && a.HalfEdges == b.HalfEdges;
+}
+
+}
+
+//------------------------------------------------------------------------------
+bool RefractedRayField::View::operator==(const View& o) const
+{
+  const RayFrame& a = this->Frame;
+  const RayFrame& b = o.Frame;
+  return a.RowX == b.RowX && a.RowY == b.RowY && a.RowDepth == b.RowDepth && a.Origin == b.Origin &&
+    a.Slope == b.Slope && a.ViewToWorld == b.ViewToWorld && this->Width == o.Width &&
+    this->Height == o.Height && this->Center == o.Center && this->EyeDepth == o.EyeDepth &&
+    this->Exterior == o.Exterior && this->Interior == o.Interior && this->Mesh == o.Mesh;
+}
+
+/** The rays of a tile, relative to the membrane's origin. */
+class RefractedRayField::TileRays
+{
+public:
+  TileRays(const RefractedRayField& sight, int tile)
+    : Rays(sight.Rays)
+  {
+    this->Left = tile % sight.Columns * TileSize;
+    this->Bottom = tile / sight.Columns * TileSize;
+    this->ToCenter = glm::dvec2(0.5 - 0.5 * sight.Of.Width, 0.5 - 0.5 * sight.Of.Height);
+    const CornerRays corners =
+      this->CornersOf(this->Left, this->Bottom, this->Left + TileSize, this->Bottom + TileSize);
+    const auto& starts = corners.Starts;
+    const auto& along = corners.Directions;
+    // A place that the tile sees.
+    const glm::dvec3 inside =
+      0.5 * (starts[0] + starts[2]) + 0.5 * (sight.Of.EyeDepth + 1.0) * (along[0] + along[2]);
+    for (int side = 0; side < 4; ++side)
+    {
+      // Through two rays, of one eye or parallel: of two points of the next ray the better one.
+      const int next = (side + 1) % 4;
+      const glm::dvec3 across = starts[next] - starts[side];
+      const glm::dvec3 first = glm::cross(along[side], across);
+      const glm::dvec3 second = glm::cross(along[side], across + along[next]);
+      glm::dvec3 normal =
+        glm::normalize(glm::dot(first, first) > glm::dot(second, second) ? first : second);
+      normal = glm::dot(normal, inside - starts[side]) < 0.0 ? -normal : normal;
+      this->Sides[side] = glm::dvec4(normal, -glm::dot(normal, starts[side]));
+    }
+  }
+
+  /** From the image's centre. */
+  double ColumnOf(int column) const { return column + this->ToCenter.x; }
+  double RowOf(int row) const { return row + this->ToCenter.y; }
+
+  /** Of a rectangle of pixels; right and top are exclusive. */
+  CornerRays CornersOf(int left, int bottom, int right, int top) const
+  {
+    const int columns[4] = { left, right - 1, right - 1, left };
+    const int rows[4] = { bottom, bottom, top - 1, top - 1 };
+    CornerRays corners;
+    for (int corner = 0; corner < 4; ++corner)
+    {
+      const double column = this->ColumnOf(columns[corner]);
+      const double row = this->RowOf(rows[corner]);
+      corners.Starts[corner] = this->Rays.StartOf(column, row);
+      corners.Directions[corner] = this->Rays.DirectionOf(column, row);
+    }
+    return corners;
+  }
+
+  /** Whether a ball is on the outer side of one of the tile's sides. */
+  bool IsBeside(const glm::dvec3& center, double radius) const
+  {
+    for (const glm::dvec4& side : this->Sides)
+    {
+      if (glm::dot(side, glm::dvec4(center, 1.0)) < -radius)
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  int Left;
+  int Bottom;
+
+private:
+  const SightRays& Rays;
+  glm::dvec2 ToCenter;
+  glm::dvec4 Sides[4];
+};
+
+//------------------------------------------------------------------------------
+void RefractedRayField::Clear()
+{
+  this->Seen = false;
+  this->Tiles.clear();
+}
+
+//------------------------------------------------------------------------------
+std::int64_t RefractedRayField::GetBytes() const
+{
+  std::size_t bytes = (this->TileBegin.capacity() + this->FacetOfSlot.capacity()) * 4;
+  for (const std::vector<RefractedRay>& tile : this->Tiles)
+  {
+    bytes += tile.capacity() * sizeof(RefractedRay);
+  }
+  return static_cast<std::int64_t>(bytes);
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayField::PrepareRays(const Membrane& surface)
+{
+  const RayFrame& frame = this->Of.Frame;
+  const glm::dmat3& toWorld = frame.ViewToWorld;
+  this->WorldToFrame = glm::inverse(toWorld);
+  const auto across = [&toWorld](const glm::dvec2& v) { return toWorld * glm::dvec3(v, 0.0); };
+  this->Rays.Start[0] = this->Of.Center - surface.GetOrigin() + across(frame.Origin.Base);
+  this->Rays.Start[1] = across(frame.Origin.PerColumn);
+  this->Rays.Start[2] = across(frame.Origin.PerRow);
+  this->Rays.Direction[0] = toWorld * glm::dvec3(frame.Slope.Base, 1.0);
+  this->Rays.Direction[1] = across(frame.Slope.PerColumn);
+  this->Rays.Direction[2] = across(frame.Slope.PerRow);
+
+  const BoundsInFrame& mesh = this->Of.Mesh;
+  const glm::dmat3 edges = toWorld * mesh.HalfEdges;
+  this->Mesh.Center = this->Of.Center - surface.GetOrigin() + toWorld * mesh.Center;
+  this->Mesh.Half = SightMargin * (glm::abs(edges[0]) + glm::abs(edges[1]) + glm::abs(edges[2]));
+  this->Mesh.Ratio = this->Of.Exterior / this->Of.Interior;
+}
+
+//------------------------------------------------------------------------------
+/** Where a place of the frame is seen, counted from the image's centre; false beside the eye. */
+bool RefractedRayField::PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const
+{
+  const AffinePixelMap& origin = this->Of.Frame.Origin;
+  const AffinePixelMap& slope = this->Of.Frame.Slope;
+  const glm::dvec2 column = origin.PerColumn + place.z * slope.PerColumn;
+  const glm::dvec2 row = origin.PerRow + place.z * slope.PerRow;
+  const glm::dvec2 rest = glm::dvec2(place) - origin.Base - place.z * slope.Base;
+  const double determinant = column.x * row.y - column.y * row.x;
+  pixel = glm::dvec2(rest.x * row.y - rest.y * row.x, column.x * rest.y - column.y * rest.x) /
+    determinant;
+  // Far pixels are no pixels, and would not fit an integer.
+  return std::fabs(pixel.x) < 1e9 && std::fabs(pixel.y) < 1e9;
+}
+
+//------------------------------------------------------------------------------
+/** Along the sight ray of a place. */
+glm::dvec3 RefractedRayField::SightTo(const glm::dvec3& place) const
+{
+  const bool isParallel =
+    this->Rays.Direction[1] == glm::dvec3(0.0) && this->Rays.Direction[2] == glm::dvec3(0.0);
+  return isParallel ? this->Rays.Direction[0]
+                    : place - this->Rays.Start[0] - this->Of.EyeDepth * this->Rays.Direction[0];
+}
+
+//------------------------------------------------------------------------------
+/** Whether rays that meet the patch may come to the mesh, before it or behind it. */
+bool RefractedRayField::MayShowMesh(const CurvedPatch& patch, double bulge) const
+{
+  const glm::dvec3 sights[3] = { this->SightTo(patch.corner[0]), this->SightTo(patch.corner[1]),
+    this->SightTo(patch.corner[2]) };
+  const DirectionBox sight =
+    BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
+  return this->Mesh.MayBeSeen(sight, BoundNormals(patch), patch.corner, 3, bulge);
+}
+
+//------------------------------------------------------------------------------
+/** Pixels whose rays may meet the facet's patch. */
+RefractedRayField::SeenFacet RefractedRayField::See(
+  const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const
+{
+  const CurvedPatch patch = patches.GetPatch(facet);
+  bool isAtBorder = false;
+  for (int corner = 0; corner < 3; ++corner)
+  {
+    isAtBorder = isAtBorder || patches.GetNeighbour(facet, corner) == CurvedPatches::NoFacet;
+  }
+  const double bulge = BoundBulge(patch);
+  const double facing = glm::dot(this->SightTo(patch.corner[0]),
+    glm::cross(patch.corner[1] - patch.corner[0], patch.corner[2] - patch.corner[0]));
+  SeenFacet seen{ { 0, this->Of.Width, 0, this->Of.Height }, true, isAtBorder,
+    (facing > 0.0 ? 1 : 0) - (facing < 0.0 ? 1 : 0), false, glm::dvec3(0.0), 0.0 };
+  // What a ball of the world may be in the frame.
+  glm::dvec3 reach(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    reach[axis] = bulge * glm::length(glm::row(this->WorldToFrame, axis));
+  }
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
+  for (const glm::dvec3& corner : patch.corner)
+  {
+    const glm::dvec3 place =
+      this->WorldToFrame * (corner + (surface.GetOrigin() - this->Of.Center));
+    low = glm::min(low, place - reach);
+    high = glm::max(high, place + reach);
+  }
+  const bool isBehind = high.z <= this->Of.EyeDepth;
+  seen.Unbounded = !(low.z > this->Of.EyeDepth);
+  glm::dvec2 lower(std::numeric_limits<double>::max());
+  glm::dvec2 upper(std::numeric_limits<double>::lowest());
+  for (int c = 0; c < 8 && !seen.Unbounded; ++c)
+  {
+    glm::dvec2 pixel;
+    seen.Unbounded = !this->PixelOf(
+      glm::dvec3((c & 1 ? low : high).x, (c & 2 ? low : high).y, (c & 4 ? low : high).z), pixel);
+    lower = glm::min(lower, pixel);
+    upper = glm::max(upper, pixel);
+  }
+  if (isBehind)
+  {
+    seen.Pixels = { 0, 0, 0, 0 };
+    return seen;
+  }
+  if (seen.Unbounded)
+  {
+    seen.Center = (patch.corner[0] + patch.corner[1] + patch.corner[2]) / 3.0;
+    for (const glm::dvec3& corner : patch.corner)
+    {
+      seen.Radius = std::max(seen.Radius, bulge + glm::length(corner - seen.Center));
+    }
+    seen.Radius *= SightMargin;
+    return seen;
+  }
+  seen.Matters = this->MayShowMesh(patch, bulge);
+  const auto clamped = [](double value, int size)
+  { return static_cast<int>(std::min(std::max(value, 0.0), static_cast<double>(size))); };
+  const glm::dvec2 center(0.5 * this->Of.Width, 0.5 * this->Of.Height);
+  // Pixel p has its centre at p + 0.5; one more on each side for rounding.
+  seen.Pixels = { clamped(lower.x + center.x - 1.5, this->Of.Width),
+    clamped(upper.x + center.x + 1.5, this->Of.Width),
+    clamped(lower.y + center.y - 1.5, this->Of.Height),
+    clamped(upper.y + center.y + 1.5, this->Of.Height) };
+  return seen;
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayField::SortFacets(const std::vector<SeenFacet>& facets)
+{
+  const auto forTilesOf = [this](const Box& box, const auto& body)
+  {
+    if (box.Left >= box.Right || box.Bottom >= box.Top)
+    {
+      return;
+    }
+    for (int row = box.Bottom / TileSize; row <= (box.Top - 1) / TileSize; ++row)
+    {
+      for (int column = box.Left / TileSize; column <= (box.Right - 1) / TileSize; ++column)
+      {
+        body(static_cast<std::size_t>(row) * this->Columns + column);
+      }
+    }
+  };
+  this->TileBegin.assign(static_cast<std::size_t>(this->Columns) * this->Rows + 1, 0);
+  for (const SeenFacet& facet : facets)
+  {
+    forTilesOf(facet.Pixels, [this](std::size_t tile) { ++this->TileBegin[tile + 1]; });
+  }
+  for (std::size_t tile = 0; tile + 1 < this->TileBegin.size(); ++tile)
+  {
+    this->TileBegin[tile + 1] += this->TileBegin[tile];
+  }
+  this->FacetOfSlot.resize(static_cast<std::size_t>(this->TileBegin.back()));
+  std::vector<std::int32_t> next(this->TileBegin.begin(), this->TileBegin.end() - 1);
+  for (std::size_t f = 0; f < facets.size(); ++f)
+  {
+    forTilesOf(facets[f].Pixels,
+      [&](std::size_t tile) {
+        this->FacetOfSlot[static_cast<std::size_t>(next[tile]++)] = static_cast<std::int32_t>(f);
+      });
+  }
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayField::Build(
+  const Membrane& surface, const CurvedPatches& patches, const View& view, const RangeLoop& loop)
+{
+  this->Of = view;
+  this->Columns = (view.Width + TileSize - 1) / TileSize;
+  this->Rows = (view.Height + TileSize - 1) / TileSize;
+  this->PrepareRays(surface);
+  std::vector<SeenFacet> facets(surface.GetFacets().size());
+  loop(facets.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        facets[f] = this->See(surface, patches, static_cast<std::int32_t>(f));
+      }
+    });
+  this->SortFacets(facets);
+
+  const std::size_t tiles = this->TileBegin.size() - 1;
+  std::vector<glm::dvec3> directions(tiles, glm::dvec3(0.0));
+  this->Tiles.resize(tiles);
+  loop(tiles,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t tile = begin; tile < end; ++tile)
+      {
+        this->TraceTile(patches, facets, static_cast<int>(tile), directions[tile]);
+      }
+    });
+  this->Seen = std::any_of(this->Tiles.begin(), this->Tiles.end(),
+    [](const std::vector<RefractedRay>& tile) { return !tile.empty(); });
+  glm::dvec3 sum(0.0);
+  for (const glm::dvec3& direction : directions)
+  {
+    sum += direction;
+  }
+  sum = this->WorldToFrame * sum;
+  const double length = glm::length(sum);
+  this->MeanDirection = length > 0.0 ? sum / length : glm::dvec3(0.0);
+}
+
+//------------------------------------------------------------------------------
+/** Puts in where a facet is met before what is there. */
+void RefractedRayField::TraceFacet(const CurvedPatch& patch, const SeenFacet& seen,
+  const TileRays& rays, std::vector<MembraneHit>& hits) const
+{
+  const Box box{ std::max(rays.Left, seen.Pixels.Left),
+    std::min(rays.Left + TileSize, seen.Pixels.Right), std::max(rays.Bottom, seen.Pixels.Bottom),
+    std::min(rays.Bottom + TileSize, seen.Pixels.Top) };
+  const PatchIntersector tracer(patch, this->Rays, this->Set);
+  const bool isSmall = box.Right - box.Left <= BlockSize && box.Top - box.Bottom <= BlockSize;
+  const int step = seen.Matters && !isSmall ? BlockSize : TileSize;
+  for (int bottom = box.Bottom; bottom < box.Top; bottom += step)
+  {
+    for (int left = box.Left; left < box.Right; left += step)
+    {
+      const Box block{ left, std::min(left + step, box.Right), bottom,
+        std::min(bottom + step, box.Top) };
+      const CornerRays corners = rays.CornersOf(block.Left, block.Bottom, block.Right, block.Top);
+      const PatchIntersector::FlatHits flat = tracer.MeetPlane(corners);
+      if (!tracer.IsBeside(flat))
+      {
+        const bool matters = seen.Matters && (isSmall || tracer.Matters(flat, corners, this->Mesh));
+        this->TraceBox(tracer, flat, block, matters, rays, hits);
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayField::TraceBox(const PatchIntersector& tracer,
+  const PatchIntersector::FlatHits& flat, const Box& box, bool matters, const TileRays& rays,
+  std::vector<MembraneHit>& hits) const
+{
+  const auto meet = [&](PatchIntersectionBatch& lanes)
+  {
+    tracer.Meet(matters, lanes,
+      [&](std::int32_t index, const MembraneHit& hit)
+      {
+        hits.resize(RaysOfTile);
+        MembraneHit& nearest = hits[static_cast<std::size_t>(index)];
+        nearest = hit.Depth > this->Of.EyeDepth && hit.Depth < nearest.Depth ? hit : nearest;
+      });
+    lanes.Count = 0;
+  };
+  PatchIntersectionBatch lanes;
+  const PatchCoverage cover(flat, box.Right - box.Left, box.Top - box.Bottom);
+  for (int row = box.Bottom; row < box.Top; ++row)
+  {
+    const PatchCoverage::Span span = cover.OfRow(row - box.Bottom);
+    for (int column = box.Left + span.First; column < box.Left + span.End; ++column)
+    {
+      lanes.Add((row - rays.Bottom) * TileSize + column - rays.Left, rays.ColumnOf(column),
+        rays.RowOf(row));
+      if (lanes.Count == PatchIntersectionBatch::Size)
+      {
+        meet(lanes);
+      }
+    }
+  }
+  meet(lanes);
+}
+
+//------------------------------------------------------------------------------
+/**
+ * Whether all rays of a tile end at the membrane before they come to the mesh. Facets seen from one
+ * side, without an edge of the membrane among them, cover the whole tile if they cover any of it.
+ */
+bool RefractedRayField::HidesTile(const CurvedPatches& patches,
+  const std::vector<SeenFacet>& facets, int tile, const TileRays& rays) const
+{
+  const auto first = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile)]);
+  const auto last = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile) + 1]);
+  int side = 0;
+  for (std::size_t slot = first; slot < last; ++slot)
+  {
+    const SeenFacet& seen = facets[static_cast<std::size_t>(this->FacetOfSlot[slot])];
+    side = slot == first ? seen.Side : side;
+    if (seen.Matters || seen.IsAtBorder || seen.Unbounded || seen.Side == 0 || seen.Side != side)
+    {
+      return false;
+    }
+  }
+  std::vector<MembraneHit> hits;
+  for (std::size_t slot = first; slot < last && hits.empty(); ++slot)
+  {
+    const std::int32_t facet = this->FacetOfSlot[slot];
+    this->TraceFacet(patches.GetPatch(facet), facets[static_cast<std::size_t>(facet)], rays, hits);
+  }
+  return !hits.empty();
+}
+
+//------------------------------------------------------------------------------
+void RefractedRayField::TraceTile(const CurvedPatches& patches,
+  const std::vector<SeenFacet>& facets, int tile, glm::dvec3& directions)
+{
+  const TileRays tileRays(*this, tile);
+  if (this->HidesTile(patches, facets, tile, tileRays))
+  {
+    this->Tiles[static_cast<std::size_t>(tile)].assign(
+      RaysOfTile, RefractedRay{ this->Of.EyeDepth, glm::dvec3(0.0) });
+    return;
+  }
+  std::vector<MembraneHit> hits;
+  const auto first = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile)]);
+  const auto last = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile) + 1]);
+  for (std::size_t slot = first; slot < last; ++slot)
+  {
+    const std::int32_t facet = this->FacetOfSlot[slot];
+    const SeenFacet& seen = facets[static_cast<std::size_t>(facet)];
+    if (!seen.Unbounded || !tileRays.IsBeside(seen.Center, seen.Radius))
+    {
+      this->TraceFacet(patches.GetPatch(facet), seen, tileRays, hits);
+    }
+  }
+  this->RefractTile(tileRays, hits, this->Tiles[static_cast<std::size_t>(tile)], directions);
+}
+
+//------------------------------------------------------------------------------
+/** @param directions  the steps along the refracted rays are added, in the world. */
+void RefractedRayField::RefractTile(const TileRays& tile, const std::vector<MembraneHit>& hits,
+  std::vector<RefractedRay>& rays, glm::dvec3& directions) const
+{
+  const auto bend = [&](PatchIntersectionBatch& lanes)
+  {
+    Refract(this->Rays, this->Mesh.Ratio, this->Set, lanes);
+    for (int i = 0; i < lanes.Count; ++i)
+    {
+      if (lanes.Refracted[i] != 0.0)
+      {
+        const glm::dvec3 step(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]);
+        rays[static_cast<std::size_t>(lanes.Index[i])].Step = this->WorldToFrame * step;
+        directions += step;
+      }
+    }
+    lanes.Count = 0;
+  };
+  rays.assign(hits.size(), RefractedRay());
+  PatchIntersectionBatch lanes;
+  for (std::size_t i = 0; i < hits.size(); ++i)
+  {
+    const MembraneHit& hit = hits[i];
+    rays[i].Depth = hit.Depth;
+    if (hit.Normal == glm::dvec3(0.0))
+    {
+      continue;
+    }
+    const int last = lanes.Count;
+    const auto pixel = static_cast<int>(i);
+    lanes.Add(pixel, tile.ColumnOf(tile.Left + pixel % TileSize),
+      tile.RowOf(tile.Bottom + pixel / TileSize));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      lanes.Normal[axis][last] = hit.Normal[axis];
+    }
+    if (lanes.Count == PatchIntersectionBatch::Size)
+    {
+      bend(lanes);
+    }
+  }
+  bend(lanes);
+  if (rays.empty())
+  {
+    rays.shrink_to_fit();
+  }
+}
+
+}

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Refracted_RefractedRayField_h
+#define meniscus_Volume_Refracted_RefractedRayField_h
+
+#include "Common/RangeLoop.h"
+#include "Refraction/Membrane/CurvedPatches.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Simd/InstructionSets.h"
+#include "Volume/Rays/RayFrame.h"
+#include "Volume/Refracted/PatchIntersector.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace meniscus
+{
+
+/** What is drawn of a ray: all, before or beside the membrane, behind it. */
+enum class MembranePart
+{
+  Whole,
+  InFront,
+  Behind
+};
+
+/** What becomes of a pixel's ray at a membrane, in the frame of the view. */
+struct RefractedRay
+{
+  /** Of the sight point; infinite where the ray does not meet the membrane. */
+  double Depth = std::numeric_limits<double>::infinity();
+  /**
+   * The way along the refracted ray for a unit of depth along the sight ray: what is drawn at the
+   * depth Depth + s is at the sight point + s * Step (the thesis's Eq. 2.4 undone). 0 where the ray
+   * is totally reflected.
+   */
+  glm::dvec3 Step{ 0.0 };
+
+  bool MeetsMembrane() const { return this->Depth < std::numeric_limits<double>::infinity(); }
+  bool GoesOn() const { return this->Step != glm::dvec3(0.0); }
+};
+
+/** A box about what there is to see, in the frame of the view. */
+struct BoundsInFrame
+{
+  glm::dvec3 Center{ 0.0 };
+  /** Columns: from the centre to the middles of three sides. */
+  glm::dmat3 HalfEdges{ 0.0 };
+};
+
+/**
+ * Where the rays of an image first meet a membrane of curved patches, and how they go on behind it,
+ * by tiles. Facets are sorted into tiles by bounds of their patches' pictures; in a pixel, the ray
+ * is cut with the patches by Newton's method, from where it meets the facet.
+ */
+class RefractedRayField
+{
+public:
+  struct View
+  {
+    RayFrame Frame;
+    int Width = 0;
+    int Height = 0;
+    /** Of the frame, in world coordinates. */
+    glm::dvec3 Center{ 0.0 };
+    /** Depth of the eye: what lies before it is not seen. */
+    double EyeDepth = 0.0;
+    /** Index of refraction on the side that the membrane's normals point to, and on the other. */
+    double Exterior = 1.0;
+    double Interior = 1.333;
+    /** Rays that cannot come there, before the membrane or behind it, do not matter. */
+    BoundsInFrame Mesh;
+
+    bool operator==(const View& other) const;
+  };
+
+  static constexpr int TileSize = 32;
+  static constexpr int RaysOfTile = TileSize * TileSize;
+
+  /** Traces all rays to the membrane. */
+  void Build(const Membrane& surface, const CurvedPatches& patches, const View& view,
+    const RangeLoop& loop = SerialLoop);
+  /** Forgets all rays. */
+  void Clear();
+
+  /**
+   * Rows of TileSize rays, from the tile's lower left pixel on; null if none of the tile meets the
+   * membrane. Tiles are numbered as in BoundaryRaster.
+   */
+  const RefractedRay* GetTile(int tile) const
+  {
+    const auto& rays = this->Tiles[static_cast<std::size_t>(tile)];
+    return rays.empty() ? nullptr : rays.data();
+  }
+  int GetNumberOfTiles() const { return static_cast<int>(this->Tiles.size()); }
+  /** Whether any ray meets the membrane. */
+  bool IsSeen() const { return this->Seen; }
+  /** Of the rays behind the membrane, the mean, in the frame; a unit vector, or 0 without any. */
+  const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
+  const View& GetView() const { return this->Of; }
+  std::int64_t GetBytes() const;
+
+private:
+  struct Box
+  {
+    int Left;
+    int Right; // exclusive
+    int Bottom;
+    int Top; // exclusive
+  };
+  /** What is known of a facet's patch before it is met with rays. */
+  struct SeenFacet
+  {
+    Box Pixels;
+    /** Whether what its rays meet may be the mesh. */
+    bool Matters;
+    /** Of the membrane. */
+    bool IsAtBorder;
+    /** 1 or -1: the side of the facet that is seen; 0 on edge. */
+    int Side;
+    /** Whether nothing but the whole image bounds it; then about it: */
+    bool Unbounded;
+    glm::dvec3 Center;
+    double Radius;
+  };
+  class TileRays;
+
+  void PrepareRays(const Membrane& surface);
+  SeenFacet See(const Membrane& surface, const CurvedPatches& patches, std::int32_t facet) const;
+  glm::dvec3 SightTo(const glm::dvec3& place) const;
+  bool MayShowMesh(const CurvedPatch& patch, double bulge) const;
+  bool PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const;
+  void SortFacets(const std::vector<SeenFacet>& facets);
+  bool HidesTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
+    const TileRays& rays) const;
+  void TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
+    glm::dvec3& directions);
+  void TraceFacet(const CurvedPatch& patch, const SeenFacet& seen, const TileRays& rays,
+    std::vector<MembraneHit>& hits) const;
+  void TraceBox(const PatchIntersector& tracer, const PatchIntersector::FlatHits& flat,
+    const Box& box, bool matters, const TileRays& rays, std::vector<MembraneHit>& hits) const;
+  void RefractTile(const TileRays& tile, const std::vector<MembraneHit>& hits,
+    std::vector<RefractedRay>& rays, glm::dvec3& directions) const;
+
+  View Of;
+  int Columns = 0;
+  int Rows = 0;
+  bool Seen = false;
+  glm::dvec3 MeanDirection{ 0.0 };
+  glm::dmat3 WorldToFrame{ 1.0 };
+  /** Relative to the membrane's origin. */
+  VisibilityBounds Mesh;
+  /** Relative to the membrane's origin. */
+  SightRays Rays;
+  InstructionSet Set = BestInstructionSet();
+  std::vector<std::int32_t> TileBegin;
+  std::vector<std::int32_t> FacetOfSlot;
+  std::vector<std::vector<RefractedRay>> Tiles;
+};
+
+}
+
+#endif

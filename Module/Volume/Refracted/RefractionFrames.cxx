@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Refracted/RefractionFrames.h"
+
+#include "Refraction/Membrane/HeightField.h"
+#include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Rays/PlacedVertices.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Depth along an axis of the cube (the columns), or against it: always the same handedness. */
+glm::dmat3 RotationTo(const glm::dmat3& axes, int index)
+{
+  const int axis = (2 + index / 2) % 3;
+  const double sign = index % 2 == 0 ? 1.0 : -1.0;
+  return glm::transpose(
+    glm::dmat3(sign * axes[(axis + 1) % 3], axes[(axis + 2) % 3], sign * axes[axis]));
+}
+
+/** `view` turned, with a grid for slopes within 1. */
+RefractionFrame MakeFrame(const RayFrame& view, const glm::dmat3& rotation)
+{
+  RefractionFrame frame;
+  frame.FromView = rotation;
+  RayFrame turned;
+  const glm::dmat3 rows =
+    glm::transpose(rotation * glm::transpose(glm::dmat3(view.RowX, view.RowY, view.RowDepth)));
+  turned.RowX = rows[0];
+  turned.RowY = rows[1];
+  turned.RowDepth = rows[2];
+  turned.ViewToWorld = view.ViewToWorld * glm::transpose(rotation);
+  turned.Handedness = view.Handedness;
+  frame.Extent = std::max({ glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]) });
+  // FixedPointRays makes room for 1 + the steepest slope; a ray of slope 1 that meets the mesh
+  // passes the origin within 2 extents.
+  turned.Slope.Base = glm::dvec2(2.0 * frame.Extent - 1.0);
+  frame.Rays = FixedPointRays(turned, 1, 1);
+  return frame;
+}
+
+}
+
+//------------------------------------------------------------------------------
+SurfaceLighting RefractionFrame::Turn(const SurfaceLighting& lighting) const
+{
+  SurfaceLighting turned = lighting;
+  const auto turn = [this](glm::dvec4& vector)
+  { vector = glm::dvec4(this->FromView * glm::dvec3(vector), vector.w); };
+  for (RayCastLight& light : turned.Lights)
+  {
+    turn(light.Position);
+    turn(light.Cone);
+  }
+  return turned;
+}
+
+//------------------------------------------------------------------------------
+int RefractionFrames::IndexOf(const glm::dvec3& step) const
+{
+  const glm::dvec3 along = step * this->Axes;
+  const glm::dvec3 size = glm::abs(along);
+  // In the order of the frames' axes, so that the mean direction's is preferred.
+  const int axis = size.z >= size.x && size.z >= size.y ? 2 : (size.x >= size.y ? 0 : 1);
+  return (axis + 1) % 3 * 2 + (along[axis] < 0.0 ? 1 : 0);
+}
+
+//------------------------------------------------------------------------------
+void RefractionFrames::Turn(
+  const RefractedRayField& sight, const RayFrame& view, const RangeLoop& loop)
+{
+  glm::dvec3 depth = sight.GetMeanDirection();
+  depth = depth == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : depth;
+  const HeightFrame along(depth);
+  this->Axes = glm::dmat3(along.First, along.Second, along.Axis);
+
+  const int tiles = sight.GetNumberOfTiles();
+  std::vector<unsigned int> needed(static_cast<std::size_t>(tiles), 0);
+  loop(needed.size(),
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t tile = begin; tile < end; ++tile)
+      {
+        const RefractedRay* rays = sight.GetTile(static_cast<int>(tile));
+        for (int i = 0; rays && i < RefractedRayField::RaysOfTile; ++i)
+        {
+          needed[tile] |= rays[i].GoesOn() ? 1u << this->IndexOf(rays[i].Step) : 0u;
+        }
+      }
+    });
+  this->Needed = 0;
+  for (const unsigned int ofTile : needed)
+  {
+    this->Needed |= ofTile;
+  }
+  for (int index = 0; index < Number; ++index)
+  {
+    std::vector<PacketVertex> room = std::move(this->Frames[index].Vertices);
+    this->Frames[index] = RefractionFrame();
+    if (this->Needed >> index & 1u)
+    {
+      this->Frames[index] = MakeFrame(view, RotationTo(this->Axes, index));
+      this->Frames[index].Vertices = std::move(room);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void RefractionFrames::Place(
+  const TetrahedralMesh& mesh, const std::vector<float>& scalars, const RangeLoop& loop)
+{
+  for (int index = 0; index < Number; ++index)
+  {
+    if (this->Needed >> index & 1u)
+    {
+      PlaceVertices(mesh, scalars, this->Frames[index].Rays, loop, this->Frames[index].Vertices);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::int64_t RefractionFrames::GetBytes() const
+{
+  std::int64_t bytes = 0;
+  for (const RefractionFrame& frame : this->Frames)
+  {
+    bytes += BytesOf(frame.Vertices);
+  }
+  return bytes;
+}
+
+}

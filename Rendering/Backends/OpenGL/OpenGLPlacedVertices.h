@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLPlacedVertices_h
+#define meniscus_Rendering_Backends_OpenGL_OpenGLPlacedVertices_h
+
+#include "Rendering/Backends/OpenGL/OpenGLTable.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkOpenGLFramebufferObject;
+class vtkOpenGLQuadHelper;
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace meniscus
+{
+
+/**
+ * The vertices of a mesh in the grids of one or several frames, placed by the graphics device from
+ * the table of the mesh: nothing is sent. All calls want the window's context to be current.
+ */
+class OpenGLPlacedVertices
+{
+public:
+  OpenGLPlacedVertices();
+  ~OpenGLPlacedVertices();
+  OpenGLPlacedVertices(const OpenGLPlacedVertices&) = delete;
+  void operator=(const OpenGLPlacedVertices&) = delete;
+
+  /** FixedPointRays::GetFixedPointRows() of a frame. */
+  using FrameRows = std::array<std::int32_t, 9>;
+
+  /**
+   * Places the vertices, if they are not placed so already; those of frame i begin at i times their
+   * number. Binds a framebuffer and sets the viewport. Returns an error or nothing.
+   * @param vertices  (x, y, z, scalar) of each in fixed point.
+   * @param version   changes with the vertices.
+   */
+  std::string Update(vtkOpenGLRenderWindow* window, OpenGLTable& vertices, std::int64_t version,
+    const std::vector<FrameRows>& frames);
+
+  OpenGLTable& GetTable() { return this->Table; }
+  const OpenGLTable& GetTable() const { return this->Table; }
+  /** Times that vertices were placed. */
+  std::int64_t GetNumberOfPlacings() const { return this->Placings; }
+
+  void Release(vtkWindow* window);
+
+private:
+  std::string Prepare(vtkOpenGLRenderWindow* window, std::int64_t vertices);
+  void Place(OpenGLTable& vertices, const FrameRows& frame, std::int64_t first);
+
+  OpenGLTable Table;
+  std::vector<FrameRows> Frames;
+  std::int64_t Version = 0;
+  std::int64_t Placings = 0;
+  std::unique_ptr<vtkOpenGLQuadHelper> Quad;
+  vtkSmartPointer<vtkOpenGLFramebufferObject> Target;
+  vtkSmartPointer<vtkTextureObject> Fragments;
+  vtkOpenGLRenderWindow* Window = nullptr;
+};
+
+}
+
+#endif

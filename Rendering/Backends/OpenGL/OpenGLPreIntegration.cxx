@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Backends/OpenGL/OpenGLPreIntegration.h"
+
+#include "Volume/Optics/PreIntegration.h"
+
+#include "vtkOpenGLError.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkShaderProgram.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+std::string OpenGLPreIntegration::Upload(
+  vtkOpenGLRenderWindow* window, const PreIntegrationTable& table)
+{
+  this->Release(window);
+  const int scalars = table.GetNumberOfScalars();
+  const int lengths = table.GetNumberOfLengths();
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &limit);
+  if (std::max(scalars, lengths) > limit)
+  {
+    return "a pre-integration table of " + std::to_string(scalars) + " scalars and " +
+      std::to_string(lengths) +
+      " lengths exceeds this graphics device's GL_MAX_3D_TEXTURE_SIZE of " + std::to_string(limit);
+  }
+  auto texture = vtkSmartPointer<vtkTextureObject>::New();
+  texture->SetContext(window);
+  texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  texture->SetWrapR(vtkTextureObject::ClampToEdge);
+  texture->SetMinificationFilter(vtkTextureObject::Linear);
+  texture->SetMagnificationFilter(vtkTextureObject::Linear);
+  // VTK only reads the values, but wants a pointer to what is not const.
+  auto* values = const_cast<float*>(table.GetValues().data());
+  if (!texture->Create3DFromRaw(scalars, scalars, lengths, 4, VTK_FLOAT, values))
+  {
+    return "a pre-integration table of " +
+      std::to_string(table.GetValues().size() * sizeof(float)) +
+      " bytes could not be created on the graphics device";
+  }
+  this->Texture = texture;
+  this->Size[0] = scalars;
+  this->Size[1] = lengths;
+  this->Shortest = table.GetShortest();
+  this->LengthsPerOctave = table.GetLengthsPerOctave();
+  this->Range[0] = static_cast<float>(table.GetMiddle());
+  this->Range[1] = static_cast<float>(table.GetPerHalfRange());
+  this->Bytes = static_cast<std::int64_t>(table.GetValues().size() * sizeof(float));
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+void OpenGLPreIntegration::Activate(vtkShaderProgram* program)
+{
+  this->Texture->Activate();
+  program->SetUniformi("preIntegrated", this->Texture->GetTextureUnit());
+  const float size[2] = { static_cast<float>(this->Size[0]), static_cast<float>(this->Size[1]) };
+  program->SetUniform2f("preIntegratedSize", size);
+  program->SetUniform2f("preIntegratedRange", this->Range);
+  program->SetUniformf("shortestLengthReciprocal", static_cast<float>(1.0 / this->Shortest));
+  program->SetUniformf("lengthsPerOctave", static_cast<float>(this->LengthsPerOctave));
+}
+
+//------------------------------------------------------------------------------
+void OpenGLPreIntegration::Release(vtkWindow* window)
+{
+  if (this->Texture)
+  {
+    this->Texture->ReleaseGraphicsResources(window);
+  }
+  this->Texture = nullptr;
+  this->Bytes = 0;
+}
+
+}

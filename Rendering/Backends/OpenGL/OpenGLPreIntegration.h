@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLPreIntegration_h
+#define meniscus_Rendering_Backends_OpenGL_OpenGLPreIntegration_h
+
+#include "vtkSmartPointer.h"
+#include "vtkTextureObject.h"
+
+#include <cstdint>
+#include <string>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkWindow;
+
+namespace meniscus
+{
+
+class PreIntegrationTable;
+
+/** A pre-integration table as a texture of three dimensions that shaders interpolate in. */
+class OpenGLPreIntegration
+{
+public:
+  bool IsFilled() const { return this->Texture != nullptr; }
+  std::int64_t GetBytes() const { return this->Bytes; }
+
+  /** Replaces the contents. Returns an error or nothing. */
+  std::string Upload(vtkOpenGLRenderWindow* window, const PreIntegrationTable& table);
+
+  /** Sets the uniforms of vtkTetrahedraPreIntegrated. */
+  void Activate(vtkShaderProgram* program);
+  void Deactivate() { this->Texture->Deactivate(); }
+  /** Wants the window's context to be current. */
+  void Release(vtkWindow* window);
+
+private:
+  vtkSmartPointer<vtkTextureObject> Texture;
+  int Size[2] = { 0, 0 };
+  double Shortest = 1.0;
+  int LengthsPerOctave = 1;
+  /** Middle of the scalars and the reciprocal of half their range. */
+  float Range[2] = { 0.0f, 1.0f };
+  std::int64_t Bytes = 0;
+};
+
+}
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLRefractedRays_h
+#define meniscus_Rendering_Backends_OpenGL_OpenGLRefractedRays_h
+
+#include "Volume/Refracted/RefractedRayTexels.h"
+#include "Volume/Refracted/RefractionFrames.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkTextureObject.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+class vtkWindow;
+
+namespace meniscus
+{
+
+/** The rays behind a membrane for shaders: a line per pixel, and the frames that they are of. */
+class OpenGLRefractedRays
+{
+public:
+  bool IsFilled() const { return this->Texture != nullptr; }
+  std::int64_t GetBytes() const { return this->Bytes; }
+
+  /** Which limit an image of so many pixels exceeds, one in texels or the device's; empty if none.
+   */
+  static std::string DescribeExcess(const int (&imageSize)[2], std::int64_t limit);
+
+  /** Replaces the contents. Returns an error or nothing. */
+  std::string Upload(vtkOpenGLRenderWindow* window, const std::vector<RefractedRayLine>& lines,
+    int width, int height, const RefractionFrames& frames);
+
+  /** Rows of the frames with lines, in the order in which their vertices follow the view's. */
+  const std::vector<std::array<std::int32_t, 9>>& GetFixedPointRows() const
+  {
+    return this->FixedRows;
+  }
+
+  /**
+   * Sets the uniforms of vtkTetrahedraRays with REFRACTED.
+   * @param vertices  number of vertices of a frame.
+   */
+  void Activate(vtkShaderProgram* program, std::int64_t vertices);
+  void Deactivate() { this->Texture->Deactivate(); }
+  /** Wants the window's context to be current. */
+  void Release(vtkWindow* window);
+
+private:
+  vtkSmartPointer<vtkTextureObject> Texture;
+  std::int64_t Bytes = 0;
+  /** By frame: rows of the frame, then its axes in that of the view; three numbers each. */
+  std::vector<float> Rows[3];
+  std::vector<float> Axes[3];
+  /** By frame: grid units of x and y per unit; which of FixedRows is its, from 1 on. */
+  std::vector<float> GridPerUnit;
+  std::vector<int> Places;
+  std::vector<std::array<std::int32_t, 9>> FixedRows;
+};
+
+}
+
+#endif

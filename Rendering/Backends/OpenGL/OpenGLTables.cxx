@@ -1,0 +1,429 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Backends/OpenGL/OpenGLTables.h"
+
+#include "Common/BlockLoop.h"
+#include "Filters/Common/ThreadedLoop.h"
+#include "Rendering/Property/RayCastOptics.h"
+
+#include "vtkOpenGLError.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkShaderProgram.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr int FullCellTexels = 8;
+constexpr int CompactCellTexels = 5;
+
+std::vector<std::int32_t> CompactCells(const TetrahedralMesh& mesh)
+{
+  const auto& cells = mesh.GetCells();
+  std::vector<std::int32_t> values(CompactCellTexels * cells.size());
+  ForEachBlock(cells.size(), ThreadedLoop,
+    [&cells, &values](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const auto& v = cells[c].Vertices;
+        std::int32_t* value = &values[CompactCellTexels * c];
+        *value = v[0] ^ v[1] ^ v[2] ^ v[3];
+        std::copy(cells[c].Links.begin(), cells[c].Links.end(), value + 1);
+      }
+    });
+  return values;
+}
+
+}
+
+//------------------------------------------------------------------------------
+OpenGLTables::OpenGLTables() = default;
+
+//------------------------------------------------------------------------------
+OpenGLTables::~OpenGLTables() = default;
+
+//------------------------------------------------------------------------------
+void OpenGLTables::SetWindow(vtkOpenGLRenderWindow* window)
+{
+  this->Window = window;
+}
+
+//------------------------------------------------------------------------------
+bool OpenGLTables::HasCells(bool compact) const
+{
+  return this->Cells.IsFilled() && compact == this->CellsAreCompact;
+}
+
+//------------------------------------------------------------------------------
+bool OpenGLTables::HasBoundary() const
+{
+  return this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
+}
+
+//------------------------------------------------------------------------------
+bool OpenGLTables::HasVertices() const
+{
+  return this->Vertices.IsFilled();
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::Count(OpenGLTable& table, const std::string& error)
+{
+  this->UploadedBytes += table.GetBytes();
+  return error;
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadCells(const TetrahedralMesh& mesh, bool compact)
+{
+  static_assert(sizeof(TetrahedralMesh::Cell) == FullCellTexels * sizeof(std::int32_t),
+    "a full cell as it is on the host");
+  const auto cells = static_cast<std::size_t>(mesh.GetNumberOfCells());
+  std::string error;
+  if (compact)
+  {
+    const std::vector<std::int32_t> values = CompactCells(mesh);
+    error = this->Cells.Upload(this->Window, values.data(), values.size(), 1, CompactCellTexels);
+  }
+  else
+  {
+    const auto* values = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
+    error = this->Cells.Upload(this->Window, values, FullCellTexels * cells, 1, FullCellTexels);
+  }
+  this->CellsAreCompact = compact;
+  return this->Count(this->Cells, error);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::DescribeExcess(
+  const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit) const
+{
+  GLint ofDevice = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &ofDevice);
+  const std::int64_t largest = std::min(limit, static_cast<std::int64_t>(ofDevice));
+  const std::int64_t texels =
+    std::max((compact ? CompactCellTexels : FullCellTexels) * mesh.GetNumberOfCells(),
+      frames * mesh.GetNumberOfVertices());
+  return texels <= largest ? std::string()
+                           : "a table of " + std::to_string(texels) + " texels for " +
+      std::to_string(mesh.GetNumberOfCells()) +
+      " tetrahedra exceeds the graphics device's limit of " + std::to_string(largest);
+}
+
+//------------------------------------------------------------------------------
+std::vector<OpenGLTable*> OpenGLTables::List()
+{
+  return { &this->Vertices, &this->Cells, &this->CellScalars, &this->TreeNodes, &this->TreeFaces,
+    &this->TileBegins, &this->TileFaces, &this->NearestDepths, &this->VertexGradients,
+    &this->CellGradients, &this->VertexComponents, &this->Intervals, &this->Isosurfaces };
+}
+
+//------------------------------------------------------------------------------
+std::int64_t OpenGLTables::GetTableBytes()
+{
+  std::int64_t bytes = this->PreIntegration.GetBytes() + this->RefractedRayTexels.GetBytes() +
+    this->PlacedVertices.GetTable().GetBytes();
+  for (const OpenGLTable* table : this->List())
+  {
+    bytes += table->GetBytes();
+  }
+  return bytes;
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadBoundary(const BoundaryTree& tree)
+{
+  // A node's indices travel as floats, which are whole up to 2^24.
+  const std::int64_t largestIndex =
+    static_cast<std::int64_t>(std::max(tree.GetNodes().size(), tree.GetFaces().size()));
+  if (largestIndex > (std::int64_t{ 1 } << 24))
+  {
+    return "a mesh with " + std::to_string(tree.GetFaces().size()) +
+      " boundary faces exceeds the limit of 8388608";
+  }
+  std::vector<float> nodes;
+  nodes.reserve(8 * tree.GetNodes().size());
+  for (const auto& node : tree.GetNodes())
+  {
+    nodes.insert(nodes.end(),
+      { node.Center.x, node.Center.y, node.Center.z, static_cast<float>(node.Skip), node.Half.x,
+        node.Half.y, node.Half.z, static_cast<float>(node.Face) });
+  }
+  std::string error = this->TreeNodes.Upload(this->Window, nodes.data(), nodes.size(), 4, 2);
+  if (!this->Count(this->TreeNodes, error).empty())
+  {
+    return error;
+  }
+
+  std::vector<std::int32_t> faces;
+  faces.reserve(4 * tree.GetFaces().size());
+  for (const auto& face : tree.GetFaces())
+  {
+    const auto& v = face.Vertices;
+    faces.insert(faces.end(), { face.Outward > 0 ? v[0] : ~v[0], v[1], v[2], face.CellFace });
+  }
+  error = this->TreeFaces.Upload(this->Window, faces.data(), faces.size(), 4, 1);
+  return this->Count(this->TreeFaces, error);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadEntryTiles(const EntryTiles& tiles)
+{
+  const auto& begins = tiles.GetBegins();
+  const auto& faces = tiles.GetFaces();
+  const auto& depths = tiles.GetNearestDepths();
+  this->TileColumns = tiles.GetNumberOfColumns();
+  std::string error = this->Count(
+    this->TileBegins, this->TileBegins.Upload(this->Window, begins.data(), begins.size(), 1, 1));
+  // A texture must not be empty.
+  const std::int32_t none = 0;
+  error = error.empty()
+    ? this->Count(this->TileFaces,
+        this->TileFaces.Upload(this->Window, faces.empty() ? &none : faces.data(),
+          std::max<std::size_t>(faces.size(), 1), 1, 1))
+    : error;
+  return error.empty()
+    ? this->Count(this->NearestDepths,
+        this->NearestDepths.Upload(this->Window, depths.data(), depths.size(), 1, 1))
+    : error;
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadVertices(
+  const TetrahedralMesh& mesh, const std::vector<float>& scalars)
+{
+  // Differences of coordinates have to fit in 32 bits.
+  constexpr std::int32_t largest = (std::int32_t{ 1 } << 30) - 1;
+  const std::vector<glm::ivec3>& positions = mesh.GetFixedPositions();
+  std::vector<std::int32_t> values(4 * positions.size());
+  ForEachBlock(positions.size(), ThreadedLoop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t v = first; v < last; ++v)
+      {
+        const glm::ivec3 p = glm::clamp(positions[v], -largest, largest);
+        const float scalar = scalars.empty() ? 0.0f : scalars[v];
+        std::int32_t* value = &values[4 * v];
+        value[0] = p.x;
+        value[1] = p.y;
+        value[2] = p.z;
+        std::memcpy(value + 3, &scalar, sizeof(scalar));
+      }
+    });
+  ++this->VertexUploads;
+  const std::string error = this->Vertices.Upload(this->Window, values.data(), values.size(), 4, 1);
+  return this->Count(this->Vertices, error);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::PlaceVertices(const FixedPointRays& rays, bool refracting)
+{
+  std::vector<OpenGLPlacedVertices::FrameRows> frames{ rays.GetFixedPointRows() };
+  if (refracting)
+  {
+    const auto& turned = this->RefractedRayTexels.GetFixedPointRows();
+    frames.insert(frames.end(), turned.begin(), turned.end());
+  }
+  return this->PlacedVertices.Update(this->Window, this->Vertices, this->VertexUploads, frames);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadCellScalars(const std::vector<float>& scalars)
+{
+  const std::string error =
+    this->CellScalars.Upload(this->Window, scalars.data(), scalars.size(), 1, 1);
+  return this->Count(this->CellScalars, error);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors)
+{
+  std::vector<float> values;
+  values.reserve(4 * vectors.size());
+  for (const glm::vec3& v : vectors)
+  {
+    values.insert(values.end(), { v.x, v.y, v.z, 0.0f });
+  }
+  return this->Count(table, table.Upload(this->Window, values.data(), values.size(), 4, 1));
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadGradients(const std::vector<glm::vec3>& gradients)
+{
+  return this->UploadVectors(this->VertexGradients, gradients);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadCellGradients(const std::vector<glm::vec3>& gradients)
+{
+  return this->UploadVectors(this->CellGradients, gradients);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadComponents(const std::vector<glm::vec3>& components)
+{
+  return this->UploadVectors(this->VertexComponents, components);
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadPreIntegration(const PreIntegrationTable& table)
+{
+  const std::string error = this->PreIntegration.Upload(this->Window, table);
+  this->UploadedBytes += this->PreIntegration.GetBytes();
+  return error;
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadRefractedRays(
+  const std::vector<RefractedRayLine>& lines, int width, int height, const RefractionFrames& frames)
+{
+  const std::string error =
+    this->RefractedRayTexels.Upload(this->Window, lines, width, height, frames);
+  this->UploadedBytes += this->RefractedRayTexels.GetBytes();
+  return error;
+}
+
+//------------------------------------------------------------------------------
+std::string OpenGLTables::UploadProperty(const VolumePropertyTables& tables)
+{
+  std::vector<float> values;
+  this->FunctionStarts.assign(1, 0);
+  const auto append = [this, &values](const std::vector<TransferFunctionInterval>& intervals)
+  {
+    const int start = this->FunctionStarts.back();
+    this->FunctionStarts.push_back(start + static_cast<int>(intervals.size()));
+    for (const auto& i : intervals)
+    {
+      values.insert(values.end(),
+        { i.Lower, i.Upper, i.Attenuation, i.AttenuationSlope, i.Color.r, i.Color.g, i.Color.b,
+          0.0f, i.ColorSlope.r, i.ColorSlope.g, i.ColorSlope.b, 0.0f });
+    }
+  };
+  append(tables.GetIntervals());
+  for (const auto& intervals : tables.GetOtherIntervals())
+  {
+    append(intervals);
+  }
+  append(tables.GetGradientIntervals());
+  std::string error = this->Intervals.Upload(this->Window, values.data(), values.size(), 4, 3);
+  if (!this->Count(this->Intervals, error).empty())
+  {
+    return error;
+  }
+
+  this->Isosurfaces.Release(this->Window);
+  if (tables.GetIsosurfaces().empty())
+  {
+    return std::string();
+  }
+  values.clear();
+  for (const Isosurface& surface : tables.GetIsosurfaces())
+  {
+    const glm::vec3& color = surface.Color;
+    values.insert(values.end(),
+      { surface.Scalar, surface.Opacity, 0.0f, 0.0f, color.r, color.g, color.b, 0.0f });
+  }
+  error = this->Isosurfaces.Upload(this->Window, values.data(), values.size(), 4, 2);
+  return this->Count(this->Isosurfaces, error);
+}
+
+//------------------------------------------------------------------------------
+std::vector<OpenGLTable*> OpenGLTables::Activate(
+  vtkShaderProgram* program, const RayCastOptics& optics)
+{
+  std::vector<OpenGLTable*> active;
+  const auto activate = [&active, program](OpenGLTable& table, const char* name)
+  {
+    table.Activate(program, name);
+    active.push_back(&table);
+  };
+  activate(this->Cells, "cells");
+  if (optics.LongLists)
+  {
+    activate(this->TileBegins, "tileBegins");
+    activate(this->TileFaces, "tileFaces");
+    activate(this->NearestDepths, "nearestDepths");
+  }
+  if (optics.UsesGradients())
+  {
+    activate(this->Vertices, "modelVertices");
+  }
+  if (!optics.PreIntegrated)
+  {
+    activate(this->Intervals, "intervals");
+  }
+  if (optics.CellScalars)
+  {
+    activate(this->CellScalars, "cellScalars");
+  }
+  if (optics.VertexGradients)
+  {
+    activate(this->VertexGradients, "vertexGradients");
+  }
+  if (optics.UsesCellGradients())
+  {
+    activate(this->CellGradients, "cellGradients");
+  }
+  if (optics.HasComponents())
+  {
+    activate(this->VertexComponents, "vertexComponents");
+  }
+  if (this->Isosurfaces.IsFilled())
+  {
+    activate(this->Isosurfaces, "surfaces");
+  }
+  return active;
+}
+
+//------------------------------------------------------------------------------
+void OpenGLTables::SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const
+{
+  program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
+  program->SetUniformi("tileColumns", this->TileColumns);
+  program->SetUniformi("numberOfSurfaces", static_cast<int>(this->Isosurfaces.GetNumberOfRows()));
+  const std::vector<int>& starts = this->FunctionStarts;
+  const int first = starts[starts.size() - 2];
+  program->SetUniformi("firstGradientInterval", first);
+  program->SetUniformi("numberOfGradientIntervals", starts.back() - first);
+  program->SetUniformi("numberOfIntervals", starts[1]);
+  if (optics.HasComponents())
+  {
+    std::vector<int> sizes(starts.size());
+    std::adjacent_difference(starts.begin(), starts.end(), sizes.begin());
+    program->SetUniform1iv("functionStart", optics.NumberOfFunctions, starts.data());
+    program->SetUniform1iv("functionSize", optics.NumberOfFunctions, sizes.data() + 1);
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<OpenGLTable*> OpenGLTables::ActivateRays(vtkShaderProgram* program)
+{
+  OpenGLTable& placed = this->PlacedVertices.GetTable();
+  placed.Activate(program, "vertices");
+  this->TreeNodes.Activate(program, "treeNodes");
+  this->TreeFaces.Activate(program, "treeFaces");
+  program->SetUniformi("numberOfNodes", static_cast<int>(this->TreeNodes.GetNumberOfRows()));
+  return { &placed, &this->TreeNodes, &this->TreeFaces };
+}
+
+//------------------------------------------------------------------------------
+void OpenGLTables::Release(vtkOpenGLRenderWindow* owner)
+{
+  for (OpenGLTable* table : this->List())
+  {
+    table->Release(owner);
+  }
+  this->PlacedVertices.Release(owner);
+  this->PreIntegration.Release(owner);
+  this->RefractedRayTexels.Release(owner);
+}
+
+}

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Backends_OpenGL_OpenGLTables_h
+#define meniscus_Rendering_Backends_OpenGL_OpenGLTables_h
+
+#include "Volume/Entries/EntryTiles.h"
+#include "Volume/Mesh/BoundaryTree.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Optics/TransferFunction.h"
+#include "Volume/Rays/FixedPointRays.h"
+#include "Volume/Rays/PlacedVertices.h"
+
+#include "Rendering/Backends/OpenGL/OpenGLPlacedVertices.h"
+#include "Rendering/Backends/OpenGL/OpenGLPreIntegration.h"
+#include "Rendering/Backends/OpenGL/OpenGLRefractedRays.h"
+#include "Rendering/Backends/OpenGL/OpenGLTable.h"
+#include "Rendering/Property/VolumePropertyTables.h"
+#include "vtkWeakPointer.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkShaderProgram;
+
+namespace meniscus
+{
+
+struct RayCastOptics;
+
+/**
+ * What the ray caster's shaders read, on the graphics device. All calls want the window's context
+ * to be current. Errors are texts, empty if there is none.
+ */
+class OpenGLTables
+{
+public:
+  OpenGLTables();
+  ~OpenGLTables();
+  OpenGLTables(const OpenGLTables&) = delete;
+  void operator=(const OpenGLTables&) = delete;
+
+  /** To be told before anything is uploaded. */
+  void SetWindow(vtkOpenGLRenderWindow* window);
+
+  bool HasCells(bool compact) const;
+  bool HasBoundary() const;
+  bool HasVertices() const;
+  bool HasCellScalars() const { return this->CellScalars.IsFilled(); }
+  bool HasGradients() const { return this->VertexGradients.IsFilled(); }
+  bool HasCellGradients() const { return this->CellGradients.IsFilled(); }
+  bool HasComponents() const { return this->VertexComponents.IsFilled(); }
+  bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
+  bool HasProperty() const { return this->Intervals.IsFilled(); }
+  bool HasEntryTiles() const { return this->TileFaces.IsFilled(); }
+  bool HasRefractedRays() const { return this->RefractedRayTexels.IsFilled(); }
+
+  /**
+   * The cells in 32 bytes each or, compact, in 20: the exclusive or of a cell's vertices in place
+   * of those. A ray that comes by a face knows the three others. Wanted as optics' CompactCells.
+   */
+  std::string UploadCells(const TetrahedralMesh& mesh, bool compact);
+  /** Which table of a mesh a limit in texels or the device's own forbids; empty if none. */
+  /** @param frames  of the rays that may be needed: 1, more behind a membrane. */
+  std::string DescribeExcess(
+    const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit) const;
+  std::string UploadBoundary(const BoundaryTree& tree);
+  /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
+  std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
+  /** One normalised scalar per cell. Needed for optics with CellScalars. */
+  std::string UploadCellScalars(const std::vector<float>& scalars);
+  /** One gradient per vertex. Needed for optics with VertexGradients. */
+  std::string UploadGradients(const std::vector<glm::vec3>& gradients);
+  /** One gradient per cell. Needed for optics that use gradients of cells. */
+  std::string UploadCellGradients(const std::vector<glm::vec3>& gradients);
+  /** Needed for optics with PreIntegrated. */
+  std::string UploadPreIntegration(const PreIntegrationTable& table);
+  /** Up to three further components per vertex. Needed for optics with components. */
+  std::string UploadComponents(const std::vector<glm::vec3>& components);
+  std::string UploadProperty(const VolumePropertyTables& tables);
+  /** Lists of entries per tile. Needed for optics with LongLists. */
+  std::string UploadEntryTiles(const EntryTiles& tiles);
+  /** A line per pixel. Needed for optics with Refracting. */
+  std::string UploadRefractedRays(const std::vector<RefractedRayLine>& lines, int width, int height,
+    const RefractionFrames& frames);
+
+  /** Places the vertices in the grid of rays, and with optics of Refracting in those of their
+   * frames.
+   */
+  std::string PlaceVertices(const FixedPointRays& rays, bool refracting);
+
+  std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
+  /** Bytes of the tables that are on the device now. */
+  std::int64_t GetTableBytes();
+
+  /** Binds what finds and projects: vertices and the tree of the boundary. */
+  std::vector<OpenGLTable*> ActivateRays(vtkShaderProgram* program);
+  /** Binds what the optical model reads. */
+  std::vector<OpenGLTable*> Activate(vtkShaderProgram* program, const RayCastOptics& optics);
+  OpenGLPreIntegration& GetPreIntegration() { return this->PreIntegration; }
+  OpenGLRefractedRays& GetRefractedRays() { return this->RefractedRayTexels; }
+  /** Binds the rays behind a membrane. */
+  void ActivateRefractedRays(vtkShaderProgram* program)
+  {
+    this->RefractedRayTexels.Activate(program, this->Vertices.GetNumberOfRows());
+  }
+  void SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const;
+
+  /** @param owner  the window of the tables; null if it is gone. */
+  void Release(vtkOpenGLRenderWindow* owner);
+
+private:
+  /** All but those of pre-integration and of refracted lines. */
+  std::vector<OpenGLTable*> List();
+  std::string Count(OpenGLTable& table, const std::string& error);
+  std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  /** Fixed-point positions and bits of the scalars. */
+  OpenGLTable Vertices;
+  std::int64_t VertexUploads = 0;
+  OpenGLPlacedVertices PlacedVertices;
+  OpenGLTable Cells;
+  bool CellsAreCompact = false;
+  OpenGLTable CellScalars;
+  OpenGLTable TreeNodes;
+  OpenGLTable TreeFaces;
+  OpenGLTable TileBegins;
+  OpenGLTable TileFaces;
+  OpenGLTable NearestDepths;
+  int TileColumns = 0;
+  OpenGLTable VertexGradients;
+  OpenGLTable CellGradients;
+  OpenGLTable VertexComponents;
+  /** Of the scalar, of its other components, of the gradient's magnitude. */
+  OpenGLTable Intervals;
+  /** Where the intervals of each function begin, the gradient's last, and where they end. */
+  std::vector<int> FunctionStarts;
+  OpenGLTable Isosurfaces;
+  OpenGLPreIntegration PreIntegration;
+  OpenGLRefractedRays RefractedRayTexels;
+  std::int64_t UploadedBytes = 0;
+};
+
+}
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Backends/OpenGL/RayCastShader.h"
+
+#include "vtkTetrahedraComponents.h"
+#include "vtkTetrahedraComposite.h"
+#include "vtkTetrahedraEntries.h"
+#include "vtkTetrahedraFrontToBack.h"
+#include "vtkTetrahedraIsosurfaces.h"
+#include "vtkTetrahedraLights.h"
+#include "vtkTetrahedraMedium.h"
+#include "vtkTetrahedraPreIntegrated.h"
+#include "vtkTetrahedraProjection.h"
+#include "vtkTetrahedraRays.h"
+#include "vtkTetrahedraTransferFunction.h"
+#include "vtkTetrahedraWalk.h"
+
+#include "vtkShaderProgram.h"
+#include "vtkVolumeMapper.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <sstream>
+#include <vector>
+
+namespace meniscus
+{
+namespace
+{
+
+const char* BlendModeName(int blendMode)
+{
+  switch (blendMode)
+  {
+    case vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND:
+      return "MAXIMUM_INTENSITY";
+    case vtkVolumeMapper::MINIMUM_INTENSITY_BLEND:
+      return "MINIMUM_INTENSITY";
+    case vtkVolumeMapper::AVERAGE_INTENSITY_BLEND:
+      return "AVERAGE_INTENSITY";
+    case vtkVolumeMapper::ADDITIVE_BLEND:
+      return "ADDITIVE";
+    case vtkVolumeMapper::ISOSURFACE_BLEND:
+      return "ISOSURFACES";
+    default:
+      return "COMPOSITE";
+  }
+}
+
+std::string ModelSource(const RayCastOptics& optics)
+{
+  const std::string lights = optics.UsesGradients() ? vtkTetrahedraLights : "";
+  if (optics.PreIntegrated)
+  {
+    return std::string(vtkTetrahedraFrontToBack) + vtkTetrahedraPreIntegrated;
+  }
+  switch (optics.BlendMode)
+  {
+    case vtkVolumeMapper::COMPOSITE_BLEND:
+      return vtkTetrahedraFrontToBack +
+        (optics.HasComponents() ? "" : std::string(vtkTetrahedraTransferFunction)) + lights +
+        vtkTetrahedraMedium +
+        (optics.HasComponents() ? vtkTetrahedraComponents : vtkTetrahedraComposite);
+    case vtkVolumeMapper::ISOSURFACE_BLEND:
+      return vtkTetrahedraFrontToBack + lights + vtkTetrahedraIsosurfaces;
+    default:
+      return std::string(vtkTetrahedraTransferFunction) + vtkTetrahedraProjection;
+  }
+}
+
+/** An array of uniforms, one per item; none if there are no items. */
+template <typename Item, typename Value>
+std::vector<float> Collect(const std::vector<Item>& items, Value Item::*member)
+{
+  std::vector<float> values;
+  for (const Item& item : items)
+  {
+    const Value& value = item.*member;
+    for (int i = 0; i < Value::length(); ++i)
+    {
+      values.push_back(static_cast<float>(value[i]));
+    }
+  }
+  return values;
+}
+
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeExcess(const RayCastOptics& optics)
+{
+  const auto describe = [](std::size_t number, std::size_t maximum, const char* what)
+  {
+    return number <= maximum
+      ? std::string()
+      : std::to_string(number) + " " + what + " exceed the limit of " + std::to_string(maximum);
+  };
+  const std::string planes =
+    describe(optics.ClippingPlanes.size(), MaximumNumberOfClippingPlanes, "clipping planes");
+  return planes.empty() ? describe(optics.Lighting.Lights.size(), MaximumNumberOfLights, "lights")
+                        : planes;
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastShaderOptions(const RayCastOptics& optics)
+{
+  std::ostringstream text;
+  const auto define = [&text](const char* name, int value)
+  { text << "#define " << name << " " << value << "\n"; };
+  for (int mode = vtkVolumeMapper::COMPOSITE_BLEND; mode <= vtkVolumeMapper::ISOSURFACE_BLEND;
+       ++mode)
+  {
+    define(BlendModeName(mode), mode);
+  }
+  text << "#define BLEND_MODE " << BlendModeName(optics.BlendMode) << "\n";
+  define("PRE_INTEGRATED", optics.PreIntegrated ? 1 : 0);
+  define("SHADING", optics.Shading ? 1 : 0);
+  define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
+  define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);
+  define("CELL_GRADIENTS", optics.UsesCellGradients() ? 1 : 0);
+  define("REFRACTED", optics.Refracting ? 1 : 0);
+  define("LONG_LISTS", optics.LongLists ? 1 : 0);
+  define("COMPACT_CELLS", optics.CompactCells ? 1 : 0);
+  define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
+  define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
+  define("VERTEX_VALUES", optics.VertexGradients || optics.HasComponents() ? 1 : 0);
+  define("INDEPENDENT", static_cast<int>(ComponentMixture::Independent));
+  define("COLOR_AND_OPACITY", static_cast<int>(ComponentMixture::ColorAndOpacity));
+  define("COMPONENT_MIXTURE", static_cast<int>(optics.Components));
+  define("NUMBER_OF_FUNCTIONS", optics.NumberOfFunctions);
+  define("NEEDS_POSITION", optics.UsesGradients() ? 1 : 0);
+  define("NUMBER_OF_LIGHTS", static_cast<int>(optics.Lighting.Lights.size()));
+  define("NUMBER_OF_CLIPPING_PLANES", static_cast<int>(optics.ClippingPlanes.size()));
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastShaderSource(const char* mainShader, const RayCastOptics& optics)
+{
+  std::string source(mainShader);
+  vtkShaderProgram::Substitute(
+    source, "//VTK::TetrahedraOptions::Dec", RayCastShaderOptions(optics));
+  vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
+  vtkShaderProgram::Substitute(source, "//VTK::TetrahedraWalk::Dec", vtkTetrahedraWalk);
+  vtkShaderProgram::Substitute(source, "//VTK::TetrahedraEntries::Dec", vtkTetrahedraEntries);
+  vtkShaderProgram::Substitute(source, "//VTK::TetrahedraModel::Dec", ModelSource(optics));
+  return source;
+}
+
+//------------------------------------------------------------------------------
+void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
+{
+  const auto set3 = [program](const char* name, const std::vector<float>& values)
+  { program->SetUniform3fv(name, static_cast<int>(values.size() / 3), values.data()); };
+  const auto set4 = [program](const char* name, const std::vector<float>& values)
+  { program->SetUniform4fv(name, static_cast<int>(values.size() / 4), values.data()); };
+  if (!optics.ClippingPlanes.empty())
+  {
+    set3("clippingConstant", Collect(optics.ClippingPlanes, &RayClippingPlane::Constant));
+    set3("clippingPerDepth", Collect(optics.ClippingPlanes, &RayClippingPlane::PerDepth));
+    set4("clippingInFrame", Collect(optics.ClippingPlanes, &RayClippingPlane::InFrame));
+  }
+  if (optics.BlendMode == vtkVolumeMapper::ADDITIVE_BLEND)
+  {
+    const double width = optics.DataRange.Highest - optics.DataRange.Lowest;
+    const float share[2] = { static_cast<float>(-optics.DataRange.Lowest / width),
+      static_cast<float>(1.0 / width) };
+    program->SetUniform2f("rangeShare", share);
+  }
+  if (!optics.UsesGradients())
+  {
+    return;
+  }
+  glm::mat3 gradientToFrame(optics.GradientToFrame);
+  program->SetUniformMatrix3x3("gradientToFrame", glm::value_ptr(gradientToFrame));
+  program->SetUniformf("gradientMagnitude", static_cast<float>(optics.GradientMagnitude));
+  program->SetUniformf("ambient", static_cast<float>(optics.Lighting.Ambient));
+  program->SetUniformf("diffuse", static_cast<float>(optics.Lighting.Diffuse));
+  program->SetUniformf("specular", static_cast<float>(optics.Lighting.Specular));
+  program->SetUniformf("specularPower", static_cast<float>(optics.Lighting.SpecularPower));
+  if (!optics.Lighting.Lights.empty())
+  {
+    set4("lightPosition", Collect(optics.Lighting.Lights, &RayCastLight::Position));
+    set3("lightDiffuse", Collect(optics.Lighting.Lights, &RayCastLight::Diffuse));
+    set3("lightSpecular", Collect(optics.Lighting.Lights, &RayCastLight::Specular));
+    set4("lightCone", Collect(optics.Lighting.Lights, &RayCastLight::Cone));
+    set4("lightFalloff", Collect(optics.Lighting.Lights, &RayCastLight::Falloff));
+  }
+}
+
+}

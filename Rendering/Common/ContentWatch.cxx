@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Common/ContentWatch.h"
+
+#include "Common/BlockLoop.h"
+#include "Filters/Common/ThreadedLoop.h"
+
+#include "vtkDataArray.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr std::size_t WordSize = sizeof(std::uint64_t);
+
+std::uint64_t BitsOf(double value)
+{
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+/** Whether the values lie in memory one after the other, as whole bytes. */
+bool HasBytes(vtkDataArray* array)
+{
+  return array->HasStandardMemoryLayout() && array->GetDataType() != VTK_BIT;
+}
+
+}
+
+//------------------------------------------------------------------------------
+ObjectVersion::ObjectVersion(vtkObject* object)
+  : Object(object)
+  , Time(object ? object->GetMTime() : 0)
+{
+}
+
+//------------------------------------------------------------------------------
+ObjectVersion ObjectVersion::Own(vtkObject* object)
+{
+  ObjectVersion version;
+  version.Object = object;
+  version.Time = object ? object->vtkObject::GetMTime() : 0;
+  return version;
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t ContentDigest::Step(std::uint64_t state, std::uint64_t word)
+{
+  // An odd factor and a shift of the upper half into the lower: both can be undone.
+  constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u;
+  const std::uint64_t product = ((state ^ word) + factor) * factor;
+  return product ^ (product >> 32);
+}
+
+//------------------------------------------------------------------------------
+std::uint64_t ContentDigest::DigestBytes(const unsigned char* bytes, std::size_t size)
+{
+  // Independent chains of steps, which a processor runs at the same time.
+  constexpr std::size_t chains = 4;
+  std::uint64_t states[chains] = { 0, 1, 2, 3 };
+  std::uint64_t words[chains];
+  std::size_t at = 0;
+  for (; at + sizeof(words) <= size; at += sizeof(words))
+  {
+    std::memcpy(words, bytes + at, sizeof(words));
+    for (std::size_t i = 0; i < chains; ++i)
+    {
+      states[i] = Step(states[i], words[i]);
+    }
+  }
+  for (; at < size; at += WordSize)
+  {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + at, std::min(WordSize, size - at));
+    states[0] = Step(states[0], word);
+  }
+  std::uint64_t state = size;
+  for (const std::uint64_t chain : states)
+  {
+    state = Step(state, chain);
+  }
+  return state;
+}
+
+//------------------------------------------------------------------------------
+void ContentDigest::Add(std::uint64_t word)
+{
+  this->State = Step(this->State, word);
+}
+
+//------------------------------------------------------------------------------
+void ContentDigest::AddBlocks(std::size_t count,
+  const std::function<std::uint64_t(std::size_t first, std::size_t last)>& digest)
+{
+  std::vector<std::uint64_t> blocks(NumberOfBlocks(count));
+  ForEachBlock(count, ThreadedLoop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    { blocks[block] = digest(first, last); });
+  this->Add(count);
+  for (const std::uint64_t block : blocks)
+  {
+    this->Add(block);
+  }
+}
+
+//------------------------------------------------------------------------------
+void ContentDigest::Add(vtkDataArray* array)
+{
+  this->Add(array ? 1 : 0);
+  if (!array)
+  {
+    return;
+  }
+  const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
+  this->Add(static_cast<std::uint64_t>(array->GetDataType()));
+  this->Add(components);
+  const auto count = static_cast<std::size_t>(array->GetNumberOfValues());
+  if (!HasBytes(array))
+  {
+    this->AddValues(count,
+      [array, components](std::size_t i)
+      {
+        return BitsOf(array->GetComponent(
+          static_cast<vtkIdType>(i / components), static_cast<int>(i % components)));
+      });
+    return;
+  }
+  const auto size = static_cast<std::size_t>(array->GetDataTypeSize());
+  const auto* bytes = static_cast<const unsigned char*>(array->GetVoidPointer(0));
+  this->AddBlocks(count,
+    [bytes, size](std::size_t first, std::size_t last)
+    { return DigestBytes(bytes + first * size, (last - first) * size); });
+}
+
+//------------------------------------------------------------------------------
+bool ContentWatch::HasChanged(
+  std::vector<ObjectVersion> times, const std::function<std::uint64_t()>& digest)
+{
+  if (this->IsKnown && times == this->Times)
+  {
+    return false;
+  }
+  const std::uint64_t value = digest();
+  const bool changed = !this->IsKnown || value != this->Digest;
+  this->Times = std::move(times);
+  this->Digest = value;
+  this->IsKnown = true;
+  return changed;
+}
+
+//------------------------------------------------------------------------------
+void ContentWatch::Forget()
+{
+  this->IsKnown = false;
+}
+
+}

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// The one place where versions of VTK differ for us.
+#ifndef meniscus_Rendering_Common_VTKVersions_h
+#define meniscus_Rendering_Common_VTKVersions_h
+
+#include "vtkCellArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkVersionMacros.h"
+
+#include <vector>
+
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+#include "vtkCellTypeUtilities.h"
+#else
+#include "vtkCellTypes.h"
+#endif
+
+namespace meniscus
+{
+
+/** Adds the objects and the arrays that hold the faces of polyhedra; null if there are none. */
+inline void AddFaces(
+  vtkUnstructuredGrid* grid, std::vector<vtkObject*>& holders, std::vector<vtkDataArray*>& arrays)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0)
+  for (vtkCellArray* cells : { grid->GetPolyhedronFaces(), grid->GetPolyhedronFaceLocations() })
+  {
+    holders.push_back(cells);
+    arrays.push_back(cells ? cells->GetConnectivityArray() : nullptr);
+    arrays.push_back(cells ? cells->GetOffsetsArray() : nullptr);
+  }
+#else
+  static_cast<void>(holders); // the arrays are the grid's own
+  arrays.push_back(grid->GetFaces());
+  arrays.push_back(grid->GetFaceLocations());
+#endif
+}
+
+/** What a type of cells is called, such as "vtkWedge"; may be null. */
+inline const char* NameOfCellType(int type)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)
+  return vtkCellTypeUtilities::GetClassNameFromTypeId(type);
+#else
+  return vtkCellTypes::GetClassNameFromTypeId(type);
+#endif
+}
+
+}
+
+#endif

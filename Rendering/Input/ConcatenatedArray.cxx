@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Input/ConcatenatedArray.h"
+
+#include "Common/BlockLoop.h"
+#include "Filters/Common/ThreadedLoop.h"
+
+#include "vtkDataArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+/**
+ * Length of a tuple, without overflow on the way; a single component as it is, as VTK's colour maps
+ * take it, with its sign.
+ */
+double LengthOf(vtkDataArray* array, vtkIdType tuple)
+{
+  if (array->GetNumberOfComponents() == 1)
+  {
+    return array->GetComponent(tuple, 0);
+  }
+  double length = 0.0;
+  for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+  {
+    length = std::hypot(length, array->GetComponent(tuple, component));
+  }
+  return length;
+}
+
+/** The range of the finite values among some, and how many others there are. */
+struct ValueRange
+{
+  double Lowest = std::numeric_limits<double>::infinity();
+  double Highest = -std::numeric_limits<double>::infinity();
+  std::int64_t NotFinite = 0;
+
+  void Add(double value)
+  {
+    if (std::isfinite(value))
+    {
+      this->Lowest = std::min(this->Lowest, value);
+      this->Highest = std::max(this->Highest, value);
+    }
+    else
+    {
+      ++this->NotFinite;
+    }
+  }
+  void Add(const ValueRange& other)
+  {
+    this->Lowest = std::min(this->Lowest, other.Lowest);
+    this->Highest = std::max(this->Highest, other.Highest);
+    this->NotFinite += other.NotFinite;
+  }
+};
+
+}
+
+//------------------------------------------------------------------------------
+ConcatenatedArray::ConcatenatedArray(const InputBlocks& input, int component)
+  : Input(input)
+  , Component(component == ScalarSelection::Only ? 0 : component)
+{
+  std::int64_t next = 0;
+  for (const InputPart& part : input.Parts)
+  {
+    this->Firsts.push_back(next);
+    next += part.Scalars->GetNumberOfTuples();
+  }
+}
+
+//------------------------------------------------------------------------------
+double ConcatenatedArray::operator()(std::int32_t number) const
+{
+  const auto after = std::upper_bound(this->Firsts.begin() + 1, this->Firsts.end(), number);
+  const auto part = static_cast<std::size_t>(after - this->Firsts.begin()) - 1;
+  vtkDataArray* array = this->Input.Parts[part].Scalars;
+  const auto tuple = static_cast<vtkIdType>(number - this->Firsts[part]);
+  return this->Component == ScalarSelection::Magnitude
+    ? LengthOf(array, tuple)
+    : array->GetComponent(tuple, array->GetNumberOfComponents() == 1 ? 0 : this->Component);
+}
+
+//------------------------------------------------------------------------------
+std::vector<double> GatherValues(
+  const InputBlocks& input, int component, const std::vector<std::int32_t>& numbers)
+{
+  const ConcatenatedArray valueOf(input, component);
+  std::vector<double> values(numbers.size());
+  ForEachBlock(values.size(), ThreadedLoop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        values[i] = valueOf(numbers[i]);
+      }
+    });
+  return values;
+}
+
+//------------------------------------------------------------------------------
+FiniteValues::FiniteValues(const std::vector<double>& values)
+{
+  std::vector<ValueRange> ranges(NumberOfBlocks(values.size()));
+  ForEachBlock(values.size(), ThreadedLoop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      ValueRange range;
+      for (std::size_t i = first; i < last; ++i)
+      {
+        range.Add(values[i]);
+      }
+      ranges[block] = range;
+    });
+  ValueRange all;
+  for (const ValueRange& range : ranges)
+  {
+    all.Add(range);
+  }
+  this->NotFinite = all.NotFinite;
+  if (all.Lowest <= all.Highest)
+  {
+    this->Distribution = ScalarDistribution(all.Lowest, all.Highest, values);
+  }
+}
+
+}

@@ -1,0 +1,528 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Input/TetrahedraSource.h"
+
+#include "Rendering/Common/VTKVersions.h"
+
+#include "Common/BlockLoop.h"
+
+#include "vtkAOSDataArrayTemplate.h"
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkGenericCell.h"
+#include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <sstream>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr unsigned char LeftOut =
+  vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::HIDDENCELL;
+
+template <typename T>
+std::vector<T> CopyValues(vtkDataArray* array)
+{
+  const int components = array->GetNumberOfComponents();
+  std::vector<T> values(components * array->GetNumberOfTuples());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    values[i] = static_cast<T>(array->GetComponent(
+      static_cast<vtkIdType>(i / components), static_cast<int>(i % components)));
+  }
+  return values;
+}
+
+constexpr int NoPoint = -1;
+
+/** The place of the point inside a cell, or NoPoint. */
+int CenterOfCell(int type)
+{
+  switch (type)
+  {
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+      return 26;
+    case VTK_TRIQUADRATIC_PYRAMID:
+      return 18;
+    default:
+      return NoPoint;
+  }
+}
+
+/** The parts that a face is split into, by the places of its points. */
+struct FaceSplit
+{
+  /** Polygons; none for a type that is not known. */
+  std::vector<std::vector<int>> Parts;
+  /** The point inside the face, or NoPoint. */
+  int Center = NoPoint;
+};
+
+/** Triangles about the point inside a face, for the points around it. */
+FaceSplit SplitAbout(int center, const std::vector<int>& around)
+{
+  FaceSplit split{ {}, center };
+  for (std::size_t i = 0; i < around.size(); ++i)
+  {
+    split.Parts.push_back({ center, around[i], around[(i + 1) % around.size()] });
+  }
+  return split;
+}
+
+/**
+ * The split of a face. It follows from the face alone, so it is the same on both sides, and is that
+ * of the cells that Tetrahedralizer has rules for.
+ */
+FaceSplit SplitFace(vtkCell* face)
+{
+  switch (face->GetCellType())
+  {
+    case VTK_TRIANGLE:
+      return { { { 0, 1, 2 } } };
+    case VTK_QUAD:
+      return { { { 0, 1, 2, 3 } } };
+    case VTK_PIXEL:
+      return { { { 0, 1, 3, 2 } } };
+    case VTK_QUADRATIC_TRIANGLE:
+      return { { { 0, 3, 5 }, { 1, 4, 3 }, { 2, 5, 4 }, { 3, 4, 5 } } };
+    case VTK_QUADRATIC_QUAD:
+      return { { { 0, 4, 7 }, { 1, 5, 4 }, { 2, 6, 5 }, { 3, 7, 6 }, { 4, 5, 6, 7 } } };
+    case VTK_BIQUADRATIC_TRIANGLE:
+      return SplitAbout(6, { 0, 3, 1, 4, 2, 5 });
+    case VTK_BIQUADRATIC_QUAD:
+      return SplitAbout(8, { 0, 4, 1, 5, 2, 6, 3, 7 });
+    case VTK_POLYGON:
+    {
+      std::vector<int> around(face->GetNumberOfPoints());
+      std::iota(around.begin(), around.end(), 0);
+      return { { around } };
+    }
+    default:
+      return {};
+  }
+}
+
+/** Tetrahedra of a cell of a type whose cells are not degenerate. */
+int TetrahedraOf(int type)
+{
+  switch (type)
+  {
+    case VTK_VOXEL:
+    case VTK_HEXAHEDRON:
+      return 6;
+    case VTK_WEDGE:
+      return 3;
+    case VTK_PYRAMID:
+      return 2;
+    case VTK_QUADRATIC_TETRA:
+      return 8;
+    case VTK_QUADRATIC_HEXAHEDRON:
+      return 22;
+    case VTK_QUADRATIC_WEDGE:
+      return 15;
+    case VTK_QUADRATIC_LINEAR_WEDGE:
+      return 12;
+    case VTK_QUADRATIC_PYRAMID:
+      return 13;
+    case VTK_TRIQUADRATIC_HEXAHEDRON:
+      return 48;
+    case VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON:
+      return 36;
+    case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+      return 24;
+    case VTK_TRIQUADRATIC_PYRAMID:
+      return 32;
+    case VTK_EMPTY_CELL:
+      return 0;
+    default:
+      return 1;
+  }
+}
+
+/** Whether all cells have one type, and which, as far as the class of the data set says. */
+bool HasOneType(vtkDataSet* grid)
+{
+  return vtkImageData::SafeDownCast(grid) || vtkRectilinearGrid::SafeDownCast(grid) ||
+    vtkStructuredGrid::SafeDownCast(grid);
+}
+
+/** Whether several threads may ask for cells at the same time. */
+bool IsThreadSafe(vtkDataSet* grid)
+{
+  return HasOneType(grid) || vtkUnstructuredGrid::SafeDownCast(grid);
+}
+
+/** Whether it holds tetrahedra of four points each, and nothing else. */
+bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
+{
+  const vtkIdType cells = grid->GetNumberOfCells();
+  if (grid->GetCells()->GetConnectivityArray()->GetNumberOfTuples() != 4 * cells)
+  {
+    return false;
+  }
+  vtkIdType cell = 0;
+  while (cell < cells && grid->GetCellType(cell) == VTK_TETRA)
+  {
+    ++cell;
+  }
+  return cell == cells;
+}
+
+vtkPoints* PointsOf(vtkDataSet* grid)
+{
+  vtkPointSet* set = vtkPointSet::SafeDownCast(grid);
+  return set ? set->GetPoints() : nullptr;
+}
+
+}
+
+/** What a block of cells becomes. */
+struct TetrahedraSource::Part
+{
+  Tetrahedralizer Tetrahedra;
+  std::vector<std::int32_t> Sources;
+  std::map<int, std::int64_t> Omitted;
+  /** What is added to the data set's numbers. */
+  std::int64_t FirstPoint = 0;
+  std::int64_t FirstCell = 0;
+
+  void AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last);
+
+private:
+  void AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdList* ids);
+  bool AddByFaces(vtkCell* cell);
+};
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::Part::AddBlock(vtkDataSet* grid, std::size_t first, std::size_t last)
+{
+  vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray();
+  vtkNew<vtkIdList> ids;
+  for (std::size_t c = first; c < last; ++c)
+  {
+    const auto cell = static_cast<vtkIdType>(c);
+    if (!ghosts || !(ghosts->GetValue(cell) & LeftOut))
+    {
+      this->AddCell(grid, cell, grid->GetCellType(cell), ids);
+      this->Sources.resize(this->Tetrahedra.GetTetrahedra().size() / 4,
+        static_cast<std::int32_t>(this->FirstCell + cell));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type, vtkIdList* ids)
+{
+  if (type == VTK_EMPTY_CELL)
+  {
+    return; // blanked
+  }
+  // Most points that a cell of a type with a rule of its own has.
+  constexpr vtkIdType MostPoints = 20;
+  std::array<std::int64_t, MostPoints> points{};
+  grid->GetCellPoints(cell, ids);
+  const vtkIdType size = ids->GetNumberOfIds();
+  for (vtkIdType i = 0; i < std::min(size, MostPoints); ++i)
+  {
+    points[i] = this->FirstPoint + ids->GetId(i);
+  }
+  if (type == VTK_TETRA && size == 4)
+  {
+    this->Tetrahedra.AddTetrahedron(points.data());
+  }
+  else if (type == VTK_VOXEL && size == 8)
+  {
+    this->Tetrahedra.AddVoxel(points.data());
+  }
+  else if (type == VTK_HEXAHEDRON && size == 8)
+  {
+    this->Tetrahedra.AddHexahedron(points.data());
+  }
+  else if (type == VTK_WEDGE && size == 6)
+  {
+    this->Tetrahedra.AddWedge(points.data());
+  }
+  else if (type == VTK_PYRAMID && size == 5)
+  {
+    this->Tetrahedra.AddPyramid(points.data());
+  }
+  else if (type == VTK_QUADRATIC_TETRA && size == 10)
+  {
+    this->Tetrahedra.AddQuadraticTetrahedron(points.data());
+  }
+  else if (type == VTK_QUADRATIC_HEXAHEDRON && size == 20)
+  {
+    this->Tetrahedra.AddQuadraticHexahedron(points.data());
+  }
+  else if (type == VTK_QUADRATIC_WEDGE && size == 15)
+  {
+    this->Tetrahedra.AddQuadraticWedge(points.data());
+  }
+  else if (type == VTK_QUADRATIC_LINEAR_WEDGE && size == 12)
+  {
+    this->Tetrahedra.AddQuadraticLinearWedge(points.data());
+  }
+  else if (type == VTK_QUADRATIC_PYRAMID && size == 13)
+  {
+    this->Tetrahedra.AddQuadraticPyramid(points.data());
+  }
+  else
+  {
+    vtkNew<vtkGenericCell> generic;
+    grid->GetCell(cell, generic);
+    if (generic->GetCellDimension() != 3 || !this->AddByFaces(generic))
+    {
+      ++this->Omitted[type];
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+bool TetrahedraSource::Part::AddByFaces(vtkCell* cell)
+{
+  const auto pointOf = [this](vtkCell* of, int place)
+  { return this->FirstPoint + static_cast<std::int64_t>(of->GetPointId(place)); };
+  std::vector<std::int64_t> faces;
+  std::size_t numberOfFaces = 0;
+  // A point inside the cell, or the smallest inside a face: in no plane of another face.
+  const int inside = CenterOfCell(cell->GetCellType());
+  std::int64_t apex = inside == NoPoint ? NoPoint : pointOf(cell, inside);
+  for (int f = 0; f < cell->GetNumberOfFaces(); ++f)
+  {
+    vtkCell* face = cell->GetFace(f);
+    const FaceSplit split = SplitFace(face);
+    if (split.Parts.empty())
+    {
+      return false;
+    }
+    for (const std::vector<int>& part : split.Parts)
+    {
+      faces.push_back(static_cast<std::int64_t>(part.size()));
+      for (const int place : part)
+      {
+        faces.push_back(pointOf(face, place));
+      }
+    }
+    numberOfFaces += split.Parts.size();
+    if (inside == NoPoint && split.Center != NoPoint)
+    {
+      const std::int64_t center = pointOf(face, split.Center);
+      apex = apex == NoPoint ? center : std::min(apex, center);
+    }
+  }
+  if (apex == NoPoint)
+  {
+    this->Tetrahedra.AddPolyhedron(faces.data(), numberOfFaces);
+  }
+  else
+  {
+    this->Tetrahedra.AddCone(apex, faces.data(), numberOfFaces);
+  }
+  return numberOfFaces > 0;
+}
+
+//------------------------------------------------------------------------------
+TetrahedraSource::TetrahedraSource(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
+{
+  for (vtkDataSet* grid : grids)
+  {
+    this->View.NumberOfPoints += grid->GetNumberOfPoints();
+  }
+  vtkPoints* points = grids.size() == 1 ? PointsOf(grids[0]) : nullptr;
+  if (points)
+  {
+    this->ViewPoints(points->GetData());
+  }
+  else
+  {
+    this->CopyPoints(grids, loop);
+  }
+  this->View.MatchPositions = grids.size() > 1;
+  auto* single = grids.size() == 1 ? vtkUnstructuredGrid::SafeDownCast(grids[0]) : nullptr;
+  if (single && HasOnlyTetrahedra(single))
+  {
+    this->ViewTetrahedra(single);
+  }
+  else
+  {
+    this->Tetrahedralize(grids, loop);
+  }
+}
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::ViewPoints(vtkDataArray* points)
+{
+  if (auto* doubles = vtkAOSDataArrayTemplate<double>::FastDownCast(points))
+  {
+    this->View.Points = doubles->GetPointer(0);
+  }
+  else if (auto* floats = vtkAOSDataArrayTemplate<float>::FastDownCast(points))
+  {
+    this->View.FloatPoints = floats->GetPointer(0);
+  }
+  else
+  {
+    this->Points = CopyValues<double>(points);
+    this->View.Points = this->Points.data();
+  }
+}
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::CopyPoints(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
+{
+  this->Points.resize(3 * static_cast<std::size_t>(this->View.NumberOfPoints));
+  double* next = this->Points.data();
+  for (vtkDataSet* grid : grids)
+  {
+    const auto size = static_cast<std::size_t>(grid->GetNumberOfPoints());
+    ForEachBlock(size, IsThreadSafe(grid) ? loop : SerialLoop,
+      [grid, next](std::size_t, std::size_t first, std::size_t last)
+      {
+        for (std::size_t p = first; p < last; ++p)
+        {
+          grid->GetPoint(static_cast<vtkIdType>(p), next + 3 * p);
+        }
+      });
+    next += 3 * size;
+  }
+  this->View.Points = this->Points.data();
+}
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::ViewTetrahedra(vtkUnstructuredGrid* grid)
+{
+  this->View.NumberOfCells = grid->GetNumberOfCells();
+  vtkDataArray* ids = grid->GetCells()->GetConnectivityArray();
+  if (auto* longs = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
+  {
+    // VTK's 64-bit integer and the standard's may have two names.
+    static_assert(sizeof(vtkTypeInt64) == sizeof(std::int64_t), "both have 64 bits");
+    this->View.Cells = reinterpret_cast<const std::int64_t*>(longs->GetPointer(0));
+  }
+  else if (auto* ints = vtkAOSDataArrayTemplate<vtkTypeInt32>::FastDownCast(ids))
+  {
+    this->View.ShortCells = ints->GetPointer(0);
+  }
+  else
+  {
+    this->Ids = CopyValues<std::int64_t>(ids);
+    this->View.Cells = this->Ids.data();
+  }
+  if (vtkUnsignedCharArray* ghosts = grid->GetCellGhostArray())
+  {
+    this->View.CellFlags = ghosts->GetPointer(0);
+    this->View.LeftOutBits = LeftOut;
+  }
+}
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::Tetrahedralize(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop)
+{
+  std::vector<Part> parts;
+  std::int64_t firstPoint = 0;
+  std::int64_t firstCell = 0;
+  for (vtkDataSet* grid : grids)
+  {
+    const auto size = static_cast<std::size_t>(grid->GetNumberOfCells());
+    const std::size_t firstPart = parts.size();
+    parts.resize(firstPart + NumberOfBlocks(size));
+    // What VTK makes when it is first asked for must be there before threads ask.
+    grid->GetCellType(0);
+    grid->GetCellGhostArray();
+    ForEachBlock(size, IsThreadSafe(grid) ? loop : SerialLoop,
+      [&](std::size_t block, std::size_t first, std::size_t last)
+      {
+        Part& part = parts[firstPart + block];
+        part.FirstPoint = firstPoint;
+        part.FirstCell = firstCell;
+        part.AddBlock(grid, first, last);
+      });
+    firstPoint += grid->GetNumberOfPoints();
+    firstCell += grid->GetNumberOfCells();
+  }
+  this->TakeParts(parts, loop);
+}
+
+//------------------------------------------------------------------------------
+void TetrahedraSource::TakeParts(const std::vector<Part>& parts, const RangeLoop& loop)
+{
+  std::vector<std::size_t> starts;
+  std::size_t size = 0;
+  for (const Part& part : parts)
+  {
+    starts.push_back(size);
+    size += part.Sources.size();
+    for (const auto& omitted : part.Omitted)
+    {
+      this->Omitted[omitted.first] += omitted.second;
+    }
+  }
+  this->Ids.resize(4 * size);
+  this->Sources.resize(size);
+  loop(parts.size(),
+    [&](std::size_t first, std::size_t last)
+    {
+      for (std::size_t i = first; i < last; ++i)
+      {
+        const std::vector<std::int64_t>& ids = parts[i].Tetrahedra.GetTetrahedra();
+        std::copy(ids.begin(), ids.end(), this->Ids.begin() + 4 * starts[i]);
+        std::copy(
+          parts[i].Sources.begin(), parts[i].Sources.end(), this->Sources.begin() + starts[i]);
+      }
+    });
+  this->View.Cells = this->Ids.data();
+  this->View.SourceCells = this->Sources.data();
+  this->View.NumberOfCells = static_cast<std::int64_t>(size);
+}
+
+//------------------------------------------------------------------------------
+std::string TetrahedraSource::DescribeOmitted() const
+{
+  std::ostringstream text;
+  for (const auto& omitted : this->Omitted)
+  {
+    const char* name = NameOfCellType(omitted.first);
+    text << (text.tellp() > 0 ? ", " : "") << omitted.second << " "
+         << (name ? name : "of an unknown type");
+  }
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
+{
+  GridSize size;
+  for (vtkDataSet* grid : grids)
+  {
+    size.Points += grid->GetNumberOfPoints();
+    const vtkIdType cells = grid->GetNumberOfCells();
+    if (HasOneType(grid))
+    {
+      // Of structured data also those that are blanked: counting them would take time.
+      size.Tetrahedra += TetrahedraOf(VTK_VOXEL) * cells;
+      continue;
+    }
+    for (vtkIdType c = 0; c < cells; ++c)
+    {
+      size.Tetrahedra += TetrahedraOf(grid->GetCellType(c));
+    }
+  }
+  return size;
+}
+
+}

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Input/VolumeComponents.h"
+
+#include "Rendering/Input/ConcatenatedArray.h"
+
+#include "vtkDataArray.h"
+#include "vtkSMPTools.h"
+#include "vtkType.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr float NotANumber = std::numeric_limits<float>::quiet_NaN();
+
+/** What a colour's full intensity is stored as: VTK's convention for bytes, 1 otherwise. */
+double FullIntensity(const InputBlocks& parts)
+{
+  return parts.Parts.front().Scalars->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
+}
+
+/** The components beside the main one that are scalars with a function of their own. */
+std::vector<int> OtherScalars(ComponentMixture mixture, int components)
+{
+  std::vector<int> others;
+  if (mixture == ComponentMixture::ColorAndOpacity)
+  {
+    others.push_back(0);
+  }
+  for (int c = 1; mixture == ComponentMixture::Independent && c < components; ++c)
+  {
+    others.push_back(c);
+  }
+  return others;
+}
+
+/** Makes all of a vertex NaN if one component is not finite, the main one included. Counts them. */
+std::int64_t MarkUnknown(const std::vector<std::int32_t>& points, const InputBlocks& parts,
+  int components, std::vector<glm::vec3>& values)
+{
+  std::vector<ConcatenatedArray> valuesOf;
+  for (int c = 0; c < components; ++c)
+  {
+    valuesOf.emplace_back(parts, c);
+  }
+  std::atomic<std::int64_t> unknown(0);
+  vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
+    [&](vtkIdType first, vtkIdType last)
+    {
+      for (vtkIdType v = first; v < last; ++v)
+      {
+        bool known = true;
+        for (const ConcatenatedArray& valueOf : valuesOf)
+        {
+          known = known && std::isfinite(valueOf(points[v]));
+        }
+        if (!known)
+        {
+          values[v] = glm::vec3(NotANumber);
+          ++unknown;
+        }
+      }
+    });
+  return unknown;
+}
+
+}
+
+//------------------------------------------------------------------------------
+int MainComponent(ComponentMixture mixture)
+{
+  switch (mixture)
+  {
+    case ComponentMixture::ColorAndOpacity:
+      return 1;
+    case ComponentMixture::RedGreenBlueOpacity:
+      return 3;
+    default:
+      return 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+InputReport VolumeComponents::Update(const VolumeInput& input, const InputBlocks& parts,
+  ComponentMixture mixture, const FunctionFeatures& features)
+{
+  const bool same = mixture == this->Mixture &&
+    (mixture == ComponentMixture::None ||
+      (this->BuiltScalars == input.GetScalarUpdates() && this->BuiltMesh == input.GetMeshBuilds()));
+  const TetrahedralMesh& mesh = input.GetMesh();
+  InputReport report;
+  if (same)
+  {
+    if (this->BuiltFeatures != features.Version && this->ChooseNormalizations(features, true))
+    {
+      ++this->Version;
+      this->TakeScalars(mesh, parts);
+      MarkUnknown(mesh.GetSourcePoints(), parts, this->NumberOfComponents, this->Values);
+    }
+    return report;
+  }
+  this->Mixture = mixture;
+  this->BuiltScalars = input.GetScalarUpdates();
+  this->BuiltMesh = input.GetMeshBuilds();
+  this->NumberOfComponents =
+    mixture == ComponentMixture::None ? 1 : parts.Parts.front().Scalars->GetNumberOfComponents();
+  this->Values.clear();
+  this->Others = OtherScalars(mixture, this->NumberOfComponents);
+  ++this->Version;
+  if (mixture == ComponentMixture::None)
+  {
+    return report;
+  }
+  this->Values.assign(mesh.GetSourcePoints().size(), glm::vec3(0.0f));
+  if (mixture == ComponentMixture::RedGreenBlueOpacity)
+  {
+    this->TakeColors(mesh, parts);
+  }
+  for (std::size_t other = 0; other < this->Others.size(); ++other)
+  {
+    this->Distributions[other] =
+      FiniteValues(GatherValues(parts, this->Others[other], mesh.GetSourcePoints())).Distribution;
+  }
+  this->ChooseNormalizations(features, false);
+  this->TakeScalars(mesh, parts);
+  const std::int64_t unknown =
+    MarkUnknown(mesh.GetSourcePoints(), parts, this->NumberOfComponents, this->Values);
+  if (unknown > 0)
+  {
+    report.Warning = std::to_string(unknown) + " of " + std::to_string(this->Values.size()) +
+      " vertices have a component that is not finite; cells that use them are transparent.";
+  }
+  return report;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * @param keep  the normalisations that there are, as long as they serve.
+ * @return  whether one changed.
+ */
+bool VolumeComponents::ChooseNormalizations(const FunctionFeatures& features, bool keep)
+{
+  bool changed = false;
+  for (std::size_t other = 0; other < this->Others.size(); ++other)
+  {
+    ScalarNormalization& normalization = this->Normalizations[other];
+    const ScalarNormalization chosen = ChooseNormalization(
+      this->Distributions[other], features.Of(other + 1), keep ? &normalization : nullptr);
+    changed = changed || chosen != normalization;
+    normalization = chosen;
+  }
+  this->BuiltFeatures = features.Version;
+  return changed;
+}
+
+//------------------------------------------------------------------------------
+void VolumeComponents::TakeScalars(const TetrahedralMesh& mesh, const InputBlocks& parts)
+{
+  const std::vector<std::int32_t>& points = mesh.GetSourcePoints();
+  for (std::size_t other = 0; other < this->Others.size(); ++other)
+  {
+    const ConcatenatedArray valueOf(parts, this->Others[other]);
+    const ScalarNormalization& normalization = this->Normalizations[other];
+    const auto at = static_cast<int>(other);
+    vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
+      [&](vtkIdType first, vtkIdType last)
+      {
+        for (vtkIdType v = first; v < last; ++v)
+        {
+          this->Values[v][at] = static_cast<float>(normalization(valueOf(points[v])));
+        }
+      });
+  }
+}
+
+//------------------------------------------------------------------------------
+void VolumeComponents::TakeColors(const TetrahedralMesh& mesh, const InputBlocks& parts)
+{
+  const std::vector<std::int32_t>& points = mesh.GetSourcePoints();
+  const double scale = 1.0 / FullIntensity(parts);
+  const ConcatenatedArray red(parts, 0);
+  const ConcatenatedArray green(parts, 1);
+  const ConcatenatedArray blue(parts, 2);
+  vtkSMPTools::For(0, static_cast<vtkIdType>(points.size()),
+    [&](vtkIdType first, vtkIdType last)
+    {
+      for (vtkIdType v = first; v < last; ++v)
+      {
+        const glm::dvec3 color(red(points[v]), green(points[v]), blue(points[v]));
+        this->Values[v] = glm::vec3(glm::clamp(scale * color, 0.0, 1.0));
+      }
+    });
+}
+
+}

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Input_VolumeComponents_h
+#define meniscus_Rendering_Input_VolumeComponents_h
+
+#include "Rendering/Input/ComponentMixture.h"
+#include "Rendering/Input/VolumeInput.h"
+#include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Optics/TransferFunction.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/** The component that VolumeInput takes as the scalar: the first, or what gives the opacity. */
+int MainComponent(ComponentMixture mixture);
+
+/** The components of the arrays beside the main one, for the vertices of a mesh. */
+class VolumeComponents
+{
+public:
+  /**
+   * Costs nothing if the input's mesh and scalars and the mixture are the same. As with
+   * VolumeInput, other functions cost something only where they change the normalisation.
+   */
+  InputReport Update(const VolumeInput& input, const InputBlocks& parts, ComponentMixture mixture,
+    const FunctionFeatures& features);
+
+  ComponentMixture GetMixture() const { return this->Mixture; }
+  /** Of the array; 1 if there is no mixture. */
+  int GetNumberOfComponents() const { return this->NumberOfComponents; }
+  /**
+   * Up to three other components per vertex, normalised each by itself, or colours in [0, 1]. All
+   * NaN where a component is not finite. Empty without a mixture.
+   */
+  const std::vector<glm::vec3>& GetValues() const { return this->Values; }
+  /** Of the other components that are scalars. */
+  const ScalarNormalization& GetNormalization(int other) const
+  {
+    return this->Normalizations[other];
+  }
+  /** Changes with the values. */
+  std::int64_t GetVersion() const { return this->Version; }
+
+private:
+  bool ChooseNormalizations(const FunctionFeatures& features, bool keep);
+  void TakeScalars(const TetrahedralMesh& mesh, const InputBlocks& parts);
+  void TakeColors(const TetrahedralMesh& mesh, const InputBlocks& parts);
+
+  ComponentMixture Mixture = ComponentMixture::None;
+  int NumberOfComponents = 1;
+  std::vector<glm::vec3> Values;
+  /** The other components that are scalars: number in the array, scalars, normalisation. */
+  std::vector<int> Others;
+  std::array<ScalarDistribution, 3> Distributions;
+  std::array<ScalarNormalization, 3> Normalizations;
+  std::int64_t BuiltFeatures = 0;
+  std::int64_t BuiltScalars = 0;
+  std::int64_t BuiltMesh = 0;
+  std::int64_t Version = 0;
+};
+
+}
+
+#endif

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Input/VolumeInput.h"
+
+#include "Common/BlockLoop.h"
+#include "Filters/Common/ThreadedLoop.h"
+#include "Rendering/Input/ConcatenatedArray.h"
+#include "Rendering/Input/InputContent.h"
+#include "Rendering/Input/TetrahedraSource.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+InputReport VolumeInput::UpdateMesh(
+  const InputBlocks& input, const std::function<bool(double)>& progress)
+{
+  const bool changed =
+    this->MeshWatch.HasChanged(MeshVersions(input), [&input]() { return DigestMesh(input); });
+  const bool lacksSources = input.Place == FieldAssociation::Cells && !this->KeepsSourceCells;
+  if (!changed && !lacksSources)
+  {
+    return InputReport();
+  }
+  this->KeepsSourceCells = this->KeepsSourceCells || lacksSources;
+  std::vector<vtkDataSet*> grids;
+  for (const InputPart& part : input.Parts)
+  {
+    grids.push_back(part.Grid);
+  }
+  return this->BuildMesh(grids, progress);
+}
+
+//------------------------------------------------------------------------------
+InputReport VolumeInput::BuildMesh(
+  const std::vector<vtkDataSet*>& grids, const std::function<bool(double)>& progress)
+{
+  this->ScalarWatch.Forget();
+  this->ActiveSetStale = true;
+  ++this->MeshBuilds;
+  ++this->LinkChanges;
+
+  InputReport report;
+  std::ostringstream text;
+  const GridSize size = MeasureGrids(grids);
+  if (size.Tetrahedra > TetrahedralMesh::MaximumNumberOfCells ||
+    size.Points > std::numeric_limits<std::int32_t>::max())
+  {
+    this->Mesh = TetrahedralMesh();
+    text << "A mesh of " << size.Tetrahedra << " tetrahedra and " << size.Points
+         << " points exceeds the limit of " << TetrahedralMesh::MaximumNumberOfCells
+         << " tetrahedra and 2^31 points";
+    report.Error = text.str();
+    return report;
+  }
+  const TetrahedraSource gridView(grids, ThreadedLoop);
+  TetrahedraView view = gridView.GetView();
+  view.KeepSourceCells = this->KeepsSourceCells;
+  MeshBuildControl control;
+  control.Loop = ThreadedLoop;
+  control.Progress = progress;
+  if (this->Mesh.Build(view, control) == MeshStatus::Aborted)
+  {
+    this->MeshWatch.Forget(); // begun again at the next call
+  }
+  const std::string omitted = gridView.DescribeOmitted();
+  if (!omitted.empty())
+  {
+    text << "Cells that are not drawn, because of their type: " << omitted << ". ";
+    report.Warning = text.str();
+  }
+  const RejectedCells& rejected = this->Mesh.GetRejectedCells();
+  if (rejected.Total() > 0)
+  {
+    text << rejected.Total() << " of " << view.NumberOfCells
+         << " cells are left out: " << rejected.IndexOutOfRange
+         << " with a point index out of range, " << rejected.RepeatedVertex
+         << " with a repeated point, " << rejected.PointNotFinite
+         << " with a point that is not finite, " << rejected.Duplicate << " given before.";
+    report.Warning = text.str();
+  }
+  return report;
+}
+
+//------------------------------------------------------------------------------
+InputReport VolumeInput::UpdateScalars(
+  const InputBlocks& input, int component, const FunctionFeatures& features)
+{
+  InputReport report;
+  const bool changed = this->ScalarWatch.HasChanged(
+    ScalarVersions(input), [&input]() { return DigestScalars(input); });
+  const bool same =
+    !changed && input.Place == this->BuiltPlace && component == this->BuiltComponent;
+  if (same && features.Version == this->BuiltFeatures)
+  {
+    return report;
+  }
+  this->BuiltFeatures = features.Version;
+  const bool ofCells = input.Place == FieldAssociation::Cells;
+  std::vector<double> values;
+  if (!same)
+  {
+    values = GatherValues(input, component, this->GetSources(input.Place));
+    const FiniteValues finite(values);
+    this->Distribution = finite.Distribution;
+    if (finite.NotFinite > 0)
+    {
+      report.Warning = std::to_string(finite.NotFinite) + " of " + std::to_string(values.size()) +
+        " scalars of the " + (ofCells ? "tetrahedra" : "vertices") +
+        " are not finite; cells that use them are transparent.";
+    }
+  }
+  const ScalarNormalization normalization =
+    ChooseNormalization(this->Distribution, features.Of(0), same ? &this->Normalization : nullptr);
+  if (same && normalization == this->Normalization)
+  {
+    return report;
+  }
+  this->Normalization = normalization;
+  if (same)
+  {
+    values = GatherValues(input, component, this->GetSources(input.Place));
+  }
+  this->Scalars.clear();
+  this->CellScalars.clear();
+  std::vector<float>& normalized = ofCells ? this->CellScalars : this->Scalars;
+  normalized.resize(values.size());
+  ForEachBlock(values.size(), ThreadedLoop,
+    [&](std::size_t, std::size_t first, std::size_t last)
+    {
+      for (std::size_t v = first; v < last; ++v)
+      {
+        normalized[v] = std::isfinite(values[v]) ? static_cast<float>(normalization(values[v]))
+                                                 : std::numeric_limits<float>::quiet_NaN();
+      }
+    });
+  this->BuiltPlace = input.Place;
+  this->BuiltComponent = component;
+  this->ActiveSetStale = true;
+  ++this->ScalarUpdates;
+  return report;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<std::int32_t>& VolumeInput::GetSources(FieldAssociation place) const
+{
+  return place == FieldAssociation::Cells ? this->Mesh.GetSourceCells()
+                                          : this->Mesh.GetSourcePoints();
+}
+
+//------------------------------------------------------------------------------
+ScalarRange VolumeInput::GetNormalizedRange() const
+{
+  if (this->Distribution.IsEmpty())
+  {
+    return ScalarRange();
+  }
+  return SampledRange(this->Distribution, {}, this->Normalization);
+}
+
+//------------------------------------------------------------------------------
+void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, TetrahedralMesh::CellJumps jumps)
+{
+  if (!this->ActiveSetStale && visible == this->Visible && jumps == this->Jumps &&
+    this->OthersVersion == 0)
+  {
+    return;
+  }
+  const bool changed = this->BuiltPlace == FieldAssociation::Cells
+    ? this->Mesh.UpdateActiveCells(this->CellScalars, jumps, visible, ThreadedLoop)
+    : this->Mesh.UpdateActiveCells(this->Scalars, visible, ThreadedLoop);
+  this->LinkChanges += changed ? 1 : 0;
+  this->Visible = visible;
+  this->Jumps = jumps;
+  this->VisibleOthers.clear();
+  this->OthersVersion = 0;
+  this->ActiveSetStale = false;
+  ++this->ActiveSetBuilds;
+}
+
+//------------------------------------------------------------------------------
+void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherValues& others)
+{
+  if (!this->ActiveSetStale && visible == this->Visible && others.Visible == this->VisibleOthers &&
+    others.Version == this->OthersVersion)
+  {
+    return;
+  }
+  const auto& cells = this->Mesh.GetCells();
+  const std::vector<glm::vec3>& values = *others.Values;
+  std::vector<std::uint8_t> active(cells.size());
+  std::vector<std::int64_t> unknown(NumberOfBlocks(cells.size()), 0);
+  ForEachBlock(cells.size(), ThreadedLoop,
+    [&](std::size_t block, std::size_t first, std::size_t last)
+    {
+      for (std::size_t c = first; c < last; ++c)
+      {
+        const auto& v = cells[c].Vertices;
+        const auto meets = [](const VisibleScalars& seen, float p, float q, float r, float s) {
+          return seen.Meets(std::min({ p, q, r, s }), std::max({ p, q, r, s }));
+        };
+        const float* s = this->Scalars.data();
+        bool seen = meets(visible, s[v[0]], s[v[1]], s[v[2]], s[v[3]]);
+        for (std::size_t i = 0; i < others.Visible.size(); ++i)
+        {
+          const int at = static_cast<int>(i);
+          seen = seen ||
+            meets(others.Visible[i], values[v[0]][at], values[v[1]][at], values[v[2]][at],
+              values[v[3]][at]);
+        }
+        float sum = 0.0f;
+        for (const std::int32_t vertex : v)
+        {
+          sum += s[vertex] + values[vertex].x;
+        }
+        active[c] = seen && !std::isnan(sum);
+        unknown[block] += std::isnan(sum);
+      }
+    });
+  const std::int64_t unknownCells =
+    std::accumulate(unknown.begin(), unknown.end(), std::int64_t{ 0 });
+  this->LinkChanges += this->Mesh.SetActiveCells(active, unknownCells, ThreadedLoop) ? 1 : 0;
+  this->Visible = visible;
+  this->VisibleOthers = others.Visible;
+  this->OthersVersion = others.Version;
+  this->ActiveSetStale = false;
+  ++this->ActiveSetBuilds;
+}
+
+//------------------------------------------------------------------------------
+std::int64_t VolumeInput::GetBytes() const
+{
+  return this->Mesh.GetBytes() + BytesOf(this->Scalars) + BytesOf(this->CellScalars) +
+    BytesOf(this->Tree.GetNodes()) + BytesOf(this->Tree.GetFaces());
+}
+
+//------------------------------------------------------------------------------
+const BoundaryTree& VolumeInput::GetBoundaryTree()
+{
+  if (this->TreeOf != this->LinkChanges)
+  {
+    this->Tree.Build(this->Mesh);
+    this->TreeOf = this->LinkChanges;
+  }
+  return this->Tree;
+}
+
+}

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Pass_RefractionTarget_h
+#define meniscus_Rendering_Pass_RefractionTarget_h
+
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkSmartPointer.h"
+#include "vtkTextureObject.h"
+
+class vtkOpenGLRenderWindow;
+class vtkOpenGLState;
+class vtkWindow;
+
+namespace meniscus
+{
+
+/** A picture to draw to, of the size of the viewport. */
+struct RefractionTarget
+{
+  vtkSmartPointer<vtkOpenGLFramebufferObject> Buffer;
+  vtkSmartPointer<vtkTextureObject> Color;
+  vtkSmartPointer<vtkTextureObject> Depth;
+  int Size[2] = { 0, 0 };
+
+  bool Ready(vtkOpenGLRenderWindow* window, int width, int height, int colorType);
+  /** Binds and clears it: colour (0, 0, 0, 0), depth 1. */
+  void Begin(vtkOpenGLState* state);
+  void Release(vtkWindow* window);
+};
+
+}
+
+#endif

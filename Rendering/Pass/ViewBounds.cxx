@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Pass/ViewBounds.h"
+
+#include "vtkCamera.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+bool MayBeInView(vtkRenderer* renderer, const double bounds[6])
+{
+  double planes[24];
+  renderer->GetActiveCamera()->GetFrustumPlanes(renderer->GetTiledAspectRatio(), planes);
+  for (int p = 0; p < 6; ++p)
+  {
+    const double* plane = planes + 4 * p;
+    bool beyond = true;
+    for (int corner = 0; corner < 8 && beyond; ++corner)
+    {
+      const double height = plane[0] * bounds[corner & 1] +
+        plane[1] * bounds[2 + (corner >> 1 & 1)] + plane[2] * bounds[4 + (corner >> 2 & 1)] +
+        plane[3];
+      beyond = height < 0.0;
+    }
+    if (beyond)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void HoldInClippingRange(vtkRenderer* renderer, const double bounds[6])
+{
+  if (!(bounds[0] <= bounds[1]))
+  {
+    return;
+  }
+  vtkCamera* camera = renderer->GetActiveCamera();
+  double position[3];
+  double direction[3];
+  double range[2];
+  camera->GetPosition(position);
+  camera->GetDirectionOfProjection(direction);
+  camera->GetClippingRange(range);
+  double nearest = std::numeric_limits<double>::max();
+  double farthest = std::numeric_limits<double>::lowest();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const double depth = direction[0] * (bounds[corner & 1] - position[0]) +
+      direction[1] * (bounds[2 + (corner >> 1 & 1)] - position[1]) +
+      direction[2] * (bounds[4 + (corner >> 2 & 1)] - position[2]);
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  // As vtkRenderer::ResetCameraClippingRange: a little room, and not so near that all of the depth
+  // buffer's resolution is there.
+  constexpr double room = 0.01;
+  constexpr double smallestRatio = 0.001;
+  const double low = std::max((1.0 - room) * nearest, smallestRatio * farthest);
+  const bool holds = range[0] <= std::max(nearest, low) && range[1] >= farthest;
+  if (farthest > 0.0 && !holds)
+  {
+    camera->SetClippingRange(std::min(range[0], low), std::max(range[1], (1.0 + room) * farthest));
+  }
+}
+
+}

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Pass_ViewBounds_h
+#define meniscus_Rendering_Pass_ViewBounds_h
+
+class vtkRenderer;
+
+namespace meniscus
+{
+
+/** Whether a part of the box may be in view: not all corners are beyond one plane of the frustum.
+ */
+bool MayBeInView(vtkRenderer* renderer, const double bounds[6]);
+
+/**
+ * Widens the camera's clipping range so that it holds the bounds, as the renderer does for its own
+ * props; never narrows it.
+ */
+void HoldInClippingRange(vtkRenderer* renderer, const double bounds[6]);
+
+}
+
+#endif

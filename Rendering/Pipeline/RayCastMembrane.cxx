@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Pipeline/RayCastMembrane.h"
+
+#include "Filters/Common/ThreadedLoop.h"
+
+#include <cmath>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+InputReport RayCastMembrane::Update(
+  vtkPolyData* membrane, double exterior, double interior, bool wanted)
+{
+  const auto isIndex = [](double index) { return index > 0.0 && std::isfinite(index); };
+  if (!membrane)
+  {
+    return { "The membrane is no vtkPolyData", std::string() };
+  }
+  if (!isIndex(exterior) || !isIndex(interior))
+  {
+    return { "Indices of refraction must be positive and finite", std::string() };
+  }
+  SceneMessages messages;
+  if ((exterior != interior || wanted) && !this->Surface.SetMembrane(membrane, true, messages))
+  {
+    return { messages.error, std::string() };
+  }
+  if (messages.warning.empty() || messages.warning == this->Told)
+  {
+    return {};
+  }
+  this->Told = messages.warning;
+  return { std::string(), messages.warning };
+}
+
+//------------------------------------------------------------------------------
+bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
+{
+  view.Mesh = BoxOf(input.GetBoundaryTree(), view.Frame);
+  if (this->SightOf != this->GetBuilds() || !(this->Sight.GetView() == view))
+  {
+    const CurvedMembraneSolver& surface = this->Surface.GetCurved();
+    this->Sight.Build(surface.GetMembrane(), surface.GetPatches(), view, ThreadedLoop);
+    this->Frames.Turn(this->Sight, view.Frame, ThreadedLoop);
+    this->SightOf = this->GetBuilds();
+    ++this->SightUpdates;
+  }
+  return this->Sight.IsSeen();
+}
+
+//------------------------------------------------------------------------------
+bool RayCastMembrane::BeginsInside(VolumeInput& input)
+{
+  if (this->InvertedOf != input.GetMeshBuilds())
+  {
+    this->Inverted = HasInvertedCells(input.GetMesh(), ThreadedLoop);
+    this->InvertedOf = input.GetMeshBuilds();
+  }
+  return !this->Inverted;
+}
+
+//------------------------------------------------------------------------------
+RefractedScene RayCastMembrane::See(VolumeInput& input)
+{
+  const PlacedVersion version{ input.GetMeshBuilds(), input.GetScalarUpdates(),
+    this->SightUpdates };
+  if (version != this->Placed)
+  {
+    this->Frames.Place(input.GetMesh(), input.GetScalars(), ThreadedLoop);
+    this->Placed = version;
+  }
+  RefractedScene scene;
+  scene.BeginsInside = this->BeginsInside(input);
+  scene.Sight = &this->Sight;
+  scene.Frames = &this->Frames;
+  scene.Tree = &input.GetBoundaryTree();
+  return scene;
+}
+
+}

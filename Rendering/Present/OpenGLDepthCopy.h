@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Present_OpenGLDepthCopy_h
+#define meniscus_Rendering_Present_OpenGLDepthCopy_h
+
+#include "vtkNew.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkSmartPointer.h"
+#include "vtkTextureObject.h"
+
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkWindow;
+
+namespace meniscus
+{
+
+/** The depth buffer of the framebuffer being drawn to, as a texture of the viewport's size. */
+class OpenGLDepthCopy
+{
+public:
+  vtkTextureObject* GetTexture() { return this->Texture; }
+
+  /**
+   * Copies the viewport (x, y, width, height). Multisampled depth is resolved; a framebuffer
+   * without depth buffer counts as infinitely far.
+   */
+  void Update(vtkOpenGLRenderWindow* window, const int viewport[4]);
+
+  /** Window depths of the last copy, rows from below. */
+  std::vector<float> Read(vtkOpenGLRenderWindow* window);
+
+  void Release(vtkWindow* window);
+
+private:
+  struct Format
+  {
+    int DepthBits = 0;
+    int StencilBits = 0;
+    bool Float = false;
+
+    bool operator==(const Format& other) const
+    {
+      return this->DepthBits == other.DepthBits && this->StencilBits == other.StencilBits &&
+        this->Float == other.Float;
+    }
+  };
+
+  static Format ReadFormat(int framebuffer);
+  void Allocate(vtkOpenGLRenderWindow* window, const Format& format, int width, int height);
+  void Clear(vtkOpenGLRenderWindow* window);
+  void Resolve(vtkOpenGLRenderWindow* window, const int viewport[4]);
+
+  vtkSmartPointer<vtkTextureObject> Texture;
+  vtkNew<vtkOpenGLFramebufferObject> Target;
+  Format Allocated;
+  int Width = 0;
+  int Height = 0;
+};
+
+}
+
+#endif

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Property/RayCastOptics.h"
+
+#include "vtkCollection.h"
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
+#include "vtkMath.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
+#include "vtkRenderer.h"
+#include "vtkVolumeMapper.h"
+#include "vtkVolumeProperty.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+
+namespace meniscus
+{
+namespace
+{
+
+/** View to frame: depth counts along -z. */
+glm::dvec3 ToFrame(const glm::dvec3& view)
+{
+  return glm::dvec3(view.x, view.y, -view.z);
+}
+
+/** World length of a unit of the frame. */
+double UnitOf(const RayFrame& frame)
+{
+  return glm::length(frame.ViewToWorld[0]);
+}
+
+RayCastLight ToFrame(vtkLight* source, const ViewContext& place)
+{
+  glm::dvec3 position;
+  glm::dvec3 focus;
+  source->GetTransformedPosition(&position[0]);
+  source->GetTransformedFocalPoint(&focus[0]);
+  const glm::dmat3 turn(place.WorldToView);
+  const double unit = UnitOf(place.Frame);
+  const double* diffuse = source->GetDiffuseColor();
+  const double* specular = source->GetSpecularColor();
+
+  RayCastLight light;
+  light.Diffuse = source->GetIntensity() * glm::dvec3(diffuse[0], diffuse[1], diffuse[2]);
+  light.Specular = source->GetIntensity() * glm::dvec3(specular[0], specular[1], specular[2]);
+  const glm::dvec3 axis = glm::normalize(ToFrame(turn * (focus - position)));
+  if (!source->GetPositional())
+  {
+    light.Position = glm::dvec4(-axis, 0.0);
+    return light;
+  }
+  light.Position = glm::dvec4(ToFrame(turn * (position - place.CenterInWorld)) / unit, 1.0);
+  const double* falloff = source->GetAttenuationValues();
+  light.Falloff =
+    glm::dvec4(falloff[0], falloff[1] * unit, falloff[2] * unit * unit, source->GetExponent());
+  if (source->GetConeAngle() < 90.0)
+  {
+    light.Cone = glm::dvec4(axis, std::cos(vtkMath::RadiansFromDegrees(source->GetConeAngle())));
+  }
+  return light;
+}
+
+}
+
+//------------------------------------------------------------------------------
+bool UsesGradientOpacity(vtkVolumeProperty* property)
+{
+  if (!property->HasGradientOpacity() || property->GetDisableGradientOpacity() != 0)
+  {
+    return false;
+  }
+  // A copied property has a function that is 1 everywhere.
+  vtkPiecewiseFunction* function = property->GetGradientOpacity(0);
+  bool one = function->GetSize() > 0 && function->GetClamping() != 0;
+  for (int i = 0; i < function->GetSize() && one; ++i)
+  {
+    double node[4];
+    function->GetNodeValue(i, node);
+    one = node[1] == 1.0;
+  }
+  return !one;
+}
+
+//------------------------------------------------------------------------------
+void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
+  RayCastOptics& optics)
+{
+  // Components that mix have a gradient each: there is no normal for all.
+  const bool composite = optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND &&
+    !optics.CellScalars && optics.Components != ComponentMixture::Independent;
+  optics.Shading = property->GetShade() != 0 &&
+    (composite || optics.BlendMode == vtkVolumeMapper::ISOSURFACE_BLEND);
+  optics.GradientOpacity = composite && UsesGradientOpacity(property);
+  if (!optics.UsesGradients())
+  {
+    return;
+  }
+  const RayFrame& frame = place.Frame;
+  const glm::dmat3 rows(frame.RowX, frame.RowY, frame.RowDepth);
+  optics.GradientToFrame = glm::inverse(rows); // the inverse of the transpose of the map
+  optics.GradientMagnitude = 1.0 / (UnitOf(frame) * place.GradientScale);
+  optics.Lighting.Ambient = property->GetAmbient();
+  optics.Lighting.Diffuse = property->GetDiffuse();
+  optics.Lighting.Specular = property->GetSpecular();
+  optics.Lighting.SpecularPower = property->GetSpecularPower();
+  vtkLightCollection* lights = renderer->GetLights();
+  vtkCollectionSimpleIterator iterator;
+  lights->InitTraversal(iterator);
+  while (vtkLight* light = lights->GetNextLight(iterator))
+  {
+    if (optics.Shading && light->GetSwitch())
+    {
+      optics.Lighting.Lights.push_back(ToFrame(light, place));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void GatherClippingPlanes(
+  vtkPlaneCollection* planes, const ViewContext& place, RayCastOptics& optics)
+{
+  for (int i = 0; planes && i < planes->GetNumberOfItems(); ++i)
+  {
+    vtkPlane* plane = planes->GetItem(i);
+    glm::dvec3 normal;
+    glm::dvec3 origin;
+    plane->GetNormal(&normal[0]);
+    plane->GetOrigin(&origin[0]);
+    optics.ClippingPlanes.push_back(
+      ComputeClippingPlane(place.Frame, normal, glm::dot(normal, place.CenterInWorld - origin)));
+  }
+}
+
+}

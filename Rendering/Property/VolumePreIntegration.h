@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Property_VolumePreIntegration_h
+#define meniscus_Rendering_Property_VolumePreIntegration_h
+
+#include "Volume/Optics/PreIntegration.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <cstdint>
+
+namespace meniscus
+{
+
+class VolumeInput;
+class VolumePropertyTables;
+
+/** The pre-integration table of a volume; made again only where what it depends on changed. */
+class VolumePreIntegration
+{
+public:
+  /** Samples of the scalar range and of the length. */
+  struct TableSize
+  {
+    int Scalars = 0;
+    int Lengths = 0;
+  };
+
+  /**
+   * Depends on the transfer function, the size and the longest edge in world coordinates. Of that a
+   * table serves down to a quarter, so that a volume can turn and change its size.
+   */
+  void Update(const VolumeInput& input, const VolumePropertyTables& property,
+    const glm::dmat4& modelToWorld, const TableSize& size);
+
+  const PreIntegrationTable& GetTable() const { return this->Table; }
+  std::int64_t GetNumberOfBuilds() const { return this->Builds; }
+
+private:
+  PreIntegrationTable Table;
+  /** In units of the mesh's radius, of the mesh of this number. */
+  double LongestEdge = 0.0;
+  std::int64_t LongestEdgeOf = 0;
+  std::int64_t BuiltProperty = 0;
+  TableSize BuiltSize;
+  std::int64_t Builds = 0;
+};
+
+}
+
+#endif

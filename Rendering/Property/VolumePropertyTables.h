@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Property_VolumePropertyTables_h
+#define meniscus_Rendering_Property_VolumePropertyTables_h
+
+#include "Rendering/Input/VolumeComponents.h"
+#include "Rendering/Input/VolumeInput.h"
+#include "Rendering/Property/VolumePropertyPoints.h"
+#include "Volume/Optics/TransferFunction.h"
+#include "Volume/Optics/VisibleScalars.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+class vtkVolumeProperty;
+
+namespace meniscus
+{
+
+/** An isosurface in normalised scalars. */
+struct Isosurface
+{
+  float Scalar;
+  float Opacity;
+  glm::vec3 Color;
+};
+
+/** What a volume property asks for, as tables; made again only where the property changed. */
+class VolumePropertyTables
+{
+public:
+  /**
+   * Reduces a property to points, which needs no scalars.
+   * @param blendMode  a number of vtkVolumeMapper::BlendModes; says how opacity is meant.
+   * @param perUnitDistance  for composite blending: opacity is the alpha of one unit distance.
+   * @param components  of the scalars; their number counts if they are independent.
+   */
+  void Reduce(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
+    ComponentMixture mixture, int components);
+  /**
+   * Brings the tables to normalised scalars.
+   * @param normalization  of the main scalar, the components have their own.
+   */
+  void Normalize(const ScalarNormalization& normalization, const VolumeComponents& components);
+
+  const std::vector<TransferFunctionPoint>& GetPoints() const { return this->Points; }
+  /** Where the functions change, or surfaces are; for the normalisation of scalars. */
+  const FunctionFeatures& GetFeatures() const { return this->Features; }
+  /** Of the main scalar. */
+  const std::vector<TransferFunctionInterval>& GetIntervals() const { return this->Intervals; }
+  /** Of the other components that are scalars. */
+  const std::vector<std::vector<TransferFunctionInterval>>& GetOtherIntervals() const
+  {
+    return this->OtherIntervals;
+  }
+  /** Of the gradient's magnitude, per world length; empty without gradient opacity. */
+  const std::vector<TransferFunctionInterval>& GetGradientIntervals() const
+  {
+    return this->GradientIntervals;
+  }
+  /** Ascending; empty unless blending isosurfaces. */
+  const std::vector<Isosurface>& GetIsosurfaces() const { return this->Isosurfaces; }
+
+  /** The scalars that a ray must visit. */
+  VisibleScalars GetVisibleScalars() const;
+  /** Those of each other component that has an opacity. */
+  std::vector<VisibleScalars> GetVisibleOthers() const;
+
+  /** Changes with the tables. */
+  std::int64_t GetVersion() const { return this->Version; }
+  /** Reductions of a property to points. */
+  std::int64_t GetNumberOfBuilds() const { return this->Builds; }
+
+private:
+  void ReduceProperty(vtkVolumeProperty* property, int blendMode, OpacityMeaning meaning,
+    ComponentMixture mixture, int components);
+  void FindFeatures();
+  void NormalizeTables(
+    const ScalarNormalization& normalization, const VolumeComponents& components);
+
+  std::vector<TransferFunctionPoint> Points;
+  std::vector<std::vector<TransferFunctionPoint>> OtherPoints;
+  std::vector<TransferFunctionPoint> GradientPoints;
+  /** A gradient opacity function is in use; without points it is 0 everywhere. */
+  bool HasGradientOpacity = false;
+  std::vector<TransferFunctionPoint> SurfacePoints;
+  FunctionFeatures Features;
+  std::vector<TransferFunctionInterval> Intervals;
+  std::vector<std::vector<TransferFunctionInterval>> OtherIntervals;
+  std::vector<TransferFunctionInterval> GradientIntervals;
+  std::vector<Isosurface> Isosurfaces;
+  ObjectVersion BuiltProperty;
+  ObjectVersion BuiltIsovalues;
+  OpacityMeaning BuiltMeaning = OpacityMeaning::Attenuation;
+  int BuiltBlendMode = -1;
+  ScalarNormalization BuiltNormalization;
+  ComponentMixture BuiltMixture = ComponentMixture::None;
+  int BuiltNumberOfComponents = 1;
+  std::int64_t BuiltComponents = 0;
+  /** Of the points that the tables were made of. */
+  std::int64_t BuiltPoints = 0;
+  std::int64_t Version = 0;
+  std::int64_t Builds = 0;
+};
+
+}
+
+#endif
