@@ -111,16 +111,16 @@ public:
   /// How the membrane's surface is understood between its vertices.
   enum MembraneModels
   {
-    FLAT_FACETS = 0, ///< linear interpolation in each facet, the thesis's method
-    CURVED = 1       ///< smooth patches from positions and normals
+    FlatFacets = 0, ///< linear interpolation in each facet, the thesis's method
+    CURVED = 1      ///< smooth patches from positions and normals
   };
 
   /// Which images of a point are made where the membrane shows several.
   enum ImageModes
   {
-    FIRST_IMAGE = 0, ///< one: with FLAT_FACETS that of the first facet, in the order of the
-                     ///< membrane's cells; with CURVED that which continues the last point's
-    ALL_IMAGES = 1   ///< every one
+    FirstImage = 0, ///< one: with FLAT_FACETS that of the first facet, in the order of the
+                    ///< membrane's cells; with CURVED that which continues the last point's
+    AllImages = 1   ///< every one
   };
 
   /// What the array Reflectance holds.
@@ -195,9 +195,9 @@ public:
   /**
    * Set/Get the membrane model, FLAT_FACETS or CURVED. Default is CURVED.
    */
-  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
+  vtkSetClampMacro(MembraneModel, int, FlatFacets, CURVED);
   vtkGetMacro(MembraneModel, int);
-  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
+  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FlatFacets); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
   ///@}
 
@@ -219,10 +219,10 @@ public:
    * Set/Get which images are made, FIRST_IMAGE or ALL_IMAGES. Default is ALL_IMAGES; with
    * FLAT_FACETS it warns and FIRST_IMAGE is computed.
    */
-  vtkSetClampMacro(Images, int, FIRST_IMAGE, ALL_IMAGES);
+  vtkSetClampMacro(Images, int, FirstImage, AllImages);
   vtkGetMacro(Images, int);
-  void SetImagesToFirstImage() { this->SetImages(FIRST_IMAGE); }
-  void SetImagesToAllImages() { this->SetImages(ALL_IMAGES); }
+  void SetImagesToFirstImage() { this->SetImages(FirstImage); }
+  void SetImagesToAllImages() { this->SetImages(AllImages); }
   ///@}
 
   ///@{
@@ -382,7 +382,7 @@ private:
   double InteriorIndexOfRefraction = 1.333;
   int MembraneModel = CURVED;
   vtkSmartPointer<vtkImplicitFunction> ExactMembrane;
-  int Images = ALL_IMAGES;
+  int Images = AllImages;
   double AngularTolerance = 0.005;
   bool CloseSeams = true;
   int ReflectanceModel = FRESNEL;

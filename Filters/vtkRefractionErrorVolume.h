@@ -66,7 +66,7 @@ public:
   /// As in vtkRefractedGeometryFilter.
   enum MembraneModels
   {
-    FLAT_FACETS = 0,
+    FlatFacets = 0,
     CURVED = 1
   };
 
@@ -74,10 +74,10 @@ public:
   enum SampleStates
   {
     MEASURED = 0,
-    NO_IMAGE = 1,
-    SEVERAL_IMAGES = 2,
-    NO_EXACT_POINT = 3,
-    NOT_FINITE = 4
+    NoImage = 1,
+    SeveralImages = 2,
+    NoExactPoint = 3,
+    NotFinite = 4
   };
 
   ///@{
@@ -103,9 +103,9 @@ public:
   /**
    * Set/Get the membrane model that is measured, FLAT_FACETS or CURVED. Default is CURVED.
    */
-  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
+  vtkSetClampMacro(MembraneModel, int, FlatFacets, CURVED);
   vtkGetMacro(MembraneModel, int);
-  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
+  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FlatFacets); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
   ///@}
 

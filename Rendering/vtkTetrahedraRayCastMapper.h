@@ -204,8 +204,8 @@ public:
   /// What an opacity means over a length.
   enum OpacityModels
   {
-    ATTENUATION_COEFFICIENT = 0,
-    OPACITY_PER_UNIT_DISTANCE = 1
+    AttenuationCoefficient = 0,
+    OpacityPerUnitDistance = 1
   };
 
   ///@{
@@ -216,7 +216,7 @@ public:
    * is what its image data mappers do: alpha = 1 - (1 - opacity)^(L / unit); there, opacities above
    * 1 - 2^-24 count as that.
    */
-  vtkSetClampMacro(OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
+  vtkSetClampMacro(OpacityModel, int, AttenuationCoefficient, OpacityPerUnitDistance);
   vtkGetMacro(OpacityModel, int);
   ///@}
 
@@ -248,7 +248,7 @@ public:
   enum Integrations
   {
     EXACT = 0,
-    PRE_INTEGRATED = 1
+    PreIntegrated = 1
   };
 
   ///@{
@@ -260,7 +260,7 @@ public:
    * of one component without light and gradient opacity; else segments are integrated exactly,
    * after a warning where PRE_INTEGRATED would have made a difference.
    */
-  vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
+  vtkSetClampMacro(Integration, int, EXACT, PreIntegrated);
   vtkGetMacro(Integration, int);
   ///@}
 
@@ -281,8 +281,8 @@ public:
   /// Which gradients light and gradient opacity go by.
   enum GradientLocations
   {
-    CELL_GRADIENTS = 0,
-    VERTEX_GRADIENTS = 1
+    CellGradients = 0,
+    VertexGradients = 1
   };
 
   ///@{
@@ -292,7 +292,7 @@ public:
    * computed when first needed and after a change of mesh or scalars. Lengths are measured in world
    * coordinates.
    */
-  vtkSetClampMacro(Gradients, int, CELL_GRADIENTS, VERTEX_GRADIENTS);
+  vtkSetClampMacro(Gradients, int, CellGradients, VertexGradients);
   vtkGetMacro(Gradients, int);
   ///@}
 
@@ -448,9 +448,9 @@ public:
   /// What RenderPart() draws.
   enum MembraneParts
   {
-    WHOLE = 0,    ///< all that there is to see
-    IN_FRONT = 1, ///< what rays come to before the membrane or beside it
-    BEHIND = 2    ///< what rays come to behind the membrane; nothing without one
+    WHOLE = 0,   ///< all that there is to see
+    InFront = 1, ///< what rays come to before the membrane or beside it
+    BEHIND = 2   ///< what rays come to behind the membrane; nothing without one
   };
   /**
    * Render(), but one part only, for those who draw the membrane between them: vtkRefractionPass.
@@ -492,13 +492,13 @@ private:
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;
-  int OpacityModel = ATTENUATION_COEFFICIENT;
+  int OpacityModel = AttenuationCoefficient;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
   int Integration = EXACT;
   int PreIntegrationScalarSize = 256;
   int PreIntegrationLengthSize = 16;
-  int Gradients = VERTEX_GRADIENTS;
+  int Gradients = VertexGradients;
   double ExteriorIndexOfRefraction = 1.0;
   double InteriorIndexOfRefraction = 1.333;
   int MembranePart = WHOLE;

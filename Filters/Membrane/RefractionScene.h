@@ -24,15 +24,15 @@ namespace meniscus
 /// What the owner of a scene has to report; empty if there is nothing.
 struct SceneMessages
 {
-  std::string error;
-  std::string warning;
+  std::string Error;
+  std::string Warning;
 };
 
 /// The half space normal.p + offset >= 0, in world coordinates; the normal is a unit vector.
 struct ViewPlane
 {
-  glm::dvec3 normal;
-  double offset;
+  glm::dvec3 Normal;
+  double Offset;
 };
 
 /**
@@ -55,7 +55,7 @@ public:
   /// come to lie behind each other, and when the membrane changes meanwhile.
   bool SetEye(const Eye& eye, SceneMessages& messages);
 
-  const Eye& GetEye() const { return this->Key.values; }
+  const Eye& GetEye() const { return this->Key.Values; }
 
   /// One image of each point (x, y, z each) in [from, to).
   void Solve(const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const;
@@ -87,8 +87,8 @@ private:
   /// Values that the refraction rays depend on.
   struct EyeKey
   {
-    Eye values{};
-    vtkTypeInt64 membraneBuild = -1;
+    Eye Values{};
+    vtkTypeInt64 MembraneBuild = -1;
   };
 
   MembraneStatus BuildMembrane(bool curved);

@@ -29,23 +29,23 @@ std::vector<ViewPlane> FindViewPlanes(vtkCamera* camera, double aspect);
 
 struct ViewSelection
 {
-  bool isActive = false;    ///< otherwise all is selected
-  std::vector<bool> cells;  ///< by the id of the input
-  std::vector<bool> chunks; ///< of points, ObjectImages::Chunk each
-  vtkIdType culledCells = 0;
-  vtkIdType culledPoints = 0;
+  bool IsActive = false;    ///< otherwise all is selected
+  std::vector<bool> Cells;  ///< by the id of the input
+  std::vector<bool> Chunks; ///< of points, ObjectImages::Chunk each
+  vtkIdType CulledCells = 0;
+  vtkIdType CulledPoints = 0;
 
   bool HasCell(vtkIdType cell) const
   {
-    return !this->isActive || this->cells[static_cast<std::size_t>(cell)];
+    return !this->IsActive || this->Cells[static_cast<std::size_t>(cell)];
   }
   bool HasPoint(std::size_t point) const
   {
-    return !this->isActive || this->chunks[point / ObjectImages::Chunk];
+    return !this->IsActive || this->Chunks[point / ObjectImages::Chunk];
   }
   bool operator==(const ViewSelection& o) const
   {
-    return this->isActive == o.isActive && this->cells == o.cells && this->chunks == o.chunks;
+    return this->IsActive == o.IsActive && this->Cells == o.Cells && this->Chunks == o.Chunks;
   }
 };
 

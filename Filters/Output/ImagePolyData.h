@@ -21,11 +21,11 @@ namespace meniscus
 /// All images of an object.
 struct AllImages
 {
-  ImageMesh lines;
-  ImageMesh polygons;
-  ImageMesh wholeLines;
-  ImageMesh wholePolygons;
-  vtkIdType cellsWithoutImage = 0;
+  ImageMesh Lines;
+  ImageMesh Polygons;
+  ImageMesh WholeLines;
+  ImageMesh WholePolygons;
+  vtkIdType CellsWithoutImage = 0;
 };
 
 /// Calls `body` for ranges of [0, count) in any order and from any thread; false if it was stopped.

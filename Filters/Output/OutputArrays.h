@@ -21,14 +21,14 @@ namespace meniscus
 /// What the user wants to have of the output, and the scene that it is about.
 struct OutputOptions
 {
-  int pointsPrecision = 0; ///< vtkAlgorithm::DesiredOutputPrecision
-  bool schlick = false;
-  bool virtualNormals = false;
-  bool isLightAtEye = true;
-  glm::dvec3 light{ 0.0 }; ///< unit vector to a light at infinity
-  glm::dvec3 eye{ 0.0 };
-  double exterior = 1.0;
-  double interior = 1.0;
+  int PointsPrecision = 0; ///< vtkAlgorithm::DesiredOutputPrecision
+  bool Schlick = false;
+  bool VirtualNormals = false;
+  bool IsLightAtEye = true;
+  glm::dvec3 Light{ 0.0 }; ///< unit vector to a light at infinity
+  glm::dvec3 Eye{ 0.0 };
+  double Exterior = 1.0;
+  double Interior = 1.0;
 };
 
 /// Points of the output, in the precision that is asked for, and the point arrays that are added.

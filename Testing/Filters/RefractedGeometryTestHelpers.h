@@ -27,9 +27,9 @@ public:
   static MessageCounter* New() { return new MessageCounter; }
   void Execute(vtkObject* caller, unsigned long event, void* text) override;
 
-  int errors = 0;
-  int warnings = 0;
-  std::string text;
+  int Errors = 0;
+  int Warnings = 0;
+  std::string Text;
 };
 
 /// Observes a filter and its executive.

@@ -258,7 +258,7 @@ TEST(RefractionPass, ReflectanceIsFresnels)
 /// that face along each axis: the sky's colour is a function of the direction.
 TEST(RefractionPass, CubeMapFacesLieAsDocumented)
 {
-  constexpr int FaceSize = 64;
+  constexpr int faceSize = 64;
   const auto colorOf = [](const double* direction, int channel)
   {
     const double longest =
@@ -271,14 +271,14 @@ TEST(RefractionPass, CubeMapFacesLieAsDocumented)
   for (int face = 0; face < 6; ++face)
   {
     vtkNew<vtkImageData> image;
-    image->SetDimensions(FaceSize, FaceSize, 1);
+    image->SetDimensions(faceSize, faceSize, 1);
     image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    for (int j = 0; j < FaceSize; ++j)
+    for (int j = 0; j < faceSize; ++j)
     {
-      for (int i = 0; i < FaceSize; ++i)
+      for (int i = 0; i < faceSize; ++i)
       {
-        const double u = (2.0 * i + 1.0) / FaceSize - 1.0;
-        const double v = (2.0 * j + 1.0) / FaceSize - 1.0;
+        const double u = (2.0 * i + 1.0) / faceSize - 1.0;
+        const double v = (2.0 * j + 1.0) / faceSize - 1.0;
         const double table[6][3] = { { 1, -v, -u }, { -1, -v, u }, { u, 1, v }, { u, -1, -v },
           { u, -v, 1 }, { -u, -v, -1 } };
         auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));

@@ -65,7 +65,7 @@ PoolDifference compare(const meniscus::test::ByteImage& drawn, const PoolPicture
   PoolDifference result;
   for (std::size_t i = 0; i < truth.Colors.size(); ++i)
   {
-    if (!truth.isWater[i])
+    if (!truth.IsWater[i])
     {
       continue;
     }

@@ -35,14 +35,14 @@ public:
 
   struct Sight
   {
-    glm::dvec3 place;
+    glm::dvec3 Place;
     /// Of the equation's derivative against the product of its columns' lengths: near 0 at a
     /// caustic.
-    double condition;
+    double Condition;
     /// Smallest barycentric coordinate, and cosines towards the eye and away from the point.
-    double inside;
-    double facing;
-    std::int32_t facet;
+    double Inside;
+    double Facing;
+    std::int32_t Facet;
   };
   std::vector<Sight> find(const glm::dvec3& point) const;
 

@@ -55,12 +55,12 @@ constexpr int SkySize = 128;
 reference::HeightField waves(double time)
 {
   reference::HeightField field;
-  field.shape = reference::HeightField::Shape::Waves;
-  field.side = 2.0 * HalfWidth;
-  field.amplitude = 2.0 * std::cos(time);
-  field.k = 0.12;
-  field.exterior = 1.0;
-  field.interior = Index;
+  field.Shape = reference::HeightField::Shape::Waves;
+  field.Side = 2.0 * HalfWidth;
+  field.Amplitude = 2.0 * std::cos(time);
+  field.K = 0.12;
+  field.Exterior = 1.0;
+  field.Interior = Index;
   return field;
 }
 
@@ -399,7 +399,7 @@ void PoolScene::setAccuracy(bool allImages, double tolerance)
   for (const Part& part : this->Parts)
   {
     part.Filter->SetImages(
-      allImages ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
+      allImages ? vtkRefractedGeometryFilter::AllImages : vtkRefractedGeometryFilter::FirstImage);
     part.Filter->SetAngularTolerance(tolerance);
   }
 }
@@ -473,7 +473,7 @@ PoolPicture PoolScene::trace() const
         picture.Colors[static_cast<std::size_t>(i)] = this->shade(sight);
       }
     });
-  picture.isWater.assign(isWater.begin(), isWater.end());
+  picture.IsWater.assign(isWater.begin(), isWater.end());
   return picture;
 }
 

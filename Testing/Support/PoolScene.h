@@ -49,7 +49,7 @@ glm::dvec3 skyColor(const glm::dvec3& direction);
 struct PoolPicture
 {
   std::vector<glm::dvec3> Colors;
-  std::vector<bool> isWater;
+  std::vector<bool> IsWater;
 };
 
 /// What a ray from the eye meets.

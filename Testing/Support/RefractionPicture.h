@@ -58,9 +58,9 @@ private:
 /// too, if it has a plane that goes on.
 struct PlacePixel
 {
-  bool covered = false;
-  double depth = std::numeric_limits<double>::max();
-  glm::dvec3 place{ 0.0 };
+  bool Covered = false;
+  double Depth = std::numeric_limits<double>::max();
+  glm::dvec3 Place{ 0.0 };
 };
 using PlacePicture = std::vector<PlacePixel>;
 
@@ -87,13 +87,13 @@ double GetFootprint(const PlacePicture& picture, const PixelCamera& camera, std:
 /// A membrane above a horizontal square of tiles.
 struct PictureScene
 {
-  std::string name;
-  reference::HeightField field;
-  glm::dvec3 eye;
-  int cells;    ///< of the membrane
-  double depth; ///< of the square
-  double size;  ///< its side
-  int tiles;    ///< a side
+  std::string Name;
+  reference::HeightField Field;
+  glm::dvec3 Eye;
+  int Cells;    ///< of the membrane
+  double Depth; ///< of the square
+  double Size;  ///< its side
+  int Tiles;    ///< a side
 
   PixelCamera GetCamera() const;
 };
@@ -103,11 +103,11 @@ const std::vector<PictureScene>& GetPictureScenes();
 
 struct PlaceComparison
 {
-  int covered = 0;  ///< in the truth
-  int coverage = 0; ///< pixels that only one of the two covers
-  int place = 0;    ///< pixels more than half a pixel off
+  int Covered = 0;  ///< in the truth
+  int Coverage = 0; ///< pixels that only one of the two covers
+  int Place = 0;    ///< pixels more than half a pixel off
   /// Of all pixels that both cover, the largest error in pixels of `Part`.
-  double error = 0.0;
+  double Error = 0.0;
 
   static constexpr double Part = 0.99;
 };

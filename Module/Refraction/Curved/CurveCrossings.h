@@ -19,31 +19,31 @@ namespace meniscus
 /// A straight line of the object.
 struct ObjectLine
 {
-  glm::dvec3 origin;
-  glm::dvec3 direction;
+  glm::dvec3 Origin;
+  glm::dvec3 Direction;
 
   /// From the end with the smaller coordinates.
   static ObjectLine Order(const glm::dvec3& a, const glm::dvec3& b, bool& turned);
   glm::dvec3 GetPoint(double l) const
   {
     // The far end as it is, not by way of a difference.
-    return (1.0 - l) * this->origin + l * (this->origin + this->direction);
+    return (1.0 - l) * this->Origin + l * (this->Origin + this->Direction);
   }
 };
 
 struct Media
 {
-  glm::dvec3 eye;
-  double exterior;
-  double interior;
+  glm::dvec3 Eye;
+  double Exterior;
+  double Interior;
 };
 
 /// A point of the membrane and the unit direction of its refracted ray.
 struct RefractedPoint
 {
-  PatchPoint at;
-  glm::dvec3 ray;
-  bool isValid; ///< there is a refracted ray; otherwise it is extrapolated
+  PatchPoint At;
+  glm::dvec3 Ray;
+  bool IsValid; ///< there is a refracted ray; otherwise it is extrapolated
 };
 
 RefractedPoint RefractAt(const PatchPoint& at, const Media& media);
@@ -52,7 +52,7 @@ RefractedPoint RefractAt(const PatchPoint& at, const Media& media);
 /// where they meet. It is linear in the line's direction and changes sign with it.
 inline double GetMoment(const ObjectLine& line, const RefractedPoint& from)
 {
-  return glm::dot(line.direction, glm::cross(from.at.position - line.origin, from.ray));
+  return glm::dot(line.Direction, glm::cross(from.At.Position - line.Origin, from.Ray));
 }
 
 /// The line's parameter nearest to a ray that meets it; 0 if they are parallel.

@@ -31,8 +31,8 @@ namespace meniscus
 /// A sight point and the facet whose patch it lies in.
 struct SightPlace
 {
-  std::int32_t facet = CurvedPatches::NoFacet;
-  SightRoot root{};
+  std::int32_t Facet = CurvedPatches::NoFacet;
+  SightRoot Root{};
 };
 
 class CurvedMembraneSolver
@@ -73,10 +73,10 @@ public:
   /// What a chain of points remembers: the last two answers.
   struct Memory
   {
-    SightPlace place;
-    glm::dvec3 point{ 0.0 };
-    glm::dvec3 pointStep{ 0.0 };
-    glm::dvec3 sightStep{ 0.0 };
+    SightPlace Place;
+    glm::dvec3 Point{ 0.0 };
+    glm::dvec3 PointStep{ 0.0 };
+    glm::dvec3 SightStep{ 0.0 };
   };
 
   /// One image of a point, as Solve finds it after the points that `memory` has seen.
@@ -123,7 +123,7 @@ public:
   const Media& GetMedia() const { return this->Optics; }
   SightEquation MakeEquation(const glm::dvec3& local) const
   {
-    return { this->Optics.eye, local, this->Optics.exterior, this->Optics.interior };
+    return { this->Optics.Eye, local, this->Optics.Exterior, this->Optics.Interior };
   }
   bool IsInReach(const glm::dvec3& local) const;
 

@@ -59,16 +59,16 @@ enum class SampleState : unsigned char
 
 struct ErrorSample
 {
-  double error = 0.0; ///< world length; of a measured sample only
-  SampleState state = SampleState::NoImage;
+  double Error = 0.0; ///< world length; of a measured sample only
+  SampleState State = SampleState::NoImage;
 };
 
 struct ErrorSummary
 {
-  double mean = 0.0;
-  double deviation = 0.0; ///< of the measured samples themselves, not an estimate for others
-  double largest = 0.0;
-  std::size_t count = 0; ///< measured samples
+  double Mean = 0.0;
+  double Deviation = 0.0; ///< of the measured samples themselves, not an estimate for others
+  double Largest = 0.0;
+  std::size_t Count = 0; ///< measured samples
 };
 
 class ErrorSampler

@@ -51,14 +51,14 @@ private:
   /// Bounds of what lies over a cell of the grid, and the slabs in which all of it is injective.
   struct Cell
   {
-    std::array<float, 3> low; ///< slope, slope, height
-    std::array<float, 3> high;
-    std::uint8_t slabs;
+    std::array<float, 3> Low; ///< slope, slope, height
+    std::array<float, 3> High;
+    std::uint8_t Slabs;
   };
   struct Box
   {
-    glm::dvec2 low;
-    glm::dvec2 high;
+    glm::dvec2 Low;
+    glm::dvec2 High;
   };
   using Level = std::vector<Cell>; ///< square, half as wide as the one before
 

@@ -53,20 +53,20 @@ private:
   /// A facet whose patch the line may cross, and bounds of the height of that.
   struct Candidate
   {
-    std::int32_t facet;
-    double low;
-    double high;
-    int side; ///< +1 or -1 if the crossing is certain and below the point; otherwise 0
+    std::int32_t Facet;
+    double Low;
+    double High;
+    int Side; ///< +1 or -1 if the crossing is certain and below the point; otherwise 0
   };
   struct Look
   {
-    Side side;
-    std::int32_t openFacet; ///< the line decides nothing because of it; NoFacet: it does
+    Side Answer;
+    std::int32_t OpenFacet; ///< the line decides nothing because of it; NoFacet: it does
   };
   struct Column
   {
-    float bulge; ///< rounded up
-    signed char front;
+    float Bulge; ///< rounded up
+    signed char Front;
   };
 
   /// Of a sign; 0: no patch.

@@ -16,10 +16,10 @@ namespace meniscus
 /// A place where a line along an axis crosses a patch.
 struct PatchCrossing
 {
-  double height;     ///< along the axis
-  int side;          ///< +1 if the patch's front faces along the axis there, -1 if its back does
-  double outside;    ///< smallest barycentric coordinate, no less than -Border
-  glm::dvec3 normal; ///< the patch's, not normalised
+  double Height;     ///< along the axis
+  int Side;          ///< +1 if the patch's front faces along the axis there, -1 if its back does
+  double Outside;    ///< smallest barycentric coordinate, no less than -Border
+  glm::dvec3 Normal; ///< the patch's, not normalised
 };
 
 /**
@@ -78,16 +78,16 @@ private:
   /// A corner of a part: barycentric coordinates, the place relative to the line, the height.
   struct Corner
   {
-    glm::dvec2 b;
-    glm::dvec2 x;
-    double height;
+    glm::dvec2 B;
+    glm::dvec2 X;
+    double Height;
   };
   /// Bounds of the derivatives along sides of what the patch adds to its facet: first ones, and
   /// second ones, which are infinite where they jump.
   struct Bend
   {
-    double first = std::numeric_limits<double>::infinity();
-    double second = std::numeric_limits<double>::infinity();
+    double First = std::numeric_limits<double>::infinity();
+    double Second = std::numeric_limits<double>::infinity();
 
     /// Largest distance from the linear interpolant of a part's corners.
     double GetDeviation(double size) const;
@@ -95,10 +95,10 @@ private:
   /// A triangle of the facet whose sides are `size` times the facet's.
   struct Part
   {
-    std::array<Corner, 3> corner;
-    double size;
-    Bend across; ///< the axis; bounds that hold for a part hold for its parts
-    Bend along;
+    std::array<Corner, 3> Corners;
+    double Size;
+    Bend Across; ///< the axis; bounds that hold for a part hold for its parts
+    Bend Along;
   };
   enum class Verdict
   {

@@ -47,8 +47,8 @@ private:
   /// Corners, then middles of the edges opposite to them.
   struct Triangle
   {
-    std::array<glm::dvec2, 6> b;
-    std::array<glm::dvec2, 6> f;
+    std::array<glm::dvec2, 6> B;
+    std::array<glm::dvec2, 6> F;
   };
   enum class Verdict
   {

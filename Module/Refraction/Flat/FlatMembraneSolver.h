@@ -32,14 +32,14 @@ enum class ImageState : unsigned char
 
 struct VirtualVertex
 {
-  glm::dvec3 position{ 0.0 };   ///< Eq. 2.4, world; the true point if there is no image
-  glm::dvec3 sightPoint{ 0.0 }; ///< where the sight ray meets the facet, world
-  double depth = 0.0;           ///< from sight point to true point
-  double reflectance = 0.0;     ///< exact Fresnel at the sight point
-  double cosine = 1.0;          ///< of the angle of incidence there, on the eye's side
-  std::int32_t facet = -1;      ///< index among the membrane's accepted facets
-  ImageState state = ImageState::NoImage;
-  signed char orientation = 1; ///< -1: mirrored
+  glm::dvec3 Position{ 0.0 };   ///< Eq. 2.4, world; the true point if there is no image
+  glm::dvec3 SightPoint{ 0.0 }; ///< where the sight ray meets the facet, world
+  double Depth = 0.0;           ///< from sight point to true point
+  double Reflectance = 0.0;     ///< exact Fresnel at the sight point
+  double Cosine = 1.0;          ///< of the angle of incidence there, on the eye's side
+  std::int32_t Facet = -1;      ///< index among the membrane's accepted facets
+  ImageState State = ImageState::NoImage;
+  signed char Orientation = 1; ///< -1: mirrored
 };
 
 class FlatMembraneSolver

@@ -36,16 +36,16 @@ EyeStatus CheckEye(const glm::dvec3& eye, double exterior, double interior);
 /// How the rays of the vertices that facets use came about.
 struct RayReport
 {
-  std::size_t refracted = 0;
-  std::size_t backFacing = 0;
-  std::size_t totallyReflected = 0;
+  std::size_t Refracted = 0;
+  std::size_t BackFacing = 0;
+  std::size_t TotallyReflected = 0;
 };
 
 /// Where a point is seen in a cell.
 struct CellHit
 {
-  glm::dvec3 weights; ///< barycentric coordinates of the sight point in the facet
-  int orientation;    ///< +1: the cell is upright at the point, -1: turned over by a caustic
+  glm::dvec3 Weights; ///< barycentric coordinates of the sight point in the facet
+  int Orientation;    ///< +1: the cell is upright at the point, -1: turned over by a caustic
 };
 
 class RefractionCells
@@ -76,8 +76,8 @@ public:
 private:
   struct Corner
   {
-    glm::dvec3 position;
-    glm::dvec3 ray;
+    glm::dvec3 Position;
+    glm::dvec3 Ray;
   };
 
   using CornerTriple = std::array<const Corner*, 3>;

@@ -27,9 +27,9 @@ namespace meniscus
 /// A point of the object and its one image.
 struct ImagedPoint
 {
-  std::int64_t id;
-  glm::dvec3 point;
-  const VirtualVertex* image;
+  std::int64_t Id;
+  glm::dvec3 Point;
+  const VirtualVertex* Image;
 };
 
 class EdgeSubdivision
@@ -58,36 +58,36 @@ public:
 private:
   struct Node
   {
-    glm::dvec3 weight; ///< of the corners
-    glm::dvec3 point;
-    VirtualVertex vertex;
-    std::int64_t output = -1; ///< its place among the points of `images`, once it is there
+    glm::dvec3 Weight; ///< of the corners
+    glm::dvec3 Point;
+    VirtualVertex Vertex;
+    std::int64_t Output = -1; ///< its place among the points of `images`, once it is there
   };
   /// A part of an edge.
   struct Stretch
   {
-    glm::dvec3 point[2];
-    glm::dvec3 drawn[2]; ///< where the edge has them
-    const VirtualVertex* image[2];
+    glm::dvec3 Point[2];
+    glm::dvec3 Drawn[2]; ///< where the edge has them
+    const VirtualVertex* Image[2];
   };
   struct Middle
   {
-    glm::dvec3 point{ std::numeric_limits<double>::quiet_NaN() };
-    VirtualVertex vertex;
+    glm::dvec3 Point{ std::numeric_limits<double>::quiet_NaN() };
+    VirtualVertex Vertex;
   };
   /// An edge of nodes and the node in its middle, in a table that is searched from a hash on.
   struct Edge
   {
-    std::uint64_t key;
-    std::int32_t middle;
-    std::uint32_t round; ///< the primitive that it belongs to
+    std::uint64_t Key;
+    std::int32_t Middle;
+    std::uint32_t Round; ///< the primitive that it belongs to
   };
   struct Cell
   {
-    std::array<std::int64_t, 3> ids;
-    std::int64_t source;
-    signed char orientation;
-    ImageMesh* images;
+    std::array<std::int64_t, 3> Ids;
+    std::int64_t Source;
+    signed char Orientation;
+    ImageMesh* Images;
   };
 
   const VirtualVertex& FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,

@@ -38,10 +38,10 @@ private:
 
   struct Node
   {
-    TrianglePoint at;
-    std::array<std::size_t, 2> next = { None, None }; ///< neighbours on the waterline
-    std::array<bool, 2> isForward = {};               ///< the part in front is on the left there
-    std::size_t along = None;                         ///< next along the triangle's sides
+    TrianglePoint At;
+    std::array<std::size_t, 2> Next = { None, None }; ///< neighbours on the waterline
+    std::array<bool, 2> IsForward = {};               ///< the part in front is on the left there
+    std::size_t Along = None;                         ///< next along the triangle's sides
   };
 
   std::size_t FindNode(const TrianglePoint& at);
@@ -50,7 +50,7 @@ private:
   bool Unlink(std::size_t from, std::size_t to);
   bool IsEnd(std::size_t node) const
   {
-    return (this->Nodes[node].next[0] == None) != (this->Nodes[node].next[1] == None);
+    return (this->Nodes[node].Next[0] == None) != (this->Nodes[node].Next[1] == None);
   }
   bool FollowSide(std::size_t from);
   std::size_t GoOn(std::size_t node, std::size_t before) const;

@@ -30,21 +30,21 @@ namespace meniscus
 /// connectivity[offsets[i + 1]], all of which exist.
 struct ObjectCells
 {
-  const std::int64_t* offsets = nullptr;
-  const std::int64_t* connectivity = nullptr;
+  const std::int64_t* Offsets = nullptr;
+  const std::int64_t* Connectivity = nullptr;
 };
 
 /// What became of cells.
 struct CellReport
 {
-  std::size_t whole = 0;   ///< passed through with its points
-  std::size_t divided = 0; ///< shown once, but bent: divided into several
-  std::size_t mapped = 0;  ///< mapped from the membrane, to any number of pieces
-  std::size_t without = 0; ///< no image at all
+  std::size_t Whole = 0;   ///< passed through with its points
+  std::size_t Divided = 0; ///< shown once, but bent: divided into several
+  std::size_t Mapped = 0;  ///< mapped from the membrane, to any number of pieces
+  std::size_t Without = 0; ///< no image at all
 
   void Count(bool isDivided, bool hasPieces)
   {
-    ++(isDivided ? this->divided : (hasPieces ? this->mapped : this->without));
+    ++(isDivided ? this->Divided : (hasPieces ? this->Mapped : this->Without));
   }
 };
 

@@ -32,31 +32,31 @@ namespace meniscus
 /// The images of a point of the object, borrowed.
 struct KnownImages
 {
-  const ImagePoint* first = nullptr;
-  std::size_t count = 0;
+  const ImagePoint* First = nullptr;
+  std::size_t Count = 0;
 };
 
 /// Corners of a primitive in world coordinates, their indices in the object and their images.
 struct MappedTriangle
 {
-  std::array<std::int64_t, 3> ids;
-  std::array<glm::dvec3, 3> corners;
-  std::array<KnownImages, 3> images{};
+  std::array<std::int64_t, 3> Ids;
+  std::array<glm::dvec3, 3> Corners;
+  std::array<KnownImages, 3> Images{};
 };
 
 /// A point of a triangle in barycentric and in world coordinates.
 struct TrianglePoint
 {
-  glm::dvec3 weight;
-  glm::dvec3 position;
+  glm::dvec3 Weight;
+  glm::dvec3 Position;
 };
 
 /// A straight piece of the curve along which a triangle meets the membrane. The part behind the
 /// membrane is on its left, as the triangle is wound.
 struct WaterlinePiece
 {
-  TrianglePoint from;
-  TrianglePoint to;
+  TrianglePoint From;
+  TrianglePoint To;
 };
 
 class PrimitiveMapper
@@ -90,8 +90,8 @@ private:
   };
   struct MappedPoint
   {
-    ImagePoint point;
-    Finding finding;
+    ImagePoint Point;
+    Finding Outcome;
   };
 
   void MapSides(Context& context, const glm::dvec3& middle, double padding, bool mayCross,

@@ -25,13 +25,13 @@ namespace meniscus
 /// A side of polygons of the object by its ends' points, the lower one first.
 struct Seam
 {
-  std::int64_t low;
-  std::int64_t high;
-  std::int32_t cells; ///< that have it
+  std::int64_t Low;
+  std::int64_t High;
+  std::int32_t Cells; ///< that have it
 
   bool operator<(const Seam& other) const
   {
-    return this->low != other.low ? this->low < other.low : this->high < other.high;
+    return this->Low != other.Low ? this->Low < other.Low : this->High < other.High;
   }
 };
 
@@ -54,13 +54,13 @@ private:
   /// A part of a seam as a cell draws it. Points are copied: closing may move them.
   struct Part
   {
-    std::int64_t low;
-    std::int64_t high;
-    ImagePoint from;
-    ImagePoint to;
-    std::int64_t cell;
-    signed char orientation;
-    bool isWhole; ///< a side of a polygon that is drawn as it is
+    std::int64_t Low;
+    std::int64_t High;
+    ImagePoint From;
+    ImagePoint To;
+    std::int64_t Cell;
+    signed char Orientation;
+    bool IsWhole; ///< a side of a polygon that is drawn as it is
   };
   using Parts = std::vector<const Part*>;
 

@@ -24,12 +24,12 @@ namespace meniscus
 /// A triangle surface as plain arrays, borrowed for the length of a call.
 struct MembraneInput
 {
-  const double* points = nullptr; ///< x, y, z per point
-  std::size_t numberOfPoints = 0;
-  const std::int64_t* triangles = nullptr; ///< three point indices per triangle
-  std::size_t numberOfTriangles = 0;
-  const std::int64_t* cellIds = nullptr; ///< caller's name of each triangle; null: its index
-  const double* normals = nullptr;       ///< x, y, z per point, any length; null: computed
+  const double* Points = nullptr; ///< x, y, z per point
+  std::size_t NumberOfPoints = 0;
+  const std::int64_t* Triangles = nullptr; ///< three point indices per triangle
+  std::size_t NumberOfTriangles = 0;
+  const std::int64_t* CellIds = nullptr; ///< caller's name of each triangle; null: its index
+  const double* Normals = nullptr;       ///< x, y, z per point, any length; null: computed
 };
 
 enum class MembraneStatus
@@ -43,19 +43,19 @@ enum class MembraneStatus
 /// What validation found. Skipped triangles are counted once, under the first fault found.
 struct MembraneReport
 {
-  std::size_t outOfRange = 0;        ///< skipped: a point index that does not exist
-  std::size_t notFinite = 0;         ///< skipped: a corner with a NaN or infinite coordinate
-  std::size_t zeroArea = 0;          ///< skipped: area within the rounding of its cross product
-  std::size_t duplicated = 0;        ///< skipped: same three points as an earlier triangle
-  std::size_t computedNormals = 0;   ///< vertices whose normal was missing, zero or not finite
-  std::size_t nonManifoldFacets = 0; ///< kept, but not joined to neighbours for computed normals
-  std::size_t turnedFacets = 0;      ///< kept, wound the other way than their neighbours
-  std::size_t turnedNormals = 0;     ///< kept, turned to the side of their neighbours
-  MismatchedNormals normals;         ///< kept, of given ones
+  std::size_t OutOfRange = 0;        ///< skipped: a point index that does not exist
+  std::size_t NotFinite = 0;         ///< skipped: a corner with a NaN or infinite coordinate
+  std::size_t ZeroArea = 0;          ///< skipped: area within the rounding of its cross product
+  std::size_t Duplicated = 0;        ///< skipped: same three points as an earlier triangle
+  std::size_t ComputedNormals = 0;   ///< vertices whose normal was missing, zero or not finite
+  std::size_t NonManifoldFacets = 0; ///< kept, but not joined to neighbours for computed normals
+  std::size_t TurnedFacets = 0;      ///< kept, wound the other way than their neighbours
+  std::size_t TurnedNormals = 0;     ///< kept, turned to the side of their neighbours
+  MismatchedNormals Normals;         ///< kept, of given ones
 
   std::size_t Skipped() const
   {
-    return this->outOfRange + this->notFinite + this->zeroArea + this->duplicated;
+    return this->OutOfRange + this->NotFinite + this->ZeroArea + this->Duplicated;
   }
 };
 

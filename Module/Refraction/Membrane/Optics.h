@@ -27,8 +27,8 @@ enum class RayKind : unsigned char
 
 struct RefractionRay
 {
-  glm::dvec3 direction;
-  RayKind kind;
+  glm::dvec3 Direction;
+  RayKind Kind;
 };
 
 /// The square of the refracted ray's cosine, negative beyond the critical angle.

@@ -33,13 +33,13 @@ namespace meniscus
 /// Box of start points and box of directions, in local units.
 struct TubeBounds
 {
-  glm::dvec3 startLow{ std::numeric_limits<double>::max() };
-  glm::dvec3 startHigh{ std::numeric_limits<double>::lowest() };
-  glm::dvec3 directionLow{ std::numeric_limits<double>::max() };
-  glm::dvec3 directionHigh{ std::numeric_limits<double>::lowest() };
+  glm::dvec3 StartLow{ std::numeric_limits<double>::max() };
+  glm::dvec3 StartHigh{ std::numeric_limits<double>::lowest() };
+  glm::dvec3 DirectionLow{ std::numeric_limits<double>::max() };
+  glm::dvec3 DirectionHigh{ std::numeric_limits<double>::lowest() };
 
   /// False for the bounds of a facet without a cell.
-  bool IsValid() const { return this->startLow.x <= this->startHigh.x; }
+  bool IsValid() const { return this->StartLow.x <= this->StartHigh.x; }
   void Add(const glm::dvec3& start, const glm::dvec3& direction);
 };
 
@@ -93,18 +93,18 @@ private:
   /// constraints read a + t b >= 0.
   struct Node
   {
-    float startHigh[3][Width];
-    float negatedStartLow[3][Width];
-    float directionHigh[3][Width];
-    float negatedDirectionLow[3][Width];
-    std::int32_t link[Width];       ///< inner child: node; otherwise NoNode
-    std::int32_t firstFacet[Width]; ///< smallest facet below; leaf: the facet; none: NoFacet
+    float StartHigh[3][Width];
+    float NegatedStartLow[3][Width];
+    float DirectionHigh[3][Width];
+    float NegatedDirectionLow[3][Width];
+    std::int32_t Link[Width];       ///< inner child: node; otherwise NoNode
+    std::int32_t FirstFacet[Width]; ///< smallest facet below; leaf: the facet; none: NoFacet
   };
 
   struct Query
   {
-    float point[3];
-    float padding;
+    float Point[3];
+    float Padding;
   };
 
   std::int32_t BuildNode(std::vector<std::int32_t>::iterator begin,
@@ -154,18 +154,18 @@ inline unsigned RayTubeTree::Overlaps(const Node& node, const Query& query)
   };
   for (int axis = 0; axis < 3; ++axis)
   {
-    const float p = query.point[axis];
+    const float p = query.Point[axis];
     for (int lane = 0; lane < Width; ++lane)
     {
-      const float start = node.startHigh[axis][lane];
-      const float slack = query.padding + rounding * std::fabs(start);
-      constrain(lane, (start - p) + slack, node.directionHigh[axis][lane]);
+      const float start = node.StartHigh[axis][lane];
+      const float slack = query.Padding + rounding * std::fabs(start);
+      constrain(lane, (start - p) + slack, node.DirectionHigh[axis][lane]);
     }
     for (int lane = 0; lane < Width; ++lane)
     {
-      const float start = node.negatedStartLow[axis][lane];
-      const float slack = query.padding + rounding * std::fabs(start);
-      constrain(lane, (start + p) + slack, node.negatedDirectionLow[axis][lane]);
+      const float start = node.NegatedStartLow[axis][lane];
+      const float slack = query.Padding + rounding * std::fabs(start);
+      constrain(lane, (start + p) + slack, node.NegatedDirectionLow[axis][lane]);
     }
   }
   unsigned hits = 0;
@@ -194,8 +194,8 @@ void RayTubeTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit
 
   struct Entry
   {
-    std::int32_t node;
-    std::int32_t firstFacet;
+    std::int32_t Node;
+    std::int32_t FirstFacet;
   };
   std::int32_t limit = NoFacet;
   std::array<Entry, StackSize> stack;
@@ -204,26 +204,26 @@ void RayTubeTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit
   while (depth > 0)
   {
     const Entry entry = stack[--depth];
-    if (entry.firstFacet >= limit)
+    if (entry.FirstFacet >= limit)
     {
       continue;
     }
-    const Node& node = this->Nodes[static_cast<std::size_t>(entry.node)];
+    const Node& node = this->Nodes[static_cast<std::size_t>(entry.Node)];
     const unsigned hits = Overlaps(node, query);
     for (int child = Width - 1; child >= 0; --child)
     {
-      if (!(hits >> child & 1u) || node.firstFacet[child] >= limit)
+      if (!(hits >> child & 1u) || node.FirstFacet[child] >= limit)
       {
         continue;
       }
-      if (node.link[child] == NoNode)
+      if (node.Link[child] == NoNode)
       {
-        limit = visit(node.firstFacet[child]);
+        limit = visit(node.FirstFacet[child]);
       }
       else
       {
-        this->Prefetch(node.link[child]);
-        stack[depth++] = { node.link[child], node.firstFacet[child] };
+        this->Prefetch(node.Link[child]);
+        stack[depth++] = { node.Link[child], node.FirstFacet[child] };
       }
     }
   }

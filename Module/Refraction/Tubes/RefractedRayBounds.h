@@ -15,8 +15,8 @@ double BoundBulge(const CurvedPatch& patch);
 /// Unit vectors within `half` of `middle`, component by component; any at all by default.
 struct DirectionBox
 {
-  glm::dvec3 middle{ 0.0 };
-  glm::dvec3 half{ 1.0 };
+  glm::dvec3 Middle{ 0.0 };
+  glm::dvec3 Half{ 1.0 };
 };
 
 /// About the unit vectors along what is within `reach` of the hull of `count` vectors.
@@ -29,8 +29,8 @@ DirectionBox BoundNormals(const CurvedPatch& patch);
 /// Bounds of the cosine of two directions.
 struct CosineBounds
 {
-  double least;
-  double most;
+  double Least;
+  double Most;
 };
 CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal);
 

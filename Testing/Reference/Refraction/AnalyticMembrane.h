@@ -17,9 +17,9 @@ namespace meniscus::reference
 
 struct AnalyticMembrane
 {
-  double sphereRadius = 0.0; ///< 0: the plane
-  double exterior = 1.0;     ///< index above
-  double interior = 1.0;     ///< index below
+  double SphereRadius = 0.0; ///< 0: the plane
+  double Exterior = 1.0;     ///< index above
+  double Interior = 1.0;     ///< index below
 
   glm::dvec3 GetNormal(const glm::dvec3& onSurface) const;
 

@@ -25,12 +25,12 @@ struct HeightField
     Waves, ///< amplitude sin(k x) sin(k z)
     Dome   ///< amplitude exp(-(k k (x x + z z))), convex to the eye for a positive amplitude
   };
-  Shape shape = Shape::Waves;
-  double side = 200.0;
-  double amplitude = 0.0;
-  double k = 0.0;
-  double exterior = 1.0;
-  double interior = 1.333;
+  Shape Shape = Shape::Waves;
+  double Side = 200.0;
+  double Amplitude = 0.0;
+  double K = 0.0;
+  double Exterior = 1.0;
+  double Interior = 1.333;
 
   double GetHeight(double x, double z) const;
   /// df / dx and df / dz.

@@ -19,13 +19,13 @@ namespace meniscus::reference
 
 struct MembraneMesh
 {
-  std::vector<double> points;
-  std::vector<double> normals;
-  std::vector<std::int64_t> triangles;
+  std::vector<double> Points;
+  std::vector<double> Normals;
+  std::vector<std::int64_t> Triangles;
 
   void AddPoint(const glm::dvec3& point, const glm::dvec3& normal);
   void AddTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
-  std::size_t GetNumberOfFacets() const { return this->triangles.size() / 3; }
+  std::size_t GetNumberOfFacets() const { return this->Triangles.size() / 3; }
   /// Views of the arrays; with or without the normals.
   MembraneInput AsInput(bool withNormals = true) const;
   void Translate(const glm::dvec3& offset);
