@@ -42,7 +42,7 @@ class vtkRefractionErrorVolume::vtkInternals
 {
 public:
   meniscus::RefractionScene Scene;
-  /// The finer mesh, or the same one where the scene has flat facets.
+  /** The finer mesh, or the same one where the scene has flat facets. */
   meniscus::RefractionScene Reference;
   std::vector<meniscus::ErrorSample> Samples;
   meniscus::ErrorSummary Summary;

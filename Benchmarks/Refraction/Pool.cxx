@@ -67,7 +67,7 @@ std::vector<glm::dvec3> toColors(const Bytes& bytes, std::size_t stride)
 
 #ifdef MENISCUS_HAS_EMBREE
 
-/// Shades what Embree has traced as the scene does.
+/** Shades what Embree has traced as the scene does. */
 class PoolShader : public TracedShader
 {
 public:

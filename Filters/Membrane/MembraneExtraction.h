@@ -15,7 +15,7 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/// A membrane's triangles as plain arrays. Two of them are equal if the same surface comes out.
+/** A membrane's triangles as plain arrays. Two of them are equal if the same surface comes out. */
 struct MembraneArrays
 {
   std::vector<double> Points;

@@ -15,7 +15,9 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/// The cells of a polydata as plain arrays; cells that name points that do not exist are left out.
+/**
+ * The cells of a polydata as plain arrays; cells that name points that do not exist are left out.
+ */
 struct ObjectTopology
 {
   struct Cells

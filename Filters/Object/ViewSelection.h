@@ -22,9 +22,11 @@ class vtkCamera;
 namespace meniscus
 {
 
-/// Planes that bound the view from the sides, and one through the eye across it; what is in view is
-/// on their positive side. `aspect` is width over height; 0: not known, so only the sides that do
-/// not depend on it are there.
+/**
+ * Planes that bound the view from the sides, and one through the eye across it; what is in view is
+ * on their positive side. `aspect` is width over height; 0: not known, so only the sides that do
+ * not depend on it are there.
+ */
 std::vector<ViewPlane> FindViewPlanes(vtkCamera* camera, double aspect);
 
 struct ViewSelection
@@ -49,11 +51,11 @@ struct ViewSelection
   }
 };
 
-/// Selects cells and points (x, y, z each) for the view of `scene`.
+/** Selects cells and points (x, y, z each) for the view of `scene`. */
 ViewSelection SelectInView(const RefractionScene& scene, const ObjectTopology& topology,
   vtkIdType numberOfCells, const std::vector<double>& points);
 
-/// The cells of `topology` that are selected.
+/** The cells of `topology` that are selected. */
 ObjectTopology SelectCells(const ObjectTopology& topology, const ViewSelection& selection);
 
 }

@@ -73,7 +73,7 @@ void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count
   }
 }
 
-/// Results of parts of the cells, put together in their order.
+/** Results of parts of the cells, put together in their order. */
 struct Part
 {
   ImageMesh Pieces;
@@ -103,7 +103,7 @@ bool MapParts(std::size_t count, const ProgressLoop& loop, const MapRange& map, 
   return done;
 }
 
-/// Collects points and cells of the output.
+/** Collects points and cells of the output. */
 class Builder
 {
 public:

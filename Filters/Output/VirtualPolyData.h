@@ -17,7 +17,7 @@ namespace meniscus
 
 struct ViewSelection;
 
-/// What did not make it to the output.
+/** What did not make it to the output. */
 struct VirtualPolyDataReport
 {
   vtkIdType SkippedCells = 0; ///< cells that need a point without an image

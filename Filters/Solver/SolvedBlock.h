@@ -16,12 +16,12 @@
 namespace meniscus
 {
 
-/// The virtual vertices of one block of geometry, and what they were computed from.
+/** The virtual vertices of one block of geometry, and what they were computed from. */
 struct SolvedBlock
 {
-  /// Takes the points in again if the source has been modified; images hold if no value differs.
+  /** Takes the points in again if the source has been modified; images hold if no value differs. */
   void UpdatePoints();
-  /// The same for the cells.
+  /** The same for the cells. */
   void UpdateTopology();
 
   vtkWeakPointer<vtkPolyData> Source;
@@ -32,15 +32,15 @@ struct SolvedBlock
   std::vector<VirtualVertex> Vertices;
   std::vector<bool> SolvedChunks; ///< of `vertices`
 
-  /// What is in view, and what that was found for.
+  /** What is in view, and what that was found for. */
   ViewSelection Selection;
   vtkTypeInt64 ViewChange = -1;
 
-  /// All images, or a view.
+  /** All images, or a view. */
   vtkMTimeType TopologyTime = 0;
   ObjectTopology Topology;
 
-  /// All images only.
+  /** All images only. */
   double Tolerance = 0.0;
   bool ClosesSeams = false;
   bool CellsReady = false;

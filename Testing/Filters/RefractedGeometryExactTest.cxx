@@ -24,7 +24,7 @@ namespace
 using namespace meniscus::testing;
 using namespace meniscus::reference;
 
-/// y - f(x, z).
+/** y - f(x, z). */
 class HeightFunction : public vtkImplicitFunction
 {
 public:
@@ -46,7 +46,7 @@ public:
 };
 vtkStandardNewMacro(HeightFunction);
 
-/// A function without a zero, or without a gradient.
+/** A function without a zero, or without a gradient. */
 class NowhereZero : public vtkImplicitFunction
 {
 public:

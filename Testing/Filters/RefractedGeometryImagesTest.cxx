@@ -51,7 +51,7 @@ glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
   return GetTuple(data->GetPoints()->GetData(), i);
 }
 
-/// A polygon that stands upright at x = 7, from `low` to `high`.
+/** A polygon that stands upright at x = 7, from `low` to `high`. */
 vtkSmartPointer<vtkPolyData> MakeWall(double low, double high)
 {
   auto wall = MakePoints(

@@ -25,7 +25,7 @@ const double Pi = std::acos(-1.0);
 const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
 const glm::dvec3 Eye(20.0, 300.0, 10.0);
 
-/// A grid with unit normals that differ from point to point, none of them along an axis.
+/** A grid with unit normals that differ from point to point, none of them along an axis. */
 vtkSmartPointer<vtkPolyData> MakeLitGrid(double y)
 {
   auto grid = MakeGrid(9, 80.0, y);
@@ -64,7 +64,7 @@ glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
   return p;
 }
 
-/// True point, true and virtual normal, and so on, of each point of an output.
+/** True point, true and virtual normal, and so on, of each point of an output. */
 struct Lit
 {
   glm::dvec3 Point;

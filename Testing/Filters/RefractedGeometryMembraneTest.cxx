@@ -43,7 +43,7 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
   return filter;
 }
 
-/// A whole sphere about the origin with exact normals, outwards or inwards; wound outwards.
+/** A whole sphere about the origin with exact normals, outwards or inwards; wound outwards. */
 MembraneMesh MakeSphere(double radius, int rings, double sign)
 {
   MembraneMesh mesh;
@@ -103,7 +103,9 @@ glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
   return t;
 }
 
-/// Largest violation of Snell's law at a sphere about the origin, normals outwards (1) or inwards.
+/**
+ * Largest violation of Snell's law at a sphere about the origin, normals outwards (1) or inwards.
+ */
 double GetWorstSnell(vtkPolyData* output, const glm::dvec3& eye, double sign)
 {
   double worst = 0.0;

@@ -51,7 +51,7 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeViewed(int model, int images, vt
   return filter;
 }
 
-/// Source cell and where its first point is drawn, to 1e-6.
+/** Source cell and where its first point is drawn, to 1e-6. */
 using Cell = std::tuple<int, long, long, long>;
 
 Cell GetCell(vtkPolyData* output, vtkIdType cell, vtkIdType point)
@@ -62,7 +62,7 @@ Cell GetCell(vtkPolyData* output, vtkIdType cell, vtkIdType point)
     std::lround(1e6 * p[0]), std::lround(1e6 * p[1]), std::lround(1e6 * p[2]) };
 }
 
-/// The polygons with a point in the camera's view; of all with a null camera.
+/** The polygons with a point in the camera's view; of all with a null camera. */
 std::multiset<Cell> GetCells(vtkPolyData* output, vtkCamera* camera)
 {
   double planes[24];

@@ -32,7 +32,7 @@ constexpr double Water = 1.333;
 // The light is ten thousand sizes of the scene away.
 constexpr double Parallel = 2e-4;
 
-/// 1 - F of unpolarised light, by Fresnel's equations for both polarisations.
+/** 1 - F of unpolarised light, by Fresnel's equations for both polarisations. */
 double transmittance(double cosine)
 {
   const double refracted = std::sqrt(1.0 - (1.0 - cosine * cosine) / (Water * Water));
@@ -62,7 +62,7 @@ vtkDataArray* OfPoints(vtkRefractedLightFilter* filter)
   return filter->GetOutput()->GetPointData()->GetArray("RefractionIrradiance");
 }
 
-/// What 10^6 rays of the sun bring to the cells of MakeGrid(cells + 1, size, y), per area.
+/** What 10^6 rays of the sun bring to the cells of MakeGrid(cells + 1, size, y), per area. */
 std::vector<double> ShinePhotons(
   const HeightField& waves, const glm::dvec3& sun, int cells, double size, double y, double& total)
 {
@@ -99,7 +99,7 @@ std::vector<double> ShinePhotons(
   return flux;
 }
 
-/// The quad of the grid that a cell covers, by its centre.
+/** The quad of the grid that a cell covers, by its centre. */
 std::size_t BinOf(vtkPolyData* grid, vtkIdType cell, int cells, double size)
 {
   double bounds[6];

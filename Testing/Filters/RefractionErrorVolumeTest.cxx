@@ -39,7 +39,7 @@ const double NaN = std::numeric_limits<double>::quiet_NaN();
 const double Pi = std::acos(-1.0);
 const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
 
-/// y - f(x, z) of the waves.
+/** y - f(x, z) of the waves. */
 class WavesFunction : public vtkImplicitFunction
 {
 public:
@@ -77,7 +77,7 @@ vtkSmartPointer<vtkRefractionErrorVolume> MakeVolume(vtkPolyData* membrane)
   return volume;
 }
 
-/// The thesis's box: 40 samples a side, 20 apart.
+/** The thesis's box: 40 samples a side, 20 apart. */
 vtkSmartPointer<vtkRefractionErrorVolume> MakeThesisVolume(const ThesisRow& row)
 {
   const double radius = row.SphereRatio * 141.5;
@@ -432,7 +432,7 @@ TEST(RefractionErrorVolume, ReportsProgressAndCanBeAborted)
 class RefractionErrorVolumeBadInput : public ::testing::Test
 {
 protected:
-  /// One error, an empty output, no statistics; and it recovers.
+  /** One error, an empty output, no statistics; and it recovers. */
   void ExpectErrorAndRecovery(const std::function<void(vtkRefractionErrorVolume*)>& spoil,
     const std::function<void(vtkRefractionErrorVolume*)>& mend)
   {

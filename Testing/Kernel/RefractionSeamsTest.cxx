@@ -31,7 +31,7 @@ using meniscus::reference::MembraneMesh;
 
 const double Pi = std::acos(-1.0);
 
-/// Triangles.
+/** Triangles. */
 struct Object
 {
   std::vector<glm::dvec3> Points;
@@ -81,7 +81,7 @@ Object MakeBall(const glm::dvec3& center, double radius, int rings)
   return ball;
 }
 
-/// All images of an object's cells.
+/** All images of an object's cells. */
 struct Drawn
 {
   ImageMesh Pieces;
@@ -128,7 +128,7 @@ void VisitSides(const ImageMesh& mesh, const std::vector<ImagePoint>& points, co
   }
 }
 
-/// Whether the membrane shows a point of the object at a sight point.
+/** Whether the membrane shows a point of the object at a sight point. */
 bool HasImage(const CurvedMembraneSolver& geometry, const glm::dvec3& point,
   const glm::dvec3& sight, double distance)
 {
@@ -139,7 +139,9 @@ bool HasImage(const CurvedMembraneSolver& geometry, const glm::dvec3& point,
     { return glm::length(image.SightPoint - sight) < distance; });
 }
 
-/// Whether a piece ends here at a caustic: it draws a corner of the object where that has no image.
+/**
+ * Whether a piece ends here at a caustic: it draws a corner of the object where that has no image.
+ */
 bool IsBeyondCaustic(
   const CurvedMembraneSolver& geometry, const Object& object, double size, const ImagePoint& point)
 {
@@ -148,7 +150,7 @@ bool IsBeyondCaustic(
       point.Vertex.SightPoint, 1e-6 * size);
 }
 
-/// Sides that an odd number of pieces has, by their ends' positions bit by bit.
+/** Sides that an odd number of pieces has, by their ends' positions bit by bit. */
 std::vector<std::array<ImagePoint, 2>> FindOpenSides(const Drawn& drawn)
 {
   using Key = std::tuple<double, double, double>;
@@ -177,7 +179,7 @@ std::vector<std::array<ImagePoint, 2>> FindOpenSides(const Drawn& drawn)
   return open;
 }
 
-/// Waves in water, and a ball under them or half in them.
+/** Waves in water, and a ball under them or half in them. */
 struct SeamScene
 {
   HeightField Field;

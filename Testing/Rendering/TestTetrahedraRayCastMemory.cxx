@@ -53,7 +53,7 @@ protected:
     this->Mapper->SetBackend(OpenGL);
   }
 
-  /// With full and with compact tables.
+  /** With full and with compact tables. */
   void expectSamePicture(const std::string& what)
   {
     this->Mapper->CompactTablesOff();

@@ -27,7 +27,7 @@ using Triangle = std::array<glm::dvec3, 3>;
 constexpr double Tolerance = 0.005 * 3.14159265358979323846 / 180.0;
 constexpr int PlacesPerTriangle = 8;
 
-/// A triangle of a fan: where it is drawn, and what it shows, in barycentric coordinates.
+/** A triangle of a fan: where it is drawn, and what it shows, in barycentric coordinates. */
 struct Piece
 {
   std::array<glm::dvec3, 3> Drawn;

@@ -69,7 +69,7 @@ unsigned char toByte(double value)
   return static_cast<unsigned char>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
 }
 
-/// Tiles with soft joints.
+/** Tiles with soft joints. */
 vtkSmartPointer<vtkImageData> makeTiles()
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -117,7 +117,7 @@ glm::dvec3 sample(vtkImageData* image, double u, double v)
     t * ((1.0 - s) * fetch(i, j + 1) + s * fetch(i + 1, j + 1));
 }
 
-/// Direction of a texel of a cube map: face, column and row after OpenGL's table of faces.
+/** Direction of a texel of a cube map: face, column and row after OpenGL's table of faces. */
 glm::dvec3 cubeDirection(int face, int column, int row)
 {
   const double s = 2.0 * (column + 0.5) / SkySize - 1.0;
@@ -214,7 +214,7 @@ vtkSmartPointer<vtkPolyData> place(vtkPolyDataAlgorithm* source, const glm::dvec
   return data;
 }
 
-/// The nearest of several surfaces behind a point.
+/** The nearest of several surfaces behind a point. */
 class PoolHit
 {
 public:

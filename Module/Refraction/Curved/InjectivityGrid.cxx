@@ -32,7 +32,7 @@ constexpr int MostSteps = 12;
 // coarser level.
 constexpr int MostCells = 3;
 
-/// Where the ray behind a place of a patch meets the plane at height z: base - z slope.
+/** Where the ray behind a place of a patch meets the plane at height z: base - z slope. */
 struct SlopedRay
 {
   glm::dvec2 Base;
@@ -62,7 +62,7 @@ bool MakeRay(const CurvedPatch& patch, const glm::dvec2& b, const HeightFrame& f
   return true;
 }
 
-/// Derivatives of a Bezier triangle of second degree at its three corners, by the plane's axes.
+/** Derivatives of a Bezier triangle of second degree at its three corners, by the plane's axes. */
 using CornerDerivatives = std::array<glm::dmat2, 3>;
 
 // `f` holds the values at the corners and in the middles of the edges opposite to them.

@@ -36,7 +36,7 @@ double GetSize(const CurvedPatch& patch)
     glm::length(patch.Corner[0] - patch.Corner[2]) });
 }
 
-/// The highest of the crossings, and whether others at its height agree with it.
+/** The highest of the crossings, and whether others at its height agree with it. */
 struct NearestCrossing
 {
   double Height = Lowest;
@@ -46,11 +46,13 @@ struct NearestCrossing
   bool IsInside = false; ///< of its patch, or in the patches on both sides of an edge
   bool IsDisputed = false;
 
-  /// Crossings below this are farther.
+  /** Crossings below this are farther. */
   double GetLowest() const { return this->Height - this->Same; }
 
-  /// Just outside of one facet, and not in its neighbour, an edge may be passed that both facets
-  /// turn away from.
+  /**
+   * Just outside of one facet, and not in its neighbour, an edge may be passed that both facets
+   * turn away from.
+   */
   bool IsSure() const { return this->IsInside && !this->IsDisputed; }
 
   void Add(const PatchCrossing& crossing, std::int32_t of, double tie)

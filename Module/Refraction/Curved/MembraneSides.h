@@ -40,17 +40,17 @@ public:
     Behind
   };
 
-  /// Builds the tree. `surface` and `patches` must outlive this.
+  /** Builds the tree. `surface` and `patches` must outlive this. */
   void Build(const Membrane& surface, const CurvedPatches& patches, const HeightFrame& frame);
 
-  /// The side of a point in local coordinates. Points within rounding of a patch are in front.
+  /** The side of a point in local coordinates. Points within rounding of a patch are in front. */
   Side Find(const glm::dvec3& local) const;
 
-  /// Points whose side no way has decided, since the membrane was built.
+  /** Points whose side no way has decided, since the membrane was built. */
   std::int64_t GetNumberOfUndecided() const { return this->Undecided; }
 
 private:
-  /// A facet whose patch the line may cross, and bounds of the height of that.
+  /** A facet whose patch the line may cross, and bounds of the height of that. */
   struct Candidate
   {
     std::int32_t Facet;
@@ -69,7 +69,7 @@ private:
     signed char Front;
   };
 
-  /// Of a sign; 0: no patch.
+  /** Of a sign; 0: no patch. */
   static Look MakeLook(int side);
   Candidate Classify(
     std::int32_t facet, const HeightFrame& frame, const glm::dvec3& local, double low) const;

@@ -30,7 +30,7 @@ constexpr double Largest(const std::array<double, 3>& values)
   return std::max({ values[0], values[1], values[2] });
 }
 
-/// Bounds of the length of a function and of its first and second derivatives along the edges.
+/** Bounds of the length of a function and of its first and second derivatives along the edges. */
 struct Bounds
 {
   double Value = 0.0;
@@ -38,7 +38,7 @@ struct Bounds
   std::array<double, 3> Second{};
 };
 
-/// Bounds of a product.
+/** Bounds of a product. */
 Bounds Multiply(const Bounds& f, const Bounds& g)
 {
   Bounds result;
@@ -52,18 +52,20 @@ Bounds Multiply(const Bounds& f, const Bounds& g)
   return result;
 }
 
-/// A triangle around a part: its corners, then the middles of its edges.
+/** A triangle around a part: its corners, then the middles of its edges. */
 using Around = std::array<glm::dvec2, 6>;
 
-/// Values at the corners and in the middles of the edges as the control points of a function of
-/// second degree.
+/**
+ * Values at the corners and in the middles of the edges as the control points of a function of
+ * second degree.
+ */
 std::array<double, 6> GetControls(const std::array<double, 6>& f)
 {
   return { f[0], f[1], f[2], 2.0 * f[3] - 0.5 * (f[1] + f[2]), 2.0 * f[4] - 0.5 * (f[2] + f[0]),
     2.0 * f[5] - 0.5 * (f[0] + f[1]) };
 }
 
-/// The gradient of q by b.x and b.y.
+/** The gradient of q by b.x and b.y. */
 glm::dvec2 GetFormGradient(const CurvedPatch& patch, const glm::dvec2& b)
 {
   const double c = 1.0 - b.x - b.y;
@@ -86,9 +88,11 @@ double GetForm(const CurvedPatch& patch, const glm::dvec2& b)
     c * b.x * (patch.Symmetric[2] + patch.Asymmetric[2] * (c - b.x));
 }
 
-/// Bounds of q, whose sides are `size` times those of the facet. Its derivatives along edges are of
-/// second degree, within their control points; those of these are differences of control points.
-/// No point is farther from the middle than two thirds of edges.
+/**
+ * Bounds of q, whose sides are `size` times those of the facet. Its derivatives along edges are of
+ * second degree, within their control points; those of these are differences of control points.
+ * No point is farther from the middle than two thirds of edges.
+ */
 Bounds BoundForm(const CurvedPatch& patch, const Around& around, double size)
 {
   std::array<glm::dvec2, 6> gradient;
@@ -117,7 +121,7 @@ Bounds BoundForm(const CurvedPatch& patch, const Around& around, double size)
   return result;
 }
 
-/// The normal's values at corners, control points of edges, and derivatives along these.
+/** The normal's values at corners, control points of edges, and derivatives along these. */
 struct NormalControls
 {
   std::array<glm::dvec3, 6> Control;
@@ -148,7 +152,7 @@ struct NormalControls
     }
   }
 
-  /// `square` gives the squared length of a vector.
+  /** `square` gives the squared length of a vector. */
   template <typename Square>
   Bounds Bound(const Square& square) const
   {
@@ -167,7 +171,7 @@ struct NormalControls
     return result;
   }
 
-  /// No normal is shorter, if positive.
+  /** No normal is shorter, if positive. */
   double GetShortest() const
   {
     const glm::dvec3 along = glm::normalize(this->Control[0] + this->Control[1] + this->Control[2]);
@@ -180,9 +184,11 @@ struct NormalControls
   }
 };
 
-/// Bounds of 2 / (l + l^2) with l = |n| >= shortest. Its derivatives by l are
-/// -2 (1 + 2 l) / (l + l^2)^2 and 4 (1 + 3 l + 3 l^2) / (l + l^2)^3; those of l are at most |n'|
-/// and |n''| + |n'|^2 / l.
+/**
+ * Bounds of 2 / (l + l^2) with l = |n| >= shortest. Its derivatives by l are
+ * -2 (1 + 2 l) / (l + l^2)^2 and 4 (1 + 3 l + 3 l^2) / (l + l^2)^3; those of l are at most |n'|
+ * and |n''| + |n'|^2 / l.
+ */
 Bounds BoundFactor(const Bounds& normal, double shortest)
 {
   const double l = shortest;

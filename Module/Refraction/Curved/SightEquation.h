@@ -23,7 +23,7 @@
 namespace meniscus
 {
 
-/// Where Newton's method ended.
+/** Where Newton's method ended. */
 struct SightRoot
 {
   enum class End
@@ -49,17 +49,19 @@ public:
   {
   }
 
-  /// h without its part along the normal, in the two directions of the facet's edges; zero at a
-  /// sight point. Multiplied by the square of the normal's length.
+  /**
+   * h without its part along the normal, in the two directions of the facet's edges; zero at a
+   * sight point. Multiplied by the square of the normal's length.
+   */
   glm::dvec2 GetResidual(const CurvedPatch& patch, const glm::dvec2& b) const;
 
-  /// Newton's method from `b`, at most `steps` steps, leaving the facet by `reach` at most.
+  /** Newton's method from `b`, at most `steps` steps, leaving the facet by `reach` at most. */
   SightRoot Solve(const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const;
 
-  /// Whether a root is an image: eye in front of the surface, point behind it.
+  /** Whether a root is an image: eye in front of the surface, point behind it. */
   bool IsImage(const PatchPoint& at) const;
 
-  /// Of a place from the eye or from the point, whichever is nearer.
+  /** Of a place from the eye or from the point, whichever is nearer. */
   double GetSquaredDistance(const glm::dvec3& place) const
   {
     const glm::dvec3 a = place - this->Eye;
@@ -67,7 +69,7 @@ public:
     return std::min(glm::dot(a, a), glm::dot(p, p));
   }
 
-  /// Which way round the image of a facet is: +1, or -1 where it is mirrored.
+  /** Which way round the image of a facet is: +1, or -1 where it is mirrored. */
   static int GetOrientation(const CurvedPatch& patch, const SightRoot& root);
 
 private:

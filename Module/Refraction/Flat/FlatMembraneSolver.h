@@ -45,30 +45,34 @@ struct VirtualVertex
 class FlatMembraneSolver
 {
 public:
-  /// Takes a new shape. The eye must be set again afterwards.
+  /** Takes a new shape. The eye must be set again afterwards. */
   MembraneStatus SetMembrane(const MembraneInput& input);
   const Membrane& GetMembrane() const { return this->Surface; }
 
-  /// Rebuilds the cells for an eye in world coordinates. Unless `Ready`, nothing may be solved.
+  /** Rebuilds the cells for an eye in world coordinates. Unless `Ready`, nothing may be solved. */
   EyeStatus SetEye(
     const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop = SerialLoop);
   const RefractionCells& GetCells() const { return this->Cells; }
 
-  /// Images of `points` (x, y, z each) in [begin, end), written to the same places of `vertices`.
+  /**
+   * Images of `points` (x, y, z each) in [begin, end), written to the same places of `vertices`.
+   */
   void Solve(
     const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const;
 
-  /// The image of one point in the first facet, in the order of the input, whose cell holds it.
+  /** The image of one point in the first facet, in the order of the input, whose cell holds it. */
   VirtualVertex SolvePoint(const glm::dvec3& point) const;
 
-  /// The same by a loop over all facets: what the tree must agree with, bit by bit.
+  /** The same by a loop over all facets: what the tree must agree with, bit by bit. */
   VirtualVertex SolvePointByBruteForce(const glm::dvec3& point) const;
 
-  /// Whether exactly one cell holds `point` with walls widened by `wall`, in barycentric
-  /// coordinates: the thesis leaves all other points out of its statistics.
+  /**
+   * Whether exactly one cell holds `point` with walls widened by `wall`, in barycentric
+   * coordinates: the thesis leaves all other points out of its statistics.
+   */
   bool HasOneCell(const glm::dvec3& point, double wall) const;
 
-  /// Whether a facet that `chosen` marks may show a point of the cube of half side `padding`.
+  /** Whether a facet that `chosen` marks may show a point of the cube of half side `padding`. */
   bool MayShow(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const;
 
 private:

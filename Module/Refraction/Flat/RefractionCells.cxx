@@ -39,7 +39,9 @@ bool IsOpen(double cosine, double squaredMean)
 
 }
 
-/// The triangle in which the plane through a point cuts the rays of a cell, relative to the point.
+/**
+ * The triangle in which the plane through a point cuts the rays of a cell, relative to the point.
+ */
 struct RefractionCells::CrossSection
 {
   glm::dvec3 ToCorner[3];
@@ -48,7 +50,7 @@ struct RefractionCells::CrossSection
   double Cosine[3];
   double SquaredMean = 0.0;
 
-  /// Rounding of a corner of the cut, times the length of the mean ray.
+  /** Rounding of a corner of the cut, times the length of the mean ray. */
   double GetTolerance() const
   {
     const double mean = std::sqrt(this->SquaredMean);
@@ -60,8 +62,10 @@ struct RefractionCells::CrossSection
     return CornerRounding * reach * mean;
   }
 
-  /// Whether no area is more negative than rounding or `wallArea` explains. The first pass takes no
-  /// square root and a reach that is too large: almost every cell that is tested fails it.
+  /**
+   * Whether no area is more negative than rounding or `wallArea` explains. The first pass takes no
+   * square root and a reach that is too large: almost every cell that is tested fails it.
+   */
   bool IsInside(const glm::dvec3& area, double wallArea) const
   {
     constexpr double factor = CornerRounding * (1.0 + 1.0 / SmallestCosine);

@@ -22,15 +22,17 @@ namespace meniscus
 class FrontOutline
 {
 public:
-  /// Corners, wound as the triangle is.
+  /** Corners, wound as the triangle is. */
   using Polygon = std::vector<TrianglePoint>;
 
-  /// `corners` are the triangle's, `isFront` tells which of them are in front.
+  /** `corners` are the triangle's, `isFront` tells which of them are in front. */
   FrontOutline(const std::vector<WaterlinePiece>& waterline,
     const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& isFront);
 
-  /// False if the pieces do not separate the corners in front from the others along each side, or
-  /// leave a hole in the part. Otherwise `polygons` becomes the part, as convex polygons.
+  /**
+   * False if the pieces do not separate the corners in front from the others along each side, or
+   * leave a hole in the part. Otherwise `polygons` becomes the part, as convex polygons.
+   */
   bool Find(std::vector<Polygon>& polygons);
 
 private:

@@ -14,24 +14,26 @@
 namespace meniscus
 {
 
-/// A virtual vertex and its place in the object: a mean of at most three of its points. The weights
-/// are not negative, fall from the first on, and add up to 1.
+/**
+ * A virtual vertex and its place in the object: a mean of at most three of its points. The weights
+ * are not negative, fall from the first on, and add up to 1.
+ */
 struct ImagePoint
 {
   VirtualVertex Vertex;
   std::array<std::int64_t, 3> Source{ -1, -1, -1 };
   std::array<double, 3> Weight{ 1.0, 0.0, 0.0 };
 
-  /// The point of the object that this is an image of; -1 for a point made in between.
+  /** The point of the object that this is an image of; -1 for a point made in between. */
   std::int64_t GetSource() const { return this->Weight[0] == 1.0 ? this->Source[0] : -1; }
 
-  /// Points with a weight; they come first.
+  /** Points with a weight; they come first. */
   std::size_t GetNumberOfSources() const
   {
     return this->Weight[1] == 0.0 ? 1 : (this->Weight[2] == 0.0 ? 2 : 3);
   }
 
-  /// The largest weight first, so that a whole one is told at once. None may be negative.
+  /** The largest weight first, so that a whole one is told at once. None may be negative. */
   void SetSource(const std::array<std::int64_t, 3>& ids, const glm::dvec3& weights)
   {
     std::array<glm::length_t, 3> order = { 0, 1, 2 };
@@ -45,7 +47,7 @@ struct ImagePoint
   }
 };
 
-/// Images of cells: points, and cells of one kind as lists of them.
+/** Images of cells: points, and cells of one kind as lists of them. */
 struct ImageMesh
 {
   std::vector<ImagePoint> Points;
@@ -56,7 +58,7 @@ struct ImageMesh
 
   std::size_t GetNumberOfCells() const { return this->Ends.size(); }
 
-  /// Ends a cell whose points have been added to the connectivity.
+  /** Ends a cell whose points have been added to the connectivity. */
   void EndCell(std::int64_t sourceCell, int orientation)
   {
     this->Ends.push_back(static_cast<std::int64_t>(this->Connectivity.size()));
@@ -64,7 +66,7 @@ struct ImageMesh
     this->Orientations.push_back(static_cast<signed char>(orientation));
   }
 
-  /// A state to return to, when what has been added since turns out wrong.
+  /** A state to return to, when what has been added since turns out wrong. */
   struct Mark
   {
     std::size_t Points;

@@ -31,16 +31,18 @@ double GetSpread(double a, double b, double c)
 
 }
 
-/// A corner of a sub-cell.
+/** A corner of a sub-cell. */
 struct PrimitiveMapper::Node
 {
   glm::dvec2 B;
   RefractedPoint From;
 };
 
-/// A corner of a clipped polygon. The values are linear in the sub-cell; none is negative inside.
-/// Of a triangle: distance behind the membrane, barycentric coordinates, all times the cosine of
-/// the ray. Of a line: distance, places from either end, and how far beside the line.
+/**
+ * A corner of a clipped polygon. The values are linear in the sub-cell; none is negative inside.
+ * Of a triangle: distance behind the membrane, barycentric coordinates, all times the cosine of
+ * the ray. Of a line: distance, places from either end, and how far beside the line.
+ */
 struct PrimitiveMapper::Corner
 {
   glm::dvec2 B;
@@ -49,7 +51,7 @@ struct PrimitiveMapper::Corner
   unsigned Constraints;
 };
 
-/// What a clipped corner lies on.
+/** What a clipped corner lies on. */
 struct PrimitiveMapper::Boundary
 {
   int Node = -1;          ///< the sub-cell's corner that it is
@@ -59,10 +61,10 @@ struct PrimitiveMapper::Boundary
   glm::length_t End = -1; ///< the corner of the primitive that it is
 };
 
-/// The primitive in local coordinates; point = corner[0] + l0 axis[0] + l1 axis[1].
+/** The primitive in local coordinates; point = corner[0] + l0 axis[0] + l1 axis[1]. */
 struct PrimitiveMapper::Context
 {
-  /// From corner k to k + 1, by its constraint k: the ends in one order for all primitives.
+  /** From corner k to k + 1, by its constraint k: the ends in one order for all primitives. */
   struct Side
   {
     ObjectLine Line;
@@ -118,7 +120,7 @@ struct PrimitiveMapper::Context
     return weight.x * this->Corners[0] + weight.y * this->Corners[1] + weight.z * this->Corners[2];
   }
 
-  /// Weights of a point's sources in the order of the corners.
+  /** Weights of a point's sources in the order of the corners. */
   glm::dvec3 GetWeight(const ImagePoint& point) const
   {
     glm::dvec3 weight(0.0);
@@ -131,7 +133,7 @@ struct PrimitiveMapper::Context
     return weight;
   }
 
-  /// Weights of a point in the plane.
+  /** Weights of a point in the plane. */
   glm::dvec3 GetWeight(const glm::dvec3& point) const
   {
     const glm::dvec3 away = point - this->Corners[0];

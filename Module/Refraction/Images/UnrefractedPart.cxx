@@ -24,7 +24,7 @@ constexpr int Bisections = 44;
 // To see whether a cut is straight: a thousandth of a side.
 constexpr int CoarseBisections = 10;
 
-/// A place in the primitive, in barycentric coordinates.
+/** A place in the primitive, in barycentric coordinates. */
 struct Place
 {
   glm::dvec3 Weight;

@@ -30,24 +30,24 @@
 namespace meniscus
 {
 
-/// A point of a patch and its normal, which is not normalised.
+/** A point of a patch and its normal, which is not normalised. */
 struct PatchPoint
 {
   glm::dvec3 Position;
   glm::dvec3 Normal;
 };
 
-/// The same with derivatives by the second and the third barycentric coordinate.
+/** The same with derivatives by the second and the third barycentric coordinate. */
 struct PatchJet : PatchPoint
 {
   glm::dvec3 PositionBy[2];
   glm::dvec3 NormalBy[2];
 };
 
-/// Edge k is opposite to corner k; it runs from corner k + 1 to corner k + 2.
+/** Edge k is opposite to corner k; it runs from corner k + 1 to corner k + 2. */
 struct CurvedPatch
 {
-  /// Shorter normals have no direction to rely on; lengths below it are raised to it.
+  /** Shorter normals have no direction to rely on; lengths below it are raised to it. */
   static constexpr double ShortestNormal = 0.25;
 
   glm::dvec3 Corner[3];
@@ -56,7 +56,7 @@ struct CurvedPatch
   double Symmetric[3];  ///< s, 0 on a straight edge
   double Asymmetric[3]; ///< d
 
-  /// Sets s and d of edge k from its ends.
+  /** Sets s and d of edge k from its ends. */
   void FitEdge(int k)
   {
     const int i = (k + 1) % 3;
@@ -73,7 +73,7 @@ struct CurvedPatch
     return (1.0 - b.x - b.y) * this->Corner[0] + b.x * this->Corner[1] + b.y * this->Corner[2];
   }
 
-  /// Not normalised.
+  /** Not normalised. */
   glm::dvec3 GetNormal(const glm::dvec2& b) const
   {
     const double c = 1.0 - b.x - b.y;
@@ -95,8 +95,10 @@ struct CurvedPatch
     return result;
   }
 
-  /// The point of edge k with the weights of its ends: the same bit by bit in both patches that
-  /// share the edge, and the same as Evaluate where the weights are exact.
+  /**
+   * The point of edge k with the weights of its ends: the same bit by bit in both patches that
+   * share the edge, and the same as Evaluate where the weights are exact.
+   */
   PatchPoint EvaluateEdge(int k, double first, double second) const
   {
     const int i = (k + 1) % 3;
@@ -149,7 +151,7 @@ struct CurvedPatch
   }
 };
 
-/// How far outside its facet a point is: the smallest barycentric coordinate and its corner.
+/** How far outside its facet a point is: the smallest barycentric coordinate and its corner. */
 struct Outside
 {
   double Least;

@@ -82,8 +82,10 @@ bool SolveSymmetric(Matrix& a, double* x, int size)
   return true;
 }
 
-/// Least squares for (nx, ny) = gradient of a x^2/2 + b xy + c y^2/2 + d x^3/3 + e x^2 y + f x y^2
-/// + g y^3/3. All normal equations are moments of the neighbours' places.
+/**
+ * Least squares for (nx, ny) = gradient of a x^2/2 + b xy + c y^2/2 + d x^3/3 + e x^2 y + f x y^2
+ * + g y^3/3. All normal equations are moments of the neighbours' places.
+ */
 class GradientFit
 {
 public:
@@ -119,7 +121,7 @@ public:
     this->Right[6] += ny * yy;
   }
 
-  /// a, b and c in x; false if not even they are determined.
+  /** a, b and c in x; false if not even they are determined. */
   bool Solve(double* x) const
   {
     for (const int size : { Unknowns, 3 })

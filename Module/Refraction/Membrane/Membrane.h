@@ -21,7 +21,7 @@
 namespace meniscus
 {
 
-/// A triangle surface as plain arrays, borrowed for the length of a call.
+/** A triangle surface as plain arrays, borrowed for the length of a call. */
 struct MembraneInput
 {
   const double* Points = nullptr; ///< x, y, z per point
@@ -40,7 +40,7 @@ enum class MembraneStatus
   OneSided  ///< a Moebius band has no side for the eye
 };
 
-/// What validation found. Skipped triangles are counted once, under the first fault found.
+/** What validation found. Skipped triangles are counted once, under the first fault found. */
 struct MembraneReport
 {
   std::size_t OutOfRange = 0;        ///< skipped: a point index that does not exist
@@ -64,14 +64,16 @@ class Membrane
 public:
   using Facet = std::array<std::int32_t, 3>;
 
-  /// Replaces the surface. Unless `Ready` is returned, the membrane is empty afterwards.
+  /** Replaces the surface. Unless `Ready` is returned, the membrane is empty afterwards. */
   MembraneStatus Build(const MembraneInput& input);
 
-  /// Centre of the bounds of the used vertices. All positions below are relative to it, so that
-  /// large coordinate offsets cost no accuracy after the subtraction.
+  /**
+   * Centre of the bounds of the used vertices. All positions below are relative to it, so that
+   * large coordinate offsets cost no accuracy after the subtraction.
+   */
   const glm::dvec3& GetOrigin() const { return this->Origin; }
 
-  /// Largest absolute local coordinate of a used vertex, a positive number for a ready membrane.
+  /** Largest absolute local coordinate of a used vertex, a positive number for a ready membrane. */
   double GetRadius() const { return this->Radius; }
 
   const std::vector<glm::dvec3>& GetPositions() const { return this->Positions; }
@@ -82,7 +84,7 @@ public:
     return this->CellIds[static_cast<std::size_t>(facet)];
   }
   const MembraneReport& GetReport() const { return this->Report; }
-  /// Pieces that hang together by edges.
+  /** Pieces that hang together by edges. */
   const SurfacePieces& GetPieces() const { return this->Pieces; }
 
 private:
@@ -100,7 +102,7 @@ private:
   std::vector<std::int64_t> CellIds;
   MembraneReport Report;
 
-  /// Kept from shape to shape: a deforming membrane is wound as it was.
+  /** Kept from shape to shape: a deforming membrane is wound as it was. */
   std::vector<Facet> WoundFacets;
   std::vector<Facet> OrientedFacets;
   SurfacePieces Pieces;

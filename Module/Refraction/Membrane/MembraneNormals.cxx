@@ -63,7 +63,7 @@ private:
   bool WasEnabled;
 };
 
-/// The half-edge mesh and, per mesh vertex, the vertex of the membrane that it stands for.
+/** The half-edge mesh and, per mesh vertex, the vertex of the membrane that it stands for. */
 struct Topology
 {
   Mesh Surface;

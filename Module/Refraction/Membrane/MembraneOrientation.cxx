@@ -13,7 +13,7 @@ namespace
 
 using Facet = std::array<std::int32_t, 3>;
 
-/// The facets around each vertex.
+/** The facets around each vertex. */
 struct Fans
 {
   std::vector<std::int32_t> Start;
@@ -46,7 +46,7 @@ struct Fans
   }
 };
 
-/// The one other facet at an edge, and whether it runs through the edge the same way.
+/** The one other facet at an edge, and whether it runs through the edge the same way. */
 struct Across
 {
   std::int32_t Facet = -1; ///< -1: none, or several
@@ -81,7 +81,7 @@ Across FindAcross(
   return result;
 }
 
-/// Visits a piece from `seed`; `turned` says how each facet has to be wound to agree with it.
+/** Visits a piece from `seed`; `turned` says how each facet has to be wound to agree with it. */
 void FillPiece(const std::vector<Facet>& facets, const Fans& fans, std::int32_t seed,
   SurfacePieces& pieces, std::vector<bool>& turned, std::vector<std::int32_t>& piece)
 {

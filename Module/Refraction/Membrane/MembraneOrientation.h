@@ -13,7 +13,7 @@
 namespace meniscus
 {
 
-/// Pieces of a surface that hang together by edges with two facets.
+/** Pieces of a surface that hang together by edges with two facets. */
 struct SurfacePieces
 {
   std::vector<std::int32_t> PieceOf; ///< per facet

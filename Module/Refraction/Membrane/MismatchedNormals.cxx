@@ -15,11 +15,13 @@ namespace
 
 using Facet = std::array<std::int32_t, 3>;
 
-/// About as many vertices are looked at: enough for a majority, and nothing beside what a moving
-/// membrane costs anyway.
+/**
+ * About as many vertices are looked at: enough for a majority, and nothing beside what a moving
+ * membrane costs anyway.
+ */
 constexpr std::size_t Sample = 64;
 
-/// What is known of a vertex from the facets around it.
+/** What is known of a vertex from the facets around it. */
 struct Fan
 {
   std::vector<glm::dvec3> FacetNormals;
@@ -27,14 +29,16 @@ struct Fan
   double Rounding = 0.0;        ///< by which a facet's normal may be off, in radians
 };
 
-/// Whether a vertex is looked at: a hash, since vertices in rows would alias with a stride.
+/** Whether a vertex is looked at: a hash, since vertices in rows would alias with a stride. */
 bool IsSampled(std::int32_t vertex, std::uint32_t limit)
 {
   return static_cast<std::uint32_t>(vertex) * 2654435761U <= limit; // Knuth's, of the golden ratio
 }
 
-/// Corners in single precision are off by sqrt(3) / 2 units in the last place of the largest
-/// coordinate; two of them, over the lowest height, turn a facet by less than twice a unit.
+/**
+ * Corners in single precision are off by sqrt(3) / 2 units in the last place of the largest
+ * coordinate; two of them, over the lowest height, turn a facet by less than twice a unit.
+ */
 double RoundingOf(const std::array<glm::dvec3, 3>& corner, double doubleArea, double coordinate)
 {
   double longest = 0.0;

@@ -20,8 +20,10 @@
 namespace meniscus
 {
 
-/// `normal`, turned with the shortest turn of the unit vector `from` to `to`, which are less than a
-/// right angle apart.
+/**
+ * `normal`, turned with the shortest turn of the unit vector `from` to `to`, which are less than a
+ * right angle apart.
+ */
 inline glm::dvec3 TurnAlong(const glm::dvec3& normal, const glm::dvec3& from, const glm::dvec3& to)
 {
   const glm::dvec3 axis = glm::cross(from, to);
@@ -30,7 +32,7 @@ inline glm::dvec3 TurnAlong(const glm::dvec3& normal, const glm::dvec3& from, co
     axis * (glm::dot(axis, normal) / (1.0 + cosine));
 }
 
-/// Directions at a point, unit vectors away from it.
+/** Directions at a point, unit vectors away from it. */
 struct LitPoint
 {
   glm::dvec3 View;

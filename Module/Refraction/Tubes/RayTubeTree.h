@@ -30,7 +30,7 @@
 namespace meniscus
 {
 
-/// Box of start points and box of directions, in local units.
+/** Box of start points and box of directions, in local units. */
 struct TubeBounds
 {
   glm::dvec3 StartLow{ std::numeric_limits<double>::max() };
@@ -38,7 +38,7 @@ struct TubeBounds
   glm::dvec3 DirectionLow{ std::numeric_limits<double>::max() };
   glm::dvec3 DirectionHigh{ std::numeric_limits<double>::lowest() };
 
-  /// False for the bounds of a facet without a cell.
+  /** False for the bounds of a facet without a cell. */
   bool IsValid() const { return this->StartLow.x <= this->StartHigh.x; }
   void Add(const glm::dvec3& start, const glm::dvec3& direction);
 };
@@ -46,17 +46,19 @@ struct TubeBounds
 class RayTubeTree
 {
 public:
-  /// Points farther than this many units from the origin do not fit the floats of the tests.
+  /** Points farther than this many units from the origin do not fit the floats of the tests. */
   static constexpr double FarthestRadii = 0x1p100;
 
-  /// Facets are told apart by their index; `centroids` are those of all facets in local units.
-  /// `unit` is the length that becomes 1 inside.
+  /**
+   * Facets are told apart by their index; `centroids` are those of all facets in local units.
+   * `unit` is the length that becomes 1 inside.
+   */
   void Build(const std::vector<glm::dvec3>& centroids, double unit);
 
-  /// Another unit for the same topology; Refit must follow.
+  /** Another unit for the same topology; Refit must follow. */
   void SetUnit(double unit) { this->Scale = 1.0 / unit; }
 
-  /// Fits all bounds. `bounds(facet)` is called once per facet, from the threads of `loop`.
+  /** Fits all bounds. `bounds(facet)` is called once per facet, from the threads of `loop`. */
   void Refit(const std::function<TubeBounds(std::int32_t)>& bounds, const RangeLoop& loop);
 
   /**
@@ -67,7 +69,7 @@ public:
   template <typename Visitor>
   void Visit(const glm::dvec3& point, double padding, Visitor&& visit) const;
 
-  /// Whether the tube, widened by `padding`, of any facet that `chosen` marks may hold `point`.
+  /** Whether the tube, widened by `padding`, of any facet that `chosen` marks may hold `point`. */
   bool HasAny(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
   {
     bool found = false;
@@ -88,9 +90,11 @@ private:
   // which leaves at most three more entries on the stack.
   static constexpr std::size_t StackSize = 64;
 
-  /// Four children, each a node or one facet, side by side, so that one test of all four is one
-  /// loop over lanes. Rates are never zero and the lower ones are negated, so that all six
-  /// constraints read a + t b >= 0.
+  /**
+   * Four children, each a node or one facet, side by side, so that one test of all four is one
+   * loop over lanes. Rates are never zero and the lower ones are negated, so that all six
+   * constraints read a + t b >= 0.
+   */
   struct Node
   {
     float StartHigh[3][Width];

@@ -33,22 +33,24 @@ struct HeightField
   double Interior = 1.333;
 
   double GetHeight(double x, double z) const;
-  /// df / dx and df / dz.
+  /** df / dx and df / dz. */
   void GetSlopes(double x, double z, double& dx, double& dz) const;
   glm::dvec3 GetNormal(double x, double z) const;
 
-  /// `cells` x `cells` x 2 facets with exact normals.
+  /** `cells` x `cells` x 2 facets with exact normals. */
   MembraneMesh MakeMesh(int cells) const;
 
-  /// Every sight point of `point`. Pairs closer than about 1 / `grid` of the side may be missed.
+  /** Every sight point of `point`. Pairs closer than about 1 / `grid` of the side may be missed. */
   std::vector<glm::dvec3> FindSightPoints(
     const glm::dvec3& eye, const glm::dvec3& point, int grid = 200) const;
 
-  /// Where the sight ray of `direction` meets the surface, starting near `distance`.
+  /** Where the sight ray of `direction` meets the surface, starting near `distance`. */
   glm::dvec3 Intersect(const glm::dvec3& eye, const glm::dvec3& direction, double distance) const;
 
-  /// The point at `length` behind `onSurface` on the refracted ray, by n1 sin a = n2 sin b; nothing
-  /// under total internal reflection.
+  /**
+   * The point at `length` behind `onSurface` on the refracted ray, by n1 sin a = n2 sin b; nothing
+   * under total internal reflection.
+   */
   std::optional<glm::dvec3> Refract(
     const glm::dvec3& eye, const glm::dvec3& onSurface, double length) const;
 };

@@ -65,7 +65,7 @@ inline Interval operator*(const Interval& a, const Interval& b)
     std::max(std::max(p[0], p[1]), std::max(p[2], p[3])) };
 }
 
-/// `b` must be positive.
+/** `b` must be positive. */
 inline Interval operator/(const Interval& a, const Interval& b)
 {
   return a * Interval(1.0 / b.High, 1.0 / b.Low);

@@ -65,7 +65,7 @@ Triple<Interval> Direction(const Triple<Interval>& a, const Interval& length)
   return result;
 }
 
-/// F, its derivatives, and what bounds the effect of the surface's error on it.
+/** F, its derivatives, and what bounds the effect of the surface's error on it. */
 template <typename T>
 struct Equation
 {

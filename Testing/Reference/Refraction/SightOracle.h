@@ -26,8 +26,10 @@
 namespace meniscus::reference
 {
 
-/// How far a mesh's surface may be from the smooth one, and its unit normals from the smooth one's.
-/// The first covers rounding of eye and point, too.
+/**
+ * How far a mesh's surface may be from the smooth one, and its unit normals from the smooth one's.
+ * The first covers rounding of eye and point, too.
+ */
 struct SurfaceError
 {
   double Position = 0.0;
@@ -41,7 +43,7 @@ struct OracleImage
   int Orientation; ///< +1, or -1 where the image is mirrored
 };
 
-/// Where there may be any number of images, in x and z.
+/** Where there may be any number of images, in x and z. */
 struct OracleBox
 {
   double X;

@@ -18,7 +18,7 @@
 namespace meniscus::reference
 {
 
-/// A height and its derivatives.
+/** A height and its derivatives. */
 template <typename T>
 struct HeightJet
 {
@@ -32,7 +32,7 @@ struct HeightJet
 
 struct SmoothSurface
 {
-  /// amplitude sin(kx x + kz z + phase)
+  /** amplitude sin(kx x + kz z + phase) */
   struct Wave
   {
     double Amplitude;
@@ -40,7 +40,7 @@ struct SmoothSurface
     double Kz;
     double Phase;
   };
-  /// amplitude exp(-k k ((x - centreX)^2 + (z - centreZ)^2))
+  /** amplitude exp(-k k ((x - centreX)^2 + (z - centreZ)^2)) */
   struct Hill
   {
     double Amplitude;
@@ -52,8 +52,10 @@ struct SmoothSurface
   double Side = 200.0;
   std::vector<Wave> Waves;
   std::vector<Hill> Hills;
-  /// Radius of a sphere through the origin, above 0.75 `side`: positive with its centre above
-  /// (concave to the eye), negative below, 0: none.
+  /**
+   * Radius of a sphere through the origin, above 0.75 `side`: positive with its centre above
+   * (concave to the eye), negative below, 0: none.
+   */
   double SphereRadius = 0.0;
 
   HeightJet<double> At(double x, double z) const;
@@ -62,15 +64,17 @@ struct SmoothSurface
   glm::dvec3 GetPoint(double x, double z) const { return { x, this->At(x, z).F, z }; }
   glm::dvec3 GetNormal(double x, double z) const;
 
-  /// Where the ray from the eye meets the surface, by Newton's method from `distance`.
+  /** Where the ray from the eye meets the surface, by Newton's method from `distance`. */
   glm::dvec3 Intersect(const glm::dvec3& eye, const glm::dvec3& direction, double distance) const;
 
-  /// Unit direction behind `onSurface`, by n1 sin a = n2 sin b with `ratio` = n1 / n2; nothing from
-  /// behind and under total internal reflection.
+  /**
+   * Unit direction behind `onSurface`, by n1 sin a = n2 sin b with `ratio` = n1 / n2; nothing from
+   * behind and under total internal reflection.
+   */
   std::optional<glm::dvec3> Refract(
     const glm::dvec3& eye, const glm::dvec3& onSurface, double ratio) const;
 
-  /// `cells` x `cells` x 2 facets with exact normals.
+  /** `cells` x `cells` x 2 facets with exact normals. */
   MembraneMesh MakeMesh(int cells) const;
 };
 

@@ -106,7 +106,7 @@ glm::dvec3 GetEye(const ThesisRow& row)
   return { row.EyeOffset, row.EyeHeight, 0.0 };
 }
 
-/// `solve(point, vertex)` returns whether the one image of a point was found.
+/** `solve(point, vertex)` returns whether the one image of a point was found. */
 template <typename Solve>
 ErrorStatistics MeasureRow(const ThesisRow& row, const Solve& solve)
 {

@@ -19,7 +19,7 @@ enum class MembraneShape
   Square ///< side 200
 };
 
-/// One row of a table: its set-up and the printed numbers.
+/** One row of a table: its set-up and the printed numbers. */
 struct ThesisRow
 {
   const char* Table;
@@ -43,17 +43,19 @@ struct ErrorStatistics
   std::size_t Points = 0;
 };
 
-/// The 54 rows of Tables 4.1, 4.2, 4.3, 4.4 and 4.5, in the order of the thesis.
+/** The 54 rows of Tables 4.1, 4.2, 4.3, 4.4 and 4.5, in the order of the thesis. */
 const std::vector<ThesisRow>& GetThesisRows();
 
-/// Whether a row belongs to Tables 4.1, 4.2, 4.3 or 4.5, the 46 that count for the acceptance.
+/** Whether a row belongs to Tables 4.1, 4.2, 4.3 or 4.5, the 46 that count for the acceptance. */
 bool IsReproducible(const ThesisRow& row);
 
-/// Samples the error volume of a row: distance between each true point and the exact point behind
-/// its computed virtual vertex, with the thesis's flat facets.
+/**
+ * Samples the error volume of a row: distance between each true point and the exact point behind
+ * its computed virtual vertex, with the thesis's flat facets.
+ */
 ErrorStatistics MeasureThesisRow(const ThesisRow& row);
 
-/// The same with curved patches, over the points with exactly one image.
+/** The same with curved patches, over the points with exactly one image. */
 ErrorStatistics MeasureThesisRowCurved(const ThesisRow& row);
 
 }
