@@ -92,11 +92,13 @@
 #define vtkTetrahedraRayCastMapper_h
 
 #include "vtkMeniscusModule.h" // For export macro
+#include "vtkSmartPointer.h"   // for vtkSmartPointer
 #include "vtkUnstructuredGridVolumeMapper.h"
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
+class vtkRefractingInterfaceCollection;
 class vtkCompositeDataSet;
 class vtkDataSet;
 class vtkPolyData;
@@ -161,11 +163,27 @@ public:
    * there is a membrane. A ray that meets the membrane from behind leaves the interior. If they are
    * equal the membrane changes nothing and costs nothing.
    */
-  vtkSetMacro(ExteriorIndexOfRefraction, double);
-  vtkGetMacro(ExteriorIndexOfRefraction, double);
-  vtkSetMacro(InteriorIndexOfRefraction, double);
-  vtkGetMacro(InteriorIndexOfRefraction, double);
+  virtual void SetExteriorIndexOfRefraction(double index);
+  virtual double GetExteriorIndexOfRefraction();
+  virtual void SetInteriorIndexOfRefraction(double index);
+  virtual double GetInteriorIndexOfRefraction();
   /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
+   * first interface has the indices of refraction; more than one are an
+   * error when it draws through a membrane. Null stands for a list of one with default values,
+   * which is the default.
+   */
+  void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
+  vtkRefractingInterfaceCollection* GetInterfaces();
+  /** @} */
+
+  /**
+   * Modification time, which includes that of the interfaces.
+   */
+  vtkMTimeType GetMTime() override;
 
   /** @{ */
   /** Bounds of the input, of all leaves of a composite one, and of the membrane. */
@@ -204,8 +222,8 @@ public:
   /** What an opacity means over a length. */
   enum OpacityModels
   {
-    AttenuationCoefficient = 0,
-    OpacityPerUnitDistance = 1
+    ATTENUATION_COEFFICIENT = 0,
+    OPACITY_PER_UNIT_DISTANCE = 1
   };
 
   /** @{ */
@@ -216,7 +234,7 @@ public:
    * is what its image data mappers do: alpha = 1 - (1 - opacity)^(L / unit); there, opacities above
    * 1 - 2^-24 count as that.
    */
-  vtkSetClampMacro(OpacityModel, int, AttenuationCoefficient, OpacityPerUnitDistance);
+  vtkSetClampMacro(OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
   vtkGetMacro(OpacityModel, int);
   /** @} */
 
@@ -248,7 +266,7 @@ public:
   enum Integrations
   {
     EXACT = 0,
-    PreIntegrated = 1
+    PRE_INTEGRATED = 1
   };
 
   /** @{ */
@@ -260,7 +278,7 @@ public:
    * of one component without light and gradient opacity; else segments are integrated exactly,
    * after a warning where PRE_INTEGRATED would have made a difference.
    */
-  vtkSetClampMacro(Integration, int, EXACT, PreIntegrated);
+  vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
   vtkGetMacro(Integration, int);
   /** @} */
 
@@ -281,8 +299,8 @@ public:
   /** Which gradients light and gradient opacity go by. */
   enum GradientLocations
   {
-    CellGradients = 0,
-    VertexGradients = 1
+    CELL_GRADIENTS = 0,
+    VERTEX_GRADIENTS = 1
   };
 
   /** @{ */
@@ -292,7 +310,7 @@ public:
    * computed when first needed and after a change of mesh or scalars. Lengths are measured in world
    * coordinates.
    */
-  vtkSetClampMacro(Gradients, int, CellGradients, VertexGradients);
+  vtkSetClampMacro(Gradients, int, CELL_GRADIENTS, VERTEX_GRADIENTS);
   vtkGetMacro(Gradients, int);
   /** @} */
 
@@ -388,6 +406,8 @@ public:
   vtkTypeInt64 GetNumberOfMembraneBuilds();
   vtkTypeInt64 GetNumberOfSightUpdates();
   vtkTypeInt64 GetNumberOfRefractedEntryLists();
+  /** Deprecated name of GetNumberOfRefractedEntryLists(). */
+  vtkTypeInt64 GetNumberOfBentEntryLists();
   vtkTypeInt64 GetNumberOfEntryListBuilds();
   /** @} */
 
@@ -448,9 +468,9 @@ public:
   /** What RenderPart() draws. */
   enum MembraneParts
   {
-    WHOLE = 0,   ///< all that there is to see
-    InFront = 1, ///< what rays come to before the membrane or beside it
-    BEHIND = 2   ///< what rays come to behind the membrane; nothing without one
+    WHOLE = 0,    ///< all that there is to see
+    IN_FRONT = 1, ///< what rays come to before the membrane or beside it
+    BEHIND = 2    ///< what rays come to behind the membrane; nothing without one
   };
   /**
    * Render(), but one part only, for those who draw the membrane between them: vtkRefractionPass.
@@ -492,15 +512,13 @@ private:
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;
-  int OpacityModel = AttenuationCoefficient;
+  int OpacityModel = ATTENUATION_COEFFICIENT;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
   int Integration = EXACT;
   int PreIntegrationScalarSize = 256;
   int PreIntegrationLengthSize = 16;
-  int Gradients = VertexGradients;
-  double ExteriorIndexOfRefraction = 1.0;
-  double InteriorIndexOfRefraction = 1.333;
+  int Gradients = VERTEX_GRADIENTS;
   int MembranePart = WHOLE;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
   float ImageSampleDistance = 1.0f;
@@ -510,6 +528,7 @@ private:
   double ColorBias = 0.0;
   vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator stumbles over its default here
   double UsedImageSampleDistance = 1.0;
+  vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;
