@@ -1,9 +1,15 @@
 # cmake -DCOMMAND=... -DPICTURES=... -DCHECK=... -P RunPage.cmake: runs a command that writes pictures
-# to the current folder and checks each of them.
+# to the current folder and checks each of them. -DNEEDS=... names files without which it is skipped.
 if (NOT DEFINED ENV{DISPLAY})
   message("SKIPPED: no display")
   return ()
 endif ()
+foreach (file IN LISTS NEEDS)
+  if (NOT EXISTS "${file}")
+    message("SKIPPED: no file ${file}")
+    return ()
+  endif ()
+endforeach ()
 foreach (picture IN LISTS PICTURES)
   file(REMOVE "${picture}")
 endforeach ()
