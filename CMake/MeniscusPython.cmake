@@ -19,7 +19,7 @@ vtk_module_wrap_python(
   INSTALL_HEADERS    OFF)
 set(CMAKE_INSTALL_RPATH "${_meniscus_install_rpath}")
 
-# What the package says where it meets another VTK.
+# Message of the package if it finds another VTK.
 if (VTK_DIR MATCHES "/vtk_sdk/")
   set(MENISCUS_VTK_HINT "run pip install vtk==${VTK_VERSION}")
 else ()

@@ -15,7 +15,7 @@ PACKAGES_DISPLAY=(xvfb xauth libgl1-mesa-dri)
 PACKAGES_LINT=(clang-format-14 codespell git)
 PACKAGES_DOCS=(doxygen python3)
 PACKAGES_TIDY=(clang-tidy-14)
-# paraview-dev does not declare what its CMake files look for; python3-paraview conflicts with
+# paraview-dev does not declare all packages that its CMake files look for; python3-paraview conflicts with
 # python3-vtk9 and is unpacked by scripts/paraview-prefix instead.
 PACKAGES_PARAVIEW=(paraview paraview-dev libutfcpp-dev libpng-dev libx11-dev libopenmpi-dev
   openmpi-bin libgl-dev libopengl-dev libglew-dev libfreetype-dev libjpeg-dev liblz4-dev liblzma-dev
@@ -63,7 +63,7 @@ update_package_lists()
   fi
 }
 
-# install_packages NAME...: installs what is missing and does nothing when all is there.
+# install_packages NAME...: installs missing packages; does nothing if there are none.
 install_packages()
 {
   local missing
@@ -72,7 +72,7 @@ install_packages()
     return 0
   fi
   command -v apt-get > /dev/null ||
-    die "apt-get not found; install what corresponds to: ${missing[*]}"
+    die "apt-get not found; install the equivalents of: ${missing[*]}"
   say "Installing ${missing[*]}"
   update_package_lists
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"

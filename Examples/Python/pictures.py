@@ -241,7 +241,7 @@ def main():
     parser = argparse.ArgumentParser(description="The pictures of the README")
     parser.add_argument("field", help="tetrahedra, a .vtu file")
     parser.add_argument("object", help="a mesh whose surface lies in the pool, a .vtu file")
-    parser.add_argument("--output", default=".", help="where to, an existing folder")
+    parser.add_argument("--output", default=".", help="existing folder for the pictures")
     parser.add_argument("--size", type=int, default=480, help="height in pixels")
     options = parser.parse_args()
     draw_volume(options.field, os.path.join(options.output, "readme-volume.png"), options.size)

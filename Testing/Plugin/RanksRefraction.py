@@ -55,8 +55,8 @@ def write_refracted(name, membrane):
 
 
 def write_light(name, membrane):
-    """What cells get, by their points, and what points get; the light is at infinity. The floor
-    reaches beyond the membrane, so that the parts of it have other bounds than all of it."""
+    """Writes the light on cells, by their points, and the light on points, from a light at infinity. The
+    floor extends beyond the membrane, so that the bounds of its parts differ from those of the whole."""
     light = simple.RefractedLight(Geometry=sheet(10, -3.5), Membrane=membrane)
     light.LightPosition = [0.2, -0.1, 1]
     data = servermanager.Fetch(light)

@@ -66,7 +66,7 @@ def check_motion(view, refracted):
 
 
 def check_views(view, refracted):
-    """Of two views that show it the first counts; one that does not show it never."""
+    """If two views show the result the first counts; a view that does not show it never does."""
     other = PluginTesting.make_view()
     assert simple.GetActiveView() is other
     simple.Render(other)  # the first one resets the camera
@@ -89,7 +89,7 @@ def check_views(view, refracted):
 
 
 def check_downstream(view, refracted):
-    """What is shown may be what another filter makes of it."""
+    """The view may show the output of another filter applied to the result."""
     simple.Hide(refracted, view)
     higher = simple.Transform(Input=refracted)
     simple.Show(higher, view)
@@ -105,7 +105,7 @@ def check_downstream(view, refracted):
 
 
 def check_culling(view, refracted):
-    """With ViewCulling the whole camera is followed: what it does not show is left out."""
+    """With ViewCulling the whole camera is followed: geometry that it does not show is left out."""
     place(view, PLACES[0])
     plain = screenshot(view, "FollowNotCulled")
     refracted.ViewCulling = 1

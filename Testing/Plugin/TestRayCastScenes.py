@@ -214,7 +214,7 @@ def check_translucent(view, display, grid):
     simple.Hide(grid, view)
     surfaces = screenshot(view, "TranslucentSurface")
     assert renderer.GetUseDepthPeelingForVolumes() == 1
-    # Behind all of it: what of the volume is over the surface adds light to it.
+    # The surface is behind the volume: the part of the volume over it adds light.
     assert surfaces != both
     for of_both, of_volume, of_surface in zip(both, alone, surfaces):
         for channel in range(3):

@@ -47,8 +47,8 @@ def follow_camera(refracted, view):
 
 
 def check_camera(refracted, view):
-    """The eye follows the camera; with ViewCulling, what the camera does not show is left out and
-    the picture is the same."""
+    """The eye follows the camera. With ViewCulling, geometry that the camera does not show is left out
+    and the picture is the same."""
     follow_camera(refracted, view)
     for position in [(0.5, -0.4, 3.0), (1.5, 0.3, 1.5)]:
         view.CameraPosition = position

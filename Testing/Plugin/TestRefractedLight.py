@@ -51,7 +51,7 @@ def test():
     light.LightPosition = [0, 0, 1]
     low, high = irradiance(servermanager.Fetch(light))
     print("through waves %.2f to %.2f" % (low, high))
-    # Crests and troughs bend by 0.8 each way: a thin lens, T / (1 -+ 0.8 (1 - 1 / n) depth)^2 in the
+    # Crests and troughs have a curvature of 0.8: a thin lens, T / (1 -+ 0.8 (1 - 1 / n) depth)^2 in the
     # middle, less in a cell.
     lens = 0.8 * (1 - 1 / WATER)
     assert transmittance(1) / (1 + lens) ** 2 - 0.02 < low < 0.75

@@ -81,7 +81,7 @@ class TestBadInput(unittest.TestCase):
         self.assertEqual(refraction.GetOutput().GetNumberOfPoints(), 0)
 
     def test_other_vtk(self):
-        """Another vtkmodules, or none, is an ImportError that says what to do."""
+        """Another vtkmodules, or none, is an ImportError that explains the correction."""
         other = ("class vtkVersion:\n    @staticmethod\n"
                  "    def GetVTKVersion():\n        return '9.9.9'\n")
         for text, message in [(other, "are VTK 9.9.9"), ("raise ImportError", "No vtkmodules")]:

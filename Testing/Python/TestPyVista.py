@@ -22,7 +22,7 @@ from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkVolume
 SIZE = 150
 CELLS = 12
 LIMITS = (3.0, 8.0)
-# Entries of a table as PyVista keeps them, in bytes: what comes out has no rounding to allow for.
+# Entries of a table as PyVista keeps them, in bytes, so that results are not rounded.
 OPACITIES = (numpy.arange(256) // 3).astype(numpy.uint8)
 ENTRIES = numpy.linspace(0.0, 1.0, 256)
 
