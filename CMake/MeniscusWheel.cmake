@@ -4,8 +4,8 @@
 # The libraries of VTK are in a folder next to the package if they come as a wheel.
 list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN/../vtkmodules")
 
-# VTK's wheels for Linux are built with the old std::string of libstdc++. Libraries that link to them
-# must use the same one.
+# VTK's wheels for Linux are built with the old std::string of libstdc++. Libraries that link to
+# them must use the same one.
 include(CheckCXXSourceCompiles)
 set(_meniscus_strings [[
 #include <vtkInformation.h>

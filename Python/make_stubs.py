@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes vtkMeniscus.pyi, type stubs of the classes for editors and type checkers, from the signatures
-in the doc strings of VTK's wrappers. (Debian's VTK has no vtkmodules.generate_pyi.)
+"""Writes vtkMeniscus.pyi, type stubs of the classes for editors and type checkers, from the
+signatures in the doc strings of VTK's wrappers. (Debian's VTK has no vtkmodules.generate_pyi.)
 
 Argument: the file to write. The package must be importable."""
 import re
@@ -54,12 +54,14 @@ def class_lines(name, kind):
 
 
 def main():
-    classes = [(name, kind) for name, kind in sorted(vars(module).items()) if isinstance(kind, type)]
+    classes = [(name, kind) for name, kind in sorted(vars(module).items())
+               if isinstance(kind, type)]
     body = [line for name, kind in classes for line in class_lines(name, kind)]
     names = set(re.findall(r"\bvtk\w+", "\n".join(body))) - {name for name, _ in classes}
     theirs = {name: loaded for loaded in sorted(sys.modules) if loaded.startswith("vtkmodules.vtk")
               for name in names & set(vars(sys.modules[loaded]))}
-    lines = ["from typing import Any, Callable, Mapping, MutableSequence, Sequence, Tuple, overload", ""]
+    lines = ["from typing import (",
+             "    Any, Callable, Mapping, MutableSequence, Sequence, Tuple, overload)", ""]
     lines += ["from %s import %s" % (theirs[name], name) for name in sorted(theirs)]
     lines += ["%s = Any" % name for name in sorted(names - set(theirs))]
     lines += ["Callback = Callable[..., Any]", "Pointer = Any", "Buffer = Any"]

@@ -18,7 +18,9 @@ def _find_limits(mesh, scalars, clim):
     """Range of the colour map, by the rules of plotter.add_volume()."""
     if clim is None:
         is_bytes = mesh[scalars].dtype == "uint8"
-        return (0.0, 255.0) if is_bytes else tuple(float(end) for end in mesh.get_data_range(scalars))
+        if is_bytes:
+            return 0.0, 255.0
+        return tuple(float(end) for end in mesh.get_data_range(scalars))
     if isinstance(clim, (int, float)):
         return -float(clim), float(clim)
     lowest, highest = clim
@@ -28,8 +30,8 @@ def _find_limits(mesh, scalars, clim):
 def _make_functions(table, limits):
     """Colour and opacity functions of a vtkLookupTable over a range of scalars.
 
-    PyVista's own functions of a table run over the indices of its entries up to version 0.44, and over its
-    range from 0.45 on. The entries read by VTK's interface are the same in all versions.
+    PyVista's own functions of a table run over the indices of its entries up to version 0.44, and
+    over its range from 0.45 on. The entries read by VTK's interface are the same in all versions.
     """
     colors = vtkColorTransferFunction()
     opacity = vtkPiecewiseFunction()
@@ -50,8 +52,8 @@ def add_volume(plotter, mesh, scalars=None, *, cmap=None, opacity="linear", clim
     mesh: a PyVista dataset with tetrahedra or other cells.
     scalars: name of a point or cell array with one component; default: the active scalars.
     cmap, opacity, clim, name: as for plotter.add_volume().
-    opacity_unit_distance: the length over which opacities are given, in the mesh's unit; default: the
-        mesh's diagonal divided by the cube root of its number of cells.
+    opacity_unit_distance: the length over which opacities are given, in the mesh's unit; default:
+        the mesh's diagonal divided by the cube root of its number of cells.
     properties: properties of the mapper, such as BlendMode=1.
     """
     mesh = pyvista.wrap(mesh)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of the README: a field on tetrahedra as a volume, and the surface of a mesh in a pool.
+"""The pictures of the README: a field on tetrahedra as a volume, and a mesh's surface in a pool.
 
 usage: pictures.py FIELD.vtu OBJECT.vtu [--output DIR] [--size N]
 

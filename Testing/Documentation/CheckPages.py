@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that the documentation is covered by tests: every block of code is in a language and on a page
-that a test runs; every line of an indented block is a command that a script or test runs, or whose
-parts exist; every script, preset, page, heading and picture that a page names exists.
+"""Checks that the documentation is covered by tests: every block of code is in a language and on a
+page that a test runs; every line of an indented block is a command that a script or test runs, or
+whose parts exist; every script, preset, page, heading and picture that a page names exists.
 
 Arguments: the root of the project, then PAGE:LANGUAGE for each language that is run."""
 import json
@@ -14,7 +14,7 @@ import sys
 
 # Commands, and the files that run each of them.
 COMMANDS = [
-    (r"scripts/[a-z-]+( |$)", []),  # checked below
+    (r"scripts/[a-z0-9-]+( |$)", []),  # checked below
     (r"cmake --preset [a-z]+( |$)", []),  # checked below
     (r"cmake --build build(-[a-z]+)?$", ["scripts/common.sh"]),
     (r"cmake --install build --prefix ", ["Testing/InstallFresh.cmake"]),
@@ -69,11 +69,14 @@ def command_faults(root, command):
 
 
 def indented_commands(text):
-    """Lines of indented blocks outside fenced ones, without comments, continued lines joined."""
+    """Lines of indented blocks outside fenced ones, without comments, continued lines joined. An
+    indented line after text continues its paragraph or list item."""
     fenced = re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
     joined = re.sub(r"\\\n *", "", fenced)
-    for line in re.findall(r"^ {4}(.*\S)", joined, re.MULTILINE):
-        yield re.sub(r" +#.*", "", line.strip())
+    for block in re.split(r"\n\s*\n", joined):
+        if block.startswith("    "):
+            for line in block.strip().split("\n"):
+                yield re.sub(r" +#.*", "", line.strip())
 
 
 def pages(root):
@@ -110,14 +113,15 @@ def check(root, page, run, presets):
             faults.append("only the first block of %s is run" % language)
     for command in indented_commands(text):
         faults += command_faults(root, command)
-    for script in re.findall(r"(?:^|[\s`/])(scripts/[a-z-]+)", text):
+    for script in re.findall(r"(?:^|[\s`/])(scripts/[a-z0-9-]+)", text):
         if not os.access(os.path.join(root, script), os.X_OK):
             faults.append("there is no " + script)
-    for preset in re.findall(r"--preset ([a-z-]+)", text):
+    for preset in re.findall(r"--preset ([a-z0-9-]+)", text):
         if preset not in presets:
             faults.append("there is no preset " + preset)
     for link in re.findall(r"\]\(([^)#\s]+)\)", text):
-        if "://" not in link and not os.path.exists(os.path.join(root, os.path.dirname(page), link)):
+        target = os.path.join(root, os.path.dirname(page), link)
+        if "://" not in link and not os.path.exists(target):
             faults.append("a link to %s, which does not exist" % link)
     for link, anchor in re.findall(r"\]\(([^)#\s]*)#([^)\s]+)\)", text):
         target = os.path.normpath(os.path.join(os.path.dirname(page), link)) if link else page

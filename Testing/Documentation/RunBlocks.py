@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the code blocks of a page of the documentation, concatenated to one program, in an empty folder
-with the data files that the pages read.
+"""Runs the code blocks of a page of the documentation, concatenated to one program, in an empty
+folder with the data files that the pages read.
 
 Arguments: the page, the language of the blocks, the folder; then the pictures that must exist
-afterwards and must not be uniform. A language `extract:LANGUAGE` only writes the blocks to the folder,
-to be compiled (cpp, cmake) or run by another program."""
+afterwards and must not be uniform. A language `extract:LANGUAGE` only writes the blocks to the
+folder, to be compiled (cpp, cmake) or run by another program."""
 import os
 import re
 import shutil

@@ -1,5 +1,6 @@
-# cmake -DCOMMAND=... -DPICTURES=... -DCHECK=... -P RunPage.cmake: runs a command that writes pictures
-# to the current folder and checks each of them. -DNEEDS=... names files without which it is skipped.
+# cmake -DCOMMAND=... -DPICTURES=... -DCHECK=... -P RunPage.cmake: runs a command that writes
+# pictures to the current folder and checks each of them. -DNEEDS=... names files without which it
+# is skipped.
 if (NOT DEFINED ENV{DISPLAY})
   message("SKIPPED: no display")
   return ()

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin works together with another plugin that adds representations, and after it was loaded again.
-At the second time ParaView 5.11 logs `Plugin load failed: No plugin loaded yet`, as for its own plugins."""
+"""The plugin works together with another plugin that adds representations, and after it was loaded
+again. At the second time ParaView 5.11 logs `Plugin load failed: No plugin loaded yet`, as for its
+own plugins."""
 import os
 
 import PluginTesting

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A volume seen through a membrane: an isosurface is where the filter Refracted Geometry puts its
-contour; the membrane follows its pipeline, animated or read per time step, may have blocks, and can be
-taken away again."""
+contour; the membrane follows its pipeline, animated or read per time step, may have blocks, and can
+be taken away again."""
 import os
 
 import PluginTesting
@@ -19,8 +19,8 @@ SERIES = """<VTKFile type="Collection"><Collection>
 </Collection></VTKFile>
 """
 FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
-# Share of the covered pixels along the outlines, where one picture shows points and the other triangles: a
-# length of about 4 diameters, two pixels wide.
+# Share of the covered pixels along the outlines, where one picture shows points and the other
+# triangles: a length of about 4 diameters, two pixels wide.
 SHARE_OF_OUTLINES = 0.05
 
 

@@ -89,10 +89,10 @@ class TestPyVista(unittest.TestCase):
                 plotter, image, "height", opacity_unit_distance=4.0,
                 OpacityModel=vtkTetrahedraRayCastMapper.OPACITY_PER_UNIT_DISTANCE, **options))
             self.assertGreater((own.max(axis=2) > 30).sum(), 0.1 * SIZE * SIZE)
-            # Inside the picture both integrate the same functions of the same linear field; PyVista's mapper
-            # takes two samples per cell and looks opacities up in a table, its silhouette is that of the
-            # voxels' centres. Functions on another range differ by 40 in the mean, and by more than 100 in
-            # one of ten values.
+            # Inside the picture both integrate the same functions of the same linear field;
+            # PyVista's mapper takes two samples per cell and looks opacities up in a table, its
+            # silhouette is that of the voxels' centres. Functions on another range differ by 40 in
+            # the mean, and by more than 100 in one of ten values.
             difference = abs(helper - own)
             self.assertLess(difference.mean(), 2.0, limits)
             self.assertLessEqual(numpy.percentile(difference, 90), 4, limits)
