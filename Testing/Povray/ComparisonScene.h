@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Scenes that Meniscus and POV-Ray draw: coloured triangles behind an exact refracting surface.
+ * Light plays no part, so that pictures differ by the geometry of refraction alone. All rays of a
+ * camera meet the surface, or miss its body as a whole: the rim of a membrane is not in view.
+ */
+#ifndef meniscus_ComparisonScene_h
+#define meniscus_ComparisonScene_h
+
+#include <glm/vec3.hpp>
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+/// Name of the cell array of an object with the colours, 3 unsigned chars.
+extern const char* const ColorArrayName;
+
+/// A refracting surface as a membrane and as a primitive of POV-Ray, both of one formula.
+struct RefractingSurface
+{
+  /// Triangles with exact points and normals; null for a scene without refraction.
+  vtkSmartPointer<vtkPolyData> Membrane;
+  /// Statement of POV-Ray without its closing brace; materials follow. The solid's inside is the
+  /// interior medium.
+  std::string Primitive;
+  double Exterior = 1.0;
+  double Interior = 1.333;
+};
+
+struct SceneCamera
+{
+  glm::dvec3 Eye{ 0.0 };
+  glm::dvec3 Target{ 0.0 };
+  glm::dvec3 Up{ 0.0, 1.0, 0.0 };
+  double ViewAngle = 30.0; ///< degrees, vertical and horizontal: pictures are square
+};
+
+struct ComparisonScene
+{
+  std::string Name;
+  std::string Description;
+  SceneCamera Camera;
+  RefractingSurface Surface;
+  /// Triangles with the cell array `ColorArrayName`.
+  std::vector<vtkSmartPointer<vtkPolyData>> Objects;
+  glm::dvec3 Background{ 0.2, 0.4, 0.6 }; ///< multiples of 1/255
+};
+
+/// Objects without a refracting surface, a plane, a sphere, waves, a bowl.
+std::vector<ComparisonScene> makeComparisonScenes();
+
+} // namespace test
+} // namespace meniscus
+
+#endif

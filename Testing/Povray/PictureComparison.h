@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_PictureComparison_h
+#define meniscus_PictureComparison_h
+
+#include "VolumeScene.h"
+
+namespace meniscus
+{
+namespace test
+{
+
+/// Difference of a picture of flat colours from its reference.
+struct PictureComparison
+{
+  /// Pixels that are off by more than this in a channel are counted.
+  static constexpr int Threshold = 8;
+
+  int Pixels = 0;
+  int Different = 0;
+  /// Pixels one of whose eight neighbours has another colour in the reference: within a pixel and a
+  /// half of an edge.
+  int EdgePixels = 0;
+  /// Different pixels that are no edge pixels.
+  int DifferentOffEdges = 0;
+  /// Pairs of neighbours in a row or a column that differ in the reference. At least the length of
+  /// all edges in pixels: an edge that leans by an angle a crosses |cos a| + |sin a| >= 1 of them
+  /// per pixel of length.
+  int EdgeLength = 0;
+
+  double fraction() const;
+  double fractionOffEdges() const;
+};
+
+/// Compares pixel against the same pixel; both pictures have the same size.
+PictureComparison comparePictures(const ByteImage& picture, const ByteImage& reference);
+
+/**
+ * Largest number of different pixels of a picture whose edges are off by at most `offset` pixels.
+ * A displaced edge sweeps an area of at most length * offset, and as many middles of pixels are in
+ * it on average; three standard deviations of that number as a Poisson variable are added.
+ */
+double largestDifference(const PictureComparison& comparison, double offset);
+
+} // namespace test
+} // namespace meniscus
+
+#endif
