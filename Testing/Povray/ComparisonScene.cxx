@@ -217,7 +217,10 @@ RefractingSurface makeSphere(double radius)
     const Surface inwards = ball(glm::dvec3(0.0), size);
     return [inwards](double u, double v) { return inwards(1.0 - u, v); };
   };
-  result.Membrane = makeMembrane(outwards(radius), outwards(1.0), 128, 64);
+  constexpr int Meridians = 256;
+  result.Membrane = makeMembrane(outwards(radius), outwards(1.0), Meridians, Meridians / 2);
+  // The sagitta of a triangle's longest edge, the diagonal of a square of 2 pi / Meridians.
+  result.OutlineError = radius * (1.0 - std::cos(std::sqrt(2.0) * Pi / Meridians));
   result.Primitive = "sphere { <0, 0, 0>, " + povrayNumber(radius);
   return result;
 }
@@ -296,6 +299,29 @@ ComparisonScene makePlaneScene()
 }
 
 //------------------------------------------------------------------------------
+ComparisonScene makeWindowScene()
+{
+  ComparisonScene scene;
+  scene.Name = "window";
+  scene.Description = "objects above plane water, seen from below through Snell's window";
+  scene.Camera = { { 2.0, -20.0, -3.0 }, { 0.0, 0.0, 4.0 }, { 0.0, 0.0, 1.0 }, 110.0 };
+  scene.Surface.Membrane = makeMembrane(
+    parallelogram({ -400.0, 0.0, -400.0 }, { 800.0, 0.0, 0.0 }, { 0.0, 0.0, 800.0 }),
+    [](double, double) { return glm::dvec3(0.0, -1.0, 0.0); }, 8, 8);
+  scene.Surface.Primitive = "plane { <0, -1, 0>, 0";
+  scene.Surface.Exterior = 1.333;
+  scene.Surface.Interior = 1.0;
+  scene.Objects = { makeTiles(
+                      parallelogram({ -41.0, 34.0, -37.0 }, { 83.0, 3.0, 0.0 }, { 0.0, 2.0, 71.0 }),
+                      { { 16, 14 }, { 1, 1 } }, White, Slate),
+    makeTiles(ball({ -19.0, 13.0, 9.0 }, 9.0), { { 12, 6 }, { 4, 4 } }, Red, Yellow),
+    makeTiles(stump({ 21.0, 1.0, 13.0 }, 3.0, { 25.0, 36.0, 10.0 }, 7.0), { { 10, 12 }, { 4, 1 } },
+      Green, Lime),
+    makeTiles(torus({ 7.0, 9.0, -13.0 }, 8.0, 2.5), { { 16, 6 }, { 3, 3 } }, Purple, Pink) };
+  return scene;
+}
+
+//------------------------------------------------------------------------------
 ComparisonScene makeSphereScene()
 {
   ComparisonScene scene;
@@ -341,8 +367,10 @@ ComparisonScene makeBowlScene()
   // The rim, at 75 degrees, is behind the edge of the picture.
   scene.Surface = makeBowl(10.0, 75.0, 64);
   scene.Objects = { makeTiles(parallelogram(
-                                { 56.0, -15.0, -61.0 }, { -1.0, 0.0, 120.0 }, { 3.0, 70.0, 1.0 }),
-                      { { 17, 10 }, { 1, 1 } }, White, Slate),
+                                { -61.0, -22.0, -57.0 }, { 130.0, 3.0, 0.0 }, { 2.0, 0.0, 120.0 }),
+                      { { 19, 18 }, { 1, 1 } }, Pink, Green),
+    makeTiles(parallelogram({ 56.0, -15.0, -61.0 }, { -1.0, 0.0, 120.0 }, { 3.0, 70.0, 1.0 }),
+      { { 17, 10 }, { 1, 1 } }, White, Slate),
     makeTiles(ball({ 24.0, 29.0, 6.0 }, 5.5), { { 12, 6 }, { 4, 4 } }, Red, Yellow),
     makeTiles(stump({ 9.0, -12.0, -3.0 }, 5.0, { 5.0, 17.0, -2.0 }, 1.5), { { 10, 10 }, { 4, 1 } },
       Green, Lime),
@@ -359,7 +387,8 @@ std::vector<ComparisonScene> makeComparisonScenes()
   straight.Name = "straight";
   straight.Description = "the objects of the bowl without a refracting surface";
   straight.Surface = RefractingSurface();
-  return { straight, makePlaneScene(), makeSphereScene(), makeWavesScene(), makeBowlScene() };
+  return { straight, makePlaneScene(), makeWindowScene(), makeSphereScene(), makeWavesScene(),
+    makeBowlScene() };
 }
 
 } // namespace test

@@ -32,6 +32,9 @@ struct RefractingSurface
   /// Statement of POV-Ray without its closing brace; materials follow. The solid's inside is the
   /// interior medium.
   std::string Primitive;
+  /// Distance of the membrane's triangles from the exact surface where its outline is in view, a
+  /// length in world coordinates: vtkRefractionPass shows the membrane as far as its triangles go.
+  double OutlineError = 0.0;
   double Exterior = 1.0;
   double Interior = 1.333;
 };
@@ -55,7 +58,7 @@ struct ComparisonScene
   glm::dvec3 Background{ 0.2, 0.4, 0.6 }; ///< multiples of 1/255
 };
 
-/// Objects without a refracting surface, a plane, a sphere, waves, a bowl.
+/// Objects without a refracting surface; behind a plane, from both sides, a sphere, waves, a bowl.
 std::vector<ComparisonScene> makeComparisonScenes();
 
 } // namespace test

@@ -24,28 +24,35 @@ bool isDifferent(const unsigned char* a, const unsigned char* b)
   return largest > PictureComparison::Threshold;
 }
 
-/// Whether the pixel differs from the one at an offset; false where the picture ends.
-bool differsFromNeighbor(const ByteImage& image, int x, int y, int right, int up)
+/// Number of pixels among a pixel and its eight neighbours, and how many of them differ from a
+/// colour.
+struct Neighborhood
 {
-  const int i = x + right;
-  const int j = y + up;
-  return i >= 0 && i < image.Width && j >= 0 && j < image.Height &&
-    isDifferent(image.pixel(x, y), image.pixel(i, j));
-}
+  int Pixels = 0;
+  int Different = 0;
+};
 
-bool isEdge(const ByteImage& image, int x, int y)
+Neighborhood lookAround(const ByteImage& reference, int x, int y, const unsigned char* color)
 {
-  for (int up = -1; up <= 1; ++up)
+  Neighborhood result;
+  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, reference.Height - 1); ++j)
   {
-    for (int right = -1; right <= 1; ++right)
+    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, reference.Width - 1); ++i)
     {
-      if (differsFromNeighbor(image, x, y, right, up))
-      {
-        return true;
-      }
+      ++result.Pixels;
+      result.Different += isDifferent(reference.pixel(i, j), color);
     }
   }
-  return false;
+  return result;
+}
+
+/// Number of pairs that the pixel differs in: with its neighbours to the right and above.
+int countEdges(const ByteImage& reference, int x, int y)
+{
+  const unsigned char* const color = reference.pixel(x, y);
+  const bool right = x + 1 < reference.Width && isDifferent(color, reference.pixel(x + 1, y));
+  const bool above = y + 1 < reference.Height && isDifferent(color, reference.pixel(x, y + 1));
+  return int(right) + int(above);
 }
 
 } // anonymous namespace
@@ -70,17 +77,39 @@ PictureComparison comparePictures(const ByteImage& picture, const ByteImage& ref
   {
     for (int x = 0; x < reference.Width; ++x)
     {
-      const bool isWrong = isDifferent(picture.pixel(x, y), reference.pixel(x, y));
-      const bool onEdge = isEdge(reference, x, y);
+      const unsigned char* const color = picture.pixel(x, y);
+      const unsigned char* const truth = reference.pixel(x, y);
+      const bool isEdge = lookAround(reference, x, y, truth).Different > 0;
       ++result.Pixels;
-      result.Different += isWrong;
-      result.EdgePixels += onEdge;
-      result.DifferentOffEdges += isWrong && !onEdge;
-      result.EdgeLength += differsFromNeighbor(reference, x, y, 1, 0);
-      result.EdgeLength += differsFromNeighbor(reference, x, y, 0, 1);
+      result.EdgePixels += isEdge;
+      result.EdgeLength += countEdges(reference, x, y);
+      if (!isDifferent(color, truth))
+      {
+        continue;
+      }
+      ++result.Different;
+      result.DifferentOffEdges += !isEdge;
+      const Neighborhood around = lookAround(reference, x, y, color);
+      if (around.Different == around.Pixels)
+      {
+        result.Foreign.push_back({ x, y });
+      }
     }
   }
   return result;
+}
+
+//------------------------------------------------------------------------------
+bool hasColor(const ByteImage& picture, const unsigned char* color)
+{
+  for (std::size_t i = 0; i < picture.Rgb.size(); i += 3)
+  {
+    if (!isDifferent(&picture.Rgb[i], color))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 //------------------------------------------------------------------------------

@@ -5,10 +5,19 @@
 
 #include "VolumeScene.h"
 
+#include <vector>
+
 namespace meniscus
 {
 namespace test
 {
+
+/// Place of a pixel in a picture.
+struct PixelPlace
+{
+  int X = 0;
+  int Y = 0;
+};
 
 /// Difference of a picture of flat colours from its reference.
 struct PictureComparison
@@ -18,11 +27,14 @@ struct PictureComparison
 
   int Pixels = 0;
   int Different = 0;
-  /// Pixels one of whose eight neighbours has another colour in the reference: within a pixel and a
-  /// half of an edge.
+  /// Pixels that differ from one of their eight neighbours in the reference.
   int EdgePixels = 0;
   /// Different pixels that are no edge pixels.
   int DifferentOffEdges = 0;
+  /// Different pixels whose colour neither the pixel nor one of its neighbours has in the
+  /// reference: slivers thinner than a pixel, or errors that no displaced edge explains. Those off
+  /// edges are among them.
+  std::vector<PixelPlace> Foreign;
   /// Pairs of neighbours in a row or a column that differ in the reference. At least the length of
   /// all edges in pixels: an edge that leans by an angle a crosses |cos a| + |sin a| >= 1 of them
   /// per pixel of length.
@@ -34,6 +46,9 @@ struct PictureComparison
 
 /// Compares pixel against the same pixel; both pictures have the same size.
 PictureComparison comparePictures(const ByteImage& picture, const ByteImage& reference);
+
+/// Whether a picture has a pixel of that colour, within the threshold.
+bool hasColor(const ByteImage& picture, const unsigned char* color);
 
 /**
  * Largest number of different pixels of a picture whose edges are off by at most `offset` pixels.

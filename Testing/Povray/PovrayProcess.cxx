@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PovrayProcess.h"
 
-#include "PovrayWriter.h"
 #include "StrictImage.h"
 
 #include <cerrno>
@@ -62,15 +61,15 @@ bool runProgram(const std::string& program, const std::string& argument, const s
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-ByteImage drawByPovray(
-  const ComparisonScene& scene, int pixels, const std::string& program, const std::string& folder)
+ByteImage PovrayProcess::draw(const ComparisonScene& scene, const std::string& name, int pixels,
+  const PictureWindow& window) const
 {
-  const std::string path = folder + "/" + scene.Name;
+  const std::string path = this->Folder + "/" + name;
   const std::string picture = path + "-povray.png";
   unlink(picture.c_str()); // so that an old picture is not taken for a new one
-  if (!writeText(path + ".pov", povrayScene(scene)) ||
-    !writeText(path + ".ini", povrayOptions(scene.Name, pixels)) ||
-    !runProgram(program, scene.Name + ".ini", folder, scene.Name + ".log"))
+  if (!writeText(path + ".pov", povrayScene(scene, window)) ||
+    !writeText(path + ".ini", povrayOptions(name, pixels)) ||
+    !runProgram(this->Program, name + ".ini", this->Folder, name + ".log"))
   {
     return ByteImage();
   }

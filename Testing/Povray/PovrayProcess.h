@@ -3,7 +3,7 @@
 #ifndef meniscus_PovrayProcess_h
 #define meniscus_PovrayProcess_h
 
-#include "ComparisonScene.h"
+#include "PovrayWriter.h"
 #include "VolumeScene.h"
 
 #include <string>
@@ -13,13 +13,20 @@ namespace meniscus
 namespace test
 {
 
-/**
- * Writes FOLDER/NAME.pov and FOLDER/NAME.ini, runs POV-Ray there and reads FOLDER/NAME-povray.png.
- * POV-Ray's messages go to FOLDER/NAME.log; a picture without pixels says that it failed. To draw
- * the picture again by hand: `cd FOLDER; povray NAME.ini`.
- */
-ByteImage drawByPovray(
-  const ComparisonScene& scene, int pixels, const std::string& program, const std::string& folder);
+/// How POV-Ray is started, and where.
+struct PovrayProcess
+{
+  std::string Program = "povray";
+  std::string Folder;
+
+  /**
+   * Writes NAME.pov and NAME.ini into the folder, runs POV-Ray there and reads NAME-povray.png. Its
+   * messages go to NAME.log; a picture without pixels says that it failed. To draw the picture
+   * again by hand: `cd FOLDER; povray NAME.ini`.
+   */
+  ByteImage draw(const ComparisonScene& scene, const std::string& name, int pixels,
+    const PictureWindow& window = {}) const;
+};
 
 } // namespace test
 } // namespace meniscus

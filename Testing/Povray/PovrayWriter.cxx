@@ -58,15 +58,16 @@ std::string povrayVector(const glm::dvec3& value)
 }
 
 //------------------------------------------------------------------------------
-std::string povrayCamera(const SceneCamera& camera)
+std::string povrayCamera(const SceneCamera& camera, const PictureWindow& window)
 {
   const glm::dvec3 forward = glm::normalize(camera.Target - camera.Eye);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.Up));
   const glm::dvec3 up = glm::cross(right, forward);
   const double width = 2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera.ViewAngle));
   return "camera {\n  perspective\n  location " + povrayVector(camera.Eye) + "\n  direction " +
-    povrayVector(forward) + "\n  right " + povrayVector(width * right) + "\n  up " +
-    povrayVector(width * up) + "\n}\n";
+    povrayVector(forward + width * (window.Right * right + window.Up * up)) + "\n  right " +
+    povrayVector(width * window.Size * right) + "\n  up " + povrayVector(width * window.Size * up) +
+    "\n}\n";
 }
 
 //------------------------------------------------------------------------------
@@ -125,11 +126,12 @@ std::string povraySurface(const RefractingSurface& surface)
 }
 
 //------------------------------------------------------------------------------
-std::string povrayScene(const ComparisonScene& scene)
+std::string povrayScene(const ComparisonScene& scene, const PictureWindow& window)
 {
   std::string text = "// " + scene.Description + "\n#version 3.7;\n" +
-    "global_settings { assumed_gamma 1 max_trace_level 20 }\n" + povrayCamera(scene.Camera) +
-    "background { rgb " + povrayVector(scene.Background) + " }\n" + povraySurface(scene.Surface);
+    "global_settings { assumed_gamma 1 max_trace_level 20 }\n" +
+    povrayCamera(scene.Camera, window) + "background { rgb " + povrayVector(scene.Background) +
+    " }\n" + povraySurface(scene.Surface);
   for (vtkPolyData* object : scene.Objects)
   {
     text += povrayMesh(object);

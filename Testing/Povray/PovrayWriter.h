@@ -18,12 +18,21 @@ std::string povrayNumber(double value);
 /// A vector, "<x, y, z>".
 std::string povrayVector(const glm::dvec3& value);
 
+/// A square of a camera's picture, which goes from -1/2 to 1/2 to the right and up.
+struct PictureWindow
+{
+  double Right = 0.0; ///< of its middle
+  double Up = 0.0;
+  double Size = 1.0;
+};
+
 /**
- * Camera whose ray through the middle of a pixel is VTK's. POV-Ray's ray is direction + x right +
- * y up with x and y from -1/2 to 1/2; given as vectors in world coordinates, they need no change of
- * POV-Ray's left-handed axes and no angle (POV-Ray's is horizontal, VTK's vertical).
+ * Camera of a square of the picture. The ray through the middle of a pixel is VTK's: POV-Ray's is
+ * direction + x right + y up with x and y from -1/2 to 1/2; given as vectors in world coordinates,
+ * they need no change of POV-Ray's left-handed axes and no angle (POV-Ray's is horizontal, VTK's
+ * vertical).
  */
-std::string povrayCamera(const SceneCamera& camera);
+std::string povrayCamera(const SceneCamera& camera, const PictureWindow& window = {});
 
 /// Mesh of the triangles, each in its flat colour.
 std::string povrayMesh(vtkPolyData* object);
@@ -32,9 +41,10 @@ std::string povrayMesh(vtkPolyData* object);
 std::string povraySurface(const RefractingSurface& surface);
 
 /// The whole scene.
-std::string povrayScene(const ComparisonScene& scene);
+std::string povrayScene(const ComparisonScene& scene, const PictureWindow& window = {});
 
-/// Options of a picture of NAME.pov to NAME.png: no antialiasing, no gamma, nothing on a display.
+/// Options of a picture of NAME.pov to NAME-povray.png: no antialiasing, no gamma, nothing on a
+/// display.
 std::string povrayOptions(const std::string& name, int pixels);
 
 } // namespace test

@@ -29,7 +29,7 @@ void placeCamera(vtkRenderer* renderer, const ComparisonScene& scene)
   camera->SetFocalPoint(view.Target.x, view.Target.y, view.Target.z);
   camera->SetViewUp(view.Up.x, view.Up.y, view.Up.z);
   camera->SetViewAngle(view.ViewAngle);
-  camera->SetClippingRange(1.0, 1000.0);
+  camera->SetClippingRange(5.0, 200.0);
 }
 
 /// An actor of flat triangles in the colours of their cells.
