@@ -165,6 +165,8 @@ constexpr Color Green{ 30, 140, 70 };
 constexpr Color Lime{ 170, 230, 120 };
 constexpr Color Purple{ 130, 40, 150 };
 constexpr Color Pink{ 250, 170, 210 };
+constexpr Color Sand{ 210, 180, 140 };
+constexpr Color Brown{ 100, 70, 50 };
 
 //------------------------------------------------------------------------------
 /// Triangles with normals, joined where the parameters end. The normal is on the side of the cross
@@ -219,8 +221,10 @@ RefractingSurface makeSphere(double radius)
   };
   constexpr int Meridians = 256;
   result.Membrane = makeMembrane(outwards(radius), outwards(1.0), Meridians, Meridians / 2);
-  // The sagitta of a triangle's longest edge, the diagonal of a square of 2 pi / Meridians.
-  result.OutlineError = radius * (1.0 - std::cos(std::sqrt(2.0) * Pi / Meridians));
+  // At most the circle's length times the sagitta of a triangle's longest edge, the diagonal of a
+  // square of 2 pi / Meridians.
+  result.OutlineArea =
+    2.0 * Pi * radius * radius * (1.0 - std::cos(std::sqrt(2.0) * Pi / Meridians));
   result.Primitive = "sphere { <0, 0, 0>, " + povrayNumber(radius);
   return result;
 }
@@ -368,7 +372,7 @@ ComparisonScene makeBowlScene()
   scene.Surface = makeBowl(10.0, 75.0, 64);
   scene.Objects = { makeTiles(parallelogram(
                                 { -61.0, -22.0, -57.0 }, { 130.0, 3.0, 0.0 }, { 2.0, 0.0, 120.0 }),
-                      { { 19, 18 }, { 1, 1 } }, Pink, Green),
+                      { { 19, 18 }, { 1, 1 } }, Sand, Brown),
     makeTiles(parallelogram({ 56.0, -15.0, -61.0 }, { -1.0, 0.0, 120.0 }, { 3.0, 70.0, 1.0 }),
       { { 17, 10 }, { 1, 1 } }, White, Slate),
     makeTiles(ball({ 24.0, 29.0, 6.0 }, 5.5), { { 12, 6 }, { 4, 4 } }, Red, Yellow),
@@ -379,6 +383,28 @@ ComparisonScene makeBowlScene()
 }
 
 } // anonymous namespace
+
+//------------------------------------------------------------------------------
+ObjectColors findObjectColors(const ComparisonScene& scene, const unsigned char* color)
+{
+  for (vtkPolyData* object : scene.Objects)
+  {
+    auto* colors =
+      vtkUnsignedCharArray::SafeDownCast(object->GetCellData()->GetArray(ColorArrayName));
+    ObjectColors found;
+    for (vtkIdType i = 0; i < colors->GetNumberOfTuples(); ++i)
+    {
+      Color one;
+      colors->GetTypedTuple(i, one.data());
+      found.insert(one);
+    }
+    if (found.count({ color[0], color[1], color[2] }) > 0)
+    {
+      return found;
+    }
+  }
+  return {};
+}
 
 //------------------------------------------------------------------------------
 std::vector<ComparisonScene> makeComparisonScenes()

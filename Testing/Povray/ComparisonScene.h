@@ -13,6 +13,8 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
+#include <array>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,9 +34,10 @@ struct RefractingSurface
   /// Statement of POV-Ray without its closing brace; materials follow. The solid's inside is the
   /// interior medium.
   std::string Primitive;
-  /// Distance of the membrane's triangles from the exact surface where its outline is in view, a
-  /// length in world coordinates: vtkRefractionPass shows the membrane as far as its triangles go.
-  double OutlineError = 0.0;
+  /// Area between the outlines of the exact surface and of its triangles as the eye sees them, in
+  /// world units at the camera's target: vtkRefractionPass shows the membrane as far as its
+  /// triangles go. 0 where no outline is in view.
+  double OutlineArea = 0.0;
   double Exterior = 1.0;
   double Interior = 1.333;
 };
@@ -57,6 +60,12 @@ struct ComparisonScene
   std::vector<vtkSmartPointer<vtkPolyData>> Objects;
   glm::dvec3 Background{ 0.2, 0.4, 0.6 }; ///< multiples of 1/255
 };
+
+/// The colours of an object's triangles, each once.
+using ObjectColors = std::set<std::array<unsigned char, 3>>;
+
+/// Colours of the object that has a colour; none for the background. No two objects share one.
+ObjectColors findObjectColors(const ComparisonScene& scene, const unsigned char* color);
 
 /// Objects without a refracting surface; behind a plane, from both sides, a sphere, waves, a bowl.
 std::vector<ComparisonScene> makeComparisonScenes();

@@ -24,26 +24,20 @@ bool isDifferent(const unsigned char* a, const unsigned char* b)
   return largest > PictureComparison::Threshold;
 }
 
-/// Number of pixels among a pixel and its eight neighbours, and how many of them differ from a
-/// colour.
-struct Neighborhood
+/// Whether one of the eight neighbours differs.
+bool isEdge(const ByteImage& reference, int x, int y)
 {
-  int Pixels = 0;
-  int Different = 0;
-};
-
-Neighborhood lookAround(const ByteImage& reference, int x, int y, const unsigned char* color)
-{
-  Neighborhood result;
   for (int j = std::max(y - 1, 0); j <= std::min(y + 1, reference.Height - 1); ++j)
   {
     for (int i = std::max(x - 1, 0); i <= std::min(x + 1, reference.Width - 1); ++i)
     {
-      ++result.Pixels;
-      result.Different += isDifferent(reference.pixel(i, j), color);
+      if (isDifferent(reference.pixel(i, j), reference.pixel(x, y)))
+      {
+        return true;
+      }
     }
   }
-  return result;
+  return false;
 }
 
 /// Number of pairs that the pixel differs in: with its neighbours to the right and above.
@@ -60,7 +54,7 @@ int countEdges(const ByteImage& reference, int x, int y)
 //------------------------------------------------------------------------------
 double PictureComparison::fraction() const
 {
-  return this->Pixels > 0 ? double(this->Different) / this->Pixels : 0.0;
+  return this->Pixels > 0 ? double(this->Different.size()) / this->Pixels : 0.0;
 }
 
 //------------------------------------------------------------------------------
@@ -77,22 +71,14 @@ PictureComparison comparePictures(const ByteImage& picture, const ByteImage& ref
   {
     for (int x = 0; x < reference.Width; ++x)
     {
-      const unsigned char* const color = picture.pixel(x, y);
-      const unsigned char* const truth = reference.pixel(x, y);
-      const bool isEdge = lookAround(reference, x, y, truth).Different > 0;
+      const bool onEdge = isEdge(reference, x, y);
       ++result.Pixels;
-      result.EdgePixels += isEdge;
+      result.EdgePixels += onEdge;
       result.EdgeLength += countEdges(reference, x, y);
-      if (!isDifferent(color, truth))
+      if (isDifferent(picture.pixel(x, y), reference.pixel(x, y)))
       {
-        continue;
-      }
-      ++result.Different;
-      result.DifferentOffEdges += !isEdge;
-      const Neighborhood around = lookAround(reference, x, y, color);
-      if (around.Different == around.Pixels)
-      {
-        result.Foreign.push_back({ x, y });
+        result.Different.push_back({ x, y });
+        result.DifferentOffEdges += !onEdge;
       }
     }
   }
@@ -100,22 +86,29 @@ PictureComparison comparePictures(const ByteImage& picture, const ByteImage& ref
 }
 
 //------------------------------------------------------------------------------
-bool hasColor(const ByteImage& picture, const unsigned char* color)
+bool isExplained(const unsigned char* pixel, const ByteImage& closeUp, const ObjectColors& object)
 {
-  for (std::size_t i = 0; i < picture.Rgb.size(); i += 3)
+  bool hasObject = false;
+  bool hasOther = false;
+  for (std::size_t i = 0; i < closeUp.Rgb.size(); i += 3)
   {
-    if (!isDifferent(&picture.Rgb[i], color))
+    const unsigned char* const color = &closeUp.Rgb[i];
+    if (!isDifferent(color, pixel))
     {
       return true;
     }
+    const bool isObjects = std::any_of(object.begin(), object.end(),
+      [color](const auto& one) { return !isDifferent(color, one.data()); });
+    hasObject = hasObject || isObjects;
+    hasOther = hasOther || !isObjects;
   }
-  return false;
+  return hasObject && hasOther;
 }
 
 //------------------------------------------------------------------------------
-double largestDifference(const PictureComparison& comparison, double offset)
+double largestDifference(const PictureComparison& comparison, double offset, double area)
 {
-  const double expected = comparison.EdgeLength * offset;
+  const double expected = comparison.EdgeLength * offset + area;
   return expected + 3.0 * std::sqrt(expected);
 }
 

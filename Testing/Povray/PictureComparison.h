@@ -3,6 +3,7 @@
 #ifndef meniscus_PictureComparison_h
 #define meniscus_PictureComparison_h
 
+#include "ComparisonScene.h"
 #include "VolumeScene.h"
 
 #include <vector>
@@ -26,15 +27,12 @@ struct PictureComparison
   static constexpr int Threshold = 8;
 
   int Pixels = 0;
-  int Different = 0;
+  /// Places of the different pixels.
+  std::vector<PixelPlace> Different;
   /// Pixels that differ from one of their eight neighbours in the reference.
   int EdgePixels = 0;
   /// Different pixels that are no edge pixels.
   int DifferentOffEdges = 0;
-  /// Different pixels whose colour neither the pixel nor one of its neighbours has in the
-  /// reference: slivers thinner than a pixel, or errors that no displaced edge explains. Those off
-  /// edges are among them.
-  std::vector<PixelPlace> Foreign;
   /// Pairs of neighbours in a row or a column that differ in the reference. At least the length of
   /// all edges in pixels: an edge that leans by an angle a crosses |cos a| + |sin a| >= 1 of them
   /// per pixel of length.
@@ -47,15 +45,20 @@ struct PictureComparison
 /// Compares pixel against the same pixel; both pictures have the same size.
 PictureComparison comparePictures(const ByteImage& picture, const ByteImage& reference);
 
-/// Whether a picture has a pixel of that colour, within the threshold.
-bool hasColor(const ByteImage& picture, const unsigned char* color);
+/**
+ * Whether a displaced edge explains a pixel, after the reference's close-up around its middle: the
+ * close-up has the pixel's colour; or it has the border of the object that has this colour (another
+ * of its colours, and one that is not its), where a face that the object hides may come out on top.
+ */
+bool isExplained(const unsigned char* pixel, const ByteImage& closeUp, const ObjectColors& object);
 
 /**
- * Largest number of different pixels of a picture whose edges are off by at most `offset` pixels.
- * A displaced edge sweeps an area of at most length * offset, and as many middles of pixels are in
- * it on average; three standard deviations of that number as a Poisson variable are added.
+ * Largest number of different pixels of a picture whose edges are off by at most `offset` pixels,
+ * and another `area` of so many pixels may be wrong. A displaced edge sweeps an area of at most
+ * length * offset, and as many middles of pixels are in it on average; three standard deviations of
+ * that number as a Poisson variable are added.
  */
-double largestDifference(const PictureComparison& comparison, double offset);
+double largestDifference(const PictureComparison& comparison, double offset, double area);
 
 } // namespace test
 } // namespace meniscus
