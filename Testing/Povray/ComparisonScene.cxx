@@ -310,8 +310,8 @@ ComparisonScene makeWindowScene()
   scene.Description = "objects above plane water, seen from below through Snell's window";
   scene.Camera = { { 2.0, -20.0, -3.0 }, { 0.0, 0.0, 4.0 }, { 0.0, 0.0, 1.0 }, 110.0 };
   scene.Surface.Membrane = makeMembrane(
-    parallelogram({ -400.0, 0.0, -400.0 }, { 800.0, 0.0, 0.0 }, { 0.0, 0.0, 800.0 }),
-    [](double, double) { return glm::dvec3(0.0, -1.0, 0.0); }, 8, 8);
+    parallelogram({ -60.0, 0.0, -60.0 }, { 120.0, 0.0, 0.0 }, { 0.0, 0.0, 120.0 }),
+    [](double, double) { return glm::dvec3(0.0, -1.0, 0.0); }, 120, 120);
   scene.Surface.Primitive = "plane { <0, -1, 0>, 0";
   scene.Surface.Exterior = 1.333;
   scene.Surface.Interior = 1.0;
