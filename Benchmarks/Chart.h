@@ -12,15 +12,17 @@ namespace meniscus
 namespace benchmark
 {
 
-/// Points of one colour and mark, joined by a line if there are several.
+/** Points of one colour and mark, joined by a line if there are several. */
 struct ChartSeries
 {
   std::string Label;
   std::vector<std::pair<double, double>> Points;
 };
 
-/// Draws a chart with two logarithmic axes to a PNG file. Points that are not positive are left
-/// out. False if there is none, or if the file cannot be written.
+/**
+ * Draws a chart with two logarithmic axes to a PNG file. Points that are not positive are left
+ * out. False if there is none, or if the file cannot be written.
+ */
 bool writeChart(const std::string& file, const std::string& title, const std::string& xTitle,
   const std::string& yTitle, const std::vector<ChartSeries>& series);
 

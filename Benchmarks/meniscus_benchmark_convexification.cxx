@@ -46,7 +46,7 @@ namespace
 
 using Triangle = std::array<vtkIdType, 3>;
 
-/// Points (the mesh's that are used, then TetGen's own) and cells outside of the mesh.
+/** Points (the mesh's that are used, then TetGen's own) and cells outside of the mesh. */
 struct Filling
 {
   std::vector<double> Points;

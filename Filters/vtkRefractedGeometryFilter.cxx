@@ -80,13 +80,13 @@ public:
 // stays cached, and what a pipeline has replaced goes.
 meniscus::SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPolyData* input)
 {
-  this->Blocks.remove_if([](const meniscus::SolvedBlock& block) { return !block.source; });
+  this->Blocks.remove_if([](const meniscus::SolvedBlock& block) { return !block.Source; });
   auto block = std::find_if(this->Blocks.begin(), this->Blocks.end(),
-    [input](const meniscus::SolvedBlock& candidate) { return candidate.source == input; });
+    [input](const meniscus::SolvedBlock& candidate) { return candidate.Source == input; });
   if (block == this->Blocks.end())
   {
     block = this->Blocks.emplace(this->Blocks.end());
-    block->source = input;
+    block->Source = input;
   }
   block->UpdatePoints();
   return *block;
@@ -136,20 +136,20 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetOptions(
   vtkRefractedGeometryFilter* self) const
 {
   meniscus::OutputOptions options;
-  options.pointsPrecision = self->OutputPointsPrecision;
-  options.schlick = self->ReflectanceModel == SCHLICK;
-  options.virtualNormals = self->VirtualNormals;
+  options.PointsPrecision = self->OutputPointsPrecision;
+  options.Schlick = self->ReflectanceModel == SCHLICK;
+  options.VirtualNormals = self->VirtualNormals;
   const double* light = self->LightDirection;
   const double length = std::hypot(light[0], light[1], light[2]);
-  options.isLightAtEye = !(length > 0.0);
-  if (!options.isLightAtEye)
+  options.IsLightAtEye = !(length > 0.0);
+  if (!options.IsLightAtEye)
   {
-    options.light = glm::dvec3(light[0], light[1], light[2]) / length;
+    options.Light = glm::dvec3(light[0], light[1], light[2]) / length;
   }
   const meniscus::RefractionScene::Eye& eye = this->Scene.GetEye();
-  options.eye = glm::dvec3(eye[0], eye[1], eye[2]);
-  options.exterior = eye[3];
-  options.interior = eye[4];
+  options.Eye = glm::dvec3(eye[0], eye[1], eye[2]);
+  options.Exterior = eye[3];
+  options.Interior = eye[4];
   return options;
 }
 
@@ -184,22 +184,22 @@ void vtkRefractedGeometryFilter::vtkInternals::Select(
   if (this->IsViewActive)
   {
     block.UpdateTopology();
-    const bool isSolved = block.eyeUpdate == this->Scene.GetNumberOfEyeUpdates();
-    if (isSolved && block.selection.isActive && block.viewChange == this->Scene.GetViewChange())
+    const bool isSolved = block.EyeUpdate == this->Scene.GetNumberOfEyeUpdates();
+    if (isSolved && block.Selection.IsActive && block.ViewChange == this->Scene.GetViewChange())
     {
       return;
     }
     selection =
-      meniscus::SelectInView(this->Scene, block.topology, input->GetNumberOfCells(), block.points);
-    block.viewChange = this->Scene.GetViewChange();
+      meniscus::SelectInView(this->Scene, block.Topology, input->GetNumberOfCells(), block.Points);
+    block.ViewChange = this->Scene.GetViewChange();
   }
-  if (!(selection == block.selection))
+  if (!(selection == block.Selection))
   {
-    block.cellsReady = false;
+    block.CellsReady = false;
     // Images of all points are not kept chunk by chunk.
-    const bool isNew = block.all && selection.isActive && !block.selection.isActive;
-    block.eyeUpdate = isNew ? -1 : block.eyeUpdate;
-    block.selection = std::move(selection);
+    const bool isNew = block.All && selection.IsActive && !block.Selection.IsActive;
+    block.EyeUpdate = isNew ? -1 : block.EyeUpdate;
+    block.Selection = std::move(selection);
   }
 }
 
@@ -208,19 +208,19 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
   vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block)
 {
   constexpr std::size_t chunkSize = meniscus::ObjectImages::Chunk;
-  const std::size_t count = block.points.size() / 3;
-  if (block.eyeUpdate != this->Scene.GetNumberOfEyeUpdates() || block.all)
+  const std::size_t count = block.Points.size() / 3;
+  if (block.EyeUpdate != this->Scene.GetNumberOfEyeUpdates() || block.All)
   {
-    block.all = false;
-    block.images.reset();
-    block.eyeUpdate = this->Scene.GetNumberOfEyeUpdates();
-    block.vertices.assign(count, meniscus::VirtualVertex());
-    block.solvedChunks.assign((count + chunkSize - 1) / chunkSize, false);
+    block.All = false;
+    block.Images.reset();
+    block.EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
+    block.Vertices.assign(count, meniscus::VirtualVertex());
+    block.SolvedChunks.assign((count + chunkSize - 1) / chunkSize, false);
   }
   std::vector<std::size_t> open;
-  for (std::size_t i = 0; i < block.solvedChunks.size(); ++i)
+  for (std::size_t i = 0; i < block.SolvedChunks.size(); ++i)
   {
-    if (!block.solvedChunks[i] && block.selection.HasPoint(i * chunkSize))
+    if (!block.SolvedChunks[i] && block.Selection.HasPoint(i * chunkSize))
     {
       open.push_back(i);
     }
@@ -230,21 +230,21 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        this->Scene.Solve(block.points.data(), open[i] * chunkSize,
-          std::min((open[i] + 1) * chunkSize, count), block.vertices.data());
+        this->Scene.Solve(block.Points.data(), open[i] * chunkSize,
+          std::min((open[i] + 1) * chunkSize, count), block.Vertices.data());
       }
     });
   if (!done)
   {
-    block.eyeUpdate = -1;
+    block.EyeUpdate = -1;
     return false;
   }
   for (const std::size_t chunk : open)
   {
-    block.solvedChunks[chunk] = true;
+    block.SolvedChunks[chunk] = true;
     for (std::size_t i = chunk * chunkSize; i < std::min((chunk + 1) * chunkSize, count); ++i)
     {
-      this->Count(block.vertices[i].state);
+      this->Count(block.Vertices[i].State);
     }
   }
   return true;
@@ -256,32 +256,32 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
 {
   const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
   block.UpdateTopology();
-  const bool pointsReady = block.eyeUpdate == this->Scene.GetNumberOfEyeUpdates() && block.all;
-  if (pointsReady && block.cellsReady && block.tolerance == tolerance &&
-    block.closesSeams == self->CloseSeams)
+  const bool pointsReady = block.EyeUpdate == this->Scene.GetNumberOfEyeUpdates() && block.All;
+  if (pointsReady && block.CellsReady && block.Tolerance == tolerance &&
+    block.ClosesSeams == self->CloseSeams)
   {
     return true;
   }
-  block.cellsReady = false;
+  block.CellsReady = false;
   if (!this->SolveAllPoints(self, block, pointsReady))
   {
     return false;
   }
-  block.tolerance = tolerance;
-  block.closesSeams = self->CloseSeams;
-  block.cells = meniscus::AllImages();
-  block.images->SetTolerance(tolerance);
+  block.Tolerance = tolerance;
+  block.ClosesSeams = self->CloseSeams;
+  block.Cells = meniscus::AllImages();
+  block.Images->SetTolerance(tolerance);
   const auto loop = [this, self](std::size_t parts, const meniscus::RangeBody& body)
   { return this->Run(self, 0.5, 1.0, static_cast<vtkIdType>(parts), 1, body); };
-  const meniscus::ObjectTopology* topology = &block.topology;
-  if (block.selection.isActive)
+  const meniscus::ObjectTopology* topology = &block.Topology;
+  if (block.Selection.IsActive)
   {
-    block.selected = meniscus::SelectCells(block.topology, block.selection);
-    topology = &block.selected;
+    block.Selected = meniscus::SelectCells(block.Topology, block.Selection);
+    topology = &block.Selected;
   }
-  block.cellsReady =
-    meniscus::MapCells(input, *topology, *block.images, self->CloseSeams, loop, block.cells);
-  return block.cellsReady;
+  block.CellsReady =
+    meniscus::MapCells(input, *topology, *block.Images, self->CloseSeams, loop, block.Cells);
+  return block.CellsReady;
 }
 
 //------------------------------------------------------------------------------
@@ -289,53 +289,53 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
 bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady)
 {
-  const std::size_t count = block.points.size() / 3;
+  const std::size_t count = block.Points.size() / 3;
   if (!isReady)
   {
     const glm::dvec3& origin = this->Scene.GetCurved().GetMembrane().GetOrigin();
     bool mayCross = false;
     for (std::size_t i = 0; i < count && !mayCross; ++i)
     {
-      const double* p = block.points.data() + 3 * i;
+      const double* p = block.Points.data() + 3 * i;
       mayCross = !this->Scene.GetCurved().IsBehindAll(glm::dvec3(p[0], p[1], p[2]) - origin);
     }
     if (mayCross)
     {
       this->Scene.GetCurved().PrepareSides();
     }
-    block.all = true;
-    block.vertices.clear();
-    block.images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
-    block.images->SetPoints(block.points.data(), count, mayCross);
+    block.All = true;
+    block.Vertices.clear();
+    block.Images = std::make_unique<meniscus::ObjectImages>(this->Scene.GetCurved());
+    block.Images->SetPoints(block.Points.data(), count, mayCross);
     this->Scene.GetCurved().PrepareField();
-    block.images->PrepareUnique(count, meniscus::FacetLoop);
+    block.Images->PrepareUnique(count, meniscus::FacetLoop);
   }
   std::vector<bool> known(count);
   for (std::size_t i = 0; i < count; ++i)
   {
-    known[i] = block.images->GetState(i) != meniscus::ImageState::NotAsked;
+    known[i] = block.Images->GetState(i) != meniscus::ImageState::NotAsked;
   }
-  const bool same = isReady && block.images->GetWanted() == block.selection.chunks;
+  const bool same = isReady && block.Images->GetWanted() == block.Selection.Chunks;
   if (same)
   {
     return true; // cells alone have changed
   }
-  block.images->SetWanted(block.selection.chunks);
-  block.eyeUpdate = -1;
+  block.Images->SetWanted(block.Selection.Chunks);
+  block.EyeUpdate = -1;
   if (!this->Run(self, 0.0, 0.5, static_cast<vtkIdType>(count), Grain,
-        [&block](std::size_t begin, std::size_t end) { block.images->SolvePoints(begin, end); }))
+        [&block](std::size_t begin, std::size_t end) { block.Images->SolvePoints(begin, end); }))
   {
     return false;
   }
-  block.images->FinishPoints();
+  block.Images->FinishPoints();
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (!known[i] && block.selection.HasPoint(i))
+    if (!known[i] && block.Selection.HasPoint(i))
     {
-      this->Count(block.images->GetState(i));
+      this->Count(block.Images->GetState(i));
     }
   }
-  block.eyeUpdate = this->Scene.GetNumberOfEyeUpdates();
+  block.EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
   return true;
 }
 
@@ -521,7 +521,7 @@ int vtkRefractedGeometryFilter::RequestData(
   this->Internals->UpdateView(this);
   meniscus::SolvedBlock& block = this->Internals->GetBlock(input);
   this->Internals->Select(input, block);
-  const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
+  const bool all = this->Images == AllImages && this->MembraneModel == CURVED;
   if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
   {
     return 1;
@@ -531,25 +531,25 @@ int vtkRefractedGeometryFilter::RequestData(
   const meniscus::OutputOptions options = this->Internals->GetOptions(this);
   const meniscus::VirtualPolyDataReport report = all
     ? meniscus::BuildImagePolyData(input,
-        block.selection.isActive ? block.selected : block.topology, *block.images, block.cells,
+        block.Selection.IsActive ? block.Selected : block.Topology, *block.Images, block.Cells,
         surface, options, output)
     : meniscus::BuildVirtualPolyData(
-        input, block.vertices, block.selection, surface, options, output);
-  this->Internals->CulledVertices += block.selection.culledPoints;
-  this->Internals->CulledCells += block.selection.culledCells;
+        input, block.Vertices, block.Selection, surface, options, output);
+  this->Internals->CulledVertices += block.Selection.CulledPoints;
+  this->Internals->CulledCells += block.Selection.CulledCells;
   // Of a part nothing can be said about the whole.
   this->ReportPoints(this->Internals->FailedInRun,
-    block.selection.isActive || output->GetNumberOfPoints() > 0, input);
-  this->Internals->SkippedCells += report.skippedCells + report.brokenCells;
-  if (report.brokenCells > 0)
+    block.Selection.IsActive || output->GetNumberOfPoints() > 0, input);
+  this->Internals->SkippedCells += report.SkippedCells + report.BrokenCells;
+  if (report.BrokenCells > 0)
   {
-    vtkErrorMacro(<< report.brokenCells << " of " << input->GetNumberOfCells()
+    vtkErrorMacro(<< report.BrokenCells << " of " << input->GetNumberOfCells()
                   << " cells name points that do not exist; left out.");
   }
-  if (report.arraysOfWrongSize > 0)
+  if (report.ArraysOfWrongSize > 0)
   {
     vtkWarningMacro(
-      << report.arraysOfWrongSize
+      << report.ArraysOfWrongSize
       << " point or cell arrays do not have one tuple per point or cell; not passed.");
   }
   return 1;
@@ -599,8 +599,8 @@ void vtkRefractedGeometryFilter::ReportPoints(
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::WarnOfModes()
 {
-  if (!this->Internals->WarnedOfModes && this->Images == ALL_IMAGES &&
-    this->MembraneModel == FLAT_FACETS)
+  if (!this->Internals->WarnedOfModes && this->Images == AllImages &&
+    this->MembraneModel == FlatFacets)
   {
     this->Internals->WarnedOfModes = true;
     vtkWarningMacro("Images ALL_IMAGES needs the membrane model CURVED: flat facets overlap, and "
@@ -621,13 +621,13 @@ bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
   meniscus::SceneMessages messages;
   const bool ready = this->Internals->Scene.SetMembrane(
     membrane, this->MembraneModel == CURVED, messages, this->ExactMembrane);
-  if (!messages.error.empty())
+  if (!messages.Error.empty())
   {
-    vtkErrorMacro(<< messages.error << "; the output is empty.");
+    vtkErrorMacro(<< messages.Error << "; the output is empty.");
   }
-  if (!messages.warning.empty())
+  if (!messages.Warning.empty())
   {
-    vtkWarningMacro(<< messages.warning);
+    vtkWarningMacro(<< messages.Warning);
   }
   return ready;
 }
@@ -646,13 +646,13 @@ bool vtkRefractedGeometryFilter::UpdateEye()
     { position[0], position[1], position[2], this->ExteriorIndexOfRefraction,
       this->InteriorIndexOfRefraction },
     messages);
-  if (!messages.error.empty())
+  if (!messages.Error.empty())
   {
-    vtkErrorMacro(<< messages.error << "; the output is empty.");
+    vtkErrorMacro(<< messages.Error << "; the output is empty.");
   }
-  if (!messages.warning.empty())
+  if (!messages.Warning.empty())
   {
-    vtkWarningMacro(<< messages.warning);
+    vtkWarningMacro(<< messages.Warning);
   }
   return ready;
 }
@@ -671,7 +671,7 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
      << "\n";
   os << indent << "ExactMembrane: " << this->ExactMembrane.Get() << "\n";
-  os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
+  os << indent << "Images: " << (this->Images == AllImages ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
   os << indent << "AngularTolerance: " << this->AngularTolerance << "\n";
   os << indent << "CloseSeams: " << this->CloseSeams << "\n";
   os << indent

@@ -108,29 +108,29 @@ public:
   vtkTypeMacro(vtkRefractedGeometryFilter, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// How the membrane's surface is understood between its vertices.
+  /** How the membrane's surface is understood between its vertices. */
   enum MembraneModels
   {
-    FLAT_FACETS = 0, ///< linear interpolation in each facet, the thesis's method
-    CURVED = 1       ///< smooth patches from positions and normals
+    FlatFacets = 0, ///< linear interpolation in each facet, the thesis's method
+    CURVED = 1      ///< smooth patches from positions and normals
   };
 
-  /// Which images of a point are made where the membrane shows several.
+  /** Which images of a point are made where the membrane shows several. */
   enum ImageModes
   {
-    FIRST_IMAGE = 0, ///< one: with FLAT_FACETS that of the first facet, in the order of the
-                     ///< membrane's cells; with CURVED that which continues the last point's
-    ALL_IMAGES = 1   ///< every one
+    FirstImage = 0, ///< one: with FLAT_FACETS that of the first facet, in the order of the
+                    ///< membrane's cells; with CURVED that which continues the last point's
+    AllImages = 1   ///< every one
   };
 
-  /// What the array Reflectance holds.
+  /** What the array Reflectance holds. */
   enum ReflectanceModels
   {
     FRESNEL = 0, ///< exact, of unpolarised light, Eq. 2.6
     SCHLICK = 1  ///< Schlick's approximation, Eq. 2.7, as the thesis draws
   };
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the eye's position in the world coordinates of the membrane and the geometry. Used
    * unless a camera is set. Default is (0, 0, 1). A coordinate that is not finite, or an eye on the
@@ -138,9 +138,9 @@ public:
    */
   vtkSetVector3Macro(EyePosition, double);
   vtkGetVector3Macro(EyePosition, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get a camera whose position is the eye. Changes of the camera modify the filter; only a
    * change of its position, or of what it shows of the membrane, costs more than a comparison.
@@ -148,9 +148,9 @@ public:
    */
   void SetCamera(vtkCamera* camera);
   vtkCamera* GetCamera();
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get whether, with a camera, cells and points that it cannot show through the membrane are
    * left out unsolved: those that no facet in its view may show, told by bounds, and that are not
@@ -161,9 +161,9 @@ public:
   vtkSetMacro(ViewCulling, bool);
   vtkGetMacro(ViewCulling, bool);
   vtkBooleanMacro(ViewCulling, bool);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the width of the camera's viewport over its height, for ViewCulling. 0 says that it is
    * not known: nothing is culled left and right of the view then (above and below it, if the view
@@ -171,37 +171,37 @@ public:
    */
   vtkSetClampMacro(ViewAspectRatio, double, 0.0, 1000.0);
   vtkGetMacro(ViewAspectRatio, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the index of refraction on the eye's side of the membrane. Any positive finite number;
    * others are an error when the filter runs. Default is 1.0, that of air.
    */
   vtkSetMacro(ExteriorIndexOfRefraction, double);
   vtkGetMacro(ExteriorIndexOfRefraction, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the index of refraction on the geometry's side of the membrane. Any positive finite
    * number; others are an error when the filter runs. Default is 1.333, that of water.
    */
   vtkSetMacro(InteriorIndexOfRefraction, double);
   vtkGetMacro(InteriorIndexOfRefraction, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the membrane model, FLAT_FACETS or CURVED. Default is CURVED.
    */
-  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
+  vtkSetClampMacro(MembraneModel, int, FlatFacets, CURVED);
   vtkGetMacro(MembraneModel, int);
-  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
+  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FlatFacets); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the exact surface of a membrane that has a formula: its zero set. The membrane's points
    * are moved onto it along the function's gradient, and their normals are that gradient, on the
@@ -212,20 +212,20 @@ public:
    */
   void SetExactMembrane(vtkImplicitFunction* function);
   vtkImplicitFunction* GetExactMembrane();
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get which images are made, FIRST_IMAGE or ALL_IMAGES. Default is ALL_IMAGES; with
    * FLAT_FACETS it warns and FIRST_IMAGE is computed.
    */
-  vtkSetClampMacro(Images, int, FIRST_IMAGE, ALL_IMAGES);
+  vtkSetClampMacro(Images, int, FirstImage, AllImages);
   vtkGetMacro(Images, int);
-  void SetImagesToFirstImage() { this->SetImages(FIRST_IMAGE); }
-  void SetImagesToAllImages() { this->SetImages(ALL_IMAGES); }
-  ///@}
+  void SetImagesToFirstImage() { this->SetImages(FirstImage); }
+  void SetImagesToAllImages() { this->SetImages(AllImages); }
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the angle in degrees at the eye that an image may be off where lines and polygons are
    * drawn straight between their points (ALL_IMAGES). A pixel of an image of 512 pixels and 30
@@ -234,9 +234,9 @@ public:
    */
   vtkSetClampMacro(AngularTolerance, double, 1e-8, 10.0);
   vtkGetMacro(AngularTolerance, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * With ALL_IMAGES, whether gaps and overlaps between the images of neighbouring polygons, which
    * are within AngularTolerance, are covered by cells of their own, so that no pixel shows through.
@@ -246,9 +246,9 @@ public:
   vtkSetMacro(CloseSeams, bool);
   vtkGetMacro(CloseSeams, bool);
   vtkBooleanMacro(CloseSeams, bool);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the model of the array Reflectance, FRESNEL or SCHLICK. Default is FRESNEL. Nothing is
    * solved again for it. SCHLICK knows no critical angle: from a denser exterior (n1 > n2) it is
@@ -258,9 +258,9 @@ public:
   vtkGetMacro(ReflectanceModel, int);
   void SetReflectanceModelToFresnel() { this->SetReflectanceModel(FRESNEL); }
   void SetReflectanceModelToSchlick() { this->SetReflectanceModel(SCHLICK); }
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get whether point normals of the geometry are replaced by normals that make standard
    * lighting of the virtual surface look like the true surface, lit and seen through the membrane:
@@ -279,9 +279,9 @@ public:
   vtkSetMacro(VirtualNormals, bool);
   vtkGetMacro(VirtualNormals, bool);
   vtkBooleanMacro(VirtualNormals, bool);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the direction to a light at infinity that VirtualNormals are for, of any length, in
    * world coordinates. (0, 0, 0) is a light at the eye, a headlight. Default is (0, 0, 0). A
@@ -289,16 +289,16 @@ public:
    */
   vtkSetVector3Macro(LightDirection, double);
   vtkGetVector3Macro(LightDirection, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the precision of the output points, one of vtkAlgorithm::DesiredOutputPrecision.
    * Default is DEFAULT_PRECISION, that of the input points. Everything is computed in double.
    */
   vtkSetClampMacro(OutputPointsPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
   vtkGetMacro(OutputPointsPrecision, int);
-  ///@}
+  /** @} */
 
   /**
    * Set the membrane's pipeline connection, port 1.
@@ -309,7 +309,7 @@ public:
    */
   void SetMembraneData(vtkPolyData* membrane);
 
-  ///@{
+  /** @{ */
   /**
    * Counters since construction: how often the membrane's shape was taken in, how often refraction
    * rays were computed for it, how many points were solved, how many of these had no answer because
@@ -322,16 +322,16 @@ public:
   vtkTypeInt64 GetNumberOfFailedSolves() const;
   vtkTypeInt64 GetNumberOfVerticesWithoutImage() const;
   vtkTypeInt64 GetNumberOfSkippedCells() const;
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Counters since construction, summed over the runs: points that were not solved and cells that
    * were left out because the camera cannot show them through the membrane (ViewCulling).
    */
   vtkTypeInt64 GetNumberOfCulledVertices() const;
   vtkTypeInt64 GetNumberOfCulledCells() const;
-  ///@}
+  /** @} */
 
   /**
    * Triangles of the present membrane that were skipped: no area, a coordinate that is not finite,
@@ -339,7 +339,7 @@ public:
    */
   vtkTypeInt64 GetNumberOfSkippedFacets() const;
 
-  ///@{
+  /** @{ */
   /**
    * State of the last run with CURVED: whether the eye is inside of a closed membrane whose normals
    * point outwards, so that all outside of it passes unchanged; and how many points of the
@@ -348,7 +348,7 @@ public:
    */
   bool IsEyeEnclosed() const;
   vtkTypeInt64 GetNumberOfMembranePointsBehind() const;
-  ///@}
+  /** @} */
 
   /**
    * Covers the camera and the exact membrane.
@@ -382,7 +382,7 @@ private:
   double InteriorIndexOfRefraction = 1.333;
   int MembraneModel = CURVED;
   vtkSmartPointer<vtkImplicitFunction> ExactMembrane;
-  int Images = ALL_IMAGES;
+  int Images = AllImages;
   double AngularTolerance = 0.005;
   bool CloseSeams = true;
   int ReflectanceModel = FRESNEL;

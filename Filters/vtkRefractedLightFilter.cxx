@@ -39,7 +39,7 @@ constexpr double FarTolerance = 1e-6;
 constexpr double NearTolerance = 5e-3; // the view's default
 
 //------------------------------------------------------------------------------
-/// Calls `body(cell, number of points, point ids)` for polygons and strips of `data`.
+/** Calls `body(cell, number of points, point ids)` for polygons and strips of `data`. */
 template <typename Body>
 void ForSurfaces(vtkPolyData* data, const Body& body)
 {
@@ -58,7 +58,7 @@ void ForSurfaces(vtkPolyData* data, const Body& body)
 }
 
 //------------------------------------------------------------------------------
-/// Area vector, half the sum of cross products about the first point; of strips, by triangles.
+/** Area vector, half the sum of cross products about the first point; of strips, by triangles. */
 template <typename Place>
 glm::dvec3 AreaOf(vtkIdType size, const vtkIdType* points, bool isStrip, const Place& place)
 {
@@ -82,7 +82,7 @@ glm::dvec3 TupleOf(vtkDataArray* array, vtkIdType i)
 }
 
 //------------------------------------------------------------------------------
-/// What each cell of the input gets: (1 - F) A', of all its images.
+/** What each cell of the input gets: (1 - F) A', of all its images. */
 std::vector<double> GatherFlux(vtkPolyData* images, const glm::dvec3& light, vtkIdType cells)
 {
   std::vector<double> flux(static_cast<std::size_t>(cells), 0.0);
@@ -126,7 +126,7 @@ vtkSmartPointer<vtkFloatArray> MakeArray(vtkIdType tuples)
 }
 
 //------------------------------------------------------------------------------
-/// @param light  for one side, else null.
+/** @param light  for one side, else null. */
 void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const glm::dvec3* light)
 {
   const auto ofCells = MakeArray(output->GetNumberOfCells());

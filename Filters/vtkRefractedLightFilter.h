@@ -50,7 +50,7 @@ public:
   vtkTypeMacro(vtkRefractedLightFilter, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get where the light is, in world coordinates, if it is positional; else the direction to
    * it. Finite and, as a direction, not zero; anything else is an error when the filter runs.
@@ -58,18 +58,18 @@ public:
    */
   vtkSetVector3Macro(LightPosition, double);
   vtkGetVector3Macro(LightPosition, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get whether the light is at a place, not at infinity. Default is off.
    */
   vtkSetMacro(Positional, bool);
   vtkGetMacro(Positional, bool);
   vtkBooleanMacro(Positional, bool);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get whether cells are lit from the side only from which their points are counter-clockwise,
    * as those of closed surfaces are. Default is off.
@@ -77,9 +77,9 @@ public:
   vtkSetMacro(OneSided, bool);
   vtkGetMacro(OneSided, bool);
   vtkBooleanMacro(OneSided, bool);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the indices of refraction on the light's side and behind the membrane. Positive and
    * finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
@@ -88,15 +88,15 @@ public:
   vtkGetMacro(ExteriorIndexOfRefraction, double);
   vtkSetMacro(InteriorIndexOfRefraction, double);
   vtkGetMacro(InteriorIndexOfRefraction, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set the membrane, port 1, by connection or by data.
    */
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetMembraneData(vtkPolyData* membrane);
-  ///@}
+  /** @} */
 
   /**
    * The filter that looks from the light; its counters tell what was computed.

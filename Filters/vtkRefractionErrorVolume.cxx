@@ -42,7 +42,7 @@ class vtkRefractionErrorVolume::vtkInternals
 {
 public:
   meniscus::RefractionScene Scene;
-  /// The finer mesh, or the same one where the scene has flat facets.
+  /** The finer mesh, or the same one where the scene has flat facets. */
   meniscus::RefractionScene Reference;
   std::vector<meniscus::ErrorSample> Samples;
   meniscus::ErrorSummary Summary;
@@ -86,25 +86,25 @@ void vtkRefractionErrorVolume::SetReferenceData(vtkPolyData* membrane)
 //------------------------------------------------------------------------------
 double vtkRefractionErrorVolume::GetMeanError() const
 {
-  return this->Internals->Summary.mean;
+  return this->Internals->Summary.Mean;
 }
 
 //------------------------------------------------------------------------------
 double vtkRefractionErrorVolume::GetStandardDeviation() const
 {
-  return this->Internals->Summary.deviation;
+  return this->Internals->Summary.Deviation;
 }
 
 //------------------------------------------------------------------------------
 double vtkRefractionErrorVolume::GetLargestError() const
 {
-  return this->Internals->Summary.largest;
+  return this->Internals->Summary.Largest;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfMeasuredSamples() const
 {
-  return static_cast<vtkTypeInt64>(this->Internals->Summary.count);
+  return static_cast<vtkTypeInt64>(this->Internals->Summary.Count);
 }
 
 //------------------------------------------------------------------------------
@@ -254,13 +254,13 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
     ready = internals.Reference.SetMembrane(reference ? reference : membrane, true, messages) &&
       internals.Reference.SetEye(eye, messages);
   }
-  if (!messages.error.empty())
+  if (!messages.Error.empty())
   {
-    vtkErrorMacro(<< messages.error << "; the output is empty.");
+    vtkErrorMacro(<< messages.Error << "; the output is empty.");
   }
-  if (!messages.warning.empty())
+  if (!messages.Warning.empty())
   {
-    vtkWarningMacro(<< messages.warning);
+    vtkWarningMacro(<< messages.Warning);
   }
   if (curved && !needsReference && !this->ExactMembrane && !internals.WarnedOfNoReference)
   {
@@ -331,16 +331,16 @@ void vtkRefractionErrorVolume::FillOutput(vtkImageData* output)
   states->SetNumberOfTuples(static_cast<vtkIdType>(samples.size()));
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
-    const bool measured = samples[i].state == meniscus::SampleState::Measured;
+    const bool measured = samples[i].State == meniscus::SampleState::Measured;
     errors->SetValue(static_cast<vtkIdType>(i),
-      measured ? samples[i].error : std::numeric_limits<double>::quiet_NaN());
-    states->SetValue(static_cast<vtkIdType>(i), static_cast<unsigned char>(samples[i].state));
+      measured ? samples[i].Error : std::numeric_limits<double>::quiet_NaN());
+    states->SetValue(static_cast<vtkIdType>(i), static_cast<unsigned char>(samples[i].State));
   }
   output->GetPointData()->SetScalars(errors);
   output->GetPointData()->AddArray(states);
   const meniscus::ErrorSummary summary = meniscus::Summarize(samples.data(), samples.size());
-  this->SetStatistics(output, summary.mean, summary.deviation, summary.largest,
-    static_cast<vtkTypeInt64>(summary.count));
+  this->SetStatistics(output, summary.Mean, summary.Deviation, summary.Largest,
+    static_cast<vtkTypeInt64>(summary.Count));
 }
 
 //------------------------------------------------------------------------------

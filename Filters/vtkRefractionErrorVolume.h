@@ -63,32 +63,32 @@ public:
   vtkTypeMacro(vtkRefractionErrorVolume, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// As in vtkRefractedGeometryFilter.
+  /** As in vtkRefractedGeometryFilter. */
   enum MembraneModels
   {
-    FLAT_FACETS = 0,
+    FlatFacets = 0,
     CURVED = 1
   };
 
-  /// Values of the array SampleState.
+  /** Values of the array SampleState. */
   enum SampleStates
   {
     MEASURED = 0,
-    NO_IMAGE = 1,
-    SEVERAL_IMAGES = 2,
-    NO_EXACT_POINT = 3,
-    NOT_FINITE = 4
+    NoImage = 1,
+    SeveralImages = 2,
+    NoExactPoint = 3,
+    NotFinite = 4
   };
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the eye's position in world coordinates. Default is (0, 0, 1).
    */
   vtkSetVector3Macro(EyePosition, double);
   vtkGetVector3Macro(EyePosition, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the indices of refraction on the eye's side and behind the membrane. Positive and
    * finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
@@ -97,26 +97,26 @@ public:
   vtkGetMacro(ExteriorIndexOfRefraction, double);
   vtkSetMacro(InteriorIndexOfRefraction, double);
   vtkGetMacro(InteriorIndexOfRefraction, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the membrane model that is measured, FLAT_FACETS or CURVED. Default is CURVED.
    */
-  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
+  vtkSetClampMacro(MembraneModel, int, FlatFacets, CURVED);
   vtkGetMacro(MembraneModel, int);
-  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
+  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FlatFacets); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the exact surface, whose zero set the membrane's points lie on. Which of its sides the
    * eye is on follows from the membrane's normals. Default is none.
    */
   void SetExactMembrane(vtkImplicitFunction* function);
   vtkImplicitFunction* GetExactMembrane();
-  ///@}
+  /** @} */
 
   /**
    * Set the finer membrane, port 1, by connection. Not used if there is an implicit function.
@@ -127,25 +127,25 @@ public:
    */
   void SetReferenceData(vtkPolyData* membrane);
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the box, (xmin, xmax, ymin, ymax, zmin, zmax) in world coordinates. Finite, each
    * minimum at most its maximum; anything else is an error. Default is -1 to 1 each way.
    */
   vtkSetVector6Macro(ModelBounds, double);
   vtkGetVector6Macro(ModelBounds, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the number of samples along each side of the box, from border to border; with one they
    * are at the minimum. Default is 40 each, the thesis's. Numbers below 1 are an error.
    */
   vtkSetVector3Macro(SampleDimensions, int);
   vtkGetVector3Macro(SampleDimensions, int);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Statistics of the last update: mean, standard deviation and largest of the errors, world
    * lengths, and how many samples they are of. 0 if there is none.
@@ -154,16 +154,16 @@ public:
   double GetStandardDeviation() const;
   double GetLargestError() const;
   vtkTypeInt64 GetNumberOfMeasuredSamples() const;
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Counters since construction: how often the membrane's shape was taken in, and how often rays
    * were computed for it.
    */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
   vtkTypeInt64 GetNumberOfEyeUpdates() const;
-  ///@}
+  /** @} */
 
   /**
    * Covers the implicit function.

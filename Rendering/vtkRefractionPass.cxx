@@ -381,7 +381,7 @@ void vtkRefractionPass::DrawInFront(
   vtkOpenGLState* state = window->GetState();
   state->Push();
   picture.Set(state);
-  this->DrawVolumes(drawn->GetRenderer(), membrane, vtkTetrahedraRayCastMapper::IN_FRONT);
+  this->DrawVolumes(drawn->GetRenderer(), membrane, vtkTetrahedraRayCastMapper::InFront);
   state->Pop();
 }
 

@@ -67,7 +67,7 @@ public:
   vtkTypeMacro(vtkRefractionPass, vtkOpenGLRenderPass);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// How much light a membrane reflects.
+  /** How much light a membrane reflects. */
   enum ReflectanceModels
   {
     NONE = 0,    ///< nothing: the membrane is clear
@@ -75,14 +75,14 @@ public:
     FRESNEL = 2  ///< exact, of unpolarised light, Eq. 2.6
   };
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the pass that draws the renderer's scene. Default is a vtkRenderStepsPass: lights,
    * opaque, translucent and volumetric geometry, overlays.
    */
   void SetScenePass(vtkRenderPass* pass);
   vtkRenderPass* GetScenePass();
-  ///@}
+  /** @} */
 
   /**
    * Adds an object behind a membrane. Objects with the same membrane actor hide each other.
@@ -102,7 +102,7 @@ public:
    *                  be added to the renderer.
    */
   void AddVolume(vtkActor* membrane, vtkVolume* volume);
-  ///@{
+  /** @{ */
   /**
    * Removes an object or a volume that was added, or all of them; a membrane without is no longer
    * drawn. How many objects and volumes there are.
@@ -110,17 +110,17 @@ public:
   void RemoveRefraction(vtkProp3D* object);
   void RemoveAllRefractions();
   int GetNumberOfRefractions();
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get how much light membranes reflect: NONE, SCHLICK or FRESNEL. Default is FRESNEL.
    */
   vtkSetClampMacro(ReflectanceModel, int, NONE, FRESNEL);
   vtkGetMacro(ReflectanceModel, int);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get a cube map (vtkTexture::CubeMapOn(), world axes) that membranes reflect. Default is
    * none: the renderer's environment texture if that is a cube map, else its background colour.
@@ -137,18 +137,18 @@ public:
    */
   void SetReflectionTexture(vtkTexture* texture);
   vtkTexture* GetReflectionTexture();
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get the attenuation coefficients of the medium behind the membranes for red, green and
    * blue, per world length, >= 0. Default is (0, 0, 0), clear.
    */
   vtkSetVector3Macro(AttenuationCoefficients, double);
   vtkGetVector3Macro(AttenuationCoefficients, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Set/Get whether the camera's clipping range is widened, where it does not hold the membranes in
    * view and the objects behind them, which the renderer does not know. It is never narrowed.
@@ -157,29 +157,29 @@ public:
   vtkSetMacro(AdjustClippingRange, bool);
   vtkGetMacro(AdjustClippingRange, bool);
   vtkBooleanMacro(AdjustClippingRange, bool);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Counters since construction: membranes drawn, and membranes that were not because none of their
    * bounds is in view, or because they are not visible.
    */
   vtkTypeInt64 GetNumberOfMembranesDrawn() const;
   vtkTypeInt64 GetNumberOfMembranesSkipped() const;
-  ///@}
+  /** @} */
 
   void Render(const vtkRenderState* state) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
-  ///@{
+  /** @{ */
   /**
    * What the mappers of objects and membranes ask for while they are drawn.
    */
   bool PreReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
     std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;
   bool SetShaderParameters(vtkShaderProgram* program, vtkAbstractMapper* mapper, vtkProp* prop,
-    vtkOpenGLVertexArrayObject* VAO = nullptr) override;
-  ///@}
+    vtkOpenGLVertexArrayObject* vao = nullptr) override;
+  /** @} */
 
 protected:
   vtkRefractionPass();

@@ -286,7 +286,7 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     return false;
   }
   internals.Property.Reduce(volume->GetProperty(), this->GetUsedBlendMode(),
-    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
+    this->OpacityModel == OpacityPerUnitDistance, internals.Mixture,
     mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
   const meniscus::FunctionFeatures& features = internals.Property.GetFeatures();
   return this->Tell(input.UpdateScalars(parts, component, features)) &&
@@ -366,7 +366,7 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
   vtkVolume* volume, meniscus::RayCastOptics& optics)
 {
   const bool wanted =
-    this->Integration == PRE_INTEGRATED && optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
+    this->Integration == PreIntegrated && optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
   // Where the scalar is constant in a cell, the table would hold what it is to replace.
   this->WarnOnce(wanted && !optics.IsComposite() && !optics.CellScalars,
     this->Internals->WarnedIntegration,
@@ -463,8 +463,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     "Shading and gradient opacity are not available with independent components; rendering "
     "without.");
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
-  frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
-    this->Gradients == VERTEX_GRADIENTS;
+  frame.Optics.VertexGradients =
+    frame.Optics.UsesGradients() && !frame.Optics.CellScalars && this->Gradients == VertexGradients;
   this->ChooseIntegration(volume, frame.Optics);
   return meniscus::DescribeExcess(frame.Optics);
 }

@@ -120,16 +120,16 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   using vtkUnstructuredGridVolumeMapper::SetInputData;
-  ///@{
+  /** @{ */
   /**
    * Sets what is drawn, without a pipeline: a data set with cells that have volume, or a composite
    * one of such, all of whose leaves are drawn as one mesh.
    */
   void SetInputData(vtkDataSet* input) override;
   void SetInputData(vtkCompositeDataSet* input);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Sets a surface that rays bend at, port 1, from a pipeline or without: triangles, or what
    * triangulates, in world coordinates. Its point normals are used if present, else computed; it is
@@ -152,9 +152,9 @@ public:
   void SetMembraneData(vtkPolyData* membrane);
   void SetMembrane(vtkPolyData* membrane) { this->SetMembraneData(membrane); }
   vtkPolyData* GetMembrane();
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Indices of refraction: exterior, on the side that the membrane's normals point to, default 1.0,
    * and interior, on the other side, default 1.333. Positive and finite; others are an error when
@@ -165,15 +165,15 @@ public:
   vtkGetMacro(ExteriorIndexOfRefraction, double);
   vtkSetMacro(InteriorIndexOfRefraction, double);
   vtkGetMacro(InteriorIndexOfRefraction, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /** Bounds of the input, of all leaves of a composite one, and of the membrane. */
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
-  ///@}
+  /** @} */
 
-  /// What is drawn of an array of several components.
+  /** What is drawn of an array of several components. */
   enum VectorModes
   {
     DISABLED = -1,
@@ -181,7 +181,7 @@ public:
     COMPONENT = 1
   };
 
-  ///@{
+  /** @{ */
   /**
    * Selects the part of an array of several components that is drawn, as in vtkSmartVolumeMapper:
    * MAGNITUDE, the length of the vector (a single component with its sign); COMPONENT, the one of
@@ -199,16 +199,16 @@ public:
   vtkGetMacro(VectorMode, int);
   vtkSetClampMacro(VectorComponent, int, 0, VTK_INT_MAX);
   vtkGetMacro(VectorComponent, int);
-  ///@}
+  /** @} */
 
-  /// What an opacity means over a length.
+  /** What an opacity means over a length. */
   enum OpacityModels
   {
-    ATTENUATION_COEFFICIENT = 0,
-    OPACITY_PER_UNIT_DISTANCE = 1
+    AttenuationCoefficient = 0,
+    OpacityPerUnitDistance = 1
   };
 
-  ///@{
+  /** @{ */
   /**
    * What an opacity of the transfer function means over a length L, with the property's
    * ScalarOpacityUnitDistance as unit. ATTENUATION_COEFFICIENT, the default, is what VTK's
@@ -216,11 +216,11 @@ public:
    * is what its image data mappers do: alpha = 1 - (1 - opacity)^(L / unit); there, opacities above
    * 1 - 2^-24 count as that.
    */
-  vtkSetClampMacro(OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
+  vtkSetClampMacro(OpacityModel, int, AttenuationCoefficient, OpacityPerUnitDistance);
   vtkGetMacro(OpacityModel, int);
-  ///@}
+  /** @} */
 
-  /// What casts the rays.
+  /** What casts the rays. */
   enum Backends
   {
     AUTOMATIC = 0,
@@ -229,7 +229,7 @@ public:
     COMPUTE = 3
   };
 
-  ///@{
+  /** @{ */
   /**
    * What runs the ray caster: OPENGL, a fragment shader; COMPUTE, a compute shader of the same
    * functions (OpenGL 4.3; on a window without, OPENGL after a warning); NATIVE, the CPU, in SIMD
@@ -239,19 +239,19 @@ public:
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, COMPUTE);
   vtkGetMacro(Backend, int);
-  ///@}
+  /** @} */
 
   /** The backend of the last Render(); AUTOMATIC if nothing has been rendered. */
   vtkGetMacro(ActiveBackend, int);
 
-  /// How segments of rays are integrated.
+  /** How segments of rays are integrated. */
   enum Integrations
   {
     EXACT = 0,
-    PRE_INTEGRATED = 1
+    PreIntegrated = 1
   };
 
-  ///@{
+  /** @{ */
   /**
    * How ray segments are integrated: EXACT, the default, in closed form; PRE_INTEGRATED, by a table
    * as in the paper, over the scalars at both ends of a segment and its length (SetPreIntegration-
@@ -260,11 +260,11 @@ public:
    * of one component without light and gradient opacity; else segments are integrated exactly,
    * after a warning where PRE_INTEGRATED would have made a difference.
    */
-  vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
+  vtkSetClampMacro(Integration, int, EXACT, PreIntegrated);
   vtkGetMacro(Integration, int);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Samples of the pre-integration table: of the range of the data's scalars, in [2, 1024], default
    * 256, and of the length of a segment, in [1, 128], default 16. One length neglects what a
@@ -276,27 +276,27 @@ public:
   vtkGetMacro(PreIntegrationScalarSize, int);
   vtkSetClampMacro(PreIntegrationLengthSize, int, 1, 128);
   vtkGetMacro(PreIntegrationLengthSize, int);
-  ///@}
+  /** @} */
 
-  /// Which gradients light and gradient opacity go by.
+  /** Which gradients light and gradient opacity go by. */
   enum GradientLocations
   {
-    CELL_GRADIENTS = 0,
-    VERTEX_GRADIENTS = 1
+    CellGradients = 0,
+    VertexGradients = 1
   };
 
-  ///@{
+  /** @{ */
   /**
    * Which gradients shading and gradient opacity use: CELL_GRADIENTS, that of each cell (flat), or
    * VERTEX_GRADIENTS, the default, means around each vertex, interpolated (smooth). They are
    * computed when first needed and after a change of mesh or scalars. Lengths are measured in world
    * coordinates.
    */
-  vtkSetClampMacro(Gradients, int, CELL_GRADIENTS, VERTEX_GRADIENTS);
+  vtkSetClampMacro(Gradients, int, CellGradients, VertexGradients);
   vtkGetMacro(Gradients, int);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Whether the table of cells on the graphics device takes 20 bytes per tetrahedron in place
    * of 32. The picture is the same. Default off.
@@ -304,9 +304,9 @@ public:
   vtkSetMacro(CompactTables, vtkTypeBool);
   vtkGetMacro(CompactTables, vtkTypeBool);
   vtkBooleanMacro(CompactTables, vtkTypeBool);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Texels that a table on the graphics device may have, beside the limit that the device names
    * (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that promise more than they hold. A mesh with a table
@@ -316,9 +316,9 @@ public:
    */
   vtkSetClampMacro(MaximumTableSize, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumTableSize, vtkTypeInt64);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Bias of pictures that are composited afterwards by arithmetic that drops fractions, as IceT's
    * does, in steps of 8 bits, 1/255. It is added to the colours and the opacity of pixels that are
@@ -330,27 +330,27 @@ public:
    */
   vtkSetClampMacro(ColorBias, double, 0.0, 0.5);
   vtkGetMacro(ColorBias, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Opacity at which a ray ends, in [0, 1]. A pixel is off by at most 1 minus this. Default
    * 1 - 2^-17; 1 integrates every ray to its end.
    */
   vtkSetClampMacro(EarlyTerminationOpacity, double, 0.0, 1.0);
   vtkGetMacro(EarlyTerminationOpacity, double);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Pixels between neighbouring rays, along each axis, >= 1; pixels between are interpolated.
    * Default 1. Only without AutoAdjustSampleDistances.
    */
   vtkSetClampMacro(ImageSampleDistance, float, 1.0f, 100.0f);
   vtkGetMacro(ImageSampleDistance, float);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Whether the distance between rays follows from the time that the volume is allocated (the
    * window's desired update rate) and that the last frame took: rays are apart during interaction,
@@ -361,12 +361,12 @@ public:
   vtkBooleanMacro(AutoAdjustSampleDistances, vtkTypeBool);
   vtkSetClampMacro(MaximumImageSampleDistance, float, 1.0f, 100.0f);
   vtkGetMacro(MaximumImageSampleDistance, float);
-  ///@}
+  /** @} */
 
   /** Pixels between neighbouring rays in the last frame. */
   vtkGetMacro(UsedImageSampleDistance, double);
 
-  ///@{
+  /** @{ */
   /**
    * Work done since construction: builds of the mesh tables and updates of the scalars (when the
    * values changed, whichever object of the input was told of it by Modified(): where a
@@ -389,7 +389,7 @@ public:
   vtkTypeInt64 GetNumberOfSightUpdates();
   vtkTypeInt64 GetNumberOfRefractedEntryLists();
   vtkTypeInt64 GetNumberOfEntryListBuilds();
-  ///@}
+  /** @} */
 
   /**
    * Bytes of tables that backends took in because an input changed, since construction: mesh,
@@ -402,7 +402,7 @@ public:
    */
   vtkTypeInt64 GetUploadedBytes();
 
-  ///@{
+  /** @{ */
   /**
    * Bytes of the tables that are kept now: in the computer's memory (mesh, scalars, gradients,
    * those of the native backend; not the input itself) and on the graphics device. Images and what
@@ -410,9 +410,9 @@ public:
    */
   vtkTypeInt64 GetHostBytes();
   vtkTypeInt64 GetDeviceBytes();
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Of the current mesh: tetrahedra that rays can visit, which are those that the transfer function
    * lets be seen and whose scalars are finite; tetrahedra with a scalar that is not finite; and
@@ -422,9 +422,9 @@ public:
   vtkTypeInt64 GetNumberOfActiveCells();
   vtkTypeInt64 GetNumberOfTransparentCells();
   vtkTypeInt64 GetNumberOfRejectedCells();
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /**
    * Of the last frame, or part of one (RenderPart()): cells crossed, rays that entered the mesh,
    * and rays whose walk did not end on the boundary (0, as long as the graphics driver computes
@@ -434,7 +434,7 @@ public:
   vtkTypeInt64 GetNumberOfTraversalSteps();
   vtkTypeInt64 GetNumberOfRays();
   vtkTypeInt64 GetNumberOfLostRays();
-  ///@}
+  /** @} */
 
   /**
    * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, the
@@ -445,12 +445,12 @@ public:
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
-  /// What RenderPart() draws.
+  /** What RenderPart() draws. */
   enum MembraneParts
   {
-    WHOLE = 0,    ///< all that there is to see
-    IN_FRONT = 1, ///< what rays come to before the membrane or beside it
-    BEHIND = 2    ///< what rays come to behind the membrane; nothing without one
+    WHOLE = 0,   ///< all that there is to see
+    InFront = 1, ///< what rays come to before the membrane or beside it
+    BEHIND = 2   ///< what rays come to behind the membrane; nothing without one
   };
   /**
    * Render(), but one part only, for those who draw the membrane between them: vtkRefractionPass.
@@ -492,13 +492,13 @@ private:
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;
-  int OpacityModel = ATTENUATION_COEFFICIENT;
+  int OpacityModel = AttenuationCoefficient;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
   int Integration = EXACT;
   int PreIntegrationScalarSize = 256;
   int PreIntegrationLengthSize = 16;
-  int Gradients = VERTEX_GRADIENTS;
+  int Gradients = VertexGradients;
   double ExteriorIndexOfRefraction = 1.0;
   double InteriorIndexOfRefraction = 1.333;
   int MembranePart = WHOLE;

@@ -24,7 +24,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/// Triangles as Embree takes them, with one float of padding behind the last point.
+/** Triangles as Embree takes them, with one float of padding behind the last point. */
 struct TracedMesh
 {
   std::vector<float> Points;
@@ -36,7 +36,7 @@ struct TracedMesh
   std::size_t numberOfPoints() const { return (this->Points.size() - 1) / 3; }
 };
 
-/// Eight neighbouring pixels of a row after tracing, component by component.
+/** Eight neighbouring pixels of a row after tracing, component by component. */
 struct TracedPacket
 {
   static constexpr int Width = 8;
@@ -46,9 +46,11 @@ struct TracedPacket
   int Y = 0;
   int Count = 0; ///< pixels inside the picture
 
-  /// Unit direction from the eye, and where it meets the membrane: facet, place, unit normal
-  /// towards the eye, cosine of the angle of incidence, distance from the eye. No facet where the
-  /// membrane is missed or faces away.
+  /**
+   * Unit direction from the eye, and where it meets the membrane: facet, place, unit normal
+   * towards the eye, cosine of the angle of incidence, distance from the eye. No facet where the
+   * membrane is missed or faces away.
+   */
   float Sight[3][Width];
   std::uint32_t Facet[Width];
   float Place[3][Width];
@@ -56,9 +58,11 @@ struct TracedPacket
   float Cosine[Width];
   float Distance[Width];
 
-  /// Unit direction behind the membrane, and what it meets: triangle, barycentric coordinates of
-  /// its second and third corner, length of the path. No triangle under total reflection, and where
-  /// nothing is met.
+  /**
+   * Unit direction behind the membrane, and what it meets: triangle, barycentric coordinates of
+   * its second and third corner, length of the path. No triangle under total reflection, and where
+   * nothing is met.
+   */
   float Refracted[3][Width];
   std::uint32_t Triangle[Width];
   float U[Width];
@@ -66,16 +70,16 @@ struct TracedPacket
   float Depth[Width];
 };
 
-/// Makes colours of traced pixels. Called from several threads at once.
+/** Makes colours of traced pixels. Called from several threads at once. */
 class TracedShader
 {
 public:
   virtual ~TracedShader() = default;
-  /// Four bytes for each of the packet's pixels.
+  /** Four bytes for each of the packet's pixels. */
   virtual void shade(const TracedPacket& packet, unsigned char* rgba) const = 0;
 };
 
-/// One colour for each triangle of the object, another where there is nothing.
+/** One colour for each triangle of the object, another where there is nothing. */
 class TriangleColors : public TracedShader
 {
 public:
@@ -84,7 +88,7 @@ public:
   void shade(const TracedPacket& packet, unsigned char* rgba) const override;
 };
 
-/// Ray (x, y) of a picture has the direction Forward + x' Right + y' Up, x' and y' from -1 to 1.
+/** Ray (x, y) of a picture has the direction Forward + x' Right + y' Up, x' and y' from -1 to 1. */
 struct TracedView
 {
   glm::dvec3 Eye{ 0.0 };
@@ -104,17 +108,17 @@ public:
 
   void setIndices(double exterior, double interior);
   void setMembrane(const TracedMesh& mesh);
-  /// Another shape of the same facets: refits instead of building again.
+  /** Another shape of the same facets: refits instead of building again. */
   void moveMembrane(const TracedMesh& mesh);
   void setObject(const TracedMesh& mesh);
 
-  /// Traces all pixels with vtkSMPTools. `rgba` is Pixels x Pixels x 4 bytes, rows upwards.
+  /** Traces all pixels with vtkSMPTools. `rgba` is Pixels x Pixels x 4 bytes, rows upwards. */
   void trace(const TracedView& view, const TracedShader& shader, unsigned char* rgba) const;
 
-  /// One packet, for who needs more than colours.
+  /** One packet, for who needs more than colours. */
   void tracePacket(const TracedView& view, TracedPacket& packet) const;
 
-  /// Rays of a shader's own, against the object.
+  /** Rays of a shader's own, against the object. */
   void intersect(const int* valid, RTCRayHit8& rays) const;
 
 private:

@@ -54,22 +54,22 @@ std::string describe(const ThesisRow& row)
 {
   std::ostringstream text;
   const char* kind =
-    row.sphereRatio == 0.0 ? "planar" : (row.sphereRatio == 1.0 ? "hemisphere" : "bowl");
+    row.SphereRatio == 0.0 ? "planar" : (row.SphereRatio == 1.0 ? "hemisphere" : "bowl");
   text << kind;
-  if (row.shape == reference::MembraneShape::Square)
+  if (row.Shape == reference::MembraneShape::Square)
   {
-    text << " " << row.squareCells << "x" << row.squareCells;
+    text << " " << row.SquareCells << "x" << row.SquareCells;
   }
-  else if (row.sphereRatio > 1.0)
+  else if (row.SphereRatio > 1.0)
   {
-    text << " r=" << 142.0 * row.sphereRatio;
+    text << " r=" << 142.0 * row.SphereRatio;
   }
-  text << " h=" << row.eyeHeight;
-  if (row.eyeOffset > 0.0)
+  text << " h=" << row.EyeHeight;
+  if (row.EyeOffset > 0.0)
   {
-    text << " off=" << row.eyeOffset;
+    text << " off=" << row.EyeOffset;
   }
-  text << " " << row.exterior << "/" << row.interior;
+  text << " " << row.Exterior << "/" << row.Interior;
   return text.str();
 }
 
@@ -77,21 +77,21 @@ std::string describe(const ThesisRow& row)
 double errorOf(const HeightField& field, const glm::dvec3& eye, const glm::dvec3& point,
   const VirtualVertex& vertex)
 {
-  const glm::dvec3 sight = vertex.sightPoint - eye;
+  const glm::dvec3 sight = vertex.SightPoint - eye;
   const glm::dvec3 exact = field.Intersect(eye, glm::normalize(sight), glm::length(sight));
   const auto behind = field.Refract(
-    eye, exact, glm::length(vertex.position - exact) * field.interior / field.exterior);
+    eye, exact, glm::length(vertex.Position - exact) * field.Interior / field.Exterior);
   return behind ? glm::length(*behind - point) : 0.0;
 }
 
 struct ImageScene
 {
-  SmoothSurface surface;
-  double exterior;
-  double interior;
-  glm::dvec3 eye;
-  int cells;
-  double reach;
+  SmoothSurface Surface;
+  double Exterior;
+  double Interior;
+  glm::dvec3 Eye;
+  int Cells;
+  double Reach;
 };
 
 std::vector<ImageScene> makeImageScenes()
@@ -100,11 +100,11 @@ std::vector<ImageScene> makeImageScenes()
   const auto waves = [](double amplitude, double k)
   {
     SmoothSurface surface;
-    surface.waves = { { 0.5 * amplitude, k, -k, 0.5 * Pi }, { -0.5 * amplitude, k, k, 0.5 * Pi } };
+    surface.Waves = { { 0.5 * amplitude, k, -k, 0.5 * Pi }, { -0.5 * amplitude, k, k, 0.5 * Pi } };
     return surface;
   };
   SmoothSurface dome;
-  dome.hills = { { 30.0, 0.025, 0.0, 0.0 } };
+  dome.Hills = { { 30.0, 0.025, 0.0, 0.0 } };
   return { { waves(5.0, 0.03 * Pi), 1.0, 1.333, { 20.0, 300.0, 10.0 }, 64, 80.0 },
     { waves(5.0, 0.03 * Pi), 1.333, 1.0, { 20.0, 300.0, 10.0 }, 64, 80.0 },
     { dome, 1.0, 1.5, { 5.0, 400.0, 3.0 }, 64, 20.0 },
@@ -122,13 +122,13 @@ reference::SurfaceError errorOf(const CurvedMembraneSolver& geometry, const Smoo
            glm::dvec2(0.0, 0.5), glm::dvec2(0.5, 0.5) })
     {
       const PatchPoint at = patch.Evaluate(b);
-      const glm::dvec3 p = at.position + geometry.GetMembrane().GetOrigin();
-      error.position = std::max(error.position, std::fabs(p.y - surface.At(p.x, p.z).f));
-      error.normal = std::max(
-        error.normal, glm::length(glm::normalize(at.normal) - surface.GetNormal(p.x, p.z)));
+      const glm::dvec3 p = at.Position + geometry.GetMembrane().GetOrigin();
+      error.Position = std::max(error.Position, std::fabs(p.y - surface.At(p.x, p.z).F));
+      error.Normal = std::max(
+        error.Normal, glm::length(glm::normalize(at.Normal) - surface.GetNormal(p.x, p.z)));
     }
   }
-  return { 1.5 * error.position, 1.5 * error.normal };
+  return { 1.5 * error.Position, 1.5 * error.Normal };
 }
 
 void compare(const OracleAnswer& answer, const std::vector<VirtualVertex>& images,
@@ -136,21 +136,21 @@ void compare(const OracleAnswer& answer, const std::vector<VirtualVertex>& image
 {
   const auto matches = [&error](const OracleImage& image, const VirtualVertex& vertex)
   {
-    return glm::length(vertex.sightPoint - image.sight) <=
-      2.0 * image.radius + 2.0 * error.position + 1e-7;
+    return glm::length(vertex.SightPoint - image.Sight) <=
+      2.0 * image.Radius + 2.0 * error.Position + 1e-7;
   };
   ++count.Points;
-  count.Uncertain += !answer.uncertain.empty();
-  count.Images += static_cast<int>(answer.images.size());
-  for (const OracleImage& image : answer.images)
+  count.Uncertain += !answer.Uncertain.empty();
+  count.Images += static_cast<int>(answer.Images.size());
+  for (const OracleImage& image : answer.Images)
   {
     count.Missed += std::none_of(images.begin(), images.end(),
       [&](const VirtualVertex& vertex) { return matches(image, vertex); });
   }
   for (const VirtualVertex& vertex : images)
   {
-    count.False += !answer.IsUncertain(vertex.sightPoint.x, vertex.sightPoint.z, 1e-7) &&
-      std::none_of(answer.images.begin(), answer.images.end(),
+    count.False += !answer.IsUncertain(vertex.SightPoint.x, vertex.SightPoint.z, 1e-7) &&
+      std::none_of(answer.Images.begin(), answer.Images.end(),
         [&](const OracleImage& image) { return matches(image, vertex); });
   }
 }
@@ -173,24 +173,24 @@ std::string runThesisTables()
     const ThesisRow& row = rows[i];
     const ErrorStatistics ours = reference::MeasureThesisRow(row);
     const ErrorStatistics curved = reference::MeasureThesisRowCurved(row);
-    const double percent = 100.0 * (ours.mean / row.mean - 1.0);
+    const double percent = 100.0 * (ours.Mean / row.Mean - 1.0);
     const bool accepted = std::fabs(percent) <= AcceptedPercent;
     const bool counts = reference::IsReproducible(row);
     counted += counts;
     close += counts && accepted;
-    const std::string points = row.points > 0 ? std::to_string(row.points) : "-";
+    const std::string points = row.Points > 0 ? std::to_string(row.Points) : "-";
     std::printf(
       "%-5s %-30s | %11.4f %10.4f %7s | %10.4f %10.4f %7zu | %+7.2f%%%s | %9.2e %9.2e %7zu\n",
-      row.table, describe(row).c_str(), row.mean, row.deviation, points.c_str(), ours.mean,
-      ours.deviation, ours.points, percent, accepted ? " " : "*", curved.mean, curved.largest,
-      curved.points);
+      row.Table, describe(row).c_str(), row.Mean, row.Deviation, points.c_str(), ours.Mean,
+      ours.Deviation, ours.Points, percent, accepted ? " " : "*", curved.Mean, curved.Largest,
+      curved.Points);
     std::fflush(stdout);
-    json << "    { \"table\": \"" << row.table << "\", \"setup\": \"" << describe(row)
-         << "\", \"thesis_mean\": " << row.mean << ", \"thesis_deviation\": " << row.deviation
-         << ", \"thesis_points\": " << row.points << ", \"mean\": " << ours.mean
-         << ", \"deviation\": " << ours.deviation << ", \"points\": " << ours.points
-         << ", \"curved_mean\": " << curved.mean << ", \"curved_largest\": " << curved.largest
-         << ", \"curved_points\": " << curved.points << " }"
+    json << "    { \"table\": \"" << row.Table << "\", \"setup\": \"" << describe(row)
+         << "\", \"thesis_mean\": " << row.Mean << ", \"thesis_deviation\": " << row.Deviation
+         << ", \"thesis_points\": " << row.Points << ", \"mean\": " << ours.Mean
+         << ", \"deviation\": " << ours.Deviation << ", \"points\": " << ours.Points
+         << ", \"curved_mean\": " << curved.Mean << ", \"curved_largest\": " << curved.Largest
+         << ", \"curved_points\": " << curved.Points << " }"
          << (i + 1 < rows.size() ? ",\n" : "\n");
   }
   json << "  ],\n  \"rows_within_3_percent\": " << close << ",\n  \"rows_counted\": " << counted;
@@ -208,10 +208,10 @@ WaveError measureWaveError(int cells)
   const auto mesh = field.MakeMesh(cells);
   CurvedMembraneSolver curved;
   curved.SetMembrane(mesh.AsInput());
-  curved.SetEye(eye, field.exterior, field.interior);
+  curved.SetEye(eye, field.Exterior, field.Interior);
   FlatMembraneSolver flat;
   flat.SetMembrane(mesh.AsInput());
-  flat.SetEye(eye, field.exterior, field.interior);
+  flat.SetEye(eye, field.Exterior, field.Interior);
   Random random;
   double sums[2] = { 0.0, 0.0 };
   int counts[2] = { 0, 0 };
@@ -223,7 +223,7 @@ WaveError measureWaveError(int cells)
     curved.Solve(&point.x, 0, 1, &vertex[1]);
     for (int k = 0; k < 2; ++k)
     {
-      if (vertex[k].state == ImageState::Found)
+      if (vertex[k].State == ImageState::Found)
       {
         sums[k] += errorOf(field, eye, point, vertex[k]);
         ++counts[k];
@@ -241,17 +241,17 @@ ImageCount countImages()
   for (const ImageScene& scene : makeImageScenes())
   {
     CurvedMembraneSolver geometry;
-    const auto mesh = scene.surface.MakeMesh(scene.cells);
+    const auto mesh = scene.Surface.MakeMesh(scene.Cells);
     geometry.SetMembrane(mesh.AsInput());
-    geometry.SetEye(scene.eye, scene.exterior, scene.interior);
-    const auto error = errorOf(geometry, scene.surface);
+    geometry.SetEye(scene.Eye, scene.Exterior, scene.Interior);
+    const auto error = errorOf(geometry, scene.Surface);
     const reference::SightOracle oracle(
-      scene.surface, scene.eye, scene.exterior, scene.interior, error);
+      scene.Surface, scene.Eye, scene.Exterior, scene.Interior, error);
     std::vector<VirtualVertex> images;
     for (int i = 0; i < 500; ++i)
     {
-      const glm::dvec3 point(random(-scene.reach, scene.reach), random(-250.0, -40.0),
-        random(-scene.reach, scene.reach));
+      const glm::dvec3 point(random(-scene.Reach, scene.Reach), random(-250.0, -40.0),
+        random(-scene.Reach, scene.Reach));
       geometry.FindImages(point, images);
       compare(oracle.Find(point), images, error, count);
     }
@@ -283,7 +283,7 @@ double measureHemispherePixels()
     {
       continue;
     }
-    const glm::dvec3 a = images[0].sightPoint - eye;
+    const glm::dvec3 a = images[0].SightPoint - eye;
     const glm::dvec3 b = sights[0] - eye;
     const glm::dvec3 apart = a / a.y - b / b.y;
     largest = std::max(largest, glm::length(apart) / pixel);

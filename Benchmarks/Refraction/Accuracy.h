@@ -10,11 +10,13 @@ namespace meniscus
 namespace benchmark
 {
 
-/// Prints thesis Tables 4.1 to 4.5 side by side and returns them as members of a JSON object.
+/** Prints thesis Tables 4.1 to 4.5 side by side and returns them as members of a JSON object. */
 std::string runThesisTables();
 
-/// Mean error of virtual vertices on waves of two periods with `cells` x `cells` x 2 facets, as the
-/// distance between a true point and the exact point behind its virtual vertex.
+/**
+ * Mean error of virtual vertices on waves of two periods with `cells` x `cells` x 2 facets, as the
+ * distance between a true point and the exact point behind its virtual vertex.
+ */
 struct WaveError
 {
   double Flat = 0.0;
@@ -22,7 +24,7 @@ struct WaveError
 };
 WaveError measureWaveError(int cells);
 
-/// Images of points on two waves, a dome and a low eye against the interval oracle.
+/** Images of points on two waves, a dome and a low eye against the interval oracle. */
 struct ImageCount
 {
   int Points = 0;
@@ -33,8 +35,10 @@ struct ImageCount
 };
 ImageCount countImages();
 
-/// Largest error of a sight point on the hemisphere of 184 facets, eye at 450, in pixels of a
-/// picture of 512 pixels that the hemisphere's opening just fills.
+/**
+ * Largest error of a sight point on the hemisphere of 184 facets, eye at 450, in pixels of a
+ * picture of 512 pixels that the hemisphere's opening just fills.
+ */
 double measureHemispherePixels();
 
 } // namespace benchmark

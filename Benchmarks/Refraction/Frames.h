@@ -12,11 +12,13 @@ namespace meniscus
 namespace benchmark
 {
 
-/// Thesis Tables 4.6 to 4.9 beside the filter's frames, drawn at 512 x 512.
+/** Thesis Tables 4.6 to 4.9 beside the filter's frames, drawn at 512 x 512. */
 void printThesisFrames(std::ostream& out);
 
-/// Frames of the filter alone per second, and processor milliseconds of one: the well of 1,445
-/// vertices below 512 facets of waves that move.
+/**
+ * Frames of the filter alone per second, and processor milliseconds of one: the well of 1,445
+ * vertices below 512 facets of waves that move.
+ */
 struct WellFrames
 {
   std::string Mode;
@@ -25,8 +27,10 @@ struct WellFrames
 };
 std::vector<WellFrames> measureWell();
 
-/// Filter and drawing against tracing the same scene with Embree, both at an image error of half a
-/// pixel.
+/**
+ * Filter and drawing against tracing the same scene with Embree, both at an image error of half a
+ * pixel.
+ */
 struct Race
 {
   std::string Change; ///< what moves
@@ -41,7 +45,7 @@ struct RaceReport
   std::string Traced; ///< the same
   std::vector<Race> Races;
 };
-/// Empty without Embree.
+/** Empty without Embree. */
 std::vector<RaceReport> runRaces();
 
 void printRaces(std::ostream& out);

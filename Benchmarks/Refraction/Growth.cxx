@@ -94,7 +94,7 @@ void measureFlat(
       for (std::size_t i = 0; i < sample; ++i)
       {
         const double* p = shuffled.data() + 3 * (i % (shuffled.size() / 3));
-        sink += geometry.SolvePointByBruteForce({ p[0], p[1], p[2] }).depth;
+        sink += geometry.SolvePointByBruteForce({ p[0], p[1], p[2] }).Depth;
       }
     }).Cpu;
   figures.FlatBruteForce = sink >= 0.0 ? 1e6 * seconds / static_cast<double>(sample) : 0.0;
@@ -114,7 +114,7 @@ void measureCurved(
   figures.CurvedDeform = timeMedian(
     [&]
     {
-      moved.points[1] += 1e-6;
+      moved.Points[1] += 1e-6;
       geometry.SetMembrane(moved.AsInput());
     }).Cpu;
   geometry.SetMembrane(mesh.AsInput());
@@ -273,7 +273,7 @@ ThreadedFigures measureThreaded(int cells)
   const Seconds deform = timeMedian(
     [&]
     {
-      mesh.points[1] += 1e-6;
+      mesh.Points[1] += 1e-6;
       geometry.SetMembrane(mesh.AsInput(), loop);
     });
   figures.EyeWall = eye.Wall;

@@ -13,7 +13,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/// What a membrane of so many facets costs; processor seconds of one thread but where said.
+/** What a membrane of so many facets costs; processor seconds of one thread but where said. */
 struct GrowthFigures
 {
   std::size_t Facets = 0;
@@ -33,10 +33,10 @@ struct GrowthFigures
   double CurvedError = 0.0;
 };
 
-/// Waves of `cells` x `cells` x 2 facets.
+/** Waves of `cells` x `cells` x 2 facets. */
 GrowthFigures measureGrowth(int cells);
 
-/// Wall and processor seconds of CURVED for a new eye and for a deformed membrane, in threads.
+/** Wall and processor seconds of CURVED for a new eye and for a deformed membrane, in threads. */
 struct ThreadedFigures
 {
   std::size_t Facets = 0;
@@ -47,8 +47,10 @@ struct ThreadedFigures
 };
 ThreadedFigures measureThreaded(int cells);
 
-/// Prints cost by facets and by vertices, and time against error; returns members of a JSON object.
-/// Writes CSV and plot if asked for; an empty string if one of them cannot be written.
+/**
+ * Prints cost by facets and by vertices, and time against error; returns members of a JSON object.
+ * Writes CSV and plot if asked for; an empty string if one of them cannot be written.
+ */
 std::string runGrowth(const RefractionOptions& options);
 
 } // namespace benchmark

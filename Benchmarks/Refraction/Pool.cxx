@@ -44,7 +44,7 @@ double percentOff(const std::vector<glm::dvec3>& colors, const testing::PoolPict
   double off = 0.0;
   for (std::size_t i = 0; i < colors.size(); ++i)
   {
-    if (truth.isWater[i])
+    if (truth.IsWater[i])
     {
       const glm::dvec3 difference = glm::abs(colors[i] - truth.Colors[i]);
       water += 1.0;
@@ -67,7 +67,7 @@ std::vector<glm::dvec3> toColors(const Bytes& bytes, std::size_t stride)
 
 #ifdef MENISCUS_HAS_EMBREE
 
-/// Shades what Embree has traced as the scene does.
+/** Shades what Embree has traced as the scene does. */
 class PoolShader : public TracedShader
 {
 public:
@@ -140,15 +140,15 @@ void traceWithEmbree(
   const PoolShader shader(scene);
   TracedMesh water;
   const reference::MembraneMesh mesh = scene.field().MakeMesh(PictureCells);
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
-    water.addPoint(mesh.points.data() + i);
+    water.addPoint(mesh.Points.data() + i);
   }
-  water.Normals.assign(mesh.normals.begin(), mesh.normals.end());
-  water.Triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  water.Normals.assign(mesh.Normals.begin(), mesh.Normals.end());
+  water.Triangles.assign(mesh.Triangles.begin(), mesh.Triangles.end());
   water.finish();
   RefractionTracer tracer;
-  tracer.setIndices(scene.field().exterior, scene.field().interior);
+  tracer.setIndices(scene.field().Exterior, scene.field().Interior);
   tracer.setMembrane(water);
   tracer.setObject(shader.mesh());
   const testing::PixelCamera& camera = scene.camera();

@@ -11,8 +11,10 @@ namespace meniscus
 namespace benchmark
 {
 
-/// A frame of vtkRefractionPass at 512 x 512 with Fresnel, a sky and attenuation, everything
-/// recomputed: waves of 512 facets that move over textured walls of 1,445 vertices.
+/**
+ * A frame of vtkRefractionPass at 512 x 512 with Fresnel, a sky and attenuation, everything
+ * recomputed: waves of 512 facets that move over textured walls of 1,445 vertices.
+ */
 struct PassFrames
 {
   std::string Mode;
@@ -21,9 +23,11 @@ struct PassFrames
 };
 std::vector<PassFrames> measurePass();
 
-/// Pixels of the water that differ by more than 8/255 from rays through the exact waves, in
-/// percent, and the time of a picture: the pass, and an Embree tracer with the same textures,
-/// Fresnel, sky and attenuation.
+/**
+ * Pixels of the water that differ by more than 8/255 from rays through the exact waves, in
+ * percent, and the time of a picture: the pass, and an Embree tracer with the same textures,
+ * Fresnel, sky and attenuation.
+ */
 struct PoolPictures
 {
   double PassPercent = 0.0;

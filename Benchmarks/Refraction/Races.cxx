@@ -49,12 +49,12 @@ constexpr double Tolerances[] = { 0.015, 0.03, 0.06 };
 TracedMesh membraneOf(const reference::MembraneMesh& mesh)
 {
   TracedMesh result;
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
-    result.addPoint(mesh.points.data() + i);
+    result.addPoint(mesh.Points.data() + i);
   }
-  result.Normals.assign(mesh.normals.begin(), mesh.normals.end());
-  result.Triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  result.Normals.assign(mesh.Normals.begin(), mesh.Normals.end());
+  result.Triangles.assign(mesh.Triangles.begin(), mesh.Triangles.end());
   result.finish();
   return result;
 }
@@ -125,10 +125,10 @@ testing::PlacePicture placesOf(const RefractionTracer& tracer, const testing::Pi
         }
         testing::PlacePixel& pixel =
           picture[static_cast<std::size_t>(packet.Y * view.Pixels + packet.X + k)];
-        pixel.covered = true;
+        pixel.Covered = true;
         for (int i = 0; i < 3; ++i)
         {
-          pixel.place[i] = packet.Place[i][k] + packet.Depth[k] * packet.Refracted[i][k];
+          pixel.Place[i] = packet.Place[i][k] + packet.Depth[k] * packet.Refracted[i][k];
         }
       }
     }
@@ -210,7 +210,7 @@ private:
 
   void prepare(RefractionTracer& tracer, WellScene& scene, int cells)
   {
-    tracer.setIndices(scene.field().exterior, scene.field().interior);
+    tracer.setIndices(scene.field().Exterior, scene.field().Interior);
     tracer.setMembrane(membraneOf(scene.field().MakeMesh(cells)));
     tracer.setObject(objectOf(scene.well()));
     this->Colors = colorsOf(scene.well());
@@ -239,7 +239,7 @@ private:
       WellScene scene(cells, quads);
       this->prepare(scene, tolerance);
       const double error =
-        testing::ComparePlaces(this->Truth, scene.drawPlaces(), scene.camera()).error;
+        testing::ComparePlaces(this->Truth, scene.drawPlaces(), scene.camera()).Error;
       if (error <= AcceptedPixels)
       {
         int frame = 0;
@@ -270,7 +270,7 @@ private:
       RefractionTracer tracer;
       this->prepare(tracer, scene, cells);
       const auto picture = placesOf(tracer, scene.camera());
-      this->TracedError = testing::ComparePlaces(this->Truth, picture, scene.camera()).error;
+      this->TracedError = testing::ComparePlaces(this->Truth, picture, scene.camera()).Error;
       if (this->TracedError <= AcceptedPixels)
       {
         return cells;

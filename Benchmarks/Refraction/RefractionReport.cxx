@@ -91,7 +91,7 @@ private:
     {
       if (choice(row))
       {
-        const double mean = reference::MeasureThesisRowCurved(row).mean;
+        const double mean = reference::MeasureThesisRowCurved(row).Mean;
         largest = std::max(largest, mean);
         text += (text.empty() ? "" : " / ") + number(mean);
       }
@@ -101,13 +101,13 @@ private:
 
   std::string planar() const
   {
-    return means([](const reference::ThesisRow& row) { return row.sphereRatio == 0.0; }, true);
+    return means([](const reference::ThesisRow& row) { return row.SphereRatio == 0.0; }, true);
   }
 
   std::string bowls() const
   {
     return means([](const reference::ThesisRow& row)
-      { return std::strcmp(row.table, "4.2") == 0 && row.sphereRatio > 1.0; },
+      { return std::strcmp(row.Table, "4.2") == 0 && row.SphereRatio > 1.0; },
       false);
   }
 
@@ -115,7 +115,7 @@ private:
   {
     return "mean " +
       means([](const reference::ThesisRow& row)
-        { return std::strcmp(row.table, "4.2") == 0 && row.sphereRatio == 1.0; },
+        { return std::strcmp(row.Table, "4.2") == 0 && row.SphereRatio == 1.0; },
         false) +
       ", largest " + number(measureHemispherePixels()) + " pixels";
   }
@@ -178,28 +178,28 @@ private:
     for (const testing::PictureScene& scene : testing::GetPictureScenes())
     {
       vtkNew<vtkPlaneSource> plane;
-      const double half = 0.5 * scene.size;
-      plane->SetOrigin(-half, -scene.depth, -half);
-      plane->SetPoint1(-half, -scene.depth, half);
-      plane->SetPoint2(half, -scene.depth, -half);
-      plane->SetResolution(scene.tiles, scene.tiles);
+      const double half = 0.5 * scene.Size;
+      plane->SetOrigin(-half, -scene.Depth, -half);
+      plane->SetPoint1(-half, -scene.Depth, half);
+      plane->SetPoint2(half, -scene.Depth, -half);
+      plane->SetResolution(scene.Tiles, scene.Tiles);
       plane->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
       plane->Update();
       testing::AddPlaces(plane->GetOutput());
       vtkNew<vtkRefractedGeometryFilter> filter;
       filter->SetInputData(0, plane->GetOutput());
-      filter->SetMembraneData(testing::MakeMembrane(scene.field.MakeMesh(scene.cells)));
-      filter->SetEyePosition(scene.eye.x, scene.eye.y, scene.eye.z);
-      filter->SetExteriorIndexOfRefraction(scene.field.exterior);
-      filter->SetInteriorIndexOfRefraction(scene.field.interior);
+      filter->SetMembraneData(testing::MakeMembrane(scene.Field.MakeMesh(scene.Cells)));
+      filter->SetEyePosition(scene.Eye.x, scene.Eye.y, scene.Eye.z);
+      filter->SetExteriorIndexOfRefraction(scene.Field.Exterior);
+      filter->SetInteriorIndexOfRefraction(scene.Field.Interior);
       filter->Update();
       const testing::PixelCamera camera = scene.GetCamera();
       const auto compared =
-        testing::ComparePlaces(testing::TracePlaces(scene.field, camera,
-                                 testing::MakeSquareTracer(-scene.depth, scene.size)),
+        testing::ComparePlaces(testing::TracePlaces(scene.Field, camera,
+                                 testing::MakeSquareTracer(-scene.Depth, scene.Size)),
           testing::DrawPlaces(filter->GetOutput(), camera), camera);
-      text += (text.empty() ? "" : "; ") + scene.name + " " +
-        number(100.0 * (compared.coverage + compared.place) / compared.covered) + " %";
+      text += (text.empty() ? "" : "; ") + scene.Name + " " +
+        number(100.0 * (compared.Coverage + compared.Place) / compared.Covered) + " %";
     }
     return text;
   }

@@ -13,7 +13,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/// Processor time of all threads: others may run beside the program.
+/** Processor time of all threads: others may run beside the program. */
 inline double cpuSeconds()
 {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -46,7 +46,7 @@ inline double medianOf(std::vector<double> values)
   return *middle;
 }
 
-/// Of wall and processor times, each by itself.
+/** Of wall and processor times, each by itself. */
 inline Seconds medianOf(const std::vector<Seconds>& times)
 {
   std::vector<double> wall;
@@ -59,7 +59,7 @@ inline Seconds medianOf(const std::vector<Seconds>& times)
   return { medianOf(wall), medianOf(cpu) };
 }
 
-/// Median of `runs` runs after one warm-up.
+/** Median of `runs` runs after one warm-up. */
 template <typename Work>
 Seconds timeMedian(const Work& work, int runs = 5)
 {

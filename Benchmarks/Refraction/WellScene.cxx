@@ -97,8 +97,8 @@ WellScene::WellScene(int cells, int quads)
 {
   this->Filter->SetInputData(0, this->Well);
   this->Filter->SetMembraneData(this->Membrane);
-  this->Filter->SetExteriorIndexOfRefraction(this->Field.exterior);
-  this->Filter->SetInteriorIndexOfRefraction(this->Field.interior);
+  this->Filter->SetExteriorIndexOfRefraction(this->Field.Exterior);
+  this->Filter->SetInteriorIndexOfRefraction(this->Field.Interior);
   this->changeColors(0);
   this->moveEye(0.0);
 }
@@ -110,7 +110,7 @@ WellScene::~WellScene() = default;
 reference::HeightField WellScene::fieldAt(double time) const
 {
   reference::HeightField field = this->Field;
-  field.amplitude *= 1.0 + 0.3 * std::sin(time);
+  field.Amplitude *= 1.0 + 0.3 * std::sin(time);
   return field;
 }
 
@@ -245,8 +245,8 @@ testing::PlacePicture WellScene::trace() const
       {
         t = bottom;
       }
-      pixel.covered = t < std::numeric_limits<double>::max();
-      pixel.place = start + (pixel.covered ? t : bottom) * direction;
+      pixel.Covered = t < std::numeric_limits<double>::max();
+      pixel.Place = start + (pixel.Covered ? t : bottom) * direction;
       return pixel;
     });
 }

@@ -32,7 +32,7 @@ public:
   static constexpr double Depth = 100.0;
   static constexpr double Top = -5.0;
 
-  /// `cells` x `cells` x 2 facets, `quads` x `quads` quads on each of five sides.
+  /** `cells` x `cells` x 2 facets, `quads` x `quads` quads on each of five sides. */
   WellScene(int cells, int quads);
   ~WellScene();
 
@@ -40,25 +40,25 @@ public:
   vtkPolyData* well() { return this->Well; }
   const reference::HeightField& field() const { return this->Field; }
 
-  /// The membrane of a moment.
+  /** The membrane of a moment. */
   reference::HeightField fieldAt(double time) const;
   void moveMembrane(double time);
-  /// An eye on a circle.
+  /** An eye on a circle. */
   void moveEye(double time);
   void changeColors(int number);
-  /// The well itself, up and down.
+  /** The well itself, up and down. */
   void moveWell(double time);
 
   testing::PixelCamera camera() const;
 
-  /// Runs the filter and draws, until the picture is there.
+  /** Runs the filter and draws, until the picture is there. */
   void draw();
-  /// Runs the filter alone.
+  /** Runs the filter alone. */
   void update();
 
-  /// What the present eye sees of the well through the present membrane, by rays in double.
+  /** What the present eye sees of the well through the present membrane, by rays in double. */
   testing::PlacePicture trace() const;
-  /// The same from the filter's output.
+  /** The same from the filter's output. */
   testing::PlacePicture drawPlaces();
 
 private:

@@ -31,7 +31,7 @@ struct FrameTime
   double CpuMs = 0.0; // user and system, all threads of the process
 };
 
-/// |picture - reference|, largest of three channels.
+/** |picture - reference|, largest of three channels. */
 struct PictureError
 {
   double Largest = 0.0;
@@ -58,7 +58,7 @@ struct Figures
   bool HasFloat = false;
 };
 
-/// Middle value, and first and third quartile.
+/** Middle value, and first and third quartile. */
 struct Spread
 {
   double Median = 0.0;
@@ -68,7 +68,7 @@ struct Spread
 
 Spread spreadOf(std::vector<double> values);
 
-/// How many times as long a frame of `slow` takes as the frame of `fast` in the same round.
+/** How many times as long a frame of `slow` takes as the frame of `fast` in the same round. */
 Spread ratioOf(const Figures& slow, const Figures& fast, bool cpu = false);
 
 class VolumeComparison
@@ -77,31 +77,33 @@ public:
   VolumeComparison(const VolumeOptions& options, vtkUnstructuredGrid* grid);
   ~VolumeComparison();
 
-  /// Opens a window for each; draws the first frames.
+  /** Opens a window for each; draws the first frames. */
   void enter(const std::vector<Contestant>& contestants);
 
-  /// Steady frames and set-up of all.
+  /** Steady frames and set-up of all. */
   void measureTimes();
-  /// Errors against the reference of the run's function.
+  /** Errors against the reference of the run's function. */
   void measureErrors();
 
   const std::vector<Figures>& figures() const { return this->Results; }
   std::string device() const { return this->Device; }
 
-  /// Frames after a change, each beside a steady frame of the same view.
+  /** Frames after a change, each beside a steady frame of the same view. */
   struct Change
   {
     std::vector<double> ChangedMs;
     std::vector<double> SteadyMs;
   };
-  /// One opacity node moved.
+  /** One opacity node moved. */
   Change measureEdit(std::size_t contestant, int times);
-  /// A new scalar array on the same points and cells.
+  /** A new scalar array on the same points and cells. */
   Change measureScalars(std::size_t contestant, int times);
-  /// A new mesh: other points and cells objects of the same contents.
+  /** A new mesh: other points and cells objects of the same contents. */
   Change measureSetUp(std::size_t contestant, int times);
 
-  /// Frames from above, by contestant: the camera moved by a fifth of a degree, and where it was.
+  /**
+   * Frames from above, by contestant: the camera moved by a fifth of a degree, and where it was.
+   */
   struct Moves
   {
     std::vector<Figures> Moving;
@@ -119,7 +121,7 @@ private:
     std::unique_ptr<test::VolumeScene> Scene;
   };
 
-  /// A new property each time: some measurements change it.
+  /** A new property each time: some measurements change it. */
   vtkSmartPointer<vtkVolumeProperty> propertyOf(test::FunctionKind kind) const;
   void look(test::VolumeScene& scene, int view) const;
   void timeRound(int view);

@@ -20,16 +20,18 @@ namespace benchmark
 
 using MapperPointer = vtkSmartPointer<vtkUnstructuredGridVolumeMapper>;
 
-/// A mapper with its settings.
+/** A mapper with its settings. */
 struct Contestant
 {
   std::string Name;
   std::function<MapperPointer()> Make;
-  /// Whether its picture in a float framebuffer is that of the window, only finer: ours. The ray
-  /// cast mapper and Z sweep make 8-bit images, projected tetrahedra come out otherwise than in a
-  /// window.
+  /**
+   * Whether its picture in a float framebuffer is that of the window, only finer: ours. The ray
+   * cast mapper and Z sweep make 8-bit images, projected tetrahedra come out otherwise than in a
+   * window.
+   */
   bool HasFloat = false;
-  /// The transfer function it draws; the error is measured for that of the run only.
+  /** The transfer function it draws; the error is measured for that of the run only. */
   test::FunctionKind Function = test::FunctionKind::Smooth;
 };
 
@@ -39,10 +41,10 @@ struct Contestant
  */
 std::vector<Contestant> makeContestants(const VolumeOptions& options);
 
-/// Ours with one backend, exact.
+/** Ours with one backend, exact. */
 Contestant makeOurs(int backend, const std::string& name);
 
-/// Those whose names contain one of the words; all without words.
+/** Those whose names contain one of the words; all without words. */
 std::vector<Contestant> selectContestants(
   const std::vector<Contestant>& all, const std::vector<std::string>& words);
 

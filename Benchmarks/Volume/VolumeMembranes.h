@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a membrane over the whole picture costs.
+/** What a membrane over the whole picture costs. */
 #ifndef meniscus_VolumeMembranes_h
 #define meniscus_VolumeMembranes_h
 
@@ -14,7 +14,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/// Processor time of a frame over that of the same frame without the membrane.
+/** Processor time of a frame over that of the same frame without the membrane. */
 struct MembraneCost
 {
   std::string Name;
@@ -22,7 +22,7 @@ struct MembraneCost
   Spread Resting; // nothing changed but the camera's time
 };
 
-/// A backend through a plane above the mesh, one through its middle, a dome and waves.
+/** A backend through a plane above the mesh, one through its middle, a dome and waves. */
 std::vector<MembraneCost> measureMembranes(
   const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend);
 

@@ -14,7 +14,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/// What the command line asks for.
+/** What the command line asks for. */
 struct VolumeOptions
 {
   std::string Mesh; // file, or empty for the generated block
@@ -43,10 +43,10 @@ extern const char* const VolumeUsage;
 
 VolumeOptions parseVolumeOptions(int argc, char* argv[]);
 
-/// By the name of a function: smooth, peaked, sharp, opaque, sparse. False if there is none.
+/** By the name of a function: smooth, peaked, sharp, opaque, sparse. False if there is none. */
 bool findFunctionKind(const std::string& name, test::FunctionKind& kind);
 
-/// The mesh asked for, null if it cannot be read.
+/** The mesh asked for, null if it cannot be read. */
 test::Grid makeVolumeMesh(const VolumeOptions& options);
 
 } // namespace benchmark

@@ -16,7 +16,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/// What figures belong to.
+/** What figures belong to. */
 struct RunDescription
 {
   std::string Mesh;
@@ -24,18 +24,20 @@ struct RunDescription
   std::string Device;
 };
 
-/// Mesh, window, device, versions, threads.
+/** Mesh, window, device, versions, threads. */
 void printDescription(
   std::ostream& out, const VolumeOptions& options, const RunDescription& description);
 
-/// One line per mapper, then ratios of ours to the others.
+/** One line per mapper, then ratios of ours to the others. */
 void printTable(std::ostream& out, const std::vector<Figures>& all);
 
 bool writeJson(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);
 
-/// Milliseconds per frame against RMS error in a picture, both logarithmic: 8-bit and float
-/// pictures of every mapper.
+/**
+ * Milliseconds per frame against RMS error in a picture, both logarithmic: 8-bit and float
+ * pictures of every mapper.
+ */
 bool writePlot(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);
 

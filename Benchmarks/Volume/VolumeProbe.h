@@ -25,7 +25,7 @@ struct ProbeResult
  */
 ProbeResult probeContestant(const std::string& name, const VolumeOptions& options);
 
-/// What that process does; the result is its exit status.
+/** What that process does; the result is its exit status. */
 int runProbe(const Contestant& contestant, const VolumeOptions& options);
 
 } // namespace benchmark

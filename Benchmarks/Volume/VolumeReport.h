@@ -18,7 +18,7 @@ namespace benchmark
  */
 void printReport(std::ostream& out, const VolumeOptions& options);
 
-/// ms per frame for generated meshes of growing size, and the exponent of the growth.
+/** ms per frame for generated meshes of growing size, and the exponent of the growth. */
 void printGrowth(std::ostream& out, const VolumeOptions& options);
 
 } // namespace benchmark

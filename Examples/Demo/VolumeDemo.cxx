@@ -149,8 +149,8 @@ std::vector<DeepPoint> FindDeepPoints(vtkUnstructuredGrid* mesh)
   locator->SetDataSet(surface->GetOutput());
   locator->BuildLocator();
   std::vector<DeepPoint> points;
-  constexpr vtkIdType Tried = 2000;
-  const vtkIdType step = std::max<vtkIdType>(1, mesh->GetNumberOfPoints() / Tried);
+  constexpr vtkIdType tried = 2000;
+  const vtkIdType step = std::max<vtkIdType>(1, mesh->GetNumberOfPoints() / tried);
   for (vtkIdType p = 0; p < mesh->GetNumberOfPoints(); p += step)
   {
     DeepPoint point;

@@ -50,7 +50,7 @@ public:
   {
     this->Filter->SetInputData(0, well);
     this->Filter->SetInteriorIndexOfRefraction(DemoWater::Index);
-    this->Filter->SetEyePosition(View.eye[0], View.eye[1], View.eye[2]);
+    this->Filter->SetEyePosition(View.Eye[0], View.Eye[1], View.Eye[2]);
     this->Filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
     this->Mapper->SetInputConnection(this->Filter->GetOutputPort());
     this->Mapper->SetScalarModeToUseCellData();
@@ -63,10 +63,10 @@ public:
     this->Window->SetMultiSamples(0);
     this->Window->AddRenderer(this->Renderer);
     vtkCamera* camera = this->Renderer->GetActiveCamera();
-    camera->SetPosition(View.eye);
-    camera->SetFocalPoint(View.target);
-    camera->SetViewUp(View.up);
-    camera->SetViewAngle(View.angle);
+    camera->SetPosition(View.Eye);
+    camera->SetFocalPoint(View.Target);
+    camera->SetViewUp(View.Up);
+    camera->SetViewAngle(View.Angle);
     camera->SetClippingRange(1.0, 20.0);
   }
 
@@ -202,7 +202,7 @@ bool DrawErrorVolume(const std::string& folder)
   volume->SetInputData(0, DemoWater(0.0).MakeMesh(coarse));
   volume->SetReferenceData(DemoWater(0.0).MakeMesh(4 * WaterCells));
   volume->SetMembraneModelToFlatFacets();
-  volume->SetEyePosition(View.eye[0], View.eye[1], View.eye[2]);
+  volume->SetEyePosition(View.Eye[0], View.Eye[1], View.Eye[2]);
   volume->SetInteriorIndexOfRefraction(DemoWater::Index);
   volume->SetModelBounds(-1.0, 1.0, -1.0, 1.0, -2.0, -0.1);
   volume->SetSampleDimensions(samples, samples, samples);

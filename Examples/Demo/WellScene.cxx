@@ -261,14 +261,14 @@ vtkSmartPointer<vtkUnsignedCharArray> TraceDemoWell(vtkPolyData* well, const Dem
   picture->SetNumberOfTuples(static_cast<vtkIdType>(size) * size);
 
   double forward[3];
-  vtkMath::Subtract(view.target, view.eye, forward);
+  vtkMath::Subtract(view.Target, view.Eye, forward);
   vtkMath::Normalize(forward);
   double right[3];
-  vtkMath::Cross(forward, view.up, right);
+  vtkMath::Cross(forward, view.Up, right);
   vtkMath::Normalize(right);
   double up[3];
   vtkMath::Cross(right, forward, up);
-  const double half = std::tan(0.5 * vtkMath::RadiansFromDegrees(view.angle));
+  const double half = std::tan(0.5 * vtkMath::RadiansFromDegrees(view.Angle));
   constexpr double far = 20.0;
 
   vtkSMPTools::For(0, size,
@@ -299,14 +299,14 @@ vtkSmartPointer<vtkUnsignedCharArray> TraceDemoWell(vtkPolyData* well, const Dem
           direction[c] = forward[c] + u * right[c] + v * up[c];
         }
         vtkMath::Normalize(direction);
-        const double t = water.Intersect(view.eye, direction);
-        vtkIdType id = hit(view.eye, direction, t > 0.0 ? t : far);
+        const double t = water.Intersect(view.Eye, direction);
+        vtkIdType id = hit(view.Eye, direction, t > 0.0 ? t : far);
         if (id < 0 && t > 0.0)
         {
           double s[3];
           for (int c = 0; c < 3; ++c)
           {
-            s[c] = view.eye[c] + t * direction[c];
+            s[c] = view.Eye[c] + t * direction[c];
           }
           const auto normal = water.GetNormal(s[0], s[1]);
           const double ratio = 1.0 / water.GetIndex();

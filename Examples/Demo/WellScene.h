@@ -56,10 +56,10 @@ vtkSmartPointer<vtkPolyData> MakeDemoWell();
  */
 struct DemoView
 {
-  double eye[3];
-  double target[3];
-  double up[3];
-  double angle;
+  double Eye[3];
+  double Target[3];
+  double Up[3];
+  double Angle;
 };
 vtkSmartPointer<vtkUnsignedCharArray> TraceDemoWell(vtkPolyData* well, const DemoWater& water,
   const DemoView& view, int size, const unsigned char background[3]);

@@ -112,9 +112,9 @@ void WaterWindow::Show(const WaterSettings& settings)
   this->Filter->SetMembraneData(mesh);
   this->Filter->SetInteriorIndexOfRefraction(settings.Index);
   this->Filter->SetMembraneModel(
-    settings.Curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FLAT_FACETS);
-  this->Filter->SetImages(settings.Curved ? vtkRefractedGeometryFilter::ALL_IMAGES
-                                          : vtkRefractedGeometryFilter::FIRST_IMAGE);
+    settings.Curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FlatFacets);
+  this->Filter->SetImages(settings.Curved ? vtkRefractedGeometryFilter::AllImages
+                                          : vtkRefractedGeometryFilter::FirstImage);
   vtkPolyDataMapper::SafeDownCast(this->Water->GetMapper())->SetInputData(mesh);
 
   // Rays are traced without what the pass adds.
@@ -152,10 +152,10 @@ void WaterWindow::ShowRays(const WaterSettings& settings)
   }
   vtkCamera* camera = this->Renderer->GetActiveCamera();
   DemoView view{};
-  camera->GetPosition(view.eye);
-  camera->GetFocalPoint(view.target);
-  camera->GetViewUp(view.up);
-  view.angle = camera->GetViewAngle();
+  camera->GetPosition(view.Eye);
+  camera->GetFocalPoint(view.Target);
+  camera->GetViewUp(view.Up);
+  view.Angle = camera->GetViewAngle();
   vtkNew<vtkImageData> picture;
   picture->SetDimensions(this->Size, this->Size, 1);
   picture->GetPointData()->SetScalars(TraceDemoWell(this->Well,

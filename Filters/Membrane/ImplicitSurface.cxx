@@ -46,14 +46,14 @@ bool ImplicitSurface::Meet(
   // Quadratic convergence leaves the square of the last step, relative to the scene.
   constexpr double lastStep = 1e-8;
   constexpr int steps = 50;
-  double distance = glm::dot(vertex.sightPoint - this->Eye, direction);
+  double distance = glm::dot(vertex.SightPoint - this->Eye, direction);
   const double size = std::max(glm::length(this->Eye), std::fabs(distance));
   for (int i = 0; i < steps; ++i)
   {
-    at.position = this->Eye + distance * direction;
-    const double value = this->Function->FunctionValue(&at.position.x);
-    at.normal = this->Sign * this->GetGradient(at.position);
-    const double step = value * this->Sign / glm::dot(at.normal, direction);
+    at.Position = this->Eye + distance * direction;
+    const double value = this->Function->FunctionValue(&at.Position.x);
+    at.Normal = this->Sign * this->GetGradient(at.Position);
+    const double step = value * this->Sign / glm::dot(at.Normal, direction);
     if (!std::isfinite(step))
     {
       return false;
@@ -61,9 +61,9 @@ bool ImplicitSurface::Meet(
     distance -= step;
     if (std::fabs(step) <= lastStep * size)
     {
-      at.position = this->Eye + distance * direction;
-      at.normal = glm::normalize(this->Sign * this->GetGradient(at.position));
-      return distance > 0.0 && glm::dot(at.normal, direction) < 0.0;
+      at.Position = this->Eye + distance * direction;
+      at.Normal = glm::normalize(this->Sign * this->GetGradient(at.Position));
+      return distance > 0.0 && glm::dot(at.Normal, direction) < 0.0;
     }
   }
   return false;

@@ -10,14 +10,14 @@ class vtkImplicitFunction;
 namespace meniscus
 {
 
-/// The zero set of an implicit function as the exact surface of a membrane.
+/** The zero set of an implicit function as the exact surface of a membrane. */
 class ImplicitSurface : public ExactSurface
 {
 public:
-  /// The eye's side is the one that the normals of `membrane` point to in the mean.
+  /** The eye's side is the one that the normals of `membrane` point to in the mean. */
   ImplicitSurface(vtkImplicitFunction* function, const Membrane& membrane, const glm::dvec3& eye);
 
-  /// Newton's method along the ray, from the sight point. Thread-safe if the function is.
+  /** Newton's method along the ray, from the sight point. Thread-safe if the function is. */
   bool Meet(const glm::dvec3& point, const VirtualVertex& vertex, const glm::dvec3& direction,
     PatchPoint& at) const override;
 

@@ -54,10 +54,10 @@ private:
   void TakePoints()
   {
     const vtkIdType count = this->Surface->GetNumberOfPoints();
-    this->Arrays.points.resize(3 * static_cast<std::size_t>(count));
+    this->Arrays.Points.resize(3 * static_cast<std::size_t>(count));
     for (vtkIdType i = 0; i < count; ++i)
     {
-      this->Surface->GetPoint(i, this->Arrays.points.data() + 3 * i);
+      this->Surface->GetPoint(i, this->Arrays.Points.data() + 3 * i);
     }
   }
 
@@ -71,13 +71,13 @@ private:
     const vtkIdType count = this->Surface->GetNumberOfPoints();
     if (normals->GetNumberOfComponents() != 3 || normals->GetNumberOfTuples() != count)
     {
-      this->Arrays.normalsRejected = true;
+      this->Arrays.NormalsRejected = true;
       return;
     }
-    this->Arrays.normals.resize(3 * static_cast<std::size_t>(count));
+    this->Arrays.Normals.resize(3 * static_cast<std::size_t>(count));
     for (vtkIdType i = 0; i < count; ++i)
     {
-      normals->GetTuple(i, this->Arrays.normals.data() + 3 * i);
+      normals->GetTuple(i, this->Arrays.Normals.data() + 3 * i);
     }
   }
 
@@ -99,8 +99,8 @@ private:
 
   void AddTriangle(vtkIdType cell, vtkIdType a, vtkIdType b, vtkIdType c)
   {
-    this->Arrays.triangles.insert(this->Arrays.triangles.end(), { a, b, c });
-    this->Arrays.cellIds.push_back(cell);
+    this->Arrays.Triangles.insert(this->Arrays.Triangles.end(), { a, b, c });
+    this->Arrays.CellIds.push_back(cell);
   }
 
   void AddPolygon(vtkIdType cell, vtkIdType count, const vtkIdType* ids)
@@ -142,7 +142,7 @@ private:
     {
       return false;
     }
-    const double* p = this->Arrays.points.data() + 3 * id;
+    const double* p = this->Arrays.Points.data() + 3 * id;
     return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
   }
 
@@ -163,7 +163,7 @@ private:
     this->ForEachCell(triangles->GetPolys(), 0, &Extraction::AddSplitTriangle);
 
     // A polygon that gave no triangle has no area.
-    std::vector<std::int64_t> found = this->Arrays.cellIds;
+    std::vector<std::int64_t> found = this->Arrays.CellIds;
     std::sort(found.begin(), found.end());
     vtkIdType polygon = 0;
     const auto iterator = vtk::TakeSmartPointer(this->Polygons->NewIterator());
@@ -190,20 +190,20 @@ private:
 
   void SortByCell()
   {
-    std::vector<std::size_t> order(this->Arrays.cellIds.size());
+    std::vector<std::size_t> order(this->Arrays.CellIds.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    const auto& cells = this->Arrays.cellIds;
+    const auto& cells = this->Arrays.CellIds;
     std::stable_sort(order.begin(), order.end(),
       [&cells](std::size_t a, std::size_t b) { return cells[a] < cells[b]; });
     MembraneArrays sorted;
     for (const std::size_t i : order)
     {
-      const std::int64_t* ids = this->Arrays.triangles.data() + 3 * i;
-      sorted.triangles.insert(sorted.triangles.end(), ids, ids + 3);
-      sorted.cellIds.push_back(cells[i]);
+      const std::int64_t* ids = this->Arrays.Triangles.data() + 3 * i;
+      sorted.Triangles.insert(sorted.Triangles.end(), ids, ids + 3);
+      sorted.CellIds.push_back(cells[i]);
     }
-    this->Arrays.triangles = std::move(sorted.triangles);
-    this->Arrays.cellIds = std::move(sorted.cellIds);
+    this->Arrays.Triangles = std::move(sorted.Triangles);
+    this->Arrays.CellIds = std::move(sorted.CellIds);
   }
 
   vtkPolyData* Surface;
@@ -218,21 +218,21 @@ private:
 //------------------------------------------------------------------------------
 bool MembraneArrays::operator==(const MembraneArrays& other) const
 {
-  return this->points == other.points && this->normals == other.normals &&
-    this->triangles == other.triangles && this->cellIds == other.cellIds &&
-    this->normalsRejected == other.normalsRejected;
+  return this->Points == other.Points && this->Normals == other.Normals &&
+    this->Triangles == other.Triangles && this->CellIds == other.CellIds &&
+    this->NormalsRejected == other.NormalsRejected;
 }
 
 //------------------------------------------------------------------------------
 MembraneInput MembraneArrays::AsInput() const
 {
   MembraneInput input;
-  input.points = this->points.data();
-  input.numberOfPoints = this->points.size() / 3;
-  input.triangles = this->triangles.data();
-  input.numberOfTriangles = this->triangles.size() / 3;
-  input.cellIds = this->cellIds.data();
-  input.normals = this->normals.empty() ? nullptr : this->normals.data();
+  input.Points = this->Points.data();
+  input.NumberOfPoints = this->Points.size() / 3;
+  input.Triangles = this->Triangles.data();
+  input.NumberOfTriangles = this->Triangles.size() / 3;
+  input.CellIds = this->CellIds.data();
+  input.Normals = this->Normals.empty() ? nullptr : this->Normals.data();
   return input;
 }
 

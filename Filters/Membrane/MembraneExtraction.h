@@ -15,14 +15,14 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/// A membrane's triangles as plain arrays. Two of them are equal if the same surface comes out.
+/** A membrane's triangles as plain arrays. Two of them are equal if the same surface comes out. */
 struct MembraneArrays
 {
-  std::vector<double> points;
-  std::vector<double> normals; ///< empty if the input has none that fit
-  std::vector<std::int64_t> triangles;
-  std::vector<std::int64_t> cellIds; ///< cell of the input, per triangle
-  bool normalsRejected = false;      ///< there are normals, of the wrong size
+  std::vector<double> Points;
+  std::vector<double> Normals; ///< empty if the input has none that fit
+  std::vector<std::int64_t> Triangles;
+  std::vector<std::int64_t> CellIds; ///< cell of the input, per triangle
+  bool NormalsRejected = false;      ///< there are normals, of the wrong size
 
   bool operator==(const MembraneArrays& other) const;
   MembraneInput AsInput() const;

@@ -31,7 +31,7 @@ public:
 
   std::size_t Run()
   {
-    const std::size_t count = this->Arrays.points.size() / 3;
+    const std::size_t count = this->Arrays.Points.size() / 3;
     const double side = this->FindSide(count);
     std::vector<double> normals(3 * count, 0.0);
     const std::vector<bool> isUsed = this->FindUsed(count);
@@ -49,18 +49,18 @@ public:
         continue;
       }
       const glm::dvec3 normal = side * glm::normalize(this->GetGradient(point));
-      std::copy(&point.x, &point.x + 3, this->Arrays.points.begin() + 3 * static_cast<long>(i));
+      std::copy(&point.x, &point.x + 3, this->Arrays.Points.begin() + 3 * static_cast<long>(i));
       std::copy(&normal.x, &normal.x + 3, normals.begin() + 3 * static_cast<long>(i));
     }
-    this->Arrays.normals = std::move(normals);
-    this->Arrays.normalsRejected = false;
+    this->Arrays.Normals = std::move(normals);
+    this->Arrays.NormalsRejected = false;
     return lost;
   }
 
 private:
   glm::dvec3 GetPoint(std::size_t i) const
   {
-    const double* p = this->Arrays.points.data() + 3 * i;
+    const double* p = this->Arrays.Points.data() + 3 * i;
     return { p[0], p[1], p[2] };
   }
 
@@ -74,7 +74,7 @@ private:
   // Whether all corners exist.
   bool IsWhole(std::size_t triangle, std::size_t count) const
   {
-    const std::int64_t* ids = this->Arrays.triangles.data() + 3 * triangle;
+    const std::int64_t* ids = this->Arrays.Triangles.data() + 3 * triangle;
     return std::all_of(ids, ids + 3,
       [count](std::int64_t id) { return id >= 0 && id < static_cast<std::int64_t>(count); });
   }
@@ -82,11 +82,11 @@ private:
   std::vector<bool> FindUsed(std::size_t count) const
   {
     std::vector<bool> isUsed(count, false);
-    for (std::size_t i = 0; i < this->Arrays.triangles.size() / 3; ++i)
+    for (std::size_t i = 0; i < this->Arrays.Triangles.size() / 3; ++i)
     {
       for (std::size_t k = 0; k < 3 && this->IsWhole(i, count); ++k)
       {
-        const auto id = static_cast<std::size_t>(this->Arrays.triangles[3 * i + k]);
+        const auto id = static_cast<std::size_t>(this->Arrays.Triangles[3 * i + k]);
         const glm::dvec3 point = this->GetPoint(id);
         isUsed[id] = std::isfinite(point.x + point.y + point.z);
       }
@@ -98,20 +98,20 @@ private:
   double FindSide(std::size_t count) const
   {
     double along = 0.0;
-    for (std::size_t i = 0; i < this->Arrays.triangles.size() / 3; ++i)
+    for (std::size_t i = 0; i < this->Arrays.Triangles.size() / 3; ++i)
     {
       if (!this->IsWhole(i, count))
       {
         continue;
       }
       const auto id = [this, i](std::size_t k)
-      { return static_cast<std::size_t>(this->Arrays.triangles[3 * i + k]); };
+      { return static_cast<std::size_t>(this->Arrays.Triangles[3 * i + k]); };
       const glm::dvec3 corner = this->GetPoint(id(0));
       glm::dvec3 normal =
         glm::cross(this->GetPoint(id(1)) - corner, this->GetPoint(id(2)) - corner);
-      if (!this->Arrays.normals.empty())
+      if (!this->Arrays.Normals.empty())
       {
-        const double* n = this->Arrays.normals.data() + 3 * id(0);
+        const double* n = this->Arrays.Normals.data() + 3 * id(0);
         normal = glm::length(normal) * glm::dvec3(n[0], n[1], n[2]);
       }
       const glm::dvec3 gradient = this->GetGradient(corner);

@@ -101,22 +101,22 @@ bool RefractionScene::ReportMembrane(
   MembraneStatus status, std::size_t lost, SceneMessages& messages) const
 {
   const MembraneReport& report = this->GetMembrane().GetReport();
-  const std::size_t triangles = this->Arrays.triangles.size() / 3;
-  const std::size_t points = this->Arrays.points.size() / 3;
+  const std::size_t triangles = this->Arrays.Triangles.size() / 3;
+  const std::size_t points = this->Arrays.Points.size() / 3;
   std::ostringstream text;
   if (status != MembraneStatus::Ready)
   {
     text << NameFault(status) << " (" << report.Skipped() << " of " << triangles
          << " triangles skipped)";
-    messages.error = text.str();
+    messages.Error = text.str();
     return false;
   }
   if (report.Skipped() > 0)
   {
     text << report.Skipped() << " of " << triangles
-         << " membrane triangles skipped: " << report.zeroArea << " without area, "
-         << report.notFinite << " with coordinates that are not finite, " << report.outOfRange
-         << " with points that do not exist, " << report.duplicated << " repeated. ";
+         << " membrane triangles skipped: " << report.ZeroArea << " without area, "
+         << report.NotFinite << " with coordinates that are not finite, " << report.OutOfRange
+         << " with points that do not exist, " << report.Duplicated << " repeated. ";
   }
   if (lost > 0)
   {
@@ -124,42 +124,42 @@ bool RefractionScene::ReportMembrane(
          << " membrane points have no place on the exact membrane's zero set; they stay where they "
             "are. ";
   }
-  if (this->Arrays.normalsRejected)
+  if (this->Arrays.NormalsRejected)
   {
     text << "The membrane's normals do not have 3 components for each of its " << points
          << " points; normals are computed. ";
   }
-  else if (report.computedNormals > lost && !this->Arrays.normals.empty())
+  else if (report.ComputedNormals > lost && !this->Arrays.Normals.empty())
   {
-    text << report.computedNormals << " of " << points
+    text << report.ComputedNormals << " of " << points
          << " membrane normals are zero or not finite; these are computed. ";
   }
-  if (report.turnedFacets > 0)
+  if (report.TurnedFacets > 0)
   {
-    text << report.turnedFacets << " of " << triangles
+    text << report.TurnedFacets << " of " << triangles
          << " membrane triangles are wound the other way than their neighbours; turned. ";
   }
-  if (report.turnedNormals > 0)
+  if (report.TurnedNormals > 0)
   {
-    text << report.turnedNormals << " of " << points
+    text << report.TurnedNormals << " of " << points
          << " membrane normals point to the other side than their neighbours'; turned. ";
   }
-  if (report.normals.AreMost())
+  if (report.Normals.AreMost())
   {
     text
-      << report.normals.foreign << " of " << report.normals.examined
+      << report.Normals.Foreign << " of " << report.Normals.Examined
       << " membrane normals do not fit the triangles around them, as if points had been moved and "
          "normals had not; they are used as they are. Without normals, or with those of "
          "vtkPolyDataNormals, rays bend as the triangles say. ";
   }
-  messages.warning = text.str();
+  messages.Warning = text.str();
   return true;
 }
 
 //------------------------------------------------------------------------------
 bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
 {
-  if (eye == this->Key.values && this->PatchBuilds == this->Key.membraneBuild)
+  if (eye == this->Key.Values && this->PatchBuilds == this->Key.MembraneBuild)
   {
     return true;
   }
@@ -186,7 +186,7 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
       text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2] << ") lies on the membrane";
       break;
   }
-  messages.error = text.str();
+  messages.Error = text.str();
   return false;
 }
 
@@ -215,7 +215,7 @@ void RefractionScene::ReportEye(SceneMessages& messages)
   this->EyeEnclosed = isEnclosed;
   this->PointsBehind = behind;
   this->EyeReportOf = this->PatchBuilds;
-  messages.warning = text.str();
+  messages.Warning = text.str();
 }
 
 //------------------------------------------------------------------------------
@@ -235,12 +235,12 @@ bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
     for (const ViewPlane& plane : planes)
     {
       double most = std::numeric_limits<double>::lowest();
-      double reach = std::fabs(plane.offset);
+      double reach = std::fabs(plane.Offset);
       for (const std::int32_t vertex : facets[i])
       {
         const glm::dvec3 point =
           membrane.GetPositions()[static_cast<std::size_t>(vertex)] + membrane.GetOrigin();
-        most = std::max(most, glm::dot(plane.normal, point) + plane.offset);
+        most = std::max(most, glm::dot(plane.Normal, point) + plane.Offset);
         reach = std::max(reach, glm::length(point));
       }
       // Not a number: nothing is known, so it is in view.

@@ -21,18 +21,18 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/// What the owner of a scene has to report; empty if there is nothing.
+/** What the owner of a scene has to report; empty if there is nothing. */
 struct SceneMessages
 {
-  std::string error;
-  std::string warning;
+  std::string Error;
+  std::string Warning;
 };
 
-/// The half space normal.p + offset >= 0, in world coordinates; the normal is a unit vector.
+/** The half space normal.p + offset >= 0, in world coordinates; the normal is a unit vector. */
 struct ViewPlane
 {
-  glm::dvec3 normal;
-  double offset;
+  glm::dvec3 Normal;
+  double Offset;
 };
 
 /**
@@ -42,29 +42,35 @@ struct ViewPlane
 class RefractionScene
 {
 public:
-  /// Position of the eye in the world, exterior and interior index of refraction.
+  /** Position of the eye in the world, exterior and interior index of refraction. */
   using Eye = std::array<double, 5>;
 
-  /// Takes a membrane; with a function, that of its points on the function's zero set. False, with
-  /// an error, if it cannot be used.
+  /**
+   * Takes a membrane; with a function, that of its points on the function's zero set. False, with
+   * an error, if it cannot be used.
+   */
   bool SetMembrane(vtkPolyData* membrane, bool curved, SceneMessages& messages,
     vtkImplicitFunction* function = nullptr);
 
-  /// Takes an eye for the membrane. False, with an error, if it cannot be used. Warns when the eye
-  /// comes inside of a closed membrane whose normals point outwards, or when pieces of the membrane
-  /// come to lie behind each other, and when the membrane changes meanwhile.
+  /**
+   * Takes an eye for the membrane. False, with an error, if it cannot be used. Warns when the eye
+   * comes inside of a closed membrane whose normals point outwards, or when pieces of the membrane
+   * come to lie behind each other, and when the membrane changes meanwhile.
+   */
   bool SetEye(const Eye& eye, SceneMessages& messages);
 
-  const Eye& GetEye() const { return this->Key.values; }
+  const Eye& GetEye() const { return this->Key.Values; }
 
-  /// One image of each point (x, y, z each) in [from, to).
+  /** One image of each point (x, y, z each) in [from, to). */
   void Solve(const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const;
 
-  /// Finds the facets that are in view, for an eye that has been set. True if any is out of view.
+  /**
+   * Finds the facets that are in view, for an eye that has been set. True if any is out of view.
+   */
   bool SetView(const std::vector<ViewPlane>& planes);
-  /// Rises with every change of what SetView found.
+  /** Rises with every change of what SetView found. */
   vtkTypeInt64 GetViewChange() const { return this->ViewChange; }
-  /// Whether something in the box may be seen through a facet in view, or without the membrane.
+  /** Whether something in the box may be seen through a facet in view, or without the membrane. */
   bool MayBeInView(const glm::dvec3& low, const glm::dvec3& high) const;
 
   bool IsCurved() const { return this->Curves; }
@@ -72,23 +78,23 @@ public:
   {
     return this->Curves ? this->Curved.GetMembrane() : this->Flat.GetMembrane();
   }
-  /// Only the one that IsCurved names has the membrane.
+  /** Only the one that IsCurved names has the membrane. */
   CurvedMembraneSolver& GetCurved() { return this->Curved; }
   const CurvedMembraneSolver& GetCurved() const { return this->Curved; }
   const FlatMembraneSolver& GetFlat() const { return this->Flat; }
 
   vtkTypeInt64 GetNumberOfPatchBuilds() const { return this->PatchBuilds; }
   vtkTypeInt64 GetNumberOfEyeUpdates() const { return this->EyeUpdates; }
-  /// Of the present eye and curved membrane.
+  /** Of the present eye and curved membrane. */
   bool IsEyeEnclosed() const { return this->EyeEnclosed; }
   vtkTypeInt64 GetNumberOfMembranePointsBehind() const { return this->PointsBehind; }
 
 private:
-  /// Values that the refraction rays depend on.
+  /** Values that the refraction rays depend on. */
   struct EyeKey
   {
-    Eye values{};
-    vtkTypeInt64 membraneBuild = -1;
+    Eye Values{};
+    vtkTypeInt64 MembraneBuild = -1;
   };
 
   MembraneStatus BuildMembrane(bool curved);

@@ -32,16 +32,16 @@ public:
       {
         for (vtkIdType i = 0; i < count; ++i)
         {
-          this->Add(this->Topology.vertices, { ids[i] });
+          this->Add(this->Topology.Vertices, { ids[i] });
         }
       });
     this->Read(this->Input->GetLines(),
       [this](vtkIdType count, const vtkIdType* ids) {
-        this->Add(this->Topology.lines, { ids, ids + count });
+        this->Add(this->Topology.Lines, { ids, ids + count });
       });
     this->Read(this->Input->GetPolys(),
       [this](vtkIdType count, const vtkIdType* ids) {
-        this->Add(this->Topology.polygons, { ids, ids + count });
+        this->Add(this->Topology.Polygons, { ids, ids + count });
       });
     this->Read(this->Input->GetStrips(),
       [this](vtkIdType count, const vtkIdType* ids)
@@ -49,7 +49,7 @@ public:
         for (vtkIdType i = 0; i + 2 < count; ++i)
         {
           const vtkIdType odd = i % 2;
-          this->Add(this->Topology.polygons, { ids[i], ids[i + 1 + odd], ids[i + 2 - odd] });
+          this->Add(this->Topology.Polygons, { ids[i], ids[i + 1 + odd], ids[i + 2 - odd] });
         }
       });
     return std::move(this->Topology);
@@ -68,7 +68,7 @@ private:
       iterator->GetCurrentCell(count, ids);
       const bool broken = count == 0 ||
         std::any_of(ids, ids + count, [points](vtkIdType id) { return id < 0 || id >= points; });
-      this->Topology.brokenCells += broken;
+      this->Topology.BrokenCells += broken;
       if (!broken)
       {
         accept(count, ids);
@@ -79,9 +79,9 @@ private:
 
   void Add(ObjectTopology::Cells& cells, const std::vector<std::int64_t>& ids) const
   {
-    cells.connectivity.insert(cells.connectivity.end(), ids.begin(), ids.end());
-    cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
-    cells.ids.push_back(this->Cell);
+    cells.Connectivity.insert(cells.Connectivity.end(), ids.begin(), ids.end());
+    cells.Offsets.push_back(static_cast<std::int64_t>(cells.Connectivity.size()));
+    cells.Ids.push_back(this->Cell);
   }
 
   vtkPolyData* Input;

@@ -15,32 +15,34 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/// The cells of a polydata as plain arrays; cells that name points that do not exist are left out.
+/**
+ * The cells of a polydata as plain arrays; cells that name points that do not exist are left out.
+ */
 struct ObjectTopology
 {
   struct Cells
   {
-    std::vector<std::int64_t> offsets{ 0 };
-    std::vector<std::int64_t> connectivity;
-    std::vector<std::int64_t> ids; ///< cell of the input
+    std::vector<std::int64_t> Offsets{ 0 };
+    std::vector<std::int64_t> Connectivity;
+    std::vector<std::int64_t> Ids; ///< cell of the input
 
-    std::size_t GetCount() const { return this->ids.size(); }
+    std::size_t GetCount() const { return this->Ids.size(); }
     bool operator==(const Cells& o) const
     {
-      return this->offsets == o.offsets && this->connectivity == o.connectivity &&
-        this->ids == o.ids;
+      return this->Offsets == o.Offsets && this->Connectivity == o.Connectivity &&
+        this->Ids == o.Ids;
     }
-    ObjectCells AsObject() const { return { this->offsets.data(), this->connectivity.data() }; }
+    ObjectCells AsObject() const { return { this->Offsets.data(), this->Connectivity.data() }; }
   };
-  Cells vertices; ///< one point each
-  Cells lines;
-  Cells polygons; ///< strips as triangles
-  vtkIdType brokenCells = 0;
+  Cells Vertices; ///< one point each
+  Cells Lines;
+  Cells Polygons; ///< strips as triangles
+  vtkIdType BrokenCells = 0;
 
   bool operator==(const ObjectTopology& o) const
   {
-    return this->vertices == o.vertices && this->lines == o.lines && this->polygons == o.polygons &&
-      this->brokenCells == o.brokenCells;
+    return this->Vertices == o.Vertices && this->Lines == o.Lines && this->Polygons == o.Polygons &&
+      this->BrokenCells == o.BrokenCells;
   }
 };
 

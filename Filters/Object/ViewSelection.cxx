@@ -24,9 +24,9 @@ public:
     , Points(points)
     , IsUsed(points.size() / 3, false)
   {
-    this->Selection.isActive = true;
-    this->Selection.cells.assign(static_cast<std::size_t>(cells), false);
-    this->Selection.chunks.assign(
+    this->Selection.IsActive = true;
+    this->Selection.Cells.assign(static_cast<std::size_t>(cells), false);
+    this->Selection.Chunks.assign(
       (this->IsUsed.size() + ObjectImages::Chunk - 1) / ObjectImages::Chunk, false);
   }
 
@@ -34,11 +34,11 @@ public:
   {
     for (std::size_t i = 0; i < cells.GetCount(); ++i)
     {
-      const std::int64_t* first = cells.connectivity.data() + cells.offsets[i];
-      const std::int64_t* last = cells.connectivity.data() + cells.offsets[i + 1];
+      const std::int64_t* first = cells.Connectivity.data() + cells.Offsets[i];
+      const std::int64_t* last = cells.Connectivity.data() + cells.Offsets[i + 1];
       if (this->Select(first, last))
       {
-        this->Selection.cells[static_cast<std::size_t>(cells.ids[i])] = true;
+        this->Selection.Cells[static_cast<std::size_t>(cells.Ids[i])] = true;
       }
     }
   }
@@ -55,10 +55,10 @@ public:
     }
     for (std::size_t i = 0; i < this->IsUsed.size(); ++i)
     {
-      this->Selection.culledPoints += !this->Selection.HasPoint(i);
+      this->Selection.CulledPoints += !this->Selection.HasPoint(i);
     }
-    this->Selection.culledCells = static_cast<vtkIdType>(
-      std::count(this->Selection.cells.begin(), this->Selection.cells.end(), false));
+    this->Selection.CulledCells = static_cast<vtkIdType>(
+      std::count(this->Selection.Cells.begin(), this->Selection.Cells.end(), false));
     return std::move(this->Selection);
   }
 
@@ -83,7 +83,7 @@ private:
     }
     for (const std::int64_t* id = first; id != last; ++id)
     {
-      this->Selection.chunks[static_cast<std::size_t>(*id) / ObjectImages::Chunk] = true;
+      this->Selection.Chunks[static_cast<std::size_t>(*id) / ObjectImages::Chunk] = true;
     }
     return true;
   }
@@ -99,13 +99,13 @@ ObjectTopology::Cells SelectFrom(const ObjectTopology::Cells& cells, const ViewS
   ObjectTopology::Cells result;
   for (std::size_t i = 0; i < cells.GetCount(); ++i)
   {
-    if (selection.HasCell(cells.ids[i]))
+    if (selection.HasCell(cells.Ids[i]))
     {
-      result.connectivity.insert(result.connectivity.end(),
-        cells.connectivity.begin() + cells.offsets[i],
-        cells.connectivity.begin() + cells.offsets[i + 1]);
-      result.offsets.push_back(static_cast<std::int64_t>(result.connectivity.size()));
-      result.ids.push_back(cells.ids[i]);
+      result.Connectivity.insert(result.Connectivity.end(),
+        cells.Connectivity.begin() + cells.Offsets[i],
+        cells.Connectivity.begin() + cells.Offsets[i + 1]);
+      result.Offsets.push_back(static_cast<std::int64_t>(result.Connectivity.size()));
+      result.Ids.push_back(cells.Ids[i]);
     }
   }
   return result;
@@ -142,11 +142,11 @@ ViewSelection SelectInView(const RefractionScene& scene, const ObjectTopology& t
   vtkIdType numberOfCells, const std::vector<double>& points)
 {
   Selector selector(scene, numberOfCells, points);
-  selector.Add(topology.vertices);
-  selector.Add(topology.lines);
-  selector.Add(topology.polygons);
+  selector.Add(topology.Vertices);
+  selector.Add(topology.Lines);
+  selector.Add(topology.Polygons);
   ViewSelection selection = selector.Finish();
-  selection.culledCells -= topology.brokenCells; // counted as such
+  selection.CulledCells -= topology.BrokenCells; // counted as such
   return selection;
 }
 
@@ -154,10 +154,10 @@ ViewSelection SelectInView(const RefractionScene& scene, const ObjectTopology& t
 ObjectTopology SelectCells(const ObjectTopology& topology, const ViewSelection& selection)
 {
   ObjectTopology result;
-  result.vertices = SelectFrom(topology.vertices, selection);
-  result.lines = SelectFrom(topology.lines, selection);
-  result.polygons = SelectFrom(topology.polygons, selection);
-  result.brokenCells = topology.brokenCells;
+  result.Vertices = SelectFrom(topology.Vertices, selection);
+  result.Lines = SelectFrom(topology.Lines, selection);
+  result.Polygons = SelectFrom(topology.Polygons, selection);
+  result.BrokenCells = topology.BrokenCells;
   return result;
 }
 

@@ -22,38 +22,40 @@ class vtkCamera;
 namespace meniscus
 {
 
-/// Planes that bound the view from the sides, and one through the eye across it; what is in view is
-/// on their positive side. `aspect` is width over height; 0: not known, so only the sides that do
-/// not depend on it are there.
+/**
+ * Planes that bound the view from the sides, and one through the eye across it; what is in view is
+ * on their positive side. `aspect` is width over height; 0: not known, so only the sides that do
+ * not depend on it are there.
+ */
 std::vector<ViewPlane> FindViewPlanes(vtkCamera* camera, double aspect);
 
 struct ViewSelection
 {
-  bool isActive = false;    ///< otherwise all is selected
-  std::vector<bool> cells;  ///< by the id of the input
-  std::vector<bool> chunks; ///< of points, ObjectImages::Chunk each
-  vtkIdType culledCells = 0;
-  vtkIdType culledPoints = 0;
+  bool IsActive = false;    ///< otherwise all is selected
+  std::vector<bool> Cells;  ///< by the id of the input
+  std::vector<bool> Chunks; ///< of points, ObjectImages::Chunk each
+  vtkIdType CulledCells = 0;
+  vtkIdType CulledPoints = 0;
 
   bool HasCell(vtkIdType cell) const
   {
-    return !this->isActive || this->cells[static_cast<std::size_t>(cell)];
+    return !this->IsActive || this->Cells[static_cast<std::size_t>(cell)];
   }
   bool HasPoint(std::size_t point) const
   {
-    return !this->isActive || this->chunks[point / ObjectImages::Chunk];
+    return !this->IsActive || this->Chunks[point / ObjectImages::Chunk];
   }
   bool operator==(const ViewSelection& o) const
   {
-    return this->isActive == o.isActive && this->cells == o.cells && this->chunks == o.chunks;
+    return this->IsActive == o.IsActive && this->Cells == o.Cells && this->Chunks == o.Chunks;
   }
 };
 
-/// Selects cells and points (x, y, z each) for the view of `scene`.
+/** Selects cells and points (x, y, z each) for the view of `scene`. */
 ViewSelection SelectInView(const RefractionScene& scene, const ObjectTopology& topology,
   vtkIdType numberOfCells, const std::vector<double>& points);
 
-/// The cells of `topology` that are selected.
+/** The cells of `topology` that are selected. */
 ObjectTopology SelectCells(const ObjectTopology& topology, const ViewSelection& selection);
 
 }

@@ -73,12 +73,12 @@ void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count
   }
 }
 
-/// Results of parts of the cells, put together in their order.
+/** Results of parts of the cells, put together in their order. */
 struct Part
 {
-  ImageMesh pieces;
-  ImageMesh whole;
-  CellReport report;
+  ImageMesh Pieces;
+  ImageMesh Whole;
+  CellReport Report;
 };
 
 template <typename MapRange>
@@ -96,14 +96,14 @@ bool MapParts(std::size_t count, const ProgressLoop& loop, const MapRange& map, 
     });
   for (const Part& part : parts)
   {
-    pieces.Append(part.pieces);
-    whole.Append(part.whole);
-    without += static_cast<vtkIdType>(part.report.without);
+    pieces.Append(part.Pieces);
+    whole.Append(part.Whole);
+    without += static_cast<vtkIdType>(part.Report.Without);
   }
   return done;
 }
 
-/// Collects points and cells of the output.
+/** Collects points and cells of the output. */
 class Builder
 {
 public:
@@ -123,29 +123,29 @@ public:
     this->Output->GetFieldData()->PassData(this->Input->GetFieldData());
     this->ListPointsWithoutImage();
     this->TakePoints(this->Images.GetPointImages());
-    const vtkIdType firstOfLines = this->TakePoints(this->Cells.lines.points);
-    const vtkIdType firstOfPolygons = this->TakePoints(this->Cells.polygons.points);
+    const vtkIdType firstOfLines = this->TakePoints(this->Cells.Lines.Points);
+    const vtkIdType firstOfPolygons = this->TakePoints(this->Cells.Polygons.Points);
     this->MakeVertices();
-    this->MakeCells(this->Cells.wholeLines, this->Cells.lines, firstOfLines, this->Lines);
+    this->MakeCells(this->Cells.WholeLines, this->Cells.Lines, firstOfLines, this->Lines);
     this->MakeCells(
-      this->Cells.wholePolygons, this->Cells.polygons, firstOfPolygons, this->Polygons);
+      this->Cells.WholePolygons, this->Cells.Polygons, firstOfPolygons, this->Polygons);
     this->Output->SetVerts(this->Vertices);
     this->Output->SetLines(this->Lines);
     this->Output->SetPolys(this->Polygons);
 
     this->InterpolatePointArrays();
     MakePoints(this->Input, this->Points, this->PointSources, this->Surface, options, this->Output);
-    if (options.virtualNormals)
+    if (options.VirtualNormals)
     {
       MakeVirtualNormals(this->Points, this->FindTruePoints(), options, this->Output);
     }
     vtkNew<vtkDataSetAttributes> fitting;
     const vtkIdType cells = this->Input->GetNumberOfCells();
-    this->Report.arraysOfWrongSize += TakeFittingArrays(this->Input->GetCellData(), cells, fitting);
+    this->Report.ArraysOfWrongSize += TakeFittingArrays(this->Input->GetCellData(), cells, fitting);
     CopyTuples(fitting, cells, this->CellSources, this->Output->GetCellData());
     MakeCellArrays(this->CellSources, this->Orientations, this->Output);
-    this->Report.brokenCells = this->Topology.brokenCells;
-    this->Report.skippedCells += this->Cells.cellsWithoutImage;
+    this->Report.BrokenCells = this->Topology.BrokenCells;
+    this->Report.SkippedCells += this->Cells.CellsWithoutImage;
     return this->Report;
   }
 
@@ -171,7 +171,7 @@ private:
     const auto first = static_cast<vtkIdType>(this->Points.size());
     for (const ImagePoint& point : points)
     {
-      this->Points.push_back(&point.vertex);
+      this->Points.push_back(&point.Vertex);
       this->PointSources.push_back(point.GetSource());
       this->Origins.push_back(&point);
     }
@@ -188,8 +188,8 @@ private:
       for (std::size_t k = 0; k < origin->GetNumberOfSources(); ++k)
       {
         glm::dvec3 corner;
-        this->Input->GetPoint(origin->source[k], &corner.x);
-        sum += origin->weight[k] * corner;
+        this->Input->GetPoint(origin->Source[k], &corner.x);
+        sum += origin->Weight[k] * corner;
       }
       points.push_back(sum);
     }
@@ -204,16 +204,16 @@ private:
     {
       first[i + 1] = first[i] + static_cast<vtkIdType>(this->Images.GetNumberOfImages(i));
     }
-    const ObjectTopology::Cells& cells = this->Topology.vertices;
+    const ObjectTopology::Cells& cells = this->Topology.Vertices;
     for (std::size_t i = 0; i < cells.GetCount(); ++i)
     {
-      const auto point = static_cast<std::size_t>(cells.connectivity[i]);
-      this->Report.skippedCells += first[point] == first[point + 1];
+      const auto point = static_cast<std::size_t>(cells.Connectivity[i]);
+      this->Report.SkippedCells += first[point] == first[point + 1];
       for (vtkIdType id = first[point]; id < first[point + 1]; ++id)
       {
         this->Vertices->InsertNextCell(1, &id);
-        this->CellSources.push_back(cells.ids[i]);
-        this->Orientations.push_back(this->Points[static_cast<std::size_t>(id)]->orientation);
+        this->CellSources.push_back(cells.Ids[i]);
+        this->Orientations.push_back(this->Points[static_cast<std::size_t>(id)]->Orientation);
       }
     }
   }
@@ -232,14 +232,14 @@ private:
     for (std::size_t i = 0; i < mesh.GetNumberOfCells(); ++i)
     {
       ids->Reset();
-      for (std::int64_t k = begin; k < mesh.ends[i]; ++k)
+      for (std::int64_t k = begin; k < mesh.Ends[i]; ++k)
       {
-        ids->InsertNextId(firstPoint + mesh.connectivity[static_cast<std::size_t>(k)]);
+        ids->InsertNextId(firstPoint + mesh.Connectivity[static_cast<std::size_t>(k)]);
       }
       cells->InsertNextCell(ids);
-      this->CellSources.push_back(mesh.sourceCells[i]);
-      this->Orientations.push_back(mesh.orientations[i]);
-      begin = mesh.ends[i];
+      this->CellSources.push_back(mesh.SourceCells[i]);
+      this->Orientations.push_back(mesh.Orientations[i]);
+      begin = mesh.Ends[i];
     }
   }
 
@@ -247,10 +247,10 @@ private:
   {
     vtkNew<vtkDataSetAttributes> fitting;
     const vtkIdType points = this->Input->GetNumberOfPoints();
-    this->Report.arraysOfWrongSize +=
+    this->Report.ArraysOfWrongSize +=
       TakeFittingArrays(this->Input->GetPointData(), points, fitting);
     vtkPointData* to = this->Output->GetPointData();
-    const bool copiesOnly = this->Cells.lines.points.empty() && this->Cells.polygons.points.empty();
+    const bool copiesOnly = this->Cells.Lines.Points.empty() && this->Cells.Polygons.Points.empty();
     if (copiesOnly)
     {
       CopyTuples(fitting, points, this->PointSources, to);
@@ -265,8 +265,8 @@ private:
       ids->Reset();
       for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
       {
-        ids->InsertNextId(point.source[k]);
-        weights[k] = point.weight[k];
+        ids->InsertNextId(point.Source[k]);
+        weights[k] = point.Weight[k];
       }
       to->InterpolatePoint(fitting, static_cast<vtkIdType>(i), ids, weights);
     }
@@ -290,7 +290,7 @@ private:
       copy->SetNumberOfTuples(static_cast<vtkIdType>(this->Origins.size()));
       for (std::size_t i = 0; i < this->Origins.size(); ++i)
       {
-        copy->SetTuple(static_cast<vtkIdType>(i), this->Origins[i]->source[0], from);
+        copy->SetTuple(static_cast<vtkIdType>(i), this->Origins[i]->Source[0], from);
       }
       to->AddArray(copy);
     }
@@ -323,27 +323,27 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
     [input](const std::int64_t* ids, std::size_t count, std::vector<std::int64_t>& triangles)
   { SplitPolygon(input, ids, count, triangles); };
   const bool linesDone = MapParts(
-    topology.lines.GetCount(), loop,
+    topology.Lines.GetCount(), loop,
     [&topology, &images](std::size_t begin, std::size_t end, Part& part)
     {
-      part.report = images.MapLines(
-        topology.lines.AsObject(), topology.lines.ids.data(), begin, end, part.pieces, part.whole);
+      part.Report = images.MapLines(
+        topology.Lines.AsObject(), topology.Lines.Ids.data(), begin, end, part.Pieces, part.Whole);
     },
-    result.lines, result.wholeLines, result.cellsWithoutImage);
-  std::vector<unsigned char> isMapped(topology.polygons.GetCount(), 0);
+    result.Lines, result.WholeLines, result.CellsWithoutImage);
+  std::vector<unsigned char> isMapped(topology.Polygons.GetCount(), 0);
   const bool done = linesDone &&
     MapParts(
-      topology.polygons.GetCount(), loop,
+      topology.Polygons.GetCount(), loop,
       [&topology, &images, &split, &isMapped](std::size_t begin, std::size_t end, Part& part)
       {
-        part.report = images.MapPolygons(topology.polygons.AsObject(), topology.polygons.ids.data(),
-          begin, end, split, part.pieces, part.whole, isMapped.data());
+        part.Report = images.MapPolygons(topology.Polygons.AsObject(), topology.Polygons.Ids.data(),
+          begin, end, split, part.Pieces, part.Whole, isMapped.data());
       },
-      result.polygons, result.wholePolygons, result.cellsWithoutImage);
+      result.Polygons, result.WholePolygons, result.CellsWithoutImage);
   if (done)
   {
-    images.MeetNeighbours(topology.polygons.AsObject(), topology.polygons.GetCount(),
-      isMapped.data(), closesSeams, result.wholePolygons, result.polygons);
+    images.MeetNeighbours(topology.Polygons.AsObject(), topology.Polygons.GetCount(),
+      isMapped.data(), closesSeams, result.WholePolygons, result.Polygons);
   }
   return done;
 }

@@ -18,26 +18,32 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/// All images of an object.
+/** All images of an object. */
 struct AllImages
 {
-  ImageMesh lines;
-  ImageMesh polygons;
-  ImageMesh wholeLines;
-  ImageMesh wholePolygons;
-  vtkIdType cellsWithoutImage = 0;
+  ImageMesh Lines;
+  ImageMesh Polygons;
+  ImageMesh WholeLines;
+  ImageMesh WholePolygons;
+  vtkIdType CellsWithoutImage = 0;
 };
 
-/// Calls `body` for ranges of [0, count) in any order and from any thread; false if it was stopped.
+/**
+ * Calls `body` for ranges of [0, count) in any order and from any thread; false if it was stopped.
+ */
 using ProgressLoop = std::function<bool(std::size_t count, const RangeBody& body)>;
 
-/// Maps the lines and polygons of `topology`, whose points `images` has solved. With `closesSeams`,
-/// gaps between the images of neighbours become cells. False if `loop` was stopped.
+/**
+ * Maps the lines and polygons of `topology`, whose points `images` has solved. With `closesSeams`,
+ * gaps between the images of neighbours become cells. False if `loop` was stopped.
+ */
 bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectImages& images,
   bool closesSeams, const ProgressLoop& loop, AllImages& result);
 
-/// Fills `output` with every image and with the arrays of vtkRefractedGeometryFilter; arrays of
-/// the input are interpolated at points that were made.
+/**
+ * Fills `output` with every image and with the arrays of vtkRefractedGeometryFilter; arrays of
+ * the input are interpolated at points that were made.
+ */
 VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopology& topology,
   const ObjectImages& images, const AllImages& cells, const Membrane& membrane,
   const OutputOptions& options, vtkPolyData* output);

@@ -52,7 +52,7 @@ void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& ver
 {
   const std::size_t count = vertices.size();
   vtkNew<vtkPoints> points;
-  points->SetDataType(GetPointType(input, options.pointsPrecision));
+  points->SetDataType(GetPointType(input, options.PointsPrecision));
   points->SetNumberOfPoints(static_cast<vtkIdType>(count));
   const auto sightPoint = MakeArray<vtkDoubleArray>("SightPoint", 3, count);
   const auto depth = MakeArray<vtkDoubleArray>("RefractionDepth", 1, count);
@@ -63,15 +63,15 @@ void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& ver
   {
     const auto i = static_cast<vtkIdType>(k);
     const VirtualVertex& vertex = *vertices[k];
-    points->SetPoint(i, vertex.position.x, vertex.position.y, vertex.position.z);
-    sightPoint->SetTypedTuple(i, &vertex.sightPoint.x);
-    depth->SetValue(i, vertex.depth);
+    points->SetPoint(i, vertex.Position.x, vertex.Position.y, vertex.Position.z);
+    sightPoint->SetTypedTuple(i, &vertex.SightPoint.x);
+    depth->SetValue(i, vertex.Depth);
     reflectance->SetValue(i,
-      options.schlick && vertex.facet >= 0
-        ? SchlickReflectance(vertex.cosine, options.exterior, options.interior)
-        : vertex.reflectance);
+      options.Schlick && vertex.Facet >= 0
+        ? SchlickReflectance(vertex.Cosine, options.Exterior, options.Interior)
+        : vertex.Reflectance);
     facet->SetValue(
-      i, vertex.facet < 0 ? -1 : static_cast<vtkIdType>(membrane.GetCellId(vertex.facet)));
+      i, vertex.Facet < 0 ? -1 : static_cast<vtkIdType>(membrane.GetCellId(vertex.Facet)));
     source->SetValue(i, sources[k]);
   }
   output->SetPoints(points);
@@ -101,10 +101,10 @@ void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
     trueNormals->GetTuple(i, &normal.x);
     const double length = glm::length(normal);
     const VirtualVertex& vertex = *vertices[k];
-    if (length > 0.0 && std::isfinite(length) && vertex.facet >= 0)
+    if (length > 0.0 && std::isfinite(length) && vertex.Facet >= 0)
     {
-      normal = ComputeVirtualNormal(normal / length, truePoints[k], vertex.sightPoint, options.eye,
-        options.exterior, options.interior, options.isLightAtEye ? nullptr : &options.light);
+      normal = ComputeVirtualNormal(normal / length, truePoints[k], vertex.SightPoint, options.Eye,
+        options.Exterior, options.Interior, options.IsLightAtEye ? nullptr : &options.Light);
     }
     normals->SetTypedTuple(i, &normal.x);
   }

@@ -40,7 +40,7 @@ public:
     this->CopyArrays(this->Input->GetPointData(), this->Input->GetNumberOfPoints(),
       this->SourcePoints, this->Output->GetPointData());
     MakePoints(this->Input, this->Images, this->SourcePoints, this->Surface, options, this->Output);
-    if (options.virtualNormals)
+    if (options.VirtualNormals)
     {
       std::vector<glm::dvec3> truePoints(this->SourcePoints.size());
       for (std::size_t i = 0; i < truePoints.size(); ++i)
@@ -74,7 +74,7 @@ private:
       {
         continue; // whether it has an image is not known
       }
-      if (this->GetVertex(i).state == ImageState::Found)
+      if (this->GetVertex(i).State == ImageState::Found)
       {
         this->NewIds[static_cast<std::size_t>(i)] =
           static_cast<vtkIdType>(this->SourcePoints.size());
@@ -93,7 +93,7 @@ private:
     const std::vector<vtkIdType>& sources, vtkDataSetAttributes* to)
   {
     vtkNew<vtkDataSetAttributes> fitting;
-    this->Report.arraysOfWrongSize += TakeFittingArrays(from, tuples, fitting);
+    this->Report.ArraysOfWrongSize += TakeFittingArrays(from, tuples, fitting);
     CopyTuples(fitting, tuples, sources, to);
   }
 
@@ -108,7 +108,7 @@ private:
   void AddSource(vtkIdType cell, vtkIdType firstPoint)
   {
     this->SourceCells.push_back(cell);
-    this->Orientations.push_back(this->GetVertex(firstPoint).orientation);
+    this->Orientations.push_back(this->GetVertex(firstPoint).Orientation);
   }
 
   vtkSmartPointer<vtkCellArray> CopyVertices(vtkCellArray* cells)
@@ -138,10 +138,10 @@ private:
         }
         else
         {
-          ++this->Report.skippedCells;
+          ++this->Report.SkippedCells;
         }
       }
-      this->Report.brokenCells += broken;
+      this->Report.BrokenCells += broken;
       ++this->Cell;
     }
     return copy;
@@ -173,8 +173,8 @@ private:
         copy->InsertNextCell(points);
         this->AddSource(this->Cell, ids[0]);
       }
-      this->Report.brokenCells += broken;
-      this->Report.skippedCells += !broken && !complete && selected;
+      this->Report.BrokenCells += broken;
+      this->Report.SkippedCells += !broken && !complete && selected;
       ++this->Cell;
     }
     return copy;

@@ -17,12 +17,12 @@ namespace meniscus
 
 struct ViewSelection;
 
-/// What did not make it to the output.
+/** What did not make it to the output. */
 struct VirtualPolyDataReport
 {
-  vtkIdType skippedCells = 0; ///< cells that need a point without an image
-  vtkIdType brokenCells = 0;  ///< cells that name a point that does not exist
-  int arraysOfWrongSize = 0;  ///< attribute arrays that do not fit the input, not passed on
+  vtkIdType SkippedCells = 0; ///< cells that need a point without an image
+  vtkIdType BrokenCells = 0;  ///< cells that name a point that does not exist
+  int ArraysOfWrongSize = 0;  ///< attribute arrays that do not fit the input, not passed on
 };
 
 /**

@@ -33,34 +33,34 @@ bool SameValues(const std::vector<double>& a, const std::vector<double>& b)
 //------------------------------------------------------------------------------
 void SolvedBlock::UpdatePoints()
 {
-  if (this->sourceTime == this->source->GetMTime())
+  if (this->SourceTime == this->Source->GetMTime())
   {
     return;
   }
-  std::vector<double> values = CopyPoints(this->source);
-  if (!SameValues(values, this->points))
+  std::vector<double> values = CopyPoints(this->Source);
+  if (!SameValues(values, this->Points))
   {
-    this->points = std::move(values);
-    this->eyeUpdate = -1;
+    this->Points = std::move(values);
+    this->EyeUpdate = -1;
   }
-  this->sourceTime = this->source->GetMTime();
+  this->SourceTime = this->Source->GetMTime();
 }
 
 //------------------------------------------------------------------------------
 void SolvedBlock::UpdateTopology()
 {
-  if (this->topologyTime == this->source->GetMTime())
+  if (this->TopologyTime == this->Source->GetMTime())
   {
     return;
   }
-  ObjectTopology values = ExtractTopology(this->source);
-  if (!(values == this->topology))
+  ObjectTopology values = ExtractTopology(this->Source);
+  if (!(values == this->Topology))
   {
-    this->topology = std::move(values);
-    this->cellsReady = false;
-    this->viewChange = -1;
+    this->Topology = std::move(values);
+    this->CellsReady = false;
+    this->ViewChange = -1;
   }
-  this->topologyTime = this->source->GetMTime();
+  this->TopologyTime = this->Source->GetMTime();
 }
 
 }

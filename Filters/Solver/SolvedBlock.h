@@ -16,37 +16,37 @@
 namespace meniscus
 {
 
-/// The virtual vertices of one block of geometry, and what they were computed from.
+/** The virtual vertices of one block of geometry, and what they were computed from. */
 struct SolvedBlock
 {
-  /// Takes the points in again if the source has been modified; images hold if no value differs.
+  /** Takes the points in again if the source has been modified; images hold if no value differs. */
   void UpdatePoints();
-  /// The same for the cells.
+  /** The same for the cells. */
   void UpdateTopology();
 
-  vtkWeakPointer<vtkPolyData> source;
-  vtkMTimeType sourceTime = 0;
-  std::vector<double> points;
-  vtkTypeInt64 eyeUpdate = -1; ///< for which the points are solved
-  bool all = false;            ///< all images, or the first
-  std::vector<VirtualVertex> vertices;
-  std::vector<bool> solvedChunks; ///< of `vertices`
+  vtkWeakPointer<vtkPolyData> Source;
+  vtkMTimeType SourceTime = 0;
+  std::vector<double> Points;
+  vtkTypeInt64 EyeUpdate = -1; ///< for which the points are solved
+  bool All = false;            ///< all images, or the first
+  std::vector<VirtualVertex> Vertices;
+  std::vector<bool> SolvedChunks; ///< of `vertices`
 
-  /// What is in view, and what that was found for.
-  ViewSelection selection;
-  vtkTypeInt64 viewChange = -1;
+  /** What is in view, and what that was found for. */
+  ViewSelection Selection;
+  vtkTypeInt64 ViewChange = -1;
 
-  /// All images, or a view.
-  vtkMTimeType topologyTime = 0;
-  ObjectTopology topology;
+  /** All images, or a view. */
+  vtkMTimeType TopologyTime = 0;
+  ObjectTopology Topology;
 
-  /// All images only.
-  double tolerance = 0.0;
-  bool closesSeams = false;
-  bool cellsReady = false;
-  ObjectTopology selected; ///< the cells in view
-  std::unique_ptr<ObjectImages> images;
-  AllImages cells;
+  /** All images only. */
+  double Tolerance = 0.0;
+  bool ClosesSeams = false;
+  bool CellsReady = false;
+  ObjectTopology Selected; ///< the cells in view
+  std::unique_ptr<ObjectImages> Images;
+  AllImages Cells;
 };
 
 }

@@ -95,12 +95,12 @@ std::uint32_t MortonCurve::Code(const glm::dvec3& position) const
 //------------------------------------------------------------------------------
 std::uint32_t MortonCode(const std::int64_t position[3], int bits)
 {
-  constexpr std::int64_t LastCell = (1 << BitsPerAxis) - 1;
+  constexpr std::int64_t lastCell = (1 << BitsPerAxis) - 1;
   std::uint32_t code = 0;
   for (int axis = 0; axis < 3; ++axis)
   {
     const std::int64_t fromLower = position[axis] + (std::int64_t{ 1 } << (bits - 1));
-    const std::int64_t cell = std::min(fromLower >> (bits - BitsPerAxis), LastCell);
+    const std::int64_t cell = std::min(fromLower >> (bits - BitsPerAxis), lastCell);
     code |= SpreadBits(static_cast<std::uint32_t>(cell)) << axis;
   }
   return code;

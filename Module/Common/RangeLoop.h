@@ -16,7 +16,7 @@ namespace meniscus
 using RangeBody = std::function<void(std::size_t begin, std::size_t end)>;
 using RangeLoop = std::function<void(std::size_t count, const RangeBody& body)>;
 
-/// All of it at once on the calling thread.
+/** All of it at once on the calling thread. */
 inline void SerialLoop(std::size_t count, const RangeBody& body)
 {
   body(0, count);

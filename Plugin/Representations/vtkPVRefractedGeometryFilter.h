@@ -34,7 +34,7 @@ public:
   void SetEyePosition(double x, double y, double z) override;
   void SetViewCulling(bool culling) override;
 
-  ///@{
+  /** @{ */
   /**
    * The view that ViewCulling is for, beside the eye's position: where it looks, what is up, and
    * its vertical angle in degrees. Defaults are (0, 0, 0), (0, 1, 0) and 30.
@@ -42,7 +42,7 @@ public:
   void SetViewFocalPoint(double x, double y, double z);
   void SetViewUp(double x, double y, double z);
   void SetViewAngle(double degrees);
-  ///@}
+  /** @} */
 
   int ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;

@@ -34,7 +34,7 @@ public:
   vtkTypeMacro(vtkSMEyeFollowingSourceProxy, vtkSMSourceProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Seconds that an update may take for the eye to follow while the camera is moved.
+  /** Seconds that an update may take for the eye to follow while the camera is moved. */
   static constexpr double MaximumUpdateTime = 0.2;
 
   void UpdatePipeline() override;

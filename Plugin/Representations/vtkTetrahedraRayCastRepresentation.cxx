@@ -28,7 +28,7 @@ namespace
 {
 constexpr int MembranePort = 1;
 
-/// For what IceT drops when it puts the pictures of the ranks over each other.
+/** For what IceT drops when it puts the pictures of the ranks over each other. */
 double ChooseColorBias()
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();

@@ -49,7 +49,7 @@ public:
     vtkInformationRequestKey* request, vtkInformation* inputs, vtkInformation* outputs) override;
   void SetVisibility(bool visible) override;
 
-  ///@{
+  /** @{ */
   /** Forwarded to the mapper. */
   void SetBackend(int backend);
   void SetBlendMode(int mode);
@@ -65,9 +65,9 @@ public:
   void SetCompactTables(bool compact);
   void SetExteriorIndexOfRefraction(double index);
   void SetInteriorIndexOfRefraction(double index);
-  ///@}
+  /** @} */
 
-  ///@{
+  /** @{ */
   /** Forwarded to the volume's property. */
   void SetShade(bool shade);
   void SetAmbient(double ambient);
@@ -76,7 +76,7 @@ public:
   void SetSpecularPower(double power);
   void SetNumberOfIsosurfaces(int number);
   void SetIsosurfaceValue(int number, double value);
-  ///@}
+  /** @} */
 
 protected:
   vtkTetrahedraRayCastRepresentation();
@@ -98,10 +98,12 @@ private:
   void LetViewPeelVolumes(bool peel);
 
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
-  /// As gathered on this rank; empty if there is none, for every process must be delivered
-  /// something.
+  /**
+   * As gathered on this rank; empty if there is none, for every process must be delivered
+   * something.
+   */
   vtkSmartPointer<vtkPolyData> Membrane;
-  /// Of the input that the user was last told about, if need be.
+  /** Of the input that the user was last told about, if need be. */
   vtkMTimeType MembraneTime = 0;
   bool HasStoppedPeeling = false;
 };

@@ -27,13 +27,13 @@ struct FoundScalars
 
 FoundScalars FindScalars(vtkDataSet* grid, const ScalarSelection& selection)
 {
-  constexpr int CellData = 1;
-  constexpr int FieldData = 2;
+  constexpr int cellData = 1;
+  constexpr int fieldData = 2;
   FoundScalars found;
   int place = 0;
   found.Scalars = vtkAbstractMapper::GetScalars(grid, selection.ScalarMode, selection.AccessMode,
     selection.ArrayId, selection.ArrayName, place);
-  found.Place = place == CellData ? FieldAssociation::Cells : FieldAssociation::Points;
+  found.Place = place == cellData ? FieldAssociation::Cells : FieldAssociation::Points;
   std::ostringstream problem;
   if (!found.Scalars)
   {
@@ -55,7 +55,7 @@ FoundScalars FindScalars(vtkDataSet* grid, const ScalarSelection& selection)
   const int components = found.Scalars->GetNumberOfComponents();
   const bool ofCells = found.Place == FieldAssociation::Cells;
   const vtkIdType size = ofCells ? grid->GetNumberOfCells() : grid->GetNumberOfPoints();
-  if (place == FieldData)
+  if (place == fieldData)
   {
     problem << "is field data; point or cell data is needed";
     return fail();

@@ -233,11 +233,11 @@ void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type,
     return; // blanked
   }
   // Most points that a cell of a type with a rule of its own has.
-  constexpr vtkIdType MostPoints = 20;
-  std::array<std::int64_t, MostPoints> points{};
+  constexpr vtkIdType mostPoints = 20;
+  std::array<std::int64_t, mostPoints> points{};
   grid->GetCellPoints(cell, ids);
   const vtkIdType size = ids->GetNumberOfIds();
-  for (vtkIdType i = 0; i < std::min(size, MostPoints); ++i)
+  for (vtkIdType i = 0; i < std::min(size, mostPoints); ++i)
   {
     points[i] = this->FirstPoint + ids->GetId(i);
   }

@@ -25,14 +25,14 @@ InputReport RayCastMembrane::Update(
   SceneMessages messages;
   if ((exterior != interior || wanted) && !this->Surface.SetMembrane(membrane, true, messages))
   {
-    return { messages.error, std::string() };
+    return { messages.Error, std::string() };
   }
-  if (messages.warning.empty() || messages.warning == this->Told)
+  if (messages.Warning.empty() || messages.Warning == this->Told)
   {
     return {};
   }
-  this->Told = messages.warning;
-  return { std::string(), messages.warning };
+  this->Told = messages.Warning;
+  return { std::string(), messages.Warning };
 }
 
 //------------------------------------------------------------------------------

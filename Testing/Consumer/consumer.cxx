@@ -65,7 +65,7 @@ bool Draw()
   return brightest > 100;
 }
 
-/// The file that the tutorial's program reads.
+/** The file that the tutorial's program reads. */
 bool WriteMesh()
 {
   vtkNew<vtkRTAnalyticSource> field;

@@ -35,7 +35,7 @@ TEST(RefractedGeometryBadInput, NoInputAtAll)
   vtkNew<vtkRefractedGeometryFilter> filter;
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_GE(messages->errors, 1);
+  EXPECT_GE(messages->Errors, 1);
   EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
 }
 
@@ -45,7 +45,7 @@ TEST(RefractedGeometryBadInput, NoMembraneConnection)
   filter->SetInputData(0, MakeGrid(3, 10.0, -5.0));
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_GE(messages->errors, 1);
+  EXPECT_GE(messages->Errors, 1);
   EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
 }
 
@@ -55,7 +55,7 @@ TEST(RefractedGeometryBadInput, EmptyGeometry)
   const auto filter = MakeFilter(empty, MakeFlatMembrane());
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors, 0) << messages->text;
+  EXPECT_EQ(messages->Errors, 0) << messages->Text;
   EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
   EXPECT_NE(filter->GetOutput()->GetPointData()->GetArray("SightPoint"), nullptr);
 }
@@ -69,8 +69,8 @@ TEST(RefractedGeometryBadInput, MembraneWithoutTriangles)
     const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), membrane);
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_EQ(messages->errors, 1) << messages->text;
-    EXPECT_NE(messages->text.find("no usable triangle"), std::string::npos);
+    EXPECT_EQ(messages->Errors, 1) << messages->Text;
+    EXPECT_NE(messages->Text.find("no usable triangle"), std::string::npos);
     EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
   }
 }
@@ -85,7 +85,7 @@ TEST(RefractedGeometryBadInput, MembraneWithoutArea)
   const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), line);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors, 1) << messages->text;
+  EXPECT_EQ(messages->Errors, 1) << messages->Text;
   EXPECT_EQ(filter->GetNumberOfSkippedFacets(), 1);
   EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
 }
@@ -118,8 +118,8 @@ TEST(RefractedGeometryBadInput, BadFacetsAreSkippedAndCounted)
   const auto filter = MakeFilter(MakeGrid(5, 80.0, -50.0), membrane);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors, 0) << messages->text;
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Errors, 0) << messages->Text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   // The quad without area makes one or two triangles, the strip two.
   EXPECT_GE(filter->GetNumberOfSkippedFacets(), 9);
   EXPECT_LE(filter->GetNumberOfSkippedFacets(), 10);
@@ -161,7 +161,7 @@ TEST(RefractedGeometryBadInput, CellsThatNamePointsThatDoNotExist)
   const auto filter = MakeFilter(grid, MakeFlatMembrane());
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors, 1) << messages->text;
+  EXPECT_EQ(messages->Errors, 1) << messages->Text;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 4);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfVerts(), 2);
   EXPECT_EQ(filter->GetNumberOfSkippedCells(), 2);
@@ -179,7 +179,7 @@ TEST(RefractedGeometryBadInput, ArraysOfTheWrongSizeAreNotPassed)
   const auto filter = MakeFilter(grid, MakeFlatMembrane());
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Short"), nullptr);
   EXPECT_NE(filter->GetOutput()->GetPointData()->GetArray("Rank"), nullptr);
 }
@@ -196,7 +196,7 @@ TEST(RefractedGeometryBadInput, IndicesOfRefraction)
       filter->SetExteriorIndexOfRefraction(exterior ? index : 1.0);
       filter->SetInteriorIndexOfRefraction(exterior ? 1.0 : index);
       filter->Update();
-      EXPECT_GE(messages->errors, 1) << index;
+      EXPECT_GE(messages->Errors, 1) << index;
       EXPECT_TRUE(HasNoGeometry(filter->GetOutput())) << index;
       // And it recovers.
       filter->SetExteriorIndexOfRefraction(1.0);
@@ -217,7 +217,7 @@ TEST(RefractedGeometryBadInput, EyesOnTheMembraneOrNowhere)
     const auto messages = Observe(filter);
     filter->SetEyePosition(eye[0], eye[1], eye[2]);
     filter->Update();
-    EXPECT_GE(messages->errors, 1) << eye[0] << " " << eye[1] << " " << eye[2];
+    EXPECT_GE(messages->Errors, 1) << eye[0] << " " << eye[1] << " " << eye[2];
     EXPECT_TRUE(HasNoGeometry(filter->GetOutput()));
     filter->SetEyePosition(0.0, 100.0, 0.0);
     filter->Update();
@@ -237,7 +237,7 @@ TEST(RefractedGeometryBadInput, NormalsOfTheWrongSizeAreComputed)
   const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), membrane);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
 
   const auto reference = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
   reference->Update();
@@ -257,8 +257,8 @@ TEST(RefractedGeometryBadInput, NormalsOfNoLengthAreComputed)
   const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), membrane);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
-  EXPECT_NE(messages->text.find("2 of 81"), std::string::npos) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
+  EXPECT_NE(messages->Text.find("2 of 81"), std::string::npos) << messages->Text;
 
   const auto reference = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
   reference->Update();
@@ -292,11 +292,11 @@ TEST(RefractedGeometryBadInput, MissingModesWarnOnce)
   const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->warnings, 0) << messages->text;
+  EXPECT_EQ(messages->Warnings, 0) << messages->Text;
   filter->SetImagesToAllImages();
   filter->Update();
-  EXPECT_EQ(messages->warnings, 1);
-  EXPECT_NE(messages->text.find("FIRST_IMAGE"), std::string::npos);
+  EXPECT_EQ(messages->Warnings, 1);
+  EXPECT_NE(messages->Text.find("FIRST_IMAGE"), std::string::npos);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9);
 }
 

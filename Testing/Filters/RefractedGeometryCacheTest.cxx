@@ -27,18 +27,18 @@ using namespace meniscus::testing;
 
 struct Counters
 {
-  vtkTypeInt64 patches;
-  vtkTypeInt64 eyes;
-  vtkTypeInt64 vertices;
+  vtkTypeInt64 Patches;
+  vtkTypeInt64 Eyes;
+  vtkTypeInt64 Vertices;
   bool operator==(const Counters& o) const
   {
-    return this->patches == o.patches && this->eyes == o.eyes && this->vertices == o.vertices;
+    return this->Patches == o.Patches && this->Eyes == o.Eyes && this->Vertices == o.Vertices;
   }
 };
 
 std::ostream& operator<<(std::ostream& os, const Counters& c)
 {
-  return os << c.patches << " patch builds, " << c.eyes << " eye updates, " << c.vertices
+  return os << c.Patches << " patch builds, " << c.Eyes << " eye updates, " << c.Vertices
             << " vertices";
 }
 
@@ -166,7 +166,7 @@ TEST_F(RefractedGeometryCache, BrokenMembraneIsNotRemembered)
   vtkNew<vtkPolyData> empty;
   this->Filter->SetMembraneData(empty);
   this->Filter->Update();
-  EXPECT_GE(messages->errors, 1);
+  EXPECT_GE(messages->Errors, 1);
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
   this->Filter->SetMembraneData(this->Membrane);
   this->Filter->Update();
@@ -210,7 +210,7 @@ TEST_F(RefractedGeometryCache, ParallelProjectionWarnsOnce)
   this->Filter->Update();
   camera->SetPosition(0.0, 240.0, 0.0);
   this->Filter->Update();
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
 }
 
 //------------------------------------------------------------------------------
@@ -277,10 +277,10 @@ TEST(RefractedGeometryPipeline, ProgressRisesToTheEndAndAbortLeavesNothing)
 {
   struct Observed
   {
-    double last = 0.0;
-    int calls = 0;
-    bool falls = false;
-    bool abort = false;
+    double Last = 0.0;
+    int Calls = 0;
+    bool Falls = false;
+    bool Abort = false;
   } observed;
   const auto filter = MakeFilter(MakeGrid(400, 150.0, -60.0), MakeFlatMembrane());
   vtkNew<vtkCallbackCommand> callback;
@@ -290,17 +290,17 @@ TEST(RefractedGeometryPipeline, ProgressRisesToTheEndAndAbortLeavesNothing)
     {
       auto* o = static_cast<Observed*>(data);
       auto* algorithm = static_cast<vtkAlgorithm*>(caller);
-      o->falls = o->falls || algorithm->GetProgress() < o->last;
-      o->last = algorithm->GetProgress();
-      if (o->last > 0.0 && ++o->calls == 2 && o->abort)
+      o->Falls = o->Falls || algorithm->GetProgress() < o->Last;
+      o->Last = algorithm->GetProgress();
+      if (o->Last > 0.0 && ++o->Calls == 2 && o->Abort)
       {
         algorithm->SetAbortExecute(1);
       }
     });
   filter->AddObserver(vtkCommand::ProgressEvent, callback);
-  observed.abort = true;
+  observed.Abort = true;
   filter->Update();
-  EXPECT_LT(observed.calls, 5);
+  EXPECT_LT(observed.Calls, 5);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 0);
 
@@ -309,9 +309,9 @@ TEST(RefractedGeometryPipeline, ProgressRisesToTheEndAndAbortLeavesNothing)
   filter->Modified();
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 160000);
-  EXPECT_GE(observed.calls, 4);
-  EXPECT_FALSE(observed.falls);
-  EXPECT_EQ(observed.last, 1.0);
+  EXPECT_GE(observed.Calls, 4);
+  EXPECT_FALSE(observed.Falls);
+  EXPECT_EQ(observed.Last, 1.0);
 }
 
 //------------------------------------------------------------------------------
@@ -328,13 +328,13 @@ public:
     vtkInformation* info = outputs->GetInformationObject(0);
     if (request->Has(Pipeline::REQUEST_UPDATE_EXTENT()))
     {
-      this->piece = info->Get(Pipeline::UPDATE_PIECE_NUMBER());
-      this->pieces = info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
+      this->Piece = info->Get(Pipeline::UPDATE_PIECE_NUMBER());
+      this->Pieces = info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES());
     }
     return this->Superclass::ProcessRequest(request, inputs, outputs);
   }
-  int piece = -1;
-  int pieces = -1;
+  int Piece = -1;
+  int Pieces = -1;
 };
 vtkStandardNewMacro(PieceRecorder);
 
@@ -351,10 +351,10 @@ TEST(RefractedGeometryPipeline, MembraneIsAskedForWhole)
   filter->SetInputConnection(0, geometry->GetOutputPort());
   filter->SetMembraneConnection(membrane->GetOutputPort());
   filter->UpdatePiece(1, 3, 0);
-  EXPECT_EQ(geometry->piece, 1);
-  EXPECT_EQ(geometry->pieces, 3);
-  EXPECT_EQ(membrane->piece, 0);
-  EXPECT_EQ(membrane->pieces, 1);
+  EXPECT_EQ(geometry->Piece, 1);
+  EXPECT_EQ(geometry->Pieces, 3);
+  EXPECT_EQ(membrane->Piece, 0);
+  EXPECT_EQ(membrane->Pieces, 1);
 }
 
 }

@@ -24,29 +24,29 @@ namespace
 using namespace meniscus::testing;
 using namespace meniscus::reference;
 
-/// y - f(x, z).
+/** y - f(x, z). */
 class HeightFunction : public vtkImplicitFunction
 {
 public:
   static HeightFunction* New();
   vtkTypeMacro(HeightFunction, vtkImplicitFunction);
   using vtkImplicitFunction::EvaluateFunction;
-  double EvaluateFunction(double x[3]) override { return x[1] - this->field.GetHeight(x[0], x[2]); }
+  double EvaluateFunction(double x[3]) override { return x[1] - this->Field.GetHeight(x[0], x[2]); }
   void EvaluateGradient(double x[3], double g[3]) override
   {
     double dx = 0.0;
     double dz = 0.0;
-    this->field.GetSlopes(x[0], x[2], dx, dz);
+    this->Field.GetSlopes(x[0], x[2], dx, dz);
     g[0] = -dx;
     g[1] = 1.0;
     g[2] = -dz;
   }
 
-  HeightField field;
+  HeightField Field;
 };
 vtkStandardNewMacro(HeightFunction);
 
-/// A function without a zero, or without a gradient.
+/** A function without a zero, or without a gradient. */
 class NowhereZero : public vtkImplicitFunction
 {
 public:
@@ -55,16 +55,16 @@ public:
   using vtkImplicitFunction::EvaluateFunction;
   double EvaluateFunction(double x[3]) override
   {
-    return this->hasGradient ? 1.0 + x[1] * x[1] : 1.0;
+    return this->HasGradient ? 1.0 + x[1] * x[1] : 1.0;
   }
   void EvaluateGradient(double x[3], double g[3]) override
   {
     g[0] = 0.0;
-    g[1] = this->hasGradient ? 2.0 * x[1] : 0.0;
+    g[1] = this->HasGradient ? 2.0 * x[1] : 0.0;
     g[2] = 0.0;
   }
 
-  bool hasGradient = true;
+  bool HasGradient = true;
 };
 vtkStandardNewMacro(NowhereZero);
 
@@ -112,12 +112,12 @@ double FindLargestDifference(vtkPolyData* a, vtkPolyData* b)
 TEST(RefractedGeometryExact, SheetTakesTheShapeOfTheFormula)
 {
   HeightField field;
-  field.amplitude = 1.0;
-  field.k = 0.02 * std::acos(-1.0);
+  field.Amplitude = 1.0;
+  field.K = 0.02 * std::acos(-1.0);
   vtkNew<HeightFunction> waves;
-  waves->field = field;
+  waves->Field = field;
   HeightField flat = field;
-  flat.amplitude = 0.0;
+  flat.Amplitude = 0.0;
   const auto exact = MakeCurved(MakeMembrane(field.MakeMesh(128)));
   exact->Update();
   ASSERT_EQ(exact->GetOutput()->GetNumberOfPoints(), 25);
@@ -128,7 +128,7 @@ TEST(RefractedGeometryExact, SheetTakesTheShapeOfTheFormula)
     filter->SetExactMembrane(waves);
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+    EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
     const double error = FindLargestDifference(filter->GetOutput(), exact->GetOutput());
     const auto own = MakeCurved(MakeMembrane(field.MakeMesh(cells)));
     own->Update();
@@ -168,8 +168,8 @@ TEST(RefractedGeometryExact, SpheresAreExactFromAnyMesh)
       for (int i = 0; i < cells; ++i)
       {
         const std::int64_t a = j * row + i;
-        mesh.triangles.insert(
-          mesh.triangles.end(), { a, a + row, a + 1, a + 1, a + row, a + row + 1 });
+        mesh.Triangles.insert(
+          mesh.Triangles.end(), { a, a + row, a + 1, a + 1, a + row, a + row + 1 });
       }
     }
   }
@@ -237,14 +237,14 @@ TEST(RefractedGeometryExact, FunctionsWithoutAZeroLeaveTheMembraneWithAWarning)
   for (const bool hasGradient : { true, false })
   {
     vtkNew<NowhereZero> nowhere;
-    nowhere->hasGradient = hasGradient;
+    nowhere->HasGradient = hasGradient;
     const auto filter = MakeCurved(MakeFlatMembrane());
     filter->SetExactMembrane(nowhere);
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_EQ(messages->errors, 0) << messages->text;
-    EXPECT_EQ(messages->warnings, 1);
-    EXPECT_NE(messages->text.find("81 of 81"), std::string::npos) << messages->text;
+    EXPECT_EQ(messages->Errors, 0) << messages->Text;
+    EXPECT_EQ(messages->Warnings, 1);
+    EXPECT_NE(messages->Text.find("81 of 81"), std::string::npos) << messages->Text;
     EXPECT_LT(FindLargestDifference(filter->GetOutput(), plain->GetOutput()), 1e-9);
   }
 }

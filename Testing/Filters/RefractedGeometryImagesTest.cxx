@@ -51,7 +51,7 @@ glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
   return GetTuple(data->GetPoints()->GetData(), i);
 }
 
-/// A polygon that stands upright at x = 7, from `low` to `high`.
+/** A polygon that stands upright at x = 7, from `low` to `high`. */
 vtkSmartPointer<vtkPolyData> MakeWall(double low, double high)
 {
   auto wall = MakePoints(
@@ -106,7 +106,7 @@ TEST(RefractedGeometryImages, VerticesAreOnePerImage)
   const auto filter = MakeAllImages(points, MakeMembrane(Waves.MakeMesh(64)));
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
   vtkPolyData* output = filter->GetOutput();
   EXPECT_EQ(output->GetNumberOfVerts(), output->GetNumberOfPoints());
   std::vector<int> images(200, 0);

@@ -25,7 +25,7 @@ const double Pi = std::acos(-1.0);
 const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
 const glm::dvec3 Eye(20.0, 300.0, 10.0);
 
-/// A grid with unit normals that differ from point to point, none of them along an axis.
+/** A grid with unit normals that differ from point to point, none of them along an axis. */
 vtkSmartPointer<vtkPolyData> MakeLitGrid(double y)
 {
   auto grid = MakeGrid(9, 80.0, y);
@@ -64,14 +64,14 @@ glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
   return p;
 }
 
-/// True point, true and virtual normal, and so on, of each point of an output.
+/** True point, true and virtual normal, and so on, of each point of an output. */
 struct Lit
 {
-  glm::dvec3 point;
-  glm::dvec3 sightPoint;
-  glm::dvec3 virtualPoint;
-  glm::dvec3 normal;
-  glm::dvec3 virtualNormal;
+  glm::dvec3 Point;
+  glm::dvec3 SightPoint;
+  glm::dvec3 VirtualPoint;
+  glm::dvec3 Normal;
+  glm::dvec3 VirtualNormal;
 };
 
 std::vector<Lit> Read(vtkPolyData* grid, vtkPolyData* output)
@@ -83,7 +83,7 @@ std::vector<Lit> Read(vtkPolyData* grid, vtkPolyData* output)
     const auto id = static_cast<vtkIdType>(data->GetArray("SourcePointId")->GetTuple1(i));
     result.push_back({ GetPoint(grid, id), GetTuple(data->GetArray("SightPoint"), i),
       GetPoint(output, i), GetTuple(data->GetArray("Bumps"), i), GetTuple(data->GetNormals(), i) });
-    EXPECT_EQ(result.back().normal, GetTuple(grid->GetPointData()->GetNormals(), id));
+    EXPECT_EQ(result.back().Normal, GetTuple(grid->GetPointData()->GetNormals(), id));
   }
   return result;
 }
@@ -127,7 +127,7 @@ TEST(RefractedGeometryLight, SchlickIsItsClosedForm)
 TEST(RefractedGeometryLight, HeadlightsSeeTheTrueAngles)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
   {
     const auto grid = MakeLitGrid(-60.0);
     const auto filter = MakeCurved(grid, MakeMembrane(Waves.MakeMesh(64)));
@@ -140,11 +140,11 @@ TEST(RefractedGeometryLight, HeadlightsSeeTheTrueAngles)
     double largest = 0.0;
     for (const Lit& point : lit)
     {
-      EXPECT_NEAR(glm::length(point.virtualNormal), 1.0, 1e-12);
-      const glm::dvec3 inside = glm::normalize(point.sightPoint - point.point);
-      const glm::dvec3 outside = glm::normalize(Eye - point.virtualPoint);
-      EXPECT_NEAR(glm::dot(point.virtualNormal, outside), glm::dot(point.normal, inside), 1e-9);
-      largest = std::max(largest, glm::length(point.virtualNormal - point.normal));
+      EXPECT_NEAR(glm::length(point.VirtualNormal), 1.0, 1e-12);
+      const glm::dvec3 inside = glm::normalize(point.SightPoint - point.Point);
+      const glm::dvec3 outside = glm::normalize(Eye - point.VirtualPoint);
+      EXPECT_NEAR(glm::dot(point.VirtualNormal, outside), glm::dot(point.Normal, inside), 1e-9);
+      largest = std::max(largest, glm::length(point.VirtualNormal - point.Normal));
     }
     EXPECT_GT(largest, 0.01);
   }
@@ -168,15 +168,15 @@ TEST(RefractedGeometryLight, DistantLightsAreExactUnderPlanes)
     int both = 0;
     for (const Lit& point : Read(grid, filter->GetOutput()))
     {
-      const double diffuse = glm::dot(point.virtualNormal, unit);
-      const double wanted = glm::dot(point.normal, refracted);
-      const glm::dvec3 inside = glm::normalize(point.sightPoint - point.point);
-      const glm::dvec3 outside = glm::normalize(Eye - point.virtualPoint);
+      const double diffuse = glm::dot(point.VirtualNormal, unit);
+      const double wanted = glm::dot(point.Normal, refracted);
+      const glm::dvec3 inside = glm::normalize(point.SightPoint - point.Point);
+      const glm::dvec3 outside = glm::normalize(Eye - point.VirtualPoint);
       EXPECT_NEAR(diffuse, wanted, 1e-9);
       // Both products, where a unit normal can have them.
       both +=
-        std::fabs(glm::dot(point.virtualNormal, outside) - glm::dot(point.normal, inside)) < 1e-9;
-      EXPECT_NEAR(glm::length(point.virtualNormal), 1.0, 1e-12);
+        std::fabs(glm::dot(point.VirtualNormal, outside) - glm::dot(point.Normal, inside)) < 1e-9;
+      EXPECT_NEAR(glm::length(point.VirtualNormal), 1.0, 1e-12);
     }
     EXPECT_GE(both, light.y > 1.0 ? 55 : 10);
   }
@@ -192,7 +192,7 @@ TEST(RefractedGeometryLight, LightFromBelowTheHorizonLightsNothing)
   filter->Update();
   for (const Lit& point : Read(grid, filter->GetOutput()))
   {
-    EXPECT_LT(glm::dot(point.virtualNormal, glm::dvec3(1.0, -0.5, 0.0)), 0.0);
+    EXPECT_LT(glm::dot(point.VirtualNormal, glm::dvec3(1.0, -0.5, 0.0)), 0.0);
   }
 }
 
@@ -209,7 +209,7 @@ TEST(RefractedGeometryLight, NothingTurnsWhereNothingIsRefracted)
     filter->Update();
     for (const Lit& point : Read(grid, filter->GetOutput()))
     {
-      EXPECT_LT(glm::length(point.virtualNormal - point.normal), 1e-15);
+      EXPECT_LT(glm::length(point.VirtualNormal - point.Normal), 1e-15);
     }
     // In front of the membrane neither.
     filter->SetInteriorIndexOfRefraction(1.333);
@@ -221,7 +221,7 @@ TEST(RefractedGeometryLight, NothingTurnsWhereNothingIsRefracted)
     EXPECT_EQ(lit.size(), 81u);
     for (const Lit& point : lit)
     {
-      EXPECT_EQ(point.virtualNormal, point.normal);
+      EXPECT_EQ(point.VirtualNormal, point.Normal);
     }
   }
 }
@@ -239,7 +239,7 @@ TEST(RefractedGeometryLight, NormalsAreOffByDefaultAndWarnWhereThereAreNone)
   bare->Update();
   bare->SetEyePosition(0.0, 200.0, 0.0);
   bare->Update();
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_EQ(bare->GetOutput()->GetNumberOfPoints(), 81);
   EXPECT_EQ(bare->GetOutput()->GetPointData()->GetNormals(), nullptr);
 }
@@ -259,7 +259,7 @@ TEST(RefractedGeometryLight, BadNormalsAndLights)
   const auto messages = Observe(filter);
   filter->SetLightDirection(0.0, nan, 0.0);
   filter->Update();
-  EXPECT_GE(messages->errors, 1);
+  EXPECT_GE(messages->Errors, 1);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   filter->VirtualNormalsOff();
   filter->Update();

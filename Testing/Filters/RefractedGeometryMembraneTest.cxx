@@ -43,7 +43,7 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
   return filter;
 }
 
-/// A whole sphere about the origin with exact normals, outwards or inwards; wound outwards.
+/** A whole sphere about the origin with exact normals, outwards or inwards; wound outwards. */
 MembraneMesh MakeSphere(double radius, int rings, double sign)
 {
   MembraneMesh mesh;
@@ -103,7 +103,9 @@ glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
   return t;
 }
 
-/// Largest violation of Snell's law at a sphere about the origin, normals outwards (1) or inwards.
+/**
+ * Largest violation of Snell's law at a sphere about the origin, normals outwards (1) or inwards.
+ */
 double GetWorstSnell(vtkPolyData* output, const glm::dvec3& eye, double sign)
 {
   double worst = 0.0;
@@ -135,7 +137,7 @@ TEST(RefractedGeometryMembrane, ClosedMembranesAreBodies)
   const auto filter = MakeAllImages(geometry, MakeMembrane(MakeSphere(100.0, 24, 1.0)));
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
   vtkPolyData* output = filter->GetOutput();
   vtkDataArray* source = output->GetPointData()->GetArray("SourcePointId");
   vtkDataArray* facet = output->GetPointData()->GetArray("SightFacet");
@@ -192,22 +194,22 @@ TEST(RefractedGeometryMembrane, AnEyeInsideOfABodyIsTold)
     filter->Update();
   };
   look(300.0);
-  EXPECT_EQ(messages->warnings, 0) << messages->text;
+  EXPECT_EQ(messages->Warnings, 0) << messages->Text;
   EXPECT_FALSE(filter->IsEyeEnclosed());
   look(30.0);
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
-  EXPECT_NE(messages->text.find("inside of a closed membrane"), std::string::npos);
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
+  EXPECT_NE(messages->Text.find("inside of a closed membrane"), std::string::npos);
   EXPECT_TRUE(filter->IsEyeEnclosed());
   look(20.0);
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   look(300.0);
   EXPECT_FALSE(filter->IsEyeEnclosed());
   look(30.0);
-  EXPECT_EQ(messages->warnings, 2) << messages->text;
+  EXPECT_EQ(messages->Warnings, 2) << messages->Text;
   filter->SetMembraneData(MakeMembrane(MakeSphere(100.0, 24, -1.0))); // a bubble
   filter->Update();
   EXPECT_FALSE(filter->IsEyeEnclosed());
-  EXPECT_EQ(messages->warnings, 2) << messages->text;
+  EXPECT_EQ(messages->Warnings, 2) << messages->Text;
 }
 
 // Two sheets, above each other or side by side.
@@ -218,22 +220,22 @@ TEST(RefractedGeometryMembrane, SheetsInSequenceAreTold)
     MembraneMesh sheets = MakeSquare(200.0, 8, 0.0);
     MembraneMesh second = MakeSquare(200.0, 8, 0.0);
     second.Translate(isStacked ? glm::dvec3(0.0, -30.0, 0.0) : glm::dvec3(201.0, 0.0, 0.0));
-    const auto first = static_cast<std::int64_t>(sheets.points.size() / 3);
-    sheets.points.insert(sheets.points.end(), second.points.begin(), second.points.end());
-    sheets.normals.insert(sheets.normals.end(), second.normals.begin(), second.normals.end());
-    for (const std::int64_t id : second.triangles)
+    const auto first = static_cast<std::int64_t>(sheets.Points.size() / 3);
+    sheets.Points.insert(sheets.Points.end(), second.Points.begin(), second.Points.end());
+    sheets.Normals.insert(sheets.Normals.end(), second.Normals.begin(), second.Normals.end());
+    for (const std::int64_t id : second.Triangles)
     {
-      sheets.triangles.push_back(first + id);
+      sheets.Triangles.push_back(first + id);
     }
     const auto filter =
       MakeAllImages(MakeVertices({ { 0, -60, 0 }, { 5, -80, 3 } }), MakeMembrane(sheets));
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_EQ(messages->warnings, isStacked ? 1 : 0) << messages->text;
+    EXPECT_EQ(messages->Warnings, isStacked ? 1 : 0) << messages->Text;
     EXPECT_EQ(filter->GetNumberOfMembranePointsBehind() > 0, isStacked);
     filter->SetEyePosition(25.0, 310.0, 12.0);
     filter->Update();
-    EXPECT_EQ(messages->warnings, isStacked ? 1 : 0) << messages->text;
+    EXPECT_EQ(messages->Warnings, isStacked ? 1 : 0) << messages->Text;
   }
 }
 
@@ -244,11 +246,11 @@ TEST(RefractedGeometryMembrane, InconsistentFacetsAreTurned)
   const MembraneMesh bowl = MakeDisc(141.5, 5, 400.0);
   MembraneMesh mixed = bowl;
   std::size_t turned = 0;
-  for (std::size_t i = 0; i < mixed.triangles.size(); i += 3)
+  for (std::size_t i = 0; i < mixed.Triangles.size(); i += 3)
   {
     if (i % 7 < 3)
     {
-      std::swap(mixed.triangles[i + 1], mixed.triangles[i + 2]);
+      std::swap(mixed.Triangles[i + 1], mixed.Triangles[i + 2]);
       ++turned;
     }
   }
@@ -265,11 +267,11 @@ TEST(RefractedGeometryMembrane, InconsistentFacetsAreTurned)
   };
   MessageCounter* messages = nullptr;
   const auto expected = run(bowl, &messages);
-  EXPECT_EQ(messages->warnings, 0) << messages->text;
+  EXPECT_EQ(messages->Warnings, 0) << messages->Text;
   const auto output = run(mixed, &messages);
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
-  EXPECT_NE(messages->text.find(std::to_string(turned) + " of 184"), std::string::npos)
-    << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
+  EXPECT_NE(messages->Text.find(std::to_string(turned) + " of 184"), std::string::npos)
+    << messages->Text;
   ASSERT_EQ(output->GetNumberOfPoints(), expected->GetNumberOfPoints());
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
@@ -291,11 +293,11 @@ TEST(RefractedGeometryMembrane, NormalsOfAnotherSurfaceAreToldOf)
   const auto filter = MakeAllImages(MakeGrid(9, 80.0, -50.0), bowl);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
-  EXPECT_NE(messages->text.find("do not fit the triangles"), std::string::npos) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
+  EXPECT_NE(messages->Text.find("do not fit the triangles"), std::string::npos) << messages->Text;
   bowl->GetPointData()->SetNormals(nullptr);
   filter->Update();
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
 }
 
 TEST(RefractedGeometryMembrane, NormalsOnTheWrongSideAreTurned)
@@ -313,8 +315,8 @@ TEST(RefractedGeometryMembrane, NormalsOnTheWrongSideAreTurned)
   const auto filter = MakeAllImages(MakeGrid(9, 80.0, -50.0), wrong);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->warnings, 1);
-  EXPECT_NE(messages->text.find("4 of 125"), std::string::npos) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1);
+  EXPECT_NE(messages->Text.find("4 of 125"), std::string::npos) << messages->Text;
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), expected->GetOutput()->GetNumberOfPoints());
   for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
   {
@@ -354,8 +356,8 @@ TEST(RefractedGeometryMembrane, OneSidedMembranesAreAnError)
   const auto filter = MakeAllImages(MakeGrid(5, 40.0, -50.0), band);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors, 1);
-  EXPECT_NE(messages->text.find("one-sided"), std::string::npos) << messages->text;
+  EXPECT_EQ(messages->Errors, 1);
+  EXPECT_NE(messages->Text.find("one-sided"), std::string::npos) << messages->Text;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   filter->SetInputData(1, MakeFlatMembrane());
   filter->Update();
@@ -371,16 +373,16 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
   {
     const auto filter = MakeAllImages(membrane, object);
     filter->SetMembraneModel(
-      curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FLAT_FACETS);
+      curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FlatFacets);
     filter->SetImagesToFirstImage();
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_EQ(messages->warnings, 1) << messages->text;
-    EXPECT_NE(messages->text.find("None of the 81 points"), std::string::npos) << messages->text;
+    EXPECT_EQ(messages->Warnings, 1) << messages->Text;
+    EXPECT_NE(messages->Text.find("None of the 81 points"), std::string::npos) << messages->Text;
     EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 81);
     filter->SetEyePosition(0.0, 250.0, 0.0);
     filter->Update();
-    EXPECT_EQ(messages->warnings, 1); // once a membrane
+    EXPECT_EQ(messages->Warnings, 1); // once a membrane
     filter->SetInputData(0, object);
     filter->SetInputData(1, membrane);
     filter->Update();
@@ -391,20 +393,20 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
 TEST(RefractedGeometryMembrane, EyesBehindSaySoAndEyesOnItAreAnError)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
   {
     const auto filter = MakeAllImages(MakeGrid(5, 40.0, -30.0), MakeFlatMembrane());
     filter->SetImages(images);
     const auto messages = Observe(filter);
     filter->SetEyePosition(0.0, -100.0, 0.0);
     filter->Update();
-    EXPECT_EQ(messages->errors, 0);
-    EXPECT_EQ(messages->warnings, 1) << messages->text;
+    EXPECT_EQ(messages->Errors, 0);
+    EXPECT_EQ(messages->Warnings, 1) << messages->Text;
     EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
     filter->SetEyePosition(3.0, 0.0, 5.0);
     filter->Update();
-    EXPECT_GE(messages->errors, 1);
-    EXPECT_NE(messages->text.find("lies on the membrane"), std::string::npos);
+    EXPECT_GE(messages->Errors, 1);
+    EXPECT_NE(messages->Text.find("lies on the membrane"), std::string::npos);
     filter->SetEyePosition(20.0, 300.0, 10.0);
     filter->Update();
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys() > 0, true);
@@ -414,7 +416,7 @@ TEST(RefractedGeometryMembrane, EyesBehindSaySoAndEyesOnItAreAnError)
 TEST(RefractedGeometryMembrane, FailedSolvesAreWarnedOfWithNumbers)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
   {
     auto grid = MakeGrid(3, 10.0, -5.0);
     grid->GetPoints()->SetPoint(0, std::numeric_limits<double>::quiet_NaN(), -5.0, 0.0);
@@ -424,12 +426,12 @@ TEST(RefractedGeometryMembrane, FailedSolvesAreWarnedOfWithNumbers)
     const auto messages = Observe(filter);
     filter->Update();
     EXPECT_EQ(filter->GetNumberOfFailedSolves(), 2);
-    EXPECT_EQ(messages->warnings, 1);
-    EXPECT_NE(messages->text.find("2 of 9 points"), std::string::npos) << messages->text;
+    EXPECT_EQ(messages->Warnings, 1);
+    EXPECT_NE(messages->Text.find("2 of 9 points"), std::string::npos) << messages->Text;
     filter->Update();
     filter->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
     filter->Update(); // nothing solved again
-    EXPECT_EQ(messages->warnings, 1);
+    EXPECT_EQ(messages->Warnings, 1);
   }
 }
 
@@ -438,7 +440,7 @@ TEST(RefractedGeometryMembrane, EqualIndicesAreTheIdentityExactly)
 {
   const auto grid = MakeGrid(9, 80.0, -50.0);
   for (const int images :
-    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
   {
     const auto filter = MakeAllImages(grid, MakeMembrane(MakeWaves(200.0, 32, 3.0, 2.0)));
     filter->SetImages(images);
@@ -484,7 +486,7 @@ TEST(RefractedGeometryMembrane, CurvedMembranesMayBeStripsAndPolygons)
   filter->SetImagesToFirstImage();
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->warnings + messages->errors, 0) << messages->text;
+  EXPECT_EQ(messages->Warnings + messages->Errors, 0) << messages->Text;
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
   for (vtkIdType i = 0; i < 81; ++i)
   {
@@ -508,7 +510,7 @@ TEST(RefractedGeometryMembrane, EmptyAndMissingBlocksOfComposites)
   filter->SetInputData(1, MakeFlatMembrane());
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
   auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   ASSERT_NE(output, nullptr);
   EXPECT_GT(vtkPolyData::SafeDownCast(output->GetBlock(0))->GetNumberOfPolys(), 0);
@@ -521,7 +523,7 @@ TEST(RefractedGeometryMembrane, EmptyAndMissingBlocksOfComposites)
 TEST(RefractedGeometryMembrane, ArraysOfOddTypes)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
+    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
   {
     const auto grid = MakeGrid(9, 150.0, -60.0);
     vtkNew<vtkStringArray> names;
@@ -545,7 +547,7 @@ TEST(RefractedGeometryMembrane, ArraysOfOddTypes)
     filter->SetImages(images);
     const auto messages = Observe(filter);
     filter->Update();
-    EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+    EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
     vtkPolyData* output = filter->GetOutput();
     vtkPointData* data = output->GetPointData();
     for (const char* name : { "Names", "Letters", "Colours", "Rank" })
@@ -591,11 +593,11 @@ TEST(RefractedGeometryMembrane, DataOfThePortsMayChangeBetweenUpdates)
   membrane->Initialize();
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors, 1) << messages->text;
+  EXPECT_EQ(messages->Errors, 1) << messages->Text;
   membrane->ShallowCopy(MakeFlatMembrane());
   grid->ShallowCopy(MakeGrid(9, 80.0, -50.0));
   filter->Update();
-  EXPECT_EQ(messages->errors, 1) << messages->text;
+  EXPECT_EQ(messages->Errors, 1) << messages->Text;
   EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), 0);
 }
 
@@ -606,9 +608,9 @@ TEST(RefractedGeometryMembrane, AbortWithAllImages)
 {
   struct Observed
   {
-    double from = 0.0;
-    double last = 0.0;
-    bool abort = true;
+    double From = 0.0;
+    double Last = 0.0;
+    bool Abort = true;
   } observed;
   const auto grid = MakeGrid(260, 150.0, -60.0);
   const auto expected = MakeAllImages(grid, MakeFlatMembrane());
@@ -619,7 +621,7 @@ TEST(RefractedGeometryMembrane, AbortWithAllImages)
     const auto filter = MakeAllImages(grid, MakeFlatMembrane());
     filter->SetAngularTolerance(1.0);
     observed = Observed();
-    observed.from = from;
+    observed.From = from;
     vtkNew<vtkCallbackCommand> callback;
     callback->SetClientData(&observed);
     callback->SetCallback(
@@ -627,8 +629,8 @@ TEST(RefractedGeometryMembrane, AbortWithAllImages)
       {
         auto* o = static_cast<Observed*>(data);
         auto* algorithm = static_cast<vtkAlgorithm*>(caller);
-        o->last = algorithm->GetProgress();
-        if (o->abort && o->last > o->from)
+        o->Last = algorithm->GetProgress();
+        if (o->Abort && o->Last > o->From)
         {
           algorithm->SetAbortExecute(1);
         }
@@ -637,7 +639,7 @@ TEST(RefractedGeometryMembrane, AbortWithAllImages)
     filter->Update();
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << from;
     EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0) << from;
-    observed.abort = false;
+    observed.Abort = false;
     filter->SetAbortExecute(0);
     filter->Modified();
     filter->Update();

@@ -54,7 +54,7 @@ TEST(RefractedGeometryOutput, GridKeepsConnectivityAndArrays)
   const auto messages = Observe(filter);
   filter->Update();
   vtkPolyData* output = filter->GetOutput();
-  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
   ASSERT_EQ(output->GetNumberOfPoints(), 81);
   ASSERT_EQ(output->GetNumberOfPolys(), 64);
   EXPECT_EQ(output->GetPoints()->GetDataType(), VTK_DOUBLE);
@@ -430,7 +430,7 @@ TEST(RefractedGeometryOutput, CurvedPatchesAreExactOnAPlane)
   filter->SetMembraneModelToCurved();
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
   const meniscus::reference::AnalyticMembrane exact{ 0.0, 1.0, 1.333 };
   for (vtkIdType i = 0; i < 81; ++i)
@@ -457,7 +457,7 @@ TEST(RefractedGeometryOutput, PrintsItsState)
 {
   vtkNew<vtkRefractedGeometryFilter> filter;
   EXPECT_EQ(filter->GetMembraneModel(), vtkRefractedGeometryFilter::CURVED);
-  EXPECT_EQ(filter->GetImages(), vtkRefractedGeometryFilter::ALL_IMAGES);
+  EXPECT_EQ(filter->GetImages(), vtkRefractedGeometryFilter::AllImages);
   EXPECT_EQ(filter->GetExteriorIndexOfRefraction(), 1.0);
   EXPECT_EQ(filter->GetInteriorIndexOfRefraction(), 1.333);
   std::ostringstream text;

@@ -29,10 +29,10 @@ const double Pi = std::acos(-1.0);
 
 struct PiecesCase
 {
-  const char* name;
-  HeightField field;
-  int cells;
-  glm::dvec3 eye;
+  const char* Name;
+  HeightField Field;
+  int Cells;
+  glm::dvec3 Eye;
 };
 
 const PiecesCase Cases[] = {
@@ -49,13 +49,13 @@ const PiecesCase Cases[] = {
 
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(const PiecesCase& test, vtkPolyData* data)
 {
-  auto filter = MakeFilter(data, MakeMembrane(test.field.MakeMesh(test.cells)));
+  auto filter = MakeFilter(data, MakeMembrane(test.Field.MakeMesh(test.Cells)));
   filter->SetMembraneModelToCurved();
   filter->SetImagesToAllImages();
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  filter->SetEyePosition(test.eye.x, test.eye.y, test.eye.z);
-  filter->SetExteriorIndexOfRefraction(test.field.exterior);
-  filter->SetInteriorIndexOfRefraction(test.field.interior);
+  filter->SetEyePosition(test.Eye.x, test.Eye.y, test.Eye.z);
+  filter->SetExteriorIndexOfRefraction(test.Field.Exterior);
+  filter->SetInteriorIndexOfRefraction(test.Field.Interior);
   return filter;
 }
 
@@ -207,7 +207,7 @@ TEST(RefractedGeometryPiecesBehindPlanes, ObeySnellsLaw)
 TEST_P(RefractedGeometryPieces, NoPixelShowsThroughABall)
 {
   const PiecesCase& test = GetParam();
-  if (test.field.exterior > test.field.interior)
+  if (test.Field.Exterior > test.Field.Interior)
   {
     GTEST_SKIP() << "where all light is reflected single pixels may show nothing";
   }
@@ -223,10 +223,10 @@ TEST_P(RefractedGeometryPieces, NoPixelShowsThroughABall)
   const auto filter = MakeAllImages(test, ball);
   filter->Update();
   constexpr int pixels = 700;
-  const PixelCamera camera(test.eye, { 3.0, -30.0, 2.0 }, 0.2, pixels);
+  const PixelCamera camera(test.Eye, { 3.0, -30.0, 2.0 }, 0.2, pixels);
   const PlacePicture picture = DrawPlaces(filter->GetOutput(), camera);
   const auto covers = [&picture](int x, int y)
-  { return picture[static_cast<std::size_t>(y * pixels + x)].covered; };
+  { return picture[static_cast<std::size_t>(y * pixels + x)].Covered; };
   int covered = 0;
   int cracks = 0;
   for (int y = 2; y + 2 < pixels; ++y)

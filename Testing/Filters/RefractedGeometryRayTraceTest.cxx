@@ -16,20 +16,20 @@ using namespace meniscus::testing;
 
 vtkSmartPointer<vtkPolyData> MakeObject(const PictureScene& scene)
 {
-  const auto grid = MakeGrid(scene.tiles + 1, scene.size, -scene.depth);
+  const auto grid = MakeGrid(scene.Tiles + 1, scene.Size, -scene.Depth);
   AddPlaces(grid);
   return grid;
 }
 
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeSceneFilter(const PictureScene& scene)
 {
-  auto filter = MakeFilter(MakeObject(scene), MakeMembrane(scene.field.MakeMesh(scene.cells)));
+  auto filter = MakeFilter(MakeObject(scene), MakeMembrane(scene.Field.MakeMesh(scene.Cells)));
   filter->SetMembraneModelToCurved();
   filter->SetImagesToAllImages();
   filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  filter->SetEyePosition(scene.eye.x, scene.eye.y, scene.eye.z);
-  filter->SetExteriorIndexOfRefraction(scene.field.exterior);
-  filter->SetInteriorIndexOfRefraction(scene.field.interior);
+  filter->SetEyePosition(scene.Eye.x, scene.Eye.y, scene.Eye.z);
+  filter->SetExteriorIndexOfRefraction(scene.Field.Exterior);
+  filter->SetInteriorIndexOfRefraction(scene.Field.Interior);
   return filter;
 }
 
@@ -47,28 +47,28 @@ TEST_P(RefractedGeometryRayTrace, PixelsAgree)
   const auto filter = MakeSceneFilter(scene);
   const auto messages = Observe(filter);
   filter->Update();
-  EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
 
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), camera);
   const PlacePicture traced =
-    TracePlaces(scene.field, camera, MakeSquareTracer(-scene.depth, scene.size));
+    TracePlaces(scene.Field, camera, MakeSquareTracer(-scene.Depth, scene.Size));
   const PlaceComparison compared = ComparePlaces(traced, drawn, camera);
   const auto square = [&scene](const glm::dvec3& place)
   {
-    const double unit = scene.size / 20.0;
+    const double unit = scene.Size / 20.0;
     return static_cast<int>(std::floor(place.x / unit) + std::floor(place.z / unit)) & 1;
   };
   int colour = 0;
   for (std::size_t i = 0; i < traced.size(); ++i)
   {
     colour +=
-      traced[i].covered && drawn[i].covered && square(traced[i].place) != square(drawn[i].place);
+      traced[i].Covered && drawn[i].Covered && square(traced[i].Place) != square(drawn[i].Place);
   }
   std::printf("%s: %d pixels, %d differ in coverage, %d in place, %d in colour, %lld cells\n",
-    scene.name.c_str(), compared.covered, compared.coverage, compared.place, colour,
+    scene.Name.c_str(), compared.Covered, compared.Coverage, compared.Place, colour,
     static_cast<long long>(filter->GetOutput()->GetNumberOfCells()));
-  EXPECT_GT(compared.covered, camera.GetPixels() * camera.GetPixels() / 20);
-  EXPECT_LE(compared.coverage + compared.place, compared.covered / 1000);
+  EXPECT_GT(compared.Covered, camera.GetPixels() * camera.GetPixels() / 20);
+  EXPECT_LE(compared.Coverage + compared.Place, compared.Covered / 1000);
 }
 
 // With a tolerance of two pixels what is drawn may be two pixels off, but no crack shows: each
@@ -82,7 +82,7 @@ TEST_P(RefractedGeometryRayTrace, NoCracksWithACoarseTolerance)
   filter->Update();
   const PlacePicture drawn = DrawPlaces(filter->GetOutput(), camera);
   const PlacePicture traced =
-    TracePlaces(scene.field, camera, MakeSquareTracer(-scene.depth, scene.size));
+    TracePlaces(scene.Field, camera, MakeSquareTracer(-scene.Depth, scene.Size));
   constexpr int reach = 5;
   const int pixels = camera.GetPixels();
   int inside = 0;
@@ -97,14 +97,14 @@ TEST_P(RefractedGeometryRayTrace, NoCracksWithACoarseTolerance)
         for (int dx = -reach; dx <= reach; ++dx)
         {
           isInside =
-            isInside && traced[static_cast<std::size_t>((y + dy) * pixels + x + dx)].covered;
+            isInside && traced[static_cast<std::size_t>((y + dy) * pixels + x + dx)].Covered;
         }
       }
       inside += isInside;
-      cracks += isInside && !drawn[static_cast<std::size_t>(y * pixels + x)].covered;
+      cracks += isInside && !drawn[static_cast<std::size_t>(y * pixels + x)].Covered;
     }
   }
-  std::printf("%s: %d pixels inside, %d not drawn\n", scene.name.c_str(), inside, cracks);
+  std::printf("%s: %d pixels inside, %d not drawn\n", scene.Name.c_str(), inside, cracks);
   EXPECT_GT(inside, pixels * pixels / 30);
   EXPECT_EQ(cracks, 0);
 }

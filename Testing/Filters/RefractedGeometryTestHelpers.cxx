@@ -17,8 +17,8 @@ namespace meniscus::testing
 //------------------------------------------------------------------------------
 void MessageCounter::Execute(vtkObject*, unsigned long event, void* message)
 {
-  ++(event == vtkCommand::ErrorEvent ? this->errors : this->warnings);
-  this->text += static_cast<const char*>(message);
+  ++(event == vtkCommand::ErrorEvent ? this->Errors : this->Warnings);
+  this->Text += static_cast<const char*>(message);
 }
 
 //------------------------------------------------------------------------------

@@ -20,36 +20,38 @@ namespace meniscus::testing
 
 using Point = std::array<double, 3>;
 
-/// Counts errors and warnings, keeps their text, and lets nothing through to the output window.
+/** Counts errors and warnings, keeps their text, and lets nothing through to the output window. */
 class MessageCounter : public vtkCommand
 {
 public:
   static MessageCounter* New() { return new MessageCounter; }
   void Execute(vtkObject* caller, unsigned long event, void* text) override;
 
-  int errors = 0;
-  int warnings = 0;
-  std::string text;
+  int Errors = 0;
+  int Warnings = 0;
+  std::string Text;
 };
 
-/// Observes a filter and its executive.
+/** Observes a filter and its executive. */
 vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter);
 
-/// A flat membrane of side 200, eight cells a side.
+/** A flat membrane of side 200, eight cells a side. */
 vtkSmartPointer<vtkPolyData> MakeFlatMembrane();
 
-/// Points without cells.
+/** Points without cells. */
 vtkSmartPointer<vtkPolyData> MakePoints(const std::vector<Point>& points);
 
-/// `count` points a side of a horizontal grid of quads, at height `y`, with side `size`. Has the
-/// point array "Rank" (the point's index) and the cell array "Label" (10 times the cell's index).
+/**
+ * `count` points a side of a horizontal grid of quads, at height `y`, with side `size`. Has the
+ * point array "Rank" (the point's index) and the cell array "Label" (10 times the cell's index).
+ */
 vtkSmartPointer<vtkPolyData> MakeGrid(int count, double size, double y);
 
-/// A filter with FLAT_FACETS, FIRST_IMAGE and the eye at (20, 300, 10).
+/** A filter with FLAT_FACETS, FIRST_IMAGE and the eye at (20, 300, 10). */
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(
   vtkPolyData* geometry, vtkPolyData* membrane);
 
-/// The true position as a point array `Truth`, so that interpolation can be checked.
+/** The true position as a point array `Truth`, so that interpolation can be checked. */
 void AddTruth(vtkPolyData* data);
 
 }

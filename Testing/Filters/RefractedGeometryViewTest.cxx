@@ -51,7 +51,7 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeViewed(int model, int images, vt
   return filter;
 }
 
-/// Source cell and where its first point is drawn, to 1e-6.
+/** Source cell and where its first point is drawn, to 1e-6. */
 using Cell = std::tuple<int, long, long, long>;
 
 Cell GetCell(vtkPolyData* output, vtkIdType cell, vtkIdType point)
@@ -62,7 +62,7 @@ Cell GetCell(vtkPolyData* output, vtkIdType cell, vtkIdType point)
     std::lround(1e6 * p[0]), std::lround(1e6 * p[1]), std::lround(1e6 * p[2]) };
 }
 
-/// The polygons with a point in the camera's view; of all with a null camera.
+/** The polygons with a point in the camera's view; of all with a null camera. */
 std::multiset<Cell> GetCells(vtkPolyData* output, vtkCamera* camera)
 {
   double planes[24];
@@ -216,25 +216,25 @@ TEST_P(RefractedGeometryView, ViewsBesideTheMembraneCullAll)
   EXPECT_EQ(filter->GetNumberOfCulledVertices(), All);
   EXPECT_EQ(filter->GetNumberOfCulledCells(), 1600);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_EQ(messages->warnings, 0) << messages->text; // it is not the scene that is wrong
+  EXPECT_EQ(messages->Warnings, 0) << messages->Text; // it is not the scene that is wrong
   vtkDataArray* without = filter->GetOutput()->GetFieldData()->GetArray("PointsWithoutImage");
   EXPECT_EQ(without->GetNumberOfTuples(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, RefractedGeometryView,
-  ::testing::Values(std::array<int, 2>{ vtkRefractedGeometryFilter::FLAT_FACETS,
-                      vtkRefractedGeometryFilter::FIRST_IMAGE },
+  ::testing::Values(std::array<int, 2>{ vtkRefractedGeometryFilter::FlatFacets,
+                      vtkRefractedGeometryFilter::FirstImage },
     std::array<int, 2>{
-      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FIRST_IMAGE },
+      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FirstImage },
     std::array<int, 2>{
-      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::ALL_IMAGES }));
+      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::AllImages }));
 
 //------------------------------------------------------------------------------
 // Without the viewport's shape only the sides of the view angle's own direction are known.
 TEST(RefractedGeometryViews, UnknownAspectRatiosCullTwoSides)
 {
   constexpr int model = vtkRefractedGeometryFilter::CURVED;
-  constexpr int images = vtkRefractedGeometryFilter::FIRST_IMAGE;
+  constexpr int images = vtkRefractedGeometryFilter::FirstImage;
   const auto beside = MakeCamera(20.0, 900.0); // far to the side; the view's up is x
   beside->SetViewUp(1.0, 0.0, 0.0);
   const auto filter = MakeViewed(model, images, beside);
@@ -253,7 +253,7 @@ TEST(RefractedGeometryViews, ParallelProjectionsAndEyesWithoutCameraCullNothing)
   const auto camera = MakeCamera(900.0, 10.0);
   camera->ParallelProjectionOn();
   const auto filter =
-    MakeViewed(vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FIRST_IMAGE, camera);
+    MakeViewed(vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FirstImage, camera);
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), All);
@@ -267,7 +267,7 @@ TEST(RefractedGeometryViews, ParallelProjectionsAndEyesWithoutCameraCullNothing)
 TEST(RefractedGeometryViews, GeometryInFrontIsNeverCulled)
 {
   const auto filter = MakeViewed(vtkRefractedGeometryFilter::CURVED,
-    vtkRefractedGeometryFilter::ALL_IMAGES, MakeCamera(900.0, 10.0));
+    vtkRefractedGeometryFilter::AllImages, MakeCamera(900.0, 10.0));
   filter->SetInputData(0, MakeGrid(9, 40.0, 30.0));
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 64);
@@ -278,14 +278,14 @@ TEST(RefractedGeometryViews, GeometryInFrontIsNeverCulled)
 TEST(RefractedGeometryViews, PointsThatAreNotFiniteAreNotCulled)
 {
   const auto filter = MakeViewed(vtkRefractedGeometryFilter::CURVED,
-    vtkRefractedGeometryFilter::FIRST_IMAGE, MakeCamera(900.0, 10.0));
+    vtkRefractedGeometryFilter::FirstImage, MakeCamera(900.0, 10.0));
   auto grid = MakeGrid(3, 10.0, -30.0);
   grid->GetPoints()->SetPoint(4, 0.0, std::nan(""), 0.0);
   filter->SetInputData(0, grid);
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfFailedSolves(), 1);
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
 }
 
 }

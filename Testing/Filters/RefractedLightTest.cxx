@@ -32,7 +32,7 @@ constexpr double Water = 1.333;
 // The light is ten thousand sizes of the scene away.
 constexpr double Parallel = 2e-4;
 
-/// 1 - F of unpolarised light, by Fresnel's equations for both polarisations.
+/** 1 - F of unpolarised light, by Fresnel's equations for both polarisations. */
 double transmittance(double cosine)
 {
   const double refracted = std::sqrt(1.0 - (1.0 - cosine * cosine) / (Water * Water));
@@ -62,20 +62,20 @@ vtkDataArray* OfPoints(vtkRefractedLightFilter* filter)
   return filter->GetOutput()->GetPointData()->GetArray("RefractionIrradiance");
 }
 
-/// What 10^6 rays of the sun bring to the cells of MakeGrid(cells + 1, size, y), per area.
+/** What 10^6 rays of the sun bring to the cells of MakeGrid(cells + 1, size, y), per area. */
 std::vector<double> ShinePhotons(
   const HeightField& waves, const glm::dvec3& sun, int cells, double size, double y, double& total)
 {
-  constexpr int Rays = 1000;
+  constexpr int rays = 1000;
   std::vector<double> flux(static_cast<std::size_t>(cells) * cells, 0.0);
-  const double step = waves.side / Rays;
+  const double step = waves.Side / rays;
   total = 0.0;
-  for (int j = 0; j < Rays; ++j)
+  for (int j = 0; j < rays; ++j)
   {
-    for (int i = 0; i < Rays; ++i)
+    for (int i = 0; i < rays; ++i)
     {
-      const double x = (i + 0.5) * step - 0.5 * waves.side;
-      const double z = (j + 0.5) * step - 0.5 * waves.side;
+      const double x = (i + 0.5) * step - 0.5 * waves.Side;
+      const double z = (j + 0.5) * step - 0.5 * waves.Side;
       const glm::dvec3 place(x, waves.GetHeight(x, z), z);
       const glm::dvec3 normal = waves.GetNormal(x, z);
       const double cosine = glm::dot(sun, normal);
@@ -99,7 +99,7 @@ std::vector<double> ShinePhotons(
   return flux;
 }
 
-/// The quad of the grid that a cell covers, by its centre.
+/** The quad of the grid that a cell covers, by its centre. */
 std::size_t BinOf(vtkPolyData* grid, vtkIdType cell, int cells, double size)
 {
   double bounds[6];
@@ -133,16 +133,16 @@ TEST(RefractedLight, FlatWaterUnderTheSun)
 
 TEST(RefractedLight, ALampAboveFlatWater)
 {
-  constexpr double Height = 40.0;
-  constexpr double Depth = 30.0;
-  auto floor = MakeGrid(81, 80.0, -Depth);
-  auto filter = MakeLight(floor, MakeFlatMembrane(), { 0.0, Height, 0.0 });
+  constexpr double height = 40.0;
+  constexpr double depth = 30.0;
+  auto floor = MakeGrid(81, 80.0, -depth);
+  auto filter = MakeLight(floor, MakeFlatMembrane(), { 0.0, height, 0.0 });
   filter->PositionalOn();
   filter->Update();
   // Rings: at the angle a light passes the water at Height tan a and ends at the radius r(a).
   const auto sine = [](double a) { return std::sin(a) / Water; };
   const auto radius = [&](double a)
-  { return Height * std::tan(a) + Depth * sine(a) / std::sqrt(1.0 - sine(a) * sine(a)); };
+  { return height * std::tan(a) + depth * sine(a) / std::sqrt(1.0 - sine(a) * sine(a)); };
   double largest = 0.0;
   for (vtkIdType i = 0; i < floor->GetNumberOfPoints(); ++i)
   {
@@ -160,10 +160,10 @@ TEST(RefractedLight, ALampAboveFlatWater)
       const double middle = 0.5 * (low + high);
       (radius(middle) < r ? low : high) = middle;
     }
-    constexpr double Small = 1e-5;
-    const double slope = (radius(low + Small) - radius(low - Small)) / (2.0 * Small);
-    const double onWater = Height * std::tan(low);
-    const double waterSlope = Height / (std::cos(low) * std::cos(low));
+    constexpr double small = 1e-5;
+    const double slope = (radius(low + small) - radius(low - small)) / (2.0 * small);
+    const double onWater = height * std::tan(low);
+    const double waterSlope = height / (std::cos(low) * std::cos(low));
     const double expected =
       transmittance(std::cos(low)) * std::cos(low) * onWater * waterSlope / (r * slope);
     largest = std::max(largest, std::fabs(OfPoints(filter)->GetComponent(i, 0) - expected));
@@ -176,24 +176,24 @@ TEST(RefractedLight, CausticsOfWavesAreThoseOfPhotons)
   const HeightField waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, Water };
   auto membrane = MakeMembrane(waves.MakeMesh(64));
   const glm::dvec3 sun = glm::normalize(glm::dvec3(0.2, 1.0, 0.1));
-  constexpr int Cells = 40;
-  constexpr double Size = 500.0;
+  constexpr int cells = 40;
+  constexpr double size = 500.0;
   // Before the light is folded, about where it gathers most, and behind it.
   for (const double depth : { 150.0, 300.0, 700.0 })
   {
-    auto floor = MakeGrid(Cells + 1, Size, -depth);
+    auto floor = MakeGrid(cells + 1, size, -depth);
     auto filter = MakeLight(floor, membrane, sun);
     filter->Update();
     double total = 0.0;
-    const std::vector<double> truth = ShinePhotons(waves, sun, Cells, Size, -depth, total);
+    const std::vector<double> truth = ShinePhotons(waves, sun, cells, size, -depth, total);
     double sum = 0.0;
     double squares = 0.0;
     double signal = 0.0;
     for (vtkIdType i = 0; i < floor->GetNumberOfCells(); ++i)
     {
       const double measured = OfCells(filter)->GetComponent(i, 0);
-      const double expected = truth[BinOf(floor, i, Cells, Size)];
-      sum += measured * Size * Size / (Cells * Cells);
+      const double expected = truth[BinOf(floor, i, cells, size)];
+      sum += measured * size * size / (cells * cells);
       squares += (measured - expected) * (measured - expected);
       signal += expected * expected;
     }
@@ -284,28 +284,28 @@ TEST(RefractedLight, BadInput)
     auto filter = MakeLight(MakeGrid(3, 60.0, -20.0), MakeFlatMembrane(), light);
     auto messages = Observe(filter);
     filter->Update();
-    EXPECT_GT(messages->errors, 0);
+    EXPECT_GT(messages->Errors, 0);
   }
   {
     auto filter = MakeLight(MakeGrid(3, 60.0, -20.0), MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
     filter->SetInteriorIndexOfRefraction(-1.0);
     auto messages = Observe(filter);
     filter->Update();
-    EXPECT_GT(messages->errors, 0);
+    EXPECT_GT(messages->Errors, 0);
   }
   {
     auto filter =
       MakeLight(MakeGrid(3, 60.0, -20.0), vtkSmartPointer<vtkPolyData>::New(), { 0.0, 1.0, 0.0 });
     auto messages = Observe(filter);
     filter->Update();
-    EXPECT_GT(messages->errors, 0);
+    EXPECT_GT(messages->Errors, 0);
   }
   {
     auto filter =
       MakeLight(vtkSmartPointer<vtkPolyData>::New(), MakeFlatMembrane(), { 0.0, 1.0, 0.0 });
     auto messages = Observe(filter);
     filter->Update();
-    EXPECT_EQ(messages->errors, 0);
+    EXPECT_EQ(messages->Errors, 0);
     EXPECT_EQ(OfCells(filter)->GetNumberOfTuples(), 0);
   }
   {

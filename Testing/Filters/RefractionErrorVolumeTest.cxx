@@ -39,7 +39,7 @@ const double NaN = std::numeric_limits<double>::quiet_NaN();
 const double Pi = std::acos(-1.0);
 const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
 
-/// y - f(x, z) of the waves.
+/** y - f(x, z) of the waves. */
 class WavesFunction : public vtkImplicitFunction
 {
 public:
@@ -77,17 +77,17 @@ vtkSmartPointer<vtkRefractionErrorVolume> MakeVolume(vtkPolyData* membrane)
   return volume;
 }
 
-/// The thesis's box: 40 samples a side, 20 apart.
+/** The thesis's box: 40 samples a side, 20 apart. */
 vtkSmartPointer<vtkRefractionErrorVolume> MakeThesisVolume(const ThesisRow& row)
 {
-  const double radius = row.sphereRatio * 141.5;
+  const double radius = row.SphereRatio * 141.5;
   auto volume = MakeVolume(
-    MakeMembrane(row.shape == MembraneShape::Disc ? MakeDisc(141.5, 5, radius)
-                                                  : MakeSquare(200.0, row.squareCells, radius)));
+    MakeMembrane(row.Shape == MembraneShape::Disc ? MakeDisc(141.5, 5, radius)
+                                                  : MakeSquare(200.0, row.SquareCells, radius)));
   volume->SetMembraneModelToFlatFacets();
-  volume->SetEyePosition(row.eyeOffset, row.eyeHeight, 0.0);
-  volume->SetExteriorIndexOfRefraction(row.exterior);
-  volume->SetInteriorIndexOfRefraction(row.interior);
+  volume->SetEyePosition(row.EyeOffset, row.EyeHeight, 0.0);
+  volume->SetExteriorIndexOfRefraction(row.Exterior);
+  volume->SetInteriorIndexOfRefraction(row.Interior);
   volume->SetModelBounds(-400.0, 380.0, -800.0, -20.0, -400.0, 380.0);
   volume->SetSampleDimensions(40, 40, 40);
   if (radius > 0.0)
@@ -127,8 +127,8 @@ TEST(RefractionErrorVolume, ReproducesTheThesis)
   int rows = 0;
   for (const ThesisRow& row : GetThesisRows())
   {
-    const bool bowl = std::strcmp(row.table, "4.2") == 0 && row.sphereRatio > 0.0;
-    const bool square = std::strcmp(row.table, "4.5") == 0 && row.sphereRatio == 0.0;
+    const bool bowl = std::strcmp(row.Table, "4.2") == 0 && row.SphereRatio > 0.0;
+    const bool square = std::strcmp(row.Table, "4.5") == 0 && row.SphereRatio == 0.0;
     if (!bowl && !square)
     {
       continue;
@@ -137,14 +137,14 @@ TEST(RefractionErrorVolume, ReproducesTheThesis)
     const auto volume = MakeThesisVolume(row);
     const auto messages = Observe(volume);
     volume->Update();
-    EXPECT_EQ(messages->errors + messages->warnings, 0) << messages->text;
+    EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
     const ErrorStatistics expected = MeasureThesisRow(row);
-    EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), static_cast<vtkTypeInt64>(expected.points));
-    EXPECT_NEAR(volume->GetMeanError(), expected.mean, 1e-9 * expected.mean);
-    EXPECT_NEAR(volume->GetStandardDeviation(), expected.deviation, 1e-7 * expected.mean);
-    EXPECT_NEAR(volume->GetLargestError(), expected.largest, 1e-9 * expected.largest);
-    EXPECT_NEAR(volume->GetMeanError(), row.mean, 0.0025 * row.mean) << rows;
-    EXPECT_NEAR(volume->GetStandardDeviation(), row.deviation, 0.009 * row.deviation) << rows;
+    EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), static_cast<vtkTypeInt64>(expected.Points));
+    EXPECT_NEAR(volume->GetMeanError(), expected.Mean, 1e-9 * expected.Mean);
+    EXPECT_NEAR(volume->GetStandardDeviation(), expected.Deviation, 1e-7 * expected.Mean);
+    EXPECT_NEAR(volume->GetLargestError(), expected.Largest, 1e-9 * expected.Largest);
+    EXPECT_NEAR(volume->GetMeanError(), row.Mean, 0.0025 * row.Mean) << rows;
+    EXPECT_NEAR(volume->GetStandardDeviation(), row.Deviation, 0.009 * row.Deviation) << rows;
   }
   EXPECT_EQ(rows, 11);
 }
@@ -153,7 +153,7 @@ TEST(RefractionErrorVolume, ReproducesTheThesis)
 TEST(RefractionErrorVolume, CurvedPatchesReproduceSpheres)
 {
   const ThesisRow& row = GetThesisRows()[14]; // Table 4.2, radius 355
-  ASSERT_EQ(row.sphereRatio, 2.5);
+  ASSERT_EQ(row.SphereRatio, 2.5);
   const auto volume = MakeThesisVolume(row);
   volume->SetMembraneModelToCurved();
   volume->Update();
@@ -178,8 +178,7 @@ TEST(RefractionErrorVolume, AFinerMeshStandsForTheSurface)
 {
   const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
   vtkNew<WavesFunction> function;
-  for (const int model :
-    { vtkRefractionErrorVolume::FLAT_FACETS, vtkRefractionErrorVolume::CURVED })
+  for (const int model : { vtkRefractionErrorVolume::FlatFacets, vtkRefractionErrorVolume::CURVED })
   {
     volume->SetMembraneModel(model);
     volume->SetExactMembrane(function);
@@ -216,12 +215,12 @@ TEST(RefractionErrorVolume, CurvedAgainstItselfIsExactAndWarnsOnce)
   const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
   const auto messages = Observe(volume);
   volume->Update();
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
   EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 200);
   EXPECT_LT(volume->GetLargestError(), 1e-8);
   volume->SetEyePosition(0.0, 250.0, 0.0);
   volume->Update();
-  EXPECT_EQ(messages->warnings, 1) << messages->text;
+  EXPECT_EQ(messages->Warnings, 1) << messages->Text;
 }
 
 //------------------------------------------------------------------------------
@@ -262,15 +261,15 @@ TEST(RefractionErrorVolume, StatesSayWhyASampleIsNotMeasured)
     output->GetPoint(i, p);
     const auto exact = strong.FindSightPoints({ 20.0, 300.0, 10.0 }, { p[0], p[1], p[2] }, 100);
     const int expected = p[1] > strong.GetHeight(p[0], p[2]) || exact.empty()
-      ? vtkRefractionErrorVolume::NO_IMAGE
-      : (exact.size() > 1 ? vtkRefractionErrorVolume::SEVERAL_IMAGES
+      ? vtkRefractionErrorVolume::NoImage
+      : (exact.size() > 1 ? vtkRefractionErrorVolume::SeveralImages
                           : vtkRefractionErrorVolume::MEASURED);
     // A point in front may have an image too, seen through a crest (the membrane hides nothing).
     wrong += p[1] < -5.0 && state != expected;
   }
   EXPECT_GT(counts[vtkRefractionErrorVolume::MEASURED], 100);
-  EXPECT_GT(counts[vtkRefractionErrorVolume::NO_IMAGE], 50);
-  EXPECT_GT(counts[vtkRefractionErrorVolume::SEVERAL_IMAGES], 100);
+  EXPECT_GT(counts[vtkRefractionErrorVolume::NoImage], 50);
+  EXPECT_GT(counts[vtkRefractionErrorVolume::SeveralImages], 100);
   EXPECT_EQ(counts[vtkRefractionErrorVolume::MEASURED],
     static_cast<int>(volume->GetNumberOfMeasuredSamples()));
   EXPECT_LE(wrong, 3); // pairs of images that merge, on a caustic
@@ -391,10 +390,10 @@ TEST(RefractionErrorVolume, ReportsProgressAndCanBeAborted)
 {
   struct Observed
   {
-    double last = 0.0;
-    int calls = 0;
-    bool falls = false;
-    bool abort = false;
+    double Last = 0.0;
+    int Calls = 0;
+    bool Falls = false;
+    bool Abort = false;
   } observed;
   const auto volume = MakeVolume(MakeFlatMembrane());
   volume->SetMembraneModelToFlatFacets();
@@ -406,17 +405,17 @@ TEST(RefractionErrorVolume, ReportsProgressAndCanBeAborted)
     {
       auto* o = static_cast<Observed*>(data);
       auto* algorithm = static_cast<vtkAlgorithm*>(caller);
-      o->falls = o->falls || algorithm->GetProgress() < o->last;
-      o->last = algorithm->GetProgress();
-      if (o->last > 0.0 && ++o->calls == 2 && o->abort)
+      o->Falls = o->Falls || algorithm->GetProgress() < o->Last;
+      o->Last = algorithm->GetProgress();
+      if (o->Last > 0.0 && ++o->Calls == 2 && o->Abort)
       {
         algorithm->SetAbortExecute(1);
       }
     });
   volume->AddObserver(vtkCommand::ProgressEvent, callback);
-  observed.abort = true;
+  observed.Abort = true;
   volume->Update();
-  EXPECT_LT(observed.calls, 5);
+  EXPECT_LT(observed.Calls, 5);
   EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(volume->GetNumberOfMeasuredSamples(), 0);
   observed = Observed();
@@ -424,16 +423,16 @@ TEST(RefractionErrorVolume, ReportsProgressAndCanBeAborted)
   volume->Modified();
   volume->Update();
   EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 1000);
-  EXPECT_GE(observed.calls, 20);
-  EXPECT_FALSE(observed.falls);
-  EXPECT_EQ(observed.last, 1.0);
+  EXPECT_GE(observed.Calls, 20);
+  EXPECT_FALSE(observed.Falls);
+  EXPECT_EQ(observed.Last, 1.0);
 }
 
 //------------------------------------------------------------------------------
 class RefractionErrorVolumeBadInput : public ::testing::Test
 {
 protected:
-  /// One error, an empty output, no statistics; and it recovers.
+  /** One error, an empty output, no statistics; and it recovers. */
   void ExpectErrorAndRecovery(const std::function<void(vtkRefractionErrorVolume*)>& spoil,
     const std::function<void(vtkRefractionErrorVolume*)>& mend)
   {
@@ -445,8 +444,8 @@ protected:
     const auto messages = Observe(volume);
     spoil(volume);
     volume->Update();
-    EXPECT_GE(messages->errors, 1);
-    EXPECT_FALSE(messages->text.empty());
+    EXPECT_GE(messages->Errors, 1);
+    EXPECT_FALSE(messages->Text.empty());
     EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
     mend(volume);
     volume->Update();
@@ -506,11 +505,11 @@ TEST(RefractionErrorVolume, NoMembraneAtAll)
   vtkNew<vtkRefractionErrorVolume> volume;
   const auto messages = Observe(volume);
   volume->Update();
-  EXPECT_GE(messages->errors, 1);
+  EXPECT_GE(messages->Errors, 1);
   EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
   volume->SetInputData(0, vtkSmartPointer<vtkImageData>::New());
   volume->Update();
-  EXPECT_GE(messages->errors, 2);
+  EXPECT_GE(messages->Errors, 2);
   EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
 }
 
@@ -526,8 +525,8 @@ TEST(RefractionErrorVolume, FunctionsThatAreNoSurface)
   vtkDataArray* states = volume->GetOutput()->GetPointData()->GetArray("SampleState");
   for (vtkIdType i = 0; i < states->GetNumberOfTuples(); ++i)
   {
-    EXPECT_TRUE(states->GetTuple1(i) == vtkRefractionErrorVolume::NO_EXACT_POINT ||
-      states->GetTuple1(i) == vtkRefractionErrorVolume::NO_IMAGE);
+    EXPECT_TRUE(states->GetTuple1(i) == vtkRefractionErrorVolume::NoExactPoint ||
+      states->GetTuple1(i) == vtkRefractionErrorVolume::NoImage);
   }
   volume->SetExactMembrane(MakeSphere(1e-3));
   volume->Update();

@@ -56,14 +56,14 @@ TEST(RefractionCurved, ReachesTheTargetsOfTheThesisTables)
 {
   for (const auto& row : meniscus::reference::GetThesisRows())
   {
-    if (row.sphereRatio > 0.0 && row.exterior > row.interior)
+    if (row.SphereRatio > 0.0 && row.Exterior > row.Interior)
     {
       continue; // minutes; the benchmark has them
     }
     const auto ours = meniscus::reference::MeasureThesisRowCurved(row);
-    EXPECT_LT(ours.mean, 1e-8) << row.table << " " << row.sphereRatio << " " << row.eyeHeight;
-    EXPECT_LT(ours.largest, 1e-6) << row.table << " " << row.sphereRatio << " " << row.eyeHeight;
-    EXPECT_GE(ours.points, static_cast<std::size_t>(0.98 * row.points)) << row.table;
+    EXPECT_LT(ours.Mean, 1e-8) << row.Table << " " << row.SphereRatio << " " << row.EyeHeight;
+    EXPECT_LT(ours.Largest, 1e-6) << row.Table << " " << row.SphereRatio << " " << row.EyeHeight;
+    EXPECT_GE(ours.Points, static_cast<std::size_t>(0.98 * row.Points)) << row.Table;
   }
 }
 
@@ -80,10 +80,10 @@ double MeasureWaves(int cells)
   {
     const glm::dvec3 point(random(-60.0, 60.0), random(-60.0, -10.0), random(-60.0, 60.0));
     const VirtualVertex vertex = SolveOne(geometry, point);
-    EXPECT_EQ(vertex.state, ImageState::Found);
-    const glm::dvec3 sight = vertex.sightPoint - eye;
+    EXPECT_EQ(vertex.State, ImageState::Found);
+    const glm::dvec3 sight = vertex.SightPoint - eye;
     const glm::dvec3 exact = Waves.Intersect(eye, glm::normalize(sight), glm::length(sight));
-    const auto computed = Waves.Refract(eye, exact, glm::length(vertex.position - exact) * 1.333);
+    const auto computed = Waves.Refract(eye, exact, glm::length(vertex.Position - exact) * 1.333);
     EXPECT_TRUE(computed);
     sum += glm::length(*computed - point);
   }
@@ -116,7 +116,7 @@ TEST(RefractionCurved, DerivativesOfAPatchAgreeWithDifferences)
     meniscus::PatchJet jet;
     patch.Evaluate(b, jet);
     const meniscus::PatchPoint at = patch.Evaluate(b);
-    EXPECT_LT(glm::length(at.position - jet.position), 1e-13 * 200.0);
+    EXPECT_LT(glm::length(at.Position - jet.Position), 1e-13 * 200.0);
     for (int k = 0; k < 2; ++k)
     {
       const double h = 1e-6;
@@ -126,8 +126,8 @@ TEST(RefractionCurved, DerivativesOfAPatchAgreeWithDifferences)
       const meniscus::PatchPoint before = patch.Evaluate(b - step);
       // Second-order differences: h^2 and rounding / h.
       EXPECT_LT(
-        glm::length((after.position - before.position) / (2.0 * h) - jet.positionBy[k]), 1e-6);
-      EXPECT_LT(glm::length((after.normal - before.normal) / (2.0 * h) - jet.normalBy[k]), 1e-8);
+        glm::length((after.Position - before.Position) / (2.0 * h) - jet.PositionBy[k]), 1e-6);
+      EXPECT_LT(glm::length((after.Normal - before.Normal) / (2.0 * h) - jet.NormalBy[k]), 1e-8);
     }
   }
 }
@@ -168,8 +168,8 @@ TEST(RefractionCurved, PatchesShareTheirEdges)
           first[static_cast<int>(a + 2) % 3] = second[static_cast<int>(b + 1) % 3] = 0.7;
           const auto p = patches.GetPatch(static_cast<int>(i)).Evaluate({ first.y, first.z });
           const auto q = patches.GetPatch(static_cast<int>(j)).Evaluate({ second.y, second.z });
-          EXPECT_LT(glm::length(p.position - q.position), 1e-13 * 200.0);
-          EXPECT_LT(glm::length(p.normal - q.normal), 1e-14);
+          EXPECT_LT(glm::length(p.Position - q.Position), 1e-13 * 200.0);
+          EXPECT_LT(glm::length(p.Normal - q.Normal), 1e-14);
         }
       }
     }
@@ -205,9 +205,9 @@ TEST(RefractionCurved, TubesHoldEveryRefractedRay)
       }
       const auto at = patch.Evaluate({ u, v });
       const auto ray = meniscus::ComputeRefractionRay(
-        glm::normalize(at.position - eye), glm::normalize(at.normal), ratio);
-      if (ray.kind != meniscus::RayKind::Refracted ||
-        glm::length(at.normal) < CurvedPatch::ShortestNormal)
+        glm::normalize(at.Position - eye), glm::normalize(at.Normal), ratio);
+      if (ray.Kind != meniscus::RayKind::Refracted ||
+        glm::length(at.Normal) < CurvedPatch::ShortestNormal)
       {
         continue;
       }
@@ -216,10 +216,10 @@ TEST(RefractionCurved, TubesHoldEveryRefractedRay)
       ASSERT_TRUE(tube.IsValid());
       for (int k = 0; k < 3; ++k)
       {
-        ASSERT_GE(at.position[k], tube.startLow[k] - 1e-12);
-        ASSERT_LE(at.position[k], tube.startHigh[k] + 1e-12);
-        ASSERT_GE(ray.direction[k], tube.directionLow[k] - 1e-14);
-        ASSERT_LE(ray.direction[k], tube.directionHigh[k] + 1e-14);
+        ASSERT_GE(at.Position[k], tube.StartLow[k] - 1e-12);
+        ASSERT_LE(at.Position[k], tube.StartHigh[k] + 1e-12);
+        ASSERT_GE(ray.Direction[k], tube.DirectionLow[k] - 1e-14);
+        ASSERT_LE(ray.Direction[k], tube.DirectionHigh[k] + 1e-14);
       }
     }
   }
@@ -229,12 +229,12 @@ TEST(RefractionCurved, TubesHoldEveryRefractedRay)
 //------------------------------------------------------------------------------
 struct OracleCase
 {
-  const char* name;
-  HeightField field;
-  glm::dvec3 eye;
-  int cells;
-  double depth; ///< of the deepest point
-  double reach; ///< of the points aside
+  const char* Name;
+  HeightField Field;
+  glm::dvec3 Eye;
+  int Cells;
+  double Depth; ///< of the deepest point
+  double Reach; ///< of the points aside
 };
 
 // Points closer to a caustic than the two surfaces differ may gain or lose a pair of images: they
@@ -270,8 +270,8 @@ TEST(RefractionCurved, FindsAllImagesAndNoOthers)
   for (const OracleCase& test : cases)
   {
     CurvedMembraneSolver geometry;
-    Set(geometry, test.field.MakeMesh(test.cells), test.eye, test.field.exterior,
-      test.field.interior);
+    Set(geometry, test.Field.MakeMesh(test.Cells), test.Eye, test.Field.Exterior,
+      test.Field.Interior);
     Random random(83);
     int images = 0;
     int several = 0;
@@ -280,16 +280,16 @@ TEST(RefractionCurved, FindsAllImagesAndNoOthers)
     std::vector<VirtualVertex> found;
     for (int i = 0; i < points; ++i)
     {
-      const glm::dvec3 point(random(-test.reach, test.reach), random(-test.depth, -40.0),
-        random(-test.reach, test.reach));
-      const auto exact = test.field.FindSightPoints(test.eye, point);
+      const glm::dvec3 point(random(-test.Reach, test.Reach), random(-test.Depth, -40.0),
+        random(-test.Reach, test.Reach));
+      const auto exact = test.Field.FindSightPoints(test.Eye, point);
       geometry.FindImages(point, found);
       std::vector<glm::dvec3> ours;
       for (const VirtualVertex& vertex : found)
       {
-        ours.push_back(vertex.sightPoint);
+        ours.push_back(vertex.SightPoint);
       }
-      const double pair = 0.5 * test.field.side / test.cells;
+      const double pair = 0.5 * test.Field.Side / test.Cells;
       const bool atBorder = std::any_of(exact.begin(), exact.end(),
         [](const glm::dvec3& s)
         { return std::max(std::fabs(s.x), std::fabs(s.z)) > 100.0 - 1e-3; });
@@ -298,20 +298,20 @@ TEST(RefractionCurved, FindsAllImagesAndNoOthers)
         ++close;
         continue;
       }
-      ASSERT_EQ(ours.size(), exact.size()) << test.name << " point " << i << " (" << point.x << ", "
+      ASSERT_EQ(ours.size(), exact.size()) << test.Name << " point " << i << " (" << point.x << ", "
                                            << point.y << ", " << point.z << ")";
       for (const glm::dvec3& s : exact)
       {
         const bool has = std::any_of(ours.begin(), ours.end(),
           [&s, pair](const glm::dvec3& other) { return glm::length(other - s) < 0.25 * pair; });
-        EXPECT_TRUE(has) << test.name << " point " << i;
+        EXPECT_TRUE(has) << test.Name << " point " << i;
       }
       images += static_cast<int>(exact.size());
       several += exact.size() > 1;
     }
-    EXPECT_GT(images, points / 2) << test.name;
-    EXPECT_GT(several, points / 20) << test.name;
-    EXPECT_LT(close, points / 10) << test.name;
+    EXPECT_GT(images, points / 2) << test.Name;
+    EXPECT_GT(several, points / 20) << test.Name;
+    EXPECT_LT(close, points / 10) << test.Name;
   }
 }
 
@@ -330,12 +330,12 @@ TEST(RefractionCurved, RingsOfImagesDoNotHoldUp)
   EXPECT_GT(images.size(), 1u);
   for (const VirtualVertex& image : images)
   {
-    const auto seen = dome.Refract(eye, image.sightPoint, image.depth);
+    const auto seen = dome.Refract(eye, image.SightPoint, image.Depth);
     ASSERT_TRUE(seen);
     // Where the rays of a ring meet, an error of the patch is not magnified.
     EXPECT_LT(glm::length(*seen - point), 1.0);
   }
-  EXPECT_EQ(SolveOne(geometry, point).state, ImageState::Found);
+  EXPECT_EQ(SolveOne(geometry, point).State, ImageState::Found);
 }
 
 //------------------------------------------------------------------------------
@@ -356,11 +356,11 @@ TEST(RefractionCurved, TheOneImageIsOneOfAll)
   for (std::size_t i = 0; i < one.size(); ++i)
   {
     const double* p = points.data() + 3 * i;
-    EXPECT_EQ(geometry.FindImages({ p[0], p[1], p[2] }, all), one[i].state);
+    EXPECT_EQ(geometry.FindImages({ p[0], p[1], p[2] }, all), one[i].State);
     const bool known = std::any_of(all.begin(), all.end(),
       [&one, i](const VirtualVertex& vertex)
-      { return glm::length(vertex.sightPoint - one[i].sightPoint) < 1e-6; });
-    EXPECT_EQ(known, one[i].state == ImageState::Found) << i;
+      { return glm::length(vertex.SightPoint - one[i].SightPoint) < 1e-6; });
+    EXPECT_EQ(known, one[i].State == ImageState::Found) << i;
     several += all.size() > 1;
   }
   EXPECT_GT(several, 50);
@@ -388,8 +388,8 @@ TEST(RefractionCurved, ResultsDoNotDependOnTheRanges)
   }
   for (std::size_t i = 0; i < count; ++i)
   {
-    EXPECT_EQ(a[i].position, b[i].position) << i;
-    EXPECT_EQ(a[i].state, b[i].state) << i;
+    EXPECT_EQ(a[i].Position, b[i].Position) << i;
+    EXPECT_EQ(a[i].State, b[i].State) << i;
   }
 }
 
@@ -413,7 +413,7 @@ TEST(RefractionCurved, ADeformedMembraneIsAsGoodAsANewOne)
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k)
     {
-      EXPECT_EQ(a[k].position, b[k].position);
+      EXPECT_EQ(a[k].Position, b[k].Position);
     }
   }
 }
@@ -429,9 +429,9 @@ TEST(RefractionCurved, EqualIndicesAreTheIdentity)
   {
     const glm::dvec3 point(random(-60, 60), random(-50, -10), random(-60, 60));
     const VirtualVertex vertex = SolveOne(geometry, point);
-    ASSERT_EQ(vertex.state, ImageState::Found);
-    EXPECT_LE(glm::length(vertex.position - point), 1e-13 * 200.0);
-    EXPECT_EQ(vertex.reflectance, 0.0);
+    ASSERT_EQ(vertex.State, ImageState::Found);
+    EXPECT_LE(glm::length(vertex.Position - point), 1e-13 * 200.0);
+    EXPECT_EQ(vertex.Reflectance, 0.0);
   }
 }
 
@@ -448,7 +448,7 @@ TEST(RefractionCurved, OffsetsAndScalesDoNotMatter)
     {
       const glm::dvec3 offset = scale * shift * glm::dvec3(1.0, -2.0, 0.5);
       MembraneMesh other = mesh;
-      for (double& x : other.points)
+      for (double& x : other.Points)
       {
         x *= scale;
       }
@@ -461,9 +461,9 @@ TEST(RefractionCurved, OffsetsAndScalesDoNotMatter)
         const glm::dvec3 point(random(-70, 70), random(-90, -10), random(-70, 70));
         const VirtualVertex a = SolveOne(here, point);
         const VirtualVertex b = SolveOne(there, scale * point + offset);
-        ASSERT_EQ(a.state, b.state);
+        ASSERT_EQ(a.State, b.State);
         // Coordinates of 2e7 have a rounding of 4e-9; curvatures and depths magnify it.
-        EXPECT_LT(glm::length((b.position - offset) / scale - a.position), 1e-10 + 1e-13 * shift);
+        EXPECT_LT(glm::length((b.Position - offset) / scale - a.Position), 1e-10 + 1e-13 * shift);
       }
     }
   }
@@ -478,17 +478,17 @@ TEST(RefractionCurved, BadPointsAndEyes)
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double value : { nan, std::numeric_limits<double>::infinity(), 1e300 })
   {
-    EXPECT_EQ(SolveOne(geometry, { 0.0, value, 0.0 }).state, ImageState::NotFinite);
+    EXPECT_EQ(SolveOne(geometry, { 0.0, value, 0.0 }).State, ImageState::NotFinite);
   }
-  EXPECT_EQ(SolveOne(geometry, { 0.0, 5.0, 0.0 }).state, ImageState::NoImage);
-  EXPECT_EQ(SolveOne(geometry, { 0.0, 0.0, 0.0 }).state, ImageState::NoImage);
+  EXPECT_EQ(SolveOne(geometry, { 0.0, 5.0, 0.0 }).State, ImageState::NoImage);
+  EXPECT_EQ(SolveOne(geometry, { 0.0, 0.0, 0.0 }).State, ImageState::NoImage);
   EXPECT_EQ(geometry.SetEye({ 7.0, 0.0, 3.0 }, 1.0, 1.3), EyeStatus::OnTheMembrane);
   EXPECT_EQ(geometry.SetEye({ 12.5, 0.0, 0.0 }, 1.0, 1.3), EyeStatus::OnTheMembrane);
   EXPECT_EQ(geometry.SetEye({ 7.0, 1e-9, 3.0 }, 1.0, 1.3), EyeStatus::Ready);
   EXPECT_EQ(geometry.SetEye({ nan, 1.0, 3.0 }, 1.0, 1.3), EyeStatus::NotFinite);
   EXPECT_EQ(geometry.SetEye({ 7.0, 1.0, 3.0 }, 1.0, -1.3), EyeStatus::BadIndex);
   EXPECT_EQ(geometry.SetEye({ 7.0, -50.0, 3.0 }, 1.0, 1.3), EyeStatus::Ready);
-  EXPECT_EQ(SolveOne(geometry, { 0.0, -10.0, 0.0 }).state, ImageState::NoImage); // from behind
+  EXPECT_EQ(SolveOne(geometry, { 0.0, -10.0, 0.0 }).State, ImageState::NoImage); // from behind
   CurvedMembraneSolver empty;
   EXPECT_EQ(empty.SetMembrane(meniscus::MembraneInput()), MembraneStatus::Empty);
 }

@@ -35,9 +35,9 @@ FlatMembraneSolver Make(
 
 bool Same(const VirtualVertex& a, const VirtualVertex& b)
 {
-  return a.facet == b.facet && a.state == b.state && a.position == b.position &&
-    a.sightPoint == b.sightPoint && a.depth == b.depth && a.reflectance == b.reflectance &&
-    a.orientation == b.orientation;
+  return a.Facet == b.Facet && a.State == b.State && a.Position == b.Position &&
+    a.SightPoint == b.SightPoint && a.Depth == b.Depth && a.Reflectance == b.Reflectance &&
+    a.Orientation == b.Orientation;
 }
 
 //------------------------------------------------------------------------------
@@ -51,22 +51,22 @@ TEST(RefractionGeometry, IsExactOnTheRaysOfTheVertices)
   const AnalyticMembrane exact{ 0.0, 1.0, 1.333 };
   for (std::size_t v = 20; v < 60; v += 3)
   {
-    const glm::dvec3 s(mesh.points[3 * v], mesh.points[3 * v + 1], mesh.points[3 * v + 2]);
+    const glm::dvec3 s(mesh.Points[3 * v], mesh.Points[3 * v + 1], mesh.Points[3 * v + 2]);
     const auto ray = exact.Refract(glm::normalize(s - eye), s);
     ASSERT_TRUE(ray);
     const glm::dvec3 point = s + 80.0 * *ray;
     const VirtualVertex vertex = geometry.SolvePoint(point);
-    ASSERT_EQ(vertex.state, ImageState::Found);
+    ASSERT_EQ(vertex.State, ImageState::Found);
     // Coordinates of a few hundred units, a few dozen roundings.
-    EXPECT_LT(glm::length(vertex.sightPoint - s), 1e-11);
-    EXPECT_NEAR(vertex.depth, 80.0, 1e-11);
+    EXPECT_LT(glm::length(vertex.SightPoint - s), 1e-11);
+    EXPECT_NEAR(vertex.Depth, 80.0, 1e-11);
     // Eq. 2.4 and its corollary Eq. 2.5: above the true vertex, along the normal.
-    EXPECT_NEAR(glm::length(vertex.position - s), 80.0 / 1.333, 1e-11);
-    EXPECT_NEAR(vertex.position.x, point.x, 1e-11);
-    EXPECT_NEAR(vertex.position.z, point.z, 1e-11);
-    EXPECT_EQ(vertex.orientation, 1);
+    EXPECT_NEAR(glm::length(vertex.Position - s), 80.0 / 1.333, 1e-11);
+    EXPECT_NEAR(vertex.Position.x, point.x, 1e-11);
+    EXPECT_NEAR(vertex.Position.z, point.z, 1e-11);
+    EXPECT_EQ(vertex.Orientation, 1);
     const double cosine = (eye.y - s.y) / glm::length(eye - s);
-    EXPECT_NEAR(vertex.reflectance, meniscus::FresnelReflectance(cosine, 1.0, 1.333), 1e-12);
+    EXPECT_NEAR(vertex.Reflectance, meniscus::FresnelReflectance(cosine, 1.0, 1.333), 1e-12);
   }
 }
 
@@ -87,12 +87,12 @@ TEST(RefractionGeometry, PlanarSightPointsConvergeToTheClosedForm)
     {
       const glm::dvec3 point(random(-60.0, 60.0), random(-90.0, -10.0), random(-60.0, 60.0));
       const VirtualVertex vertex = geometry.SolvePoint(point);
-      ASSERT_EQ(vertex.state, ImageState::Found);
+      ASSERT_EQ(vertex.State, ImageState::Found);
       const auto sightPoints = exact.FindSightPoints(eye, point);
       ASSERT_EQ(sightPoints.size(), 1u);
-      worst = std::max(worst, glm::length(vertex.sightPoint - sightPoints[0]));
+      worst = std::max(worst, glm::length(vertex.SightPoint - sightPoints[0]));
       worstAside =
-        std::max(worstAside, std::hypot(vertex.position.x - point.x, vertex.position.z - point.z));
+        std::max(worstAside, std::hypot(vertex.Position.x - point.x, vertex.Position.z - point.z));
     }
     // Linear interpolation of a smooth map: second order, a factor of 4 but for the sampling.
     EXPECT_LT(worst, coarse > 0.0 ? coarse / 3.0 : 0.2) << cells << " cells";
@@ -119,10 +119,10 @@ TEST(RefractionGeometry, SphericalSightPointsConvergeToTheOracle)
     {
       const glm::dvec3 point(random(-50.0, 50.0), random(-120.0, -20.0), random(-50.0, 50.0));
       const VirtualVertex vertex = geometry.SolvePoint(point);
-      ASSERT_EQ(vertex.state, ImageState::Found);
+      ASSERT_EQ(vertex.State, ImageState::Found);
       const auto sightPoints = exact.FindSightPoints(eye, point);
       ASSERT_EQ(sightPoints.size(), 1u);
-      worst = std::max(worst, glm::length(vertex.sightPoint - sightPoints[0]));
+      worst = std::max(worst, glm::length(vertex.SightPoint - sightPoints[0]));
     }
     EXPECT_LT(worst, coarse > 0.0 ? coarse / 3.0 : 1.0) << cells << " cells";
     coarse = worst;
@@ -139,23 +139,23 @@ TEST(RefractionGeometry, EqualIndicesAreTheIdentityOnVertexRays)
   const FlatMembraneSolver geometry = Make(mesh, eye, 1.333, 1.333);
   for (std::size_t v = 0; v < 81; ++v)
   {
-    const glm::dvec3 s(mesh.points[3 * v], mesh.points[3 * v + 1], mesh.points[3 * v + 2]);
+    const glm::dvec3 s(mesh.Points[3 * v], mesh.Points[3 * v + 1], mesh.Points[3 * v + 2]);
     const glm::dvec3 point = s + 0.3 * (s - eye);
     const VirtualVertex vertex = geometry.SolvePoint(point);
-    ASSERT_EQ(vertex.state, ImageState::Found);
-    EXPECT_LT(glm::length(vertex.position - point), 1e-11);
-    EXPECT_EQ(vertex.reflectance, 0.0);
+    ASSERT_EQ(vertex.State, ImageState::Found);
+    EXPECT_LT(glm::length(vertex.Position - point), 1e-11);
+    EXPECT_EQ(vertex.Reflectance, 0.0);
   }
 }
 
 //------------------------------------------------------------------------------
 struct BruteForceCase
 {
-  const char* name;
-  MembraneMesh mesh;
-  glm::dvec3 eye;
-  double exterior;
-  double interior;
+  const char* Name;
+  MembraneMesh Mesh;
+  glm::dvec3 Eye;
+  double Exterior;
+  double Interior;
 };
 
 std::vector<BruteForceCase> MakeBruteForceCases()
@@ -183,7 +183,7 @@ TEST(RefractionGeometry, TreeAgreesWithBruteForce)
 {
   for (const BruteForceCase& test : MakeBruteForceCases())
   {
-    const FlatMembraneSolver geometry = Make(test.mesh, test.eye, test.exterior, test.interior);
+    const FlatMembraneSolver geometry = Make(test.Mesh, test.Eye, test.Exterior, test.Interior);
     Random random(23);
     int found = 0;
     int mirrored = 0;
@@ -202,13 +202,13 @@ TEST(RefractionGeometry, TreeAgreesWithBruteForce)
       const VirtualVertex byTree = geometry.SolvePoint(point);
       const VirtualVertex byForce = geometry.SolvePointByBruteForce(point);
       ASSERT_TRUE(Same(byTree, byForce))
-        << test.name << ": point " << i << " (" << point.x << ", " << point.y << ", " << point.z
-        << ") in facet " << byTree.facet << " by tree, " << byForce.facet << " by force";
-      found += byTree.state == ImageState::Found;
-      mirrored += byTree.orientation < 0;
+        << test.Name << ": point " << i << " (" << point.x << ", " << point.y << ", " << point.z
+        << ") in facet " << byTree.Facet << " by tree, " << byForce.Facet << " by force";
+      found += byTree.State == ImageState::Found;
+      mirrored += byTree.Orientation < 0;
     }
-    EXPECT_GT(found, points / 50) << test.name;
-    if (std::string(test.name) == "waves with caustics")
+    EXPECT_GT(found, points / 50) << test.Name;
+    if (std::string(test.Name) == "waves with caustics")
     {
       EXPECT_GT(mirrored, 0);
     }
@@ -229,21 +229,21 @@ TEST(RefractionGeometry, TreeAgreesOnPointsMadeForWallsAndVertices)
     glm::dvec3 p[2];
     for (std::size_t k = 0; k < 2; ++k)
     {
-      const auto v = static_cast<std::size_t>(mesh.triangles[3 * facet + k]);
-      const glm::dvec3 s(mesh.points[3 * v], mesh.points[3 * v + 1], mesh.points[3 * v + 2]);
-      const glm::dvec3 n(mesh.normals[3 * v], mesh.normals[3 * v + 1], mesh.normals[3 * v + 2]);
+      const auto v = static_cast<std::size_t>(mesh.Triangles[3 * facet + k]);
+      const glm::dvec3 s(mesh.Points[3 * v], mesh.Points[3 * v + 1], mesh.Points[3 * v + 2]);
+      const glm::dvec3 n(mesh.Normals[3 * v], mesh.Normals[3 * v + 1], mesh.Normals[3 * v + 2]);
       p[k] = s +
         random(0.0, 1.0) * 100.0 *
-          meniscus::ComputeRefractionRay(glm::normalize(s - eye), n, 1.0 / 1.333).direction;
+          meniscus::ComputeRefractionRay(glm::normalize(s - eye), n, 1.0 / 1.333).Direction;
     }
     const double along = i % 2 == 0 ? 0.0 : random(0.0, 1.0);
     const glm::dvec3 point = (1.0 - along) * p[0] + along * p[1];
     const VirtualVertex byTree = geometry.SolvePoint(point);
     ASSERT_TRUE(Same(byTree, geometry.SolvePointByBruteForce(point))) << "point " << i;
-    found += byTree.state == ImageState::Found;
+    found += byTree.State == ImageState::Found;
     if (i % 2 == 0)
     {
-      ASSERT_EQ(byTree.state, ImageState::Found) << "lost on a vertex ray, point " << i;
+      ASSERT_EQ(byTree.State, ImageState::Found) << "lost on a vertex ray, point " << i;
     }
   }
   EXPECT_GT(found, 2500);
@@ -256,11 +256,11 @@ TEST(RefractionGeometry, FirstFacetOfSeveralWins)
   MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 4, 0.0);
   MembraneMesh upper = mesh;
   upper.Translate({ 0.0, 1.0, 0.0 });
-  mesh.points.insert(mesh.points.end(), upper.points.begin(), upper.points.end());
-  mesh.normals.insert(mesh.normals.end(), upper.normals.begin(), upper.normals.end());
-  for (std::int64_t id : upper.triangles)
+  mesh.Points.insert(mesh.Points.end(), upper.Points.begin(), upper.Points.end());
+  mesh.Normals.insert(mesh.Normals.end(), upper.Normals.begin(), upper.Normals.end());
+  for (std::int64_t id : upper.Triangles)
   {
-    mesh.triangles.push_back(id + 25);
+    mesh.Triangles.push_back(id + 25);
   }
   const FlatMembraneSolver geometry = Make(mesh, { 3.0, 300.0, 4.0 }, 1.0, 1.333);
   Random random(41);
@@ -268,8 +268,8 @@ TEST(RefractionGeometry, FirstFacetOfSeveralWins)
   {
     const glm::dvec3 point(random(-60.0, 60.0), random(-50.0, -5.0), random(-60.0, 60.0));
     const VirtualVertex vertex = geometry.SolvePoint(point);
-    ASSERT_EQ(vertex.state, ImageState::Found);
-    EXPECT_LT(vertex.facet, 32);
+    ASSERT_EQ(vertex.State, ImageState::Found);
+    EXPECT_LT(vertex.Facet, 32);
     EXPECT_FALSE(geometry.HasOneCell(point, 0.0));
   }
 }
@@ -282,7 +282,7 @@ TEST(RefractionGeometry, OffsetCoordinatesCostNothing)
   MembraneMesh mesh = meniscus::reference::MakeWaves(200.0, 16, 3.0, 2.0);
   const glm::dvec3 offset(1048576.0, -2097152.0, 4194304.0);
   const double grid = std::ldexp(1.0, -30); // exact at these offsets
-  for (double& x : mesh.points)
+  for (double& x : mesh.Points)
   {
     x = std::round(x / grid) * grid;
   }
@@ -298,9 +298,9 @@ TEST(RefractionGeometry, OffsetCoordinatesCostNothing)
     point = glm::round(point / grid) * grid;
     const VirtualVertex a = here.SolvePoint(point);
     const VirtualVertex b = there.SolvePoint(point + offset);
-    ASSERT_EQ(a.facet, b.facet);
-    EXPECT_EQ(a.depth, b.depth);
-    EXPECT_LT(glm::length(b.position - offset - a.position),
+    ASSERT_EQ(a.Facet, b.Facet);
+    EXPECT_EQ(a.Depth, b.Depth);
+    EXPECT_LT(glm::length(b.Position - offset - a.Position),
       2.0 * 4194304.0 * std::numeric_limits<double>::epsilon());
   }
 }
@@ -314,7 +314,7 @@ TEST(RefractionGeometry, ScalesDoNotMatter)
   for (const double scale : { 0x1p-60, 0x1p-20, 0x1p20, 0x1p60 })
   {
     MembraneMesh scaled = mesh;
-    for (double& x : scaled.points)
+    for (double& x : scaled.Points)
     {
       x *= scale;
     }
@@ -325,8 +325,8 @@ TEST(RefractionGeometry, ScalesDoNotMatter)
       const glm::dvec3 point(random(-70.0, 70.0), random(-90.0, -10.0), random(-70.0, 70.0));
       const VirtualVertex a = geometry.SolvePoint(point);
       const VirtualVertex b = other.SolvePoint(scale * point);
-      ASSERT_EQ(a.facet, b.facet) << scale;
-      EXPECT_EQ(scale * a.position.y, b.position.y) << scale;
+      ASSERT_EQ(a.Facet, b.Facet) << scale;
+      EXPECT_EQ(scale * a.Position.y, b.Position.y) << scale;
     }
   }
 }
@@ -352,8 +352,8 @@ TEST(RefractionGeometry, PointsCloseToTheMembraneKeepTheirImage)
       {
         const glm::dvec3 point(random(-80.0, 80.0), -depth, random(-80.0, 80.0));
         const VirtualVertex vertex = geometry.SolvePoint(point);
-        lost += vertex.state != ImageState::Found;
-        worst = std::max(worst, glm::length(vertex.position - point) - 2.0 * depth);
+        lost += vertex.State != ImageState::Found;
+        worst = std::max(worst, glm::length(vertex.Position - point) - 2.0 * depth);
       }
       EXPECT_LE(lost, points / 100) << depth << " " << cells;
       EXPECT_LT(worst, coarse > 0.0 ? std::max(coarse / 3.0, 1e-9) : 2.0) << depth << " " << cells;
@@ -371,9 +371,9 @@ TEST(RefractionGeometry, PointsInFrontHaveNoImage)
   {
     const glm::dvec3 point(random(-80.0, 80.0), random(1.0, 200.0), random(-80.0, 80.0));
     const VirtualVertex vertex = geometry.SolvePoint(point);
-    EXPECT_EQ(vertex.state, ImageState::NoImage);
-    EXPECT_EQ(vertex.facet, -1);
-    EXPECT_EQ(vertex.position, point);
+    EXPECT_EQ(vertex.State, ImageState::NoImage);
+    EXPECT_EQ(vertex.Facet, -1);
+    EXPECT_EQ(vertex.Position, point);
   }
 }
 
@@ -390,8 +390,8 @@ TEST(RefractionGeometry, PointsThatAreNotFiniteSaySo)
     {
       glm::dvec3 point(0.0, -10.0, 0.0);
       point[axis] = value;
-      EXPECT_EQ(geometry.SolvePoint(point).state, ImageState::NotFinite) << value << " " << axis;
-      EXPECT_EQ(geometry.SolvePointByBruteForce(point).state, ImageState::NotFinite);
+      EXPECT_EQ(geometry.SolvePoint(point).State, ImageState::NotFinite) << value << " " << axis;
+      EXPECT_EQ(geometry.SolvePointByBruteForce(point).State, ImageState::NotFinite);
     }
   }
 }
@@ -424,7 +424,7 @@ TEST(RefractionGeometry, EmptyMembraneHasNoImages)
   FlatMembraneSolver geometry;
   EXPECT_EQ(geometry.SetMembrane(meniscus::MembraneInput()), MembraneStatus::Empty);
   EXPECT_EQ(geometry.SetEye({ 0.0, 1.0, 0.0 }, 1.0, 1.3), EyeStatus::Ready);
-  EXPECT_NE(geometry.SolvePoint({ 0.0, -1.0, 0.0 }).state, ImageState::Found);
+  EXPECT_NE(geometry.SolvePoint({ 0.0, -1.0, 0.0 }).State, ImageState::Found);
 }
 
 //------------------------------------------------------------------------------

@@ -23,12 +23,12 @@ const double NaN = std::numeric_limits<double>::quiet_NaN();
 TEST(RefractionMembrane, ThesisDiscHasItsCounts)
 {
   const MembraneMesh mesh = meniscus::reference::MakeDisc(141.5, 5, 0.0);
-  EXPECT_EQ(mesh.points.size(), 3u * 125u);
+  EXPECT_EQ(mesh.Points.size(), 3u * 125u);
   EXPECT_EQ(mesh.GetNumberOfFacets(), 184u);
   Membrane membrane;
   EXPECT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
   EXPECT_EQ(membrane.GetReport().Skipped(), 0u);
-  EXPECT_EQ(membrane.GetReport().computedNormals, 0u);
+  EXPECT_EQ(membrane.GetReport().ComputedNormals, 0u);
 }
 
 TEST(RefractionMembrane, SkipsAndCountsEveryBadFacet)
@@ -42,17 +42,17 @@ TEST(RefractionMembrane, SkipsAndCountsEveryBadFacet)
   mesh.AddTriangle(-1, 1, 2); // out of range
   mesh.AddTriangle(0, 1, 2);  // collinear
   mesh.AddTriangle(4, 4, 5);  // repeated corner
-  const auto& t = mesh.triangles;
+  const auto& t = mesh.Triangles;
   mesh.AddTriangle(t[1], t[2], t[0]); // the first again, turned
   mesh.AddTriangle(t[2], t[1], t[0]); // the first again, flipped
 
   Membrane membrane;
   ASSERT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
   EXPECT_EQ(membrane.GetFacets().size(), 8u);
-  EXPECT_EQ(membrane.GetReport().notFinite, 2u);
-  EXPECT_EQ(membrane.GetReport().outOfRange, 2u);
-  EXPECT_EQ(membrane.GetReport().zeroArea, 2u);
-  EXPECT_EQ(membrane.GetReport().duplicated, 2u);
+  EXPECT_EQ(membrane.GetReport().NotFinite, 2u);
+  EXPECT_EQ(membrane.GetReport().OutOfRange, 2u);
+  EXPECT_EQ(membrane.GetReport().ZeroArea, 2u);
+  EXPECT_EQ(membrane.GetReport().Duplicated, 2u);
   EXPECT_EQ(membrane.GetReport().Skipped(), 8u);
 }
 
@@ -60,9 +60,9 @@ TEST(RefractionMembrane, CellIdsFollowTheFacetsThatStay)
 {
   MembraneMesh mesh = meniscus::reference::MakeSquare(2.0, 1, 0.0);
   const std::vector<std::int64_t> ids = { 7, 70, 5 };
-  mesh.triangles.insert(mesh.triangles.begin(), { 0, 0, 1 });
+  mesh.Triangles.insert(mesh.Triangles.begin(), { 0, 0, 1 });
   MembraneInput input = mesh.AsInput();
-  input.cellIds = ids.data();
+  input.CellIds = ids.data();
   Membrane membrane;
   ASSERT_EQ(membrane.Build(input), MembraneStatus::Ready);
   ASSERT_EQ(membrane.GetFacets().size(), 2u);
@@ -81,7 +81,7 @@ TEST(RefractionMembrane, NothingUsableIsEmpty)
   }
   flat.AddTriangle(0, 1, 2);
   EXPECT_EQ(membrane.Build(flat.AsInput()), MembraneStatus::Empty);
-  EXPECT_EQ(membrane.GetReport().zeroArea, 1u);
+  EXPECT_EQ(membrane.GetReport().ZeroArea, 1u);
   EXPECT_TRUE(membrane.GetFacets().empty());
 }
 
@@ -102,7 +102,7 @@ TEST(RefractionMembrane, ComputedNormalsOfAPlaneAreExact)
   const MembraneMesh mesh = meniscus::reference::MakeDisc(3.0, 4, 0.0);
   Membrane membrane;
   ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
-  EXPECT_EQ(membrane.GetReport().computedNormals, membrane.GetPositions().size());
+  EXPECT_EQ(membrane.GetReport().ComputedNormals, membrane.GetPositions().size());
   for (const glm::dvec3& normal : membrane.GetNormals())
   {
     EXPECT_EQ(normal, glm::dvec3(0.0, 1.0, 0.0));
@@ -124,7 +124,7 @@ TEST(RefractionMembrane, ComputedNormalsOfASphereConverge)
       {
         const auto v = static_cast<std::size_t>(j * (cells + 1) + i);
         const glm::dvec3 exact(
-          mesh.normals[3 * v], mesh.normals[3 * v + 1], mesh.normals[3 * v + 2]);
+          mesh.Normals[3 * v], mesh.Normals[3 * v + 1], mesh.Normals[3 * v + 2]);
         worst = std::max(worst, glm::length(membrane.GetNormals()[v] - exact));
       }
     }
@@ -142,14 +142,14 @@ TEST(RefractionMembrane, ReplacesOnlyBadNormals)
   {
     for (int k = 0; k < 3; ++k)
     {
-      mesh.normals[3 * i + static_cast<std::size_t>(k)] = 5.0 * given[k];
+      mesh.Normals[3 * i + static_cast<std::size_t>(k)] = 5.0 * given[k];
     }
   }
-  std::fill(mesh.normals.begin(), mesh.normals.begin() + 3, 0.0);
-  mesh.normals[3 * 4] = NaN;
+  std::fill(mesh.Normals.begin(), mesh.Normals.begin() + 3, 0.0);
+  mesh.Normals[3 * 4] = NaN;
   Membrane membrane;
   ASSERT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
-  EXPECT_EQ(membrane.GetReport().computedNormals, 2u);
+  EXPECT_EQ(membrane.GetReport().ComputedNormals, 2u);
   EXPECT_EQ(membrane.GetNormals()[0], glm::dvec3(0.0, 1.0, 0.0));
   EXPECT_EQ(membrane.GetNormals()[4], glm::dvec3(0.0, 1.0, 0.0));
   EXPECT_LT(glm::length(membrane.GetNormals()[1] - given), 1e-15);
@@ -168,7 +168,7 @@ TEST(RefractionMembrane, NonManifoldAndInconsistentFacetsStillGetNormals)
   mesh.AddTriangle(0, 1, 4); // third facet on the edge 0-1
   Membrane membrane;
   ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
-  EXPECT_EQ(membrane.GetReport().nonManifoldFacets, 1u);
+  EXPECT_EQ(membrane.GetReport().NonManifoldFacets, 1u);
   EXPECT_EQ(membrane.GetFacets().size(), 3u);
   for (const glm::dvec3& normal : membrane.GetNormals())
   {
@@ -186,8 +186,8 @@ TEST(RefractionMembrane, FacetsThatCancelOutTakeTheFirstNormal)
   mesh.AddPoint({ 0.0, 0.0, -1.0 }, { 0.0, 0.0, 0.0 });
   mesh.AddTriangle(0, 1, 2); // up
   mesh.AddTriangle(0, 2, 3); // up; below the same angle downwards
-  mesh.triangles[4] = 3;
-  mesh.triangles[5] = 2;
+  mesh.Triangles[4] = 3;
+  mesh.Triangles[5] = 2;
   Membrane membrane;
   ASSERT_EQ(membrane.Build(mesh.AsInput(false)), MembraneStatus::Ready);
   EXPECT_EQ(membrane.GetNormals()[0], glm::dvec3(0.0, 1.0, 0.0));
@@ -197,7 +197,7 @@ meniscus::MismatchedNormals GetMismatchedNormals(const MembraneMesh& mesh)
 {
   Membrane membrane;
   EXPECT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
-  return membrane.GetReport().normals;
+  return membrane.GetReport().Normals;
 }
 
 TEST(RefractionMembrane, TheSurfacesOwnNormalsAreNotForeign)
@@ -207,18 +207,18 @@ TEST(RefractionMembrane, TheSurfacesOwnNormalsAreNotForeign)
     for (const double radius : { 0.0, 1.0, 30.0 })
     {
       const auto found = GetMismatchedNormals(meniscus::reference::MakeSquare(1.0, cells, radius));
-      EXPECT_GT(found.examined, 0u);
-      EXPECT_EQ(found.foreign, 0u) << cells << " cells, radius " << radius;
+      EXPECT_GT(found.Examined, 0u);
+      EXPECT_EQ(found.Foreign, 0u) << cells << " cells, radius " << radius;
     }
     const auto found = GetMismatchedNormals(meniscus::reference::MakeWaves(1.0, cells, 0.03, 3.0));
-    EXPECT_FALSE(found.AreMost()) << found.foreign << " of " << found.examined;
+    EXPECT_FALSE(found.AreMost()) << found.Foreign << " of " << found.Examined;
   }
   // In single precision, far from the origin.
   for (const double offset : { 10.0, 1e4 })
   {
     MembraneMesh far = meniscus::reference::MakeSquare(1.0, 40, 2.0);
     far.Translate(glm::dvec3(offset, -offset, 0.7 * offset));
-    for (std::vector<double>* values : { &far.points, &far.normals })
+    for (std::vector<double>* values : { &far.Points, &far.Normals })
     {
       for (double& value : *values)
       {
@@ -235,11 +235,11 @@ TEST(RefractionMembrane, NormalsOfAPlaneAreForeignToWaves)
   for (const int cells : { 40, 60, 200 })
   {
     MembraneMesh waves = meniscus::reference::MakeWaves(1.0, cells, 0.03, 3.0);
-    waves.normals = meniscus::reference::MakeSquare(1.0, cells, 0.0).normals;
+    waves.Normals = meniscus::reference::MakeSquare(1.0, cells, 0.0).Normals;
     const auto found = GetMismatchedNormals(waves);
-    EXPECT_TRUE(found.AreMost()) << found.foreign << " of " << found.examined << ", " << cells;
-    EXPECT_GT(found.examined, 16u);
-    EXPECT_LT(found.examined, 128u);
+    EXPECT_TRUE(found.AreMost()) << found.Foreign << " of " << found.Examined << ", " << cells;
+    EXPECT_GT(found.Examined, 16u);
+    EXPECT_LT(found.Examined, 128u);
   }
 }
 

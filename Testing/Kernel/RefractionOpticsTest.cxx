@@ -37,12 +37,12 @@ TEST(RefractionOptics, ObeysSnellsLaw)
         continue;
       }
       const auto ray = ComputeRefractionRay(Sight(angle), Up, ratio);
-      EXPECT_EQ(ray.kind, RayKind::Refracted);
-      EXPECT_NEAR(ray.direction.x, sine, Rounding) << angle << " " << ratio;
+      EXPECT_EQ(ray.Kind, RayKind::Refracted);
+      EXPECT_NEAR(ray.Direction.x, sine, Rounding) << angle << " " << ratio;
       // The cosine loses accuracy near the critical angle as 1 / cosine.
       const double cosine = std::sqrt(1.0 - sine * sine);
-      EXPECT_NEAR(ray.direction.y, -cosine, Rounding / cosine) << angle << " " << ratio;
-      EXPECT_EQ(ray.direction.z, 0.0);
+      EXPECT_NEAR(ray.Direction.y, -cosine, Rounding / cosine) << angle << " " << ratio;
+      EXPECT_EQ(ray.Direction.z, 0.0);
     }
   }
 }
@@ -50,17 +50,17 @@ TEST(RefractionOptics, ObeysSnellsLaw)
 TEST(RefractionOptics, EqualIndicesDoNotRefract)
 {
   const auto ray = ComputeRefractionRay(Sight(0.7), Up, 1.0);
-  EXPECT_NEAR(glm::length(ray.direction - Sight(0.7)), 0.0, Rounding);
+  EXPECT_NEAR(glm::length(ray.Direction - Sight(0.7)), 0.0, Rounding);
 }
 
 TEST(RefractionOptics, BackFacingCountsAsGrazing)
 {
   const glm::dvec3 sight = glm::normalize(glm::dvec3(0.8, 0.6, 0.0));
   const auto ray = ComputeRefractionRay(sight, Up, 0.5);
-  EXPECT_EQ(ray.kind, RayKind::BackFacing);
+  EXPECT_EQ(ray.Kind, RayKind::BackFacing);
   // Eq. 3.1: D n1 / n2 - N sqrt(1 - n1^2 / n2^2), normalised.
   const glm::dvec3 expected = glm::normalize(0.5 * sight - std::sqrt(0.75) * Up);
-  EXPECT_NEAR(glm::length(ray.direction - expected), 0.0, Rounding);
+  EXPECT_NEAR(glm::length(ray.Direction - expected), 0.0, Rounding);
 }
 
 TEST(RefractionOptics, TotalReflectionFlipsTheRoot)
@@ -68,11 +68,11 @@ TEST(RefractionOptics, TotalReflectionFlipsTheRoot)
   const double angle = 1.2;
   const double ratio = 1.5;
   const auto ray = ComputeRefractionRay(Sight(angle), Up, ratio);
-  EXPECT_EQ(ray.kind, RayKind::TotallyReflected);
+  EXPECT_EQ(ray.Kind, RayKind::TotallyReflected);
   const double sine = ratio * std::sin(angle);
   const glm::dvec3 expected = glm::normalize(glm::dvec3(sine, std::sqrt(sine * sine - 1.0), 0.0));
-  EXPECT_NEAR(glm::length(ray.direction - expected), 0.0, Rounding);
-  EXPECT_GT(ray.direction.y, 0.0);
+  EXPECT_NEAR(glm::length(ray.Direction - expected), 0.0, Rounding);
+  EXPECT_GT(ray.Direction.y, 0.0);
 }
 
 TEST(RefractionOptics, ExtrapolationJoinsAtTheCriticalAngle)
@@ -82,10 +82,10 @@ TEST(RefractionOptics, ExtrapolationJoinsAtTheCriticalAngle)
   const double step = 1e-9;
   const auto below = ComputeRefractionRay(Sight(critical - step), Up, ratio);
   const auto above = ComputeRefractionRay(Sight(critical + step), Up, ratio);
-  EXPECT_EQ(below.kind, RayKind::Refracted);
-  EXPECT_EQ(above.kind, RayKind::TotallyReflected);
+  EXPECT_EQ(below.Kind, RayKind::Refracted);
+  EXPECT_EQ(above.Kind, RayKind::TotallyReflected);
   // Near the critical angle the cosine is sqrt(2 tan(critical) step).
-  EXPECT_LT(glm::length(below.direction - above.direction),
+  EXPECT_LT(glm::length(below.Direction - above.Direction),
     3.0 * std::sqrt(2.0 * std::tan(critical) * step));
 }
 

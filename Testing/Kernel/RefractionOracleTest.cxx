@@ -30,16 +30,16 @@ constexpr SurfaceError Exact{ 1e-12, 1e-12 };
 int CountDifferences(const OracleAnswer& answer, const std::vector<glm::dvec3>& others, double same)
 {
   int differences = 0;
-  for (const OracleImage& image : answer.images)
+  for (const OracleImage& image : answer.Images)
   {
     differences += std::none_of(others.begin(), others.end(),
-      [&](const glm::dvec3& s) { return glm::length(s - image.sight) < same; });
+      [&](const glm::dvec3& s) { return glm::length(s - image.Sight) < same; });
   }
   for (const glm::dvec3& s : others)
   {
     differences += !answer.IsUncertain(s.x, s.z, same) &&
-      std::none_of(answer.images.begin(), answer.images.end(),
-        [&](const OracleImage& image) { return glm::length(s - image.sight) < same; });
+      std::none_of(answer.Images.begin(), answer.Images.end(),
+        [&](const OracleImage& image) { return glm::length(s - image.Sight) < same; });
   }
   return differences;
 }
@@ -48,7 +48,7 @@ int CountDifferences(const OracleAnswer& answer, const std::vector<glm::dvec3>& 
 TEST(RefractionOracle, AgreesWithBracketedRootsOnASphere)
 {
   SmoothSurface surface;
-  surface.sphereRadius = 200.0;
+  surface.SphereRadius = 200.0;
   Random random(7);
   int images = 0;
   for (const double ratio : { 1.0 / 1.51, 1.6 })
@@ -68,9 +68,9 @@ TEST(RefractionOracle, AgreesWithBracketedRootsOnASphere)
         }
       }
       const OracleAnswer answer = oracle.Find(point);
-      EXPECT_TRUE(answer.complete);
+      EXPECT_TRUE(answer.Complete);
       EXPECT_EQ(CountDifferences(answer, expected, 1e-6), 0) << i;
-      images += static_cast<int>(answer.images.size());
+      images += static_cast<int>(answer.Images.size());
     }
   }
   EXPECT_GT(images, 200);
@@ -84,7 +84,7 @@ TEST(RefractionOracle, AgreesWithADenseSearchOnWaves)
   // sin(kx) sin(kz) as a sum of two waves.
   SmoothSurface surface;
   const double quarter = 0.5 * std::acos(-1.0);
-  surface.waves = { { 2.5, k, -k, quarter }, { -2.5, k, k, quarter } };
+  surface.Waves = { { 2.5, k, -k, quarter }, { -2.5, k, k, quarter } };
   const glm::dvec3 eye(20.0, 300.0, 10.0);
   const SightOracle oracle(surface, eye, 1.0, 1.333, Exact);
   Random random(7);
@@ -93,9 +93,9 @@ TEST(RefractionOracle, AgreesWithADenseSearchOnWaves)
   {
     const glm::dvec3 point(random(-80, 80), random(-250, -40), random(-80, 80));
     const OracleAnswer answer = oracle.Find(point);
-    EXPECT_TRUE(answer.complete);
+    EXPECT_TRUE(answer.Complete);
     EXPECT_EQ(CountDifferences(answer, field.FindSightPoints(eye, point, 250), 1e-6), 0) << i;
-    several += answer.images.size() > 1;
+    several += answer.Images.size() > 1;
   }
   EXPECT_GT(several, 5);
 }
@@ -106,7 +106,7 @@ TEST(RefractionOracle, AgreesWithADenseSearchOnWaves)
 TEST(RefractionOracle, DoubtGrowsWithTheError)
 {
   SmoothSurface surface;
-  surface.hills = { { 30.0, 0.025, 0.0, 0.0 } };
+  surface.Hills = { { 30.0, 0.025, 0.0, 0.0 } };
   const glm::dvec3 eye(5.0, 400.0, 3.0);
   const SightOracle exact(surface, eye, 1.0, 1.5, Exact);
   const SightOracle doubtful(surface, eye, 1.0, 1.5, { 1e-3, 1e-3 });
@@ -118,19 +118,19 @@ TEST(RefractionOracle, DoubtGrowsWithTheError)
     const glm::dvec3 point(random(-20, 20), random(-300, -40), random(-20, 20));
     const OracleAnswer sharp = exact.Find(point);
     const OracleAnswer vague = doubtful.Find(point);
-    certain += sharp.images.size();
-    stillCertain += vague.images.size();
-    for (const OracleImage& image : vague.images)
+    certain += sharp.Images.size();
+    stillCertain += vague.Images.size();
+    for (const OracleImage& image : vague.Images)
     {
-      EXPECT_TRUE(std::any_of(sharp.images.begin(), sharp.images.end(),
+      EXPECT_TRUE(std::any_of(sharp.Images.begin(), sharp.Images.end(),
         [&](const OracleImage& other)
-        { return glm::length(other.sight - image.sight) < image.radius + 1e-9; }));
+        { return glm::length(other.Sight - image.Sight) < image.Radius + 1e-9; }));
     }
-    for (const OracleImage& image : sharp.images)
+    for (const OracleImage& image : sharp.Images)
     {
-      EXPECT_TRUE(vague.IsUncertain(image.sight.x, image.sight.z, 1e-9) ||
-        std::any_of(vague.images.begin(), vague.images.end(),
-          [&](const OracleImage& other) { return glm::length(other.sight - image.sight) < 1e-9; }));
+      EXPECT_TRUE(vague.IsUncertain(image.Sight.x, image.Sight.z, 1e-9) ||
+        std::any_of(vague.Images.begin(), vague.Images.end(),
+          [&](const OracleImage& other) { return glm::length(other.Sight - image.Sight) < 1e-9; }));
     }
   }
   EXPECT_LT(stillCertain, certain);

@@ -31,19 +31,19 @@ using meniscus::reference::MembraneMesh;
 
 const double Pi = std::acos(-1.0);
 
-/// Triangles.
+/** Triangles. */
 struct Object
 {
-  std::vector<glm::dvec3> points;
-  std::vector<std::int64_t> offsets{ 0 };
-  std::vector<std::int64_t> connectivity;
-  std::vector<std::int64_t> names;
+  std::vector<glm::dvec3> Points;
+  std::vector<std::int64_t> Offsets{ 0 };
+  std::vector<std::int64_t> Connectivity;
+  std::vector<std::int64_t> Names;
 
   void Add(const std::vector<std::int64_t>& ids)
   {
-    this->connectivity.insert(this->connectivity.end(), ids.begin(), ids.end());
-    this->offsets.push_back(static_cast<std::int64_t>(this->connectivity.size()));
-    this->names.push_back(static_cast<std::int64_t>(this->names.size()));
+    this->Connectivity.insert(this->Connectivity.end(), ids.begin(), ids.end());
+    this->Offsets.push_back(static_cast<std::int64_t>(this->Connectivity.size()));
+    this->Names.push_back(static_cast<std::int64_t>(this->Names.size()));
   }
 };
 
@@ -51,21 +51,21 @@ Object MakeBall(const glm::dvec3& center, double radius, int rings)
 {
   Object ball;
   const int columns = 2 * rings;
-  ball.points.push_back(center + glm::dvec3(0.0, radius, 0.0));
+  ball.Points.push_back(center + glm::dvec3(0.0, radius, 0.0));
   for (int i = 1; i < rings; ++i)
   {
     for (int j = 0; j < columns; ++j)
     {
       const double polar = Pi * i / rings;
       const double turn = 2.0 * Pi * j / columns;
-      ball.points.push_back(center +
+      ball.Points.push_back(center +
         radius *
           glm::dvec3(
             std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)));
     }
   }
-  ball.points.push_back(center - glm::dvec3(0.0, radius, 0.0));
-  const auto last = static_cast<std::int64_t>(ball.points.size()) - 1;
+  ball.Points.push_back(center - glm::dvec3(0.0, radius, 0.0));
+  const auto last = static_cast<std::int64_t>(ball.Points.size()) - 1;
   const auto at = [columns](int i, int j) -> std::int64_t
   { return 1 + (i - 1) * columns + j % columns; };
   for (int j = 0; j < columns; ++j)
@@ -81,13 +81,13 @@ Object MakeBall(const glm::dvec3& center, double radius, int rings)
   return ball;
 }
 
-/// All images of an object's cells.
+/** All images of an object's cells. */
 struct Drawn
 {
-  ImageMesh pieces;
-  ImageMesh whole;
-  std::vector<ImagePoint> points; ///< of `whole`
-  meniscus::CellReport report;
+  ImageMesh Pieces;
+  ImageMesh Whole;
+  std::vector<ImagePoint> Points; ///< of `whole`
+  meniscus::CellReport Report;
 };
 
 Drawn Draw(CurvedMembraneSolver& geometry, const Object& object, double tolerance)
@@ -96,19 +96,19 @@ Drawn Draw(CurvedMembraneSolver& geometry, const Object& object, double toleranc
   geometry.PrepareSides();
   ObjectImages images(geometry);
   images.SetTolerance(tolerance);
-  const std::size_t count = object.points.size();
-  images.SetPoints(&object.points[0].x, count, true);
+  const std::size_t count = object.Points.size();
+  images.SetPoints(&object.Points[0].x, count, true);
   images.PrepareUnique(std::numeric_limits<std::uint32_t>::max(), meniscus::SerialLoop);
   images.SolvePoints(0, count);
   images.FinishPoints();
   Drawn drawn;
-  std::vector<unsigned char> isMapped(object.names.size(), 0);
-  const meniscus::ObjectCells cells{ object.offsets.data(), object.connectivity.data() };
-  drawn.report = images.MapPolygons(cells, object.names.data(), 0, object.names.size(), nullptr,
-    drawn.pieces, drawn.whole, isMapped.data());
+  std::vector<unsigned char> isMapped(object.Names.size(), 0);
+  const meniscus::ObjectCells cells{ object.Offsets.data(), object.Connectivity.data() };
+  drawn.Report = images.MapPolygons(cells, object.Names.data(), 0, object.Names.size(), nullptr,
+    drawn.Pieces, drawn.Whole, isMapped.data());
   images.MeetNeighbours(
-    cells, object.names.size(), isMapped.data(), true, drawn.whole, drawn.pieces);
-  drawn.points = images.GetPointImages();
+    cells, object.Names.size(), isMapped.data(), true, drawn.Whole, drawn.Pieces);
+  drawn.Points = images.GetPointImages();
   return drawn;
 }
 
@@ -116,19 +116,19 @@ template <typename Visit>
 void VisitSides(const ImageMesh& mesh, const std::vector<ImagePoint>& points, const Visit& visit)
 {
   std::int64_t begin = 0;
-  for (const std::int64_t end : mesh.ends)
+  for (const std::int64_t end : mesh.Ends)
   {
     for (std::int64_t i = begin; i < end; ++i)
     {
       const std::int64_t next = i + 1 < end ? i + 1 : begin;
-      visit(points[static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(i)])],
-        points[static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(next)])]);
+      visit(points[static_cast<std::size_t>(mesh.Connectivity[static_cast<std::size_t>(i)])],
+        points[static_cast<std::size_t>(mesh.Connectivity[static_cast<std::size_t>(next)])]);
     }
     begin = end;
   }
 }
 
-/// Whether the membrane shows a point of the object at a sight point.
+/** Whether the membrane shows a point of the object at a sight point. */
 bool HasImage(const CurvedMembraneSolver& geometry, const glm::dvec3& point,
   const glm::dvec3& sight, double distance)
 {
@@ -136,27 +136,29 @@ bool HasImage(const CurvedMembraneSolver& geometry, const glm::dvec3& point,
   geometry.FindImages(point, images);
   return std::any_of(images.begin(), images.end(),
     [&sight, distance](const VirtualVertex& image)
-    { return glm::length(image.sightPoint - sight) < distance; });
+    { return glm::length(image.SightPoint - sight) < distance; });
 }
 
-/// Whether a piece ends here at a caustic: it draws a corner of the object where that has no image.
+/**
+ * Whether a piece ends here at a caustic: it draws a corner of the object where that has no image.
+ */
 bool IsBeyondCaustic(
   const CurvedMembraneSolver& geometry, const Object& object, double size, const ImagePoint& point)
 {
-  return point.GetSource() >= 0 && point.vertex.facet >= 0 &&
-    !HasImage(geometry, object.points[static_cast<std::size_t>(point.GetSource())],
-      point.vertex.sightPoint, 1e-6 * size);
+  return point.GetSource() >= 0 && point.Vertex.Facet >= 0 &&
+    !HasImage(geometry, object.Points[static_cast<std::size_t>(point.GetSource())],
+      point.Vertex.SightPoint, 1e-6 * size);
 }
 
-/// Sides that an odd number of pieces has, by their ends' positions bit by bit.
+/** Sides that an odd number of pieces has, by their ends' positions bit by bit. */
 std::vector<std::array<ImagePoint, 2>> FindOpenSides(const Drawn& drawn)
 {
   using Key = std::tuple<double, double, double>;
   std::map<std::pair<Key, Key>, std::pair<int, std::array<ImagePoint, 2>>> sides;
   const auto add = [&sides](const ImagePoint& a, const ImagePoint& b)
   {
-    const Key first(a.vertex.position.x, a.vertex.position.y, a.vertex.position.z);
-    const Key last(b.vertex.position.x, b.vertex.position.y, b.vertex.position.z);
+    const Key first(a.Vertex.Position.x, a.Vertex.Position.y, a.Vertex.Position.z);
+    const Key last(b.Vertex.Position.x, b.Vertex.Position.y, b.Vertex.Position.z);
     if (first != last)
     {
       auto& side = sides[std::minmax(first, last)];
@@ -164,8 +166,8 @@ std::vector<std::array<ImagePoint, 2>> FindOpenSides(const Drawn& drawn)
       side.second = { a, b };
     }
   };
-  VisitSides(drawn.pieces, drawn.pieces.points, add);
-  VisitSides(drawn.whole, drawn.points, add);
+  VisitSides(drawn.Pieces, drawn.Pieces.Points, add);
+  VisitSides(drawn.Whole, drawn.Points, add);
   std::vector<std::array<ImagePoint, 2>> open;
   for (const auto& [ends, side] : sides)
   {
@@ -177,21 +179,21 @@ std::vector<std::array<ImagePoint, 2>> FindOpenSides(const Drawn& drawn)
   return open;
 }
 
-/// Waves in water, and a ball under them or half in them.
+/** Waves in water, and a ball under them or half in them. */
 struct SeamScene
 {
-  HeightField field;
-  int cells; ///< of the membrane
-  glm::dvec3 eye;
-  glm::dvec3 center;
-  Object ball;
+  HeightField Field;
+  int Cells; ///< of the membrane
+  glm::dvec3 Eye;
+  glm::dvec3 Center;
+  Object Ball;
 
   glm::dvec3 GetPlace(const ImagePoint& point) const
   {
     glm::dvec3 place(0.0);
     for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
     {
-      place += point.weight[k] * this->ball.points[static_cast<std::size_t>(point.source[k])];
+      place += point.Weight[k] * this->Ball.Points[static_cast<std::size_t>(point.Source[k])];
     }
     return place;
   }
@@ -206,14 +208,14 @@ SeamScene MakeScene(int index)
   // A coarse ball whose triangles all but touch steep waves has an ill-conditioned waterline.
   const double slope = index % 4 == 0 ? 0.0 : random(0.02, crosses ? 0.1 : 0.35);
   const double interior = random(1.1, 1.8);
-  scene.field = { HeightField::Shape::Waves, 400.0, slope * length / (2.0 * Pi), 2.0 * Pi / length,
+  scene.Field = { HeightField::Shape::Waves, 400.0, slope * length / (2.0 * Pi), 2.0 * Pi / length,
     1.0, interior };
-  scene.cells = 24 + 8 * (index % 5);
-  scene.eye = random.Point({ -60.0, 80.0, -60.0 }, { 60.0, 300.0, 60.0 });
+  scene.Cells = 24 + 8 * (index % 5);
+  scene.Eye = random.Point({ -60.0, 80.0, -60.0 }, { 60.0, 300.0, 60.0 });
   const double radius = random(10.0, 40.0);
   const double depth = crosses ? random(-0.7, 0.7) * radius : random(1.2 * radius + 20.0, 200.0);
-  scene.center = random.Point({ -20.0, -depth, -20.0 }, { 20.0, -depth, 20.0 });
-  scene.ball = MakeBall(scene.center, radius, 4 + index % 7 * 3);
+  scene.Center = random.Point({ -20.0, -depth, -20.0 }, { 20.0, -depth, 20.0 });
+  scene.Ball = MakeBall(scene.Center, radius, 4 + index % 7 * 3);
   return scene;
 }
 
@@ -228,23 +230,23 @@ TEST_P(RefractionSeams, PiecesOfABallHaveNoBorder)
 {
   const SeamScene scene = MakeScene(GetParam());
   CurvedMembraneSolver geometry;
-  ASSERT_EQ(geometry.SetMembrane(scene.field.MakeMesh(scene.cells).AsInput()),
+  ASSERT_EQ(geometry.SetMembrane(scene.Field.MakeMesh(scene.Cells).AsInput()),
     meniscus::MembraneStatus::Ready);
-  ASSERT_EQ(geometry.SetEye(scene.eye, scene.field.exterior, scene.field.interior),
+  ASSERT_EQ(geometry.SetEye(scene.Eye, scene.Field.Exterior, scene.Field.Interior),
     meniscus::EyeStatus::Ready);
-  const Drawn drawn = Draw(geometry, scene.ball, 0.005 * Pi / 180.0);
-  ASSERT_GT(drawn.whole.GetNumberOfCells() + drawn.pieces.GetNumberOfCells(), 40u);
-  const double size = scene.field.side / scene.cells;
+  const Drawn drawn = Draw(geometry, scene.Ball, 0.005 * Pi / 180.0);
+  ASSERT_GT(drawn.Whole.GetNumberOfCells() + drawn.Pieces.GetNumberOfCells(), 40u);
+  const double size = scene.Field.Side / scene.Cells;
   std::size_t open = 0;
   for (const auto& side : FindOpenSides(drawn))
   {
-    open += !IsBeyondCaustic(geometry, scene.ball, size, side[0]) &&
-      !IsBeyondCaustic(geometry, scene.ball, size, side[1]);
+    open += !IsBeyondCaustic(geometry, scene.Ball, size, side[0]) &&
+      !IsBeyondCaustic(geometry, scene.Ball, size, side[1]);
   }
   // With several images, two polygons may find the end of one a sub-cell apart.
-  const std::size_t count = scene.ball.points.size();
-  const bool hasCaustic = drawn.points.size() > count;
-  EXPECT_LE(open, hasCaustic ? drawn.pieces.GetNumberOfCells() / 1000 : 0);
+  const std::size_t count = scene.Ball.Points.size();
+  const bool hasCaustic = drawn.Points.size() > count;
+  EXPECT_LE(open, hasCaustic ? drawn.Pieces.GetNumberOfCells() / 1000 : 0);
 }
 
 // Weights are those of a place in the triangle, and position and sight point are those of an image
@@ -253,33 +255,33 @@ TEST_P(RefractionSeams, CornersAreImagesOfPlacesInTheirCells)
 {
   const SeamScene scene = MakeScene(GetParam());
   CurvedMembraneSolver geometry;
-  geometry.SetMembrane(scene.field.MakeMesh(scene.cells).AsInput());
-  geometry.SetEye(scene.eye, scene.field.exterior, scene.field.interior);
-  const Drawn drawn = Draw(geometry, scene.ball, 0.005 * Pi / 180.0);
+  geometry.SetMembrane(scene.Field.MakeMesh(scene.Cells).AsInput());
+  geometry.SetEye(scene.Eye, scene.Field.Exterior, scene.Field.Interior);
+  const Drawn drawn = Draw(geometry, scene.Ball, 0.005 * Pi / 180.0);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  const double rounding = 100.0 * epsilon * scene.field.side;
-  const double size = scene.field.side / scene.cells;
+  const double rounding = 100.0 * epsilon * scene.Field.Side;
+  const double size = scene.Field.Side / scene.Cells;
   std::size_t wrong = 0;
   std::size_t searched = 0;
-  for (std::size_t i = 0; i < drawn.pieces.points.size(); ++i)
+  for (std::size_t i = 0; i < drawn.Pieces.Points.size(); ++i)
   {
-    const ImagePoint& point = drawn.pieces.points[i];
-    ASSERT_GE(std::min({ point.weight[0], point.weight[1], point.weight[2] }), 0.0);
-    ASSERT_NEAR(point.weight[0] + point.weight[1] + point.weight[2], 1.0, 4.0 * epsilon);
+    const ImagePoint& point = drawn.Pieces.Points[i];
+    ASSERT_GE(std::min({ point.Weight[0], point.Weight[1], point.Weight[2] }), 0.0);
+    ASSERT_NEAR(point.Weight[0] + point.Weight[1] + point.Weight[2], 1.0, 4.0 * epsilon);
     const glm::dvec3 place = scene.GetPlace(point);
-    if (point.vertex.facet < 0)
+    if (point.Vertex.Facet < 0)
     {
-      ASSERT_LT(glm::length(place - point.vertex.position), 1e-11 * scene.field.side);
+      ASSERT_LT(glm::length(place - point.Vertex.Position), 1e-11 * scene.Field.Side);
       continue;
     }
     ASSERT_NEAR(
-      glm::length(place - point.vertex.sightPoint), point.vertex.depth, 1e-11 * scene.field.side);
+      glm::length(place - point.Vertex.SightPoint), point.Vertex.Depth, 1e-11 * scene.Field.Side);
     // A search takes a while; on the membrane itself it has nothing to tell.
-    if (i % 40 == 0 && point.vertex.depth > rounding)
+    if (i % 40 == 0 && point.Vertex.Depth > rounding)
     {
       ++searched;
-      wrong += !HasImage(geometry, place, point.vertex.sightPoint, 1e-6 * size) &&
-        !IsBeyondCaustic(geometry, scene.ball, size, point);
+      wrong += !HasImage(geometry, place, point.Vertex.SightPoint, 1e-6 * size) &&
+        !IsBeyondCaustic(geometry, scene.Ball, size, point);
     }
   }
   // Newton's method has no answer at a caustic.
@@ -300,12 +302,12 @@ TEST(RefractionSeamsCost, TrianglesThatPierceTheMembraneAreNotShredded)
   const HeightField field{ HeightField::Shape::Waves, 400.0, 0.5, 0.03 * Pi, 1.0, 1.333 };
   CurvedMembraneSolver geometry;
   geometry.SetMembrane(field.MakeMesh(64).AsInput());
-  geometry.SetEye({ 20.0, 300.0, 10.0 }, field.exterior, field.interior);
+  geometry.SetEye({ 20.0, 300.0, 10.0 }, field.Exterior, field.Interior);
   const Object ball = MakeBall({ 3.1, -1.7, 1.7 }, 31.7, 48);
   const Drawn drawn = Draw(geometry, ball, 0.005 * Pi / 180.0);
-  ASSERT_GT(drawn.report.mapped, 150u);
+  ASSERT_GT(drawn.Report.Mapped, 150u);
   // One part in front and one to four behind: triangles are smaller than facets.
-  EXPECT_LT(drawn.pieces.GetNumberOfCells(), 6 * drawn.report.mapped);
+  EXPECT_LT(drawn.Pieces.GetNumberOfCells(), 6 * drawn.Report.Mapped);
 }
 
 }

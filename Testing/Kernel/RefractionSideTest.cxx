@@ -133,11 +133,11 @@ MembraneMesh Transform(const MembraneMesh& mesh, const std::function<glm::dvec3(
   const glm::dvec3& offset)
 {
   MembraneMesh result;
-  result.triangles = mesh.triangles;
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  result.Triangles = mesh.Triangles;
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
-    const double* p = mesh.points.data() + i;
-    const double* n = mesh.normals.data() + i;
+    const double* p = mesh.Points.data() + i;
+    const double* n = mesh.Normals.data() + i;
     result.AddPoint(turn({ p[0], p[1], p[2] }) + offset, turn({ n[0], n[1], n[2] }));
   }
   return result;
@@ -227,7 +227,7 @@ double MeasureError(const CurvedMembraneSolver& geometry, double sign)
       for (int l = 0; l <= 6 - k; ++l)
       {
         const glm::dvec3 p =
-          patch.Evaluate({ k / 6.0, l / 6.0 }).position + geometry.GetMembrane().GetOrigin();
+          patch.Evaluate({ k / 6.0, l / 6.0 }).Position + geometry.GetMembrane().GetOrigin();
         error = std::max(error, std::fabs(p.z - sign * (p.x * p.x + p.y * p.y) / 2.0));
       }
     }
@@ -370,7 +370,7 @@ TEST(RefractionSide, FindsAllCrossingsOfAPatch)
     const glm::dvec3 direction = GetDirection(random);
     const HeightFrame frame(direction);
     const glm::dvec2 b(random.Point(glm::dvec3(-0.2), glm::dvec3(1.0)));
-    const glm::dvec3 through = sphere.Evaluate(b).position;
+    const glm::dvec3 through = sphere.Evaluate(b).Position;
     const glm::dvec2 place = frame.Project(through);
     const double squared = 1.0 - glm::dot(place, place);
     int expected = 0;
@@ -380,16 +380,16 @@ TEST(RefractionSide, FindsAllCrossingsOfAPatch)
       const glm::dvec3 at = place.x * frame.First + place.y * frame.Second +
         sign * std::sqrt(std::max(squared, 0.0)) * direction;
       // Seen from the centre: a flat point times a number.
-      const glm::dvec3 u = sphere.corner[1] - sphere.corner[0];
-      const glm::dvec3 v = sphere.corner[2] - sphere.corner[0];
+      const glm::dvec3 u = sphere.Corner[1] - sphere.Corner[0];
+      const glm::dvec3 v = sphere.Corner[2] - sphere.Corner[0];
       const glm::dvec3 n = glm::cross(u, v);
       // The normal at b is that of the flat point, up to its length.
-      const glm::dvec3 flat = at * (glm::dot(n, sphere.corner[0]) / glm::dot(n, at));
-      const glm::dvec3 w = flat - sphere.corner[0];
+      const glm::dvec3 flat = at * (glm::dot(n, sphere.Corner[0]) / glm::dot(n, at));
+      const glm::dvec3 w = flat - sphere.Corner[0];
       const double x = glm::dot(glm::cross(w, v), n) / glm::dot(n, n);
       const double y = glm::dot(glm::cross(u, w), n) / glm::dot(n, n);
       const double least = std::min({ x, y, 1.0 - x - y });
-      expected += least > 0.0 && glm::dot(n, at) * glm::dot(n, sphere.corner[0]) > 0.0;
+      expected += least > 0.0 && glm::dot(n, at) * glm::dot(n, sphere.Corner[0]) > 0.0;
       isClose = isClose || std::fabs(least) < 1e-7;
     }
     if (isClose)
@@ -402,12 +402,12 @@ TEST(RefractionSide, FindsAllCrossingsOfAPatch)
     std::vector<double> heights;
     for (const PatchCrossing& crossing : crossings)
     {
-      EXPECT_NEAR(glm::dot(place, place) + crossing.height * crossing.height, 1.0, 1e-12);
-      EXPECT_EQ(crossing.side, crossing.height > 0.0 ? 1 : -1);
+      EXPECT_NEAR(glm::dot(place, place) + crossing.Height * crossing.Height, 1.0, 1e-12);
+      EXPECT_EQ(crossing.Side, crossing.Height > 0.0 ? 1 : -1);
       if (std::none_of(heights.begin(), heights.end(),
-            [&crossing](double h) { return std::fabs(h - crossing.height) < 1e-9; }))
+            [&crossing](double h) { return std::fabs(h - crossing.Height) < 1e-9; }))
       {
-        heights.push_back(crossing.height);
+        heights.push_back(crossing.Height);
       }
     }
     EXPECT_EQ(static_cast<int>(heights.size()), expected) << i;
@@ -429,7 +429,7 @@ TEST(RefractionSide, OfAnEyeOnAPatch)
     CurvedMembraneSolver geometry;
     ASSERT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
     int found = 0;
-    int false_alarms = 0;
+    int falseAlarms = 0;
     constexpr int eyes = 500;
     for (int i = 0; i < eyes; ++i)
     {
@@ -439,14 +439,14 @@ TEST(RefractionSide, OfAnEyeOnAPatch)
       const double x = random(0.01, 0.98);
       const double y = random(0.01, 0.99 - x);
       const meniscus::PatchPoint at = patch.Evaluate({ x, y });
-      const glm::dvec3 eye = at.position + geometry.GetMembrane().GetOrigin();
+      const glm::dvec3 eye = at.Position + geometry.GetMembrane().GetOrigin();
       found += geometry.SetEye(eye, 1.0, 1.333) == meniscus::EyeStatus::OnTheMembrane;
       // A rough surface may come back there: not on all of these.
-      const glm::dvec3 beside = eye + 1e-5 * glm::normalize(at.normal);
-      false_alarms += geometry.SetEye(beside, 1.0, 1.333) != meniscus::EyeStatus::Ready;
+      const glm::dvec3 beside = eye + 1e-5 * glm::normalize(at.Normal);
+      falseAlarms += geometry.SetEye(beside, 1.0, 1.333) != meniscus::EyeStatus::Ready;
     }
     EXPECT_EQ(found, eyes);
-    EXPECT_EQ(false_alarms, 0);
+    EXPECT_EQ(falseAlarms, 0);
   }
 }
 

@@ -10,7 +10,7 @@
 namespace meniscus::testing
 {
 
-/// Random numbers that are the same with every library.
+/** Random numbers that are the same with every library. */
 class Random
 {
 public:

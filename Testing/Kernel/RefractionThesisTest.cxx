@@ -29,12 +29,12 @@ TEST(RefractionThesis, ReproducesTheTables)
       continue;
     }
     ++counted;
-    const double percent = 100.0 * (MeasureThesisRow(row).mean / row.mean - 1.0);
+    const double percent = 100.0 * (MeasureThesisRow(row).Mean / row.Mean - 1.0);
     close += std::fabs(percent) <= AcceptedPercent;
     if (std::fabs(percent) > AcceptedPercent)
     {
-      std::printf("Table %s, h=%g offset=%g, %d cells: %+.2f %%\n", row.table, row.eyeHeight,
-        row.eyeOffset, row.squareCells, percent);
+      std::printf("Table %s, h=%g offset=%g, %d cells: %+.2f %%\n", row.Table, row.EyeHeight,
+        row.EyeOffset, row.SquareCells, percent);
     }
   }
   EXPECT_EQ(counted, 46);
@@ -48,12 +48,12 @@ TEST(RefractionThesis, ReproducesTheBowlsInEveryColumn)
   int rows = 0;
   for (const auto& row : GetThesisRows())
   {
-    if (std::strcmp(row.table, "4.2") == 0 && row.sphereRatio > 0.0)
+    if (std::strcmp(row.Table, "4.2") == 0 && row.SphereRatio > 0.0)
     {
       const auto ours = MeasureThesisRow(row);
-      EXPECT_NEAR(ours.mean / row.mean, 1.0, 0.002) << row.sphereRatio;
-      EXPECT_NEAR(ours.deviation / row.deviation, 1.0, 0.01) << row.sphereRatio;
-      EXPECT_NEAR(static_cast<double>(ours.points) / row.points, 1.0, 0.001) << row.sphereRatio;
+      EXPECT_NEAR(ours.Mean / row.Mean, 1.0, 0.002) << row.SphereRatio;
+      EXPECT_NEAR(ours.Deviation / row.Deviation, 1.0, 0.01) << row.SphereRatio;
+      EXPECT_NEAR(static_cast<double>(ours.Points) / row.Points, 1.0, 0.001) << row.SphereRatio;
       ++rows;
     }
   }

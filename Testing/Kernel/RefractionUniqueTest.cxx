@@ -51,13 +51,13 @@ InjectivityGrid Build(const CurvedMembraneSolver& geometry, double low, double h
 
 struct UniqueCase
 {
-  const char* name;
-  HeightField field;
-  glm::dvec3 eye;
-  int cells;
-  double depth;
-  int leastUnique; ///< percent
-  int leastSeveral;
+  const char* Name;
+  HeightField Field;
+  glm::dvec3 Eye;
+  int Cells;
+  double Depth;
+  int LeastUnique; ///< percent
+  int LeastSeveral;
 };
 
 // Exteriors of index 1. The last two focus, so that some points have several images.
@@ -83,11 +83,11 @@ TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
 {
   const UniqueCase& test = GetParam();
   CurvedMembraneSolver geometry;
-  Set(geometry, test.field.MakeMesh(test.cells), test.eye, test.field.interior);
+  Set(geometry, test.Field.MakeMesh(test.Cells), test.Eye, test.Field.Interior);
   geometry.PrepareField();
   ASSERT_TRUE(geometry.HasConvexField());
   const glm::dvec3 origin = geometry.GetMembrane().GetOrigin();
-  const InjectivityGrid unique = Build(geometry, -test.depth - origin.y, -40.0 - origin.y);
+  const InjectivityGrid unique = Build(geometry, -test.Depth - origin.y, -40.0 - origin.y);
   Random random(5);
   std::vector<VirtualVertex> found;
   int boxes = 0;
@@ -96,7 +96,7 @@ TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
   for (int i = 0; i < count; ++i)
   {
     const glm::dvec3 middle =
-      random.Point({ -80.0, -test.depth + 5.0, -80.0 }, { 80.0, -45.0, 80.0 });
+      random.Point({ -80.0, -test.Depth + 5.0, -80.0 }, { 80.0, -45.0, 80.0 });
     const glm::dvec3 half(random(0.0, 4.0));
     const bool isUnique = unique.HoldsAtMostOne(middle - half - origin, middle + half - origin);
     boxes += isUnique;
@@ -104,11 +104,11 @@ TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
     {
       geometry.FindImages(random.Point(middle - half, middle + half), found);
       several += found.size() > 1;
-      ASSERT_TRUE(!isUnique || found.size() <= 1) << test.name << " box " << i;
+      ASSERT_TRUE(!isUnique || found.size() <= 1) << test.Name << " box " << i;
     }
   }
-  EXPECT_GE(100 * boxes, test.leastUnique * count) << boxes;
-  EXPECT_GE(100 * several, test.leastSeveral * 5 * count) << several;
+  EXPECT_GE(100 * boxes, test.LeastUnique * count) << boxes;
+  EXPECT_GE(100 * several, test.LeastSeveral * 5 * count) << several;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, testing::ValuesIn(Cases));
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RefractionUnique, testing::ValuesIn(Cases));
 TEST(RefractionUnique, HeightsOutOfRangeAreNotTold)
 {
   CurvedMembraneSolver geometry;
-  Set(geometry, Cases[0].field.MakeMesh(8), Cases[0].eye);
+  Set(geometry, Cases[0].Field.MakeMesh(8), Cases[0].Eye);
   const InjectivityGrid unique = Build(geometry, -100.0, -50.0);
   EXPECT_TRUE(unique.HoldsAtMostOne({ 0.0, -100.0, 0.0 }, { 1.0, -50.0, 1.0 }));
   EXPECT_FALSE(unique.HoldsAtMostOne({ 0.0, -101.0, 0.0 }, { 1.0, -60.0, 1.0 }));
@@ -141,7 +141,7 @@ MembraneMesh MakeSheet(int cells, const std::function<glm::dvec3(int, int)>& poi
     for (int i = 0; i <= cells; ++i)
     {
       const glm::dvec3 p = point(i, j);
-      mesh.points.insert(mesh.points.end(), { p.x, p.y, p.z });
+      mesh.Points.insert(mesh.Points.end(), { p.x, p.y, p.z });
     }
   }
   const auto id = [cells](int i, int j) { return static_cast<std::int64_t>(j * (cells + 1) + i); };
@@ -151,7 +151,7 @@ MembraneMesh MakeSheet(int cells, const std::function<glm::dvec3(int, int)>& poi
     {
       if (isThere(i, j))
       {
-        mesh.triangles.insert(mesh.triangles.end(),
+        mesh.Triangles.insert(mesh.Triangles.end(),
           { id(i, j), id(i, j + 1), id(i + 1, j), id(i + 1, j), id(i, j + 1), id(i + 1, j + 1) });
       }
     }
@@ -202,7 +202,7 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
 {
   const UniqueCase& test = Cases[1];
   CurvedMembraneSolver geometry;
-  Set(geometry, test.field.MakeMesh(test.cells), test.eye);
+  Set(geometry, test.Field.MakeMesh(test.Cells), test.Eye);
   constexpr double tolerance = 1e-4;
   const glm::dvec3 points[4] = { { -50.0, -90.0, -50.0 }, { 50.0, -90.0, -50.0 },
     { 50.0, -90.0, 50.0 }, { -50.0, -90.0, 50.0 } };
@@ -211,7 +211,7 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
   ImagedPoint corners[4];
   for (std::size_t i = 0; i < 4; ++i)
   {
-    ASSERT_EQ(vertices[i].state, ImageState::Found);
+    ASSERT_EQ(vertices[i].State, ImageState::Found);
     corners[i] = { static_cast<std::int64_t>(i), points[i], &vertices[i] };
   }
   EdgeSubdivision division(geometry, tolerance);
@@ -225,7 +225,7 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
     glm::dvec3 sum(0.0);
     for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
     {
-      sum += point.weight[k] * points[point.source[k]];
+      sum += point.Weight[k] * points[point.Source[k]];
     }
     return sum;
   };
@@ -235,15 +235,15 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
   double worst = 0.0;
   for (std::size_t i = 0; i < images.GetNumberOfCells(); ++i)
   {
-    ASSERT_EQ(images.ends[i], static_cast<std::int64_t>(3 * i + 3));
-    EXPECT_EQ(images.sourceCells[i], 7);
+    ASSERT_EQ(images.Ends[i], static_cast<std::int64_t>(3 * i + 3));
+    EXPECT_EQ(images.SourceCells[i], 7);
     glm::dvec3 at[3];
     glm::dvec3 drawn(0.0);
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const auto& point = images.points[static_cast<std::size_t>(images.connectivity[3 * i + k])];
+      const auto& point = images.Points[static_cast<std::size_t>(images.Connectivity[3 * i + k])];
       at[k] = place(point);
-      drawn += point.vertex.position / 3.0;
+      drawn += point.Vertex.Position / 3.0;
     }
     area += 0.5 * std::fabs(glm::cross(at[1] - at[0], at[2] - at[0]).y);
     for (std::size_t k = 0; k < 3; ++k)
@@ -255,8 +255,8 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
     const glm::dvec3 middle = (at[0] + at[1] + at[2]) / 3.0;
     VirtualVertex exact;
     geometry.Solve(&middle.x, 0, 1, &exact);
-    const glm::dvec3 seen = glm::normalize(exact.position - test.eye);
-    worst = std::max(worst, glm::length(glm::cross(seen, glm::normalize(drawn - test.eye))));
+    const glm::dvec3 seen = glm::normalize(exact.Position - test.Eye);
+    worst = std::max(worst, glm::length(glm::cross(seen, glm::normalize(drawn - test.Eye))));
   }
   EXPECT_NEAR(area, 1e4, 1e-6);
   // The middle of a triangle bends by up to 4/3 of what the middles of its edges do, if by second
@@ -283,17 +283,17 @@ TEST(RefractionDivision, NothingIsAddedWhereAnImageIsMissing)
     MakeSheet(
       20, [](int i, int j) { return glm::dvec3(i - 10.0, 0.0, j - 10.0); },
       [](int i, int) { return i < 8 || i > 11; }),
-    test.eye);
+    test.Eye);
   const glm::dvec3 points[2] = { { -9.0, -2.0, 0.0 }, { 9.0, -2.0, 0.0 } };
   std::vector<VirtualVertex> vertices(2);
   geometry.Solve(&points[0].x, 0, 2, vertices.data());
-  ASSERT_EQ(vertices[0].state, ImageState::Found);
-  ASSERT_EQ(vertices[1].state, ImageState::Found);
+  ASSERT_EQ(vertices[0].State, ImageState::Found);
+  ASSERT_EQ(vertices[1].State, ImageState::Found);
   EdgeSubdivision division(geometry, 1e-4);
   ImageMesh images;
   EXPECT_FALSE(
     division.AddLine({ 0, points[0], &vertices[0] }, { 1, points[1], &vertices[1] }, 0, images));
-  EXPECT_TRUE(images.points.empty());
-  EXPECT_TRUE(images.connectivity.empty());
+  EXPECT_TRUE(images.Points.empty());
+  EXPECT_TRUE(images.Connectivity.empty());
   EXPECT_EQ(images.GetNumberOfCells(), 0u);
 }

@@ -49,15 +49,15 @@ struct Segment
 Segment Integrate(
   const std::vector<TransferFunctionInterval>& intervals, double front, double back, double length)
 {
-  constexpr int Steps = 20000;
+  constexpr int steps = 20000;
   Segment segment;
-  for (int i = 0; i < Steps; ++i)
+  for (int i = 0; i < steps; ++i)
   {
-    const double scalar = front + (back - front) * (i + 0.5) / Steps;
+    const double scalar = front + (back - front) * (i + 0.5) / steps;
     const TransferFunctionInterval& interval = IntervalOf(intervals, scalar);
     const double offset = scalar - interval.Lower;
     const double depth =
-      (interval.Attenuation + offset * interval.AttenuationSlope) * length / Steps;
+      (interval.Attenuation + offset * interval.AttenuationSlope) * length / steps;
     const double gone = (1.0 - segment.Opacity) * -std::expm1(-depth);
     segment.Color += gone * (glm::dvec3(interval.Color) + offset * glm::dvec3(interval.ColorSlope));
     segment.Opacity += gone;

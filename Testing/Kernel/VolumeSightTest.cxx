@@ -112,10 +112,10 @@ void SetMesh(RefractedRayField::View& view, const WorldBox& box)
 
 RefractedRay RayOf(const RefractedRayField& sight, int column, int row)
 {
-  constexpr int Columns = (Size + RefractedRayField::TileSize - 1) / RefractedRayField::TileSize;
-  constexpr int Side = RefractedRayField::TileSize;
-  const RefractedRay* tile = sight.GetTile(row / Side * Columns + column / Side);
-  return tile ? tile[row % Side * Side + column % Side] : RefractedRay();
+  constexpr int columns = (Size + RefractedRayField::TileSize - 1) / RefractedRayField::TileSize;
+  constexpr int side = RefractedRayField::TileSize;
+  const RefractedRay* tile = sight.GetTile(row / side * columns + column / side);
+  return tile ? tile[row % side * side + column % side] : RefractedRay();
 }
 
 struct Counts
@@ -302,12 +302,12 @@ TEST(RefractedRayField, InstructionSetsSeeTheSame)
   const auto run = [&](InstructionSet set)
   {
     PatchIntersectionBatch result = lanes;
-    const glm::dvec3 u = patch.corner[1] - patch.corner[0];
-    const glm::dvec3 v = patch.corner[2] - patch.corner[0];
+    const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
+    const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
     const glm::dvec3 normal = glm::cross(u, v);
     const double squared = glm::dot(normal, normal);
     MeetPlane(
-      { patch.corner[0], normal, glm::cross(v, normal) / squared, glm::cross(normal, u) / squared },
+      { patch.Corner[0], normal, glm::cross(v, normal) / squared, glm::cross(normal, u) / squared },
       rays, set, result);
     for (int i = 0; i < result.Count; ++i)
     {

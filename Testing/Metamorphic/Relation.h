@@ -17,43 +17,47 @@ namespace meniscus
 namespace test
 {
 
-/// Outcome of comparing some pairs of results. The tally of several cases is the sum of theirs.
+/** Outcome of comparing some pairs of results. The tally of several cases is the sum of theirs. */
 struct RelationTally
 {
   std::int64_t Scenes = 0;
-  /// Pairs of results that were compared: pictures, meshes.
+  /** Pairs of results that were compared: pictures, meshes. */
   std::int64_t Comparisons = 0;
-  /// Values that were compared: pixels, points, array values.
+  /** Values that were compared: pixels, points, array values. */
   std::int64_t Values = 0;
-  /// Values beyond the plain tolerance, but within the change of the exact result under the
-  /// rounding that the relation is derived for.
+  /**
+   * Values beyond the plain tolerance, but within the change of the exact result under the
+   * rounding that the relation is derived for.
+   */
   std::int64_t Conditioned = 0;
-  /// Values beyond their tolerance.
+  /** Values beyond their tolerance. */
   std::int64_t Wrong = 0;
-  /// Scenes with a wrong value, or with a result that is missing.
+  /** Scenes with a wrong value, or with a result that is missing. */
   std::int64_t Failures = 0;
-  /// The value with the largest ratio of deviation to tolerance; a tolerance below 0: none yet.
+  /** The value with the largest ratio of deviation to tolerance; a tolerance below 0: none yet. */
   double Deviation = 0.0;
   double Tolerance = -1.0;
-  /// First failure in words; empty without one.
+  /** First failure in words; empty without one. */
   std::string FirstFailure;
 
-  /// Adds one value. Returns whether it is within its tolerance; NaN is not.
+  /** Adds one value. Returns whether it is within its tolerance; NaN is not. */
   bool compare(double deviation, double tolerance);
 
   void add(const RelationTally& other);
 };
 
-/// Runs one case.
+/** Runs one case. */
 using RelationWork = std::function<RelationTally(int index)>;
 
 struct Relation
 {
-  /// Name on the command line and in the report.
+  /** Name on the command line and in the report. */
   std::string Name;
   int Cases = 0;
-  /// Called in the process that runs its cases, before the first of them. All relations run in one
-  /// process until a case ends it, so that they may share what is slow to make (a window).
+  /**
+   * Called in the process that runs its cases, before the first of them. All relations run in one
+   * process until a case ends it, so that they may share what is slow to make (a window).
+   */
   std::function<RelationWork()> Start;
 };
 

@@ -14,8 +14,10 @@ namespace meniscus
 namespace test
 {
 
-/// Makes all relations once the options are known. Cases grow with the intensity; every case draws
-/// from a stream of its own (see seedOfCase()), so that it can be run alone.
+/**
+ * Makes all relations once the options are known. Cases grow with the intensity; every case draws
+ * from a stream of its own (see seedOfCase()), so that it can be run alone.
+ */
 using RelationMaker = std::function<std::vector<Relation>()>;
 
 /**
@@ -27,10 +29,10 @@ using RelationMaker = std::function<std::vector<Relation>()>;
 int runMetamorphicProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
   const OptionReader& readMore, const RelationMaker& make);
 
-/// Cases at an intensity: the number at 1, times the intensity, at least 1.
+/** Cases at an intensity: the number at 1, times the intensity, at least 1. */
 int casesAt(double intensity, int atOne);
 
-/// Seed of the random numbers of one case of the relation with a name.
+/** Seed of the random numbers of one case of the relation with a name. */
 std::uint64_t seedOfCase(std::uint64_t seed, const std::string& relation, int index);
 
 } // namespace test

@@ -12,13 +12,13 @@ namespace meniscus
 namespace test
 {
 
-/// Opacity as it is, where a mode does not measure lengths.
+/** Opacity as it is, where a mode does not measure lengths. */
 reference::ReferenceTransferFunction toAlphas(vtkVolumeProperty* property);
 
-/// The material of a property, lit by the renderer's lights as they were in the last frame.
+/** The material of a property, lit by the renderer's lights as they were in the last frame. */
 reference::Material toMaterial(vtkVolumeProperty* property, vtkRenderer* renderer);
 
-/// The isosurfaces of a property.
+/** The isosurfaces of a property. */
 std::vector<reference::Surface> toSurfaces(vtkVolumeProperty* property);
 
 /**

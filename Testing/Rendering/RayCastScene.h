@@ -26,7 +26,7 @@ namespace meniscus
 namespace test
 {
 
-/// A scene whose volume is a mesh drawn by vtkTetrahedraRayCastMapper.
+/** A scene whose volume is a mesh drawn by vtkTetrahedraRayCastMapper. */
 class RayCastScene : public VolumeScene
 {
 public:
@@ -41,11 +41,13 @@ private:
   vtkSmartPointer<vtkUnstructuredGrid> Grid;
 };
 
-/// What the environment variable MENISCUS_TEST_BACKEND says: OpenGL, Compute, Native; else
-/// automatic.
+/**
+ * What the environment variable MENISCUS_TEST_BACKEND says: OpenGL, Compute, Native; else
+ * automatic.
+ */
 int backendUnderTest();
 
-/// Share of covered pixels that may be excused as silhouettes, or a number of pixels if larger.
+/** Share of covered pixels that may be excused as silhouettes, or a number of pixels if larger. */
 struct SilhouetteAllowance
 {
   double Share = LargestSilhouetteShare;
@@ -55,7 +57,7 @@ struct SilhouetteAllowance
 void expectMatch(const Comparison& comparison, const std::string& what,
   const SilhouetteAllowance& allowance = SilhouetteAllowance());
 
-/// What the reference says of a scene's volume in its present view.
+/** What the reference says of a scene's volume in its present view. */
 struct SceneTruth
 {
   std::unique_ptr<reference::ReferenceRayIntegrator> Integrator;
@@ -65,7 +67,7 @@ struct SceneTruth
 
 SceneTruth makeTruth(const RayCastScene& scene);
 
-/// Expects every value to be the same within 2e-5, and not all of them to be transparent.
+/** Expects every value to be the same within 2e-5, and not all of them to be transparent. */
 void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what);
 
 /**
@@ -75,7 +77,7 @@ void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::stri
 void expectMatchesReference(RayCastScene& scene, const std::string& what,
   const SilhouetteAllowance& allowance = SilhouetteAllowance());
 
-/// Collects error and warning events of objects, and what reaches VTK's output window.
+/** Collects error and warning events of objects, and what reaches VTK's output window. */
 class ErrorObserver : public vtkCommand
 {
 public:

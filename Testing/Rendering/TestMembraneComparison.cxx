@@ -35,7 +35,7 @@ constexpr double Background = 0.95;
 // The goal of the float error.
 constexpr double Tolerance = 1e-4;
 
-/// Three pictures side by side, one row per membrane.
+/** Three pictures side by side, one row per membrane. */
 class Sheet
 {
 public:
@@ -65,7 +65,7 @@ private:
   vtkNew<vtkImageData> Image;
 };
 
-/// The largest difference; every pixel counts.
+/** The largest difference; every pixel counts. */
 double drawRow(Sheet& sheet, int row, const MembraneCase& membrane)
 {
   const Grid grid = makeBlock(6, wavyField(3.0));

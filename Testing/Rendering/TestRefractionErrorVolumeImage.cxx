@@ -56,7 +56,7 @@ void colourOf(double error, unsigned char* rgb)
   }
 }
 
-/// The blocks behind the plane z = 0 that were measured.
+/** The blocks behind the plane z = 0 that were measured. */
 vtkSmartPointer<vtkPolyData> makeBlocks(vtkImageData* volume)
 {
   vtkNew<vtkPoints> points;

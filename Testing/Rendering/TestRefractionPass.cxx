@@ -43,7 +43,7 @@ constexpr double Background[3] = { 0.1, 0.3, 0.7 };
 // Rounding to 8 bits, of the picture behind the membrane and of the result.
 constexpr double Rounding = 1.5 / 255.0;
 
-/// A window that looks down on water in the plane z = 0, with a white floor below it.
+/** A window that looks down on water in the plane z = 0, with a white floor below it. */
 class Pool
 {
 public:
@@ -94,14 +94,14 @@ public:
 struct Sight
 {
   bool OnMembrane;
-  /// Of the angles of incidence and refraction.
+  /** Of the angles of incidence and refraction. */
   double Cosine;
   double RefractedCosine;
-  /// Where the sight ray meets the water.
+  /** Where the sight ray meets the water. */
   double Point[2];
 };
 
-/// What a pixel's ray sees of the plane, by Snell's law.
+/** What a pixel's ray sees of the plane, by Snell's law. */
 Sight sightOf(vtkCamera* camera, int x, int y)
 {
   double eye[3];
@@ -135,14 +135,14 @@ Sight sightOf(vtkCamera* camera, int x, int y)
   return sight;
 }
 
-/// Pixels at the border of the membrane may count as in or out.
+/** Pixels at the border of the membrane may count as in or out. */
 bool isBorder(const Sight& sight)
 {
   const double reach = std::max(std::fabs(sight.Point[0]), std::fabs(sight.Point[1]));
   return std::fabs(reach - 3.0) < 0.15;
 }
 
-/// Of unpolarised light, from the amplitudes (the pass uses the form of Eq. 2.6).
+/** Of unpolarised light, from the amplitudes (the pass uses the form of Eq. 2.6). */
 double fresnel(const Sight& sight)
 {
   const double c = sight.Cosine;
@@ -193,7 +193,7 @@ void expectColors(
   EXPECT_GT(seen, Size * Size / 4);
 }
 
-/// A cube map of one colour.
+/** A cube map of one colour. */
 vtkSmartPointer<vtkTexture> makeSky(unsigned char red, unsigned char green, unsigned char blue)
 {
   auto sky = vtkSmartPointer<vtkTexture>::New();
@@ -254,11 +254,13 @@ TEST(RefractionPass, ReflectanceIsFresnels)
   }
 }
 
-/// The layout of the faces, as the documentation of SetReflectionTexture() has it, seen in mirrors
-/// that face along each axis: the sky's colour is a function of the direction.
+/**
+ * The layout of the faces, as the documentation of SetReflectionTexture() has it, seen in mirrors
+ * that face along each axis: the sky's colour is a function of the direction.
+ */
 TEST(RefractionPass, CubeMapFacesLieAsDocumented)
 {
-  constexpr int FaceSize = 64;
+  constexpr int faceSize = 64;
   const auto colorOf = [](const double* direction, int channel)
   {
     const double longest =
@@ -271,14 +273,14 @@ TEST(RefractionPass, CubeMapFacesLieAsDocumented)
   for (int face = 0; face < 6; ++face)
   {
     vtkNew<vtkImageData> image;
-    image->SetDimensions(FaceSize, FaceSize, 1);
+    image->SetDimensions(faceSize, faceSize, 1);
     image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    for (int j = 0; j < FaceSize; ++j)
+    for (int j = 0; j < faceSize; ++j)
     {
-      for (int i = 0; i < FaceSize; ++i)
+      for (int i = 0; i < faceSize; ++i)
       {
-        const double u = (2.0 * i + 1.0) / FaceSize - 1.0;
-        const double v = (2.0 * j + 1.0) / FaceSize - 1.0;
+        const double u = (2.0 * i + 1.0) / faceSize - 1.0;
+        const double v = (2.0 * j + 1.0) / faceSize - 1.0;
         const double table[6][3] = { { 1, -v, -u }, { -1, -v, u }, { u, 1, v }, { u, -1, -v },
           { u, -v, 1 }, { -u, -v, -1 } };
         auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));

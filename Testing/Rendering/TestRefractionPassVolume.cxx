@@ -38,7 +38,7 @@ constexpr int Size = 160;
 constexpr double Water = 1.333;
 constexpr double Range[2] = { -1.0, 1.0 };
 
-/// A block of [-1, 1]^3 that stands in water up to a level, over a floor, seen from above.
+/** A block of [-1, 1]^3 that stands in water up to a level, over a floor, seen from above. */
 class Basin
 {
 public:
@@ -73,7 +73,7 @@ public:
   vtkRenderer* renderer() { return this->Scene.renderer(); }
   vtkCamera* camera() { return this->renderer()->GetActiveCamera(); }
 
-  /// By the mapper alone, the virtual floor an actor.
+  /** By the mapper alone, the virtual floor an actor. */
   ByteImage renderPlain()
   {
     this->Pass->RemoveAllRefractions();

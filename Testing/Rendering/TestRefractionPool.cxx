@@ -29,7 +29,7 @@ struct PoolDifference
   double percent() const { return 100.0 * this->Differing / this->Water; }
 };
 
-/// Drawn, traced, and their difference side by side, for the eye and for the documentation.
+/** Drawn, traced, and their difference side by side, for the eye and for the documentation. */
 void save(const std::string& name, const meniscus::test::ByteImage& drawn, const PoolPicture& truth)
 {
   constexpr int size = PoolScene::Pixels;
@@ -65,7 +65,7 @@ PoolDifference compare(const meniscus::test::ByteImage& drawn, const PoolPicture
   PoolDifference result;
   for (std::size_t i = 0; i < truth.Colors.size(); ++i)
   {
-    if (!truth.isWater[i])
+    if (!truth.IsWater[i])
     {
       continue;
     }

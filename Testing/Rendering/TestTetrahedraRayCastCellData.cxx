@@ -38,7 +38,7 @@ constexpr int Size = 120;
 constexpr double Range[2] = { -1.0, 1.0 };
 const char* const CellScalarName = "cell scalar";
 
-/// Gives every cell the field's value at the mean of its points.
+/** Gives every cell the field's value at the mean of its points. */
 vtkDoubleArray* addCellScalars(vtkUnstructuredGrid* grid, const Field& field)
 {
   vtkNew<vtkDoubleArray> values;
@@ -75,7 +75,7 @@ Grid makeCellBlock(int n, const Region& region = nullptr)
   return grid;
 }
 
-/// A ray's cells with their own scalars; those without one are left out.
+/** A ray's cells with their own scalars; those without one are left out. */
 std::vector<RaySegment> findCells(
   const ReferenceRayIntegrator& integrator, vtkDataArray* values, const Ray& ray)
 {
@@ -93,7 +93,7 @@ std::vector<RaySegment> findCells(
   return known;
 }
 
-/// Normal of the face that two cells share.
+/** Normal of the face that two cells share. */
 Vector3 normalBetween(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
 {
   const std::int64_t* other = mesh.cell(static_cast<std::size_t>(b));
@@ -116,7 +116,7 @@ Vector3 normalBetween(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
   return { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
 }
 
-/// Isosurfaces of cell scalars: where a ray goes from one cell to the next across isovalues.
+/** Isosurfaces of cell scalars: where a ray goes from one cell to the next across isovalues. */
 std::array<double, 4> blendJumps(const ReferenceMesh& mesh, const Ray& ray,
   const std::vector<RaySegment>& segments, std::vector<Surface> surfaces, const Material* material)
 {
@@ -166,7 +166,7 @@ std::array<double, 4> blendJumps(const ReferenceMesh& mesh, const Ray& ray,
   return total;
 }
 
-/// A scene of a grid's cell scalars.
+/** A scene of a grid's cell scalars. */
 class CellScene : public RayCastScene
 {
 public:
@@ -184,7 +184,7 @@ public:
     lookAt(this->renderer(), this->grid()->GetBounds(), 30.0, 50.0);
   }
 
-  /// Traces in what is left of each ray by the clipping planes given.
+  /** Traces in what is left of each ray by the clipping planes given. */
   TracedComparison expectComposite(
     const std::string& what, const std::vector<HalfSpace>& halves = {})
   {

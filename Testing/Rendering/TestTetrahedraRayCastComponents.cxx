@@ -298,10 +298,10 @@ TEST(TetrahedraRayCastComponents, LightOnDependentComponents)
   const Grid one = makeComponents<vtkDoubleArray>({ 0 }, 1.0);
   const Grid two = makeComponents<vtkDoubleArray>({ 0, 0 }, 1.0);
   for (const int gradients :
-    { vtkTetrahedraRayCastMapper::CELL_GRADIENTS, vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS })
+    { vtkTetrahedraRayCastMapper::CellGradients, vtkTetrahedraRayCastMapper::VertexGradients })
   {
     const auto part = makeParts(1, FunctionKind::Smooth)[0];
-    if (gradients == vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS)
+    if (gradients == vtkTetrahedraRayCastMapper::VertexGradients)
     {
       // Light that varies along a piece times colour that varies is integrated otherwise.
       part->GetRGBTransferFunction()->RemoveAllPoints();

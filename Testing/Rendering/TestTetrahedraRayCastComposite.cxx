@@ -46,7 +46,7 @@ vtkSmartPointer<vtkVolumeProperty> smooth()
   return makeProperty(FunctionKind::Smooth, Range, 3.5);
 }
 
-/// A scene of any data object.
+/** A scene of any data object. */
 class AnyScene : public RayCastScene
 {
 public:
@@ -78,7 +78,7 @@ FloatImage pictureOf(vtkDataObject* input, int scalarMode = VTK_SCALAR_MODE_DEFA
   return image;
 }
 
-/// Some cells of a grid, with points of their own and all data.
+/** Some cells of a grid, with points of their own and all data. */
 Grid extract(vtkUnstructuredGrid* grid, const std::function<bool(vtkIdType)>& keep)
 {
   const Grid part = Grid::New();
@@ -112,7 +112,7 @@ Grid extract(vtkUnstructuredGrid* grid, const std::function<bool(vtkIdType)>& ke
   return part;
 }
 
-/// Three grids whose cells interlock, with a gap in none.
+/** Three grids whose cells interlock, with a gap in none. */
 std::vector<Grid> interlocking(vtkUnstructuredGrid* grid)
 {
   std::vector<Grid> parts;
@@ -134,7 +134,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> makeBlocks(const std::vector<Grid>& parts)
   return blocks;
 }
 
-/// Cells of a structured kind over [-1, 1]^3 with n cubes along each axis.
+/** Cells of a structured kind over [-1, 1]^3 with n cubes along each axis. */
 void addScalars(vtkDataSet* grid, const Field& field)
 {
   vtkNew<vtkDoubleArray> scalars;

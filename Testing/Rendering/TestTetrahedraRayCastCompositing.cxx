@@ -67,10 +67,10 @@ vtkSmartPointer<vtkVolumeProperty> randomProperty(
 {
   vtkNew<vtkColorTransferFunction> colors;
   vtkNew<vtkPiecewiseFunction> opacities;
-  constexpr int Points = 5;
-  for (int i = 0; i < Points; ++i)
+  constexpr int points = 5;
+  for (int i = 0; i < points; ++i)
   {
-    const double scalar = range[0] + (range[1] - range[0]) * i / (Points - 1.0);
+    const double scalar = range[0] + (range[1] - range[0]) * i / (points - 1.0);
     const std::array<double, 3> color = randomColor(random);
     colors->AddRGBPoint(scalar, color[0], color[1], color[2]);
     const double opacity = share(random);

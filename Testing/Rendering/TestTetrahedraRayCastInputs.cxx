@@ -54,7 +54,7 @@ FloatImage pictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
   return image;
 }
 
-/// The cube [-1, 1]^3 in n^3 cells of a type that has the 8 corners of a cube in its order.
+/** The cube [-1, 1]^3 in n^3 cells of a type that has the 8 corners of a cube in its order. */
 Grid makeCubes(int n, int type, const Field& field)
 {
   std::vector<double> points;

@@ -53,7 +53,7 @@ protected:
     this->Mapper->SetBackend(OpenGL);
   }
 
-  /// With full and with compact tables.
+  /** With full and with compact tables. */
   void expectSamePicture(const std::string& what)
   {
     this->Mapper->CompactTablesOff();
@@ -149,14 +149,14 @@ TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
     EXPECT_GT(this->Mapper->GetHostBytes(), host) << what;
   };
   this->Scene.window()->Render();
-  this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+  this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
   expectSentAndKept("pre-integration");
   this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
   // A change of the property sends its table again, in place of the old one.
   this->Property->ShadeOn();
-  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
   this->Scene.window()->Render();
-  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
+  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::VertexGradients);
   expectSentAndKept("gradients");
   this->Mapper->ReleaseGraphicsResources(this->Scene.window());
   EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
@@ -188,7 +188,7 @@ TEST_F(TetrahedraRayCastMemory, SoDoTheirLightAndPreIntegration)
   {
     this->Property->SetShade(shade);
     this->Mapper->SetIntegration(
-      shade ? vtkTetrahedraRayCastMapper::EXACT : vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+      shade ? vtkTetrahedraRayCastMapper::EXACT : vtkTetrahedraRayCastMapper::PreIntegrated);
     this->Mapper->SetMaximumTableSize(VTK_TYPE_INT64_MAX);
     const FloatImage expected = this->Scene.renderFloat();
     EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);

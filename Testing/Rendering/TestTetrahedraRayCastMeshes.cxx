@@ -150,16 +150,16 @@ TEST(TetrahedraRayCastMeshes, RaysThroughVerticesAndEdges)
 {
   // Pixel centres lie on multiples of 1/16 in both directions, vertices on multiples of 1/4, so
   // rays run along edges and faces. The outermost lie on the boundary: up to 4 * 33 silhouettes.
-  constexpr int Odd = 65;
-  constexpr double Pitch = 0.0625;
+  constexpr int odd = 65;
+  constexpr double pitch = 0.0625;
   const Grid grid = makeBlock(8, wavyField(3.0));
   for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      RayCastScene scene(grid, propertyFor(grid, kind), Odd, Odd);
+      RayCastScene scene(grid, propertyFor(grid, kind), odd, odd);
       lookAlongAxis(scene.renderer(), grid->GetBounds(), axis);
-      scene.renderer()->GetActiveCamera()->SetParallelScale(0.5 * Odd * Pitch);
+      scene.renderer()->GetActiveCamera()->SetParallelScale(0.5 * odd * pitch);
       expectMatchesReference(
         scene, "along axis " + std::to_string(axis), SilhouetteAllowance{ 0.0, 4 * 33 });
     }
@@ -206,10 +206,10 @@ TEST(TetrahedraRayCastMeshes, OpacityPerUnitDistance)
   // header); a ray is up to a diagonal long.
   const Grid grid = makeBlock(8, wavyField(3.0));
   RayCastScene scene(grid, propertyFor(grid, FunctionKind::Smooth), Size, Size);
-  constexpr double Unit = 0.8;
-  const double tolerance = diagonalOf(grid->GetBounds()) / Unit / 32768.0;
-  scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(Unit);
-  scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
+  constexpr double unit = 0.8;
+  const double tolerance = diagonalOf(grid->GetBounds()) / unit / 32768.0;
+  scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(unit);
+  scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OpacityPerUnitDistance);
   lookAt(scene.renderer(), grid->GetBounds(), 25.0, 30.0);
   scene.window()->Render();
   const SceneTruth truth = makeTruth(scene);

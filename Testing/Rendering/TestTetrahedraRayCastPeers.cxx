@@ -81,7 +81,7 @@ public:
 struct PeerScene
 {
   Grid Mesh;
-  /// Given to the peer in place of the mesh, if set.
+  /** Given to the peer in place of the mesh, if set. */
   Grid PeerMesh;
   vtkSmartPointer<vtkVolumeProperty> Property;
   vtkSmartPointer<vtkTransform> Transform;

@@ -38,7 +38,7 @@ protected:
     lookAt(this->Scene.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
   }
 
-  /// The window of visible scalars, opaque enough to be seen.
+  /** The window of visible scalars, opaque enough to be seen. */
   void setWindow(double lower, double upper)
   {
     vtkPiecewiseFunction* opacity = this->Property->GetScalarOpacity();

@@ -41,7 +41,7 @@ struct Drawn
   vtkTypeInt64 Steps = 0;
 };
 
-/// The picture of any input by one backend; no ray may be lost, nothing be said but a warning.
+/** The picture of any input by one backend; no ray may be lost, nothing be said but a warning. */
 Drawn draw(vtkDataObject* input, int backend, vtkVolumeProperty* property = nullptr,
   int blendMode = vtkVolumeMapper::COMPOSITE_BLEND)
 {
@@ -61,8 +61,10 @@ Drawn draw(vtkDataObject* input, int backend, vtkVolumeProperty* property = null
   return drawn;
 }
 
-/// The cells of a grid in random order, each one to three times; cell data goes with them, and a
-/// copy has another value than the cell that comes first.
+/**
+ * The cells of a grid in random order, each one to three times; cell data goes with them, and a
+ * copy has another value than the cell that comes first.
+ */
 Grid doubled(vtkUnstructuredGrid* grid, unsigned int seed, vtkTypeInt64& copies)
 {
   std::mt19937 random(seed);
@@ -99,7 +101,7 @@ Grid doubled(vtkUnstructuredGrid* grid, unsigned int seed, vtkTypeInt64& copies)
   return result;
 }
 
-/// n^3 hexahedra that fill the bounds.
+/** n^3 hexahedra that fill the bounds. */
 Grid hexahedra(int n)
 {
   const Grid grid = Grid::New();
@@ -138,7 +140,7 @@ Grid hexahedra(int n)
   return grid;
 }
 
-/// Each tetrahedron with points of its own, shrunk about their mean; the field as in the mesh.
+/** Each tetrahedron with points of its own, shrunk about their mean; the field as in the mesh. */
 Grid apart(vtkUnstructuredGrid* grid, double factor, const Field& field)
 {
   std::vector<double> points;

@@ -37,8 +37,8 @@ double cross(const glm::dvec2& a, const glm::dvec2& b)
 // n1 a / |a| - n2 p / |p|, whose part along the surface vanishes (Fermat).
 glm::dvec3 PatchSearch::misfit(const PatchPoint& at, const glm::dvec3& point) const
 {
-  return this->Exterior * glm::normalize(at.position - this->Eye) -
-    this->Interior * glm::normalize(point - at.position);
+  return this->Exterior * glm::normalize(at.Position - this->Eye) -
+    this->Interior * glm::normalize(point - at.Position);
 }
 
 //------------------------------------------------------------------------------
@@ -46,11 +46,11 @@ glm::dvec2 PatchSearch::equation(
   const CurvedPatch& patch, const glm::dvec3& point, const glm::dvec2& b) const
 {
   const PatchPoint at = patch.Evaluate(b);
-  const glm::dvec3 normal = glm::normalize(at.normal);
+  const glm::dvec3 normal = glm::normalize(at.Normal);
   const glm::dvec3 v = this->misfit(at, point);
   const glm::dvec3 along = v - normal * glm::dot(v, normal);
-  return { glm::dot(along, glm::normalize(patch.corner[1] - patch.corner[0])),
-    glm::dot(along, glm::normalize(patch.corner[2] - patch.corner[0])) };
+  return { glm::dot(along, glm::normalize(patch.Corner[1] - patch.Corner[0])),
+    glm::dot(along, glm::normalize(patch.Corner[2] - patch.Corner[0])) };
 }
 
 //------------------------------------------------------------------------------
@@ -126,10 +126,10 @@ void PatchSearch::search(
         continue;
       }
       const PatchPoint at = patch.Evaluate(b);
-      const glm::dvec3 normal = glm::normalize(at.normal);
-      const double facing = std::min(-glm::dot(glm::normalize(at.position - this->Eye), normal),
-        -glm::dot(glm::normalize(point - at.position), normal));
-      const double inside = FindOutside(b).least;
+      const glm::dvec3 normal = glm::normalize(at.Normal);
+      const double facing = std::min(-glm::dot(glm::normalize(at.Position - this->Eye), normal),
+        -glm::dot(glm::normalize(point - at.Position), normal));
+      const double inside = FindOutside(b).Least;
       // Where the normal lies in the facet's plane the two components may vanish without the rest.
       const glm::dvec3 v = this->misfit(at, point);
       const bool isRoot =
@@ -137,13 +137,13 @@ void PatchSearch::search(
       const bool known = std::any_of(found.begin(), found.end(),
         [&at, &patch](const Sight& other)
         {
-          return glm::length(other.place - at.position) <
-            1e-6 * glm::length(patch.corner[1] - patch.corner[0]);
+          return glm::length(other.Place - at.Position) <
+            1e-6 * glm::length(patch.Corner[1] - patch.Corner[0]);
         });
       if (!known && isRoot && inside >= 0.0 && facing > 0.0 &&
-        glm::length(at.normal) > CurvedPatch::ShortestNormal)
+        glm::length(at.Normal) > CurvedPatch::ShortestNormal)
       {
-        found.push_back({ at.position, condition, inside, facing, facet });
+        found.push_back({ at.Position, condition, inside, facing, facet });
       }
     }
   }
@@ -171,9 +171,9 @@ double PatchSearch::residual(
   {
     const PatchPoint at = patch.Evaluate(b);
     constexpr double h = 1e-6;
-    const glm::dvec3 u = (patch.Evaluate(b + glm::dvec2(h, 0.0)).position - at.position) / h;
-    const glm::dvec3 v = (patch.Evaluate(b + glm::dvec2(0.0, h)).position - at.position) / h;
-    const glm::dvec3 rest = place - at.position;
+    const glm::dvec3 u = (patch.Evaluate(b + glm::dvec2(h, 0.0)).Position - at.Position) / h;
+    const glm::dvec3 v = (patch.Evaluate(b + glm::dvec2(0.0, h)).Position - at.Position) / h;
+    const glm::dvec3 rest = place - at.Position;
     const double uu = glm::dot(u, u);
     const double uv = glm::dot(u, v);
     const double vv = glm::dot(v, v);
@@ -183,11 +183,11 @@ double PatchSearch::residual(
   }
   const PatchPoint at = patch.Evaluate(b);
   const double away =
-    glm::length(at.position - place) / glm::length(patch.corner[1] - patch.corner[0]);
-  const glm::dvec3 normal = glm::normalize(at.normal);
+    glm::length(at.Position - place) / glm::length(patch.Corner[1] - patch.Corner[0]);
+  const glm::dvec3 normal = glm::normalize(at.Normal);
   const glm::dvec3 v = this->misfit(at, point);
   return away + glm::length(v - normal * glm::dot(v, normal)) / (this->Exterior + this->Interior) +
-    std::max(0.0, -FindOutside(b).least);
+    std::max(0.0, -FindOutside(b).Least);
 }
 
 } // namespace test

@@ -22,7 +22,7 @@ namespace test
 class PatchSearch
 {
 public:
-  /// All positions are relative to the membrane's origin.
+  /** All positions are relative to the membrane's origin. */
   PatchSearch(const CurvedPatches& patches, std::size_t facets, const glm::dvec3& eye,
     double exterior, double interior)
     : Patches(patches)
@@ -35,18 +35,20 @@ public:
 
   struct Sight
   {
-    glm::dvec3 place;
-    /// Of the equation's derivative against the product of its columns' lengths: near 0 at a
-    /// caustic.
-    double condition;
-    /// Smallest barycentric coordinate, and cosines towards the eye and away from the point.
-    double inside;
-    double facing;
-    std::int32_t facet;
+    glm::dvec3 Place;
+    /**
+     * Of the equation's derivative against the product of its columns' lengths: near 0 at a
+     * caustic.
+     */
+    double Condition;
+    /** Smallest barycentric coordinate, and cosines towards the eye and away from the point. */
+    double Inside;
+    double Facing;
+    std::int32_t Facet;
   };
   std::vector<Sight> find(const glm::dvec3& point) const;
 
-  /// The part of Snell's law that a place fails by: the sine between h and the normal.
+  /** The part of Snell's law that a place fails by: the sine between h and the normal. */
   double residual(const glm::dvec3& point, const glm::dvec3& place, std::int32_t facet) const;
 
 private:

@@ -59,10 +59,10 @@ public:
   RefractionTally run()
   {
     reference::MembraneMesh mesh = this->Test.Mesh;
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    for (std::size_t i = 0; i < mesh.Points.size(); ++i)
     {
-      mesh.points[i] =
-        this->Test.Scale * mesh.points[i] + this->Test.Offset[static_cast<int>(i % 3)];
+      mesh.Points[i] =
+        this->Test.Scale * mesh.Points[i] + this->Test.Offset[static_cast<int>(i % 3)];
     }
     if (this->Geometry.SetMembrane(mesh.AsInput()) != MembraneStatus::Ready ||
       this->Geometry.SetEye(this->toWorld(this->Test.Eye), this->Test.Exterior,
@@ -131,16 +131,16 @@ private:
       {
         const PatchPoint at = patch.Evaluate(b);
         const glm::dvec3 p =
-          this->fromWorld(at.position + this->Geometry.GetMembrane().GetOrigin());
+          this->fromWorld(at.Position + this->Geometry.GetMembrane().GetOrigin());
         const glm::dvec3 normal = this->Test.Surface.GetNormal(p.x, p.z);
-        this->Error.position =
-          std::max(this->Error.position, std::fabs(p.y - this->Test.Surface.At(p.x, p.z).f));
-        this->Error.normal =
-          std::max(this->Error.normal, glm::length(glm::normalize(at.normal) - normal));
+        this->Error.Position =
+          std::max(this->Error.Position, std::fabs(p.y - this->Test.Surface.At(p.x, p.z).F));
+        this->Error.Normal =
+          std::max(this->Error.Normal, glm::length(glm::normalize(at.Normal) - normal));
       }
     }
-    this->Error.position = 1.5 * this->Error.position + this->Rounding;
-    this->Error.normal = 1.5 * this->Error.normal + this->Rounding / this->Test.FacetSize;
+    this->Error.Position = 1.5 * this->Error.Position + this->Rounding;
+    this->Error.Normal = 1.5 * this->Error.Normal + this->Rounding / this->Test.FacetSize;
   }
 
   // +1: in a hole, -1: not, 0: within `band` of a border.
@@ -191,15 +191,15 @@ private:
         continue;
       }
       OracleAnswer answer = oracle.Find(this->Test.Points[i]);
-      if (!answer.complete)
+      if (!answer.Complete)
       {
         ++this->Tally.GivenUp;
         continue;
       }
       this->cutHoles(answer);
-      this->Tally.Uncertain += !answer.uncertain.empty();
+      this->Tally.Uncertain += !answer.Uncertain.empty();
       this->compare(i, answer, images);
-      if (answer.uncertain.empty())
+      if (answer.Uncertain.empty())
       {
         this->checkObject(i, object, images);
       }
@@ -235,12 +235,12 @@ private:
     bool same = object.GetNumberOfImages(i) == images.size();
     for (std::size_t k = 0; k < object.GetNumberOfImages(i); ++k)
     {
-      const glm::dvec3 sight = object.GetPointImages()[first + k].vertex.sightPoint;
+      const glm::dvec3 sight = object.GetPointImages()[first + k].Vertex.SightPoint;
       same = same &&
         std::any_of(images.begin(), images.end(),
           [&](const VirtualVertex& vertex)
           {
-            return glm::length(vertex.sightPoint - sight) <=
+            return glm::length(vertex.SightPoint - sight) <=
               Rest * this->Test.FacetSize * this->Test.Scale + this->Rounding * this->Test.Scale;
           });
     }
@@ -254,38 +254,38 @@ private:
   void cutHoles(OracleAnswer& answer) const
   {
     std::vector<OracleImage> kept;
-    for (const OracleImage& image : answer.images)
+    for (const OracleImage& image : answer.Images)
     {
-      const double band = 2.0 * image.radius + 4.0 * this->Error.position + 1e-7;
-      const int hole = this->isInHole(image.sight, band);
+      const double band = 2.0 * image.Radius + 4.0 * this->Error.Position + 1e-7;
+      const int hole = this->isInHole(image.Sight, band);
       if (hole == 0)
       {
-        answer.uncertain.push_back({ image.sight.x, image.sight.z, band });
+        answer.Uncertain.push_back({ image.Sight.x, image.Sight.z, band });
       }
       else if (hole < 0)
       {
         kept.push_back(image);
       }
     }
-    answer.images = kept;
+    answer.Images = kept;
   }
 
   double slackOf(const OracleImage& image) const
   {
-    return 2.0 * image.radius + 2.0 * this->Error.position + Rest * this->Test.FacetSize;
+    return 2.0 * image.Radius + 2.0 * this->Error.Position + Rest * this->Test.FacetSize;
   }
 
   void compare(std::size_t i, const OracleAnswer& answer, const std::vector<VirtualVertex>& images)
   {
-    std::vector<int> matches(answer.images.size(), 0);
+    std::vector<int> matches(answer.Images.size(), 0);
     for (const VirtualVertex& vertex : images)
     {
-      const glm::dvec3 sight = this->fromWorld(vertex.sightPoint);
+      const glm::dvec3 sight = this->fromWorld(vertex.SightPoint);
       bool known = false;
-      for (std::size_t k = 0; k < answer.images.size(); ++k)
+      for (std::size_t k = 0; k < answer.Images.size(); ++k)
       {
-        const OracleImage& image = answer.images[k];
-        const double distance = glm::length(image.sight - sight);
+        const OracleImage& image = answer.Images[k];
+        const double distance = glm::length(image.Sight - sight);
         if (distance > this->slackOf(image))
         {
           continue;
@@ -296,7 +296,7 @@ private:
         {
           this->count(&RefractionTally::False, i, "an image too often", sight.x, sight.z);
         }
-        if (vertex.orientation != image.orientation)
+        if (vertex.Orientation != image.Orientation)
         {
           this->count(&RefractionTally::Wrong, i, "orientation", sight.x, sight.z);
         }
@@ -307,34 +307,34 @@ private:
         this->count(&RefractionTally::False, i, "false image", sight.x, sight.z);
       }
     }
-    for (std::size_t k = 0; k < answer.images.size(); ++k)
+    for (std::size_t k = 0; k < answer.Images.size(); ++k)
     {
       ++this->Tally.Images;
       if (matches[k] == 0)
       {
-        this->count(&RefractionTally::Missed, i, "missed image", answer.images[k].sight.x,
-          answer.images[k].sight.z);
+        this->count(&RefractionTally::Missed, i, "missed image", answer.Images[k].Sight.x,
+          answer.Images[k].Sight.z);
       }
     }
   }
 
   void checkFirst(std::size_t i, const OracleAnswer& answer, const VirtualVertex& vertex)
   {
-    const glm::dvec3 sight = this->fromWorld(vertex.sightPoint);
-    const bool found = vertex.state == ImageState::Found;
+    const glm::dvec3 sight = this->fromWorld(vertex.SightPoint);
+    const bool found = vertex.State == ImageState::Found;
     const bool known = found &&
-      std::any_of(answer.images.begin(), answer.images.end(),
+      std::any_of(answer.Images.begin(), answer.Images.end(),
         [&](const OracleImage& image)
-        { return glm::length(image.sight - sight) <= this->slackOf(image); });
+        { return glm::length(image.Sight - sight) <= this->slackOf(image); });
     const bool excused = found && answer.IsUncertain(sight.x, sight.z, Rest * this->Test.FacetSize);
     if (found && !known && !excused)
     {
       this->count(&RefractionTally::False, i, "first image is none", sight.x, sight.z);
     }
-    if (!found && !answer.images.empty())
+    if (!found && !answer.Images.empty())
     {
-      this->count(&RefractionTally::Missed, i, "no first image", answer.images[0].sight.x,
-        answer.images[0].sight.z);
+      this->count(&RefractionTally::Missed, i, "no first image", answer.Images[0].Sight.x,
+        answer.Images[0].Sight.z);
     }
   }
 
@@ -342,20 +342,20 @@ private:
   void checkVertex(std::size_t i, const VirtualVertex& vertex)
   {
     const glm::dvec3 point = this->Test.Points[i];
-    const glm::dvec3 sight = this->fromWorld(vertex.sightPoint);
+    const glm::dvec3 sight = this->fromWorld(vertex.SightPoint);
     const double depth = glm::length(point - sight);
     const glm::dvec3 way = sight - this->Test.Eye;
     const glm::dvec3 expected = this->Test.Exterior == this->Test.Interior
       ? point
       : sight + way / glm::length(way) * (depth * this->Test.Exterior / this->Test.Interior);
-    const glm::dvec3 position = this->fromWorld(vertex.position);
+    const glm::dvec3 position = this->fromWorld(vertex.Position);
     // A direction from as far as the eye is has the rounding of its ends over its length.
     const double rounding =
       8.0 * this->Rounding * (1.0 + depth / std::min(glm::length(way), 1.0 + depth)) +
       1e-13 * (depth + glm::length(way));
-    const bool right = std::fabs(vertex.depth / this->Test.Scale - depth) <= rounding &&
+    const bool right = std::fabs(vertex.Depth / this->Test.Scale - depth) <= rounding &&
       glm::length(position - expected) <= 4.0 * rounding * (1.0 + depth / glm::length(way)) &&
-      vertex.reflectance >= 0.0 && vertex.reflectance <= 1.0;
+      vertex.Reflectance >= 0.0 && vertex.Reflectance <= 1.0;
     if (!right)
     {
       this->count(&RefractionTally::Wrong, i, "virtual vertex", sight.x, sight.z);
@@ -364,13 +364,13 @@ private:
     {
       const glm::dvec3 normal = this->Test.Surface.GetNormal(sight.x, sight.z);
       const double cosine = -glm::dot(way, normal) / glm::length(way);
-      const double turn = 2.0 * this->Error.normal +
-        2.0 * (this->Error.position + this->Rounding) / glm::length(way) + 1e-9;
+      const double turn = 2.0 * this->Error.Normal +
+        2.0 * (this->Error.Position + this->Rounding) / glm::length(way) + 1e-9;
       const double ends[2] = { reflectance(cosine - turn, this->Test.Exterior, this->Test.Interior),
         reflectance(cosine + turn, this->Test.Exterior, this->Test.Interior) };
       // Towards the normal reflectance may have a shallow minimum, below both ends.
-      if (vertex.reflectance > std::max(ends[0], ends[1]) + 1e-6 ||
-        vertex.reflectance < std::min(ends[0], ends[1]) - 1e-3)
+      if (vertex.Reflectance > std::max(ends[0], ends[1]) + 1e-6 ||
+        vertex.Reflectance < std::min(ends[0], ends[1]) - 1e-3)
       {
         this->count(&RefractionTally::Wrong, i, "reflectance", sight.x, sight.z);
       }
@@ -396,9 +396,9 @@ private:
       }
       for (const VirtualVertex& vertex : images)
       {
-        const glm::dvec3 place = vertex.sightPoint - origin;
+        const glm::dvec3 place = vertex.SightPoint - origin;
         this->checkVertex(i, vertex);
-        const double residual = search.residual(local, place, vertex.facet);
+        const double residual = search.residual(local, place, vertex.Facet);
         this->Tally.Largest = std::max(this->Tally.Largest, residual);
         if (!(residual < 1e-6))
         {
@@ -416,7 +416,7 @@ private:
     for (const PatchSearch::Sight& sight : sights)
     {
       // On a caustic or a border rounding decides.
-      if (sight.condition < 1e-4 || sight.inside < 1e-9 || sight.facing < 1e-9)
+      if (sight.Condition < 1e-4 || sight.Inside < 1e-9 || sight.Facing < 1e-9)
       {
         uncertain = true;
         continue;
@@ -424,12 +424,12 @@ private:
       ++this->Tally.Images;
       const bool found = std::any_of(images.begin(), images.end(),
         [&](const VirtualVertex& vertex) {
-          return glm::length(vertex.sightPoint - origin - sight.place) <
+          return glm::length(vertex.SightPoint - origin - sight.Place) <
             1e-4 * this->Test.FacetSize;
         });
       if (!found)
       {
-        this->count(&RefractionTally::Missed, i, "missed image", sight.place.x, sight.place.z);
+        this->count(&RefractionTally::Missed, i, "missed image", sight.Place.x, sight.Place.z);
       }
     }
     this->Tally.Uncertain += uncertain;

@@ -39,7 +39,7 @@ void addWaves(RefractionCase& test, StressRandom& random, int count, double slop
     const double length = random.uniform(30.0, 150.0);
     const double angle = random.uniform(0.0, 2.0 * Pi);
     const double k = 2.0 * Pi / length;
-    test.Surface.waves.push_back({ slope / count * random.uniform(0.3, 1.0) / k,
+    test.Surface.Waves.push_back({ slope / count * random.uniform(0.3, 1.0) / k,
       k * std::cos(angle), k * std::sin(angle), random.uniform(0.0, 2.0 * Pi) });
     shortest = std::min(shortest, length);
   }
@@ -54,7 +54,7 @@ void addHills(RefractionCase& test, StressRandom& random)
     const double k = random.uniform(0.015, 0.04);
     // The steepest slope is 0.86 amplitude k.
     const double slope = random.uniform(0.1, 0.8) / count * (random.below(3) ? 1.0 : -1.0);
-    test.Surface.hills.push_back(
+    test.Surface.Hills.push_back(
       { slope / k, k, random.uniform(-60.0, 60.0), random.uniform(-60.0, 60.0) });
     test.FacetSize = std::min(test.FacetSize, 1.0 / (8.0 * k));
   }
@@ -81,7 +81,7 @@ RefractionCase makeSurface(StressRandom& random, int kind)
       addHills(test, random);
       break;
     case 2:
-      test.Surface.sphereRadius = Side * random.uniform(0.8, 5.0) * (random.below(2) ? 1.0 : -1.0);
+      test.Surface.SphereRadius = Side * random.uniform(0.8, 5.0) * (random.below(2) ? 1.0 : -1.0);
       test.FacetSize = Side / (6 + random.below(26));
       break;
     case 3:
@@ -232,17 +232,17 @@ RefractionCase makeDirty(StressRandom& random)
   MembraneMesh& mesh = test.Mesh;
   const auto facets = static_cast<int>(mesh.GetNumberOfFacets());
   const auto corner = [&mesh](int facet, int k)
-  { return mesh.triangles[static_cast<std::size_t>(3 * facet + k)]; };
+  { return mesh.Triangles[static_cast<std::size_t>(3 * facet + k)]; };
   const auto addCopy = [&mesh](std::int64_t id)
   {
     const auto at = static_cast<std::size_t>(3 * id);
-    mesh.AddPoint({ mesh.points[at], mesh.points[at + 1], mesh.points[at + 2] },
-      { mesh.normals[at], mesh.normals[at + 1], mesh.normals[at + 2] });
-    return static_cast<std::int64_t>(mesh.points.size() / 3) - 1;
+    mesh.AddPoint({ mesh.Points[at], mesh.Points[at + 1], mesh.Points[at + 2] },
+      { mesh.Normals[at], mesh.Normals[at + 1], mesh.Normals[at + 2] });
+    return static_cast<std::int64_t>(mesh.Points.size() / 3) - 1;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   mesh.AddPoint({ nan, 0.0, 0.0 }, { 0.0, 1.0, 0.0 });
-  const auto bad = static_cast<std::int64_t>(mesh.points.size() / 3) - 1;
+  const auto bad = static_cast<std::int64_t>(mesh.Points.size() / 3) - 1;
   for (int i = 0; i < facets / 8; ++i)
   {
     const int f = random.below(facets);
@@ -275,9 +275,9 @@ RefractionCase makeDirty(StressRandom& random)
   for (std::size_t i = mesh.GetNumberOfFacets(); i > 1; --i)
   {
     const auto j = static_cast<std::size_t>(random.below(static_cast<int>(i)));
-    std::swap_ranges(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(3 * (i - 1)),
-      mesh.triangles.begin() + static_cast<std::ptrdiff_t>(3 * i),
-      mesh.triangles.begin() + static_cast<std::ptrdiff_t>(3 * j));
+    std::swap_ranges(mesh.Triangles.begin() + static_cast<std::ptrdiff_t>(3 * (i - 1)),
+      mesh.Triangles.begin() + static_cast<std::ptrdiff_t>(3 * i),
+      mesh.Triangles.begin() + static_cast<std::ptrdiff_t>(3 * j));
   }
   return test;
 }
@@ -290,13 +290,13 @@ RefractionCase makeHoles(StressRandom& random)
   const bool inOnePiece = random.below(2) == 0;
   const glm::dvec3 middle = 0.7 * randomSight(test, random);
   std::vector<std::int64_t> kept;
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+  for (std::size_t i = 0; i < mesh.Triangles.size(); i += 3)
   {
     std::array<glm::dvec2, 3> corners;
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const auto at = static_cast<std::size_t>(3 * mesh.triangles[i + k]);
-      corners[k] = glm::dvec2(mesh.points[at], mesh.points[at + 2]);
+      const auto at = static_cast<std::size_t>(3 * mesh.Triangles[i + k]);
+      corners[k] = glm::dvec2(mesh.Points[at], mesh.Points[at + 2]);
     }
     const bool drop = inOnePiece
       ? glm::length(corners[0] - glm::dvec2(middle.x, middle.z)) < 0.18 * Side
@@ -307,10 +307,10 @@ RefractionCase makeHoles(StressRandom& random)
     }
     else
     {
-      kept.insert(kept.end(), { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] });
+      kept.insert(kept.end(), { mesh.Triangles[i], mesh.Triangles[i + 1], mesh.Triangles[i + 2] });
     }
   }
-  mesh.triangles = kept;
+  mesh.Triangles = kept;
   return test;
 }
 
@@ -351,15 +351,15 @@ RefractionCase makeFolded(StressRandom& random)
   const double swing = random.uniform(0.5, 1.6) / k; // above 1 / k it overhangs
   const double height = random.uniform(0.3, 1.5) / k;
   MembraneMesh& mesh = test.Mesh;
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
-    const double u = mesh.points[i];
-    mesh.points[i] = u + swing * std::sin(2.0 * k * u) * 0.5;
-    mesh.points[i + 1] = height * std::sin(k * u);
+    const double u = mesh.Points[i];
+    mesh.Points[i] = u + swing * std::sin(2.0 * k * u) * 0.5;
+    mesh.Points[i + 1] = height * std::sin(k * u);
     const glm::dvec3 along(
       1.0 + swing * k * std::cos(2.0 * k * u), height * k * std::cos(k * u), 0.0);
     const glm::dvec3 normal = glm::normalize(glm::dvec3(-along.y, along.x, 0.0));
-    std::copy(&normal.x, &normal.x + 3, mesh.normals.begin() + static_cast<std::ptrdiff_t>(i));
+    std::copy(&normal.x, &normal.x + 3, mesh.Normals.begin() + static_cast<std::ptrdiff_t>(i));
   }
   lookFromAbove(test, random);
   return test;
@@ -377,14 +377,14 @@ RefractionCase makeNonManifold(StressRandom& random)
   for (int i = 0; i < 40; ++i)
   {
     const auto f = static_cast<std::size_t>(random.below(static_cast<int>(facets)));
-    const std::int64_t a = mesh.triangles[3 * f];
-    const std::int64_t b = mesh.triangles[3 * f + 1];
+    const std::int64_t a = mesh.Triangles[3 * f];
+    const std::int64_t b = mesh.Triangles[3 * f + 1];
     const auto at = static_cast<std::size_t>(3 * a);
-    const glm::dvec3 tip = glm::dvec3(mesh.points[at], mesh.points[at + 1], mesh.points[at + 2]) +
+    const glm::dvec3 tip = glm::dvec3(mesh.Points[at], mesh.Points[at + 1], mesh.Points[at + 2]) +
       test.FacetSize *
         glm::dvec3(random.uniform(-1.0, 1.0), random.uniform(-0.5, 0.5), random.uniform(-1.0, 1.0));
     mesh.AddPoint(tip, test.Surface.GetNormal(tip.x, tip.z));
-    mesh.AddTriangle(a, b, static_cast<std::int64_t>(mesh.points.size() / 3) - 1);
+    mesh.AddTriangle(a, b, static_cast<std::int64_t>(mesh.Points.size() / 3) - 1);
   }
   lookFromAbove(test, random);
   return test;

@@ -27,12 +27,12 @@ using Triangle = std::array<glm::dvec3, 3>;
 constexpr double Tolerance = 0.005 * 3.14159265358979323846 / 180.0;
 constexpr int PlacesPerTriangle = 8;
 
-/// A triangle of a fan: where it is drawn, and what it shows, in barycentric coordinates.
+/** A triangle of a fan: where it is drawn, and what it shows, in barycentric coordinates. */
 struct Piece
 {
-  std::array<glm::dvec3, 3> drawn;
-  std::array<glm::dvec3, 3> sight;
-  std::array<glm::dvec3, 3> weights;
+  std::array<glm::dvec3, 3> Drawn;
+  std::array<glm::dvec3, 3> Sight;
+  std::array<glm::dvec3, 3> Weights;
 };
 
 glm::dvec3 weightsOf(const ImagePoint& point)
@@ -40,9 +40,9 @@ glm::dvec3 weightsOf(const ImagePoint& point)
   glm::dvec3 result(0.0);
   for (std::size_t k = 0; k < 3; ++k)
   {
-    if (point.source[k] >= 0)
+    if (point.Source[k] >= 0)
     {
-      result[static_cast<int>(point.source[k])] += point.weight[k];
+      result[static_cast<int>(point.Source[k])] += point.Weight[k];
     }
   }
   return result;
@@ -52,7 +52,7 @@ void addPieces(
   const ImageMesh& mesh, const std::vector<ImagePoint>& points, std::vector<Piece>& pieces)
 {
   std::int64_t begin = 0;
-  for (const std::int64_t end : mesh.ends)
+  for (const std::int64_t end : mesh.Ends)
   {
     for (std::int64_t k = begin + 2; k < end; ++k)
     {
@@ -61,10 +61,10 @@ void addPieces(
       for (std::size_t i = 0; i < 3; ++i)
       {
         const ImagePoint& point =
-          points[static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(ids[i])])];
-        piece.drawn[i] = point.vertex.position;
-        piece.sight[i] = point.vertex.sightPoint;
-        piece.weights[i] = weightsOf(point);
+          points[static_cast<std::size_t>(mesh.Connectivity[static_cast<std::size_t>(ids[i])])];
+        piece.Drawn[i] = point.Vertex.Position;
+        piece.Sight[i] = point.Vertex.SightPoint;
+        piece.Weights[i] = weightsOf(point);
       }
       pieces.push_back(piece);
     }
@@ -88,7 +88,7 @@ std::vector<Piece> draw(const CurvedMembraneSolver& geometry, const Triangle& tr
   unsigned char isMapped = 0;
   images.MapPolygons({ offsets, connectivity }, &name, 0, 1, nullptr, pieces, whole, &isMapped);
   std::vector<Piece> result;
-  addPieces(pieces, pieces.points, result);
+  addPieces(pieces, pieces.Points, result);
   addPieces(whole, images.GetPointImages(), result);
   return result;
 }
@@ -97,9 +97,9 @@ std::vector<Piece> draw(const CurvedMembraneSolver& geometry, const Triangle& tr
 bool locate(const Piece& piece, const glm::dvec3& weights, double slack, glm::dvec3& inside)
 {
   const auto cross = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y * b.z - a.z * b.y; };
-  const glm::dvec3 u = piece.weights[1] - piece.weights[0];
-  const glm::dvec3 v = piece.weights[2] - piece.weights[0];
-  const glm::dvec3 w = weights - piece.weights[0];
+  const glm::dvec3 u = piece.Weights[1] - piece.Weights[0];
+  const glm::dvec3 v = piece.Weights[2] - piece.Weights[0];
+  const glm::dvec3 w = weights - piece.Weights[0];
   const double area = cross(u, v);
   inside.y = cross(w, v) / area;
   inside.z = cross(u, w) / area;
@@ -140,8 +140,8 @@ public:
 private:
   struct Shown
   {
-    glm::dvec3 direction;
-    bool isTrue;
+    glm::dvec3 Direction;
+    bool IsTrue;
   };
 
   void checkPlace(
@@ -151,12 +151,12 @@ private:
       weights.x * triangle[0] + weights.y * triangle[1] + weights.z * triangle[2];
     ++this->Tally.Points;
     const OracleAnswer answer = this->Oracle.Find(place);
-    if (!answer.complete)
+    if (!answer.Complete)
     {
       ++this->Tally.GivenUp;
       return;
     }
-    this->Tally.Uncertain += !answer.uncertain.empty();
+    this->Tally.Uncertain += !answer.Uncertain.empty();
     std::vector<Shown> shown;
     for (const Piece& piece : pieces)
     {
@@ -164,18 +164,18 @@ private:
       if (locate(piece, weights, 1e-9, inside))
       {
         const glm::dvec3 drawn =
-          inside.x * piece.drawn[0] + inside.y * piece.drawn[1] + inside.z * piece.drawn[2];
+          inside.x * piece.Drawn[0] + inside.y * piece.Drawn[1] + inside.z * piece.Drawn[2];
         const glm::dvec3 sight =
-          inside.x * piece.sight[0] + inside.y * piece.sight[1] + inside.z * piece.sight[2];
+          inside.x * piece.Sight[0] + inside.y * piece.Sight[1] + inside.z * piece.Sight[2];
         const glm::dvec3 direction = glm::normalize(drawn - this->Test.Eye);
         shown.push_back({ direction, this->shows(triangle, place, direction, sight) });
-        if (!shown.back().isTrue)
+        if (!shown.back().IsTrue)
         {
           this->count(&RefractionTally::False, "a piece shows another place", place, sight);
         }
       }
     }
-    for (const OracleImage& image : answer.images)
+    for (const OracleImage& image : answer.Images)
     {
       ++this->Tally.Images;
       this->checkImage(answer, image, shown, place);
@@ -211,7 +211,7 @@ private:
       return true; // at the critical angle or the edge of a grazing view
     }
     const double angle =
-      4.0 * Tolerance + 4.0 * (this->Error.position / distance + 2.0 * this->Error.normal);
+      4.0 * Tolerance + 4.0 * (this->Error.Position / distance + 2.0 * this->Error.Normal);
     const glm::dvec3 right = glm::normalize(glm::cross(
       direction, std::fabs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
     const glm::dvec3 up = glm::cross(right, direction);
@@ -234,22 +234,22 @@ private:
   void checkImage(const OracleAnswer& answer, const OracleImage& image,
     const std::vector<Shown>& shown, const glm::dvec3& place)
   {
-    const glm::dvec3 direction = glm::normalize(image.sight - this->Test.Eye);
-    const double distance = glm::length(image.sight - this->Test.Eye);
+    const glm::dvec3 direction = glm::normalize(image.Sight - this->Test.Eye);
+    const double distance = glm::length(image.Sight - this->Test.Eye);
     // Half way to where another image may be.
     double limit = 0.1;
-    for (const OracleImage& other : answer.images)
+    for (const OracleImage& other : answer.Images)
     {
-      const double apart = glm::length(glm::normalize(other.sight - this->Test.Eye) - direction);
+      const double apart = glm::length(glm::normalize(other.Sight - this->Test.Eye) - direction);
       limit = apart > 0.0 ? std::min(limit, 0.5 * apart) : limit;
     }
-    limit = std::max(limit, 8.0 * Tolerance + 2.0 * image.radius / distance);
+    limit = std::max(limit, 8.0 * Tolerance + 2.0 * image.Radius / distance);
     const bool found = std::any_of(shown.begin(), shown.end(),
       [&](const Shown& other)
-      { return other.isTrue && glm::length(other.direction - direction) <= limit; });
+      { return other.IsTrue && glm::length(other.Direction - direction) <= limit; });
     if (!found)
     {
-      this->count(&RefractionTally::Missed, "no piece shows an image", place, image.sight);
+      this->count(&RefractionTally::Missed, "no piece shows an image", place, image.Sight);
     }
   }
 

@@ -18,10 +18,10 @@ namespace meniscus
 namespace test
 {
 
-/// What decides whether a picture is right.
+/** What decides whether a picture is right. */
 enum class StressRule
 {
-  /// Cells do not overlap: the double reference, pixel by pixel.
+  /** Cells do not overlap: the double reference, pixel by pixel. */
   Reference,
   /**
    * There is no truth to the last digit (tangled cells, cells below the resolution of single
@@ -32,7 +32,7 @@ enum class StressRule
   Bounds
 };
 
-/// A mesh, a function and views of it.
+/** A mesh, a function and views of it. */
 struct StressCase
 {
   std::string Name;
@@ -41,12 +41,14 @@ struct StressCase
   std::vector<VolumeView> Views;
   StressRule Rule = StressRule::Reference;
   int Size = 64; ///< pixels per side
-  /// Pixels on silhouettes that are excused, as a share of those covered. Aligned rays run in the
-  /// mesh's boundary by design.
+  /**
+   * Pixels on silhouettes that are excused, as a share of those covered. Aligned rays run in the
+   * mesh's boundary by design.
+   */
   double SilhouetteShare = 0.01;
 };
 
-/// Cases of one kind, made one by one.
+/** Cases of one kind, made one by one. */
 struct StressFamily
 {
   std::string Name;

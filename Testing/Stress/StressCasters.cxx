@@ -33,7 +33,7 @@ namespace test
 namespace
 {
 
-/// The input of ComputeRayFrame but for the mesh's centre and radius.
+/** The input of ComputeRayFrame but for the mesh's centre and radius. */
 RayFrameInput frameInput(const VolumeView& view, int size)
 {
   RayFrameInput input;
@@ -46,7 +46,7 @@ RayFrameInput frameInput(const VolumeView& view, int size)
   return input;
 }
 
-/// The kernel alone, without VTK's pipeline and without a window.
+/** The kernel alone, without VTK's pipeline and without a window. */
 class KernelCaster : public StressCaster
 {
 public:
@@ -144,7 +144,7 @@ private:
   std::vector<TransferFunctionInterval> Intervals;
 };
 
-/// The mapper in an off-screen window, read back in float.
+/** The mapper in an off-screen window, read back in float. */
 class MapperCaster : public StressCaster
 {
 public:

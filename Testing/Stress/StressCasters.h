@@ -26,7 +26,7 @@ struct StressImage
   std::int64_t Lost = 0;
 };
 
-/// Draws one case after the other, each in all of its views.
+/** Draws one case after the other, each in all of its views. */
 class StressCaster
 {
 public:
@@ -35,7 +35,7 @@ public:
   virtual StressImage cast(const VolumeView& view) = 0;
 };
 
-/// "kernel", "opengl" or "native" (the last two: the mapper with that backend); null for others.
+/** "kernel", "opengl" or "native" (the last two: the mapper with that backend); null for others. */
 std::unique_ptr<StressCaster> makeStressCaster(const std::string& name);
 
 } // namespace test

@@ -13,16 +13,16 @@ namespace meniscus
 namespace test
 {
 
-/// What became of the cases of a family as processes.
+/** What became of the cases of a family as processes. */
 struct ProcessResult
 {
-  /// All that ran, with those that did not come to an end.
+  /** All that ran, with those that did not come to an end. */
   int Cases = 0;
-  /// Cases in which the process ended by itself, and cases in which it did not come to an end.
+  /** Cases in which the process ended by itself, and cases in which it did not come to an end. */
   int Crashed = 0;
   int Stuck = 0;
   double Seconds = 0.0;
-  /// What is to be looked at, one line each, at most MostNotes of them.
+  /** What is to be looked at, one line each, at most MostNotes of them. */
   std::vector<std::string> Notes;
 
   static constexpr std::size_t MostNotes = 10;
@@ -35,14 +35,14 @@ struct ProcessResult
   }
 };
 
-/// Runs one case and returns what came of it as one line.
+/** Runs one case and returns what came of it as one line. */
 using CaseWork = std::function<std::string(int index)>;
-/// Makes what all cases of a process share, in that process.
+/** Makes what all cases of a process share, in that process. */
 using CaseStart = std::function<CaseWork()>;
-/// Takes a line that a case returned.
+/** Takes a line that a case returned. */
 using CaseTaker = std::function<void(int index, const std::string& line)>;
 
-/// Takes a case that came to no end: its process ended by itself, or is stuck.
+/** Takes a case that came to no end: its process ended by itself, or is stuck. */
 using CaseLoss = std::function<void(int index, bool stuck)>;
 
 /**

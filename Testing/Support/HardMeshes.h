@@ -16,20 +16,22 @@ namespace meniscus
 namespace test
 {
 
-/// Replaces every point by the function of it.
+/** Replaces every point by the function of it. */
 void mapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map);
 
-/// Share of cells whose volume has another sign than most.
+/** Share of cells whose volume has another sign than most. */
 double invertedShare(vtkUnstructuredGrid* grid);
 
-/// A block tangled until at least the share of its cells is inverted.
+/** A block tangled until at least the share of its cells is inverted. */
 Grid makeTangledBlock(int n, double share, unsigned int seed);
 
-/// A block with every second layer of cubes thinned to the share of the others' thickness, in all
-/// directions; 0 gives runs of cells without volume.
+/**
+ * A block with every second layer of cubes thinned to the share of the others' thickness, in all
+ * directions; 0 gives runs of cells without volume.
+ */
 Grid makeLayeredBlock(int n, double share);
 
-/// Two blocks that touch in a plane but share no point.
+/** Two blocks that touch in a plane but share no point. */
 Grid makeSeam(int n);
 
 /**
@@ -39,8 +41,10 @@ Grid makeSeam(int n);
  */
 Grid makeRandomMesh(RandomNumbers& random);
 
-/// Unconnected and wrongly connected cells: random vertices, repeated vertices and cells, faces of
-/// more than two cells.
+/**
+ * Unconnected and wrongly connected cells: random vertices, repeated vertices and cells, faces of
+ * more than two cells.
+ */
 Grid makeSoup(RandomNumbers& random);
 
 } // namespace test

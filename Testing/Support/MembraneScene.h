@@ -16,28 +16,30 @@ namespace meniscus
 namespace test
 {
 
-/// A membrane as the mapper gets it and as the reference has it.
+/** A membrane as the mapper gets it and as the reference has it. */
 struct MembraneCase
 {
   vtkSmartPointer<vtkPolyData> Mesh;
   reference::RefractingSurface Surface;
 
-  /// What rays show of which a part shows `trace`, in front of the membrane or behind it; without a
-  /// mesh, `trace` itself.
+  /**
+   * What rays show of which a part shows `trace`, in front of the membrane or behind it; without a
+   * mesh, `trace` itself.
+   */
   TraceRay bend(const TraceRay& trace) const;
 };
 
-/// Triangles of a height field y(x, z) over the square of half side `half`, with exact normals.
+/** Triangles of a height field y(x, z) over the square of half side `half`, with exact normals. */
 vtkSmartPointer<vtkPolyData> makeHeightField(const std::function<double(double, double)>& height,
   const reference::RefractingSurface& surface, double half, int cells);
 
-/// The plane y = level over a square.
+/** The plane y = level over a square. */
 MembraneCase makePlaneCase(double level, double half, int cells);
 
-/// The top of a sphere, convex to the eye, over a square; the apex is at y = apex.
+/** The top of a sphere, convex to the eye, over a square; the apex is at y = apex. */
 MembraneCase makeDomeCase(double apex, double radius, double half, int cells);
 
-/// y = level + amplitude sin(k x) sin(k z) over a square.
+/** y = level + amplitude sin(k x) sin(k z) over a square. */
 MembraneCase makeWavesCase(double level, double amplitude, double k, double half, int cells);
 
 } // namespace test

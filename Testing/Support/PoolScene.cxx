@@ -55,12 +55,12 @@ constexpr int SkySize = 128;
 reference::HeightField waves(double time)
 {
   reference::HeightField field;
-  field.shape = reference::HeightField::Shape::Waves;
-  field.side = 2.0 * HalfWidth;
-  field.amplitude = 2.0 * std::cos(time);
-  field.k = 0.12;
-  field.exterior = 1.0;
-  field.interior = Index;
+  field.Shape = reference::HeightField::Shape::Waves;
+  field.Side = 2.0 * HalfWidth;
+  field.Amplitude = 2.0 * std::cos(time);
+  field.K = 0.12;
+  field.Exterior = 1.0;
+  field.Interior = Index;
   return field;
 }
 
@@ -69,7 +69,7 @@ unsigned char toByte(double value)
   return static_cast<unsigned char>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
 }
 
-/// Tiles with soft joints.
+/** Tiles with soft joints. */
 vtkSmartPointer<vtkImageData> makeTiles()
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -117,7 +117,7 @@ glm::dvec3 sample(vtkImageData* image, double u, double v)
     t * ((1.0 - s) * fetch(i, j + 1) + s * fetch(i + 1, j + 1));
 }
 
-/// Direction of a texel of a cube map: face, column and row after OpenGL's table of faces.
+/** Direction of a texel of a cube map: face, column and row after OpenGL's table of faces. */
 glm::dvec3 cubeDirection(int face, int column, int row)
 {
   const double s = 2.0 * (column + 0.5) / SkySize - 1.0;
@@ -214,7 +214,7 @@ vtkSmartPointer<vtkPolyData> place(vtkPolyDataAlgorithm* source, const glm::dvec
   return data;
 }
 
-/// The nearest of several surfaces behind a point.
+/** The nearest of several surfaces behind a point. */
 class PoolHit
 {
 public:
@@ -399,7 +399,7 @@ void PoolScene::setAccuracy(bool allImages, double tolerance)
   for (const Part& part : this->Parts)
   {
     part.Filter->SetImages(
-      allImages ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
+      allImages ? vtkRefractedGeometryFilter::AllImages : vtkRefractedGeometryFilter::FirstImage);
     part.Filter->SetAngularTolerance(tolerance);
   }
 }
@@ -473,7 +473,7 @@ PoolPicture PoolScene::trace() const
         picture.Colors[static_cast<std::size_t>(i)] = this->shade(sight);
       }
     });
-  picture.isWater.assign(isWater.begin(), isWater.end());
+  picture.IsWater.assign(isWater.begin(), isWater.end());
   return picture;
 }
 

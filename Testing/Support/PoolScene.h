@@ -34,7 +34,7 @@ namespace meniscus
 namespace testing
 {
 
-/// What the water does besides refracting.
+/** What the water does besides refracting. */
 struct PoolOptics
 {
   bool Fresnel = false;
@@ -42,17 +42,17 @@ struct PoolOptics
   glm::dvec3 Attenuation{ 0.0 };
 };
 
-/// Colour of the sky in a direction, smooth.
+/** Colour of the sky in a direction, smooth. */
 glm::dvec3 skyColor(const glm::dvec3& direction);
 
-/// Colours from 0 to 1 of each pixel, rows upwards; `isWater` where the ray meets the water.
+/** Colours from 0 to 1 of each pixel, rows upwards; `isWater` where the ray meets the water. */
 struct PoolPicture
 {
   std::vector<glm::dvec3> Colors;
-  std::vector<bool> isWater;
+  std::vector<bool> IsWater;
 };
 
-/// What a ray from the eye meets.
+/** What a ray from the eye meets. */
 struct PoolSight
 {
   glm::dvec3 Ray;    ///< from the eye, a unit vector
@@ -68,16 +68,16 @@ class PoolScene
 public:
   static constexpr int Pixels = 512;
 
-  /// `cells` x `cells` x 2 facets of water.
+  /** `cells` x `cells` x 2 facets of water. */
   explicit PoolScene(int cells, double time = 0.0);
   ~PoolScene();
 
   void setOptics(const PoolOptics& optics);
-  /// Of all filters: all images or one, and the tolerance in degrees.
+  /** Of all filters: all images or one, and the tolerance in degrees. */
   void setAccuracy(bool allImages, double tolerance);
-  /// The walls alone, or the objects as well.
+  /** The walls alone, or the objects as well. */
   void showObjects(bool show);
-  /// Other waves.
+  /** Other waves. */
   void moveWater(double time);
 
   vtkRenderWindow* window() const { return this->Window.window(); }
@@ -86,13 +86,13 @@ public:
 
   test::ByteImage draw();
 
-  /// What rays through the exact waves see, refracted once.
+  /** What rays through the exact waves see, refracted once. */
   PoolPicture trace() const;
 
-  /// The colour of a pixel, for rays that somebody else has traced.
+  /** The colour of a pixel, for rays that somebody else has traced. */
   glm::dvec3 shade(const PoolSight& sight) const;
   int numberOfParts() const { return static_cast<int>(this->Parts.size()); }
-  /// Triangles.
+  /** Triangles. */
   vtkPolyData* partData(int part) const { return this->Parts[static_cast<std::size_t>(part)].Data; }
   const reference::HeightField& field() const { return this->Field; }
 

@@ -14,14 +14,14 @@ namespace meniscus
 namespace test
 {
 
-/// What every programme of random cases takes on its command line.
+/** What every programme of random cases takes on its command line. */
 struct ProgrammeOptions
 {
   double Intensity = 1.0;
   std::uint64_t Seed = 1;
-  /// Name of the option that chooses groups of cases: "--family" or "--relation".
+  /** Name of the option that chooses groups of cases: "--family" or "--relation". */
   std::string GroupOption = "--family";
-  /// Text in the names of the groups to run; empty: all.
+  /** Text in the names of the groups to run; empty: all. */
   std::string Group;
   int Case = -1;
   double Seconds = 300.0;
@@ -30,7 +30,7 @@ struct ProgrammeOptions
   bool has(const std::string& group) const { return group.find(this->Group) != std::string::npos; }
 };
 
-/// Their usage, one line each.
+/** Their usage, one line each. */
 extern const char* const ProgrammeUsage;
 
 template <typename Number>
@@ -40,10 +40,10 @@ bool readNumber(const std::string& text, Number& value)
   return in >> value && in.eof() && value >= Number(0);
 }
 
-/// Takes an option that only one programme has; false if it is unknown or its value is bad.
+/** Takes an option that only one programme has; false if it is unknown or its value is bad. */
 using OptionReader = std::function<bool(const std::string& key, const std::string& value)>;
 
-/// Prints the tables and returns whether all is good.
+/** Prints the tables and returns whether all is good. */
 using ProgrammeRunner = std::function<bool(std::ostream&)>;
 
 /**

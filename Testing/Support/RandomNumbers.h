@@ -13,7 +13,7 @@ namespace meniscus
 namespace test
 {
 
-/// Numbers that every standard library draws alike.
+/** Numbers that every standard library draws alike. */
 class RandomNumbers
 {
 public:
@@ -21,7 +21,7 @@ public:
     : State(seed)
   {
   }
-  /// SplitMix64 (Steele, Lea and Flood 2014).
+  /** SplitMix64 (Steele, Lea and Flood 2014). */
   std::uint64_t bits()
   {
     std::uint64_t z = (this->State += 0x9e3779b97f4a7c15u);

@@ -22,7 +22,9 @@ namespace meniscus
 namespace test
 {
 
-/// What the reference says about the pixels of a viewport, premultiplied, rows from the bottom up.
+/**
+ * What the reference says about the pixels of a viewport, premultiplied, rows from the bottom up.
+ */
 struct ReferenceImage
 {
   int Width = 0;
@@ -37,11 +39,13 @@ struct ReferenceImage
   }
 };
 
-/// The reference on a grid's active point scalars, in world coordinates (matrix may be null).
+/** The reference on a grid's active point scalars, in world coordinates (matrix may be null). */
 std::unique_ptr<reference::ReferenceRayIntegrator> makeReference(
   vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix = nullptr);
 
-/// The ray of a pixel (counted from the viewport's lower left corner); may be shortened by a scene.
+/**
+ * The ray of a pixel (counted from the viewport's lower left corner); may be shortened by a scene.
+ */
 using RayOfPixel = std::function<reference::Ray(int, int)>;
 
 /**
@@ -52,14 +56,16 @@ std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegra
   int width, int height, const RayOfPixel& rayOf,
   const std::vector<reference::ReferenceTransferFunction>& functions);
 
-/// Largest difference between image and reference that counts as equal in float.
+/** Largest difference between image and reference that counts as equal in float. */
 constexpr double FloatTolerance = 1e-4;
 
-/// What float rounding of the vertices moves a mesh by, relative to its diagonal: 2^-24 of twice
-/// the half diagonal in each direction, and the same again from the ray's direction.
+/**
+ * What float rounding of the vertices moves a mesh by, relative to its diagonal: 2^-24 of twice
+ * the half diagonal in each direction, and the same again from the ray's direction.
+ */
 constexpr double RoundingDistance = 1e-7;
 
-/// Share of a mesh's covered pixels that may be excused as silhouette before a test fails.
+/** Share of a mesh's covered pixels that may be excused as silhouette before a test fails. */
 constexpr double LargestSilhouetteShare = 1e-3;
 
 struct Comparison
@@ -82,7 +88,7 @@ struct Comparison
   std::string text() const;
 };
 
-/// Compares a float image with the reference pixel by pixel.
+/** Compares a float image with the reference pixel by pixel. */
 Comparison compareToReference(const FloatImage& image, const ReferenceImage& truth,
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
   double tolerance = FloatTolerance);

@@ -27,14 +27,14 @@ constexpr double AcceptedPixels = 0.5;
 
 struct DrawnCorner
 {
-  glm::dvec3 pixel;
-  glm::dvec3 place;
+  glm::dvec3 Pixel;
+  glm::dvec3 Place;
 };
 
 void DrawTriangle(
   const std::array<DrawnCorner, 3>& corner, const PixelCamera& camera, PlacePicture& picture)
 {
-  const glm::dvec3 p[3] = { corner[0].pixel, corner[1].pixel, corner[2].pixel };
+  const glm::dvec3 p[3] = { corner[0].Pixel, corner[1].Pixel, corner[2].Pixel };
   const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
   const double last = camera.GetPixels() - 1.0;
   const auto bound = [last](double value) { return std::min(std::max(value, 0.0), last); };
@@ -61,10 +61,10 @@ void DrawTriangle(
       }
       const double sum = w[0] + w[1] + w[2];
       PlacePixel& pixel = picture[static_cast<std::size_t>(y * camera.GetPixels() + x)];
-      if (1.0 / sum < pixel.depth)
+      if (1.0 / sum < pixel.Depth)
       {
         pixel = { true, 1.0 / sum,
-          (w[0] * corner[0].place + w[1] * corner[1].place + w[2] * corner[2].place) / sum };
+          (w[0] * corner[0].Place + w[1] * corner[1].Place + w[2] * corner[2].Place) / sum };
       }
     }
   }
@@ -109,15 +109,15 @@ vtkSmartPointer<vtkPolyData> MakeMembrane(
   vtkNew<vtkDoubleArray> normals;
   normals->SetNumberOfComponents(3);
   normals->SetName("Normals");
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
-    points->InsertNextPoint(mesh.points.data() + i);
-    normals->InsertNextTuple(mesh.normals.data() + i);
+    points->InsertNextPoint(mesh.Points.data() + i);
+    normals->InsertNextTuple(mesh.Normals.data() + i);
   }
   vtkNew<vtkCellArray> triangles;
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3)
+  for (std::size_t i = 0; i < mesh.Triangles.size(); i += 3)
   {
-    const vtkIdType ids[3] = { mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2] };
+    const vtkIdType ids[3] = { mesh.Triangles[i], mesh.Triangles[i + 1], mesh.Triangles[i + 2] };
     triangles->InsertNextCell(3, ids);
   }
   auto membrane = vtkSmartPointer<vtkPolyData>::New();
@@ -149,9 +149,9 @@ PlacePicture DrawPlaces(vtkPolyData* data, const PixelCamera& camera)
         const vtkIdType id = ids[i == 0 ? 0 : k - 2 + static_cast<vtkIdType>(i)];
         double x[3];
         data->GetPoint(id, x);
-        corner[i].pixel = camera.Project({ x[0], x[1], x[2] });
+        corner[i].Pixel = camera.Project({ x[0], x[1], x[2] });
         places->GetTuple(id, x);
-        corner[i].place = glm::dvec3(x[0], x[1], x[2]);
+        corner[i].Place = glm::dvec3(x[0], x[1], x[2]);
       }
       DrawTriangle(corner, camera, picture);
     }
@@ -188,7 +188,7 @@ PlacePicture TracePlaces(
       const glm::dvec3 ray = camera.GetRay(x, y);
       const glm::dvec3 s = membrane.Intersect(eye, ray, -eye.y / std::min(ray.y, -1e-3));
       const auto behind = membrane.Refract(eye, s, 1.0);
-      if (behind && std::max(std::fabs(s.x), std::fabs(s.z)) <= 0.5 * membrane.side)
+      if (behind && std::max(std::fabs(s.x), std::fabs(s.z)) <= 0.5 * membrane.Side)
       {
         picture[static_cast<std::size_t>(y * pixels + x)] = object(s, *behind - s);
       }
@@ -205,8 +205,8 @@ PlaceTracer MakeSquareTracer(double y, double size)
     PlacePixel pixel;
     if (direction.y < 0.0)
     {
-      pixel.place = start + direction * ((y - start.y) / direction.y);
-      pixel.covered = std::max(std::fabs(pixel.place.x), std::fabs(pixel.place.z)) <= 0.5 * size;
+      pixel.Place = start + direction * ((y - start.y) / direction.y);
+      pixel.Covered = std::max(std::fabs(pixel.Place.x), std::fabs(pixel.Place.z)) <= 0.5 * size;
     }
     return pixel;
   };
@@ -215,7 +215,7 @@ PlaceTracer MakeSquareTracer(double y, double size)
 //------------------------------------------------------------------------------
 PixelCamera PictureScene::GetCamera() const
 {
-  return { this->eye, { 0.0, 0.0, 0.0 }, 0.5 * this->field.side / this->eye.y };
+  return { this->Eye, { 0.0, 0.0, 0.0 }, 0.5 * this->Field.Side / this->Eye.y };
 }
 
 //------------------------------------------------------------------------------
@@ -244,7 +244,7 @@ double GetFootprint(const PlacePicture& picture, const PixelCamera& camera, std:
   {
     if (j < picture.size())
     {
-      largest = std::max(largest, glm::length(picture[j].place - picture[pixel].place));
+      largest = std::max(largest, glm::length(picture[j].Place - picture[pixel].Place));
     }
   }
   return largest;
@@ -258,13 +258,13 @@ PlaceComparison ComparePlaces(
   std::vector<double> errors;
   for (std::size_t i = 0; i < truth.size(); ++i)
   {
-    result.covered += truth[i].covered;
-    result.coverage += truth[i].covered != other[i].covered;
-    if (truth[i].covered && other[i].covered)
+    result.Covered += truth[i].Covered;
+    result.Coverage += truth[i].Covered != other[i].Covered;
+    if (truth[i].Covered && other[i].Covered)
     {
-      const double error = glm::length(truth[i].place - other[i].place);
+      const double error = glm::length(truth[i].Place - other[i].Place);
       errors.push_back(error / GetFootprint(truth, camera, i));
-      result.place += errors.back() > AcceptedPixels;
+      result.Place += errors.back() > AcceptedPixels;
     }
   }
   if (!errors.empty())
@@ -272,7 +272,7 @@ PlaceComparison ComparePlaces(
     const auto at = static_cast<std::size_t>(PlaceComparison::Part * (errors.size() - 1.0));
     std::nth_element(
       errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(at), errors.end());
-    result.error = errors[at];
+    result.Error = errors[at];
   }
   return result;
 }

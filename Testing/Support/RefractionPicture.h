@@ -23,12 +23,14 @@ class vtkPolyData;
 namespace meniscus::testing
 {
 
-/// A membrane of the references as data set, with or without its normals.
+/** A membrane of the references as data set, with or without its normals. */
 vtkSmartPointer<vtkPolyData> MakeMembrane(
   const reference::MembraneMesh& mesh, bool withNormals = true);
 
-/// A pinhole camera at the eye that looks at a point, with square pictures. `halfTangent` is the
-/// tangent of half the angle of view; z points up in the picture.
+/**
+ * A pinhole camera at the eye that looks at a point, with square pictures. `halfTangent` is the
+ * tangent of half the angle of view; z points up in the picture.
+ */
 class PixelCamera
 {
 public:
@@ -37,11 +39,11 @@ public:
 
   int GetPixels() const { return this->Pixels; }
   const glm::dvec3& GetEye() const { return this->Eye; }
-  /// Unit direction through the middle of a pixel.
+  /** Unit direction through the middle of a pixel. */
   glm::dvec3 GetRay(int x, int y) const;
-  /// Pixel coordinates, and depth along the view.
+  /** Pixel coordinates, and depth along the view. */
   glm::dvec3 Project(const glm::dvec3& point) const;
-  /// Ray (x, y) has the direction forward + x' right + y' up with x' and y' from -1 to 1.
+  /** Ray (x, y) has the direction forward + x' right + y' up with x' and y' from -1 to 1. */
   const glm::dvec3& GetForward() const { return this->Forward; }
   const glm::dvec3& GetRight() const { return this->Right; }
   const glm::dvec3& GetUp() const { return this->Up; }
@@ -54,60 +56,64 @@ private:
   int Pixels;
 };
 
-/// What a pixel shows of the object: a place, or nothing. Pixels beside the object have places,
-/// too, if it has a plane that goes on.
+/**
+ * What a pixel shows of the object: a place, or nothing. Pixels beside the object have places,
+ * too, if it has a plane that goes on.
+ */
 struct PlacePixel
 {
-  bool covered = false;
-  double depth = std::numeric_limits<double>::max();
-  glm::dvec3 place{ 0.0 };
+  bool Covered = false;
+  double Depth = std::numeric_limits<double>::max();
+  glm::dvec3 Place{ 0.0 };
 };
 using PlacePicture = std::vector<PlacePixel>;
 
-/// Draws the polygons as fans of triangles, with perspective-correct interpolation of the point
-/// array "Place" of three components.
+/**
+ * Draws the polygons as fans of triangles, with perspective-correct interpolation of the point
+ * array "Place" of three components.
+ */
 PlacePicture DrawPlaces(vtkPolyData* data, const PixelCamera& camera);
 
-/// Adds the point array "Place" with the points' own coordinates.
+/** Adds the point array "Place" with the points' own coordinates. */
 void AddPlaces(vtkPolyData* data);
 
-/// Where a ray behind the membrane meets the object; covered or not.
+/** Where a ray behind the membrane meets the object; covered or not. */
 using PlaceTracer = std::function<PlacePixel(const glm::dvec3& start, const glm::dvec3& direction)>;
 
-/// What the membrane shows of an object; pixels beside the membrane stay empty.
+/** What the membrane shows of an object; pixels beside the membrane stay empty. */
 PlacePicture TracePlaces(
   const reference::HeightField& membrane, const PixelCamera& camera, const PlaceTracer& object);
 
-/// A horizontal square about the axis, at height `y`.
+/** A horizontal square about the axis, at height `y`. */
 PlaceTracer MakeSquareTracer(double y, double size);
 
-/// What a pixel covers of the object: the largest step to a neighbour's place.
+/** What a pixel covers of the object: the largest step to a neighbour's place. */
 double GetFootprint(const PlacePicture& picture, const PixelCamera& camera, std::size_t pixel);
 
-/// A membrane above a horizontal square of tiles.
+/** A membrane above a horizontal square of tiles. */
 struct PictureScene
 {
-  std::string name;
-  reference::HeightField field;
-  glm::dvec3 eye;
-  int cells;    ///< of the membrane
-  double depth; ///< of the square
-  double size;  ///< its side
-  int tiles;    ///< a side
+  std::string Name;
+  reference::HeightField Field;
+  glm::dvec3 Eye;
+  int Cells;    ///< of the membrane
+  double Depth; ///< of the square
+  double Size;  ///< its side
+  int Tiles;    ///< a side
 
   PixelCamera GetCamera() const;
 };
 
-/// Domes and waves with zones of convergence.
+/** Domes and waves with zones of convergence. */
 const std::vector<PictureScene>& GetPictureScenes();
 
 struct PlaceComparison
 {
-  int covered = 0;  ///< in the truth
-  int coverage = 0; ///< pixels that only one of the two covers
-  int place = 0;    ///< pixels more than half a pixel off
-  /// Of all pixels that both cover, the largest error in pixels of `Part`.
-  double error = 0.0;
+  int Covered = 0;  ///< in the truth
+  int Coverage = 0; ///< pixels that only one of the two covers
+  int Place = 0;    ///< pixels more than half a pixel off
+  /** Of all pixels that both cover, the largest error in pixels of `Part`. */
+  double Error = 0.0;
 
   static constexpr double Part = 0.99;
 };

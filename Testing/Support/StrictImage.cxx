@@ -20,7 +20,7 @@ namespace test
 //------------------------------------------------------------------------------
 StrictDifference compareStrictly(const ByteImage& a, const ByteImage& b, int threshold)
 {
-  constexpr int Visible = 32;
+  constexpr int visible = 32;
   StrictDifference result;
   result.SameSize = a.Width == b.Width && a.Height == b.Height && a.Rgb.size() == b.Rgb.size();
   if (!result.SameSize)
@@ -35,7 +35,7 @@ StrictDifference compareStrictly(const ByteImage& a, const ByteImage& b, int thr
     {
       const int difference = std::abs(int(a.Rgb[c]) - int(b.Rgb[c]));
       pixel = std::max(pixel, difference);
-      result.Image.Rgb[c] = static_cast<unsigned char>(std::min(255, Visible * difference));
+      result.Image.Rgb[c] = static_cast<unsigned char>(std::min(255, visible * difference));
     }
     result.Largest = std::max(result.Largest, pixel);
     result.PixelsBeyond += pixel > threshold;

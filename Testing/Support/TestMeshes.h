@@ -17,54 +17,58 @@ namespace meniscus
 namespace test
 {
 
-/// Analytic scalar at a position.
+/** Analytic scalar at a position. */
 using Field = std::function<double(double, double, double)>;
 using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
 
-/// Whether a cube of a structured grid (by the position of its centre) belongs to the mesh.
+/** Whether a cube of a structured grid (by the position of its centre) belongs to the mesh. */
 using Region = std::function<bool(double, double, double)>;
 
 Field constantField(double value);
-/// Linear along a direction, 0 at the origin.
+/** Linear along a direction, 0 at the origin. */
 Field linearField(double x, double y, double z);
-/// Distance from the origin.
+/** Distance from the origin. */
 Field radialField();
-/// Smooth and not monotonous, between about -1 and 1.
+/** Smooth and not monotonous, between about -1 and 1. */
 Field wavyField(double frequency);
 
-/// Name of the point array of every mesh made here.
+/** Name of the point array of every mesh made here. */
 extern const char* const ScalarName;
 
 Grid makeGrid(
   const std::vector<double>& points, const std::vector<vtkIdType>& cells, const Field& field);
 
-/// Corner tetrahedron with legs of length 1.
+/** Corner tetrahedron with legs of length 1. */
 Grid makeSingleTetrahedron(const Field& field);
 
-/// Unit cube [0, 1]^3 in 5 or 6 tetrahedra.
+/** Unit cube [0, 1]^3 in 5 or 6 tetrahedra. */
 Grid makeCubeOfFive(const Field& field);
 Grid makeCubeOfSix(const Field& field);
 
-/// The cube [-1, 1]^3 of n^3 cubes, each in 6 tetrahedra, where the region says so (default: all).
+/**
+ * The cube [-1, 1]^3 of n^3 cubes, each in 6 tetrahedra, where the region says so (default: all).
+ */
 Grid makeBlock(int n, const Field& field, const Region& region = nullptr);
 
-/// Non-convex regions for makeBlock.
+/** Non-convex regions for makeBlock. */
 Region lShape();
 Region shell(double inner, double outer);
 Region torus(double ringRadius, double tubeRadius);
 Region twoBlocks(double gap);
 
-/// Moves every point of the mesh by up to amount in each direction (fixed seed).
+/** Moves every point of the mesh by up to amount in each direction (fixed seed). */
 void jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed);
 
-/// Moves, then scales a mesh about the origin.
+/** Moves, then scales a mesh about the origin. */
 void transformPoints(vtkUnstructuredGrid* grid, const std::array<double, 3>& offset, double scale);
 
-/// A mesh of the data folder (MENISCUS_DATA_DIR in the environment or at configuration, else
-/// ../shared/data beside the project) with its first point array active; null if it is not there.
+/**
+ * A mesh of the data folder (MENISCUS_DATA_DIR in the environment or at configuration, else
+ * ../shared/data beside the project) with its first point array active; null if it is not there.
+ */
 Grid readDataMesh(const std::string& name);
 
-/// Any .vtu file, its first point array active if none is; null if it cannot be read.
+/** Any .vtu file, its first point array active if none is; null if it cannot be read. */
 Grid readMesh(const std::string& path);
 
 } // namespace test

@@ -118,13 +118,13 @@ std::vector<double> sortedNodes(vtkVolumeProperty* property, OpacityModel model)
   scalars.erase(std::unique(scalars.begin(), scalars.end()), scalars.end());
   if (model == OpacityModel::OpacityPerUnitDistance)
   {
-    constexpr int Parts = 512;
+    constexpr int parts = 512;
     const std::vector<double> coarse = scalars;
     for (std::size_t i = 0; i + 1 < coarse.size(); ++i)
     {
-      for (int part = 1; part < Parts; ++part)
+      for (int part = 1; part < parts; ++part)
       {
-        scalars.push_back(coarse[i] + (coarse[i + 1] - coarse[i]) * part / Parts);
+        scalars.push_back(coarse[i] + (coarse[i + 1] - coarse[i]) * part / parts);
       }
     }
     std::sort(scalars.begin(), scalars.end());

@@ -22,15 +22,15 @@ enum class FunctionKind
   Sparse  ///< one window of the range, transparent elsewhere
 };
 
-/// Transfer function over a scalar range; the unit distance is a share of the mesh's diagonal.
+/** Transfer function over a scalar range; the unit distance is a share of the mesh's diagonal. */
 vtkSmartPointer<vtkVolumeProperty> makeProperty(
   FunctionKind kind, const double range[2], double diagonal);
 
-/// One colour and opacity everywhere.
+/** One colour and opacity everywhere. */
 vtkSmartPointer<vtkVolumeProperty> makeConstantProperty(
   double opacity, double red, double green, double blue, double unitDistance);
 
-/// How opacity becomes attenuation per world length (see vtkTetrahedraRayCastMapper).
+/** How opacity becomes attenuation per world length (see vtkTetrahedraRayCastMapper). */
 enum class OpacityModel
 {
   AttenuationCoefficient, ///< tau = opacity / unit

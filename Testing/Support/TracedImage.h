@@ -16,7 +16,7 @@ namespace meniscus
 namespace test
 {
 
-/// Premultiplied colour of a ray; called from several threads at once.
+/** Premultiplied colour of a ray; called from several threads at once. */
 using TraceRay = std::function<std::array<double, 4>(const reference::Ray&)>;
 
 struct TracedComparison

@@ -19,7 +19,7 @@ namespace meniscus
 namespace test
 {
 
-/// A transfer function as control points of attenuation and colour, ascending.
+/** A transfer function as control points of attenuation and colour, ascending. */
 using VolumeFunction = std::vector<reference::TransferFunctionNode>;
 
 struct NamedFunction
@@ -28,7 +28,7 @@ struct NamedFunction
   VolumeFunction Function;
 };
 
-/// Smooth, peaked, opaque and sparse functions of TestTransferFunctions.h for a mesh.
+/** Smooth, peaked, opaque and sparse functions of TestTransferFunctions.h for a mesh. */
 std::vector<NamedFunction> usualFunctions(vtkUnstructuredGrid* grid);
 
 /**
@@ -38,14 +38,14 @@ std::vector<NamedFunction> usualFunctions(vtkUnstructuredGrid* grid);
  */
 std::vector<NamedFunction> degenerateFunctions(const double range[2], double length);
 
-/// Up to 12 points at random places, some jumps.
+/** Up to 12 points at random places, some jumps. */
 VolumeFunction randomFunction(const double range[2], double length, RandomNumbers& random);
 
-/// Largest attenuation, and the largest value of a colour channel where there is attenuation.
+/** Largest attenuation, and the largest value of a colour channel where there is attenuation. */
 double largestAttenuation(const VolumeFunction& function);
 double brightestColor(const VolumeFunction& function);
 
-/// The property that gives a function's attenuation and colour.
+/** The property that gives a function's attenuation and colour. */
 vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeFunction& function);
 
 } // namespace test

@@ -24,7 +24,7 @@ namespace meniscus
 namespace test
 {
 
-/// Premultiplied float RGBA, rows from the bottom up.
+/** Premultiplied float RGBA, rows from the bottom up. */
 struct FloatImage
 {
   int Width = 0;
@@ -37,7 +37,7 @@ struct FloatImage
   }
 };
 
-/// 8-bit RGB, rows from the bottom up.
+/** 8-bit RGB, rows from the bottom up. */
 struct ByteImage
 {
   int Width = 0;
@@ -50,7 +50,7 @@ struct ByteImage
   }
 };
 
-/// Whether a window can be opened (VTK 9.1 aborts without a display).
+/** Whether a window can be opened (VTK 9.1 aborts without a display). */
 bool hasDisplay();
 
 /**
@@ -68,7 +68,7 @@ private:
   vtkNew<vtkRenderWindow> Window;
 };
 
-/// An off-screen window with one renderer (black, transparent background) and one volume.
+/** An off-screen window with one renderer (black, transparent background) and one volume. */
 class VolumeScene
 {
 public:
@@ -85,10 +85,10 @@ public:
   void setMapper(vtkUnstructuredGridVolumeMapper* mapper);
   void setProperty(vtkVolumeProperty* property);
 
-  /// Renders through a float framebuffer and reads it back (only the renderer's viewport).
+  /** Renders through a float framebuffer and reads it back (only the renderer's viewport). */
   FloatImage renderFloat();
 
-  /// Renders the window as a user would and reads back all of it.
+  /** Renders the window as a user would and reads back all of it. */
   ByteImage renderBytes();
 
 private:
@@ -98,7 +98,7 @@ private:
   vtkNew<vtkFramebufferPass> FloatPass;
 };
 
-/// Reads the window's front result without rendering.
+/** Reads the window's front result without rendering. */
 ByteImage readBytes(vtkRenderWindow* window);
 
 /**
@@ -108,13 +108,13 @@ ByteImage readBytes(vtkRenderWindow* window);
 void lookAt(vtkRenderer* renderer, const double bounds[6], double azimuth, double elevation,
   double zoom = 1.0, bool parallel = false);
 
-/// Looks along an axis (0, 1, 2), without perspective, so that rays are parallel to it.
+/** Looks along an axis (0, 1, 2), without perspective, so that rays are parallel to it. */
 void lookAlongAxis(vtkRenderer* renderer, const double bounds[6], int axis, double zoom = 1.0);
 
-/// Angles (azimuth, elevation) of the i-th of a set of views that avoid symmetry.
+/** Angles (azimuth, elevation) of the i-th of a set of views that avoid symmetry. */
 std::array<double, 2> viewAngles(int i);
 
-/// OpenGL renderer and version of a window that has rendered.
+/** OpenGL renderer and version of a window that has rendered. */
 std::string deviceName(vtkRenderWindow* window);
 
 double diagonalOf(const double bounds[6]);

@@ -24,17 +24,19 @@ struct VolumeView
   glm::dvec3 Focus{ 0.0 };
   glm::dvec3 Up{ 0.0, 1.0, 0.0 };
   bool Parallel = false;
-  /// Half the height of what is seen, at unit depth (perspective) or anywhere (parallel).
+  /** Half the height of what is seen, at unit depth (perspective) or anywhere (parallel). */
   double HalfHeight = 0.27;
-  /// Depths of the clipping planes.
+  /** Depths of the clipping planes. */
   double Near = 0.1;
   double Far = 10.0;
 
-  /// Looks at the middle of bounds from a direction. All of a ball around them is seen at zoom 1.
+  /**
+   * Looks at the middle of bounds from a direction. All of a ball around them is seen at zoom 1.
+   */
   static VolumeView towards(
     const double bounds[6], const glm::dvec3& direction, bool parallel, double zoom = 1.0);
 
-  /// Ray of a pixel of size x size pixels; its parameter is the depth.
+  /** Ray of a pixel of size x size pixels; its parameter is the depth. */
   reference::Ray ray(int x, int y, int size) const;
 
   void applyTo(vtkRenderer* renderer) const;

@@ -46,8 +46,8 @@ bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
 
 struct Sample
 {
-  double s;
-  double value;
+  double S;
+  double Value;
 };
 
 // Chandrupatla's method (Advances in Engineering Software 28, 1997): inverse quadratic
@@ -58,42 +58,42 @@ double FindZero(double atStart, double atEnd, const Measure& measure)
 {
   Sample a{ 0.0, atStart };
   Sample b{ 1.0, atEnd };
-  if (!(a.value * b.value < 0.0))
+  if (!(a.Value * b.Value < 0.0))
   {
-    return std::fabs(a.value) < std::fabs(b.value) ? a.s : b.s;
+    return std::fabs(a.Value) < std::fabs(b.Value) ? a.S : b.S;
   }
-  double part = a.value / (a.value - b.value);
+  double part = a.Value / (a.Value - b.Value);
   for (int i = 0; i < BracketSteps; ++i)
   {
-    Sample next{ a.s + part * (b.s - a.s), 0.0 };
-    if (measure(next.s, next.value))
+    Sample next{ a.S + part * (b.S - a.S), 0.0 };
+    if (measure(next.S, next.Value))
     {
-      return next.s;
+      return next.S;
     }
     Sample c = a;
-    if ((next.value < 0.0) != (a.value < 0.0))
+    if ((next.Value < 0.0) != (a.Value < 0.0))
     {
       c = b;
       b = a;
     }
     a = next;
-    const double least = 0.5 * Bracket / std::fabs(b.s - a.s);
+    const double least = 0.5 * Bracket / std::fabs(b.S - a.S);
     if (!(least < 0.5))
     {
       break;
     }
-    const double xi = (a.s - b.s) / (c.s - b.s);
-    const double phi = (a.value - b.value) / (c.value - b.value);
+    const double xi = (a.S - b.S) / (c.S - b.S);
+    const double phi = (a.Value - b.Value) / (c.Value - b.Value);
     part = 0.5;
     if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
     {
-      part = a.value / (b.value - a.value) * (c.value / (b.value - c.value)) +
-        (c.s - a.s) / (b.s - a.s) * (a.value / (c.value - a.value)) *
-          (b.value / (c.value - b.value));
+      part = a.Value / (b.Value - a.Value) * (c.Value / (b.Value - c.Value)) +
+        (c.S - a.S) / (b.S - a.S) * (a.Value / (c.Value - a.Value)) *
+          (b.Value / (c.Value - b.Value));
     }
     part = std::clamp(part, least, 1.0 - least);
   }
-  return std::fabs(a.value) < std::fabs(b.value) ? a.s : b.s;
+  return std::fabs(a.Value) < std::fabs(b.Value) ? a.S : b.S;
 }
 
 }
@@ -108,20 +108,20 @@ ObjectLine ObjectLine::Order(const glm::dvec3& a, const glm::dvec3& b, bool& tur
 //------------------------------------------------------------------------------
 RefractedPoint RefractAt(const PatchPoint& at, const Media& media)
 {
-  const RefractionRay ray = ComputeRefractionRay(glm::normalize(at.position - media.eye),
-    glm::normalize(at.normal), media.exterior / media.interior);
-  return { at, ray.direction,
-    ray.kind == RayKind::Refracted && glm::length(at.normal) > CurvedPatch::ShortestNormal };
+  const RefractionRay ray = ComputeRefractionRay(glm::normalize(at.Position - media.Eye),
+    glm::normalize(at.Normal), media.Exterior / media.Interior);
+  return { at, ray.Direction,
+    ray.Kind == RayKind::Refracted && glm::length(at.Normal) > CurvedPatch::ShortestNormal };
 }
 
 //------------------------------------------------------------------------------
 double GetParameter(const ObjectLine& line, const RefractedPoint& from)
 {
   // p + t r = o + l d, so (p - o) x r = l d x r.
-  const glm::dvec3 across = glm::cross(line.direction, from.ray);
+  const glm::dvec3 across = glm::cross(line.Direction, from.Ray);
   const double squared = glm::dot(across, across);
   return squared > 0.0
-    ? glm::dot(glm::cross(from.at.position - line.origin, from.ray), across) / squared
+    ? glm::dot(glm::cross(from.At.Position - line.Origin, from.Ray), across) / squared
     : 0.0;
 }
 
@@ -148,7 +148,7 @@ SubCellSide::SubCellSide(const CurvedPatch& patch, const glm::dvec2& a, const gl
   // In x the weight of the edge's end with the greater coordinates, which grows.
   const int i = (this->Edge + 1) % 3;
   const int j = (this->Edge + 2) % 3;
-  this->FarIsFirst = IsBefore(patch.corner[j], patch.corner[i]);
+  this->FarIsFirst = IsBefore(patch.Corner[j], patch.Corner[i]);
   const int far = this->FarIsFirst ? i : j;
   this->Turned = last[far] < first[far];
   this->From.x = std::min(first[far], last[far]);
@@ -173,7 +173,7 @@ RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const Objec
 {
   const RefractedPoint& start = side.IsTurned() ? b : a;
   const RefractedPoint& end = side.IsTurned() ? a : b;
-  const double length = glm::length(line.direction);
+  const double length = glm::length(line.Direction);
   const double zero = FindZero(GetMoment(line, start), GetMoment(line, end),
     [&side, &media, &line, length](double s, double& value)
     {
@@ -181,7 +181,7 @@ RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const Objec
       value = GetMoment(line, from);
       // The moment is a sum of products of three lengths, each rounded a few times.
       return std::fabs(value) <=
-        4.0 * Epsilon * length * glm::length(from.at.position - line.origin);
+        4.0 * Epsilon * length * glm::length(from.At.Position - line.Origin);
     });
   return zero == 0.0 ? start : (zero == 1.0 ? end : RefractAt(side.Evaluate(zero), media));
 }
@@ -194,10 +194,10 @@ RefractedPoint MeetPlane(const SubCellSide& side, const Media& media, const glm:
   const RefractedPoint& end = side.IsTurned() ? a : b;
   const double length = glm::length(normal);
   const double zero =
-    FindZero(glm::dot(normal, start.at.position - point), glm::dot(normal, end.at.position - point),
+    FindZero(glm::dot(normal, start.At.Position - point), glm::dot(normal, end.At.Position - point),
       [&side, &point, &normal, length](double s, double& value)
       {
-        const glm::dvec3 away = side.Evaluate(s).position - point;
+        const glm::dvec3 away = side.Evaluate(s).Position - point;
         value = glm::dot(normal, away);
         return std::fabs(value) <= 4.0 * Epsilon * length * glm::length(away);
       });
@@ -240,13 +240,13 @@ bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep
   {
     patch.Evaluate(atB, jet);
     // Cramer's rule for by0 x + by1 y - direction l = rest.
-    const glm::dvec3 rest = line.origin + atL * line.direction - jet.position;
-    const glm::dvec3 byX = glm::cross(jet.positionBy[1], line.direction);
-    const double inverse = 1.0 / glm::dot(jet.positionBy[0], byX);
+    const glm::dvec3 rest = line.Origin + atL * line.Direction - jet.Position;
+    const glm::dvec3 byX = glm::cross(jet.PositionBy[1], line.Direction);
+    const double inverse = 1.0 / glm::dot(jet.PositionBy[0], byX);
     const glm::dvec2 moveB(inverse * glm::dot(rest, byX),
-      inverse * glm::dot(jet.positionBy[0], glm::cross(rest, line.direction)));
+      inverse * glm::dot(jet.PositionBy[0], glm::cross(rest, line.Direction)));
     const double moveL =
-      -inverse * glm::dot(rest, glm::cross(jet.positionBy[0], jet.positionBy[1]));
+      -inverse * glm::dot(rest, glm::cross(jet.PositionBy[0], jet.PositionBy[1]));
     atB += moveB;
     atL += moveL;
     if (!IsNear(atB.x, b.x) || !IsNear(atB.y, b.y) || !IsNear(atL, l))
@@ -258,7 +258,7 @@ bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep
       b = atB;
       l = atL;
       // Over so short a step the normal is as good as linear.
-      normal = jet.normal + moveB.x * jet.normalBy[0] + moveB.y * jet.normalBy[1];
+      normal = jet.Normal + moveB.x * jet.NormalBy[0] + moveB.y * jet.NormalBy[1];
       return true;
     }
   }

@@ -46,7 +46,7 @@ double GetSize(const CurvedPatch& patch)
 {
   const auto squared = [&patch](int i, int j)
   {
-    const glm::dvec3 edge = patch.corner[j] - patch.corner[i];
+    const glm::dvec3 edge = patch.Corner[j] - patch.Corner[i];
     return glm::dot(edge, edge);
   };
   return std::sqrt(std::max({ squared(0, 1), squared(1, 2), squared(2, 0) }));
@@ -55,9 +55,9 @@ double GetSize(const CurvedPatch& patch)
 // Barycentric coordinates of the foot of `point` in the facet's plane.
 glm::dvec2 Project(const CurvedPatch& patch, const glm::dvec3& point)
 {
-  const glm::dvec3 u = patch.corner[1] - patch.corner[0];
-  const glm::dvec3 v = patch.corner[2] - patch.corner[0];
-  const glm::dvec3 w = point - patch.corner[0];
+  const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
+  const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
+  const glm::dvec3 w = point - patch.Corner[0];
   const glm::dvec3 normal = glm::cross(u, v);
   const double squared = glm::dot(normal, normal);
   return { glm::dot(glm::cross(w, v), normal) / squared,
@@ -135,7 +135,7 @@ void CurvedMembraneSolver::FindAxis()
     const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
     const double bulge = BoundBulge(patch);
     this->LargestBulge = std::max(this->LargestBulge, bulge);
-    for (const glm::dvec3& corner : patch.corner)
+    for (const glm::dvec3& corner : patch.Corner)
     {
       const double height = glm::dot(this->Axis, corner);
       this->Lowest = std::min(this->Lowest, height - bulge);
@@ -229,7 +229,7 @@ EyeStatus CurvedMembraneSolver::SetEye(
         touched = true;
       }
       return BoundRefractedRays(
-        patch, this->Optics.eye, this->Optics.exterior / this->Optics.interior);
+        patch, this->Optics.Eye, this->Optics.Exterior / this->Optics.Interior);
     },
     loop);
   return touched ? EyeStatus::OnTheMembrane : EyeStatus::Ready;
@@ -238,9 +238,9 @@ EyeStatus CurvedMembraneSolver::SetEye(
 //------------------------------------------------------------------------------
 bool CurvedMembraneSolver::IsEyeOnPatch(const CurvedPatch& patch) const
 {
-  const glm::dvec3 away = this->Optics.eye - patch.corner[0];
-  const glm::dvec3 first = patch.corner[1] - patch.corner[0];
-  const glm::dvec3 second = patch.corner[2] - patch.corner[0];
+  const glm::dvec3 away = this->Optics.Eye - patch.Corner[0];
+  const glm::dvec3 first = patch.Corner[1] - patch.Corner[0];
+  const glm::dvec3 second = patch.Corner[2] - patch.Corner[0];
   // The patch bulges by less than half of its longest edge, which is below the sum of two.
   if (glm::dot(away, away) > 8.0 * (glm::dot(first, first) + glm::dot(second, second)))
   {
@@ -249,16 +249,16 @@ bool CurvedMembraneSolver::IsEyeOnPatch(const CurvedPatch& patch) const
   // The patch is crossed at right angles to its facet, where the eye is.
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   const double slack =
-    rounding * std::max(this->Surface.GetRadius(), glm::length(this->Optics.eye));
+    rounding * std::max(this->Surface.GetRadius(), glm::length(this->Optics.Eye));
   const HeightFrame frame(glm::normalize(glm::cross(first, second)));
-  const double height = frame.GetHeight(this->Optics.eye);
+  const double height = frame.GetHeight(this->Optics.Eye);
   PatchCrossings crossings(patch, frame);
-  crossings.Find(frame.Project(this->Optics.eye), height - slack, height + slack);
+  crossings.Find(frame.Project(this->Optics.Eye), height - slack, height + slack);
   // What cannot be told apart from the patch is on it.
   return !crossings.IsComplete() ||
     std::any_of(crossings.begin(), crossings.end(),
       [height, slack](const PatchCrossing& crossing)
-      { return std::fabs(crossing.height - height) <= slack; });
+      { return std::fabs(crossing.Height - height) <= slack; });
 }
 
 //------------------------------------------------------------------------------
@@ -272,7 +272,7 @@ bool CurvedMembraneSolver::FacesEye() const
         [this](std::int32_t vertex)
         {
           const auto i = static_cast<std::size_t>(vertex);
-          return glm::dot(this->Surface.GetPositions()[i] - this->Optics.eye,
+          return glm::dot(this->Surface.GetPositions()[i] - this->Optics.Eye,
                    this->Surface.GetNormals()[i]) < 0.0;
         });
     });
@@ -283,7 +283,7 @@ std::size_t CurvedMembraneSolver::CountVerticesBehindOtherPieces(std::size_t mos
 {
   const SurfacePieces& pieces = this->Surface.GetPieces();
   const auto& facets = this->Surface.GetFacets();
-  if (pieces.count < 2)
+  if (pieces.Count < 2)
   {
     return 0;
   }
@@ -300,9 +300,9 @@ std::size_t CurvedMembraneSolver::CountVerticesBehindOtherPieces(std::size_t mos
       {
         // Pieces may share places, which are their own images.
         constexpr double touching = 1e-6;
-        return pieces.pieceOf[static_cast<std::size_t>(image.facet)] != pieces.pieceOf[i] &&
-          image.depth > touching * this->Surface.GetRadius() &&
-          glm::dot(point - image.sightPoint, this->Surface.GetNormals()[vertex]) < 0.0;
+        return pieces.PieceOf[static_cast<std::size_t>(image.Facet)] != pieces.PieceOf[i] &&
+          image.Depth > touching * this->Surface.GetRadius() &&
+          glm::dot(point - image.SightPoint, this->Surface.GetNormals()[vertex]) < 0.0;
       });
   }
   return count;
@@ -351,10 +351,10 @@ VirtualVertex CurvedMembraneSolver::SolvePoint(const glm::dvec3& point, Memory& 
 {
   const glm::dvec3 local = point - this->Surface.GetOrigin();
   VirtualVertex vertex;
-  vertex.position = point;
+  vertex.Position = point;
   if (!this->IsInReach(local))
   {
-    vertex.state = ImageState::NotFinite;
+    vertex.State = ImageState::NotFinite;
     return vertex;
   }
   const SightEquation equation = this->MakeEquation(local);
@@ -363,13 +363,13 @@ VirtualVertex CurvedMembraneSolver::SolvePoint(const glm::dvec3& point, Memory& 
   {
     return vertex;
   }
-  const bool first = memory.place.facet == CurvedPatches::NoFacet;
-  memory.pointStep = first ? glm::dvec3(0.0) : local - memory.point;
-  memory.sightStep =
-    first ? glm::dvec3(0.0) : place.root.at.position - memory.place.root.at.position;
-  memory.point = local;
-  memory.place = place;
-  return this->MakeVertex(local, this->Patches.GetPatch(place.facet), place);
+  const bool first = memory.Place.Facet == CurvedPatches::NoFacet;
+  memory.PointStep = first ? glm::dvec3(0.0) : local - memory.Point;
+  memory.SightStep =
+    first ? glm::dvec3(0.0) : place.Root.At.Position - memory.Place.Root.At.Position;
+  memory.Point = local;
+  memory.Place = place;
+  return this->MakeVertex(local, this->Patches.GetPatch(place.Facet), place);
 }
 
 //------------------------------------------------------------------------------
@@ -378,15 +378,15 @@ VirtualVertex CurvedMembraneSolver::SolveBetween(
 {
   const glm::dvec3 local = point - this->Surface.GetOrigin();
   Memory memory;
-  memory.place.facet = first.facet;
-  memory.place.root.at.position =
-    0.5 * (first.sightPoint + second.sightPoint) - this->Surface.GetOrigin();
-  memory.place.root.at.normal = this->Optics.eye - memory.place.root.at.position;
-  memory.point = local;
+  memory.Place.Facet = first.Facet;
+  memory.Place.Root.At.Position =
+    0.5 * (first.SightPoint + second.SightPoint) - this->Surface.GetOrigin();
+  memory.Place.Root.At.Normal = this->Optics.Eye - memory.Place.Root.At.Position;
+  memory.Point = local;
   SightPlace place;
   VirtualVertex vertex;
   return this->IsInReach(local) && this->Follow(this->MakeEquation(local), local, memory, place)
-    ? this->MakeVertex(local, this->Patches.GetPatch(place.facet), place)
+    ? this->MakeVertex(local, this->Patches.GetPatch(place.Facet), place)
     : vertex;
 }
 
@@ -394,13 +394,13 @@ VirtualVertex CurvedMembraneSolver::SolveBetween(
 bool CurvedMembraneSolver::MeetRay(
   const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const
 {
-  const glm::dvec3& eye = this->Optics.eye;
-  const glm::dvec3 target = near.sightPoint - this->Surface.GetOrigin();
+  const glm::dvec3& eye = this->Optics.Eye;
+  const glm::dvec3 target = near.SightPoint - this->Surface.GetOrigin();
   // As long as the way to the surface, so that its parameter is about 1.
   const double distance =
     std::max(glm::dot(target - eye, direction), std::numeric_limits<double>::min());
   const ObjectLine ray{ eye, distance * direction };
-  std::int32_t facet = near.facet;
+  std::int32_t facet = near.Facet;
   glm::dvec2 b = Project(this->Patches.GetPatch(facet), target);
   double l = 1.0;
   if (!this->MeetLine(ray, -direction, facet, b, l))
@@ -408,8 +408,8 @@ bool CurvedMembraneSolver::MeetRay(
     return false;
   }
   at = this->Patches.GetPatch(facet).Evaluate(b);
-  at.normal = glm::normalize(at.normal);
-  at.position += this->Surface.GetOrigin();
+  at.Normal = glm::normalize(at.Normal);
+  at.Position += this->Surface.GetOrigin();
   return true;
 }
 
@@ -424,7 +424,7 @@ bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& se
     {
       return false;
     }
-    if (FindOutside(b).least >= -Border)
+    if (FindOutside(b).Least >= -Border)
     {
       return true;
     }
@@ -445,36 +445,36 @@ bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& se
 bool CurvedMembraneSolver::Follow(const SightEquation& equation, const glm::dvec3& local,
   const Memory& memory, SightPlace& place) const
 {
-  place = memory.place;
-  if (place.facet == CurvedPatches::NoFacet)
+  place = memory.Place;
+  if (place.Facet == CurvedPatches::NoFacet)
   {
     return false;
   }
-  glm::dvec3 target = place.root.at.position;
-  const glm::dvec3 turn = local - memory.point - memory.pointStep;
-  if (glm::dot(turn, turn) < SameStep * SameStep * glm::dot(memory.pointStep, memory.pointStep))
+  glm::dvec3 target = place.Root.At.Position;
+  const glm::dvec3 turn = local - memory.Point - memory.PointStep;
+  if (glm::dot(turn, turn) < SameStep * SameStep * glm::dot(memory.PointStep, memory.PointStep))
   {
-    target += memory.sightStep;
+    target += memory.SightStep;
   }
   for (int i = 0; i < LongestChase; ++i)
   {
-    place.facet = this->Patches.Walk(place.facet, target, place.root.at.normal, LongestWalk);
-    const CurvedPatch patch = this->Patches.GetPatch(place.facet);
+    place.Facet = this->Patches.Walk(place.Facet, target, place.Root.At.Normal, LongestWalk);
+    const CurvedPatch patch = this->Patches.GetPatch(place.Facet);
     const glm::dvec2 start = Project(patch, target);
-    if (FindOutside(start).least < -FollowReach)
+    if (FindOutside(start).Least < -FollowReach)
     {
       return false;
     }
-    place.root = equation.Solve(patch, start, FollowSteps, FollowReach);
-    if (place.root.end == SightRoot::End::Failed)
+    place.Root = equation.Solve(patch, start, FollowSteps, FollowReach);
+    if (place.Root.End == SightRoot::End::Failed)
     {
       return false;
     }
-    if (place.root.end == SightRoot::End::Converged && FindOutside(place.root.b).least >= -Border)
+    if (place.Root.End == SightRoot::End::Converged && FindOutside(place.Root.B).Least >= -Border)
     {
-      return equation.IsImage(place.root.at);
+      return equation.IsImage(place.Root.At);
     }
-    target = patch.GetFlatPoint(place.root.b);
+    target = patch.GetFlatPoint(place.Root.B);
   }
   return false;
 }
@@ -485,21 +485,21 @@ bool CurvedMembraneSolver::FindFirst(
 {
   // First what costs little: Newton's method from the middle of each patch that may show the
   // point.
-  place.facet = CurvedPatches::NoFacet;
+  place.Facet = CurvedPatches::NoFacet;
   this->Tree.Visit(local, 0.0,
     [this, &equation, &place](std::int32_t facet)
     {
       const CurvedPatch patch = this->Patches.GetPatch(facet);
       const SightRoot root = equation.Solve(patch, glm::dvec2(1.0 / 3.0), FirstSteps, FirstReach);
-      if (root.end == SightRoot::End::Converged && FindOutside(root.b).least >= -Border &&
-        equation.IsImage(root.at))
+      if (root.End == SightRoot::End::Converged && FindOutside(root.B).Least >= -Border &&
+        equation.IsImage(root.At))
       {
         place = { facet, root };
         return std::int32_t(0);
       }
       return AllFacets;
     });
-  if (place.facet == CurvedPatches::NoFacet)
+  if (place.Facet == CurvedPatches::NoFacet)
   {
     std::vector<SightPlace> places;
     this->FindPlaces(equation, local, places);
@@ -508,7 +508,7 @@ bool CurvedMembraneSolver::FindFirst(
       place = places.front();
     }
   }
-  return place.facet != CurvedPatches::NoFacet;
+  return place.Facet != CurvedPatches::NoFacet;
 }
 
 //------------------------------------------------------------------------------
@@ -524,7 +524,7 @@ void CurvedMembraneSolver::FindPlaces(
       images.Find();
       for (const SightRoot& root : images)
       {
-        if (equation.IsImage(root.at))
+        if (equation.IsImage(root.At))
         {
           places.push_back({ facet, root });
         }
@@ -534,9 +534,9 @@ void CurvedMembraneSolver::FindPlaces(
   std::sort(places.begin(), places.end(),
     [](const SightPlace& a, const SightPlace& b)
     {
-      const glm::dvec2& first = a.root.b;
-      const glm::dvec2& second = b.root.b;
-      return a.facet != b.facet ? a.facet < b.facet
+      const glm::dvec2& first = a.Root.B;
+      const glm::dvec2& second = b.Root.B;
+      return a.Facet != b.Facet ? a.Facet < b.Facet
                                 : (first.x != second.x ? first.x < second.x : first.y < second.y);
     });
 }
@@ -556,12 +556,12 @@ ImageState CurvedMembraneSolver::FindImages(
   this->FindPlaces(equation, local, places);
   for (const SightPlace& place : places)
   {
-    const CurvedPatch patch = this->Patches.GetPatch(place.facet);
+    const CurvedPatch patch = this->Patches.GetPatch(place.Facet);
     const VirtualVertex vertex = this->MakeVertex(local, patch, place);
     const double same = SamePlace * GetSize(patch);
     const bool known = std::any_of(images.begin(), images.end(),
       [&vertex, same](const VirtualVertex& other)
-      { return glm::length(other.sightPoint - vertex.sightPoint) < same; });
+      { return glm::length(other.SightPoint - vertex.SightPoint) < same; });
     if (!known)
     {
       images.push_back(vertex);
@@ -574,22 +574,22 @@ ImageState CurvedMembraneSolver::FindImages(
 VirtualVertex CurvedMembraneSolver::MakeVertex(
   const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const
 {
-  const PatchPoint& at = place.root.at;
-  const glm::dvec3 sight = glm::normalize(at.position - this->Optics.eye);
+  const PatchPoint& at = place.Root.At;
+  const glm::dvec3 sight = glm::normalize(at.Position - this->Optics.Eye);
   VirtualVertex vertex;
-  vertex.depth = glm::length(local - at.position);
-  vertex.sightPoint = at.position + this->Surface.GetOrigin();
+  vertex.Depth = glm::length(local - at.Position);
+  vertex.SightPoint = at.Position + this->Surface.GetOrigin();
   // Eq. 2.4; the identity where nothing is refracted.
-  const glm::dvec3 virtualPoint = this->Optics.exterior == this->Optics.interior
+  const glm::dvec3 virtualPoint = this->Optics.Exterior == this->Optics.Interior
     ? local
-    : at.position + sight * (vertex.depth * this->Optics.exterior / this->Optics.interior);
-  vertex.position = virtualPoint + this->Surface.GetOrigin();
-  vertex.cosine = -glm::dot(sight, at.normal) / glm::length(at.normal);
-  vertex.reflectance =
-    FresnelReflectance(vertex.cosine, this->Optics.exterior, this->Optics.interior);
-  vertex.facet = place.facet;
-  vertex.state = ImageState::Found;
-  vertex.orientation = static_cast<signed char>(SightEquation::GetOrientation(patch, place.root));
+    : at.Position + sight * (vertex.Depth * this->Optics.Exterior / this->Optics.Interior);
+  vertex.Position = virtualPoint + this->Surface.GetOrigin();
+  vertex.Cosine = -glm::dot(sight, at.Normal) / glm::length(at.Normal);
+  vertex.Reflectance =
+    FresnelReflectance(vertex.Cosine, this->Optics.Exterior, this->Optics.Interior);
+  vertex.Facet = place.Facet;
+  vertex.State = ImageState::Found;
+  vertex.Orientation = static_cast<signed char>(SightEquation::GetOrientation(patch, place.Root));
   return vertex;
 }
 
@@ -597,9 +597,9 @@ VirtualVertex CurvedMembraneSolver::MakeVertex(
 VirtualVertex CurvedMembraneSolver::PassThrough(const glm::dvec3& local) const
 {
   VirtualVertex vertex;
-  vertex.position = local + this->Surface.GetOrigin();
-  vertex.sightPoint = vertex.position;
-  vertex.state = ImageState::Found;
+  vertex.Position = local + this->Surface.GetOrigin();
+  vertex.SightPoint = vertex.Position;
+  vertex.State = ImageState::Found;
   return vertex;
 }
 

@@ -28,11 +28,11 @@
 namespace meniscus
 {
 
-/// A sight point and the facet whose patch it lies in.
+/** A sight point and the facet whose patch it lies in. */
 struct SightPlace
 {
-  std::int32_t facet = CurvedPatches::NoFacet;
-  SightRoot root{};
+  std::int32_t Facet = CurvedPatches::NoFacet;
+  SightRoot Root{};
 };
 
 class CurvedMembraneSolver
@@ -42,47 +42,55 @@ public:
   CurvedMembraneSolver(const CurvedMembraneSolver&) = delete; ///< the patches point to the membrane
   CurvedMembraneSolver& operator=(const CurvedMembraneSolver&) = delete;
 
-  /// Points that share a chain of warm starts. Ranges that begin and end at multiples of it give
-  /// the same result whoever solves them.
+  /**
+   * Points that share a chain of warm starts. Ranges that begin and end at multiples of it give
+   * the same result whoever solves them.
+   */
   static constexpr std::size_t Chain = 128;
 
-  /// Takes a shape. If only points and normals differ from the last one, patches are refitted and
-  /// the topology is kept. The eye must be set again afterwards.
+  /**
+   * Takes a shape. If only points and normals differ from the last one, patches are refitted and
+   * the topology is kept. The eye must be set again afterwards.
+   */
   MembraneStatus SetMembrane(const MembraneInput& input, const RangeLoop& loop = SerialLoop);
 
-  /// Forgets the membrane.
+  /** Forgets the membrane. */
   void Clear();
 
   const Membrane& GetMembrane() const { return this->Surface; }
   const CurvedPatches& GetPatches() const { return this->Patches; }
 
-  /// Fits the tree for an eye in world coordinates. Unless `Ready`, nothing may be solved.
+  /** Fits the tree for an eye in world coordinates. Unless `Ready`, nothing may be solved. */
   EyeStatus SetEye(
     const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop = SerialLoop);
 
-  /// One image of each of `points` (x, y, z each) in [begin, end), written to the same places of
-  /// `vertices`. Of several images it is the one that continues that of the point before, or, at
-  /// the start of a chain and where this ends, the first that the tree meets.
+  /**
+   * One image of each of `points` (x, y, z each) in [begin, end), written to the same places of
+   * `vertices`. Of several images it is the one that continues that of the point before, or, at
+   * the start of a chain and where this ends, the first that the tree meets.
+   */
   void Solve(
     const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const;
 
-  /// Replaces `images` by every image of a point, in the order of their facets. `Found` if there is
-  /// any.
+  /**
+   * Replaces `images` by every image of a point, in the order of their facets. `Found` if there is
+   * any.
+   */
   ImageState FindImages(const glm::dvec3& point, std::vector<VirtualVertex>& images) const;
 
-  /// What a chain of points remembers: the last two answers.
+  /** What a chain of points remembers: the last two answers. */
   struct Memory
   {
-    SightPlace place;
-    glm::dvec3 point{ 0.0 };
-    glm::dvec3 pointStep{ 0.0 };
-    glm::dvec3 sightStep{ 0.0 };
+    SightPlace Place;
+    glm::dvec3 Point{ 0.0 };
+    glm::dvec3 PointStep{ 0.0 };
+    glm::dvec3 SightStep{ 0.0 };
   };
 
-  /// One image of a point, as Solve finds it after the points that `memory` has seen.
+  /** One image of a point, as Solve finds it after the points that `memory` has seen. */
   VirtualVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
 
-  ///@{
+  /** @{ */
   /**
    * The directions that InjectivityGrid takes, along the mean of the membrane's normals, and
    * whether the membrane is a convex field along them, which PrepareField finds out once per shape.
@@ -90,12 +98,16 @@ public:
   void PrepareField();
   const HeightFrame& GetFrame() const { return this->Frame; }
   bool HasConvexField() const { return this->ConvexField; }
-  ///@}
-  /// No patch is farther than this from its flat facet.
+  /**
+   * @}
+   * No patch is farther than this from its flat facet.
+   */
   double GetLargestBulge() const { return this->LargestBulge; }
 
-  /// The image of a point that continues a known image of a point nearby, or two of points on both
-  /// sides; NoImage if Newton's method does not get there.
+  /**
+   * The image of a point that continues a known image of a point nearby, or two of points on both
+   * sides; NoImage if Newton's method does not get there.
+   */
   VirtualVertex SolveNear(const glm::dvec3& point, const VirtualVertex& known) const
   {
     return this->SolveBetween(point, known, known);
@@ -103,50 +115,60 @@ public:
   VirtualVertex SolveBetween(
     const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const;
 
-  /// Whether the eye is in front of the surface at any vertex.
+  /** Whether the eye is in front of the surface at any vertex. */
   bool FacesEye() const;
-  /// Vertices that the eye sees through another piece of the membrane, from their front, of at most
-  /// `most` that are looked at: sight rays meet both pieces, one after the other.
+  /**
+   * Vertices that the eye sees through another piece of the membrane, from their front, of at most
+   * `most` that are looked at: sight rays meet both pieces, one after the other.
+   */
   std::size_t CountVerticesBehindOtherPieces(std::size_t most) const;
 
-  /// Where the ray from the eye along the unit vector `direction` meets the membrane near the sight
-  /// point of a known image, in world coordinates, with the unit normal. False if it does not.
+  /**
+   * Where the ray from the eye along the unit vector `direction` meets the membrane near the sight
+   * point of a known image, in world coordinates, with the unit normal. False if it does not.
+   */
   bool MeetRay(const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const;
 
-  /// Where a line in local coordinates meets the membrane near a place in the patch of `facet`,
-  /// with the line's parameter near `l`: in this patch, or in those that the way there leads to
-  /// over edges that are crossed as seen along `seenAlong`. False if it does not.
+  /**
+   * Where a line in local coordinates meets the membrane near a place in the patch of `facet`,
+   * with the line's parameter near `l`: in this patch, or in those that the way there leads to
+   * over edges that are crossed as seen along `seenAlong`. False if it does not.
+   */
   bool MeetLine(const ObjectLine& line, const glm::dvec3& seenAlong, std::int32_t& facet,
     glm::dvec2& b, double& l) const;
 
-  /// Eye and indices, in local coordinates: relative to the membrane's origin.
+  /** Eye and indices, in local coordinates: relative to the membrane's origin. */
   const Media& GetMedia() const { return this->Optics; }
   SightEquation MakeEquation(const glm::dvec3& local) const
   {
-    return { this->Optics.eye, local, this->Optics.exterior, this->Optics.interior };
+    return { this->Optics.Eye, local, this->Optics.Exterior, this->Optics.Interior };
   }
   bool IsInReach(const glm::dvec3& local) const;
 
-  /// Calls `visit(facet)` for every facet that may show a point of the cube of half side `padding`.
+  /**
+   * Calls `visit(facet)` for every facet that may show a point of the cube of half side `padding`.
+   */
   template <typename Visitor>
   void VisitFacets(const glm::dvec3& local, double padding, Visitor&& visit) const
   {
     VisitTree(this->Tree, local, padding, visit);
   }
 
-  /// Whether a patch that `chosen` marks may show a point of the box from `low` to `high`, in world
-  /// coordinates, or whether the box is not behind all of the membrane.
+  /**
+   * Whether a patch that `chosen` marks may show a point of the box from `low` to `high`, in world
+   * coordinates, or whether the box is not behind all of the membrane.
+   */
   bool MayShow(
     const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const;
 
-  /// The virtual vertex of a local point with the sight point `place`.
+  /** The virtual vertex of a local point with the sight point `place`. */
   VirtualVertex MakeVertex(
     const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const;
 
-  /// A local point that is its own image, on the eye's side of the membrane.
+  /** A local point that is its own image, on the eye's side of the membrane. */
   VirtualVertex PassThrough(const glm::dvec3& local) const;
 
-  ///@{
+  /** @{ */
   /**
    * The eye's side of the membrane. Along an axis, the mean of the membrane's normals, it is a
    * height field unless it overhangs: a point is in front if the nearest patch below it along the
@@ -165,9 +187,11 @@ public:
   }
   bool IsClosed() const { return this->Closed; }
   bool IsInFront(const glm::dvec3& local) const;
-  /// Points asked for since PrepareSides whose side could not be found out; they are not in front.
+  /**
+   * Points asked for since PrepareSides whose side could not be found out; they are not in front.
+   */
   std::int64_t GetNumberOfUndecidedSides() const { return this->Sides.GetNumberOfUndecided(); }
-  ///@}
+  /** @} */
 
 private:
   template <typename Visitor>

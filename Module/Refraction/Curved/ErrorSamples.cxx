@@ -35,8 +35,8 @@ bool PatchesAsSurface::Meet(const glm::dvec3& point, const VirtualVertex& vertex
   const auto nearest = std::min_element(images.begin(), images.end(),
     [&vertex](const VirtualVertex& a, const VirtualVertex& b)
     {
-      const glm::dvec3 first = a.sightPoint - vertex.sightPoint;
-      const glm::dvec3 second = b.sightPoint - vertex.sightPoint;
+      const glm::dvec3 first = a.SightPoint - vertex.SightPoint;
+      const glm::dvec3 second = b.SightPoint - vertex.SightPoint;
       return glm::dot(first, first) < glm::dot(second, second);
     });
   return this->Geometry.MeetRay(direction, *nearest, at);
@@ -46,7 +46,7 @@ bool PatchesAsSurface::Meet(const glm::dvec3& point, const VirtualVertex& vertex
 ErrorSample ErrorSampler::Measure(const FlatMembraneSolver& geometry, const glm::dvec3& point) const
 {
   const VirtualVertex vertex = geometry.SolvePoint(point);
-  switch (vertex.state)
+  switch (vertex.State)
   {
     case ImageState::NotFinite:
       return { 0.0, SampleState::NotFinite };
@@ -77,22 +77,22 @@ ErrorSample ErrorSampler::Measure(
 //------------------------------------------------------------------------------
 ErrorSample ErrorSampler::Compare(const glm::dvec3& point, const VirtualVertex& vertex) const
 {
-  const glm::dvec3 direction = glm::normalize(vertex.position - this->Optics.eye);
+  const glm::dvec3 direction = glm::normalize(vertex.Position - this->Optics.Eye);
   PatchPoint at;
   if (!this->Exact.Meet(point, vertex, direction, at))
   {
     return { 0.0, SampleState::NoExactPoint };
   }
   const RefractionRay ray =
-    ComputeRefractionRay(direction, at.normal, this->Optics.exterior / this->Optics.interior);
+    ComputeRefractionRay(direction, at.Normal, this->Optics.Exterior / this->Optics.Interior);
   // A virtual vertex on the eye's side of the exact surface has no point behind it.
-  const double apparent = glm::dot(vertex.position - at.position, direction);
-  if (ray.kind != RayKind::Refracted || apparent < 0.0)
+  const double apparent = glm::dot(vertex.Position - at.Position, direction);
+  if (ray.Kind != RayKind::Refracted || apparent < 0.0)
   {
     return { 0.0, SampleState::NoExactPoint };
   }
-  const double depth = apparent * this->Optics.interior / this->Optics.exterior;
-  const double error = glm::length(at.position + depth * ray.direction - point);
+  const double depth = apparent * this->Optics.Interior / this->Optics.Exterior;
+  const double error = glm::length(at.Position + depth * ray.Direction - point);
   return std::isfinite(error) ? ErrorSample{ error, SampleState::Measured }
                               : ErrorSample{ 0.0, SampleState::NotFinite };
 }
@@ -103,25 +103,25 @@ ErrorSummary Summarize(const ErrorSample* samples, std::size_t count)
   ErrorSummary summary;
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (samples[i].state == SampleState::Measured)
+    if (samples[i].State == SampleState::Measured)
     {
-      summary.mean += samples[i].error;
-      summary.largest = std::max(summary.largest, samples[i].error);
-      ++summary.count;
+      summary.Mean += samples[i].Error;
+      summary.Largest = std::max(summary.Largest, samples[i].Error);
+      ++summary.Count;
     }
   }
-  if (summary.count == 0)
+  if (summary.Count == 0)
   {
     return summary;
   }
-  summary.mean /= static_cast<double>(summary.count);
+  summary.Mean /= static_cast<double>(summary.Count);
   double squares = 0.0;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const double away = samples[i].error - summary.mean;
-    squares += samples[i].state == SampleState::Measured ? away * away : 0.0;
+    const double away = samples[i].Error - summary.Mean;
+    squares += samples[i].State == SampleState::Measured ? away * away : 0.0;
   }
-  summary.deviation = std::sqrt(squares / static_cast<double>(summary.count));
+  summary.Deviation = std::sqrt(squares / static_cast<double>(summary.Count));
   return summary;
 }
 

@@ -19,23 +19,25 @@
 namespace meniscus
 {
 
-/// The surface that a membrane's mesh stands for, in world coordinates.
+/** The surface that a membrane's mesh stands for, in world coordinates. */
 class ExactSurface
 {
 public:
   virtual ~ExactSurface() = default;
 
-  /// Where the ray from the eye along the unit vector `direction` meets the surface near
-  /// `vertex.sightPoint`, and the unit normal there, towards the eye's side. False if nowhere.
+  /**
+   * Where the ray from the eye along the unit vector `direction` meets the surface near
+   * `vertex.sightPoint`, and the unit normal there, towards the eye's side. False if nowhere.
+   */
   virtual bool Meet(const glm::dvec3& point, const VirtualVertex& vertex,
     const glm::dvec3& direction, PatchPoint& at) const = 0;
 };
 
-/// Curved patches as the exact surface: of the same mesh, or of a finer one.
+/** Curved patches as the exact surface: of the same mesh, or of a finer one. */
 class PatchesAsSurface : public ExactSurface
 {
 public:
-  /// `geometry` has the same eye and media as the one that is measured, and outlives this.
+  /** `geometry` has the same eye and media as the one that is measured, and outlives this. */
   explicit PatchesAsSurface(const CurvedMembraneSolver& geometry)
     : Geometry(geometry)
   {
@@ -47,7 +49,7 @@ private:
   const CurvedMembraneSolver& Geometry;
 };
 
-/// What became of a sample.
+/** What became of a sample. */
 enum class SampleState : unsigned char
 {
   Measured = 0,
@@ -59,32 +61,32 @@ enum class SampleState : unsigned char
 
 struct ErrorSample
 {
-  double error = 0.0; ///< world length; of a measured sample only
-  SampleState state = SampleState::NoImage;
+  double Error = 0.0; ///< world length; of a measured sample only
+  SampleState State = SampleState::NoImage;
 };
 
 struct ErrorSummary
 {
-  double mean = 0.0;
-  double deviation = 0.0; ///< of the measured samples themselves, not an estimate for others
-  double largest = 0.0;
-  std::size_t count = 0; ///< measured samples
+  double Mean = 0.0;
+  double Deviation = 0.0; ///< of the measured samples themselves, not an estimate for others
+  double Largest = 0.0;
+  std::size_t Count = 0; ///< measured samples
 };
 
 class ErrorSampler
 {
 public:
-  /// Eye in the world, and media, that the geometries have.
+  /** Eye in the world, and media, that the geometries have. */
   ErrorSampler(const ExactSurface& exact, const glm::dvec3& eye, double exterior, double interior)
     : Exact(exact)
     , Optics{ eye, exterior, interior }
   {
   }
 
-  /// With the thesis's cells: points in exactly one of them count.
+  /** With the thesis's cells: points in exactly one of them count. */
   ErrorSample Measure(const FlatMembraneSolver& geometry, const glm::dvec3& point) const;
 
-  /// With curved patches: points with exactly one image count.
+  /** With curved patches: points with exactly one image count. */
   ErrorSample Measure(const CurvedMembraneSolver& geometry, const glm::dvec3& point) const;
 
 private:
@@ -94,7 +96,9 @@ private:
   Media Optics;
 };
 
-/// In the order of the samples, in two passes: no cancellation, the same on any number of threads.
+/**
+ * In the order of the samples, in two passes: no cancellation, the same on any number of threads.
+ */
 ErrorSummary Summarize(const ErrorSample* samples, std::size_t count);
 
 }

@@ -32,37 +32,37 @@ constexpr int MostSteps = 12;
 // coarser level.
 constexpr int MostCells = 3;
 
-/// Where the ray behind a place of a patch meets the plane at height z: base - z slope.
+/** Where the ray behind a place of a patch meets the plane at height z: base - z slope. */
 struct SlopedRay
 {
-  glm::dvec2 base;
-  glm::dvec2 slope;
-  double height;
+  glm::dvec2 Base;
+  glm::dvec2 Slope;
+  double Height;
 };
 
 bool MakeRay(const CurvedPatch& patch, const glm::dvec2& b, const HeightFrame& frame,
   const Media& media, SlopedRay& ray)
 {
   const PatchPoint at = patch.Evaluate(b);
-  const double length = glm::length(at.normal);
+  const double length = glm::length(at.Normal);
   if (!(length > CurvedPatch::ShortestNormal))
   {
     return false;
   }
   const RefractionRay refracted = ComputeRefractionRay(
-    glm::normalize(at.position - media.eye), at.normal / length, media.exterior / media.interior);
-  const double drop = -frame.GetHeight(refracted.direction);
-  if (refracted.kind != RayKind::Refracted || !(drop > 0.0))
+    glm::normalize(at.Position - media.Eye), at.Normal / length, media.Exterior / media.Interior);
+  const double drop = -frame.GetHeight(refracted.Direction);
+  if (refracted.Kind != RayKind::Refracted || !(drop > 0.0))
   {
     return false;
   }
-  ray.height = frame.GetHeight(at.position);
-  ray.slope = frame.Project(refracted.direction) / drop;
-  ray.base = frame.Project(at.position) + ray.height * ray.slope;
+  ray.Height = frame.GetHeight(at.Position);
+  ray.Slope = frame.Project(refracted.Direction) / drop;
+  ray.Base = frame.Project(at.Position) + ray.Height * ray.Slope;
   return true;
 }
 
-/// Derivatives of a Bezier triangle of second degree at its three corners, by the plane's axes.
+/** Derivatives of a Bezier triangle of second degree at its three corners, by the plane's axes. */
 using CornerDerivatives = std::array<glm::dmat2, 3>;
 
 // `f` holds the values at the corners and in the middles of the edges opposite to them.
@@ -122,9 +122,9 @@ float RoundUp(double value)
 InjectivityGrid::Cell InjectivityGrid::MakeEmpty()
 {
   Cell cell;
-  cell.low.fill(std::numeric_limits<float>::max());
-  cell.high.fill(std::numeric_limits<float>::lowest());
-  cell.slabs = AllSlabs;
+  cell.Low.fill(std::numeric_limits<float>::max());
+  cell.High.fill(std::numeric_limits<float>::lowest());
+  cell.Slabs = AllSlabs;
   return cell;
 }
 
@@ -133,10 +133,10 @@ void InjectivityGrid::Merge(Cell& cell, const Cell& other)
 {
   for (std::size_t i = 0; i < 3; ++i)
   {
-    cell.low[i] = std::min(cell.low[i], other.low[i]);
-    cell.high[i] = std::max(cell.high[i], other.high[i]);
+    cell.Low[i] = std::min(cell.Low[i], other.Low[i]);
+    cell.High[i] = std::max(cell.High[i], other.High[i]);
   }
-  cell.slabs = static_cast<std::uint8_t>(cell.slabs & other.slabs);
+  cell.Slabs = static_cast<std::uint8_t>(cell.Slabs & other.Slabs);
 }
 
 //------------------------------------------------------------------------------
@@ -154,15 +154,15 @@ InjectivityGrid::Cell InjectivityGrid::Judge(
     SlopedRay ray;
     if (!MakeRay(patch, places[i], frame, media, ray))
     {
-      cell.low.fill(std::numeric_limits<float>::lowest());
-      cell.high.fill(std::numeric_limits<float>::max());
-      cell.slabs = 0;
+      cell.Low.fill(std::numeric_limits<float>::lowest());
+      cell.High.fill(std::numeric_limits<float>::max());
+      cell.Slabs = 0;
       return cell;
     }
-    base[i] = ray.base;
-    slope[i] = ray.slope;
-    cell.low[2] = std::min(cell.low[2], RoundDown(ray.height - this->Bulge));
-    cell.high[2] = std::max(cell.high[2], RoundUp(ray.height + this->Bulge));
+    base[i] = ray.Base;
+    slope[i] = ray.Slope;
+    cell.Low[2] = std::min(cell.Low[2], RoundDown(ray.Height - this->Bulge));
+    cell.High[2] = std::max(cell.High[2], RoundUp(ray.Height + this->Bulge));
   }
   for (int axis = 0; axis < 2; ++axis)
   {
@@ -174,12 +174,12 @@ InjectivityGrid::Cell InjectivityGrid::Judge(
       const double low = std::min(slope[k][axis], mean + bend) - rest;
       const double high = std::max(slope[k][axis], mean + bend) + rest;
       const auto i = static_cast<std::size_t>(axis);
-      cell.low[i] = std::min(cell.low[i], RoundDown(low));
-      cell.high[i] = std::max(cell.high[i], RoundUp(high));
+      cell.Low[i] = std::min(cell.Low[i], RoundDown(low));
+      cell.High[i] = std::max(cell.High[i], RoundUp(high));
     }
   }
-  const glm::dmat2 sides(frame.Project(patch.corner[1] - patch.corner[0]),
-    frame.Project(patch.corner[2] - patch.corner[0]));
+  const glm::dmat2 sides(frame.Project(patch.Corner[1] - patch.Corner[0]),
+    frame.Project(patch.Corner[2] - patch.Corner[0]));
   const glm::dmat2 inverse = glm::inverse(sides);
   const CornerDerivatives baseBy = Differentiate(base, inverse);
   const CornerDerivatives slopeBy = Differentiate(slope, inverse);
@@ -188,8 +188,8 @@ InjectivityGrid::Cell InjectivityGrid::Judge(
   {
     const bool after =
       FindMargin(baseBy, slopeBy, this->LowHeight + (i + 1) * this->SlabHeight) > 0.0;
-    cell.slabs = static_cast<std::uint8_t>(
-      before && after ? cell.slabs : cell.slabs & ~(1u << static_cast<unsigned>(i)));
+    cell.Slabs = static_cast<std::uint8_t>(
+      before && after ? cell.Slabs : cell.Slabs & ~(1u << static_cast<unsigned>(i)));
     before = after;
   }
   return cell;
@@ -206,8 +206,8 @@ void InjectivityGrid::FitGrid(const Membrane& membrane)
     {
       const glm::dvec2 place =
         this->Frame.Project(membrane.GetPositions()[static_cast<std::size_t>(vertex)]);
-      bounds.low = glm::min(bounds.low, place);
-      bounds.high = glm::max(bounds.high, place);
+      bounds.Low = glm::min(bounds.Low, place);
+      bounds.High = glm::max(bounds.High, place);
     }
   }
   const auto facets = static_cast<double>(membrane.GetFacets().size());
@@ -216,9 +216,9 @@ void InjectivityGrid::FitGrid(const Membrane& membrane)
   {
     this->Width *= 2;
   }
-  this->Corner = bounds.low;
-  this->Far = bounds.high;
-  this->Scale = double(this->Width) / (bounds.high - bounds.low);
+  this->Corner = bounds.Low;
+  this->Far = bounds.High;
+  this->Scale = double(this->Width) / (bounds.High - bounds.Low);
 }
 
 //------------------------------------------------------------------------------
@@ -284,10 +284,10 @@ void InjectivityGrid::Build(const Membrane& membrane, const CurvedPatches& patch
 //------------------------------------------------------------------------------
 InjectivityGrid::Cell InjectivityGrid::Collect(const Box& box) const
 {
-  int x0 = this->FindIndex(box.low.x, 0);
-  int x1 = this->FindIndex(box.high.x, 0);
-  int y0 = this->FindIndex(box.low.y, 1);
-  int y1 = this->FindIndex(box.high.y, 1);
+  int x0 = this->FindIndex(box.Low.x, 0);
+  int x1 = this->FindIndex(box.High.x, 0);
+  int y0 = this->FindIndex(box.Low.y, 1);
+  int y1 = this->FindIndex(box.High.y, 1);
   std::size_t level = 0;
   while (x1 - x0 >= MostCells || y1 - y0 >= MostCells)
   {
@@ -352,13 +352,13 @@ bool InjectivityGrid::HoldsAtMostOne(const glm::dvec3& low, const glm::dvec3& hi
   for (int step = 0; step < MostSteps; ++step)
   {
     const Cell cell = this->Collect(box);
-    if ((cell.slabs & slabs) == slabs)
+    if ((cell.Slabs & slabs) == slabs)
     {
       return true;
     }
     // S(u) = P - (h - z) m, with 0 < h - z for an image, and u within a bulge of S.
-    const double least = std::max(cell.low[2] - (height + rise), 0.0);
-    const double most = cell.high[2] - (height - rise);
+    const double least = std::max(cell.Low[2] - (height + rise), 0.0);
+    const double most = cell.High[2] - (height - rise);
     if (!(most > 0.0))
     {
       return true; // all of the box is in front
@@ -366,20 +366,20 @@ bool InjectivityGrid::HoldsAtMostOne(const glm::dvec3& low, const glm::dvec3& hi
     Box next;
     for (int axis = 0; axis < 2; ++axis)
     {
-      const double m0 = cell.low[static_cast<std::size_t>(axis)];
-      const double m1 = cell.high[static_cast<std::size_t>(axis)];
+      const double m0 = cell.Low[static_cast<std::size_t>(axis)];
+      const double m1 = cell.High[static_cast<std::size_t>(axis)];
       const double pad = reach[axis] + this->Bulge;
-      next.low[axis] = at[axis] - pad - std::max(least * m1, most * m1);
-      next.high[axis] = at[axis] + pad - std::min(least * m0, most * m0);
+      next.Low[axis] = at[axis] - pad - std::max(least * m1, most * m1);
+      next.High[axis] = at[axis] + pad - std::min(least * m0, most * m0);
     }
-    next.low = glm::max(next.low, box.low);
-    next.high = glm::min(next.high, box.high);
-    if (!(next.low.x <= next.high.x && next.low.y <= next.high.y))
+    next.Low = glm::max(next.Low, box.Low);
+    next.High = glm::min(next.High, box.High);
+    if (!(next.Low.x <= next.High.x && next.Low.y <= next.High.y))
     {
       return true; // no sight point anywhere
     }
-    const glm::dvec2 before = box.high - box.low;
-    const glm::dvec2 after = next.high - next.low;
+    const glm::dvec2 before = box.High - box.Low;
+    const glm::dvec2 after = next.High - next.Low;
     if (!(after.x < Shrinks * before.x || after.y < Shrinks * before.y))
     {
       return false;

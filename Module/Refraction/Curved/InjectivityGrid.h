@@ -33,32 +33,36 @@ namespace meniscus
 class InjectivityGrid
 {
 public:
-  /// For points between two heights along the frame's axis. The membrane must be a convex field,
-  /// no patch of which is farther than `bulge` from its flat facet.
+  /**
+   * For points between two heights along the frame's axis. The membrane must be a convex field,
+   * no patch of which is farther than `bulge` from its flat facet.
+   */
   void Build(const Membrane& membrane, const CurvedPatches& patches, const HeightFrame& frame,
     double bulge, const Media& media, double low, double high, const RangeLoop& loop);
 
   bool IsEmpty() const { return this->Levels.empty(); }
 
-  /// Whether each point of the box, in local coordinates, has one image at most. False says
-  /// nothing.
+  /**
+   * Whether each point of the box, in local coordinates, has one image at most. False says
+   * nothing.
+   */
   bool HoldsAtMostOne(const glm::dvec3& low, const glm::dvec3& high) const;
 
 private:
   static constexpr int Slabs = 8;
   static constexpr std::uint8_t AllSlabs = 0xff;
 
-  /// Bounds of what lies over a cell of the grid, and the slabs in which all of it is injective.
+  /** Bounds of what lies over a cell of the grid, and the slabs in which all of it is injective. */
   struct Cell
   {
-    std::array<float, 3> low; ///< slope, slope, height
-    std::array<float, 3> high;
-    std::uint8_t slabs;
+    std::array<float, 3> Low; ///< slope, slope, height
+    std::array<float, 3> High;
+    std::uint8_t Slabs;
   };
   struct Box
   {
-    glm::dvec2 low;
-    glm::dvec2 high;
+    glm::dvec2 Low;
+    glm::dvec2 High;
   };
   using Level = std::vector<Cell>; ///< square, half as wide as the one before
 

@@ -26,46 +26,48 @@ constexpr double Lowest = std::numeric_limits<double>::lowest();
 
 glm::dvec3 GetWinding(const CurvedPatch& patch)
 {
-  return glm::cross(patch.corner[1] - patch.corner[0], patch.corner[2] - patch.corner[0]);
+  return glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]);
 }
 
 double GetSize(const CurvedPatch& patch)
 {
-  return std::max({ glm::length(patch.corner[1] - patch.corner[0]),
-    glm::length(patch.corner[2] - patch.corner[1]),
-    glm::length(patch.corner[0] - patch.corner[2]) });
+  return std::max({ glm::length(patch.Corner[1] - patch.Corner[0]),
+    glm::length(patch.Corner[2] - patch.Corner[1]),
+    glm::length(patch.Corner[0] - patch.Corner[2]) });
 }
 
-/// The highest of the crossings, and whether others at its height agree with it.
+/** The highest of the crossings, and whether others at its height agree with it. */
 struct NearestCrossing
 {
-  double height = Lowest;
-  int side = 0;
-  std::int32_t facet = CurvedPatches::NoFacet;
-  double same = 0.0;
-  bool isInside = false; ///< of its patch, or in the patches on both sides of an edge
-  bool isDisputed = false;
+  double Height = Lowest;
+  int Side = 0;
+  std::int32_t Facet = CurvedPatches::NoFacet;
+  double Same = 0.0;
+  bool IsInside = false; ///< of its patch, or in the patches on both sides of an edge
+  bool IsDisputed = false;
 
-  /// Crossings below this are farther.
-  double GetLowest() const { return this->height - this->same; }
+  /** Crossings below this are farther. */
+  double GetLowest() const { return this->Height - this->Same; }
 
-  /// Just outside of one facet, and not in its neighbour, an edge may be passed that both facets
-  /// turn away from.
-  bool IsSure() const { return this->isInside && !this->isDisputed; }
+  /**
+   * Just outside of one facet, and not in its neighbour, an edge may be passed that both facets
+   * turn away from.
+   */
+  bool IsSure() const { return this->IsInside && !this->IsDisputed; }
 
   void Add(const PatchCrossing& crossing, std::int32_t of, double tie)
   {
-    const double slack = std::max(tie, this->same);
-    if (crossing.height > this->height + slack)
+    const double slack = std::max(tie, this->Same);
+    if (crossing.Height > this->Height + slack)
     {
-      *this = { crossing.height, crossing.side, of, tie, crossing.outside >= 0.0, false };
+      *this = { crossing.Height, crossing.Side, of, tie, crossing.Outside >= 0.0, false };
     }
-    else if (crossing.height >= this->height - slack)
+    else if (crossing.Height >= this->Height - slack)
     {
-      this->isInside = this->isInside || of != this->facet || crossing.outside >= 0.0;
-      this->isDisputed = this->isDisputed || crossing.side != this->side;
-      this->height = std::max(this->height, crossing.height);
-      this->same = slack;
+      this->IsInside = this->IsInside || of != this->Facet || crossing.Outside >= 0.0;
+      this->IsDisputed = this->IsDisputed || crossing.Side != this->Side;
+      this->Height = std::max(this->Height, crossing.Height);
+      this->Same = slack;
     }
   }
 };
@@ -97,11 +99,11 @@ void MembraneSides::Build(
   for (std::size_t i = 0; i < count; ++i)
   {
     const CurvedPatch patch = patches.GetPatch(static_cast<std::int32_t>(i));
-    const glm::dvec3 sum = patch.normal[0] + patch.normal[1] + patch.normal[2];
+    const glm::dvec3 sum = patch.Normal[0] + patch.Normal[1] + patch.Normal[2];
     this->Columns[i] = { std::nextafter(static_cast<float>(BoundBulge(patch)),
                            std::numeric_limits<float>::infinity()),
       static_cast<signed char>(glm::dot(GetWinding(patch), sum) < 0.0 ? -1 : 1) };
-    for (const glm::dvec3& corner : patch.corner)
+    for (const glm::dvec3& corner : patch.Corner)
     {
       centroids[i] += frame.ToFrame(corner) / 3.0;
     }
@@ -111,7 +113,7 @@ void MembraneSides::Build(
     [this](std::int32_t facet)
     {
       const glm::dvec3 bulge(
-        static_cast<double>(this->Columns[static_cast<std::size_t>(facet)].bulge));
+        static_cast<double>(this->Columns[static_cast<std::size_t>(facet)].Bulge));
       TubeBounds bounds;
       for (const std::int32_t vertex : this->Surface->GetFacets()[static_cast<std::size_t>(facet)])
       {
@@ -129,8 +131,8 @@ void MembraneSides::Build(
 MembraneSides::Side MembraneSides::Find(const glm::dvec3& local) const
 {
   const Look look = this->LookAlong(this->Frame, local, std::numeric_limits<double>::infinity());
-  return look.openFacet == CurvedPatches::NoFacet ? look.side
-                                                  : this->FindAround(local, look.openFacet);
+  return look.OpenFacet == CurvedPatches::NoFacet ? look.Answer
+                                                  : this->FindAround(local, look.OpenFacet);
 }
 
 //------------------------------------------------------------------------------
@@ -150,14 +152,14 @@ MembraneSides::Side MembraneSides::FindAround(const glm::dvec3& local, std::int3
     const double reach = size * (0.3 + 0.4 * i / Ways);
     const glm::dvec3 way = GetWay(i);
     Look look = this->LookAlong(HeightFrame(-way), local, reach);
-    if (look.openFacet == CurvedPatches::NoFacet && look.side == Side::Unknown)
+    if (look.OpenFacet == CurvedPatches::NoFacet && look.Answer == Side::Unknown)
     {
       look =
         this->LookAlong(this->Frame, local + reach * way, std::numeric_limits<double>::infinity());
     }
-    if (look.openFacet == CurvedPatches::NoFacet)
+    if (look.OpenFacet == CurvedPatches::NoFacet)
     {
-      return look.side;
+      return look.Answer;
     }
   }
   ++this->Undecided;
@@ -179,25 +181,25 @@ MembraneSides::Look MembraneSides::LookAlong(
     [this, &frame, &local, low, &floor](std::int32_t facet)
     {
       const Candidate candidate = this->Classify(facet, frame, local, low);
-      if (candidate.high >= floor)
+      if (candidate.High >= floor)
       {
         candidates.push_back(candidate);
-        floor = candidate.side != 0 ? std::max(floor, candidate.low) : floor;
+        floor = candidate.Side != 0 ? std::max(floor, candidate.Low) : floor;
       }
       return std::numeric_limits<std::int32_t>::max();
     });
   // By facet where heights are equal: the order of a sort must not depend on the library.
   std::sort(candidates.begin(), candidates.end(),
     [](const Candidate& a, const Candidate& b)
-    { return a.high != b.high ? a.high > b.high : a.facet < b.facet; });
+    { return a.High != b.High ? a.High > b.High : a.Facet < b.Facet; });
   if (candidates.empty())
   {
     return MakeLook(0);
   }
   const Candidate& first = candidates.front();
-  if (first.side != 0 && (candidates.size() == 1 || candidates[1].high < first.low))
+  if (first.Side != 0 && (candidates.size() == 1 || candidates[1].High < first.Low))
   {
-    return MakeLook(first.side);
+    return MakeLook(first.Side);
   }
   return this->LookExactly(candidates, frame, local, low);
 }
@@ -209,7 +211,7 @@ MembraneSides::Candidate MembraneSides::Classify(
 {
   const auto& corners = this->Surface->GetFacets()[static_cast<std::size_t>(facet)];
   const Column& column = this->Columns[static_cast<std::size_t>(facet)];
-  const double bulge = static_cast<double>(column.bulge) + this->Slack;
+  const double bulge = static_cast<double>(column.Bulge) + this->Slack;
   glm::dvec2 place[3];
   double lowest = std::numeric_limits<double>::max();
   double highest = Lowest;
@@ -248,7 +250,7 @@ MembraneSides::Candidate MembraneSides::Classify(
   }
   const bool isBelow = highest + bulge < -this->Slack && own + lowest - bulge > low;
   return { facet, own + lowest - bulge, own + highest + bulge,
-    isInside && isBelow ? (area < 0.0 ? -column.front : column.front) : 0 };
+    isInside && isBelow ? (area < 0.0 ? -column.Front : column.Front) : 0 };
 }
 
 //------------------------------------------------------------------------------
@@ -263,27 +265,27 @@ MembraneSides::Look MembraneSides::LookExactly(const std::vector<Candidate>& can
   for (std::size_t i = 0; i < candidates.size(); ++i)
   {
     const Candidate& candidate = candidates[i];
-    if (candidate.high < nearest.GetLowest())
+    if (candidate.High < nearest.GetLowest())
     {
       break; // in their order
     }
-    const bool isNext = i + 1 == candidates.size() || candidates[i + 1].high < candidate.low;
-    if (candidate.side != 0 && isNext && std::max(open, nearest.height) < candidate.low)
+    const bool isNext = i + 1 == candidates.size() || candidates[i + 1].High < candidate.Low;
+    if (candidate.Side != 0 && isNext && std::max(open, nearest.Height) < candidate.Low)
     {
-      return MakeLook(candidate.side);
+      return MakeLook(candidate.Side);
     }
-    const CurvedPatch patch = this->Patches->GetPatch(candidate.facet);
+    const CurvedPatch patch = this->Patches->GetPatch(candidate.Facet);
     PatchCrossings crossings(patch, frame);
     crossings.Find(place, std::max(low, nearest.GetLowest()), own + this->Slack);
     if (crossings.GetHighestOpen() > open)
     {
       open = crossings.GetHighestOpen();
-      openFacet = candidate.facet;
+      openFacet = candidate.Facet;
     }
     for (const PatchCrossing& crossing : crossings)
     {
-      const double distance = own - crossing.height;
-      if (distance < -this->Slack || crossing.height < low)
+      const double distance = own - crossing.Height;
+      if (distance < -this->Slack || crossing.Height < low)
       {
         continue;
       }
@@ -291,16 +293,16 @@ MembraneSides::Look MembraneSides::LookExactly(const std::vector<Candidate>& can
       {
         return MakeLook(1);
       }
-      nearest.Add(crossing, candidate.facet, SameHeight * GetSize(patch));
+      nearest.Add(crossing, candidate.Facet, SameHeight * GetSize(patch));
     }
   }
   if (openFacet != CurvedPatches::NoFacet && open >= nearest.GetLowest())
   {
     return { Side::Unknown, openFacet };
   }
-  return nearest.facet == CurvedPatches::NoFacet || nearest.IsSure()
-    ? MakeLook(nearest.side)
-    : Look{ Side::Unknown, nearest.facet };
+  return nearest.Facet == CurvedPatches::NoFacet || nearest.IsSure()
+    ? MakeLook(nearest.Side)
+    : Look{ Side::Unknown, nearest.Facet };
 }
 
 }

@@ -40,36 +40,36 @@ public:
     Behind
   };
 
-  /// Builds the tree. `surface` and `patches` must outlive this.
+  /** Builds the tree. `surface` and `patches` must outlive this. */
   void Build(const Membrane& surface, const CurvedPatches& patches, const HeightFrame& frame);
 
-  /// The side of a point in local coordinates. Points within rounding of a patch are in front.
+  /** The side of a point in local coordinates. Points within rounding of a patch are in front. */
   Side Find(const glm::dvec3& local) const;
 
-  /// Points whose side no way has decided, since the membrane was built.
+  /** Points whose side no way has decided, since the membrane was built. */
   std::int64_t GetNumberOfUndecided() const { return this->Undecided; }
 
 private:
-  /// A facet whose patch the line may cross, and bounds of the height of that.
+  /** A facet whose patch the line may cross, and bounds of the height of that. */
   struct Candidate
   {
-    std::int32_t facet;
-    double low;
-    double high;
-    int side; ///< +1 or -1 if the crossing is certain and below the point; otherwise 0
+    std::int32_t Facet;
+    double Low;
+    double High;
+    int Side; ///< +1 or -1 if the crossing is certain and below the point; otherwise 0
   };
   struct Look
   {
-    Side side;
-    std::int32_t openFacet; ///< the line decides nothing because of it; NoFacet: it does
+    Side Answer;
+    std::int32_t OpenFacet; ///< the line decides nothing because of it; NoFacet: it does
   };
   struct Column
   {
-    float bulge; ///< rounded up
-    signed char front;
+    float Bulge; ///< rounded up
+    signed char Front;
   };
 
-  /// Of a sign; 0: no patch.
+  /** Of a sign; 0: no patch. */
   static Look MakeLook(int side);
   Candidate Classify(
     std::int32_t facet, const HeightFrame& frame, const glm::dvec3& local, double low) const;

@@ -30,45 +30,47 @@ constexpr double Largest(const std::array<double, 3>& values)
   return std::max({ values[0], values[1], values[2] });
 }
 
-/// Bounds of the length of a function and of its first and second derivatives along the edges.
+/** Bounds of the length of a function and of its first and second derivatives along the edges. */
 struct Bounds
 {
-  double value = 0.0;
-  std::array<double, 3> first{};
-  std::array<double, 3> second{};
+  double Value = 0.0;
+  std::array<double, 3> First{};
+  std::array<double, 3> Second{};
 };
 
-/// Bounds of a product.
+/** Bounds of a product. */
 Bounds Multiply(const Bounds& f, const Bounds& g)
 {
   Bounds result;
-  result.value = f.value * g.value;
+  result.Value = f.Value * g.Value;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    result.first[k] = f.first[k] * g.value + f.value * g.first[k];
-    result.second[k] =
-      f.second[k] * g.value + 2.0 * f.first[k] * g.first[k] + f.value * g.second[k];
+    result.First[k] = f.First[k] * g.Value + f.Value * g.First[k];
+    result.Second[k] =
+      f.Second[k] * g.Value + 2.0 * f.First[k] * g.First[k] + f.Value * g.Second[k];
   }
   return result;
 }
 
-/// A triangle around a part: its corners, then the middles of its edges.
+/** A triangle around a part: its corners, then the middles of its edges. */
 using Around = std::array<glm::dvec2, 6>;
 
-/// Values at the corners and in the middles of the edges as the control points of a function of
-/// second degree.
+/**
+ * Values at the corners and in the middles of the edges as the control points of a function of
+ * second degree.
+ */
 std::array<double, 6> GetControls(const std::array<double, 6>& f)
 {
   return { f[0], f[1], f[2], 2.0 * f[3] - 0.5 * (f[1] + f[2]), 2.0 * f[4] - 0.5 * (f[2] + f[0]),
     2.0 * f[5] - 0.5 * (f[0] + f[1]) };
 }
 
-/// The gradient of q by b.x and b.y.
+/** The gradient of q by b.x and b.y. */
 glm::dvec2 GetFormGradient(const CurvedPatch& patch, const glm::dvec2& b)
 {
   const double c = 1.0 - b.x - b.y;
-  const double* s = patch.symmetric;
-  const double* d = patch.asymmetric;
+  const double* s = patch.Symmetric;
+  const double* d = patch.Asymmetric;
   const double bc[3] = { b.x * b.y, b.y * c, c * b.x };
   const double form[3] = { s[0] + d[0] * (b.x - b.y), s[1] + d[1] * (b.y - c),
     s[2] + d[2] * (c - b.x) };
@@ -81,14 +83,16 @@ glm::dvec2 GetFormGradient(const CurvedPatch& patch, const glm::dvec2& b)
 double GetForm(const CurvedPatch& patch, const glm::dvec2& b)
 {
   const double c = 1.0 - b.x - b.y;
-  return b.x * b.y * (patch.symmetric[0] + patch.asymmetric[0] * (b.x - b.y)) +
-    b.y * c * (patch.symmetric[1] + patch.asymmetric[1] * (b.y - c)) +
-    c * b.x * (patch.symmetric[2] + patch.asymmetric[2] * (c - b.x));
+  return b.x * b.y * (patch.Symmetric[0] + patch.Asymmetric[0] * (b.x - b.y)) +
+    b.y * c * (patch.Symmetric[1] + patch.Asymmetric[1] * (b.y - c)) +
+    c * b.x * (patch.Symmetric[2] + patch.Asymmetric[2] * (c - b.x));
 }
 
-/// Bounds of q, whose sides are `size` times those of the facet. Its derivatives along edges are of
-/// second degree, within their control points; those of these are differences of control points.
-/// No point is farther from the middle than two thirds of edges.
+/**
+ * Bounds of q, whose sides are `size` times those of the facet. Its derivatives along edges are of
+ * second degree, within their control points; those of these are differences of control points.
+ * No point is farther from the middle than two thirds of edges.
+ */
 Bounds BoundForm(const CurvedPatch& patch, const Around& around, double size)
 {
   std::array<glm::dvec2, 6> gradient;
@@ -106,73 +110,73 @@ Bounds BoundForm(const CurvedPatch& patch, const Around& around, double size)
     const std::array<double, 6> c = GetControls(along);
     for (const double control : c)
     {
-      result.first[k] = std::max(result.first[k], std::fabs(control));
+      result.First[k] = std::max(result.First[k], std::fabs(control));
     }
-    result.second[k] = 2.0 / size *
+    result.Second[k] = 2.0 / size *
       std::max(
         { std::fabs(c[k + 3] - c[i]), std::fabs(c[j] - c[k + 3]), std::fabs(c[i + 3] - c[j + 3]) });
   }
   const glm::dvec2 middle = (around[0] + around[1] + around[2]) / 3.0;
-  result.value = std::fabs(GetForm(patch, middle)) + 2.0 / 3.0 * size * Largest(result.first);
+  result.Value = std::fabs(GetForm(patch, middle)) + 2.0 / 3.0 * size * Largest(result.First);
   return result;
 }
 
-/// The normal's values at corners, control points of edges, and derivatives along these.
+/** The normal's values at corners, control points of edges, and derivatives along these. */
 struct NormalControls
 {
-  std::array<glm::dvec3, 6> control;
-  std::array<std::array<glm::dvec3, 2>, 3> first; ///< by edge, at its two ends
-  std::array<glm::dvec3, 3> opposite;             ///< by edge, at the other corner
-  std::array<glm::dvec3, 3> second;
+  std::array<glm::dvec3, 6> Control;
+  std::array<std::array<glm::dvec3, 2>, 3> First; ///< by edge, at its two ends
+  std::array<glm::dvec3, 3> Opposite;             ///< by edge, at the other corner
+  std::array<glm::dvec3, 3> Second;
 
   NormalControls(const CurvedPatch& patch, const Around& around, double size)
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
-      this->control[k] = patch.GetNormal(around[k]);
-      this->second[k] = -2.0 * patch.bend[k];
+      this->Control[k] = patch.GetNormal(around[k]);
+      this->Second[k] = -2.0 * patch.Bend[k];
     }
     for (std::size_t k = 0; k < 3; ++k)
     {
-      this->control[k + 3] = 0.5 * (this->control[(k + 1) % 3] + this->control[(k + 2) % 3]) -
-        0.25 * size * size * this->second[k];
+      this->Control[k + 3] = 0.5 * (this->Control[(k + 1) % 3] + this->Control[(k + 2) % 3]) -
+        0.25 * size * size * this->Second[k];
     }
     for (std::size_t k = 0; k < 3; ++k)
     {
       const std::size_t i = (k + 1) % 3;
       const std::size_t j = (k + 2) % 3;
       const double inverse = 2.0 / size;
-      this->first[k] = { inverse * (this->control[k + 3] - this->control[i]),
-        inverse * (this->control[j] - this->control[k + 3]) };
-      this->opposite[k] = inverse * (this->control[i + 3] - this->control[j + 3]);
+      this->First[k] = { inverse * (this->Control[k + 3] - this->Control[i]),
+        inverse * (this->Control[j] - this->Control[k + 3]) };
+      this->Opposite[k] = inverse * (this->Control[i + 3] - this->Control[j + 3]);
     }
   }
 
-  /// `square` gives the squared length of a vector.
+  /** `square` gives the squared length of a vector. */
   template <typename Square>
   Bounds Bound(const Square& square) const
   {
     Bounds result;
-    for (const glm::dvec3& c : this->control)
+    for (const glm::dvec3& c : this->Control)
     {
-      result.value = std::max(result.value, square(c));
+      result.Value = std::max(result.Value, square(c));
     }
-    result.value = std::sqrt(result.value);
+    result.Value = std::sqrt(result.Value);
     for (std::size_t k = 0; k < 3; ++k)
     {
-      result.first[k] = std::sqrt(std::max(
-        { square(this->first[k][0]), square(this->first[k][1]), square(this->opposite[k]) }));
-      result.second[k] = std::sqrt(square(this->second[k]));
+      result.First[k] = std::sqrt(std::max(
+        { square(this->First[k][0]), square(this->First[k][1]), square(this->Opposite[k]) }));
+      result.Second[k] = std::sqrt(square(this->Second[k]));
     }
     return result;
   }
 
-  /// No normal is shorter, if positive.
+  /** No normal is shorter, if positive. */
   double GetShortest() const
   {
-    const glm::dvec3 along = glm::normalize(this->control[0] + this->control[1] + this->control[2]);
+    const glm::dvec3 along = glm::normalize(this->Control[0] + this->Control[1] + this->Control[2]);
     double shortest = std::numeric_limits<double>::max();
-    for (const glm::dvec3& c : this->control)
+    for (const glm::dvec3& c : this->Control)
     {
       shortest = std::min(shortest, glm::dot(c, along));
     }
@@ -180,9 +184,11 @@ struct NormalControls
   }
 };
 
-/// Bounds of 2 / (l + l^2) with l = |n| >= shortest. Its derivatives by l are
-/// -2 (1 + 2 l) / (l + l^2)^2 and 4 (1 + 3 l + 3 l^2) / (l + l^2)^3; those of l are at most |n'|
-/// and |n''| + |n'|^2 / l.
+/**
+ * Bounds of 2 / (l + l^2) with l = |n| >= shortest. Its derivatives by l are
+ * -2 (1 + 2 l) / (l + l^2)^2 and 4 (1 + 3 l + 3 l^2) / (l + l^2)^3; those of l are at most |n'|
+ * and |n''| + |n'|^2 / l.
+ */
 Bounds BoundFactor(const Bounds& normal, double shortest)
 {
   const double l = shortest;
@@ -190,13 +196,13 @@ Bounds BoundFactor(const Bounds& normal, double shortest)
   const double byLength = 2.0 * (1.0 + 2.0 * l) * inverse * inverse;
   const double byLengthTwice = 4.0 * (1.0 + 3.0 * l * (1.0 + l)) * inverse * inverse * inverse;
   Bounds result;
-  result.value = 2.0 * inverse;
+  result.Value = 2.0 * inverse;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const double first = normal.first[k];
-    result.first[k] = byLength * first;
-    result.second[k] =
-      byLengthTwice * first * first + byLength * (normal.second[k] + first * first / l);
+    const double first = normal.First[k];
+    result.First[k] = byLength * first;
+    result.Second[k] =
+      byLengthTwice * first * first + byLength * (normal.Second[k] + first * first / l);
   }
   return result;
 }
@@ -209,15 +215,15 @@ PatchCrossings::PatchCrossings(const CurvedPatch& patch, const HeightFrame& fram
   , Frame(frame)
 {
   const glm::dvec3 winding =
-    glm::cross(patch.corner[1] - patch.corner[0], patch.corner[2] - patch.corner[0]);
+    glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]);
   this->Front =
-    glm::dot(winding, patch.normal[0] + patch.normal[1] + patch.normal[2]) < 0.0 ? -1 : 1;
+    glm::dot(winding, patch.Normal[0] + patch.Normal[1] + patch.Normal[2]) < 0.0 ? -1 : 1;
   this->IsFlat = true;
   double reach = 0.0;
   for (int k = 0; k < 3; ++k)
   {
-    reach = std::max(reach, glm::length(patch.corner[k]));
-    this->IsFlat = this->IsFlat && patch.symmetric[k] == 0.0 && patch.asymmetric[k] == 0.0;
+    reach = std::max(reach, glm::length(patch.Corner[k]));
+    this->IsFlat = this->IsFlat && patch.Symmetric[k] == 0.0 && patch.Asymmetric[k] == 0.0;
   }
   // A position is a sum of a dozen products of such numbers, three of which make a coordinate.
   this->Rounding = 16.0 * std::numeric_limits<double>::epsilon() * reach;
@@ -243,7 +249,7 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
     {
       continue;
     }
-    if (part.size <= SmallestPart || divisions == MostDivisions)
+    if (part.Size <= SmallestPart || divisions == MostDivisions)
     {
       this->MarkOpen(part);
       continue;
@@ -252,18 +258,19 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
     std::array<Corner, 3> middle; // opposite to the corners
     for (std::size_t k = 0; k < 3; ++k)
     {
-      middle[k] = this->MakeCorner(0.5 * (part.corner[(k + 1) % 3].b + part.corner[(k + 2) % 3].b));
+      middle[k] =
+        this->MakeCorner(0.5 * (part.Corners[(k + 1) % 3].B + part.Corners[(k + 2) % 3].B));
     }
     for (std::size_t k = 0; k < 3; ++k)
     {
       std::array<Corner, 3> corner = middle;
-      corner[k] = part.corner[k];
+      corner[k] = part.Corners[k];
       // The corner's part is wound as the whole: middles of the two sides at the corner.
       corner[(k + 1) % 3] = middle[(k + 2) % 3];
       corner[(k + 2) % 3] = middle[(k + 1) % 3];
-      parts[waiting++] = { corner, 0.5 * part.size, part.across, part.along };
+      parts[waiting++] = { corner, 0.5 * part.Size, part.Across, part.Along };
     }
-    parts[waiting++] = { middle, 0.5 * part.size, part.across, part.along };
+    parts[waiting++] = { middle, 0.5 * part.Size, part.Across, part.Along };
   }
 }
 
@@ -272,8 +279,8 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
 // over the slant.
 double PatchCrossings::GetLargestSlant(const CurvedPatch& patch, double bend)
 {
-  const glm::dvec3 u = patch.corner[1] - patch.corner[0];
-  const glm::dvec3 v = patch.corner[2] - patch.corner[0];
+  const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
+  const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
   return LargestSlope * glm::length(glm::cross(u, v)) / ((glm::length(u) + glm::length(v)) * bend);
 }
 
@@ -284,7 +291,7 @@ double PatchCrossings::GetLargestSlant()
                 Corner{ { 0.0, 1.0 }, {}, 0.0 } },
     1.0, Bend(), Bend() };
   this->BoundDeflection(whole);
-  return GetLargestSlant(this->Patch, whole.along.first + 2.0 * this->Rounding);
+  return GetLargestSlant(this->Patch, whole.Along.First + 2.0 * this->Rounding);
 }
 
 //------------------------------------------------------------------------------
@@ -299,10 +306,10 @@ double PatchCrossings::BoundLargestSlant(const CurvedPatch& patch)
   double turn = 0.0; // squared
   for (int k = 0; k < 3; ++k)
   {
-    s += std::fabs(patch.symmetric[k]);
-    d += std::fabs(patch.asymmetric[k]);
-    bends += std::fabs(patch.bend[k].x) + std::fabs(patch.bend[k].y) + std::fabs(patch.bend[k].z);
-    const glm::dvec3 difference = patch.normal[(k + 1) % 3] - patch.normal[k];
+    s += std::fabs(patch.Symmetric[k]);
+    d += std::fabs(patch.Asymmetric[k]);
+    bends += std::fabs(patch.Bend[k].x) + std::fabs(patch.Bend[k].y) + std::fabs(patch.Bend[k].z);
+    const glm::dvec3 difference = patch.Normal[(k + 1) % 3] - patch.Normal[k];
     turn = std::max(turn, glm::dot(difference, difference));
   }
   turn = std::sqrt(turn);
@@ -319,7 +326,7 @@ double PatchCrossings::BoundLargestSlant(const CurvedPatch& patch)
 //------------------------------------------------------------------------------
 PatchCrossings::Corner PatchCrossings::MakeCorner(const glm::dvec2& b) const
 {
-  const glm::dvec3 position = this->Patch.Evaluate(b).position;
+  const glm::dvec3 position = this->Patch.Evaluate(b).Position;
   return { b, this->Frame.Project(position) - this->Place, this->Frame.GetHeight(position) };
 }
 
@@ -332,7 +339,7 @@ PatchCrossings::Corner PatchCrossings::MakeCorner(const glm::dvec2& b) const
 // derivatives jump. An affine map makes any triangle equilateral.
 double PatchCrossings::Bend::GetDeviation(double size) const
 {
-  return std::min(5.0 / 18.0 * size * size * this->second, size * this->first);
+  return std::min(5.0 / 18.0 * size * size * this->Second, size * this->First);
 }
 
 //------------------------------------------------------------------------------
@@ -341,16 +348,16 @@ void PatchCrossings::BoundDeflection(Part& part) const
 {
   if (this->IsFlat)
   {
-    part.across = part.along = { 0.0, 0.0 };
+    part.Across = part.Along = { 0.0, 0.0 };
     return;
   }
   constexpr double widened = 1.0 + 3.0 * Reach;
-  const double size = widened * part.size;
-  const glm::dvec2 middle = (part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0;
+  const double size = widened * part.Size;
+  const glm::dvec2 middle = (part.Corners[0].B + part.Corners[1].B + part.Corners[2].B) / 3.0;
   Around around;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    around[k] = middle + widened * (part.corner[k].b - middle);
+    around[k] = middle + widened * (part.Corners[k].B - middle);
   }
   for (std::size_t k = 0; k < 3; ++k)
   {
@@ -370,11 +377,11 @@ void PatchCrossings::BoundDeflection(Part& part) const
     BoundFactor(normal, std::max(shortest, CurvedPatch::ShortestNormal)));
   const auto bend = [isSmooth](const Bounds& h)
   {
-    return Bend{ Largest(h.first),
-      isSmooth ? Largest(h.second) : std::numeric_limits<double>::infinity() };
+    return Bend{ Largest(h.First),
+      isSmooth ? Largest(h.Second) : std::numeric_limits<double>::infinity() };
   };
-  part.across = bend(Multiply(shift, across));
-  part.along = bend(Multiply(shift, normal));
+  part.Across = bend(Multiply(shift, across));
+  part.Along = bend(Multiply(shift, normal));
 }
 
 //------------------------------------------------------------------------------
@@ -382,15 +389,15 @@ void PatchCrossings::BoundDeflection(Part& part) const
 // sides, or, if it is next to a segment, beyond an end of the longest side.
 bool PatchCrossings::IsSeparated(const Part& part, double reach)
 {
-  const auto& c = part.corner;
-  const double area = Cross(c[1].x - c[0].x, c[2].x - c[0].x);
+  const auto& c = part.Corners;
+  const double area = Cross(c[1].X - c[0].X, c[2].X - c[0].X);
   const double sign = area < 0.0 ? -1.0 : 1.0;
   glm::dvec2 longest(0.0);
   double squared = 0.0;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const glm::dvec2& from = c[(k + 1) % 3].x;
-    const glm::dvec2 side = c[(k + 2) % 3].x - from;
+    const glm::dvec2& from = c[(k + 1) % 3].X;
+    const glm::dvec2 side = c[(k + 2) % 3].X - from;
     const double length = glm::dot(side, side);
     if (sign * Cross(from, side) < -reach * std::sqrt(length))
     {
@@ -407,7 +414,7 @@ bool PatchCrossings::IsSeparated(const Part& part, double reach)
   double high = std::numeric_limits<double>::lowest();
   for (const Corner& corner : c)
   {
-    const double at = glm::dot(longest, corner.x);
+    const double at = glm::dot(longest, corner.X);
     low = std::min(low, at);
     high = std::max(high, at);
   }
@@ -418,11 +425,11 @@ bool PatchCrossings::IsSeparated(const Part& part, double reach)
 // Whether the line does not meet the part at the heights of interest.
 bool PatchCrossings::IsPassed(const Part& part, double low, double high) const
 {
-  const auto& c = part.corner;
-  const double along = part.along.GetDeviation(part.size) + this->Rounding;
-  return std::min({ c[0].height, c[1].height, c[2].height }) - along > high ||
-    std::max({ c[0].height, c[1].height, c[2].height }) + along < low ||
-    IsSeparated(part, part.across.GetDeviation(part.size) + this->Rounding);
+  const auto& c = part.Corners;
+  const double along = part.Along.GetDeviation(part.Size) + this->Rounding;
+  return std::min({ c[0].Height, c[1].Height, c[2].Height }) - along > high ||
+    std::max({ c[0].Height, c[1].Height, c[2].Height }) + along < low ||
+    IsSeparated(part, part.Across.GetDeviation(part.Size) + this->Rounding);
 }
 
 //------------------------------------------------------------------------------
@@ -450,7 +457,7 @@ PatchCrossings::Verdict PatchCrossings::Settle(Part& part, double low, double hi
 bool PatchCrossings::IsInjective(const Part& part) const
 {
   // Written so that a NaN fails.
-  const double rounding = 2.0 * this->Rounding / part.size; // of differences
+  const double rounding = 2.0 * this->Rounding / part.Size; // of differences
   const auto dominates = [this, rounding](
                            const glm::dvec3& first, const glm::dvec3& second, double by)
   {
@@ -459,50 +466,50 @@ bool PatchCrossings::IsInjective(const Part& part) const
     return (glm::length(u) + glm::length(v)) * (by + rounding) <=
       LargestSlope * std::fabs(Cross(u, v));
   };
-  if (dominates(this->Patch.corner[1] - this->Patch.corner[0],
-        this->Patch.corner[2] - this->Patch.corner[0], part.across.first))
+  if (dominates(this->Patch.Corner[1] - this->Patch.Corner[0],
+        this->Patch.Corner[2] - this->Patch.Corner[0], part.Across.First))
   {
     return true;
   }
   PatchJet middle;
-  this->Patch.Evaluate((part.corner[0].b + part.corner[1].b + part.corner[2].b) / 3.0, middle);
+  this->Patch.Evaluate((part.Corners[0].B + part.Corners[1].B + part.Corners[2].B) / 3.0, middle);
   constexpr double widened = 1.0 + 3.0 * Reach;
-  return dominates(middle.positionBy[0], middle.positionBy[1],
-    std::min(widened * part.size * part.across.second, 2.0 * part.across.first));
+  return dominates(middle.PositionBy[0], middle.PositionBy[1],
+    std::min(widened * part.Size * part.Across.Second, 2.0 * part.Across.First));
 }
 
 //------------------------------------------------------------------------------
 // False if Newton's method does not converge to a place where X is known to be injective.
 bool PatchCrossings::TakeRoot(const Part& part)
 {
-  const auto& c = part.corner;
-  const glm::dvec2 first = c[1].x - c[0].x;
-  const glm::dvec2 second = c[2].x - c[0].x;
+  const auto& c = part.Corners;
+  const glm::dvec2 first = c[1].X - c[0].X;
+  const glm::dvec2 second = c[2].X - c[0].X;
   const double whole = Cross(first, second);
-  glm::dvec2 b = c[0].b + (Cross(second, c[0].x) / whole) * (c[1].b - c[0].b) +
-    (Cross(c[0].x, first) / whole) * (c[2].b - c[0].b);
+  glm::dvec2 b = c[0].B + (Cross(second, c[0].X) / whole) * (c[1].B - c[0].B) +
+    (Cross(c[0].X, first) / whole) * (c[2].B - c[0].B);
   PatchJet jet;
   for (int i = 0; i < NewtonSteps; ++i)
   {
     this->Patch.Evaluate(b, jet);
-    const glm::dvec2 x = this->Frame.Project(jet.position) - this->Place;
-    const glm::dvec2 u = this->Frame.Project(jet.positionBy[0]);
-    const glm::dvec2 v = this->Frame.Project(jet.positionBy[1]);
+    const glm::dvec2 x = this->Frame.Project(jet.Position) - this->Place;
+    const glm::dvec2 u = this->Frame.Project(jet.PositionBy[0]);
+    const glm::dvec2 v = this->Frame.Project(jet.PositionBy[1]);
     const double area = Cross(u, v);
     const glm::dvec2 move(Cross(v, x) / area, Cross(x, u) / area);
     b += move;
     // In the part's coordinates, along the facet's two sides or against them.
-    const glm::dvec2 away = (b - c[0].b) / (c[1].b.x - c[0].b.x);
+    const glm::dvec2 away = (b - c[0].B) / (c[1].B.x - c[0].B.x);
     // Written so that a NaN fails.
-    if (!(FindOutside(away).least >= -Reach))
+    if (!(FindOutside(away).Least >= -Reach))
     {
       return false;
     }
-    if (std::max(std::fabs(move.x), std::fabs(move.y)) >= LastStep * part.size)
+    if (std::max(std::fabs(move.x), std::fabs(move.y)) >= LastStep * part.Size)
     {
       continue;
     }
-    const double outside = FindOutside(b).least;
+    const double outside = FindOutside(b).Least;
     if (outside < -Border)
     {
       return true; // the root is beyond the patch
@@ -513,8 +520,8 @@ bool PatchCrossings::TakeRoot(const Part& part)
     }
     // Over so short a step the patch is as good as linear.
     const glm::dvec3 position =
-      jet.position + move.x * jet.positionBy[0] + move.y * jet.positionBy[1];
-    const glm::dvec3 normal = jet.normal + move.x * jet.normalBy[0] + move.y * jet.normalBy[1];
+      jet.Position + move.x * jet.PositionBy[0] + move.y * jet.PositionBy[1];
+    const glm::dvec3 normal = jet.Normal + move.x * jet.NormalBy[0] + move.y * jet.NormalBy[1];
     this->Crossings[this->Count++] = { this->Frame.GetHeight(position),
       area < 0.0 ? -this->Front : this->Front, outside, normal };
     return true;
@@ -525,10 +532,10 @@ bool PatchCrossings::TakeRoot(const Part& part)
 //------------------------------------------------------------------------------
 void PatchCrossings::MarkOpen(const Part& part)
 {
-  const double along = part.along.GetDeviation(part.size);
-  for (const Corner& corner : part.corner)
+  const double along = part.Along.GetDeviation(part.Size);
+  for (const Corner& corner : part.Corners)
   {
-    this->HighestOpen = std::max(this->HighestOpen, corner.height + along);
+    this->HighestOpen = std::max(this->HighestOpen, corner.Height + along);
   }
 }
 

@@ -13,13 +13,13 @@
 namespace meniscus
 {
 
-/// A place where a line along an axis crosses a patch.
+/** A place where a line along an axis crosses a patch. */
 struct PatchCrossing
 {
-  double height;     ///< along the axis
-  int side;          ///< +1 if the patch's front faces along the axis there, -1 if its back does
-  double outside;    ///< smallest barycentric coordinate, no less than -Border
-  glm::dvec3 normal; ///< the patch's, not normalised
+  double Height;     ///< along the axis
+  int Side;          ///< +1 if the patch's front faces along the axis there, -1 if its back does
+  double Outside;    ///< smallest barycentric coordinate, no less than -Border
+  glm::dvec3 Normal; ///< the patch's, not normalised
 };
 
 /**
@@ -45,28 +45,30 @@ struct PatchCrossing
 class PatchCrossings
 {
 public:
-  /// A root on an edge is found in both of its facets, up to what Newton's method leaves.
+  /** A root on an edge is found in both of its facets, up to what Newton's method leaves. */
   static constexpr double Border = 1e-8;
 
-  /// `patch` and `frame` must outlive this. The axis is the frame's.
+  /** `patch` and `frame` must outlive this. The axis is the frame's. */
   PatchCrossings(const CurvedPatch& patch, const HeightFrame& frame);
 
-  /// The crossings over `place` with heights in [low, high]; some beyond these may be there too.
+  /** The crossings over `place` with heights in [low, high]; some beyond these may be there too. */
   void Find(const glm::dvec2& place, double low, double high);
 
-  /// Lines that make an angle with the facet's normal whose inverse cosine is no more than this
-  /// cross the patch, and what is within Reach of it, once at most.
+  /**
+   * Lines that make an angle with the facet's normal whose inverse cosine is no more than this
+   * cross the patch, and what is within Reach of it, once at most.
+   */
   double GetLargestSlant();
-  /// A lower bound of it that costs little.
+  /** A lower bound of it that costs little. */
   static double BoundLargestSlant(const CurvedPatch& patch);
-  /// How far out of its triangle, in barycentric coordinates, the bounds of a part hold.
+  /** How far out of its triangle, in barycentric coordinates, the bounds of a part hold. */
   static constexpr double Reach = 0.1;
 
   const PatchCrossing* begin() const { return this->Crossings.data(); }
   const PatchCrossing* end() const { return this->Crossings.data() + this->Count; }
 
   bool IsComplete() const { return this->HighestOpen == std::numeric_limits<double>::lowest(); }
-  /// No undecided part of the patch is higher; the lowest number if all are decided.
+  /** No undecided part of the patch is higher; the lowest number if all are decided. */
   double GetHighestOpen() const { return this->HighestOpen; }
 
 private:
@@ -75,30 +77,32 @@ private:
   static constexpr double SmallestPart = 0x1p-40;
   static constexpr int MostDivisions = 256;
 
-  /// A corner of a part: barycentric coordinates, the place relative to the line, the height.
+  /** A corner of a part: barycentric coordinates, the place relative to the line, the height. */
   struct Corner
   {
-    glm::dvec2 b;
-    glm::dvec2 x;
-    double height;
+    glm::dvec2 B;
+    glm::dvec2 X;
+    double Height;
   };
-  /// Bounds of the derivatives along sides of what the patch adds to its facet: first ones, and
-  /// second ones, which are infinite where they jump.
+  /**
+   * Bounds of the derivatives along sides of what the patch adds to its facet: first ones, and
+   * second ones, which are infinite where they jump.
+   */
   struct Bend
   {
-    double first = std::numeric_limits<double>::infinity();
-    double second = std::numeric_limits<double>::infinity();
+    double First = std::numeric_limits<double>::infinity();
+    double Second = std::numeric_limits<double>::infinity();
 
-    /// Largest distance from the linear interpolant of a part's corners.
+    /** Largest distance from the linear interpolant of a part's corners. */
     double GetDeviation(double size) const;
   };
-  /// A triangle of the facet whose sides are `size` times the facet's.
+  /** A triangle of the facet whose sides are `size` times the facet's. */
   struct Part
   {
-    std::array<Corner, 3> corner;
-    double size;
-    Bend across; ///< the axis; bounds that hold for a part hold for its parts
-    Bend along;
+    std::array<Corner, 3> Corners;
+    double Size;
+    Bend Across; ///< the axis; bounds that hold for a part hold for its parts
+    Bend Along;
   };
   enum class Verdict
   {

@@ -113,21 +113,21 @@ bool IsInjective(const Control& c, double margin)
 void PatchRoots::Find()
 {
   Triangle whole;
-  whole.b = { glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
+  whole.B = { glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
     glm::dvec2(0.5, 0.5), glm::dvec2(0.0, 0.5), glm::dvec2(0.5, 0.0) };
   this->Count = 0;
   this->Divisions = 0;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    whole.f[i] = this->Equation.GetResidual(this->Patch, whole.b[i]);
+    whole.F[i] = this->Equation.GetResidual(this->Patch, whole.B[i]);
   }
-  if (this->IsFar() && IsFarFromZero(whole.f))
+  if (this->IsFar() && IsFarFromZero(whole.F))
   {
     return;
   }
   for (std::size_t i = 3; i < 6; ++i)
   {
-    whole.f[i] = this->Equation.GetResidual(this->Patch, whole.b[i]);
+    whole.F[i] = this->Equation.GetResidual(this->Patch, whole.B[i]);
   }
   this->Search(whole, 0);
 }
@@ -137,34 +137,34 @@ void PatchRoots::Find()
 // do its normals, which hardly bend on the way: the map bends by less than LargestDeflection.
 bool PatchRoots::IsFar() const
 {
-  const glm::dvec3 first = this->Patch.corner[1] - this->Patch.corner[0];
-  const glm::dvec3 second = this->Patch.corner[2] - this->Patch.corner[0];
+  const glm::dvec3 first = this->Patch.Corner[1] - this->Patch.Corner[0];
+  const glm::dvec3 second = this->Patch.Corner[2] - this->Patch.Corner[0];
   const double squared = 4.0 * (glm::dot(first, first) + glm::dot(second, second));
   constexpr double smallest = 0.875;  // cos 0.5
   constexpr double straightest = 0.1; // a quarter of the largest bend of an edge
   const auto turns = [this](int i, int j)
   {
-    const glm::dvec3& bend = this->Patch.bend[3 - i - j];
-    return glm::dot(this->Patch.normal[i], this->Patch.normal[j]) < smallest ||
+    const glm::dvec3& bend = this->Patch.Bend[3 - i - j];
+    return glm::dot(this->Patch.Normal[i], this->Patch.Normal[j]) < smallest ||
       glm::dot(bend, bend) > straightest * straightest;
   };
-  return this->Equation.GetSquaredDistance(this->Patch.corner[0]) > squared && !turns(0, 1) &&
+  return this->Equation.GetSquaredDistance(this->Patch.Corner[0]) > squared && !turns(0, 1) &&
     !turns(1, 2) && !turns(2, 0);
 }
 
 //------------------------------------------------------------------------------
 PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle)
 {
-  Control control = triangle.f;
+  Control control = triangle.F;
   double bend = 0.0;
   double size = 0.0;
   double reach = 0.0;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const glm::dvec2& a = triangle.f[(k + 1) % 3];
-    const glm::dvec2& b = triangle.f[(k + 2) % 3];
-    control[k + 3] = 2.0 * triangle.f[k + 3] - 0.5 * (a + b);
-    bend = std::max(bend, glm::length(triangle.f[k + 3] - 0.5 * (a + b)));
+    const glm::dvec2& a = triangle.F[(k + 1) % 3];
+    const glm::dvec2& b = triangle.F[(k + 2) % 3];
+    control[k + 3] = 2.0 * triangle.F[k + 3] - 0.5 * (a + b);
+    bend = std::max(bend, glm::length(triangle.F[k + 3] - 0.5 * (a + b)));
     size = std::max(size, glm::length(b - a));
     reach = std::max(reach, glm::length(a));
   }
@@ -200,35 +200,35 @@ void PatchRoots::Search(const Triangle& triangle, int depth)
 // none inside.
 bool PatchRoots::TakeRoot(const Triangle& triangle)
 {
-  const glm::dvec2 u = triangle.f[1] - triangle.f[0];
-  const glm::dvec2 v = triangle.f[2] - triangle.f[0];
+  const glm::dvec2 u = triangle.F[1] - triangle.F[0];
+  const glm::dvec2 v = triangle.F[2] - triangle.F[0];
   const double determinant = Cross(u, v);
-  double s = Cross(-triangle.f[0], v) / determinant;
-  double t = Cross(u, -triangle.f[0]) / determinant;
+  double s = Cross(-triangle.F[0], v) / determinant;
+  double t = Cross(u, -triangle.F[0]) / determinant;
   if (!(std::min({ s, t, 1.0 - s - t }) > -1.0))
   {
     s = 1.0 / 3.0;
     t = 1.0 / 3.0;
   }
-  const glm::dvec2 side1 = triangle.b[1] - triangle.b[0];
-  const glm::dvec2 side2 = triangle.b[2] - triangle.b[0];
+  const glm::dvec2 side1 = triangle.B[1] - triangle.B[0];
+  const glm::dvec2 side2 = triangle.B[2] - triangle.B[0];
   const SightRoot root =
-    this->Equation.Solve(this->Patch, triangle.b[0] + s * side1 + t * side2, NewtonSteps, 2.0);
-  if (root.end != SightRoot::End::Converged)
+    this->Equation.Solve(this->Patch, triangle.B[0] + s * side1 + t * side2, NewtonSteps, 2.0);
+  if (root.End != SightRoot::End::Converged)
   {
     return false;
   }
   const double area = Cross(side1, side2);
   const glm::dvec2 inside(
-    Cross(root.b - triangle.b[0], side2) / area, Cross(side1, root.b - triangle.b[0]) / area);
+    Cross(root.B - triangle.B[0], side2) / area, Cross(side1, root.B - triangle.B[0]) / area);
   // Newton's method may have gone to another root far away; the map is known here only.
-  if (FindOutside(inside).least < -FarthestRoot)
+  if (FindOutside(inside).Least < -FarthestRoot)
   {
     return false;
   }
   // A triangle's border is as wide as the facet's, whatever its size.
   const double border = Border / std::sqrt(std::fabs(area));
-  if (FindOutside(inside).least >= -border && FindOutside(root.b).least >= -Border)
+  if (FindOutside(inside).Least >= -border && FindOutside(root.B).Least >= -Border)
   {
     this->Add(root);
   }
@@ -245,13 +245,13 @@ void PatchRoots::Divide(const Triangle& t, int depth)
   Triangle middle;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    middle.b[k] = t.b[k + 3];
-    middle.f[k] = t.f[k + 3];
+    middle.B[k] = t.B[k + 3];
+    middle.F[k] = t.F[k + 3];
   }
   for (std::size_t k = 0; k < 3; ++k)
   {
-    middle.b[k + 3] = 0.5 * (middle.b[(k + 1) % 3] + middle.b[(k + 2) % 3]);
-    middle.f[k + 3] = evaluate(middle.b[k + 3]);
+    middle.B[k + 3] = 0.5 * (middle.B[(k + 1) % 3] + middle.B[(k + 2) % 3]);
+    middle.F[k + 3] = evaluate(middle.B[k + 3]);
   }
   this->Search(middle, depth + 1);
   for (std::size_t k = 0; k < 3; ++k)
@@ -259,10 +259,10 @@ void PatchRoots::Divide(const Triangle& t, int depth)
     const std::size_t i = (k + 1) % 3;
     const std::size_t j = (k + 2) % 3;
     Triangle child;
-    child.b = { t.b[k], t.b[j + 3], t.b[i + 3], middle.b[k + 3], 0.5 * (t.b[k] + t.b[i + 3]),
-      0.5 * (t.b[k] + t.b[j + 3]) };
-    child.f = { t.f[k], t.f[j + 3], t.f[i + 3], middle.f[k + 3], evaluate(child.b[4]),
-      evaluate(child.b[5]) };
+    child.B = { t.B[k], t.B[j + 3], t.B[i + 3], middle.B[k + 3], 0.5 * (t.B[k] + t.B[i + 3]),
+      0.5 * (t.B[k] + t.B[j + 3]) };
+    child.F = { t.F[k], t.F[j + 3], t.F[i + 3], middle.F[k + 3], evaluate(child.B[4]),
+      evaluate(child.B[5]) };
     this->Search(child, depth + 1);
   }
 }
@@ -272,7 +272,7 @@ void PatchRoots::Add(const SightRoot& root)
 {
   for (const SightRoot& other : *this)
   {
-    if (std::max(std::fabs(root.b.x - other.b.x), std::fabs(root.b.y - other.b.y)) < SameRoot)
+    if (std::max(std::fabs(root.B.x - other.B.x), std::fabs(root.B.y - other.B.y)) < SameRoot)
     {
       return;
     }

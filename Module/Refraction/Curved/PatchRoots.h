@@ -28,7 +28,7 @@ namespace meniscus
 class PatchRoots
 {
 public:
-  /// A patch that focuses on a point may show any number of images; a smooth one shows few.
+  /** A patch that focuses on a point may show any number of images; a smooth one shows few. */
   static constexpr std::size_t Capacity = 16;
 
   PatchRoots(const SightEquation& equation, const CurvedPatch& patch)
@@ -37,18 +37,18 @@ public:
   {
   }
 
-  /// Roots inside the facet, images or not, are in [begin, end) afterwards.
+  /** Roots inside the facet, images or not, are in [begin, end) afterwards. */
   void Find();
 
   const SightRoot* begin() const { return this->Roots.data(); }
   const SightRoot* end() const { return this->Roots.data() + this->Count; }
 
 private:
-  /// Corners, then middles of the edges opposite to them.
+  /** Corners, then middles of the edges opposite to them. */
   struct Triangle
   {
-    std::array<glm::dvec2, 6> b;
-    std::array<glm::dvec2, 6> f;
+    std::array<glm::dvec2, 6> B;
+    std::array<glm::dvec2, 6> F;
   };
   enum class Verdict
   {

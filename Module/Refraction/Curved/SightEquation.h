@@ -23,7 +23,7 @@
 namespace meniscus
 {
 
-/// Where Newton's method ended.
+/** Where Newton's method ended. */
 struct SightRoot
 {
   enum class End
@@ -32,10 +32,10 @@ struct SightRoot
     Left,      ///< went out of the facet by more than it was allowed to
     Failed     ///< singular, or too many steps
   };
-  End end;
-  glm::dvec2 b;
-  PatchPoint at;      ///< the root's point, if converged
-  double determinant; ///< of the Jacobian in the tangent plane; its sign turns at caustics
+  End End;
+  glm::dvec2 B;
+  PatchPoint At;      ///< the root's point, if converged
+  double Determinant; ///< of the Jacobian in the tangent plane; its sign turns at caustics
 };
 
 class SightEquation
@@ -49,17 +49,19 @@ public:
   {
   }
 
-  /// h without its part along the normal, in the two directions of the facet's edges; zero at a
-  /// sight point. Multiplied by the square of the normal's length.
+  /**
+   * h without its part along the normal, in the two directions of the facet's edges; zero at a
+   * sight point. Multiplied by the square of the normal's length.
+   */
   glm::dvec2 GetResidual(const CurvedPatch& patch, const glm::dvec2& b) const;
 
-  /// Newton's method from `b`, at most `steps` steps, leaving the facet by `reach` at most.
+  /** Newton's method from `b`, at most `steps` steps, leaving the facet by `reach` at most. */
   SightRoot Solve(const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const;
 
-  /// Whether a root is an image: eye in front of the surface, point behind it.
+  /** Whether a root is an image: eye in front of the surface, point behind it. */
   bool IsImage(const PatchPoint& at) const;
 
-  /// Of a place from the eye or from the point, whichever is nearer.
+  /** Of a place from the eye or from the point, whichever is nearer. */
   double GetSquaredDistance(const glm::dvec3& place) const
   {
     const glm::dvec3 a = place - this->Eye;
@@ -67,15 +69,15 @@ public:
     return std::min(glm::dot(a, a), glm::dot(p, p));
   }
 
-  /// Which way round the image of a facet is: +1, or -1 where it is mirrored.
+  /** Which way round the image of a facet is: +1, or -1 where it is mirrored. */
   static int GetOrientation(const CurvedPatch& patch, const SightRoot& root);
 
 private:
   struct Step
   {
-    glm::dvec2 move;
-    double determinant;
-    double nearest; ///< of eye and point, the distance
+    glm::dvec2 Move;
+    double Determinant;
+    double Nearest; ///< of eye and point, the distance
   };
   Step GetStep(const PatchJet& jet) const;
 
@@ -89,16 +91,16 @@ private:
 inline glm::dvec2 SightEquation::GetResidual(const CurvedPatch& patch, const glm::dvec2& b) const
 {
   const PatchPoint at = patch.Evaluate(b);
-  const glm::dvec3 a = at.position - this->Eye;
-  const glm::dvec3 p = this->Point - at.position;
+  const glm::dvec3 a = at.Position - this->Eye;
+  const glm::dvec3 p = this->Point - at.Position;
   const glm::dvec3 h =
     (this->Exterior * glm::length(p)) * a - (this->Interior * glm::length(a)) * p;
-  const double squared = glm::dot(at.normal, at.normal);
-  const double along = glm::dot(h, at.normal);
-  const glm::dvec3 first = patch.corner[1] - patch.corner[0];
-  const glm::dvec3 second = patch.corner[2] - patch.corner[0];
-  return { squared * glm::dot(h, first) - along * glm::dot(at.normal, first),
-    squared * glm::dot(h, second) - along * glm::dot(at.normal, second) };
+  const double squared = glm::dot(at.Normal, at.Normal);
+  const double along = glm::dot(h, at.Normal);
+  const glm::dvec3 first = patch.Corner[1] - patch.Corner[0];
+  const glm::dvec3 second = patch.Corner[2] - patch.Corner[0];
+  return { squared * glm::dot(h, first) - along * glm::dot(at.Normal, first),
+    squared * glm::dot(h, second) - along * glm::dot(at.Normal, second) };
 }
 
 //------------------------------------------------------------------------------
@@ -107,25 +109,25 @@ inline glm::dvec2 SightEquation::GetResidual(const CurvedPatch& patch, const glm
 // Cramer's rule in the tangent plane.
 inline SightEquation::Step SightEquation::GetStep(const PatchJet& jet) const
 {
-  const glm::dvec3 a = jet.position - this->Eye;
-  const glm::dvec3 p = this->Point - jet.position;
+  const glm::dvec3 a = jet.Position - this->Eye;
+  const glm::dvec3 p = this->Point - jet.Position;
   const double lengthA = glm::length(a);
   const double lengthP = glm::length(p);
   const double outer = this->Exterior * lengthP;
   const double inner = this->Interior * lengthA;
   const glm::dvec3 h = outer * a - inner * p;
-  const double eta = glm::dot(h, jet.normal) / glm::dot(jet.normal, jet.normal);
+  const double eta = glm::dot(h, jet.Normal) / glm::dot(jet.Normal, jet.Normal);
   const glm::dvec3 alongP = lengthP > 0.0 ? (this->Exterior / lengthP) * p : glm::dvec3(0.0);
   const glm::dvec3 alongA = lengthA > 0.0 ? (this->Interior / lengthA) * a : glm::dvec3(0.0);
   glm::dvec3 by[2];
   for (int k = 0; k < 2; ++k)
   {
-    const glm::dvec3& d = jet.positionBy[k];
+    const glm::dvec3& d = jet.PositionBy[k];
     by[k] = (outer + inner) * d - glm::dot(alongP, d) * a - glm::dot(alongA, d) * p -
-      eta * jet.normalBy[k];
+      eta * jet.NormalBy[k];
   }
-  const glm::dvec3 first = glm::cross(by[1], jet.normal);
-  const glm::dvec3 second = glm::cross(jet.normal, by[0]);
+  const glm::dvec3 first = glm::cross(by[1], jet.Normal);
+  const glm::dvec3 second = glm::cross(jet.Normal, by[0]);
   const double determinant = glm::dot(by[0], first);
   const double inverse = -1.0 / determinant;
   return { { inverse * glm::dot(h, first), inverse * glm::dot(h, second) }, determinant,
@@ -143,8 +145,8 @@ inline SightRoot SightEquation::Solve(
   const auto isLast = [](const Step& step, const PatchJet& at, double size)
   {
     const double width = std::max(
-      glm::dot(at.positionBy[0], at.positionBy[0]), glm::dot(at.positionBy[1], at.positionBy[1]));
-    const double longest = lastStep * step.nearest;
+      glm::dot(at.PositionBy[0], at.PositionBy[0]), glm::dot(at.PositionBy[1], at.PositionBy[1]));
+    const double longest = lastStep * step.Nearest;
     return size < lastStep && size * size * width <= longest * longest;
   };
   PatchJet jet;
@@ -152,23 +154,23 @@ inline SightRoot SightEquation::Solve(
   {
     patch.Evaluate(b, jet);
     const Step step = this->GetStep(jet);
-    const double size = std::max(std::fabs(step.move.x), std::fabs(step.move.y));
+    const double size = std::max(std::fabs(step.Move.x), std::fabs(step.Move.y));
     if (!(size <= std::numeric_limits<double>::max()))
     {
       break;
     }
-    b += step.move;
+    b += step.Move;
     if (isLast(step, jet, size))
     {
       // Over so short a step the patch is as good as linear.
-      const PatchPoint at{ jet.position + step.move.x * jet.positionBy[0] +
-          step.move.y * jet.positionBy[1],
-        jet.normal + step.move.x * jet.normalBy[0] + step.move.y * jet.normalBy[1] };
-      return { SightRoot::End::Converged, b, at, step.determinant };
+      const PatchPoint at{ jet.Position + step.Move.x * jet.PositionBy[0] +
+          step.Move.y * jet.PositionBy[1],
+        jet.Normal + step.Move.x * jet.NormalBy[0] + step.Move.y * jet.NormalBy[1] };
+      return { SightRoot::End::Converged, b, at, step.Determinant };
     }
-    if (FindOutside(b).least < -reach)
+    if (FindOutside(b).Least < -reach)
     {
-      return { SightRoot::End::Left, b, jet, step.determinant };
+      return { SightRoot::End::Left, b, jet, step.Determinant };
     }
   }
   return { SightRoot::End::Failed, b, jet, 0.0 };
@@ -177,18 +179,18 @@ inline SightRoot SightEquation::Solve(
 //------------------------------------------------------------------------------
 inline bool SightEquation::IsImage(const PatchPoint& at) const
 {
-  return glm::dot(at.normal, at.normal) >
+  return glm::dot(at.Normal, at.Normal) >
     CurvedPatch::ShortestNormal * CurvedPatch::ShortestNormal &&
-    glm::dot(at.position - this->Eye, at.normal) < 0.0 &&
-    glm::dot(this->Point - at.position, at.normal) < 0.0;
+    glm::dot(at.Position - this->Eye, at.Normal) < 0.0 &&
+    glm::dot(this->Point - at.Position, at.Normal) < 0.0;
 }
 
 //------------------------------------------------------------------------------
 inline int SightEquation::GetOrientation(const CurvedPatch& patch, const SightRoot& root)
 {
   const glm::dvec3 facet =
-    glm::cross(patch.corner[1] - patch.corner[0], patch.corner[2] - patch.corner[0]);
-  return (root.determinant < 0.0) == (glm::dot(facet, root.at.normal) < 0.0) ? 1 : -1;
+    glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]);
+  return (root.Determinant < 0.0) == (glm::dot(facet, root.At.Normal) < 0.0) ? 1 : -1;
 }
 
 }

@@ -69,11 +69,11 @@ bool FlatMembraneSolver::IsInReach(const glm::dvec3& local) const
 VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
 {
   VirtualVertex vertex;
-  vertex.position = point;
+  vertex.Position = point;
   const glm::dvec3 local = point - this->Surface.GetOrigin();
   if (!this->IsInReach(local))
   {
-    vertex.state = ImageState::NotFinite;
+    vertex.State = ImageState::NotFinite;
     return vertex;
   }
   std::int32_t first = std::numeric_limits<std::int32_t>::max();
@@ -97,11 +97,11 @@ VirtualVertex FlatMembraneSolver::SolvePoint(const glm::dvec3& point) const
 VirtualVertex FlatMembraneSolver::SolvePointByBruteForce(const glm::dvec3& point) const
 {
   VirtualVertex vertex;
-  vertex.position = point;
+  vertex.Position = point;
   const glm::dvec3 local = point - this->Surface.GetOrigin();
   if (!this->IsInReach(local))
   {
-    vertex.state = ImageState::NotFinite;
+    vertex.State = ImageState::NotFinite;
     return vertex;
   }
   const auto count = static_cast<std::int32_t>(this->Surface.GetFacets().size());
@@ -156,7 +156,7 @@ VirtualVertex FlatMembraneSolver::MakeVertex(
   glm::dvec3 normal(0.0);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const double weight = hit.weights[static_cast<int>(i)];
+    const double weight = hit.Weights[static_cast<int>(i)];
     sightPoint += weight * this->Surface.GetPositions()[static_cast<std::size_t>(ids[i])];
     normal += weight * this->Surface.GetNormals()[static_cast<std::size_t>(ids[i])];
   }
@@ -164,17 +164,17 @@ VirtualVertex FlatMembraneSolver::MakeVertex(
   const double bent = glm::length(normal);
 
   VirtualVertex vertex;
-  vertex.depth = glm::length(local - sightPoint);
-  vertex.sightPoint = sightPoint + this->Surface.GetOrigin();
+  vertex.Depth = glm::length(local - sightPoint);
+  vertex.SightPoint = sightPoint + this->Surface.GetOrigin();
   // Eq. 2.4.
-  vertex.position = sightPoint + sight * (vertex.depth * this->Exterior / this->Interior) +
+  vertex.Position = sightPoint + sight * (vertex.Depth * this->Exterior / this->Interior) +
     this->Surface.GetOrigin();
   // Where normals cancel out the ray only grazes.
-  vertex.cosine = bent > 0.0 ? -glm::dot(sight, normal) / bent : 0.0;
-  vertex.reflectance = FresnelReflectance(vertex.cosine, this->Exterior, this->Interior);
-  vertex.facet = facet;
-  vertex.state = ImageState::Found;
-  vertex.orientation = static_cast<signed char>(hit.orientation);
+  vertex.Cosine = bent > 0.0 ? -glm::dot(sight, normal) / bent : 0.0;
+  vertex.Reflectance = FresnelReflectance(vertex.Cosine, this->Exterior, this->Interior);
+  vertex.Facet = facet;
+  vertex.State = ImageState::Found;
+  vertex.Orientation = static_cast<signed char>(hit.Orientation);
   return vertex;
 }
 

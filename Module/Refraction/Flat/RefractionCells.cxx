@@ -39,43 +39,47 @@ bool IsOpen(double cosine, double squaredMean)
 
 }
 
-/// The triangle in which the plane through a point cuts the rays of a cell, relative to the point.
+/**
+ * The triangle in which the plane through a point cuts the rays of a cell, relative to the point.
+ */
 struct RefractionCells::CrossSection
 {
-  glm::dvec3 toCorner[3];
-  glm::dvec3 cut[3];
-  double depth[3];
-  double cosine[3];
-  double squaredMean = 0.0;
+  glm::dvec3 ToCorner[3];
+  glm::dvec3 Cut[3];
+  double Depth[3];
+  double Cosine[3];
+  double SquaredMean = 0.0;
 
-  /// Rounding of a corner of the cut, times the length of the mean ray.
+  /** Rounding of a corner of the cut, times the length of the mean ray. */
   double GetTolerance() const
   {
-    const double mean = std::sqrt(this->squaredMean);
+    const double mean = std::sqrt(this->SquaredMean);
     double reach = 0.0;
     for (int i = 0; i < 3; ++i)
     {
-      reach = std::max(reach, glm::length(this->toCorner[i]) * (1.0 + mean / this->cosine[i]));
+      reach = std::max(reach, glm::length(this->ToCorner[i]) * (1.0 + mean / this->Cosine[i]));
     }
     return CornerRounding * reach * mean;
   }
 
-  /// Whether no area is more negative than rounding or `wallArea` explains. The first pass takes no
-  /// square root and a reach that is too large: almost every cell that is tested fails it.
+  /**
+   * Whether no area is more negative than rounding or `wallArea` explains. The first pass takes no
+   * square root and a reach that is too large: almost every cell that is tested fails it.
+   */
   bool IsInside(const glm::dvec3& area, double wallArea) const
   {
     constexpr double factor = CornerRounding * (1.0 + 1.0 / SmallestCosine);
     double squaredReach = 0.0;
-    for (const glm::dvec3& w : this->toCorner)
+    for (const glm::dvec3& w : this->ToCorner)
     {
       squaredReach = std::max(squaredReach, glm::dot(w, w));
     }
-    const double squaredTolerance = factor * factor * squaredReach * this->squaredMean;
+    const double squaredTolerance = factor * factor * squaredReach * this->SquaredMean;
     double longest = 0.0;
     double edge[3];
     for (int i = 0; i < 3; ++i)
     {
-      const glm::dvec3 side = this->cut[(i + 1) % 3] - this->cut[(i + 2) % 3];
+      const glm::dvec3 side = this->Cut[(i + 1) % 3] - this->Cut[(i + 2) % 3];
       edge[i] = glm::dot(side, side);
       longest = std::max(longest, edge[i]);
       if (!(area[i] >= 0.0) &&
@@ -84,7 +88,7 @@ struct RefractionCells::CrossSection
         return false;
       }
     }
-    if (!(area.x + area.y + area.z > Thinnest * longest * std::sqrt(this->squaredMean)))
+    if (!(area.x + area.y + area.z > Thinnest * longest * std::sqrt(this->SquaredMean)))
     {
       return false;
     }
@@ -154,8 +158,8 @@ EyeStatus RefractionCells::Update(const Membrane& membrane, const glm::dvec3& ey
       {
         const RefractionRay ray =
           ComputeRefractionRay(glm::normalize(positions[i] - this->Eye), normals[i], ratio);
-        this->Corners[i] = { positions[i], ray.direction };
-        kinds[i] = ray.kind;
+        this->Corners[i] = { positions[i], ray.Direction };
+        kinds[i] = ray.Kind;
       }
     });
   this->CountRays(kinds);
@@ -212,9 +216,9 @@ void RefractionCells::CountRays(const std::vector<RayKind>& kinds)
       if (!counted[vertex])
       {
         counted[vertex] = true;
-        this->Report.refracted += kinds[vertex] == RayKind::Refracted;
-        this->Report.backFacing += kinds[vertex] == RayKind::BackFacing;
-        this->Report.totallyReflected += kinds[vertex] == RayKind::TotallyReflected;
+        this->Report.Refracted += kinds[vertex] == RayKind::Refracted;
+        this->Report.BackFacing += kinds[vertex] == RayKind::BackFacing;
+        this->Report.TotallyReflected += kinds[vertex] == RayKind::TotallyReflected;
       }
     }
   }
@@ -225,25 +229,25 @@ bool RefractionCells::Contains(
   std::int32_t facet, const glm::dvec3& point, double wall, CellHit& hit) const
 {
   const CornerTriple corner = this->GetCorners(facet);
-  const glm::dvec3 mean = corner[0]->ray + corner[1]->ray + corner[2]->ray;
+  const glm::dvec3 mean = corner[0]->Ray + corner[1]->Ray + corner[2]->Ray;
   CrossSection cross;
-  cross.squaredMean = glm::dot(mean, mean);
+  cross.SquaredMean = glm::dot(mean, mean);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    cross.cosine[i] = glm::dot(corner[i]->ray, mean);
-    if (!IsOpen(cross.cosine[i], cross.squaredMean))
+    cross.Cosine[i] = glm::dot(corner[i]->Ray, mean);
+    if (!IsOpen(cross.Cosine[i], cross.SquaredMean))
     {
       return false;
     }
-    cross.toCorner[i] = corner[i]->position - point;
-    cross.depth[i] = -glm::dot(cross.toCorner[i], mean);
-    cross.cut[i] = cross.toCorner[i] + corner[i]->ray * (cross.depth[i] / cross.cosine[i]);
+    cross.ToCorner[i] = corner[i]->Position - point;
+    cross.Depth[i] = -glm::dot(cross.ToCorner[i], mean);
+    cross.Cut[i] = cross.ToCorner[i] + corner[i]->Ray * (cross.Depth[i] / cross.Cosine[i]);
   }
 
   // Twice the signed areas, times the length of the mean ray.
-  glm::dvec3 area(glm::dot(mean, glm::cross(cross.cut[1], cross.cut[2])),
-    glm::dot(mean, glm::cross(cross.cut[2], cross.cut[0])),
-    glm::dot(mean, glm::cross(cross.cut[0], cross.cut[1])));
+  glm::dvec3 area(glm::dot(mean, glm::cross(cross.Cut[1], cross.Cut[2])),
+    glm::dot(mean, glm::cross(cross.Cut[2], cross.Cut[0])),
+    glm::dot(mean, glm::cross(cross.Cut[0], cross.Cut[1])));
   const double sum = area.x + area.y + area.z;
   const double sign = sum < 0.0 ? -1.0 : 1.0;
   area *= sign;
@@ -251,15 +255,15 @@ bool RefractionCells::Contains(
   {
     return false;
   }
-  hit.weights = area / (sign * sum);
-  if (!this->IsBehind(corner, cross, hit.weights))
+  hit.Weights = area / (sign * sum);
+  if (!this->IsBehind(corner, cross, hit.Weights))
   {
     return false;
   }
   const double upright = glm::dot(mean,
     glm::cross(
-      corner[1]->position - corner[0]->position, corner[2]->position - corner[0]->position));
-  hit.orientation = upright * sign >= 0.0 ? 1 : -1;
+      corner[1]->Position - corner[0]->Position, corner[2]->Position - corner[0]->Position));
+  hit.Orientation = upright * sign >= 0.0 ? 1 : -1;
   return true;
 }
 
@@ -268,7 +272,7 @@ bool RefractionCells::IsBehind(
   const CornerTriple& corner, const CrossSection& cross, const glm::dvec3& weights) const
 {
   const double tolerance = cross.GetTolerance();
-  const glm::dvec3 depth(cross.depth[0], cross.depth[1], cross.depth[2]);
+  const glm::dvec3 depth(cross.Depth[0], cross.Depth[1], cross.Depth[2]);
   if (glm::dot(weights, depth) >= -tolerance)
   {
     return true;
@@ -281,24 +285,24 @@ bool RefractionCells::IsBehind(
     return false;
   }
   const glm::dvec3 normal = glm::cross(
-    corner[1]->position - corner[0]->position, corner[2]->position - corner[0]->position);
-  const double eyeSide = glm::dot(this->Eye - corner[0]->position, normal);
-  const double pointSide = -glm::dot(cross.toCorner[0], normal);
+    corner[1]->Position - corner[0]->Position, corner[2]->Position - corner[0]->Position);
+  const double eyeSide = glm::dot(this->Eye - corner[0]->Position, normal);
+  const double pointSide = -glm::dot(cross.ToCorner[0], normal);
   return (eyeSide < 0.0 ? -pointSide : pointSide) <=
-    CornerRounding * glm::length(cross.toCorner[0]) * glm::length(normal);
+    CornerRounding * glm::length(cross.ToCorner[0]) * glm::length(normal);
 }
 
 //------------------------------------------------------------------------------
 TubeBounds RefractionCells::GetBounds(std::int32_t facet) const
 {
   const CornerTriple corner = this->GetCorners(facet);
-  const glm::dvec3 mean = corner[0]->ray + corner[1]->ray + corner[2]->ray;
+  const glm::dvec3 mean = corner[0]->Ray + corner[1]->Ray + corner[2]->Ray;
   double height[3];
   double cosine[3];
   for (std::size_t i = 0; i < 3; ++i)
   {
-    height[i] = glm::dot(corner[i]->position, mean);
-    cosine[i] = glm::dot(corner[i]->ray, mean);
+    height[i] = glm::dot(corner[i]->Position, mean);
+    cosine[i] = glm::dot(corner[i]->Ray, mean);
     if (!IsOpen(cosine[i], glm::dot(mean, mean)))
     {
       return TubeBounds();
@@ -312,7 +316,7 @@ TubeBounds RefractionCells::GetBounds(std::int32_t facet) const
   for (std::size_t i = 0; i < 3; ++i)
   {
     bounds.Add(
-      corner[i]->position - corner[i]->ray * ((height[i] - highest) / cosine[i]), corner[i]->ray);
+      corner[i]->Position - corner[i]->Ray * ((height[i] - highest) / cosine[i]), corner[i]->Ray);
   }
   return bounds;
 }

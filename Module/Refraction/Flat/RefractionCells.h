@@ -30,44 +30,46 @@ enum class EyeStatus
   OnTheMembrane ///< the eye lies on a facet, so there is no sight ray
 };
 
-/// What can be said of an eye and two indices without a membrane: never OnTheMembrane.
+/** What can be said of an eye and two indices without a membrane: never OnTheMembrane. */
 EyeStatus CheckEye(const glm::dvec3& eye, double exterior, double interior);
 
-/// How the rays of the vertices that facets use came about.
+/** How the rays of the vertices that facets use came about. */
 struct RayReport
 {
-  std::size_t refracted = 0;
-  std::size_t backFacing = 0;
-  std::size_t totallyReflected = 0;
+  std::size_t Refracted = 0;
+  std::size_t BackFacing = 0;
+  std::size_t TotallyReflected = 0;
 };
 
-/// Where a point is seen in a cell.
+/** Where a point is seen in a cell. */
 struct CellHit
 {
-  glm::dvec3 weights; ///< barycentric coordinates of the sight point in the facet
-  int orientation;    ///< +1: the cell is upright at the point, -1: turned over by a caustic
+  glm::dvec3 Weights; ///< barycentric coordinates of the sight point in the facet
+  int Orientation;    ///< +1: the cell is upright at the point, -1: turned over by a caustic
 };
 
 class RefractionCells
 {
 public:
-  /// Computes all rays. `eye` is relative to the membrane's origin, the membrane must outlive this.
+  /**
+   * Computes all rays. `eye` is relative to the membrane's origin, the membrane must outlive this.
+   */
   EyeStatus Update(const Membrane& membrane, const glm::dvec3& eye, double exterior,
     double interior, const RangeLoop& loop);
 
-  /// Whether the cell of `facet` holds `point`, borders included within rounding.
+  /** Whether the cell of `facet` holds `point`, borders included within rounding. */
   bool Contains(std::int32_t facet, const glm::dvec3& point, CellHit& hit) const
   {
     return this->Contains(facet, point, 0.0, hit);
   }
 
-  /// The same with walls widened by `wall`, in barycentric coordinates.
+  /** The same with walls widened by `wall`, in barycentric coordinates. */
   bool Contains(std::int32_t facet, const glm::dvec3& point, double wall, CellHit& hit) const;
 
-  /// A tube around everything that Contains accepts for `facet` without wall.
+  /** A tube around everything that Contains accepts for `facet` without wall. */
   TubeBounds GetBounds(std::int32_t facet) const;
 
-  /// How many times farther from a point than the corner of a cell its ray may cut the plane.
+  /** How many times farther from a point than the corner of a cell its ray may cut the plane. */
   static double GetLargestStretch();
 
   const glm::dvec3& GetEye() const { return this->Eye; }
@@ -76,8 +78,8 @@ public:
 private:
   struct Corner
   {
-    glm::dvec3 position;
-    glm::dvec3 ray;
+    glm::dvec3 Position;
+    glm::dvec3 Ray;
   };
 
   using CornerTriple = std::array<const Corner*, 3>;

@@ -57,22 +57,22 @@ const VirtualVertex& EdgeSubdivision::FindMiddle(const glm::dvec3& a, const Virt
 {
   const glm::dvec3 point = 0.5 * (a + b);
   Middle& middle = this->Cache[Hash(point) % CacheSize];
-  if (middle.point != point)
+  if (middle.Point != point)
   {
-    middle.point = point;
-    middle.vertex = IsBefore(a, b) ? this->Geometry.SolveBetween(point, imageOfA, imageOfB)
+    middle.Point = point;
+    middle.Vertex = IsBefore(a, b) ? this->Geometry.SolveBetween(point, imageOfA, imageOfB)
                                    : this->Geometry.SolveBetween(point, imageOfB, imageOfA);
   }
-  return middle.vertex;
+  return middle.Vertex;
 }
 
 //------------------------------------------------------------------------------
 bool EdgeSubdivision::IsDrawnWell(
   const glm::dvec3& drawn, const VirtualVertex& image, double parts) const
 {
-  const glm::dvec3 eye = this->Geometry.GetMedia().eye + this->Geometry.GetMembrane().GetOrigin();
+  const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
   const glm::dvec3 there = drawn - eye;
-  const glm::dvec3 seen = image.position - eye;
+  const glm::dvec3 seen = image.Position - eye;
   const glm::dvec3 across = glm::cross(there, seen);
   const double squared = glm::dot(there, there) * glm::dot(seen, seen);
   const double largest = parts * this->Tolerance;
@@ -97,9 +97,9 @@ double EdgeSubdivision::GetSquaredSize(std::int32_t facet) const
 // Whether sight points are no farther apart than the membrane's vertices there.
 bool EdgeSubdivision::AreNeighbours(const VirtualVertex& a, const VirtualVertex& b) const
 {
-  const glm::dvec3 way = a.sightPoint - b.sightPoint;
-  return a.facet == b.facet ||
-    glm::dot(way, way) <= std::min(this->GetSquaredSize(a.facet), this->GetSquaredSize(b.facet));
+  const glm::dvec3 way = a.SightPoint - b.SightPoint;
+  return a.Facet == b.Facet ||
+    glm::dot(way, way) <= std::min(this->GetSquaredSize(a.Facet), this->GetSquaredSize(b.Facet));
 }
 
 //------------------------------------------------------------------------------
@@ -107,27 +107,27 @@ EdgeSubdivision::Shape EdgeSubdivision::FindShape(const Stretch& part, int depth
 {
   // A copy: what is found next may take its place in the cache.
   const VirtualVertex middle =
-    this->FindMiddle(part.point[0], *part.image[0], part.point[1], *part.image[1]);
-  if (middle.state != ImageState::Found)
+    this->FindMiddle(part.Point[0], *part.Image[0], part.Point[1], *part.Image[1]);
+  if (middle.State != ImageState::Found)
   {
     return Shape::Open;
   }
-  const glm::dvec3 drawn = 0.5 * (part.drawn[0] + part.drawn[1]);
+  const glm::dvec3 drawn = 0.5 * (part.Drawn[0] + part.Drawn[1]);
   if (!this->IsDrawnWell(drawn, middle))
   {
     return Shape::Bent;
   }
-  if (depth == DeepestLevel || this->AreNeighbours(*part.image[0], *part.image[1]))
+  if (depth == DeepestLevel || this->AreNeighbours(*part.Image[0], *part.Image[1]))
   {
     return Shape::Straight;
   }
-  const glm::dvec3 point = 0.5 * (part.point[0] + part.point[1]);
+  const glm::dvec3 point = 0.5 * (part.Point[0] + part.Point[1]);
   const Shape first = this->FindShape(
-    { { part.point[0], point }, { part.drawn[0], drawn }, { part.image[0], &middle } }, depth + 1);
+    { { part.Point[0], point }, { part.Drawn[0], drawn }, { part.Image[0], &middle } }, depth + 1);
   return first != Shape::Straight
     ? first
     : this->FindShape(
-        { { point, part.point[1] }, { drawn, part.drawn[1] }, { &middle, part.image[1] } },
+        { { point, part.Point[1] }, { drawn, part.Drawn[1] }, { &middle, part.Image[1] } },
         depth + 1);
 }
 
@@ -136,21 +136,21 @@ EdgeSubdivision::Shape EdgeSubdivision::FindShape(const glm::dvec3& a,
   const VirtualVertex& imageOfA, const glm::dvec3& b, const VirtualVertex& imageOfB)
 {
   return this->FindShape(
-    { { a, b }, { imageOfA.position, imageOfB.position }, { &imageOfA, &imageOfB } }, 0);
+    { { a, b }, { imageOfA.Position, imageOfB.Position }, { &imageOfA, &imageOfB } }, 0);
 }
 
 //------------------------------------------------------------------------------
 bool EdgeSubdivision::IsStraight(const ImagedPoint& a, const ImagedPoint& b)
 {
-  return this->FindShape(a.point, *a.image, b.point, *b.image) == Shape::Straight;
+  return this->FindShape(a.Point, *a.Image, b.Point, *b.Image) == Shape::Straight;
 }
 
 //------------------------------------------------------------------------------
 void EdgeSubdivision::MoveOntoEdge(
   const ImagedPoint& a, const ImagedPoint& b, double l, VirtualVertex& image)
 {
-  glm::dvec3 point[2] = { a.point, b.point };
-  VirtualVertex end[2] = { *a.image, *b.image };
+  glm::dvec3 point[2] = { a.Point, b.Point };
+  VirtualVertex end[2] = { *a.Image, *b.Image };
   for (int depth = 0; depth <= DeepestLevel; ++depth)
   {
     const Shape shape =
@@ -163,8 +163,8 @@ void EdgeSubdivision::MoveOntoEdge(
     {
       // Between the places that were tested the edge bends by little more than there.
       constexpr double sameBranch = 2.0;
-      const glm::dvec3 drawn = (1.0 - l) * end[0].position + l * end[1].position;
-      image.position = this->IsDrawnWell(drawn, image, sameBranch) ? drawn : image.position;
+      const glm::dvec3 drawn = (1.0 - l) * end[0].Position + l * end[1].Position;
+      image.Position = this->IsDrawnWell(drawn, image, sameBranch) ? drawn : image.Position;
       return;
     }
     const VirtualVertex middle = this->FindMiddle(point[0], end[0], point[1], end[1]);
@@ -186,7 +186,7 @@ void EdgeSubdivision::Start(const std::array<ImagedPoint, 3>& corners, std::size
   {
     glm::dvec3 weight(0.0);
     weight[static_cast<glm::length_t>(k)] = 1.0;
-    this->Nodes.push_back({ weight, corners[k].point, *corners[k].image });
+    this->Nodes.push_back({ weight, corners[k].Point, *corners[k].Image });
   }
 }
 
@@ -196,7 +196,7 @@ EdgeSubdivision::Edge& EdgeSubdivision::FindEdge(std::uint64_t key)
 {
   const std::size_t mask = this->Edges.size() - 1;
   std::size_t at = static_cast<std::size_t>(key * 0x9e3779b97f4a7c15u >> 32) & mask;
-  while (this->Edges[at].round == this->Round && this->Edges[at].key != key)
+  while (this->Edges[at].Round == this->Round && this->Edges[at].Key != key)
   {
     at = (at + 1) & mask;
   }
@@ -210,9 +210,9 @@ void EdgeSubdivision::GrowEdges()
   before.swap(this->Edges);
   for (const Edge& edge : before)
   {
-    if (edge.round == this->Round)
+    if (edge.Round == this->Round)
     {
-      this->FindEdge(edge.key) = edge;
+      this->FindEdge(edge.Key) = edge;
     }
   }
 }
@@ -229,20 +229,20 @@ std::int32_t EdgeSubdivision::Split(std::int32_t a, std::int32_t b, int depth)
   const auto high = static_cast<std::uint64_t>(std::max(a, b));
   const std::uint64_t key = low << 32 | high;
   Edge& edge = this->FindEdge(key);
-  if (edge.round == this->Round)
+  if (edge.Round == this->Round)
   {
-    return edge.middle;
+    return edge.Middle;
   }
   const Node& first = this->Nodes[static_cast<std::size_t>(a)];
   const Node& second = this->Nodes[static_cast<std::size_t>(b)];
-  const Shape shape = this->FindShape(first.point, first.vertex, second.point, second.vertex);
+  const Shape shape = this->FindShape(first.Point, first.Vertex, second.Point, second.Vertex);
   std::int32_t result = NotSplit;
   this->Failed = this->Failed || shape == Shape::Open;
   if (shape == Shape::Bent)
   {
     result = static_cast<std::int32_t>(this->Nodes.size());
-    const Node node{ 0.5 * (first.weight + second.weight), 0.5 * (first.point + second.point),
-      this->FindMiddle(first.point, first.vertex, second.point, second.vertex) };
+    const Node node{ 0.5 * (first.Weight + second.Weight), 0.5 * (first.Point + second.Point),
+      this->FindMiddle(first.Point, first.Vertex, second.Point, second.Vertex) };
     this->Nodes.push_back(node);
   }
   edge = { key, result, this->Round };
@@ -260,17 +260,17 @@ void EdgeSubdivision::Emit(const Cell& cell, const std::array<std::int32_t, N>& 
   for (const std::int32_t index : nodes)
   {
     Node& node = this->Nodes[static_cast<std::size_t>(index)];
-    if (node.output < 0)
+    if (node.Output < 0)
     {
-      node.output = static_cast<std::int64_t>(cell.images->points.size());
+      node.Output = static_cast<std::int64_t>(cell.Images->Points.size());
       ImagePoint point;
-      point.vertex = node.vertex;
-      point.SetSource(cell.ids, node.weight);
-      cell.images->points.push_back(point);
+      point.Vertex = node.Vertex;
+      point.SetSource(cell.Ids, node.Weight);
+      cell.Images->Points.push_back(point);
     }
-    cell.images->connectivity.push_back(node.output);
+    cell.Images->Connectivity.push_back(node.Output);
   }
-  cell.images->EndCell(cell.source, cell.orientation);
+  cell.Images->EndCell(cell.Source, cell.Orientation);
 }
 
 //------------------------------------------------------------------------------
@@ -342,8 +342,8 @@ bool EdgeSubdivision::AddTriangle(
 {
   const ImageMesh::Mark before = images.GetMark();
   this->Start(corners, 3);
-  this->Divide({ { corners[0].id, corners[1].id, corners[2].id }, sourceCell,
-                 corners[0].image->orientation, &images },
+  this->Divide({ { corners[0].Id, corners[1].Id, corners[2].Id }, sourceCell,
+                 corners[0].Image->Orientation, &images },
     { 0, 1, 2 }, 0);
   if (this->Failed)
   {
@@ -359,7 +359,7 @@ bool EdgeSubdivision::AddLine(
   const ImageMesh::Mark before = images.GetMark();
   this->Start({ from, to, from }, 2);
   this->DivideLine(
-    { { from.id, to.id, from.id }, sourceCell, from.image->orientation, &images }, 0, 1, 0);
+    { { from.Id, to.Id, from.Id }, sourceCell, from.Image->Orientation, &images }, 0, 1, 0);
   if (this->Failed)
   {
     images.ReturnTo(before);

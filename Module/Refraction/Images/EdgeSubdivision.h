@@ -24,70 +24,76 @@
 namespace meniscus
 {
 
-/// A point of the object and its one image.
+/** A point of the object and its one image. */
 struct ImagedPoint
 {
-  std::int64_t id;
-  glm::dvec3 point;
-  const VirtualVertex* image;
+  std::int64_t Id;
+  glm::dvec3 Point;
+  const VirtualVertex* Image;
 };
 
 class EdgeSubdivision
 {
 public:
-  /// `tolerance` is an angle in radians at the eye.
+  /** `tolerance` is an angle in radians at the eye. */
   EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance);
 
-  /// Whether the images of points on the edge are where the virtual edge is drawn. Images of
-  /// another branch are not.
+  /**
+   * Whether the images of points on the edge are where the virtual edge is drawn. Images of
+   * another branch are not.
+   */
   bool IsStraight(const ImagedPoint& a, const ImagedPoint& b);
 
-  /// Adds the image of a triangle as triangles, wound as it is. False, and nothing is added, if a
-  /// point in between has no image.
+  /**
+   * Adds the image of a triangle as triangles, wound as it is. False, and nothing is added, if a
+   * point in between has no image.
+   */
   bool AddTriangle(
     const std::array<ImagedPoint, 3>& corners, std::int64_t sourceCell, ImageMesh& images);
 
-  /// Adds the image of a line as lines of two points, in the same way.
+  /** Adds the image of a line as lines of two points, in the same way. */
   bool AddLine(
     const ImagedPoint& from, const ImagedPoint& to, std::int64_t sourceCell, ImageMesh& images);
 
-  /// Where neighbours draw the point at `l` from 0 to 1 of an edge, if `image` is on the branch
-  /// that they draw: its position is moved there, by no more than twice the tolerance.
+  /**
+   * Where neighbours draw the point at `l` from 0 to 1 of an edge, if `image` is on the branch
+   * that they draw: its position is moved there, by no more than twice the tolerance.
+   */
   void MoveOntoEdge(const ImagedPoint& a, const ImagedPoint& b, double l, VirtualVertex& image);
 
 private:
   struct Node
   {
-    glm::dvec3 weight; ///< of the corners
-    glm::dvec3 point;
-    VirtualVertex vertex;
-    std::int64_t output = -1; ///< its place among the points of `images`, once it is there
+    glm::dvec3 Weight; ///< of the corners
+    glm::dvec3 Point;
+    VirtualVertex Vertex;
+    std::int64_t Output = -1; ///< its place among the points of `images`, once it is there
   };
-  /// A part of an edge.
+  /** A part of an edge. */
   struct Stretch
   {
-    glm::dvec3 point[2];
-    glm::dvec3 drawn[2]; ///< where the edge has them
-    const VirtualVertex* image[2];
+    glm::dvec3 Point[2];
+    glm::dvec3 Drawn[2]; ///< where the edge has them
+    const VirtualVertex* Image[2];
   };
   struct Middle
   {
-    glm::dvec3 point{ std::numeric_limits<double>::quiet_NaN() };
-    VirtualVertex vertex;
+    glm::dvec3 Point{ std::numeric_limits<double>::quiet_NaN() };
+    VirtualVertex Vertex;
   };
-  /// An edge of nodes and the node in its middle, in a table that is searched from a hash on.
+  /** An edge of nodes and the node in its middle, in a table that is searched from a hash on. */
   struct Edge
   {
-    std::uint64_t key;
-    std::int32_t middle;
-    std::uint32_t round; ///< the primitive that it belongs to
+    std::uint64_t Key;
+    std::int32_t Middle;
+    std::uint32_t Round; ///< the primitive that it belongs to
   };
   struct Cell
   {
-    std::array<std::int64_t, 3> ids;
-    std::int64_t source;
-    signed char orientation;
-    ImageMesh* images;
+    std::array<std::int64_t, 3> Ids;
+    std::int64_t Source;
+    signed char Orientation;
+    ImageMesh* Images;
   };
 
   const VirtualVertex& FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,
@@ -101,7 +107,7 @@ private:
   Shape FindShape(const glm::dvec3& a, const VirtualVertex& imageOfA, const glm::dvec3& b,
     const VirtualVertex& imageOfB);
   Shape FindShape(const Stretch& part, int depth);
-  /// Within so many parts of the tolerance.
+  /** Within so many parts of the tolerance. */
   bool IsDrawnWell(const glm::dvec3& drawn, const VirtualVertex& image, double parts = 1.0) const;
   bool AreNeighbours(const VirtualVertex& a, const VirtualVertex& b) const;
   double GetSquaredSize(std::int32_t facet) const;

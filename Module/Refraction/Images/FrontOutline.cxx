@@ -23,9 +23,9 @@ bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
 // Twice the area in the second and third coordinates.
 double GetArea(const TrianglePoint& first, const TrianglePoint& second, const TrianglePoint& third)
 {
-  const glm::dvec3& a = first.weight;
-  const glm::dvec3& b = second.weight;
-  const glm::dvec3& c = third.weight;
+  const glm::dvec3& a = first.Weight;
+  const glm::dvec3& b = second.Weight;
+  const glm::dvec3& c = third.Weight;
   return (b.y - a.y) * (c.z - a.z) - (b.z - a.z) * (c.y - a.y);
 }
 
@@ -56,7 +56,7 @@ bool IsEar(const FrontOutline::Polygon& polygon, std::size_t i)
   return std::none_of(polygon.begin(), polygon.end(),
     [&a, &b, &c](const TrianglePoint& p)
     {
-      return p.weight != a.weight && p.weight != b.weight && p.weight != c.weight &&
+      return p.Weight != a.Weight && p.Weight != b.Weight && p.Weight != c.Weight &&
         GetArea(a, b, p) >= 0.0 && GetArea(b, c, p) >= 0.0 && GetArea(c, a, p) >= 0.0;
     });
 }
@@ -106,12 +106,12 @@ FrontOutline::FrontOutline(const std::vector<WaterlinePiece>& waterline,
 //------------------------------------------------------------------------------
 std::size_t FrontOutline::FindNode(const TrianglePoint& place)
 {
-  const auto at = std::lower_bound(this->Sorted.begin(), this->Sorted.end(), place.weight,
+  const auto at = std::lower_bound(this->Sorted.begin(), this->Sorted.end(), place.Weight,
     [this](std::size_t node, const glm::dvec3& weight)
-    { return IsBefore(this->Nodes[node].at.weight, weight); });
-  if (at != this->Sorted.end() && this->Nodes[*at].at.weight == place.weight)
+    { return IsBefore(this->Nodes[node].At.Weight, weight); });
+  if (at != this->Sorted.end() && this->Nodes[*at].At.Weight == place.Weight)
   {
-    this->Nodes[*at].at.position = place.position; // a corner, as the refracted part has it
+    this->Nodes[*at].At.Position = place.Position; // a corner, as the refracted part has it
     return *at;
   }
   this->Sorted.insert(at, this->Nodes.size());
@@ -124,8 +124,8 @@ std::size_t FrontOutline::FindNode(const TrianglePoint& place)
 // there and back cancels out.
 bool FrontOutline::Link(const WaterlinePiece& piece)
 {
-  const std::size_t from = this->FindNode(piece.to);
-  const std::size_t to = this->FindNode(piece.from);
+  const std::size_t from = this->FindNode(piece.To);
+  const std::size_t to = this->FindNode(piece.From);
   if (from == to || (this->Unlink(from, to) && this->Unlink(to, from)))
   {
     return true;
@@ -137,13 +137,13 @@ bool FrontOutline::Link(const WaterlinePiece& piece)
 bool FrontOutline::AddLink(std::size_t from, std::size_t to, bool isForward)
 {
   Node& node = this->Nodes[from];
-  const std::size_t place = node.next[0] == None ? 0 : 1;
-  if (node.next[place] != None)
+  const std::size_t place = node.Next[0] == None ? 0 : 1;
+  if (node.Next[place] != None)
   {
     return false;
   }
-  node.next[place] = to;
-  node.isForward[place] = isForward;
+  node.Next[place] = to;
+  node.IsForward[place] = isForward;
   return true;
 }
 
@@ -151,7 +151,7 @@ bool FrontOutline::AddLink(std::size_t from, std::size_t to, bool isForward)
 bool FrontOutline::Unlink(std::size_t from, std::size_t to)
 {
   Node& node = this->Nodes[from];
-  for (std::size_t& next : node.next)
+  for (std::size_t& next : node.Next)
   {
     if (next == to)
     {
@@ -172,14 +172,14 @@ bool FrontOutline::FollowSide(std::size_t from)
   std::vector<std::size_t> stops;
   for (std::size_t i = 3; i < this->Nodes.size(); ++i)
   {
-    if (this->Nodes[i].at.weight[outside] == 0.0 && this->IsEnd(i))
+    if (this->Nodes[i].At.Weight[outside] == 0.0 && this->IsEnd(i))
     {
       stops.push_back(i);
     }
   }
   std::sort(stops.begin(), stops.end(),
     [this, along](std::size_t a, std::size_t b)
-    { return this->Nodes[a].at.weight[along] < this->Nodes[b].at.weight[along]; });
+    { return this->Nodes[a].At.Weight[along] < this->Nodes[b].At.Weight[along]; });
   // The curve may end in a corner, whichever side that counts to.
   const bool isOdd = stops.size() % 2 == 1;
   if (isOdd != (this->IsFront[from] != this->IsFront[to]))
@@ -198,7 +198,7 @@ bool FrontOutline::FollowSide(std::size_t from)
     const std::size_t stop = stops[i];
     if (isFront && last != stop)
     {
-      this->Nodes[last].along = stop;
+      this->Nodes[last].Along = stop;
     }
     isFront = isFront != (i + 1 < stops.size());
     last = stop;
@@ -212,13 +212,13 @@ bool FrontOutline::FollowSide(std::size_t from)
 std::size_t FrontOutline::GoOn(std::size_t index, std::size_t before) const
 {
   const Node& node = this->Nodes[index];
-  if (node.along != None)
+  if (node.Along != None)
   {
-    return node.along;
+    return node.Along;
   }
   const bool isSecond =
-    node.next[0] == None || node.next[0] == before || (before == None && !node.isForward[0]);
-  return node.next[isSecond ? 1 : 0];
+    node.Next[0] == None || node.Next[0] == before || (before == None && !node.IsForward[0]);
+  return node.Next[isSecond ? 1 : 0];
 }
 
 //------------------------------------------------------------------------------
@@ -237,10 +237,10 @@ bool FrontOutline::CollectLoop(
       return false;
     }
     seen[node] = true;
-    loop.push_back(this->Nodes[node].at);
-    area += GetArea(loop.front(), this->Nodes[node].at, this->Nodes[next].at);
+    loop.push_back(this->Nodes[node].At);
+    area += GetArea(loop.front(), this->Nodes[node].At, this->Nodes[next].At);
     // From a side the waterline goes away in the only way it can.
-    before = this->Nodes[node].along != None ? None : node;
+    before = this->Nodes[node].Along != None ? None : node;
     before = before == None && this->IsEnd(next) ? next : before;
     node = next;
   } while (node != first);
@@ -262,8 +262,8 @@ bool FrontOutline::Find(std::vector<Polygon>& polygons)
   for (std::size_t i = 3; i < this->Nodes.size() && !this->Broken; ++i)
   {
     // An end that is on no side.
-    this->Broken = this->IsEnd(i) && this->Nodes[i].at.weight.x != 0.0 &&
-      this->Nodes[i].at.weight.y != 0.0 && this->Nodes[i].at.weight.z != 0.0;
+    this->Broken = this->IsEnd(i) && this->Nodes[i].At.Weight.x != 0.0 &&
+      this->Nodes[i].At.Weight.y != 0.0 && this->Nodes[i].At.Weight.z != 0.0;
   }
   // Loops with sides first: the others are closed by the waterline alone.
   std::vector<bool> seen(this->Nodes.size(), false);
@@ -272,7 +272,7 @@ bool FrontOutline::Find(std::vector<Polygon>& polygons)
     for (std::size_t i = 0; i < this->Nodes.size() && !this->Broken; ++i)
     {
       const Node& node = this->Nodes[i];
-      const bool isIn = hasSide ? node.along != None : node.next[0] != None || node.next[1] != None;
+      const bool isIn = hasSide ? node.Along != None : node.Next[0] != None || node.Next[1] != None;
       this->Broken = isIn && !seen[i] && !this->CollectLoop(i, seen, polygons);
     }
   }

@@ -22,15 +22,17 @@ namespace meniscus
 class FrontOutline
 {
 public:
-  /// Corners, wound as the triangle is.
+  /** Corners, wound as the triangle is. */
   using Polygon = std::vector<TrianglePoint>;
 
-  /// `corners` are the triangle's, `isFront` tells which of them are in front.
+  /** `corners` are the triangle's, `isFront` tells which of them are in front. */
   FrontOutline(const std::vector<WaterlinePiece>& waterline,
     const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& isFront);
 
-  /// False if the pieces do not separate the corners in front from the others along each side, or
-  /// leave a hole in the part. Otherwise `polygons` becomes the part, as convex polygons.
+  /**
+   * False if the pieces do not separate the corners in front from the others along each side, or
+   * leave a hole in the part. Otherwise `polygons` becomes the part, as convex polygons.
+   */
   bool Find(std::vector<Polygon>& polygons);
 
 private:
@@ -38,10 +40,10 @@ private:
 
   struct Node
   {
-    TrianglePoint at;
-    std::array<std::size_t, 2> next = { None, None }; ///< neighbours on the waterline
-    std::array<bool, 2> isForward = {};               ///< the part in front is on the left there
-    std::size_t along = None;                         ///< next along the triangle's sides
+    TrianglePoint At;
+    std::array<std::size_t, 2> Next = { None, None }; ///< neighbours on the waterline
+    std::array<bool, 2> IsForward = {};               ///< the part in front is on the left there
+    std::size_t Along = None;                         ///< next along the triangle's sides
   };
 
   std::size_t FindNode(const TrianglePoint& at);
@@ -50,7 +52,7 @@ private:
   bool Unlink(std::size_t from, std::size_t to);
   bool IsEnd(std::size_t node) const
   {
-    return (this->Nodes[node].next[0] == None) != (this->Nodes[node].next[1] == None);
+    return (this->Nodes[node].Next[0] == None) != (this->Nodes[node].Next[1] == None);
   }
   bool FollowSide(std::size_t from);
   std::size_t GoOn(std::size_t node, std::size_t before) const;

@@ -31,8 +31,8 @@ void VisitPolygonSides(
     {
       continue;
     }
-    const std::int64_t* ids = cells.connectivity + cells.offsets[cell];
-    const std::int64_t size = cells.offsets[cell + 1] - cells.offsets[cell];
+    const std::int64_t* ids = cells.Connectivity + cells.Offsets[cell];
+    const std::int64_t size = cells.Offsets[cell + 1] - cells.Offsets[cell];
     for (std::int64_t k = 0; k < size; ++k)
     {
       const auto [low, high] = std::minmax(ids[k], ids[(k + 1) % size]);
@@ -151,8 +151,8 @@ void ObjectImages::SolveRun(
       this->Geometry.IsInFront(local))
     {
       images.assign(1, this->Geometry.PassThrough(local));
-      images.front().position = point;
-      images.front().sightPoint = point;
+      images.front().Position = point;
+      images.front().SightPoint = point;
       this->States[i] = ImageState::Found;
     }
     else
@@ -174,7 +174,7 @@ ImageState ObjectImages::FindImages(const glm::dvec3& point, bool isUnique,
     return this->Geometry.FindImages(point, images);
   }
   images.assign(1, this->Geometry.SolvePoint(point, memory));
-  const ImageState state = images.front().state;
+  const ImageState state = images.front().State;
   if (state != ImageState::Found)
   {
     images.clear();
@@ -200,13 +200,13 @@ void ObjectImages::FinishPoints()
     for (std::size_t k = 0; k < count; ++k)
     {
       ImagePoint image;
-      image.vertex = images[k];
-      image.source[0] = static_cast<std::int64_t>(i);
+      image.Vertex = images[k];
+      image.Source[0] = static_cast<std::int64_t>(i);
       this->Images.push_back(image);
-      this->Nearest = std::min(this->Nearest, images[k].depth);
-      this->Farthest = std::max(this->Farthest, images[k].depth);
+      this->Nearest = std::min(this->Nearest, images[k].Depth);
+      this->Farthest = std::max(this->Farthest, images[k].Depth);
     }
-    this->InFront[i] = count == 1 && images[0].facet == CurvedPatches::NoFacet;
+    this->InFront[i] = count == 1 && images[0].Facet == CurvedPatches::NoFacet;
   }
   if (this->Wanted.empty())
   {
@@ -227,19 +227,19 @@ ObjectImages::Side ObjectImages::FindSide(const std::int64_t* ids, std::size_t c
 ImagedPoint ObjectImages::GetImagedPoint(std::int64_t id) const
 {
   return { id, this->GetPoint(id),
-    &this->Images[this->First[static_cast<std::size_t>(id)]].vertex };
+    &this->Images[this->First[static_cast<std::size_t>(id)]].Vertex };
 }
 
 //------------------------------------------------------------------------------
 MappedTriangle ObjectImages::MakeTriangle(const std::array<std::int64_t, 3>& ids) const
 {
   MappedTriangle triangle;
-  triangle.ids = ids;
+  triangle.Ids = ids;
   for (std::size_t k = 0; k < 3; ++k)
   {
     const auto point = static_cast<std::size_t>(ids[k]);
-    triangle.corners[k] = this->GetPoint(ids[k]);
-    triangle.images[k] = { this->Images.data() + this->First[point],
+    triangle.Corners[k] = this->GetPoint(ids[k]);
+    triangle.Images[k] = { this->Images.data() + this->First[point],
       this->GetNumberOfImages(point) };
   }
   return triangle;
@@ -253,8 +253,8 @@ bool ObjectImages::HaveOneImage(const std::int64_t* ids, std::size_t count) cons
     [this, ids](std::int64_t id)
     {
       return this->GetNumberOfImages(static_cast<std::size_t>(id)) == 1 &&
-        this->GetImagedPoint(id).image->orientation ==
-        this->GetImagedPoint(ids[0]).image->orientation;
+        this->GetImagedPoint(id).Image->Orientation ==
+        this->GetImagedPoint(ids[0]).Image->Orientation;
     });
 }
 
@@ -276,16 +276,16 @@ bool ObjectImages::IsSimple(
     }
   }
   // Between sight points in one facet the membrane holds no surprise; over several it may.
-  const VirtualVertex& first = *this->GetImagedPoint(ids[0]).image;
+  const VirtualVertex& first = *this->GetImagedPoint(ids[0]).Image;
   if (std::all_of(ids, ids + count,
         [this, &first](std::int64_t id)
-        { return this->GetImagedPoint(id).image->facet == first.facet; }))
+        { return this->GetImagedPoint(id).Image->Facet == first.Facet; }))
   {
     return true;
   }
   if (this->IsUnique(ids, count))
   {
-    return this->Geometry.SolveNear(middle, first).state == ImageState::Found;
+    return this->Geometry.SolveNear(middle, first).State == ImageState::Found;
   }
   std::vector<VirtualVertex> images;
   return this->Geometry.FindImages(middle, images) == ImageState::Found && images.size() == 1;
@@ -297,11 +297,11 @@ void ObjectImages::AddWhole(
 {
   for (std::size_t i = 0; i < count; ++i)
   {
-    whole.connectivity.push_back(
+    whole.Connectivity.push_back(
       static_cast<std::int64_t>(this->First[static_cast<std::size_t>(ids[i])]));
   }
   whole.EndCell(
-    cell, this->Images[this->First[static_cast<std::size_t>(ids[0])]].vertex.orientation);
+    cell, this->Images[this->First[static_cast<std::size_t>(ids[0])]].Vertex.Orientation);
 }
 
 //------------------------------------------------------------------------------
@@ -313,15 +313,15 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
   CellReport report;
   for (std::size_t i = begin; i < end; ++i)
   {
-    const std::int64_t* ids = cells.connectivity + cells.offsets[i];
-    const auto count = static_cast<std::size_t>(cells.offsets[i + 1] - cells.offsets[i]);
+    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
+    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
     const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
     if (side == Side::InFront || (isOne && this->IsSimple(ids, count, false, division)))
     {
       this->AddWhole(ids, count, cell, whole);
-      ++report.whole;
+      ++report.Whole;
       continue;
     }
     const std::size_t before = pieces.GetNumberOfCells();
@@ -354,8 +354,8 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
   std::vector<std::int64_t> triangles;
   for (std::size_t i = begin; i < end; ++i)
   {
-    const std::int64_t* ids = cells.connectivity + cells.offsets[i];
-    const auto count = static_cast<std::size_t>(cells.offsets[i + 1] - cells.offsets[i]);
+    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
+    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
     const std::int64_t cell = names[i];
     const Side side = this->FindSide(ids, count);
     const bool isOne = side == Side::Behind && this->HaveOneImage(ids, count);
@@ -363,7 +363,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
     if (side == Side::InFront || (isOne && this->IsSimple(ids, count, true, division)))
     {
       this->AddWhole(ids, count, cell, whole);
-      ++report.whole;
+      ++report.Whole;
       continue;
     }
     triangles = { 0, 1, 2 };
@@ -397,7 +397,7 @@ std::vector<Seam> ObjectImages::FindSeams(
     [&seams](const Seam& side) { seams.push_back(side); });
   std::sort(seams.begin(), seams.end());
   seams.erase(std::unique(seams.begin(), seams.end(),
-                [](const Seam& a, const Seam& b) { return a.low == b.low && a.high == b.high; }),
+                [](const Seam& a, const Seam& b) { return a.Low == b.Low && a.High == b.High; }),
     seams.end());
   if (!seams.empty())
   {
@@ -408,7 +408,7 @@ std::vector<Seam> ObjectImages::FindSeams(
         const auto at = std::lower_bound(seams.begin(), seams.end(), side);
         if (at != seams.end() && !(side < *at))
         {
-          ++at->cells;
+          ++at->Cells;
         }
       });
   }
@@ -432,11 +432,11 @@ void ObjectImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
   bool hasDiagonals = false;
   for (std::size_t i = 0; i < count && !hasDiagonals; ++i)
   {
-    hasDiagonals = isMapped[i] && cells.offsets[i + 1] - cells.offsets[i] > 3;
+    hasDiagonals = isMapped[i] && cells.Offsets[i + 1] - cells.Offsets[i] > 3;
   }
-  const glm::dvec3 eye = this->Geometry.GetMedia().eye + this->Geometry.GetMembrane().GetOrigin();
+  const glm::dvec3 eye = this->Geometry.GetMedia().Eye + this->Geometry.GetMembrane().GetOrigin();
   SeamClosure closure(seams, hasDiagonals, eye, this->Tolerance);
-  closure.Collect(pieces, pieces.points, false);
+  closure.Collect(pieces, pieces.Points, false);
   closure.Collect(whole, this->Images, true);
   closure.Close(pieces);
 }
@@ -462,22 +462,22 @@ void ObjectImages::MoveOntoNeighbours(const ObjectCells& cells, std::size_t coun
       }
     });
   EdgeSubdivision division(this->Geometry, this->Tolerance);
-  for (ImagePoint& point : pieces.points)
+  for (ImagePoint& point : pieces.Points)
   {
     if (point.GetNumberOfSources() != 2)
     {
       continue;
     }
-    const std::ptrdiff_t at = find({ std::min(point.source[0], point.source[1]),
-      std::max(point.source[0], point.source[1]), 0 });
+    const std::ptrdiff_t at = find({ std::min(point.Source[0], point.Source[1]),
+      std::max(point.Source[0], point.Source[1]), 0 });
     if (at >= 0 && isCommon[static_cast<std::size_t>(at)] &&
-      this->HaveOneImage(point.source.data(), 2) &&
-      this->FindSide(point.source.data(), 2) == Side::Behind)
+      this->HaveOneImage(point.Source.data(), 2) &&
+      this->FindSide(point.Source.data(), 2) == Side::Behind)
     {
       // From the lower end, whichever has the larger weight: all copies move alike.
-      const std::size_t low = point.source[0] < point.source[1] ? 0 : 1;
-      division.MoveOntoEdge(this->GetImagedPoint(point.source[low]),
-        this->GetImagedPoint(point.source[1 - low]), point.weight[1 - low], point.vertex);
+      const std::size_t low = point.Source[0] < point.Source[1] ? 0 : 1;
+      division.MoveOntoEdge(this->GetImagedPoint(point.Source[low]),
+        this->GetImagedPoint(point.Source[1 - low]), point.Weight[1 - low], point.Vertex);
     }
   }
 }

@@ -22,7 +22,7 @@ namespace
 constexpr int DeepestLevel = 5;
 
 // What limits a primitive; a corner has a bit for each that it lies on, the membrane first.
-constexpr int Constraints = 4;
+constexpr int NumberOfConstraints = 4;
 
 double GetSpread(double a, double b, double c)
 {
@@ -31,82 +31,84 @@ double GetSpread(double a, double b, double c)
 
 }
 
-/// A corner of a sub-cell.
+/** A corner of a sub-cell. */
 struct PrimitiveMapper::Node
 {
-  glm::dvec2 b;
-  RefractedPoint from;
+  glm::dvec2 B;
+  RefractedPoint From;
 };
 
-/// A corner of a clipped polygon. The values are linear in the sub-cell; none is negative inside.
-/// Of a triangle: distance behind the membrane, barycentric coordinates, all times the cosine of
-/// the ray. Of a line: distance, places from either end, and how far beside the line.
+/**
+ * A corner of a clipped polygon. The values are linear in the sub-cell; none is negative inside.
+ * Of a triangle: distance behind the membrane, barycentric coordinates, all times the cosine of
+ * the ray. Of a line: distance, places from either end, and how far beside the line.
+ */
 struct PrimitiveMapper::Corner
 {
-  glm::dvec2 b;
-  double value[Constraints];
-  unsigned edges;
-  unsigned constraints;
+  glm::dvec2 B;
+  double Value[NumberOfConstraints];
+  unsigned Edges;
+  unsigned Constraints;
 };
 
-/// What a clipped corner lies on.
+/** What a clipped corner lies on. */
 struct PrimitiveMapper::Boundary
 {
-  int node = -1;          ///< the sub-cell's corner that it is
-  int edge = -1;          ///< the sub-cell's, if it is on one and no corner of it
-  bool membrane = false;  ///< where the primitive meets the membrane
-  int side = -1;          ///< one of the primitive's sides, by its constraint
-  glm::length_t end = -1; ///< the corner of the primitive that it is
+  int Node = -1;          ///< the sub-cell's corner that it is
+  int Edge = -1;          ///< the sub-cell's, if it is on one and no corner of it
+  bool Membrane = false;  ///< where the primitive meets the membrane
+  int Side = -1;          ///< one of the primitive's sides, by its constraint
+  glm::length_t End = -1; ///< the corner of the primitive that it is
 };
 
-/// The primitive in local coordinates; point = corner[0] + l0 axis[0] + l1 axis[1].
+/** The primitive in local coordinates; point = corner[0] + l0 axis[0] + l1 axis[1]. */
 struct PrimitiveMapper::Context
 {
-  /// From corner k to k + 1, by its constraint k: the ends in one order for all primitives.
+  /** From corner k to k + 1, by its constraint k: the ends in one order for all primitives. */
   struct Side
   {
-    ObjectLine line;
-    bool turned = false;
+    ObjectLine Line;
+    bool Turned = false;
   };
 
-  const MappedTriangle& primitive;
-  std::int64_t sourceCell;
-  ImageMesh* images;
-  bool isLine;
-  std::array<glm::dvec3, 3> corner;
-  glm::dvec3 axis[2];
-  glm::dvec3 normal;
-  std::array<Side, Constraints> sides;
-  const CurvedPatch* patch = nullptr;
-  std::int32_t facet = CurvedPatches::NoFacet;
-  std::vector<char>* isOnMembrane = nullptr; ///< of the points of `images`, if anybody asks
+  const MappedTriangle& Primitive;
+  std::int64_t SourceCell;
+  ImageMesh* Images;
+  bool IsLine;
+  std::array<glm::dvec3, 3> Corners;
+  glm::dvec3 Axis[2];
+  glm::dvec3 Normal;
+  std::array<Side, NumberOfConstraints> Sides;
+  const CurvedPatch* Patch = nullptr;
+  std::int32_t Facet = CurvedPatches::NoFacet;
+  std::vector<char>* IsOnMembrane = nullptr; ///< of the points of `images`, if anybody asks
 
   void SetSides()
   {
-    for (std::size_t k = this->isLine ? Constraints - 1 : 1; k < Constraints; ++k)
+    for (std::size_t k = this->IsLine ? NumberOfConstraints - 1 : 1; k < NumberOfConstraints; ++k)
     {
-      this->sides[k].line =
-        ObjectLine::Order(this->corner[k % 3], this->corner[(k + 1) % 3], this->sides[k].turned);
+      this->Sides[k].Line =
+        ObjectLine::Order(this->Corners[k % 3], this->Corners[(k + 1) % 3], this->Sides[k].Turned);
     }
   }
 
   double GetSide(std::size_t k, const RefractedPoint& from) const
   {
-    const double moment = GetMoment(this->sides[k].line, from);
-    return this->sides[k].turned ? -moment : moment;
+    const double moment = GetMoment(this->Sides[k].Line, from);
+    return this->Sides[k].Turned ? -moment : moment;
   }
 
   // A barycentric coordinate times the cosine is the ray's moment about the opposite side, in which
   // the plane does not appear: primitives that share the side take the same number.
   void Measure(const RefractedPoint& from, double* value) const
   {
-    const glm::dvec3 away = from.at.position - this->corner[0];
-    value[0] = -glm::dot(this->normal, away);
+    const glm::dvec3 away = from.At.Position - this->Corners[0];
+    value[0] = -glm::dot(this->Normal, away);
     value[3] = this->GetSide(3, from);
-    if (this->isLine)
+    if (this->IsLine)
     {
-      value[1] = -glm::dot(this->axis[1], glm::cross(away, from.ray));
-      value[2] = glm::dot(this->normal, from.ray) - value[1];
+      value[1] = -glm::dot(this->Axis[1], glm::cross(away, from.Ray));
+      value[2] = glm::dot(this->Normal, from.Ray) - value[1];
       return;
     }
     value[1] = this->GetSide(1, from);
@@ -115,62 +117,62 @@ struct PrimitiveMapper::Context
 
   glm::dvec3 GetPoint(const glm::dvec3& weight) const
   {
-    return weight.x * this->corner[0] + weight.y * this->corner[1] + weight.z * this->corner[2];
+    return weight.x * this->Corners[0] + weight.y * this->Corners[1] + weight.z * this->Corners[2];
   }
 
-  /// Weights of a point's sources in the order of the corners.
+  /** Weights of a point's sources in the order of the corners. */
   glm::dvec3 GetWeight(const ImagePoint& point) const
   {
     glm::dvec3 weight(0.0);
     for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
     {
-      const auto& ids = this->primitive.ids;
+      const auto& ids = this->Primitive.Ids;
       weight[static_cast<glm::length_t>(
-        std::find(ids.begin(), ids.end() - 1, point.source[k]) - ids.begin())] += point.weight[k];
+        std::find(ids.begin(), ids.end() - 1, point.Source[k]) - ids.begin())] += point.Weight[k];
     }
     return weight;
   }
 
-  /// Weights of a point in the plane.
+  /** Weights of a point in the plane. */
   glm::dvec3 GetWeight(const glm::dvec3& point) const
   {
-    const glm::dvec3 away = point - this->corner[0];
-    const double squared = glm::dot(this->normal, this->normal);
-    const double first = glm::dot(glm::cross(away, this->axis[1]), this->normal) / squared;
+    const glm::dvec3 away = point - this->Corners[0];
+    const double squared = glm::dot(this->Normal, this->Normal);
+    const double first = glm::dot(glm::cross(away, this->Axis[1]), this->Normal) / squared;
     const double second =
-      this->isLine ? 0.0 : glm::dot(glm::cross(this->axis[0], away), this->normal) / squared;
+      this->IsLine ? 0.0 : glm::dot(glm::cross(this->Axis[0], away), this->Normal) / squared;
     return { 1.0 - first - second, first, second };
   }
 
   Boundary FindBoundary(const Corner& clipped) const
   {
     Boundary on;
-    on.membrane = (clipped.constraints & 1u) != 0;
+    on.Membrane = (clipped.Constraints & 1u) != 0;
     for (int k = 0; k < 3; ++k)
     {
-      on.edge = clipped.edges == 1u << k ? k : on.edge;
-      on.node = clipped.edges == (7u & ~(1u << k)) ? k : on.node;
+      on.Edge = clipped.Edges == 1u << k ? k : on.Edge;
+      on.Node = clipped.Edges == (7u & ~(1u << k)) ? k : on.Node;
     }
-    if (this->isLine)
+    if (this->IsLine)
     {
-      on.side = (clipped.constraints >> 3 & 1u) != 0 ? 3 : -1;
-      on.end = (clipped.constraints & 2u) != 0 ? 0 : ((clipped.constraints & 4u) != 0 ? 1 : -1);
+      on.Side = (clipped.Constraints >> 3 & 1u) != 0 ? 3 : -1;
+      on.End = (clipped.Constraints & 2u) != 0 ? 0 : ((clipped.Constraints & 4u) != 0 ? 1 : -1);
       return on;
     }
     // Constraint k is coordinate k - 1; it vanishes on the side from corner k to k + 1. The corner
     // that two of them leave is the primitive's.
     int left = 3;
     int count = 0;
-    for (int k = 1; k < Constraints; ++k)
+    for (int k = 1; k < NumberOfConstraints; ++k)
     {
-      if (clipped.constraints >> k & 1u)
+      if (clipped.Constraints >> k & 1u)
       {
-        on.side = k;
+        on.Side = k;
         left -= k - 1;
         ++count;
       }
     }
-    on.end = count == 2 ? left : -1;
+    on.End = count == 2 ? left : -1;
     return on;
   }
 };
@@ -193,13 +195,13 @@ void PrimitiveMapper::MapTriangle(
   glm::dvec3 high(std::numeric_limits<double>::lowest());
   for (std::size_t i = 0; i < 3; ++i)
   {
-    context.corner[i] = triangle.corners[i] - this->Geometry.GetMembrane().GetOrigin();
-    low = glm::min(low, context.corner[i]);
-    high = glm::max(high, context.corner[i]);
+    context.Corners[i] = triangle.Corners[i] - this->Geometry.GetMembrane().GetOrigin();
+    low = glm::min(low, context.Corners[i]);
+    high = glm::max(high, context.Corners[i]);
   }
-  context.axis[0] = context.corner[1] - context.corner[0];
-  context.axis[1] = context.corner[2] - context.corner[0];
-  context.normal = glm::cross(context.axis[0], context.axis[1]);
+  context.Axis[0] = context.Corners[1] - context.Corners[0];
+  context.Axis[1] = context.Corners[2] - context.Corners[0];
+  context.Normal = glm::cross(context.Axis[0], context.Axis[1]);
   context.SetSides();
   const glm::dvec3 half = 0.5 * (high - low);
   this->MapSides(
@@ -213,13 +215,14 @@ void PrimitiveMapper::MapLine(
 {
   Context context{ line, sourceCell, nullptr, true, {}, {}, {}, {} };
   const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
-  context.corner = { line.corners[0] - origin, line.corners[1] - origin, line.corners[0] - origin };
-  context.axis[0] = context.corner[1] - context.corner[0];
-  const glm::dvec3 middle = 0.5 * (context.corner[0] + context.corner[1]);
-  context.axis[1] = glm::cross(context.axis[0], middle - this->Geometry.GetMedia().eye);
-  context.normal = glm::cross(context.axis[0], context.axis[1]);
+  context.Corners = { line.Corners[0] - origin, line.Corners[1] - origin,
+    line.Corners[0] - origin };
+  context.Axis[0] = context.Corners[1] - context.Corners[0];
+  const glm::dvec3 middle = 0.5 * (context.Corners[0] + context.Corners[1]);
+  context.Axis[1] = glm::cross(context.Axis[0], middle - this->Geometry.GetMedia().Eye);
+  context.Normal = glm::cross(context.Axis[0], context.Axis[1]);
   context.SetSides();
-  const glm::dvec3 half = 0.5 * glm::abs(context.axis[0]);
+  const glm::dvec3 half = 0.5 * glm::abs(context.Axis[0]);
   this->MapSides(context, middle, std::max({ half.x, half.y, half.z }), mayCross, images);
 }
 
@@ -229,24 +232,24 @@ void PrimitiveMapper::MapSides(Context& context, const glm::dvec3& middle, doubl
 {
   if (!mayCross)
   {
-    context.images = &images;
+    context.Images = &images;
     this->Map(context, middle, padding);
     return;
   }
   ImageMesh behind;
   std::vector<char> isOnMembrane;
-  context.images = &behind;
-  context.isOnMembrane = &isOnMembrane;
+  context.Images = &behind;
+  context.IsOnMembrane = &isOnMembrane;
   this->Map(context, middle, padding);
   const std::vector<WaterlinePiece> waterline = this->DropInFront(context, behind, images);
-  if (context.isLine)
+  if (context.IsLine)
   {
-    AddFrontOfLine(this->Geometry, context.primitive, context.sourceCell, images);
+    AddFrontOfLine(this->Geometry, context.Primitive, context.SourceCell, images);
   }
   else
   {
     AddFrontOfTriangle(
-      this->Geometry, this->Tolerance, context.primitive, context.sourceCell, waterline, images);
+      this->Geometry, this->Tolerance, context.Primitive, context.SourceCell, waterline, images);
   }
 }
 
@@ -260,13 +263,13 @@ std::vector<WaterlinePiece> PrimitiveMapper::DropInFront(
   std::int64_t begin = 0;
   for (std::size_t cell = 0; cell < from.GetNumberOfCells(); ++cell)
   {
-    const std::int64_t end = from.ends[cell];
+    const std::int64_t end = from.Ends[cell];
     weights.clear();
     glm::dvec3 middle(0.0);
     for (std::int64_t i = begin; i < end; ++i)
     {
-      const auto id = static_cast<std::size_t>(from.connectivity[static_cast<std::size_t>(i)]);
-      weights.push_back(context.GetWeight(from.points[id]));
+      const auto id = static_cast<std::size_t>(from.Connectivity[static_cast<std::size_t>(i)]);
+      weights.push_back(context.GetWeight(from.Points[id]));
       middle += context.GetPoint(weights.back()) / static_cast<double>(end - begin);
     }
     if (!this->Geometry.IsInFront(middle))
@@ -274,18 +277,18 @@ std::vector<WaterlinePiece> PrimitiveMapper::DropInFront(
       for (std::int64_t i = begin; i < end; ++i)
       {
         const std::int64_t next = i + 1 < end ? i + 1 : begin;
-        const auto id = static_cast<std::size_t>(from.connectivity[static_cast<std::size_t>(i)]);
-        const auto to = static_cast<std::size_t>(from.connectivity[static_cast<std::size_t>(next)]);
-        images.connectivity.push_back(static_cast<std::int64_t>(images.points.size()));
-        images.points.push_back(from.points[id]);
-        if ((*context.isOnMembrane)[id] && (*context.isOnMembrane)[to])
+        const auto id = static_cast<std::size_t>(from.Connectivity[static_cast<std::size_t>(i)]);
+        const auto to = static_cast<std::size_t>(from.Connectivity[static_cast<std::size_t>(next)]);
+        images.Connectivity.push_back(static_cast<std::int64_t>(images.Points.size()));
+        images.Points.push_back(from.Points[id]);
+        if ((*context.IsOnMembrane)[id] && (*context.IsOnMembrane)[to])
         {
           waterline.push_back({ { weights[static_cast<std::size_t>(i - begin)],
-                                  from.points[id].vertex.position },
-            { weights[static_cast<std::size_t>(next - begin)], from.points[to].vertex.position } });
+                                  from.Points[id].Vertex.Position },
+            { weights[static_cast<std::size_t>(next - begin)], from.Points[to].Vertex.Position } });
         }
       }
-      images.EndCell(from.sourceCells[cell], from.orientations[cell]);
+      images.EndCell(from.SourceCells[cell], from.Orientations[cell]);
     }
     begin = end;
   }
@@ -295,7 +298,7 @@ std::vector<WaterlinePiece> PrimitiveMapper::DropInFront(
 //------------------------------------------------------------------------------
 void PrimitiveMapper::Map(const Context& context, const glm::dvec3& middle, double padding) const
 {
-  if (!(glm::dot(context.normal, context.normal) > 0.0) || !this->Geometry.IsInReach(middle))
+  if (!(glm::dot(context.Normal, context.Normal) > 0.0) || !this->Geometry.IsInReach(middle))
   {
     return; // without area it covers no pixel; on the line of sight a line covers none
   }
@@ -307,8 +310,8 @@ void PrimitiveMapper::Map(const Context& context, const glm::dvec3& middle, doub
   {
     const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
     Context inPatch = context;
-    inPatch.patch = &patch;
-    inPatch.facet = facet;
+    inPatch.Patch = &patch;
+    inPatch.Facet = facet;
     this->Divide(inPatch,
       { this->MakeNode(patch, { 0.0, 0.0 }), this->MakeNode(patch, { 1.0, 0.0 }),
         this->MakeNode(patch, { 0.0, 1.0 }) },
@@ -328,16 +331,16 @@ PrimitiveMapper::Node PrimitiveMapper::MakeNode(const CurvedPatch& patch, const 
 // hits. Nothing here depends on the primitive, so its neighbours divide the edge alike.
 bool PrimitiveMapper::IsSplit(const Node& a, const Node& middle, const Node& b) const
 {
-  if (!a.from.isValid || !middle.from.isValid || !b.from.isValid)
+  if (!a.From.IsValid || !middle.From.IsValid || !b.From.IsValid)
   {
-    return a.from.isValid || middle.from.isValid || b.from.isValid;
+    return a.From.IsValid || middle.From.IsValid || b.From.IsValid;
   }
-  const double angle = glm::length(a.from.at.position - b.from.at.position) /
-    glm::length(middle.from.at.position - this->Geometry.GetMedia().eye);
+  const double angle = glm::length(a.From.At.Position - b.From.At.Position) /
+    glm::length(middle.From.At.Position - this->Geometry.GetMedia().Eye);
   const auto isFar = [this, &a, &middle, &b, angle](double distance)
   {
     const auto hit = [distance](const Node& node)
-    { return node.from.at.position + distance * node.from.ray; };
+    { return node.From.At.Position + distance * node.From.Ray; };
     const double error = glm::length(hit(middle) - 0.5 * (hit(a) + hit(b)));
     const double width = glm::length(hit(a) - hit(b));
     return angle * std::min(error, width) > this->Tolerance * width;
@@ -349,22 +352,22 @@ bool PrimitiveMapper::IsSplit(const Node& a, const Node& middle, const Node& b) 
 void PrimitiveMapper::Divide(
   const Context& context, const std::array<Node, 3>& nodes, int depth) const
 {
-  double value[3][Constraints];
+  double value[3][NumberOfConstraints];
   bool allValid = true;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    allValid = allValid && nodes[i].from.isValid;
-    context.Measure(nodes[i].from, value[i]);
+    allValid = allValid && nodes[i].From.IsValid;
+    context.Measure(nodes[i].From, value[i]);
   }
   // Outside by more than the sub-cell's own extent: no bend brings it back.
-  for (int k = 0; allValid && k < Constraints; ++k)
+  for (int k = 0; allValid && k < NumberOfConstraints; ++k)
   {
     const double spread = GetSpread(value[0][k], value[1][k], value[2][k]);
-    const bool beside = context.isLine && k == 3;
+    const bool beside = context.IsLine && k == 3;
     const double most = std::max({ value[0][k], value[1][k], value[2][k] });
     const double least = std::min({ value[0][k], value[1][k], value[2][k] });
-    const double cosine[3] = { glm::dot(context.normal, nodes[0].from.ray),
-      glm::dot(context.normal, nodes[1].from.ray), glm::dot(context.normal, nodes[2].from.ray) };
+    const double cosine[3] = { glm::dot(context.Normal, nodes[0].From.Ray),
+      glm::dot(context.Normal, nodes[1].From.Ray), glm::dot(context.Normal, nodes[2].From.Ray) };
     const bool front = cosine[0] > 0.0 && cosine[1] > 0.0 && cosine[2] > 0.0;
     const bool back = cosine[0] < 0.0 && cosine[1] < 0.0 && cosine[2] < 0.0;
     if (((front || beside) && most < -spread) || ((back || beside) && least > spread))
@@ -380,7 +383,7 @@ void PrimitiveMapper::Divide(
     {
       const Node& a = nodes[(k + 1) % 3];
       const Node& b = nodes[(k + 2) % 3];
-      middle[k] = this->MakeNode(*context.patch, 0.5 * (a.b + b.b));
+      middle[k] = this->MakeNode(*context.Patch, 0.5 * (a.B + b.B));
       split[k] = this->IsSplit(a, middle[k], b);
     }
   }
@@ -429,43 +432,43 @@ void PrimitiveMapper::MapSubCell(const Context& context, const std::array<Node, 
   Polygon whole(3);
   for (std::size_t i = 0; i < 3; ++i)
   {
-    whole[i].b = nodes[i].b;
-    whole[i].edges = 7u & ~(1u << i);
-    context.Measure(nodes[i].from, whole[i].value);
-    whole[i].constraints = 0;
-    for (int k = 1; k < Constraints && !context.isLine; ++k)
+    whole[i].B = nodes[i].B;
+    whole[i].Edges = 7u & ~(1u << i);
+    context.Measure(nodes[i].From, whole[i].Value);
+    whole[i].Constraints = 0;
+    for (int k = 1; k < NumberOfConstraints && !context.IsLine; ++k)
     {
-      whole[i].constraints |= whole[i].value[k] == 0.0 ? 1u << k : 0u;
+      whole[i].Constraints |= whole[i].Value[k] == 0.0 ? 1u << k : 0u;
     }
   }
   const auto cross = [](const Corner& a, const Corner& b, int k)
   {
     Corner corner;
-    const double part = a.value[k] / (a.value[k] - b.value[k]);
-    corner.b = a.b + part * (b.b - a.b);
-    for (int m = 0; m < Constraints; ++m)
+    const double part = a.Value[k] / (a.Value[k] - b.Value[k]);
+    corner.B = a.B + part * (b.B - a.B);
+    for (int m = 0; m < NumberOfConstraints; ++m)
     {
-      corner.value[m] = a.value[m] + part * (b.value[m] - a.value[m]);
+      corner.Value[m] = a.Value[m] + part * (b.Value[m] - a.Value[m]);
     }
-    corner.value[k] = 0.0;
-    corner.edges = a.edges & b.edges;
-    corner.constraints = (a.constraints & b.constraints) | 1u << k;
+    corner.Value[k] = 0.0;
+    corner.Edges = a.Edges & b.Edges;
+    corner.Constraints = (a.Constraints & b.Constraints) | 1u << k;
     return corner;
   };
   for (const double sign : { 1.0, -1.0 })
   {
     Polygon polygon = whole;
     Polygon next;
-    for (int k = 0; k < Constraints && !polygon.empty(); ++k)
+    for (int k = 0; k < NumberOfConstraints && !polygon.empty(); ++k)
     {
-      const bool beside = context.isLine && k == 3;
+      const bool beside = context.IsLine && k == 3;
       next.clear();
       for (std::size_t i = 0; i < polygon.size(); ++i)
       {
         const Corner& a = polygon[i];
         const Corner& b = polygon[(i + 1) % polygon.size()];
-        const bool inA = sign * a.value[k] >= 0.0;
-        const bool inB = sign * b.value[k] >= 0.0;
+        const bool inA = sign * a.Value[k] >= 0.0;
+        const bool inB = sign * b.Value[k] >= 0.0;
         if (inA && !beside)
         {
           next.push_back(a);
@@ -478,11 +481,11 @@ void PrimitiveMapper::MapSubCell(const Context& context, const std::array<Node, 
       }
       polygon.swap(next);
     }
-    if (context.isLine && polygon.size() == 2)
+    if (context.IsLine && polygon.size() == 2)
     {
       this->EmitLine(context, nodes, polygon);
     }
-    else if (!context.isLine && polygon.size() > 2)
+    else if (!context.IsLine && polygon.size() > 2)
     {
       this->Emit(context, nodes, polygon, sign);
     }
@@ -497,8 +500,8 @@ void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& no
   double area = 0.0;
   const auto place = [](const Corner& corner)
   {
-    const double sum = corner.value[1] + corner.value[2] + corner.value[3];
-    return glm::dvec2(corner.value[2] / sum, corner.value[3] / sum);
+    const double sum = corner.Value[1] + corner.Value[2] + corner.Value[3];
+    return glm::dvec2(corner.Value[2] / sum, corner.Value[3] / sum);
   };
   for (std::size_t i = 2; i < polygon.size(); ++i)
   {
@@ -512,9 +515,9 @@ void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& no
   }
   // The rays go with the plane's normal where `sign` is positive, against the facet's towards the
   // eye always: an upright image keeps the sense of rotation as the rays see it.
-  const glm::dvec3 facet = glm::cross(nodes[1].from.at.position - nodes[0].from.at.position,
-    nodes[2].from.at.position - nodes[0].from.at.position);
-  const bool facetTurned = glm::dot(facet, nodes[0].from.ray) < 0.0;
+  const glm::dvec3 facet = glm::cross(nodes[1].From.At.Position - nodes[0].From.At.Position,
+    nodes[2].From.At.Position - nodes[0].From.At.Position);
+  const bool facetTurned = glm::dot(facet, nodes[0].From.Ray) < 0.0;
   const bool imageTurned = (area < 0.0) != (sign < 0.0);
   const int orientation = facetTurned == imageTurned ? 1 : -1;
   std::vector<MappedPoint> points;
@@ -526,22 +529,22 @@ void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& no
   {
     return;
   }
-  const auto first = static_cast<std::int64_t>(context.images->points.size());
+  const auto first = static_cast<std::int64_t>(context.Images->Points.size());
   const auto count = static_cast<std::int64_t>(polygon.size());
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
-    points[i].point.vertex.orientation = static_cast<signed char>(orientation);
-    context.images->points.push_back(points[i].point);
-    if (context.isOnMembrane)
+    points[i].Point.Vertex.Orientation = static_cast<signed char>(orientation);
+    context.Images->Points.push_back(points[i].Point);
+    if (context.IsOnMembrane)
     {
-      context.isOnMembrane->push_back((polygon[i].constraints & 1u) != 0);
+      context.IsOnMembrane->push_back((polygon[i].Constraints & 1u) != 0);
     }
   }
   for (std::int64_t i = 0; i < count; ++i)
   {
-    context.images->connectivity.push_back(first + (area > 0.0 ? i : count - 1 - i));
+    context.Images->Connectivity.push_back(first + (area > 0.0 ? i : count - 1 - i));
   }
-  context.images->EndCell(context.sourceCell, orientation);
+  context.Images->EndCell(context.SourceCell, orientation);
 }
 
 //------------------------------------------------------------------------------
@@ -553,7 +556,7 @@ bool PrimitiveMapper::IsSeen(const std::vector<MappedPoint>& points)
   const auto count = [&points](Finding finding)
   {
     return static_cast<std::size_t>(std::count_if(points.begin(), points.end(),
-      [finding](const MappedPoint& point) { return point.finding == finding; }));
+      [finding](const MappedPoint& point) { return point.Outcome == finding; }));
   };
   return count(Finding::Elsewhere) == 0 && count(Finding::EndWithoutImage) < points.size();
 }
@@ -562,19 +565,19 @@ bool PrimitiveMapper::IsSeen(const std::vector<MappedPoint>& points)
 void PrimitiveMapper::EmitLine(
   const Context& context, const std::array<Node, 3>& nodes, const Polygon& polygon) const
 {
-  const auto along = [](const Corner& c) { return c.value[1] / (c.value[1] + c.value[2]); };
+  const auto along = [](const Corner& c) { return c.Value[1] / (c.Value[1] + c.Value[2]); };
   const bool turned = along(polygon[0]) > along(polygon[1]);
   for (const Corner& corner : { polygon[turned ? 1 : 0], polygon[turned ? 0 : 1] })
   {
-    context.images->connectivity.push_back(
-      static_cast<std::int64_t>(context.images->points.size()));
-    context.images->points.push_back(this->MakePoint(context, nodes, corner).point);
-    if (context.isOnMembrane)
+    context.Images->Connectivity.push_back(
+      static_cast<std::int64_t>(context.Images->Points.size()));
+    context.Images->Points.push_back(this->MakePoint(context, nodes, corner).Point);
+    if (context.IsOnMembrane)
     {
-      context.isOnMembrane->push_back((corner.constraints & 1u) != 0);
+      context.IsOnMembrane->push_back((corner.Constraints & 1u) != 0);
     }
   }
-  context.images->EndCell(context.sourceCell, 1);
+  context.Images->EndCell(context.SourceCell, 1);
 }
 
 //------------------------------------------------------------------------------
@@ -584,35 +587,35 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
   const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const
 {
   const Boundary on = context.FindBoundary(corner);
-  if (on.membrane)
+  if (on.Membrane)
   {
     return this->MakeCrossing(context, nodes, corner, on);
   }
-  if (on.end >= 0)
+  if (on.End >= 0)
   {
-    return this->MakeEnd(context, nodes, on.end, corner.b);
+    return this->MakeEnd(context, nodes, on.End, corner.B);
   }
-  if (on.node >= 0 && on.side < 0)
+  if (on.Node >= 0 && on.Side < 0)
   {
     // The coordinates have one sign here.
-    const glm::dvec3 value(corner.value[1], corner.value[2], corner.value[3]);
+    const glm::dvec3 value(corner.Value[1], corner.Value[2], corner.Value[3]);
     const glm::dvec3 weight = glm::max(value / (value.x + value.y + value.z), glm::dvec3(0.0));
-    return { this->Finish(context, nodes[static_cast<std::size_t>(on.node)].from.at,
+    return { this->Finish(context, nodes[static_cast<std::size_t>(on.Node)].From.At,
                context.GetPoint(weight), weight),
       Finding::Found };
   }
-  const auto side = static_cast<std::size_t>(on.side);
-  if (on.node >= 0)
+  const auto side = static_cast<std::size_t>(on.Side);
+  if (on.Node >= 0)
   {
     return this->MakeOnSide(
-      context, nodes, side, nodes[static_cast<std::size_t>(on.node)].from, corner.b);
+      context, nodes, side, nodes[static_cast<std::size_t>(on.Node)].From, corner.B);
   }
-  const Node& a = nodes[static_cast<std::size_t>((on.edge + 1) % 3)];
-  const Node& b = nodes[static_cast<std::size_t>((on.edge + 2) % 3)];
+  const Node& a = nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];
+  const Node& b = nodes[static_cast<std::size_t>((on.Edge + 2) % 3)];
   return this->MakeOnSide(context, nodes, side,
-    MeetLine(SubCellSide(*context.patch, a.b, b.b), this->Geometry.GetMedia(),
-      context.sides[side].line, a.from, b.from),
-    corner.b);
+    MeetLine(SubCellSide(*context.Patch, a.B, b.B), this->Geometry.GetMedia(),
+      context.Sides[side].Line, a.From, b.From),
+    corner.B);
 }
 
 //------------------------------------------------------------------------------
@@ -621,10 +624,10 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
   const std::array<Node, 3>& nodes, std::size_t side, const RefractedPoint& from,
   const glm::dvec2& interpolated) const
 {
-  const Context::Side& on = context.sides[side];
-  const double l = GetParameter(on.line, from);
-  const auto first = static_cast<glm::length_t>((side + (on.turned ? 1 : 0)) % 3);
-  const auto last = static_cast<glm::length_t>((side + (on.turned ? 0 : 1)) % 3);
+  const Context::Side& on = context.Sides[side];
+  const double l = GetParameter(on.Line, from);
+  const auto first = static_cast<glm::length_t>((side + (on.Turned ? 1 : 0)) % 3);
+  const auto last = static_cast<glm::length_t>((side + (on.Turned ? 0 : 1)) % 3);
   if (!(l > 0.0 && l < 1.0))
   {
     return this->MakeEnd(context, nodes, l < 0.5 ? first : last, interpolated);
@@ -632,14 +635,14 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
   glm::dvec3 weight(0.0);
   weight[first] = 1.0 - l;
   weight[last] = l;
-  const glm::dvec3 place = on.line.GetPoint(l);
-  ImagePoint point = this->Finish(context, from.at, place, weight);
-  if (glm::dot(place - from.at.position, from.ray) < 0.0)
+  const glm::dvec3 place = on.Line.GetPoint(l);
+  ImagePoint point = this->Finish(context, from.At, place, weight);
+  if (glm::dot(place - from.At.Position, from.Ray) < 0.0)
   {
     // Where the primitive meets the membrane, interpolation may take a bit of what is in front.
-    point.vertex.position = place + this->Geometry.GetMembrane().GetOrigin();
-    point.vertex.sightPoint = point.vertex.position;
-    point.vertex.depth = 0.0;
+    point.Vertex.Position = place + this->Geometry.GetMembrane().GetOrigin();
+    point.Vertex.SightPoint = point.Vertex.Position;
+    point.Vertex.Depth = 0.0;
   }
   return { point, Finding::Found };
 }
@@ -655,39 +658,39 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
 {
   const auto index = static_cast<std::size_t>(end);
   const glm::dvec3 middle =
-    context.patch->Evaluate(interpolated).position + this->Geometry.GetMembrane().GetOrigin();
+    context.Patch->Evaluate(interpolated).Position + this->Geometry.GetMembrane().GetOrigin();
   const double size = GetSize(nodes);
   glm::dvec3 weight(0.0);
   weight[end] = 1.0;
-  const KnownImages& known = context.primitive.images[index];
-  const ImagePoint* nearest = std::min_element(known.first, known.first + known.count,
+  const KnownImages& known = context.Primitive.Images[index];
+  const ImagePoint* nearest = std::min_element(known.First, known.First + known.Count,
     [&middle](const ImagePoint& a, const ImagePoint& b) {
-      return glm::length(a.vertex.sightPoint - middle) < glm::length(b.vertex.sightPoint - middle);
+      return glm::length(a.Vertex.SightPoint - middle) < glm::length(b.Vertex.SightPoint - middle);
     });
-  if (known.count > 0 && nearest->vertex.facet != CurvedPatches::NoFacet &&
-    glm::length(nearest->vertex.sightPoint - middle) <= size)
+  if (known.Count > 0 && nearest->Vertex.Facet != CurvedPatches::NoFacet &&
+    glm::length(nearest->Vertex.SightPoint - middle) <= size)
   {
     ImagePoint point;
-    point.vertex = nearest->vertex;
-    point.SetSource(context.primitive.ids, weight);
+    point.Vertex = nearest->Vertex;
+    point.SetSource(context.Primitive.Ids, weight);
     return { point, Finding::Found };
   }
   constexpr int steps = 10;
   constexpr double reach = 0.5;
-  const glm::dvec2 guess = GuessSight(nodes, context.corner[index]);
-  PatchPoint at = context.patch->Evaluate(guess);
+  const glm::dvec2 guess = GuessSight(nodes, context.Corners[index]);
+  PatchPoint at = context.Patch->Evaluate(guess);
   const SightRoot root =
-    this->Geometry.MakeEquation(context.corner[index]).Solve(*context.patch, guess, steps, reach);
+    this->Geometry.MakeEquation(context.Corners[index]).Solve(*context.Patch, guess, steps, reach);
   const bool isFound =
-    root.end == SightRoot::End::Converged && glm::length(root.at.position - at.position) <= size;
+    root.End == SightRoot::End::Converged && glm::length(root.At.Position - at.Position) <= size;
   if (isFound)
   {
-    at = root.at;
+    at = root.At;
   }
-  ImagePoint point = this->Finish(context, at, context.corner[index], weight);
-  if (known.count == 1 && known.first->vertex.facet == CurvedPatches::NoFacet)
+  ImagePoint point = this->Finish(context, at, context.Corners[index], weight);
+  if (known.Count == 1 && known.First->Vertex.Facet == CurvedPatches::NoFacet)
   {
-    point.vertex.position = known.first->vertex.position; // in front, where all others have it
+    point.Vertex.Position = known.First->Vertex.Position; // in front, where all others have it
   }
   const bool isElsewhere = known.count > 0 && nearest->vertex.facet != CurvedPatches::NoFacet;
   const Finding without = isElsewhere ? Finding::Elsewhere : Finding::EndWithoutImage;
@@ -698,7 +701,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
 double PrimitiveMapper::GetSize(const std::array<Node, 3>& nodes)
 {
   const auto length = [&nodes](std::size_t i, std::size_t j)
-  { return glm::length(nodes[i].from.at.position - nodes[j].from.at.position); };
+  { return glm::length(nodes[i].From.At.Position - nodes[j].From.At.Position); };
   return std::max({ length(0, 1), length(1, 2), length(2, 0) });
 }
 
@@ -707,7 +710,7 @@ double PrimitiveMapper::GetSize(const std::array<Node, 3>& nodes)
 glm::dvec2 PrimitiveMapper::GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point)
 {
   const auto moment = [&nodes, &point](std::size_t k)
-  { return glm::cross(nodes[k].from.at.position - point, nodes[k].from.ray); };
+  { return glm::cross(nodes[k].From.At.Position - point, nodes[k].From.Ray); };
   const glm::dvec3 first = moment(0);
   const glm::dvec3 u = moment(1) - first;
   const glm::dvec3 v = moment(2) - first;
@@ -722,7 +725,7 @@ glm::dvec2 PrimitiveMapper::GuessSight(const std::array<Node, 3>& nodes, const g
     place = glm::clamp(place, 0.0, 1.0);
     place /= std::max(1.0, place.x + place.y);
   }
-  return nodes[0].b + place.x * (nodes[1].b - nodes[0].b) + place.y * (nodes[2].b - nodes[0].b);
+  return nodes[0].B + place.x * (nodes[1].B - nodes[0].B) + place.y * (nodes[2].B - nodes[0].B);
 }
 
 //------------------------------------------------------------------------------
@@ -731,27 +734,27 @@ glm::dvec2 PrimitiveMapper::GuessSight(const std::array<Node, 3>& nodes, const g
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(const Context& context,
   const std::array<Node, 3>& nodes, const Corner& corner, const Boundary& on) const
 {
-  glm::dvec3 weight = context.isLine
-    ? glm::dvec3(corner.value[2], corner.value[1], 0.0)
-    : glm::dvec3(corner.value[1], corner.value[2], corner.value[3]);
+  glm::dvec3 weight = context.IsLine
+    ? glm::dvec3(corner.Value[2], corner.Value[1], 0.0)
+    : glm::dvec3(corner.Value[1], corner.Value[2], corner.Value[3]);
   weight /= weight.x + weight.y + weight.z;
-  int side = on.side;
-  if (on.edge >= 0 && side < 0)
+  int side = on.Side;
+  if (on.Edge >= 0 && side < 0)
   {
-    const Node& a = nodes[static_cast<std::size_t>((on.edge + 1) % 3)];
-    const Node& b = nodes[static_cast<std::size_t>((on.edge + 2) % 3)];
-    const RefractedPoint from = MeetPlane(SubCellSide(*context.patch, a.b, b.b),
-      this->Geometry.GetMedia(), context.corner[0], context.normal, a.from, b.from);
-    weight = context.GetWeight(from.at.position);
+    const Node& a = nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];
+    const Node& b = nodes[static_cast<std::size_t>((on.Edge + 2) % 3)];
+    const RefractedPoint from = MeetPlane(SubCellSide(*context.Patch, a.B, b.B),
+      this->Geometry.GetMedia(), context.Corners[0], context.Normal, a.From, b.From);
+    weight = context.GetWeight(from.At.Position);
     const glm::length_t least =
       weight.x < weight.y ? (weight.x < weight.z ? 0 : 2) : (weight.y < weight.z ? 1 : 2);
     if (weight[least] >= 0.0)
     {
-      return { this->Finish(context, from.at, from.at.position, weight), Finding::Found };
+      return { this->Finish(context, from.At, from.At.Position, weight), Finding::Found };
     }
     side = static_cast<int>(least) + 1;
   }
-  return this->MakeSideCrossing(context, nodes, static_cast<std::size_t>(side), corner.b, weight);
+  return this->MakeSideCrossing(context, nodes, static_cast<std::size_t>(side), corner.B, weight);
 }
 
 //------------------------------------------------------------------------------
@@ -761,22 +764,22 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
   const std::array<Node, 3>& nodes, std::size_t side, const glm::dvec2& guess,
   const glm::dvec3& weight) const
 {
-  const Context::Side& on = context.sides[side];
-  const auto first = static_cast<glm::length_t>((side + (on.turned ? 1 : 0)) % 3);
-  const auto last = static_cast<glm::length_t>((side + (on.turned ? 0 : 1)) % 3);
+  const Context::Side& on = context.Sides[side];
+  const auto first = static_cast<glm::length_t>((side + (on.Turned ? 1 : 0)) % 3);
+  const auto last = static_cast<glm::length_t>((side + (on.Turned ? 0 : 1)) % 3);
   Context inPatch = context;
   glm::dvec2 b = guess;
   double l = weight[last] / (weight[first] + weight[last]);
-  const glm::dvec3 start = context.patch->Evaluate(guess).position;
-  if (!this->Geometry.MeetLine(on.line, context.patch->GetNormal(guess), inPatch.facet, b, l))
+  const glm::dvec3 start = context.Patch->Evaluate(guess).Position;
+  if (!this->Geometry.MeetLine(on.Line, context.Patch->GetNormal(guess), inPatch.Facet, b, l))
   {
     return { {}, Finding::Elsewhere };
   }
-  const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(inPatch.facet);
-  MeetPatchAgain(patch, on.line, b, l);
-  inPatch.patch = &patch;
+  const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(inPatch.Facet);
+  MeetPatchAgain(patch, on.Line, b, l);
+  inPatch.Patch = &patch;
   const PatchPoint at = patch.Evaluate(b);
-  if (glm::length(at.position - start) > GetSize(nodes))
+  if (glm::length(at.Position - start) > GetSize(nodes))
   {
     return { {}, Finding::Elsewhere };
   }
@@ -787,7 +790,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
   glm::dvec3 place(0.0);
   place[first] = 1.0 - l;
   place[last] = l;
-  return { this->Finish(inPatch, at, on.line.GetPoint(l), place), Finding::Found };
+  return { this->Finish(inPatch, at, on.Line.GetPoint(l), place), Finding::Found };
 }
 
 //------------------------------------------------------------------------------
@@ -795,11 +798,11 @@ ImagePoint PrimitiveMapper::Finish(const Context& context, const PatchPoint& at,
   const glm::dvec3& local, const glm::dvec3& weight) const
 {
   SightPlace place;
-  place.facet = context.facet;
-  place.root.at = at;
+  place.Facet = context.Facet;
+  place.Root.At = at;
   ImagePoint point;
-  point.vertex = this->Geometry.MakeVertex(local, *context.patch, place);
-  point.SetSource(context.primitive.ids, weight);
+  point.Vertex = this->Geometry.MakeVertex(local, *context.Patch, place);
+  point.SetSource(context.Primitive.Ids, weight);
   return point;
 }
 

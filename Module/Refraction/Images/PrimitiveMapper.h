@@ -29,50 +29,56 @@
 namespace meniscus
 {
 
-/// The images of a point of the object, borrowed.
+/** The images of a point of the object, borrowed. */
 struct KnownImages
 {
-  const ImagePoint* first = nullptr;
-  std::size_t count = 0;
+  const ImagePoint* First = nullptr;
+  std::size_t Count = 0;
 };
 
-/// Corners of a primitive in world coordinates, their indices in the object and their images.
+/** Corners of a primitive in world coordinates, their indices in the object and their images. */
 struct MappedTriangle
 {
-  std::array<std::int64_t, 3> ids;
-  std::array<glm::dvec3, 3> corners;
-  std::array<KnownImages, 3> images{};
+  std::array<std::int64_t, 3> Ids;
+  std::array<glm::dvec3, 3> Corners;
+  std::array<KnownImages, 3> Images{};
 };
 
-/// A point of a triangle in barycentric and in world coordinates.
+/** A point of a triangle in barycentric and in world coordinates. */
 struct TrianglePoint
 {
-  glm::dvec3 weight;
-  glm::dvec3 position;
+  glm::dvec3 Weight;
+  glm::dvec3 Position;
 };
 
-/// A straight piece of the curve along which a triangle meets the membrane. The part behind the
-/// membrane is on its left, as the triangle is wound.
+/**
+ * A straight piece of the curve along which a triangle meets the membrane. The part behind the
+ * membrane is on its left, as the triangle is wound.
+ */
 struct WaterlinePiece
 {
-  TrianglePoint from;
-  TrianglePoint to;
+  TrianglePoint From;
+  TrianglePoint To;
 };
 
 class PrimitiveMapper
 {
 public:
-  /// `tolerance` is the angle, in radians at the eye, that linear interpolation in a sub-cell may
-  /// be off at the distances `nearest` and `farthest` behind the membrane.
+  /**
+   * `tolerance` is the angle, in radians at the eye, that linear interpolation in a sub-cell may
+   * be off at the distances `nearest` and `farthest` behind the membrane.
+   */
   PrimitiveMapper(
     const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest);
 
-  /// Adds the images of a triangle as convex polygons, wound as the triangle is. If it may cross
-  /// the membrane, the part in front of it is added as it is.
+  /**
+   * Adds the images of a triangle as convex polygons, wound as the triangle is. If it may cross
+   * the membrane, the part in front of it is added as it is.
+   */
   void MapTriangle(const MappedTriangle& triangle, std::int64_t sourceCell, bool mayCross,
     ImageMesh& images) const;
 
-  /// Adds the images of a line between the first two corners as lines of two points.
+  /** Adds the images of a line between the first two corners as lines of two points. */
   void MapLine(
     const MappedTriangle& line, std::int64_t sourceCell, bool mayCross, ImageMesh& images) const;
 
@@ -90,8 +96,8 @@ private:
   };
   struct MappedPoint
   {
-    ImagePoint point;
-    Finding finding;
+    ImagePoint Point;
+    Finding Outcome;
   };
 
   void MapSides(Context& context, const glm::dvec3& middle, double padding, bool mayCross,

@@ -20,13 +20,13 @@ constexpr double Widest = 4.0;
 
 auto GetKey(const ImagePoint& point)
 {
-  const glm::dvec3& p = point.vertex.position;
+  const glm::dvec3& p = point.Vertex.Position;
   return std::make_tuple(p.x, p.y, p.z);
 }
 
 bool AreSame(const ImagePoint& a, const ImagePoint& b)
 {
-  return a.vertex.position == b.vertex.position;
+  return a.Vertex.Position == b.Vertex.Position;
 }
 
 // Place of a point on a seam, from its lower end.
@@ -34,9 +34,9 @@ double GetPlace(const ImagePoint& point, std::int64_t high)
 {
   for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
   {
-    if (point.source[k] == high)
+    if (point.Source[k] == high)
     {
-      return point.weight[k];
+      return point.Weight[k];
     }
   }
   return 0.0;
@@ -49,8 +49,8 @@ const ImagePoint* FindFarthest(const Loop& loop, const ImagePoint& from)
   return *std::max_element(loop.begin(), loop.end(),
     [&from](const ImagePoint* a, const ImagePoint* b)
     {
-      const glm::dvec3 first = a->vertex.position - from.vertex.position;
-      const glm::dvec3 second = b->vertex.position - from.vertex.position;
+      const glm::dvec3 first = a->Vertex.Position - from.Vertex.Position;
+      const glm::dvec3 second = b->Vertex.Position - from.Vertex.Position;
       return glm::dot(first, first) < glm::dot(second, second);
     });
 }
@@ -100,10 +100,10 @@ SeamClosure::SeamClosure(
 {
   for (const Seam& seam : seams)
   {
-    const auto size = static_cast<std::size_t>(seam.high) + 1;
+    const auto size = static_cast<std::size_t>(seam.High) + 1;
     this->HasSeam.resize(std::max(this->HasSeam.size(), size), 0);
-    this->HasSeam[static_cast<std::size_t>(seam.low)] = 1;
-    this->HasSeam[static_cast<std::size_t>(seam.high)] = 1;
+    this->HasSeam[static_cast<std::size_t>(seam.Low)] = 1;
+    this->HasSeam[static_cast<std::size_t>(seam.High)] = 1;
   }
 }
 
@@ -114,9 +114,9 @@ void SeamClosure::Collect(
   std::int64_t begin = 0;
   for (std::size_t cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
   {
-    const std::int64_t end = mesh.ends[cell];
+    const std::int64_t end = mesh.Ends[cell];
     const auto at = [&mesh, &points](std::int64_t i) -> const ImagePoint&
-    { return points[static_cast<std::size_t>(mesh.connectivity[static_cast<std::size_t>(i)])]; };
+    { return points[static_cast<std::size_t>(mesh.Connectivity[static_cast<std::size_t>(i)])]; };
     for (std::int64_t i = begin; i < end; ++i)
     {
       this->AddPart(mesh, cell, at(i), at(i + 1 < end ? i + 1 : begin), areWhole);
@@ -138,28 +138,28 @@ void SeamClosure::AddPart(
   }
   const ImagePoint& larger = count == 2 ? a : b;
   const ImagePoint& smaller = count == 2 ? b : a;
-  const std::int64_t first = larger.source[0];
-  const std::int64_t last = larger.GetNumberOfSources() == 2 ? larger.source[1] : smaller.source[0];
+  const std::int64_t first = larger.Source[0];
+  const std::int64_t last = larger.GetNumberOfSources() == 2 ? larger.Source[1] : smaller.Source[0];
   const auto isEnd = [first, last](std::int64_t id) { return id == first || id == last; };
-  if (first == last || !isEnd(smaller.source[0]) ||
-    (smaller.GetNumberOfSources() == 2 && !isEnd(smaller.source[1])))
+  if (first == last || !isEnd(smaller.Source[0]) ||
+    (smaller.GetNumberOfSources() == 2 && !isEnd(smaller.Source[1])))
   {
     return;
   }
   const Seam seam{ std::min(first, last), std::max(first, last), 0 };
-  const auto high = static_cast<std::size_t>(seam.high);
+  const auto high = static_cast<std::size_t>(seam.High);
   // A diagonal's ends are corners of a mapped polygon, which has seams at all of them.
   if (high >= this->HasSeam.size() || !this->HasSeam[high] ||
-    !this->HasSeam[static_cast<std::size_t>(seam.low)])
+    !this->HasSeam[static_cast<std::size_t>(seam.Low)])
   {
     return;
   }
   const auto known = std::lower_bound(this->Seams.begin(), this->Seams.end(), seam);
   const bool isSeam = known != this->Seams.end() && !(seam < *known);
-  if (!AreSame(a, b) && (isSeam ? known->cells > 1 : this->HasDiagonals))
+  if (!AreSame(a, b) && (isSeam ? known->Cells > 1 : this->HasDiagonals))
   {
     this->All.push_back(
-      { seam.low, seam.high, a, b, mesh.sourceCells[cell], mesh.orientations[cell], isWhole });
+      { seam.Low, seam.High, a, b, mesh.SourceCells[cell], mesh.Orientations[cell], isWhole });
   }
 }
 
@@ -173,7 +173,7 @@ void SeamClosure::Close(ImageMesh& mesh)
     order.push_back(&part);
   }
   const auto isBefore = [](const Part* a, const Part* b)
-  { return std::tie(a->low, a->high) < std::tie(b->low, b->high); };
+  { return std::tie(a->Low, a->High) < std::tie(b->Low, b->High); };
   std::stable_sort(order.begin(), order.end(), isBefore);
   for (auto begin = order.begin(); begin != order.end();)
   {
@@ -187,20 +187,20 @@ void SeamClosure::Close(ImageMesh& mesh)
 // Where more than two cells have the seam, each of them meets the first.
 void SeamClosure::CloseSeam(Parts parts, ImageMesh& mesh) const
 {
-  const Seam seam{ parts.front()->low, parts.front()->high, 0 };
+  const Seam seam{ parts.front()->Low, parts.front()->High, 0 };
   const auto known = std::lower_bound(this->Seams.begin(), this->Seams.end(), seam);
   const bool isSeam = known != this->Seams.end() && !(seam < *known);
-  if (!isSeam || known->cells == 2)
+  if (!isSeam || known->Cells == 2)
   {
     this->CloseLoops(std::move(parts), mesh);
     return;
   }
   std::stable_sort(
-    parts.begin(), parts.end(), [](const Part* a, const Part* b) { return a->cell < b->cell; });
+    parts.begin(), parts.end(), [](const Part* a, const Part* b) { return a->Cell < b->Cell; });
   const auto findEnd = [&parts](Parts::iterator begin)
   {
     return std::find_if(
-      begin, parts.end(), [begin](const Part* part) { return part->cell != (*begin)->cell; });
+      begin, parts.end(), [begin](const Part* part) { return part->Cell != (*begin)->Cell; });
   };
   const auto firstEnd = findEnd(parts.begin());
   for (auto begin = firstEnd; begin != parts.end();)
@@ -218,8 +218,8 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
 {
   const auto getKeys = [](const Part* part)
   {
-    const auto from = GetKey(part->from);
-    const auto to = GetKey(part->to);
+    const auto from = GetKey(part->From);
+    const auto to = GetKey(part->To);
     return from < to ? std::make_pair(from, to) : std::make_pair(to, from);
   };
   std::stable_sort(parts.begin(), parts.end(),
@@ -241,19 +241,19 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
   {
     const Part& first = *left.back();
     left.pop_back();
-    Loop loop = { &first.to, &first.from };
-    bool hasWhole = first.isWhole;
+    Loop loop = { &first.To, &first.From };
+    bool hasWhole = first.IsWhole;
     while (!AreSame(*loop.back(), *loop.front()))
     {
       const ImagePoint& last = *loop.back();
       const auto next = std::find_if(left.begin(), left.end(),
-        [&last](const Part* part) { return AreSame(part->from, last) || AreSame(part->to, last); });
+        [&last](const Part* part) { return AreSame(part->From, last) || AreSame(part->To, last); });
       if (next == left.end())
       {
         break; // it ends at a border of the membrane or of what is totally reflected
       }
-      loop.push_back(AreSame((*next)->from, last) ? &(*next)->to : &(*next)->from);
-      hasWhole = hasWhole || (*next)->isWhole;
+      loop.push_back(AreSame((*next)->From, last) ? &(*next)->To : &(*next)->From);
+      hasWhole = hasWhole || (*next)->IsWhole;
       left.erase(next);
     }
     if (loop.size() > 3 && AreSame(*loop.back(), *loop.front()))
@@ -268,14 +268,14 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
 // Whether the loop is within a few tolerances of a straight line.
 bool SeamClosure::IsThin(const Loop& loop) const
 {
-  const glm::dvec3 begin = FindFarthest(loop, *loop.front())->vertex.position;
-  const glm::dvec3 end = FindFarthest(loop, *FindFarthest(loop, *loop.front()))->vertex.position;
+  const glm::dvec3 begin = FindFarthest(loop, *loop.front())->Vertex.Position;
+  const glm::dvec3 end = FindFarthest(loop, *FindFarthest(loop, *loop.front()))->Vertex.Position;
   const glm::dvec3 across = glm::cross(begin - this->Eye, end - this->Eye);
   const double width = Widest * this->Tolerance * glm::length(across);
   return std::all_of(loop.begin(), loop.end(),
     [this, &across, width](const ImagePoint* point)
     {
-      const glm::dvec3 way = point->vertex.position - this->Eye;
+      const glm::dvec3 way = point->Vertex.Position - this->Eye;
       return std::fabs(glm::dot(across, way)) <= width * glm::length(way);
     });
 }
@@ -290,10 +290,10 @@ void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, Ima
     {
       for (const ImagePoint* point : polygon)
       {
-        mesh.connectivity.push_back(static_cast<std::int64_t>(mesh.points.size()));
-        mesh.points.push_back(*point);
+        mesh.Connectivity.push_back(static_cast<std::int64_t>(mesh.Points.size()));
+        mesh.Points.push_back(*point);
       }
-      mesh.EndCell(first.cell, first.orientation);
+      mesh.EndCell(first.Cell, first.Orientation);
     }
   };
   if (loop.size() == 3 || this->IsThin(loop))
@@ -302,14 +302,14 @@ void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, Ima
     return;
   }
   // Along a bend: triangles between the two chains.
-  const auto [forward, backward] = FindWays(loop, first.high);
+  const auto [forward, backward] = FindWays(loop, first.High);
   std::size_t i = 0;
   std::size_t j = 0;
   while (i + 1 < forward.size() || j + 1 < backward.size())
   {
     const bool isForward = j + 1 == backward.size() ||
       (i + 1 < forward.size() &&
-        GetPlace(*forward[i + 1], first.high) < GetPlace(*backward[j + 1], first.high));
+        GetPlace(*forward[i + 1], first.High) < GetPlace(*backward[j + 1], first.High));
     const Loop triangle = { forward[i], isForward ? forward[i + 1] : backward[j + 1], backward[j] };
     (isForward ? i : j) += 1;
     if (triangle[0] != triangle[2] && triangle[1] != triangle[0] && triangle[1] != triangle[2])

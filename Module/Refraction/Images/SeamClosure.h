@@ -22,45 +22,47 @@
 namespace meniscus
 {
 
-/// A side of polygons of the object by its ends' points, the lower one first.
+/** A side of polygons of the object by its ends' points, the lower one first. */
 struct Seam
 {
-  std::int64_t low;
-  std::int64_t high;
-  std::int32_t cells; ///< that have it
+  std::int64_t Low;
+  std::int64_t High;
+  std::int32_t Cells; ///< that have it
 
   bool operator<(const Seam& other) const
   {
-    return this->low != other.low ? this->low < other.low : this->high < other.high;
+    return this->Low != other.Low ? this->Low < other.Low : this->High < other.High;
   }
 };
 
 class SeamClosure
 {
 public:
-  /// `seams` in order, borrowed. `hasDiagonals` if polygons have been split: then all sides between
-  /// two points that are no seams are diagonals, which two parts of one polygon have in common.
-  /// `tolerance` is an angle in radians at `eye`, in world coordinates.
+  /**
+   * `seams` in order, borrowed. `hasDiagonals` if polygons have been split: then all sides between
+   * two points that are no seams are diagonals, which two parts of one polygon have in common.
+   * `tolerance` is an angle in radians at `eye`, in world coordinates.
+   */
   SeamClosure(
     const std::vector<Seam>& seams, bool hasDiagonals, const glm::dvec3& eye, double tolerance);
 
-  /// Takes the cells of a mesh; polygons that are drawn as they are, or pieces of others.
+  /** Takes the cells of a mesh; polygons that are drawn as they are, or pieces of others. */
   void Collect(const ImageMesh& mesh, const std::vector<ImagePoint>& points, bool areWhole);
 
-  /// Adds the cells that are missing. `mesh` may be one that has been collected.
+  /** Adds the cells that are missing. `mesh` may be one that has been collected. */
   void Close(ImageMesh& mesh);
 
 private:
-  /// A part of a seam as a cell draws it. Points are copied: closing may move them.
+  /** A part of a seam as a cell draws it. Points are copied: closing may move them. */
   struct Part
   {
-    std::int64_t low;
-    std::int64_t high;
-    ImagePoint from;
-    ImagePoint to;
-    std::int64_t cell;
-    signed char orientation;
-    bool isWhole; ///< a side of a polygon that is drawn as it is
+    std::int64_t Low;
+    std::int64_t High;
+    ImagePoint From;
+    ImagePoint To;
+    std::int64_t Cell;
+    signed char Orientation;
+    bool IsWhole; ///< a side of a polygon that is drawn as it is
   };
   using Parts = std::vector<const Part*>;
 

@@ -24,11 +24,11 @@ constexpr int Bisections = 44;
 // To see whether a cut is straight: a thousandth of a side.
 constexpr int CoarseBisections = 10;
 
-/// A place in the primitive, in barycentric coordinates.
+/** A place in the primitive, in barycentric coordinates. */
 struct Place
 {
-  glm::dvec3 weight;
-  bool isInFront;
+  glm::dvec3 Weight;
+  bool IsInFront;
 };
 
 class Cutter
@@ -44,7 +44,7 @@ public:
   {
     for (std::size_t i = 0; i < 3; ++i)
     {
-      this->Corner[i] = primitive.corners[i] - geometry.GetMembrane().GetOrigin();
+      this->Corner[i] = primitive.Corners[i] - geometry.GetMembrane().GetOrigin();
     }
   }
 
@@ -69,15 +69,15 @@ public:
       {
         continue;
       }
-      std::array<glm::dvec3, 3> place = this->Primitive.corners;
+      std::array<glm::dvec3, 3> place = this->Primitive.Corners;
       std::array<bool, 3> isFront;
       for (std::size_t k = 0; k < 3; ++k)
       {
         const bool isTurned = (turned >> k & 1u) != 0;
-        isFront[k] = corner[k].isInFront != isTurned;
-        if (isTurned && isFront[k] && this->Primitive.images[k].count > 0)
+        isFront[k] = corner[k].IsInFront != isTurned;
+        if (isTurned && isFront[k] && this->Primitive.Images[k].Count > 0)
         {
-          place[k] = this->Primitive.images[k].first->vertex.position;
+          place[k] = this->Primitive.Images[k].First->Vertex.Position;
         }
       }
       if (FrontOutline(waterline, place, isFront).Find(polygons))
@@ -92,11 +92,11 @@ public:
   {
     std::array<Place, 3> middle; // opposite to the corners
     bool same =
-      corner[0].isInFront == corner[1].isInFront && corner[0].isInFront == corner[2].isInFront;
+      corner[0].IsInFront == corner[1].IsInFront && corner[0].IsInFront == corner[2].IsInFront;
     for (std::size_t k = 0; k < 3; ++k)
     {
-      middle[k] = this->MakePlace(0.5 * (corner[(k + 1) % 3].weight + corner[(k + 2) % 3].weight));
-      same = same && middle[k].isInFront == corner[0].isInFront;
+      middle[k] = this->MakePlace(0.5 * (corner[(k + 1) % 3].Weight + corner[(k + 2) % 3].Weight));
+      same = same && middle[k].IsInFront == corner[0].IsInFront;
     }
     if (level == DeepestLevel || (level >= FirstLevel && (same || this->IsCutStraight(corner))))
     {
@@ -114,17 +114,17 @@ public:
   {
     if (level < DeepestLevel)
     {
-      const Place middle = this->MakePlace(0.5 * (from.weight + to.weight));
+      const Place middle = this->MakePlace(0.5 * (from.Weight + to.Weight));
       this->CutLine(from, middle, level + 1);
       this->CutLine(middle, to, level + 1);
       return;
     }
-    const Place crossing = from.isInFront != to.isInFront ? this->Cross(from, to) : from;
-    const Place& begin = from.isInFront ? from : crossing;
-    const Place& end = to.isInFront ? to : crossing;
-    if (begin.isInFront && end.isInFront)
+    const Place crossing = from.IsInFront != to.IsInFront ? this->Cross(from, to) : from;
+    const Place& begin = from.IsInFront ? from : crossing;
+    const Place& end = to.IsInFront ? to : crossing;
+    if (begin.IsInFront && end.IsInFront)
     {
-      this->AddCell({ this->MakePoint(begin.weight), this->MakePoint(end.weight) });
+      this->AddCell({ this->MakePoint(begin.Weight), this->MakePoint(end.Weight) });
     }
   }
 
@@ -133,12 +133,12 @@ public:
     for (const TrianglePoint& corner : corners)
     {
       ImagePoint point;
-      point.vertex = this->Geometry.PassThrough(this->GetLocal(corner.weight));
-      point.vertex.position = corner.position;
-      point.vertex.sightPoint = corner.position;
-      point.SetSource(this->Primitive.ids, corner.weight);
-      this->Images.connectivity.push_back(static_cast<std::int64_t>(this->Images.points.size()));
-      this->Images.points.push_back(point);
+      point.Vertex = this->Geometry.PassThrough(this->GetLocal(corner.Weight));
+      point.Vertex.Position = corner.Position;
+      point.Vertex.SightPoint = corner.Position;
+      point.SetSource(this->Primitive.Ids, corner.Weight);
+      this->Images.Connectivity.push_back(static_cast<std::int64_t>(this->Images.Points.size()));
+      this->Images.Points.push_back(point);
     }
     this->Images.EndCell(this->SourceCell, 1);
   }
@@ -151,7 +151,7 @@ private:
     {
       if (weight[k] == 1.0)
       {
-        return { weight, this->Primitive.corners[static_cast<std::size_t>(k)] };
+        return { weight, this->Primitive.Corners[static_cast<std::size_t>(k)] };
       }
     }
     return { weight, this->GetLocal(weight) + this->Geometry.GetMembrane().GetOrigin() };
@@ -169,14 +169,14 @@ private:
     unsigned near = 0;
     for (std::size_t k = 0; k < 3; ++k)
     {
-      const glm::dvec3 middle = 0.5 * (corner[(k + 1) % 3].weight + corner[(k + 2) % 3].weight);
-      const glm::dvec3 way = middle - corner[k].weight;
-      const glm::dvec3 from = this->GetLocal(corner[k].weight);
+      const glm::dvec3 middle = 0.5 * (corner[(k + 1) % 3].Weight + corner[(k + 2) % 3].Weight);
+      const glm::dvec3 way = middle - corner[k].Weight;
+      const glm::dvec3 from = this->GetLocal(corner[k].Weight);
       const double length = glm::length(this->GetLocal(middle) - from);
-      const double step = this->Tolerance * glm::length(from - this->Geometry.GetMedia().eye);
+      const double step = this->Tolerance * glm::length(from - this->Geometry.GetMedia().Eye);
       const double part = step < length ? step / length : 1.0;
       const bool isOther =
-        this->MakePlace(corner[k].weight + part * way).isInFront != corner[k].isInFront;
+        this->MakePlace(corner[k].Weight + part * way).IsInFront != corner[k].IsInFront;
       near |= isOther ? 1u << k : 0u;
     }
     return near;
@@ -186,7 +186,7 @@ private:
   bool IsCutStraight(const std::array<Place, 3>& corner) const
   {
     std::size_t odd = 0; // the corner that is alone on its side
-    while (odd < 3 && corner[odd].isInFront == corner[(odd + 1) % 3].isInFront)
+    while (odd < 3 && corner[odd].IsInFront == corner[(odd + 1) % 3].IsInFront)
     {
       ++odd;
     }
@@ -194,33 +194,33 @@ private:
     {
       return false;
     }
-    odd = corner[odd].isInFront == corner[(odd + 2) % 3].isInFront ? (odd + 1) % 3 : odd;
+    odd = corner[odd].IsInFront == corner[(odd + 2) % 3].IsInFront ? (odd + 1) % 3 : odd;
     const Place& alone = corner[odd];
     const Place first = this->Cross(alone, corner[(odd + 1) % 3], CoarseBisections);
     const Place second = this->Cross(alone, corner[(odd + 2) % 3], CoarseBisections);
-    const glm::dvec3 middle = 0.5 * (first.weight + second.weight);
-    const glm::dvec3 way = alone.weight - middle;
-    const double length = glm::length(this->GetLocal(alone.weight) - this->GetLocal(middle));
+    const glm::dvec3 middle = 0.5 * (first.Weight + second.Weight);
+    const glm::dvec3 way = alone.Weight - middle;
+    const double length = glm::length(this->GetLocal(alone.Weight) - this->GetLocal(middle));
     const double allowed =
-      this->Tolerance * glm::length(this->GetLocal(middle) - this->Geometry.GetMedia().eye);
+      this->Tolerance * glm::length(this->GetLocal(middle) - this->Geometry.GetMedia().Eye);
     if (length <= allowed)
     {
       return true;
     }
     const glm::dvec3 step = (allowed / length) * way;
-    return this->MakePlace(middle + step).isInFront == alone.isInFront &&
-      this->MakePlace(middle - step).isInFront != alone.isInFront;
+    return this->MakePlace(middle + step).IsInFront == alone.IsInFront &&
+      this->MakePlace(middle - step).IsInFront != alone.IsInFront;
   }
 
   // The last place in front on the way between two sides.
   Place Cross(const Place& a, const Place& b, int bisections = Bisections) const
   {
-    Place front = a.isInFront ? a : b;
-    Place behind = a.isInFront ? b : a;
+    Place front = a.IsInFront ? a : b;
+    Place behind = a.IsInFront ? b : a;
     for (int i = 0; i < bisections; ++i)
     {
-      const Place middle = this->MakePlace(0.5 * (front.weight + behind.weight));
-      (middle.isInFront ? front : behind) = middle;
+      const Place middle = this->MakePlace(0.5 * (front.Weight + behind.Weight));
+      (middle.IsInFront ? front : behind) = middle;
     }
     return front;
   }
@@ -232,13 +232,13 @@ private:
     {
       const Place& a = polygon[i];
       const Place& b = polygon[(i + 1) % polygon.size()];
-      if (a.isInFront)
+      if (a.IsInFront)
       {
-        front.push_back(this->MakePoint(a.weight));
+        front.push_back(this->MakePoint(a.Weight));
       }
-      if (a.isInFront != b.isInFront)
+      if (a.IsInFront != b.IsInFront)
       {
-        front.push_back(this->MakePoint(this->Cross(a, b).weight));
+        front.push_back(this->MakePoint(this->Cross(a, b).Weight));
       }
     }
     if (front.size() > 2)

@@ -30,55 +30,55 @@
 namespace meniscus
 {
 
-/// A point of a patch and its normal, which is not normalised.
+/** A point of a patch and its normal, which is not normalised. */
 struct PatchPoint
 {
-  glm::dvec3 position;
-  glm::dvec3 normal;
+  glm::dvec3 Position;
+  glm::dvec3 Normal;
 };
 
-/// The same with derivatives by the second and the third barycentric coordinate.
+/** The same with derivatives by the second and the third barycentric coordinate. */
 struct PatchJet : PatchPoint
 {
-  glm::dvec3 positionBy[2];
-  glm::dvec3 normalBy[2];
+  glm::dvec3 PositionBy[2];
+  glm::dvec3 NormalBy[2];
 };
 
-/// Edge k is opposite to corner k; it runs from corner k + 1 to corner k + 2.
+/** Edge k is opposite to corner k; it runs from corner k + 1 to corner k + 2. */
 struct CurvedPatch
 {
-  /// Shorter normals have no direction to rely on; lengths below it are raised to it.
+  /** Shorter normals have no direction to rely on; lengths below it are raised to it. */
   static constexpr double ShortestNormal = 0.25;
 
-  glm::dvec3 corner[3];
-  glm::dvec3 normal[3];
-  glm::dvec3 bend[3];   ///< 4 m
-  double symmetric[3];  ///< s, 0 on a straight edge
-  double asymmetric[3]; ///< d
+  glm::dvec3 Corner[3];
+  glm::dvec3 Normal[3];
+  glm::dvec3 Bend[3];   ///< 4 m
+  double Symmetric[3];  ///< s, 0 on a straight edge
+  double Asymmetric[3]; ///< d
 
-  /// Sets s and d of edge k from its ends.
+  /** Sets s and d of edge k from its ends. */
   void FitEdge(int k)
   {
     const int i = (k + 1) % 3;
     const int j = (k + 2) % 3;
-    const glm::dvec3 edge = this->corner[j] - this->corner[i];
-    const double first = glm::dot(edge, this->normal[i]);
-    const double second = glm::dot(edge, this->normal[j]);
-    this->symmetric[k] = 0.5 * (second - first);
-    this->asymmetric[k] = -0.5 * (second + first);
+    const glm::dvec3 edge = this->Corner[j] - this->Corner[i];
+    const double first = glm::dot(edge, this->Normal[i]);
+    const double second = glm::dot(edge, this->Normal[j]);
+    this->Symmetric[k] = 0.5 * (second - first);
+    this->Asymmetric[k] = -0.5 * (second + first);
   }
 
   glm::dvec3 GetFlatPoint(const glm::dvec2& b) const
   {
-    return (1.0 - b.x - b.y) * this->corner[0] + b.x * this->corner[1] + b.y * this->corner[2];
+    return (1.0 - b.x - b.y) * this->Corner[0] + b.x * this->Corner[1] + b.y * this->Corner[2];
   }
 
-  /// Not normalised.
+  /** Not normalised. */
   glm::dvec3 GetNormal(const glm::dvec2& b) const
   {
     const double c = 1.0 - b.x - b.y;
-    return c * this->normal[0] + b.x * this->normal[1] + b.y * this->normal[2] +
-      b.x * b.y * this->bend[0] + b.y * c * this->bend[1] + c * b.x * this->bend[2];
+    return c * this->Normal[0] + b.x * this->Normal[1] + b.y * this->Normal[2] +
+      b.x * b.y * this->Bend[0] + b.y * c * this->Bend[1] + c * b.x * this->Bend[2];
   }
 
   PatchPoint Evaluate(const glm::dvec2& b) const
@@ -86,28 +86,30 @@ struct CurvedPatch
     const double c = 1.0 - b.x - b.y;
     const double bc[3] = { b.x * b.y, b.y * c, c * b.x };
     PatchPoint result;
-    result.normal = this->GetNormal(b);
-    const double q = bc[0] * (this->symmetric[0] + this->asymmetric[0] * (b.x - b.y)) +
-      bc[1] * (this->symmetric[1] + this->asymmetric[1] * (b.y - c)) +
-      bc[2] * (this->symmetric[2] + this->asymmetric[2] * (c - b.x));
-    const double length = std::max(glm::length(result.normal), ShortestNormal);
-    result.position = this->GetFlatPoint(b) + (2.0 * q / (length * (1.0 + length))) * result.normal;
+    result.Normal = this->GetNormal(b);
+    const double q = bc[0] * (this->Symmetric[0] + this->Asymmetric[0] * (b.x - b.y)) +
+      bc[1] * (this->Symmetric[1] + this->Asymmetric[1] * (b.y - c)) +
+      bc[2] * (this->Symmetric[2] + this->Asymmetric[2] * (c - b.x));
+    const double length = std::max(glm::length(result.Normal), ShortestNormal);
+    result.Position = this->GetFlatPoint(b) + (2.0 * q / (length * (1.0 + length))) * result.Normal;
     return result;
   }
 
-  /// The point of edge k with the weights of its ends: the same bit by bit in both patches that
-  /// share the edge, and the same as Evaluate where the weights are exact.
+  /**
+   * The point of edge k with the weights of its ends: the same bit by bit in both patches that
+   * share the edge, and the same as Evaluate where the weights are exact.
+   */
   PatchPoint EvaluateEdge(int k, double first, double second) const
   {
     const int i = (k + 1) % 3;
     const int j = (k + 2) % 3;
     const double product = first * second;
     PatchPoint result;
-    result.normal = first * this->normal[i] + second * this->normal[j] + product * this->bend[k];
-    const double q = product * (this->symmetric[k] + this->asymmetric[k] * (first - second));
-    const double length = std::max(glm::length(result.normal), ShortestNormal);
-    result.position = first * this->corner[i] + second * this->corner[j] +
-      (2.0 * q / (length * (1.0 + length))) * result.normal;
+    result.Normal = first * this->Normal[i] + second * this->Normal[j] + product * this->Bend[k];
+    const double q = product * (this->Symmetric[k] + this->Asymmetric[k] * (first - second));
+    const double length = std::max(glm::length(result.Normal), ShortestNormal);
+    result.Position = first * this->Corner[i] + second * this->Corner[j] +
+      (2.0 * q / (length * (1.0 + length))) * result.Normal;
     return result;
   }
 
@@ -115,55 +117,55 @@ struct CurvedPatch
   {
     const double c = 1.0 - b.x - b.y;
     const double bc[3] = { b.x * b.y, b.y * c, c * b.x };
-    jet.normal = c * this->normal[0] + b.x * this->normal[1] + b.y * this->normal[2] +
-      bc[0] * this->bend[0] + bc[1] * this->bend[1] + bc[2] * this->bend[2];
-    jet.normalBy[0] = this->normal[1] - this->normal[0] + b.y * (this->bend[0] - this->bend[1]) +
-      (c - b.x) * this->bend[2];
-    jet.normalBy[1] = this->normal[2] - this->normal[0] + b.x * (this->bend[0] - this->bend[2]) +
-      (c - b.y) * this->bend[1];
+    jet.Normal = c * this->Normal[0] + b.x * this->Normal[1] + b.y * this->Normal[2] +
+      bc[0] * this->Bend[0] + bc[1] * this->Bend[1] + bc[2] * this->Bend[2];
+    jet.NormalBy[0] = this->Normal[1] - this->Normal[0] + b.y * (this->Bend[0] - this->Bend[1]) +
+      (c - b.x) * this->Bend[2];
+    jet.NormalBy[1] = this->Normal[2] - this->Normal[0] + b.x * (this->Bend[0] - this->Bend[2]) +
+      (c - b.y) * this->Bend[1];
 
-    const double form[3] = { this->symmetric[0] + this->asymmetric[0] * (b.x - b.y),
-      this->symmetric[1] + this->asymmetric[1] * (b.y - c),
-      this->symmetric[2] + this->asymmetric[2] * (c - b.x) };
+    const double form[3] = { this->Symmetric[0] + this->Asymmetric[0] * (b.x - b.y),
+      this->Symmetric[1] + this->Asymmetric[1] * (b.y - c),
+      this->Symmetric[2] + this->Asymmetric[2] * (c - b.x) };
     const double q = bc[0] * form[0] + bc[1] * form[1] + bc[2] * form[2];
     const double qBy[2] = { b.y * (form[0] - form[1]) + (c - b.x) * form[2] +
-        bc[0] * this->asymmetric[0] + bc[1] * this->asymmetric[1] -
-        2.0 * bc[2] * this->asymmetric[2],
-      b.x * (form[0] - form[2]) + (c - b.y) * form[1] - bc[0] * this->asymmetric[0] +
-        2.0 * bc[1] * this->asymmetric[1] - bc[2] * this->asymmetric[2] };
+        bc[0] * this->Asymmetric[0] + bc[1] * this->Asymmetric[1] -
+        2.0 * bc[2] * this->Asymmetric[2],
+      b.x * (form[0] - form[2]) + (c - b.y) * form[1] - bc[0] * this->Asymmetric[0] +
+        2.0 * bc[1] * this->Asymmetric[1] - bc[2] * this->Asymmetric[2] };
 
-    const double length = std::max(glm::length(jet.normal), ShortestNormal);
+    const double length = std::max(glm::length(jet.Normal), ShortestNormal);
     const double product = length * (1.0 + length);
     const double inverse = 1.0 / product;
     const double factor = 2.0 * inverse;
     const double shift = q * factor;
     // d factor = -factor (1 + 2 length) / product dlength, dlength = n.dn / length.
     const double byLength = -shift * (1.0 + 2.0 * length) * inverse * (1.0 + length) * inverse;
-    jet.position = this->GetFlatPoint(b) + shift * jet.normal;
+    jet.Position = this->GetFlatPoint(b) + shift * jet.Normal;
     for (int k = 0; k < 2; ++k)
     {
-      const double shiftBy = factor * qBy[k] + byLength * glm::dot(jet.normal, jet.normalBy[k]);
-      jet.positionBy[k] =
-        this->corner[k + 1] - this->corner[0] + shiftBy * jet.normal + shift * jet.normalBy[k];
+      const double shiftBy = factor * qBy[k] + byLength * glm::dot(jet.Normal, jet.NormalBy[k]);
+      jet.PositionBy[k] =
+        this->Corner[k + 1] - this->Corner[0] + shiftBy * jet.Normal + shift * jet.NormalBy[k];
     }
   }
 };
 
-/// How far outside its facet a point is: the smallest barycentric coordinate and its corner.
+/** How far outside its facet a point is: the smallest barycentric coordinate and its corner. */
 struct Outside
 {
-  double least;
-  int corner;
+  double Least;
+  int Corner;
 };
 
 inline Outside FindOutside(const glm::dvec2& b)
 {
   Outside result{ 1.0 - b.x - b.y, 0 };
-  if (b.x < result.least)
+  if (b.x < result.Least)
   {
     result = { b.x, 1 };
   }
-  if (b.y < result.least)
+  if (b.y < result.Least)
   {
     result = { b.y, 2 };
   }

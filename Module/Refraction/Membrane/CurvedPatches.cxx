@@ -82,8 +82,10 @@ bool SolveSymmetric(Matrix& a, double* x, int size)
   return true;
 }
 
-/// Least squares for (nx, ny) = gradient of a x^2/2 + b xy + c y^2/2 + d x^3/3 + e x^2 y + f x y^2
-/// + g y^3/3. All normal equations are moments of the neighbours' places.
+/**
+ * Least squares for (nx, ny) = gradient of a x^2/2 + b xy + c y^2/2 + d x^3/3 + e x^2 y + f x y^2
+ * + g y^3/3. All normal equations are moments of the neighbours' places.
+ */
 class GradientFit
 {
 public:
@@ -119,7 +121,7 @@ public:
     this->Right[6] += ny * yy;
   }
 
-  /// a, b and c in x; false if not even they are determined.
+  /** a, b and c in x; false if not even they are determined. */
   bool Solve(double* x) const
   {
     for (const int size : { Unknowns, 3 })
@@ -175,7 +177,7 @@ void CurvedPatches::Build(const Membrane& membrane, const RangeLoop& loop)
   for (std::size_t i = 0; i < this->Patches.size(); ++i)
   {
     std::copy(
-      membrane.GetFacets()[i].begin(), membrane.GetFacets()[i].end(), this->Patches[i].vertex);
+      membrane.GetFacets()[i].begin(), membrane.GetFacets()[i].end(), this->Patches[i].Vertex);
   }
   this->FindNeighbours();
   this->FindRings();
@@ -210,17 +212,17 @@ void CurvedPatches::FindNeighbours()
 {
   struct Side
   {
-    std::int32_t low;
-    std::int32_t high;
-    std::int32_t facet;
-    std::int32_t corner;
+    std::int32_t Low;
+    std::int32_t High;
+    std::int32_t Facet;
+    std::int32_t Corner;
     bool operator<(const Side& o) const
     {
-      return this->low != o.low
-        ? this->low < o.low
-        : (this->high != o.high ? this->high < o.high : this->facet < o.facet);
+      return this->Low != o.Low
+        ? this->Low < o.Low
+        : (this->High != o.High ? this->High < o.High : this->Facet < o.Facet);
     }
-    bool SameEdge(const Side& o) const { return this->low == o.low && this->high == o.high; }
+    bool SameEdge(const Side& o) const { return this->Low == o.Low && this->High == o.High; }
   };
   std::vector<Side> sides;
   sides.reserve(3 * this->Patches.size());
@@ -228,10 +230,10 @@ void CurvedPatches::FindNeighbours()
   {
     for (int k = 0; k < 3; ++k)
     {
-      const std::int32_t a = this->Patches[i].vertex[(k + 1) % 3];
-      const std::int32_t b = this->Patches[i].vertex[(k + 2) % 3];
+      const std::int32_t a = this->Patches[i].Vertex[(k + 1) % 3];
+      const std::int32_t b = this->Patches[i].Vertex[(k + 2) % 3];
       sides.push_back({ std::min(a, b), std::max(a, b), static_cast<std::int32_t>(i), k });
-      this->Patches[i].neighbour[k] = NoFacet;
+      this->Patches[i].Neighbour[k] = NoFacet;
     }
   }
   std::sort(sides.begin(), sides.end());
@@ -246,8 +248,8 @@ void CurvedPatches::FindNeighbours()
     {
       const Side& a = sides[i];
       const Side& b = sides[i + 1];
-      this->Patches[static_cast<std::size_t>(a.facet)].neighbour[a.corner] = b.facet;
-      this->Patches[static_cast<std::size_t>(b.facet)].neighbour[b.corner] = a.facet;
+      this->Patches[static_cast<std::size_t>(a.Facet)].Neighbour[a.Corner] = b.Facet;
+      this->Patches[static_cast<std::size_t>(b.Facet)].Neighbour[b.Corner] = a.Facet;
     }
     i = next;
   }
@@ -261,7 +263,7 @@ void CurvedPatches::FindRings()
   std::vector<std::int32_t> start(count + 1, 0);
   for (const Patch& patch : this->Patches)
   {
-    for (const std::int32_t vertex : patch.vertex)
+    for (const std::int32_t vertex : patch.Vertex)
     {
       start[static_cast<std::size_t>(vertex) + 1] += 2;
     }
@@ -276,9 +278,9 @@ void CurvedPatches::FindRings()
   {
     for (int k = 0; k < 3; ++k)
     {
-      std::int32_t& at = place[static_cast<std::size_t>(patch.vertex[k])];
-      ring[static_cast<std::size_t>(at++)] = patch.vertex[(k + 1) % 3];
-      ring[static_cast<std::size_t>(at++)] = patch.vertex[(k + 2) % 3];
+      std::int32_t& at = place[static_cast<std::size_t>(patch.Vertex[k])];
+      ring[static_cast<std::size_t>(at++)] = patch.Vertex[(k + 1) % 3];
+      ring[static_cast<std::size_t>(at++)] = patch.Vertex[(k + 2) % 3];
     }
   }
   this->RingStart.assign(1, 0);
@@ -304,10 +306,10 @@ void CurvedPatches::AddSecondRings()
   {
     for (int k = 0; k < 3; ++k)
     {
-      if (patch.neighbour[k] == NoFacet)
+      if (patch.Neighbour[k] == NoFacet)
       {
-        border[static_cast<std::size_t>(patch.vertex[(k + 1) % 3])] = true;
-        border[static_cast<std::size_t>(patch.vertex[(k + 2) % 3])] = true;
+        border[static_cast<std::size_t>(patch.Vertex[(k + 1) % 3])] = true;
+        border[static_cast<std::size_t>(patch.Vertex[(k + 2) % 3])] = true;
       }
     }
   }
@@ -399,12 +401,12 @@ CurvedPatches::Tensor CurvedPatches::FitCurvature(std::int32_t vertex) const
 //------------------------------------------------------------------------------
 void CurvedPatches::FitFacet(Patch& patch) const
 {
-  patch.straight = 0;
+  patch.Straight = 0;
   for (int k = 0; k < 3; ++k)
   {
     // The same order of the ends on both sides of the edge gives the same rounding.
-    const std::int32_t low = std::min(patch.vertex[(k + 1) % 3], patch.vertex[(k + 2) % 3]);
-    const std::int32_t high = std::max(patch.vertex[(k + 1) % 3], patch.vertex[(k + 2) % 3]);
+    const std::int32_t low = std::min(patch.Vertex[(k + 1) % 3], patch.Vertex[(k + 2) % 3]);
+    const std::int32_t high = std::max(patch.Vertex[(k + 1) % 3], patch.Vertex[(k + 2) % 3]);
     const auto i = static_cast<std::size_t>(low);
     const auto j = static_cast<std::size_t>(high);
     glm::dvec3 bend(0.0);
@@ -422,11 +424,11 @@ void CurvedPatches::FitFacet(Patch& patch) const
     }
     else
     {
-      patch.straight |= 1u << k;
+      patch.Straight |= 1u << k;
     }
     for (int axis = 0; axis < 3; ++axis)
     {
-      patch.bend[k][axis] = static_cast<float>(4.0 * bend[axis]);
+      patch.Bend[k][axis] = static_cast<float>(4.0 * bend[axis]);
     }
   }
 }
@@ -441,7 +443,7 @@ std::int32_t CurvedPatches::Walk(
     glm::dvec3 away[3];
     for (int k = 0; k < 3; ++k)
     {
-      away[k] = this->Surface->GetPositions()[static_cast<std::size_t>(patch.vertex[k])] - target;
+      away[k] = this->Surface->GetPositions()[static_cast<std::size_t>(patch.Vertex[k])] - target;
     }
     const glm::dvec3 turned = glm::cross(normal, away[0]);
     const double area[3] = { glm::dot(normal, glm::cross(away[1], away[2])),
@@ -449,11 +451,11 @@ std::int32_t CurvedPatches::Walk(
     const double sign = area[0] + area[1] + area[2] < 0.0 ? -1.0 : 1.0;
     const int corner = sign * area[0] < sign * area[1] ? (sign * area[0] < sign * area[2] ? 0 : 2)
                                                        : (sign * area[1] < sign * area[2] ? 1 : 2);
-    if (sign * area[corner] >= 0.0 || patch.neighbour[corner] == NoFacet)
+    if (sign * area[corner] >= 0.0 || patch.Neighbour[corner] == NoFacet)
     {
       return facet;
     }
-    facet = patch.neighbour[corner];
+    facet = patch.Neighbour[corner];
   }
   return facet;
 }
@@ -464,7 +466,7 @@ std::size_t CurvedPatches::GetNumberOfStraightEdges() const
   std::size_t count = 0;
   for (const Patch& patch : this->Patches)
   {
-    count += (patch.straight & 1u) + (patch.straight >> 1 & 1u) + (patch.straight >> 2 & 1u);
+    count += (patch.Straight & 1u) + (patch.Straight >> 1 & 1u) + (patch.Straight >> 2 & 1u);
   }
   return count;
 }

@@ -34,40 +34,44 @@ class CurvedPatches
 public:
   static constexpr std::int32_t NoFacet = -1;
 
-  /// Topology and fit of a new membrane, which must outlive this.
+  /** Topology and fit of a new membrane, which must outlive this. */
   void Build(const Membrane& membrane, const RangeLoop& loop);
 
-  /// The fit alone, after the membrane has moved with the same facets.
+  /** The fit alone, after the membrane has moved with the same facets. */
   void Refit(const RangeLoop& loop);
 
   CurvedPatch GetPatch(std::int32_t facet) const;
 
-  /// The place in or near which the straight way from `facet` to `target` ends, seen along
-  /// `normal`, after at most `steps` facets; a border ends it.
+  /**
+   * The place in or near which the straight way from `facet` to `target` ends, seen along
+   * `normal`, after at most `steps` facets; a border ends it.
+   */
   std::int32_t Walk(
     std::int32_t facet, const glm::dvec3& target, const glm::dvec3& normal, int steps) const;
 
-  /// The facet behind the edge opposite to `corner`; NoFacet at a border, or where more or fewer
-  /// than two facets meet.
+  /**
+   * The facet behind the edge opposite to `corner`; NoFacet at a border, or where more or fewer
+   * than two facets meet.
+   */
   std::int32_t GetNeighbour(std::int32_t facet, int corner) const
   {
-    return this->Patches[static_cast<std::size_t>(facet)].neighbour[corner];
+    return this->Patches[static_cast<std::size_t>(facet)].Neighbour[corner];
   }
 
-  /// Edges that fell back to straight ones, each counted once per facet.
+  /** Edges that fell back to straight ones, each counted once per facet. */
   std::size_t GetNumberOfStraightEdges() const;
 
 private:
-  /// One cache line.
+  /** One cache line. */
   struct alignas(64) Patch
   {
-    std::int32_t vertex[3];
-    std::int32_t neighbour[3];
-    float bend[3][3];
-    std::uint32_t straight; ///< bit k: edge k
+    std::int32_t Vertex[3];
+    std::int32_t Neighbour[3];
+    float Bend[3][3];
+    std::uint32_t Straight; ///< bit k: edge k
   };
 
-  /// A symmetric tensor: xx, xy, xz, yy, yz, zz.
+  /** A symmetric tensor: xx, xy, xz, yy, yz, zz. */
   using Tensor = std::array<double, 6>;
 
   void FindNeighbours();
@@ -91,17 +95,17 @@ inline CurvedPatch CurvedPatches::GetPatch(std::int32_t facet) const
   CurvedPatch result;
   for (int k = 0; k < 3; ++k)
   {
-    const auto vertex = static_cast<std::size_t>(patch.vertex[k]);
-    result.corner[k] = this->Surface->GetPositions()[vertex];
-    result.normal[k] = this->Surface->GetNormals()[vertex];
-    result.bend[k] = glm::dvec3(patch.bend[k][0], patch.bend[k][1], patch.bend[k][2]);
+    const auto vertex = static_cast<std::size_t>(patch.Vertex[k]);
+    result.Corner[k] = this->Surface->GetPositions()[vertex];
+    result.Normal[k] = this->Surface->GetNormals()[vertex];
+    result.Bend[k] = glm::dvec3(patch.Bend[k][0], patch.Bend[k][1], patch.Bend[k][2]);
   }
   for (int k = 0; k < 3; ++k)
   {
-    if (patch.straight >> k & 1u)
+    if (patch.Straight >> k & 1u)
     {
-      result.symmetric[k] = 0.0;
-      result.asymmetric[k] = 0.0;
+      result.Symmetric[k] = 0.0;
+      result.Asymmetric[k] = 0.0;
     }
     else
     {

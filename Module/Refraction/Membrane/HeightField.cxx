@@ -16,7 +16,7 @@ double Cross(const glm::dvec2& a, const glm::dvec2& b)
   return a.x * b.y - a.y * b.x;
 }
 
-/// The vertex behind each vertex of the border, -1 for others.
+/** The vertex behind each vertex of the border, -1 for others. */
 class Border
 {
 public:
@@ -25,7 +25,7 @@ public:
   {
   }
 
-  /// False if a border leaves the vertex already.
+  /** False if a border leaves the vertex already. */
   bool Add(std::int32_t from, std::int32_t to)
   {
     std::int32_t& next = this->Next[static_cast<std::size_t>(from)];
@@ -39,7 +39,7 @@ public:
     return true;
   }
 
-  /// Whether all of it is one loop that turns by one full circle, to the left everywhere.
+  /** Whether all of it is one loop that turns by one full circle, to the left everywhere. */
   bool IsConvexLoop(const Membrane& membrane, const HeightFrame& frame) const
   {
     // Positions are rounded as world coordinates and as local ones, and so are the sides' ends; the

@@ -16,7 +16,7 @@
 namespace meniscus
 {
 
-/// Two directions across an axis, and the height along it.
+/** Two directions across an axis, and the height along it. */
 struct HeightFrame
 {
   HeightFrame() = default;
@@ -27,7 +27,7 @@ struct HeightFrame
     return { glm::dot(this->First, v), glm::dot(this->Second, v) };
   }
   double GetHeight(const glm::dvec3& v) const { return glm::dot(this->Axis, v); }
-  /// Both: coordinates whose third axis is the axis.
+  /** Both: coordinates whose third axis is the axis. */
   glm::dvec3 ToFrame(const glm::dvec3& v) const { return { this->Project(v), this->GetHeight(v) }; }
 
   glm::dvec3 Axis{ 0.0, 0.0, 1.0 };

@@ -61,7 +61,7 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
   this->OrientedFacets = std::move(last.OrientedFacets);
   this->Pieces = std::move(last.Pieces);
   constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-  if (input.numberOfPoints > limit || input.numberOfTriangles > limit)
+  if (input.NumberOfPoints > limit || input.NumberOfTriangles > limit)
   {
     return MembraneStatus::TooLarge;
   }
@@ -71,7 +71,7 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
   {
     return MembraneStatus::Empty;
   }
-  if (!this->OrientFacets(input.numberOfPoints))
+  if (!this->OrientFacets(input.NumberOfPoints))
   {
     *this = Membrane();
     return MembraneStatus::OneSided;
@@ -81,7 +81,7 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
   {
     const std::size_t tooSmall = this->Facets.size();
     *this = Membrane();
-    this->Report.zeroArea = tooSmall;
+    this->Report.ZeroArea = tooSmall;
     return MembraneStatus::Empty;
   }
   this->TakeNormals(input);
@@ -92,35 +92,35 @@ MembraneStatus Membrane::Build(const MembraneInput& input)
 void Membrane::AcceptFacets(const MembraneInput& input)
 {
   const auto isPoint = [&input](std::int64_t index)
-  { return index >= 0 && static_cast<std::size_t>(index) < input.numberOfPoints; };
+  { return index >= 0 && static_cast<std::size_t>(index) < input.NumberOfPoints; };
 
-  this->Facets.reserve(input.numberOfTriangles);
-  this->CellIds.reserve(input.numberOfTriangles);
-  for (std::size_t triangle = 0; triangle < input.numberOfTriangles; ++triangle)
+  this->Facets.reserve(input.NumberOfTriangles);
+  this->CellIds.reserve(input.NumberOfTriangles);
+  for (std::size_t triangle = 0; triangle < input.NumberOfTriangles; ++triangle)
   {
-    const std::int64_t* ids = input.triangles + 3 * triangle;
+    const std::int64_t* ids = input.Triangles + 3 * triangle;
     if (!std::all_of(ids, ids + 3, isPoint))
     {
-      ++this->Report.outOfRange;
+      ++this->Report.OutOfRange;
       continue;
     }
-    const glm::dvec3 a = Load(input.points, static_cast<std::size_t>(ids[0]));
-    const glm::dvec3 b = Load(input.points, static_cast<std::size_t>(ids[1]));
-    const glm::dvec3 c = Load(input.points, static_cast<std::size_t>(ids[2]));
+    const glm::dvec3 a = Load(input.Points, static_cast<std::size_t>(ids[0]));
+    const glm::dvec3 b = Load(input.Points, static_cast<std::size_t>(ids[1]));
+    const glm::dvec3 c = Load(input.Points, static_cast<std::size_t>(ids[2]));
     if (!IsFinite(a) || !IsFinite(b) || !IsFinite(c))
     {
-      ++this->Report.notFinite;
+      ++this->Report.NotFinite;
     }
     else if (!HasArea(a, b, c))
     {
-      ++this->Report.zeroArea;
+      ++this->Report.ZeroArea;
     }
     else
     {
       this->Facets.push_back({ static_cast<std::int32_t>(ids[0]), static_cast<std::int32_t>(ids[1]),
         static_cast<std::int32_t>(ids[2]) });
       this->CellIds.push_back(
-        input.cellIds ? input.cellIds[triangle] : static_cast<std::int64_t>(triangle));
+        input.CellIds ? input.CellIds[triangle] : static_cast<std::int64_t>(triangle));
     }
   }
 }
@@ -130,25 +130,25 @@ void Membrane::DropDuplicates()
 {
   struct Key
   {
-    Facet sorted;
-    std::int32_t facet;
+    Facet Sorted;
+    std::int32_t Id;
     bool operator<(const Key& other) const
     {
-      return this->sorted != other.sorted ? this->sorted < other.sorted : this->facet < other.facet;
+      return this->Sorted != other.Sorted ? this->Sorted < other.Sorted : this->Id < other.Id;
     }
   };
   std::vector<Key> keys(this->Facets.size());
   for (std::size_t i = 0; i < keys.size(); ++i)
   {
     keys[i] = { this->Facets[i], static_cast<std::int32_t>(i) };
-    std::sort(keys[i].sorted.begin(), keys[i].sorted.end());
+    std::sort(keys[i].Sorted.begin(), keys[i].Sorted.end());
   }
   std::sort(keys.begin(), keys.end());
 
   std::vector<bool> repeated(keys.size(), false);
   for (std::size_t i = 1; i < keys.size(); ++i)
   {
-    repeated[static_cast<std::size_t>(keys[i].facet)] = keys[i].sorted == keys[i - 1].sorted;
+    repeated[static_cast<std::size_t>(keys[i].Id)] = keys[i].Sorted == keys[i - 1].Sorted;
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < repeated.size(); ++i)
@@ -160,7 +160,7 @@ void Membrane::DropDuplicates()
       ++kept;
     }
   }
-  this->Report.duplicated = this->Facets.size() - kept;
+  this->Report.Duplicated = this->Facets.size() - kept;
   this->Facets.resize(kept);
   this->CellIds.resize(kept);
 }
@@ -175,8 +175,8 @@ bool Membrane::OrientFacets(std::size_t points)
     this->Pieces = meniscus::OrientFacets(this->OrientedFacets, points);
   }
   this->Facets = this->OrientedFacets;
-  this->Report.turnedFacets = this->Pieces.turnedFacets;
-  return !this->Pieces.isOneSided;
+  this->Report.TurnedFacets = this->Pieces.TurnedFacets;
+  return !this->Pieces.IsOneSided;
 }
 
 //------------------------------------------------------------------------------
@@ -188,7 +188,7 @@ void Membrane::MoveToLocalOrigin(const MembraneInput& input)
   {
     for (std::int32_t vertex : facet)
     {
-      const glm::dvec3 point = Load(input.points, static_cast<std::size_t>(vertex));
+      const glm::dvec3 point = Load(input.Points, static_cast<std::size_t>(vertex));
       low = glm::min(low, point);
       high = glm::max(high, point);
     }
@@ -197,10 +197,10 @@ void Membrane::MoveToLocalOrigin(const MembraneInput& input)
   const glm::dvec3 half = glm::max(high - this->Origin, this->Origin - low);
   this->Radius = std::max({ half.x, half.y, half.z });
 
-  this->Positions.resize(input.numberOfPoints);
-  for (std::size_t i = 0; i < input.numberOfPoints; ++i)
+  this->Positions.resize(input.NumberOfPoints);
+  for (std::size_t i = 0; i < input.NumberOfPoints; ++i)
   {
-    this->Positions[i] = Load(input.points, i) - this->Origin;
+    this->Positions[i] = Load(input.Points, i) - this->Origin;
   }
 }
 
@@ -216,9 +216,9 @@ void Membrane::TakeNormals(const MembraneInput& input)
       missing[static_cast<std::size_t>(vertex)] = true;
     }
   }
-  for (std::size_t i = 0; input.normals && i < this->Normals.size(); ++i)
+  for (std::size_t i = 0; input.Normals && i < this->Normals.size(); ++i)
   {
-    const glm::dvec3 normal = Load(input.normals, i);
+    const glm::dvec3 normal = Load(input.Normals, i);
     const double length = std::hypot(normal.x, normal.y, normal.z);
     if (missing[i] && length > 0.0 && std::isfinite(length))
     {
@@ -226,19 +226,19 @@ void Membrane::TakeNormals(const MembraneInput& input)
       missing[i] = false;
     }
   }
-  this->Report.computedNormals =
+  this->Report.ComputedNormals =
     static_cast<std::size_t>(std::count(missing.begin(), missing.end(), true));
-  if (this->Report.computedNormals > 0)
+  if (this->Report.ComputedNormals > 0)
   {
-    this->Report.nonManifoldFacets =
+    this->Report.NonManifoldFacets =
       ComputeVertexNormals(this->Positions, this->Facets, missing, this->Normals);
   }
-  if (input.normals)
+  if (input.Normals)
   {
-    this->Report.turnedNormals =
+    this->Report.TurnedNormals =
       OrientNormals(this->Positions, this->Facets, this->Pieces, this->Normals);
     const glm::dvec3 origin = glm::abs(this->Origin);
-    this->Report.normals = FindMismatchedNormals(this->Positions, this->Facets, this->Normals,
+    this->Report.Normals = FindMismatchedNormals(this->Positions, this->Facets, this->Normals,
       std::max({ origin.x, origin.y, origin.z }) + this->Radius);
   }
 }

@@ -21,15 +21,15 @@
 namespace meniscus
 {
 
-/// A triangle surface as plain arrays, borrowed for the length of a call.
+/** A triangle surface as plain arrays, borrowed for the length of a call. */
 struct MembraneInput
 {
-  const double* points = nullptr; ///< x, y, z per point
-  std::size_t numberOfPoints = 0;
-  const std::int64_t* triangles = nullptr; ///< three point indices per triangle
-  std::size_t numberOfTriangles = 0;
-  const std::int64_t* cellIds = nullptr; ///< caller's name of each triangle; null: its index
-  const double* normals = nullptr;       ///< x, y, z per point, any length; null: computed
+  const double* Points = nullptr; ///< x, y, z per point
+  std::size_t NumberOfPoints = 0;
+  const std::int64_t* Triangles = nullptr; ///< three point indices per triangle
+  std::size_t NumberOfTriangles = 0;
+  const std::int64_t* CellIds = nullptr; ///< caller's name of each triangle; null: its index
+  const double* Normals = nullptr;       ///< x, y, z per point, any length; null: computed
 };
 
 enum class MembraneStatus
@@ -40,22 +40,22 @@ enum class MembraneStatus
   OneSided  ///< a Moebius band has no side for the eye
 };
 
-/// What validation found. Skipped triangles are counted once, under the first fault found.
+/** What validation found. Skipped triangles are counted once, under the first fault found. */
 struct MembraneReport
 {
-  std::size_t outOfRange = 0;        ///< skipped: a point index that does not exist
-  std::size_t notFinite = 0;         ///< skipped: a corner with a NaN or infinite coordinate
-  std::size_t zeroArea = 0;          ///< skipped: area within the rounding of its cross product
-  std::size_t duplicated = 0;        ///< skipped: same three points as an earlier triangle
-  std::size_t computedNormals = 0;   ///< vertices whose normal was missing, zero or not finite
-  std::size_t nonManifoldFacets = 0; ///< kept, but not joined to neighbours for computed normals
-  std::size_t turnedFacets = 0;      ///< kept, wound the other way than their neighbours
-  std::size_t turnedNormals = 0;     ///< kept, turned to the side of their neighbours
-  MismatchedNormals normals;         ///< kept, of given ones
+  std::size_t OutOfRange = 0;        ///< skipped: a point index that does not exist
+  std::size_t NotFinite = 0;         ///< skipped: a corner with a NaN or infinite coordinate
+  std::size_t ZeroArea = 0;          ///< skipped: area within the rounding of its cross product
+  std::size_t Duplicated = 0;        ///< skipped: same three points as an earlier triangle
+  std::size_t ComputedNormals = 0;   ///< vertices whose normal was missing, zero or not finite
+  std::size_t NonManifoldFacets = 0; ///< kept, but not joined to neighbours for computed normals
+  std::size_t TurnedFacets = 0;      ///< kept, wound the other way than their neighbours
+  std::size_t TurnedNormals = 0;     ///< kept, turned to the side of their neighbours
+  MismatchedNormals Normals;         ///< kept, of given ones
 
   std::size_t Skipped() const
   {
-    return this->outOfRange + this->notFinite + this->zeroArea + this->duplicated;
+    return this->OutOfRange + this->NotFinite + this->ZeroArea + this->Duplicated;
   }
 };
 
@@ -64,14 +64,16 @@ class Membrane
 public:
   using Facet = std::array<std::int32_t, 3>;
 
-  /// Replaces the surface. Unless `Ready` is returned, the membrane is empty afterwards.
+  /** Replaces the surface. Unless `Ready` is returned, the membrane is empty afterwards. */
   MembraneStatus Build(const MembraneInput& input);
 
-  /// Centre of the bounds of the used vertices. All positions below are relative to it, so that
-  /// large coordinate offsets cost no accuracy after the subtraction.
+  /**
+   * Centre of the bounds of the used vertices. All positions below are relative to it, so that
+   * large coordinate offsets cost no accuracy after the subtraction.
+   */
   const glm::dvec3& GetOrigin() const { return this->Origin; }
 
-  /// Largest absolute local coordinate of a used vertex, a positive number for a ready membrane.
+  /** Largest absolute local coordinate of a used vertex, a positive number for a ready membrane. */
   double GetRadius() const { return this->Radius; }
 
   const std::vector<glm::dvec3>& GetPositions() const { return this->Positions; }
@@ -82,7 +84,7 @@ public:
     return this->CellIds[static_cast<std::size_t>(facet)];
   }
   const MembraneReport& GetReport() const { return this->Report; }
-  /// Pieces that hang together by edges.
+  /** Pieces that hang together by edges. */
   const SurfacePieces& GetPieces() const { return this->Pieces; }
 
 private:
@@ -100,7 +102,7 @@ private:
   std::vector<std::int64_t> CellIds;
   MembraneReport Report;
 
-  /// Kept from shape to shape: a deforming membrane is wound as it was.
+  /** Kept from shape to shape: a deforming membrane is wound as it was. */
   std::vector<Facet> WoundFacets;
   std::vector<Facet> OrientedFacets;
   SurfacePieces Pieces;

@@ -63,18 +63,18 @@ private:
   bool WasEnabled;
 };
 
-/// The half-edge mesh and, per mesh vertex, the vertex of the membrane that it stands for.
+/** The half-edge mesh and, per mesh vertex, the vertex of the membrane that it stands for. */
 struct Topology
 {
-  Mesh mesh;
-  std::vector<std::size_t> source;
-  std::size_t nonManifoldFacets = 0;
+  Mesh Surface;
+  std::vector<std::size_t> Source;
+  std::size_t NonManifoldFacets = 0;
 
   Mesh::VertexHandle AddVertex(const std::vector<glm::dvec3>& positions, std::size_t vertex)
   {
     const glm::dvec3& p = positions[vertex];
-    this->source.push_back(vertex);
-    return this->mesh.add_vertex(Mesh::Point(p.x, p.y, p.z));
+    this->Source.push_back(vertex);
+    return this->Surface.add_vertex(Mesh::Point(p.x, p.y, p.z));
   }
 };
 
@@ -82,7 +82,7 @@ void BuildTopology(Topology& topology, const std::vector<glm::dvec3>& positions,
   const std::vector<std::array<std::int32_t, 3>>& facets)
 {
   const QuietOpenMesh quiet;
-  topology.mesh.reserve(positions.size(), positions.size() + facets.size(), facets.size());
+  topology.Surface.reserve(positions.size(), positions.size() + facets.size(), facets.size());
   std::vector<Mesh::VertexHandle> handles(positions.size());
   for (const auto& facet : facets)
   {
@@ -96,15 +96,15 @@ void BuildTopology(Topology& topology, const std::vector<glm::dvec3>& positions,
     }
     const auto handle = [&handles, &facet](std::size_t i)
     { return handles[static_cast<std::size_t>(facet[i])]; };
-    if (!topology.mesh.add_face(handle(0), handle(1), handle(2)).is_valid())
+    if (!topology.Surface.add_face(handle(0), handle(1), handle(2)).is_valid())
     {
-      ++topology.nonManifoldFacets;
+      ++topology.NonManifoldFacets;
       const auto own = [&topology, &positions, &facet](std::size_t i)
       { return topology.AddVertex(positions, static_cast<std::size_t>(facet[i])); };
       const Mesh::VertexHandle a = own(0);
       const Mesh::VertexHandle b = own(1);
       const Mesh::VertexHandle c = own(2);
-      topology.mesh.add_face(a, b, c);
+      topology.Surface.add_face(a, b, c);
     }
   }
 }
@@ -120,15 +120,15 @@ std::size_t ComputeVertexNormals(const std::vector<glm::dvec3>& positions,
   BuildTopology(topology, positions, facets);
 
   std::vector<glm::dvec3> fallback(positions.size(), glm::dvec3(0.0));
-  for (const Mesh::FaceHandle face : topology.mesh.faces())
+  for (const Mesh::FaceHandle face : topology.Surface.faces())
   {
     std::array<std::size_t, 3> vertex{};
     std::array<glm::dvec3, 3> corner{};
     std::size_t count = 0;
-    for (const Mesh::VertexHandle v : topology.mesh.fv_range(face))
+    for (const Mesh::VertexHandle v : topology.Surface.fv_range(face))
     {
-      vertex[count] = topology.source[static_cast<std::size_t>(v.idx())];
-      corner[count++] = ToVector(topology.mesh.point(v));
+      vertex[count] = topology.Source[static_cast<std::size_t>(v.idx())];
+      corner[count++] = ToVector(topology.Surface.point(v));
     }
     const glm::dvec3 unit = glm::normalize(
       glm::cross(glm::normalize(corner[1] - corner[0]), glm::normalize(corner[2] - corner[0])));
@@ -156,7 +156,7 @@ std::size_t ComputeVertexNormals(const std::vector<glm::dvec3>& positions,
         glm::length(normals[i]) > CancellationRounding ? glm::normalize(normals[i]) : fallback[i];
     }
   }
-  return topology.nonManifoldFacets;
+  return topology.NonManifoldFacets;
 }
 
 }

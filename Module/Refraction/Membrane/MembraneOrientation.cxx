@@ -13,44 +13,44 @@ namespace
 
 using Facet = std::array<std::int32_t, 3>;
 
-/// The facets around each vertex.
+/** The facets around each vertex. */
 struct Fans
 {
-  std::vector<std::int32_t> start;
-  std::vector<std::int32_t> facets;
+  std::vector<std::int32_t> Start;
+  std::vector<std::int32_t> Facets;
 
   Fans(const std::vector<Facet>& all, std::size_t points)
-    : start(points + 1, 0)
-    , facets(3 * all.size())
+    : Start(points + 1, 0)
+    , Facets(3 * all.size())
   {
     for (const Facet& facet : all)
     {
       for (const std::int32_t vertex : facet)
       {
-        ++this->start[static_cast<std::size_t>(vertex) + 1];
+        ++this->Start[static_cast<std::size_t>(vertex) + 1];
       }
     }
-    for (std::size_t i = 1; i < this->start.size(); ++i)
+    for (std::size_t i = 1; i < this->Start.size(); ++i)
     {
-      this->start[i] += this->start[i - 1];
+      this->Start[i] += this->Start[i - 1];
     }
-    std::vector<std::int32_t> next = this->start;
+    std::vector<std::int32_t> next = this->Start;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
       for (const std::int32_t vertex : all[i])
       {
-        this->facets[static_cast<std::size_t>(next[static_cast<std::size_t>(vertex)]++)] =
+        this->Facets[static_cast<std::size_t>(next[static_cast<std::size_t>(vertex)]++)] =
           static_cast<std::int32_t>(i);
       }
     }
   }
 };
 
-/// The one other facet at an edge, and whether it runs through the edge the same way.
+/** The one other facet at an edge, and whether it runs through the edge the same way. */
 struct Across
 {
-  std::int32_t facet = -1; ///< -1: none, or several
-  bool sameWay = false;
+  std::int32_t Facet = -1; ///< -1: none, or several
+  bool SameWay = false;
 };
 
 Across FindAcross(
@@ -60,54 +60,54 @@ Across FindAcross(
   const std::int32_t a = own[(corner + 1) % 3];
   const std::int32_t b = own[(corner + 2) % 3];
   Across result;
-  const auto first = static_cast<std::size_t>(fans.start[static_cast<std::size_t>(a)]);
-  const auto last = static_cast<std::size_t>(fans.start[static_cast<std::size_t>(a) + 1]);
+  const auto first = static_cast<std::size_t>(fans.Start[static_cast<std::size_t>(a)]);
+  const auto last = static_cast<std::size_t>(fans.Start[static_cast<std::size_t>(a) + 1]);
   for (std::size_t i = first; i < last; ++i)
   {
-    const Facet& other = facets[static_cast<std::size_t>(fans.facets[i])];
+    const Facet& other = facets[static_cast<std::size_t>(fans.Facets[i])];
     const auto at =
       static_cast<std::size_t>(std::find(other.begin(), other.end(), a) - other.begin());
     const bool isNext = other[(at + 1) % 3] == b;
-    if (fans.facets[i] == self || (!isNext && other[(at + 2) % 3] != b))
+    if (fans.Facets[i] == self || (!isNext && other[(at + 2) % 3] != b))
     {
       continue;
     }
-    if (result.facet >= 0)
+    if (result.Facet >= 0)
     {
       return {};
     }
-    result = { fans.facets[i], isNext };
+    result = { fans.Facets[i], isNext };
   }
   return result;
 }
 
-/// Visits a piece from `seed`; `turned` says how each facet has to be wound to agree with it.
+/** Visits a piece from `seed`; `turned` says how each facet has to be wound to agree with it. */
 void FillPiece(const std::vector<Facet>& facets, const Fans& fans, std::int32_t seed,
   SurfacePieces& pieces, std::vector<bool>& turned, std::vector<std::int32_t>& piece)
 {
   piece.assign(1, seed);
-  pieces.pieceOf[static_cast<std::size_t>(seed)] = pieces.count;
+  pieces.PieceOf[static_cast<std::size_t>(seed)] = pieces.Count;
   for (std::size_t i = 0; i < piece.size(); ++i)
   {
     const std::int32_t facet = piece[i];
     for (std::size_t corner = 0; corner < 3; ++corner)
     {
       const Across across = FindAcross(facets, fans, facet, corner);
-      if (across.facet < 0)
+      if (across.Facet < 0)
       {
         continue;
       }
-      const auto other = static_cast<std::size_t>(across.facet);
-      const bool wanted = turned[static_cast<std::size_t>(facet)] != across.sameWay;
-      if (pieces.pieceOf[other] < 0)
+      const auto other = static_cast<std::size_t>(across.Facet);
+      const bool wanted = turned[static_cast<std::size_t>(facet)] != across.SameWay;
+      if (pieces.PieceOf[other] < 0)
       {
-        pieces.pieceOf[other] = pieces.count;
+        pieces.PieceOf[other] = pieces.Count;
         turned[other] = wanted;
-        piece.push_back(across.facet);
+        piece.push_back(across.Facet);
       }
       else if (turned[other] != wanted)
       {
-        pieces.isOneSided = true;
+        pieces.IsOneSided = true;
       }
     }
   }
@@ -120,17 +120,17 @@ SurfacePieces OrientFacets(std::vector<Facet>& facets, std::size_t points)
 {
   const Fans fans(facets, points);
   SurfacePieces pieces;
-  pieces.pieceOf.assign(facets.size(), -1);
+  pieces.PieceOf.assign(facets.size(), -1);
   std::vector<bool> turned(facets.size(), false);
   std::vector<std::int32_t> piece;
   for (std::size_t i = 0; i < facets.size(); ++i)
   {
-    if (pieces.pieceOf[i] >= 0)
+    if (pieces.PieceOf[i] >= 0)
     {
       continue;
     }
     FillPiece(facets, fans, static_cast<std::int32_t>(i), pieces, turned, piece);
-    ++pieces.count;
+    ++pieces.Count;
     const auto isTurned = [&turned](std::int32_t f) { return turned[static_cast<std::size_t>(f)]; };
     const auto count =
       static_cast<std::size_t>(std::count_if(piece.begin(), piece.end(), isTurned));
@@ -140,12 +140,12 @@ SurfacePieces OrientFacets(std::vector<Facet>& facets, std::size_t points)
       turned[static_cast<std::size_t>(f)] = isTurned(f) != others;
     }
   }
-  for (std::size_t i = 0; !pieces.isOneSided && i < facets.size(); ++i)
+  for (std::size_t i = 0; !pieces.IsOneSided && i < facets.size(); ++i)
   {
     if (turned[i])
     {
       std::swap(facets[i][1], facets[i][2]);
-      ++pieces.turnedFacets;
+      ++pieces.TurnedFacets;
     }
   }
   return pieces;
@@ -156,7 +156,7 @@ std::size_t OrientNormals(const std::vector<glm::dvec3>& positions,
   const std::vector<Facet>& facets, const SurfacePieces& pieces, std::vector<glm::dvec3>& normals)
 {
   // Corners whose normal is on the side of the winding, less those on the other side.
-  std::vector<std::int64_t> balance(static_cast<std::size_t>(pieces.count), 0);
+  std::vector<std::int64_t> balance(static_cast<std::size_t>(pieces.Count), 0);
   const auto forEachCorner = [&positions, &facets, &normals](const auto& visit)
   {
     for (std::size_t i = 0; i < facets.size(); ++i)
@@ -172,12 +172,12 @@ std::size_t OrientNormals(const std::vector<glm::dvec3>& positions,
     }
   };
   forEachCorner([&balance, &pieces](std::size_t facet, std::size_t, int side)
-    { balance[static_cast<std::size_t>(pieces.pieceOf[facet])] += side; });
+    { balance[static_cast<std::size_t>(pieces.PieceOf[facet])] += side; });
   std::vector<signed char> votes(normals.size(), 0); // 1: some facet agrees, -1: all of them object
   forEachCorner(
     [&balance, &pieces, &votes](std::size_t facet, std::size_t vertex, int side)
     {
-      const bool turned = balance[static_cast<std::size_t>(pieces.pieceOf[facet])] < 0;
+      const bool turned = balance[static_cast<std::size_t>(pieces.PieceOf[facet])] < 0;
       const bool objects = side != 0 && (side < 0) != turned;
       votes[vertex] = objects && votes[vertex] <= 0 ? -1 : 1;
     });

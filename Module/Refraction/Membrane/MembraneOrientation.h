@@ -13,13 +13,13 @@
 namespace meniscus
 {
 
-/// Pieces of a surface that hang together by edges with two facets.
+/** Pieces of a surface that hang together by edges with two facets. */
 struct SurfacePieces
 {
-  std::vector<std::int32_t> pieceOf; ///< per facet
-  std::int32_t count = 0;
-  std::size_t turnedFacets = 0;
-  bool isOneSided = false; ///< as a Moebius band is: no way of winding fits all facets
+  std::vector<std::int32_t> PieceOf; ///< per facet
+  std::int32_t Count = 0;
+  std::size_t TurnedFacets = 0;
+  bool IsOneSided = false; ///< as a Moebius band is: no way of winding fits all facets
 };
 
 /**

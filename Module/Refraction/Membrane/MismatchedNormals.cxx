@@ -15,26 +15,30 @@ namespace
 
 using Facet = std::array<std::int32_t, 3>;
 
-/// About as many vertices are looked at: enough for a majority, and nothing beside what a moving
-/// membrane costs anyway.
+/**
+ * About as many vertices are looked at: enough for a majority, and nothing beside what a moving
+ * membrane costs anyway.
+ */
 constexpr std::size_t Sample = 64;
 
-/// What is known of a vertex from the facets around it.
+/** What is known of a vertex from the facets around it. */
 struct Fan
 {
-  std::vector<glm::dvec3> facetNormals;
-  std::uint32_t neighbours = 0; ///< all of them by exclusive or: 0 if each is in two facets
-  double rounding = 0.0;        ///< by which a facet's normal may be off, in radians
+  std::vector<glm::dvec3> FacetNormals;
+  std::uint32_t Neighbours = 0; ///< all of them by exclusive or: 0 if each is in two facets
+  double Rounding = 0.0;        ///< by which a facet's normal may be off, in radians
 };
 
-/// Whether a vertex is looked at: a hash, since vertices in rows would alias with a stride.
+/** Whether a vertex is looked at: a hash, since vertices in rows would alias with a stride. */
 bool IsSampled(std::int32_t vertex, std::uint32_t limit)
 {
   return static_cast<std::uint32_t>(vertex) * 2654435761U <= limit; // Knuth's, of the golden ratio
 }
 
-/// Corners in single precision are off by sqrt(3) / 2 units in the last place of the largest
-/// coordinate; two of them, over the lowest height, turn a facet by less than twice a unit.
+/**
+ * Corners in single precision are off by sqrt(3) / 2 units in the last place of the largest
+ * coordinate; two of them, over the lowest height, turn a facet by less than twice a unit.
+ */
 double RoundingOf(const std::array<glm::dvec3, 3>& corner, double doubleArea, double coordinate)
 {
   double longest = 0.0;
@@ -49,7 +53,7 @@ double RoundingOf(const std::array<glm::dvec3, 3>& corner, double doubleArea, do
 bool IsForeign(const Fan& fan, const glm::dvec3& normal)
 {
   glm::dvec3 sum(0.0);
-  for (const glm::dvec3& facet : fan.facetNormals)
+  for (const glm::dvec3& facet : fan.FacetNormals)
   {
     sum += facet;
   }
@@ -60,13 +64,13 @@ bool IsForeign(const Fan& fan, const glm::dvec3& normal)
   }
   const glm::dvec3 mean = sum / length;
   double spread = 0.0;
-  for (const glm::dvec3& facet : fan.facetNormals)
+  for (const glm::dvec3& facet : fan.FacetNormals)
   {
     spread = std::max(spread, glm::length(facet - mean));
   }
   // On either side: normals say where the eye is, facets need not agree.
   const double off = std::min(glm::length(normal - mean), glm::length(normal + mean));
-  return off > 2.0 * (spread + fan.rounding);
+  return off > 2.0 * (spread + fan.Rounding);
 }
 
 }
@@ -92,19 +96,19 @@ MismatchedNormals FindMismatchedNormals(const std::vector<glm::dvec3>& positions
       const std::array<glm::dvec3, 3> corner{ at(0), at(1), at(2) };
       const glm::dvec3 area = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
       Fan& fan = fans[facet[i]];
-      fan.facetNormals.push_back(glm::normalize(area));
-      fan.neighbours ^= static_cast<std::uint32_t>(facet[(i + 1) % 3]) ^
+      fan.FacetNormals.push_back(glm::normalize(area));
+      fan.Neighbours ^= static_cast<std::uint32_t>(facet[(i + 1) % 3]) ^
         static_cast<std::uint32_t>(facet[(i + 2) % 3]);
-      fan.rounding = std::max(fan.rounding, RoundingOf(corner, glm::length(area), coordinate));
+      fan.Rounding = std::max(fan.Rounding, RoundingOf(corner, glm::length(area), coordinate));
     }
   }
   MismatchedNormals found;
   for (const auto& fan : fans)
   {
-    if (fan.second.neighbours == 0)
+    if (fan.second.Neighbours == 0)
     {
-      ++found.examined;
-      found.foreign += IsForeign(fan.second, normals[static_cast<std::size_t>(fan.first)]) ? 1 : 0;
+      ++found.Examined;
+      found.Foreign += IsForeign(fan.second, normals[static_cast<std::size_t>(fan.first)]) ? 1 : 0;
     }
   }
   return found;

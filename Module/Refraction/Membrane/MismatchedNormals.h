@@ -13,14 +13,14 @@
 namespace meniscus
 {
 
-/// Vertices whose normals were looked at, and those whose normal cannot be that of the surface.
+/** Vertices whose normals were looked at, and those whose normal cannot be that of the surface. */
 struct MismatchedNormals
 {
-  std::size_t examined = 0;
-  std::size_t foreign = 0;
+  std::size_t Examined = 0;
+  std::size_t Foreign = 0;
 
-  /// Single normals may be off at creases or on purpose; most are not.
-  bool AreMost() const { return 2 * this->foreign > this->examined; }
+  /** Single normals may be off at creases or on purpose; most are not. */
+  bool AreMost() const { return 2 * this->Foreign > this->Examined; }
 };
 
 /**

@@ -17,7 +17,7 @@
 namespace meniscus
 {
 
-/// Which equation a refraction ray comes from.
+/** Which equation a refraction ray comes from. */
 enum class RayKind : unsigned char
 {
   Refracted,       ///< Eq. 2.2, Snell's law.
@@ -27,17 +27,17 @@ enum class RayKind : unsigned char
 
 struct RefractionRay
 {
-  glm::dvec3 direction;
-  RayKind kind;
+  glm::dvec3 Direction;
+  RayKind Kind;
 };
 
-/// The square of the refracted ray's cosine, negative beyond the critical angle.
+/** The square of the refracted ray's cosine, negative beyond the critical angle. */
 inline double RefractionRadicand(double cosine, double ratio)
 {
   return 1.0 - ratio * ratio * (1.0 - cosine * cosine);
 }
 
-/// Of the ray below.
+/** Of the ray below. */
 inline glm::dvec3 RefractionDirection(
   const glm::dvec3& sight, const glm::dvec3& normal, double ratio, double cosine, double radicand)
 {

@@ -20,8 +20,10 @@
 namespace meniscus
 {
 
-/// `normal`, turned with the shortest turn of the unit vector `from` to `to`, which are less than a
-/// right angle apart.
+/**
+ * `normal`, turned with the shortest turn of the unit vector `from` to `to`, which are less than a
+ * right angle apart.
+ */
 inline glm::dvec3 TurnAlong(const glm::dvec3& normal, const glm::dvec3& from, const glm::dvec3& to)
 {
   const glm::dvec3 axis = glm::cross(from, to);
@@ -30,11 +32,11 @@ inline glm::dvec3 TurnAlong(const glm::dvec3& normal, const glm::dvec3& from, co
     axis * (glm::dot(axis, normal) / (1.0 + cosine));
 }
 
-/// Directions at a point, unit vectors away from it.
+/** Directions at a point, unit vectors away from it. */
 struct LitPoint
 {
-  glm::dvec3 view;
-  glm::dvec3 light;
+  glm::dvec3 View;
+  glm::dvec3 Light;
 };
 
 /**
@@ -47,25 +49,25 @@ inline glm::dvec3 KeepLighting(
 {
   // Below this sine the two products no longer tell a direction: rounding of 1e-16 over its square.
   constexpr double smallestSine = 1e-5;
-  const double p = glm::dot(normal, atTrue.view);
-  const double q = glm::dot(normal, atTrue.light);
-  const double g = glm::dot(atVirtual.view, atVirtual.light);
-  const glm::dvec3 across = glm::cross(atVirtual.view, atVirtual.light);
+  const double p = glm::dot(normal, atTrue.View);
+  const double q = glm::dot(normal, atTrue.Light);
+  const double g = glm::dot(atVirtual.View, atVirtual.Light);
+  const glm::dvec3 across = glm::cross(atVirtual.View, atVirtual.Light);
   const double squared = glm::dot(across, across); // 1 - g g, without its cancellation
   if (squared < smallestSine * smallestSine)
   {
-    return TurnAlong(normal, atTrue.view, atVirtual.view);
+    return TurnAlong(normal, atTrue.View, atVirtual.View);
   }
   const glm::dvec3 inPlane =
-    ((p - g * q) / squared) * atVirtual.view + ((q - g * p) / squared) * atVirtual.light;
+    ((p - g * q) / squared) * atVirtual.View + ((q - g * p) / squared) * atVirtual.Light;
   const double rest = 1.0 - glm::dot(inPlane, inPlane);
   if (rest <= 0.0)
   {
     const double sine = std::sqrt(std::max(1.0 - q * q, 0.0));
-    const glm::dvec3 beside = (atVirtual.view - g * atVirtual.light) / std::sqrt(squared);
-    return q * atVirtual.light + (p < g * q ? -sine : sine) * beside;
+    const glm::dvec3 beside = (atVirtual.View - g * atVirtual.Light) / std::sqrt(squared);
+    return q * atVirtual.Light + (p < g * q ? -sine : sine) * beside;
   }
-  const double side = glm::dot(normal, glm::cross(atTrue.view, atTrue.light));
+  const double side = glm::dot(normal, glm::cross(atTrue.View, atTrue.Light));
   return glm::normalize(inPlane + across * std::copysign(std::sqrt(rest / squared), side));
 }
 
@@ -87,22 +89,22 @@ inline glm::dvec3 ComputeVirtualNormal(const glm::dvec3& normal, const glm::dvec
   }
   LitPoint atTrue;
   LitPoint atVirtual;
-  atTrue.view = inside / depth;
-  atVirtual.view = glm::normalize(eye - sightPoint); // the virtual point is on this ray
+  atTrue.View = inside / depth;
+  atVirtual.View = glm::normalize(eye - sightPoint); // the virtual point is on this ray
   if (!light)
   {
-    return TurnAlong(normal, atTrue.view, atVirtual.view);
+    return TurnAlong(normal, atTrue.View, atVirtual.View);
   }
   // By Snell's law the tangential parts of n1 d and n2 r are the same: the rest is the normal.
-  glm::dvec3 surface = exterior * atVirtual.view - interior * atTrue.view;
-  surface *= (glm::dot(surface, atVirtual.view) < 0.0 ? -1.0 : 1.0) / glm::length(surface);
+  glm::dvec3 surface = exterior * atVirtual.View - interior * atTrue.View;
+  surface *= (glm::dot(surface, atVirtual.View) < 0.0 ? -1.0 : 1.0) / glm::length(surface);
   const RefractionRay ray = ComputeRefractionRay(-*light, surface, exterior / interior);
-  if (ray.kind != RayKind::Refracted)
+  if (ray.Kind != RayKind::Refracted)
   {
     return -*light;
   }
-  atTrue.light = -ray.direction;
-  atVirtual.light = *light;
+  atTrue.Light = -ray.Direction;
+  atVirtual.Light = *light;
   return KeepLighting(normal, atTrue, atVirtual);
 }
 

@@ -61,10 +61,10 @@ Iterator SplitInHalf(Iterator begin, Iterator end, const std::vector<glm::dvec3>
 //------------------------------------------------------------------------------
 void TubeBounds::Add(const glm::dvec3& start, const glm::dvec3& direction)
 {
-  this->startLow = glm::min(this->startLow, start);
-  this->startHigh = glm::max(this->startHigh, start);
-  this->directionLow = glm::min(this->directionLow, direction);
-  this->directionHigh = glm::max(this->directionHigh, direction);
+  this->StartLow = glm::min(this->StartLow, start);
+  this->StartHigh = glm::max(this->StartHigh, start);
+  this->DirectionLow = glm::min(this->DirectionLow, direction);
+  this->DirectionHigh = glm::max(this->DirectionHigh, direction);
 }
 
 //------------------------------------------------------------------------------
@@ -101,8 +101,8 @@ std::int32_t RayTubeTree::BuildNode(
     const Iterator to = cut[child + 1];
     const std::int32_t link = to - from > 1 ? this->BuildNode(from, to, centroids) : NoNode;
     Node& node = this->Nodes[index]; // only now: BuildNode may move the nodes
-    node.link[child] = link;
-    node.firstFacet[child] = from != to ? *std::min_element(from, to) : NoFacet;
+    node.Link[child] = link;
+    node.FirstFacet[child] = from != to ? *std::min_element(from, to) : NoFacet;
     ClearBounds(node, static_cast<int>(child));
   }
   return static_cast<std::int32_t>(index);
@@ -121,9 +121,9 @@ void RayTubeTree::Refit(
         for (int child = 0; child < Width; ++child)
         {
           ClearBounds(node, child);
-          if (node.link[child] == NoNode && node.firstFacet[child] != NoFacet)
+          if (node.Link[child] == NoNode && node.FirstFacet[child] != NoFacet)
           {
-            this->StoreBounds(node, child, bounds(node.firstFacet[child]));
+            this->StoreBounds(node, child, bounds(node.FirstFacet[child]));
           }
         }
       }
@@ -134,9 +134,9 @@ void RayTubeTree::Refit(
     Node& node = this->Nodes[i];
     for (int child = 0; child < Width; ++child)
     {
-      if (node.link[child] != NoNode)
+      if (node.Link[child] != NoNode)
       {
-        MergeChild(node, child, this->Nodes[static_cast<std::size_t>(node.link[child])]);
+        MergeChild(node, child, this->Nodes[static_cast<std::size_t>(node.Link[child])]);
       }
     }
   }
@@ -150,10 +150,10 @@ void RayTubeTree::ClearBounds(Node& node, int child)
   constexpr float outside = std::numeric_limits<float>::lowest() / 2.0f;
   for (int axis = 0; axis < 3; ++axis)
   {
-    node.startHigh[axis][child] = outside;
-    node.negatedStartLow[axis][child] = outside;
-    node.directionHigh[axis][child] = -1.0f;
-    node.negatedDirectionLow[axis][child] = -1.0f;
+    node.StartHigh[axis][child] = outside;
+    node.NegatedStartLow[axis][child] = outside;
+    node.DirectionHigh[axis][child] = -1.0f;
+    node.NegatedDirectionLow[axis][child] = -1.0f;
   }
 }
 
@@ -166,10 +166,10 @@ void RayTubeTree::StoreBounds(Node& node, int child, const TubeBounds& bounds) c
   }
   for (int axis = 0; axis < 3; ++axis)
   {
-    node.startHigh[axis][child] = RoundUp(bounds.startHigh[axis] * this->Scale);
-    node.negatedStartLow[axis][child] = RoundUp(-bounds.startLow[axis] * this->Scale);
-    node.directionHigh[axis][child] = RoundUpRate(bounds.directionHigh[axis]);
-    node.negatedDirectionLow[axis][child] = RoundUpRate(-bounds.directionLow[axis]);
+    node.StartHigh[axis][child] = RoundUp(bounds.StartHigh[axis] * this->Scale);
+    node.NegatedStartLow[axis][child] = RoundUp(-bounds.StartLow[axis] * this->Scale);
+    node.DirectionHigh[axis][child] = RoundUpRate(bounds.DirectionHigh[axis]);
+    node.NegatedDirectionLow[axis][child] = RoundUpRate(-bounds.DirectionLow[axis]);
   }
 }
 
@@ -180,10 +180,10 @@ void RayTubeTree::MergeChild(Node& node, int child, const Node& from)
   {
     const auto largest = [](const float(&lanes)[Width])
     { return *std::max_element(lanes, lanes + Width); };
-    node.startHigh[axis][child] = largest(from.startHigh[axis]);
-    node.negatedStartLow[axis][child] = largest(from.negatedStartLow[axis]);
-    node.directionHigh[axis][child] = largest(from.directionHigh[axis]);
-    node.negatedDirectionLow[axis][child] = largest(from.negatedDirectionLow[axis]);
+    node.StartHigh[axis][child] = largest(from.StartHigh[axis]);
+    node.NegatedStartLow[axis][child] = largest(from.NegatedStartLow[axis]);
+    node.DirectionHigh[axis][child] = largest(from.DirectionHigh[axis]);
+    node.NegatedDirectionLow[axis][child] = largest(from.NegatedDirectionLow[axis]);
   }
 }
 

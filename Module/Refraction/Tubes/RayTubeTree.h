@@ -30,33 +30,35 @@
 namespace meniscus
 {
 
-/// Box of start points and box of directions, in local units.
+/** Box of start points and box of directions, in local units. */
 struct TubeBounds
 {
-  glm::dvec3 startLow{ std::numeric_limits<double>::max() };
-  glm::dvec3 startHigh{ std::numeric_limits<double>::lowest() };
-  glm::dvec3 directionLow{ std::numeric_limits<double>::max() };
-  glm::dvec3 directionHigh{ std::numeric_limits<double>::lowest() };
+  glm::dvec3 StartLow{ std::numeric_limits<double>::max() };
+  glm::dvec3 StartHigh{ std::numeric_limits<double>::lowest() };
+  glm::dvec3 DirectionLow{ std::numeric_limits<double>::max() };
+  glm::dvec3 DirectionHigh{ std::numeric_limits<double>::lowest() };
 
-  /// False for the bounds of a facet without a cell.
-  bool IsValid() const { return this->startLow.x <= this->startHigh.x; }
+  /** False for the bounds of a facet without a cell. */
+  bool IsValid() const { return this->StartLow.x <= this->StartHigh.x; }
   void Add(const glm::dvec3& start, const glm::dvec3& direction);
 };
 
 class RayTubeTree
 {
 public:
-  /// Points farther than this many units from the origin do not fit the floats of the tests.
+  /** Points farther than this many units from the origin do not fit the floats of the tests. */
   static constexpr double FarthestRadii = 0x1p100;
 
-  /// Facets are told apart by their index; `centroids` are those of all facets in local units.
-  /// `unit` is the length that becomes 1 inside.
+  /**
+   * Facets are told apart by their index; `centroids` are those of all facets in local units.
+   * `unit` is the length that becomes 1 inside.
+   */
   void Build(const std::vector<glm::dvec3>& centroids, double unit);
 
-  /// Another unit for the same topology; Refit must follow.
+  /** Another unit for the same topology; Refit must follow. */
   void SetUnit(double unit) { this->Scale = 1.0 / unit; }
 
-  /// Fits all bounds. `bounds(facet)` is called once per facet, from the threads of `loop`.
+  /** Fits all bounds. `bounds(facet)` is called once per facet, from the threads of `loop`. */
   void Refit(const std::function<TubeBounds(std::int32_t)>& bounds, const RangeLoop& loop);
 
   /**
@@ -67,7 +69,7 @@ public:
   template <typename Visitor>
   void Visit(const glm::dvec3& point, double padding, Visitor&& visit) const;
 
-  /// Whether the tube, widened by `padding`, of any facet that `chosen` marks may hold `point`.
+  /** Whether the tube, widened by `padding`, of any facet that `chosen` marks may hold `point`. */
   bool HasAny(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
   {
     bool found = false;
@@ -88,23 +90,25 @@ private:
   // which leaves at most three more entries on the stack.
   static constexpr std::size_t StackSize = 64;
 
-  /// Four children, each a node or one facet, side by side, so that one test of all four is one
-  /// loop over lanes. Rates are never zero and the lower ones are negated, so that all six
-  /// constraints read a + t b >= 0.
+  /**
+   * Four children, each a node or one facet, side by side, so that one test of all four is one
+   * loop over lanes. Rates are never zero and the lower ones are negated, so that all six
+   * constraints read a + t b >= 0.
+   */
   struct Node
   {
-    float startHigh[3][Width];
-    float negatedStartLow[3][Width];
-    float directionHigh[3][Width];
-    float negatedDirectionLow[3][Width];
-    std::int32_t link[Width];       ///< inner child: node; otherwise NoNode
-    std::int32_t firstFacet[Width]; ///< smallest facet below; leaf: the facet; none: NoFacet
+    float StartHigh[3][Width];
+    float NegatedStartLow[3][Width];
+    float DirectionHigh[3][Width];
+    float NegatedDirectionLow[3][Width];
+    std::int32_t Link[Width];       ///< inner child: node; otherwise NoNode
+    std::int32_t FirstFacet[Width]; ///< smallest facet below; leaf: the facet; none: NoFacet
   };
 
   struct Query
   {
-    float point[3];
-    float padding;
+    float Point[3];
+    float Padding;
   };
 
   std::int32_t BuildNode(std::vector<std::int32_t>::iterator begin,
@@ -154,18 +158,18 @@ inline unsigned RayTubeTree::Overlaps(const Node& node, const Query& query)
   };
   for (int axis = 0; axis < 3; ++axis)
   {
-    const float p = query.point[axis];
+    const float p = query.Point[axis];
     for (int lane = 0; lane < Width; ++lane)
     {
-      const float start = node.startHigh[axis][lane];
-      const float slack = query.padding + rounding * std::fabs(start);
-      constrain(lane, (start - p) + slack, node.directionHigh[axis][lane]);
+      const float start = node.StartHigh[axis][lane];
+      const float slack = query.Padding + rounding * std::fabs(start);
+      constrain(lane, (start - p) + slack, node.DirectionHigh[axis][lane]);
     }
     for (int lane = 0; lane < Width; ++lane)
     {
-      const float start = node.negatedStartLow[axis][lane];
-      const float slack = query.padding + rounding * std::fabs(start);
-      constrain(lane, (start + p) + slack, node.negatedDirectionLow[axis][lane]);
+      const float start = node.NegatedStartLow[axis][lane];
+      const float slack = query.Padding + rounding * std::fabs(start);
+      constrain(lane, (start + p) + slack, node.NegatedDirectionLow[axis][lane]);
     }
   }
   unsigned hits = 0;
@@ -194,8 +198,8 @@ void RayTubeTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit
 
   struct Entry
   {
-    std::int32_t node;
-    std::int32_t firstFacet;
+    std::int32_t Node;
+    std::int32_t FirstFacet;
   };
   std::int32_t limit = NoFacet;
   std::array<Entry, StackSize> stack;
@@ -204,26 +208,26 @@ void RayTubeTree::Visit(const glm::dvec3& point, double padding, Visitor&& visit
   while (depth > 0)
   {
     const Entry entry = stack[--depth];
-    if (entry.firstFacet >= limit)
+    if (entry.FirstFacet >= limit)
     {
       continue;
     }
-    const Node& node = this->Nodes[static_cast<std::size_t>(entry.node)];
+    const Node& node = this->Nodes[static_cast<std::size_t>(entry.Node)];
     const unsigned hits = Overlaps(node, query);
     for (int child = Width - 1; child >= 0; --child)
     {
-      if (!(hits >> child & 1u) || node.firstFacet[child] >= limit)
+      if (!(hits >> child & 1u) || node.FirstFacet[child] >= limit)
       {
         continue;
       }
-      if (node.link[child] == NoNode)
+      if (node.Link[child] == NoNode)
       {
-        limit = visit(node.firstFacet[child]);
+        limit = visit(node.FirstFacet[child]);
       }
       else
       {
-        this->Prefetch(node.link[child]);
-        stack[depth++] = { node.link[child], node.firstFacet[child] };
+        this->Prefetch(node.Link[child]);
+        stack[depth++] = { node.Link[child], node.FirstFacet[child] };
       }
     }
   }

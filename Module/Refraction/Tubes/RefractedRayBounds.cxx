@@ -23,8 +23,8 @@ std::array<glm::dvec3, 6> NormalControls(const CurvedPatch& patch)
   std::array<glm::dvec3, 6> control;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    control[k] = patch.normal[k];
-    control[k + 3] = 0.5 * (patch.normal[(k + 1) % 3] + patch.normal[(k + 2) % 3] + patch.bend[k]);
+    control[k] = patch.Normal[k];
+    control[k + 3] = 0.5 * (patch.Normal[(k + 1) % 3] + patch.Normal[(k + 2) % 3] + patch.Bend[k]);
   }
   return control;
 }
@@ -41,12 +41,12 @@ double BoundBulge(const CurvedPatch& patch)
   double q = 0.0;
   for (int k = 0; k < 3; ++k)
   {
-    sum += std::fabs(patch.symmetric[k]);
-    largest = std::max(largest, std::fabs(patch.symmetric[k]));
-    q += LargestAsymmetric * std::fabs(patch.asymmetric[k]);
+    sum += std::fabs(patch.Symmetric[k]);
+    largest = std::max(largest, std::fabs(patch.Symmetric[k]));
+    q += LargestAsymmetric * std::fabs(patch.Asymmetric[k]);
   }
   q += std::min(0.25 * sum, largest / 3.0);
-  const glm::dvec3 along = glm::normalize(patch.normal[0] + patch.normal[1] + patch.normal[2]);
+  const glm::dvec3 along = glm::normalize(patch.Normal[0] + patch.Normal[1] + patch.Normal[2]);
   double shortest = std::numeric_limits<double>::infinity();
   for (const glm::dvec3& control : NormalControls(patch))
   {
@@ -97,10 +97,10 @@ DirectionBox BoundNormals(const CurvedPatch& patch)
 //------------------------------------------------------------------------------
 CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal)
 {
-  const double middle = glm::dot(sight.middle, normal.middle);
-  const glm::dvec3 sightReach = glm::abs(sight.middle) + sight.half;
+  const double middle = glm::dot(sight.Middle, normal.Middle);
+  const glm::dvec3 sightReach = glm::abs(sight.Middle) + sight.Half;
   const double half =
-    glm::dot(glm::abs(normal.middle), sight.half) + glm::dot(sightReach, normal.half);
+    glm::dot(glm::abs(normal.Middle), sight.Half) + glm::dot(sightReach, normal.Half);
   return { std::max(middle - half, -1.0), std::min(middle + half, 1.0) };
 }
 
@@ -111,11 +111,11 @@ TubeBounds BoundRays(const glm::dvec3& lowest, const glm::dvec3& highest, const 
   TubeBounds bounds;
   for (int i = 0; i < count; ++i)
   {
-    bounds.startLow = glm::min(bounds.startLow, points[i] - glm::dvec3(reach));
-    bounds.startHigh = glm::max(bounds.startHigh, points[i] + glm::dvec3(reach));
+    bounds.StartLow = glm::min(bounds.StartLow, points[i] - glm::dvec3(reach));
+    bounds.StartHigh = glm::max(bounds.StartHigh, points[i] + glm::dvec3(reach));
   }
-  bounds.directionLow = lowest;
-  bounds.directionHigh = highest;
+  bounds.DirectionLow = lowest;
+  bounds.DirectionHigh = highest;
   return bounds;
 }
 
@@ -124,8 +124,8 @@ TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& nor
   const glm::dvec3* points, int count, double reach)
 {
   const CosineBounds cosine = BoundCosine(sight, normal);
-  const double least = cosine.least;
-  const double most = std::min(cosine.most, 0.0);
+  const double least = cosine.Least;
+  const double most = std::min(cosine.Most, 0.0);
   const auto radicand = [ratio](double c) { return 1.0 - ratio * ratio * (1.0 - c * c); };
   if (!(least < 0.0) || !(radicand(least) > 0.0))
   {
@@ -140,9 +140,9 @@ TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& nor
   const double g = 0.5 * (ends[0] + ends[1]);
   const double gHalf = 0.5 * std::fabs(ends[0] - ends[1]);
 
-  const glm::dvec3 direction = ratio * sight.middle + g * normal.middle;
-  const glm::dvec3 spread = ratio * sight.half + std::fabs(g) * normal.half +
-    gHalf * (glm::abs(normal.middle) + normal.half);
+  const glm::dvec3 direction = ratio * sight.Middle + g * normal.Middle;
+  const glm::dvec3 spread = ratio * sight.Half + std::fabs(g) * normal.Half +
+    gHalf * (glm::abs(normal.Middle) + normal.Half);
   // The rays are unit vectors.
   const glm::dvec3 lowest = glm::max(direction - spread, glm::dvec3(-1.0));
   const glm::dvec3 highest = glm::min(direction + spread, glm::dvec3(1.0));
@@ -153,11 +153,11 @@ TubeBounds BoundRefractedRays(const DirectionBox& sight, const DirectionBox& nor
 TubeBounds BoundRefractedRays(const CurvedPatch& patch, const glm::dvec3& eye, double ratio)
 {
   const double bulge = BoundBulge(patch);
-  const glm::dvec3 sights[3] = { patch.corner[0] - eye, patch.corner[1] - eye,
-    patch.corner[2] - eye };
+  const glm::dvec3 sights[3] = { patch.Corner[0] - eye, patch.Corner[1] - eye,
+    patch.Corner[2] - eye };
   const DirectionBox sight =
     BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
-  return BoundRefractedRays(sight, BoundNormals(patch), ratio, patch.corner, 3, bulge);
+  return BoundRefractedRays(sight, BoundNormals(patch), ratio, patch.Corner, 3, bulge);
 }
 
 }

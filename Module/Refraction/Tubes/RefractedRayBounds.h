@@ -9,32 +9,32 @@
 namespace meniscus
 {
 
-/// Longest distance between the points of a patch and those of its facet.
+/** Longest distance between the points of a patch and those of its facet. */
 double BoundBulge(const CurvedPatch& patch);
 
-/// Unit vectors within `half` of `middle`, component by component; any at all by default.
+/** Unit vectors within `half` of `middle`, component by component; any at all by default. */
 struct DirectionBox
 {
-  glm::dvec3 middle{ 0.0 };
-  glm::dvec3 half{ 1.0 };
+  glm::dvec3 Middle{ 0.0 };
+  glm::dvec3 Half{ 1.0 };
 };
 
-/// About the unit vectors along what is within `reach` of the hull of `count` vectors.
+/** About the unit vectors along what is within `reach` of the hull of `count` vectors. */
 DirectionBox BoundDirections(
   const glm::dvec3& middle, const glm::dvec3* hull, int count, double reach);
 
-/// About the unit normals of a patch.
+/** About the unit normals of a patch. */
 DirectionBox BoundNormals(const CurvedPatch& patch);
 
-/// Bounds of the cosine of two directions.
+/** Bounds of the cosine of two directions. */
 struct CosineBounds
 {
-  double least;
-  double most;
+  double Least;
+  double Most;
 };
 CosineBounds BoundCosine(const DirectionBox& sight, const DirectionBox& normal);
 
-/// A tube around rays of directions in a box from within `reach` of the hull of `count` points.
+/** A tube around rays of directions in a box from within `reach` of the hull of `count` points. */
 TubeBounds BoundRays(const glm::dvec3& lowest, const glm::dvec3& highest, const glm::dvec3* points,
   int count, double reach);
 

@@ -19,8 +19,8 @@ bool IsBefore(const PacketEntry& a, const PacketEntry& b)
 void SortEntries(PacketEntry* first, PacketEntry* last)
 {
   // Mean number of places that an entry may move before sorting by comparison is cheaper.
-  constexpr std::ptrdiff_t Moves = 8;
-  std::ptrdiff_t movesLeft = Moves * (last - first);
+  constexpr std::ptrdiff_t moves = 8;
+  std::ptrdiff_t movesLeft = moves * (last - first);
   for (PacketEntry* next = first; next != last; ++next)
   {
     if (next == first || !IsBefore(*next, *(next - 1)))

@@ -98,9 +98,9 @@ struct EntryTiles::Outline
 BoundaryMeasure MeasureBoundary(const TetrahedralMesh& mesh)
 {
   BoundaryMeasure measure;
-  constexpr double Infinity = std::numeric_limits<double>::infinity();
-  glm::dvec3 lower(Infinity);
-  glm::dvec3 upper(-Infinity);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  glm::dvec3 lower(infinity);
+  glm::dvec3 upper(-infinity);
   for (const BoundaryFace& face : mesh.GetBoundary())
   {
     const glm::dvec3 a = mesh.GetPosition(face.Vertices[0]);

@@ -37,8 +37,8 @@ glm::dvec3 PointAt(const TetrahedraView& input, std::size_t index)
 /** Sorts without branches, which no predictor would foresee. */
 void SortFour(std::array<std::int32_t, 4>& values)
 {
-  constexpr int Pairs[5][2] = { { 0, 1 }, { 2, 3 }, { 0, 2 }, { 1, 3 }, { 1, 2 } };
-  for (const auto& pair : Pairs)
+  constexpr int pairs[5][2] = { { 0, 1 }, { 2, 3 }, { 0, 2 }, { 1, 3 }, { 1, 2 } };
+  for (const auto& pair : pairs)
   {
     const std::int32_t low = std::min(values[pair[0]], values[pair[1]]);
     values[pair[1]] = std::max(values[pair[0]], values[pair[1]]);

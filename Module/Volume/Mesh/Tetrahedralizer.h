@@ -32,7 +32,7 @@ public:
   void AddHexahedron(const std::int64_t* points);
   void AddWedge(const std::int64_t* points);
   void AddPyramid(const std::int64_t* points);
-  ///@{
+  /** @{ */
   /**
    * Cells with points on their edges. Their corners are cut off, so a triangle gives 4 triangles
    * and a quadrilateral 4 and that between them, which is split as any; what is left is pulled like
@@ -42,7 +42,7 @@ public:
   void AddQuadraticHexahedron(const std::int64_t* points);
   void AddQuadraticWedge(const std::int64_t* points);
   void AddQuadraticPyramid(const std::int64_t* points);
-  ///@}
+  /** @} */
   /** A wedge with points on the edges of its triangles alone: 4 wedges side by side. */
   void AddQuadraticLinearWedge(const std::int64_t* points);
 

@@ -29,9 +29,9 @@ AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
 /** A map in whole numbers and fractions of 2^-15, `more` added to its base. */
 FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::dvec2& more)
 {
-  constexpr double Fractions = 32768.0;
+  constexpr double fractions = 32768.0;
   // Whole numbers count modulo 2^32: where a ray meets the mesh, their sum fits.
-  constexpr double Largest = 70368744177664.0; // 2^46
+  constexpr double largest = 70368744177664.0; // 2^46
   const glm::dvec2 values[3] = { map.Base + more, 0.5 * map.PerColumn, 0.5 * map.PerRow };
   FixedPointRays::FixedPointMap fixed{};
   for (int i = 0; i < 3; ++i)
@@ -39,7 +39,7 @@ FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::d
     for (int axis = 0; axis < 2; ++axis)
     {
       const std::int64_t value =
-        std::llrint(std::clamp(values[i][axis], -Largest, Largest) * Fractions);
+        std::llrint(std::clamp(values[i][axis], -largest, largest) * fractions);
       fixed[4 * i + axis] = static_cast<std::int32_t>(static_cast<std::uint32_t>(value >> 15));
       fixed[4 * i + 2 + axis] = static_cast<std::int32_t>(value & 32767);
     }

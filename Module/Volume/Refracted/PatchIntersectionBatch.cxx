@@ -55,18 +55,18 @@ struct PatchKernel
     this->Patch.Evaluate(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i]), jet);
     // Cramer's rule for by0 x + by1 y - direction l = rest.
     const glm::dvec3 along = this->Scale * direction;
-    const glm::dvec3 rest = start + (lanes.Depth[i] + lanes.Behind[i]) * direction - jet.position;
-    const glm::dvec3 byX = glm::cross(jet.positionBy[1], along);
-    const double inverse = 1.0 / glm::dot(jet.positionBy[0], byX);
+    const glm::dvec3 rest = start + (lanes.Depth[i] + lanes.Behind[i]) * direction - jet.Position;
+    const glm::dvec3 byX = glm::cross(jet.PositionBy[1], along);
+    const double inverse = 1.0 / glm::dot(jet.PositionBy[0], byX);
     const double x = inverse * glm::dot(rest, byX);
-    const double y = inverse * glm::dot(jet.positionBy[0], glm::cross(rest, along));
-    const double l = -inverse * glm::dot(rest, glm::cross(jet.positionBy[0], jet.positionBy[1]));
+    const double y = inverse * glm::dot(jet.PositionBy[0], glm::cross(rest, along));
+    const double l = -inverse * glm::dot(rest, glm::cross(jet.PositionBy[0], jet.PositionBy[1]));
     lanes.PatchX[i] += x;
     lanes.PatchY[i] += y;
     lanes.Behind[i] += l * this->Scale;
     lanes.Move[i] = std::max(std::max(std::fabs(x), std::fabs(y)), std::fabs(l));
     // Over so short a step as the last the normal is as good as linear.
-    const glm::dvec3 normal = jet.normal + x * jet.normalBy[0] + y * jet.normalBy[1];
+    const glm::dvec3 normal = jet.Normal + x * jet.NormalBy[0] + y * jet.NormalBy[1];
     lanes.Normal[0][i] = normal.x;
     lanes.Normal[1][i] = normal.y;
     lanes.Normal[2][i] = normal.z;

@@ -34,9 +34,9 @@ bool VisibilityBounds::Meets(const TubeBounds& tube) const
   for (int axis = 0; axis < 3; ++axis)
   {
     constrain(
-      tube.startHigh[axis] + this->Half[axis] - this->Center[axis], tube.directionHigh[axis]);
+      tube.StartHigh[axis] + this->Half[axis] - this->Center[axis], tube.DirectionHigh[axis]);
     constrain(
-      this->Center[axis] - tube.startLow[axis] + this->Half[axis], -tube.directionLow[axis]);
+      this->Center[axis] - tube.StartLow[axis] + this->Half[axis], -tube.DirectionLow[axis]);
   }
   return first <= last;
 }
@@ -46,14 +46,14 @@ bool VisibilityBounds::MayBeSeen(const DirectionBox& sight, DirectionBox normal,
   const glm::dvec3* points, int count, double reach) const
 {
   const CosineBounds cosine = BoundCosine(sight, normal);
-  const bool fromBehind = cosine.least > 0.0;
-  if (!fromBehind && !(cosine.most < 0.0))
+  const bool fromBehind = cosine.Least > 0.0;
+  if (!fromBehind && !(cosine.Most < 0.0))
   {
     return true;
   }
-  normal.middle = fromBehind ? -normal.middle : normal.middle;
+  normal.Middle = fromBehind ? -normal.Middle : normal.Middle;
   const TubeBounds toEye =
-    BoundRays(-sight.middle - sight.half, -sight.middle + sight.half, points, count, reach);
+    BoundRays(-sight.Middle - sight.Half, -sight.Middle + sight.Half, points, count, reach);
   const TubeBounds refracted = BoundRefractedRays(
     sight, normal, fromBehind ? 1.0 / this->Ratio : this->Ratio, points, count, reach);
   // Without valid bounds all are totally reflected.
@@ -67,12 +67,12 @@ PatchIntersector::PatchIntersector(
   , Rays(rays)
   , Set(set)
 {
-  const glm::dvec3 u = patch.corner[1] - patch.corner[0];
-  const glm::dvec3 v = patch.corner[2] - patch.corner[0];
+  const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
+  const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
   const glm::dvec3 normal = glm::cross(u, v);
   const double squared = glm::dot(normal, normal);
   this->NormalLength = std::sqrt(squared);
-  this->Plane = { patch.corner[0], normal, glm::cross(v, normal) / squared,
+  this->Plane = { patch.Corner[0], normal, glm::cross(v, normal) / squared,
     glm::cross(normal, u) / squared };
   const double size =
     std::sqrt(std::max({ glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v) }));
@@ -144,21 +144,21 @@ DirectionBox PatchIntersector::BoundNormalsOver(const glm::dvec2 (&b)[4], double
     const glm::dvec3 f(1.0 - p.x - p.y, p.x, p.y);
     const glm::dvec3 g(1.0 - q.x - q.y, q.x, q.y);
     const glm::dvec3 m = 0.5 * (f + g);
-    return m.x * patch.normal[0] + m.y * patch.normal[1] + m.z * patch.normal[2] +
-      0.5 * (f.y * g.z + f.z * g.y) * patch.bend[0] +
-      0.5 * (f.z * g.x + f.x * g.z) * patch.bend[1] + 0.5 * (f.x * g.y + f.y * g.x) * patch.bend[2];
+    return m.x * patch.Normal[0] + m.y * patch.Normal[1] + m.z * patch.Normal[2] +
+      0.5 * (f.y * g.z + f.z * g.y) * patch.Bend[0] +
+      0.5 * (f.z * g.x + f.x * g.z) * patch.Bend[1] + 0.5 * (f.x * g.y + f.y * g.x) * patch.Bend[2];
   };
   const glm::dvec3 control[9] = { polar(b[0], b[0]), polar(b[1], b[1]), polar(b[2], b[2]),
     polar(b[3], b[3]), polar(b[0], b[1]), polar(b[1], b[2]), polar(b[2], b[3]), polar(b[3], b[0]),
     polar(b[0], b[2]) };
   double slope =
-    glm::length(patch.normal[1] - patch.normal[0]) + glm::length(patch.normal[2] - patch.normal[0]);
+    glm::length(patch.Normal[1] - patch.Normal[0]) + glm::length(patch.Normal[2] - patch.Normal[0]);
   double farthest = 1.0 + margin;
   for (const glm::dvec2& place : b)
   {
     farthest = std::max(farthest, 1.0 + margin + std::fabs(place.x) + std::fabs(place.y));
   }
-  for (const glm::dvec3& bend : patch.bend)
+  for (const glm::dvec3& bend : patch.Bend)
   {
     // Of b_i b_j with coordinates up to `farthest`, by both.
     slope += 4.0 * farthest * glm::length(bend);

@@ -184,7 +184,7 @@ void PatchIntersector::MeetCurved(
     lanes.Count = 0;
     for (int i = 0; i < count; ++i)
     {
-      const double outside = FindOutside(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i])).least;
+      const double outside = FindOutside(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i])).Least;
       if (lanes.Move[i] < LastStep && outside >= -PatchCrossings::Reach)
       {
         if (outside >= -Border)
@@ -228,8 +228,8 @@ void PatchIntersector::MeetExactly(
   crossings.Find(frame.Project(start), -anywhere, anywhere);
   for (const PatchCrossing& crossing : crossings)
   {
-    const double depth = (crossing.height - frame.GetHeight(start)) / length;
-    visit(lanes.Index[lane], MembraneHit{ depth, matters ? crossing.normal : glm::dvec3(0.0) });
+    const double depth = (crossing.Height - frame.GetHeight(start)) / length;
+    visit(lanes.Index[lane], MembraneHit{ depth, matters ? crossing.Normal : glm::dvec3(0.0) });
   }
 }
 

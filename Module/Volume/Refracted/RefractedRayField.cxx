@@ -188,11 +188,11 @@ glm::dvec3 RefractedRayField::SightTo(const glm::dvec3& place) const
 /** Whether rays that meet the patch may come to the mesh, before it or behind it. */
 bool RefractedRayField::MayShowMesh(const CurvedPatch& patch, double bulge) const
 {
-  const glm::dvec3 sights[3] = { this->SightTo(patch.corner[0]), this->SightTo(patch.corner[1]),
-    this->SightTo(patch.corner[2]) };
+  const glm::dvec3 sights[3] = { this->SightTo(patch.Corner[0]), this->SightTo(patch.Corner[1]),
+    this->SightTo(patch.Corner[2]) };
   const DirectionBox sight =
     BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge);
-  return this->Mesh.MayBeSeen(sight, BoundNormals(patch), patch.corner, 3, bulge);
+  return this->Mesh.MayBeSeen(sight, BoundNormals(patch), patch.Corner, 3, bulge);
 }
 
 //------------------------------------------------------------------------------
@@ -207,8 +207,8 @@ RefractedRayField::SeenFacet RefractedRayField::See(
     isAtBorder = isAtBorder || patches.GetNeighbour(facet, corner) == CurvedPatches::NoFacet;
   }
   const double bulge = BoundBulge(patch);
-  const double facing = glm::dot(this->SightTo(patch.corner[0]),
-    glm::cross(patch.corner[1] - patch.corner[0], patch.corner[2] - patch.corner[0]));
+  const double facing = glm::dot(this->SightTo(patch.Corner[0]),
+    glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]));
   SeenFacet seen{ { 0, this->Of.Width, 0, this->Of.Height }, true, isAtBorder,
     (facing > 0.0 ? 1 : 0) - (facing < 0.0 ? 1 : 0), false, glm::dvec3(0.0), 0.0 };
   // What a ball of the world may be in the frame.
@@ -219,7 +219,7 @@ RefractedRayField::SeenFacet RefractedRayField::See(
   }
   glm::dvec3 low(std::numeric_limits<double>::max());
   glm::dvec3 high(std::numeric_limits<double>::lowest());
-  for (const glm::dvec3& corner : patch.corner)
+  for (const glm::dvec3& corner : patch.Corner)
   {
     const glm::dvec3 place =
       this->WorldToFrame * (corner + (surface.GetOrigin() - this->Of.Center));
@@ -245,8 +245,8 @@ RefractedRayField::SeenFacet RefractedRayField::See(
   }
   if (seen.Unbounded)
   {
-    seen.Center = (patch.corner[0] + patch.corner[1] + patch.corner[2]) / 3.0;
-    for (const glm::dvec3& corner : patch.corner)
+    seen.Center = (patch.Corner[0] + patch.Corner[1] + patch.Corner[2]) / 3.0;
+    for (const glm::dvec3& corner : patch.Corner)
     {
       seen.Radius = std::max(seen.Radius, bulge + glm::length(corner - seen.Center));
     }

@@ -17,9 +17,9 @@ constexpr int TileSize = RefractedRayField::TileSize;
 /** Grid depth of a float, as vtkTetrahedraRays has it. */
 std::int32_t GridDepthOf(float depth)
 {
-  constexpr float Largest = 1073741824.0f; // 2^30
+  constexpr float largest = 1073741824.0f; // 2^30
   const float grid = depth * static_cast<float>(PacketVertex::GridPerDepth);
-  return static_cast<std::int32_t>(std::clamp(grid, -Largest, Largest));
+  return static_cast<std::int32_t>(std::clamp(grid, -largest, largest));
 }
 
 /** What has to be added to that, plus 128: a float below 1, and its product, are off by 2^-25. */

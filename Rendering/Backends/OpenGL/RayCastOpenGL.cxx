@@ -377,7 +377,7 @@ std::string RayCastOpenGL::CastRays(const RayCastFrame& frame)
 //------------------------------------------------------------------------------
 std::string RayCastOpenGL::DispatchRays(const RayCastFrame& frame)
 {
-  constexpr int GroupSize = 8; // as in the shader
+  constexpr int groupSize = 8; // as in the shader
   vtkSmartPointer<OpenGLComputeProgram>& caster =
     this->ComputeCasters[RayCastShaderOptions(frame.Optics)];
   if (!caster)
@@ -397,7 +397,7 @@ std::string RayCastOpenGL::DispatchRays(const RayCastFrame& frame)
     [this, &caster]()
     {
       caster->Dispatch(
-        (this->Size[0] + GroupSize - 1) / GroupSize, (this->Size[1] + GroupSize - 1) / GroupSize);
+        (this->Size[0] + groupSize - 1) / groupSize, (this->Size[1] + groupSize - 1) / groupSize);
     });
   return std::string();
 }

@@ -144,18 +144,18 @@ void setMembrane(RefractionScene& scene, RandomNumbers& random)
 
 glm::dvec3 pointOf(const MembraneMesh& mesh, std::size_t i)
 {
-  return { mesh.points[3 * i], mesh.points[3 * i + 1], mesh.points[3 * i + 2] };
+  return { mesh.Points[3 * i], mesh.Points[3 * i + 1], mesh.Points[3 * i + 2] };
 }
 
 glm::dvec3 normalOf(const MembraneMesh& mesh, std::size_t i)
 {
-  return { mesh.normals[3 * i], mesh.normals[3 * i + 1], mesh.normals[3 * i + 2] };
+  return { mesh.Normals[3 * i], mesh.Normals[3 * i + 1], mesh.Normals[3 * i + 2] };
 }
 
 double magnitudeOf(const RefractionScene& scene)
 {
   double most = glm::length(scene.Eye);
-  for (const double c : scene.Mesh.points)
+  for (const double c : scene.Mesh.Points)
   {
     most = std::max(most, std::fabs(c));
   }
@@ -170,7 +170,7 @@ const VirtualVertex* nearestTo(const std::vector<VirtualVertex>& images, const g
 {
   const auto nearest = std::min_element(images.begin(), images.end(),
     [&sight](const VirtualVertex& a, const VirtualVertex& b)
-    { return glm::length(a.sightPoint - sight) < glm::length(b.sightPoint - sight); });
+    { return glm::length(a.SightPoint - sight) < glm::length(b.SightPoint - sight); });
   return nearest == images.end() ? nullptr : &*nearest;
 }
 
@@ -198,7 +198,7 @@ RefractionScene randomScene(RandomNumbers& random)
   scene.Eye = isBubble
     ? 0.6 * random.uniform() * random.direction()
     : glm::dvec3(random.uniform(-2.0, 2.0), random.uniform(1.5, 8.0), random.uniform(-2.0, 2.0));
-  const std::size_t vertices = scene.Mesh.points.size() / 3;
+  const std::size_t vertices = scene.Mesh.Points.size() / 3;
   for (int i = 0; i < PointsPerScene; ++i)
   {
     const auto at = static_cast<std::size_t>(random.below(static_cast<int>(vertices)));
@@ -227,9 +227,9 @@ std::unique_ptr<CurvedMembraneSolver> makeGeometry(const RefractionScene& scene)
 RefractionScene Motion::apply(const RefractionScene& scene) const
 {
   RefractionScene moved = scene;
-  moved.Mesh.points.clear();
-  moved.Mesh.normals.clear();
-  for (std::size_t i = 0; i < scene.Mesh.points.size() / 3; ++i)
+  moved.Mesh.Points.clear();
+  moved.Mesh.Normals.clear();
+  for (std::size_t i = 0; i < scene.Mesh.Points.size() / 3; ++i)
   {
     moved.Mesh.AddPoint(this->apply(pointOf(scene.Mesh, i)), this->Turn * normalOf(scene.Mesh, i));
   }
@@ -266,7 +266,7 @@ double RefractionTrial::errorOf(double magnitude, double depth, std::int32_t fac
   double bend = 0.0;
   if (facet != CurvedPatches::NoFacet)
   {
-    for (const glm::dvec3& b : this->Geometry->GetPatches().GetPatch(facet).bend)
+    for (const glm::dvec3& b : this->Geometry->GetPatches().GetPatch(facet).Bend)
     {
       bend = std::max(bend, glm::length(b));
     }
@@ -286,13 +286,13 @@ bool RefractionTrial::isSteady(
   for (int i = 0; i < 6; ++i)
   {
     this->Geometry->FindImages(point + move * moveOf(i), images);
-    const VirtualVertex* other = nearestTo(images, image.sightPoint);
-    if (!other || glm::length(other->sightPoint - image.sightPoint) > 0.1 * this->Scene.FacetSize ||
-      other->orientation != image.orientation)
+    const VirtualVertex* other = nearestTo(images, image.SightPoint);
+    if (!other || glm::length(other->SightPoint - image.SightPoint) > 0.1 * this->Scene.FacetSize ||
+      other->Orientation != image.Orientation)
     {
       return false;
     }
-    sensitivity = std::max(sensitivity, glm::length(other->position - image.position) / move);
+    sensitivity = std::max(sensitivity, glm::length(other->Position - image.Position) / move);
   }
   return true;
 }
@@ -347,15 +347,15 @@ void RefractionTrial::compare(const CurvedMembraneSolver& changed, const Motion&
       {
         continue;
       }
-      const double error = this->errorOf(magnitude, image.depth, image.facet);
+      const double error = this->errorOf(magnitude, image.Depth, image.Facet);
       double sensitivity = 1.0;
       if (!this->isSteady(point, image, error, sensitivity))
       {
         ++this->Tally.Conditioned;
         continue;
       }
-      const VirtualVertex* other = nearestTo(others, motion.apply(image.sightPoint));
-      const double deviation = other ? glm::length(motion.undo(other->position) - image.position)
+      const VirtualVertex* other = nearestTo(others, motion.apply(image.SightPoint));
+      const double deviation = other ? glm::length(motion.undo(other->Position) - image.Position)
                                      : std::numeric_limits<double>::infinity();
       if (!this->Tally.compare(deviation, sensitivity * error))
       {
@@ -399,17 +399,17 @@ void RefractionTrial::compareFirst(const std::vector<std::size_t>& order)
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     this->Geometry->FindImages(points[i], images);
-    const bool isFound = first[i].state == ImageState::Found;
-    const VirtualVertex* same = isFound ? nearestTo(images, first[i].sightPoint) : nullptr;
+    const bool isFound = first[i].State == ImageState::Found;
+    const VirtualVertex* same = isFound ? nearestTo(images, first[i].SightPoint) : nullptr;
     const VirtualVertex& judged = isFound || images.empty() ? first[i] : images[0];
-    const double error = this->errorOf(magnitude, judged.depth, judged.facet);
+    const double error = this->errorOf(magnitude, judged.Depth, judged.Facet);
     double sensitivity = 1.0;
     if ((isFound || !images.empty()) && !this->isSteady(points[i], judged, error, sensitivity))
     {
       ++this->Tally.Conditioned;
       continue;
     }
-    const double deviation = same ? glm::length(same->position - first[i].position)
+    const double deviation = same ? glm::length(same->Position - first[i].Position)
                                   : (isFound || !images.empty() ? 1e30 : 0.0);
     if (!this->Tally.compare(deviation, sensitivity * error))
     {

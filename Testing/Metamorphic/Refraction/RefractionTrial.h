@@ -22,28 +22,28 @@ namespace meniscus
 namespace test
 {
 
-/// A membrane, an eye and points on both sides of it, a few units wide.
+/** A membrane, an eye and points on both sides of it, a few units wide. */
 struct RefractionScene
 {
   std::string Family;
   reference::MembraneMesh Mesh;
-  /// Length of a facet's sides, about.
+  /** Length of a facet's sides, about. */
   double FacetSize = 1.0;
   glm::dvec3 Eye{ 0.0 };
   double Exterior = 1.0;
   double Interior = 1.333;
   std::vector<glm::dvec3> Points;
-  /// Spheres and planes with their normals, which patches reproduce however they are divided.
+  /** Spheres and planes with their normals, which patches reproduce however they are divided. */
   bool IsExact = false;
 };
 
-/// A scene of any family: waves, paraboloids of up to 80 degrees, spheres, noise, planes.
+/** A scene of any family: waves, paraboloids of up to 80 degrees, spheres, noise, planes. */
 RefractionScene randomScene(RandomNumbers& random);
 
-/// The scene's membrane and eye as the kernel has them; null if it refuses them.
+/** The scene's membrane and eye as the kernel has them; null if it refuses them. */
 std::unique_ptr<CurvedMembraneSolver> makeGeometry(const RefractionScene& scene);
 
-/// A change of coordinates: places, directions, and both back.
+/** A change of coordinates: places, directions, and both back. */
 struct Motion
 {
   double Scale = 1.0;
@@ -75,13 +75,13 @@ class RefractionTrial
 public:
   explicit RefractionTrial(const RefractionScene& scene);
 
-  /// Adds to the tally. `shows` says which images the changed scene shows at all; null: all.
+  /** Adds to the tally. `shows` says which images the changed scene shows at all; null: all. */
   void compare(const RefractionScene& changed, const Motion& motion,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
-  /// The same for geometry that has been made; `magnitude` of its coordinates.
+  /** The same for geometry that has been made; `magnitude` of its coordinates. */
   void compare(const CurvedMembraneSolver& changed, const Motion& motion, double magnitude,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
-  /// One image each, in an order of the points, is one of all.
+  /** One image each, in an order of the points, is one of all. */
   void compareFirst(const std::vector<std::size_t>& order);
 
   void fail(const std::string& words);

@@ -92,8 +92,8 @@ void scale(RefractionTrial& trial, RandomNumbers& random)
 void reorderFacets(RefractionTrial& trial, RandomNumbers& random)
 {
   RefractionScene changed = trial.scene();
-  const std::vector<std::int64_t>& from = trial.scene().Mesh.triangles;
-  changed.Mesh.triangles.clear();
+  const std::vector<std::int64_t>& from = trial.scene().Mesh.Triangles;
+  changed.Mesh.Triangles.clear();
   for (const std::size_t i : randomOrder(from.size() / 3, random))
   {
     const auto first = static_cast<std::size_t>(random.below(3));
@@ -107,9 +107,9 @@ void reorderFacets(RefractionTrial& trial, RandomNumbers& random)
 void turnFacets(RefractionTrial& trial, RandomNumbers&)
 {
   RefractionScene changed = trial.scene();
-  for (std::size_t i = 0; i < changed.Mesh.triangles.size(); i += 3)
+  for (std::size_t i = 0; i < changed.Mesh.Triangles.size(); i += 3)
   {
-    std::swap(changed.Mesh.triangles[i + 1], changed.Mesh.triangles[i + 2]);
+    std::swap(changed.Mesh.Triangles[i + 1], changed.Mesh.Triangles[i + 2]);
   }
   trial.compare(changed, Motion());
 }
@@ -118,18 +118,18 @@ void reorderVertices(RefractionTrial& trial, RandomNumbers& random)
 {
   const MembraneMesh& from = trial.scene().Mesh;
   RefractionScene changed = trial.scene();
-  const std::vector<std::size_t> order = randomOrder(from.points.size() / 3, random);
+  const std::vector<std::size_t> order = randomOrder(from.Points.size() / 3, random);
   std::vector<std::int64_t> placeOf(order.size());
   for (std::size_t i = 0; i < order.size(); ++i)
   {
     placeOf[order[i]] = static_cast<std::int64_t>(i);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      changed.Mesh.points[3 * i + axis] = from.points[3 * order[i] + axis];
-      changed.Mesh.normals[3 * i + axis] = from.normals[3 * order[i] + axis];
+      changed.Mesh.Points[3 * i + axis] = from.Points[3 * order[i] + axis];
+      changed.Mesh.Normals[3 * i + axis] = from.Normals[3 * order[i] + axis];
     }
   }
-  for (std::int64_t& id : changed.Mesh.triangles)
+  for (std::int64_t& id : changed.Mesh.Triangles)
   {
     id = placeOf[static_cast<std::size_t>(id)];
   }
@@ -152,12 +152,12 @@ void divide(RefractionTrial& trial, RandomNumbers&)
     const CurvedPatch patch = geometry->GetPatches().GetPatch(static_cast<std::int32_t>(i));
     const glm::dvec2 places[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 },
       { 0.0, 0.5 }, { 0.5, 0.0 } };
-    const auto first = static_cast<std::int64_t>(changed.Mesh.points.size() / 3);
+    const auto first = static_cast<std::int64_t>(changed.Mesh.Points.size() / 3);
     for (const glm::dvec2& b : places)
     {
       const PatchPoint at = patch.Evaluate(b);
       changed.Mesh.AddPoint(
-        at.position + geometry->GetMembrane().GetOrigin(), glm::normalize(at.normal));
+        at.Position + geometry->GetMembrane().GetOrigin(), glm::normalize(at.Normal));
     }
     changed.Mesh.AddTriangle(first, first + 5, first + 4);
     changed.Mesh.AddTriangle(first + 5, first + 1, first + 3);
@@ -194,26 +194,26 @@ void keepFacingPart(RefractionTrial& trial, RandomNumbers&)
     return;
   }
   RefractionScene changed = scene;
-  changed.Mesh.triangles.clear();
+  changed.Mesh.Triangles.clear();
   const auto facing = [&scene](std::int64_t id)
   {
     const auto i = static_cast<std::size_t>(3 * id);
-    const glm::dvec3 p(scene.Mesh.points[i], scene.Mesh.points[i + 1], scene.Mesh.points[i + 2]);
-    const glm::dvec3 n(scene.Mesh.normals[i], scene.Mesh.normals[i + 1], scene.Mesh.normals[i + 2]);
+    const glm::dvec3 p(scene.Mesh.Points[i], scene.Mesh.Points[i + 1], scene.Mesh.Points[i + 2]);
+    const glm::dvec3 n(scene.Mesh.Normals[i], scene.Mesh.Normals[i + 1], scene.Mesh.Normals[i + 2]);
     return glm::dot(glm::normalize(scene.Eye - p), n);
   };
-  for (std::size_t i = 0; i < scene.Mesh.triangles.size(); i += 3)
+  for (std::size_t i = 0; i < scene.Mesh.Triangles.size(); i += 3)
   {
-    const std::int64_t* ids = scene.Mesh.triangles.data() + i;
+    const std::int64_t* ids = scene.Mesh.Triangles.data() + i;
     if (std::max({ facing(ids[0]), facing(ids[1]), facing(ids[2]) }) > 0.0)
     {
       changed.Mesh.AddTriangle(ids[0], ids[1], ids[2]);
     }
   }
-  if (!changed.Mesh.triangles.empty())
+  if (!changed.Mesh.Triangles.empty())
   {
     // Images that are on facets that stay.
-    trial.compare(changed, Motion(), [](const VirtualVertex& image) { return image.cosine > 0.0; });
+    trial.compare(changed, Motion(), [](const VirtualVertex& image) { return image.Cosine > 0.0; });
   }
 }
 

@@ -29,10 +29,10 @@ constexpr int NumberOfCopies = 12;
 
 struct Rounding
 {
-  /// Of points, in any direction and along the view.
+  /** Of points, in any direction and along the view. */
   double Point = 0.0;
   double Depth = 0.0;
-  /// Share of a component's range.
+  /** Share of a component's range. */
   double Scalar = 0.0;
 };
 
@@ -156,7 +156,7 @@ double gradientFactor(const VolumeLook& look, double size)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-/// The exact picture of a case whose points and scalars are moved by given amounts at random.
+/** The exact picture of a case whose points and scalars are moved by given amounts at random. */
 class Conditioning::Truth
 {
 public:
@@ -202,8 +202,10 @@ public:
     }
   }
 
-  /// @param exact  the copy that is not moved: gradients are those of the input, not of its
-  /// rounding.
+  /**
+   * @param exact  the copy that is not moved: gradients are those of the input, not of its
+   * rounding.
+   */
   Color trace(int x, int y, const Truth& exact)
   {
     const Ray ray = this->Case.View.ray(x, y, this->Case.Size);

@@ -44,10 +44,10 @@ public:
   explicit Conditioning(const VolumeCase& test);
   ~Conditioning();
 
-  /// Range of the exact results of a pixel, the largest of the channels.
+  /** Range of the exact results of a pixel, the largest of the channels. */
   double spread(int x, int y);
 
-  /// Exact colour of a pixel, premultiplied.
+  /** Exact colour of a pixel, premultiplied. */
   std::array<double, 4> exact(int x, int y);
 
 private:
@@ -58,8 +58,10 @@ private:
   std::vector<std::unique_ptr<Truth>> Copies;
 };
 
-/// Largest difference of two pictures of one scene that is no failure, conditioning apart: the
-/// error of each against the exact picture that is promised natively, and of shaders.
+/**
+ * Largest difference of two pictures of one scene that is no failure, conditioning apart: the
+ * error of each against the exact picture that is promised natively, and of shaders.
+ */
 double plainTolerance(int backend);
 
 } // namespace test

@@ -20,22 +20,22 @@ namespace meniscus
 namespace test
 {
 
-/// A cell of VTK: its type and its points in VTK's order.
+/** A cell of VTK: its type and its points in VTK's order. */
 struct MeshCell
 {
   int Type = VTK_TETRA;
   std::vector<vtkIdType> Ids;
 };
 
-/// An unstructured grid as plain arrays in double, which relations rewrite.
+/** An unstructured grid as plain arrays in double, which relations rewrite. */
 struct MeshArrays
 {
   std::vector<glm::dvec3> Points;
   std::vector<MeshCell> Cells;
   int Components = 1;
-  /// Whether values belong to cells; else to points.
+  /** Whether values belong to cells; else to points. */
   bool OnCells = false;
-  /// Components of the first tuple, of the second, ...
+  /** Components of the first tuple, of the second, ... */
   std::vector<double> Values;
 
   std::size_t tuples() const { return this->OnCells ? this->Cells.size() : this->Points.size(); }
@@ -43,36 +43,36 @@ struct MeshArrays
   {
     return this->Values[tuple * static_cast<std::size_t>(this->Components) + component];
   }
-  /// Appends the tuple of another mesh with as many components.
+  /** Appends the tuple of another mesh with as many components. */
   void addTuple(const MeshArrays& from, std::size_t tuple);
-  /// Appends a point or a cell with the value, or with a tuple, of another mesh.
+  /** Appends a point or a cell with the value, or with a tuple, of another mesh. */
   vtkIdType addPoint(const MeshArrays& from, std::size_t point);
   void addCell(const MeshArrays& from, std::size_t cell);
 
   void bounds(double result[6]) const;
-  /// Smallest and largest finite value of a component.
+  /** Smallest and largest finite value of a component. */
   std::array<double, 2> range(int component) const;
   bool isTetrahedral() const;
 };
 
-/// How VTK stores a mesh.
+/** How VTK stores a mesh. */
 struct MeshStorage
 {
   int PointType = VTK_DOUBLE;
   int ValueType = VTK_DOUBLE;
-  /// Ids of 32 bits in the cell array; else of 64.
+  /** Ids of 32 bits in the cell array; else of 64. */
   bool SmallIds = false;
-  /// One array per component for points and values.
+  /** One array per component for points and values. */
   bool PerComponent = false;
 };
 
-/// Values have to be representable in the types of the storage.
+/** Values have to be representable in the types of the storage. */
 Grid toGrid(const MeshArrays& mesh, const MeshStorage& storage = MeshStorage());
 
-/// The active point scalars of a grid, or its active cell scalars.
+/** The active point scalars of a grid, or its active cell scalars. */
 MeshArrays toArrays(vtkUnstructuredGrid* grid, bool onCells = false);
 
-/// Tetrahedron of a mesh: four points and the cell that it is a part of.
+/** Tetrahedron of a mesh: four points and the cell that it is a part of. */
 struct MeshTetrahedron
 {
   std::array<std::int64_t, 4> Ids;

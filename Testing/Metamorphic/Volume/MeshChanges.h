@@ -30,35 +30,37 @@ void shuffle(Sequence& sequence, RandomNumbers& random)
 }
 
 void shuffleCells(MeshArrays& mesh, RandomNumbers& random);
-/// Permutes the vertices of each tetrahedron, half of them to the other orientation.
+/** Permutes the vertices of each tetrahedron, half of them to the other orientation. */
 void turnCells(MeshArrays& mesh, RandomNumbers& random);
 void shufflePoints(MeshArrays& mesh, RandomNumbers& random);
 
-/// Appends points that no cell uses, within the bounds.
+/** Appends points that no cell uses, within the bounds. */
 void addIdlePoints(MeshArrays& mesh, RandomNumbers& random);
 
-/// Gives every cell points of its own, numbered in the order that they had within the cell.
+/** Gives every cell points of its own, numbered in the order that they had within the cell. */
 void unsharePoints(MeshArrays& mesh);
 
-/// Cells in parts at random, each with its points only, in the order that they had.
+/** Cells in parts at random, each with its points only, in the order that they had. */
 std::vector<MeshArrays> splitMesh(const MeshArrays& mesh, int parts, RandomNumbers& random);
 
-/// One mesh after the other, points numbered through.
+/** One mesh after the other, points numbered through. */
 MeshArrays appendMeshes(const std::vector<MeshArrays>& meshes);
 
-/// Divides each tetrahedron in 4 at its middle, or in 8 at the middles of its edges.
+/** Divides each tetrahedron in 4 at its middle, or in 8 at the middles of its edges. */
 void divideTetrahedra(MeshArrays& mesh, int parts);
 
-/// Makes tetrahedra, hexahedra, wedges and pyramids cells of second order with straight edges;
-/// hexahedra of 20 or 27 points, and so on, at random.
+/**
+ * Makes tetrahedra, hexahedra, wedges and pyramids cells of second order with straight edges;
+ * hexahedra of 20 or 27 points, and so on, at random.
+ */
 void makeQuadratic(MeshArrays& mesh, RandomNumbers& random);
 
-/// The cells of a rectilinear grid as hexahedra or voxels, without values.
+/** The cells of a rectilinear grid as hexahedra or voxels, without values. */
 MeshArrays makeRectilinearCells(RandomNumbers& random);
-/// The grid whose cells they are, with their values.
+/** The grid whose cells they are, with their values. */
 vtkSmartPointer<vtkRectilinearGrid> toRectilinear(const MeshArrays& mesh);
 
-/// Random fields with as many components, and on the same place, as those of another mesh.
+/** Random fields with as many components, and on the same place, as those of another mesh. */
 void setRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumbers& random);
 
 } // namespace test

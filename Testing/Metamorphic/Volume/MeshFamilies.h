@@ -13,19 +13,21 @@ namespace meniscus
 namespace test
 {
 
-/// A random mesh with one scalar per point.
+/** A random mesh with one scalar per point. */
 struct FamilyMesh
 {
   std::string Name;
   MeshArrays Mesh;
-  /// Whether all components are linear functions of the position and all faces are planar, so that
-  /// any division into tetrahedra shows the same.
+  /**
+   * Whether all components are linear functions of the position and all faces are planar, so that
+   * any division into tetrahedra shows the same.
+   */
   bool Linear = false;
-  /// Whether the mesh is within [-1, 1]^3 or hardly larger, as membranes expect.
+  /** Whether the mesh is within [-1, 1]^3 or hardly larger, as membranes expect. */
   bool UnitBox = true;
 };
 
-/// Kinds of meshes that randomMesh() chooses from.
+/** Kinds of meshes that randomMesh() chooses from. */
 enum class MeshFamily
 {
   RandomPoints, ///< Delaunay's tetrahedra of random points
@@ -46,13 +48,13 @@ enum class MeshFamily
  */
 FamilyMesh makeFamilyMesh(MeshFamily family, bool linear, RandomNumbers& random);
 
-/// A family at random: data meshes once in 30, the others equally often.
+/** A family at random: data meshes once in 30, the others equally often. */
 MeshFamily randomFamily(RandomNumbers& random);
 
-/// Replaces the values by those of some fields, one per component, linear or not.
+/** Replaces the values by those of some fields, one per component, linear or not. */
 void setRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumbers& random);
 
-/// Moves the values of a mesh's points to its cells: the mean of each cell's points.
+/** Moves the values of a mesh's points to its cells: the mean of each cell's points. */
 void moveToCells(MeshArrays& mesh);
 
 } // namespace test

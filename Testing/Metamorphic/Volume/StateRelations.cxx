@@ -47,7 +47,7 @@ const char* const NoticeNames[3] = { "the array", "its owner", "the grid" };
 struct Edit
 {
   const char* Name;
-  /// Makes the scene that is edited to become the trial's.
+  /** Makes the scene that is edited to become the trial's. */
   std::function<void(VolumeCase&, RandomNumbers&)> Spoil;
   std::function<void(vtkUnstructuredGrid*, const VolumeCase&, Notice)> Apply;
 };

@@ -21,7 +21,7 @@ namespace meniscus
 namespace test
 {
 
-/// Opacity and colour of one component, each by its own control points, ascending.
+/** Opacity and colour of one component, each by its own control points, ascending. */
 struct LookFunction
 {
   struct OpacityPoint
@@ -39,15 +39,15 @@ struct LookFunction
   double Weight = 1.0;
 };
 
-/// What vtkVolumeProperty and the mapper's modes say.
+/** What vtkVolumeProperty and the mapper's modes say. */
 struct VolumeLook
 {
-  /// One of vtkVolumeMapper::BlendModes.
+  /** One of vtkVolumeMapper::BlendModes. */
   int Blend = 0;
-  /// One per component. Of dependent components one: colour of the first, opacity of the last.
+  /** One per component. Of dependent components one: colour of the first, opacity of the last. */
   std::vector<LookFunction> Functions;
   bool Independent = true;
-  /// ScalarOpacityUnitDistance.
+  /** ScalarOpacityUnitDistance. */
   double Unit = 1.0;
   std::vector<double> IsoValues;
   bool Shade = false;
@@ -55,31 +55,31 @@ struct VolumeLook
   double Diffuse = 0.6;
   double Specular = 0.4;
   double SpecularPower = 10.0;
-  /// Gradient length (scalar per world length) to opacity; none: no such function.
+  /** Gradient length (scalar per world length) to opacity; none: no such function. */
   std::vector<LookFunction::OpacityPoint> GradientOpacity;
-  /// One of vtkTetrahedraRayCastMapper::GradientLocations.
+  /** One of vtkTetrahedraRayCastMapper::GradientLocations. */
   int Gradients = 1;
 };
 
-/// A scene of one volume as plain values, which relations rewrite.
+/** A scene of one volume as plain values, which relations rewrite. */
 struct VolumeCase
 {
   std::string Name;
-  /// Several: blocks of a composite data set.
+  /** Several: blocks of a composite data set. */
   std::vector<MeshArrays> Blocks;
   MeshStorage Storage;
-  /// Any division of the cells into tetrahedra shows the same field.
+  /** Any division of the cells into tetrahedra shows the same field. */
   bool Linear = false;
   VolumeLook Look;
   VolumeView View;
   int Size = 48;
-  /// Model to world coordinates.
+  /** Model to world coordinates. */
   glm::dmat4 Matrix{ 1.0 };
-  /// Null mesh: none.
+  /** Null mesh: none. */
   MembraneCase Membrane;
-  /// Planes as origin and normal; the side that the normal points to is kept.
+  /** Planes as origin and normal; the side that the normal points to is kept. */
   std::vector<std::array<glm::dvec3, 2>> Planes;
-  /// One of vtkTetrahedraRayCastMapper::Backends.
+  /** One of vtkTetrahedraRayCastMapper::Backends. */
   int Backend = 2;
 
   const MeshArrays& mesh() const { return this->Blocks.front(); }
@@ -88,7 +88,7 @@ struct VolumeCase
   bool hasGradients() const { return this->Look.Shade || !this->Look.GradientOpacity.empty(); }
 };
 
-/// What a relation asks of its scenes; the rest is random.
+/** What a relation asks of its scenes; the rest is random. */
 struct CaseNeeds
 {
   bool Tetrahedra = false;
@@ -97,22 +97,24 @@ struct CaseNeeds
   bool NoMembrane = false;
   bool Composite = false;
   bool OneComponent = false;
-  /// No light nor gradient opacity by gradients of vertices, which are means about each point.
+  /** No light nor gradient opacity by gradients of vertices, which are means about each point. */
   bool NoVertexGradients = false;
   bool NoCellData = false;
-  /// No gradient at all.
+  /** No gradient at all. */
   bool NoGradients = false;
-  /// Meshes of a few thousand cells at most.
+  /** Meshes of a few thousand cells at most. */
   bool Small = false;
 };
 
 VolumeCase randomCase(const CaseNeeds& needs, RandomNumbers& random);
 
-/// The property of a look.
+/** The property of a look. */
 vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeLook& look);
 
-/// The functions and values of a look for scalars factor * s + offset, factor > 0. Gradients'
-/// lengths change by the factor over `lengthFactor`, the unit distance with the latter.
+/**
+ * The functions and values of a look for scalars factor * s + offset, factor > 0. Gradients'
+ * lengths change by the factor over `lengthFactor`, the unit distance with the latter.
+ */
 void mapScalars(VolumeLook& look, double factor, double offset, double lengthFactor);
 
 } // namespace test

@@ -18,7 +18,7 @@ namespace meniscus
 namespace test
 {
 
-/// Collects the error messages of a mapper.
+/** Collects the error messages of a mapper. */
 class VolumeStage::Listener : public vtkCommand
 {
 public:

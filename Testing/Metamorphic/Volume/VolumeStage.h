@@ -31,21 +31,21 @@ public:
   VolumeStage();
   ~VolumeStage();
 
-  /// Sets up a case with new objects, which the next calls may change.
+  /** Sets up a case with new objects, which the next calls may change. */
   void place(const VolumeCase& test);
-  /// Renders what place() has set up.
+  /** Renders what place() has set up. */
   FloatImage render();
-  /// place() and render().
+  /** place() and render(). */
   FloatImage draw(const VolumeCase& test);
 
   vtkTetrahedraRayCastMapper* mapper() const;
   VolumeScene& scene() { return this->Scene; }
-  /// Block 0 as the mapper has it.
+  /** Block 0 as the mapper has it. */
   vtkUnstructuredGrid* grid() const;
-  /// Uses another input in place of the case's own.
+  /** Uses another input in place of the case's own. */
   void setInput(vtkDataObject* input);
 
-  /// Errors of the mapper and rays that were lost since the last call; empty without any.
+  /** Errors of the mapper and rays that were lost since the last call; empty without any. */
   std::string complaints();
 
 private:

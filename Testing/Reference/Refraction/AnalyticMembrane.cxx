@@ -34,8 +34,8 @@ double Bisect(const Function& f, double low, double high)
 //------------------------------------------------------------------------------
 glm::dvec3 AnalyticMembrane::GetNormal(const glm::dvec3& onSurface) const
 {
-  return this->sphereRadius > 0.0
-    ? glm::normalize(glm::dvec3(0.0, this->sphereRadius, 0.0) - onSurface)
+  return this->SphereRadius > 0.0
+    ? glm::normalize(glm::dvec3(0.0, this->SphereRadius, 0.0) - onSurface)
     : glm::dvec3(0.0, 1.0, 0.0);
 }
 
@@ -43,7 +43,7 @@ glm::dvec3 AnalyticMembrane::GetNormal(const glm::dvec3& onSurface) const
 std::optional<glm::dvec3> AnalyticMembrane::Intersect(
   const glm::dvec3& eye, const glm::dvec3& direction) const
 {
-  if (this->sphereRadius <= 0.0)
+  if (this->SphereRadius <= 0.0)
   {
     if (!(direction.y < 0.0) || !(eye.y > 0.0))
     {
@@ -51,17 +51,17 @@ std::optional<glm::dvec3> AnalyticMembrane::Intersect(
     }
     return eye - direction * (eye.y / direction.y);
   }
-  const glm::dvec3 toCentre = glm::dvec3(0.0, this->sphereRadius, 0.0) - eye;
+  const glm::dvec3 toCentre = glm::dvec3(0.0, this->SphereRadius, 0.0) - eye;
   const double along = glm::dot(toCentre, direction);
   const double squared =
-    along * along - glm::dot(toCentre, toCentre) + this->sphereRadius * this->sphereRadius;
+    along * along - glm::dot(toCentre, toCentre) + this->SphereRadius * this->SphereRadius;
   if (squared < 0.0)
   {
     return {};
   }
   const double distance = along + std::sqrt(squared);
   const glm::dvec3 hit = eye + direction * distance;
-  if (distance <= 0.0 || hit.y > this->sphereRadius)
+  if (distance <= 0.0 || hit.y > this->SphereRadius)
   {
     return {};
   }
@@ -75,7 +75,7 @@ std::optional<glm::dvec3> AnalyticMembrane::Refract(
   const glm::dvec3 normal = this->GetNormal(onSurface);
   const glm::dvec3 tangent = direction - normal * glm::dot(direction, normal);
   const double sineIn = glm::length(tangent);
-  const double sineOut = sineIn * this->exterior / this->interior;
+  const double sineOut = sineIn * this->Exterior / this->Interior;
   if (sineOut > 1.0 || glm::dot(direction, normal) > 0.0)
   {
     return {};
@@ -88,7 +88,7 @@ std::optional<glm::dvec3> AnalyticMembrane::Refract(
 std::vector<glm::dvec3> AnalyticMembrane::FindSightPoints(
   const glm::dvec3& eye, const glm::dvec3& point) const
 {
-  return this->sphereRadius > 0.0 ? this->FindOnSphere(eye, point) : this->FindOnPlane(eye, point);
+  return this->SphereRadius > 0.0 ? this->FindOnSphere(eye, point) : this->FindOnPlane(eye, point);
 }
 
 //------------------------------------------------------------------------------
@@ -109,8 +109,8 @@ std::vector<glm::dvec3> AnalyticMembrane::FindOnPlane(
   // Fermat's derivative: rises with x, negative at 0, positive at the far end.
   const auto residual = [this, &eye, &point, distance](double x)
   {
-    return this->exterior * x / std::hypot(x, eye.y) -
-      this->interior * (distance - x) / std::hypot(distance - x, point.y);
+    return this->Exterior * x / std::hypot(x, eye.y) -
+      this->Interior * (distance - x) / std::hypot(distance - x, point.y);
   };
   return { foot + across * (Bisect(residual, 0.0, distance) / distance) };
 }
@@ -120,7 +120,7 @@ std::vector<glm::dvec3> AnalyticMembrane::FindOnSphere(
   const glm::dvec3& eye, const glm::dvec3& point) const
 {
   // Eye, point and every sight point lie in one plane through the centre.
-  const glm::dvec3 centre(0.0, this->sphereRadius, 0.0);
+  const glm::dvec3 centre(0.0, this->SphereRadius, 0.0);
   const glm::dvec3 first = glm::normalize(eye - centre);
   glm::dvec3 across = (point - centre) - first * glm::dot(point - centre, first);
   if (glm::length(across) <= 1e-14 * glm::length(point - centre))
@@ -130,13 +130,13 @@ std::vector<glm::dvec3> AnalyticMembrane::FindOnSphere(
   }
   const glm::dvec3 second = glm::normalize(across);
   const auto at = [this, &centre, &first, &second](double angle)
-  { return centre + this->sphereRadius * (std::cos(angle) * first + std::sin(angle) * second); };
+  { return centre + this->SphereRadius * (std::cos(angle) * first + std::sin(angle) * second); };
   const auto residual = [this, &eye, &point, &first, &second, &at](double angle)
   {
     const glm::dvec3 tangent = -std::sin(angle) * first + std::cos(angle) * second;
     const glm::dvec3 s = at(angle);
-    return this->exterior * glm::dot(glm::normalize(s - eye), tangent) -
-      this->interior * glm::dot(glm::normalize(point - s), tangent);
+    return this->Exterior * glm::dot(glm::normalize(s - eye), tangent) -
+      this->Interior * glm::dot(glm::normalize(point - s), tangent);
   };
 
   std::vector<glm::dvec3> found;
@@ -149,7 +149,7 @@ std::vector<glm::dvec3> AnalyticMembrane::FindOnSphere(
     {
       const glm::dvec3 s = at(Bisect(residual, low, high));
       const glm::dvec3 normal = this->GetNormal(s);
-      if (s.y <= this->sphereRadius && glm::dot(s - eye, normal) < 0.0 &&
+      if (s.y <= this->SphereRadius && glm::dot(s - eye, normal) < 0.0 &&
         glm::dot(point - s, normal) < 0.0)
       {
         found.push_back(s);
@@ -176,7 +176,7 @@ std::optional<glm::dvec3> AnalyticMembrane::FindTruePoint(
     return {};
   }
   const double apparent = glm::length(virtualVertex - *sightPoint);
-  return *sightPoint + *refracted * (apparent * this->interior / this->exterior);
+  return *sightPoint + *refracted * (apparent * this->Interior / this->Exterior);
 }
 
 }

@@ -17,23 +17,25 @@ namespace meniscus::reference
 
 struct AnalyticMembrane
 {
-  double sphereRadius = 0.0; ///< 0: the plane
-  double exterior = 1.0;     ///< index above
-  double interior = 1.0;     ///< index below
+  double SphereRadius = 0.0; ///< 0: the plane
+  double Exterior = 1.0;     ///< index above
+  double Interior = 1.0;     ///< index below
 
   glm::dvec3 GetNormal(const glm::dvec3& onSurface) const;
 
-  /// Where the ray from the eye leaves the exterior; nothing if it misses or comes from behind.
+  /** Where the ray from the eye leaves the exterior; nothing if it misses or comes from behind. */
   std::optional<glm::dvec3> Intersect(const glm::dvec3& eye, const glm::dvec3& direction) const;
 
-  /// Direction of the refracted ray; nothing under total internal reflection.
+  /** Direction of the refracted ray; nothing under total internal reflection. */
   std::optional<glm::dvec3> Refract(const glm::dvec3& direction, const glm::dvec3& onSurface) const;
 
-  /// Every sight point of `point`, by bracketed roots in the plane that holds eye, point and axis.
-  /// Roots closer than 1/20000 of the scanned arc may be missed.
+  /**
+   * Every sight point of `point`, by bracketed roots in the plane that holds eye, point and axis.
+   * Roots closer than 1/20000 of the scanned arc may be missed.
+   */
   std::vector<glm::dvec3> FindSightPoints(const glm::dvec3& eye, const glm::dvec3& point) const;
 
-  /// The point behind the surface that is drawn at `virtualVertex` (Eq. 2.4 undone exactly).
+  /** The point behind the surface that is drawn at `virtualVertex` (Eq. 2.4 undone exactly). */
   std::optional<glm::dvec3> FindTruePoint(
     const glm::dvec3& eye, const glm::dvec3& virtualVertex) const;
 

@@ -15,19 +15,19 @@ namespace
 
 struct Fermat
 {
-  const HeightField& field;
-  const glm::dvec3& eye;
-  const glm::dvec3& point;
+  const HeightField& Field;
+  const glm::dvec3& Eye;
+  const glm::dvec3& Point;
 
   // Derivatives of the optical path by x and z.
   std::array<double, 2> operator()(double x, double z) const
   {
     double dx = 0.0;
     double dz = 0.0;
-    this->field.GetSlopes(x, z, dx, dz);
-    const glm::dvec3 s(x, this->field.GetHeight(x, z), z);
-    const glm::dvec3 v = this->field.exterior * glm::normalize(s - this->eye) -
-      this->field.interior * glm::normalize(this->point - s);
+    this->Field.GetSlopes(x, z, dx, dz);
+    const glm::dvec3 s(x, this->Field.GetHeight(x, z), z);
+    const glm::dvec3 v = this->Field.Exterior * glm::normalize(s - this->Eye) -
+      this->Field.Interior * glm::normalize(this->Point - s);
     return { v.x + dx * v.y, v.z + dz * v.y };
   }
 
@@ -36,7 +36,7 @@ struct Fermat
   {
     const double x0 = x;
     const double z0 = z;
-    const double h = 1e-5 * this->field.side;
+    const double h = 1e-5 * this->Field.Side;
     for (int i = 0; i < 60; ++i)
     {
       const auto f = (*this)(x, z);
@@ -51,7 +51,7 @@ struct Fermat
       const double det = a * d - b * c;
       const double mx = (-f[0] * d + f[1] * b) / det;
       const double mz = (-f[1] * a + f[0] * c) / det;
-      if (!(std::hypot(mx, mz) < 1e3 * this->field.side))
+      if (!(std::hypot(mx, mz) < 1e3 * this->Field.Side))
       {
         return false;
       }
@@ -61,7 +61,7 @@ struct Fermat
       {
         return false;
       }
-      if (std::hypot(mx, mz) < 1e-12 * this->field.side)
+      if (std::hypot(mx, mz) < 1e-12 * this->Field.Side)
       {
         return true;
       }
@@ -75,21 +75,21 @@ struct Fermat
 //------------------------------------------------------------------------------
 double HeightField::GetHeight(double x, double z) const
 {
-  return this->amplitude *
-    (this->shape == Shape::Waves ? std::sin(this->k * x) * std::sin(this->k * z)
-                                 : std::exp(-this->k * this->k * (x * x + z * z)));
+  return this->Amplitude *
+    (this->Shape == Shape::Waves ? std::sin(this->K * x) * std::sin(this->K * z)
+                                 : std::exp(-this->K * this->K * (x * x + z * z)));
 }
 
 //------------------------------------------------------------------------------
 void HeightField::GetSlopes(double x, double z, double& dx, double& dz) const
 {
-  if (this->shape == Shape::Waves)
+  if (this->Shape == Shape::Waves)
   {
-    dx = this->amplitude * this->k * std::cos(this->k * x) * std::sin(this->k * z);
-    dz = this->amplitude * this->k * std::sin(this->k * x) * std::cos(this->k * z);
+    dx = this->Amplitude * this->K * std::cos(this->K * x) * std::sin(this->K * z);
+    dz = this->Amplitude * this->K * std::sin(this->K * x) * std::cos(this->K * z);
     return;
   }
-  const double factor = -2.0 * this->k * this->k * this->GetHeight(x, z);
+  const double factor = -2.0 * this->K * this->K * this->GetHeight(x, z);
   dx = factor * x;
   dz = factor * z;
 }
@@ -106,14 +106,14 @@ glm::dvec3 HeightField::GetNormal(double x, double z) const
 //------------------------------------------------------------------------------
 MembraneMesh HeightField::MakeMesh(int cells) const
 {
-  MembraneMesh mesh = MakeSquare(this->side, cells, 0.0);
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  MembraneMesh mesh = MakeSquare(this->Side, cells, 0.0);
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
-    const double x = mesh.points[i];
-    const double z = mesh.points[i + 2];
-    mesh.points[i + 1] = this->GetHeight(x, z);
+    const double x = mesh.Points[i];
+    const double z = mesh.Points[i + 2];
+    mesh.Points[i + 1] = this->GetHeight(x, z);
     const glm::dvec3 normal = this->GetNormal(x, z);
-    std::copy(&normal.x, &normal.x + 3, mesh.normals.begin() + static_cast<std::ptrdiff_t>(i));
+    std::copy(&normal.x, &normal.x + 3, mesh.Normals.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return mesh;
 }
@@ -125,8 +125,8 @@ std::vector<glm::dvec3> HeightField::FindSightPoints(
   const Fermat fermat{ *this, eye, point };
   // One node more on each side: a cell's search looks at its neighbours' nodes.
   const int nodes = grid + 3;
-  const double step = this->side / grid;
-  const auto at = [this, step](int i) { return -0.5 * this->side + step * (i - 1); };
+  const double step = this->Side / grid;
+  const auto at = [this, step](int i) { return -0.5 * this->Side + step * (i - 1); };
   std::vector<std::array<double, 2>> values(static_cast<std::size_t>(nodes) * nodes);
   for (int j = 0; j < nodes; ++j)
   {
@@ -157,7 +157,7 @@ std::vector<glm::dvec3> HeightField::FindSightPoints(
       double x = at(i) + 0.5 * step;
       double z = at(j) + 0.5 * step;
       if (!both || !fermat.Solve(x, z, 4.0 * step) ||
-        std::max(std::fabs(x), std::fabs(z)) > 0.5 * this->side)
+        std::max(std::fabs(x), std::fabs(z)) > 0.5 * this->Side)
       {
         continue;
       }
@@ -197,7 +197,7 @@ std::optional<glm::dvec3> HeightField::Refract(
   const glm::dvec3 sight = glm::normalize(onSurface - eye);
   const glm::dvec3 normal = this->GetNormal(onSurface.x, onSurface.z);
   const glm::dvec3 tangent =
-    (sight - normal * glm::dot(sight, normal)) * (this->exterior / this->interior);
+    (sight - normal * glm::dot(sight, normal)) * (this->Exterior / this->Interior);
   const double squared = 1.0 - glm::dot(tangent, tangent);
   if (squared < 0.0)
   {

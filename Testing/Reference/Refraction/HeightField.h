@@ -25,30 +25,32 @@ struct HeightField
     Waves, ///< amplitude sin(k x) sin(k z)
     Dome   ///< amplitude exp(-(k k (x x + z z))), convex to the eye for a positive amplitude
   };
-  Shape shape = Shape::Waves;
-  double side = 200.0;
-  double amplitude = 0.0;
-  double k = 0.0;
-  double exterior = 1.0;
-  double interior = 1.333;
+  Shape Shape = Shape::Waves;
+  double Side = 200.0;
+  double Amplitude = 0.0;
+  double K = 0.0;
+  double Exterior = 1.0;
+  double Interior = 1.333;
 
   double GetHeight(double x, double z) const;
-  /// df / dx and df / dz.
+  /** df / dx and df / dz. */
   void GetSlopes(double x, double z, double& dx, double& dz) const;
   glm::dvec3 GetNormal(double x, double z) const;
 
-  /// `cells` x `cells` x 2 facets with exact normals.
+  /** `cells` x `cells` x 2 facets with exact normals. */
   MembraneMesh MakeMesh(int cells) const;
 
-  /// Every sight point of `point`. Pairs closer than about 1 / `grid` of the side may be missed.
+  /** Every sight point of `point`. Pairs closer than about 1 / `grid` of the side may be missed. */
   std::vector<glm::dvec3> FindSightPoints(
     const glm::dvec3& eye, const glm::dvec3& point, int grid = 200) const;
 
-  /// Where the sight ray of `direction` meets the surface, starting near `distance`.
+  /** Where the sight ray of `direction` meets the surface, starting near `distance`. */
   glm::dvec3 Intersect(const glm::dvec3& eye, const glm::dvec3& direction, double distance) const;
 
-  /// The point at `length` behind `onSurface` on the refracted ray, by n1 sin a = n2 sin b; nothing
-  /// under total internal reflection.
+  /**
+   * The point at `length` behind `onSurface` on the refracted ray, by n1 sin a = n2 sin b; nothing
+   * under total internal reflection.
+   */
   std::optional<glm::dvec3> Refract(
     const glm::dvec3& eye, const glm::dvec3& onSurface, double length) const;
 };

@@ -15,60 +15,60 @@ namespace meniscus::reference
 
 struct Interval
 {
-  double low = 0.0;
-  double high = 0.0;
+  double Low = 0.0;
+  double High = 0.0;
 
   Interval() = default;
   Interval(double value) // NOLINT: a number is an interval
-    : low(value)
-    , high(value)
+    : Low(value)
+    , High(value)
   {
   }
   Interval(double from, double to)
-    : low(from)
-    , high(to)
+    : Low(from)
+    , High(to)
   {
   }
 
-  bool HasZero() const { return this->low <= 0.0 && this->high >= 0.0; }
-  double GetMagnitude() const { return std::max(std::fabs(this->low), std::fabs(this->high)); }
+  bool HasZero() const { return this->Low <= 0.0 && this->High >= 0.0; }
+  double GetMagnitude() const { return std::max(std::fabs(this->Low), std::fabs(this->High)); }
   double GetMignitude() const
   {
-    return this->HasZero() ? 0.0 : std::min(std::fabs(this->low), std::fabs(this->high));
+    return this->HasZero() ? 0.0 : std::min(std::fabs(this->Low), std::fabs(this->High));
   }
 };
 
 inline Interval operator+(const Interval& a, const Interval& b)
 {
-  return { a.low + b.low, a.high + b.high };
+  return { a.Low + b.Low, a.High + b.High };
 }
 
 inline Interval operator-(const Interval& a, const Interval& b)
 {
-  return { a.low - b.high, a.high - b.low };
+  return { a.Low - b.High, a.High - b.Low };
 }
 
 inline Interval operator-(const Interval& a)
 {
-  return { -a.high, -a.low };
+  return { -a.High, -a.Low };
 }
 
 inline Interval operator*(double s, const Interval& a)
 {
-  return s >= 0.0 ? Interval(s * a.low, s * a.high) : Interval(s * a.high, s * a.low);
+  return s >= 0.0 ? Interval(s * a.Low, s * a.High) : Interval(s * a.High, s * a.Low);
 }
 
 inline Interval operator*(const Interval& a, const Interval& b)
 {
-  const double p[4] = { a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high };
+  const double p[4] = { a.Low * b.Low, a.Low * b.High, a.High * b.Low, a.High * b.High };
   return { std::min(std::min(p[0], p[1]), std::min(p[2], p[3])),
     std::max(std::max(p[0], p[1]), std::max(p[2], p[3])) };
 }
 
-/// `b` must be positive.
+/** `b` must be positive. */
 inline Interval operator/(const Interval& a, const Interval& b)
 {
-  return a * Interval(1.0 / b.high, 1.0 / b.low);
+  return a * Interval(1.0 / b.High, 1.0 / b.Low);
 }
 
 // The same functions for numbers, so that a formula can be written once for both.
@@ -92,7 +92,7 @@ inline double Root(double a)
 
 inline Interval Root(const Interval& a)
 {
-  return { std::sqrt(std::max(a.low, 0.0)), std::sqrt(std::max(a.high, 0.0)) };
+  return { std::sqrt(std::max(a.Low, 0.0)), std::sqrt(std::max(a.High, 0.0)) };
 }
 
 inline double Exponential(double a)
@@ -102,7 +102,7 @@ inline double Exponential(double a)
 
 inline Interval Exponential(const Interval& a)
 {
-  return { std::exp(a.low), std::exp(a.high) };
+  return { std::exp(a.Low), std::exp(a.High) };
 }
 
 inline double Cosine(double a)
@@ -113,18 +113,18 @@ inline double Cosine(double a)
 inline Interval Cosine(const Interval& a)
 {
   constexpr double pi = 3.14159265358979323846;
-  if (!(a.high - a.low < 2.0 * pi))
+  if (!(a.High - a.Low < 2.0 * pi))
   {
     return { -1.0, 1.0 };
   }
   // Multiples of pi inside are the extremes.
-  const double first = std::ceil(a.low / pi);
-  const double last = std::floor(a.high / pi);
-  const double ends[2] = { std::cos(a.low), std::cos(a.high) };
+  const double first = std::ceil(a.Low / pi);
+  const double last = std::floor(a.High / pi);
+  const double ends[2] = { std::cos(a.Low), std::cos(a.High) };
   Interval result(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
   for (double k = first; k <= last; k += 1.0)
   {
-    (std::fmod(k, 2.0) == 0.0 ? result.high : result.low) = std::fmod(k, 2.0) == 0.0 ? 1.0 : -1.0;
+    (std::fmod(k, 2.0) == 0.0 ? result.High : result.Low) = std::fmod(k, 2.0) == 0.0 ? 1.0 : -1.0;
   }
   return result;
 }

@@ -59,34 +59,34 @@ MembraneMesh MakeGrid(double side, int cells, const AddVertex& add)
 //------------------------------------------------------------------------------
 void MembraneMesh::AddPoint(const glm::dvec3& point, const glm::dvec3& normal)
 {
-  this->points.insert(this->points.end(), { point.x, point.y, point.z });
-  this->normals.insert(this->normals.end(), { normal.x, normal.y, normal.z });
+  this->Points.insert(this->Points.end(), { point.x, point.y, point.z });
+  this->Normals.insert(this->Normals.end(), { normal.x, normal.y, normal.z });
 }
 
 //------------------------------------------------------------------------------
 void MembraneMesh::AddTriangle(std::int64_t a, std::int64_t b, std::int64_t c)
 {
-  this->triangles.insert(this->triangles.end(), { a, b, c });
+  this->Triangles.insert(this->Triangles.end(), { a, b, c });
 }
 
 //------------------------------------------------------------------------------
 MembraneInput MembraneMesh::AsInput(bool withNormals) const
 {
   MembraneInput input;
-  input.points = this->points.data();
-  input.numberOfPoints = this->points.size() / 3;
-  input.triangles = this->triangles.data();
-  input.numberOfTriangles = this->triangles.size() / 3;
-  input.normals = withNormals ? this->normals.data() : nullptr;
+  input.Points = this->Points.data();
+  input.NumberOfPoints = this->Points.size() / 3;
+  input.Triangles = this->Triangles.data();
+  input.NumberOfTriangles = this->Triangles.size() / 3;
+  input.Normals = withNormals ? this->Normals.data() : nullptr;
   return input;
 }
 
 //------------------------------------------------------------------------------
 void MembraneMesh::Translate(const glm::dvec3& offset)
 {
-  for (std::size_t i = 0; i < this->points.size(); ++i)
+  for (std::size_t i = 0; i < this->Points.size(); ++i)
   {
-    this->points[i] += offset[static_cast<int>(i % 3)];
+    this->Points[i] += offset[static_cast<int>(i % 3)];
   }
 }
 

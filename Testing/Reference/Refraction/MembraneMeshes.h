@@ -19,31 +19,35 @@ namespace meniscus::reference
 
 struct MembraneMesh
 {
-  std::vector<double> points;
-  std::vector<double> normals;
-  std::vector<std::int64_t> triangles;
+  std::vector<double> Points;
+  std::vector<double> Normals;
+  std::vector<std::int64_t> Triangles;
 
   void AddPoint(const glm::dvec3& point, const glm::dvec3& normal);
   void AddTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
-  std::size_t GetNumberOfFacets() const { return this->triangles.size() / 3; }
-  /// Views of the arrays; with or without the normals.
+  std::size_t GetNumberOfFacets() const { return this->Triangles.size() / 3; }
+  /** Views of the arrays; with or without the normals. */
   MembraneInput AsInput(bool withNormals = true) const;
   void Translate(const glm::dvec3& offset);
 };
 
-/// A disc whose ring k = 1 .. rings has 2^(k+1) vertices at radius k / rings: 125 vertices and 184
-/// facets for five rings. `sphereRadius` > 0 conforms it to a sphere of that radius, concave to the
-/// eye; 0 leaves it flat.
+/**
+ * A disc whose ring k = 1 .. rings has 2^(k+1) vertices at radius k / rings: 125 vertices and 184
+ * facets for five rings. `sphereRadius` > 0 conforms it to a sphere of that radius, concave to the
+ * eye; 0 leaves it flat.
+ */
 MembraneMesh MakeDisc(double radius, int rings, double sphereRadius);
 
-/// A square of `cells` x `cells` x 2 facets about the axis, flat or conformed to a sphere.
+/** A square of `cells` x `cells` x 2 facets about the axis, flat or conformed to a sphere. */
 MembraneMesh MakeSquare(double side, int cells, double sphereRadius);
 
-/// A square with the height of two crossed sine waves of `amplitude` and `waves` periods.
+/** A square with the height of two crossed sine waves of `amplitude` and `waves` periods. */
 MembraneMesh MakeWaves(double side, int cells, double amplitude, double waves);
 
-/// A square of random heights in [-roughness, roughness] and random normals within `tilt` (tangent)
-/// of the axis. The same seed gives the same mesh.
+/**
+ * A square of random heights in [-roughness, roughness] and random normals within `tilt` (tangent)
+ * of the axis. The same seed gives the same mesh.
+ */
 MembraneMesh MakeRandom(double side, int cells, double roughness, double tilt, unsigned seed);
 
 }

@@ -53,63 +53,63 @@ Triple<double> Direction(const Triple<double>& a, double length)
 Triple<Interval> Direction(const Triple<Interval>& a, const Interval& length)
 {
   const Interval any(-1.0, 1.0);
-  if (!(length.low > 0.0))
+  if (!(length.Low > 0.0))
   {
     return { any, any, any };
   }
   Triple<Interval> result = { a[0] / length, a[1] / length, a[2] / length };
   for (Interval& c : result)
   {
-    c = { std::max(c.low, -1.0), std::min(c.high, 1.0) };
+    c = { std::max(c.Low, -1.0), std::min(c.High, 1.0) };
   }
   return result;
 }
 
-/// F, its derivatives, and what bounds the effect of the surface's error on it.
+/** F, its derivatives, and what bounds the effect of the surface's error on it. */
 template <typename T>
 struct Equation
 {
-  T f[2];
-  T by[2][2]; ///< by[i][k]: of F_i by x (0) or z (1)
-  T away;     ///< |a|
-  T below;    ///< |p|
-  double perPosition;
-  double perNormal;
+  T F[2];
+  T By[2][2]; ///< by[i][k]: of F_i by x (0) or z (1)
+  T Away;     ///< |a|
+  T Below;    ///< |p|
+  double PerPosition;
+  double PerNormal;
 };
 
 template <typename T>
 Equation<T> Evaluate(const HeightJet<T>& jet, const T& x, const T& z, const glm::dvec3& eye,
   const glm::dvec3& point, double exterior, double interior)
 {
-  const Triple<T> a = { x - T(eye.x), jet.f - T(eye.y), z - T(eye.z) };
-  const Triple<T> p = { T(point.x) - x, T(point.y) - jet.f, T(point.z) - z };
-  const Triple<T> t[2] = { { T(1.0), jet.x, T(0.0) }, { T(0.0), jet.z, T(1.0) } };
+  const Triple<T> a = { x - T(eye.x), jet.F - T(eye.y), z - T(eye.z) };
+  const Triple<T> p = { T(point.x) - x, T(point.y) - jet.F, T(point.z) - z };
+  const Triple<T> t[2] = { { T(1.0), jet.X, T(0.0) }, { T(0.0), jet.Z, T(1.0) } };
   Equation<T> e;
-  e.away = Length(a);
-  e.below = Length(p);
-  const Triple<T> da = Direction(a, e.away);
-  const Triple<T> dp = Direction(p, e.below);
+  e.Away = Length(a);
+  e.Below = Length(p);
+  const Triple<T> da = Direction(a, e.Away);
+  const Triple<T> dp = Direction(p, e.Below);
   Triple<T> h;
   for (std::size_t c = 0; c < 3; ++c)
   {
-    h[c] = exterior * (e.below * a[c]) - interior * (e.away * p[c]);
+    h[c] = exterior * (e.Below * a[c]) - interior * (e.Away * p[c]);
   }
-  const T second[2][2] = { { jet.xx, jet.xz }, { jet.xz, jet.zz } };
-  const T lengths = exterior * e.below + interior * e.away;
+  const T second[2][2] = { { jet.Xx, jet.Xz }, { jet.Xz, jet.Zz } };
+  const T lengths = exterior * e.Below + interior * e.Away;
   for (std::size_t i = 0; i < 2; ++i)
   {
-    e.f[i] = Dot(h, t[i]);
+    e.F[i] = Dot(h, t[i]);
     for (std::size_t k = 0; k < 2; ++k)
     {
       // dh = (n1 |p| + n2 |a|) dS - n1 a (dp.dS) - n2 p (da.dS)
-      e.by[i][k] = lengths * Dot(t[k], t[i]) - exterior * (Dot(a, t[i]) * Dot(dp, t[k])) -
+      e.By[i][k] = lengths * Dot(t[k], t[i]) - exterior * (Dot(a, t[i]) * Dot(dp, t[k])) -
         interior * (Dot(p, t[i]) * Dot(da, t[k])) + h[1] * second[i][k];
     }
   }
   const double tangent = std::max(GetMagnitude(Length(t[0])), GetMagnitude(Length(t[1])));
-  e.perPosition =
-    2.0 * tangent * (exterior + interior) * (GetMagnitude(e.away) + GetMagnitude(e.below));
-  e.perNormal = tangent * GetMagnitude(Length(h));
+  e.PerPosition =
+    2.0 * tangent * (exterior + interior) * (GetMagnitude(e.Away) + GetMagnitude(e.Below));
+  e.PerNormal = tangent * GetMagnitude(Length(h));
   return e;
 }
 
@@ -118,9 +118,9 @@ Equation<T> Evaluate(const HeightJet<T>& jet, const T& x, const T& z, const glm:
 //------------------------------------------------------------------------------
 bool OracleAnswer::IsUncertain(double x, double z, double slack) const
 {
-  for (const OracleBox& box : this->uncertain)
+  for (const OracleBox& box : this->Uncertain)
   {
-    if (std::fabs(x - box.x) <= box.half + slack && std::fabs(z - box.z) <= box.half + slack)
+    if (std::fabs(x - box.X) <= box.Half + slack && std::fabs(z - box.Z) <= box.Half + slack)
     {
       return true;
     }
@@ -140,15 +140,15 @@ public:
 
   OracleAnswer Run()
   {
-    const double side = this->Oracle.Surface.side;
+    const double side = this->Oracle.Surface.Side;
     // A little beyond the border, where the mesh's own border may be.
-    const double half = 0.5 * side * (1.0 + 1e-3) + 4.0 * this->Oracle.Error.position;
+    const double half = 0.5 * side * (1.0 + 1e-3) + 4.0 * this->Oracle.Error.Position;
     std::vector<OracleBox> stack = { { 0.0, 0.0, half } };
     for (int boxes = 0; !stack.empty(); ++boxes)
     {
       if (boxes >= MostBoxes)
       {
-        this->Answer.complete = false;
+        this->Answer.Complete = false;
         break;
       }
       const OracleBox box = stack.back();
@@ -157,11 +157,11 @@ public:
       {
         continue;
       }
-      const double quarter = 0.5 * box.half;
+      const double quarter = 0.5 * box.Half;
       for (int child = 0; child < 4; ++child)
       {
-        stack.push_back({ box.x + (child & 1 ? quarter : -quarter),
-          box.z + (child & 2 ? quarter : -quarter), quarter });
+        stack.push_back({ box.X + (child & 1 ? quarter : -quarter),
+          box.Z + (child & 2 ? quarter : -quarter), quarter });
       }
     }
     this->Sort();
@@ -173,7 +173,7 @@ private:
 
   double GetSlack(double perPosition, double perNormal) const
   {
-    return perPosition * this->Oracle.Error.position + perNormal * this->Oracle.Error.normal;
+    return perPosition * this->Oracle.Error.Position + perNormal * this->Oracle.Error.Normal;
   }
 
   template <typename T>
@@ -191,17 +191,17 @@ private:
   // False if the box must be divided.
   bool IsSettled(const OracleBox& box)
   {
-    const Interval x(box.x - box.half, box.x + box.half);
-    const Interval z(box.z - box.half, box.z + box.half);
+    const Interval x(box.X - box.Half, box.X + box.Half);
+    const Interval z(box.Z - box.Half, box.Z + box.Half);
     const Equation<Interval> over = this->EvaluateAt(this->Oracle.Surface.Over(x, z), x, z);
-    const Equation<double> middle = this->EvaluateAt(box.x, box.z);
-    const double slack = this->GetSlack(over.perPosition, over.perNormal);
+    const Equation<double> middle = this->EvaluateAt(box.X, box.Z);
+    const double slack = this->GetSlack(over.PerPosition, over.PerNormal);
     double widest = 0.0;
     for (int i = 0; i < 2; ++i)
     {
-      const double reach = box.half * (over.by[i][0].GetMagnitude() + over.by[i][1].GetMagnitude());
+      const double reach = box.Half * (over.By[i][0].GetMagnitude() + over.By[i][1].GetMagnitude());
       widest = std::max(widest, reach);
-      if (std::fabs(middle.f[i]) > reach + slack || over.f[i].GetMignitude() > slack)
+      if (std::fabs(middle.F[i]) > reach + slack || over.F[i].GetMignitude() > slack)
       {
         return true;
       }
@@ -216,18 +216,18 @@ private:
       double radius[2];
       for (int i = 0; i < 2; ++i)
       {
-        step[i] = -(inverse[i][0] * middle.f[0] + inverse[i][1] * middle.f[1]);
+        step[i] = -(inverse[i][0] * middle.F[0] + inverse[i][1] * middle.F[1]);
         radius[i] = (std::fabs(inverse[i][0]) + std::fabs(inverse[i][1])) * slack;
         for (int k = 0; k < 2; ++k)
         {
-          const Interval entry = inverse[i][0] * over.by[0][k] + inverse[i][1] * over.by[1][k];
+          const Interval entry = inverse[i][0] * over.By[0][k] + inverse[i][1] * over.By[1][k];
           off[i] += (entry - Interval(i == k ? 1.0 : 0.0)).GetMagnitude();
         }
       }
       for (int i = 0; i < 2; ++i)
       {
         // Krawczyk: roots are within off * half of the Newton step.
-        if (std::fabs(step[i]) > box.half * (1.0 + off[i]) + radius[i])
+        if (std::fabs(step[i]) > box.Half * (1.0 + off[i]) + radius[i])
         {
           return true;
         }
@@ -238,19 +238,19 @@ private:
         {
           return true;
         }
-        if (std::max(radius[0], radius[1]) > box.half)
+        if (std::max(radius[0], radius[1]) > box.Half)
         {
           // The root is farther away than the derivative is known, but within the error.
-          this->Answer.uncertain.push_back(box);
+          this->Answer.Uncertain.push_back(box);
           return true;
         }
       }
     }
     // Not even the error tells values in the box from zero, and the derivative is not known well
     // enough: smaller boxes would only trace the border of what is uncertain.
-    if (box.half < SmallestPart * this->Oracle.Surface.side || widest <= 3.0 * slack)
+    if (box.Half < SmallestPart * this->Oracle.Surface.Side || widest <= 3.0 * slack)
     {
-      this->Answer.uncertain.push_back(box);
+      this->Answer.Uncertain.push_back(box);
       return true;
     }
     return false;
@@ -258,11 +258,11 @@ private:
 
   static bool Invert(const Equation<double>& e, double (&inverse)[2][2])
   {
-    const double determinant = e.by[0][0] * e.by[1][1] - e.by[0][1] * e.by[1][0];
-    inverse[0][0] = e.by[1][1] / determinant;
-    inverse[0][1] = -e.by[0][1] / determinant;
-    inverse[1][0] = -e.by[1][0] / determinant;
-    inverse[1][1] = e.by[0][0] / determinant;
+    const double determinant = e.By[0][0] * e.By[1][1] - e.By[0][1] * e.By[1][0];
+    inverse[0][0] = e.By[1][1] / determinant;
+    inverse[0][1] = -e.By[0][1] / determinant;
+    inverse[1][0] = -e.By[1][0] / determinant;
+    inverse[1][1] = e.By[0][0] / determinant;
     return std::isfinite(inverse[0][0] + inverse[0][1] + inverse[1][0] + inverse[1][1]);
   }
 
@@ -270,8 +270,8 @@ private:
   // farther than the error explains.
   bool TakeRoot(const OracleBox& box)
   {
-    double x = box.x;
-    double z = box.z;
+    double x = box.X;
+    double z = box.Z;
     double inverse[2][2];
     Equation<double> e = this->EvaluateAt(x, z);
     for (int i = 0; i < 30; ++i)
@@ -280,16 +280,16 @@ private:
       {
         return false;
       }
-      const double dx = -(inverse[0][0] * e.f[0] + inverse[0][1] * e.f[1]);
-      const double dz = -(inverse[1][0] * e.f[0] + inverse[1][1] * e.f[1]);
+      const double dx = -(inverse[0][0] * e.F[0] + inverse[0][1] * e.F[1]);
+      const double dz = -(inverse[1][0] * e.F[0] + inverse[1][1] * e.F[1]);
       x += dx;
       z += dz;
       e = this->EvaluateAt(x, z);
-      if (std::max(std::fabs(x - box.x), std::fabs(z - box.z)) > 4.0 * box.half)
+      if (std::max(std::fabs(x - box.X), std::fabs(z - box.Z)) > 4.0 * box.Half)
       {
         return false;
       }
-      if (std::max(std::fabs(dx), std::fabs(dz)) < 1e-14 * this->Oracle.Surface.side)
+      if (std::max(std::fabs(dx), std::fabs(dz)) < 1e-14 * this->Oracle.Surface.Side)
       {
         break;
       }
@@ -298,12 +298,12 @@ private:
     {
       return false;
     }
-    const double slack = this->GetSlack(e.perPosition, e.perNormal);
+    const double slack = this->GetSlack(e.PerPosition, e.PerNormal);
     const double radius = 1.5 * slack *
       std::max(std::fabs(inverse[0][0]) + std::fabs(inverse[0][1]),
         std::fabs(inverse[1][0]) + std::fabs(inverse[1][1]));
-    const double outside = std::max(std::fabs(x - box.x), std::fabs(z - box.z)) - box.half;
-    if (outside > 1e-9 * box.half + 2.0 * radius)
+    const double outside = std::max(std::fabs(x - box.X), std::fabs(z - box.Z)) - box.Half;
+    if (outside > 1e-9 * box.Half + 2.0 * radius)
     {
       return false;
     }
@@ -315,15 +315,15 @@ private:
   {
     const SmoothSurface& surface = this->Oracle.Surface;
     const glm::dvec3 sight = surface.GetPoint(x, z);
-    const double same = 1e-11 * surface.side + 1e-3 * radius;
+    const double same = 1e-11 * surface.Side + 1e-3 * radius;
     for (const OracleImage& other : this->Roots)
     {
-      if (glm::length(other.sight - sight) < same)
+      if (glm::length(other.Sight - sight) < same)
       {
         return;
       }
     }
-    const double determinant = e.by[0][0] * e.by[1][1] - e.by[0][1] * e.by[1][0];
+    const double determinant = e.By[0][0] * e.By[1][1] - e.By[0][1] * e.By[1][0];
     this->Roots.push_back({ sight, radius, determinant < 0.0 ? -1 : 1 });
   }
 
@@ -332,18 +332,18 @@ private:
   {
     const SmoothSurface& surface = this->Oracle.Surface;
     const SurfaceError& error = this->Oracle.Error;
-    const HeightJet<double> jet = surface.At(root.sight.x, root.sight.z);
-    const double bend = std::fabs(jet.xx) + std::fabs(jet.xz) + std::fabs(jet.zz);
-    const double turn = error.normal + 2.0 * bend * root.radius;
-    const double band = 2.0 * root.radius + 4.0 * error.position + 1e-9 * surface.side;
-    const glm::dvec3 normal = surface.GetNormal(root.sight.x, root.sight.z);
+    const HeightJet<double> jet = surface.At(root.Sight.x, root.Sight.z);
+    const double bend = std::fabs(jet.Xx) + std::fabs(jet.Xz) + std::fabs(jet.Zz);
+    const double turn = error.Normal + 2.0 * bend * root.Radius;
+    const double band = 2.0 * root.Radius + 4.0 * error.Position + 1e-9 * surface.Side;
+    const glm::dvec3 normal = surface.GetNormal(root.Sight.x, root.Sight.z);
     const double beyond =
-      std::max(std::fabs(root.sight.x), std::fabs(root.sight.z)) - 0.5 * surface.side;
+      std::max(std::fabs(root.Sight.x), std::fabs(root.Sight.z)) - 0.5 * surface.Side;
     int result = beyond < -band ? 1 : (beyond > band ? -1 : 0);
-    for (const glm::dvec3& way : { root.sight - this->Oracle.Eye, this->Point - root.sight })
+    for (const glm::dvec3& way : { root.Sight - this->Oracle.Eye, this->Point - root.Sight })
     {
       const double along = glm::dot(way, normal);
-      const double margin = 2.0 * (root.radius + error.position) + glm::length(way) * turn;
+      const double margin = 2.0 * (root.Radius + error.Position) + glm::length(way) * turn;
       const int side = along < -margin ? 1 : (along > margin ? -1 : 0);
       result = std::min(result, side);
     }
@@ -357,12 +357,12 @@ private:
     for (std::size_t i = 0; i < this->Roots.size(); ++i)
     {
       const OracleImage& root = this->Roots[i];
-      doubtful[i] = this->Answer.IsUncertain(root.sight.x, root.sight.z, 2.0 * root.radius);
+      doubtful[i] = this->Answer.IsUncertain(root.Sight.x, root.Sight.z, 2.0 * root.Radius);
       for (std::size_t j = 0; j < this->Roots.size(); ++j)
       {
         const OracleImage& other = this->Roots[j];
         doubtful[i] = doubtful[i] ||
-          (i != j && glm::length(root.sight - other.sight) < 2.0 * (root.radius + other.radius));
+          (i != j && glm::length(root.Sight - other.Sight) < 2.0 * (root.Radius + other.Radius));
       }
     }
     for (std::size_t i = 0; i < this->Roots.size(); ++i)
@@ -371,12 +371,12 @@ private:
       const int kind = this->Classify(root);
       if (kind == 1 && !doubtful[i])
       {
-        this->Answer.images.push_back(root);
+        this->Answer.Images.push_back(root);
       }
       else if (kind >= 0)
       {
-        this->Answer.uncertain.push_back(
-          { root.sight.x, root.sight.z, 4.0 * root.radius + 4.0 * this->Oracle.Error.position });
+        this->Answer.Uncertain.push_back(
+          { root.Sight.x, root.Sight.z, 4.0 * root.Radius + 4.0 * this->Oracle.Error.Position });
       }
     }
   }

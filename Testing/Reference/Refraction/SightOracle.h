@@ -26,34 +26,36 @@
 namespace meniscus::reference
 {
 
-/// How far a mesh's surface may be from the smooth one, and its unit normals from the smooth one's.
-/// The first covers rounding of eye and point, too.
+/**
+ * How far a mesh's surface may be from the smooth one, and its unit normals from the smooth one's.
+ * The first covers rounding of eye and point, too.
+ */
 struct SurfaceError
 {
-  double position = 0.0;
-  double normal = 0.0;
+  double Position = 0.0;
+  double Normal = 0.0;
 };
 
 struct OracleImage
 {
-  glm::dvec3 sight;
-  double radius;
-  int orientation; ///< +1, or -1 where the image is mirrored
+  glm::dvec3 Sight;
+  double Radius;
+  int Orientation; ///< +1, or -1 where the image is mirrored
 };
 
-/// Where there may be any number of images, in x and z.
+/** Where there may be any number of images, in x and z. */
 struct OracleBox
 {
-  double x;
-  double z;
-  double half;
+  double X;
+  double Z;
+  double Half;
 };
 
 struct OracleAnswer
 {
-  std::vector<OracleImage> images;
-  std::vector<OracleBox> uncertain;
-  bool complete = true; ///< false: given up after too many boxes
+  std::vector<OracleImage> Images;
+  std::vector<OracleBox> Uncertain;
+  bool Complete = true; ///< false: given up after too many boxes
 
   bool IsUncertain(double x, double z, double slack) const;
 };

@@ -15,30 +15,30 @@ namespace
 template <typename T>
 void AddWave(HeightJet<T>& jet, const SmoothSurface::Wave& wave, const T& x, const T& z)
 {
-  const T phase = wave.kx * x + wave.kz * z + T(wave.phase);
-  const T sine = wave.amplitude * Sine(phase);
-  const T cosine = wave.amplitude * Cosine(phase);
-  jet.f = jet.f + sine;
-  jet.x = jet.x + wave.kx * cosine;
-  jet.z = jet.z + wave.kz * cosine;
-  jet.xx = jet.xx - (wave.kx * wave.kx) * sine;
-  jet.xz = jet.xz - (wave.kx * wave.kz) * sine;
-  jet.zz = jet.zz - (wave.kz * wave.kz) * sine;
+  const T phase = wave.Kx * x + wave.Kz * z + T(wave.Phase);
+  const T sine = wave.Amplitude * Sine(phase);
+  const T cosine = wave.Amplitude * Cosine(phase);
+  jet.F = jet.F + sine;
+  jet.X = jet.X + wave.Kx * cosine;
+  jet.Z = jet.Z + wave.Kz * cosine;
+  jet.Xx = jet.Xx - (wave.Kx * wave.Kx) * sine;
+  jet.Xz = jet.Xz - (wave.Kx * wave.Kz) * sine;
+  jet.Zz = jet.Zz - (wave.Kz * wave.Kz) * sine;
 }
 
 template <typename T>
 void AddHill(HeightJet<T>& jet, const SmoothSurface::Hill& hill, const T& x, const T& z)
 {
-  const T dx = x - T(hill.centreX);
-  const T dz = z - T(hill.centreZ);
-  const double s = hill.k * hill.k;
-  const T f = hill.amplitude * Exponential((-s) * (Square(dx) + Square(dz)));
-  jet.f = jet.f + f;
-  jet.x = jet.x + (-2.0 * s) * (f * dx);
-  jet.z = jet.z + (-2.0 * s) * (f * dz);
-  jet.xx = jet.xx + (2.0 * s) * (f * ((2.0 * s) * Square(dx) - T(1.0)));
-  jet.xz = jet.xz + (4.0 * s * s) * (f * (dx * dz));
-  jet.zz = jet.zz + (2.0 * s) * (f * ((2.0 * s) * Square(dz) - T(1.0)));
+  const T dx = x - T(hill.CentreX);
+  const T dz = z - T(hill.CentreZ);
+  const double s = hill.K * hill.K;
+  const T f = hill.Amplitude * Exponential((-s) * (Square(dx) + Square(dz)));
+  jet.F = jet.F + f;
+  jet.X = jet.X + (-2.0 * s) * (f * dx);
+  jet.Z = jet.Z + (-2.0 * s) * (f * dz);
+  jet.Xx = jet.Xx + (2.0 * s) * (f * ((2.0 * s) * Square(dx) - T(1.0)));
+  jet.Xz = jet.Xz + (4.0 * s * s) * (f * (dx * dz));
+  jet.Zz = jet.Zz + (2.0 * s) * (f * ((2.0 * s) * Square(dz) - T(1.0)));
 }
 
 template <typename T>
@@ -48,29 +48,29 @@ void AddSphere(HeightJet<T>& jet, double radius, const T& x, const T& z)
   const T w = Root(T(radius * radius) - Square(x) - Square(z));
   const T inverse = T(1.0) / w;
   const T cube = inverse * Square(inverse);
-  jet.f = jet.f + sign * (T(sign * radius) - w);
-  jet.x = jet.x + sign * (x * inverse);
-  jet.z = jet.z + sign * (z * inverse);
-  jet.xx = jet.xx + sign * (inverse + Square(x) * cube);
-  jet.xz = jet.xz + sign * ((x * z) * cube);
-  jet.zz = jet.zz + sign * (inverse + Square(z) * cube);
+  jet.F = jet.F + sign * (T(sign * radius) - w);
+  jet.X = jet.X + sign * (x * inverse);
+  jet.Z = jet.Z + sign * (z * inverse);
+  jet.Xx = jet.Xx + sign * (inverse + Square(x) * cube);
+  jet.Xz = jet.Xz + sign * ((x * z) * cube);
+  jet.Zz = jet.Zz + sign * (inverse + Square(z) * cube);
 }
 
 template <typename T>
 HeightJet<T> Sum(const SmoothSurface& surface, const T& x, const T& z)
 {
   HeightJet<T> jet;
-  for (const SmoothSurface::Wave& wave : surface.waves)
+  for (const SmoothSurface::Wave& wave : surface.Waves)
   {
     AddWave(jet, wave, x, z);
   }
-  for (const SmoothSurface::Hill& hill : surface.hills)
+  for (const SmoothSurface::Hill& hill : surface.Hills)
   {
     AddHill(jet, hill, x, z);
   }
-  if (surface.sphereRadius != 0.0)
+  if (surface.SphereRadius != 0.0)
   {
-    AddSphere(jet, surface.sphereRadius, x, z);
+    AddSphere(jet, surface.SphereRadius, x, z);
   }
   return jet;
 }
@@ -93,7 +93,7 @@ HeightJet<Interval> SmoothSurface::Over(const Interval& x, const Interval& z) co
 glm::dvec3 SmoothSurface::GetNormal(double x, double z) const
 {
   const HeightJet<double> jet = this->At(x, z);
-  return glm::normalize(glm::dvec3(-jet.x, 1.0, -jet.z));
+  return glm::normalize(glm::dvec3(-jet.X, 1.0, -jet.Z));
 }
 
 //------------------------------------------------------------------------------
@@ -104,7 +104,7 @@ glm::dvec3 SmoothSurface::Intersect(
   {
     const glm::dvec3 s = eye + direction * distance;
     const HeightJet<double> jet = this->At(s.x, s.z);
-    distance -= (s.y - jet.f) / (direction.y - jet.x * direction.x - jet.z * direction.z);
+    distance -= (s.y - jet.F) / (direction.y - jet.X * direction.x - jet.Z * direction.z);
   }
   return eye + direction * distance;
 }
@@ -128,14 +128,14 @@ std::optional<glm::dvec3> SmoothSurface::Refract(
 //------------------------------------------------------------------------------
 MembraneMesh SmoothSurface::MakeMesh(int cells) const
 {
-  MembraneMesh mesh = MakeSquare(this->side, cells, 0.0);
-  for (std::size_t i = 0; i < mesh.points.size(); i += 3)
+  MembraneMesh mesh = MakeSquare(this->Side, cells, 0.0);
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
-    const double x = mesh.points[i];
-    const double z = mesh.points[i + 2];
-    mesh.points[i + 1] = this->At(x, z).f;
+    const double x = mesh.Points[i];
+    const double z = mesh.Points[i + 2];
+    mesh.Points[i + 1] = this->At(x, z).F;
     const glm::dvec3 normal = this->GetNormal(x, z);
-    std::copy(&normal.x, &normal.x + 3, mesh.normals.begin() + static_cast<std::ptrdiff_t>(i));
+    std::copy(&normal.x, &normal.x + 3, mesh.Normals.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return mesh;
 }

@@ -18,59 +18,63 @@
 namespace meniscus::reference
 {
 
-/// A height and its derivatives.
+/** A height and its derivatives. */
 template <typename T>
 struct HeightJet
 {
-  T f = T(0.0);
-  T x = T(0.0);
-  T z = T(0.0);
-  T xx = T(0.0);
-  T xz = T(0.0);
-  T zz = T(0.0);
+  T F = T(0.0);
+  T X = T(0.0);
+  T Z = T(0.0);
+  T Xx = T(0.0);
+  T Xz = T(0.0);
+  T Zz = T(0.0);
 };
 
 struct SmoothSurface
 {
-  /// amplitude sin(kx x + kz z + phase)
+  /** amplitude sin(kx x + kz z + phase) */
   struct Wave
   {
-    double amplitude;
-    double kx;
-    double kz;
-    double phase;
+    double Amplitude;
+    double Kx;
+    double Kz;
+    double Phase;
   };
-  /// amplitude exp(-k k ((x - centreX)^2 + (z - centreZ)^2))
+  /** amplitude exp(-k k ((x - centreX)^2 + (z - centreZ)^2)) */
   struct Hill
   {
-    double amplitude;
-    double k;
-    double centreX;
-    double centreZ;
+    double Amplitude;
+    double K;
+    double CentreX;
+    double CentreZ;
   };
 
-  double side = 200.0;
-  std::vector<Wave> waves;
-  std::vector<Hill> hills;
-  /// Radius of a sphere through the origin, above 0.75 `side`: positive with its centre above
-  /// (concave to the eye), negative below, 0: none.
-  double sphereRadius = 0.0;
+  double Side = 200.0;
+  std::vector<Wave> Waves;
+  std::vector<Hill> Hills;
+  /**
+   * Radius of a sphere through the origin, above 0.75 `side`: positive with its centre above
+   * (concave to the eye), negative below, 0: none.
+   */
+  double SphereRadius = 0.0;
 
   HeightJet<double> At(double x, double z) const;
   HeightJet<Interval> Over(const Interval& x, const Interval& z) const;
 
-  glm::dvec3 GetPoint(double x, double z) const { return { x, this->At(x, z).f, z }; }
+  glm::dvec3 GetPoint(double x, double z) const { return { x, this->At(x, z).F, z }; }
   glm::dvec3 GetNormal(double x, double z) const;
 
-  /// Where the ray from the eye meets the surface, by Newton's method from `distance`.
+  /** Where the ray from the eye meets the surface, by Newton's method from `distance`. */
   glm::dvec3 Intersect(const glm::dvec3& eye, const glm::dvec3& direction, double distance) const;
 
-  /// Unit direction behind `onSurface`, by n1 sin a = n2 sin b with `ratio` = n1 / n2; nothing from
-  /// behind and under total internal reflection.
+  /**
+   * Unit direction behind `onSurface`, by n1 sin a = n2 sin b with `ratio` = n1 / n2; nothing from
+   * behind and under total internal reflection.
+   */
   std::optional<glm::dvec3> Refract(
     const glm::dvec3& eye, const glm::dvec3& onSurface, double ratio) const;
 
-  /// `cells` x `cells` x 2 facets with exact normals.
+  /** `cells` x `cells` x 2 facets with exact normals. */
   MembraneMesh MakeMesh(int cells) const;
 };
 

@@ -96,22 +96,22 @@ const std::vector<ThesisRow> Rows = {
 
 MembraneMesh MakeMesh(const ThesisRow& row)
 {
-  const double sphereRadius = row.sphereRatio * DiscRadius;
-  return row.shape == Disc ? MakeDisc(DiscRadius, 5, sphereRadius)
-                           : MakeSquare(SquareSide, row.squareCells, sphereRadius);
+  const double sphereRadius = row.SphereRatio * DiscRadius;
+  return row.Shape == Disc ? MakeDisc(DiscRadius, 5, sphereRadius)
+                           : MakeSquare(SquareSide, row.SquareCells, sphereRadius);
 }
 
 glm::dvec3 GetEye(const ThesisRow& row)
 {
-  return { row.eyeOffset, row.eyeHeight, 0.0 };
+  return { row.EyeOffset, row.EyeHeight, 0.0 };
 }
 
-/// `solve(point, vertex)` returns whether the one image of a point was found.
+/** `solve(point, vertex)` returns whether the one image of a point was found. */
 template <typename Solve>
 ErrorStatistics MeasureRow(const ThesisRow& row, const Solve& solve)
 {
-  const AnalyticMembrane exact{ row.sphereRatio * DiscRadius, row.exterior, row.interior };
-  const bool flatDisc = row.shape == Disc && row.sphereRatio == 0.0;
+  const AnalyticMembrane exact{ row.SphereRatio * DiscRadius, row.Exterior, row.Interior };
+  const bool flatDisc = row.Shape == Disc && row.SphereRatio == 0.0;
   double sum = 0.0;
   double squares = 0.0;
   ErrorStatistics result;
@@ -124,24 +124,24 @@ ErrorStatistics MeasureRow(const ThesisRow& row, const Solve& solve)
       Spacing * (ix - Samples / 2), -Spacing * (iy + 1), Spacing * (iz - Samples / 2));
     VirtualVertex vertex;
     if (!solve(point, vertex) ||
-      (flatDisc && glm::length(vertex.sightPoint) > FlatDiscPart * DiscRadius))
+      (flatDisc && glm::length(vertex.SightPoint) > FlatDiscPart * DiscRadius))
     {
       continue;
     }
-    const auto computed = exact.FindTruePoint(GetEye(row), vertex.position);
+    const auto computed = exact.FindTruePoint(GetEye(row), vertex.Position);
     if (computed)
     {
       const double error = glm::length(*computed - point);
       sum += error;
       squares += error * error;
-      result.largest = std::max(result.largest, error);
-      ++result.points;
+      result.Largest = std::max(result.Largest, error);
+      ++result.Points;
     }
   }
-  const auto count = static_cast<double>(result.points);
-  result.mean = result.points > 0 ? sum / count : 0.0;
-  result.deviation =
-    result.points > 0 ? std::sqrt(std::max(squares / count - result.mean * result.mean, 0.0)) : 0.0;
+  const auto count = static_cast<double>(result.Points);
+  result.Mean = result.Points > 0 ? sum / count : 0.0;
+  result.Deviation =
+    result.Points > 0 ? std::sqrt(std::max(squares / count - result.Mean * result.Mean, 0.0)) : 0.0;
   return result;
 }
 
@@ -156,7 +156,7 @@ const std::vector<ThesisRow>& GetThesisRows()
 //------------------------------------------------------------------------------
 bool IsReproducible(const ThesisRow& row)
 {
-  return std::strcmp(row.table, "4.4") != 0;
+  return std::strcmp(row.Table, "4.4") != 0;
 }
 
 //------------------------------------------------------------------------------
@@ -164,7 +164,7 @@ ErrorStatistics MeasureThesisRow(const ThesisRow& row)
 {
   FlatMembraneSolver geometry;
   geometry.SetMembrane(MakeMesh(row).AsInput());
-  geometry.SetEye(GetEye(row), row.exterior, row.interior);
+  geometry.SetEye(GetEye(row), row.Exterior, row.Interior);
   return MeasureRow(row,
     [&geometry](const glm::dvec3& point, VirtualVertex& vertex)
     {
@@ -173,7 +173,7 @@ ErrorStatistics MeasureThesisRow(const ThesisRow& row)
         return false;
       }
       vertex = geometry.SolvePoint(point);
-      return vertex.state == ImageState::Found;
+      return vertex.State == ImageState::Found;
     });
 }
 
@@ -182,7 +182,7 @@ ErrorStatistics MeasureThesisRowCurved(const ThesisRow& row)
 {
   CurvedMembraneSolver geometry;
   geometry.SetMembrane(MakeMesh(row).AsInput());
-  geometry.SetEye(GetEye(row), row.exterior, row.interior);
+  geometry.SetEye(GetEye(row), row.Exterior, row.Interior);
   std::vector<VirtualVertex> images;
   return MeasureRow(row,
     [&geometry, &images](const glm::dvec3& point, VirtualVertex& vertex)

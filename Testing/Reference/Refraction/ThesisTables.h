@@ -19,41 +19,43 @@ enum class MembraneShape
   Square ///< side 200
 };
 
-/// One row of a table: its set-up and the printed numbers.
+/** One row of a table: its set-up and the printed numbers. */
 struct ThesisRow
 {
-  const char* table;
-  MembraneShape shape;
-  int squareCells;    ///< facets per side / 2 of a square
-  double sphereRatio; ///< sphere radius / 141.5; 0: planar
-  double eyeHeight;   ///< above the apex
-  double eyeOffset;   ///< from the axis
-  double exterior;
-  double interior;
-  double mean;
-  double deviation;
-  int points; ///< 0: not printed
+  const char* Table;
+  MembraneShape Shape;
+  int SquareCells;    ///< facets per side / 2 of a square
+  double SphereRatio; ///< sphere radius / 141.5; 0: planar
+  double EyeHeight;   ///< above the apex
+  double EyeOffset;   ///< from the axis
+  double Exterior;
+  double Interior;
+  double Mean;
+  double Deviation;
+  int Points; ///< 0: not printed
 };
 
 struct ErrorStatistics
 {
-  double mean = 0.0;
-  double deviation = 0.0;
-  double largest = 0.0;
-  std::size_t points = 0;
+  double Mean = 0.0;
+  double Deviation = 0.0;
+  double Largest = 0.0;
+  std::size_t Points = 0;
 };
 
-/// The 54 rows of Tables 4.1, 4.2, 4.3, 4.4 and 4.5, in the order of the thesis.
+/** The 54 rows of Tables 4.1, 4.2, 4.3, 4.4 and 4.5, in the order of the thesis. */
 const std::vector<ThesisRow>& GetThesisRows();
 
-/// Whether a row belongs to Tables 4.1, 4.2, 4.3 or 4.5, the 46 that count for the acceptance.
+/** Whether a row belongs to Tables 4.1, 4.2, 4.3 or 4.5, the 46 that count for the acceptance. */
 bool IsReproducible(const ThesisRow& row);
 
-/// Samples the error volume of a row: distance between each true point and the exact point behind
-/// its computed virtual vertex, with the thesis's flat facets.
+/**
+ * Samples the error volume of a row: distance between each true point and the exact point behind
+ * its computed virtual vertex, with the thesis's flat facets.
+ */
 ErrorStatistics MeasureThesisRow(const ThesisRow& row);
 
-/// The same with curved patches, over the points with exactly one image.
+/** The same with curved patches, over the points with exactly one image. */
 ErrorStatistics MeasureThesisRowCurved(const ThesisRow& row);
 
 }

@@ -80,8 +80,8 @@ ReferenceCellTree::ReferenceCellTree(const ReferenceMesh& mesh)
 std::array<double, 6> ReferenceCellTree::boxOf(
   const ReferenceMesh& mesh, std::int32_t begin, std::int32_t end) const
 {
-  constexpr double Infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 6> box{ Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 6> box{ infinity, infinity, infinity, -infinity, -infinity, -infinity };
   for (std::int32_t i = begin; i < end; ++i)
   {
     const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(this->Order[i]));

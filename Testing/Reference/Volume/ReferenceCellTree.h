@@ -22,13 +22,15 @@ struct Ray
   double End = 0.0;
 };
 
-/// Bounding box tree over the cells of a mesh that have a volume.
+/** Bounding box tree over the cells of a mesh that have a volume. */
 class ReferenceCellTree
 {
 public:
   explicit ReferenceCellTree(const ReferenceMesh& mesh);
 
-  /// Appends every cell with a volume whose box the ray meets (a superset of the cells it crosses).
+  /**
+   * Appends every cell with a volume whose box the ray meets (a superset of the cells it crosses).
+   */
   void candidates(const Ray& ray, std::vector<std::int64_t>& cells) const;
 
 private:

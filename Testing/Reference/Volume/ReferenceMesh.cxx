@@ -255,9 +255,9 @@ void ReferenceMesh::findBounds(const std::vector<char>& usable)
   {
     return;
   }
-  constexpr double Infinity = std::numeric_limits<double>::infinity();
-  Vector3 low{ Infinity, Infinity, Infinity };
-  Vector3 high{ -Infinity, -Infinity, -Infinity };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vector3 low{ infinity, infinity, infinity };
+  Vector3 high{ -infinity, -infinity, -infinity };
   for (std::size_t id = 0; id < usable.size(); ++id)
   {
     for (int i = 0; usable[id] && i < 4; ++i)

@@ -15,13 +15,13 @@ namespace reference
 
 using Vector3 = std::array<double, 3>;
 
-/// The four half-spaces of one tetrahedron: barycentric weights as affine functions of position.
+/** The four half-spaces of one tetrahedron: barycentric weights as affine functions of position. */
 struct CellPlanes
 {
-  /// Weight i at x is Gradient[i] . (x - mesh centre) + Offset[i].
+  /** Weight i at x is Gradient[i] . (x - mesh centre) + Offset[i]. */
   std::array<Vector3, 4> Gradient;
   std::array<double, 4> Offset;
-  /// Weight that corresponds to a distance of one tolerance outside face i.
+  /** Weight that corresponds to a distance of one tolerance outside face i. */
   std::array<double, 4> Slack;
 };
 
@@ -38,7 +38,7 @@ struct CellPlanes
 class ReferenceMesh
 {
 public:
-  /// Points in world coordinates (xyz), cells as 4 ids each, one scalar per point.
+  /** Points in world coordinates (xyz), cells as 4 ids each, one scalar per point. */
   ReferenceMesh(
     std::vector<double> points, std::vector<std::int64_t> cells, std::vector<double> scalars);
 
@@ -57,10 +57,10 @@ public:
   };
   CellKind kind(std::size_t id) const { return this->Kinds[id]; }
 
-  /// Cell and face (4 * cell + face) on the other side of a face, -1 on the boundary.
+  /** Cell and face (4 * cell + face) on the other side of a face, -1 on the boundary. */
   std::int64_t neighbor(std::int64_t cellFace) const { return this->Neighbors[cellFace]; }
 
-  /// Ids of the cells that contribute, in increasing order.
+  /** Ids of the cells that contribute, in increasing order. */
   const std::vector<std::int64_t>& contributingCells() const { return this->Contributing; }
   std::size_t numberOfInvertedCells() const { return this->InvertedCells; }
   std::size_t numberOfZeroVolumeCells() const { return this->ZeroVolumeCells; }
@@ -68,7 +68,7 @@ public:
   std::size_t numberOfBoundaryFaces() const { return this->BoundaryFaces; }
 
   const Vector3& center() const { return this->Center; }
-  /// Diagonal of the bounding box of the usable cells, 0 without any.
+  /** Diagonal of the bounding box of the usable cells, 0 without any. */
   double diagonal() const { return this->Diagonal; }
 
 private:

@@ -28,30 +28,30 @@ enum class Projection
   Additive ///< integral of attenuation times the scalar's place in the range, grey, alpha 1
 };
 
-/// Premultiplied. The range is that of the data, for Additive.
+/** Premultiplied. The range is that of the data, for Additive. */
 std::array<double, 4> project(const Ray& ray, const std::vector<RaySegment>& segments,
   Projection projection, const ReferenceTransferFunction& function, const double range[2]);
 
-/// A half space, kept where Normal . (x - Origin) >= 0.
+/** A half space, kept where Normal . (x - Origin) >= 0. */
 struct HalfSpace
 {
   Vector3 Normal;
   Vector3 Origin;
 };
 
-/// The part of a ray in half spaces; Begin >= End if there is none.
+/** The part of a ray in half spaces; Begin >= End if there is none. */
 Ray clipRay(const Ray& ray, const std::vector<HalfSpace>& halfSpaces);
 
 struct Light
 {
-  /// Position, or direction towards the light.
+  /** Position, or direction towards the light. */
   Vector3 Place;
   bool Positional = false;
   Vector3 Diffuse{ 1.0, 1.0, 1.0 };
   Vector3 Specular{ 1.0, 1.0, 1.0 };
-  /// Coefficients of the powers 0, 1, 2 of the distance.
+  /** Coefficients of the powers 0, 1, 2 of the distance. */
   Vector3 Falloff{ 1.0, 0.0, 0.0 };
-  /// Cosine of the half angle of a cone about Axis, -2 without; exponent within.
+  /** Cosine of the half angle of a cone about Axis, -2 without; exponent within. */
   double ConeCosine = -2.0;
   Vector3 Axis{ 0.0, 0.0, 1.0 };
   double Exponent = 0.0;
@@ -66,11 +66,11 @@ struct Material
   std::vector<Light> Lights;
 };
 
-/// Gradients of the scalar in world coordinates.
+/** Gradients of the scalar in world coordinates. */
 class ReferenceGradients
 {
 public:
-  /// Of the cells, or interpolated between the volume-weighted means about each point.
+  /** Of the cells, or interpolated between the volume-weighted means about each point. */
   ReferenceGradients(const ReferenceMesh& mesh, bool smooth);
 
   Vector3 at(std::int64_t cell, const Vector3& position) const;
@@ -82,7 +82,7 @@ private:
   std::vector<Vector3> AtPoints;
 };
 
-/// Phong's model, two-sided: the colour that a point with an emitted colour shows to a ray.
+/** Phong's model, two-sided: the colour that a point with an emitted colour shows to a ray. */
 std::array<double, 3> shade(const Material& material, const Ray& ray, const Vector3& position,
   const Vector3& gradient, const std::array<double, 3>& emitted);
 
@@ -93,7 +93,7 @@ struct Surface
   std::array<double, 3> Color;
 };
 
-/// Surfaces in front-to-back order. Without gradients they show their colour.
+/** Surfaces in front-to-back order. Without gradients they show their colour. */
 std::array<double, 4> blendSurfaces(const Ray& ray, const std::vector<RaySegment>& segments,
   const std::vector<Surface>& surfaces, const ReferenceGradients* gradients,
   const Material& material);

@@ -658,10 +658,10 @@ RayClass ReferenceRayIntegrator::classify(
 {
   // A face met at a slope below this moves a span's end in proportion; a jump over a silhouette
   // edge exceeds it and does not shrink with the distance.
-  constexpr double SteepestSlope = 20.0;
+  constexpr double steepestSlope = 20.0;
   // A jump of the result below this cannot be what makes a pixel wrong.
-  constexpr double SmallestJump = 1e-5;
-  const double steep = SteepestSlope * distance / length(ray.Direction);
+  constexpr double smallestJump = 1e-5;
+  const double steep = steepestSlope * distance / length(ray.Direction);
   const std::vector<CoveredSpan> here = this->coveredSpans(ray);
   std::vector<RaySegment> segments;
   const bool ordered = this->findSegments(ray, segments).Ordered;
@@ -678,7 +678,7 @@ RayClass ReferenceRayIntegrator::classify(
     }
     if (ordered &&
       isJump(largestDifference(result, this->trace(nearRay, function)),
-        largestDifference(result, this->trace(farRay, function)), SmallestJump))
+        largestDifference(result, this->trace(farRay, function)), smallestJump))
     {
       return RayClass::Silhouette;
     }

@@ -33,7 +33,7 @@ namespace meniscus
 namespace reference
 {
 
-/// Part of a ray inside one cell; the scalar is linear between its ends.
+/** Part of a ray inside one cell; the scalar is linear between its ends. */
 struct RaySegment
 {
   double Begin;
@@ -43,7 +43,7 @@ struct RaySegment
   std::int64_t Cell;
 };
 
-/// Part of a ray inside the mesh without a break.
+/** Part of a ray inside the mesh without a break. */
 struct CoveredSpan
 {
   double Begin;
@@ -74,14 +74,14 @@ public:
 
   const ReferenceMesh& mesh() const { return this->Mesh; }
 
-  /// Segments in order along the ray, without overlap. The vector is reused by the caller.
+  /** Segments in order along the ray, without overlap. The vector is reused by the caller. */
   RayReport findSegments(const Ray& ray, std::vector<RaySegment>& segments) const;
 
-  /// The same without the cells that the function makes invisible, wherever cells overlap.
+  /** The same without the cells that the function makes invisible, wherever cells overlap. */
   RayReport findVisibleSegments(const Ray& ray, const ReferenceTransferFunction& function,
     std::vector<RaySegment>& segments) const;
 
-  /// Premultiplied RGBA along the segments that one of them returned for the same ray.
+  /** Premultiplied RGBA along the segments that one of them returned for the same ray. */
   static std::array<double, 4> integrate(const Ray& ray, const std::vector<RaySegment>& segments,
     const ReferenceTransferFunction& function);
 
@@ -97,12 +97,14 @@ public:
   RayClass classify(
     const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
 
-  /// Largest change of the result when the ray is moved sideways by a distance, in 8 directions.
+  /** Largest change of the result when the ray is moved sideways by a distance, in 8 directions. */
   double sensitivity(
     const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
 
-  /// Distance for classify: float rounding of positions and directions seen from a few diagonals
-  /// away is 3e-7 of the diagonal; the margin is about 3.
+  /**
+   * Distance for classify: float rounding of positions and directions seen from a few diagonals
+   * away is 3e-7 of the diagonal; the margin is about 3.
+   */
   double silhouetteDistance() const { return 1e-6 * this->Mesh.diagonal(); }
 
   std::vector<CoveredSpan> coveredSpans(const Ray& ray) const;

@@ -12,7 +12,7 @@ namespace meniscus
 namespace reference
 {
 
-/// Attenuation per world length and emitted colour of a medium.
+/** Attenuation per world length and emitted colour of a medium. */
 struct OpticalSample
 {
   double Attenuation = 0.0;
@@ -46,11 +46,13 @@ public:
 
   const std::vector<TransferFunctionNode>& nodes() const { return this->Nodes; }
 
-  /// Index of the linear piece that holds a scalar: the number of nodes at or below it. The last
-  /// node belongs to the piece below it where the function ends.
+  /**
+   * Index of the linear piece that holds a scalar: the number of nodes at or below it. The last
+   * node belongs to the piece below it where the function ends.
+   */
   std::size_t pieceOf(double scalar) const;
 
-  /// Value of one linear piece, extended beyond its ends (so that a jump has two limits).
+  /** Value of one linear piece, extended beyond its ends (so that a jump has two limits). */
   OpticalSample valueInPiece(std::size_t piece, double scalar) const;
 
   OpticalSample value(double scalar) const

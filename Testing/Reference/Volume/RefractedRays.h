@@ -20,19 +20,19 @@ namespace reference
 
 struct RefractingSurface
 {
-  /// Whether a place of the endless surface belongs to it.
+  /** Whether a place of the endless surface belongs to it. */
   std::function<bool(const Vector3&)> Has = [](const Vector3&) { return true; };
-  /// All parameters at which a ray with a direction of unit length meets the endless surface.
+  /** All parameters at which a ray with a direction of unit length meets the endless surface. */
   std::function<std::vector<double>(const Ray&)> Meet;
-  /// Unit normal at a place of it, to the exterior.
+  /** Unit normal at a place of it, to the exterior. */
   std::function<Vector3(const Vector3&)> Normal;
   double Exterior = 1.0;
   double Interior = 1.333;
 };
 
-/// The plane through a point.
+/** The plane through a point. */
 RefractingSurface makePlane(const Vector3& origin, const Vector3& normal);
-/// The sphere, its normals outwards.
+/** The sphere, its normals outwards. */
 RefractingSurface makeSphere(const Vector3& center, double radius);
 /**
  * The height field y = level + amplitude sin(k x) sin(k z), its normals upwards. Pairs of places
@@ -40,11 +40,11 @@ RefractingSurface makeSphere(const Vector3& center, double radius);
  */
 RefractingSurface makeWaves(double level, double amplitude, double k);
 
-/// A ray before and behind the surface; directions have unit length.
+/** A ray before and behind the surface; directions have unit length. */
 struct RefractedRay
 {
   Ray Straight;
-  /// Begin >= End if the ray does not meet the surface, or is totally reflected.
+  /** Begin >= End if the ray does not meet the surface, or is totally reflected. */
   Ray Bent;
 };
 
@@ -55,11 +55,11 @@ struct RefractedRay
  */
 RefractedRay refract(const RefractingSurface& surface, const Ray& ray, double eye, bool endsOpaque);
 
-/// Segments along both parts, as of one ray with a direction of unit length.
+/** Segments along both parts, as of one ray with a direction of unit length. */
 std::vector<RaySegment> findSegments(
   const ReferenceRayIntegrator& integrator, const RefractedRay& ray);
 
-/// What both parts show, one behind the other; premultiplied.
+/** What both parts show, one behind the other; premultiplied. */
 std::array<double, 4> compose(
   const RefractedRay& ray, const std::function<std::array<double, 4>(const Ray&)>& trace);
 

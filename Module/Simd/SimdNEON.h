@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Packets of 4 lanes for 64-bit ARM; see SimdPortable.h for the meaning of each name. */
+#ifndef meniscus_Simd_SimdNEON_h
+#define meniscus_Simd_SimdNEON_h
+
+#include <arm_neon.h>
+
+#include <cstdint>
+
+namespace meniscus
+{
+
+struct SimdNEON
+{
+  static constexpr int Width = 4;
+
+  /** All bits of a lane are set or none. */
+  struct Mask
+  {
+    uint32x4_t Bits;
+    friend Mask operator&(Mask a, Mask b) { return { vandq_u32(a.Bits, b.Bits) }; }
+    friend Mask operator|(Mask a, Mask b) { return { vorrq_u32(a.Bits, b.Bits) }; }
+  };
+
+  struct Float
+  {
+    float32x4_t V;
+    friend Float operator+(Float a, Float b) { return { vaddq_f32(a.V, b.V) }; }
+    friend Float operator-(Float a, Float b) { return { vsubq_f32(a.V, b.V) }; }
+    friend Float operator*(Float a, Float b) { return { vmulq_f32(a.V, b.V) }; }
+    friend Float operator/(Float a, Float b) { return { vdivq_f32(a.V, b.V) }; }
+    friend Mask operator<(Float a, Float b) { return { vcltq_f32(a.V, b.V) }; }
+    friend Mask operator>(Float a, Float b) { return { vcgtq_f32(a.V, b.V) }; }
+  };
+
+  struct Int
+  {
+    int32x4_t V;
+    friend Int operator+(Int a, Int b) { return { vaddq_s32(a.V, b.V) }; }
+    friend Int operator-(Int a, Int b) { return { vsubq_s32(a.V, b.V) }; }
+    friend Mask operator<(Int a, Int b) { return { vcltq_s32(a.V, b.V) }; }
+    friend Mask operator>(Int a, Int b) { return { vcgtq_s32(a.V, b.V) }; }
+  };
+
+  static Float Load(const float* from) { return { vld1q_f32(from) }; }
+  static Int Load(const std::int32_t* from) { return { vld1q_s32(from) }; }
+  static void Store(float* to, Float x) { vst1q_f32(to, x.V); }
+  static void Store(std::int32_t* to, Int x) { vst1q_s32(to, x.V); }
+  static Float Splat(float value) { return { vdupq_n_f32(value) }; }
+  static Int Splat(std::int32_t value) { return { vdupq_n_s32(value) }; }
+
+  static Float Fma(Float a, Float b, Float c) { return { vfmaq_f32(c.V, a.V, b.V) }; }
+  static Float CrossProduct(Float a, Float b, Float c, Float d)
+  {
+    // Kahan's difference of products, within 1.5 units in the last place of the result.
+    const float32x4_t bc = vmulq_f32(b.V, c.V);
+    const float32x4_t roundOff = vfmsq_f32(bc, b.V, c.V);
+    return { vaddq_f32(vfmaq_f32(vnegq_f32(bc), a.V, d.V), roundOff) };
+  }
+  // Not vminq and vmaxq: these return NaN if either argument is one.
+  static Float Min(Float a, Float b) { return Select(a < b, a, b); }
+  static Float Max(Float a, Float b) { return Select(a > b, a, b); }
+  static Float Abs(Float a) { return { vabsq_f32(a.V) }; }
+  static Float Sqrt(Float a) { return { vsqrtq_f32(a.V) }; }
+
+  static Float Select(Mask mask, Float yes, Float no)
+  {
+    return { vbslq_f32(mask.Bits, yes.V, no.V) };
+  }
+  static Int Select(Mask mask, Int yes, Int no) { return { vbslq_s32(mask.Bits, yes.V, no.V) }; }
+  static Int One(Mask mask) { return { vreinterpretq_s32_u32(vshrq_n_u32(mask.Bits, 31)) }; }
+  static Mask AndNot(Mask a, Mask b) { return { vbicq_u32(a.Bits, b.Bits) }; }
+  static Mask Not(Mask a) { return { vmvnq_u32(a.Bits) }; }
+  static unsigned int Bits(Mask mask) { return vaddvq_u32(vandq_u32(mask.Bits, LaneBits())); }
+  static Mask FromBits(unsigned int bits) { return { vtstq_u32(vdupq_n_u32(bits), LaneBits()) }; }
+
+  static Int Increment(Mask mask, Int a)
+  {
+    return { vsubq_s32(a.V, vreinterpretq_s32_u32(mask.Bits)) };
+  }
+  static Int Decrement(Mask mask, Int a)
+  {
+    return { vaddq_s32(a.V, vreinterpretq_s32_u32(mask.Bits)) };
+  }
+  static Int And(Int a, Int b) { return { vandq_s32(a.V, b.V) }; }
+  static Float ToFloat(Int a) { return { vcvtq_f32_s32(a.V) }; }
+  static Int MultiplyHigh(
+    Int a, const std::int32_t* b, const std::int64_t* evenAddend, const std::int64_t* oddAddend)
+  {
+    const int32x4_t factor = vld1q_s32(b);
+    const int32x4_t evenFirst = vuzp1q_s32(a.V, factor); // a0 a2 b0 b2
+    const int32x4_t oddFirst = vuzp2q_s32(a.V, factor);  // a1 a3 b1 b3
+    const int64x2_t even = vaddq_s64(
+      vmull_s32(vget_low_s32(evenFirst), vget_high_s32(evenFirst)), vld1q_s64(evenAddend));
+    const int64x2_t odd =
+      vaddq_s64(vmull_s32(vget_low_s32(oddFirst), vget_high_s32(oddFirst)), vld1q_s64(oddAddend));
+    return { vtrn2q_s32(vreinterpretq_s32_s64(even), vreinterpretq_s32_s64(odd)) };
+  }
+  static Int Pick(Int index, const Int (&of)[4])
+  {
+    const Mask odd{ vtstq_s32(index.V, vdupq_n_s32(1)) };
+    const Mask high{ vtstq_s32(index.V, vdupq_n_s32(2)) };
+    return Select(high, Select(odd, of[3], of[2]), Select(odd, of[1], of[0]));
+  }
+
+  template <int Stride>
+  static void GatherQuads(const float* from, Int index, Float& x, Float& y, Float& z, Float& w)
+  {
+    std::int32_t at[Width];
+    Store(at, index);
+    const auto row = [&](int i) { return vld1q_f32(from + std::int64_t{ Stride } * at[i]); };
+    Transpose(row(0), row(1), row(2), row(3), x, y, z, w);
+  }
+  static void GatherTriples(const float* from, Int index, Float& x, Float& y, Float& z)
+  {
+    std::int32_t at[Width];
+    Store(at, index);
+    // Nothing is read behind the third.
+    const auto row = [&](int i)
+    {
+      const float* triple = from + std::int64_t{ 3 } * at[i];
+      return vcombine_f32(vld1_f32(triple), vld1_dup_f32(triple + 2));
+    };
+    Float none;
+    Transpose(row(0), row(1), row(2), row(3), x, y, z, none);
+  }
+  static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
+    Int (&links)[4], Float (&vertex)[4])
+  {
+    // Up to 8 * 2^29 - 1: unsigned.
+    const uint32x4_t number = vreinterpretq_u32_s32(cellFace.V);
+    const uint32x4_t face = vandq_u32(number, vdupq_n_u32(3));
+    const uint32x4_t cell = vshlq_n_u32(vsubq_u32(number, face), 1);
+    std::uint32_t cellAt[Width];
+    std::uint32_t oppositeAt[Width];
+    vst1q_u32(cellAt, cell);
+    vst1q_u32(oppositeAt, vorrq_u32(cell, face));
+    const auto vertexRow = [&](int i)
+    { return vld1q_f32(vertices + 4 * std::int64_t{ cells[oppositeAt[i]] }); };
+    Transpose(vertexRow(0), vertexRow(1), vertexRow(2), vertexRow(3), vertex[0], vertex[1],
+      vertex[2], vertex[3]);
+    const auto linkRow = [&](int i)
+    { return vreinterpretq_f32_s32(vld1q_s32(cells + 4 + cellAt[i])); };
+    Float bits[4];
+    Transpose(linkRow(0), linkRow(1), linkRow(2), linkRow(3), bits[0], bits[1], bits[2], bits[3]);
+    for (int k = 0; k < 4; ++k)
+    {
+      links[k] = AsInt(bits[k]);
+    }
+  }
+  static Float GatherCellScalars(const float* scalars, Int cellFace)
+  {
+    return LoadLanes(scalars, { vshrq_n_s32(cellFace.V, 2) });
+  }
+  static constexpr int LookupBlock = 8;
+  template <int Blocks>
+  static Float Lookup(const float* table, Int index)
+  {
+    return LoadLanes(table, index);
+  }
+  static Int AsInt(Float a) { return { vreinterpretq_s32_f32(a.V) }; }
+
+private:
+  /** Bit i in lane i. */
+  static uint32x4_t LaneBits()
+  {
+    static const std::uint32_t bits[Width] = { 1, 2, 4, 8 };
+    return vld1q_u32(bits);
+  }
+
+  /** Per lane, from[index]. */
+  static Float LoadLanes(const float* from, Int index)
+  {
+    std::int32_t at[Width];
+    Store(at, index);
+    const float lanes[Width] = { from[at[0]], from[at[1]], from[at[2]], from[at[3]] };
+    return Load(lanes);
+  }
+
+  static void Transpose(float32x4_t r0, float32x4_t r1, float32x4_t r2, float32x4_t r3, Float& x,
+    Float& y, Float& z, Float& w)
+  {
+    const auto wide = [](float32x4_t a) { return vreinterpretq_f64_f32(a); };
+    const auto narrow = [](float64x2_t a) { return vreinterpretq_f32_f64(a); };
+    const float32x4_t xz01 = vtrn1q_f32(r0, r1);
+    const float32x4_t yw01 = vtrn2q_f32(r0, r1);
+    const float32x4_t xz23 = vtrn1q_f32(r2, r3);
+    const float32x4_t yw23 = vtrn2q_f32(r2, r3);
+    x.V = narrow(vtrn1q_f64(wide(xz01), wide(xz23)));
+    y.V = narrow(vtrn1q_f64(wide(yw01), wide(yw23)));
+    z.V = narrow(vtrn2q_f64(wide(xz01), wide(xz23)));
+    w.V = narrow(vtrn2q_f64(wide(yw01), wide(yw23)));
+  }
+};
+
+}
+
+#endif

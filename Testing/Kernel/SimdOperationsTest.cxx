@@ -1,0 +1,322 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Every operation of the SIMD types against scalar code, to the bit. AVX2 and AVX-512 need compiler
+// options of their own and are held by the pictures of PacketWalkTest and PacketOpticsTest.
+#include "Simd/SimdPortable.h"
+#ifdef __aarch64__
+#include "Simd/SimdNEON.h"
+#endif
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace
+{
+
+using meniscus::SimdPortable;
+
+constexpr int Rounds = 2000;
+
+template <class Simd>
+class SimdOperations : public testing::Test
+{
+protected:
+  static constexpr int Width = Simd::Width;
+  using Float = typename Simd::Float;
+  using Int = typename Simd::Int;
+  using Mask = typename Simd::Mask;
+
+  /** Numbers of all sizes, with zeros of both signs, infinities and NaN. */
+  float AnyFloat()
+  {
+    static const float special[] = { 0.0f, -0.0f, 1.0f, std::numeric_limits<float>::infinity(),
+      -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(),
+      std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::max() };
+    if (this->Random() % 4 == 0)
+    {
+      return special[this->Random() % 8];
+    }
+    return this->Finite();
+  }
+  /** Within 2^-10 to 2^10, of either sign. */
+  float Finite()
+  {
+    const float size = std::ldexp(1.0f + static_cast<float>(this->Random() % 4096) / 4096.0f,
+      static_cast<int>(this->Random() % 20) - 10);
+    return this->Random() % 2 == 0 ? size : -size;
+  }
+  std::int32_t AnyInt()
+  {
+    static const std::int32_t special[] = { 0, 1, -1, INT32_MAX, INT32_MIN };
+    return this->Random() % 4 == 0 ? special[this->Random() % 5]
+                                   : static_cast<std::int32_t>(this->Random());
+  }
+
+  static void ExpectSame(const Float& value, const float (&expected)[Width], const char* name)
+  {
+    float lanes[Width];
+    Simd::Store(lanes, value);
+    for (int i = 0; i < Width; ++i)
+    {
+      const bool bothNaN = std::isnan(lanes[i]) && std::isnan(expected[i]);
+      EXPECT_TRUE(bothNaN || std::memcmp(lanes + i, expected + i, sizeof(float)) == 0)
+        << name << ", lane " << i << ": " << lanes[i] << " for " << expected[i];
+    }
+  }
+  static void ExpectSame(const Int& value, const std::int32_t (&expected)[Width], const char* name)
+  {
+    std::int32_t lanes[Width];
+    Simd::Store(lanes, value);
+    for (int i = 0; i < Width; ++i)
+    {
+      EXPECT_EQ(lanes[i], expected[i]) << name << ", lane " << i;
+    }
+  }
+  static void ExpectSame(const Mask& value, const bool (&expected)[Width], const char* name)
+  {
+    unsigned int bits = 0;
+    for (int i = 0; i < Width; ++i)
+    {
+      bits |= (expected[i] ? 1u : 0u) << i;
+    }
+    EXPECT_EQ(Simd::Bits(value), bits) << name;
+  }
+
+  /** Fills lanes and, by a function of the lane's number, what is expected of them. */
+  template <typename T, typename Make>
+  static void Fill(T (&lanes)[Width], const Make& make)
+  {
+    for (int i = 0; i < Width; ++i)
+    {
+      lanes[i] = make(i);
+    }
+  }
+
+  std::mt19937 Random{ 20261122 };
+};
+
+#ifdef __aarch64__
+using Sets = testing::Types<SimdPortable, meniscus::SimdNEON>;
+#else
+using Sets = testing::Types<SimdPortable>;
+#endif
+TYPED_TEST_SUITE(SimdOperations, Sets);
+
+}
+
+TYPED_TEST(SimdOperations, FloatArithmeticAndComparisons)
+{
+  using Simd = TypeParam;
+  constexpr int width = Simd::Width;
+  for (int round = 0; round < Rounds; ++round)
+  {
+    float a[width];
+    float b[width];
+    float expected[width];
+    bool truth[width];
+    this->Fill(a, [&](int) { return this->AnyFloat(); });
+    this->Fill(b, [&](int) { return this->AnyFloat(); });
+    const auto x = Simd::Load(a);
+    const auto y = Simd::Load(b);
+    this->Fill(expected, [&](int i) { return a[i] + b[i]; });
+    this->ExpectSame(x + y, expected, "sum");
+    this->Fill(expected, [&](int i) { return a[i] - b[i]; });
+    this->ExpectSame(x - y, expected, "difference");
+    this->Fill(expected, [&](int i) { return a[i] * b[i]; });
+    this->ExpectSame(x * y, expected, "product");
+    this->Fill(expected, [&](int i) { return a[i] / b[i]; });
+    this->ExpectSame(x / y, expected, "quotient");
+    this->Fill(expected, [&](int i) { return a[i] < b[i] ? a[i] : b[i]; });
+    this->ExpectSame(Simd::Min(x, y), expected, "minimum");
+    this->Fill(expected, [&](int i) { return a[i] > b[i] ? a[i] : b[i]; });
+    this->ExpectSame(Simd::Max(x, y), expected, "maximum");
+    this->Fill(expected, [&](int i) { return std::fabs(a[i]); });
+    this->ExpectSame(Simd::Abs(x), expected, "absolute value");
+    this->Fill(expected, [&](int i) { return std::sqrt(std::fabs(a[i])); });
+    this->ExpectSame(Simd::Sqrt(Simd::Abs(x)), expected, "square root");
+    this->Fill(truth, [&](int i) { return a[i] < b[i]; });
+    this->ExpectSame(x < y, truth, "less");
+    this->Fill(truth, [&](int i) { return a[i] > b[i]; });
+    this->ExpectSame(x > y, truth, "greater");
+    std::int32_t bits[width];
+    std::memcpy(bits, a, sizeof(bits));
+    this->ExpectSame(Simd::AsInt(x), bits, "bits");
+  }
+}
+
+TYPED_TEST(SimdOperations, FusedOperationsAreWithinTheirRounding)
+{
+  using Simd = TypeParam;
+  constexpr int width = Simd::Width;
+  // One rounding of the result and, without a fused operation, one of each product: 2^-24 each.
+  const double unit = std::ldexp(1.0, -24);
+  for (int round = 0; round < Rounds; ++round)
+  {
+    float v[4][width];
+    for (float(&lanes)[width] : v)
+    {
+      this->Fill(lanes, [&](int) { return this->Finite(); });
+    }
+    float sum[width];
+    float cross[width];
+    Simd::Store(sum, Simd::Fma(Simd::Load(v[0]), Simd::Load(v[1]), Simd::Load(v[2])));
+    Simd::Store(cross,
+      Simd::CrossProduct(Simd::Load(v[0]), Simd::Load(v[1]), Simd::Load(v[2]), Simd::Load(v[3])));
+    for (int i = 0; i < width; ++i)
+    {
+      const double ab = static_cast<double>(v[0][i]) * v[1][i];
+      const double ad = static_cast<double>(v[0][i]) * v[3][i];
+      const double bc = static_cast<double>(v[1][i]) * v[2][i];
+      EXPECT_NEAR(sum[i], ab + v[2][i], unit * (std::fabs(ab) + std::fabs(ab + v[2][i])));
+      EXPECT_NEAR(
+        cross[i], ad - bc, unit * (std::fabs(ad) + std::fabs(bc) + 2.0 * std::fabs(ad - bc)));
+    }
+  }
+}
+
+TYPED_TEST(SimdOperations, IntegersAndMasks)
+{
+  using Simd = TypeParam;
+  constexpr int width = Simd::Width;
+  const auto wrap = [](std::int64_t value)
+  { return static_cast<std::int32_t>(static_cast<std::uint32_t>(value)); };
+  for (int round = 0; round < Rounds; ++round)
+  {
+    std::int32_t a[width];
+    std::int32_t b[width];
+    std::int32_t expected[width];
+    bool truth[width];
+    // Half the range: sums that overflow are undefined in the portable set.
+    this->Fill(a, [&](int) { return this->AnyInt() / 2; });
+    this->Fill(b, [&](int) { return this->AnyInt() / 2; });
+    const auto x = Simd::Load(a);
+    const auto y = Simd::Load(b);
+    this->Fill(expected, [&](int i) { return wrap(std::int64_t{ a[i] } + b[i]); });
+    this->ExpectSame(x + y, expected, "sum");
+    this->Fill(expected, [&](int i) { return wrap(std::int64_t{ a[i] } - b[i]); });
+    this->ExpectSame(x - y, expected, "difference");
+    this->Fill(expected, [&](int i) { return a[i] & b[i]; });
+    this->ExpectSame(Simd::And(x, y), expected, "and");
+    this->Fill(truth, [&](int i) { return a[i] < b[i]; });
+    const auto less = x < y;
+    this->ExpectSame(less, truth, "less");
+    this->ExpectSame(y > x, truth, "greater");
+    this->ExpectSame(Simd::FromBits(Simd::Bits(less)), truth, "mask from bits");
+    this->Fill(expected, [&](int i) { return truth[i] ? 1 : 0; });
+    this->ExpectSame(Simd::One(less), expected, "one");
+    this->Fill(expected, [&](int i) { return a[i] + (truth[i] ? 1 : 0); });
+    this->ExpectSame(Simd::Increment(less, x), expected, "increment");
+    this->Fill(expected, [&](int i) { return a[i] - (truth[i] ? 1 : 0); });
+    this->ExpectSame(Simd::Decrement(less, x), expected, "decrement");
+    this->Fill(expected, [&](int i) { return truth[i] ? a[i] : b[i]; });
+    this->ExpectSame(Simd::Select(less, x, y), expected, "selection");
+    const unsigned int other = static_cast<unsigned int>(this->Random()) & ((1u << width) - 1u);
+    const auto mask = Simd::FromBits(other);
+    const unsigned int bits = Simd::Bits(less);
+    EXPECT_EQ(Simd::Bits(less & mask), bits & other);
+    EXPECT_EQ(Simd::Bits(less | mask), bits | other);
+    EXPECT_EQ(Simd::Bits(Simd::AndNot(less, mask)), bits & ~other);
+    EXPECT_EQ(Simd::Bits(Simd::Not(mask)), ~other & ((1u << width) - 1u));
+    float rounded[width];
+    this->Fill(rounded, [&](int i) { return static_cast<float>(a[i]); });
+    this->ExpectSame(Simd::ToFloat(x), rounded, "conversion");
+  }
+}
+
+TYPED_TEST(SimdOperations, MultiplyHighRoundsDown)
+{
+  using Simd = TypeParam;
+  constexpr int width = Simd::Width;
+  for (int round = 0; round < Rounds; ++round)
+  {
+    std::int32_t a[width];
+    std::int32_t b[width];
+    std::int64_t even[width / 2];
+    std::int64_t odd[width / 2];
+    std::int32_t expected[width];
+    this->Fill(a, [&](int) { return this->AnyInt(); });
+    // Slopes of rays are within 31 bits, so that no sum leaves 64.
+    this->Fill(b, [&](int) { return this->AnyInt() / 2; });
+    for (int i = 0; i < width / 2; ++i)
+    {
+      even[i] = static_cast<std::int64_t>(this->AnyInt()) << 30;
+      odd[i] = static_cast<std::int64_t>(this->AnyInt()) << 30;
+    }
+    this->Fill(expected,
+      [&](int i)
+      {
+        const std::int64_t addend = (i % 2 == 0 ? even : odd)[i / 2];
+        return static_cast<std::int32_t>((std::int64_t{ a[i] } * b[i] + addend) >> 32);
+      });
+    this->ExpectSame(Simd::MultiplyHigh(Simd::Load(a), b, even, odd), expected, "upper half");
+  }
+}
+
+TYPED_TEST(SimdOperations, GathersAndLookUps)
+{
+  using Simd = TypeParam;
+  constexpr int width = Simd::Width;
+  std::vector<float> table(64 * 5);
+  std::vector<std::int32_t> cells(64 * 8);
+  for (std::size_t i = 0; i < table.size(); ++i)
+  {
+    table[i] = static_cast<float>(i) - 7.5f;
+  }
+  for (std::int32_t& number : cells)
+  {
+    number = static_cast<std::int32_t>(this->Random() % 64);
+  }
+  for (int round = 0; round < Rounds; ++round)
+  {
+    std::int32_t at[width];
+    this->Fill(at, [&](int) { return static_cast<std::int32_t>(this->Random() % 64); });
+    const auto index = Simd::Load(at);
+    typename Simd::Float q[4];
+    float expected[width];
+    Simd::template GatherQuads<5>(table.data(), index, q[0], q[1], q[2], q[3]);
+    for (int k = 0; k < 4; ++k)
+    {
+      this->Fill(expected, [&](int i) { return table[5 * at[i] + k]; });
+      this->ExpectSame(q[k], expected, "quadruple");
+    }
+    Simd::GatherTriples(table.data(), index, q[0], q[1], q[2]);
+    for (int k = 0; k < 3; ++k)
+    {
+      this->Fill(expected, [&](int i) { return table[3 * at[i] + k]; });
+      this->ExpectSame(q[k], expected, "triple");
+    }
+    std::int32_t face[width];
+    this->Fill(face, [&](int) { return static_cast<std::int32_t>(this->Random() % 256); });
+    typename Simd::Int links[4];
+    Simd::GatherCells(cells.data(), table.data(), Simd::Load(face), links, q);
+    for (int k = 0; k < 4; ++k)
+    {
+      std::int32_t link[width];
+      this->Fill(link, [&](int i) { return cells[8 * (face[i] / 4) + 4 + k]; });
+      this->ExpectSame(links[k], link, "link");
+      this->Fill(
+        expected, [&](int i) { return table[4 * cells[8 * (face[i] / 4) + face[i] % 4] + k]; });
+      this->ExpectSame(q[k], expected, "opposite vertex");
+    }
+    this->Fill(expected, [&](int i) { return table[face[i] / 4]; });
+    this->ExpectSame(
+      Simd::GatherCellScalars(table.data(), Simd::Load(face)), expected, "cell scalar");
+    this->Fill(face, [&](int) { return static_cast<std::int32_t>(this->Random() % 16); });
+    this->Fill(expected, [&](int i) { return table[face[i]]; });
+    this->ExpectSame(
+      (Simd::template Lookup<2>(table.data(), Simd::Load(face))), expected, "table entry");
+    std::int32_t pick[width];
+    this->Fill(pick, [&](int) { return static_cast<std::int32_t>(this->Random() % 4); });
+    const typename Simd::Int of[4] = { Simd::Splat(10), Simd::Splat(11), Simd::Splat(12),
+      Simd::Splat(13) };
+    std::int32_t picked[width];
+    this->Fill(picked, [&](int i) { return 10 + pick[i]; });
+    this->ExpectSame(Simd::Pick(Simd::Load(pick), of), picked, "picked");
+  }
+}
