@@ -289,7 +289,7 @@ ComparisonScene makePlaneScene()
 {
   ComparisonScene scene;
   scene.Name = "plane";
-  scene.Description = "checkered objects below plane water, seen at up to 80 degrees to its normal";
+  scene.Description = "checkered objects below plane water, seen at up to 78 degrees to its normal";
   scene.Camera = { { 15.0, 22.0, -55.0 }, { 0.0, -10.0, 3.0 }, { 0.0, 1.0, 0.0 }, 40.0 };
   scene.Surface = makePlane(400.0);
   scene.Objects = { makeTiles(parallelogram(
