@@ -165,8 +165,8 @@ double GetLargestResidual(const PiecesCase& test, vtkPolyData* pieces)
     glm::dvec3 from;
     pieces->GetPointData()->GetArray("Truth")->GetTuple(i, &place.x);
     pieces->GetPointData()->GetArray("SightPoint")->GetTuple(i, &from.x);
-    const glm::dvec3 law = test.field.exterior * glm::normalize(from - test.eye) -
-      test.field.interior * glm::normalize(place - from);
+    const glm::dvec3 law = test.Field.Exterior * glm::normalize(from - test.Eye) -
+      test.Field.Interior * glm::normalize(place - from);
     worst = std::max(worst, std::hypot(law.x, law.z));
   }
   return worst;
@@ -187,7 +187,7 @@ TEST(RefractedGeometryPiecesBehindPlanes, ObeySnellsLaw)
   {
     for (int i = 0; i < 12; ++i)
     {
-      SCOPED_TRACE(test.name + (" " + std::to_string(i)));
+      SCOPED_TRACE(test.Name + (" " + std::to_string(i)));
       // Around the eye, nearer and farther, lower and higher.
       const double away = 11.0 + i;
       const auto ring =

@@ -692,7 +692,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
   {
     point.Vertex.Position = known.First->Vertex.Position; // in front, where all others have it
   }
-  const bool isElsewhere = known.count > 0 && nearest->vertex.facet != CurvedPatches::NoFacet;
+  const bool isElsewhere = known.Count > 0 && nearest->Vertex.Facet != CurvedPatches::NoFacet;
   const Finding without = isElsewhere ? Finding::Elsewhere : Finding::EndWithoutImage;
   return { point, isFound ? Finding::Found : without };
 }
