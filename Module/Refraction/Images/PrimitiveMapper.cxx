@@ -549,8 +549,8 @@ void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& no
 
 //------------------------------------------------------------------------------
 // Where rays are nearly parallel to the primitive, or at a caustic, interpolation may find it in a
-// sub-cell that does not show it. Then a side does not meet the membrane there, or only ends of the
-// primitive seem to be there and none of them is.
+// sub-cell that does not show it. Then a side does not meet the membrane there, the images of an
+// end are elsewhere, or only ends of the primitive seem to be there and none of them is.
 bool PrimitiveMapper::IsSeen(const std::vector<MappedPoint>& points)
 {
   const auto count = [&points](Finding finding)
@@ -649,8 +649,10 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
 
 //------------------------------------------------------------------------------
 // The image of an end of the primitive: the known one that is seen in the sub-cell or next to it.
-// Near a caustic there may be none; then the end is drawn where interpolation has it. Nothing here
-// depends on the primitive's plane.
+// An end whose images are all elsewhere is not seen here, so the piece is not: near a silhouette or
+// near total reflection the sub-cell's interpolated rays meet the primitive, the refracted rays do
+// not. Near a caustic there may be no image at all; then the end is drawn where interpolation has
+// it. Nothing here depends on the primitive's plane.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
   const std::array<Node, 3>& nodes, glm::length_t end, const glm::dvec2& interpolated) const
 {
@@ -690,7 +692,9 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
   {
     point.Vertex.Position = known.First->Vertex.Position; // in front, where all others have it
   }
-  return { point, isFound ? Finding::Found : Finding::EndWithoutImage };
+  const bool isElsewhere = known.Count > 0 && nearest->Vertex.Facet != CurvedPatches::NoFacet;
+  const Finding without = isElsewhere ? Finding::Elsewhere : Finding::EndWithoutImage;
+  return { point, isFound ? Finding::Found : without };
 }
 
 //------------------------------------------------------------------------------
