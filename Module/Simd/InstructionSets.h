@@ -22,7 +22,9 @@ enum class InstructionSet
 };
 #undef MENISCUS_ENUMERATOR
 
-/** Sets that this build and this processor have, widest first. Never empty: Portable is the last.
+/**
+ * Instruction sets that this build and this processor support, widest first. Never empty: Portable
+ * is the last.
  */
 const std::vector<InstructionSet>& GetInstructionSets();
 
