@@ -28,7 +28,7 @@ enum class InstructionSet
  */
 const std::vector<InstructionSet>& GetInstructionSets();
 
-/** Widest set that this build and this processor have. */
+/** Widest instruction set that this build and this processor support. */
 InstructionSet BestInstructionSet();
 
 /** Name for messages: "AVX-512", "AVX2", "NEON" or "portable". */

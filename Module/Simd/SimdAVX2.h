@@ -162,7 +162,7 @@ struct SimdAVX2
   {
     const __m256i face = _mm256_and_si256(cellFace.V, _mm256_set1_epi32(3));
     const __m256i cell = _mm256_slli_epi32(_mm256_sub_epi32(cellFace.V, face), 1);
-    // Cell numbers are up to 8 * 2^29 - 1, so they are unsigned.
+    // Offsets into the cells are up to 8 * 2^29 - 1, so they are unsigned.
     std::uint32_t cellAt[Width];
     std::uint32_t oppositeAt[Width];
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(cellAt), cell);

@@ -139,7 +139,7 @@ struct SimdAVX512
   {
     const __m512i face = _mm512_and_si512(cellFace.V, _mm512_set1_epi32(3));
     const __m512i cell = _mm512_slli_epi32(_mm512_sub_epi32(cellFace.V, face), 1);
-    // Cell numbers are up to 8 * 2^29 - 1, so they are unsigned.
+    // Offsets into the cells are up to 8 * 2^29 - 1, so they are unsigned.
     std::uint32_t cellAt[Width];
     std::uint32_t oppositeAt[Width];
     _mm512_storeu_si512(cellAt, cell);

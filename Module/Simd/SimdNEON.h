@@ -128,7 +128,7 @@ struct SimdNEON
   static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
     Int (&links)[4], Float (&vertex)[4])
   {
-    // Cell numbers are up to 8 * 2^29 - 1, so they are unsigned.
+    // Offsets into the cells are up to 8 * 2^29 - 1, so they are unsigned.
     const uint32x4_t number = vreinterpretq_u32_s32(cellFace.V);
     const uint32x4_t face = vandq_u32(number, vdupq_n_u32(3));
     const uint32x4_t cell = vshlq_n_u32(vsubq_u32(number, face), 1);

@@ -101,7 +101,6 @@ public:
   void PrepareField();
   const HeightFrame& GetFrame() const { return this->Frame; }
   bool HasConvexField() const { return this->ConvexField; }
-  /**
   /** @} */
   /** Largest distance of a patch from its flat facet. */
   double GetLargestBulge() const { return this->LargestBulge; }

@@ -67,7 +67,7 @@ public:
   /** As above, with walls widened by `wall`, in barycentric coordinates. */
   bool Contains(std::int32_t facet, const glm::dvec3& point, double wall, CellHit& hit) const;
 
-  /** A tube around everything that Contains accepts for `facet` without wall. */
+  /** A tube around all points that Contains accepts for `facet` without widened walls. */
   TubeBounds GetBounds(std::int32_t facet) const;
 
   /**

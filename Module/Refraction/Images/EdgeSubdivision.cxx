@@ -162,7 +162,7 @@ void EdgeSubdivision::MoveOntoEdge(
     }
     if (shape == Shape::Straight)
     {
-      // Between the places that were tested the edge bends by little more than there.
+      // Between the tested places the edge deviates little more than at them.
       constexpr double sameBranch = 2.0;
       const glm::dvec3 drawn = (1.0 - l) * end[0].Position + l * end[1].Position;
       image.Position = this->IsDrawnWell(drawn, image, sameBranch) ? drawn : image.Position;
