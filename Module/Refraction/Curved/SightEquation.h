@@ -4,7 +4,7 @@
  * Snell's law between eye and point at a point S of a patch, without the root of Eq. 2.2 and
  * without unit vectors. With a = S - eye and p = point - S,
  *
- * h(S) = n1 |p| a - n2 |a| p
+ *   h(S) = n1 |p| a - n2 |a| p
  *
  * is parallel to the normal where the ray along a is refracted along p. It is |a| |p| times the
  * difference in the tangential part of Eq. 2.2, stays smooth beyond the critical angle and where

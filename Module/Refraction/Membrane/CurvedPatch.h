@@ -4,8 +4,9 @@
  * One curved patch of the membrane over a facet with corners P_i and unit normals N_i, in
  * barycentric coordinates b_i of the facet:
  *
- * n(b) = sum_i b_i N_i + 4 sum_ij b_i b_j m_ij (not normalised) q(b) = sum_ij b_i b_j (s_ij + d_ij
- * (b_i - b_j)) S(b) = sum_i b_i P_i + n / |n| * 2 q / (1 + |n|)
+ *   n(b) = sum_i b_i N_i + 4 sum_ij b_i b_j m_ij                     (not normalised)
+ *   q(b) = sum_ij b_i b_j (s_ij + d_ij (b_i - b_j))
+ *   S(b) = sum_i b_i P_i + n / |n| * 2 q / (1 + |n|)
  *
  * m_ij is the deviation of the normal from linear interpolation at the middle of an edge (fitted by
  * CurvedPatches). s and d follow from the ends: the edge is a cubic at right angles to both
