@@ -216,7 +216,7 @@ TEST(RefractedGeometryMembrane, AnEyeInsideOfABodyIsTold)
   EXPECT_EQ(messages->Warnings, 2) << messages->Text;
 }
 
-// Two sheets, above each other or side by side.
+// Two sheets, one above the other or side by side.
 TEST(RefractedGeometryMembrane, SheetsInSequenceAreTold)
 {
   for (const bool isStacked : { true, false })

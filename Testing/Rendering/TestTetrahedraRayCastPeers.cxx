@@ -16,9 +16,11 @@
 // - scalars interpolated linearly on the projected faces, which is exact without perspective only:
 //   the scenes are parallel projections;
 // - an image that is stretched over the window by n pixels to n - 1 and interpolated: it is read
-//   before that. Therefore 255 times the difference of this mapper's image and the peer's lies in
-//   [0, 1], or in [0, 1 + 2.55] where the opacity is 0.99 or more, up to the single precision of
-//   both, 1e-4 of a step and more for hundreds of terms: a fiftieth of a step is allowed for that.
+//   before that.
+//
+// Therefore 255 times the difference of this mapper's image and the peer's lies in [0, 1], or in
+// [0, 1 + 2.55] where the opacity is 0.99 or more, up to the single precision of both, 1e-4 of a
+// step and more for hundreds of terms: a fiftieth of a step is allowed for that.
 #include "RayCastScene.h"
 
 #include <vtkCamera.h>
