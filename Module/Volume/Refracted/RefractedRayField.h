@@ -136,7 +136,8 @@ private:
     bool IsAtBorder;
     /** Side of the facet that is seen: 1 or -1; 0 if it is edge-on. */
     int Side;
-    /** True if the projection has no bounds but the image; Center and Radius are set in that case. */
+    /** True if the projection has no bounds but the image; Center and Radius are set in that case.
+     */
     bool Unbounded;
     glm::dvec3 Center;
     double Radius;
