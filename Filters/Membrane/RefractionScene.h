@@ -83,7 +83,7 @@ public:
   {
     return this->Curves ? this->Curved.GetMembrane() : this->Flat.GetMembrane();
   }
-  /** Only the solver that IsCurved names holds the membrane. */
+  /** Solver that holds the membrane if IsCurved is true; otherwise it is empty. */
   CurvedMembraneSolver& GetCurved() { return this->Curved; }
   const CurvedMembraneSolver& GetCurved() const { return this->Curved; }
   const FlatMembraneSolver& GetFlat() const { return this->Flat; }

@@ -33,7 +33,7 @@ namespace meniscus
 glm::dmat4 ToGlm(vtkMatrix4x4* matrix);
 
 /**
- * From a mapper's input to an image: the tables of mesh, scalars and property, and the backends
+ * Drawing of a mapper's input: holds the tables of mesh, scalars and property, and the backends
  * that draw them. Tables of a backend are updated when it draws. Errors are returned as texts,
  * empty if there is none.
  */

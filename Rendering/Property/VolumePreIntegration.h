@@ -39,7 +39,10 @@ public:
 
 private:
   PreIntegrationTable Table;
-  /** In units of the mesh's radius, for the mesh with this number of builds. */
+  /**
+   * Longest edge in units of the mesh's radius, and the number of builds of the mesh for which it
+   * was computed.
+   */
   double LongestEdge = 0.0;
   std::int64_t LongestEdgeOf = 0;
   std::int64_t BuiltProperty = 0;

@@ -35,7 +35,8 @@ const float AREA_ROUNDING = 9.5367431640625e-07;
 // slope and depth.
 const float GRID_ROUNDING = 1.0;
 
-// If the rays of a tile are farther apart than the mesh's radius, the tree is searched instead.
+// Largest distance of the rays of a tile, the mesh's radius. If they are farther apart, the tree is
+// searched instead.
 const float LARGEST_REACH = 536870912.0;
 // Largest refinement of a sight point's depth.
 const int DEPTH_SLACK = 128;

@@ -117,7 +117,7 @@ float segmentStartDepth;
 float segmentEndDepth;
 #endif
 
-//--- What the optical model does -------------------------------------------------------------------
+//--- Interface of the optical model ----------------------------------------------------------------
 
 // Starts the ray.
 void startRay();

@@ -45,7 +45,7 @@ protected:
     }
     return this->Finite();
   }
-  /** Within 2^-10 to 2^10, of either sign. */
+  /** A number within 2^-10 to 2^10, of either sign. */
   float Finite()
   {
     const float size = std::ldexp(1.0f + static_cast<float>(this->Random() % 4096) / 4096.0f,

@@ -587,7 +587,7 @@ TEST(RefractionPass, SeveralViewports)
   EXPECT_EQ(image.pixel(3 * Size / 4, Size / 2)[0], 255);
 }
 
-// Within other passes, and with others within it.
+// The pass inside other passes, and with other passes inside it.
 TEST(RefractionPass, ComposesWithOtherPasses)
 {
   const auto expectFloor =

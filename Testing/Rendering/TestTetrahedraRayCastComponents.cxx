@@ -367,7 +367,8 @@ TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
   RayCastScene scene(grid, combine(parts, ones), Size, Size);
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
   scene.window()->Render();
-  // Of 8 layers along x 2 reach above 0.5, likewise along y: 1 - (3/4)^2 of the cubes.
+  // Two of the 8 layers along x reach above 0.5, and two along y: 1 - (3/4)^2 of the cubes are
+  // visible.
   EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() * 7 / 16);
   expectMixture(scene, Mixture::Independent,
     { toReference(parts[0]), toReference(parts[1]), toReference(parts[2]) }, 1.0, "sparse");

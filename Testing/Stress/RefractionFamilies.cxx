@@ -282,7 +282,7 @@ RefractionCase makeDirty(StressRandom& random)
   return test;
 }
 
-// Without a tenth of the facets, in some cases a connected tenth.
+// Membranes without a tenth of their facets, in some cases a connected tenth.
 RefractionCase makeHoles(StressRandom& random)
 {
   RefractionCase test = makeOrdinary(random, random.below(5));

@@ -71,11 +71,11 @@ struct Comparison
   double Largest = 0.0;               // over all pixels but silhouettes
   double Rms = 0.0;                   // over covered pixels but silhouettes
   std::size_t Covered = 0;            // pixels that the reference covers
-  std::size_t Wrong = 0;              // off by more than the tolerance, silhouettes apart
+  std::size_t Wrong = 0;              // error above the tolerance, not on a silhouette
   std::size_t BeyondRounding = 0;     // wrong, and by more than rounding of the vertices explains
-  std::size_t Silhouettes = 0;        // off by more than the tolerance, on a silhouette
+  std::size_t Silhouettes = 0;        // error above the tolerance, on a silhouette
   std::size_t CoverageMismatches = 0; // drawn where the reference misses, silhouettes apart
-  std::size_t OffByTwoLevels = 0;     // off by more than 2/255, silhouettes included
+  std::size_t OffByTwoLevels = 0;     // error above 2/255, silhouettes included
   int WorstPixel[2] = { -1, -1 };
   std::array<double, 4> WorstImage{};
   std::array<double, 4> WorstReference{};

@@ -22,7 +22,7 @@ struct StrictDifference
 {
   bool SameSize = false;
   int Largest = 0;
-  std::size_t PixelsBeyond = 0; // pixels off by more than the threshold
+  std::size_t PixelsBeyond = 0; // pixels with a difference above the threshold
   ByteImage Image;              // absolute differences, times 32 to be seen
 };
 

@@ -24,7 +24,7 @@ struct TracedComparison
   double Largest = 0.0;    // over all pixels that are not excused
   double Rms = 0.0;        // over the visible ones of them
   std::size_t Visible = 0; // pixels whose exact result is not empty
-  std::size_t Wrong = 0;   // off by more than the tolerance
+  std::size_t Wrong = 0;   // error above the tolerance
   std::size_t Excused = 0; // further such pixels for which moving the ray explains the difference
   int WorstPixel[2] = { -1, -1 };
   std::array<double, 4> WorstImage{};

@@ -96,7 +96,8 @@ public:
   /** @{ */
   /**
    * The directions that InjectivityGrid takes, along the mean of the membrane's normals, and
-   * whether the membrane is a convex field along them, which PrepareField finds out once per shape.
+   * whether the membrane is a convex field along them, which PrepareField determines once per
+   * shape.
    */
   void PrepareField();
   const HeightFrame& GetFrame() const { return this->Frame; }

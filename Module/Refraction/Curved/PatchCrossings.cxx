@@ -14,7 +14,7 @@ namespace
 // The bound is a little smaller to allow for rounding.
 constexpr double LargestSlope = 0.95;
 
-// From such a start Newton's method converges in three or four steps, unless rounding prevents it.
+// Newton's method converges in three or four steps from such a start, unless rounding prevents it.
 constexpr int NewtonSteps = 12;
 
 // Newton's method converges quadratically: the remaining error is the square of the last step, in

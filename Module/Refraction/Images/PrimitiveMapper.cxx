@@ -334,7 +334,7 @@ PrimitiveMapper::Node PrimitiveMapper::MakeNode(const CurvedPatch& patch, const 
 }
 
 //------------------------------------------------------------------------------
-// True if linear interpolation between a and b is off by more than the tolerance at the middle. The
+// True if linear interpolation between a and b has an error above the tolerance at the middle. The
 // error is measured where the refracted rays are at the object's nearest and farthest distance, and
 // converted to an angle at the eye by the angle of the edge over the distance between the hits of
 // its ends. The result does not depend on the primitive, so its neighbours divide the edge alike.

@@ -52,8 +52,7 @@ struct RefractedOptics
 struct StraightPart
 {
   /**
-   * By pixel of the tile, in rows of RefractedRayField::TileSize: the values and End of
-   * PacketResult.
+   * Values and End of PacketResult, by pixel of the tile in rows of RefractedRayField::TileSize.
    */
   std::vector<std::array<float, 4>> Values;
   std::vector<std::int32_t> Ends;

@@ -66,7 +66,7 @@ public:
     /** Factor from the length of a gradient in the frame to the argument of that table. */
     double GradientMagnitude = 1.0;
     FixedPointRays Rays;
-    /** Only the part of a ray on the kept side of all planes is drawn. */
+    /** Planes that clip rays: only the part of a ray on the kept side of all of them is drawn. */
     std::vector<RayClippingPlane> ClippingPlanes;
     /** Transmittance at or below which a ray ends. */
     float TerminationTransmittance = 0.0f;

@@ -18,7 +18,10 @@ namespace meniscus
 struct BoundaryMeasure
 {
   std::int64_t Faces = 0;
-  /** In units of the mesh's radius. The box is the axis-aligned bounding box of the faces. */
+  /**
+   * Area and perimeter of the faces in units of the mesh's radius. The box is their axis-aligned
+   * bounding box.
+   */
   double Area = 0.0;
   double Perimeter = 0.0;
   double BoxArea = 0.0;
@@ -68,8 +71,8 @@ public:
   /** Indices of faces. */
   const std::vector<std::int32_t>& GetFaces() const { return this->Faces; }
   /**
-   * By index of the face: a depth in front of which no ray enters by it; ascending along each list.
-   * Defined for faces that are in a list only.
+   * Depth in front of which no ray enters by a face, by index of the face; ascending along each
+   * list. Defined for faces that are in a list only.
    */
   const std::vector<float>& GetNearestDepths() const { return this->NearestDepths; }
 

@@ -113,7 +113,7 @@ private:
    * new memory for the first time costs more than most of the work here.
    */
   Quad& CornersOf(std::size_t inputCell) { return this->Mesh.Cells[inputCell].Links; }
-  /** For each block of input cells, the number of accepted cells in the blocks before it. */
+  /** Number of accepted cells in the blocks before each block of input cells. */
   std::vector<std::size_t> CellStarts;
   std::size_t NumberOfCells = 0;
   std::vector<std::uint8_t> Finite;

@@ -65,7 +65,7 @@ struct TetrahedraView
   bool MatchPositions = false;
 };
 
-/** How a mesh is built. */
+/** Options for building a mesh. */
 struct MeshBuildControl
 {
   RangeLoop Loop = SerialLoop;

@@ -61,8 +61,8 @@ public:
   bool SeesAs(const FixedPointRays& other) const;
 
   /**
-   * For the ray of pixel (i, j), counted from the image's centre, u = x - offset - slope * depth,
-   * all in grid units; likewise v.
+   * Offset and slope of the ray of pixel (i, j), counted from the image's centre: u = x - offset -
+   * slope * depth, all in grid units; likewise v.
    */
   const AffinePixelMap& GetOffset() const { return this->Offset; }
   const AffinePixelMap& GetSlope() const { return this->Slope; }

@@ -279,7 +279,10 @@ public:
 private:
   int Columns;
   bool All;
-  /** For each edge: the value at the first pixel, per column and per row; not negative inside. */
+  /**
+   * Edge functions: for each edge the value at the first pixel, per column and per row; not
+   * negative inside.
+   */
   double Edge[3][3];
 };
 

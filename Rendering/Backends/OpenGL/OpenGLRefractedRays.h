@@ -62,10 +62,10 @@ public:
 private:
   vtkSmartPointer<vtkTextureObject> Texture;
   std::int64_t Bytes = 0;
-  /** By frame: rows of the frame, and its axes in the frame of the view; three numbers each. */
+  /** Rows of each frame, and its axes in the frame of the view; three numbers each. */
   std::vector<float> Rows[3];
   std::vector<float> Axes[3];
-  /** By frame: grid units of x and y per unit; index of its rows in FixedRows, from 1. */
+  /** Grid units of x and y per unit of each frame; index of its rows in FixedRows, from 1. */
   std::vector<float> GridPerUnit;
   std::vector<int> Places;
   std::vector<std::array<std::int32_t, 9>> FixedRows;

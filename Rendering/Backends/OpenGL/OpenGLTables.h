@@ -32,8 +32,8 @@ namespace meniscus
 struct RayCastOptics;
 
 /**
- * What the ray caster's shaders read, on the graphics device. All calls want the window's context
- * to be current. Errors are texts, empty if there is none.
+ * Tables of the ray caster's shaders, on the graphics device. All calls require the window's
+ * context to be current. Errors are returned as texts, empty if there is none.
  */
 class OpenGLTables
 {

@@ -29,7 +29,7 @@ constexpr int NumberOfCopies = 12;
 
 struct Rounding
 {
-  /** Of points, in any direction and along the view. */
+  /** Rounding of points, in any direction and along the view. */
   double Point = 0.0;
   double Depth = 0.0;
   /** Share of a component's range. */

@@ -359,7 +359,7 @@ public:
       this->append(start, sorted);
     }
     // The remaining crossings are closed paths: they have no entry, and each of their inverted
-    // cells cancels what another one covers.
+    // cells cancels the part that another one covers.
     return sorted;
   }
 
