@@ -29,11 +29,11 @@
 namespace
 {
 
-// Points or facets that a thread takes at once: tens of microseconds of work.
+// Number of points or facets that a thread takes at once: tens of microseconds of work.
 constexpr vtkIdType Grain = 128;
 
-// Progress is reported and abort checked this often while points are solved, but not for fewer
-// points than keep all threads of a large machine busy.
+// Number of times that progress is reported and abort checked while points are solved. A step has
+// enough points to keep all threads of a large machine busy.
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 256 * Grain;
 static_assert(
@@ -66,19 +66,19 @@ public:
   vtkTypeInt64 SkippedCells = 0;
   vtkTypeInt64 CulledVertices = 0;
   vtkTypeInt64 CulledCells = 0;
-  bool IsViewActive = false; ///< some facet is out of view
+  bool IsViewActive = false; ///< at least one facet is out of view
   vtkMTimeType ViewTime = 0;
   vtkTypeInt64 ViewEye = -1;
   vtkTypeInt64 FailedInRun = 0;
-  vtkTypeInt64 WarnedOfNoImage = -1; ///< the number of the membrane
+  vtkTypeInt64 WarnedOfNoImage = -1; ///< the membrane's number of builds at the last such warning
   bool WarnedOfModes = false;
   bool WarnedOfNoNormals = false;
   bool WarnedOfParallelProjection = false;
 };
 
 //------------------------------------------------------------------------------
-// The cache of a block lives as long as its data object: composite data of any number of blocks
-// stays cached, and what a pipeline has replaced goes.
+// The cache of a block lives as long as its data object, so that composite data with any number of
+// blocks stays cached and replaced data objects are dropped.
 meniscus::SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPolyData* input)
 {
   this->Blocks.remove_if([](const meniscus::SolvedBlock& block) { return !block.Source; });
@@ -94,7 +94,7 @@ meniscus::SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPol
 }
 
 //------------------------------------------------------------------------------
-// Progress goes from `from` to `to`, abort is asked for in between.
+// Runs `body` while progress goes from `from` to `to`, and checks for abort in between.
 bool vtkRefractedGeometryFilter::vtkInternals::Run(vtkRefractedGeometryFilter* self, double from,
   double to, vtkIdType count, vtkIdType grain, const meniscus::RangeBody& body)
 {
@@ -103,7 +103,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::Run(vtkRefractedGeometryFilter* s
   for (vtkIdType first = 0; first < count; first += step)
   {
     const vtkIdType last = std::min(first + step, count);
-    // Threads get whole grains: what is in one does not depend on the threads.
+    // Threads take whole grains, so the contents of a grain do not depend on the threads.
     vtkSMPTools::For(0, (last - first + grain - 1) / grain, 1,
       [&body, first, last, grain](vtkIdType begin, vtkIdType end)
       {
@@ -160,11 +160,11 @@ void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFi
   vtkCamera* camera = self->Camera;
   if (!self->ViewCulling || !camera || camera->GetParallelProjection())
   {
-    this->IsViewActive = false; // an eye at infinity has no view to speak of
+    this->IsViewActive = false; // an eye at infinity has no view frustum
     this->ViewTime = 0;
     return;
   }
-  // The filter's time covers the camera's, which no block of composite data changes.
+  // The filter's time covers the camera's and does not change between the blocks of composite data.
   const vtkMTimeType time = self->GetMTime();
   const vtkTypeInt64 eye = this->Scene.GetNumberOfEyeUpdates();
   if (time != this->ViewTime || eye != this->ViewEye)
@@ -177,7 +177,7 @@ void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFi
 }
 
 //------------------------------------------------------------------------------
-// Finds what of a block is in view, if anything has changed that it depends on.
+// Determines the part of a block that is in view, if anything it depends on has changed.
 void vtkRefractedGeometryFilter::vtkInternals::Select(
   vtkPolyData* input, meniscus::SolvedBlock& block)
 {
@@ -197,7 +197,7 @@ void vtkRefractedGeometryFilter::vtkInternals::Select(
   if (!(selection == block.Selection))
   {
     block.CellsReady = false;
-    // Images of all points are not kept chunk by chunk.
+    // Chunks are not kept if the images of all points were solved at once.
     const bool isNew = block.All && selection.IsActive && !block.Selection.IsActive;
     block.EyeUpdate = isNew ? -1 : block.EyeUpdate;
     block.Selection = std::move(selection);
@@ -286,7 +286,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
 }
 
 //------------------------------------------------------------------------------
-// Those that are selected; with `isReady`, what has been solved before holds.
+// Solves the selected points. With `isReady`, earlier results are valid.
 bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady)
 {
@@ -319,7 +319,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   const bool same = isReady && block.Images->GetWanted() == block.Selection.Chunks;
   if (same)
   {
-    return true; // cells alone have changed
+    return true; // only cells have changed
   }
   block.Images->SetWanted(block.Selection.Chunks);
   block.EyeUpdate = -1;
@@ -470,7 +470,7 @@ int vtkRefractedGeometryFilter::FillInputPortInformation(int vtkNotUsed(port), v
 }
 
 //------------------------------------------------------------------------------
-// The geometry comes in the pieces that are asked for, the membrane always whole.
+// The geometry is requested in pieces as the output is, the membrane always whole.
 int vtkRefractedGeometryFilter::RequestUpdateExtent(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -488,7 +488,8 @@ int vtkRefractedGeometryFilter::RequestUpdateExtent(
     membrane->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    // The executive has copied that of the geometry, if it comes from an image.
+    // The executive has copied the extent of the geometry, which exists if that comes from an
+    // image.
     membrane->Remove(Pipeline::UPDATE_EXTENT());
   }
   return 1;
@@ -535,7 +536,7 @@ int vtkRefractedGeometryFilter::RequestData(
         input, block.Vertices, block.Selection, surface, options, output);
   this->Internals->CulledVertices += block.Selection.CulledPoints;
   this->Internals->CulledCells += block.Selection.CulledCells;
-  // Of a part nothing can be said about the whole.
+  // With a view, the solved part does not tell whether the rest has images.
   this->ReportPoints(this->Internals->FailedInRun,
     block.Selection.IsActive || output->GetNumberOfPoints() > 0, input);
   this->Internals->SkippedCells += report.SkippedCells + report.BrokenCells;
@@ -557,7 +558,7 @@ int vtkRefractedGeometryFilter::RequestData(
 bool vtkRefractedGeometryFilter::HasValidLight()
 {
   const double* light = this->LightDirection;
-  // Not hypot: of three, it takes a NaN for a zero in the library of gcc 12.
+  // std::hypot is not used: with three arguments, the library of gcc 12 takes a NaN for a zero.
   if (this->VirtualNormals && !std::isfinite(light[0] + light[1] + light[2]))
   {
     vtkErrorMacro("The light's direction (" << light[0] << ", " << light[1] << ", " << light[2]

@@ -34,8 +34,8 @@ namespace
 
 constexpr char ArrayName[] = "RefractionIrradiance";
 
-// A light at infinity, in sizes of the scene. Its rays are parallel up to the inverse of that, and
-// what the view divides cells by, in degrees, is a six-thousandth of the scene.
+// Distance of a light at infinity, in sizes of the scene. Its rays are parallel up to the inverse
+// of that, and the tolerance of the view in degrees corresponds to a six-thousandth of the scene.
 constexpr double FarAway = 1e4;
 constexpr double FarTolerance = 1e-6;
 constexpr double NearTolerance = 5e-3; // the view's default
@@ -60,7 +60,10 @@ void ForSurfaces(vtkPolyData* data, const Body& body)
 }
 
 //------------------------------------------------------------------------------
-/** Area vector, half the sum of cross products about the first point; of strips, by triangles. */
+/**
+ * Area vector: half the sum of the cross products about the first point; for strips, the sum over
+ * its triangles.
+ */
 template <typename Place>
 glm::dvec3 AreaOf(vtkIdType size, const vtkIdType* points, bool isStrip, const Place& place)
 {
@@ -84,7 +87,7 @@ glm::dvec3 TupleOf(vtkDataArray* array, vtkIdType i)
 }
 
 //------------------------------------------------------------------------------
-/** What each cell of the input gets: (1 - F) A', of all its images. */
+/** Light that each cell of the input receives: (1 - F) A', summed over its images. */
 std::vector<double> GatherFlux(vtkPolyData* images, const glm::dvec3& light, vtkIdType cells)
 {
   std::vector<double> flux(static_cast<std::size_t>(cells), 0.0);
@@ -128,7 +131,7 @@ vtkSmartPointer<vtkFloatArray> MakeArray(vtkIdType tuples)
 }
 
 //------------------------------------------------------------------------------
-/** @param light  for one side, else null. */
+/** @param light position or direction for one-sided lighting, otherwise null. */
 void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const glm::dvec3* light)
 {
   const auto ofCells = MakeArray(output->GetNumberOfCells());
@@ -182,7 +185,7 @@ vtkRefractedLightFilter::vtkRefractedLightFilter()
   this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
   this->SetNumberOfInputPorts(2);
   this->View->SetImagesToAllImages();
-  this->View->CloseSeamsOff(); // the light of covered gaps and overlaps would count twice
+  this->View->CloseSeamsOff(); // covered gaps and overlaps would count their light twice
   vtkNew<vtkCallbackCommand> teller;
   teller->SetClientData(this);
   teller->SetCallback(
@@ -196,7 +199,7 @@ vtkRefractedLightFilter::vtkRefractedLightFilter()
       }
       else if (view->IsA("vtkExecutive"))
       {
-        return; // says once more that there was an error
+        return; // repeats that there was an error
       }
       else if (event == vtkCommand::ErrorEvent)
       {
@@ -244,7 +247,7 @@ int vtkRefractedLightFilter::FillInputPortInformation(int vtkNotUsed(port), vtkI
 }
 
 //------------------------------------------------------------------------------
-// Every piece of the geometry needs all of the membrane.
+// Every piece of the geometry needs the whole membrane.
 int vtkRefractedLightFilter::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -260,7 +263,7 @@ int vtkRefractedLightFilter::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-/** False after an error. */
+/** Returns false after an error. */
 bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkPolyData* membrane)
 {
   glm::dvec3 light(this->LightPosition[0], this->LightPosition[1], this->LightPosition[2]);
@@ -287,11 +290,11 @@ bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkPolyData* membra
 }
 
 //------------------------------------------------------------------------------
-/** Finds the images of the input's surfaces; false after an abort. */
+/** Computes the images of the input's surfaces. Returns false after an abort. */
 bool vtkRefractedLightFilter::Look(vtkPolyData* input, vtkPolyData* membrane)
 {
-  // Without the input's arrays, which images of it do not need; the same object each time, which
-  // the view knows again.
+  // The copy has no arrays, which the images do not need. It is the same object each time, so that
+  // the view recognises it.
   this->Surfaces->CopyStructure(input);
   this->Surfaces->Modified();
   this->View->SetInputData(this->Surfaces);

@@ -30,8 +30,8 @@
 namespace
 {
 
-// Samples that a thread takes at once, and between two reports of progress: a hundredth of all, but
-// enough for the threads of a large machine.
+// Number of samples that a thread takes at once. Progress is reported about a hundred times, but
+// not for fewer samples than keep all threads of a large machine busy.
 constexpr vtkIdType Grain = 128;
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 64 * Grain;
@@ -43,7 +43,7 @@ class vtkRefractionErrorVolume::vtkInternals
 {
 public:
   meniscus::RefractionScene Scene;
-  /** The finer mesh, or the same one where the scene has flat facets. */
+  /** The finer mesh, or the same mesh if the scene has flat facets. */
   meniscus::RefractionScene Reference;
   std::vector<meniscus::ErrorSample> Samples;
   meniscus::ErrorSummary Summary;
@@ -166,7 +166,7 @@ int vtkRefractionErrorVolume::RequestInformation(vtkInformation* vtkNotUsed(requ
   double spacing[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    // What is wrong with the box is said when there is an output to empty, in RequestData.
+    // Errors in the box are reported in RequestData, when there is an output to empty.
     const double* range = this->ModelBounds + 2 * axis;
     const int last = std::max(this->SampleDimensions[axis], 1) - 1;
     extent[2 * axis] = 0;
@@ -185,7 +185,7 @@ int vtkRefractionErrorVolume::RequestInformation(vtkInformation* vtkNotUsed(requ
 }
 
 //------------------------------------------------------------------------------
-// Every part of the volume needs all of the membranes.
+// Every part of the volume needs both membranes whole.
 int vtkRefractionErrorVolume::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
 {
@@ -197,7 +197,8 @@ int vtkRefractionErrorVolume::RequestUpdateExtent(vtkInformation* vtkNotUsed(req
       info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
       info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
       info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-      // The executive has copied that of the output, which a membrane from an image does not have.
+      // The executive has copied the extent of the output, which a membrane does not have unless it
+      // comes from an image.
       info->Remove(Pipeline::UPDATE_EXTENT());
     }
   }
@@ -276,7 +277,7 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
 }
 
 //------------------------------------------------------------------------------
-// False after an abort.
+// Returns false after an abort.
 bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
 {
   vtkInternals& internals = *this->Internals;

@@ -113,7 +113,7 @@ double* vtkTetrahedraRayCastMapper::GetBounds()
   vtkPolyData* membrane = this->GetMembrane();
   if (membrane && membrane->GetNumberOfPoints() > 0)
   {
-    // The volume's matrix takes these to the world, where the membrane is.
+    // The volume's matrix transforms these to world coordinates, in which the membrane is given.
     vtkBoundingBox box(bounds);
     double corners[6];
     membrane->GetBounds(corners);
@@ -151,7 +151,7 @@ bool vtkTetrahedraRayCastMapper::CollectInput(meniscus::InputBlocks& parts)
   }
   meniscus::InputReport report =
     meniscus::CollectInputBlocks(this->GetDataObjectInput(), this->SelectedScalars(), parts);
-  // The same parts are left out again in every frame.
+  // The warning is not repeated in every frame if the same parts are left out.
   const bool told = report.Warning == this->Internals->LastInputWarning;
   this->Internals->LastInputWarning = report.Warning;
   report.Warning = told ? std::string() : report.Warning;
@@ -320,7 +320,7 @@ void vtkTetrahedraRayCastMapper::PrepareRefraction(
 {
   meniscus::RayCastRefraction& refracting = frame.Refracting;
   refracting.Part =
-    static_cast<meniscus::MembranePart>(this->MembranePart); // the numbers are the same
+    static_cast<meniscus::MembranePart>(this->MembranePart); // both enums have the same values
   refracting.Wanted = this->HasMembrane() &&
     (this->GetExteriorIndexOfRefraction() != this->GetInteriorIndexOfRefraction() ||
       this->MembranePart != WHOLE);
@@ -382,7 +382,8 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
 {
   const bool wanted =
     this->Integration == PRE_INTEGRATED && optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
-  // Where the scalar is constant in a cell, the table would hold what it is to replace.
+  // No warning for scalars of cells: they are constant in each cell, so the table would hold the
+  // exact values.
   this->WarnOnce(wanted && !optics.IsComposite() && !optics.CellScalars,
     this->Internals->WarnedIntegration,
     "Pre-integration is not available with shading, gradient opacity and several components; "
@@ -420,7 +421,7 @@ double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
   {
     return this->ImageSampleDistance;
   }
-  // Time goes with the number of rays, the inverse square of the distance.
+  // The time is proportional to the number of rays, the inverse square of the distance.
   const double allocated = volume->GetAllocatedRenderTime();
   const double full = this->Internals->FullImageTime;
   const double distance = allocated > 0.0 && full > allocated ? std::sqrt(full / allocated) : 1.0;
@@ -445,7 +446,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   this->UsedImageSampleDistance = sampleDistance;
   if (selector)
   {
-    // Other passes tell parts of a prop apart: this one has one part, of id 0.
+    // Other passes distinguish parts of a prop: this one has a single part with id 0.
     const bool propPass = selector->GetCurrentPass() == vtkHardwareSelector::ACTOR_PASS;
     const float* value = selector->GetPropColorValue();
     frame.Output.Selecting = true;
@@ -575,7 +576,7 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   const double start = vtkTimerLog::GetUniversalTime();
   if (this->Draw(renderer, volume, parts))
   {
-    // Drawing is over when the device says so, not when the commands are sent.
+    // The frame ends when the device has finished, not when the commands have been sent.
     this->Internals->OpenGL.Finish();
     this->TimeToDraw = std::max(vtkTimerLog::GetUniversalTime() - start, 1.0e-9);
     this->Internals->FullImageTime =

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What vtkTetrahedraRayCastMapper tells of itself.
+// Counters and statistics of vtkTetrahedraRayCastMapper.
 #include "Rendering/RayCastMapperInternals.h"
 
 #include "vtkTetrahedraRayCastMapper.h"

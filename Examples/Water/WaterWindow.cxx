@@ -41,7 +41,7 @@ void SetUpCells(vtkActor* actor, vtkPolyDataMapper* mapper)
 {
   mapper->SetScalarModeToUseCellData();
   actor->SetMapper(mapper);
-  actor->GetProperty()->LightingOff(); // the cells' colours have a lamp's light in them
+  actor->GetProperty()->LightingOff(); // the cells' colours include the light of a lamp
 }
 
 }
@@ -117,7 +117,7 @@ void WaterWindow::Show(const WaterSettings& settings)
                                           : vtkRefractedGeometryFilter::FIRST_IMAGE);
   vtkPolyDataMapper::SafeDownCast(this->Water->GetMapper())->SetInputData(mesh);
 
-  // Rays are traced without what the pass adds.
+  // Rays are traced without the effects of the pass.
   const double k = settings.ShowsRays ? 0.0 : settings.Attenuation;
   this->Pass->SetAttenuationCoefficients(k, 0.4 * k, 0.2 * k);
   this->Pass->SetReflectanceModel(

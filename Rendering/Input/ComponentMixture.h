@@ -6,16 +6,16 @@
 namespace meniscus
 {
 
-/** How the components of the scalars become colour and opacity, as vtkVolumeProperty has it. */
+/** Use of the components of the scalars for colour and opacity, as defined by vtkVolumeProperty. */
 enum class ComponentMixture
 {
-  /** There is one scalar, which gives both. */
+  /** There is one scalar, which determines both. */
   None,
-  /** Each has a colour and an opacity. */
+  /** Each component has its own colour and opacity. */
   Independent,
-  /** The first of two gives the colour, the second the opacity. */
+  /** Of two components, the first determines the colour and the second the opacity. */
   ColorAndOpacity,
-  /** The first three are the colour, the fourth gives the opacity. */
+  /** Of four components, the first three are the colour and the fourth determines the opacity. */
   RedGreenBlueOpacity
 };
 

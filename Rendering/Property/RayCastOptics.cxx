@@ -23,7 +23,7 @@ namespace meniscus
 namespace
 {
 
-/** View to frame: depth counts along -z. */
+/** Converts view coordinates to the frame: depth is along -z. */
 glm::dvec3 ToFrame(const glm::dvec3& view)
 {
   return glm::dvec3(view.x, view.y, -view.z);
@@ -91,7 +91,7 @@ bool UsesGradientOpacity(vtkVolumeProperty* property)
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
   RayCastOptics& optics)
 {
-  // Components that mix have a gradient each: there is no normal for all.
+  // Mixed components have a gradient each: there is no common normal.
   const bool composite = optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND &&
     !optics.CellScalars && optics.Components != ComponentMixture::Independent;
   optics.Shading = property->GetShade() != 0 &&

@@ -12,22 +12,22 @@ class vtkVolumeProperty;
 namespace meniscus
 {
 
-/** What an opacity o of the transfer function stands for, with the property's unit distance u. */
+/** Meaning of an opacity o of the transfer function, with the property's unit distance u. */
 enum class OpacityMeaning
 {
   /** An attenuation coefficient o / u. */
   Attenuation,
   /** The alpha of one unit distance: an attenuation coefficient -ln(1 - o) / u. */
   AlphaPerUnitDistance,
-  /** An alpha as it is. */
+  /** The alpha itself. */
   Alpha
 };
 
 /**
  * The transfer function of a property's component as control points of attenuation (per world
- * length, or alpha) and colour, ascending. Empty if nothing is visible: no opacity node. Where
- * property and points differ between two nodes, linear interpolation is off by less than 1/32768 in
- * colour and in alpha (over the unit distance).
+ * length, or alpha) and colour, ascending. Empty if nothing is visible: no opacity node. Between
+ * two nodes, the error of linear interpolation is less than 1/32768 in colour and in alpha (over
+ * the unit distance).
  */
 std::vector<TransferFunctionPoint> ReducePropertyToPoints(
   vtkVolumeProperty* property, int component, OpacityMeaning meaning);
@@ -36,9 +36,9 @@ std::vector<TransferFunctionPoint> ReducePropertyToPoints(
 TransferFunctionPoint EvaluateProperty(vtkVolumeProperty* property, double scalar);
 
 /**
- * The gradient opacity function of a property's first component, likewise: Attenuation holds the
- * factor, >= 0; Scalar the gradient's magnitude. Empty without a node, which means a factor of 0,
- * as vtkPiecewiseFunction evaluates and as VTK's mappers of image data draw.
+ * The gradient opacity function of a property's first component as points: Attenuation holds the
+ * factor, >= 0; Scalar the gradient's magnitude. Empty if there is no node, which means a factor of
+ * 0, in agreement with vtkPiecewiseFunction and VTK's mappers of image data.
  */
 std::vector<TransferFunctionPoint> ReduceGradientOpacityToPoints(vtkVolumeProperty* property);
 

@@ -2,8 +2,7 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// A membrane, pixel by pixel: what is seen through it and what it reflects.
+// Colour of a membrane's pixel: transmitted and reflected light.
 
 //VTK::Environment::Dec
 
@@ -12,8 +11,8 @@ in vec2 texCoord;
 //VTK::Output::Dec
 
 uniform sampler2D refracted;       // premultiplied
-uniform sampler2D membraneNormal;  // view coordinates, towards the eye; 0 beside the membrane
-uniform sampler2D membraneDepth;   // of the window
+uniform sampler2D membraneNormal;  // view coordinates, towards the eye; 0 without a membrane
+uniform sampler2D membraneDepth;   // window depth
 #if HAS_ENVIRONMENT
 uniform samplerCube environment;
 uniform mat3 viewToWorld;
@@ -22,9 +21,10 @@ uniform mat4 clipToView;
 uniform bool parallelView;
 uniform vec3 background;
 uniform int reflectanceModel;      // 0: none, 1: Schlick, 2: exact
-uniform float relativeIndex;       // interior to exterior
+uniform float relativeIndex;       // index of the interior relative to the exterior
 
-// Unpolarised light; c is the cosine of the angle of incidence. Eq. 2.6 and Eq. 2.7 of the thesis.
+// Reflectance of unpolarised light; c is the cosine of the angle of incidence. Eqs. 2.6 and 2.7 of
+// the thesis.
 float reflectance(float c)
 {
   if (reflectanceModel == 0)

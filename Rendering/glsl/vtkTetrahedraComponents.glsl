@@ -1,23 +1,22 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
 // Composite blending of scalars of several components. Each is linear in a cell. A segment is split
-// where one of them passes a node of its function. On a piece attenuation is linear, and emission,
-// attenuation times colour, quadratic.
+// where one of them passes a node of its function. On a piece, attenuation is linear, and emission
+// (attenuation times colour) is quadratic.
 
-// The functions, in the order of the scalars that they are taken at: the main scalar, then the other
-// components, if they are not colours themselves.
+// The functions, in the order of the scalars that are their arguments: the main scalar, then the
+// other components unless they are colours.
 uniform int functionStart[NUMBER_OF_FUNCTIONS];
 uniform int functionSize[NUMBER_OF_FUNCTIONS];
 
-// Pieces end at this optical depth: there Gauss' rule of three points, exact for polynomials of the
-// fifth degree, integrates emission times transmittance to 1e-6 of the largest emission.
+// Pieces end at this optical depth: up to it, Gauss' rule of three points, exact for polynomials of
+// the fifth degree, integrates emission times transmittance to 1e-6 of the largest emission.
 const float PIECE_DEPTH = 0.5;
 const float GAUSS_PLACE = 0.3872983346207417;   // sqrt(3/5) / 2, to both sides of the middle
 const vec3 GAUSS_WEIGHTS = vec3(5.0, 8.0, 5.0) / 18.0;
 
-// Where each function is: the interval, its lower, upper, attenuation, slope, and colours there; the
-// scalar up to which the pending segment has been integrated.
+// Current interval of each function: its index; its lower and upper end, attenuation and slope; its
+// colours; and the scalar up to which the pending segment has been integrated.
 int functionInterval[NUMBER_OF_FUNCTIONS];
 vec4 functionRange[NUMBER_OF_FUNCTIONS];
 vec3 functionColor[NUMBER_OF_FUNCTIONS];
@@ -76,8 +75,8 @@ bool integratePiece()
   vec3 othersStart = COMPONENTS_OF(segmentValuesStart);
   vec3 othersEnd = COMPONENTS_OF(segmentValuesEnd);
 
-  // How far the piece reaches: to where the first function leaves its interval. A segment that begins
-  // outside of an interval first moves the interval, by an empty piece.
+  // End of the piece: where the first function leaves its interval. A segment that begins outside
+  // of an interval first moves the interval, by an empty piece.
   float leaves[NUMBER_OF_FUNCTIONS];
   int moves[NUMBER_OF_FUNCTIONS];
   bool inside = true;

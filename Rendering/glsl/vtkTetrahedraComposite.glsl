@@ -8,8 +8,8 @@ void startPart(float scalar)
   findInterval(scalar);
 }
 
-// 1 - psi, the mean over a piece of what has been absorbed up to a place: the integral over [0, 1] of
-// 1 - exp(-(a x + (t - a) x^2)), with density a at the front and optical depth t <= 1. A polynomial of
+// 1 - psi, the mean over a piece of the absorption up to a place: the integral over [0, 1] of 1 -
+// exp(-(a x + (t - a) x^2)), with density a at the front and optical depth t <= 1. A polynomial of
 // degree 5, exact to first order, fitted to 3e-7 for all densities that are nowhere negative.
 float absorbedOnAverage(float t, float a)
 {
@@ -24,11 +24,11 @@ float absorbedOnAverage(float t, float a)
 }
 
 // Integrates the next piece of the pending segment: up to the end of the segment, to that of the
-// transfer function's interval or to an optical depth of 1. Returns whether the segment is done.
+// transfer function's interval or to an optical depth of 1. Returns true if the segment is done.
 //
 // Density-emitter integral with linear attenuation and colour: Moreland and Angel, "A Fast High
-// Accuracy Volume Renderer for Unstructured Data" (2004). Their cf - cb zeta + (cb - cf) psi is written
-// cf (1 - psi) + cb (psi - zeta), free of cancellation.
+// Accuracy Volume Renderer for Unstructured Data" (2004). Their cf - cb zeta + (cb - cf) psi is
+// written cf (1 - psi) + cb (psi - zeta), free of cancellation.
 bool integratePiece()
 {
 #if SHADING || GRADIENT_OPACITY

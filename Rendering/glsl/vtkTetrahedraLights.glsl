@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Gradients and lights. Positions and directions are in the frame of the view (x, y, depth), whose
-// metric is the world's up to a factor.
+// Gradients and lights. Positions and directions are in the frame of the view (x, y, depth), in
+// which lengths are world lengths up to a factor.
 
 // Normalised model coordinates in units of MODEL_UNIT; bits of the normalised scalar.
 uniform isamplerBuffer modelVertices;
@@ -16,17 +15,17 @@ uniform float diffuse;
 uniform float specular;
 uniform float specularPower;
 #if NUMBER_OF_LIGHTS > 0
-uniform vec4 lightPosition[NUMBER_OF_LIGHTS];    // or the direction to it, with w = 0
+uniform vec4 lightPosition[NUMBER_OF_LIGHTS];    // or the direction to the light, with w = 0
 uniform vec3 lightDiffuse[NUMBER_OF_LIGHTS];
 uniform vec3 lightSpecular[NUMBER_OF_LIGHTS];
 uniform vec4 lightCone[NUMBER_OF_LIGHTS];        // axis, cosine of the angle (-2: no cone)
-uniform vec4 lightFalloff[NUMBER_OF_LIGHTS];     // by distance^0, 1, 2; exponent in the cone
+uniform vec4 lightFalloff[NUMBER_OF_LIGHTS];     // for distance^0, 1, 2; exponent in the cone
 #endif
 
 #if CELL_GRADIENTS
 uniform samplerBuffer cellGradients;
 
-// Gradient of the scalar in a cell; 0 in one without volume.
+// Gradient of the scalar in a cell; 0 in a cell without volume.
 vec3 cellGradient(int index)
 {
   return texelFetch(cellGradients, index).xyz;
@@ -34,7 +33,7 @@ vec3 cellGradient(int index)
 #endif
 
 #if CELL_SCALARS
-// The vertices of the cell that the ray is leaving; the three first are those of its exit.
+// Vertices of the cell that the ray is leaving; the first three are those of its exit face.
 ivec4 cellVertices(int index)
 {
 #if COMPACT_CELLS
@@ -47,7 +46,7 @@ ivec4 cellVertices(int index)
 #endif
 }
 
-// A vertex less another, in units of MODEL_UNIT: exact up to the rounding of the float.
+// Difference of two vertices, in units of MODEL_UNIT: exact up to rounding to float.
 vec4 fromVertex(ivec4 from, int vertex)
 {
   ivec4 p = texelFetch(modelVertices, vertex);
@@ -66,7 +65,7 @@ vec3 faceNormal(int index)
 #endif
 
 #if GRADIENT_OPACITY
-// The factor of the attenuation.
+// Factor of the attenuation.
 float gradientOpacity(vec3 gradient)
 {
   float size = gradientMagnitude * length(gradientToFrame * gradient);
@@ -84,8 +83,8 @@ float gradientOpacity(vec3 gradient)
 }
 #endif
 
-// Phong's model, two-sided: the normal is the gradient, turned to the viewer. Yields what multiplies
-// the emitted colour and what is added to it, at a depth on the ray.
+// Phong's model, two-sided: the normal is the gradient, turned to the viewer. Returns the factor of
+// the emitted colour, and the light that is added to it, at a depth on the ray.
 void light(vec3 gradient, float depth, out vec3 reflected, out vec3 highlight)
 {
   reflected = vec3(ambient);

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// What composite blending needs however many components the scalars have.
+// Functions of composite blending for any number of components.
 
-// Optical depth of a piece beyond which nothing can be told apart; its square is finite.
+// Optical depth of a piece beyond which results do not differ; its square is finite.
 const float LARGEST_DEPTH = 1.0e+18;
 
 #if SHADING || GRADIENT_OPACITY
-// What the gradient does to the pending segment, at its start and end and linear between: light that
-// multiplies the colour, light that is added to it, and the factor of the attenuation.
+// Effect of the gradient on the pending segment, at its start and end and linear in between: the
+// factor of the colour, the light that is added to it, and the factor of the attenuation.
 vec3 segmentReflected[2];
 vec3 segmentHighlight[2];
 vec2 segmentOpacity;
@@ -44,7 +43,8 @@ vec3 shade(vec3 emitted, float done)
 #endif
 #endif
 
-// 1 - exp(-x) for x in [0, 1], to 2e-9: x times a Chebyshev interpolant of (1 - exp(-x)) / x.
+// 1 - exp(-x) for x in [0, 1], with an error of at most 2e-9: x times a Chebyshev interpolant of (1
+// - exp(-x)) / x.
 float absorbed(float x)
 {
   return x * (0.99999999793357 + x * (-0.49999979725212 + x * (0.16666340311502 +

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// ALL_IMAGES in a pipeline: arrays at points that were made, and pictures without cracks.
+// ALL_IMAGES in a pipeline: arrays at new points, and images without cracks.
 #include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "RefractionPicture.h"
@@ -63,8 +63,8 @@ class RefractedGeometryPieces : public ::testing::TestWithParam<PiecesCase>
 {
 };
 
-// An array of ones stays one, texture coordinates are those of the true position, which lies on
-// the floor at the end of the refracted path, and no piece reaches beyond its tile.
+// An array of ones stays one; texture coordinates are those of the true position, which is on the
+// floor at the end of the refracted path; and no piece extends beyond its tile.
 TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
 {
   const PiecesCase& test = GetParam();
@@ -203,7 +203,7 @@ TEST(RefractedGeometryPiecesBehindPlanes, ObeySnellsLaw)
   }
 }
 
-// A pixel with nothing in it between pixels that show the ball, two at most away on either side.
+// An empty pixel between pixels that show the ball, at most two away on either side.
 TEST_P(RefractedGeometryPieces, NoPixelShowsThroughABall)
 {
   const PiecesCase& test = GetParam();

@@ -102,7 +102,7 @@ SceneTruth makeTruth(const RayCastScene& scene)
 void expectMatchesReference(
   RayCastScene& scene, const std::string& what, const SilhouetteAllowance& allowance)
 {
-  // The window must have its size before pixels have rays.
+  // Pixels have rays only after the window has its size.
   scene.window()->Render();
   const SceneTruth truth = makeTruth(scene);
   const FloatImage floats = scene.renderFloat();

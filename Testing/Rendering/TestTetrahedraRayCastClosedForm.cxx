@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures with a closed form: the length of a ray in a box, a constant or a linear medium in it.
+// Images with a closed form: the length of a ray in a box, and a constant or a linear medium in it.
 #include "RayCastScene.h"
 
 #include <vtkMath.h>

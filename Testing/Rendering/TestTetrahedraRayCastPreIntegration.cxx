@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Integration by the pre-integration table: how close it comes, and when the table is made.
+// Integration by the pre-integration table: its error, and when the table is built.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 #include "RayCastScene.h"
@@ -87,7 +87,8 @@ TEST(TetrahedraRayCastPreIntegration, ConvergesWithTheSizeOfTheTable)
   }
 }
 
-// Peaks as wide as a few samples are what a table cannot hold: a single pixel may be off by more.
+// A table cannot resolve peaks of the width of a few samples: a single pixel may have a larger
+// error.
 TEST(TetrahedraRayCastPreIntegration, DefaultSizesAreCloseToTheReference)
 {
   const Block block;
@@ -165,7 +166,7 @@ TEST(TetrahedraRayCastPreIntegration, TableIsMadeWhenWhatItDependsOnChanges)
   bytes = mapper->GetUploadedBytes();
   usePreIntegration(scene, 64, 8);
   renderAndExpect(1, "first use");
-  // The native backend reads the table where it is.
+  // The native backend reads the table in place.
   EXPECT_TRUE(mapper->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE ||
     mapper->GetUploadedBytes() >= 64 * 64 * 8 * 16);
   lookAt(scene.renderer(), block.Mesh->GetBounds(), 77.0, -20.0);

@@ -12,7 +12,7 @@ namespace meniscus
 namespace
 {
 
-/** Colour and transmittance are kept, else a number and a length. */
+/** True if the mode keeps colour and transmittance; otherwise it keeps a number and a length. */
 bool HidesWhatIsBehind(PacketBlending blending)
 {
   return blending == PacketBlending::Composite || blending == PacketBlending::Isosurfaces;

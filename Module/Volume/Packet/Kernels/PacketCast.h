@@ -15,7 +15,7 @@
 namespace meniscus
 {
 
-/** Model is made for a medium: what gradients do is not asked for where they do nothing. */
+/** Instantiates Model for a medium; effects of gradients are compiled only where there are some. */
 template <class Simd, template <class, class> class Model>
 void CastMedium(const PacketJob& job)
 {
@@ -38,7 +38,7 @@ using PacketColorAndOpacity = MultiComponentModel<Simd, PacketMixture::ColorAndO
 template <class Simd, class Medium>
 using PacketColorsAsTheyAre =
   MultiComponentModel<Simd, PacketMixture::RedGreenBlueOpacity, 1, Medium>;
-/** Gradients do nothing to independent components. */
+/** Gradients have no effect on independent components. */
 template <class Simd, int Functions>
 using PacketIndependent =
   MultiComponentModel<Simd, PacketMixture::Independent, Functions, PacketNoGradientShading<Simd>>;
