@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Nothing in the documentation is without a test: every block of code is in a language and on a page
-that a test runs; every line of an indented block is a command that a script or test runs as well, or
-whose parts are there; every script, preset, page and picture that a page names is there.
+"""Checks that everything in the documentation is tested: every block of code is in a language and on a
+page that a test runs; every line of an indented block is a command that a script or test also runs,
+or whose parts exist; every script, preset, page and image that a page names exists.
 
-Arguments: the root of the project, then PAGE:LANGUAGE of what is run."""
+Arguments: the root of the project, then PAGE:LANGUAGE of the blocks that are run.
+"""
 import json
 import os
 import re
@@ -12,7 +13,7 @@ import subprocess
 import sys
 
 
-# Commands, and the files whose scripts or tests run what each stands for.
+# Commands, and the files whose scripts or tests run the program of each.
 COMMANDS = [
     (r"scripts/[a-z-]+( |$)", []),  # looked for below
     (r"cmake --preset [a-z]+( |$)", []),  # looked for below
@@ -48,7 +49,7 @@ def text_below(root, folder):
 
 
 def command_faults(root, command):
-    """What is wrong with a line of an indented block, which must be a command."""
+    """Describes the error in a line of an indented block, which must be a command."""
     if command.startswith("apt-get install "):
         scripts = text_below(root, "scripts")
         packages = [word for word in command.split()[2:] if not word.startswith("-")]

@@ -1,18 +1,19 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the blocks of code of a page of the documentation, one after the other as one program, in an
-empty folder with the user's files that the pages speak of.
+empty folder with the user's files that the pages mention.
 
-Arguments: the page, the language of the blocks, the folder; then the pictures that must be there
-afterwards and show something. A language `extract:LANGUAGE` only writes the blocks to the folder, to
-be compiled (cpp, cmake) or run by another program."""
+Arguments: the page, the language of the blocks, the folder; then the images that must exist
+afterwards and show something. A language `extract:LANGUAGE` only writes the blocks to the folder,
+to be compiled (cpp, cmake) or run by another program.
+"""
 import os
 import re
 import shutil
 import sys
 
 SUFFIXES = {"python": "py", "pvpython": "py", "pyvista": "py", "cpp": "cxx", "cmake": "txt"}
-# Of [0, 255]; an empty picture spans nothing.
+# Of [0, 255]; an empty image has no contrast.
 LEAST_CONTRAST = 50
 
 
@@ -25,8 +26,8 @@ def blocks(page, language):
 
 
 def write_files():
-    """mesh.vtu, a field on tetrahedra, object.vtp, a torus, and water.vtp, a plane that it pierces;
-    ASCII for every reader."""
+    """Writes mesh.vtu, a field on tetrahedra, object.vtp, a torus, and water.vtp, a plane that it
+    intersects; in ASCII, for every reader."""
     from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
     from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
     from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource, vtkPlaneSource

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures for RunRanks.py with random colour maps, most of whose colours are saturated: premultiplied,
-such a colour equals the opacity, which is where compositing in 8 bits wraps around first. Meshes: those
-of MENISCUS_DATA_DIR that are there, one of 519,115 cells and one of 8,640. The number of scenes of each
-mesh is MENISCUS_RANKS_INTENSITY, 1 by default; scenes have fixed seeds, so that all numbers of ranks draw
-the same."""
+"""Images for RunRanks.py with random colour maps, most of whose colours are saturated:
+premultiplied, such a colour equals the opacity, so 8-bit compositing overflows first there. Meshes:
+those of MENISCUS_DATA_DIR if they exist, one of 519,115 cells and one of 8,640. The number of
+scenes of each mesh is MENISCUS_RANKS_INTENSITY, 1 by default; scenes have fixed seeds, so that all
+numbers of ranks draw the same."""
 import math
 import os
 import random
@@ -14,7 +14,7 @@ import RanksScene
 from paraview import simple
 
 DATA_MESHES = ["blunt_fin", "combustor", "crushed_can"]
-# On rank 0 alone, so that the tetrahedra are the same on any number of ranks.
+# On rank 0 only, so that the tetrahedra are the same on any number of ranks.
 WAVELET = """
 from paraview.modules.vtkRemotingCore import vtkProcessModule
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
@@ -68,7 +68,7 @@ def set_functions(source, array, low, high):
 
 
 def set_view(source, view, center, size):
-    """From any side, with the mesh filling the view or beyond it."""
+    """From a random side, with the mesh filling the view or extending beyond it."""
     z = source.uniform(-0.8, 0.8)
     angle = source.uniform(0, 2 * math.pi)
     across = math.sqrt(1 - z * z)

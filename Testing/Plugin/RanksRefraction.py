@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What RunRanks.py has ParaView do with the filters on each number of ranks: refracted geometry,
-refracted light and error volumes, behind a membrane that one rank has and one of which each has a
-part. Numbers are written with all their bits, in hexadecimal."""
+"""Work of ParaView for RunRanks.py with the filters on each number of ranks: refracted geometry,
+refracted light and error volumes, behind a membrane on one rank and behind a membrane of which each
+rank has a part. Numbers are written with all their bits, in hexadecimal."""
 import os
 
 from paraview import servermanager, simple
@@ -22,7 +22,7 @@ def sheet(half, height):
 
 
 def plane(resolution):
-    """The same with as many squares along each side as is said, on one rank."""
+    """As above, on one rank, with the given number of squares along each side."""
     return simple.Plane(Origin=[-8, -8, 0.5], Point1=[8, -8, 0.5], Point2=[-8, 8, 0.5],
                         XResolution=resolution, YResolution=resolution)
 
@@ -55,8 +55,8 @@ def write_refracted(name, membrane):
 
 
 def write_light(name, membrane):
-    """What cells get, by their points, and what points get; the light is at infinity. The floor
-    reaches beyond the membrane, so that the parts of it have other bounds than all of it."""
+    """Irradiance of cells, by their points, and of points; the light is at infinity. The floor
+    extends beyond the membrane, so that its parts have other bounds than the whole."""
     light = simple.RefractedLight(Geometry=sheet(10, -3.5), Membrane=membrane)
     light.LightPosition = [0.2, -0.1, 1]
     data = servermanager.Fetch(light)

@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs RanksScene.py on 1, 2 and 4 ranks and compares: pictures of composited volumes must be those
-of one rank up to the rounding of the compositing, what the filters make that of one rank.
-Arguments: mpirun, pvbatch, names of meshes or the scene Colors, random colour maps on several meshes. The
-environment variable MENISCUS_RANKS names a scene to run instead, which is only measured: Waves, pictures
-through membranes; Large, pictures and memory of millions of tetrahedra; Facets, memory of a large membrane.
+"""Runs RanksScene.py on 1, 2 and 4 ranks and compares the results: images of composited volumes must
+equal those of one rank up to the rounding of compositing, and outputs of the filters those of one
+rank. Arguments: mpirun, pvbatch, names of meshes or the scene Colors, random colour maps on several
+meshes. The environment variable MENISCUS_RANKS names another scene to run instead, which is only
+measured: Waves, images through membranes; Large, images and memory of millions of tetrahedra;
+Facets, memory of a large membrane.
 
-Documentation/parallel.md derives how far apart they can be: less than 3 steps of 8 bits, so at most
-2, for two ranks; for four it is what is demanded here."""
+Documentation/parallel.md derives the largest difference: less than 3 steps of 8 bits, so at most 2,
+for two ranks; for four ranks it is the requirement stated here.
+"""
 import collections
 import math
 import os
@@ -17,18 +19,18 @@ import sys
 
 FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
 HERE = os.path.dirname(os.path.abspath(__file__))
-# Largest difference of a picture's pixels, of 255, by the number of ranks.
+# Largest difference of an image's pixels, of 255, by the number of ranks.
 WORST = {2: 2, 4: 3}
-# Of the pixels of a mesh with inverted cells, those that may be further off: which of two overlapping cells a
-# ray meets first changes where ParaView cuts them.
+# Fraction of the pixels of a mesh with inverted cells that may differ more: the first of two
+# overlapping cells that a ray meets changes where ParaView cuts them.
 SHARE_OF_INVERTED = {"crushed_can": 1e-4}
-# The rounding of what the filter is given, single precision in a scene 16 wide. An image is found from
-# its neighbour's, which may be on another rank: it differs by what Newton's method leaves.
+# Rounding of the filter's input, single precision in a scene 16 wide. An image is found from its
+# neighbour's, which may be on another rank: it differs by the error of Newton's method.
 POINT_TOLERANCE = 16 * 2**-24
-# Of errors behind the same membrane with its facets in another order: a few hundred roundings of double
-# precision in a scene 16 wide.
+# Errors behind the same membrane with its facets in another order: a few hundred roundings of
+# double precision in a scene 16 wide.
 SAMPLE_TOLERANCE = 256 * 16 * 2**-53
-# Of light: cells are divided to a six-thousandth of the scene (vtkRefractedLightFilter.cxx); here they
+# Light: cells are divided to a six-thousandth of the scene (vtkRefractedLightFilter.cxx); here they
 # are 1 wide in a scene 25 wide.
 LIGHT_TOLERANCE = 25 / 6000
 SKIP = 125
@@ -40,7 +42,7 @@ def pixels(name):
 
 
 def count_differences(name, other):
-    """Number of pixels that are off by 0, 1, 2 ..., and of those that are not black."""
+    """Number of pixels that differ by 0, 1, 2 ..., and of those that are not black."""
     one, several = pixels(name), pixels(other)
     assert len(one) == len(several), other
     counts, lit = collections.Counter(), 0
@@ -57,7 +59,8 @@ def worst_of(other):
 
 
 def compare_pictures(name, other, most=None, share=0):
-    """At most so far apart, and above WORST in at most that share of the pixels that are not black."""
+    """Requires differences of at most the given limit, and above WORST in at most the given
+    fraction of the pixels that are not black."""
     counts, lit = count_differences(name, other)
     worst = worst_of(other)
     above = sum(number for step, number in counts.items() if step > worst)
@@ -82,13 +85,13 @@ def numbers(name):
 
 
 def farthest(some, others):
-    """How far the worst point of some is from the nearest of others."""
+    """Distance of the worst point of some from the nearest of others."""
     return max(min(max(abs(a - b) for a, b in zip(point, other)) for other in others)
                for point in some)
 
 
 def compare_points(name, other):
-    """Places and depths; points along seams are there more than once. All are behind the membrane."""
+    """Places and depths; points along seams occur more than once. All are behind the membrane."""
     one, several = set(numbers(name)), set(numbers(other))
     worst = max(farthest(one, several), farthest(several, one))
     print("%-36s worst %.1e, %d and %d points" % (other, worst, len(one), len(several)))
@@ -97,9 +100,9 @@ def compare_points(name, other):
 
 
 def compare_light(name, other):
-    """By place, but for points that several ranks have, which know their own rank's cells: to the last
-    bit where one rank has the membrane, else up to where cells are divided: the order of its facets is
-    another."""
+    """Values by place, except for points that several ranks have, which know their own rank's cells
+    only: equal to the last bit if one rank has the membrane, otherwise up to the size of divided
+    cells, since the order of its facets differs."""
     one = {values[:-1]: values[-1] for values in numbers(name)}
     found = collections.defaultdict(list)
     for values in numbers(other):
@@ -116,7 +119,7 @@ def compare_light(name, other):
 
 
 def samples(name):
-    """Of the files of all ranks: the samples, and the statistics of each."""
+    """From the files of all ranks: the samples, and the statistics of each rank."""
     start, end = name.split("-0.")
     found, statistics = {}, []
     for part in sorted(os.listdir(FOLDER)):
@@ -133,16 +136,17 @@ def samples(name):
 
 
 def compare_samples(name, other):
-    """Samples to the last bit where one rank has the membrane, else up to rounding: the order of its
-    facets is another. Statistics: on all ranks those of one, number and largest error as exact as the
-    samples, mean and deviation up to the rounding of sums in another order."""
+    """Samples are equal to the last bit if one rank has the membrane, otherwise up to rounding,
+    since the order of its facets differs. Statistics on all ranks equal those on one: number and
+    largest error as exactly as the samples, mean and deviation up to the rounding of sums in
+    another order."""
     (one, [expected]), (several, found) = samples(name), samples(other)
     states = {place: value[1] for place, value in several.items()}
     same = states == {place: value[1] for place, value in one.items()}
     measured = [(float.fromhex(value[0]), float.fromhex(several[place][0]))
                 for place, value in one.items() if value[1] == "0" and place in several]
     worst = max(abs(a - b) for a, b in measured)
-    # A sum of n positive numbers is off by n - 1 roundings at most; two sums.
+    # The error of a sum of n positive numbers is at most n - 1 roundings; there are two sums.
     bound = 2 * len(one) * 2**-53 * max(expected[2:])
     most = 0 if "OneRank" in name else SAMPLE_TOLERANCE
     off = max(abs(a - b) for part in found for a, b in zip(part[2:], expected[2:]))
@@ -154,7 +158,7 @@ def compare_samples(name, other):
 
 
 def print_memory(name):
-    """Of the rank that has most, on each number of ranks."""
+    """Figures of the rank with the most memory, for each number of ranks."""
     for ranks in (1, 2, 4):
         start = name.replace("Ranks1", "Ranks%d" % ranks).split("-0.")[0]
         parts = [[line.split() for line in lines("%s-%d.memory" % (start, rank))]
@@ -183,8 +187,8 @@ def run(mpirun, pvbatch, ranks, names):
 
 
 def check_warnings(log, several):
-    """Each on several ranks only, and as often as RanksScene.py has a reason for it: a rank without the
-    array, a blend mode, membranes that are drawn from several sides."""
+    """Each warning on several ranks only, and as often as RanksScene.py has a reason for it: a rank
+    without the array, a blend mode, membranes that are drawn from several sides."""
     for warning, reasons in [("There is no array 'RTData' on rank 1", 1),
                              ("right for the blend modes Composite and Isosurface only", 1),
                              ("The membrane is not a plane across an axis", 3)]:

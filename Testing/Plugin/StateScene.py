@@ -17,14 +17,14 @@ SCRIPT = os.path.join(FOLDER, "state.py")
 
 @contextlib.contextmanager
 def modified(proxy):
-    """What ParaView's panels do around changes of properties, for the trace to hold them."""
+    """Emulates ParaView's panels around changes of properties, so that the trace contains them."""
     item = smtrace.PropertiesModified(proxy.SMProxy)
     yield proxy
     item.finalize()
 
 
 def show_light(waves, view):
-    """A floor below the waves by the light that it gets."""
+    """A floor below the waves with the light that it receives."""
     floor = simple.Plane(Origin=[-12, -12, -8], Point1=[12, -12, -8], Point2=[-12, 12, -8],
                          XResolution=60, YResolution=60)
     normals = simple.GenerateSurfaceNormals(Input=waves)
@@ -37,7 +37,7 @@ def show_light(waves, view):
 
 
 def show_error(waves, view):
-    """How far off flat facets of the waves are, on a slice through a box below them."""
+    """Error of flat facets of the waves, on a slice through a box below them."""
     error = simple.RefractionErrorVolume(Membrane=waves)
     with modified(error):
         error.EyePosition = [3, 4, 40]
@@ -50,9 +50,9 @@ def show_error(waves, view):
 
 
 def make_scene():
-    """A volume with settings of its own, seen through waves; a ball behind a surface of a formula that
-    these waves are put on, the eye at the camera, which it follows; light through the waves, and how
-    far off their facets are."""
+    """A volume with its own settings, seen through waves; a ball behind the surface of a formula
+    onto which these waves are moved, with the eye following the camera; light through the waves,
+    and the error of their facets."""
     grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
     view = simple.CreateRenderView()
     with modified(view):

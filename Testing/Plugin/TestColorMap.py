@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the colour map editor offers, against the colours that the map itself says: a bar whose scalars
-rise from left to right, seen from the front, opaque, by its maximum, is the map. Log scale, few colours,
-colours below and above the range and their borders, NaN."""
+"""Options of the colour map editor, compared with the colours of the map itself: an opaque bar
+whose scalars rise from left to right, seen from the front with maximum intensity, shows the map.
+Log scale, few colours, colours below and above the range and their borders, NaN."""
 import math
 
 import PluginTesting
@@ -18,7 +18,7 @@ STEEPEST = 20  # of 255 in a pixel; what is more is a border
 
 
 def scalar_at(column):
-    """In the middle of a column of pixels; the bar is as long as the picture is wide."""
+    """Scalar in the middle of a column of pixels; the bar is as long as the image is wide."""
     return LOWEST + (HIGHEST - LOWEST) * (column + 0.5) / SIZE
 
 
@@ -52,12 +52,12 @@ def distance(a, b):
 
 
 def is_between(color, others):
-    """On a border, which is a 4096th of an interval wide, a pixel may be a mixture."""
+    """At a border, which is a 4096th of an interval wide, a pixel may be a mixture."""
     return all(min(channel) <= value <= max(channel) for value, channel in zip(color, zip(*others)))
 
 
 def colors_of(table, scalars):
-    """The colours by which ParaView draws surfaces."""
+    """Colours with which ParaView draws surfaces."""
     array = vtkDoubleArray()
     for scalar in scalars:
         array.InsertNextValue(scalar)
@@ -66,7 +66,8 @@ def colors_of(table, scalars):
 
 
 def check(view, colors, name, columns=range(SIZE)):
-    """Each pixel has the colour of a surface with a scalar in the pixel or in its neighbours: no farther may a border be off. Returns the colours beside borders and the pixels at them."""
+    """Each pixel has the colour of a surface with a scalar in the pixel or in its neighbours, so no
+    border may be farther off. Returns the colours at borders and the pixels at them."""
     row = row_of(view, name)
     table = colors.SMProxy.GetClientSideObject()
     parts = 8  # of a pixel

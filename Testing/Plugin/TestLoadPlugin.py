@@ -28,7 +28,8 @@ def last_group(proxy, name):
 
 
 def values_of(element, inverse):
-    """What an XML element of decorators and those below it compare with, to show or to hide."""
+    """Values with which an XML element of decorators, and those below it, compare in order to show
+    or hide."""
     found = set()
     if (element.GetAttribute("inverse") == "1") == inverse:
         found.add(element.GetAttribute("value"))

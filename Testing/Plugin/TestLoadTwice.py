@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin works beside another that adds representations, and after it was loaded again. Of the
-second time ParaView 5.11 says `Plugin load failed: No plugin loaded yet`, of its own plugins too."""
+"""The plugin works together with another one that adds representations, and after it has been
+loaded again. The second time ParaView 5.11 prints `Plugin load failed: No plugin loaded yet`, also
+for its own plugins."""
 import os
 
 import PluginTesting

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A volume seen through a membrane: an isosurface is where the filter Refracted Geometry puts its
-contour; the membrane follows its pipeline, animated or read per time step, may have blocks, and can be
-taken away again."""
+contour; the membrane follows its pipeline, animated or read per time step, may have blocks, and can
+be removed again."""
 import os
 
 import PluginTesting
@@ -19,8 +19,9 @@ SERIES = """<VTKFile type="Collection"><Collection>
 </Collection></VTKFile>
 """
 FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
-# Of the pixels covered by either, those along the outlines, where pixels of the one are of points and
-# of the other of triangles: a length of about 4 diameters, two pixels wide.
+# Fraction of the pixels covered by either image that lie along the outlines, where pixels of one
+# are computed for points and of the other for triangles: a length of about 4 diameters, two pixels
+# wide.
 SHARE_OF_OUTLINES = 0.05
 
 
@@ -91,7 +92,7 @@ def check_changes(view, display, waves, straight):
 
 
 def check_empty(view, display, straight):
-    """A membrane without cells, as a clip may leave, is told of; rays are straight."""
+    """A membrane without cells, as a clip may produce, causes a warning; rays are straight."""
     nothing = simple.Contour(Input=simple.Wavelet(WholeExtent=[0, 1] * 3),
                              ContourBy=["POINTS", "RTData"], Isosurfaces=[1e9])
     told = []
@@ -111,7 +112,7 @@ def check_empty(view, display, straight):
 
 
 def check_keyframes(view, display, plane, straight):
-    """Waves whose height is animated: each time's picture is that of the height set by hand."""
+    """Waves whose height is animated: the image at each time equals that of the height set by hand."""
     heights = simple.Calculator(Input=plane, ResultArrayName="Height", Function=HEIGHT)
     waves = simple.GenerateSurfaceNormals(
         Input=simple.WarpByScalar(Input=heights, Scalars=["POINTS", "Height"], ScaleFactor=0.2))

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a user does with the representation: choose arrays and components, edit the opacity, step
-through time, animate a property, change the blend mode, light it, move the view, select; each changes
-the picture, and back again gives the first picture, bit for bit."""
+"""A user's actions with the representation: select arrays and components, edit the opacity, step
+through time, animate a property, change the blend mode, light it, move the view, select. Each
+changes the image, and the reverse action restores the first image, bit for bit."""
 import os
 
 import PluginTesting
@@ -33,7 +33,7 @@ def color(display, name, association="POINTS"):
 
 
 def check_arrays(view, grid):
-    """Cell data, components and length look as an array that holds just that."""
+    """Cell data, components and length look like an array with only these values."""
     calculator = simple.Calculator(
         Input=grid, ResultArrayName="Vectors", Function="iHat*coordsX+jHat*RTData/20+kHat*coordsZ")
     lengths = simple.Calculator(
@@ -89,7 +89,7 @@ def check_edits(view, display):
 
 
 def window_pixels(view):
-    """What the window shows now, without drawing it again."""
+    """Contents of the window, without drawing it again."""
     grab = vtkWindowToImageFilter()
     grab.SetInput(view.SMProxy.GetClientSideObject().GetRenderWindow())
     grab.ShouldRerenderOff()
@@ -104,8 +104,8 @@ def mean_difference(some, others):
 
 
 def check_interaction(view):
-    """While the view is moved the volume is drawn below ParaView's threshold and a surface above it;
-    afterwards the volume is back."""
+    """While the view moves the volume is drawn below ParaView's threshold and a surface above it;
+    afterwards the volume is drawn again."""
     first = screenshot(view, "InteractionNone")
     threshold = view.LODThreshold
     simple.Render(view)
@@ -202,8 +202,8 @@ def check_time(view, grid):
 
 
 def check_translucent(view, display, grid):
-    """The volume is drawn over a translucent surface, in front of it as behind; afterwards the view
-    peels other volumes again."""
+    """The volume is drawn over a translucent surface, in front of it and behind it; afterwards the
+    view peels other volumes again."""
     alone = screenshot(view, "TranslucentNone")
     plane = simple.Plane(Origin=[-60, -60, -20], Point1=[60, -60, -20], Point2=[-60, 60, -20])
     surface = simple.Show(plane, view)

@@ -47,8 +47,8 @@ def follow_camera(refracted, view):
 
 
 def check_camera(refracted, view):
-    """The eye follows the camera; with ViewCulling, what the camera does not show is left out and
-    the picture is the same."""
+    """The eye follows the camera; with ViewCulling, geometry outside the camera's view is left out
+    and the image is the same."""
     follow_camera(refracted, view)
     for position in [(0.5, -0.4, 3.0), (1.5, 0.3, 1.5)]:
         view.CameraPosition = position
@@ -67,8 +67,9 @@ def check_camera(refracted, view):
 
 
 def check_exact(sphere, membrane):
-    """With a formula for the membrane, its mesh counts by its extent alone: waves on a plane are gone,
-    and Snell's law holds as exactly as for a plane; without it they are there again."""
+    """With a formula for the membrane, only the extent of its mesh is used: waves on a plane have
+    no effect, and Snell's law holds as exactly as for a plane; without the formula they have an
+    effect again."""
     waves = simple.Calculator(Input=membrane, CoordinateResults=1,
                               Function="coords+kHat*0.05*sin(3*coordsX)*cos(3*coordsY)")
     refracted = simple.RefractedGeometry(Geometry=sphere, Membrane=waves, EyePosition=EYE)
@@ -90,7 +91,7 @@ def check_exact(sphere, membrane):
 
 
 def check_blocks(sphere, membrane):
-    """Composite inputs: the blocks of the geometry stay, those of the membrane become one."""
+    """Composite inputs: the blocks of the geometry are kept, those of the membrane become one."""
     other = simple.Sphere(Center=[0.5, 0, -1], Radius=0.2)
     halves = [simple.Plane(Origin=[x, -2, 0], Point1=[x + 2, -2, 0], Point2=[x, 2, 0],
                            XResolution=RESOLUTION // 2, YResolution=RESOLUTION) for x in (-2, 0)]

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The error volume of flat facets against a finer mesh of the same waves, measured and drawn."""
+"""The error volume of flat facets compared with a finer mesh of the same waves, measured and drawn."""
 import PluginTesting
 from paraview import servermanager, simple
 
 WAVES = "coords+kHat*0.1*sin(2*coordsX)*cos(2*coordsY)"
-# Second order: a quarter of the error; 3 leaves room for samples that fall luckily.
+# Second order: a quarter of the error; a factor of 3 allows for the positions of the samples.
 LEAST_GAIN = 3
 
 
@@ -46,7 +46,8 @@ def measure_cap(resolution, exact):
 
 
 def check_exact():
-    """Against the formula: of second order, and not what the patches of the mesh itself say."""
+    """Compared with the formula: second order, and different from the result with the mesh's own
+    patches."""
     coarse, fine = measure_cap(12, "Sphere"), measure_cap(24, "Sphere")
     print("mean errors of a cap %.2e, %.2e" % (coarse, fine))
     assert 0 < fine < coarse / LEAST_GAIN

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A tetrahedral mesh drawn by our representation looks as ParaView's own volume: same silhouette,
-same opacity and colours. ParaView's (projected tetrahedra) is off by a few units itself."""
+"""A tetrahedral mesh drawn by our representation looks like ParaView's own volume: same silhouette,
+same opacity and colours. ParaView's result (projected tetrahedra) has an error of a few units."""
 import PluginTesting
 from paraview import simple
 
 # The two mappers may disagree in pixels that the silhouette only touches.
 LEAST_OVERLAP = 0.97
-# Of 255, averaged over the pixels that either covers.
+# Of 255, averaged over the pixels that either image covers.
 MOST_MEAN_DIFFERENCE = 4
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls that cannot be right are Python errors, or VTK errors that can be observed; none crashes."""
+"""Invalid calls are Python errors, or VTK errors that can be observed; none of them crashes."""
 import gc
 import os
 import shutil
@@ -42,7 +42,7 @@ class TestBadInput(unittest.TestCase):
             mapper.SetNotThere(1)
 
     def test_deleted_objects(self):
-        """What Python has let go of is kept by those who use it."""
+        """Objects that Python has released are kept by the objects that use them."""
         refraction = self.observe(meniscus.vtkRefractedGeometryFilter())
         ball = vtkSphereSource()
         ball.SetCenter(0, 0, -1)
@@ -81,7 +81,7 @@ class TestBadInput(unittest.TestCase):
         self.assertEqual(refraction.GetOutput().GetNumberOfPoints(), 0)
 
     def test_other_vtk(self):
-        """Another vtkmodules, or none, is an ImportError that says what to do."""
+        """Another vtkmodules, or none, causes an ImportError with instructions."""
         other = ("class vtkVersion:\n    @staticmethod\n"
                  "    def GetVTKVersion():\n        return '9.9.9'\n")
         for text, message in [(other, "are VTK 9.9.9"), ("raise ImportError", "No vtkmodules")]:
@@ -99,7 +99,7 @@ class TestBadInput(unittest.TestCase):
                 self.assertRegex(done.stderr, "--system-site-packages|pip install vtk==")
 
     def test_library_missing(self):
-        """A library of ours that does not load is an ImportError that names it."""
+        """If the library cannot be loaded, an ImportError names it."""
         with tempfile.TemporaryDirectory() as folder:
             package = os.path.join(folder, "meniscus")
             os.mkdir(package)

@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""meniscus.pyvista against pictures of the same scene by other means; skipped without PyVista.
+"""meniscus.pyvista compared with images of the same scene made by other means; skipped without
+PyVista.
 
-The status is 125 then, which CTest counts as skipped.
+The exit status is then 125, which CTest counts as skipped.
 """
 import sys
 import unittest
@@ -22,7 +23,8 @@ from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkVolume
 SIZE = 150
 CELLS = 12
 LIMITS = (3.0, 8.0)
-# Entries of a table as PyVista keeps them, in bytes: what comes out has no rounding to allow for.
+# Entries of a table as PyVista stores them, in bytes, so that the result needs no allowance for
+# rounding.
 OPACITIES = (numpy.arange(256) // 3).astype(numpy.uint8)
 ENTRIES = numpy.linspace(0.0, 1.0, 256)
 
@@ -34,7 +36,7 @@ def make_image():
 
 
 def picture_of(fill):
-    """The picture, as whole numbers, of a plotter that fill(plotter) puts a volume into."""
+    """The image, as integers, of a plotter to which fill(plotter) adds a volume."""
     plotter = pyvista.Plotter(off_screen=True, window_size=(SIZE, SIZE))
     plotter.set_background("black")
     fill(plotter)
@@ -45,7 +47,7 @@ def picture_of(fill):
 
 
 def add_explicitly(plotter, mesh, cmap):
-    """The same volume by the mapper and functions made here."""
+    """The same volume with a mapper and functions created here."""
     colors = vtkColorTransferFunction()
     opacity = vtkPiecewiseFunction()
     for entry, alpha in zip(ENTRIES, OPACITIES):
@@ -74,14 +76,15 @@ class TestPyVista(unittest.TestCase):
                 opacity_unit_distance=1.0, show_scalar_bar=False))
             explicit = picture_of(lambda plotter: add_explicitly(plotter, mesh, cmap))
             self.assertGreater((explicit.max(axis=2) > 30).sum(), 0.1 * SIZE * SIZE)
-            # Colours are cut down to bytes in PyVista's table, the picture's are rounded: 1 each.
+            # Colours are truncated to bytes in PyVista's table, and those of the image are rounded:
+            # 1 each.
             self.assertLessEqual(abs(helper - explicit).max(), 2, cmap)
 
     def test_looks_as_a_volume_of_pyvista(self):
         image = make_image()
         for limits in (None, LIMITS):
             options = dict(cmap="coolwarm", clim=limits, opacity="linear", show_scalar_bar=False)
-            # PyVista's unit is clear from version to version only if it is said.
+            # PyVista's unit differs between versions unless it is given explicitly.
             own = picture_of(lambda plotter: plotter.add_volume(
                 image, scalars="height", mapper="smart", shade=False, opacity_unit_distance=4.0,
                 **options))
@@ -89,10 +92,10 @@ class TestPyVista(unittest.TestCase):
                 plotter, image, "height", opacity_unit_distance=4.0,
                 OpacityModel=vtkTetrahedraRayCastMapper.OPACITY_PER_UNIT_DISTANCE, **options))
             self.assertGreater((own.max(axis=2) > 30).sum(), 0.1 * SIZE * SIZE)
-            # Inside the picture both integrate the same functions of the same linear field; PyVista's mapper
-            # takes two samples per cell and looks opacities up in a table, its silhouette is that of the
-            # voxels' centres. Functions on another range differ by 40 in the mean, and by more than 100 in
-            # one of ten values.
+            # Inside the silhouette both integrate the same functions of the same linear field.
+            # PyVista's mapper takes two samples per cell and looks opacities up in a table, and its
+            # silhouette is that of the voxels' centres. Functions over another range differ by 40
+            # in the mean, and by more than 100 in one of ten values.
             difference = abs(helper - own)
             self.assertLess(difference.mean(), 2.0, limits)
             self.assertLessEqual(numpy.percentile(difference, 90), 4, limits)

@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The functions that meniscus.pyvista gives a volume, with a stand-in for the little of PyVista that it uses.
+"""The functions that meniscus.pyvista assigns to a volume, with a substitute for the part of PyVista
+that it uses.
 
-Real pictures are those of TestPyVista.py, which needs PyVista.
+Real images are tested by TestPyVista.py, which needs PyVista.
 """
 import sys
 import types
@@ -15,7 +16,7 @@ ENTRIES = 4
 
 
 class LookupTable(vtkLookupTable):
-    """Grey levels, and opacities as they are given; its own functions must not be asked for."""
+    """Grey levels, and opacities as given; its own functions must not be called."""
 
     def __init__(self, cmap=None, scalar_range=(0.0, 1.0)):
         self.cmap = cmap
