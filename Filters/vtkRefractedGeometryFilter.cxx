@@ -3,6 +3,7 @@
 #include "vtkRefractedGeometryFilter.h"
 
 #include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/VirtualPolyData.h"
@@ -340,11 +341,13 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
 }
 
 vtkStandardNewMacro(vtkRefractedGeometryFilter);
+meniscusInterfacePropertiesMacro(vtkRefractedGeometryFilter);
 
 //------------------------------------------------------------------------------
 vtkRefractedGeometryFilter::vtkRefractedGeometryFilter()
   : Internals(new vtkInternals)
 {
+  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
   this->SetNumberOfInputPorts(2);
 }
 
@@ -370,17 +373,13 @@ vtkCamera* vtkRefractedGeometryFilter::GetCamera()
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::SetExactMembrane(vtkImplicitFunction* function)
 {
-  if (this->ExactMembrane != function)
-  {
-    this->ExactMembrane = function;
-    this->Modified();
-  }
+  this->Interfaces->GetFirstInterface()->SetExactSurface(function);
 }
 
 //------------------------------------------------------------------------------
 vtkImplicitFunction* vtkRefractedGeometryFilter::GetExactMembrane()
 {
-  return this->ExactMembrane;
+  return this->Interfaces->GetFirstInterface()->GetExactSurface();
 }
 
 //------------------------------------------------------------------------------
@@ -394,8 +393,7 @@ vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 {
   const vtkMTimeType own = this->Superclass::GetMTime();
   const vtkMTimeType camera = this->Camera ? this->Camera->GetMTime() : 0;
-  const vtkMTimeType membrane = this->ExactMembrane ? this->ExactMembrane->GetMTime() : 0;
-  return std::max({ own, camera, membrane });
+  return std::max({ own, camera, this->Interfaces->GetMTime() });
 }
 
 //------------------------------------------------------------------------------
@@ -522,7 +520,7 @@ int vtkRefractedGeometryFilter::RequestData(
   this->Internals->UpdateView(this);
   meniscus::SolvedBlock& block = this->Internals->GetBlock(input);
   this->Internals->Select(input, block);
-  const bool all = this->Images == AllImages && this->MembraneModel == CURVED;
+  const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
   if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
   {
     return 1;
@@ -600,8 +598,8 @@ void vtkRefractedGeometryFilter::ReportPoints(
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::WarnOfModes()
 {
-  if (!this->Internals->WarnedOfModes && this->Images == AllImages &&
-    this->MembraneModel == FlatFacets)
+  if (!this->Internals->WarnedOfModes && this->Images == ALL_IMAGES &&
+    this->MembraneModel == FLAT_FACETS)
   {
     this->Internals->WarnedOfModes = true;
     vtkWarningMacro("Images ALL_IMAGES needs the membrane model CURVED: flat facets overlap, and "
@@ -619,9 +617,14 @@ void vtkRefractedGeometryFilter::WarnOfModes()
 //------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
 {
+  if (const char* fault = meniscus::FindFault(this->Interfaces))
+  {
+    vtkErrorMacro(<< fault << "; the output is empty.");
+    return false;
+  }
   meniscus::SceneMessages messages;
   const bool ready = this->Internals->Scene.SetMembrane(
-    membrane, this->MembraneModel == CURVED, messages, this->ExactMembrane);
+    membrane, this->MembraneModel == CURVED, messages, this->GetExactMembrane());
   if (!messages.Error.empty())
   {
     vtkErrorMacro(<< messages.Error << "; the output is empty.");
@@ -644,8 +647,8 @@ bool vtkRefractedGeometryFilter::UpdateEye()
   }
   meniscus::SceneMessages messages;
   const bool ready = this->Internals->Scene.SetEye(
-    { position[0], position[1], position[2], this->ExteriorIndexOfRefraction,
-      this->InteriorIndexOfRefraction },
+    { position[0], position[1], position[2], this->GetExteriorIndexOfRefraction(),
+      this->GetInteriorIndexOfRefraction() },
     messages);
   if (!messages.Error.empty())
   {
@@ -667,12 +670,12 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Camera: " << this->Camera.Get() << "\n";
   os << indent << "ViewCulling: " << (this->ViewCulling ? "on" : "off") << "\n";
   os << indent << "ViewAspectRatio: " << this->ViewAspectRatio << "\n";
-  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
-  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
   os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
      << "\n";
-  os << indent << "ExactMembrane: " << this->ExactMembrane.Get() << "\n";
-  os << indent << "Images: " << (this->Images == AllImages ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
+  os << indent << "ExactMembrane: " << this->GetExactMembrane() << "\n";
+  os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
   os << indent << "AngularTolerance: " << this->AngularTolerance << "\n";
   os << indent << "CloseSeams: " << this->CloseSeams << "\n";
   os << indent

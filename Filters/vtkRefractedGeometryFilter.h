@@ -100,6 +100,7 @@
 
 #include <memory> // For std::unique_ptr
 
+class vtkRefractingInterfaceCollection;
 class vtkCamera;
 class vtkImplicitFunction;
 
@@ -113,16 +114,16 @@ public:
   /** Representation of the membrane's surface between its vertices. */
   enum MembraneModels
   {
-    FlatFacets = 0, ///< linear interpolation in each facet, the thesis's method
-    CURVED = 1      ///< smooth patches from positions and normals
+    FLAT_FACETS = 0, ///< linear interpolation in each facet, the thesis's method
+    CURVED = 1       ///< smooth patches from positions and normals
   };
 
   /** Images of a point that are computed where the membrane shows several. */
   enum ImageModes
   {
-    FirstImage = 0, ///< one: with FLAT_FACETS the image in the first facet, in the order of the
-                    ///< membrane's cells; with CURVED the one that continues the previous point's
-    AllImages = 1   ///< every one
+    FIRST_IMAGE = 0, ///< one: with FLAT_FACETS the image in the first facet, in the order of the
+                     ///< membrane's cells; with CURVED the one that continues the previous point's
+    ALL_IMAGES = 1   ///< every one
   };
 
   /** Formula for the array Reflectance. */
@@ -180,8 +181,8 @@ public:
    * Set/Get the index of refraction on the eye's side of the membrane. Must be positive and finite;
    * other values are an error when the filter runs. Default is 1.0, that of air.
    */
-  vtkSetMacro(ExteriorIndexOfRefraction, double);
-  vtkGetMacro(ExteriorIndexOfRefraction, double);
+  virtual void SetExteriorIndexOfRefraction(double index);
+  virtual double GetExteriorIndexOfRefraction();
   /** @} */
 
   /** @{ */
@@ -189,17 +190,27 @@ public:
    * Set/Get the index of refraction on the geometry's side of the membrane. Must be positive and
    * finite; other values are an error when the filter runs. Default is 1.333, that of water.
    */
-  vtkSetMacro(InteriorIndexOfRefraction, double);
-  vtkGetMacro(InteriorIndexOfRefraction, double);
+  virtual void SetInteriorIndexOfRefraction(double index);
+  virtual double GetInteriorIndexOfRefraction();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
+   * first interface has the indices of refraction and the exact surface; more than one are an
+   * error when it runs. Null stands for a list of one with default values, which is the default.
+   */
+  void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
+  vtkRefractingInterfaceCollection* GetInterfaces();
   /** @} */
 
   /** @{ */
   /**
    * Set/Get the membrane model, FLAT_FACETS or CURVED. Default is CURVED.
    */
-  vtkSetClampMacro(MembraneModel, int, FlatFacets, CURVED);
+  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
   vtkGetMacro(MembraneModel, int);
-  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FlatFacets); }
+  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
   /** @} */
 
@@ -221,10 +232,10 @@ public:
    * Set/Get the images to compute, FIRST_IMAGE or ALL_IMAGES. Default is ALL_IMAGES; with
    * FLAT_FACETS, the filter warns and computes FIRST_IMAGE.
    */
-  vtkSetClampMacro(Images, int, FirstImage, AllImages);
+  vtkSetClampMacro(Images, int, FIRST_IMAGE, ALL_IMAGES);
   vtkGetMacro(Images, int);
-  void SetImagesToFirstImage() { this->SetImages(FirstImage); }
-  void SetImagesToAllImages() { this->SetImages(AllImages); }
+  void SetImagesToFirstImage() { this->SetImages(FIRST_IMAGE); }
+  void SetImagesToAllImages() { this->SetImages(ALL_IMAGES); }
   /** @} */
 
   /** @{ */
@@ -383,11 +394,8 @@ private:
   double EyePosition[3] = { 0.0, 0.0, 1.0 };
   bool ViewCulling = true;
   double ViewAspectRatio = 0.0;
-  double ExteriorIndexOfRefraction = 1.0;
-  double InteriorIndexOfRefraction = 1.333;
   int MembraneModel = CURVED;
-  vtkSmartPointer<vtkImplicitFunction> ExactMembrane;
-  int Images = AllImages;
+  int Images = ALL_IMAGES;
   double AngularTolerance = 0.005;
   bool CloseSeams = true;
   int ReflectanceModel = FRESNEL;
@@ -395,6 +403,7 @@ private:
   double LightDirection[3] = { 0.0, 0.0, 0.0 };
   int OutputPointsPrecision = DEFAULT_PRECISION;
   vtkSmartPointer<vtkCamera> Camera;
+  vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

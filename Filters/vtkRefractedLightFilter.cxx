@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractedLightFilter.h"
 
+#include "Filters/Interface/InterfaceProperties.h"
+
 #include "vtkRefractedGeometryFilter.h"
 
 #include "vtkCallbackCommand.h"
@@ -175,10 +177,12 @@ void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const g
 } // anonymous namespace
 
 vtkStandardNewMacro(vtkRefractedLightFilter);
+meniscusInterfacePropertiesMacro(vtkRefractedLightFilter);
 
 //------------------------------------------------------------------------------
 vtkRefractedLightFilter::vtkRefractedLightFilter()
 {
+  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
   this->SetNumberOfInputPorts(2);
   this->View->SetImagesToAllImages();
   this->View->CloseSeamsOff(); // covered gaps and overlaps would count their light twice
@@ -216,6 +220,12 @@ vtkRefractedLightFilter::vtkRefractedLightFilter()
 
 //------------------------------------------------------------------------------
 vtkRefractedLightFilter::~vtkRefractedLightFilter() = default;
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkRefractedLightFilter::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
+}
 
 //------------------------------------------------------------------------------
 void vtkRefractedLightFilter::SetMembraneData(vtkPolyData* membrane)
@@ -289,8 +299,7 @@ bool vtkRefractedLightFilter::Look(vtkPolyData* input, vtkPolyData* membrane)
   this->Surfaces->Modified();
   this->View->SetInputData(this->Surfaces);
   this->View->SetMembraneData(membrane);
-  this->View->SetExteriorIndexOfRefraction(this->ExteriorIndexOfRefraction);
-  this->View->SetInteriorIndexOfRefraction(this->InteriorIndexOfRefraction);
+  this->View->SetInterfaces(this->Interfaces);
   this->View->SetAbortExecute(0);
   this->View->Update();
   return this->GetAbortExecute() == 0;
@@ -338,6 +347,6 @@ void vtkRefractedLightFilter::PrintSelf(ostream& os, vtkIndent indent)
      << ", " << this->LightPosition[2] << ")\n";
   os << indent << "Positional: " << (this->Positional ? "on" : "off") << "\n";
   os << indent << "OneSided: " << (this->OneSided ? "on" : "off") << "\n";
-  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
-  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
 }

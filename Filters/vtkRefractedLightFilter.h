@@ -41,7 +41,9 @@
 #include "vtkMeniscusModule.h" // For export macro
 #include "vtkNew.h"            // For the filter inside
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for vtkSmartPointer
 
+class vtkRefractingInterfaceCollection;
 class vtkRefractedGeometryFilter;
 
 class VTKMENISCUS_EXPORT vtkRefractedLightFilter : public vtkPolyDataAlgorithm
@@ -83,10 +85,21 @@ public:
    * Set/Get the indices of refraction on the light's side and behind the membrane. Must be positive
    * and finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
    */
-  vtkSetMacro(ExteriorIndexOfRefraction, double);
-  vtkGetMacro(ExteriorIndexOfRefraction, double);
-  vtkSetMacro(InteriorIndexOfRefraction, double);
-  vtkGetMacro(InteriorIndexOfRefraction, double);
+  virtual void SetExteriorIndexOfRefraction(double index);
+  virtual double GetExteriorIndexOfRefraction();
+  virtual void SetInteriorIndexOfRefraction(double index);
+  virtual double GetInteriorIndexOfRefraction();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
+   * first interface has the indices of refraction and, optionally, the exact surface; more than one
+   * are an error when it runs. Null stands for a list of one with default values, which is the
+   * default.
+   */
+  void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
+  vtkRefractingInterfaceCollection* GetInterfaces();
   /** @} */
 
   /** @{ */
@@ -94,6 +107,11 @@ public:
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetMembraneData(vtkPolyData* membrane);
   /** @} */
+
+  /**
+   * Modification time, which includes that of the interfaces.
+   */
+  vtkMTimeType GetMTime() override;
 
   /**
    * The filter that computes images with the light in place of the eye; its counters show the work
@@ -127,8 +145,7 @@ private:
   double LightPosition[3] = { 0.0, 0.0, 1.0 };
   bool Positional = false;
   bool OneSided = false;
-  double ExteriorIndexOfRefraction = 1.0;
-  double InteriorIndexOfRefraction = 1.333;
+  vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
   vtkNew<vtkRefractedGeometryFilter> View;
   vtkNew<vtkPolyData> Surfaces;
 };

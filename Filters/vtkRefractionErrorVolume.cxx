@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionErrorVolume.h"
 
+#include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/ImplicitSurface.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Refraction/Curved/ErrorSamples.h"
@@ -50,11 +51,13 @@ public:
 };
 
 vtkStandardNewMacro(vtkRefractionErrorVolume);
+meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
 
 //------------------------------------------------------------------------------
 vtkRefractionErrorVolume::vtkRefractionErrorVolume()
   : Internals(new vtkInternals)
 {
+  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
   this->SetNumberOfInputPorts(2);
 }
 
@@ -64,17 +67,13 @@ vtkRefractionErrorVolume::~vtkRefractionErrorVolume() = default;
 //------------------------------------------------------------------------------
 void vtkRefractionErrorVolume::SetExactMembrane(vtkImplicitFunction* function)
 {
-  if (this->ExactMembrane != function)
-  {
-    this->ExactMembrane = function;
-    this->Modified();
-  }
+  this->Interfaces->GetFirstInterface()->SetExactSurface(function);
 }
 
 //------------------------------------------------------------------------------
 vtkImplicitFunction* vtkRefractionErrorVolume::GetExactMembrane()
 {
-  return this->ExactMembrane;
+  return this->Interfaces->GetFirstInterface()->GetExactSurface();
 }
 
 //------------------------------------------------------------------------------
@@ -122,8 +121,7 @@ vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfEyeUpdates() const
 //------------------------------------------------------------------------------
 vtkMTimeType vtkRefractionErrorVolume::GetMTime()
 {
-  const vtkMTimeType own = this->Superclass::GetMTime();
-  return this->ExactMembrane ? std::max(own, this->ExactMembrane->GetMTime()) : own;
+  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
 }
 
 //------------------------------------------------------------------------------
@@ -242,14 +240,20 @@ int vtkRefractionErrorVolume::RequestData(
 //------------------------------------------------------------------------------
 bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference)
 {
+  if (const char* fault = meniscus::FindFault(this->Interfaces))
+  {
+    vtkErrorMacro(<< fault << "; the output is empty.");
+    return false;
+  }
   vtkInternals& internals = *this->Internals;
   const bool curved = this->MembraneModel == CURVED;
   const meniscus::RefractionScene::Eye eye = { this->EyePosition[0], this->EyePosition[1],
-    this->EyePosition[2], this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction };
+    this->EyePosition[2], this->GetExteriorIndexOfRefraction(),
+    this->GetInteriorIndexOfRefraction() };
   meniscus::SceneMessages messages;
   bool ready = internals.Scene.SetMembrane(membrane, curved, messages) &&
     internals.Scene.SetEye(eye, messages);
-  const bool needsReference = !this->ExactMembrane && (reference || !curved);
+  const bool needsReference = !this->GetExactMembrane() && (reference || !curved);
   if (ready && needsReference)
   {
     ready = internals.Reference.SetMembrane(reference ? reference : membrane, true, messages) &&
@@ -263,7 +267,7 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
   {
     vtkWarningMacro(<< messages.Warning);
   }
-  if (curved && !needsReference && !this->ExactMembrane && !internals.WarnedOfNoReference)
+  if (curved && !needsReference && !this->GetExactMembrane() && !internals.WarnedOfNoReference)
   {
     internals.WarnedOfNoReference = true;
     vtkWarningMacro("CURVED is compared with itself: set the exact membrane, or a finer one on "
@@ -279,10 +283,10 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
   vtkInternals& internals = *this->Internals;
   const glm::dvec3 eye(this->EyePosition[0], this->EyePosition[1], this->EyePosition[2]);
   std::unique_ptr<meniscus::ExactSurface> exact;
-  if (this->ExactMembrane)
+  if (this->GetExactMembrane())
   {
     exact = std::make_unique<meniscus::ImplicitSurface>(
-      this->ExactMembrane, internals.Scene.GetMembrane(), eye);
+      this->GetExactMembrane(), internals.Scene.GetMembrane(), eye);
   }
   else
   {
@@ -291,7 +295,7 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
       itself ? internals.Scene.GetCurved() : internals.Reference.GetCurved());
   }
   const meniscus::ErrorSampler sampler(
-    *exact, eye, this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction);
+    *exact, eye, this->GetExteriorIndexOfRefraction(), this->GetInteriorIndexOfRefraction());
   const meniscus::RefractionScene& scene = internals.Scene;
   const vtkIdType count = output->GetNumberOfPoints();
   internals.Samples.assign(static_cast<std::size_t>(count), meniscus::ErrorSample());
@@ -372,11 +376,11 @@ void vtkRefractionErrorVolume::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
      << this->EyePosition[2] << ")\n";
-  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
-  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
   os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
      << "\n";
-  os << indent << "ExactMembrane: " << this->ExactMembrane.Get() << "\n";
+  os << indent << "ExactMembrane: " << this->GetExactMembrane() << "\n";
   os << indent << "ModelBounds: (" << this->ModelBounds[0] << ", " << this->ModelBounds[1] << ", "
      << this->ModelBounds[2] << ", " << this->ModelBounds[3] << ", " << this->ModelBounds[4] << ", "
      << this->ModelBounds[5] << ")\n";

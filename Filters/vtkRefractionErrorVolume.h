@@ -53,6 +53,7 @@
 
 #include <memory> // For std::unique_ptr
 
+class vtkRefractingInterfaceCollection;
 class vtkImageData;
 class vtkImplicitFunction;
 class vtkPolyData;
@@ -67,7 +68,7 @@ public:
   /** As in vtkRefractedGeometryFilter. */
   enum MembraneModels
   {
-    FlatFacets = 0,
+    FLAT_FACETS = 0,
     CURVED = 1
   };
 
@@ -75,10 +76,10 @@ public:
   enum SampleStates
   {
     MEASURED = 0,
-    NoImage = 1,
-    SeveralImages = 2,
-    NoExactPoint = 3,
-    NotFinite = 4
+    NO_IMAGE = 1,
+    SEVERAL_IMAGES = 2,
+    NO_EXACT_POINT = 3,
+    NOT_FINITE = 4
   };
 
   /** @{ */
@@ -94,17 +95,27 @@ public:
    * Set/Get the indices of refraction on the eye's side and behind the membrane. Must be positive
    * and finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
    */
-  vtkSetMacro(ExteriorIndexOfRefraction, double);
-  vtkGetMacro(ExteriorIndexOfRefraction, double);
-  vtkSetMacro(InteriorIndexOfRefraction, double);
-  vtkGetMacro(InteriorIndexOfRefraction, double);
+  virtual void SetExteriorIndexOfRefraction(double index);
+  virtual double GetExteriorIndexOfRefraction();
+  virtual void SetInteriorIndexOfRefraction(double index);
+  virtual double GetInteriorIndexOfRefraction();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
+   * first interface has the indices of refraction and the exact surface; more than one are an
+   * error when it runs. Null stands for a list of one with default values, which is the default.
+   */
+  void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
+  vtkRefractingInterfaceCollection* GetInterfaces();
   /** @} */
 
   /** @{ */
   /** Set/Get the membrane model under test, FLAT_FACETS or CURVED. Default is CURVED. */
-  vtkSetClampMacro(MembraneModel, int, FlatFacets, CURVED);
+  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
   vtkGetMacro(MembraneModel, int);
-  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FlatFacets); }
+  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
   /** @} */
 
@@ -198,12 +209,10 @@ private:
   void FillOutput(vtkImageData* output);
 
   double EyePosition[3] = { 0.0, 0.0, 1.0 };
-  double ExteriorIndexOfRefraction = 1.0;
-  double InteriorIndexOfRefraction = 1.333;
   int MembraneModel = CURVED;
   double ModelBounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
   int SampleDimensions[3] = { 40, 40, 40 };
-  vtkSmartPointer<vtkImplicitFunction> ExactMembrane;
+  vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

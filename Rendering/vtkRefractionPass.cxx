@@ -6,6 +6,8 @@
 #include "Rendering/Pass/ViewBounds.h"
 
 #include "vtkRefractedGeometryFilter.h"
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionMembraneFS.h"
 
 #include "vtkActor.h"
@@ -135,14 +137,21 @@ public:
 /** Index of the interior relative to the exterior. */
 double vtkRefractionPass::vtkInternals::Refraction::GetRelativeIndex() const
 {
+  vtkRefractingInterfaceCollection* interfaces = nullptr;
   if (this->Filter)
   {
-    return this->Filter->GetInteriorIndexOfRefraction() /
-      this->Filter->GetExteriorIndexOfRefraction();
+    interfaces = this->Filter->GetInterfaces();
   }
-  vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume());
-  return mapper ? mapper->GetInteriorIndexOfRefraction() / mapper->GetExteriorIndexOfRefraction()
-                : 1.0;
+  else if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume()))
+  {
+    interfaces = mapper->GetInterfaces();
+  }
+  if (!interfaces)
+  {
+    return 1.0;
+  }
+  vtkRefractingInterface* first = interfaces->GetFirstInterface();
+  return first->GetInteriorIndexOfRefraction() / first->GetExteriorIndexOfRefraction();
 }
 
 //------------------------------------------------------------------------------
@@ -384,7 +393,7 @@ void vtkRefractionPass::DrawInFront(
   vtkOpenGLState* state = window->GetState();
   state->Push();
   picture.Set(state);
-  this->DrawVolumes(drawn->GetRenderer(), membrane, vtkTetrahedraRayCastMapper::InFront);
+  this->DrawVolumes(drawn->GetRenderer(), membrane, vtkTetrahedraRayCastMapper::IN_FRONT);
   state->Pop();
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "Filters/Interface/InterfaceProperties.h"
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
 #include "Rendering/Input/ComponentChoice.h"
 #include "Rendering/RayCastMapperInternals.h"
@@ -33,12 +34,14 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkTetrahedraRayCastMapper);
+meniscusInterfacePropertiesMacro(vtkTetrahedraRayCastMapper);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
   : MaximumTableSize(VTK_TYPE_INT64_MAX)
   , Internals(new vtkInternals)
 {
+  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
   this->SetNumberOfInputPorts(2);
 }
 
@@ -286,7 +289,7 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     return false;
   }
   internals.Property.Reduce(volume->GetProperty(), this->GetUsedBlendMode(),
-    this->OpacityModel == OpacityPerUnitDistance, internals.Mixture,
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
     mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
   const meniscus::FunctionFeatures& features = internals.Property.GetFeatures();
   return this->Tell(input.UpdateScalars(parts, component, features)) &&
@@ -300,9 +303,15 @@ bool vtkTetrahedraRayCastMapper::UpdateMembrane()
   {
     return true;
   }
+  if (const char* fault = meniscus::FindFault(this->Interfaces))
+  {
+    vtkErrorMacro(<< fault << "; nothing is rendered.");
+    return false;
+  }
   this->GetInputAlgorithm(1, 0)->Update();
-  return this->Tell(this->Internals->Membrane.Update(this->GetMembrane(),
-    this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction, this->MembranePart != WHOLE));
+  return this->Tell(
+    this->Internals->Membrane.Update(this->GetMembrane(), this->GetExteriorIndexOfRefraction(),
+      this->GetInteriorIndexOfRefraction(), this->MembranePart != WHOLE));
 }
 
 //------------------------------------------------------------------------------
@@ -313,13 +322,19 @@ void vtkTetrahedraRayCastMapper::PrepareRefraction(
   refracting.Part =
     static_cast<meniscus::MembranePart>(this->MembranePart); // both enums have the same values
   refracting.Wanted = this->HasMembrane() &&
-    (this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction ||
+    (this->GetExteriorIndexOfRefraction() != this->GetInteriorIndexOfRefraction() ||
       this->MembranePart != WHOLE);
-  refracting.Exterior = this->ExteriorIndexOfRefraction;
-  refracting.Interior = this->InteriorIndexOfRefraction;
+  refracting.Exterior = this->GetExteriorIndexOfRefraction();
+  refracting.Interior = this->GetInteriorIndexOfRefraction();
   refracting.Center = place.CenterInWorld;
   const glm::dvec3 eye(glm::inverse(place.WorldToView) * glm::dvec4(0.0, 0.0, 0.0, 1.0));
   refracting.EyeDepth = (glm::inverse(frame.Rays.ViewToWorld) * (eye - refracting.Center)).z;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkTetrahedraRayCastMapper::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
 }
 
 //------------------------------------------------------------------------------
@@ -366,7 +381,7 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
   vtkVolume* volume, meniscus::RayCastOptics& optics)
 {
   const bool wanted =
-    this->Integration == PreIntegrated && optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
+    this->Integration == PRE_INTEGRATED && optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
   // No warning for scalars of cells: they are constant in each cell, so the table would hold the
   // exact values.
   this->WarnOnce(wanted && !optics.IsComposite() && !optics.CellScalars,
@@ -464,8 +479,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     "Shading and gradient opacity are not available with independent components; rendering "
     "without.");
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
-  frame.Optics.VertexGradients =
-    frame.Optics.UsesGradients() && !frame.Optics.CellScalars && this->Gradients == VertexGradients;
+  frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
+    this->Gradients == VERTEX_GRADIENTS;
   this->ChooseIntegration(volume, frame.Optics);
   return meniscus::DescribeExcess(frame.Optics);
 }

@@ -95,11 +95,13 @@
 #define vtkTetrahedraRayCastMapper_h
 
 #include "vtkMeniscusModule.h" // For export macro
+#include "vtkSmartPointer.h"   // for vtkSmartPointer
 #include "vtkUnstructuredGridVolumeMapper.h"
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
+class vtkRefractingInterfaceCollection;
 class vtkCompositeDataSet;
 class vtkDataSet;
 class vtkPolyData;
@@ -167,11 +169,26 @@ public:
    * from the interior to the exterior. If the indices are equal, the membrane changes nothing and
    * costs nothing.
    */
-  vtkSetMacro(ExteriorIndexOfRefraction, double);
-  vtkGetMacro(ExteriorIndexOfRefraction, double);
-  vtkSetMacro(InteriorIndexOfRefraction, double);
-  vtkGetMacro(InteriorIndexOfRefraction, double);
+  virtual void SetExteriorIndexOfRefraction(double index);
+  virtual double GetExteriorIndexOfRefraction();
+  virtual void SetInteriorIndexOfRefraction(double index);
+  virtual double GetInteriorIndexOfRefraction();
   /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
+   * first interface has the indices of refraction. Drawing through a membrane with more than one
+   * interface is an error. Null, the default, stands for a list of one with default values.
+   */
+  void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
+  vtkRefractingInterfaceCollection* GetInterfaces();
+  /** @} */
+
+  /**
+   * Modification time, which includes that of the interfaces.
+   */
+  vtkMTimeType GetMTime() override;
 
   /** @{ */
   /** Bounds of the input (of all leaves of a composite data set) and of the membrane. */
@@ -211,8 +228,8 @@ public:
   /** Meaning of an opacity of the transfer function over a length. */
   enum OpacityModels
   {
-    AttenuationCoefficient = 0,
-    OpacityPerUnitDistance = 1
+    ATTENUATION_COEFFICIENT = 0,
+    OPACITY_PER_UNIT_DISTANCE = 1
   };
 
   /** @{ */
@@ -223,7 +240,7 @@ public:
    * OPACITY_PER_UNIT_DISTANCE is the definition of its image data mappers: alpha = 1 - (1 -
    * opacity)^(L / unit); opacities above 1 - 2^-24 are reduced to that value.
    */
-  vtkSetClampMacro(OpacityModel, int, AttenuationCoefficient, OpacityPerUnitDistance);
+  vtkSetClampMacro(OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
   vtkGetMacro(OpacityModel, int);
   /** @} */
 
@@ -255,7 +272,7 @@ public:
   enum Integrations
   {
     EXACT = 0,
-    PreIntegrated = 1
+    PRE_INTEGRATED = 1
   };
 
   /** @{ */
@@ -268,7 +285,7 @@ public:
    * otherwise segments are integrated exactly, after a warning if PRE_INTEGRATED would have made a
    * difference.
    */
-  vtkSetClampMacro(Integration, int, EXACT, PreIntegrated);
+  vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
   vtkGetMacro(Integration, int);
   /** @} */
 
@@ -290,8 +307,8 @@ public:
   /** Gradients that lighting and gradient opacity use. */
   enum GradientLocations
   {
-    CellGradients = 0,
-    VertexGradients = 1
+    CELL_GRADIENTS = 0,
+    VERTEX_GRADIENTS = 1
   };
 
   /** @{ */
@@ -301,7 +318,7 @@ public:
    * They are computed when first needed and after a change of mesh or scalars. Lengths are measured
    * in world coordinates.
    */
-  vtkSetClampMacro(Gradients, int, CellGradients, VertexGradients);
+  vtkSetClampMacro(Gradients, int, CELL_GRADIENTS, VERTEX_GRADIENTS);
   vtkGetMacro(Gradients, int);
   /** @} */
 
@@ -404,6 +421,8 @@ public:
   vtkTypeInt64 GetNumberOfMembraneBuilds();
   vtkTypeInt64 GetNumberOfSightUpdates();
   vtkTypeInt64 GetNumberOfRefractedEntryLists();
+  /** Deprecated name of GetNumberOfRefractedEntryLists(). */
+  vtkTypeInt64 GetNumberOfBentEntryLists();
   vtkTypeInt64 GetNumberOfEntryListBuilds();
   /** @} */
 
@@ -464,9 +483,9 @@ public:
   /** Part of the volume that RenderPart() draws. */
   enum MembraneParts
   {
-    WHOLE = 0,   ///< the whole volume
-    InFront = 1, ///< the part of the rays in front of the membrane, and rays that miss it
-    BEHIND = 2   ///< the part of the rays behind the membrane; nothing without a membrane
+    WHOLE = 0,    ///< the whole volume
+    IN_FRONT = 1, ///< the part of the rays in front of the membrane, and rays that miss it
+    BEHIND = 2    ///< the part of the rays behind the membrane; nothing without a membrane
   };
   /**
    * As Render(), but draws one part only: for callers that draw the membrane in between, such as
@@ -509,15 +528,13 @@ private:
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;
-  int OpacityModel = AttenuationCoefficient;
+  int OpacityModel = ATTENUATION_COEFFICIENT;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
   int Integration = EXACT;
   int PreIntegrationScalarSize = 256;
   int PreIntegrationLengthSize = 16;
-  int Gradients = VertexGradients;
-  double ExteriorIndexOfRefraction = 1.0;
-  double InteriorIndexOfRefraction = 1.333;
+  int Gradients = VERTEX_GRADIENTS;
   int MembranePart = WHOLE;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
   float ImageSampleDistance = 1.0f;
@@ -527,6 +544,7 @@ private:
   double ColorBias = 0.0;
   vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator cannot parse its default here
   double UsedImageSampleDistance = 1.0;
+  vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

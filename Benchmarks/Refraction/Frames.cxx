@@ -109,7 +109,7 @@ void printShares(std::ostream& out)
       out << " | " << 100.0 * eye / all << ", " << 100.0 * solve / all;
     };
     FlatMembraneSolver flat;
-    share(flat, vtkRefractedGeometryFilter::FlatFacets);
+    share(flat, vtkRefractedGeometryFilter::FLAT_FACETS);
     CurvedMembraneSolver curved;
     share(curved, vtkRefractedGeometryFilter::CURVED);
     out << " |\n";
@@ -147,7 +147,7 @@ void printThesisFrames(std::ostream& out)
     {
       out << "| " << row.Facets << " | " << row.Vertices << " | " << row.*table.Column;
       for (const int model :
-        { vtkRefractedGeometryFilter::FlatFacets, vtkRefractedGeometryFilter::CURVED })
+        { vtkRefractedGeometryFilter::FLAT_FACETS, vtkRefractedGeometryFilter::CURVED })
       {
         WellScene scene(cellsFor(row.Facets), quadsFor(row.Vertices));
         scene.filter()->SetMembraneModel(model);

@@ -164,7 +164,7 @@ std::vector<Contestant> makeContestants(const VolumeOptions& options)
         continue;
       }
       const std::string integrationName = integration == vtkTetrahedraRayCastMapper::EXACT ? "exact"
-        : integration == vtkTetrahedraRayCastMapper::PreIntegrated
+        : integration == vtkTetrahedraRayCastMapper::PRE_INTEGRATED
         ? "pre-integrated"
         : "integration-" + std::to_string(integration);
       const std::string name = "meniscus/" + backendName(backend) + "/" + integrationName;
@@ -173,7 +173,7 @@ std::vector<Contestant> makeContestants(const VolumeOptions& options)
       all.push_back({ name + "/0.99", [early]() { return makeOurMapper(early); }, true });
       for (const auto& size : TableSizes)
       {
-        if (integration == vtkTetrahedraRayCastMapper::PreIntegrated)
+        if (integration == vtkTetrahedraRayCastMapper::PRE_INTEGRATED)
         {
           const OurSettings sized{ backend, integration, -1.0, size[0], size[1] };
           all.push_back({ name + "/" + std::to_string(size[0]) + "x" + std::to_string(size[1]),

@@ -112,9 +112,9 @@ void WaterWindow::Show(const WaterSettings& settings)
   this->Filter->SetMembraneData(mesh);
   this->Filter->SetInteriorIndexOfRefraction(settings.Index);
   this->Filter->SetMembraneModel(
-    settings.Curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FlatFacets);
-  this->Filter->SetImages(settings.Curved ? vtkRefractedGeometryFilter::AllImages
-                                          : vtkRefractedGeometryFilter::FirstImage);
+    settings.Curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FLAT_FACETS);
+  this->Filter->SetImages(settings.Curved ? vtkRefractedGeometryFilter::ALL_IMAGES
+                                          : vtkRefractedGeometryFilter::FIRST_IMAGE);
   vtkPolyDataMapper::SafeDownCast(this->Water->GetMapper())->SetInputData(mesh);
 
   // Rays are traced without the effects of the pass.

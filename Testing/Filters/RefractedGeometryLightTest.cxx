@@ -127,7 +127,7 @@ TEST(RefractedGeometryLight, SchlickIsItsClosedForm)
 TEST(RefractedGeometryLight, HeadlightsSeeTheTrueAngles)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     const auto grid = MakeLitGrid(-60.0);
     const auto filter = MakeCurved(grid, MakeMembrane(Waves.MakeMesh(64)));

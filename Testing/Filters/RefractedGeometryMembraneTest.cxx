@@ -377,7 +377,7 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
   {
     const auto filter = MakeAllImages(membrane, object);
     filter->SetMembraneModel(
-      curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FlatFacets);
+      curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FLAT_FACETS);
     filter->SetImagesToFirstImage();
     const auto messages = Observe(filter);
     filter->Update();
@@ -397,7 +397,7 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
 TEST(RefractedGeometryMembrane, EyesBehindSaySoAndEyesOnItAreAnError)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     const auto filter = MakeAllImages(MakeGrid(5, 40.0, -30.0), MakeFlatMembrane());
     filter->SetImages(images);
@@ -420,7 +420,7 @@ TEST(RefractedGeometryMembrane, EyesBehindSaySoAndEyesOnItAreAnError)
 TEST(RefractedGeometryMembrane, FailedSolvesAreWarnedOfWithNumbers)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     auto grid = MakeGrid(3, 10.0, -5.0);
     grid->GetPoints()->SetPoint(0, std::numeric_limits<double>::quiet_NaN(), -5.0, 0.0);
@@ -444,7 +444,7 @@ TEST(RefractedGeometryMembrane, EqualIndicesAreTheIdentityExactly)
 {
   const auto grid = MakeGrid(9, 80.0, -50.0);
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     const auto filter = MakeAllImages(grid, MakeMembrane(MakeWaves(200.0, 32, 3.0, 2.0)));
     filter->SetImages(images);
@@ -527,7 +527,7 @@ TEST(RefractedGeometryMembrane, EmptyAndMissingBlocksOfComposites)
 TEST(RefractedGeometryMembrane, ArraysOfOddTypes)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     const auto grid = MakeGrid(9, 150.0, -60.0);
     vtkNew<vtkStringArray> names;

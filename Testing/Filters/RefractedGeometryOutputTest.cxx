@@ -457,7 +457,7 @@ TEST(RefractedGeometryOutput, PrintsItsState)
 {
   vtkNew<vtkRefractedGeometryFilter> filter;
   EXPECT_EQ(filter->GetMembraneModel(), vtkRefractedGeometryFilter::CURVED);
-  EXPECT_EQ(filter->GetImages(), vtkRefractedGeometryFilter::AllImages);
+  EXPECT_EQ(filter->GetImages(), vtkRefractedGeometryFilter::ALL_IMAGES);
   EXPECT_EQ(filter->GetExteriorIndexOfRefraction(), 1.0);
   EXPECT_EQ(filter->GetInteriorIndexOfRefraction(), 1.333);
   std::ostringstream text;

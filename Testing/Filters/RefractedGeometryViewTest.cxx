@@ -222,19 +222,19 @@ TEST_P(RefractedGeometryView, ViewsBesideTheMembraneCullAll)
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, RefractedGeometryView,
-  ::testing::Values(std::array<int, 2>{ vtkRefractedGeometryFilter::FlatFacets,
-                      vtkRefractedGeometryFilter::FirstImage },
+  ::testing::Values(std::array<int, 2>{ vtkRefractedGeometryFilter::FLAT_FACETS,
+                      vtkRefractedGeometryFilter::FIRST_IMAGE },
     std::array<int, 2>{
-      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FirstImage },
+      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FIRST_IMAGE },
     std::array<int, 2>{
-      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::AllImages }));
+      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::ALL_IMAGES }));
 
 //------------------------------------------------------------------------------
 // Without the viewport's aspect ratio only the sides in the direction of the view angle are known.
 TEST(RefractedGeometryViews, UnknownAspectRatiosCullTwoSides)
 {
   constexpr int model = vtkRefractedGeometryFilter::CURVED;
-  constexpr int images = vtkRefractedGeometryFilter::FirstImage;
+  constexpr int images = vtkRefractedGeometryFilter::FIRST_IMAGE;
   const auto beside = MakeCamera(20.0, 900.0); // far to the side; the view's up is x
   beside->SetViewUp(1.0, 0.0, 0.0);
   const auto filter = MakeViewed(model, images, beside);
@@ -253,7 +253,7 @@ TEST(RefractedGeometryViews, ParallelProjectionsAndEyesWithoutCameraCullNothing)
   const auto camera = MakeCamera(900.0, 10.0);
   camera->ParallelProjectionOn();
   const auto filter =
-    MakeViewed(vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FirstImage, camera);
+    MakeViewed(vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FIRST_IMAGE, camera);
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), All);
@@ -267,7 +267,7 @@ TEST(RefractedGeometryViews, ParallelProjectionsAndEyesWithoutCameraCullNothing)
 TEST(RefractedGeometryViews, GeometryInFrontIsNeverCulled)
 {
   const auto filter = MakeViewed(vtkRefractedGeometryFilter::CURVED,
-    vtkRefractedGeometryFilter::AllImages, MakeCamera(900.0, 10.0));
+    vtkRefractedGeometryFilter::ALL_IMAGES, MakeCamera(900.0, 10.0));
   filter->SetInputData(0, MakeGrid(9, 40.0, 30.0));
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 64);
@@ -278,7 +278,7 @@ TEST(RefractedGeometryViews, GeometryInFrontIsNeverCulled)
 TEST(RefractedGeometryViews, PointsThatAreNotFiniteAreNotCulled)
 {
   const auto filter = MakeViewed(vtkRefractedGeometryFilter::CURVED,
-    vtkRefractedGeometryFilter::FirstImage, MakeCamera(900.0, 10.0));
+    vtkRefractedGeometryFilter::FIRST_IMAGE, MakeCamera(900.0, 10.0));
   auto grid = MakeGrid(3, 10.0, -30.0);
   grid->GetPoints()->SetPoint(4, 0.0, std::nan(""), 0.0);
   filter->SetInputData(0, grid);

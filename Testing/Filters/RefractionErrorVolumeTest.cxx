@@ -178,7 +178,8 @@ TEST(RefractionErrorVolume, AFinerMeshStandsForTheSurface)
 {
   const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
   vtkNew<WavesFunction> function;
-  for (const int model : { vtkRefractionErrorVolume::FlatFacets, vtkRefractionErrorVolume::CURVED })
+  for (const int model :
+    { vtkRefractionErrorVolume::FLAT_FACETS, vtkRefractionErrorVolume::CURVED })
   {
     volume->SetMembraneModel(model);
     volume->SetExactMembrane(function);
@@ -262,16 +263,16 @@ TEST(RefractionErrorVolume, StatesSayWhyASampleIsNotMeasured)
     output->GetPoint(i, p);
     const auto exact = strong.FindSightPoints({ 20.0, 300.0, 10.0 }, { p[0], p[1], p[2] }, 100);
     const int expected = p[1] > strong.GetHeight(p[0], p[2]) || exact.empty()
-      ? vtkRefractionErrorVolume::NoImage
-      : (exact.size() > 1 ? vtkRefractionErrorVolume::SeveralImages
+      ? vtkRefractionErrorVolume::NO_IMAGE
+      : (exact.size() > 1 ? vtkRefractionErrorVolume::SEVERAL_IMAGES
                           : vtkRefractionErrorVolume::MEASURED);
     // A point in front may also have an image, seen through a crest (occlusion by the membrane is
     // not modelled).
     wrong += p[1] < -5.0 && state != expected;
   }
   EXPECT_GT(counts[vtkRefractionErrorVolume::MEASURED], 100);
-  EXPECT_GT(counts[vtkRefractionErrorVolume::NoImage], 50);
-  EXPECT_GT(counts[vtkRefractionErrorVolume::SeveralImages], 100);
+  EXPECT_GT(counts[vtkRefractionErrorVolume::NO_IMAGE], 50);
+  EXPECT_GT(counts[vtkRefractionErrorVolume::SEVERAL_IMAGES], 100);
   EXPECT_EQ(counts[vtkRefractionErrorVolume::MEASURED],
     static_cast<int>(volume->GetNumberOfMeasuredSamples()));
   EXPECT_LE(wrong, 3); // pairs of images that merge on a caustic
@@ -527,8 +528,8 @@ TEST(RefractionErrorVolume, FunctionsThatAreNoSurface)
   vtkDataArray* states = volume->GetOutput()->GetPointData()->GetArray("SampleState");
   for (vtkIdType i = 0; i < states->GetNumberOfTuples(); ++i)
   {
-    EXPECT_TRUE(states->GetTuple1(i) == vtkRefractionErrorVolume::NoExactPoint ||
-      states->GetTuple1(i) == vtkRefractionErrorVolume::NoImage);
+    EXPECT_TRUE(states->GetTuple1(i) == vtkRefractionErrorVolume::NO_EXACT_POINT ||
+      states->GetTuple1(i) == vtkRefractionErrorVolume::NO_IMAGE);
   }
   volume->SetExactMembrane(MakeSphere(1e-3));
   volume->Update();

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Memory of each rank, for RunRanks.py: for a mesh of millions of tetrahedra that is drawn, and for
-a membrane of a million facets. Each stage is a line: its name, the number of cells of the rank, and
-its current and largest resident memory in MiB."""
+"""The memory of each rank, for RunRanks.py: of a mesh of millions of tetrahedra that is drawn, and
+of a membrane of a million facets. Each stage is a line: its name, cells of the rank, memory that is
+resident now and was at most, in MiB."""
 import os
 
 import PluginTesting

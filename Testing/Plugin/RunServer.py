@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A client connected to a server of 1, 2 and 4 ranks: its images equal those of a client alone,
-whether the server draws or the client draws the data that a server of two ranks sends (except for
-volumes, which ParaView leaves to the server). Arguments: mpirun, pvserver, the client's Python."""
+"""A client connected to a server of 1, 2 and 4 ranks: its pictures equal those of a client alone.
+The server draws; or the client draws with the data that a server of two ranks sends, except for
+volumes, which ParaView always draws on the server. Arguments: mpirun, pvserver, the client's
+Python."""
 import os
 import socket
 import subprocess
@@ -15,13 +16,13 @@ FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
 HERE = os.path.dirname(os.path.abspath(__file__))
 START_SECONDS = 60
 CLIENT_SECONDS = 240
-# Prefix of the output, number of ranks, and the drawing side.
+# Prefix of the files, number of ranks, drawing side.
 SERVERS = [("ServerDraws1", 1, "server"), ("ServerDraws2", 2, "server"),
            ("ServerDraws4", 4, "server"), ("ServerSends2", 2, "client")]
-# Largest difference, of 255, by number of ranks: derived in Documentation/parallel.md; one rank
+# Largest difference, of 255, by number of ranks, from Documentation/parallel.md; one rank
 # composites nothing.
 MOST = {1: 0, 2: 2, 4: 6}
-# Fraction of the pixels that may differ by more than two with four ranks.
+# Share of the pixels that may differ by more than two.
 SHARE = {1: 0, 2: 0, 4: 1e-4}
 
 

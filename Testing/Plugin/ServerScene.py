@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Work of a ParaView client for RunServer.py: images of a volume, also through a membrane, and of
-refracted geometry. Arguments: the prefix of the output files, the port of a server or 0 for none,
-and the drawing side, `server` or `client`."""
+"""The part of RunServer.py that runs in a client of ParaView: pictures of a volume, also through a membrane, and
+of refracted geometry. Arguments: the prefix of the files that are written, the port of a server or
+0 for none, and who draws, `server` or `client`."""
 import os
 import sys
 import traceback

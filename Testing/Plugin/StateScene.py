@@ -17,7 +17,7 @@ SCRIPT = os.path.join(FOLDER, "state.py")
 
 @contextlib.contextmanager
 def modified(proxy):
-    """Emulates ParaView's panels around changes of properties, so that the trace contains them."""
+    """Applies changes of properties as ParaView's panels do, so that the trace contains them."""
     item = smtrace.PropertiesModified(proxy.SMProxy)
     yield proxy
     item.finalize()
@@ -50,9 +50,9 @@ def show_error(waves, view):
 
 
 def make_scene():
-    """A volume with its own settings, seen through waves; a ball behind the surface of a formula
-    onto which these waves are moved, with the eye following the camera; light through the waves,
-    and the error of their facets."""
+    """A volume with settings of its own, seen through waves; a ball behind a surface of a formula
+    that these waves are put on, the eye at the camera, which it follows; light through the waves,
+    and how far off their facets are."""
     grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
     view = simple.CreateRenderView()
     with modified(view):

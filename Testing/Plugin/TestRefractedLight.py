@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Light through flat water compared with its closed form, on geometry and on blocks; waves focus
-it."""
+"""Light through flat water against its closed form, on geometry and on blocks; through waves it
+gathers."""
 import math
 
 import PluginTesting
@@ -52,7 +52,7 @@ def test():
     light.LightPosition = [0, 0, 1]
     low, high = irradiance(servermanager.Fetch(light))
     print("through waves %.2f to %.2f" % (low, high))
-    # Crests and troughs have curvatures of 0.8: a thin lens, T / (1 -+ 0.8 (1 - 1 / n) depth)^2 in
+    # Crests and troughs have a curvature of 0.8: a thin lens, T / (1 -+ 0.8 (1 - 1 / n) depth)^2 in
     # the middle, less in a cell.
     lens = 0.8 * (1 - 1 / WATER)
     assert transmittance(1) / (1 + lens) ** 2 - 0.02 < low < 0.75

@@ -46,7 +46,7 @@ def measure_cap(resolution, exact):
 
 
 def check_exact():
-    """Compared with the formula: second order, and different from the result with the mesh's own
+    """The error against the formula is of second order and differs from that against the mesh's
     patches."""
     coarse, fine = measure_cap(12, "Sphere"), measure_cap(24, "Sphere")
     print("mean errors of a cap %.2e, %.2e" % (coarse, fine))

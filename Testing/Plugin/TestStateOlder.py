@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The state file OlderState.pvsm is that of an older version, without membranes of volumes, without
-an eye that follows the camera and without other features; it loads and gives the image of the same
-scene made now, bit for bit. It was saved by ParaView; then properties with their default values
-were removed from the file, and with them those of later versions, and unknown properties were
+"""The state file OlderState.pvsm, as a version would have written it that had no membranes of
+volumes, did not follow the camera and lacked much else, loads and gives the picture of the same
+scene made now, bit for bit. ParaView saved that scene. Then all properties at their defaults were
+removed from the file, including those that later versions added, and unknown properties were
 added."""
 import os
 

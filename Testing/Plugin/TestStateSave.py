@@ -8,7 +8,7 @@ import PluginTesting
 import StateScene
 from paraview import simple, smstate, smtrace
 
-# Properties, with their defaults in the scene, that a version without them would not have written.
+# Properties, at their defaults in the scene, that a version without them would not have written.
 MISSING = ["CompactTables", "PreIntegrationScalarSize", "OutputPointsPrecision", "ViewCulling",
            "FollowCamera"]
 UNKNOWN = """

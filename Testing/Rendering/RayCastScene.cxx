@@ -90,7 +90,7 @@ SceneTruth makeTruth(const RayCastScene& scene)
   const PixelRays rays(scene.renderer());
   truth.RayOf = [rays](int x, int y) { return rays.ray(x, y); };
   const auto model =
-    scene.rayCaster()->GetOpacityModel() == vtkTetrahedraRayCastMapper::AttenuationCoefficient
+    scene.rayCaster()->GetOpacityModel() == vtkTetrahedraRayCastMapper::ATTENUATION_COEFFICIENT
     ? OpacityModel::AttenuationCoefficient
     : OpacityModel::OpacityPerUnitDistance;
   truth.Image = renderReference(*truth.Integrator, rays.width(), rays.height(), truth.RayOf,

@@ -208,7 +208,7 @@ TEST(TetrahedraRayCastBackends, AutomaticIsNativeOnASoftwareRasteriser)
   scene.volume()->SetProperty(makeProperty(FunctionKind::Smooth, Range, 3.4));
   scene.window()->Render();
   EXPECT_EQ(mapper->GetActiveBackend(), expected) << "plain";
-  mapper->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+  mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   scene.window()->Render();
   EXPECT_EQ(mapper->GetActiveBackend(), expected) << "pre-integrated";
 }

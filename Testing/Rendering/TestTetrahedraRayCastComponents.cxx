@@ -298,10 +298,10 @@ TEST(TetrahedraRayCastComponents, LightOnDependentComponents)
   const Grid one = makeComponents<vtkDoubleArray>({ 0 }, 1.0);
   const Grid two = makeComponents<vtkDoubleArray>({ 0, 0 }, 1.0);
   for (const int gradients :
-    { vtkTetrahedraRayCastMapper::CellGradients, vtkTetrahedraRayCastMapper::VertexGradients })
+    { vtkTetrahedraRayCastMapper::CELL_GRADIENTS, vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS })
   {
     const auto part = makeParts(1, FunctionKind::Smooth)[0];
-    if (gradients == vtkTetrahedraRayCastMapper::VertexGradients)
+    if (gradients == vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS)
     {
       // Varying light times varying colour along a piece is integrated in another way.
       part->GetRGBTransferFunction()->RemoveAllPoints();

@@ -164,7 +164,7 @@ TEST(TetrahedraRayCastFillValues, PreIntegrated)
   expectFills(
     "pre-integrated", property,
     [](RayCastScene& scene)
-    { scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated); },
+    { scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED); },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator, const ReferenceGradients&)
     {
       const auto function = toReference(scene.volume()->GetProperty());
@@ -178,7 +178,7 @@ TEST(TetrahedraRayCastFillValues, LightInTheMedium)
   expectFills(
     "lit", property,
     [](RayCastScene& scene)
-    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients); },
+    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
       const ReferenceGradients& gradients)
     { return traceMedium(scene, integrator, gradients, nullptr); });
@@ -194,7 +194,7 @@ TEST(TetrahedraRayCastFillValues, GradientOpacity)
   expectFills(
     "gradient opacity", property,
     [](RayCastScene& scene)
-    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients); },
+    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
       const ReferenceGradients& gradients)
     { return traceMedium(scene, integrator, gradients, gradientFactor); });
@@ -207,7 +207,7 @@ TEST(TetrahedraRayCastFillValues, Isosurfaces)
     "isosurfaces", property,
     [](RayCastScene& scene)
     {
-      scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+      scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
       scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
     },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,

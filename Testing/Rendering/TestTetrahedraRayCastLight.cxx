@@ -63,7 +63,7 @@ TracedComparison compareLit(vtkUnstructuredGrid* grid, int view, double density)
   property->SetSpecular(0.4);
   property->SetSpecularPower(12.0);
   RayCastScene scene(grid, property, Size, Size);
-  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   vtkNew<vtkLight> light;
   light->SetLightTypeToSceneLight();
   light->SetPosition(4.0, 2.0, 1.0);

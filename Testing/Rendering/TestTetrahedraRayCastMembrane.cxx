@@ -514,7 +514,7 @@ TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
     opacity->AddPoint(0.0, 0.2);
     opacity->AddPoint(4.0, 1.0);
     property->SetGradientOpacity(opacity);
-    test.Scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+    test.Scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
     vtkNew<vtkLight> sun;
     sun->SetPosition(-1.0, 2.0, 0.5);
     sun->SetFocalPoint(0.0, 0.0, 0.0);

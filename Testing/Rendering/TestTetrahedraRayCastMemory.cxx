@@ -149,14 +149,14 @@ TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
     EXPECT_GT(this->Mapper->GetHostBytes(), host) << what;
   };
   this->Scene.window()->Render();
-  this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+  this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   expectSentAndKept("pre-integration");
   this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
   // A change of the property uploads its table again and frees the old one.
   this->Property->ShadeOn();
-  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   this->Scene.window()->Render();
-  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::VertexGradients);
+  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
   expectSentAndKept("gradients");
   this->Mapper->ReleaseGraphicsResources(this->Scene.window());
   EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
@@ -188,7 +188,7 @@ TEST_F(TetrahedraRayCastMemory, SoDoTheirLightAndPreIntegration)
   {
     this->Property->SetShade(shade);
     this->Mapper->SetIntegration(
-      shade ? vtkTetrahedraRayCastMapper::EXACT : vtkTetrahedraRayCastMapper::PreIntegrated);
+      shade ? vtkTetrahedraRayCastMapper::EXACT : vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     this->Mapper->SetMaximumTableSize(VTK_TYPE_INT64_MAX);
     const FloatImage expected = this->Scene.renderFloat();
     EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);

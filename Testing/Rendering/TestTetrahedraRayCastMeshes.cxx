@@ -210,7 +210,7 @@ TEST(TetrahedraRayCastMeshes, OpacityPerUnitDistance)
   constexpr double unit = 0.8;
   const double tolerance = diagonalOf(grid->GetBounds()) / unit / 32768.0;
   scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(unit);
-  scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OpacityPerUnitDistance);
+  scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
   lookAt(scene.renderer(), grid->GetBounds(), 25.0, 30.0);
   scene.window()->Render();
   const SceneTruth truth = makeTruth(scene);

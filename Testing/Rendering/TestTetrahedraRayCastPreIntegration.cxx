@@ -40,7 +40,7 @@ struct Block
 
 void usePreIntegration(RayCastScene& scene, int scalars, int lengths)
 {
-  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   scene.rayCaster()->SetPreIntegrationScalarSize(scalars);
   scene.rayCaster()->SetPreIntegrationLengthSize(lengths);
 }
@@ -98,7 +98,7 @@ TEST(TetrahedraRayCastPreIntegration, DefaultSizesAreCloseToTheReference)
     RayCastScene scene(block.Mesh, block.property(kind), Size, Size);
     lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
     const SceneTruth truth = truthOf(scene);
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     const Comparison result = compare(scene, truth);
     SCOPED_TRACE(result.text());
     RecordProperty("function " + std::to_string(static_cast<int>(kind)), result.text());
@@ -116,7 +116,7 @@ TEST(TetrahedraRayCastPreIntegration, ThroughAMembrane)
   {
     RayCastScene scene(block.Mesh, block.property(FunctionKind::Smooth), Size, Size);
     scene.rayCaster()->SetMembraneData(membrane.Mesh);
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 50.0);
     scene.window()->Render();
     const auto integrator = makeReference(block.Mesh);
@@ -139,7 +139,7 @@ TEST(TetrahedraRayCastPreIntegration, CutSegmentsAndScaledVolumes)
   const double distance = scene.renderer()->GetActiveCamera()->GetDistance();
   scene.renderer()->GetActiveCamera()->SetClippingRange(distance - 0.5, distance + 0.8);
   const SceneTruth truth = truthOf(scene);
-  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   const Comparison result = compare(scene, truth);
   EXPECT_GT(result.Covered, 1000u);
   EXPECT_LT(result.Largest, 1.0 / 255.0) << result.text();
@@ -206,7 +206,7 @@ TEST(TetrahedraRayCastPreIntegration, ExactWhereThereIsNoTable)
   {
     scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
     const FloatImage exact = scene.renderFloat();
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     EXPECT_EQ(scene.renderFloat().Rgba, exact.Rgba) << what;
     EXPECT_EQ(warnings->Warnings.size(), expectedWarnings) << what;
   };

@@ -84,7 +84,7 @@ struct ShadingTruth
     scene.window()->Render();
     this->Integrator = makeReference(scene.grid(), scene.volume()->GetMatrix());
     const bool smooth =
-      scene.rayCaster()->GetGradients() == vtkTetrahedraRayCastMapper::VertexGradients;
+      scene.rayCaster()->GetGradients() == vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS;
     this->Gradients = std::make_unique<ReferenceGradients>(this->Integrator->mesh(), smooth);
     this->Light = toMaterial(scene.volume()->GetProperty(), scene.renderer());
   }
@@ -289,7 +289,7 @@ TEST(TetrahedraRayCastShading, CellGradientsAreExact)
   for (const bool factor : { false, true })
   {
     RayCastScene scene(grid, mediumProperty(true, factor), 72, 72);
-    scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+    scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
     vtkNew<vtkLight> light;
     light->SetLightTypeToSceneLight();
     light->SetPosition(4.0, 2.0, 1.0);
@@ -304,7 +304,7 @@ TEST(TetrahedraRayCastShading, GradientOpacityAlone)
 {
   const Grid grid = makeBlock(6, wavyField(3.0));
   RayCastScene scene(grid, mediumProperty(false, true), 72, 72);
-  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   scene.volume()->SetScale(0.5, 1.0, 2.0);
   lookAt(scene.renderer(), scene.volume()->GetBounds(), 30.0, 20.0);
   expectShadedMedium(scene, true, FloatTolerance, "scaled volume");
@@ -394,10 +394,10 @@ TEST(TetrahedraRayCastShading, GradientsAreComputedOnlyForLight)
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 0);
   mapper->SetBlendModeToComposite();
   scene.volume()->GetProperty()->ShadeOn();
-  mapper->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+  mapper->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   scene.window()->Render();
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 0);
-  mapper->SetGradients(vtkTetrahedraRayCastMapper::VertexGradients);
+  mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
   scene.window()->Render();
   scene.window()->Render();
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 1);

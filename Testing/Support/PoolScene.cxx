@@ -401,7 +401,7 @@ void PoolScene::setAccuracy(bool allImages, double tolerance)
   for (const Part& part : this->Parts)
   {
     part.Filter->SetImages(
-      allImages ? vtkRefractedGeometryFilter::AllImages : vtkRefractedGeometryFilter::FirstImage);
+      allImages ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
     part.Filter->SetAngularTolerance(tolerance);
   }
 }

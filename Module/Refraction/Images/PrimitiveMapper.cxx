@@ -563,7 +563,8 @@ void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& no
 //------------------------------------------------------------------------------
 // False if interpolation has found the primitive in a sub-cell that does not show it, which happens
 // where rays are nearly parallel to the primitive, or at a caustic. Then a side does not meet the
-// membrane there, or all corners are ends of the primitive without an image.
+// membrane there, the images of an end are elsewhere, or all corners are ends of the primitive
+// without an image.
 bool PrimitiveMapper::IsSeen(const std::vector<MappedPoint>& points)
 {
   const auto count = [&points](Finding finding)
@@ -663,9 +664,11 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
 }
 
 //------------------------------------------------------------------------------
-// Image of an end of the primitive: the known image that is seen in the sub-cell or next to it.
-// Near a caustic there may be none; in that case the end is drawn at the interpolated place. The
-// result does not depend on the primitive's plane.
+// Image of an end of the primitive: the known image that is seen in the sub-cell or next to it. If
+// all images of the end are elsewhere, the piece is not seen here: near a silhouette or near total
+// reflection the sub-cell's interpolated rays meet the primitive, but the refracted rays do not.
+// Near a caustic there may be no image at all; in that case the end is drawn at the interpolated
+// place. The result does not depend on the primitive's plane.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
   const std::array<Node, 3>& nodes, glm::length_t end, const glm::dvec2& interpolated) const
 {
@@ -706,7 +709,9 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
     point.Vertex.Position = known.First->Vertex.Position; // in front of the membrane: the position
                                                           // that all other primitives use
   }
-  return { point, isFound ? Finding::Found : Finding::EndWithoutImage };
+  const bool isElsewhere = known.Count > 0 && nearest->Vertex.Facet != CurvedPatches::NoFacet;
+  const Finding without = isElsewhere ? Finding::Elsewhere : Finding::EndWithoutImage;
+  return { point, isFound ? Finding::Found : without };
 }
 
 //------------------------------------------------------------------------------

@@ -93,7 +93,7 @@ private:
   {
     Found,
     EndWithoutImage, ///< an end of the primitive without an image in or next to the sub-cell
-    Elsewhere        ///< a side of the primitive that does not meet the membrane there
+    Elsewhere ///< a side that does not meet the membrane there, or an end that is seen elsewhere
   };
   struct MappedPoint
   {
