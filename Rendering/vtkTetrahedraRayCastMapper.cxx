@@ -245,7 +245,7 @@ bool vtkTetrahedraRayCastMapper::HasChosenComponent(const meniscus::InputBlocks&
       const char* name = part.Scalars->GetName();
       vtkErrorMacro("The array '" << (name ? name : "without a name") << "' has " << components
                                   << " components, none of number " << chosen
-                                  << ", which the colour function chooses; nothing is rendered.");
+                                  << ", which the colour function selects; nothing is rendered.");
       return false;
     }
   }
@@ -267,7 +267,7 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 {
   vtkInternals& internals = *this->Internals;
   this->WarnOnce(this->GetUsedBlendMode() != this->BlendMode, internals.WarnedBlendMode,
-    "There is no such blend mode for meshes; rendering with composite blending.");
+    "The blend mode is not available for meshes; rendering with composite blending.");
 }
 
 //------------------------------------------------------------------------------
@@ -550,8 +550,8 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   const bool peeled = renderer->GetUseDepthPeelingForVolumes() && keys &&
     keys->Has(vtkOpenGLRenderPass::RenderPasses());
   this->WarnOnce(peeled, this->Internals->WarnedPeeling,
-    "A renderer with UseDepthPeelingForVolumes on does not show this volume beside translucent "
-    "geometry; switch it off, and the volume is drawn over that.");
+    "A renderer with UseDepthPeelingForVolumes does not show this volume together with "
+    "translucent geometry; turn it off to draw the volume over that geometry.");
   if (peeled)
   {
     return;

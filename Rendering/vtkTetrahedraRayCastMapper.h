@@ -178,9 +178,8 @@ public:
   /** @{ */
   /**
    * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
-   * first interface has the indices of refraction; more than one are an
-   * error when it draws through a membrane. Null stands for a list of one with default values,
-   * which is the default.
+   * first interface has the indices of refraction. Drawing through a membrane with more than one
+   * interface is an error. Null, the default, stands for a list of one with default values.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();

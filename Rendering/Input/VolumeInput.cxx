@@ -82,7 +82,8 @@ InputReport VolumeInput::BuildMesh(
          << " cells are left out: " << rejected.IndexOutOfRange
          << " with a point index out of range, " << rejected.RepeatedVertex
          << " with a repeated point, " << rejected.PointNotFinite
-         << " with a point that is not finite, " << rejected.Duplicate << " given before.";
+         << " with a point that is not finite, " << rejected.Duplicate
+         << " equal to earlier cells.";
     report.Warning = text.str();
   }
   return report;

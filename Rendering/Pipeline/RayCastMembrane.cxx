@@ -16,7 +16,7 @@ InputReport RayCastMembrane::Update(
   const auto isIndex = [](double index) { return index > 0.0 && std::isfinite(index); };
   if (!membrane)
   {
-    return { "The membrane is no vtkPolyData", std::string() };
+    return { "The membrane is not a vtkPolyData", std::string() };
   }
   if (!isIndex(exterior) || !isIndex(interior))
   {

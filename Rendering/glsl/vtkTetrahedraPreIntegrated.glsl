@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Composite blending by a table of pre-integrated segments, see Module/Volume/Optics/PreIntegration.h.
+// Composite blending by a table of pre-integrated segments, see
+// Module/Volume/Optics/PreIntegration.h.
 
 uniform sampler3D preIntegrated;     // colour / opacity, mean attenuation
 uniform vec2 preIntegratedSize;      // numbers of scalars and of lengths

@@ -91,7 +91,7 @@ def check_changes(view, display, waves, straight):
 
 
 def check_empty(view, display, straight):
-    """A membrane without cells, as a clip may leave, is told of; rays are straight."""
+    """A membrane without cells, as a clip may produce, causes a warning; rays are straight."""
     nothing = simple.Contour(Input=simple.Wavelet(WholeExtent=[0, 1] * 3),
                              ContourBy=["POINTS", "RTData"], Isosurfaces=[1e9])
     told = []
@@ -111,7 +111,7 @@ def check_empty(view, display, straight):
 
 
 def check_keyframes(view, display, plane, straight):
-    """Waves whose height is animated: each time's picture is that of the height set by hand."""
+    """Waves whose height is animated: the image at each time equals that of the height set by hand."""
     heights = simple.Calculator(Input=plane, ResultArrayName="Height", Function=HEIGHT)
     waves = simple.GenerateSurfaceNormals(
         Input=simple.WarpByScalar(Input=heights, Scalars=["POINTS", "Height"], ScaleFactor=0.2))

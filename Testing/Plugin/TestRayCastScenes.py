@@ -33,7 +33,7 @@ def color(display, name, association="POINTS"):
 
 
 def check_arrays(view, grid):
-    """Cell data, components and length look as an array that holds just that."""
+    """Cell data, components and length look like an array with only these values."""
     calculator = simple.Calculator(
         Input=grid, ResultArrayName="Vectors", Function="iHat*coordsX+jHat*RTData/20+kHat*coordsZ")
     lengths = simple.Calculator(
@@ -202,8 +202,8 @@ def check_time(view, grid):
 
 
 def check_translucent(view, display, grid):
-    """The volume is drawn over a translucent surface, in front of it as behind; afterwards the view
-    peels other volumes again."""
+    """The volume is drawn over a translucent surface, in front of it and behind it; afterwards the
+    view peels other volumes again."""
     alone = screenshot(view, "TranslucentNone")
     plane = simple.Plane(Origin=[-60, -60, -20], Point1=[60, -60, -20], Point2=[-60, 60, -20])
     surface = simple.Show(plane, view)

@@ -100,7 +100,7 @@ class TestBadInput(unittest.TestCase):
                 self.assertRegex(done.stderr, "--system-site-packages|pip install vtk==")
 
     def test_library_missing(self):
-        """A library of ours that does not load is an ImportError that names it."""
+        """If the library cannot be loaded, an ImportError names it."""
         with tempfile.TemporaryDirectory() as folder:
             package = os.path.join(folder, "meniscus")
             os.mkdir(package)
