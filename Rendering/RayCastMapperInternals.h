@@ -8,6 +8,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <set>
 #include <string>
 
 class vtkTetrahedraRayCastMapper::vtkInternals : public meniscus::RayCastPipeline
@@ -24,8 +25,8 @@ public:
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedComponents = false;
-  bool WarnedCompute = false;
-  bool WarnedTableSize = false;
+  /** Fallbacks that were reported: the backends that refused, and the one that drew. */
+  std::set<std::string> WarnedFallbacks;
   bool WarnedPeeling = false;
   /** Of the last frame, for what is in the world. */
   glm::dmat4 WorldToModel{ 1.0 };

@@ -226,7 +226,8 @@ public:
     AUTOMATIC = 0,
     OPENGL = 1,
     NATIVE = 2,
-    COMPUTE = 3
+    COMPUTE = 3,
+    REGISTERED = 4 ///< one registered from outside; of GetActiveBackend() only
   };
 
   /** @{ */
@@ -234,15 +235,33 @@ public:
    * What runs the ray caster: OPENGL, a fragment shader; COMPUTE, a compute shader of the same
    * functions (OpenGL 4.3; on a window without, OPENGL after a warning); NATIVE, the CPU, in SIMD
    * packets (AVX-512, AVX2 or what there is) on all threads of vtkSMPTools; AUTOMATIC, the default,
-   * OPENGL, or NATIVE where OpenGL is a software rasteriser. The choice depends on nothing else:
-   * every backend has every optical model.
+   * OPENGL, or NATIVE where OpenGL is a software rasteriser. Every backend of the library has every
+   * optical model. AUTOMATIC asks backends that were registered from outside first (see
+   * RayCastBackendRegistry.h). Where a backend cannot draw a frame the next one does, after a
+   * warning with the reason.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, COMPUTE);
   vtkGetMacro(Backend, int);
   /** @} */
 
-  /** The backend of the last Render(); AUTOMATIC if nothing has been rendered. */
+  /** @{ */
+  /**
+   * Name of the backend to use in place of the number set by SetBackend(): "OpenGL", "Compute",
+   * "Native", or one registered from outside. Empty, the default, or null: the number counts. Under
+   * a name that is not registered, AUTOMATIC draws after a warning.
+   */
+  vtkSetStdStringFromCharMacro(BackendName);
+  vtkGetCharFromStdStringMacro(BackendName);
+  /** @} */
+
+  /** @{ */
+  /**
+   * The backend of the last Render(), REGISTERED for one from outside, and its name; AUTOMATIC and
+   * empty if nothing has been rendered.
+   */
   vtkGetMacro(ActiveBackend, int);
+  vtkGetCharFromStdStringMacro(ActiveBackendName);
+  /** @} */
 
   /** How segments of rays are integrated. */
   enum Integrations
@@ -484,10 +503,9 @@ private:
   bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts);
   void UpdateTransferFunction();
   int GetUsedBlendMode();
-  int ChooseBackend();
-  bool FallsBackToNative(const meniscus::RayCastFrame& frame, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
+  std::string DrawFrame(meniscus::RayCastFrame& frame, const meniscus::InputBlocks& parts);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputBlocks& parts);
 
   int VectorMode = DISABLED;
@@ -495,6 +513,8 @@ private:
   int OpacityModel = AttenuationCoefficient;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
+  std::string BackendName;
+  std::string ActiveBackendName;
   int Integration = EXACT;
   int PreIntegrationScalarSize = 256;
   int PreIntegrationLengthSize = 16;

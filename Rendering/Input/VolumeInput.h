@@ -3,6 +3,7 @@
 #ifndef meniscus_Rendering_Input_VolumeInput_h
 #define meniscus_Rendering_Input_VolumeInput_h
 
+#include "Common/TableVersion.h"
 #include "Rendering/Common/ContentWatch.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Mesh/BoundaryTree.h"
@@ -22,7 +23,7 @@ namespace meniscus
 
 /**
  * What is drawn, as the kernel's tables: mesh, normalised scalars, active cells. Each is remade
- * when its own input changed. The counters say how often that was, and so whether a copy is stale.
+ * when its own input changed. The versions tell whether what was made of a table is stale.
  */
 class VolumeInput
 {
@@ -55,7 +56,7 @@ public:
     /** Per vertex; one that is NaN makes its cells transparent. */
     const std::vector<glm::vec3>* Values = nullptr;
     /** Changes with the values. */
-    std::int64_t Version = 0;
+    TableVersion Version;
     /** Of the first values; the others cannot be seen. */
     std::vector<VisibleScalars> Visible;
   };
@@ -83,12 +84,13 @@ public:
   /** Bytes of the tables. */
   std::int64_t GetBytes() const;
 
-  std::int64_t GetMeshBuilds() const { return this->MeshBuilds; }
-  std::int64_t GetScalarUpdates() const { return this->ScalarUpdates; }
+  /** Version of the mesh without its links and boundary. */
+  TableVersion GetMeshVersion() const { return this->MeshVersion; }
+  TableVersion GetScalarVersion() const { return this->ScalarVersion; }
   /** Times that it was found out which cells are active. */
   std::int64_t GetActiveSetBuilds() const { return this->ActiveSetBuilds; }
-  /** Times that the mesh's links and boundary became others. */
-  std::int64_t GetLinkChanges() const { return this->LinkChanges; }
+  /** Version of the mesh's links and boundary. */
+  TableVersion GetLinkVersion() const { return this->LinkVersion; }
 
 private:
   InputReport BuildMesh(
@@ -103,22 +105,22 @@ private:
   VisibleScalars Visible;
   TetrahedralMesh::CellJumps Jumps = TetrahedralMesh::CellJumps::Hidden;
   std::vector<VisibleScalars> VisibleOthers;
-  /** Of the values beside the scalars; 0 without. */
-  std::int64_t OthersVersion = 0;
+  /** Version of the values besides the scalars; the default without. */
+  TableVersion OthersVersion;
 
   ContentWatch MeshWatch;
   ContentWatch ScalarWatch;
   FieldAssociation BuiltPlace = FieldAssociation::Points;
   int BuiltComponent = 0;
-  std::int64_t BuiltFeatures = 0;
+  TableVersion BuiltFeatures;
   bool KeepsSourceCells = false;
   bool ActiveSetStale = true;
-  std::int64_t TreeOf = 0;
+  TableVersion TreeOf;
 
-  std::int64_t MeshBuilds = 0;
-  std::int64_t ScalarUpdates = 0;
+  TableVersion MeshVersion;
+  TableVersion ScalarVersion;
+  TableVersion LinkVersion;
   std::int64_t ActiveSetBuilds = 0;
-  std::int64_t LinkChanges = 0;
 };
 
 }

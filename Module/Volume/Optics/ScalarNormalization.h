@@ -11,8 +11,9 @@
 #ifndef meniscus_Volume_Optics_ScalarNormalization_h
 #define meniscus_Volume_Optics_ScalarNormalization_h
 
+#include "Common/TableVersion.h"
+
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace meniscus
@@ -99,7 +100,7 @@ struct FunctionFeatures
 {
   std::vector<std::vector<ScalarFeature>> OfScalars;
   /** Changes with the features. */
-  std::int64_t Version = 0;
+  TableVersion Version;
 
   const std::vector<ScalarFeature>& Of(std::size_t scalar) const
   {

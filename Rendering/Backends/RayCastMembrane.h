@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pipeline_RayCastMembrane_h
-#define meniscus_Rendering_Pipeline_RayCastMembrane_h
+#ifndef meniscus_Rendering_Backends_RayCastMembrane_h
+#define meniscus_Rendering_Backends_RayCastMembrane_h
 
+#include "Common/TableVersion.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Rendering/Input/VolumeInput.h"
@@ -10,7 +11,6 @@
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
-#include <array>
 #include <cstdint>
 #include <string>
 
@@ -48,28 +48,30 @@ public:
   /** What was traced for the native caster, with the vertices about the rays. @pre Trace() */
   RefractedScene See(VolumeInput& input);
 
-  /** Times that the shape was taken in. */
-  std::int64_t GetBuilds() const { return this->Surface.GetNumberOfPatchBuilds(); }
-  /** Times that rays were traced to the membrane. */
-  std::int64_t GetSightUpdates() const { return this->SightUpdates; }
+  /** Changes when the shape is taken in. */
+  TableVersion GetShapeVersion() const
+  {
+    return TableVersion(this->Surface.GetNumberOfPatchBuilds());
+  }
+  /** Changes when rays are traced to the membrane. */
+  TableVersion GetSightVersion() const { return this->SightVersion; }
   /** Bytes of the rays and of the vertices about them. */
   std::int64_t GetBytes() const { return this->Sight.GetBytes() + this->Frames.GetBytes(); }
 
 private:
-  /** Of the input's mesh and of its scalars, and of the sight; what vertices were placed for. */
-  using PlacedVersion = std::array<std::int64_t, 3>;
-
   RefractionScene Surface;
   /** What was last said of it: the same triangles are left out of the next wave. */
   std::string Told;
   RefractedRayField Sight;
   RefractionFrames Frames;
-  std::int64_t SightOf = 0;
-  std::int64_t SightUpdates = 0;
-  PlacedVersion Placed{ 0, 0, 0 };
-  /** Whether the mesh has inverted cells, and of which build that is known. */
+  /** Version of the shape that the sight was traced for. */
+  TableVersion SightOf;
+  TableVersion SightVersion;
+  /** Versions of the mesh, of its scalars and of the sight that vertices were placed for. */
+  TableVersions Placed;
+  /** Whether the mesh has inverted cells, and the version of the mesh that was examined. */
   bool Inverted = false;
-  std::int64_t InvertedOf = 0;
+  TableVersion InvertedOf;
 };
 
 }
