@@ -95,14 +95,13 @@ void VolumePropertyTables::Reduce(vtkVolumeProperty* property, int blendMode, bo
 void VolumePropertyTables::Normalize(
   const ScalarNormalization& normalization, const VolumeComponents& components)
 {
-  if (this->BuiltPoints != this->Builds || normalization != this->BuiltNormalization ||
-    components.GetVersion() != this->BuiltComponents)
+  const TableVersions versions{ this->PointVersion, components.GetVersion() };
+  if (versions != this->BuiltVersions || normalization != this->BuiltNormalization)
   {
     this->NormalizeTables(normalization, components);
     this->BuiltNormalization = normalization;
-    this->BuiltComponents = components.GetVersion();
-    this->BuiltPoints = this->Builds;
-    ++this->Version;
+    this->BuiltVersions = versions;
+    this->Version.Bump();
   }
 }
 
@@ -110,7 +109,7 @@ void VolumePropertyTables::Normalize(
 void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, int blendMode,
   OpacityMeaning meaning, ComponentMixture mixture, int components)
 {
-  ++this->Builds;
+  this->PointVersion.Bump();
   this->OtherPoints.clear();
   switch (mixture)
   {
@@ -149,7 +148,7 @@ void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, int blend
 //------------------------------------------------------------------------------
 void VolumePropertyTables::FindFeatures()
 {
-  this->Features.Version = this->Builds;
+  this->Features.Version = this->PointVersion;
   this->Features.OfScalars.assign(1, FeaturesOf(this->Points));
   if (this->BuiltBlendMode == vtkVolumeMapper::ISOSURFACE_BLEND)
   {
