@@ -5,7 +5,7 @@
 
 #include "vtkSmartPointer.h"
 
-#include <functional> // For what is run
+#include <functional> // For the function to run
 
 class vtkDataObject;
 class vtkInformation;

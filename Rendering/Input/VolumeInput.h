@@ -22,8 +22,8 @@ namespace meniscus
 {
 
 /**
- * What is drawn, as the kernel's tables: mesh, normalised scalars, active cells. Each is remade
- * when its own input changed. The versions tell whether what was made of a table is stale.
+ * Kernel tables of the drawn volume: mesh, normalised scalars, active cells. Each is remade when
+ * its own input changes. Users compare the versions with those of the tables that they read last.
  */
 class VolumeInput
 {
@@ -60,7 +60,7 @@ public:
     const std::vector<glm::vec3>* Values = nullptr;
     /** Changes with the values. */
     TableVersion Version;
-    /** Of the first values; the others cannot be seen. */
+    /** Visible ranges of the first values; other values cannot be seen. */
     std::vector<VisibleScalars> Visible;
   };
   /** As above, with values besides the scalars: a cell is visited if one of them can be seen. */

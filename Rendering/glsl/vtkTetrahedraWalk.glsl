@@ -196,7 +196,8 @@ bool advance(int exitDepth, float exitScalar)
 // that its edges pq, qr, rp span with the ray, relative to p: small faces are therefore as precise
 // as large ones. Differences of depths fit, since depths are below 2^30 in magnitude. A face
 // without projected area keeps the given values. Returns 1 / total area, or 0 for such a face.
-float meetFace(RayVertex p, RayVertex q, RayVertex r, vec3 areas, inout int depth, inout float scalar)
+float meetFace(
+  RayVertex p, RayVertex q, RayVertex r, vec3 areas, inout int depth, inout float scalar)
 {
   float total = areas.x + areas.y + areas.z;
   bool real = total > 0.0;

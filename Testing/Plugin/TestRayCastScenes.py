@@ -128,7 +128,8 @@ def check_selection(view, grid):
     simple.ClearSelection(grid)
     assert screenshot(view, "SelectionCleared") == first, "the selection is still shown"
     middle = PluginTesting.SIZE // 2
-    simple.SelectSurfaceCells(Rectangle=[middle - 50, middle - 50, middle + 50, middle + 50], View=view)
+    simple.SelectSurfaceCells(
+        Rectangle=[middle - 50, middle - 50, middle + 50, middle + 50], View=view)
     assert screenshot(view, "SelectionByView") == first, "a rectangle selects"
 
 
@@ -138,7 +139,8 @@ def check_screenshots(view):
     folder = os.environ["MENISCUS_OUTPUT_DIR"]
     for name, options, shape in [
             ("Large", {"ImageResolution": [700, 700]}, (700 * 700, 3)),
-            ("Transparent", {"ImageResolution": [PluginTesting.SIZE] * 2, "TransparentBackground": 1},
+            ("Transparent",
+             {"ImageResolution": [PluginTesting.SIZE] * 2, "TransparentBackground": 1},
              (PluginTesting.SIZE**2, 4))]:
         reader = vtkPNGReader()
         reader.SetFileName(os.path.join(folder, "Screenshot%s.png" % name))

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The error volume of flat facets compared with a finer mesh of the same waves, measured and drawn."""
+"""The error volume of flat facets compared with a finer mesh of the same waves, measured and
+drawn."""
 import PluginTesting
 from paraview import servermanager, simple
 

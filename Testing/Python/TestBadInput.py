@@ -36,7 +36,8 @@ class TestBadInput(unittest.TestCase):
                 (refraction.SetEyePosition, [1, 2]), (refraction.SetCamera, [vtkPolyData()]),
                 (refraction.SetMembraneData, [vtkUnstructuredGrid()]),
                 (volume.SetSampleDimensions, ["a", "b", "c"]),
-                (light.SetLightPosition, ["above"]), (step.AddVolume, [vtkPolyData(), vtkVolume()])]:
+                (light.SetLightPosition, ["above"]),
+                (step.AddVolume, [vtkPolyData(), vtkVolume()])]:
             with self.assertRaises(TypeError, msg=call.__name__):
                 call(*arguments)
         with self.assertRaises(AttributeError):
@@ -109,7 +110,8 @@ class TestBadInput(unittest.TestCase):
                 file.write("no library")
             done = subprocess.run(
                 [sys.executable, "-B", "-c", "import meniscus"], stderr=subprocess.PIPE, text=True,
-                env=dict(os.environ, PYTHONPATH=folder + os.pathsep + os.environ.get("PYTHONPATH", "")))
+                env=dict(
+                    os.environ, PYTHONPATH=folder + os.pathsep + os.environ.get("PYTHONPATH", "")))
             self.assertEqual(done.returncode, 1)
             self.assertIn("A library that meniscus needs does not load", done.stderr)
             self.assertIn("vtkMeniscus.so", done.stderr)

@@ -100,14 +100,16 @@ class TestEdits(unittest.TestCase):
         last = output()
         for surface in surfaces:
             points = surface.GetPoints()
-            for step, told in enumerate((points, points.GetData(), surface.GetPointData(), surface)):
+            changed = (points, points.GetData(), surface.GetPointData(), surface)
+            for step, told in enumerate(changed):
                 x, y, z = surface.GetPoint(12)
                 points.SetPoint(12, x, y, z + 0.05 * (step + 1))
                 told.Modified()
                 patches = refraction.GetNumberOfPatchBuilds()
                 now = output()
                 self.assertNotEqual(now, last)
-                self.assertEqual(refraction.GetNumberOfPatchBuilds() - patches, int(surface is water))
+                self.assertEqual(
+                    refraction.GetNumberOfPatchBuilds() - patches, int(surface is water))
                 last = now
                 solved = refraction.GetNumberOfSolvedVertices()
                 told.Modified()

@@ -29,7 +29,8 @@ class TestStubs(unittest.TestCase):
         """Types of VTK are those of vtkmodules, and numbers are number types."""
         with open(STUBS) as file:
             text = file.read()
-        self.assertIn("from vtkmodules.vtkRenderingVolume import vtkUnstructuredGridVolumeMapper", text)
+        self.assertIn(
+            "from vtkmodules.vtkRenderingVolume import vtkUnstructuredGridVolumeMapper", text)
         self.assertRegex(text, r"def SetCamera\(self, camera: vtkCamera\) -> None")
         self.assertRegex(text, r"def SetInteriorIndexOfRefraction\(self, \w+: float\) -> None")
         self.assertNotRegex(text, r"vtk(Camera|PolyData|Renderer) = Any")

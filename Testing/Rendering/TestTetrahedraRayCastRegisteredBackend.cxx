@@ -89,7 +89,7 @@ DepthRange clip(const std::array<Vector, 4>& corners, const Vector& origin, cons
   return range;
 }
 
-/** What the tests say to a backend and hear of it. */
+/** Orders of the tests to a backend, and its reports to them. */
 struct Talk
 {
   std::string Reason;
@@ -264,7 +264,7 @@ protected:
     return this->Mapper->GetActiveBackendName();
   }
 
-  /** What AUTOMATIC draws with if nothing is registered. */
+  /** Name of the backend that AUTOMATIC chooses if none is registered. */
   std::string ownBackend()
   {
     const bool software = deviceName(this->Scene.window()).find("llvmpipe") != std::string::npos;

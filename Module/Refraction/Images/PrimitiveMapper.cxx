@@ -563,8 +563,7 @@ void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& no
 //------------------------------------------------------------------------------
 // False if interpolation has found the primitive in a sub-cell that does not show it, which happens
 // where rays are nearly parallel to the primitive, or at a caustic. Then a side does not meet the
-// membrane there, the images of an end are elsewhere, or all corners are ends of the primitive
-// without an image.
+// membrane there, the images of an end are elsewhere, or all corners are ends without an image.
 bool PrimitiveMapper::IsSeen(const std::vector<MappedPoint>& points)
 {
   const auto count = [&points](Finding finding)
@@ -666,8 +665,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
 //------------------------------------------------------------------------------
 // Image of an end of the primitive: the known image that is seen in the sub-cell or next to it. If
 // all images of the end are elsewhere, the piece is not seen here: near a silhouette or near total
-// reflection the sub-cell's interpolated rays meet the primitive, but the refracted rays do not.
-// Near a caustic there may be no image at all; in that case the end is drawn at the interpolated
+// reflection the interpolated rays of the sub-cell meet the primitive and the refracted rays do
+// not. Near a caustic there may be no image at all; then the end is drawn at the interpolated
 // place. The result does not depend on the primitive's plane.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
   const std::array<Node, 3>& nodes, glm::length_t end, const glm::dvec2& interpolated) const
