@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares pictures with the colours of the colour map, for the settings of the colour map editor:
-an opaque bar whose scalars rise from left to right, seen from the front by its maximum, shows the map.
-Log scale, few colours, colours below and above the range and their borders, NaN."""
+an opaque bar whose scalars rise from left to right, seen from the front by its maximum, shows the
+map. Log scale, few colours, colours below and above the range and their borders, NaN."""
 import math
 
 import PluginTesting

@@ -112,7 +112,7 @@ def check_empty(view, display, straight):
 
 
 def check_keyframes(view, display, plane, straight):
-    """Waves with an animated height: the image at each time equals that of the height set by hand."""
+    """Waves with an animated height: at each time the image is that of the height set by hand."""
     heights = simple.Calculator(Input=plane, ResultArrayName="Height", Function=HEIGHT)
     waves = simple.GenerateSurfaceNormals(
         Input=simple.WarpByScalar(Input=heights, Scalars=["POINTS", "Height"], ScaleFactor=0.2))
