@@ -347,7 +347,7 @@ meniscusInterfacePropertiesMacro(vtkRefractedGeometryFilter);
 vtkRefractedGeometryFilter::vtkRefractedGeometryFilter()
   : Internals(new vtkInternals)
 {
-  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
+  this->Interfaces = meniscus::MakeInterfaces();
   this->SetNumberOfInputPorts(2);
 }
 

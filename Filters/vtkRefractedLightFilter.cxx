@@ -182,7 +182,7 @@ meniscusInterfacePropertiesMacro(vtkRefractedLightFilter);
 //------------------------------------------------------------------------------
 vtkRefractedLightFilter::vtkRefractedLightFilter()
 {
-  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
+  this->Interfaces = meniscus::MakeInterfaces();
   this->SetNumberOfInputPorts(2);
   this->View->SetImagesToAllImages();
   this->View->CloseSeamsOff(); // covered gaps and overlaps would count their light twice

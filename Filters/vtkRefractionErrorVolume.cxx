@@ -57,7 +57,7 @@ meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
 vtkRefractionErrorVolume::vtkRefractionErrorVolume()
   : Internals(new vtkInternals)
 {
-  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
+  this->Interfaces = meniscus::MakeInterfaces();
   this->SetNumberOfInputPorts(2);
 }
 

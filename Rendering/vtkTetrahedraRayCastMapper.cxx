@@ -41,7 +41,7 @@ vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
   : MaximumTableSize(VTK_TYPE_INT64_MAX)
   , Internals(new vtkInternals)
 {
-  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
+  this->Interfaces = meniscus::MakeInterfaces();
   this->SetNumberOfInputPorts(2);
 }
 

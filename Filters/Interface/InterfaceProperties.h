@@ -6,6 +6,7 @@
 
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
+#include "vtkSmartPointer.h"
 
 /**
  * Defines the methods of a class that forward to its member Interfaces and to the first interface:
@@ -16,11 +17,7 @@
   {                                                                                                \
     if (this->Interfaces != interfaces)                                                            \
     {                                                                                              \
-      this->Interfaces = interfaces;                                                               \
-      if (!interfaces)                                                                             \
-      {                                                                                            \
-        this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();               \
-      }                                                                                            \
+      this->Interfaces = interfaces ? interfaces : meniscus::MakeInterfaces().Get();               \
       this->Modified();                                                                            \
     }                                                                                              \
   }                                                                                                \
@@ -47,6 +44,17 @@
 
 namespace meniscus
 {
+
+/**
+ * New list of one interface with default values. The interface is made here, since one that is made
+ * later would modify the list, and with it the owner.
+ */
+inline vtkSmartPointer<vtkRefractingInterfaceCollection> MakeInterfaces()
+{
+  auto interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
+  interfaces->GetFirstInterface();
+  return interfaces;
+}
 
 /** Text of the error for a list that cannot be used: rays are refracted once. Null if it can. */
 inline const char* FindFault(vtkRefractingInterfaceCollection* interfaces)

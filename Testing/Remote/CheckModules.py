@@ -55,7 +55,7 @@ def reached(modules, depends):
 
 def included(root):
     for folder in ("Filters", "Rendering"):
-        for path in sorted(glob.glob(os.path.join(root, folder, "*.*"))):
+        for path in sorted(glob.glob(os.path.join(root, folder, "**", "*.*"), recursive=True)):
             with open(path) as file:
                 for header in re.findall(r'^#include "(vtk\w+\.h)"', file.read(), re.MULTILINE):
                     yield os.path.basename(path), header
