@@ -314,12 +314,16 @@ public:
    * Counters since construction: how often the membrane's shape was taken in, how often refraction
    * rays were computed for it, how many points were solved, how many of these had no answer because
    * a coordinate was not finite or out of range, how many had no image, and how many cells were
-   * left out because a point that they need has no image or does not exist.
+   * left out because a point that they need has no image or does not exist. Undecided searches
+   * looked for all images of a point, or for its side, and may have missed some: at a focus, which
+   * shows a ring of images, or within rounding of a caustic or of the membrane. They are counted
+   * each time, with a warning once per shape of the membrane.
    */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
   vtkTypeInt64 GetNumberOfEyeUpdates() const;
   vtkTypeInt64 GetNumberOfSolvedVertices() const;
   vtkTypeInt64 GetNumberOfFailedSolves() const;
+  vtkTypeInt64 GetNumberOfUndecidedSearches() const;
   vtkTypeInt64 GetNumberOfVerticesWithoutImage() const;
   vtkTypeInt64 GetNumberOfSkippedCells() const;
   /** @} */
@@ -371,6 +375,7 @@ private:
 
   void WarnOfModes();
   void ReportPoints(vtkTypeInt64 failed, bool hasImage, vtkPolyData* input);
+  void ReportUndecided(vtkTypeInt64 searches);
   bool HasValidLight();
   bool UpdateMembrane(vtkPolyData* membrane);
   bool UpdateEye();

@@ -437,6 +437,12 @@ public:
   /** @} */
 
   /**
+   * Of the membrane as it was last found in the view: pairs of a ray and a facet's patch that it
+   * touches, or runs along, within rounding. The ray passes the patch there. 0 without a membrane.
+   */
+  vtkTypeInt64 GetNumberOfUndecidedRays();
+
+  /**
    * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, the
    * prop's id wherever the volume is visible. Input that cannot be drawn gives an error and leaves
    * the picture as it is. While a mesh's tables are built, ProgressEvent is invoked;

@@ -20,6 +20,7 @@
 #include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -77,6 +78,12 @@ public:
    * any.
    */
   ImageState FindImages(const glm::dvec3& point, std::vector<VirtualVertex>& images) const;
+
+  /**
+   * Searches for all images of a point, since construction, that may have missed some: at a focus,
+   * where images are not isolated, or too close to a caustic for Newton's method.
+   */
+  std::int64_t GetNumberOfUndecidedSearches() const { return this->UndecidedSearches; }
 
   /** What a chain of points remembers: the last two answers. */
   struct Memory
@@ -185,10 +192,12 @@ public:
   {
     return !this->OutsideIsFront && glm::dot(this->Axis, local) < this->Lowest;
   }
+  /** The same for `count` points (x, y, z each) in world coordinates. */
+  bool AreAllBehindAll(const double* points, std::size_t count) const;
   bool IsClosed() const { return this->Closed; }
   bool IsInFront(const glm::dvec3& local) const;
   /**
-   * Points asked for since PrepareSides whose side could not be found out; they are not in front.
+   * Points asked for since construction whose side could not be found out; they are not in front.
    */
   std::int64_t GetNumberOfUndecidedSides() const { return this->Sides.GetNumberOfUndecided(); }
   /** @} */
@@ -231,6 +240,7 @@ private:
   bool Closed = false;
   bool OutsideIsFront = false; ///< closed, with normals that point outwards
   Media Optics{ glm::dvec3(0.0), 1.0, 1.0 };
+  mutable std::atomic<std::int64_t> UndecidedSearches{ 0 };
 };
 
 }

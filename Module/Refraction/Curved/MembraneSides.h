@@ -46,7 +46,7 @@ public:
   /** The side of a point in local coordinates. Points within rounding of a patch are in front. */
   Side Find(const glm::dvec3& local) const;
 
-  /** Points whose side no way has decided, since the membrane was built. */
+  /** Points whose side no way has decided, since construction. */
   std::int64_t GetNumberOfUndecided() const { return this->Undecided; }
 
 private:

@@ -19,11 +19,13 @@ namespace meniscus
  * interpolant bound it, with a margin for what is of higher degree. If a line separates them from
  * zero there is no root. If the determinants of all pairs of control vectors of its two derivatives
  * have one sign the map is injective, so there is one root at most and Newton's method finds it.
- * Otherwise the triangle is divided in four.
+ * Otherwise the triangle is divided in four. Where it is larger than its distance from the eye or
+ * from the point, distances have a cone that the six places do not show: there the margin is
+ * larger, and no map counts as injective.
  *
  * Where the patch focuses on the point the roots are not isolated: a dome on whose axis eye and
  * point lie shows a ring. The number of divisions is limited then, and what is found stands for the
- * rest.
+ * rest; IsComplete() is false then.
  */
 class PatchRoots
 {
@@ -40,6 +42,12 @@ public:
   /** Roots inside the facet, images or not, are in [begin, end) afterwards. */
   void Find();
 
+  /**
+   * False if roots may be missing: a part of the patch that could not be divided any further may
+   * hold one that Newton's method did not find, or several, or there are more than Capacity.
+   */
+  bool IsComplete() const { return this->Complete; }
+
   const SightRoot* begin() const { return this->Roots.data(); }
   const SightRoot* end() const { return this->Roots.data() + this->Count; }
 
@@ -49,6 +57,7 @@ private:
   {
     std::array<glm::dvec2, 6> B;
     std::array<glm::dvec2, 6> F;
+    std::array<double, 6> Nearest; ///< eye or point
   };
   enum class Verdict
   {
@@ -61,14 +70,18 @@ private:
   void Search(const Triangle& triangle, int depth);
   void Divide(const Triangle& triangle, int depth);
   bool TakeRoot(const Triangle& triangle);
-  static Verdict Judge(const Triangle& triangle);
+  void Evaluate(Triangle& triangle, std::size_t place) const;
+  double BoundCone(const Triangle& triangle, int depth) const;
+  static Verdict Judge(const Triangle& triangle, double cone);
   void Add(const SightRoot& root);
 
   const SightEquation& Equation;
   const CurvedPatch& Patch;
+  double Size = 0.0; ///< longest side of the facet
   std::array<SightRoot, Capacity> Roots;
   std::size_t Count = 0;
   int Divisions = 0;
+  bool Complete = true;
 };
 
 }

@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace meniscus
@@ -92,6 +93,8 @@ public:
    */
   template <typename Visit>
   void Meet(bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const;
+  /** Rays that touch the patch, or run along it, within rounding; they pass it there. */
+  std::int64_t GetNumberOfUndecidedRays() const { return this->UndecidedRays; }
 
 private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
@@ -133,6 +136,7 @@ private:
   /** Rays that are no more slanting do not meet the patch twice: a bound, then the best one. */
   mutable double LargestSlant;
   mutable bool IsSlantBest = false;
+  mutable std::int64_t UndecidedRays = 0;
   bool IsFlat;
 };
 
@@ -226,6 +230,7 @@ void PatchIntersector::MeetExactly(
   PatchCrossings crossings(this->Patch, frame);
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   crossings.Find(frame.Project(start), -anywhere, anywhere);
+  this->UndecidedRays += crossings.IsComplete() ? 0 : 1;
   for (const PatchCrossing& crossing : crossings)
   {
     const double depth = (crossing.Height - frame.GetHeight(start)) / length;
