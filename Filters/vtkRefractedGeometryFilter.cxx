@@ -70,7 +70,9 @@ public:
   vtkMTimeType ViewTime = 0;
   vtkTypeInt64 ViewEye = -1;
   vtkTypeInt64 FailedInRun = 0;
-  vtkTypeInt64 WarnedOfNoImage = -1; ///< the membrane's number of builds at the last such warning
+  // Numbers of the membrane's builds at the last warning of each kind.
+  vtkTypeInt64 WarnedOfNoImage = -1;
+  vtkTypeInt64 WarnedOfUndecided = -1;
   bool WarnedOfModes = false;
   bool WarnedOfNoNormals = false;
   bool WarnedOfParallelProjection = false;
@@ -293,13 +295,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   const std::size_t count = block.Points.size() / 3;
   if (!isReady)
   {
-    const glm::dvec3& origin = this->Scene.GetCurved().GetMembrane().GetOrigin();
-    bool mayCross = false;
-    for (std::size_t i = 0; i < count && !mayCross; ++i)
-    {
-      const double* p = block.Points.data() + 3 * i;
-      mayCross = !this->Scene.GetCurved().IsBehindAll(glm::dvec3(p[0], p[1], p[2]) - origin);
-    }
+    const bool mayCross = !this->Scene.GetCurved().AreAllBehindAll(block.Points.data(), count);
     if (mayCross)
     {
       this->Scene.GetCurved().PrepareSides();
@@ -433,6 +429,13 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfFailedSolves() const
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfUndecidedSearches() const
+{
+  const meniscus::CurvedMembraneSolver& curved = this->Internals->Scene.GetCurved();
+  return curved.GetNumberOfUndecidedSearches() + curved.GetNumberOfUndecidedSides();
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfVerticesWithoutImage() const
 {
   return this->Internals->VerticesWithoutImage;
@@ -517,6 +520,7 @@ int vtkRefractedGeometryFilter::RequestData(
     return 0;
   }
   this->Internals->FailedInRun = 0;
+  const vtkTypeInt64 undecided = this->GetNumberOfUndecidedSearches();
   this->Internals->UpdateView(this);
   meniscus::SolvedBlock& block = this->Internals->GetBlock(input);
   this->Internals->Select(input, block);
@@ -536,6 +540,7 @@ int vtkRefractedGeometryFilter::RequestData(
         input, block.Vertices, block.Selection, surface, options, output);
   this->Internals->CulledVertices += block.Selection.CulledPoints;
   this->Internals->CulledCells += block.Selection.CulledCells;
+  this->ReportUndecided(this->GetNumberOfUndecidedSearches() - undecided);
   // With a view, the solved part does not tell whether the rest has images.
   this->ReportPoints(this->Internals->FailedInRun,
     block.Selection.IsActive || output->GetNumberOfPoints() > 0, input);
@@ -592,6 +597,19 @@ void vtkRefractedGeometryFilter::ReportPoints(
   {
     internals.WarnedOfNoNormals = true;
     vtkWarningMacro("VirtualNormals need point normals, which the geometry does not have.");
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::ReportUndecided(vtkTypeInt64 searches)
+{
+  vtkTypeInt64& warned = this->Internals->WarnedOfUndecided;
+  if (searches > 0 && warned != this->Internals->Scene.GetNumberOfPatchBuilds())
+  {
+    warned = this->Internals->Scene.GetNumberOfPatchBuilds();
+    vtkWarningMacro(<< searches << " searches for images, or for the side of a point, ended "
+                    << "undecided: at a focus, or within rounding of the membrane. Images may be "
+                    << "missing there.");
   }
 }
 
@@ -659,42 +677,4 @@ bool vtkRefractedGeometryFilter::UpdateEye()
     vtkWarningMacro(<< messages.Warning);
   }
   return ready;
-}
-
-//------------------------------------------------------------------------------
-void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
-     << this->EyePosition[2] << ")\n";
-  os << indent << "Camera: " << this->Camera.Get() << "\n";
-  os << indent << "ViewCulling: " << (this->ViewCulling ? "on" : "off") << "\n";
-  os << indent << "ViewAspectRatio: " << this->ViewAspectRatio << "\n";
-  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
-  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
-  os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
-     << "\n";
-  os << indent << "ExactMembrane: " << this->GetExactMembrane() << "\n";
-  os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
-  os << indent << "AngularTolerance: " << this->AngularTolerance << "\n";
-  os << indent << "CloseSeams: " << this->CloseSeams << "\n";
-  os << indent
-     << "ReflectanceModel: " << (this->ReflectanceModel == SCHLICK ? "SCHLICK" : "FRESNEL") << "\n";
-  os << indent << "VirtualNormals: " << (this->VirtualNormals ? "on" : "off") << "\n";
-  os << indent << "LightDirection: (" << this->LightDirection[0] << ", " << this->LightDirection[1]
-     << ", " << this->LightDirection[2] << ")\n";
-  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
-  os << indent << "NumberOfPatchBuilds: " << this->GetNumberOfPatchBuilds() << "\n";
-  os << indent << "NumberOfEyeUpdates: " << this->GetNumberOfEyeUpdates() << "\n";
-  os << indent << "NumberOfSolvedVertices: " << this->GetNumberOfSolvedVertices() << "\n";
-  os << indent << "NumberOfFailedSolves: " << this->GetNumberOfFailedSolves() << "\n";
-  os << indent << "NumberOfVerticesWithoutImage: " << this->GetNumberOfVerticesWithoutImage()
-     << "\n";
-  os << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n";
-  os << indent << "NumberOfCulledVertices: " << this->GetNumberOfCulledVertices() << "\n";
-  os << indent << "NumberOfCulledCells: " << this->GetNumberOfCulledCells() << "\n";
-  os << indent << "EyeEnclosed: " << (this->IsEyeEnclosed() ? "yes" : "no") << "\n";
-  os << indent << "NumberOfMembranePointsBehind: " << this->GetNumberOfMembranePointsBehind()
-     << "\n";
-  os << indent << "NumberOfSkippedFacets: " << this->GetNumberOfSkippedFacets() << "\n";
 }

@@ -330,12 +330,15 @@ public:
    * times that refracted rays were computed for it, number of points solved, number of these that
    * had no answer because a coordinate was not finite or out of range, number of those that had no
    * image, and number of cells left out because they need a point that has no image or does not
-   * exist.
+   * exist. Undecided searches looked for all images of a point, or for its side, and may have missed
+   * some: at a focus, which shows a ring of images, or within rounding of a caustic or of the
+   * membrane. They are counted each time, with one warning per shape of the membrane.
    */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
   vtkTypeInt64 GetNumberOfEyeUpdates() const;
   vtkTypeInt64 GetNumberOfSolvedVertices() const;
   vtkTypeInt64 GetNumberOfFailedSolves() const;
+  vtkTypeInt64 GetNumberOfUndecidedSearches() const;
   vtkTypeInt64 GetNumberOfVerticesWithoutImage() const;
   vtkTypeInt64 GetNumberOfSkippedCells() const;
   /** @} */
@@ -387,6 +390,7 @@ private:
 
   void WarnOfModes();
   void ReportPoints(vtkTypeInt64 failed, bool hasImage, vtkPolyData* input);
+  void ReportUndecided(vtkTypeInt64 searches);
   bool HasValidLight();
   bool UpdateMembrane(vtkPolyData* membrane);
   bool UpdateEye();

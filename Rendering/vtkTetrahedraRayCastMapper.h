@@ -491,6 +491,12 @@ public:
   /** @} */
 
   /**
+   * Number of pairs of a ray and a facet's patch that touch within rounding, for the membrane as it
+   * was last found in the view. Such a ray passes the patch. 0 without a membrane.
+   */
+  vtkTypeInt64 GetNumberOfUndecidedRays();
+
+  /**
    * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, draws
    * the prop's id wherever the volume is visible. Input that cannot be drawn causes an error and
    * leaves the image unchanged. While the tables of a mesh are built, ProgressEvent is invoked;

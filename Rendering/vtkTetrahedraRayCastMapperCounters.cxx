@@ -126,6 +126,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfLostRays()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfUndecidedRays()
+{
+  return this->Internals->Membrane.GetSight().GetNumberOfUndecidedRays();
+}
+
+//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -168,4 +174,5 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
   os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
   os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";
+  os << indent << "NumberOfUndecidedRays: " << this->GetNumberOfUndecidedRays() << "\n";
 }

@@ -326,6 +326,27 @@ TEST(RefractedGeometryImages, NothingIsComputedAgainWithoutNeed)
 }
 
 //------------------------------------------------------------------------------
+// A bowl that is a sphere shows a point on its axis as a ring: not all of its images can be found.
+// That is counted, and reported once.
+TEST(RefractedGeometryImages, CountsSearchesAtAFocus)
+{
+  const auto filter = MakeAllImages(MakePoints({ { 0.0, -550.0, 0.0 }, { 30.0, -60.0, 7.0 } }),
+    MakeMembrane(meniscus::reference::MakeDisc(100.0, 12, 200.0)));
+  filter->SetExteriorIndexOfRefraction(1.5);
+  filter->SetInteriorIndexOfRefraction(1.0);
+  filter->SetEyePosition(0.0, 2000.0, 0.0);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfUndecidedSearches(), 1);
+  EXPECT_EQ(messages->Warnings, 1);
+  EXPECT_NE(messages->Text.find("undecided"), std::string::npos) << messages->Text;
+  filter->SetEyePosition(0.0, 1990.0, 0.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfUndecidedSearches(), 2);
+  EXPECT_EQ(messages->Warnings, 1);
+}
+
+//------------------------------------------------------------------------------
 TEST(RefractedGeometryImages, EyeFromBehindSeesNothingBehind)
 {
   const auto filter = MakeAllImages(MakeGrid(5, 40.0, -30.0), MakeFlatMembrane());

@@ -287,6 +287,43 @@ TEST(RefractedRayField, MeetsSpheresAtTheirOutlines)
   EXPECT_LT(close, 100);
 }
 
+/**
+ * A cylinder seen along its axis by parallel rays: those of one column of pixels pass its lowest
+ * line, where the patch that begins there touches them along its whole length. No number of
+ * crossings is right; each such pair of a ray and a patch is counted. Half a pixel aside there is
+ * none.
+ */
+TEST(RefractedRayField, CountsRaysThatRunAlongAPatch)
+{
+  const double cosine = std::cos(0.4);
+  const double sine = std::sin(0.4);
+  const double points[] = { 0.0, -1.0, -1.0, 0.0, -1.0, 1.0, sine, -cosine, -1.0, sine, -cosine,
+    1.0 };
+  const double normals[] = { 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, -sine, cosine, 0.0, -sine, cosine, 0.0 };
+  const std::int64_t triangles[] = { 0, 2, 3, 0, 3, 1 };
+  Membrane surface;
+  CurvedPatches patches;
+  const MembraneInput input{ points, 4, triangles, 2, nullptr, normals };
+  ASSERT_EQ(surface.Build(input), MembraneStatus::Ready);
+  patches.Build(surface, SerialLoop);
+  RefractedRayField::View view;
+  view.Width = Size;
+  view.Height = Size;
+  view.EyeDepth = -100.0;
+  view.Frame.Origin.PerColumn = { 2.0 / Size, 0.0 };
+  view.Frame.Origin.PerRow = { 0.0, 2.0 / Size };
+  SetMesh(view, { glm::dvec3(0.0), glm::dvec3(1e3) });
+  RefractedRayField sight;
+  for (const bool isAlong : { true, false })
+  {
+    // The pixel in the middle looks along the line from (0, -1, -1) to (0, -1, 1).
+    const double half = isAlong ? 1.0 / Size : 0.0;
+    view.Center = glm::dvec3(half, half - 1.0, 0.0);
+    sight.Build(surface, patches, view);
+    EXPECT_EQ(sight.GetNumberOfUndecidedRays() > 0, isAlong);
+  }
+}
+
 TEST(RefractedRayField, InstructionSetsSeeTheSame)
 {
   const Sheet sheet(Shapes[2], 3);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <iomanip>
 #include <limits>
 #include <map>
@@ -59,8 +60,11 @@ RelationTally decode(const std::string& text)
 {
   std::istringstream line(text);
   RelationTally t;
+  std::string deviation;
   line >> t.Scenes >> t.Comparisons >> t.Values >> t.Conditioned >> t.Wrong >> t.Failures >>
-    t.Deviation >> t.Tolerance;
+    deviation >> t.Tolerance;
+  // A result that is missing is infinitely far away, which a stream writes but does not read.
+  t.Deviation = std::strtod(deviation.c_str(), nullptr);
   line.ignore(1);
   std::getline(line, t.FirstFailure);
   return t;

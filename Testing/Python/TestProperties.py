@@ -51,6 +51,7 @@ class TestMapper(PropertyTest):
             "NumberOfMeshBuilds", "NumberOfScalarUpdates", "NumberOfTransferFunctionBuilds",
             "NumberOfActiveSetBuilds", "UploadedBytes", "NumberOfActiveCells",
             "NumberOfTraversalSteps", "NumberOfRays", "NumberOfLostRays",
+            "NumberOfUndecidedRays",
             "NumberOfRejectedCells", "NumberOfPreIntegrationBuilds"])
 
     def test_prints_itself(self):
@@ -100,7 +101,8 @@ class TestFilter(PropertyTest):
     def test_counters(self):
         self.check_counters(self.filter, [
             "NumberOfPatchBuilds", "NumberOfEyeUpdates", "NumberOfSolvedVertices",
-            "NumberOfFailedSolves", "NumberOfCulledVertices", "NumberOfCulledCells"])
+            "NumberOfFailedSolves", "NumberOfUndecidedSearches",
+            "NumberOfCulledVertices", "NumberOfCulledCells"])
 
 
 class TestRefractedLight(PropertyTest):

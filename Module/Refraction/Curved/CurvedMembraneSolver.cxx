@@ -203,6 +203,20 @@ bool CurvedMembraneSolver::IsInFront(const glm::dvec3& local) const
 }
 
 //------------------------------------------------------------------------------
+bool CurvedMembraneSolver::AreAllBehindAll(const double* points, std::size_t count) const
+{
+  const glm::dvec3& origin = this->Surface.GetOrigin();
+  for (const double* p = points; p != points + 3 * count; p += 3)
+  {
+    if (!this->IsBehindAll(glm::dvec3(p[0], p[1], p[2]) - origin))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 void CurvedMembraneSolver::Clear()
 {
   this->Surface = Membrane();
@@ -521,12 +535,14 @@ void CurvedMembraneSolver::FindPlaces(
   const SightEquation& equation, const glm::dvec3& local, std::vector<SightPlace>& places) const
 {
   places.clear();
+  bool isComplete = true;
   this->Tree.Visit(local, 0.0,
-    [this, &equation, &places](std::int32_t facet)
+    [this, &equation, &places, &isComplete](std::int32_t facet)
     {
       const CurvedPatch patch = this->Patches.GetPatch(facet);
       PatchRoots images(equation, patch);
       images.Find();
+      isComplete = isComplete && images.IsComplete();
       for (const SightRoot& root : images)
       {
         if (equation.IsImage(root.At))
@@ -536,6 +552,10 @@ void CurvedMembraneSolver::FindPlaces(
       }
       return AllFacets;
     });
+  if (!isComplete)
+  {
+    ++this->UndecidedSearches;
+  }
   std::sort(places.begin(), places.end(),
     [](const SightPlace& a, const SightPlace& b)
     {

@@ -20,6 +20,7 @@
 #include "Refraction/Membrane/Membrane.h"
 #include "Refraction/Tubes/RayTubeTree.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -80,6 +81,12 @@ public:
    * there are any.
    */
   ImageState FindImages(const glm::dvec3& point, std::vector<VirtualVertex>& images) const;
+
+  /**
+   * Number of searches since construction for all images of a point that may have missed some: at
+   * a focus, where images are not isolated, or too close to a caustic for Newton's method.
+   */
+  std::int64_t GetNumberOfUndecidedSearches() const { return this->UndecidedSearches; }
 
   /** State of a chain of points: the last answer and the steps from the one before it. */
   struct Memory
@@ -190,10 +197,12 @@ public:
   {
     return !this->OutsideIsFront && glm::dot(this->Axis, local) < this->Lowest;
   }
+  /** The same for `count` points (x, y, z each) in world coordinates. */
+  bool AreAllBehindAll(const double* points, std::size_t count) const;
   bool IsClosed() const { return this->Closed; }
   bool IsInFront(const glm::dvec3& local) const;
   /**
-   * Number of points since PrepareSides whose side could not be determined; they are not in front.
+   * Number of points since construction whose side could not be determined; they are not in front.
    */
   std::int64_t GetNumberOfUndecidedSides() const { return this->Sides.GetNumberOfUndecided(); }
   /** @} */
@@ -236,6 +245,7 @@ private:
   bool Closed = false;
   bool OutsideIsFront = false; ///< the membrane is closed and its normals point outwards
   Media Optics{ glm::dvec3(0.0), 1.0, 1.0 };
+  mutable std::atomic<std::int64_t> UndecidedSearches{ 0 };
 };
 
 }

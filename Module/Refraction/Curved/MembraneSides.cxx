@@ -93,7 +93,6 @@ void MembraneSides::Build(
   this->Surface = &surface;
   this->Patches = &patches;
   this->Frame = frame;
-  this->Undecided = 0;
   // Rounding error of a patch's point and of Newton's method.
   this->Slack = 1024.0 * std::numeric_limits<double>::epsilon() * surface.GetRadius();
   const std::size_t count = surface.GetFacets().size();

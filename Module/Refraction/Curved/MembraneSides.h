@@ -46,7 +46,7 @@ public:
   /** Side of a point in local coordinates. Points within rounding of a patch are in front. */
   Side Find(const glm::dvec3& local) const;
 
-  /** Number of points since Build whose side no way could decide. */
+  /** Number of points since construction whose side no way could decide. */
   std::int64_t GetNumberOfUndecided() const { return this->Undecided; }
 
 private:

@@ -42,6 +42,17 @@ constexpr double LargestDeflection = 0.5;
 constexpr double HigherDegree = 0.5;
 constexpr double HigherDegreeOfGuess = 2.0;
 
+// Distance of the nearest of six places from the apex of a cone, in longest sides, above which the
+// part of higher degree of the cone is within HigherDegree. No point of the triangle is farther
+// than 0.29 sides from one of the places (the circumradius of a quarter). At a distance d of a
+// quarter of a side, the distance from the apex, sqrt(d^2 + x^2) along a side, leaves 0.41 of the
+// part of second degree at most, wherever its foot is; at half a side 0.17.
+constexpr double NearestCone = 0.29 + 0.25;
+
+// Deviation of any distance from its interpolant, in longest sides: found by trial, 0.218 in an
+// equilateral triangle with the apex on it, less in others.
+constexpr double ConeDeviation = 0.22;
+
 // Pairs of determinants that differ more than this are too close to a caustic to prove the map
 // injective.
 constexpr double SmallestDeterminant = 0.05;
@@ -122,9 +133,10 @@ void PatchRoots::Find()
     glm::dvec2(0.5, 0.5), glm::dvec2(0.0, 0.5), glm::dvec2(0.5, 0.0) };
   this->Count = 0;
   this->Divisions = 0;
+  this->Complete = true;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    whole.F[i] = this->Equation.GetResidual(this->Patch, whole.B[i]);
+    this->Evaluate(whole, i);
   }
   if (this->IsFar() && IsFarFromZero(whole.F))
   {
@@ -132,7 +144,12 @@ void PatchRoots::Find()
   }
   for (std::size_t i = 3; i < 6; ++i)
   {
-    whole.F[i] = this->Equation.GetResidual(this->Patch, whole.B[i]);
+    this->Evaluate(whole, i);
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    this->Size =
+      std::max(this->Size, glm::length(this->Patch.Corner[(k + 1) % 3] - this->Patch.Corner[k]));
   }
   this->Search(whole, 0);
 }
@@ -159,7 +176,32 @@ bool PatchRoots::IsFar() const
 }
 
 //------------------------------------------------------------------------------
-PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle)
+void PatchRoots::Evaluate(Triangle& triangle, std::size_t place) const
+{
+  triangle.F[place] =
+    this->Equation.GetResidual(this->Patch, triangle.B[place], triangle.Nearest[place]);
+}
+
+//------------------------------------------------------------------------------
+// By how much the interpolant may be off for a cone that it does not show; 0 if there is none.
+double PatchRoots::BoundCone(const Triangle& triangle, int depth) const
+{
+  const double size = std::ldexp(this->Size, -depth);
+  const double nearest = *std::min_element(triangle.Nearest.begin(), triangle.Nearest.end());
+  if (nearest >= NearestCone * size)
+  {
+    return 0.0;
+  }
+  double slope = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    slope = std::max(slope, this->Equation.GetConeSlope(this->Patch, triangle.B[k]));
+  }
+  return ConeDeviation * size * slope;
+}
+
+//------------------------------------------------------------------------------
+PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle, double cone)
 {
   Control control = triangle.F;
   double bend = 0.0;
@@ -178,28 +220,40 @@ PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle)
   // A residual is a difference of products of two lengths: its error is a few roundings of the
   // largest.
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-  const double margin = (isGuess ? HigherDegreeOfGuess : HigherDegree) * bend + rounding * reach;
+  const double margin =
+    (isGuess ? HigherDegreeOfGuess : HigherDegree) * bend + rounding * reach + cone;
   if (IsSeparated(control, margin))
   {
     return Verdict::None;
   }
-  return !isGuess && IsInjective(control, margin) ? Verdict::AtMostOne : Verdict::Unknown;
+  return !isGuess && cone == 0.0 && IsInjective(control, margin) ? Verdict::AtMostOne
+                                                                 : Verdict::Unknown;
 }
 
 //------------------------------------------------------------------------------
 void PatchRoots::Search(const Triangle& triangle, int depth)
 {
-  const Verdict verdict = Judge(triangle);
+  const bool isDeepest = depth == DeepestLevel;
+  const bool isLast = isDeepest || this->Divisions >= MostDivisions;
+  // At the last level a cone is as small as what Newton's method resolves.
+  const Verdict verdict = Judge(triangle, isLast ? 0.0 : this->BoundCone(triangle, depth));
   if (verdict == Verdict::None)
   {
     return;
   }
-  const bool last = depth == DeepestLevel || this->Divisions >= MostDivisions;
-  if ((verdict == Verdict::AtMostOne || last) && (this->TakeRoot(triangle) || last))
+  if (!isLast && verdict == Verdict::Unknown)
   {
+    this->Divide(triangle, depth);
     return;
   }
-  this->Divide(triangle, depth);
+  const bool isAnswered = this->TakeRoot(triangle);
+  if (!isLast && !isAnswered)
+  {
+    this->Divide(triangle, depth);
+    return;
+  }
+  // At the deepest level two roots are one within SameRoot; above it, there may be any number.
+  this->Complete = this->Complete && isAnswered && (isDeepest || verdict == Verdict::AtMostOne);
 }
 
 //------------------------------------------------------------------------------
@@ -247,8 +301,6 @@ bool PatchRoots::TakeRoot(const Triangle& triangle)
 void PatchRoots::Divide(const Triangle& t, int depth)
 {
   ++this->Divisions;
-  const auto evaluate = [this](const glm::dvec2& b)
-  { return this->Equation.GetResidual(this->Patch, b); };
   // Three children at the corners, and one in the middle whose corners are the midpoints of the
   // edges.
   Triangle middle;
@@ -256,11 +308,12 @@ void PatchRoots::Divide(const Triangle& t, int depth)
   {
     middle.B[k] = t.B[k + 3];
     middle.F[k] = t.F[k + 3];
+    middle.Nearest[k] = t.Nearest[k + 3];
   }
   for (std::size_t k = 0; k < 3; ++k)
   {
     middle.B[k + 3] = 0.5 * (middle.B[(k + 1) % 3] + middle.B[(k + 2) % 3]);
-    middle.F[k + 3] = evaluate(middle.B[k + 3]);
+    this->Evaluate(middle, k + 3);
   }
   this->Search(middle, depth + 1);
   for (std::size_t k = 0; k < 3; ++k)
@@ -270,8 +323,10 @@ void PatchRoots::Divide(const Triangle& t, int depth)
     Triangle child;
     child.B = { t.B[k], t.B[j + 3], t.B[i + 3], middle.B[k + 3], 0.5 * (t.B[k] + t.B[i + 3]),
       0.5 * (t.B[k] + t.B[j + 3]) };
-    child.F = { t.F[k], t.F[j + 3], t.F[i + 3], middle.F[k + 3], evaluate(child.B[4]),
-      evaluate(child.B[5]) };
+    child.F = { t.F[k], t.F[j + 3], t.F[i + 3], middle.F[k + 3] };
+    child.Nearest = { t.Nearest[k], t.Nearest[j + 3], t.Nearest[i + 3], middle.Nearest[k + 3] };
+    this->Evaluate(child, 4);
+    this->Evaluate(child, 5);
     this->Search(child, depth + 1);
   }
 }
@@ -286,10 +341,12 @@ void PatchRoots::Add(const SightRoot& root)
       return;
     }
   }
-  if (this->Count < Capacity)
+  if (this->Count == Capacity)
   {
-    this->Roots[this->Count++] = root;
+    this->Complete = false;
+    return;
   }
+  this->Roots[this->Count++] = root;
 }
 
 }

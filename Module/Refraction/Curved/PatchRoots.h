@@ -19,11 +19,13 @@ namespace meniscus
  * of the interpolant bound it, with a margin for the parts of higher degree. If a line separates
  * them from zero, there is no root. If the determinants of all pairs of control vectors of its two
  * derivatives have one sign, the map is injective, so there is at most one root and Newton's method
- * finds it. Otherwise the triangle is divided in four.
+ * finds it. Otherwise the triangle is divided in four. Where it is larger than its distance from
+ * the eye or from the point, distances have a cone that the six places do not show: there the
+ * margin is larger, and no map counts as injective.
  *
  * Where the patch focuses on the point, the roots are not isolated: a dome with eye and point on
- * its axis shows a ring. In that case the number of divisions is limited, and the roots found
- * represent the ring.
+ * its axis shows a ring. In that case the number of divisions is limited, the roots found
+ * represent the ring, and IsComplete() is false.
  */
 class PatchRoots
 {
@@ -45,6 +47,12 @@ public:
    */
   void Find();
 
+  /**
+   * False if roots may be missing: a part of the patch that could not be divided any further may
+   * hold one that Newton's method did not find, or several, or there are more than Capacity.
+   */
+  bool IsComplete() const { return this->Complete; }
+
   const SightRoot* begin() const { return this->Roots.data(); }
   const SightRoot* end() const { return this->Roots.data() + this->Count; }
 
@@ -54,6 +62,7 @@ private:
   {
     std::array<glm::dvec2, 6> B;
     std::array<glm::dvec2, 6> F;
+    std::array<double, 6> Nearest; ///< eye or point
   };
   enum class Verdict
   {
@@ -66,14 +75,18 @@ private:
   void Search(const Triangle& triangle, int depth);
   void Divide(const Triangle& triangle, int depth);
   bool TakeRoot(const Triangle& triangle);
-  static Verdict Judge(const Triangle& triangle);
+  void Evaluate(Triangle& triangle, std::size_t place) const;
+  double BoundCone(const Triangle& triangle, int depth) const;
+  static Verdict Judge(const Triangle& triangle, double cone);
   void Add(const SightRoot& root);
 
   const SightEquation& Equation;
   const CurvedPatch& Patch;
+  double Size = 0.0; ///< longest side of the facet
   std::array<SightRoot, Capacity> Roots;
   std::size_t Count = 0;
   int Divisions = 0;
+  bool Complete = true;
 };
 
 }

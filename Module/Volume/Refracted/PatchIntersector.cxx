@@ -194,14 +194,14 @@ bool PatchIntersector::MayMeetTwice(double slant) const
 }
 
 //------------------------------------------------------------------------------
-/** Keeps only rays that may meet the patch. */
+/** Keeps only rays that may meet the patch, including those within the facet's plane (0 / 0). */
 void PatchIntersector::SiftNear(PatchIntersectionBatch& lanes) const
 {
   const int count = lanes.Count;
   lanes.Count = 0;
   for (int i = 0; i < count; ++i)
   {
-    if (lanes.Least[i] >= -this->MarginOf(lanes.Slant[i]))
+    if (!(lanes.Least[i] < -this->MarginOf(lanes.Slant[i])))
     {
       lanes.Keep(lanes.Count++, i);
     }

@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace meniscus
@@ -108,6 +109,8 @@ public:
    */
   template <typename Visit>
   void Meet(bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const;
+  /** Rays that touch the patch, or run along it, within rounding; they pass it there. */
+  std::int64_t GetNumberOfUndecidedRays() const { return this->UndecidedRays; }
 
 private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
@@ -157,6 +160,7 @@ private:
    */
   mutable double LargestSlant;
   mutable bool IsSlantBest = false;
+  mutable std::int64_t UndecidedRays = 0;
   bool IsFlat;
 };
 
@@ -251,6 +255,7 @@ void PatchIntersector::MeetExactly(
   PatchCrossings crossings(this->Patch, frame);
   constexpr double anywhere = std::numeric_limits<double>::infinity();
   crossings.Find(frame.Project(start), -anywhere, anywhere);
+  this->UndecidedRays += crossings.IsComplete() ? 0 : 1;
   for (const PatchCrossing& crossing : crossings)
   {
     const double depth = (crossing.Height - frame.GetHeight(start)) / length;

@@ -124,6 +124,7 @@ private:
 void RefractedRayField::Clear()
 {
   this->Seen = false;
+  this->UndecidedRays = 0;
   this->Tiles.clear();
 }
 
@@ -326,22 +327,24 @@ void RefractedRayField::Build(
   this->SortFacets(facets);
 
   const std::size_t tiles = this->TileBegin.size() - 1;
-  std::vector<glm::dvec3> directions(tiles, glm::dvec3(0.0));
+  std::vector<TileSum> sums(tiles);
   this->Tiles.resize(tiles);
   loop(tiles,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t tile = begin; tile < end; ++tile)
       {
-        this->TraceTile(patches, facets, static_cast<int>(tile), directions[tile]);
+        sums[tile] = this->TraceTile(patches, facets, static_cast<int>(tile));
       }
     });
   this->Seen = std::any_of(this->Tiles.begin(), this->Tiles.end(),
     [](const std::vector<RefractedRay>& tile) { return !tile.empty(); });
   glm::dvec3 sum(0.0);
-  for (const glm::dvec3& direction : directions)
+  this->UndecidedRays = 0;
+  for (const TileSum& tile : sums)
   {
-    sum += direction;
+    sum += tile.Directions;
+    this->UndecidedRays += tile.Undecided;
   }
   sum = this->WorldToFrame * sum;
   const double length = glm::length(sum);
@@ -349,8 +352,11 @@ void RefractedRayField::Build(
 }
 
 //------------------------------------------------------------------------------
-/** Replaces the hits of rays that meet this facet before the facet found so far. */
-void RefractedRayField::TraceFacet(const CurvedPatch& patch, const SeenFacet& seen,
+/**
+ * Replaces the hits of rays that meet this facet before the facet found so far. Returns the number
+ * of undecided rays.
+ */
+std::int64_t RefractedRayField::TraceFacet(const CurvedPatch& patch, const SeenFacet& seen,
   const TileRays& rays, std::vector<MembraneHit>& hits) const
 {
   const Box box{ std::max(rays.Left, seen.Pixels.Left),
@@ -374,6 +380,7 @@ void RefractedRayField::TraceFacet(const CurvedPatch& patch, const SeenFacet& se
       }
     }
   }
+  return tracer.GetNumberOfUndecidedRays();
 }
 
 //------------------------------------------------------------------------------
@@ -441,15 +448,16 @@ bool RefractedRayField::HidesTile(const CurvedPatches& patches,
 }
 
 //------------------------------------------------------------------------------
-void RefractedRayField::TraceTile(const CurvedPatches& patches,
-  const std::vector<SeenFacet>& facets, int tile, glm::dvec3& directions)
+RefractedRayField::TileSum RefractedRayField::TraceTile(
+  const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile)
 {
+  TileSum sum;
   const TileRays tileRays(*this, tile);
   if (this->HidesTile(patches, facets, tile, tileRays))
   {
     this->Tiles[static_cast<std::size_t>(tile)].assign(
       RaysOfTile, RefractedRay{ this->Of.EyeDepth, glm::dvec3(0.0) });
-    return;
+    return sum;
   }
   std::vector<MembraneHit> hits;
   const auto first = static_cast<std::size_t>(this->TileBegin[static_cast<std::size_t>(tile)]);
@@ -460,10 +468,11 @@ void RefractedRayField::TraceTile(const CurvedPatches& patches,
     const SeenFacet& seen = facets[static_cast<std::size_t>(facet)];
     if (!seen.Unbounded || !tileRays.IsBeside(seen.Center, seen.Radius))
     {
-      this->TraceFacet(patches.GetPatch(facet), seen, tileRays, hits);
+      sum.Undecided += this->TraceFacet(patches.GetPatch(facet), seen, tileRays, hits);
     }
   }
-  this->RefractTile(tileRays, hits, this->Tiles[static_cast<std::size_t>(tile)], directions);
+  this->RefractTile(tileRays, hits, this->Tiles[static_cast<std::size_t>(tile)], sum.Directions);
+  return sum;
 }
 
 //------------------------------------------------------------------------------

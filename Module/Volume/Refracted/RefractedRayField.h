@@ -116,6 +116,11 @@ public:
    */
   const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
   const View& GetView() const { return this->Of; }
+  /**
+   * Pairs of a ray and a patch that it touches, or runs along, within rounding, such as an outline
+   * hit exactly: the ray counts as passing the patch there. 0 for nearly all views.
+   */
+  std::int64_t GetNumberOfUndecidedRays() const { return this->UndecidedRays; }
   std::int64_t GetBytes() const;
 
 private:
@@ -152,9 +157,14 @@ private:
   void SortFacets(const std::vector<SeenFacet>& facets);
   bool HidesTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
     const TileRays& rays) const;
-  void TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
-    glm::dvec3& directions);
-  void TraceFacet(const CurvedPatch& patch, const SeenFacet& seen, const TileRays& rays,
+  /** Of a tile: the sum of its refracted rays' steps, in the world, and its undecided rays. */
+  struct TileSum
+  {
+    glm::dvec3 Directions{ 0.0 };
+    std::int64_t Undecided = 0;
+  };
+  TileSum TraceTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile);
+  std::int64_t TraceFacet(const CurvedPatch& patch, const SeenFacet& seen, const TileRays& rays,
     std::vector<MembraneHit>& hits) const;
   void TraceBox(const PatchIntersector& tracer, const PatchIntersector::FlatHits& flat,
     const Box& box, bool matters, const TileRays& rays, std::vector<MembraneHit>& hits) const;
@@ -165,6 +175,7 @@ private:
   int Columns = 0;
   int Rows = 0;
   bool Seen = false;
+  std::int64_t UndecidedRays = 0;
   glm::dvec3 MeanDirection{ 0.0 };
   glm::dmat3 WorldToFrame{ 1.0 };
   /** Bounds of the mesh, relative to the membrane's origin. */

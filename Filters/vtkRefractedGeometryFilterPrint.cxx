@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Settings and counters of vtkRefractedGeometryFilter in words.
+#include "vtkRefractedGeometryFilter.h"
+
+#include "vtkCamera.h"
+#include "vtkImplicitFunction.h"
+
+//------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
+     << this->EyePosition[2] << ")\n";
+  os << indent << "Camera: " << this->Camera.Get() << "\n";
+  os << indent << "ViewCulling: " << (this->ViewCulling ? "on" : "off") << "\n";
+  os << indent << "ViewAspectRatio: " << this->ViewAspectRatio << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
+  os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
+     << "\n";
+  os << indent << "ExactMembrane: " << this->GetExactMembrane() << "\n";
+  os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
+  os << indent << "AngularTolerance: " << this->AngularTolerance << "\n";
+  os << indent << "CloseSeams: " << this->CloseSeams << "\n";
+  os << indent
+     << "ReflectanceModel: " << (this->ReflectanceModel == SCHLICK ? "SCHLICK" : "FRESNEL") << "\n";
+  os << indent << "VirtualNormals: " << (this->VirtualNormals ? "on" : "off") << "\n";
+  os << indent << "LightDirection: (" << this->LightDirection[0] << ", " << this->LightDirection[1]
+     << ", " << this->LightDirection[2] << ")\n";
+  os << indent << "OutputPointsPrecision: " << this->OutputPointsPrecision << "\n";
+  os << indent << "NumberOfPatchBuilds: " << this->GetNumberOfPatchBuilds() << "\n";
+  os << indent << "NumberOfEyeUpdates: " << this->GetNumberOfEyeUpdates() << "\n";
+  os << indent << "NumberOfSolvedVertices: " << this->GetNumberOfSolvedVertices() << "\n";
+  os << indent << "NumberOfFailedSolves: " << this->GetNumberOfFailedSolves() << "\n";
+  os << indent << "NumberOfUndecidedSearches: " << this->GetNumberOfUndecidedSearches() << "\n";
+  os << indent << "NumberOfVerticesWithoutImage: " << this->GetNumberOfVerticesWithoutImage()
+     << "\n";
+  os << indent << "NumberOfSkippedCells: " << this->GetNumberOfSkippedCells() << "\n";
+  os << indent << "NumberOfCulledVertices: " << this->GetNumberOfCulledVertices() << "\n";
+  os << indent << "NumberOfCulledCells: " << this->GetNumberOfCulledCells() << "\n";
+  os << indent << "EyeEnclosed: " << (this->IsEyeEnclosed() ? "yes" : "no") << "\n";
+  os << indent << "NumberOfMembranePointsBehind: " << this->GetNumberOfMembranePointsBehind()
+     << "\n";
+  os << indent << "NumberOfSkippedFacets: " << this->GetNumberOfSkippedFacets() << "\n";
+}
