@@ -104,6 +104,7 @@ class vtkRenderWindow;
 
 namespace meniscus
 {
+struct BlendModel;
 struct InputBlocks;
 struct InputReport;
 struct RayCastFrame;
@@ -318,6 +319,12 @@ public:
   vtkGetMacro(MaximumTableSize, vtkTypeInt64);
   /** @} */
 
+  /**
+   * Whether pictures of parts of a volume in this blend mode can be put one over the other: those
+   * of several ranks, for example.
+   */
+  static bool CanRanksComposite(int blendMode);
+
   /** @{ */
   /**
    * Bias of pictures that are composited afterwards by arithmetic that drops fractions, as IceT's
@@ -483,7 +490,7 @@ private:
   void PrepareRefraction(const meniscus::ViewContext& place, meniscus::RayCastFrame& frame);
   bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts);
   void UpdateTransferFunction();
-  int GetUsedBlendMode();
+  const meniscus::BlendModel& GetBlendModel();
   int ChooseBackend();
   bool FallsBackToNative(const meniscus::RayCastFrame& frame, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);

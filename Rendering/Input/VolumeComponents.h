@@ -3,9 +3,9 @@
 #ifndef meniscus_Rendering_Input_VolumeComponents_h
 #define meniscus_Rendering_Input_VolumeComponents_h
 
-#include "Rendering/Input/ComponentMixture.h"
 #include "Rendering/Input/VolumeInput.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Optics/TransferFunction.h"
 
 #include <glm/vec3.hpp>

@@ -314,9 +314,8 @@ std::string RayCastPipeline::DrawNative(const RayCastFrame& frame)
   scene.GradientToFrame = frame.Optics.GradientToFrame;
   scene.GradientOpacity = frame.Optics.GradientOpacity;
   scene.GradientMagnitude = frame.Optics.GradientMagnitude;
-  // The numbers are the same.
-  scene.Blending = static_cast<PacketBlending>(frame.Optics.BlendMode);
-  scene.Mixture = static_cast<PacketMixture>(frame.Optics.Components);
+  scene.Blending = frame.Optics.Blending;
+  scene.Mixture = frame.Optics.Components;
   scene.Components = frame.Optics.HasComponents() ? this->Components.GetValues().data() : nullptr;
   scene.DataRange = frame.Optics.DataRange;
   scene.PreIntegration = frame.Optics.PreIntegrated ? &this->PreIntegration.GetTable() : nullptr;

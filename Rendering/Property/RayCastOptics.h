@@ -3,7 +3,8 @@
 #ifndef meniscus_Rendering_Property_RayCastOptics_h
 #define meniscus_Rendering_Property_RayCastOptics_h
 
-#include "Rendering/Input/ComponentMixture.h"
+#include "Volume/Optics/BlendModels.h"
+#include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Optics/ScalarNormalization.h"
 #include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Rays/ClippingPlanes.h"
@@ -25,11 +26,10 @@ namespace meniscus
 /** What becomes of scalars along a ray, beside the transfer function's tables. */
 struct RayCastOptics
 {
-  /** A number of vtkVolumeMapper::BlendModes up to ISOSURFACE_BLEND. */
-  int BlendMode = 0;
+  BlendMode Blending = BlendMode::Composite;
   /** One scalar per cell, in place of those of the vertices. */
   bool CellScalars = false;
-  /** Not None with composite blending only. */
+  /** None unless the blend mode shows a medium. */
   ComponentMixture Components = ComponentMixture::None;
   /** Of the scalars' components, the main one first. */
   int NumberOfFunctions = 1;
@@ -62,10 +62,12 @@ struct RayCastOptics
   {
     return this->UsesGradients() && !this->VertexGradients && !this->CellScalars;
   }
-  /** Composite blending of one scalar of the vertices by the transfer function as it is. */
-  bool IsComposite() const
+  /** Description of the blend mode. */
+  const BlendModel& Model() const { return GetBlendModel(this->Blending); }
+  /** Whether a medium of one scalar of the vertices follows the transfer function as it is. */
+  bool IsPlainMedium() const
   {
-    return this->BlendMode == 0 && !this->UsesGradients() && !this->HasComponents() &&
+    return this->Model().IsMedium() && !this->UsesGradients() && !this->HasComponents() &&
       !this->CellScalars;
   }
 };

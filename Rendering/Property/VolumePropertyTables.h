@@ -33,11 +33,10 @@ class VolumePropertyTables
 public:
   /**
    * Reduces a property to points, which needs no scalars.
-   * @param blendMode  a number of vtkVolumeMapper::BlendModes; says how opacity is meant.
    * @param perUnitDistance  for composite blending: opacity is the alpha of one unit distance.
    * @param components  of the scalars; their number counts if they are independent.
    */
-  void Reduce(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
+  void Reduce(vtkVolumeProperty* property, BlendMode mode, bool perUnitDistance,
     ComponentMixture mixture, int components);
   /**
    * Brings the tables to normalised scalars.
@@ -60,7 +59,7 @@ public:
   {
     return this->GradientIntervals;
   }
-  /** Ascending; empty unless blending isosurfaces. */
+  /** Ascending; empty unless the blend mode shows isovalues. */
   const std::vector<Isosurface>& GetIsosurfaces() const { return this->Isosurfaces; }
 
   /** The scalars that a ray must visit. */
@@ -74,7 +73,7 @@ public:
   std::int64_t GetNumberOfBuilds() const { return this->Builds; }
 
 private:
-  void ReduceProperty(vtkVolumeProperty* property, int blendMode, OpacityMeaning meaning,
+  void ReduceProperty(vtkVolumeProperty* property, BlendMode mode, OpacityMeaning meaning,
     ComponentMixture mixture, int components);
   void FindFeatures();
   void NormalizeTables(
@@ -94,7 +93,7 @@ private:
   ObjectVersion BuiltProperty;
   ObjectVersion BuiltIsovalues;
   OpacityMeaning BuiltMeaning = OpacityMeaning::Attenuation;
-  int BuiltBlendMode = -1;
+  BlendMode BuiltMode = BlendMode::Composite;
   ScalarNormalization BuiltNormalization;
   ComponentMixture BuiltMixture = ComponentMixture::None;
   int BuiltNumberOfComponents = 1;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What composite blending needs however many components the scalars have.
+// Light and absorption of a medium, for one or several components.
 
 // Optical depth of a piece beyond which nothing can be told apart; its square is finite.
 const float LARGEST_DEPTH = 1.0e+18;

@@ -145,10 +145,10 @@ bool advance(int exitDepth, float exitScalar)
   int from = max(depthNow, startDepth);
   int to = min(exitDepth, endDepth);
 #if CELL_SCALARS
-  // One scalar throughout the cell. Isosurfaces also see the jump to it, unless the ray begins behind
+  // One scalar throughout the cell. Isosurfaces also show the jump to it, unless the ray begins behind
   // that.
   segmentEnd = texelFetch(cellScalars, cell).r;
-#if BLEND_MODE == ISOSURFACES
+#if SEES_JUMPS
   segmentStart = startDepth <= faceDepth ? faceScalar : segmentEnd;
 #else
   segmentStart = segmentEnd;
@@ -178,7 +178,7 @@ bool advance(int exitDepth, float exitScalar)
   bool counts = to > from && abs(segmentEnd - segmentStart) <= 4.0;
 #if CELL_SCALARS
   faceScalar = counts || exitDepth <= startDepth ? segmentEnd : faceScalar;
-#if BLEND_MODE != ISOSURFACES
+#if !SEES_JUMPS
   // Scalars that jump may be any number of the transfer function's intervals apart.
   if (counts)
   {

@@ -54,7 +54,7 @@ struct StraightPart
   std::vector<std::int32_t> Steps;
 
   /** @param end  of rays without a result: PacketResult::End. */
-  void Clear(PacketBlending blending, std::int32_t end);
+  void Clear(BlendMode mode, std::int32_t end);
 };
 
 /** Casts the rays of a tile behind the membrane and joins them with what lies before it. */

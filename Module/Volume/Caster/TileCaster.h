@@ -35,9 +35,9 @@ public:
     const PacketTables* Tables = nullptr;
     /** One normalised scalar per cell, in place of those of the vertices; null for none. */
     const float* CellScalars = nullptr;
-    PacketBlending Blending = PacketBlending::Composite;
+    BlendMode Blending = BlendMode::Composite;
     /** How the components of vertices mix in composite blending, and those beside the scalar. */
-    PacketMixture Mixture = PacketMixture::None;
+    ComponentMixture Mixture = ComponentMixture::None;
     const glm::vec3* Components = nullptr;
     /** Normalised scalars that additive blending counts as 0 and as 1. */
     ScalarRange DataRange;

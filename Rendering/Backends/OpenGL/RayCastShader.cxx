@@ -2,24 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
 
-#include "vtkTetrahedraComponents.h"
-#include "vtkTetrahedraComposite.h"
-#include "vtkTetrahedraEntries.h"
-#include "vtkTetrahedraFrontToBack.h"
-#include "vtkTetrahedraIsosurfaces.h"
-#include "vtkTetrahedraLights.h"
-#include "vtkTetrahedraMedium.h"
-#include "vtkTetrahedraPreIntegrated.h"
-#include "vtkTetrahedraProjection.h"
-#include "vtkTetrahedraRays.h"
-#include "vtkTetrahedraTransferFunction.h"
-#include "vtkTetrahedraWalk.h"
+#include "TetrahedraShaderParts.h"
 
 #include "vtkShaderProgram.h"
-#include "vtkVolumeMapper.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <cctype>
 #include <sstream>
 #include <vector>
 
@@ -28,44 +17,49 @@ namespace meniscus
 namespace
 {
 
-const char* BlendModeName(int blendMode)
+/** Name of a blend mode in shaders: MAXIMUM_INTENSITY of MaximumIntensity. */
+std::string CapitalsOf(const char* name)
 {
-  switch (blendMode)
+  std::string capitals;
+  for (const char* letter = name; *letter != '\0'; ++letter)
   {
-    case vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND:
-      return "MAXIMUM_INTENSITY";
-    case vtkVolumeMapper::MINIMUM_INTENSITY_BLEND:
-      return "MINIMUM_INTENSITY";
-    case vtkVolumeMapper::AVERAGE_INTENSITY_BLEND:
-      return "AVERAGE_INTENSITY";
-    case vtkVolumeMapper::ADDITIVE_BLEND:
-      return "ADDITIVE";
-    case vtkVolumeMapper::ISOSURFACE_BLEND:
-      return "ISOSURFACES";
-    default:
-      return "COMPOSITE";
+    const bool begins = std::isupper(static_cast<unsigned char>(*letter)) != 0;
+    capitals += begins && !capitals.empty() ? "_" : "";
+    capitals += static_cast<char>(std::toupper(static_cast<unsigned char>(*letter)));
   }
+  return capitals;
 }
 
+/** Optical model of a blend mode, for a scene without variants of its own. */
+const char* PartOf(BlendMode mode)
+{
+  switch (mode)
+  {
+#define MENISCUS_PART(name, number, label, model, part, ...)                                       \
+  case BlendMode::name:                                                                            \
+    return vtkTetrahedra##part;
+    MENISCUS_BLEND_MODES(MENISCUS_PART)
+#undef MENISCUS_PART
+  }
+  return "";
+}
+
+/** The parts that make the optical model of a scene, each after those that it uses. */
 std::string ModelSource(const RayCastOptics& optics)
 {
-  const std::string lights = optics.UsesGradients() ? vtkTetrahedraLights : "";
+  const BlendModel& model = optics.Model();
+  std::string source = model.HidesBehind() ? vtkTetrahedraFrontToBack : "";
   if (optics.PreIntegrated)
   {
-    return std::string(vtkTetrahedraFrontToBack) + vtkTetrahedraPreIntegrated;
+    return source + vtkTetrahedraPreIntegrated;
   }
-  switch (optics.BlendMode)
+  if (model.Visible != VisibleBy::Isovalues && !optics.HasComponents())
   {
-    case vtkVolumeMapper::COMPOSITE_BLEND:
-      return vtkTetrahedraFrontToBack +
-        (optics.HasComponents() ? "" : std::string(vtkTetrahedraTransferFunction)) + lights +
-        vtkTetrahedraMedium +
-        (optics.HasComponents() ? vtkTetrahedraComponents : vtkTetrahedraComposite);
-    case vtkVolumeMapper::ISOSURFACE_BLEND:
-      return vtkTetrahedraFrontToBack + lights + vtkTetrahedraIsosurfaces;
-    default:
-      return std::string(vtkTetrahedraTransferFunction) + vtkTetrahedraProjection;
+    source += vtkTetrahedraTransferFunction;
   }
+  source += optics.UsesGradients() ? vtkTetrahedraLights : "";
+  source += model.IsMedium() ? vtkTetrahedraMedium : "";
+  return source + (optics.HasComponents() ? vtkTetrahedraComponents : PartOf(model.Mode));
 }
 
 /** An array of uniforms, one per item; none if there are no items. */
@@ -105,14 +99,13 @@ std::string DescribeExcess(const RayCastOptics& optics)
 std::string RayCastShaderOptions(const RayCastOptics& optics)
 {
   std::ostringstream text;
-  const auto define = [&text](const char* name, int value)
+  const auto define = [&text](const std::string& name, int value)
   { text << "#define " << name << " " << value << "\n"; };
-  for (int mode = vtkVolumeMapper::COMPOSITE_BLEND; mode <= vtkVolumeMapper::ISOSURFACE_BLEND;
-       ++mode)
-  {
-    define(BlendModeName(mode), mode);
-  }
-  text << "#define BLEND_MODE " << BlendModeName(optics.BlendMode) << "\n";
+#define MENISCUS_DEFINE(name, number, ...) define(CapitalsOf(#name), number);
+  MENISCUS_BLEND_MODES(MENISCUS_DEFINE)
+#undef MENISCUS_DEFINE
+  define("BLEND_MODE", static_cast<int>(optics.Blending));
+  define("SEES_JUMPS", optics.Model().SeesJumps() ? 1 : 0);
   define("PRE_INTEGRATED", optics.PreIntegrated ? 1 : 0);
   define("SHADING", optics.Shading ? 1 : 0);
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
@@ -160,7 +153,7 @@ void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
     set3("clippingPerDepth", Collect(optics.ClippingPlanes, &RayClippingPlane::PerDepth));
     set4("clippingInFrame", Collect(optics.ClippingPlanes, &RayClippingPlane::InFrame));
   }
-  if (optics.BlendMode == vtkVolumeMapper::ADDITIVE_BLEND)
+  if (program->IsUniformUsed("rangeShare"))
   {
     const double width = optics.DataRange.Highest - optics.DataRange.Lowest;
     const float share[2] = { static_cast<float>(-optics.DataRange.Lowest / width),

@@ -7,6 +7,8 @@
 #ifndef meniscus_Volume_Packet_Data_PacketJob_h
 #define meniscus_Volume_Packet_Data_PacketJob_h
 
+#include "Volume/Optics/BlendModels.h"
+#include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Packet/Data/PacketOptics.h"
 #include "Volume/Packet/Data/PacketRays.h"
 
@@ -21,7 +23,7 @@ struct SurfaceLighting;
 
 struct PacketJob
 {
-  PacketBlending Blending;
+  BlendMode Blending;
   const PacketVertex* Vertices;
   /** Per cell, 4 ascending vertices, then 4 links (TetrahedralMesh::Cell). */
   const std::int32_t* Cells;
@@ -33,7 +35,7 @@ struct PacketJob
   /** Share of the data's range that a scalar is: ShareAtZero + SharePerScalar * scalar. */
   float ShareAtZero;
   float SharePerScalar;
-  PacketMixture Mixture;
+  ComponentMixture Mixture;
   /** Three numbers per vertex: scalars beside the main one, normalised, or a colour; if mixed. */
   const float* Components;
   /** Of those scalars, where they have functions. */
@@ -62,8 +64,7 @@ struct PacketJob
   const PacketEntry* Entries;
   /**
    * Whether results are what the model keeps of a ray, to be joined with what lies behind
-   * (JoinValues()) and shown by FinishValues(): colour and transmittance, or a number and the
-   * length that it is of.
+   * (JoinValues()) and shown by FinishValues(): see KeptResult.
    */
   bool KeepsValues;
   /** One per ray. */

@@ -23,38 +23,12 @@ struct PacketInterval
   float ColorSlope[4];
 };
 
-/** What becomes of the segments of a ray: see CompositeModel, IntensityProjectionModel,
- * IsosurfaceModel.
- */
-enum class PacketBlending
-{
-  Composite,
-  Maximum,
-  Minimum,
-  Average,
-  Additive,
-  Isosurfaces
-};
-
 /** An isosurface in normalised scalars. */
 struct PacketSurface
 {
   float Scalar;
   float Opacity;
   float Color[3];
-};
-
-/** How components of the vertices make colour and attenuation, with composite blending. */
-enum class PacketMixture
-{
-  /** There is one scalar. */
-  None,
-  /** Each has a function of its own; attenuations and emissions add up. */
-  Independent,
-  /** The scalar gives the attenuation, another the colour. */
-  ColorAndOpacity,
-  /** The scalar gives the attenuation, the others are the colour. */
-  RedGreenBlueOpacity
 };
 
 /** A RayCastLight in single precision. */

@@ -9,10 +9,10 @@ namespace meniscus
 {
 
 /** What a ray that meets nothing keeps. */
-void ClearValues(PacketBlending blending, float (&values)[4]);
+void ClearValues(BlendMode mode, float (&values)[4]);
 
 /** Puts the values of what lies behind to those of what lies before. */
-void JoinValues(PacketBlending blending, const float (&behind)[4], float (&values)[4]);
+void JoinValues(BlendMode mode, const float (&behind)[4], float (&values)[4]);
 
 /** Premultiplied RGBA of kept values. */
 void FinishValues(const PacketJob& job, const float (&values)[4], float (&color)[4]);

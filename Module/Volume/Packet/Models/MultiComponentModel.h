@@ -23,7 +23,7 @@ namespace meniscus
  *
  * Functions: the number of scalars that have a function of their own.
  */
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 class MultiComponentModel
 {
 public:
@@ -163,7 +163,7 @@ private:
 };
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 template <class Place>
 inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Begin(
   Mask lanes, Float from, Float to, Float length, const Place& place) -> Mask
@@ -178,7 +178,7 @@ inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Begin(
     this->End[f] = Simd::Select(valid, end, this->End[f]);
     this->Now[f] = Simd::Select(valid, start, this->Now[f]);
   }
-  if constexpr (Mixture == PacketMixture::RedGreenBlueOpacity)
+  if constexpr (Mixture == ComponentMixture::RedGreenBlueOpacity)
   {
     for (int channel = 0; channel < 3; ++channel)
     {
@@ -195,7 +195,7 @@ inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Begin(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::FindCourse(int f) const -> Course
 {
   const Fields& fields = this->Intervals[f].GetFields();
@@ -211,7 +211,7 @@ inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::FindCourse(in
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindBacks(
   const Course (&courses)[Functions], Piece& piece) const
 {
@@ -229,13 +229,13 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindBacks(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindDensity(Piece& piece) const
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
   const Float largest = Simd::Splat(0.5f);
-  constexpr int dense = Mixture == PacketMixture::Independent ? Functions : 1;
+  constexpr int dense = Mixture == ComponentMixture::Independent ? Functions : 1;
   piece.Density = piece.DensityTo = zero;
   for (int f = 0; f < dense; ++f)
   {
@@ -262,11 +262,11 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindDensity(P
 
 //------------------------------------------------------------------------------
 /** Attenuation times colour at a fraction of the piece, over its length. */
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Emission(
   const Piece& piece, Float at, Float (&emission)[3]) const
 {
-  if constexpr (Mixture == PacketMixture::Independent)
+  if constexpr (Mixture == ComponentMixture::Independent)
   {
     for (Float& channel : emission)
     {
@@ -288,7 +288,7 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Emission(
     const Float done = Mix(this->Done, piece.Reached, at);
     for (int channel = 0; channel < 3; ++channel)
     {
-      if constexpr (Mixture == PacketMixture::ColorAndOpacity)
+      if constexpr (Mixture == ComponentMixture::ColorAndOpacity)
       {
         emission[channel] =
           ColorAt(this->Intervals[1].GetFields(), Mix(piece.Front[1], piece.Back[1], at), channel);
@@ -308,7 +308,7 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Emission(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Integrate(const Piece& piece)
 {
   const Float one = Simd::Splat(1.0f);
@@ -334,7 +334,7 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Integrate(con
 
 //------------------------------------------------------------------------------
 /** Goes on behind the piece; returns the lanes that have more. */
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Move(
   Mask lanes, const Course (&courses)[Functions], const Piece& piece) -> Mask
 {
@@ -355,7 +355,7 @@ inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Move(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Advance(Mask lanes) -> Mask
 {
   if (Simd::Bits(lanes) == 0)

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_ComponentMixture_h
-#define meniscus_Rendering_Input_ComponentMixture_h
+#ifndef meniscus_Volume_Optics_ComponentMixture_h
+#define meniscus_Volume_Optics_ComponentMixture_h
 
 namespace meniscus
 {
 
-/** How the components of the scalars become colour and opacity, as vtkVolumeProperty has it. */
+/** Roles of the components of scalars in colour and opacity, as vtkVolumeProperty has them. */
 enum class ComponentMixture
 {
   /** There is one scalar, which gives both. */
   None,
-  /** Each has a colour and an opacity. */
+  /** Each has a colour and an opacity; attenuations and emissions add up. */
   Independent,
   /** The first of two gives the colour, the second the opacity. */
   ColorAndOpacity,
