@@ -2,6 +2,7 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Refraction/Membrane/Optics.h (reflectance)
 //
 // A membrane, pixel by pixel: what is seen through it and what it reflects.
 
@@ -21,17 +22,17 @@ uniform mat3 viewToWorld;
 uniform mat4 clipToView;
 uniform bool parallelView;
 uniform vec3 background;
-uniform int reflectanceModel;      // 0: none, 1: Schlick, 2: exact
+uniform int reflectanceModel;      // NO_REFLECTANCE, SCHLICK or FRESNEL
 uniform float relativeIndex;       // interior to exterior
 
 // Unpolarised light; c is the cosine of the angle of incidence. Eq. 2.6 and Eq. 2.7 of the thesis.
 float reflectance(float c)
 {
-  if (reflectanceModel == 0)
+  if (reflectanceModel == NO_REFLECTANCE)
   {
     return 0.0;
   }
-  if (reflectanceModel == 1)
+  if (reflectanceModel == SCHLICK)
   {
     float r = (relativeIndex - 1.0) / (relativeIndex + 1.0);
     float x = 1.0 - c;

@@ -117,7 +117,6 @@ uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetr
 uniform sampler3D refractedTiles;         // the same for the rays behind the membrane
 #endif
 
-const int TILE_CAPACITY = 32;
 // Bounds the depths of the mesh, which are within 2^30 - 2048 plus rounding (GRID_PER_DEPTH); the
 // difference of two such bounds is still an int.
 const int FARTHEST_DEPTH = 1073741823;

@@ -4,6 +4,7 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Entries/EntryTiles.cxx (faces that a tile is entered by)
 //
 // Lists, for each tile of the image, the boundary faces by which a ray of the tile may enter the
 // mesh: up to 32 faces in 8 targets, filled up with -1. The list of a tile with more begins with -2.
@@ -25,7 +26,6 @@ in vec2 texCoord;
 uniform float tileSize;
 uniform vec2 tileCount;
 
-const int CAPACITY = 32;
 // Bounds, relative to the products that areas are made of, what rounding of u and v to floats (2^-24),
 // of the central ray and of another, and of the sums here changes: 4 * 2^-24 and a few times 2^-24.
 const float AREA_ROUNDING = 9.5367431640625e-07;
@@ -178,27 +178,27 @@ void main()
   alike = alike && !(nearMesh && any(greaterThan(reach + reachPerDepth, vec2(LARGEST_REACH))));
   nearMesh = nearMesh && alike;
 
-  vec4 list[8];
-  for (int i = 0; i < 8; ++i)
+  vec4 list[TILE_CAPACITY / 4];
+  for (int i = 0; i < TILE_CAPACITY / 4; ++i)
   {
     list[i] = vec4(-1.0);
   }
-  int count = alike ? 0 : CAPACITY + 1;
+  int count = alike ? 0 : TILE_CAPACITY + 1;
   int node = nearMesh ? 0 : numberOfNodes;
-  while (node < numberOfNodes && count <= CAPACITY)
+  while (node < numberOfNodes && count <= TILE_CAPACITY)
   {
     int leaf;
     meetsBox(node, reach, reachPerDepth, ivec2(BEFORE_EVERYTHING, end), node, leaf);
     if (leaf >= 0 && mayEnter(leaf))
     {
-      if (count < CAPACITY)
+      if (count < TILE_CAPACITY)
       {
         list[count / 4][count % 4] = float(leaf);
       }
       ++count;
     }
   }
-  if (count > CAPACITY)
+  if (count > TILE_CAPACITY)
   {
     list[0].x = -2.0;
   }

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Models/IsosurfaceModel.h (isovalues next to a scalar)
+// Twin: Module/Volume/Packet/Models/PacketSurfaces.cxx (surfaces that a segment meets)
 //
 // Isosurfaces, met exactly where the scalar, linear along a segment, passes an isovalue. A scalar equal
 // to an isovalue counts as above it: a surface through a face is met once, and one that a ray only

@@ -3,6 +3,7 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Rays/FixedPointRays.cxx (place of a vertex)
 //
 // Places vertices in the grid of a view (Module/Volume/Rays/FixedPointRays.h), one per fragment. The kernel does
 // the same in double; here it is done in 64-bit fixed point. Coefficients are off by 2^-33 across and by

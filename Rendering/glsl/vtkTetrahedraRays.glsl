@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Rays/ExactEdgeTest.h (sign of an edge)
 //
 // The rays of an image and the mesh's boundary as seen by one of them: the part that the passes
 // share. The frame and its names are those of Module/Volume/Rays/RayFrame.h, the tables those of
@@ -46,18 +47,17 @@ uniform int enteringSign;            // outward * enteringSign > 0: counter-cloc
 // Rays go on behind a membrane: per pixel two texels side by side, see Module/Volume/Refracted/RefractedRayTexels.h, in
 // one of several frames, given by their rows and by their axes in the frame of the view.
 uniform isampler2D refractedRays;
-uniform vec3 frameRowX[6];
-uniform vec3 frameRowY[6];
-uniform vec3 frameRowDepth[6];
-uniform vec3 frameAxisX[6];
-uniform vec3 frameAxisY[6];
-uniform vec3 frameAxisDepth[6];
-uniform float frameGridPerUnit[6];
-uniform int frameFirstVertex[6];     // where the vertices placed in it begin
+uniform vec3 frameRowX[NUMBER_OF_FRAMES];
+uniform vec3 frameRowY[NUMBER_OF_FRAMES];
+uniform vec3 frameRowDepth[NUMBER_OF_FRAMES];
+uniform vec3 frameAxisX[NUMBER_OF_FRAMES];
+uniform vec3 frameAxisY[NUMBER_OF_FRAMES];
+uniform vec3 frameAxisDepth[NUMBER_OF_FRAMES];
+uniform float frameGridPerUnit[NUMBER_OF_FRAMES];
+uniform int frameFirstVertex[NUMBER_OF_FRAMES]; // where the vertices placed in it begin
 #endif
 
-// Grid units of depth per unit of the frame: PacketVertex::GridPerDepth.
-const float GRID_PER_DEPTH = 1073739776.0;
+// Units of the frame per grid unit of depth (PacketVertex::GridPerDepth).
 const float DEPTH_UNIT = 1.0 / GRID_PER_DEPTH;
 // The mesh's radius in grid units, seen along a ray, is at most 2^29 (FixedPointRays), and coordinates
 // about a ray that meets the mesh are below 2^30.

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Walk/PacketWalk.h (step through a cell)
 //
 // The walk of a ray through a tetrahedral mesh. The loops are flat, one step or one piece of the
 // optical model per turn: rays side by side do not wait for each other's inner loops.
@@ -16,10 +17,7 @@
 uniform isamplerBuffer cells;
 #if REFRACTED
 uniform bool beginsInside;           // whether a ray behind the membrane may begin within the mesh
-uniform int membranePart;            // what is drawn, see MembranePart: all, or
-const float NOWHERE = 1.0e+30; // RefractedRayLine::Nowhere
-const int PART_IN_FRONT = 1;
-const int PART_BEHIND = 2;
+uniform int membranePart;            // a MembranePart: all of the ray, PART_IN_FRONT or PART_BEHIND
 #endif
 uniform int numberOfCells;
 uniform float tileSize;
@@ -175,7 +173,7 @@ bool advance(int exitDepth, float exitScalar)
 #endif
   faceDepth = exitDepth;
   depthNow = max(depthNow, exitDepth);
-  bool counts = to > from && abs(segmentEnd - segmentStart) <= 4.0;
+  bool counts = to > from && abs(segmentEnd - segmentStart) <= LARGEST_CHANGE;
 #if CELL_SCALARS
   faceScalar = counts || exitDepth <= startDepth ? segmentEnd : faceScalar;
 #if !SEES_JUMPS

@@ -5,12 +5,12 @@
 #include "VolumeTestPicture.h"
 
 #include "Simd/InstructionSets.h"
-#include "Simd/PacketExponential.h"
 #include "Simd/SimdPortable.h"
 #include "Volume/Mesh/ScalarGradients.h"
 #include "Volume/Optics/PreIntegration.h"
 #include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Packet/Data/PacketOptics.h"
+#include "Volume/Packet/Models/PacketExponential.h"
 #include "Volume/Packet/Models/PacketLights.h"
 #include "Volume/Packet/Models/PacketSegmentTable.h"
 

@@ -9,6 +9,7 @@
 
 #include "Rendering/Backends/OpenGL/OpenGLComputeProgram.h"
 #include "Rendering/Backends/OpenGL/OpenGLTables.h"
+#include "Rendering/Backends/OpenGL/ShaderConstants.h"
 #include "Rendering/Present/OpenGLColorCopy.h"
 #include "Rendering/Present/OpenGLDepthCopy.h"
 #include "Rendering/Property/RayCastOptics.h"
@@ -111,7 +112,7 @@ public:
    */
   static constexpr int LongListTileSize = 2;
   /** Faces that the lists made on the device hold. */
-  static constexpr int TileCapacity = 32;
+  static constexpr int TileCapacity = EntryTileCapacity;
 
   /** Whether the window's context has compute shaders (OpenGL 4.3). */
   bool HasCompute() const { return OpenGLComputeProgram::IsSupported(); }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
+#include "Rendering/Backends/OpenGL/ShaderConstants.h"
 
 #include "TetrahedraShaderParts.h"
 
@@ -8,7 +9,6 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
-#include <cctype>
 #include <sstream>
 #include <vector>
 
@@ -16,19 +16,6 @@ namespace meniscus
 {
 namespace
 {
-
-/** Name of a blend mode in shaders: MAXIMUM_INTENSITY of MaximumIntensity. */
-std::string CapitalsOf(const char* name)
-{
-  std::string capitals;
-  for (const char* letter = name; *letter != '\0'; ++letter)
-  {
-    const bool begins = std::isupper(static_cast<unsigned char>(*letter)) != 0;
-    capitals += begins && !capitals.empty() ? "_" : "";
-    capitals += static_cast<char>(std::toupper(static_cast<unsigned char>(*letter)));
-  }
-  return capitals;
-}
 
 /** Optical model of a blend mode, for a scene without variants of its own. */
 const char* PartOf(BlendMode mode)
@@ -99,11 +86,8 @@ std::string DescribeExcess(const RayCastOptics& optics)
 std::string RayCastShaderOptions(const RayCastOptics& optics)
 {
   std::ostringstream text;
-  const auto define = [&text](const std::string& name, int value)
+  const auto define = [&text](const char* name, int value)
   { text << "#define " << name << " " << value << "\n"; };
-#define MENISCUS_DEFINE(name, number, ...) define(CapitalsOf(#name), number);
-  MENISCUS_BLEND_MODES(MENISCUS_DEFINE)
-#undef MENISCUS_DEFINE
   define("BLEND_MODE", static_cast<int>(optics.Blending));
   define("SEES_JUMPS", optics.Model().SeesJumps() ? 1 : 0);
   define("PRE_INTEGRATED", optics.PreIntegrated ? 1 : 0);
@@ -117,8 +101,6 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
   define("VERTEX_VALUES", optics.VertexGradients || optics.HasComponents() ? 1 : 0);
-  define("INDEPENDENT", static_cast<int>(ComponentMixture::Independent));
-  define("COLOR_AND_OPACITY", static_cast<int>(ComponentMixture::ColorAndOpacity));
   define("COMPONENT_MIXTURE", static_cast<int>(optics.Components));
   define("NUMBER_OF_FUNCTIONS", optics.NumberOfFunctions);
   define("NEEDS_POSITION", optics.UsesGradients() ? 1 : 0);
@@ -132,7 +114,7 @@ std::string RayCastShaderSource(const char* mainShader, const RayCastOptics& opt
 {
   std::string source(mainShader);
   vtkShaderProgram::Substitute(
-    source, "//VTK::TetrahedraOptions::Dec", RayCastShaderOptions(optics));
+    source, "//VTK::TetrahedraOptions::Dec", ShaderConstants() + RayCastShaderOptions(optics));
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraWalk::Dec", vtkTetrahedraWalk);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraEntries::Dec", vtkTetrahedraEntries);

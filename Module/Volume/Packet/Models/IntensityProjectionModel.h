@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraProjection.glsl (one number per ray)
 #ifndef meniscus_Volume_Packet_Models_IntensityProjectionModel_h
 #define meniscus_Volume_Packet_Models_IntensityProjectionModel_h
 

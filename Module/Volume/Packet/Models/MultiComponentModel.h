@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraComponents.glsl (integral of several components)
 #ifndef meniscus_Volume_Packet_Models_MultiComponentModel_h
 #define meniscus_Volume_Packet_Models_MultiComponentModel_h
 
-#include "Simd/PacketExponential.h"
+#include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/PacketExponential.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
 
@@ -138,7 +140,7 @@ private:
     // Beyond a depth of 1e18 nothing can be told apart; its square is finite.
     const Float attenuation =
       Simd::Fma(scalar - fields.Lower, fields.AttenuationSlope, fields.Attenuation);
-    return Simd::Min(Simd::Max(attenuation * length, Simd::Splat(0.0f)), Simd::Splat(1.0e+18f));
+    return Simd::Min(Simd::Max(attenuation * length, Simd::Splat(0.0f)), Simd::Splat(LargestDepth));
   }
   static Float ColorAt(const Fields& fields, Float scalar, int channel)
   {
@@ -234,7 +236,7 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindDensity(P
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
-  const Float largest = Simd::Splat(0.5f);
+  const Float largest = Simd::Splat(LargestGaussDepth);
   constexpr int dense = Mixture == ComponentMixture::Independent ? Functions : 1;
   piece.Density = piece.DensityTo = zero;
   for (int f = 0; f < dense; ++f)
@@ -313,9 +315,8 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Integrate(con
 {
   const Float one = Simd::Splat(1.0f);
   const Float slope = piece.DensityTo - piece.Density;
-  constexpr float fromMiddle = 0.3872983346207417f; // sqrt(3/5) / 2
-  constexpr float places[3] = { 0.5f - fromMiddle, 0.5f, 0.5f + fromMiddle };
-  constexpr float weights[3] = { 5.0f / 18.0f, 8.0f / 18.0f, 5.0f / 18.0f };
+  constexpr float places[3] = { 0.5f - GaussPlace, 0.5f, 0.5f + GaussPlace };
+  constexpr float weights[3] = { GaussWeights[0], GaussWeights[1], GaussWeights[0] };
   for (int q = 0; q < 3; ++q)
   {
     const Float at = piece.Part * Simd::Splat(places[q]);
