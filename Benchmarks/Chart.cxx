@@ -29,7 +29,7 @@ namespace benchmark
 namespace
 {
 
-// Colours that stay apart in print (Okabe and Ito).
+// Colours that remain distinct in print (Okabe and Ito).
 constexpr unsigned char Colors[][3] = { { 230, 159, 0 }, { 86, 180, 233 }, { 0, 158, 115 },
   { 213, 94, 0 }, { 204, 121, 167 }, { 120, 120, 120 }, { 0, 114, 178 }, { 0, 0, 0 } };
 

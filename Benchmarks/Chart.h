@@ -12,7 +12,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/** Points of one colour and mark, joined by a line if there are several. */
+/** Points of one colour and marker, joined by a line if there are several. */
 struct ChartSeries
 {
   std::string Label;
@@ -20,8 +20,8 @@ struct ChartSeries
 };
 
 /**
- * Draws a chart with two logarithmic axes to a PNG file. Points that are not positive are left
- * out. False if there is none, or if the file cannot be written.
+ * Draws a chart with two logarithmic axes to a PNG file. Points that are not positive are left out.
+ * Returns false if none is left, or if the file cannot be written.
  */
 bool writeChart(const std::string& file, const std::string& title, const std::string& xTitle,
   const std::string& yTitle, const std::vector<ChartSeries>& series);

@@ -3,9 +3,9 @@
 
 Compares the benchmarks of two build trees on one machine. BEFORE and AFTER are build folders; their
 programs run in turns, in alternating order, and each row takes the smallest processor time of all
-rounds: what disturbs a run only adds to it. Prints a table in Markdown and exits with 1 if a row of
+rounds, because disturbances only add time. Prints a table in Markdown and exits with 1 if a row of
 AFTER is more than 3 % slower. Meshes are taken from the folder that MENISCUS_DATA_DIR names, or from
-../shared/data beside the clone; without them a generated block stands alone. Needs a display.
+../shared/data next to the clone; without them only a generated block is used. Needs a display.
 """
 import argparse
 import json

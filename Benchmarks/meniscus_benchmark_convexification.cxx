@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * What the imaginary cells of Weiler et al. (2003) would cost: TetGen fills the space between a
- * mesh's boundary and its convex hull with cells, so that every ray enters once and no list of
- * entries is needed. Both meshes are drawn by vtkTetrahedraRayCastMapper with one constant scalar,
- * in turn; on the filled mesh it finds one entry per ray. It integrates in the imaginary cells,
- * too, which a renderer would not.
+ * Cost of the imaginary cells of Weiler et al. (2003): TetGen fills the space between a mesh's
+ * boundary and its convex hull with cells, so that every ray enters once and no list of entries is
+ * needed. Both meshes are drawn alternately by vtkTetrahedraRayCastMapper with one constant scalar;
+ * on the filled mesh it finds one entry per ray. Unlike a renderer with imaginary cells, it also
+ * integrates in these cells.
  *
- * TetGen crashes on boundaries that touch or cut themselves, so it runs in a process of its own.
- * It is under the AGPL: this program is built only with MENISCUS_WITH_TETGEN, and nothing that is
- * installed uses it.
+ * TetGen crashes on boundaries that touch or intersect themselves, so it runs in a separate
+ * process. It is under the AGPL: this program is built only with MENISCUS_WITH_TETGEN, and no
+ * installed file uses it.
  */
 #include "Volume/VolumeComparison.h"
 #include "Volume/VolumeOptions.h"
@@ -46,7 +46,7 @@ namespace
 
 using Triangle = std::array<vtkIdType, 3>;
 
-/** Points (the mesh's that are used, then TetGen's own) and cells outside of the mesh. */
+/** Points (the used points of the mesh, then TetGen's own) and cells outside of the mesh. */
 struct Filling
 {
   std::vector<double> Points;
@@ -55,7 +55,7 @@ struct Filling
 };
 
 //------------------------------------------------------------------------------
-// Faces that only one cell has.
+// Faces that belong to one cell only.
 std::vector<Triangle> boundaryOf(vtkUnstructuredGrid* grid)
 {
   std::map<Triangle, int> count;
@@ -129,7 +129,7 @@ bool receiveAll(int in, std::vector<Value>& values)
 }
 
 //------------------------------------------------------------------------------
-// The boundary as TetGen takes it: facets of one triangle, points that they use.
+// The boundary in TetGen's form: facets of one triangle, and the points that they use.
 void describe(const std::vector<double>& points, const std::vector<Triangle>& faces, tetgenio& in)
 {
   in.firstnumber = 0;
@@ -152,8 +152,8 @@ void describe(const std::vector<double>& points, const std::vector<Triangle>& fa
 }
 
 //------------------------------------------------------------------------------
-// In the child: constrained Delaunay cells up to the hull, the facets kept as they are. What is
-// outside of all closed facets has the region -1. J keeps the numbers of points that coincide.
+// Runs in the child: constrained Delaunay cells up to the hull, with the facets unchanged. The part
+// outside of all closed facets has the region -1. J keeps the indices of coincident points.
 [[noreturn]] void runTetGen(
   const std::vector<double>& points, const std::vector<Triangle>& faces, int out)
 {
@@ -201,7 +201,7 @@ bool fill(const std::vector<double>& points, const std::vector<Triangle>& faces,
 }
 
 //------------------------------------------------------------------------------
-// The mesh and its filling as one grid; null where TetGen fails.
+// The mesh and its filling as one grid; null if TetGen fails.
 Grid convexify(vtkUnstructuredGrid* grid, double& seconds, vtkIdType& imaginary)
 {
   std::vector<Triangle> faces = boundaryOf(grid);
@@ -284,7 +284,7 @@ int run(const VolumeOptions& options)
     std::vector<double> times;
     entries.enter(ours);
     convex.enter(ours);
-    // In turn, so that both meet the same machine.
+    // They alternate, so that both meet the same load.
     for (int turn = 0; turn < options.Repetitions; ++turn)
     {
       entries.measureTimes();

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Accuracy of FLAT_FACETS and CURVED against the thesis's tables, their cost as membrane and object
- * grow, and frames of the filter against ray tracing with Embree. Nothing is judged here: the
- * program prints what it measured.
+ * Accuracy of FLAT_FACETS and CURVED compared with the thesis's tables, their cost as membrane and
+ * object grow, and frames of the filter compared with ray tracing by Embree. The program prints its
+ * measurements and does not judge them.
  */
 #include "Refraction/Accuracy.h"
 #include "Refraction/Frames.h"
@@ -72,7 +72,7 @@ int main(int argc, char* argv[])
     std::cerr << "no display: run under xvfb-run\n";
     return EXIT_FAILURE;
   }
-  // Before the first window: llvmpipe reads its variable when it starts.
+  // Before the first window is opened: llvmpipe reads this variable when it starts.
   setenv("LP_NUM_THREADS", std::to_string(options.Threads).c_str(), 1);
   vtkSMPTools::Initialize(options.Threads);
   if ((options.Thesis || options.Growth) && !measureTables(options))

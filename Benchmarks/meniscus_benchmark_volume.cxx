@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Times vtkTetrahedraRayCastMapper and VTK's unstructured volume mappers in one run on the same
- * mesh, views and transfer function, and measures each one's error against the double-precision
- * reference. --help lists what else it does.
+ * mesh, views and transfer function, and measures each one's error with respect to the
+ * double-precision reference. --help lists further options.
  */
 #include "Volume/VolumeComparison.h"
 #include "Volume/VolumeOptions.h"
@@ -23,7 +23,7 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-// Before the first window: llvmpipe reads its variable when it starts.
+// Before the first window is opened: llvmpipe reads this variable when it starts.
 void useThreads(int threads)
 {
   if (threads > 0)
@@ -34,7 +34,7 @@ void useThreads(int threads)
 }
 
 //------------------------------------------------------------------------------
-// Those that survive a try in another process; the others are noted with their fate.
+// Contestants that survive a test in another process; the reasons for the others are recorded.
 std::vector<Contestant> trySurvivors(
   const std::vector<Contestant>& all, const VolumeOptions& options, std::vector<Figures>& figures)
 {

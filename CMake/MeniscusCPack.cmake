@@ -1,5 +1,5 @@
-# Debian packages, by `cpack` in a build folder: of the library, of what is needed to build against
-# it and of the Python package, or in the build of the plugin of that. scripts/package makes all.
+# Debian packages, by `cpack` in a build folder: the library, its development files and the Python
+# package, or, in the build of the plugin, the plugin. scripts/package makes all of them.
 set(CPACK_GENERATOR "DEB")
 set(CPACK_PACKAGE_VENDOR "the Meniscus authors")
 set(CPACK_PACKAGE_CONTACT "the Meniscus authors <meniscus@example.org>")
@@ -17,7 +17,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 
 if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
   set(CPACK_PACKAGE_NAME paraview-meniscus)
-  # The plugin is one package: its library lies beside it. ParaView 5.11 installs the plugin itself
+  # The plugin and its library are one package. ParaView 5.11 installs the plugin itself
   # without a component.
   set(CPACK_COMPONENTS_ALL runtime Unspecified)
   set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)

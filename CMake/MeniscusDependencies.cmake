@@ -21,12 +21,12 @@ function (meniscus_module_components output)
   set("${output}" "${components}" PARENT_SCOPE)
 endfunction ()
 
-# meniscus_find(PACKAGE DEBIAN_PACKAGE): finds it or says what to do.
+# meniscus_find(PACKAGE DEBIAN_PACKAGE): finds the package, or reports how to install it.
 macro (meniscus_find package debian)
   find_package("${package}" QUIET)
   if (NOT ${package}_FOUND)
     message(FATAL_ERROR "Meniscus needs ${package}, which was not found. On Debian: apt-get install "
-      "${debian}; elsewhere set CMAKE_PREFIX_PATH or ${package}_DIR to where it is.")
+      "${debian}; elsewhere set CMAKE_PREFIX_PATH or ${package}_DIR to its location.")
   endif ()
 endmacro ()
 

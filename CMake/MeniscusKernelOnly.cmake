@@ -1,4 +1,5 @@
-# Builds the kernel and its unit tests alone: no VTK, no OpenGL. For other processors and quick work.
+# Builds the kernel and its unit tests alone: no VTK, no OpenGL. For other processors and quick
+# work.
 find_package(glm REQUIRED)
 find_package(OpenMesh REQUIRED)
 find_package(GTest REQUIRED)

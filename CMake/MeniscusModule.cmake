@@ -5,7 +5,7 @@ set(_meniscus_module_files "${CMAKE_CURRENT_SOURCE_DIR}/vtk.module")
 if (MENISCUS_BUILD_PARAVIEW_PLUGIN)
   list(APPEND _meniscus_module_files
     "${CMAKE_CURRENT_SOURCE_DIR}/Plugin/Representations/vtk.module")
-  # Beside the plugin, under a name that cannot be taken for the library for plain VTK.
+  # In the plugin's folder, under another name than the library for plain VTK.
   set(MENISCUS_PLUGIN_DIR "${CMAKE_INSTALL_LIBDIR}/${PARAVIEW_PLUGIN_SUBDIR}")
   list(PREPEND CMAKE_INSTALL_RPATH "$ORIGIN")
   set(_meniscus_host_arguments
@@ -28,7 +28,8 @@ vtk_module_scan(
   HIDE_MODULES_FROM_CACHE ON)
 
 # vtk_module_build adds the folder of vtk.module as a subdirectory, which is the source root that is
-# being configured. Point it to the folder of the body instead (private property, stable 9.1 to 9.6).
+# being configured. Point it to the folder of the body instead (private property, stable 9.1 to
+# 9.6).
 set_property(GLOBAL PROPERTY "_vtk_module_Meniscus::Meniscus_file"
   "${CMAKE_CURRENT_SOURCE_DIR}/Module/vtk.module")
 if (MENISCUS_BUILD_PARAVIEW_PLUGIN)

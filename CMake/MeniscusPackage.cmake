@@ -1,4 +1,4 @@
-# What find_package(Meniscus) reads, in the build tree and installed.
+# Files that find_package(Meniscus) reads, in the build tree and installed.
 include(CMakePackageConfigHelpers)
 
 configure_file("${CMAKE_CURRENT_LIST_DIR}/MeniscusConfig.cmake.in"

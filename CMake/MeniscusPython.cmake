@@ -19,11 +19,11 @@ vtk_module_wrap_python(
   INSTALL_HEADERS    OFF)
 set(CMAKE_INSTALL_RPATH "${_meniscus_install_rpath}")
 
-# What the package says where it meets another VTK.
+# Message of the package if it finds another VTK.
 if (VTK_DIR MATCHES "/vtk_sdk/")
-  set(MENISCUS_VTK_HINT "pip install vtk==${VTK_VERSION}")
+  set(MENISCUS_VTK_HINT "run pip install vtk==${VTK_VERSION}")
 else ()
-  set(MENISCUS_VTK_HINT "that of ${Python3_EXECUTABLE}; in a virtual environment use --system-site-packages and install no other vtk")
+  set(MENISCUS_VTK_HINT "use that of ${Python3_EXECUTABLE}; in a virtual environment use --system-site-packages and install no other vtk")
 endif ()
 set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in" "${_meniscus_package}/__init__.py" @ONLY)

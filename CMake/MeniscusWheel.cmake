@@ -1,11 +1,11 @@
 # A wheel of Python, and a VTK that may itself be one: VTK's wheel SDK (the package vtk-sdk) has the
 # headers, the CMake package and the wrapping tools that belong to the libraries of the wheel vtk.
 
-# The libraries of VTK are beside the package, if they come as a wheel.
+# The libraries of VTK are in a folder next to the package if they come as a wheel.
 list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN/../vtkmodules")
 
-# VTK's wheels for Linux are made by compilers whose std::string is libstdc++'s old one; what is linked
-# with them has to have the same.
+# VTK's wheels for Linux are built with the old std::string of libstdc++. Libraries that link to
+# them must use the same one.
 include(CheckCXXSourceCompiles)
 set(_meniscus_strings [[
 #include <vtkInformation.h>

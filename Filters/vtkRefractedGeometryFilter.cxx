@@ -3,6 +3,7 @@
 #include "vtkRefractedGeometryFilter.h"
 
 #include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/VirtualPolyData.h"
@@ -28,11 +29,11 @@
 namespace
 {
 
-// Points or facets that a thread takes at once: tens of microseconds of work.
+// Number of points or facets that a thread takes at once: tens of microseconds of work.
 constexpr vtkIdType Grain = 128;
 
-// Progress is reported and abort checked this often while points are solved, but not for fewer
-// points than keep all threads of a large machine busy.
+// Number of times that progress is reported and abort checked while points are solved. A step has
+// enough points to keep all threads of a large machine busy.
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 256 * Grain;
 static_assert(
@@ -65,19 +66,19 @@ public:
   vtkTypeInt64 SkippedCells = 0;
   vtkTypeInt64 CulledVertices = 0;
   vtkTypeInt64 CulledCells = 0;
-  bool IsViewActive = false; ///< some facet is out of view
+  bool IsViewActive = false; ///< at least one facet is out of view
   vtkMTimeType ViewTime = 0;
   vtkTypeInt64 ViewEye = -1;
   vtkTypeInt64 FailedInRun = 0;
-  vtkTypeInt64 WarnedOfNoImage = -1; ///< the number of the membrane
+  vtkTypeInt64 WarnedOfNoImage = -1; ///< the membrane's number of builds at the last such warning
   bool WarnedOfModes = false;
   bool WarnedOfNoNormals = false;
   bool WarnedOfParallelProjection = false;
 };
 
 //------------------------------------------------------------------------------
-// The cache of a block lives as long as its data object: composite data of any number of blocks
-// stays cached, and what a pipeline has replaced goes.
+// The cache of a block lives as long as its data object, so that composite data with any number of
+// blocks stays cached and replaced data objects are dropped.
 meniscus::SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPolyData* input)
 {
   this->Blocks.remove_if([](const meniscus::SolvedBlock& block) { return !block.Source; });
@@ -93,7 +94,7 @@ meniscus::SolvedBlock& vtkRefractedGeometryFilter::vtkInternals::GetBlock(vtkPol
 }
 
 //------------------------------------------------------------------------------
-// Progress goes from `from` to `to`, abort is asked for in between.
+// Runs `body` while progress goes from `from` to `to`, and checks for abort in between.
 bool vtkRefractedGeometryFilter::vtkInternals::Run(vtkRefractedGeometryFilter* self, double from,
   double to, vtkIdType count, vtkIdType grain, const meniscus::RangeBody& body)
 {
@@ -102,7 +103,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::Run(vtkRefractedGeometryFilter* s
   for (vtkIdType first = 0; first < count; first += step)
   {
     const vtkIdType last = std::min(first + step, count);
-    // Threads get whole grains: what is in one does not depend on the threads.
+    // Threads take whole grains, so the contents of a grain do not depend on the threads.
     vtkSMPTools::For(0, (last - first + grain - 1) / grain, 1,
       [&body, first, last, grain](vtkIdType begin, vtkIdType end)
       {
@@ -159,11 +160,11 @@ void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFi
   vtkCamera* camera = self->Camera;
   if (!self->ViewCulling || !camera || camera->GetParallelProjection())
   {
-    this->IsViewActive = false; // an eye at infinity has no view to speak of
+    this->IsViewActive = false; // an eye at infinity has no view frustum
     this->ViewTime = 0;
     return;
   }
-  // The filter's time covers the camera's, which no block of composite data changes.
+  // The filter's time covers the camera's and does not change between the blocks of composite data.
   const vtkMTimeType time = self->GetMTime();
   const vtkTypeInt64 eye = this->Scene.GetNumberOfEyeUpdates();
   if (time != this->ViewTime || eye != this->ViewEye)
@@ -176,7 +177,7 @@ void vtkRefractedGeometryFilter::vtkInternals::UpdateView(vtkRefractedGeometryFi
 }
 
 //------------------------------------------------------------------------------
-// Finds what of a block is in view, if anything has changed that it depends on.
+// Determines the part of a block that is in view, if anything it depends on has changed.
 void vtkRefractedGeometryFilter::vtkInternals::Select(
   vtkPolyData* input, meniscus::SolvedBlock& block)
 {
@@ -196,7 +197,7 @@ void vtkRefractedGeometryFilter::vtkInternals::Select(
   if (!(selection == block.Selection))
   {
     block.CellsReady = false;
-    // Images of all points are not kept chunk by chunk.
+    // Chunks are not kept if the images of all points were solved at once.
     const bool isNew = block.All && selection.IsActive && !block.Selection.IsActive;
     block.EyeUpdate = isNew ? -1 : block.EyeUpdate;
     block.Selection = std::move(selection);
@@ -285,7 +286,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAll(
 }
 
 //------------------------------------------------------------------------------
-// Those that are selected; with `isReady`, what has been solved before holds.
+// Solves the selected points. With `isReady`, earlier results are valid.
 bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady)
 {
@@ -318,7 +319,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
   const bool same = isReady && block.Images->GetWanted() == block.Selection.Chunks;
   if (same)
   {
-    return true; // cells alone have changed
+    return true; // only cells have changed
   }
   block.Images->SetWanted(block.Selection.Chunks);
   block.EyeUpdate = -1;
@@ -340,11 +341,13 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
 }
 
 vtkStandardNewMacro(vtkRefractedGeometryFilter);
+meniscusInterfacePropertiesMacro(vtkRefractedGeometryFilter);
 
 //------------------------------------------------------------------------------
 vtkRefractedGeometryFilter::vtkRefractedGeometryFilter()
   : Internals(new vtkInternals)
 {
+  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
   this->SetNumberOfInputPorts(2);
 }
 
@@ -370,17 +373,13 @@ vtkCamera* vtkRefractedGeometryFilter::GetCamera()
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::SetExactMembrane(vtkImplicitFunction* function)
 {
-  if (this->ExactMembrane != function)
-  {
-    this->ExactMembrane = function;
-    this->Modified();
-  }
+  this->Interfaces->GetFirstInterface()->SetExactSurface(function);
 }
 
 //------------------------------------------------------------------------------
 vtkImplicitFunction* vtkRefractedGeometryFilter::GetExactMembrane()
 {
-  return this->ExactMembrane;
+  return this->Interfaces->GetFirstInterface()->GetExactSurface();
 }
 
 //------------------------------------------------------------------------------
@@ -394,8 +393,7 @@ vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 {
   const vtkMTimeType own = this->Superclass::GetMTime();
   const vtkMTimeType camera = this->Camera ? this->Camera->GetMTime() : 0;
-  const vtkMTimeType membrane = this->ExactMembrane ? this->ExactMembrane->GetMTime() : 0;
-  return std::max({ own, camera, membrane });
+  return std::max({ own, camera, this->Interfaces->GetMTime() });
 }
 
 //------------------------------------------------------------------------------
@@ -472,7 +470,7 @@ int vtkRefractedGeometryFilter::FillInputPortInformation(int vtkNotUsed(port), v
 }
 
 //------------------------------------------------------------------------------
-// The geometry comes in the pieces that are asked for, the membrane always whole.
+// The geometry is requested in pieces as the output is, the membrane always whole.
 int vtkRefractedGeometryFilter::RequestUpdateExtent(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -490,7 +488,8 @@ int vtkRefractedGeometryFilter::RequestUpdateExtent(
     membrane->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    // The executive has copied that of the geometry, if it comes from an image.
+    // The executive has copied the extent of the geometry, which exists if that comes from an
+    // image.
     membrane->Remove(Pipeline::UPDATE_EXTENT());
   }
   return 1;
@@ -521,7 +520,7 @@ int vtkRefractedGeometryFilter::RequestData(
   this->Internals->UpdateView(this);
   meniscus::SolvedBlock& block = this->Internals->GetBlock(input);
   this->Internals->Select(input, block);
-  const bool all = this->Images == AllImages && this->MembraneModel == CURVED;
+  const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
   if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
   {
     return 1;
@@ -537,7 +536,7 @@ int vtkRefractedGeometryFilter::RequestData(
         input, block.Vertices, block.Selection, surface, options, output);
   this->Internals->CulledVertices += block.Selection.CulledPoints;
   this->Internals->CulledCells += block.Selection.CulledCells;
-  // Of a part nothing can be said about the whole.
+  // With a view, the solved part does not tell whether the rest has images.
   this->ReportPoints(this->Internals->FailedInRun,
     block.Selection.IsActive || output->GetNumberOfPoints() > 0, input);
   this->Internals->SkippedCells += report.SkippedCells + report.BrokenCells;
@@ -559,7 +558,7 @@ int vtkRefractedGeometryFilter::RequestData(
 bool vtkRefractedGeometryFilter::HasValidLight()
 {
   const double* light = this->LightDirection;
-  // Not hypot: of three, it takes a NaN for a zero in the library of gcc 12.
+  // std::hypot is not used: with three arguments, the library of gcc 12 takes a NaN for a zero.
   if (this->VirtualNormals && !std::isfinite(light[0] + light[1] + light[2]))
   {
     vtkErrorMacro("The light's direction (" << light[0] << ", " << light[1] << ", " << light[2]
@@ -599,8 +598,8 @@ void vtkRefractedGeometryFilter::ReportPoints(
 //------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::WarnOfModes()
 {
-  if (!this->Internals->WarnedOfModes && this->Images == AllImages &&
-    this->MembraneModel == FlatFacets)
+  if (!this->Internals->WarnedOfModes && this->Images == ALL_IMAGES &&
+    this->MembraneModel == FLAT_FACETS)
   {
     this->Internals->WarnedOfModes = true;
     vtkWarningMacro("Images ALL_IMAGES needs the membrane model CURVED: flat facets overlap, and "
@@ -618,9 +617,14 @@ void vtkRefractedGeometryFilter::WarnOfModes()
 //------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
 {
+  if (const char* fault = meniscus::FindFault(this->Interfaces))
+  {
+    vtkErrorMacro(<< fault << "; the output is empty.");
+    return false;
+  }
   meniscus::SceneMessages messages;
   const bool ready = this->Internals->Scene.SetMembrane(
-    membrane, this->MembraneModel == CURVED, messages, this->ExactMembrane);
+    membrane, this->MembraneModel == CURVED, messages, this->GetExactMembrane());
   if (!messages.Error.empty())
   {
     vtkErrorMacro(<< messages.Error << "; the output is empty.");
@@ -643,8 +647,8 @@ bool vtkRefractedGeometryFilter::UpdateEye()
   }
   meniscus::SceneMessages messages;
   const bool ready = this->Internals->Scene.SetEye(
-    { position[0], position[1], position[2], this->ExteriorIndexOfRefraction,
-      this->InteriorIndexOfRefraction },
+    { position[0], position[1], position[2], this->GetExteriorIndexOfRefraction(),
+      this->GetInteriorIndexOfRefraction() },
     messages);
   if (!messages.Error.empty())
   {
@@ -666,12 +670,12 @@ void vtkRefractedGeometryFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Camera: " << this->Camera.Get() << "\n";
   os << indent << "ViewCulling: " << (this->ViewCulling ? "on" : "off") << "\n";
   os << indent << "ViewAspectRatio: " << this->ViewAspectRatio << "\n";
-  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
-  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
   os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
      << "\n";
-  os << indent << "ExactMembrane: " << this->ExactMembrane.Get() << "\n";
-  os << indent << "Images: " << (this->Images == AllImages ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
+  os << indent << "ExactMembrane: " << this->GetExactMembrane() << "\n";
+  os << indent << "Images: " << (this->Images == ALL_IMAGES ? "ALL_IMAGES" : "FIRST_IMAGE") << "\n";
   os << indent << "AngularTolerance: " << this->AngularTolerance << "\n";
   os << indent << "CloseSeams: " << this->CloseSeams << "\n";
   os << indent

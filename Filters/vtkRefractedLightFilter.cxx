@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractedLightFilter.h"
 
+#include "Filters/Interface/InterfaceProperties.h"
+
 #include "vtkRefractedGeometryFilter.h"
 
 #include "vtkCallbackCommand.h"
@@ -32,8 +34,8 @@ namespace
 
 constexpr char ArrayName[] = "RefractionIrradiance";
 
-// A light at infinity, in sizes of the scene. Its rays are parallel up to the inverse of that, and
-// what the view divides cells by, in degrees, is a six-thousandth of the scene.
+// Distance of a light at infinity, in sizes of the scene. Its rays are parallel up to the inverse
+// of that, and the tolerance of the view in degrees corresponds to a six-thousandth of the scene.
 constexpr double FarAway = 1e4;
 constexpr double FarTolerance = 1e-6;
 constexpr double NearTolerance = 5e-3; // the view's default
@@ -58,7 +60,10 @@ void ForSurfaces(vtkPolyData* data, const Body& body)
 }
 
 //------------------------------------------------------------------------------
-/** Area vector, half the sum of cross products about the first point; of strips, by triangles. */
+/**
+ * Area vector: half the sum of the cross products about the first point; for strips, the sum over
+ * its triangles.
+ */
 template <typename Place>
 glm::dvec3 AreaOf(vtkIdType size, const vtkIdType* points, bool isStrip, const Place& place)
 {
@@ -82,7 +87,7 @@ glm::dvec3 TupleOf(vtkDataArray* array, vtkIdType i)
 }
 
 //------------------------------------------------------------------------------
-/** What each cell of the input gets: (1 - F) A', of all its images. */
+/** Light that each cell of the input receives: (1 - F) A', summed over its images. */
 std::vector<double> GatherFlux(vtkPolyData* images, const glm::dvec3& light, vtkIdType cells)
 {
   std::vector<double> flux(static_cast<std::size_t>(cells), 0.0);
@@ -126,7 +131,7 @@ vtkSmartPointer<vtkFloatArray> MakeArray(vtkIdType tuples)
 }
 
 //------------------------------------------------------------------------------
-/** @param light  for one side, else null. */
+/** @param light position or direction for one-sided lighting, otherwise null. */
 void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const glm::dvec3* light)
 {
   const auto ofCells = MakeArray(output->GetNumberOfCells());
@@ -172,13 +177,15 @@ void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const g
 } // anonymous namespace
 
 vtkStandardNewMacro(vtkRefractedLightFilter);
+meniscusInterfacePropertiesMacro(vtkRefractedLightFilter);
 
 //------------------------------------------------------------------------------
 vtkRefractedLightFilter::vtkRefractedLightFilter()
 {
+  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
   this->SetNumberOfInputPorts(2);
   this->View->SetImagesToAllImages();
-  this->View->CloseSeamsOff(); // the light of covered gaps and overlaps would count twice
+  this->View->CloseSeamsOff(); // covered gaps and overlaps would count their light twice
   vtkNew<vtkCallbackCommand> teller;
   teller->SetClientData(this);
   teller->SetCallback(
@@ -192,7 +199,7 @@ vtkRefractedLightFilter::vtkRefractedLightFilter()
       }
       else if (view->IsA("vtkExecutive"))
       {
-        return; // says once more that there was an error
+        return; // repeats that there was an error
       }
       else if (event == vtkCommand::ErrorEvent)
       {
@@ -215,6 +222,12 @@ vtkRefractedLightFilter::vtkRefractedLightFilter()
 vtkRefractedLightFilter::~vtkRefractedLightFilter() = default;
 
 //------------------------------------------------------------------------------
+vtkMTimeType vtkRefractedLightFilter::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
+}
+
+//------------------------------------------------------------------------------
 void vtkRefractedLightFilter::SetMembraneData(vtkPolyData* membrane)
 {
   this->SetInputData(1, membrane);
@@ -234,7 +247,7 @@ int vtkRefractedLightFilter::FillInputPortInformation(int vtkNotUsed(port), vtkI
 }
 
 //------------------------------------------------------------------------------
-// Every piece of the geometry needs all of the membrane.
+// Every piece of the geometry needs the whole membrane.
 int vtkRefractedLightFilter::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -250,7 +263,7 @@ int vtkRefractedLightFilter::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-/** False after an error. */
+/** Returns false after an error. */
 bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkPolyData* membrane)
 {
   glm::dvec3 light(this->LightPosition[0], this->LightPosition[1], this->LightPosition[2]);
@@ -277,17 +290,16 @@ bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkPolyData* membra
 }
 
 //------------------------------------------------------------------------------
-/** Finds the images of the input's surfaces; false after an abort. */
+/** Computes the images of the input's surfaces. Returns false after an abort. */
 bool vtkRefractedLightFilter::Look(vtkPolyData* input, vtkPolyData* membrane)
 {
-  // Without the input's arrays, which images of it do not need; the same object each time, which
-  // the view knows again.
+  // The copy has no arrays, which the images do not need. It is the same object each time, so that
+  // the view recognises it.
   this->Surfaces->CopyStructure(input);
   this->Surfaces->Modified();
   this->View->SetInputData(this->Surfaces);
   this->View->SetMembraneData(membrane);
-  this->View->SetExteriorIndexOfRefraction(this->ExteriorIndexOfRefraction);
-  this->View->SetInteriorIndexOfRefraction(this->InteriorIndexOfRefraction);
+  this->View->SetInterfaces(this->Interfaces);
   this->View->SetAbortExecute(0);
   this->View->Update();
   return this->GetAbortExecute() == 0;
@@ -335,6 +347,6 @@ void vtkRefractedLightFilter::PrintSelf(ostream& os, vtkIndent indent)
      << ", " << this->LightPosition[2] << ")\n";
   os << indent << "Positional: " << (this->Positional ? "on" : "off") << "\n";
   os << indent << "OneSided: " << (this->OneSided ? "on" : "off") << "\n";
-  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
-  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
 }

@@ -2,45 +2,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkRefractedLightFilter
- * @brief   how brightly a light shines on geometry through a membrane: caustics
+ * @brief   irradiance of geometry lit through a membrane: caustics
  *
- * Adds to polygonal geometry (port 0) the irradiance that it gets from a light beyond a membrane
- * (port 1): refracted light gathers in bright lines on the floor of a pool.
+ * Adds to polygonal geometry (port 0) the irradiance that it receives from a light on the other
+ * side of a membrane (port 1), such as the bright lines of refracted light on the floor of a pool.
  *
  *     light->SetInputConnection(floor->GetOutputPort());
  *     light->SetMembraneConnection(water->GetOutputPort());
  *     light->SetLightPosition(0.3, 0.0, 1.0);
- *     filter->SetInputConnection(light->GetOutputPort()); // vtkRefractedGeometryFilter, say
+ *     filter->SetInputConnection(light->GetOutputPort()); // for example vtkRefractedGeometryFilter
  *
  * The output is the input with the array `RefractionIrradiance` (float, one component) per cell and
- * per point, in units of what the light throws on a surface that faces it at the membrane: flat
- * water under light that comes straight down lets through 0.98 of it. What a cell gets is
+ * per point, in units of the light's irradiance on a surface that faces it at the membrane: under
+ * vertical light, flat water transmits 0.98 of it. The irradiance of a cell is
  *
  *     (1 - F) A' / A,
  *
- * A the cell's area, A' that of the part of the membrane that its light passes, as the light sees
- * it, F Fresnel's reflectance there (Eq. 2.6 of the thesis that Documentation/refraction.md
- * retells). With the light in place of the eye the parts are the sight points of the cell's images,
- * which vtkRefractedGeometryFilter finds; where the light is folded a cell has several, and they
- * add up. So what the cells get together is what the membrane lets through, whatever their size. A
- * point has the mean of its cells, by area.
+ * with the cell's area A, the area A' of the part of the membrane that its light passes, projected
+ * along the light, and the Fresnel reflectance F there (Eq. 2.6 of the thesis that
+ * Documentation/refraction.md summarises). With the light in place of the eye, these parts consist
+ * of the sight points of the cell's images, which vtkRefractedGeometryFilter computes. Where the
+ * light is folded, a cell has several images, which are added. The sum over all cells is therefore
+ * the light that the membrane transmits, whatever the size of the cells. A point has the mean of
+ * its cells, weighted by area.
  *
- * Lines and vertices get 0, like what the light does not reach through the membrane.
+ * Lines and vertices get 0, and so do cells that the light does not reach through the membrane.
  *
- * @note Objects throw no shadows, on themselves only if OneSided is set.
- * @note A cell is lit evenly: what is smaller than it is not seen.
- * @note A light at infinity is taken for one ten thousand times the scene's size away.
+ * @note Objects cast no shadows, except on themselves if OneSided is on.
+ * @note The irradiance is constant in a cell: smaller details are not resolved.
+ * @note A light at infinity is approximated by one at ten thousand times the scene's size.
  *
  * @sa vtkRefractedGeometryFilter
  */
 #ifndef vtkRefractedLightFilter_h
 #define vtkRefractedLightFilter_h
 
-#include "vtkBoundingBox.h"    // For what the light falls on
+#include "vtkBoundingBox.h"    // For the bounds of the lit geometry
 #include "vtkMeniscusModule.h" // For export macro
 #include "vtkNew.h"            // For the filter inside
 #include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h" // for vtkSmartPointer
 
+class vtkRefractingInterfaceCollection;
 class vtkRefractedGeometryFilter;
 
 class VTKMENISCUS_EXPORT vtkRefractedLightFilter : public vtkPolyDataAlgorithm
@@ -52,18 +55,16 @@ public:
 
   /** @{ */
   /**
-   * Set/Get where the light is, in world coordinates, if it is positional; else the direction to
-   * it. Finite and, as a direction, not zero; anything else is an error when the filter runs.
-   * Default is (0, 0, 1).
+   * Set/Get the position of the light in world coordinates if it is positional; otherwise the
+   * direction to it. Must be finite and, as a direction, not zero; anything else is an error when
+   * the filter runs. Default is (0, 0, 1).
    */
   vtkSetVector3Macro(LightPosition, double);
   vtkGetVector3Macro(LightPosition, double);
   /** @} */
 
   /** @{ */
-  /**
-   * Set/Get whether the light is at a place, not at infinity. Default is off.
-   */
+  /** Set/Get whether the light has a position, instead of being at infinity. Default is off. */
   vtkSetMacro(Positional, bool);
   vtkGetMacro(Positional, bool);
   vtkBooleanMacro(Positional, bool);
@@ -71,8 +72,8 @@ public:
 
   /** @{ */
   /**
-   * Set/Get whether cells are lit from the side only from which their points are counter-clockwise,
-   * as those of closed surfaces are. Default is off.
+   * Set/Get whether cells are lit only from the side on which their points are counter-clockwise,
+   * which is the outside of closed surfaces. Default is off.
    */
   vtkSetMacro(OneSided, bool);
   vtkGetMacro(OneSided, bool);
@@ -81,25 +82,40 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the indices of refraction on the light's side and behind the membrane. Positive and
-   * finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
+   * Set/Get the indices of refraction on the light's side and behind the membrane. Must be positive
+   * and finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
    */
-  vtkSetMacro(ExteriorIndexOfRefraction, double);
-  vtkGetMacro(ExteriorIndexOfRefraction, double);
-  vtkSetMacro(InteriorIndexOfRefraction, double);
-  vtkGetMacro(InteriorIndexOfRefraction, double);
+  virtual void SetExteriorIndexOfRefraction(double index);
+  virtual double GetExteriorIndexOfRefraction();
+  virtual void SetInteriorIndexOfRefraction(double index);
+  virtual double GetInteriorIndexOfRefraction();
   /** @} */
 
   /** @{ */
   /**
-   * Set the membrane, port 1, by connection or by data.
+   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
+   * first interface has the indices of refraction and, optionally, the exact surface; more than one
+   * are an error when it runs. Null stands for a list of one with default values, which is the
+   * default.
    */
+  void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
+  vtkRefractingInterfaceCollection* GetInterfaces();
+  /** @} */
+
+  /** @{ */
+  /** Set the membrane, port 1, by connection or as data. */
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetMembraneData(vtkPolyData* membrane);
   /** @} */
 
   /**
-   * The filter that looks from the light; its counters tell what was computed.
+   * Modification time, which includes that of the interfaces.
+   */
+  vtkMTimeType GetMTime() override;
+
+  /**
+   * The filter that computes images with the light in place of the eye; its counters show the work
+   * done.
    */
   vtkRefractedGeometryFilter* GetView();
 
@@ -114,8 +130,8 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   /**
-   * Of geometry beside the input that the same light falls on: other pieces and blocks. A light at
-   * infinity is then where it is for all of them together. Default is none.
+   * Bounds of other geometry that the same light falls on: other pieces and blocks. A light at
+   * infinity is then placed at the same distance for all of them. Default is none.
    */
   vtkBoundingBox OtherGeometry;
 
@@ -129,8 +145,7 @@ private:
   double LightPosition[3] = { 0.0, 0.0, 1.0 };
   bool Positional = false;
   bool OneSided = false;
-  double ExteriorIndexOfRefraction = 1.0;
-  double InteriorIndexOfRefraction = 1.333;
+  vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
   vtkNew<vtkRefractedGeometryFilter> View;
   vtkNew<vtkPolyData> Surfaces;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionErrorVolume.h"
 
+#include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/ImplicitSurface.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Refraction/Curved/ErrorSamples.h"
@@ -29,8 +30,8 @@
 namespace
 {
 
-// Samples that a thread takes at once, and between two reports of progress: a hundredth of all, but
-// enough for the threads of a large machine.
+// Number of samples that a thread takes at once. Progress is reported about a hundred times, but
+// not for fewer samples than keep all threads of a large machine busy.
 constexpr vtkIdType Grain = 128;
 constexpr vtkIdType ProgressSteps = 100;
 constexpr vtkIdType SmallestStep = 64 * Grain;
@@ -42,7 +43,7 @@ class vtkRefractionErrorVolume::vtkInternals
 {
 public:
   meniscus::RefractionScene Scene;
-  /** The finer mesh, or the same one where the scene has flat facets. */
+  /** The finer mesh, or the same mesh if the scene has flat facets. */
   meniscus::RefractionScene Reference;
   std::vector<meniscus::ErrorSample> Samples;
   meniscus::ErrorSummary Summary;
@@ -50,11 +51,13 @@ public:
 };
 
 vtkStandardNewMacro(vtkRefractionErrorVolume);
+meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
 
 //------------------------------------------------------------------------------
 vtkRefractionErrorVolume::vtkRefractionErrorVolume()
   : Internals(new vtkInternals)
 {
+  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
   this->SetNumberOfInputPorts(2);
 }
 
@@ -64,17 +67,13 @@ vtkRefractionErrorVolume::~vtkRefractionErrorVolume() = default;
 //------------------------------------------------------------------------------
 void vtkRefractionErrorVolume::SetExactMembrane(vtkImplicitFunction* function)
 {
-  if (this->ExactMembrane != function)
-  {
-    this->ExactMembrane = function;
-    this->Modified();
-  }
+  this->Interfaces->GetFirstInterface()->SetExactSurface(function);
 }
 
 //------------------------------------------------------------------------------
 vtkImplicitFunction* vtkRefractionErrorVolume::GetExactMembrane()
 {
-  return this->ExactMembrane;
+  return this->Interfaces->GetFirstInterface()->GetExactSurface();
 }
 
 //------------------------------------------------------------------------------
@@ -122,8 +121,7 @@ vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfEyeUpdates() const
 //------------------------------------------------------------------------------
 vtkMTimeType vtkRefractionErrorVolume::GetMTime()
 {
-  const vtkMTimeType own = this->Superclass::GetMTime();
-  return this->ExactMembrane ? std::max(own, this->ExactMembrane->GetMTime()) : own;
+  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
 }
 
 //------------------------------------------------------------------------------
@@ -168,7 +166,7 @@ int vtkRefractionErrorVolume::RequestInformation(vtkInformation* vtkNotUsed(requ
   double spacing[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    // What is wrong with the box is said when there is an output to empty, in RequestData.
+    // Errors in the box are reported in RequestData, when there is an output to empty.
     const double* range = this->ModelBounds + 2 * axis;
     const int last = std::max(this->SampleDimensions[axis], 1) - 1;
     extent[2 * axis] = 0;
@@ -187,7 +185,7 @@ int vtkRefractionErrorVolume::RequestInformation(vtkInformation* vtkNotUsed(requ
 }
 
 //------------------------------------------------------------------------------
-// Every part of the volume needs all of the membranes.
+// Every part of the volume needs both membranes whole.
 int vtkRefractionErrorVolume::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
 {
@@ -199,7 +197,8 @@ int vtkRefractionErrorVolume::RequestUpdateExtent(vtkInformation* vtkNotUsed(req
       info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
       info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
       info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-      // The executive has copied that of the output, which a membrane from an image does not have.
+      // The executive has copied the extent of the output, which a membrane does not have unless it
+      // comes from an image.
       info->Remove(Pipeline::UPDATE_EXTENT());
     }
   }
@@ -241,14 +240,20 @@ int vtkRefractionErrorVolume::RequestData(
 //------------------------------------------------------------------------------
 bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference)
 {
+  if (const char* fault = meniscus::FindFault(this->Interfaces))
+  {
+    vtkErrorMacro(<< fault << "; the output is empty.");
+    return false;
+  }
   vtkInternals& internals = *this->Internals;
   const bool curved = this->MembraneModel == CURVED;
   const meniscus::RefractionScene::Eye eye = { this->EyePosition[0], this->EyePosition[1],
-    this->EyePosition[2], this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction };
+    this->EyePosition[2], this->GetExteriorIndexOfRefraction(),
+    this->GetInteriorIndexOfRefraction() };
   meniscus::SceneMessages messages;
   bool ready = internals.Scene.SetMembrane(membrane, curved, messages) &&
     internals.Scene.SetEye(eye, messages);
-  const bool needsReference = !this->ExactMembrane && (reference || !curved);
+  const bool needsReference = !this->GetExactMembrane() && (reference || !curved);
   if (ready && needsReference)
   {
     ready = internals.Reference.SetMembrane(reference ? reference : membrane, true, messages) &&
@@ -262,7 +267,7 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
   {
     vtkWarningMacro(<< messages.Warning);
   }
-  if (curved && !needsReference && !this->ExactMembrane && !internals.WarnedOfNoReference)
+  if (curved && !needsReference && !this->GetExactMembrane() && !internals.WarnedOfNoReference)
   {
     internals.WarnedOfNoReference = true;
     vtkWarningMacro("CURVED is compared with itself: set the exact membrane, or a finer one on "
@@ -272,16 +277,16 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
 }
 
 //------------------------------------------------------------------------------
-// False after an abort.
+// Returns false after an abort.
 bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
 {
   vtkInternals& internals = *this->Internals;
   const glm::dvec3 eye(this->EyePosition[0], this->EyePosition[1], this->EyePosition[2]);
   std::unique_ptr<meniscus::ExactSurface> exact;
-  if (this->ExactMembrane)
+  if (this->GetExactMembrane())
   {
     exact = std::make_unique<meniscus::ImplicitSurface>(
-      this->ExactMembrane, internals.Scene.GetMembrane(), eye);
+      this->GetExactMembrane(), internals.Scene.GetMembrane(), eye);
   }
   else
   {
@@ -290,7 +295,7 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
       itself ? internals.Scene.GetCurved() : internals.Reference.GetCurved());
   }
   const meniscus::ErrorSampler sampler(
-    *exact, eye, this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction);
+    *exact, eye, this->GetExteriorIndexOfRefraction(), this->GetInteriorIndexOfRefraction());
   const meniscus::RefractionScene& scene = internals.Scene;
   const vtkIdType count = output->GetNumberOfPoints();
   internals.Samples.assign(static_cast<std::size_t>(count), meniscus::ErrorSample());
@@ -371,11 +376,11 @@ void vtkRefractionErrorVolume::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "EyePosition: (" << this->EyePosition[0] << ", " << this->EyePosition[1] << ", "
      << this->EyePosition[2] << ")\n";
-  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
-  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
   os << indent << "MembraneModel: " << (this->MembraneModel == CURVED ? "CURVED" : "FLAT_FACETS")
      << "\n";
-  os << indent << "ExactMembrane: " << this->ExactMembrane.Get() << "\n";
+  os << indent << "ExactMembrane: " << this->GetExactMembrane() << "\n";
   os << indent << "ModelBounds: (" << this->ModelBounds[0] << ", " << this->ModelBounds[1] << ", "
      << this->ModelBounds[2] << ", " << this->ModelBounds[3] << ", " << this->ModelBounds[4] << ", "
      << this->ModelBounds[5] << ")\n";

@@ -2,43 +2,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkRefractionErrorVolume
- * @brief   how far off virtual geometry is behind a membrane, over a box
+ * @brief   error of virtual geometry behind a membrane, over a box
  *
  * The error volumes of the thesis "Refraction by geometric transforms", section 4.1, for any
- * membrane, eye and box: shows how good a membrane's mesh is for a scene before geometry is put
- * behind it.
+ * membrane, eye and box. They show whether a membrane's mesh is good enough for a scene before
+ * geometry is placed behind it.
  *
- * Each sample of a regular grid is taken for a true point and moved to its virtual point with the
+ * Each sample of a regular grid is taken as a true point and moved to its virtual point with the
  * membrane's mesh, as vtkRefractedGeometryFilter does it. The sight ray of the virtual point is
- * then traced through the exact surface, Eq. 2.2, and Eq. 2.4 is undone on the refracted ray. The
- * distance between the point that this gives and the sample is the error, a world length.
+ * then traced through the exact surface, Eq. 2.2, and Eq. 2.4 is inverted on the refracted ray. The
+ * error is the distance between the resulting point and the sample, in world units.
  *
- * Input port 0 is the membrane as vtkRefractedGeometryFilter takes it. What the exact surface is:
+ * Input port 0 is the membrane, as for vtkRefractedGeometryFilter. The exact surface is
  * - an implicit function that the membrane's points lie on (SetExactMembrane), with its gradient;
  * - otherwise the membrane on the optional input port 1, a finer mesh of the same surface, as
- * curved patches;
- * - otherwise the curved patches of the membrane itself. This measures what FLAT_FACETS loses;
- *   CURVED has no error by this measure, so a warning says so.
+ *   curved patches;
+ * - otherwise the curved patches of the membrane itself. This measures the error of FLAT_FACETS
+ *   only; CURVED has no error by this measure, and the filter warns.
  *
  * Output is a vtkImageData with two point arrays:
- * - `RefractionError` (the active scalars, 1 double, world length): NaN where it was not measured;
+ * - `RefractionError` (the active scalars, 1 double, world length): NaN if not measured;
  * - `SampleState` (1 unsigned char): MEASURED, NO_IMAGE (outside the visible volume),
- * SEVERAL_IMAGES (zones of convergence; with FLAT_FACETS points that are not in one cell alone),
- *   NO_EXACT_POINT (the exact surface is missed or reflects totally there), NOT_FINITE (coordinates
- *   out of range).
+ *   SEVERAL_IMAGES (zones of convergence; with FLAT_FACETS, points in more than one cell),
+ *   NO_EXACT_POINT (the sight ray misses the exact surface or is totally reflected), NOT_FINITE
+ *   (coordinates out of range).
  *
- * Like the thesis, the statistics are over MEASURED samples alone. They are in the field data too,
- * as `MeanError`, `StandardDeviation`, `LargestError` and `NumberOfMeasuredSamples`, and hold for
- * the part of the volume that was asked for last.
+ * As in the thesis, the statistics are over MEASURED samples only. They are also in the field data,
+ * as `MeanError`, `StandardDeviation`, `LargestError` and `NumberOfMeasuredSamples`, and refer to
+ * the part of the volume that was requested last.
  *
  * Samples are measured in parallel with vtkSMPTools; results do not depend on the number of
- * threads. An implicit function is evaluated from all of them, as vtkSampleFunction does it.
- * Progress is reported; after an abort the output is empty. Cost: about 1 microsecond per sample
- * and thread with FLAT_FACETS, 3 with CURVED. The membrane's mesh is taken in again only if its
- * values change, the rays only if the eye's or a medium's do.
+ * threads. An implicit function is evaluated on all of them, as in vtkSampleFunction. Progress is
+ * reported; after an abort the output is empty. Cost: about 1 microsecond per sample and thread
+ * with FLAT_FACETS, 3 with CURVED. The membrane's mesh is read again only if its values change, and
+ * rays are computed again only if the eye or an index changes.
  *
- * @note A point that is 20 units off far below the membrane may look better than one that is 2 off
- * just below it (thesis): the error is a length in the interior, not an angle at the eye.
+ * @note A point with an error of 20 units far below the membrane may look better than one with an
+ *   error of 2 just below it (thesis): the error is a length in the interior, not an angle at the
+ *   eye.
  * @note A ray may meet an implicit function beyond the border of the membrane's mesh.
  *
  * @sa vtkRefractedGeometryFilter
@@ -52,6 +53,7 @@
 
 #include <memory> // For std::unique_ptr
 
+class vtkRefractingInterfaceCollection;
 class vtkImageData;
 class vtkImplicitFunction;
 class vtkPolyData;
@@ -66,7 +68,7 @@ public:
   /** As in vtkRefractedGeometryFilter. */
   enum MembraneModels
   {
-    FlatFacets = 0,
+    FLAT_FACETS = 0,
     CURVED = 1
   };
 
@@ -74,10 +76,10 @@ public:
   enum SampleStates
   {
     MEASURED = 0,
-    NoImage = 1,
-    SeveralImages = 2,
-    NoExactPoint = 3,
-    NotFinite = 4
+    NO_IMAGE = 1,
+    SEVERAL_IMAGES = 2,
+    NO_EXACT_POINT = 3,
+    NOT_FINITE = 4
   };
 
   /** @{ */
@@ -90,29 +92,37 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the indices of refraction on the eye's side and behind the membrane. Positive and
-   * finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
+   * Set/Get the indices of refraction on the eye's side and behind the membrane. Must be positive
+   * and finite; anything else is an error when the filter runs. Defaults are 1.0 and 1.333.
    */
-  vtkSetMacro(ExteriorIndexOfRefraction, double);
-  vtkGetMacro(ExteriorIndexOfRefraction, double);
-  vtkSetMacro(InteriorIndexOfRefraction, double);
-  vtkGetMacro(InteriorIndexOfRefraction, double);
+  virtual void SetExteriorIndexOfRefraction(double index);
+  virtual double GetExteriorIndexOfRefraction();
+  virtual void SetInteriorIndexOfRefraction(double index);
+  virtual double GetInteriorIndexOfRefraction();
   /** @} */
 
   /** @{ */
   /**
-   * Set/Get the membrane model that is measured, FLAT_FACETS or CURVED. Default is CURVED.
+   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
+   * first interface has the indices of refraction and the exact surface; more than one are an
+   * error when it runs. Null stands for a list of one with default values, which is the default.
    */
-  vtkSetClampMacro(MembraneModel, int, FlatFacets, CURVED);
+  void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
+  vtkRefractingInterfaceCollection* GetInterfaces();
+  /** @} */
+
+  /** @{ */
+  /** Set/Get the membrane model under test, FLAT_FACETS or CURVED. Default is CURVED. */
+  vtkSetClampMacro(MembraneModel, int, FLAT_FACETS, CURVED);
   vtkGetMacro(MembraneModel, int);
-  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FlatFacets); }
+  void SetMembraneModelToFlatFacets() { this->SetMembraneModel(FLAT_FACETS); }
   void SetMembraneModelToCurved() { this->SetMembraneModel(CURVED); }
   /** @} */
 
   /** @{ */
   /**
-   * Set/Get the exact surface, whose zero set the membrane's points lie on. Which of its sides the
-   * eye is on follows from the membrane's normals. Default is none.
+   * Set/Get an implicit function whose zero set is the exact surface, on which the membrane's
+   * points lie. The eye's side of it follows from the membrane's normals. Default is none.
    */
   void SetExactMembrane(vtkImplicitFunction* function);
   vtkImplicitFunction* GetExactMembrane();
@@ -129,8 +139,9 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the box, (xmin, xmax, ymin, ymax, zmin, zmax) in world coordinates. Finite, each
-   * minimum at most its maximum; anything else is an error. Default is -1 to 1 each way.
+   * Set/Get the box, (xmin, xmax, ymin, ymax, zmin, zmax) in world coordinates. Values must be
+   * finite, and no minimum above its maximum; anything else is an error. Default is -1 to 1 along
+   * each axis.
    */
   vtkSetVector6Macro(ModelBounds, double);
   vtkGetVector6Macro(ModelBounds, double);
@@ -138,8 +149,9 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the number of samples along each side of the box, from border to border; with one they
-   * are at the minimum. Default is 40 each, the thesis's. Numbers below 1 are an error.
+   * Set/Get the number of samples along each side of the box, from border to border; a single
+   * sample is at the minimum. Numbers below 1 are an error. Default is 40 along each side, as in
+   * the thesis.
    */
   vtkSetVector3Macro(SampleDimensions, int);
   vtkGetVector3Macro(SampleDimensions, int);
@@ -147,8 +159,8 @@ public:
 
   /** @{ */
   /**
-   * Statistics of the last update: mean, standard deviation and largest of the errors, world
-   * lengths, and how many samples they are of. 0 if there is none.
+   * Statistics of the last update: mean, standard deviation and largest of the errors, in world
+   * units, and the number of samples. 0 if nothing was measured.
    */
   double GetMeanError() const;
   double GetStandardDeviation() const;
@@ -158,16 +170,14 @@ public:
 
   /** @{ */
   /**
-   * Counters since construction: how often the membrane's shape was taken in, and how often rays
-   * were computed for it.
+   * Counters since construction: number of times that the membrane's shape was read, and number of
+   * times that rays were computed for it.
    */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
   vtkTypeInt64 GetNumberOfEyeUpdates() const;
   /** @} */
 
-  /**
-   * Covers the implicit function.
-   */
+  /** Includes the time of the implicit function. */
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -183,8 +193,8 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   /**
-   * Replaces the statistics and those in the output's field data, by those of several parts of the
-   * volume, say.
+   * Replaces the statistics and their copies in the output's field data, for example by those of
+   * several parts of the volume.
    */
   void SetStatistics(vtkImageData* output, double meanError, double standardDeviation,
     double largestError, vtkTypeInt64 numberOfMeasuredSamples);
@@ -199,12 +209,10 @@ private:
   void FillOutput(vtkImageData* output);
 
   double EyePosition[3] = { 0.0, 0.0, 1.0 };
-  double ExteriorIndexOfRefraction = 1.0;
-  double InteriorIndexOfRefraction = 1.333;
   int MembraneModel = CURVED;
   double ModelBounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
   int SampleDimensions[3] = { 40, 40, 40 };
-  vtkSmartPointer<vtkImplicitFunction> ExactMembrane;
+  vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

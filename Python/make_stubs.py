@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes vtkMeniscus.pyi, the types of our classes for editors and type checkers, from the signatures
-that VTK's wrappers put into doc strings. (Debian's VTK comes without vtkmodules.generate_pyi.)
+"""Writes vtkMeniscus.pyi, type stubs of the classes for editors and type checkers, from the
+signatures in the doc strings of VTK's wrappers. (Debian's VTK has no vtkmodules.generate_pyi.)
 
 Argument: the file to write. The package must be importable."""
 import re
@@ -13,14 +13,14 @@ SIGNATURE = re.compile(r"^(\w+)\((.*?)\)(?: -> (.*))?$")
 
 
 def signatures(doc):
-    """The Python signatures of a doc string; the lines between them are C++ and comments."""
+    """Yields the Python signatures of a doc string; its other lines are C++ and comments."""
     for line in re.sub(r"\n +", " ", doc or "").split("\n"):
         if SIGNATURE.match(line):
             yield line
 
 
 def parameters(text):
-    """The parameters as a stub may have them: arrays are sequences."""
+    """Parameters in the syntax of stubs; arrays become sequences."""
     text = re.sub(r":(?=\S)", ": ", text)
     text = re.sub(r": \[[^]]*\]", ": MutableSequence[Any]", text)
     text = re.sub(r": \([^)]*\)", ": Sequence[Any]", text)
@@ -54,12 +54,14 @@ def class_lines(name, kind):
 
 
 def main():
-    classes = [(name, kind) for name, kind in sorted(vars(module).items()) if isinstance(kind, type)]
+    classes = [(name, kind) for name, kind in sorted(vars(module).items())
+               if isinstance(kind, type)]
     body = [line for name, kind in classes for line in class_lines(name, kind)]
     names = set(re.findall(r"\bvtk\w+", "\n".join(body))) - {name for name, _ in classes}
     theirs = {name: loaded for loaded in sorted(sys.modules) if loaded.startswith("vtkmodules.vtk")
               for name in names & set(vars(sys.modules[loaded]))}
-    lines = ["from typing import Any, Callable, Mapping, MutableSequence, Sequence, Tuple, overload", ""]
+    lines = ["from typing import (",
+             "    Any, Callable, Mapping, MutableSequence, Sequence, Tuple, overload)", ""]
     lines += ["from %s import %s" % (theirs[name], name) for name in sorted(theirs)]
     lines += ["%s = Any" % name for name in sorted(names - set(theirs))]
     lines += ["Callback = Callable[..., Any]", "Pointer = Any", "Buffer = Any"]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""For PyVista: a volume of tetrahedra, and geometry as seen through a surface, in a call each."""
+"""Helpers for PyVista: volumes of tetrahedra, and geometry seen through a refracting surface."""
 import pyvista
 from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
 from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkVolume
@@ -9,16 +9,18 @@ from .vtkMeniscus import vtkRefractedGeometryFilter, vtkTetrahedraRayCastMapper
 
 
 def _set(target, properties):
-    """Calls target's SetX for every X=value; a name that it has not is an AttributeError."""
+    """Calls target's SetX for every X=value; an unknown name is an AttributeError."""
     for name, value in properties.items():
         getattr(target, "Set" + name)(value)
 
 
 def _find_limits(mesh, scalars, clim):
-    """The range of the colour map, by the rules of plotter.add_volume()."""
+    """Range of the colour map, by the rules of plotter.add_volume()."""
     if clim is None:
         is_bytes = mesh[scalars].dtype == "uint8"
-        return (0.0, 255.0) if is_bytes else tuple(float(end) for end in mesh.get_data_range(scalars))
+        if is_bytes:
+            return 0.0, 255.0
+        return tuple(float(end) for end in mesh.get_data_range(scalars))
     if isinstance(clim, (int, float)):
         return -float(clim), float(clim)
     lowest, highest = clim
@@ -26,10 +28,10 @@ def _find_limits(mesh, scalars, clim):
 
 
 def _make_functions(table, limits):
-    """Colour and opacity of a vtkLookupTable over a range of scalars.
+    """Colour and opacity functions of a vtkLookupTable over a range of scalars.
 
-    PyVista's own functions of a table lie on the numbers of its entries up to version 0.44 and on its range
-    from 0.45 on; entries read by VTK's interface are the same in all versions.
+    PyVista's own functions of a table run over the indices of its entries up to version 0.44, and
+    over its range from 0.45 on. The entries read by VTK's interface are the same in all versions.
     """
     colors = vtkColorTransferFunction()
     opacity = vtkPiecewiseFunction()
@@ -44,20 +46,20 @@ def _make_functions(table, limits):
 
 def add_volume(plotter, mesh, scalars=None, *, cmap=None, opacity="linear", clim=None,
                opacity_unit_distance=None, show_scalar_bar=True, name=None, **properties):
-    """Adds a mesh to a plotter as a volume, by vtkTetrahedraRayCastMapper; returns the vtkVolume.
+    """Adds a mesh to a plotter as a volume, with vtkTetrahedraRayCastMapper; returns the vtkVolume.
 
     plotter: pyvista.Plotter.
-    mesh: a dataset of PyVista's, of tetrahedra or other cells.
-    scalars: name of an array of points or cells with one component; default: the active one.
+    mesh: a PyVista dataset with tetrahedra or other cells.
+    scalars: name of a point or cell array with one component; default: the active scalars.
     cmap, opacity, clim, name: as for plotter.add_volume().
-    opacity_unit_distance: the length along which opacities hold, in the mesh's unit; default: its
-        diagonal by the cube root of its number of cells.
-    properties: of the mapper, such as BlendMode=1.
+    opacity_unit_distance: the length over which opacities are given, in the mesh's unit; default:
+        the mesh's diagonal divided by the cube root of its number of cells.
+    properties: properties of the mapper, such as BlendMode=1.
     """
     mesh = pyvista.wrap(mesh)
     scalars = scalars or mesh.active_scalars_name
     if scalars is None:
-        raise ValueError("The mesh has no active scalars: name an array by scalars=")
+        raise ValueError("The mesh has no active scalars; name an array with scalars=")
     in_points = mesh.get_array_association(scalars) == pyvista.FieldAssociation.POINT
     limits = _find_limits(mesh, scalars, clim)
     cmap = plotter.theme.cmap if cmap is None else cmap
@@ -90,12 +92,12 @@ def add_volume(plotter, mesh, scalars=None, *, cmap=None, opacity="linear", clim
 
 
 def refracted(mesh, membrane, eye, index=1.333, **properties):
-    """The virtual geometry of a mesh: drawn as it is, it looks as the mesh does behind the membrane.
+    """Returns the virtual geometry of a mesh, which looks like the mesh seen through the membrane.
 
-    mesh, membrane: datasets of PyVista's; their surfaces are taken.
-    eye: a position, or what has one, as plotter.camera.
-    index: of refraction, behind the membrane.
-    properties: of vtkRefractedGeometryFilter, such as ExteriorIndexOfRefraction=1.5.
+    mesh, membrane: PyVista datasets; their surfaces are used.
+    eye: a position, or an object with the attribute position, such as plotter.camera.
+    index: index of refraction behind the membrane.
+    properties: properties of vtkRefractedGeometryFilter, such as ExteriorIndexOfRefraction=1.5.
     """
     refraction = vtkRefractedGeometryFilter()
     for port, surface in enumerate((pyvista.wrap(mesh), pyvista.wrap(membrane))):

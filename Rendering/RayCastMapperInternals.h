@@ -14,12 +14,15 @@ class vtkTetrahedraRayCastMapper::vtkInternals : public meniscus::RayCastPipelin
 {
 public:
   meniscus::ComponentMixture Mixture = meniscus::ComponentMixture::None;
-  /** The component of the scalars that is drawn if they do not mix, as in ScalarSelection. */
+  /** Component of the scalars to draw if they are not mixed, as in ScalarSelection. */
   int Component = meniscus::ScalarSelection::Only;
-  /** Seconds that the last frame would have taken with a ray per pixel; 0 before it. */
+  /**
+   * Estimated duration of the last frame with one ray per pixel, in seconds; 0 before the first
+   * frame.
+   */
   double FullImageTime = 0.0;
 
-  /** What was last said of data sets that are left out. */
+  /** Last warning about data sets that are left out. */
   std::string LastInputWarning;
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
@@ -27,7 +30,7 @@ public:
   bool WarnedCompute = false;
   bool WarnedTableSize = false;
   bool WarnedPeeling = false;
-  /** Of the last frame, for what is in the world. */
+  /** Matrix of the last frame, for positions given in world coordinates. */
   glm::dmat4 WorldToModel{ 1.0 };
 };
 

@@ -6,6 +6,8 @@
 #include "Rendering/Pass/ViewBounds.h"
 
 #include "vtkRefractedGeometryFilter.h"
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
 #include "vtkRefractionMembraneFS.h"
 
 #include "vtkActor.h"
@@ -50,7 +52,7 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-/** Of the picture that a pass draws to. */
+/** Size of the image to which a pass draws. */
 struct PictureSize
 {
   int Size[2];
@@ -60,7 +62,7 @@ struct PictureSize
   {
     if (vtkFrameBufferObjectBase* buffer = drawn->GetFrameBuffer())
     {
-      buffer->GetLastSize(this->Size); // another pass's picture, of any size
+      buffer->GetLastSize(this->Size); // the image of another pass, of any size
     }
     else
     {
@@ -97,7 +99,7 @@ public:
   struct Refraction
   {
     vtkSmartPointer<vtkActor> Membrane;
-    /** Virtual geometry of a filter, or a volume. */
+    /** Actor of a filter's virtual geometry, or a volume. */
     vtkSmartPointer<vtkProp3D> Object;
     vtkSmartPointer<vtkRefractedGeometryFilter> Filter;
 
@@ -115,7 +117,7 @@ public:
   vtkSmartPointer<vtkTexture> Reflection;
   vtkNew<vtkOpaquePass> Opaque;
   vtkNew<vtkTranslucentPass> Translucent;
-  /** Shows the membrane's mapper, whatever the property of its actor. */
+  /** Draws the membrane's mapper, independently of the property of the membrane's actor. */
   vtkNew<vtkActor> Surface;
   Stages Stage = Stages::Objects;
 
@@ -132,21 +134,28 @@ public:
 };
 
 //------------------------------------------------------------------------------
-/** Interior to exterior. */
+/** Index of the interior relative to the exterior. */
 double vtkRefractionPass::vtkInternals::Refraction::GetRelativeIndex() const
 {
+  vtkRefractingInterfaceCollection* interfaces = nullptr;
   if (this->Filter)
   {
-    return this->Filter->GetInteriorIndexOfRefraction() /
-      this->Filter->GetExteriorIndexOfRefraction();
+    interfaces = this->Filter->GetInterfaces();
   }
-  vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume());
-  return mapper ? mapper->GetInteriorIndexOfRefraction() / mapper->GetExteriorIndexOfRefraction()
-                : 1.0;
+  else if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume()))
+  {
+    interfaces = mapper->GetInterfaces();
+  }
+  if (!interfaces)
+  {
+    return 1.0;
+  }
+  vtkRefractingInterface* first = interfaces->GetFirstInterface();
+  return first->GetInteriorIndexOfRefraction() / first->GetExteriorIndexOfRefraction();
 }
 
 //------------------------------------------------------------------------------
-/** For membranes first: what is behind one that is out of view is not asked for. */
+/** Membranes come first: objects behind a membrane that is out of view are ignored. */
 void vtkRefractionPass::vtkInternals::AdjustClippingRange(vtkRenderer* renderer) const
 {
   for (vtkActor* membrane : this->ListMembranes())
@@ -169,7 +178,7 @@ void vtkRefractionPass::vtkInternals::AdjustClippingRange(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-/** In the order in which they were added. */
+/** Membranes in the order in which they were added. */
 std::vector<vtkActor*> vtkRefractionPass::vtkInternals::ListMembranes() const
 {
   std::vector<vtkActor*> membranes;
@@ -373,7 +382,10 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
 }
 
 //------------------------------------------------------------------------------
-/** What of the volumes lies before the membrane and beside it, to where the scene was drawn. */
+/**
+ * Draws the part of the volumes in front of the membrane or next to it to the framebuffer of the
+ * scene.
+ */
 void vtkRefractionPass::DrawInFront(
   const vtkRenderState* drawn, vtkOpenGLRenderWindow* window, vtkActor* membrane)
 {
@@ -381,7 +393,7 @@ void vtkRefractionPass::DrawInFront(
   vtkOpenGLState* state = window->GetState();
   state->Push();
   picture.Set(state);
-  this->DrawVolumes(drawn->GetRenderer(), membrane, vtkTetrahedraRayCastMapper::InFront);
+  this->DrawVolumes(drawn->GetRenderer(), membrane, vtkTetrahedraRayCastMapper::IN_FRONT);
   state->Pop();
 }
 
@@ -420,7 +432,7 @@ void vtkRefractionPass::DrawMembrane(
 }
 
 //------------------------------------------------------------------------------
-/** The virtual geometry behind the membrane. */
+/** Draws the virtual geometry behind the membrane. */
 void vtkRefractionPass::DrawObjects(
   vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane)
 {
@@ -448,7 +460,7 @@ void vtkRefractionPass::DrawObjects(
 }
 
 //------------------------------------------------------------------------------
-/** A part of the membrane's volumes, over what is there. */
+/** Draws a part of the membrane's volumes over the contents of the framebuffer. */
 void vtkRefractionPass::DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, int part)
 {
   for (const auto& refraction : this->Internals->Refractions)
@@ -456,7 +468,7 @@ void vtkRefractionPass::DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, i
     vtkVolume* volume = refraction.GetVolume();
     if (volume && refraction.Membrane == membrane && volume->GetVisibility())
     {
-      // As the renderer does for props of its own.
+      // The renderer does the same for its own props.
       volume->SetAllocatedRenderTime(renderer->GetAllocatedRenderTime(), renderer);
       volume->Update();
       if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(volume))
@@ -469,7 +481,7 @@ void vtkRefractionPass::DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, i
 }
 
 //------------------------------------------------------------------------------
-/** The membrane's normals and depths. */
+/** Draws the membrane's normals and depths. */
 void vtkRefractionPass::DrawSurface(
   vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane)
 {
@@ -489,7 +501,7 @@ void vtkRefractionPass::DrawSurface(
 }
 
 //------------------------------------------------------------------------------
-/** What the membrane shows, to where the scene was drawn. */
+/** Composites the membrane's pixels over the framebuffer of the scene. */
 void vtkRefractionPass::Compose(
   vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane)
 {

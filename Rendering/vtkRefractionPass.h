@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkRefractionPass
- * @brief   draws what lies behind refracting surfaces, with Fresnel, reflection and attenuation
+ * @brief   draws geometry behind refracting surfaces, with Fresnel reflection and attenuation
  *
- * A render pass for vtkRenderer::SetPass(). It draws the renderer's scene by another pass, then,
- * for each membrane, the virtual geometry that a vtkRefractedGeometryFilter makes, where the
- * membrane is seen:
+ * A render pass for vtkRenderer::SetPass(). It draws the renderer's scene by another pass and then,
+ * for each membrane, the virtual geometry of a vtkRefractedGeometryFilter at the pixels where the
+ * membrane is visible:
  *
  *     filter->SetInputConnection(object->GetOutputPort());
  *     filter->SetMembraneConnection(water->GetOutputPort());
@@ -15,31 +15,33 @@
  *     pass->AddRefraction(waterActor, virtualActor, filter);
  *     renderer->SetPass(pass);
  *
- * The camera is the filter's eye, so that everything follows it on Render(). Neither the membrane's
- * nor the virtual actor is added to the renderer. Actors of the renderer are drawn as they are:
- * geometry in front of the membrane, and the part on the eye's side of objects that pierce it, hide
- * the membrane, what lies behind it is hidden by it.
+ * The camera is the filter's eye, so that the output follows it on Render(). Neither the membrane's
+ * nor the virtual actor is added to the renderer. Actors of the renderer are drawn without
+ * refraction: geometry in front of the membrane, including the eye's side of objects that intersect
+ * it, occludes the membrane, and the membrane occludes geometry behind it.
  *
- * Each pixel of a membrane is, after section 3 of the thesis "Refraction by geometric
- * transforms",
+ * The colour of each pixel of a membrane is, following section 3 of the thesis "Refraction by
+ * geometric transforms",
  *
  *     (1 - F) T + F R.
  *
- * T is the virtual geometry, lit by the renderer's lights and attenuated by exp(-k d) per channel
- * (Beer-Lambert), where d is the array RefractionDepth, the true path from sight point to object;
- * or the renderer's background where there is none. F is Fresnel's reflectance of unpolarised light
- * at the membrane's interpolated normal, exact or by Schlick. R is a cube map, seen in the
- * direction of the mirrored ray, or the background.
+ * T is the colour of the virtual geometry, lit by the renderer's lights and attenuated by exp(-k d)
+ * per channel (Beer-Lambert), where d is the array RefractionDepth, the true path from sight point
+ * to object; where there is no virtual geometry, it is the renderer's background. F is the Fresnel
+ * reflectance of unpolarised light at the membrane's interpolated normal, exact or by Schlick's
+ * approximation. R is the colour of a cube map in the direction of the reflected ray, or the
+ * background.
  *
- * Deviation from the thesis: T is drawn to a picture of its own, which the membrane then shows,
- * instead of to the stencil of the window. So windows without stencil and with multisampling show
- * the same, membranes do not interfere, and the state of the window is left alone.
+ * Deviation from the thesis: T is drawn to a separate image, which is then composited at the
+ * membrane's pixels, instead of using the stencil buffer of the window. The result is therefore the
+ * same for windows without stencil and with multisampling, membranes do not interfere with each
+ * other, and the state of the window is not changed.
  *
- * Volumes behind the membrane, drawn by a vtkTetrahedraRayCastMapper with the same membrane, come
- * to AddVolume(). Attenuation is that of their own colours.
+ * Volumes behind the membrane, drawn by a vtkTetrahedraRayCastMapper with the same membrane, are
+ * added by AddVolume(). Their attenuation is that of their own transfer functions.
  *
- * @note The membrane and the picture behind it have one sample per pixel.
- * @note A membrane seen through another one is hidden by it.
+ * @note The membrane and the image behind it have one sample per pixel.
+ * @note A membrane behind another one is not visible through it.
  *
  * @sa vtkRefractedGeometryFilter
  */
@@ -67,45 +69,45 @@ public:
   vtkTypeMacro(vtkRefractionPass, vtkOpenGLRenderPass);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** How much light a membrane reflects. */
+  /** Model of the light that a membrane reflects. */
   enum ReflectanceModels
   {
-    NONE = 0,    ///< nothing: the membrane is clear
+    NONE = 0,    ///< no reflection: the membrane is clear
     SCHLICK = 1, ///< Schlick's approximation, Eq. 2.7
-    FRESNEL = 2  ///< exact, of unpolarised light, Eq. 2.6
+    FRESNEL = 2  ///< exact reflectance of unpolarised light, Eq. 2.6
   };
 
   /** @{ */
   /**
-   * Set/Get the pass that draws the renderer's scene. Default is a vtkRenderStepsPass: lights,
-   * opaque, translucent and volumetric geometry, overlays.
+   * Set/Get the pass that draws the renderer's scene. Default is a vtkRenderStepsPass, which draws
+   * lights, opaque, translucent and volumetric geometry, and overlays.
    */
   void SetScenePass(vtkRenderPass* pass);
   vtkRenderPass* GetScenePass();
   /** @} */
 
   /**
-   * Adds an object behind a membrane. Objects with the same membrane actor hide each other.
-   * @param membrane  shows the surface that the filter refracts at; of its property and its
-   *                  visibility only the visibility counts.
-   * @param object    shows the filter's output; drawn with its property, textures and mapper.
-   * @param filter    where the indices of refraction are taken from. Null is an error, like a null
-   *                  actor.
+   * Adds an object behind a membrane. Objects with the same membrane actor occlude each other.
+   * @param membrane actor of the surface at which the filter refracts; its property is ignored, its
+   *   visibility is used.
+   * @param object actor of the filter's output; drawn with its property, textures and mapper.
+   * @param filter source of the indices of refraction. Null is an error, like a null actor.
    */
   void AddRefraction(vtkActor* membrane, vtkActor* object, vtkRefractedGeometryFilter* filter);
   /**
-   * Adds a volume that lies behind a membrane, in part or as a whole. What is behind is seen
-   * through the membrane together with its objects, what is in front or beside as it is.
-   * @param membrane  as above.
-   * @param volume    with a vtkTetrahedraRayCastMapper, which has the same surface as its membrane
-   *                  (SetMembraneConnection()) and the indices of refraction; else an error. Not to
-   *                  be added to the renderer.
+   * Adds a volume of which at least a part lies behind a membrane. The part behind it is drawn
+   * through the membrane together with the membrane's objects; the part in front of it, or next to
+   * it in the image, is drawn without refraction.
+   * @param membrane as in AddRefraction().
+   * @param volume its mapper must be a vtkTetrahedraRayCastMapper with the same surface as its
+   *   membrane (SetMembraneConnection()) and the same indices of refraction; otherwise it is an
+   *   error. Must not be added to the renderer.
    */
   void AddVolume(vtkActor* membrane, vtkVolume* volume);
   /** @{ */
   /**
-   * Removes an object or a volume that was added, or all of them; a membrane without is no longer
-   * drawn. How many objects and volumes there are.
+   * Remove an object or a volume that was added, or all of them; a membrane without any is no
+   * longer drawn. Get the number of objects and volumes.
    */
   void RemoveRefraction(vtkProp3D* object);
   void RemoveAllRefractions();
@@ -114,7 +116,8 @@ public:
 
   /** @{ */
   /**
-   * Set/Get how much light membranes reflect: NONE, SCHLICK or FRESNEL. Default is FRESNEL.
+   * Set/Get the model of the light that membranes reflect: NONE, SCHLICK or FRESNEL. Default is
+   * FRESNEL.
    */
   vtkSetClampMacro(ReflectanceModel, int, NONE, FRESNEL);
   vtkGetMacro(ReflectanceModel, int);
@@ -123,16 +126,17 @@ public:
   /** @{ */
   /**
    * Set/Get a cube map (vtkTexture::CubeMapOn(), world axes) that membranes reflect. Default is
-   * none: the renderer's environment texture if that is a cube map, else its background colour.
+   * none: the renderer's environment texture is used if it is a cube map, otherwise its background
+   * colour.
    *
-   * Inputs 0 to 5 of the texture are the faces +x, -x, +y, -y, +z, -z, laid out as OpenGL has them.
-   * Pixel (i, j) of a vtkImageData of n x n, (0, 0) its lower left one, with
-   * u = (2 i + 1) / n - 1 and v = (2 j + 1) / n - 1, is the sky in the direction
+   * Inputs 0 to 5 of the texture are the faces +x, -x, +y, -y, +z, -z, in OpenGL's layout. Pixel
+   * (i, j) of a vtkImageData of n x n, (0, 0) its lower left one, with u = (2 i + 1) / n - 1 and v
+   * = (2 j + 1) / n - 1, is the sky in the direction
    *
    *     +x: (1, -v, -u)   +y: (u,  1,  v)   +z: ( u, -v,  1)
    *     -x: (-1, -v, u)   -y: (u, -1, -v)   -z: (-u, -v, -1)
    *
-   * so that sides of a sky with y upwards stand on their heads: pictures from files go through
+   * so that the side faces of a sky with y upwards are upside down: flip images from files by
    * vtkImageFlip with SetFilteredAxis(1).
    */
   void SetReflectionTexture(vtkTexture* texture);
@@ -142,7 +146,7 @@ public:
   /** @{ */
   /**
    * Set/Get the attenuation coefficients of the medium behind the membranes for red, green and
-   * blue, per world length, >= 0. Default is (0, 0, 0), clear.
+   * blue, per world length, >= 0. Default is (0, 0, 0), a clear medium.
    */
   vtkSetVector3Macro(AttenuationCoefficients, double);
   vtkGetVector3Macro(AttenuationCoefficients, double);
@@ -150,8 +154,8 @@ public:
 
   /** @{ */
   /**
-   * Set/Get whether the camera's clipping range is widened, where it does not hold the membranes in
-   * view and the objects behind them, which the renderer does not know. It is never narrowed.
+   * Set/Get whether the camera's clipping range is widened if it does not contain the membranes in
+   * view and the objects behind them, which are unknown to the renderer. It is never narrowed.
    * Default is on.
    */
   vtkSetMacro(AdjustClippingRange, bool);
@@ -161,8 +165,8 @@ public:
 
   /** @{ */
   /**
-   * Counters since construction: membranes drawn, and membranes that were not because none of their
-   * bounds is in view, or because they are not visible.
+   * Counters since construction: number of membranes drawn, and number of membranes skipped because
+   * they are not visible or because their bounds are out of view.
    */
   vtkTypeInt64 GetNumberOfMembranesDrawn() const;
   vtkTypeInt64 GetNumberOfMembranesSkipped() const;
@@ -173,7 +177,8 @@ public:
 
   /** @{ */
   /**
-   * What the mappers of objects and membranes ask for while they are drawn.
+   * Shader code and uniforms for the mappers of objects and membranes, which call these while they
+   * are drawn.
    */
   bool PreReplaceShaderValues(std::string& vertexShader, std::string& geometryShader,
     std::string& fragmentShader, vtkAbstractMapper* mapper, vtkProp* prop) override;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTetrahedraRayCastMapper.h"
 
+#include "Filters/Interface/InterfaceProperties.h"
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
 #include "Rendering/Input/ComponentChoice.h"
 #include "Rendering/RayCastMapperInternals.h"
@@ -32,12 +33,14 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkTetrahedraRayCastMapper);
+meniscusInterfacePropertiesMacro(vtkTetrahedraRayCastMapper);
 
 //------------------------------------------------------------------------------
 vtkTetrahedraRayCastMapper::vtkTetrahedraRayCastMapper()
   : MaximumTableSize(VTK_TYPE_INT64_MAX)
   , Internals(new vtkInternals)
 {
+  this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();
   this->SetNumberOfInputPorts(2);
 }
 
@@ -109,7 +112,7 @@ double* vtkTetrahedraRayCastMapper::GetBounds()
   vtkPolyData* membrane = this->GetMembrane();
   if (membrane && membrane->GetNumberOfPoints() > 0)
   {
-    // The volume's matrix takes these to the world, where the membrane is.
+    // The volume's matrix transforms these to world coordinates, in which the membrane is given.
     vtkBoundingBox box(bounds);
     double corners[6];
     membrane->GetBounds(corners);
@@ -147,7 +150,7 @@ bool vtkTetrahedraRayCastMapper::CollectInput(meniscus::InputBlocks& parts)
   }
   meniscus::InputReport report =
     meniscus::CollectInputBlocks(this->GetDataObjectInput(), this->SelectedScalars(), parts);
-  // The same parts are left out again in every frame.
+  // The warning is not repeated in every frame if the same parts are left out.
   const bool told = report.Warning == this->Internals->LastInputWarning;
   this->Internals->LastInputWarning = report.Warning;
   report.Warning = told ? std::string() : report.Warning;
@@ -284,7 +287,7 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
     return false;
   }
   internals.Property.Reduce(volume->GetProperty(), this->GetBlendModel().Mode,
-    this->OpacityModel == OpacityPerUnitDistance, internals.Mixture,
+    this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
     mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
   const meniscus::FunctionFeatures& features = internals.Property.GetFeatures();
   return this->Tell(input.UpdateScalars(parts, component, features)) &&
@@ -298,9 +301,15 @@ bool vtkTetrahedraRayCastMapper::UpdateMembrane()
   {
     return true;
   }
+  if (const char* fault = meniscus::FindFault(this->Interfaces))
+  {
+    vtkErrorMacro(<< fault << "; nothing is rendered.");
+    return false;
+  }
   this->GetInputAlgorithm(1, 0)->Update();
-  return this->Tell(this->Internals->Membrane.Update(this->GetMembrane(),
-    this->ExteriorIndexOfRefraction, this->InteriorIndexOfRefraction, this->MembranePart != WHOLE));
+  return this->Tell(
+    this->Internals->Membrane.Update(this->GetMembrane(), this->GetExteriorIndexOfRefraction(),
+      this->GetInteriorIndexOfRefraction(), this->MembranePart != WHOLE));
 }
 
 //------------------------------------------------------------------------------
@@ -309,15 +318,21 @@ void vtkTetrahedraRayCastMapper::PrepareRefraction(
 {
   meniscus::RayCastRefraction& refracting = frame.Refracting;
   refracting.Part =
-    static_cast<meniscus::MembranePart>(this->MembranePart); // the numbers are the same
+    static_cast<meniscus::MembranePart>(this->MembranePart); // both enums have the same values
   refracting.Wanted = this->HasMembrane() &&
-    (this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction ||
+    (this->GetExteriorIndexOfRefraction() != this->GetInteriorIndexOfRefraction() ||
       this->MembranePart != WHOLE);
-  refracting.Exterior = this->ExteriorIndexOfRefraction;
-  refracting.Interior = this->InteriorIndexOfRefraction;
+  refracting.Exterior = this->GetExteriorIndexOfRefraction();
+  refracting.Interior = this->GetInteriorIndexOfRefraction();
   refracting.Center = place.CenterInWorld;
   const glm::dvec3 eye(glm::inverse(place.WorldToView) * glm::dvec4(0.0, 0.0, 0.0, 1.0));
   refracting.EyeDepth = (glm::inverse(frame.Rays.ViewToWorld) * (eye - refracting.Center)).z;
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType vtkTetrahedraRayCastMapper::GetMTime()
+{
+  return std::max(this->Superclass::GetMTime(), this->Interfaces->GetMTime());
 }
 
 //------------------------------------------------------------------------------
@@ -369,8 +384,9 @@ int vtkTetrahedraRayCastMapper::ChooseBackend()
 void vtkTetrahedraRayCastMapper::ChooseIntegration(
   vtkVolume* volume, meniscus::RayCastOptics& optics)
 {
-  const bool wanted = this->Integration == PreIntegrated && optics.Model().IsMedium();
-  // Where the scalar is constant in a cell, the table would hold what it is to replace.
+  const bool wanted = this->Integration == PRE_INTEGRATED && optics.Model().IsMedium();
+  // No warning for scalars of cells: they are constant in each cell, so the table would hold the
+  // exact values.
   this->WarnOnce(wanted && !optics.IsPlainMedium() && !optics.CellScalars,
     this->Internals->WarnedIntegration,
     "Pre-integration is not available with shading, gradient opacity and several components; "
@@ -408,7 +424,7 @@ double vtkTetrahedraRayCastMapper::ChooseImageSampleDistance(vtkVolume* volume)
   {
     return this->ImageSampleDistance;
   }
-  // Time goes with the number of rays, the inverse square of the distance.
+  // The time is proportional to the number of rays, the inverse square of the distance.
   const double allocated = volume->GetAllocatedRenderTime();
   const double full = this->Internals->FullImageTime;
   const double distance = allocated > 0.0 && full > allocated ? std::sqrt(full / allocated) : 1.0;
@@ -433,7 +449,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   this->UsedImageSampleDistance = sampleDistance;
   if (selector)
   {
-    // Other passes tell parts of a prop apart: this one has one part, of id 0.
+    // Other passes distinguish parts of a prop: this one has a single part with id 0.
     const bool propPass = selector->GetCurrentPass() == vtkHardwareSelector::ACTOR_PASS;
     const float* value = selector->GetPropColorValue();
     frame.Output.Selecting = true;
@@ -466,8 +482,8 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
     "Shading and gradient opacity are not available with independent components; rendering "
     "without.");
   meniscus::GatherClippingPlanes(this->ClippingPlanes, place, frame.Optics);
-  frame.Optics.VertexGradients =
-    frame.Optics.UsesGradients() && !frame.Optics.CellScalars && this->Gradients == VertexGradients;
+  frame.Optics.VertexGradients = frame.Optics.UsesGradients() && !frame.Optics.CellScalars &&
+    this->Gradients == VERTEX_GRADIENTS;
   this->ChooseIntegration(volume, frame.Optics);
   return meniscus::DescribeExcess(frame.Optics);
 }
@@ -563,7 +579,7 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   const double start = vtkTimerLog::GetUniversalTime();
   if (this->Draw(renderer, volume, parts))
   {
-    // Drawing is over when the device says so, not when the commands are sent.
+    // The frame ends when the device has finished, not when the commands have been sent.
     this->Internals->OpenGL.Finish();
     this->TimeToDraw = std::max(vtkTimerLog::GetUniversalTime() - start, 1.0e-9);
     this->Internals->FullImageTime =

@@ -11,80 +11,83 @@
  * such (whose leaves make one mesh, so that they may interlock; leaves without the array are left
  * out with a warning) with a point or cell array, chosen by the scalar mode and array selection of
  * vtkAbstractVolumeMapper. Of several components, SetVectorMode() or the colour function chooses
- * one or the length; or two to four mix as described below. Point data is linear within each
- * tetrahedron, cell data constant within each cell. Tetrahedra are drawn as they are; voxels,
- * hexahedra, wedges, pyramids, prisms, polyhedra and cells of second order as tetrahedra that have
- * the same points and fit across shared faces, whatever the cells (each cell is pulled to its point
- * of the smallest number). Other cells are left out with a warning. Any mesh is accepted:
- * non-convex, disconnected, cyclic, with inverted cells, cells of zero volume, duplicate points and
- * faces of more than two cells. Cells that vtkGhostType marks as duplicate or hidden are left out.
- * Cells with a point index out of range, a repeated point or a point that is not finite are left
- * out and counted. Cells with a scalar that is not finite, their own or that of a vertex, are
- * transparent and counted.
+ * one or the length; or two to four are mixed as described below. Point data is linear within each
+ * tetrahedron, cell data constant within each cell. Tetrahedra are drawn directly; voxels,
+ * hexahedra, wedges, pyramids, prisms, polyhedra and quadratic cells are split into tetrahedra that
+ * have the same points and match across shared faces, whatever the cell types (each cell is split
+ * by pulling its lowest-numbered point). Other cells are left out with a warning. Any mesh is
+ * accepted: non-convex, disconnected, cyclic, with inverted cells, cells of zero volume, duplicate
+ * points and faces of more than two cells. Cells that vtkGhostType marks as duplicate or hidden are
+ * left out. Cells with a point index out of range, a repeated point or a point that is not finite
+ * are left out and counted. Cells with a scalar that is not finite, their own or that of a vertex,
+ * are transparent and counted.
  *
- * Optical model, by SetBlendMode() with the numbers of vtkVolumeMapper::BlendModes:
- * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity becomes an
- *   attenuation coefficient as SetOpacityModel() says, per ScalarOpacityUnitDistance. Emitted
- *   colour is weighted by the attenuation. Shade and the property's material light the colour (by
- *   Phong's model, two-sided, by the renderer's lights); the gradient opacity function, of the
- *   gradient's length in scalar per world length, multiplies the attenuation; without points it is
- *   0, as in VTK. See SetGradients().
+ * Optical model, selected by SetBlendMode() with the values of vtkVolumeMapper::BlendModes:
+ * - COMPOSITE_BLEND: colour and opacity come from the vtkVolumeProperty. Opacity is converted to an
+ *   attenuation coefficient per ScalarOpacityUnitDistance, as selected by SetOpacityModel().
+ *   Emitted colour is weighted by the attenuation. If Shade is on, the colour is lit by the
+ *   renderer's lights with the property's material (Phong's model, two-sided). The gradient opacity
+ *   function, whose argument is the gradient's length in scalar per world length, multiplies the
+ *   attenuation; without points it is 0, as in VTK. See SetGradients().
  * - MAXIMUM_INTENSITY_BLEND, MINIMUM_INTENSITY_BLEND, AVERAGE_INTENSITY_BLEND: the largest or
- *   smallest scalar of the ray, or its mean over the length, shown by colour and opacity of the
- *   property; lengths do not count.
- * - ADDITIVE_BLEND: the integral of opacity / ScalarOpacityUnitDistance times the scalar's place in
- *   the data's range [0, 1], as an opaque grey level.
+ *   smallest scalar along the ray, or its mean over the length, mapped to colour and opacity by the
+ *   property; opacity does not depend on the length.
+ * - ADDITIVE_BLEND: the integral of opacity / ScalarOpacityUnitDistance times the scalar, mapped
+ *   from the data's range to [0, 1], as an opaque grey level.
  * - ISOSURFACE_BLEND: surfaces at the property's IsoSurfaceValues, with its colour and opacity at
- *   these values; lit if Shade is on. Of cell data, the faces shared by two cells whose values lie
- *   on either side of an isovalue.
+ *   these values; lit if Shade is on. For cell data, they are the faces shared by two cells whose
+ *   values lie on either side of an isovalue.
  *
- * Cell data has no gradient: of Shade and gradient opacity, only light on isosurfaces is left.
+ * Cell data has no gradient: Shade applies to isosurfaces only, and gradient opacity has no effect.
  *
  * Several components, with COMPOSITE_BLEND, by vtkVolumeProperty's IndependentComponents: if on,
  * and if a component beyond the first has a colour or opacity function (see SetVectorMode()), two
  * to four scalars, each with its own functions and weight, as media in the same place (attenuations
- * add up, emissions too; not lit). If off, two: colour by the first, opacity by the second; or
- * four: the first three are the colour (unsigned char, or 0 to 1), opacity by the fourth. Light
- * then goes by the gradient of the last. See Documentation/volume.md.
+ * and emissions are added; not lit). If off, there are two components, the first for colour and the
+ * second for opacity, or four: the first three are the colour (unsigned char, or 0 to 1), the
+ * fourth is for opacity. Lighting then uses the gradient of the last component. See
+ * Documentation/volume.md.
  *
- * Lengths are measured in world coordinates. Output is premultiplied RGBA, blended over what is in
- * the framebuffer; rays end at the opaque geometry there. Clipping planes cut cells exactly. A
- * transfer function that is not piecewise linear (HSV, Lab or diverging space, logarithmic scale,
- * midpoint, sharpness, OPACITY_PER_UNIT_DISTANCE) is sampled between its nodes until linear
- * interpolation is off by less than 1/32768 of the full range of colour and of alpha over the unit
- * distance.
+ * Lengths are measured in world coordinates. Output is premultiplied RGBA, blended over the
+ * contents of the framebuffer; rays end at opaque geometry in it. Clipping planes cut cells
+ * exactly. A transfer function that is not piecewise linear (HSV, Lab or diverging space,
+ * logarithmic scale, midpoint, sharpness, OPACITY_PER_UNIT_DISTANCE) is sampled between its nodes
+ * until the error of linear interpolation is less than 1/32768 of the full range of colour and of
+ * alpha over the unit distance.
  *
  * Method:
- * 1. Vertices and cells are ordered along a Morton curve; cells are linked across faces. Once per
- *    mesh. 32 bytes per cell, 16 per vertex, 80 per boundary face of GPU memory.
+ * 1. Once per mesh, vertices and cells are ordered along a Morton curve and cells are linked across
+ *    faces. The tables take 32 bytes of GPU memory per cell, 16 per vertex and 80 per boundary
+ *    face.
  * 2. The entries of a ray are found in a bounding volume hierarchy over the boundary faces.
  * 3. In the projection along the ray the exit of a cell follows from the signs of its edges, which
  *    are exact (vertices are rounded to a grid of 2^-22 of the mesh's radius about the ray). A ray
- *    through an edge or a vertex counts as displaced by (e, e^2) for an arbitrarily small e. A walk
- *    that begins on the boundary therefore ends on the boundary: no ray is lost, none runs for
- * ever.
+ *    through an edge or a vertex is treated as displaced by (e, e^2) for an arbitrarily small e. A
+ *    walk that begins on the boundary therefore ends on the boundary: no ray is lost, and none runs
+ *    for ever.
  * 4. Within a cell the scalar is linear along the ray. The segment is split at the transfer
  *    function's nodes; every piece has linear attenuation and colour and is integrated in closed
- *    form up to an error of 3e-7. With several components, at the nodes of all functions; every
- *    piece then by Gauss' rule of three points, up to 1e-6. Or by SetIntegration().
+ *    form up to an error of 3e-7. With several components, it is split at the nodes of all
+ *    functions, and every piece is integrated by Gauss' rule of three points up to 1e-6.
+ *    SetIntegration() selects a table instead.
  *
- * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first
- * counts up to its exit. Cells that cannot be seen, because the transfer function has no opacity
- * anywhere in their range of scalars, are not visited and hide nothing.
+ * Where cells overlap (inverted cells, overlapping parts), the cell that the ray entered first is
+ * used up to its exit. Cells that cannot be seen, because the transfer function has no opacity
+ * anywhere in their range of scalars, are not visited and occlude nothing.
  *
  * After: M. Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral
  * Meshes", IEEE Visualization 2003. Deviations: one pass with a loop instead of one pass per cell;
  * edge signs instead of plane equations (Eq. 1); closed-form integration (K. Moreland, E. Angel, "A
  * Fast High Accuracy Volume Renderer for Unstructured Data", 2004) instead of pre-integrated tables
- * (Eqs. 3, 4) unless PRE_INTEGRATED is asked for; boundary entries instead of imaginary cells.
+ * (Eqs. 3, 4) unless PRE_INTEGRATED is selected; boundary entries instead of imaginary cells.
  *
- * Needs OpenGL 3.2; the native backend casts rays on the CPU and needs it to show the image. Work
- * is done where its input changes: see the counters.
+ * Requires OpenGL 3.2; the native backend casts rays on the CPU and uses OpenGL only to show the
+ * image. Tables are built only when their input changes: see the counters.
  *
  * @note Limits of this version: up to 32 clipping planes and 16 lights; several components with
- * composite blending of point data only; fewer than 2^29 tetrahedra; on the graphics device, tables
- * within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()). All backends draw the
- * same.
+ *   composite blending of point data only; fewer than 2^29 tetrahedra; on the graphics device,
+ *   tables within GL_MAX_TEXTURE_BUFFER_SIZE (see SetMaximumTableSize()). All backends draw the
+ *   same image.
  *
  * @sa vtkProjectedTetrahedraMapper vtkUnstructuredGridVolumeRayCastMapper vtkVolumeProperty
  */
@@ -92,11 +95,13 @@
 #define vtkTetrahedraRayCastMapper_h
 
 #include "vtkMeniscusModule.h" // For export macro
+#include "vtkSmartPointer.h"   // for vtkSmartPointer
 #include "vtkUnstructuredGridVolumeMapper.h"
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
+class vtkRefractingInterfaceCollection;
 class vtkCompositeDataSet;
 class vtkDataSet;
 class vtkPolyData;
@@ -123,8 +128,8 @@ public:
   using vtkUnstructuredGridVolumeMapper::SetInputData;
   /** @{ */
   /**
-   * Sets what is drawn, without a pipeline: a data set with cells that have volume, or a composite
-   * one of such, all of whose leaves are drawn as one mesh.
+   * Set the input without a pipeline: a data set with three-dimensional cells, or a composite data
+   * set of such, all of whose leaves are drawn as one mesh.
    */
   void SetInputData(vtkDataSet* input) override;
   void SetInputData(vtkCompositeDataSet* input);
@@ -132,20 +137,22 @@ public:
 
   /** @{ */
   /**
-   * Sets a surface that rays bend at, port 1, from a pipeline or without: triangles, or what
-   * triangulates, in world coordinates. Its point normals are used if present, else computed; it is
-   * curved between its points, as in vtkRefractedGeometryFilter::CURVED. Null, the default: none.
+   * Set a surface at which rays are refracted (the membrane, port 1), by connection or as data:
+   * triangles, or polygons and strips, which are split into triangles, in world coordinates. Its
+   * point normals are used if present, otherwise they are computed; it is curved between its
+   * points, as in vtkRefractedGeometryFilter::CURVED. Default is null: no membrane.
    *
-   * A pixel's ray goes straight to where it first meets the membrane, so a part of the mesh in
-   * front of it is seen as ever; there it bends by Snell's law, once, and goes on through the mesh.
-   * Where it is totally reflected nothing behind the membrane is seen; beside the membrane rays are
-   * straight. What is in the framebuffer behind the membrane counts as virtual geometry, such as
-   * vtkRefractedGeometryFilter makes: at a distance l behind the sight point it hides what is
-   * n2 / n1 * l along the refracted ray and farther (the thesis's Eq. 2.4). A membrane that is
-   * drawn opaque itself hides all that is behind it.
+   * A pixel's ray is straight up to its first intersection with the membrane, so the part of the
+   * mesh in front of it is drawn as without a membrane. There it is refracted once by Snell's law
+   * and continues through the mesh. Where it is totally reflected, nothing behind the membrane is
+   * drawn; rays that miss the membrane are straight. Geometry in the framebuffer behind the
+   * membrane is taken as virtual geometry, such as the output of vtkRefractedGeometryFilter: at a
+   * distance l behind the sight point it occludes the refracted ray from the distance n2 / n1 * l
+   * on (the thesis's Eq. 2.4). A membrane that is itself drawn opaque occludes everything behind
+   * it.
    *
-   * Bounds of the mapper include those of the membrane, where the volume is seen. A membrane that
-   * cannot be used is an error, and nothing is rendered.
+   * The bounds of the mapper include those of the membrane, where the volume is seen. A membrane
+   * that cannot be used is an error, and nothing is rendered.
    *
    * @sa SetExteriorIndexOfRefraction
    */
@@ -157,24 +164,41 @@ public:
 
   /** @{ */
   /**
-   * Indices of refraction: exterior, on the side that the membrane's normals point to, default 1.0,
-   * and interior, on the other side, default 1.333. Positive and finite; others are an error when
-   * there is a membrane. A ray that meets the membrane from behind leaves the interior. If they are
-   * equal the membrane changes nothing and costs nothing.
+   * Set/Get the indices of refraction: exterior, on the side to which the membrane's normals point,
+   * default 1.0; and interior, on the other side, default 1.333. Must be positive and finite; other
+   * values are an error if there is a membrane. A ray that meets the membrane from behind passes
+   * from the interior to the exterior. If the indices are equal, the membrane changes nothing and
+   * costs nothing.
    */
-  vtkSetMacro(ExteriorIndexOfRefraction, double);
-  vtkGetMacro(ExteriorIndexOfRefraction, double);
-  vtkSetMacro(InteriorIndexOfRefraction, double);
-  vtkGetMacro(InteriorIndexOfRefraction, double);
+  virtual void SetExteriorIndexOfRefraction(double index);
+  virtual double GetExteriorIndexOfRefraction();
+  virtual void SetInteriorIndexOfRefraction(double index);
+  virtual double GetInteriorIndexOfRefraction();
   /** @} */
 
   /** @{ */
-  /** Bounds of the input, of all leaves of a composite one, and of the membrane. */
+  /**
+   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
+   * first interface has the indices of refraction; more than one are an
+   * error when it draws through a membrane. Null stands for a list of one with default values,
+   * which is the default.
+   */
+  void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
+  vtkRefractingInterfaceCollection* GetInterfaces();
+  /** @} */
+
+  /**
+   * Modification time, which includes that of the interfaces.
+   */
+  vtkMTimeType GetMTime() override;
+
+  /** @{ */
+  /** Bounds of the input (of all leaves of a composite data set) and of the membrane. */
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
   /** @} */
 
-  /** What is drawn of an array of several components. */
+  /** Part of an array of several components that is drawn. */
   enum VectorModes
   {
     DISABLED = -1,
@@ -184,17 +208,18 @@ public:
 
   /** @{ */
   /**
-   * Selects the part of an array of several components that is drawn, as in vtkSmartVolumeMapper:
-   * MAGNITUDE, the length of the vector (a single component with its sign); COMPONENT, the one of
-   * number VectorComponent (from 0, the default). Both take precedence over the volume's property.
+   * Set/Get the part of an array of several components that is drawn, as in vtkSmartVolumeMapper.
+   * MAGNITUDE is the length of the vector (a single component keeps its sign). COMPONENT is the
+   * component with the number VectorComponent (from 0, the default). Both take precedence over the
+   * volume's property.
    *
-   * DISABLED, the default, leaves it to the property. If its IndependentComponents are off, two or
-   * four components mix (see the class). If they are on, the first colour function decides, as in
-   * vtkProjectedTetrahedraMapper: MAGNITUDE of vtkScalarsToColors::SetVectorMode() draws the
-   * length, COMPONENT the component of SetVectorComponent(), with the functions of the first
-   * component. With COMPONENT 0, which every colour function has unless told otherwise, two to four
-   * components mix if the property has a colour or opacity function for one beyond the first; if it
-   * has none, the first component is drawn.
+   * DISABLED, the default, leaves the choice to the property. If its IndependentComponents is off,
+   * two or four components are mixed (see the class). If it is on, the first colour function
+   * decides, as in vtkProjectedTetrahedraMapper: with MAGNITUDE of
+   * vtkScalarsToColors::SetVectorMode() the length is drawn, with COMPONENT the component of
+   * SetVectorComponent(), using the functions of the first component. With COMPONENT 0, the default
+   * of every colour function, two to four components are mixed if the property has a colour or
+   * opacity function for one beyond the first; otherwise the first component is drawn.
    */
   vtkSetClampMacro(VectorMode, int, DISABLED, COMPONENT);
   vtkGetMacro(VectorMode, int);
@@ -202,26 +227,26 @@ public:
   vtkGetMacro(VectorComponent, int);
   /** @} */
 
-  /** What an opacity means over a length. */
+  /** Meaning of an opacity of the transfer function over a length. */
   enum OpacityModels
   {
-    AttenuationCoefficient = 0,
-    OpacityPerUnitDistance = 1
+    ATTENUATION_COEFFICIENT = 0,
+    OPACITY_PER_UNIT_DISTANCE = 1
   };
 
   /** @{ */
   /**
-   * What an opacity of the transfer function means over a length L, with the property's
-   * ScalarOpacityUnitDistance as unit. ATTENUATION_COEFFICIENT, the default, is what VTK's
-   * unstructured grid mappers do: alpha = 1 - exp(-L * opacity / unit). OPACITY_PER_UNIT_DISTANCE
-   * is what its image data mappers do: alpha = 1 - (1 - opacity)^(L / unit); there, opacities above
-   * 1 - 2^-24 count as that.
+   * Set/Get the meaning of an opacity of the transfer function over a length L, with the property's
+   * ScalarOpacityUnitDistance as unit. ATTENUATION_COEFFICIENT, the default, is the definition of
+   * VTK's unstructured grid mappers: alpha = 1 - exp(-L * opacity / unit).
+   * OPACITY_PER_UNIT_DISTANCE is the definition of its image data mappers: alpha = 1 - (1 -
+   * opacity)^(L / unit); opacities above 1 - 2^-24 are reduced to that value.
    */
-  vtkSetClampMacro(OpacityModel, int, AttenuationCoefficient, OpacityPerUnitDistance);
+  vtkSetClampMacro(OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
   vtkGetMacro(OpacityModel, int);
   /** @} */
 
-  /** What casts the rays. */
+  /** Implementation that casts the rays. */
   enum Backends
   {
     AUTOMATIC = 0,
@@ -232,11 +257,11 @@ public:
 
   /** @{ */
   /**
-   * What runs the ray caster: OPENGL, a fragment shader; COMPUTE, a compute shader of the same
-   * functions (OpenGL 4.3; on a window without, OPENGL after a warning); NATIVE, the CPU, in SIMD
-   * packets (AVX-512, AVX2 or what there is) on all threads of vtkSMPTools; AUTOMATIC, the default,
-   * OPENGL, or NATIVE where OpenGL is a software rasteriser. The choice depends on nothing else:
-   * every backend has every optical model.
+   * Set/Get the implementation of the ray caster: OPENGL, a fragment shader; COMPUTE, a compute
+   * shader with the same functions (OpenGL 4.3; on a window without it, OPENGL after a warning);
+   * NATIVE, the CPU, in SIMD packets of the best instruction set available on all threads of
+   * vtkSMPTools; AUTOMATIC, the default: OPENGL, or NATIVE where OpenGL is a software rasteriser.
+   * The choice depends on nothing else: every backend has every optical model.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, COMPUTE);
   vtkGetMacro(Backend, int);
@@ -245,33 +270,35 @@ public:
   /** The backend of the last Render(); AUTOMATIC if nothing has been rendered. */
   vtkGetMacro(ActiveBackend, int);
 
-  /** How segments of rays are integrated. */
+  /** Integration of ray segments. */
   enum Integrations
   {
     EXACT = 0,
-    PreIntegrated = 1
+    PRE_INTEGRATED = 1
   };
 
   /** @{ */
   /**
-   * How ray segments are integrated: EXACT, the default, in closed form; PRE_INTEGRATED, by a table
-   * as in the paper, over the scalars at both ends of a segment and its length (SetPreIntegration-
-   * ScalarSize(), SetPreIntegrationLengthSize()). The table is made when the transfer function, a
-   * size or the longest edge of the volume in the world changed. It is there for composite blending
-   * of one component without light and gradient opacity; else segments are integrated exactly,
-   * after a warning where PRE_INTEGRATED would have made a difference.
+   * Set/Get the integration of ray segments: EXACT, the default, in closed form; PRE_INTEGRATED, by
+   * a table as in the paper, over the scalars at both ends of a segment and its length
+   * (SetPreIntegrationScalarSize(), SetPreIntegrationLengthSize()). The table is built when the
+   * transfer function, a size or the longest edge of the volume in world coordinates has changed.
+   * It exists for composite blending of one component without lighting and gradient opacity;
+   * otherwise segments are integrated exactly, after a warning if PRE_INTEGRATED would have made a
+   * difference.
    */
-  vtkSetClampMacro(Integration, int, EXACT, PreIntegrated);
+  vtkSetClampMacro(Integration, int, EXACT, PRE_INTEGRATED);
   vtkGetMacro(Integration, int);
   /** @} */
 
   /** @{ */
   /**
-   * Samples of the pre-integration table: of the range of the data's scalars, in [2, 1024], default
-   * 256, and of the length of a segment, in [1, 128], default 16. One length neglects what a
-   * segment absorbs of itself in its colour, not in its opacity. Where that is as good, because all
-   * that can be seen has one colour or because no segment is deeper than 1/64, the table has one
-   * length whatever is set. It takes 16 bytes times the lengths times the square of the scalars.
+   * Set/Get the number of samples of the pre-integration table: of the range of the data's scalars,
+   * in [2, 1024], default 256, and of the length of a segment, in [1, 128], default 16. With one
+   * length, the absorption of a segment's own emission is neglected in its colour, but not in its
+   * opacity. The table has one length, whatever the setting, if that is as accurate: if all visible
+   * scalars have one colour, or if no segment is deeper than 1/64. It takes 16 bytes times the
+   * number of lengths times the square of the number of scalars.
    */
   vtkSetClampMacro(PreIntegrationScalarSize, int, 2, 1024);
   vtkGetMacro(PreIntegrationScalarSize, int);
@@ -279,28 +306,28 @@ public:
   vtkGetMacro(PreIntegrationLengthSize, int);
   /** @} */
 
-  /** Which gradients light and gradient opacity go by. */
+  /** Gradients that lighting and gradient opacity use. */
   enum GradientLocations
   {
-    CellGradients = 0,
-    VertexGradients = 1
+    CELL_GRADIENTS = 0,
+    VERTEX_GRADIENTS = 1
   };
 
   /** @{ */
   /**
-   * Which gradients shading and gradient opacity use: CELL_GRADIENTS, that of each cell (flat), or
-   * VERTEX_GRADIENTS, the default, means around each vertex, interpolated (smooth). They are
-   * computed when first needed and after a change of mesh or scalars. Lengths are measured in world
-   * coordinates.
+   * Set/Get the gradients that lighting and gradient opacity use: CELL_GRADIENTS, constant in each
+   * cell (flat), or VERTEX_GRADIENTS, the default, means around each vertex, interpolated (smooth).
+   * They are computed when first needed and after a change of mesh or scalars. Lengths are measured
+   * in world coordinates.
    */
-  vtkSetClampMacro(Gradients, int, CellGradients, VertexGradients);
+  vtkSetClampMacro(Gradients, int, CELL_GRADIENTS, VERTEX_GRADIENTS);
   vtkGetMacro(Gradients, int);
   /** @} */
 
   /** @{ */
   /**
-   * Whether the table of cells on the graphics device takes 20 bytes per tetrahedron in place
-   * of 32. The picture is the same. Default off.
+   * Set/Get whether the table of cells on the graphics device takes 20 bytes per tetrahedron
+   * instead of 32. The image is the same. Default is off.
    */
   vtkSetMacro(CompactTables, vtkTypeBool);
   vtkGetMacro(CompactTables, vtkTypeBool);
@@ -309,11 +336,11 @@ public:
 
   /** @{ */
   /**
-   * Texels that a table on the graphics device may have, beside the limit that the device names
-   * (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that promise more than they hold. A mesh with a table
-   * beyond, of 8 texels per tetrahedron or 5 if compact, is drawn by the native backend, after a
-   * warning with the numbers; so is an image through a membrane, which takes 2 texels per pixel.
-   * Default: no limit.
+   * Set/Get the largest number of texels of a table on the graphics device, besides the limit that
+   * the device reports (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that report more than they
+   * support. A mesh with a larger table, at 8 texels per tetrahedron or 5 if compact, is drawn by
+   * the native backend, after a warning with the numbers; so is an image through a membrane, which
+   * takes 2 texels per pixel. Default is no limit.
    */
   vtkSetClampMacro(MaximumTableSize, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumTableSize, vtkTypeInt64);
@@ -327,13 +354,13 @@ public:
 
   /** @{ */
   /**
-   * Bias of pictures that are composited afterwards by arithmetic that drops fractions, as IceT's
-   * does, in steps of 8 bits, 1/255. It is added to the colours and the opacity of pixels that are
-   * not transparent, before these are rounded. Of N pictures, each of N - 1 blends drops half a
-   * step on average, for which a bias of (N - 1) / (2 N) in every picture makes up. With a bias
-   * greater than 0 no colour exceeds the opacity in any pixel of the framebuffer, so that sums do
-   * not pass 255; brighter highlights of lit volumes are limited to that. In [0, 0.5], default 0:
-   * the picture is not changed.
+   * Set/Get the bias of images that are composited afterwards by arithmetic that truncates
+   * fractions, as that of IceT, in steps of 8 bits, 1/255. It is added to the colours and the
+   * opacity of pixels that are not transparent, before these are rounded. With N images, each of
+   * the N - 1 blends loses half a step on average, for which a bias of (N - 1) / (2 N) in every
+   * image compensates. With a bias greater than 0, no colour exceeds the opacity in any pixel of
+   * the framebuffer, so that sums do not exceed 255; brighter highlights of lit volumes are limited
+   * to that. In [0, 0.5]; default is 0: the image is not changed.
    */
   vtkSetClampMacro(ColorBias, double, 0.0, 0.5);
   vtkGetMacro(ColorBias, double);
@@ -341,8 +368,8 @@ public:
 
   /** @{ */
   /**
-   * Opacity at which a ray ends, in [0, 1]. A pixel is off by at most 1 minus this. Default
-   * 1 - 2^-17; 1 integrates every ray to its end.
+   * Set/Get the opacity at which a ray ends, in [0, 1]. The error of a pixel is at most 1 minus
+   * this. Default is 1 - 2^-17; with 1, every ray is integrated to its end.
    */
   vtkSetClampMacro(EarlyTerminationOpacity, double, 0.0, 1.0);
   vtkGetMacro(EarlyTerminationOpacity, double);
@@ -350,8 +377,8 @@ public:
 
   /** @{ */
   /**
-   * Pixels between neighbouring rays, along each axis, >= 1; pixels between are interpolated.
-   * Default 1. Only without AutoAdjustSampleDistances.
+   * Set/Get the number of pixels between neighbouring rays, along each axis, >= 1; the pixels
+   * between are interpolated. Used only if AutoAdjustSampleDistances is off. Default is 1.
    */
   vtkSetClampMacro(ImageSampleDistance, float, 1.0f, 100.0f);
   vtkGetMacro(ImageSampleDistance, float);
@@ -359,9 +386,10 @@ public:
 
   /** @{ */
   /**
-   * Whether the distance between rays follows from the time that the volume is allocated (the
-   * window's desired update rate) and that the last frame took: rays are apart during interaction,
-   * by up to MaximumImageSampleDistance (default 8), and one per pixel when still. Default on.
+   * Set/Get whether the distance between rays is computed from the time allocated to the volume
+   * (the window's desired update rate) and the time of the last frame: during interaction rays are
+   * up to MaximumImageSampleDistance pixels apart (default 8), in still images there is one per
+   * pixel. Default is on.
    */
   vtkSetMacro(AutoAdjustSampleDistances, vtkTypeBool);
   vtkGetMacro(AutoAdjustSampleDistances, vtkTypeBool);
@@ -370,21 +398,27 @@ public:
   vtkGetMacro(MaximumImageSampleDistance, float);
   /** @} */
 
-  /** Pixels between neighbouring rays in the last frame. */
+  /** Number of pixels between neighbouring rays in the last frame. */
   vtkGetMacro(UsedImageSampleDistance, double);
 
   /** @{ */
   /**
-   * Work done since construction: builds of the mesh tables and updates of the scalars (when the
-   * values changed, whichever object of the input was told of it by Modified(): where a
-   * modification time moved, values are compared by a digest), reductions of the volume property to
-   * control points, builds of the set of active cells (on a new mesh, new scalars, or when other
-   * scalars become visible), computations of vertex gradients, builds of the pre-integration table;
-   * of a membrane, times that its shape was taken in and fitted, and that it was found where the
-   * rays meet it (when shape, view or indices changed), and that the graphics device listed where
-   * they enter the mesh behind it (then, and for other active cells); times that the processor
-   * listed for shaders where rays enter a mesh of which they cross many layers, such as cells that
-   * share no points (for other rays or other active cells).
+   * Counters of work done since construction:
+   * - builds of the mesh tables;
+   * - updates of the scalars, when their values have changed: where a modification time of any
+   *   object of the input has moved, values are compared by a digest;
+   * - reductions of the volume property to control points;
+   * - builds of the set of active cells, for a new mesh, for new scalars, or when other scalars
+   *   become visible;
+   * - computations of vertex gradients;
+   * - builds of the pre-integration table;
+   * - builds of the membrane's patches, when its shape has changed;
+   * - intersections of the rays with the membrane, when its shape, the view or the indices have
+   *   changed;
+   * - lists, made on the graphics device, of the entries of refracted rays into the mesh (in the
+   *   same cases, and for other active cells);
+   * - lists, made on the CPU for shaders, of the entries of rays into a mesh of which they cross
+   *   many layers, such as cells that share no points (for other rays or other active cells).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();
@@ -395,25 +429,27 @@ public:
   vtkTypeInt64 GetNumberOfMembraneBuilds();
   vtkTypeInt64 GetNumberOfSightUpdates();
   vtkTypeInt64 GetNumberOfRefractedEntryLists();
+  /** Deprecated name of GetNumberOfRefractedEntryLists(). */
+  vtkTypeInt64 GetNumberOfBentEntryLists();
   vtkTypeInt64 GetNumberOfEntryListBuilds();
   /** @} */
 
   /**
-   * Bytes of tables that backends took in because an input changed, since construction: mesh,
-   * scalars, gradients, components, transfer function, pre-integration table. OPENGL and COMPUTE
-   * count them as they are sent to the graphics device. NATIVE reads the same tables in the
-   * computer's memory and counts each once when it first draws with it. A camera move adds nothing,
-   * but with a membrane in view the refracted rays: 32 bytes per pixel of the image on the graphics
-   * device, per pixel that the membrane covers (by tiles) natively. Images, and vertices as NATIVE
-   * places them for a view, do not count.
+   * Number of bytes of tables that backends have read because an input changed, since construction:
+   * mesh, scalars, gradients, components, transfer function, pre-integration table. OPENGL and
+   * COMPUTE count them when they are sent to the graphics device. NATIVE reads the same tables in
+   * main memory and counts each once when it first draws with it. A camera move adds nothing,
+   * except for the refracted rays if a membrane is in view: 32 bytes per pixel of the image on the
+   * graphics device, per pixel that the membrane covers (by tiles) natively. Images, and the
+   * vertices that NATIVE transforms for a view, are not counted.
    */
   vtkTypeInt64 GetUploadedBytes();
 
   /** @{ */
   /**
-   * Bytes of the tables that are kept now: in the computer's memory (mesh, scalars, gradients,
-   * those of the native backend; not the input itself) and on the graphics device. Images and what
-   * a frame or a build takes in passing do not count.
+   * Number of bytes of the tables that are currently kept: in main memory (mesh, scalars,
+   * gradients, those of the native backend; not the input itself) and on the graphics device.
+   * Images and temporary memory of a frame or a build are not counted.
    */
   vtkTypeInt64 GetHostBytes();
   vtkTypeInt64 GetDeviceBytes();
@@ -421,10 +457,10 @@ public:
 
   /** @{ */
   /**
-   * Of the current mesh: tetrahedra that rays can visit, which are those that the transfer function
-   * lets be seen and whose scalars are finite; tetrahedra with a scalar that is not finite; and
-   * tetrahedra left out because of a point index out of range, a repeated point or a point that is
-   * not finite, or because they have the points of one before them.
+   * Numbers of tetrahedra of the current mesh: those that rays can visit, which are visible with
+   * the transfer function and have finite scalars; those with a scalar that is not finite; and
+   * those left out because of a point index out of range, a repeated point or a point that is not
+   * finite, or because they have the points of an earlier tetrahedron.
    */
   vtkTypeInt64 GetNumberOfActiveCells();
   vtkTypeInt64 GetNumberOfTransparentCells();
@@ -433,10 +469,10 @@ public:
 
   /** @{ */
   /**
-   * Of the last frame, or part of one (RenderPart()): cells crossed, rays that entered the mesh,
-   * and rays whose walk did not end on the boundary (0, as long as the graphics driver computes
-   * what the shader says). Read back from the graphics device when first asked for after a frame; 0
-   * without one.
+   * Numbers of the last frame, or of a part of one (RenderPart()): cells crossed, rays that entered
+   * the mesh, and rays whose walk did not end on the boundary (0 unless the graphics driver
+   * deviates from the shader's arithmetic). They are read back from the graphics device when first
+   * requested after a frame; 0 before the first frame.
    */
   vtkTypeInt64 GetNumberOfTraversalSteps();
   vtkTypeInt64 GetNumberOfRays();
@@ -444,27 +480,28 @@ public:
   /** @} */
 
   /**
-   * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, the
-   * prop's id wherever the volume is visible. Input that cannot be drawn gives an error and leaves
-   * the picture as it is. While a mesh's tables are built, ProgressEvent is invoked;
-   * AbortExecuteOn(), called by an observer, or the window's abort status ends that. Then nothing
-   * is drawn, and the next call begins again.
+   * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, draws
+   * the prop's id wherever the volume is visible. Input that cannot be drawn causes an error and
+   * leaves the image unchanged. While the tables of a mesh are built, ProgressEvent is invoked;
+   * AbortExecuteOn(), called by an observer, or the window's abort status ends the build. In that
+   * case nothing is drawn, and the next call begins again.
    */
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
 
-  /** What RenderPart() draws. */
+  /** Part of the volume that RenderPart() draws. */
   enum MembraneParts
   {
-    WHOLE = 0,   ///< all that there is to see
-    InFront = 1, ///< what rays come to before the membrane or beside it
-    BEHIND = 2   ///< what rays come to behind the membrane; nothing without one
+    WHOLE = 0,    ///< the whole volume
+    IN_FRONT = 1, ///< the part of the rays in front of the membrane, and rays that miss it
+    BEHIND = 2    ///< the part of the rays behind the membrane; nothing without a membrane
   };
   /**
-   * Render(), but one part only, for those who draw the membrane between them: vtkRefractionPass.
+   * As Render(), but draws one part only: for callers that draw the membrane in between, such as
+   * vtkRefractionPass.
    */
   void RenderPart(vtkRenderer* renderer, vtkVolume* volume, int part);
 
-  /** Frees all graphics resources; the next Render() makes them again. */
+  /** Frees all graphics resources; the next Render() creates them again. */
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
 protected:
@@ -499,15 +536,13 @@ private:
 
   int VectorMode = DISABLED;
   int VectorComponent = 0;
-  int OpacityModel = AttenuationCoefficient;
+  int OpacityModel = ATTENUATION_COEFFICIENT;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
   int Integration = EXACT;
   int PreIntegrationScalarSize = 256;
   int PreIntegrationLengthSize = 16;
-  int Gradients = VertexGradients;
-  double ExteriorIndexOfRefraction = 1.0;
-  double InteriorIndexOfRefraction = 1.333;
+  int Gradients = VERTEX_GRADIENTS;
   int MembranePart = WHOLE;
   double EarlyTerminationOpacity = 1.0 - 1.0 / 131072.0;
   float ImageSampleDistance = 1.0f;
@@ -515,8 +550,9 @@ private:
   vtkTypeBool AutoAdjustSampleDistances = 1;
   vtkTypeBool CompactTables = 0;
   double ColorBias = 0.0;
-  vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator stumbles over its default here
+  vtkTypeInt64 MaximumTableSize; // VTK's wrapper generator cannot parse its default here
   double UsedImageSampleDistance = 1.0;
+  vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What vtkTetrahedraRayCastMapper tells of itself.
+// Counters and statistics of vtkTetrahedraRayCastMapper.
 #include "Rendering/RayCastMapperInternals.h"
 
 #include "vtkTetrahedraRayCastMapper.h"
@@ -53,6 +53,12 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfSightUpdates()
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRefractedEntryLists()
 {
   return this->Internals->OpenGL.GetNumberOfRefractedEntryLists();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfBentEntryLists()
+{
+  return this->GetNumberOfRefractedEntryLists();
 }
 
 //------------------------------------------------------------------------------
@@ -139,8 +145,8 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PreIntegrationScalarSize: " << this->PreIntegrationScalarSize << "\n";
   os << indent << "PreIntegrationLengthSize: " << this->PreIntegrationLengthSize << "\n";
   os << indent << "Gradients: " << this->Gradients << "\n";
-  os << indent << "ExteriorIndexOfRefraction: " << this->ExteriorIndexOfRefraction << "\n";
-  os << indent << "InteriorIndexOfRefraction: " << this->InteriorIndexOfRefraction << "\n";
+  os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
+  os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
   os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
   os << indent << "MaximumImageSampleDistance: " << this->MaximumImageSampleDistance << "\n";
   os << indent << "AutoAdjustSampleDistances: " << this->AutoAdjustSampleDistances << "\n";

@@ -1,4 +1,4 @@
-# What a build says where a package is missing that it needs: configured anew, as if it were not there.
+# Messages of a build if a required package is missing: configures again as if it were missing.
 
 # meniscus_add_configure_test(NAME MESSAGE CMAKE_ARGUMENT...)
 function (meniscus_add_configure_test name message)

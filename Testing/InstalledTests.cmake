@@ -30,8 +30,9 @@ set_tests_properties(Installed.Consumer PROPERTIES
   FIXTURES_REQUIRED installed
   TIMEOUT           600)
 
-# As a part of VTK's own build: what scripts/remote builds is configured, and vtk.module names what the
-# classes use, which an installed VTK, with all headers in one folder, does not demand.
+# As a part of VTK's own build: configures the project of scripts/remote, and checks that vtk.module
+# names all modules that the classes use. An installed VTK, with all headers in one folder, does not
+# check that.
 add_test(NAME Remote.Configure
   COMMAND "${PROJECT_SOURCE_DIR}/scripts/remote" --configure)
 set_tests_properties(Remote.Configure PROPERTIES LABELS consumer TIMEOUT 120)

@@ -6,17 +6,19 @@ cd "$ROOT"
 JOBS="${MENISCUS_JOBS:-$(nproc)}"
 export DEBIAN_FRONTEND=noninteractive
 
-# What a fresh Debian 12 lacks, per purpose.
+# Packages that a fresh Debian 12 lacks, per purpose.
 PACKAGES_BUILD=(g++ cmake ninja-build libvtk9-dev python3 python3-vtk9 libpython3-dev libglm-dev
   libopenmesh-dev libgtest-dev libbenchmark-dev)
-# What only a part of the benchmarks needs: the build goes on without it.
+# Needed by a part of the benchmarks only; the build works without it.
 PACKAGES_BENCHMARKS=(libembree-dev)
 PACKAGES_DISPLAY=(xvfb xauth libgl1-mesa-dri)
 PACKAGES_LINT=(clang-format-14 codespell git)
 PACKAGES_DOCS=(doxygen python3)
 PACKAGES_TIDY=(clang-tidy-14)
-# paraview-dev does not declare what its CMake files look for; python3-paraview conflicts with
-# python3-vtk9 and is unpacked by scripts/paraview-prefix instead.
+# Pictures to compare with; its include files are not needed.
+PACKAGES_POVRAY=(povray)
+# paraview-dev does not declare all packages that its CMake files look for; python3-paraview
+# conflicts with python3-vtk9 and is unpacked by scripts/paraview-prefix instead.
 PACKAGES_PARAVIEW=(paraview paraview-dev libutfcpp-dev libpng-dev libx11-dev libopenmpi-dev
   openmpi-bin libgl-dev libopengl-dev libglew-dev libfreetype-dev libjpeg-dev liblz4-dev liblzma-dev
   libtiff-dev libdouble-conversion-dev libexpat1-dev libxml2-dev zlib1g-dev libpython3-dev)
@@ -63,7 +65,7 @@ update_package_lists()
   fi
 }
 
-# install_packages NAME...: installs what is missing and does nothing when all is there.
+# install_packages NAME...: installs missing packages; does nothing if there are none.
 install_packages()
 {
   local missing
@@ -72,7 +74,7 @@ install_packages()
     return 0
   fi
   command -v apt-get > /dev/null ||
-    die "apt-get not found; install what corresponds to: ${missing[*]}"
+    die "apt-get not found; install the equivalents of: ${missing[*]}"
   say "Installing ${missing[*]}"
   update_package_lists
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"

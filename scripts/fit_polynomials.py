@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """usage: scripts/fit_polynomials.py [--check]
 
-Fits the polynomials of Module/Volume/Optics/MediumConstants.h, and measures the errors of those that
-stand there. --check does without the slow fits. Fails if an error is larger than the header says, or
-if a fit that gives the header's numbers gives others.
+Fits the polynomials of Module/Volume/Optics/MediumConstants.h, and measures the errors of those
+that stand there. --check leaves out the slow fits. Fails if an error is larger than the header
+says, or if the fits of the absorption give other numbers than the header.
 
 Absorbed, (1 - exp(-t)) / t:
   Thick  the polynomial through the function's values at the seven Chebyshev points of [0, 1];
@@ -13,10 +13,10 @@ Absorbed, (1 - exp(-t)) / t:
 Both give the numbers of the header as single-precision numbers.
 
 Mean, the integral over x in [0, 1] of 1 - exp(-(a x + (t - a) x^2)), for t up to 1/8 or 1 and a in
-[0, 2 t]: the polynomial of total degree 3 or 5 without a constant term, whose largest error is least,
-by Lawson's algorithm. Thick has the exact terms of first order, t / 3 and a / 6. The numbers of the
-header were fitted to the same end by a program that has not been kept. Their largest errors are the
-same to 6 %, but near the optimum many polynomials are as good, so the digits differ.
+[0, 2 t]: the polynomial of total degree 3 or 5 without a constant term whose largest error is
+least, by Lawson's algorithm. Thick has the exact terms of first order, t / 3 and a / 6. The numbers
+of the header were fitted to the same end by a program that has not been kept. Their largest errors
+are the same to 6 %, but near the optimum many polynomials are as good, so the digits differ.
 """
 import math
 import os
@@ -69,7 +69,7 @@ def solve(matrix, right):
     return result
 
 
-# (1 - exp(-t)) / t ---------------------------------------------------------------------------------
+# (1 - exp(-t)) / t -------------------------------------------------------------------------------
 
 
 def absorbed_per_depth(t):
@@ -120,7 +120,7 @@ def absorbed_error(table, end):
     return largest
 
 
-# The mean ------------------------------------------------------------------------------------------
+# The mean ----------------------------------------------------------------------------------------
 
 
 def gauss_rule(size):
@@ -215,7 +215,7 @@ def fit_mean(degree, end, known, turns):
     ]
 
 
-# Report --------------------------------------------------------------------------------------------
+# Report ------------------------------------------------------------------------------------------
 
 
 def main(only_check):

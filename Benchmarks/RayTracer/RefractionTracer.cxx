@@ -21,8 +21,8 @@ namespace
 constexpr int Width = TracedPacket::Width;
 constexpr float Far = std::numeric_limits<float>::infinity();
 
-// Rays behind the membrane start this part of their distance from the eye away from it, so that an
-// object that touches the membrane is met on its far side only.
+// Refracted rays start at this fraction of their distance from the eye behind the membrane, so that
+// an object that touches the membrane is met on its far side only.
 constexpr float StartPart = 1e-6f;
 
 void traceCoherent(RTCScene scene, const int* valid, RTCRayHit8& rays)
@@ -97,7 +97,7 @@ void RefractionTracer::setIndices(double exterior, double interior)
 }
 
 //------------------------------------------------------------------------------
-// The arrays are shared with Embree, so `mesh` must be one that lives on.
+// The arrays are shared with Embree, so `mesh` must stay alive.
 RTCGeometry RefractionTracer::commit(RTCDevice device, RTCScene scene, RTCGeometry old,
   const TracedMesh& mesh, RTCBuildQuality quality)
 {
@@ -213,7 +213,7 @@ void RefractionTracer::findSights(const TracedView& view, TracedPacket& packet) 
 }
 
 //------------------------------------------------------------------------------
-// Eq. 2.2 for all lanes; those without a ray are switched off.
+// Eq. 2.2 for all lanes; lanes without a ray are disabled.
 void RefractionTracer::refract(TracedPacket& packet, RTCRayHit8& rays, int* valid) const
 {
   for (int k = 0; k < Width; ++k)

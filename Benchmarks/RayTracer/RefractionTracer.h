@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * A ray tracer of one refraction with Embree: what virtual geometry is compared with. The membrane
- * is triangles with normals that are interpolated linearly, the object is triangles.
+ * A ray tracer with one refraction, based on Embree, for comparison with virtual geometry. The
+ * membrane consists of triangles with linearly interpolated normals, the object of triangles.
  *
- * Rays go in packets of eight. A packet that has been traced is handed to a shader, which makes its
- * colours; what it needs for Fresnel's equations, attenuation along the true path, textures or a
- * reflected environment is in the packet. A shader may send further rays with Intersect().
+ * Rays are traced in packets of eight. A traced packet is passed to a shader, which computes its
+ * colours; the packet contains the data for Fresnel's equations, attenuation along the true path,
+ * textures or a reflected environment. A shader may trace further rays with intersect().
  */
 #ifndef meniscus_RefractionTracer_h
 #define meniscus_RefractionTracer_h
@@ -24,11 +24,11 @@ namespace meniscus
 namespace benchmark
 {
 
-/** Triangles as Embree takes them, with one float of padding behind the last point. */
+/** Triangles in Embree's layout, with one float of padding behind the last point. */
 struct TracedMesh
 {
   std::vector<float> Points;
-  std::vector<float> Normals; ///< of points; for membranes only
+  std::vector<float> Normals; ///< per point; for membranes only
   std::vector<std::uint32_t> Triangles;
 
   void addPoint(const double* point);
@@ -44,12 +44,12 @@ struct TracedPacket
 
   int X = 0;
   int Y = 0;
-  int Count = 0; ///< pixels inside the picture
+  int Count = 0; ///< number of pixels inside the image
 
   /**
-   * Unit direction from the eye, and where it meets the membrane: facet, place, unit normal
-   * towards the eye, cosine of the angle of incidence, distance from the eye. No facet where the
-   * membrane is missed or faces away.
+   * Unit direction from the eye, and its intersection with the membrane: facet, place, unit normal
+   * towards the eye, cosine of the angle of incidence, distance from the eye. There is no facet
+   * where the ray misses the membrane or meets its back.
    */
   float Sight[3][Width];
   std::uint32_t Facet[Width];
@@ -59,9 +59,9 @@ struct TracedPacket
   float Distance[Width];
 
   /**
-   * Unit direction behind the membrane, and what it meets: triangle, barycentric coordinates of
-   * its second and third corner, length of the path. No triangle under total reflection, and where
-   * nothing is met.
+   * Unit direction behind the membrane, and its intersection: triangle, barycentric coordinates of
+   * its second and third corner, length of the path. There is no triangle under total reflection,
+   * and where the ray meets nothing.
    */
   float Refracted[3][Width];
   std::uint32_t Triangle[Width];
@@ -70,7 +70,7 @@ struct TracedPacket
   float Depth[Width];
 };
 
-/** Makes colours of traced pixels. Called from several threads at once. */
+/** Computes colours of traced pixels. Called from several threads at once. */
 class TracedShader
 {
 public:
@@ -79,7 +79,7 @@ public:
   virtual void shade(const TracedPacket& packet, unsigned char* rgba) const = 0;
 };
 
-/** One colour for each triangle of the object, another where there is nothing. */
+/** One colour for each triangle of the object, and a background colour. */
 class TriangleColors : public TracedShader
 {
 public:
@@ -88,7 +88,9 @@ public:
   void shade(const TracedPacket& packet, unsigned char* rgba) const override;
 };
 
-/** Ray (x, y) of a picture has the direction Forward + x' Right + y' Up, x' and y' from -1 to 1. */
+/**
+ * Ray (x, y) of an image has the direction Forward + x' Right + y' Up, with x' and y' from -1 to 1.
+ */
 struct TracedView
 {
   glm::dvec3 Eye{ 0.0 };
@@ -108,17 +110,17 @@ public:
 
   void setIndices(double exterior, double interior);
   void setMembrane(const TracedMesh& mesh);
-  /** Another shape of the same facets: refits instead of building again. */
+  /** Sets another shape of the same facets: refits instead of building again. */
   void moveMembrane(const TracedMesh& mesh);
   void setObject(const TracedMesh& mesh);
 
-  /** Traces all pixels with vtkSMPTools. `rgba` is Pixels x Pixels x 4 bytes, rows upwards. */
+  /** Traces all pixels with vtkSMPTools. `rgba` has Pixels x Pixels x 4 bytes, in rows upwards. */
   void trace(const TracedView& view, const TracedShader& shader, unsigned char* rgba) const;
 
-  /** One packet, for who needs more than colours. */
+  /** Traces one packet, for callers that need more than colours. */
   void tracePacket(const TracedView& view, TracedPacket& packet) const;
 
-  /** Rays of a shader's own, against the object. */
+  /** Traces a shader's own rays against the object. */
   void intersect(const int* valid, RTCRayHit8& rays) const;
 
 private:

@@ -33,7 +33,7 @@ using reference::OracleImage;
 using reference::SmoothSurface;
 using reference::ThesisRow;
 
-// The acceptance counts rows whose mean is this close to the printed one.
+// The acceptance counts rows whose mean is within this distance of the printed one.
 constexpr double AcceptedPercent = 3.0;
 
 const double Pi = std::acos(-1.0);
@@ -73,7 +73,8 @@ std::string describe(const ThesisRow& row)
   return text.str();
 }
 
-// Where the virtual vertex of a sight point is right: the point behind it on the exact surface.
+// Error of the virtual vertex of a sight point: its distance from the point behind it on the exact
+// surface.
 double errorOf(const HeightField& field, const glm::dvec3& eye, const glm::dvec3& point,
   const VirtualVertex& vertex)
 {

@@ -24,20 +24,20 @@ struct WaveError
 };
 WaveError measureWaveError(int cells);
 
-/** Images of points on two waves, a dome and a low eye against the interval oracle. */
+/** Images of points on two waves, a dome and for a low eye, compared with the interval oracle. */
 struct ImageCount
 {
   int Points = 0;
-  int Images = 0; ///< certain
+  int Images = 0; ///< certain images
   int Missed = 0;
   int False = 0;
-  int Uncertain = 0; ///< points
+  int Uncertain = 0; ///< uncertain points
 };
 ImageCount countImages();
 
 /**
- * Largest error of a sight point on the hemisphere of 184 facets, eye at 450, in pixels of a
- * picture of 512 pixels that the hemisphere's opening just fills.
+ * Largest error of a sight point on the hemisphere of 184 facets, with the eye at 450, in pixels of
+ * an image of 512 pixels that the opening of the hemisphere fills exactly.
  */
 double measureHemispherePixels();
 

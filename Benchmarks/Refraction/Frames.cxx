@@ -31,14 +31,14 @@ struct ThesisFrames
   const char* Drawing;     ///< Table 4.8
 };
 
-// Planar refractors.
+// Figures for planar refractors.
 const ThesisFrames Printed[] = { { 120, 105, "492-530", "520-560", "705-709" },
   { 120, 528, "200-226", "273-290", "584-586" }, { 120, 2628, "46-55", "76-77", "233-234" },
   { 484, 105, "430-485", "485-525", "681-685" }, { 484, 528, "172-200", "245-258", "568-571" },
   { 484, 2628, "41-54", "67-68", "232-233" }, { 1820, 105, "338-390", "443-484", "653-656" },
   { 1820, 528, "136-150", "221-236", "549-551" }, { 1820, 2628, "31-37", "61-62", "229-230" } };
 
-// Squares and wells that come closest.
+// Squares and wells with the nearest numbers of facets.
 int cellsFor(int facets)
 {
   return facets == 120 ? 8 : (facets == 484 ? 16 : 30);
@@ -109,7 +109,7 @@ void printShares(std::ostream& out)
       out << " | " << 100.0 * eye / all << ", " << 100.0 * solve / all;
     };
     FlatMembraneSolver flat;
-    share(flat, vtkRefractedGeometryFilter::FlatFacets);
+    share(flat, vtkRefractedGeometryFilter::FLAT_FACETS);
     CurvedMembraneSolver curved;
     share(curved, vtkRefractedGeometryFilter::CURVED);
     out << " |\n";
@@ -147,7 +147,7 @@ void printThesisFrames(std::ostream& out)
     {
       out << "| " << row.Facets << " | " << row.Vertices << " | " << row.*table.Column;
       for (const int model :
-        { vtkRefractedGeometryFilter::FlatFacets, vtkRefractedGeometryFilter::CURVED })
+        { vtkRefractedGeometryFilter::FLAT_FACETS, vtkRefractedGeometryFilter::CURVED })
       {
         WellScene scene(cellsFor(row.Facets), quadsFor(row.Vertices));
         scene.filter()->SetMembraneModel(model);

@@ -12,12 +12,12 @@ namespace meniscus
 namespace benchmark
 {
 
-/** Thesis Tables 4.6 to 4.9 beside the filter's frames, drawn at 512 x 512. */
+/** Thesis Tables 4.6 to 4.9 next to the filter's frames, drawn at 512 x 512. */
 void printThesisFrames(std::ostream& out);
 
 /**
- * Frames of the filter alone per second, and processor milliseconds of one: the well of 1,445
- * vertices below 512 facets of waves that move.
+ * Frames per second of the filter alone, and processor milliseconds of one: the well of 1,445
+ * vertices below 512 facets of moving waves.
  */
 struct WellFrames
 {
@@ -28,12 +28,12 @@ struct WellFrames
 std::vector<WellFrames> measureWell();
 
 /**
- * Filter and drawing against tracing the same scene with Embree, both at an image error of half a
- * pixel.
+ * Filter and drawing compared with tracing the same scene by Embree, both at an image error of half
+ * a pixel.
  */
 struct Race
 {
-  std::string Change; ///< what moves
+  std::string Change; ///< the part that moves
   double OursMs = 0.0;
   double TracedMs = 0.0;
   double OursCpuMs = 0.0;
@@ -41,8 +41,8 @@ struct Race
 };
 struct RaceReport
 {
-  std::string Ours;   ///< set-up in words
-  std::string Traced; ///< the same
+  std::string Ours;   ///< set-up as text
+  std::string Traced; ///< set-up as text
   std::vector<Race> Races;
 };
 /** Empty without Embree. */

@@ -13,7 +13,9 @@ namespace meniscus
 namespace benchmark
 {
 
-/** What a membrane of so many facets costs; processor seconds of one thread but where said. */
+/**
+ * Cost for a membrane with a given number of facets; processor seconds of one thread unless stated.
+ */
 struct GrowthFigures
 {
   std::size_t Facets = 0;
@@ -21,22 +23,26 @@ struct GrowthFigures
   double FlatEye = 0.0;
   double FlatCoherent = 0.0;   ///< microseconds per vertex, grid order
   double FlatScattered = 0.0;  ///< the same, random order
-  double FlatBruteForce = 0.0; ///< the same, every facet tested
+  double FlatBruteForce = 0.0; ///< the same, testing every facet
   double CurvedShape = 0.0;    ///< a new topology
   double CurvedDeform = 0.0;   ///< the same topology, other points
   double CurvedEye = 0.0;
   double CurvedOne = 0.0; ///< microseconds per vertex, one image, grid order
-  double CurvedAll = 0.0; ///< the same, all images of an object's points, as the filter finds them
+  double CurvedAll = 0.0; ///< the same, all images of an object's points, as the filter computes
+                          ///< them
   double CurvedSearch =
     0.0;                  ///< all images of each point by itself: searched for, whatever is known
-  double FlatError = 0.0; ///< mean distance between true points and those that are drawn
+  double FlatError = 0.0; ///< mean distance between true points and the points that are drawn
   double CurvedError = 0.0;
 };
 
 /** Waves of `cells` x `cells` x 2 facets. */
 GrowthFigures measureGrowth(int cells);
 
-/** Wall and processor seconds of CURVED for a new eye and for a deformed membrane, in threads. */
+/**
+ * Wall and processor seconds of CURVED for a new eye and for a deformed membrane, by number of
+ * threads.
+ */
 struct ThreadedFigures
 {
   std::size_t Facets = 0;
@@ -49,7 +55,7 @@ ThreadedFigures measureThreaded(int cells);
 
 /**
  * Prints cost by facets and by vertices, and time against error; returns members of a JSON object.
- * Writes CSV and plot if asked for; an empty string if one of them cannot be written.
+ * Writes CSV and plot if requested; returns an empty string if one of them cannot be written.
  */
 std::string runGrowth(const RefractionOptions& options);
 

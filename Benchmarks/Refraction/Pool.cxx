@@ -67,7 +67,7 @@ std::vector<glm::dvec3> toColors(const Bytes& bytes, std::size_t stride)
 
 #ifdef MENISCUS_HAS_EMBREE
 
-/** Shades what Embree has traced as the scene does. */
+/** Shades Embree's hits as the scene does. */
 class PoolShader : public TracedShader
 {
 public:
@@ -217,7 +217,7 @@ PoolPictures comparePool()
   test::ByteImage drawn;
   for (int i = 0; i < 10; ++i)
   {
-    scene.moveWater(i % 2 ? 0.0 : 1e-9); // the last is what has been traced
+    scene.moveWater(i % 2 ? 0.0 : 1e-9); // the last one is that which has been traced
     times.push_back(timeOnce([&] { drawn = scene.draw(); }));
   }
   result.PassMs = 1e3 * medianOf(times).Wall;

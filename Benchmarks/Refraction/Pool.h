@@ -12,8 +12,8 @@ namespace benchmark
 {
 
 /**
- * A frame of vtkRefractionPass at 512 x 512 with Fresnel, a sky and attenuation, everything
- * recomputed: waves of 512 facets that move over textured walls of 1,445 vertices.
+ * A frame of vtkRefractionPass at 512 x 512 with Fresnel, a sky and attenuation, completely
+ * recomputed: 512 facets of moving waves above textured walls of 1,445 vertices.
  */
 struct PassFrames
 {
@@ -24,8 +24,8 @@ struct PassFrames
 std::vector<PassFrames> measurePass();
 
 /**
- * Pixels of the water that differ by more than 8/255 from rays through the exact waves, in
- * percent, and the time of a picture: the pass, and an Embree tracer with the same textures,
+ * Percentage of the water's pixels that differ by more than 8/255 from rays through the exact
+ * waves, and the time of an image: by the pass, and by an Embree tracer with the same textures,
  * Fresnel, sky and attenuation.
  */
 struct PoolPictures

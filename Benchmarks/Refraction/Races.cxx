@@ -38,8 +38,8 @@ constexpr int Frames = 40;
 constexpr int LargestTried = 64;
 constexpr int Sizes[] = { 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256 };
 
-// The well as it is, for the tracer. The filter may get it finer: what it draws is straight between
-// points.
+// The well's own resolution, for the tracer. The filter may get a finer well, since its output is
+// straight between points.
 constexpr int Quads = 16;
 constexpr int FinerQuads[] = { 16, 32, 48 };
 
@@ -105,7 +105,7 @@ TracedView viewOf(const testing::PixelCamera& camera)
     camera.GetPixels() };
 }
 
-// What the tracer shows where.
+// Places that the tracer's image shows.
 testing::PlacePicture placesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera)
 {
   const TracedView view = viewOf(camera);
@@ -180,7 +180,8 @@ public:
     race(
       "nothing but colours", [&](int i) { scene.changeColors(i); },
       [&](int i) { this->Colors.Colors[static_cast<std::size_t>(i)] ^= 0xffu; });
-    // The arrays of both are made outside of the times: water comes from a simulation.
+    // The arrays of both are prepared outside of the measured time: in practice, water comes from a
+    // simulation.
     std::vector<TracedMesh> meshes;
     for (int i = 0; i < Frames; ++i)
     {
@@ -216,8 +217,8 @@ private:
     this->Colors = colorsOf(scene.well());
   }
 
-  // Of wells and tolerances, each with the coarsest membrane whose picture is right to half a
-  // pixel, the fastest.
+  // Finds the fastest of several wells and tolerances, each with the coarsest membrane whose image
+  // is right to half a pixel.
   void findOurs()
   {
     for (const int quads : FinerQuads)
@@ -257,7 +258,7 @@ private:
       }
       if (cells >= LargestTried)
       {
-        return; // what is left does not come from the membrane
+        return; // the remaining error does not come from the membrane
       }
     }
   }
@@ -279,7 +280,7 @@ private:
     return Sizes[std::size(Sizes) - 1];
   }
 
-  // Frame by frame in turns, so that both meet the same load.
+  // Frames alternate between both, so that both meet the same load.
   Race race(const char* name, WellScene& scene, RefractionTracer& tracer,
     const std::function<void(int)>& move, const std::function<void(int)>& moveTraced)
   {

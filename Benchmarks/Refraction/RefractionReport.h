@@ -12,7 +12,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/** Measures each row of the table of goals and prints it beside its goal. */
+/** Measures each row of the table of goals and prints it next to its goal. */
 void printRefractionReport(std::ostream& out, const RefractionOptions& options);
 
 } // namespace benchmark

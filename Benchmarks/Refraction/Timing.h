@@ -13,7 +13,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/** Processor time of all threads: others may run beside the program. */
+/** Processor time of all threads of this program, which does not include other programs. */
 inline double cpuSeconds()
 {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -46,7 +46,7 @@ inline double medianOf(std::vector<double> values)
   return *middle;
 }
 
-/** Of wall and processor times, each by itself. */
+/** Medians of wall and processor times, each separately. */
 inline Seconds medianOf(const std::vector<Seconds>& times)
 {
   std::vector<double> wall;

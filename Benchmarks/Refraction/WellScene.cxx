@@ -33,7 +33,7 @@ namespace
 {
 
 const double Pi = std::acos(-1.0);
-// The tangent of half the angle of view: the well fills the picture.
+// Tangent of half the view angle: the well fills the image.
 constexpr double HalfTangent = 0.26;
 const glm::dvec3 Target(0.0, -30.0, 0.0);
 
@@ -219,13 +219,13 @@ testing::PlacePicture WellScene::trace() const
   return testing::TracePlaces(this->Present, this->camera(),
     [](const glm::dvec3& start, const glm::dvec3& direction)
     {
-      // Out of the box through a wall or the bottom.
+      // Leaves the box through a wall or the bottom.
       double t = std::numeric_limits<double>::max();
       for (const int axis : { 0, 2 })
       {
         const double wall = direction[axis] > 0.0 ? HalfWidth : -HalfWidth;
         const double at = (wall - start[axis]) / direction[axis];
-        // A ray that starts beside the well may meet a wall from outside.
+        // A ray that starts next to the well may meet a wall from outside.
         const double other = (-wall - start[axis]) / direction[axis];
         for (const double candidate : { other, at })
         {

@@ -23,7 +23,7 @@ namespace benchmark
 
 /**
  * The thesis's well: four walls and a bottom of coloured quads below waves, drawn at 512 x 512
- * pixels through the filter by an eye above it.
+ * pixels through the filter for an eye above it.
  */
 class WellScene
 {
@@ -40,25 +40,28 @@ public:
   vtkPolyData* well() { return this->Well; }
   const reference::HeightField& field() const { return this->Field; }
 
-  /** The membrane of a moment. */
+  /** The membrane at a given time. */
   reference::HeightField fieldAt(double time) const;
   void moveMembrane(double time);
-  /** An eye on a circle. */
+  /** Moves the eye on a circle. */
   void moveEye(double time);
   void changeColors(int number);
-  /** The well itself, up and down. */
+  /** Moves the well itself up and down. */
   void moveWell(double time);
 
   testing::PixelCamera camera() const;
 
-  /** Runs the filter and draws, until the picture is there. */
+  /** Runs the filter and draws, until the image is complete. */
   void draw();
   /** Runs the filter alone. */
   void update();
 
-  /** What the present eye sees of the well through the present membrane, by rays in double. */
+  /**
+   * Places of the well that the present eye sees through the present membrane, by rays in double
+   * precision.
+   */
   testing::PlacePicture trace() const;
-  /** The same from the filter's output. */
+  /** The same places from the filter's output. */
   testing::PlacePicture drawPlaces();
 
 private:

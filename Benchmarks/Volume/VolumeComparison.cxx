@@ -40,7 +40,7 @@ double cpuMilliseconds()
 }
 
 //------------------------------------------------------------------------------
-// Adds up |image - truth| over the pixels of several views.
+// Accumulates |image - reference| over the pixels of several views.
 class ErrorSum
 {
 public:
@@ -130,7 +130,7 @@ FrameTime VolumeComparison::timeFrame(Arena& arena) const
 }
 
 //------------------------------------------------------------------------------
-// A new camera time makes every mapper do what a moving camera asks for.
+// A new camera time makes every mapper do the work for a moving camera.
 FrameTime VolumeComparison::timeSteady(Arena& arena, int view) const
 {
   this->look(*arena.Scene, view + 1);
@@ -286,7 +286,7 @@ VolumeComparison::Change VolumeComparison::measureScalars(std::size_t contestant
 //------------------------------------------------------------------------------
 VolumeComparison::Change VolumeComparison::measureSetUp(std::size_t contestant, int times)
 {
-  vtkSmartPointer<vtkUnstructuredGrid> grid; // one at a time: they may be large
+  vtkSmartPointer<vtkUnstructuredGrid> grid; // one at a time, since they may be large
   return this->measureChange(contestant, times,
     [this, &grid](Arena& arena, int)
     {
@@ -315,7 +315,7 @@ VolumeComparison::Moves VolumeComparison::measureMoves()
           lookAt(
             arena.Scene->renderer(), this->Grid->GetBounds(), angles[0] + 0.2 * round, elevation);
           const FrameTime time = this->timeFrame(arena);
-          if (round > 0) // before it is the warm-up
+          if (round > 0) // the round before is the warm-up
           {
             frames.push_back(time);
           }

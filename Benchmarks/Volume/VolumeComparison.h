@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Several mappers on one mesh. Every mapper has a window of its own; in each round of a view every
- * mapper draws one frame, so that whatever else the machine does meets all of them alike and ratios
- * of frames of one round can be trusted more than the times.
+ * Several mappers on one mesh. Every mapper has its own window; in each round of a view every
+ * mapper draws one frame, so that other load of the machine affects all of them alike. Ratios of
+ * frames of one round are therefore more reliable than the times.
  */
 #ifndef meniscus_VolumeComparison_h
 #define meniscus_VolumeComparison_h
@@ -31,23 +31,23 @@ struct FrameTime
   double CpuMs = 0.0; // user and system, all threads of the process
 };
 
-/** |picture - reference|, largest of three channels. */
+/** |image - reference|, the largest of three channels. */
 struct PictureError
 {
   double Largest = 0.0;
   double Rms = 0.0;      // over the pixels that the reference covers
-  double OffShare = 0.0; // of these, off by more than 2/255
+  double OffShare = 0.0; // fraction of these with an error of more than 2/255
 };
 
 struct Figures
 {
   std::string Name;
   bool Survives = true;
-  std::string Fate;          // if it does not
-  double BytesPerCell = 0.0; // resident memory that the mesh costs, graphics memory of a software
-                             // rasteriser included
-  double ColdMs = 0.0;       // first frame in a new window: shaders are compiled, too
-  double SetUpMs = 0.0;      // first frame of a new mesh, all else made
+  std::string Fate;              // reason why it did not finish
+  double BytesPerCell = 0.0;     // resident memory for the mesh, including the graphics memory of a
+                                 // software rasteriser
+  double ColdMs = 0.0;           // first frame in a new window, including compilation of shaders
+  double SetUpMs = 0.0;          // first frame of a new mesh, with everything else ready
   std::vector<FrameTime> Frames; // by view, then round
   std::vector<double> ViewMs;    // medians of rounds
   double SteadyMs = 0.0;         // median of views
@@ -68,7 +68,7 @@ struct Spread
 
 Spread spreadOf(std::vector<double> values);
 
-/** How many times as long a frame of `slow` takes as the frame of `fast` in the same round. */
+/** Ratio of the times of a frame of `slow` and the frame of `fast` in the same round. */
 Spread ratioOf(const Figures& slow, const Figures& fast, bool cpu = false);
 
 class VolumeComparison
@@ -77,10 +77,10 @@ public:
   VolumeComparison(const VolumeOptions& options, vtkUnstructuredGrid* grid);
   ~VolumeComparison();
 
-  /** Opens a window for each; draws the first frames. */
+  /** Opens a window for each contestant and draws the first frames. */
   void enter(const std::vector<Contestant>& contestants);
 
-  /** Steady frames and set-up of all. */
+  /** Measures steady frames and set-up of all contestants. */
   void measureTimes();
   /** Errors against the reference of the run's function. */
   void measureErrors();
@@ -88,7 +88,7 @@ public:
   const std::vector<Figures>& figures() const { return this->Results; }
   std::string device() const { return this->Device; }
 
-  /** Frames after a change, each beside a steady frame of the same view. */
+  /** Frames after a change, each next to a steady frame of the same view. */
   struct Change
   {
     std::vector<double> ChangedMs;
@@ -98,11 +98,11 @@ public:
   Change measureEdit(std::size_t contestant, int times);
   /** A new scalar array on the same points and cells. */
   Change measureScalars(std::size_t contestant, int times);
-  /** A new mesh: other points and cells objects of the same contents. */
+  /** A new mesh: other point and cell objects with the same contents. */
   Change measureSetUp(std::size_t contestant, int times);
 
   /**
-   * Frames from above, by contestant: the camera moved by a fifth of a degree, and where it was.
+   * Frames from above, by contestant: with the camera moved by a fifth of a degree, and not moved.
    */
   struct Moves
   {
@@ -121,7 +121,7 @@ private:
     std::unique_ptr<test::VolumeScene> Scene;
   };
 
-  /** A new property each time: some measurements change it. */
+  /** A new property each time, since some measurements change it. */
   vtkSmartPointer<vtkVolumeProperty> propertyOf(test::FunctionKind kind) const;
   void look(test::VolumeScene& scene, int view) const;
   void timeRound(int view);

@@ -32,7 +32,7 @@ Contestant makeRayCast(const std::string& name, int threads)
   return { "raycast/" + name,
     [threads]()
     {
-      // One ray per pixel, as ours.
+      // One ray per pixel, as for our mapper.
       auto mapper = vtkSmartPointer<vtkUnstructuredGridVolumeRayCastMapper>::New();
       mapper->SetImageSampleDistance(1.0);
       mapper->AutoAdjustSampleDistancesOff();
@@ -65,7 +65,7 @@ std::vector<Contestant> makePeers(const VolumeOptions& options)
   std::vector<Contestant> peers{ { "projected",
     []() { return MapperPointer(vtkSmartPointer<vtkProjectedTetrahedraMapper>::New()); }, false } };
   const int threads = options.Threads;
-  // The first one is what the mapper takes by itself for point data.
+  // The first one is the mapper's default for point data.
   peers.push_back(makeRayCast<vtkUnstructuredGridPreIntegration>("pre-integration", threads));
   peers.push_back(makeRayCast<vtkUnstructuredGridPartialPreIntegration>("partial", threads));
   peers.push_back(makeRayCast<vtkUnstructuredGridLinearRayIntegrator>("linear", threads));
@@ -86,7 +86,7 @@ struct OurSettings
   int TableLengths = 0;
 };
 
-// Beside the default: coarse, without self-absorption (two dimensions), fine.
+// Sizes besides the default: coarse, without self-absorption (two dimensions), fine.
 constexpr int TableSizes[][2] = { { 64, 16 }, { 256, 1 }, { 512, 64 } };
 
 MapperPointer makeOurMapper(const OurSettings& settings)
@@ -106,7 +106,7 @@ MapperPointer makeOurMapper(const OurSettings& settings)
   return mapper;
 }
 
-// Whether a small picture comes out with these settings, and without a complaint.
+// True if a small image can be drawn with these settings, without a message.
 bool isAvailable(const OurSettings& settings)
 {
   const test::Grid grid = test::makeCubeOfFive(test::radialField());
@@ -164,7 +164,7 @@ std::vector<Contestant> makeContestants(const VolumeOptions& options)
         continue;
       }
       const std::string integrationName = integration == vtkTetrahedraRayCastMapper::EXACT ? "exact"
-        : integration == vtkTetrahedraRayCastMapper::PreIntegrated
+        : integration == vtkTetrahedraRayCastMapper::PRE_INTEGRATED
         ? "pre-integrated"
         : "integration-" + std::to_string(integration);
       const std::string name = "meniscus/" + backendName(backend) + "/" + integrationName;
@@ -173,7 +173,7 @@ std::vector<Contestant> makeContestants(const VolumeOptions& options)
       all.push_back({ name + "/0.99", [early]() { return makeOurMapper(early); }, true });
       for (const auto& size : TableSizes)
       {
-        if (integration == vtkTetrahedraRayCastMapper::PreIntegrated)
+        if (integration == vtkTetrahedraRayCastMapper::PRE_INTEGRATED)
         {
           const OurSettings sized{ backend, integration, -1.0, size[0], size[1] };
           all.push_back({ name + "/" + std::to_string(size[0]) + "x" + std::to_string(size[1]),

@@ -26,25 +26,25 @@ struct Contestant
   std::string Name;
   std::function<MapperPointer()> Make;
   /**
-   * Whether its picture in a float framebuffer is that of the window, only finer: ours. The ray
-   * cast mapper and Z sweep make 8-bit images, projected tetrahedra come out otherwise than in a
-   * window.
+   * True if its image in a float framebuffer is that of the window with higher precision, as for
+   * our mapper. The ray cast mapper and Z sweep create 8-bit images, and projected tetrahedra
+   * differ from those in a window.
    */
   bool HasFloat = false;
-  /** The transfer function it draws; the error is measured for that of the run only. */
+  /** Transfer function that it draws; the error is measured for that of the run only. */
   test::FunctionKind Function = test::FunctionKind::Smooth;
 };
 
 /**
- * VTK's mappers and ours with every backend and integration that this build has: ours is asked, by
- * a small picture. Ours comes also with rays that end at an opacity of 0.99. Needs a display.
+ * VTK's mappers, and ours with every backend and integration that is available, which is tested by
+ * a small image. Ours is also included with rays that end at an opacity of 0.99. Needs a display.
  */
 std::vector<Contestant> makeContestants(const VolumeOptions& options);
 
-/** Ours with one backend, exact. */
+/** Our mapper with one backend and exact integration. */
 Contestant makeOurs(int backend, const std::string& name);
 
-/** Those whose names contain one of the words; all without words. */
+/** Contestants whose names contain one of the words; all of them without words. */
 std::vector<Contestant> selectContestants(
   const std::vector<Contestant>& all, const std::vector<std::string>& words);
 

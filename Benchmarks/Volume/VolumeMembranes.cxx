@@ -25,7 +25,7 @@ struct NamedMembrane
 };
 
 //------------------------------------------------------------------------------
-// As long and wide as the pictures see of it from 35 degrees and more above.
+// As long and wide as is visible in the images from elevations of 35 degrees and more.
 std::vector<NamedMembrane> makeMembranes(vtkUnstructuredGrid* grid)
 {
   double bounds[6];

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** What a membrane over the whole picture costs. */
+/** Cost of a membrane over the whole image. */
 #ifndef meniscus_VolumeMembranes_h
 #define meniscus_VolumeMembranes_h
 
@@ -19,10 +19,10 @@ struct MembraneCost
 {
   std::string Name;
   Spread Moving;  // camera moved since the last frame
-  Spread Resting; // nothing changed but the camera's time
+  Spread Resting; // nothing has changed but the camera's time
 };
 
-/** A backend through a plane above the mesh, one through its middle, a dome and waves. */
+/** One backend through a plane above the mesh, a plane through its middle, a dome and waves. */
 std::vector<MembraneCost> measureMembranes(
   const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend);
 

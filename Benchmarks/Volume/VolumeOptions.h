@@ -14,7 +14,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/** What the command line asks for. */
+/** Options of the command line. */
 struct VolumeOptions
 {
   std::string Mesh; // file, or empty for the generated block
@@ -31,10 +31,10 @@ struct VolumeOptions
   int ProbeSeconds = 60;
   bool ZSweep = false;
   bool Growth = false;
-  int GrowthLimit = 5000; // thousands of cells
+  int GrowthLimit = 5000; // in thousands of cells
   bool Report = false;
   std::string Row;
-  std::string Probe; // name of the mapper that this process is to try
+  std::string Probe; // name of the mapper that this process tests
   bool Help = false;
   std::string Problem;
 };
@@ -43,10 +43,12 @@ extern const char* const VolumeUsage;
 
 VolumeOptions parseVolumeOptions(int argc, char* argv[]);
 
-/** By the name of a function: smooth, peaked, sharp, opaque, sparse. False if there is none. */
+/**
+ * Finds a function by name: smooth, peaked, sharp, opaque, sparse. Returns false for other names.
+ */
 bool findFunctionKind(const std::string& name, test::FunctionKind& kind);
 
-/** The mesh asked for, null if it cannot be read. */
+/** The requested mesh; null if it cannot be read. */
 test::Grid makeVolumeMesh(const VolumeOptions& options);
 
 } // namespace benchmark

@@ -16,7 +16,7 @@ namespace meniscus
 namespace benchmark
 {
 
-/** What figures belong to. */
+/** Conditions under which figures were measured. */
 struct RunDescription
 {
   std::string Mesh;
@@ -28,15 +28,15 @@ struct RunDescription
 void printDescription(
   std::ostream& out, const VolumeOptions& options, const RunDescription& description);
 
-/** One line per mapper, then ratios of ours to the others. */
+/** One line per mapper, then the ratios of our mapper to the others. */
 void printTable(std::ostream& out, const std::vector<Figures>& all);
 
 bool writeJson(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);
 
 /**
- * Milliseconds per frame against RMS error in a picture, both logarithmic: 8-bit and float
- * pictures of every mapper.
+ * Plots milliseconds per frame against the RMS error of an image, both logarithmic: 8-bit and float
+ * images of every mapper.
  */
 bool writePlot(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);

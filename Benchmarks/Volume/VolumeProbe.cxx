@@ -69,7 +69,7 @@ std::vector<std::string> probeArguments(const std::string& name, const VolumeOpt
 }
 
 //------------------------------------------------------------------------------
-// All that comes until the other end closes; false if that takes too long.
+// Reads everything until the other end closes; returns false if that takes too long.
 bool readAll(int in, int seconds, std::string& text)
 {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
@@ -142,14 +142,14 @@ ProbeResult probeContestant(const std::string& name, const VolumeOptions& option
 //------------------------------------------------------------------------------
 int runProbe(const Contestant& contestant, const VolumeOptions& options)
 {
-  // Large blocks go back to the system when they are freed.
+  // Large blocks are returned to the system when they are freed.
   mallopt(M_MMAP_THRESHOLD, 128 * 1024);
   const test::Grid grid = makeVolumeMesh(options);
   if (!grid)
   {
     return EXIT_FAILURE;
   }
-  // A small mesh first: shaders, framebuffers and threads are not what a mesh costs.
+  // A small mesh comes first: shaders, framebuffers and threads are not part of the cost of a mesh.
   const test::Grid small = makeCubeOfFive(radialField());
   VolumeScene scene(options.Size, options.Size);
   const MapperPointer mapper = contestant.Make();

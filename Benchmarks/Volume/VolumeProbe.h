@@ -20,12 +20,12 @@ struct ProbeResult
 };
 
 /**
- * Draws all views with one mapper in a process of its own (this program with --probe NAME), which
- * may crash or be ended, and measures there what memory the mesh costs.
+ * Draws all views with one mapper in a separate process (this program with --probe NAME), which may
+ * crash or be terminated, and measures the memory for the mesh in it.
  */
 ProbeResult probeContestant(const std::string& name, const VolumeOptions& options);
 
-/** What that process does; the result is its exit status. */
+/** Work of that process; returns its exit status. */
 int runProbe(const Contestant& contestant, const VolumeOptions& options);
 
 } // namespace benchmark

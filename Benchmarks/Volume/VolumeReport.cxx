@@ -111,7 +111,7 @@ private:
               << std::endl;
   }
 
-  // Frames of contestants next to each other.
+  // Alternating frames of contestants.
   std::vector<Figures> race(
     const NamedMesh& mesh, int size, const std::vector<Contestant>& contestants) const
   {
@@ -129,7 +129,7 @@ private:
     return selectContestants(this->Peers, { "projected", "raycast/pre-integration" });
   }
 
-  // Both backends, exact, with a function.
+  // Both backends, exact, with a given function.
   std::vector<Contestant> bothBackends(FunctionKind kind) const
   {
     std::vector<Contestant> both{ makeOurs(Mapper::OPENGL, "opengl"),
@@ -202,7 +202,7 @@ private:
     }
   }
 
-  // Every mapper's first frame of a new mesh, per cell.
+  // First frame of a new mesh per cell, for every mapper.
   void setUpRow()
   {
     for (const NamedMesh& mesh : this->Meshes)
@@ -226,7 +226,7 @@ private:
 
   using Measure = std::function<std::string(VolumeComparison&, std::size_t)>;
 
-  // Something measured of each backend alone.
+  // A measurement of each backend alone.
   void changeRow(const std::string& goal, const Measure& measure)
   {
     for (const NamedMesh& mesh : this->Meshes)
@@ -274,8 +274,8 @@ private:
       });
   }
 
-  // In a process of its own each. Where the rasteriser is software, resident memory holds both
-  // copies of the tables.
+  // Each in a separate process. With a software rasteriser, resident memory contains both copies of
+  // the tables.
   void memoryRow()
   {
     VolumeOptions options = this->Options;

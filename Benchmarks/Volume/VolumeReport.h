@@ -13,12 +13,12 @@ namespace benchmark
 {
 
 /**
- * Prints what the mapper is to reach beside what it reaches: rows of a Markdown table. On the
- * meshes of the data folder where they are, else on generated ones, or on the one mesh given.
+ * Prints the mapper's goals next to the measured values: rows of a Markdown table. Uses the meshes
+ * of the data folder if they exist, otherwise generated ones, or the one mesh given.
  */
 void printReport(std::ostream& out, const VolumeOptions& options);
 
-/** ms per frame for generated meshes of growing size, and the exponent of the growth. */
+/** Milliseconds per frame for generated meshes of growing size, and the exponent of the growth. */
 void printGrowth(std::ostream& out, const VolumeOptions& options);
 
 } // namespace benchmark

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// meniscus_demo [MESH.vtu] [--output FOLDER]: pictures of both main jobs, of data that the demo
-// makes or of the user's mesh.
+// meniscus_demo [MESH.vtu] [--output FOLDER]: images of both main functions, with generated data or
+// the user's mesh.
 #include "DemoVolumeInput.h"
 #include "RefractionDemo.h"
 #include "VolumeDemo.h"

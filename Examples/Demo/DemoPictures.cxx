@@ -13,7 +13,7 @@ namespace
 
 constexpr int PictureSize = 640;
 
-/** Milliseconds of a frame, until its pixels are there. */
+/** Time of a frame in milliseconds, until its pixels are available. */
 double RenderMilliseconds(vtkRenderWindow* window)
 {
   const double start = vtkTimerLog::GetUniversalTime();

@@ -9,7 +9,7 @@
 
 #include <string>
 
-/** An off-screen window whose pictures go to a folder, each with its size and time printed. */
+/** An off-screen window whose images go to a folder; prints the size and time of each. */
 class DemoPictures
 {
 public:
@@ -17,7 +17,10 @@ public:
 
   vtkRenderer* GetRenderer() { return this->Renderer; }
 
-  /** Renders twice, for the first and the steady time, and writes NAME.png. False if it cannot. */
+  /**
+   * Renders twice, for the first and the steady time, and writes NAME.png. Returns false on
+   * failure.
+   */
   bool Write(const std::string& name, const std::string& caption);
 
 private:

@@ -31,7 +31,7 @@ void OnProgress(vtkObject* caller, unsigned long, void* clientData, void*)
 //------------------------------------------------------------------------------
 void ShowProgress(const std::string& what, double progress)
 {
-  // In a log, which keeps every state of the bar, only the last one is wanted.
+  // A log keeps every state of the bar, so only the last one is printed.
   if (progress < 1.0 && !isatty(fileno(stderr)))
   {
     return;

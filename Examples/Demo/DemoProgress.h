@@ -10,7 +10,7 @@ class vtkAlgorithm;
 /** Draws the bar's state, `progress` from 0 to 1. */
 void ShowProgress(const std::string& what, double progress);
 
-/** Updates an algorithm under a progress bar on standard error and prints how long it took. */
+/** Updates an algorithm under a progress bar on standard error and prints its duration. */
 void UpdateWithProgress(vtkAlgorithm* algorithm, const std::string& what);
 
 #endif

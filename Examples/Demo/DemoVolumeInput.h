@@ -16,9 +16,9 @@ class vtkUnstructuredGrid;
 vtkSmartPointer<vtkUnstructuredGrid> MakeDemoMesh();
 
 /**
- * The mesh of a .vtu file, whatever its cells, with active point scalars: its first array of one
- * component, a cell array taken to the points if there is no point array. Null, with a message on
- * standard error, if there is none.
+ * The mesh of a .vtu file with cells of any types, with active point scalars: its first array of
+ * one component; if there is no point array, a cell array that is converted to point data. Returns
+ * null, with a message on standard error, if there is none.
  */
 vtkSmartPointer<vtkUnstructuredGrid> ReadDemoMesh(const std::string& file);
 

@@ -31,7 +31,7 @@
 namespace
 {
 
-// The pool reaches from -1 to 1 in x and y, from the water at z = 0 down to its bottom.
+// The pool extends from -1 to 1 in x and y, and from the water at z = 0 down to its bottom.
 constexpr double PoolDepth = 0.9;
 constexpr int WallResolution = 48;
 constexpr int TilesPerWall = 12;
@@ -104,7 +104,7 @@ vtkSmartPointer<vtkPolyData> MakePool()
   const double d = -PoolDepth;
   const double low[4][3] = { { -1, -1, d }, { 1, -1, d }, { 1, 1, d }, { -1, 1, d } };
   AddWall(pool, low[0], low[1], low[3], true);
-  for (int i = 1; i < 4; ++i) // the side towards the eye stays open
+  for (int i = 1; i < 4; ++i) // the side facing the eye stays open
   {
     const double* from = low[i];
     const double top[3] = { from[0], from[1], -0.02 };
@@ -134,7 +134,7 @@ vtkSmartPointer<vtkPolyData> MakePool()
   AddObject(pool, cone, coneAt, 0.0, green);
   pool->Update();
   vtkSmartPointer<vtkPolyData> result = pool->GetOutput();
-  result->GetPointData()->SetNormals(nullptr); // flat shading: virtual surfaces are bent
+  result->GetPointData()->SetNormals(nullptr); // flat shading: virtual surfaces have other normals
   return result;
 }
 
@@ -229,8 +229,8 @@ bool RunRefractionDemo(const std::string& folder)
     pictures.Write("refraction-virtual", "its virtual geometry, as seen through the waves") &&
     written;
 
-  // From the side: the virtual geometry is flatter and bent, the true one is drawn in lines. The
-  // filter keeps the eye it has: the picture is of what that eye sees.
+  // From the side: the virtual geometry is flatter and curved; the true one is drawn as lines. The
+  // filter keeps its eye: the image shows the geometry for that eye.
   refraction->SetCamera(nullptr);
   refraction->SetEyePosition(eye[0], eye[1], eye[2]);
   truePool->GetProperty()->SetRepresentationToWireframe();

@@ -5,7 +5,10 @@
 
 #include <string>
 
-/** Pictures of a pool with a waved surface and objects in it. False if one could not be written. */
+/**
+ * Images of a pool with a wavy surface and objects in it. Returns false if one could not be
+ * written.
+ */
 bool RunRefractionDemo(const std::string& folder);
 
 #endif

@@ -35,7 +35,7 @@
 namespace
 {
 
-/** The scalar below which `fraction` of the points lie. */
+/** Quantiles of the scalars: the scalar below which a given fraction of the points lie. */
 class Quantiles
 {
 public:
@@ -85,7 +85,7 @@ void SetSmoothOpacity(vtkVolumeProperty* property, const Quantiles& quantiles, d
   opacity->AddPoint(quantiles.At(1.0), factor * 3.0);
 }
 
-/** Narrow peaks: sharp shells about three values. */
+/** Narrow peaks: sharp shells at three values. */
 void SetPeakedOpacity(vtkVolumeProperty* property, const Quantiles& quantiles)
 {
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
@@ -100,7 +100,7 @@ void SetPeakedOpacity(vtkVolumeProperty* property, const Quantiles& quantiles)
   }
 }
 
-/** An opacity that is the same everywhere. */
+/** A constant opacity. */
 void SetEvenOpacity(vtkVolumeProperty* property, const Quantiles& quantiles, double value)
 {
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
@@ -120,7 +120,7 @@ void PrintCounters(vtkTetrahedraRayCastMapper* mapper)
     mapper->GetNumberOfRays(), mapper->GetNumberOfTraversalSteps(), mapper->GetNumberOfLostRays());
 }
 
-/** Looks at the mesh from a corner, so that it fills the picture. */
+/** Looks at the mesh from a corner, so that it fills the image. */
 void LookFromOutside(vtkRenderer* renderer)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
@@ -132,7 +132,7 @@ void LookFromOutside(vtkRenderer* renderer)
   camera->Zoom(1.25);
 }
 
-/** A point of the mesh and how far from it the surface is, by the surface's points. */
+/** A point of the mesh, and its distance from the surface's points. */
 struct DeepPoint
 {
   double Place[3];
@@ -165,7 +165,7 @@ std::vector<DeepPoint> FindDeepPoints(vtkUnstructuredGrid* mesh)
   return points;
 }
 
-/** An opaque ball where the mesh is thickest, as wide as fits. */
+/** An opaque ball where the mesh is thickest, as large as fits. */
 vtkSmartPointer<vtkActor> MakeBall(const DeepPoint& place, double length)
 {
   vtkNew<vtkSphereSource> sphere;
@@ -183,7 +183,10 @@ vtkSmartPointer<vtkActor> MakeBall(const DeepPoint& place, double length)
   return ball;
 }
 
-/** Looks at the first place from within the mesh: from one deep in it, a third of it away. */
+/**
+ * Looks at the first place from inside the mesh: from another deep place, at a third of the
+ * distance.
+ */
 void LookFromInside(vtkRenderer* renderer, const std::vector<DeepPoint>& places, double length)
 {
   const DeepPoint& to = places.front();
@@ -207,7 +210,7 @@ void LookFromInside(vtkRenderer* renderer, const std::vector<DeepPoint>& places,
   camera->SetViewAngle(75.0);
 }
 
-/** The pictures of one mesh. Each begins with the settings of the first. */
+/** Images of one mesh. Each begins with the settings of the first. */
 class VolumePictures
 {
 public:
@@ -316,7 +319,7 @@ private:
     opacity->AddPoint(this->Scalars.At(0.8), 1.0);
   }
 
-  /** A dense medium, of which two planes leave the back. */
+  /** A dense medium, clipped by two planes to its back part. */
   void Clip()
   {
     this->Light(0.6, 0.5, 0.1, 10.0);

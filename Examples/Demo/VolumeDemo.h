@@ -7,7 +7,10 @@
 
 class vtkUnstructuredGrid;
 
-/** Pictures of a tetrahedral mesh with active point scalars. False if one could not be written. */
+/**
+ * Images of a tetrahedral mesh with active point scalars. Returns false if one could not be
+ * written.
+ */
 bool RunVolumeDemo(vtkUnstructuredGrid* mesh, const std::string& folder);
 
 #endif

@@ -42,7 +42,7 @@ constexpr unsigned char Background[3] = { 24, 30, 40 };
 
 const DemoView View = { { 0.25, -1.5, 3.6 }, { 0.0, 0.02, -0.45 }, { 0.0, 0.0, 1.0 }, 34.0 };
 
-/** A window that shows what the filter makes of the well. */
+/** A window that shows the filter's output for the well. */
 class WellWindow
 {
 public:
@@ -118,7 +118,7 @@ vtkSmartPointer<vtkImageData> MakeImage(vtkUnsignedCharArray* pixels, int size)
   return image;
 }
 
-/** White where two pictures are the same, darker the more they differ. */
+/** White where two images are equal, darker the more they differ. */
 vtkSmartPointer<vtkImageData> MakeDifference(vtkImageData* a, vtkImageData* b, int& differing)
 {
   vtkNew<vtkUnsignedCharArray> pixels;
@@ -193,7 +193,7 @@ bool Animate(WellWindow& window, const std::string& folder)
   return true;
 }
 
-/** The errors that a coarse mesh of the water makes, as blocks cut open in the middle. */
+/** Errors of a coarse mesh of the water, as blocks cut open in the middle. */
 bool DrawErrorVolume(const std::string& folder)
 {
   constexpr int samples = 40;

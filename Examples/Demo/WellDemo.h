@@ -6,9 +6,9 @@
 #include <string>
 
 /**
- * Pictures of a well with waves and objects in zones of convergence: its virtual geometry with all
- * images, the same by tracing rays, their difference, an error volume, and moving water. False if
- * one could not be written.
+ * Images of a well with waves and objects in zones of convergence: its virtual geometry with all
+ * images, the same by ray tracing, their difference, an error volume, and moving water. Returns
+ * false if one could not be written.
  */
 bool RunWellDemo(const std::string& folder);
 

@@ -43,7 +43,7 @@ constexpr double Waves[3][4] = { { 0.030, 5.0, 4.0, 2.0 }, { 0.020, -3.0, 7.5, 3
 using Color = std::array<double, 3>;
 using ColorRule = std::function<Color(const double center[3])>;
 
-// Sets each cell's colour by its place, with light from above the well.
+// Sets the colour of each cell by its position, lit from above the well.
 void ColorCells(vtkPolyData* data, const ColorRule& rule)
 {
   vtkNew<vtkUnsignedCharArray> colors;
@@ -189,7 +189,7 @@ double DemoWater::Intersect(const double eye[3], const double direction[3]) cons
     return eye[2] + t * direction[2] -
       this->GetHeight(eye[0] + t * direction[0], eye[1] + t * direction[1]);
   };
-  // Steps much shorter than the waves through the layer that holds them, then bisection.
+  // Steps much shorter than the waves through the layer that contains them, then bisection.
   const double highest = Highest * std::max(this->WaveHeight, 1.0);
   double low = (eye[2] - highest) / -direction[2];
   const double last = (eye[2] + highest) / -direction[2];
@@ -254,7 +254,7 @@ vtkSmartPointer<vtkUnsignedCharArray> TraceDemoWell(vtkPolyData* well, const Dem
   vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(well);
   locator->BuildLocator();
-  well->GetCell(0); // builds what threads share
+  well->GetCell(0); // builds the tables that threads share
   vtkDataArray* colors = well->GetCellData()->GetScalars();
   auto picture = vtkSmartPointer<vtkUnsignedCharArray>::New();
   picture->SetNumberOfComponents(3);

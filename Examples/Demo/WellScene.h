@@ -10,12 +10,12 @@
 class vtkPolyData;
 class vtkUnsignedCharArray;
 
-/** Waves of moving water about z = 0, exactly: where they are and how they are tilted. */
+/** Waves of moving water about z = 0: their exact heights and normals. */
 class DemoWater
 {
 public:
   static constexpr double HalfSide = 1.9;
-  static constexpr double Highest = 0.07; ///< above waves of height 1
+  static constexpr double Highest = 0.07; ///< upper bound of waves of height 1
   static constexpr double Index = 1.333;
 
   /** `height` scales the waves, from 0 to 2. */
@@ -34,7 +34,7 @@ public:
   /** `cells` x `cells` x 2 facets with normals. */
   vtkSmartPointer<vtkPolyData> MakeMesh(int cells) const;
 
-  /** Where a ray from above first meets the water, as a distance; negative if it does not. */
+  /** Distance at which a ray from above first meets the water; negative if it does not. */
   double Intersect(const double eye[3], const double direction[3]) const;
 
 private:
@@ -44,15 +44,15 @@ private:
 };
 
 /**
- * Four walls and a bottom with tiles, a ball, a ring, and a post that stands out of the water.
- * Cells have their colours, with the light of a lamp above in them: no further lighting is needed.
+ * Four walls and a bottom with tiles, a ball, a ring, and a post that rises out of the water. The
+ * colours of the cells include the light of a lamp above: no further lighting is needed.
  */
 vtkSmartPointer<vtkPolyData> MakeDemoWell();
 
 /**
- * The picture that tracing rays through the exact water makes of cells with colours: one ray
- * through the middle of each of `size` x `size` pixels, refracted once. `camera` are its eye, focal
- * point, view up and the angle of view in degrees.
+ * Image of cells with colours by tracing rays through the exact water: one ray through the middle
+ * of each of `size` x `size` pixels, refracted once. `camera` holds its eye, focal point, view up
+ * and the view angle in degrees.
  */
 struct DemoView
 {

@@ -90,7 +90,7 @@ def make_pool():
 
 
 def make_colors(data, rule):
-    """A colour for each cell, by where its bounds have their middle."""
+    """A colour for each cell, by the centre of its bounds."""
     colors = vtkUnsignedCharArray()
     colors.SetName("Color")
     colors.SetNumberOfComponents(3)
@@ -109,7 +109,7 @@ def make_actor(mapper):
 
 
 class Water:
-    """The scene, and what keys change."""
+    """The scene and its state, which keys change."""
 
     def __init__(self, size):
         self.time = 0.0
@@ -174,9 +174,9 @@ class Water:
         self.water.SetAttenuationCoefficients(k, 0.4 * k, 0.2 * k)
         self.renderer.SetPass(self.water if self.refracts else None)
         self.solid.SetVisibility(not self.refracts)
-        what = ("curved" if self.curved else "flat facets") if self.refracts else "not refracted"
+        method = ("curved" if self.curved else "flat facets") if self.refracts else "not refracted"
         self.text.SetInput(
-            f"{what}  index {self.index:.3f}  waves {self.height:.2f}  attenuation {k:.2f}")
+            f"{method}  index {self.index:.3f}  waves {self.height:.2f}  attenuation {k:.2f}")
         self.window.Render()
 
     def write(self, file):
@@ -237,12 +237,12 @@ def run_window(water):
 def main():
     parser = argparse.ArgumentParser(description="Water that moves over a pool")
     parser.add_argument("--frames", type=int, default=0, help="pictures instead of a window")
-    parser.add_argument("--output", default=".", help="where to, an existing folder")
+    parser.add_argument("--output", default=".", help="existing folder for the pictures")
     parser.add_argument("--size", type=int, default=512, help="pixels a side")
     parser.add_argument("--thesis", action="store_true", help="the thesis's flat facets")
     options = parser.parse_args()
     if not os.path.isdir(options.output):
-        sys.exit(f"error: {options.output} is no folder")
+        sys.exit(f"error: {options.output} is not a folder")
     water = Water(options.size)
     water.curved = not options.thesis
     if options.frames > 0:

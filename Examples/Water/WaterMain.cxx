@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Water that moves over a well, in a window or as a series of pictures.
+// Moving water above a well, in a window or as a series of images.
 #include "WaterWindow.h"
 
 #include "vtkCallbackCommand.h"
@@ -102,7 +102,7 @@ int WriteFrames(WaterWindow& water, const Options& options)
   return EXIT_SUCCESS;
 }
 
-/** Keys and the clock. */
+/** Keyboard control and clock. */
 struct Control
 {
   WaterWindow& Water;
@@ -173,7 +173,7 @@ int RunWindow(WaterWindow& water, const Options& options)
   command->SetClientData(&control);
   water.Show(control.Settings);
   interactor->Initialize();
-  // Before the style's own keys, which it gets no other of than q.
+  // Called before the style's own key handling, which receives only q.
   interactor->AddObserver(vtkCommand::KeyPressEvent, command, 1.0F);
   interactor->AddObserver(vtkCommand::TimerEvent, command);
   interactor->CreateRepeatingTimer(milliseconds);

@@ -41,7 +41,7 @@ void SetUpCells(vtkActor* actor, vtkPolyDataMapper* mapper)
 {
   mapper->SetScalarModeToUseCellData();
   actor->SetMapper(mapper);
-  actor->GetProperty()->LightingOff(); // the cells' colours have a lamp's light in them
+  actor->GetProperty()->LightingOff(); // the cells' colours include the light of a lamp
 }
 
 }
@@ -112,12 +112,12 @@ void WaterWindow::Show(const WaterSettings& settings)
   this->Filter->SetMembraneData(mesh);
   this->Filter->SetInteriorIndexOfRefraction(settings.Index);
   this->Filter->SetMembraneModel(
-    settings.Curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FlatFacets);
-  this->Filter->SetImages(settings.Curved ? vtkRefractedGeometryFilter::AllImages
-                                          : vtkRefractedGeometryFilter::FirstImage);
+    settings.Curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FLAT_FACETS);
+  this->Filter->SetImages(settings.Curved ? vtkRefractedGeometryFilter::ALL_IMAGES
+                                          : vtkRefractedGeometryFilter::FIRST_IMAGE);
   vtkPolyDataMapper::SafeDownCast(this->Water->GetMapper())->SetInputData(mesh);
 
-  // Rays are traced without what the pass adds.
+  // Rays are traced without the effects of the pass.
   const double k = settings.ShowsRays ? 0.0 : settings.Attenuation;
   this->Pass->SetAttenuationCoefficients(k, 0.4 * k, 0.2 * k);
   this->Pass->SetReflectanceModel(

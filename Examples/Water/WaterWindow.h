@@ -18,16 +18,18 @@ class vtkRenderWindow;
 class vtkRenderer;
 class vtkTextActor;
 
-/** What keys change. */
+/** Settings that keys change. */
 struct WaterSettings
 {
   double Time = 0.0;
   double WaveHeight = 1.0;   ///< 0 to 2
-  double Index = 1.333;      ///< of the water, 1 to 2.5
-  double Attenuation = 0.25; ///< of red light per length; green and blue lose less
-  bool Curved = true;        ///< or the thesis's flat facets
-  bool Refracts = true;      ///< or the well as it is
-  bool ShowsRays = false;    ///< the ray-traced twin beside it, both without the extras
+  double Index = 1.333;      ///< index of the water, 1 to 2.5
+  double Attenuation = 0.25; ///< attenuation of red light per length; green and blue are attenuated
+                             ///< less
+  bool Curved = true;        ///< false: the thesis's flat facets
+  bool Refracts = true;      ///< false: the unrefracted well
+  bool ShowsRays = false;    ///< the ray-traced image next to it, both without reflection and
+                             ///< attenuation
 };
 
 /**
@@ -43,13 +45,13 @@ public:
   vtkRenderWindow* GetWindow() { return this->Window; }
   vtkRenderer* GetRenderer() { return this->Renderer; }
 
-  /** The eye, turned about the well by an angle in degrees. */
+  /** Rotates the eye around the well by an angle in degrees. */
   void SetEyeAngle(double angle);
 
-  /** Draws a picture with these settings. */
+  /** Draws an image with these settings. */
   void Show(const WaterSettings& settings);
 
-  /** Writes the picture that is shown to a PNG file. False if it cannot. */
+  /** Writes the current image to a PNG file. Returns false on failure. */
   bool Write(const std::string& file);
 
 private:

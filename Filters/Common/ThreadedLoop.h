@@ -14,7 +14,7 @@
 namespace meniscus
 {
 
-/** Calls `body` for ranges of [0, count), each of at least `grain` numbers, on several threads. */
+/** Calls `body` for ranges of [0, count), each of at least `grain` elements, on several threads. */
 inline void ThreadedRanges(std::size_t count, vtkIdType grain, const RangeBody& body)
 {
   vtkSMPTools::For(0, static_cast<vtkIdType>(count), grain,
@@ -22,13 +22,13 @@ inline void ThreadedRanges(std::size_t count, vtkIdType grain, const RangeBody& 
     { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
 }
 
-/** Loop over blocks: each is large enough to be a thread's unit of work. */
+/** Loop over blocks, each of which is large enough to be a thread's unit of work. */
 inline void ThreadedLoop(std::size_t count, const RangeBody& body)
 {
   ThreadedRanges(count, 1, body);
 }
 
-/** Loop over facets: 512 of them are tens of microseconds of work. */
+/** Loop over facets in ranges of 512, each tens of microseconds of work. */
 inline void FacetLoop(std::size_t count, const RangeBody& body)
 {
   ThreadedRanges(count, 512, body);

@@ -43,7 +43,8 @@ glm::dvec3 ImplicitSurface::GetGradient(const glm::dvec3& at) const
 bool ImplicitSurface::Meet(
   const glm::dvec3&, const VirtualVertex& vertex, const glm::dvec3& direction, PatchPoint& at) const
 {
-  // Quadratic convergence leaves the square of the last step, relative to the scene.
+  // Newton's method converges quadratically: the remaining error is the square of the last step,
+  // relative to the scene.
   constexpr double lastStep = 1e-8;
   constexpr int steps = 50;
   double distance = glm::dot(vertex.SightPoint - this->Eye, direction);

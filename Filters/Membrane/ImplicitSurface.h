@@ -14,10 +14,12 @@ namespace meniscus
 class ImplicitSurface : public ExactSurface
 {
 public:
-  /** The eye's side is the one that the normals of `membrane` point to in the mean. */
+  /** The eye's side is the one to which most normals of `membrane` point. */
   ImplicitSurface(vtkImplicitFunction* function, const Membrane& membrane, const glm::dvec3& eye);
 
-  /** Newton's method along the ray, from the sight point. Thread-safe if the function is. */
+  /**
+   * Newton's method along the ray, starting from the sight point. Thread-safe if the function is.
+   */
   bool Meet(const glm::dvec3& point, const VirtualVertex& vertex, const glm::dvec3& direction,
     PatchPoint& at) const override;
 

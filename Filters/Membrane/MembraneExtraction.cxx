@@ -162,7 +162,7 @@ private:
     this->SplitCells = cells;
     this->ForEachCell(triangles->GetPolys(), 0, &Extraction::AddSplitTriangle);
 
-    // A polygon that gave no triangle has no area.
+    // A polygon that yielded no triangle has no area.
     std::vector<std::int64_t> found = this->Arrays.CellIds;
     std::sort(found.begin(), found.end());
     vtkIdType polygon = 0;

@@ -15,31 +15,33 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/** A membrane's triangles as plain arrays. Two of them are equal if the same surface comes out. */
+/**
+ * Triangles of a membrane as plain arrays. Two of them compare equal if they give the same surface.
+ */
 struct MembraneArrays
 {
   std::vector<double> Points;
-  std::vector<double> Normals; ///< empty if the input has none that fit
+  std::vector<double> Normals; ///< empty if the input has none of a matching size
   std::vector<std::int64_t> Triangles;
-  std::vector<std::int64_t> CellIds; ///< cell of the input, per triangle
-  bool NormalsRejected = false;      ///< there are normals, of the wrong size
+  std::vector<std::int64_t> CellIds; ///< cell of the input that each triangle comes from
+  bool NormalsRejected = false;      ///< the input has normals, but their number is wrong
 
   bool operator==(const MembraneArrays& other) const;
   MembraneInput AsInput() const;
 };
 
 /**
- * Triangles of the polygons and strips of `membrane`, in the order of its cells; other polygons are
- * split by vtkTriangleFilter. What cannot be split is handed on as a triangle that validation
- * will skip and count.
+ * Triangles of the polygons and strips of `membrane`, in the order of its cells. Other polygons
+ * than triangles are split by vtkTriangleFilter. A polygon that cannot be split becomes an invalid
+ * triangle, which validation skips and counts.
  */
 MembraneArrays ExtractMembrane(vtkPolyData* membrane);
 
 /**
  * Moves the points of the triangles onto the zero set of `function`, by Newton's method along its
- * gradient, and makes its gradients there their normals, on the side that the membrane's normals
- * are on or, if it has none, the facets' winding. Returns the number of points that have no place
- * on the zero set; these keep their place, and a normal of zeros, for which one is computed.
+ * gradient. Replaces their normals by the gradients there, on the side of the membrane's normals
+ * or, if it has none, of the facets' winding. Returns the number of points for which no place on
+ * the zero set is found; these keep their position and get a zero normal, which is computed later.
  */
 std::size_t FitToFunction(vtkImplicitFunction* function, MembraneArrays& arrays);
 

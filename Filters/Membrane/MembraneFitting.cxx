@@ -17,7 +17,7 @@ namespace
 
 constexpr int MostSteps = 50;
 
-// Newton's method is done when a step is lost in the rounding of the point's coordinates.
+// Newton's method has converged when a step is below the rounding of the point's coordinates.
 constexpr double LastStep = 16.0 * std::numeric_limits<double>::epsilon();
 
 class Fitting
@@ -71,7 +71,7 @@ private:
     return { gradient[0], gradient[1], gradient[2] };
   }
 
-  // Whether all corners exist.
+  // True if all corners exist.
   bool IsWhole(std::size_t triangle, std::size_t count) const
   {
     const std::int64_t* ids = this->Arrays.Triangles.data() + 3 * triangle;
@@ -94,7 +94,7 @@ private:
     return isUsed;
   }
 
-  // +1 if most gradients point to the side of the normals, or of the facets' winding; -1 if not.
+  // +1 if most gradients point to the side of the normals, or of the facets' winding; otherwise -1.
   double FindSide(std::size_t count) const
   {
     double along = 0.0;
@@ -135,8 +135,8 @@ private:
         return false;
       }
       point -= step;
-      // Rounding of the function itself may keep the steps above that of the coordinates: then they
-      // do not shrink any more.
+      // Rounding of the function itself may keep the steps above the rounding of the coordinates.
+      // In that case the method has converged when the steps no longer shrink.
       const double reach = glm::length(point);
       if (length <= LastStep * reach || (length <= std::sqrt(LastStep) * reach && length >= last))
       {

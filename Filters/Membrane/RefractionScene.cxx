@@ -38,8 +38,8 @@ const char* NameFault(MembraneStatus status)
 }
 
 /**
- * The latest time that a membrane or an object that holds its values was modified. A vtkPolyData's
- * own time leaves out the arrays of its cells.
+ * Latest modification time of a membrane and of the objects that hold its values. The time of a
+ * vtkPolyData itself does not cover the arrays of its cells.
  */
 vtkMTimeType TimeOf(vtkPolyData* membrane)
 {
@@ -193,7 +193,8 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
 //------------------------------------------------------------------------------
 void RefractionScene::ReportEye(SceneMessages& messages)
 {
-  // A few microseconds each; two sheets one behind the other have many points in sequence.
+  // The test takes a few microseconds per point. Two sheets one behind the other overlap in many
+  // consecutive points.
   constexpr std::size_t mostPoints = 256;
   const bool isEnclosed = this->Curves && this->Curved.IsClosed() && !this->Curved.FacesEye();
   const auto behind = static_cast<vtkTypeInt64>(
@@ -223,7 +224,8 @@ bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
 {
   const Membrane& membrane = this->GetMembrane();
   const auto& facets = membrane.GetFacets();
-  // Of a sum of three products of coordinates, and of planes that come through two matrices.
+  // Rounding of a sum of three products of coordinates, with planes that are computed from two
+  // matrices.
   constexpr double rounding = 1e-12;
   std::vector<bool> inView(facets.size(), true);
   bool any = false;
@@ -243,7 +245,7 @@ bool RefractionScene::SetView(const std::vector<ViewPlane>& planes)
         most = std::max(most, glm::dot(plane.Normal, point) + plane.Offset);
         reach = std::max(reach, glm::length(point));
       }
-      // Not a number: nothing is known, so it is in view.
+      // With NaN nothing is known, so the facet counts as in view.
       inView[i] = inView[i] && !(most < -bulge - rounding * reach);
     }
     any = any || !inView[i];

@@ -21,7 +21,7 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/** What the owner of a scene has to report; empty if there is nothing. */
+/** Messages for the owner of a scene to report; empty if there are none. */
 struct SceneMessages
 {
   std::string Error;
@@ -36,41 +36,46 @@ struct ViewPlane
 };
 
 /**
- * A membrane, an eye and two media: what the filters of refraction share. Keeps the kernel's
- * geometry as long as the values behind it hold, whatever the modification times say.
+ * A membrane, an eye and two media: the state that all filters of refraction share. The kernel's
+ * geometry is kept as long as the underlying values do not change, whatever the modification times
+ * are.
  */
 class RefractionScene
 {
 public:
-  /** Position of the eye in the world, exterior and interior index of refraction. */
+  /**
+   * Position of the eye in world coordinates, followed by the exterior and the interior index of
+   * refraction.
+   */
   using Eye = std::array<double, 5>;
 
   /**
-   * Takes a membrane; with a function, that of its points on the function's zero set. False, with
-   * an error, if it cannot be used.
+   * Sets the membrane; with a function, its points are moved onto the function's zero set. Returns
+   * false, with an error message, if the membrane cannot be used.
    */
   bool SetMembrane(vtkPolyData* membrane, bool curved, SceneMessages& messages,
     vtkImplicitFunction* function = nullptr);
 
   /**
-   * Takes an eye for the membrane. False, with an error, if it cannot be used. Warns when the eye
-   * comes inside of a closed membrane whose normals point outwards, or when pieces of the membrane
-   * come to lie behind each other, and when the membrane changes meanwhile.
+   * Sets the eye. Returns false, with an error message, if it cannot be used. Adds a warning when
+   * the eye enters a closed membrane whose normals point outwards, when pieces of the membrane come
+   * to lie behind each other, and when the membrane changes in such a state.
    */
   bool SetEye(const Eye& eye, SceneMessages& messages);
 
   const Eye& GetEye() const { return this->Key.Values; }
 
-  /** One image of each point (x, y, z each) in [from, to). */
+  /** Computes one image of each point (x, y, z each) in [from, to). */
   void Solve(const double* points, std::size_t from, std::size_t to, VirtualVertex* vertices) const;
 
   /**
-   * Finds the facets that are in view, for an eye that has been set. True if any is out of view.
+   * Determines the facets in view; the eye must have been set. Returns true if any facet is out of
+   * view.
    */
   bool SetView(const std::vector<ViewPlane>& planes);
-  /** Rises with every change of what SetView found. */
+  /** Increases with every change of the facets in view. */
   vtkTypeInt64 GetViewChange() const { return this->ViewChange; }
-  /** Whether something in the box may be seen through a facet in view, or without the membrane. */
+  /** True if a part of the box may be seen through a facet in view, or without the membrane. */
   bool MayBeInView(const glm::dvec3& low, const glm::dvec3& high) const;
 
   bool IsCurved() const { return this->Curves; }
@@ -78,19 +83,19 @@ public:
   {
     return this->Curves ? this->Curved.GetMembrane() : this->Flat.GetMembrane();
   }
-  /** Only the one that IsCurved names has the membrane. */
+  /** Solver that holds the membrane if IsCurved is true; otherwise it is empty. */
   CurvedMembraneSolver& GetCurved() { return this->Curved; }
   const CurvedMembraneSolver& GetCurved() const { return this->Curved; }
   const FlatMembraneSolver& GetFlat() const { return this->Flat; }
 
   vtkTypeInt64 GetNumberOfPatchBuilds() const { return this->PatchBuilds; }
   vtkTypeInt64 GetNumberOfEyeUpdates() const { return this->EyeUpdates; }
-  /** Of the present eye and curved membrane. */
+  /** Results for the current eye and curved membrane. */
   bool IsEyeEnclosed() const { return this->EyeEnclosed; }
   vtkTypeInt64 GetNumberOfMembranePointsBehind() const { return this->PointsBehind; }
 
 private:
-  /** Values that the refraction rays depend on. */
+  /** Values on which the refracted rays depend. */
   struct EyeKey
   {
     Eye Values{};
@@ -107,7 +112,7 @@ private:
 
   vtkWeakPointer<vtkPolyData> MembraneSource;
   vtkMTimeType MembraneTime = 0;
-  vtkImplicitFunction* Function = nullptr; ///< told apart only
+  vtkImplicitFunction* Function = nullptr; ///< used for comparison only
   vtkMTimeType FunctionTime = 0;
   MembraneArrays Arrays;
   bool MembraneReady = false;
@@ -119,7 +124,7 @@ private:
   vtkTypeInt64 EyeUpdates = 0;
   bool EyeEnclosed = false;
   vtkTypeInt64 PointsBehind = 0;
-  vtkTypeInt64 EyeReportOf = -1; ///< the membrane's build
+  vtkTypeInt64 EyeReportOf = -1; ///< build number of the membrane for which the warnings were given
 };
 
 }

@@ -85,7 +85,7 @@ private:
   }
 
   vtkPolyData* Input;
-  vtkIdType Cell = 0; // vertices, lines, polygons, strips
+  vtkIdType Cell = 0; // counts vertices, lines, polygons, strips
   ObjectTopology Topology;
 };
 

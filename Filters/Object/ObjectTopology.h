@@ -16,7 +16,7 @@ namespace meniscus
 {
 
 /**
- * The cells of a polydata as plain arrays; cells that name points that do not exist are left out.
+ * Cells of a polydata as plain arrays. Cells that refer to points that do not exist are left out.
  */
 struct ObjectTopology
 {

@@ -76,7 +76,7 @@ private:
       low = glm::min(low, glm::dvec3(p[0], p[1], p[2]));
       high = glm::max(high, glm::dvec3(p[0], p[1], p[2]));
     }
-    // What cannot be solved is to be counted, not culled.
+    // Points that cannot be solved have to be counted, so they are not culled.
     if (isFinite && !this->Scene.MayBeInView(low, high))
     {
       return false;
@@ -146,7 +146,7 @@ ViewSelection SelectInView(const RefractionScene& scene, const ObjectTopology& t
   selector.Add(topology.Lines);
   selector.Add(topology.Polygons);
   ViewSelection selection = selector.Finish();
-  selection.CulledCells -= topology.BrokenCells; // counted as such
+  selection.CulledCells -= topology.BrokenCells; // these are counted separately
   return selection;
 }
 

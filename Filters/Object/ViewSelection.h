@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Which part of the geometry a camera may see through the membrane. A cell is in view if the ray
- * tube of a facet in view may hold a point of its bounding cube, or if it may be in front of the
- * membrane. What a cell in view needs is solved in whole chunks of points, with all of the
- * membrane: the result is the same as without a view.
+ * Selection of the part of the geometry that a camera may see through the membrane. A cell is in
+ * view if the ray tube of a facet in view may hold a point of its bounding cube, or if the cell may
+ * be in front of the membrane. The points needed for the cells in view are solved in whole chunks,
+ * with the entire membrane, so that the result is the same as without a selection.
  */
 #ifndef meniscus_Filters_Object_ViewSelection_h
 #define meniscus_Filters_Object_ViewSelection_h
@@ -23,17 +23,17 @@ namespace meniscus
 {
 
 /**
- * Planes that bound the view from the sides, and one through the eye across it; what is in view is
- * on their positive side. `aspect` is width over height; 0: not known, so only the sides that do
- * not depend on it are there.
+ * Planes that bound the view on its sides, and one through the eye perpendicular to the view
+ * direction; the visible part is on their positive sides. `aspect` is width over height; if it is 0
+ * (unknown), only the planes that do not depend on it are returned.
  */
 std::vector<ViewPlane> FindViewPlanes(vtkCamera* camera, double aspect);
 
 struct ViewSelection
 {
-  bool IsActive = false;    ///< otherwise all is selected
-  std::vector<bool> Cells;  ///< by the id of the input
-  std::vector<bool> Chunks; ///< of points, ObjectImages::Chunk each
+  bool IsActive = false;    ///< false: everything is selected
+  std::vector<bool> Cells;  ///< by id of the input cell
+  std::vector<bool> Chunks; ///< of points, ObjectImages::Chunk points each
   vtkIdType CulledCells = 0;
   vtkIdType CulledPoints = 0;
 

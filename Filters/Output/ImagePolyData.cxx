@@ -22,11 +22,11 @@ namespace meniscus
 namespace
 {
 
-// Cells that one result collects: enough work for a thread, and the results do not depend on the
-// threads.
+// Number of cells whose results are collected together: enough work for a thread. It is fixed, so
+// that the results do not depend on the threads.
 constexpr std::size_t CellsPerPart = 64;
 
-// Whether the diagonal from corner 0 to corner 2 splits a quad into two triangles that face the
+// True if the diagonal from corner 0 to corner 2 splits a quad into two triangles that face the
 // same way.
 bool IsSplitByDiagonal(vtkPolyData* input, const std::int64_t* ids)
 {
@@ -40,7 +40,7 @@ bool IsSplitByDiagonal(vtkPolyData* input, const std::int64_t* ids)
            glm::cross(diagonal, corner[3] - corner[0])) > 0.0;
 }
 
-// Ear clipping, which also splits polygons that are not convex. A polygon that it cannot split, or
+// Ear clipping, which also splits polygons that are not convex. A polygon that cannot be split, or
 // that has fewer than three points, has no area.
 void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count,
   std::vector<std::int64_t>& triangles)
@@ -73,7 +73,7 @@ void SplitPolygon(vtkPolyData* input, const std::int64_t* ids, std::size_t count
   }
 }
 
-/** Results of parts of the cells, put together in their order. */
+/** Results of one part of the cells; parts are concatenated in their order. */
 struct Part
 {
   ImageMesh Pieces;
@@ -165,7 +165,7 @@ private:
     this->Output->GetFieldData()->AddArray(without);
   }
 
-  // Returns the place of the first.
+  // Returns the index of the first one.
   vtkIdType TakePoints(const std::vector<ImagePoint>& points)
   {
     const auto first = static_cast<vtkIdType>(this->Points.size());
@@ -198,7 +198,7 @@ private:
 
   void MakeVertices()
   {
-    // The images of a point follow each other.
+    // Images of the same point are consecutive.
     std::vector<vtkIdType> first(static_cast<std::size_t>(this->Input->GetNumberOfPoints()) + 1, 0);
     for (std::size_t i = 0; i + 1 < first.size(); ++i)
     {
@@ -273,7 +273,8 @@ private:
     this->CopyIds(fitting);
   }
 
-  // VTK leaves out what is an id: there is no id in between. The nearest point's is taken.
+  // Copies id arrays, which VTK does not interpolate because ids have no intermediate values: the
+  // id of the nearest point is taken.
   void CopyIds(vtkDataSetAttributes* fitting)
   {
     vtkPointData* to = this->Output->GetPointData();

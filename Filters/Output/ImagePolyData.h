@@ -29,20 +29,22 @@ struct AllImages
 };
 
 /**
- * Calls `body` for ranges of [0, count) in any order and from any thread; false if it was stopped.
+ * Calls `body` for ranges of [0, count) in any order and from any thread; returns false if it was
+ * aborted.
  */
 using ProgressLoop = std::function<bool(std::size_t count, const RangeBody& body)>;
 
 /**
- * Maps the lines and polygons of `topology`, whose points `images` has solved. With `closesSeams`,
- * gaps between the images of neighbours become cells. False if `loop` was stopped.
+ * Maps the lines and polygons of `topology`, whose points must have been solved in `images`. With
+ * `closesSeams`, gaps between the images of neighbours are filled with cells. Returns false if
+ * `loop` was aborted.
  */
 bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectImages& images,
   bool closesSeams, const ProgressLoop& loop, AllImages& result);
 
 /**
- * Fills `output` with every image and with the arrays of vtkRefractedGeometryFilter; arrays of
- * the input are interpolated at points that were made.
+ * Fills `output` with all images and with the arrays of vtkRefractedGeometryFilter. Arrays of the
+ * input are interpolated at new points.
  */
 VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopology& topology,
   const ObjectImages& images, const AllImages& cells, const Membrane& membrane,

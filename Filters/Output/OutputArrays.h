@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * What every output of vtkRefractedGeometryFilter has, whichever images it shows.
- */
+/** Arrays that every output of vtkRefractedGeometryFilter has, for all image modes. */
 #ifndef meniscus_Filters_Output_OutputArrays_h
 #define meniscus_Filters_Output_OutputArrays_h
 
@@ -18,7 +16,7 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/** What the user wants to have of the output, and the scene that it is about. */
+/** The user's options for the output, and the scene that it refers to. */
 struct OutputOptions
 {
   int PointsPrecision = 0; ///< vtkAlgorithm::DesiredOutputPrecision
@@ -32,31 +30,33 @@ struct OutputOptions
 };
 
 /**
- * Points of the output, in the precision that is asked for, and the point arrays that are added.
- * `sources` has the point of the input per point, or -1.
+ * Creates the output points, in the requested precision, and the additional point arrays. `sources`
+ * holds the input point of each point, or -1.
  */
 void MakePoints(vtkPolyData* input, const std::vector<const VirtualVertex*>& vertices,
   const std::vector<vtkIdType>& sources, const Membrane& membrane, const OutputOptions& options,
   vtkPolyData* output);
 
 /**
- * Makes the output's normals those that keep the lighting of the true points (x, y, z each); the
- * true normals stay as an array. Does nothing without normals.
+ * Replaces the output's normals by normals that preserve the lighting of the true points (x, y, z
+ * each); the true normals are kept as an array. Has no effect without normals.
  */
 void MakeVirtualNormals(const std::vector<const VirtualVertex*>& vertices,
   const std::vector<glm::dvec3>& truePoints, const OutputOptions& options, vtkPolyData* output);
 
-/** The cell arrays that are added. */
+/** Creates the additional cell arrays. */
 void MakeCellArrays(const std::vector<vtkIdType>& sources,
   const std::vector<signed char>& orientations, vtkPolyData* output);
 
 /**
- * Copies `from` without the arrays that do not have `tuples` tuples: reading these by index would
- * leave them. Returns how many were left out.
+ * Copies `from` without the arrays whose number of tuples is not `tuples`: reading them by index
+ * would go out of bounds. Returns the number of arrays left out.
  */
 int TakeFittingArrays(vtkDataSetAttributes* from, vtkIdType tuples, vtkDataSetAttributes* fitting);
 
-/** Tuple `sources[i]` to tuple i for all i; arrays are shared if every tuple stays in its place. */
+/**
+ * Copies tuple `sources[i]` to tuple i for all i. Arrays are shared if every tuple keeps its index.
+ */
 void CopyTuples(vtkDataSetAttributes* from, vtkIdType tuples, const std::vector<vtkIdType>& sources,
   vtkDataSetAttributes* to);
 

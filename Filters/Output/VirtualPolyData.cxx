@@ -61,7 +61,7 @@ public:
   }
 
 private:
-  // Places of the points that have an image; -1 for the others.
+  // Numbers the points that have an image; others get -1.
   void NumberPoints()
   {
     const auto count = static_cast<vtkIdType>(this->Vertices.size());
@@ -72,7 +72,7 @@ private:
     {
       if (!this->Selection.HasPoint(static_cast<std::size_t>(i)))
       {
-        continue; // whether it has an image is not known
+        continue; // not solved, so it is not known whether it has an image
       }
       if (this->GetVertex(i).State == ImageState::Found)
       {

@@ -17,18 +17,18 @@ namespace meniscus
 
 struct ViewSelection;
 
-/** What did not make it to the output. */
+/** Parts of the input that are missing in the output. */
 struct VirtualPolyDataReport
 {
   vtkIdType SkippedCells = 0; ///< cells that need a point without an image
-  vtkIdType BrokenCells = 0;  ///< cells that name a point that does not exist
-  int ArraysOfWrongSize = 0;  ///< attribute arrays that do not fit the input, not passed on
+  vtkIdType BrokenCells = 0;  ///< cells that refer to a point that does not exist
+  int ArraysOfWrongSize = 0;  ///< attribute arrays of the wrong size, which are not passed on
 };
 
 /**
  * Fills `output` with the cells of `input` at the virtual points, and with the arrays of
- * vtkRefractedGeometryFilter. `vertices` has one entry per point of `input`; what `selection` has
- * is solved with `membrane`.
+ * vtkRefractedGeometryFilter. `vertices` has one entry per point of `input`; those in `selection`
+ * have been solved with `membrane`.
  */
 VirtualPolyDataReport BuildVirtualPolyData(vtkPolyData* input,
   const std::vector<VirtualVertex>& vertices, const ViewSelection& selection,

@@ -21,7 +21,7 @@ std::vector<double> CopyPoints(vtkPolyData* input)
   return points;
 }
 
-// Bit by bit, so that a NaN equals itself.
+// Compared bit by bit, so that a NaN equals itself.
 bool SameValues(const std::vector<double>& a, const std::vector<double>& b)
 {
   return a.size() == b.size() &&

@@ -16,31 +16,33 @@
 namespace meniscus
 {
 
-/** The virtual vertices of one block of geometry, and what they were computed from. */
+/** Virtual vertices of one block of geometry, with the values from which they were computed. */
 struct SolvedBlock
 {
-  /** Takes the points in again if the source has been modified; images hold if no value differs. */
+  /**
+   * Reads the points again if the source has been modified. Images stay valid if no value differs.
+   */
   void UpdatePoints();
-  /** The same for the cells. */
+  /** Reads the cells again if the source has been modified. */
   void UpdateTopology();
 
   vtkWeakPointer<vtkPolyData> Source;
   vtkMTimeType SourceTime = 0;
   std::vector<double> Points;
-  vtkTypeInt64 EyeUpdate = -1; ///< for which the points are solved
-  bool All = false;            ///< all images, or the first
+  vtkTypeInt64 EyeUpdate = -1; ///< number of the eye update for which the points are solved
+  bool All = false;            ///< true: all images; false: the first image only
   std::vector<VirtualVertex> Vertices;
-  std::vector<bool> SolvedChunks; ///< of `vertices`
+  std::vector<bool> SolvedChunks; ///< chunks of `Vertices`
 
-  /** What is in view, and what that was found for. */
+  /** Cells and points in view, and the view for which they were determined. */
   ViewSelection Selection;
   vtkTypeInt64 ViewChange = -1;
 
-  /** All images, or a view. */
+  /** Used with all images, or with a view. */
   vtkMTimeType TopologyTime = 0;
   ObjectTopology Topology;
 
-  /** All images only. */
+  /** Used with all images only. */
   double Tolerance = 0.0;
   bool ClosesSeams = false;
   bool CellsReady = false;

@@ -11,7 +11,10 @@
 namespace meniscus
 {
 
-/** Items of a block: many blocks for each thread of any machine, each tens of microseconds. */
+/**
+ * Number of items in a block. It leaves many blocks for each thread of any machine, each with tens
+ * of microseconds of work.
+ */
 constexpr std::size_t BlockSize = 8192;
 
 inline std::size_t NumberOfBlocks(std::size_t count)
@@ -20,8 +23,8 @@ inline std::size_t NumberOfBlocks(std::size_t count)
 }
 
 /**
- * Calls body(block, first, last) for blocks that cover [0, count). They do not depend on the number
- * of threads, so neither does what is put together from them in order.
+ * Calls body(block, first, last) for blocks that cover [0, count). The blocks do not depend on the
+ * number of threads, so neither does a result that is assembled from them in order.
  */
 template <typename Body>
 void ForEachBlock(std::size_t count, const RangeLoop& loop, Body&& body)

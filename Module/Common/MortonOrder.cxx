@@ -13,7 +13,7 @@ constexpr int BitsPerAxis = 10;
 constexpr double CellsPerAxis = 1 << BitsPerAxis;
 constexpr int RadixBits = 10;
 constexpr std::size_t RadixSize = std::size_t{ 1 } << RadixBits;
-/** Keys that one histogram is made of; many times RadixSize, so that histograms are cheap. */
+/** Number of keys per histogram; many times RadixSize, so that the histograms are cheap. */
 constexpr std::size_t Chunk = 32768;
 
 /** Spreads the 10 low bits so that two zeros follow each. */
@@ -30,7 +30,7 @@ std::size_t Digit(MortonKey key, int shift)
   return (key >> shift) & (RadixSize - 1);
 }
 
-/** One stable counting pass on the digit at `shift`. */
+/** One stable counting pass over the digit at `shift`. */
 void RadixPass(const std::vector<MortonKey>& from, int shift, const RangeLoop& loop,
   std::vector<std::size_t>& starts, std::vector<MortonKey>& to)
 {

@@ -14,7 +14,7 @@
 namespace meniscus
 {
 
-/** Maps positions in a box to 30-bit Morton codes, 10 bits an axis. */
+/** Maps positions in a box to 30-bit Morton codes with 10 bits per axis. */
 class MortonCurve
 {
 public:
@@ -28,10 +28,12 @@ private:
   glm::dvec3 Scale;
 };
 
-/** The code of whole numbers within +-2^(bits - 1): 30 bits, of the 10 uppermost of an axis. */
+/**
+ * Morton code of integers within +-2^(bits - 1): 30 bits, from the 10 uppermost bits of each axis.
+ */
 std::uint32_t MortonCode(const std::int64_t position[3], int bits);
 
-/** A Morton code in the upper and an index in the lower 32 bits. */
+/** A Morton code in the upper 32 bits and an index in the lower 32. */
 using MortonKey = std::uint64_t;
 
 inline MortonKey MakeMortonKey(std::uint32_t code, std::size_t index)

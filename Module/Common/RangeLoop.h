@@ -10,13 +10,14 @@ namespace meniscus
 {
 
 /**
- * How the caller wants independent work done: `loop(count, body)` calls `body(begin, end)` for
- * ranges that cover [0, count) once each, in any order and from any number of threads.
+ * Parallel loop over independent work, supplied by the caller: `loop(count, body)` calls
+ * `body(begin, end)` for ranges that cover [0, count) once each, in any order and from any number
+ * of threads.
  */
 using RangeBody = std::function<void(std::size_t begin, std::size_t end)>;
 using RangeLoop = std::function<void(std::size_t count, const RangeBody& body)>;
 
-/** All of it at once on the calling thread. */
+/** Runs the whole range at once on the calling thread. */
 inline void SerialLoop(std::size_t count, const RangeBody& body)
 {
   body(0, count);

@@ -22,11 +22,13 @@ enum class InstructionSet
 };
 #undef MENISCUS_ENUMERATOR
 
-/** Sets that this build and this processor have, widest first. Never empty: Portable is the last.
+/**
+ * Instruction sets that this build and this processor support, widest first. Never empty: Portable
+ * is the last.
  */
 const std::vector<InstructionSet>& GetInstructionSets();
 
-/** Widest set that this build and this processor have. */
+/** Widest instruction set that this build and this processor support. */
 InstructionSet BestInstructionSet();
 
 /** Name for messages: "AVX-512", "AVX2", "NEON" or "portable". */

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Plain loops over lanes, compiled once per instruction set by target attributes. All functions
- * that the body calls become part of the loop (flatten), so that the compiler can take several
- * lanes at a time and no inline function compiled for a set is shared with other code.
+ * that the body calls are inlined into the loop (flatten), so that the compiler can vectorise it
+ * and no inline function compiled for a set is shared with other code.
  */
 #ifndef meniscus_Simd_LaneLoop_h
 #define meniscus_Simd_LaneLoop_h

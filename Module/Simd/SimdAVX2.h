@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** Packets of 8 lanes for processors with AVX2 and FMA; see SimdPortable.h for what each name does.
+/**
+ * Packets of 8 lanes for processors with AVX2 and FMA; see SimdPortable.h for the meaning of each
+ * name.
  */
 #ifndef meniscus_Simd_SimdAVX2_h
 #define meniscus_Simd_SimdAVX2_h
@@ -122,7 +124,7 @@ struct SimdAVX2
   }
   static Int Pick(Int index, const Int (&of)[4])
   {
-    // Bits 0 and 1 of the index, moved to where the blend looks.
+    // Bits 0 and 1 of the index, shifted to the sign bit, which the blend tests.
     const Mask odd{ _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 31)) };
     const Mask high{ _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 30)) };
     return Select(high, Select(odd, of[3], of[2]), Select(odd, of[1], of[0]));
@@ -149,7 +151,7 @@ struct SimdAVX2
     {
       rows[i] = from + std::int64_t{ 3 } * at[i];
     }
-    // Nothing is read behind the third.
+    // The mask prevents reads beyond the third value.
     const __m128i three = _mm_setr_epi32(-1, -1, -1, 0);
     Float none;
     TransposeAs(
@@ -160,7 +162,7 @@ struct SimdAVX2
   {
     const __m256i face = _mm256_and_si256(cellFace.V, _mm256_set1_epi32(3));
     const __m256i cell = _mm256_slli_epi32(_mm256_sub_epi32(cellFace.V, face), 1);
-    // Up to 8 * 2^29 - 1: unsigned.
+    // Offsets into the cells are up to 8 * 2^29 - 1, so they are unsigned.
     std::uint32_t cellAt[Width];
     std::uint32_t oppositeAt[Width];
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(cellAt), cell);
@@ -180,7 +182,7 @@ struct SimdAVX2
       links[k] = AsInt(bits[k]);
     }
   }
-  /** Four floats from each of the rows. */
+  /** Loads four floats from each of the rows and transposes them. */
   static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
   {
     TransposeAs([](const float* row) { return _mm_loadu_ps(row); }, rows, x, y, z, w);
@@ -218,7 +220,7 @@ struct SimdAVX2
       return { low };
     }
     const __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), index.V);
-    // Bit 3 of the index, moved to where the blend looks.
+    // Bit 3 of the index, shifted to the sign bit, which the blend tests.
     const __m256 second = _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 28));
     return { _mm256_blendv_ps(low, high, second) };
   }

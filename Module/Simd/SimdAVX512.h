@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/** Packets of 16 lanes for processors with AVX-512F; see SimdPortable.h for what each name does. */
+/**
+ * Packets of 16 lanes for processors with AVX-512F; see SimdPortable.h for the meaning of each
+ * name.
+ */
 #ifndef meniscus_Simd_SimdAVX512_h
 #define meniscus_Simd_SimdAVX512_h
 
@@ -125,7 +128,7 @@ struct SimdAVX512
     {
       rows[i] = from + std::int64_t{ 3 } * at[i];
     }
-    // Nothing is read behind the third.
+    // The mask prevents reads beyond the third value.
     const __m128i three = _mm_setr_epi32(-1, -1, -1, 0);
     Float none;
     TransposeAs(
@@ -136,7 +139,7 @@ struct SimdAVX512
   {
     const __m512i face = _mm512_and_si512(cellFace.V, _mm512_set1_epi32(3));
     const __m512i cell = _mm512_slli_epi32(_mm512_sub_epi32(cellFace.V, face), 1);
-    // Up to 8 * 2^29 - 1: unsigned.
+    // Offsets into the cells are up to 8 * 2^29 - 1, so they are unsigned.
     std::uint32_t cellAt[Width];
     std::uint32_t oppositeAt[Width];
     _mm512_storeu_si512(cellAt, cell);
@@ -156,7 +159,7 @@ struct SimdAVX512
       links[k] = AsInt(bits[k]);
     }
   }
-  /** Four floats from each of the rows. */
+  /** Loads four floats from each of the rows and transposes them. */
   static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
   {
     TransposeAs([](const float* row) { return _mm_loadu_ps(row); }, rows, x, y, z, w);

@@ -15,7 +15,7 @@ struct SimdNEON
 {
   static constexpr int Width = 4;
 
-  /** All bits of a lane are set or none. */
+  /** All bits of a lane are set, or none. */
   struct Mask
   {
     uint32x4_t Bits;
@@ -58,7 +58,7 @@ struct SimdNEON
     const float32x4_t roundOff = vfmsq_f32(bc, b.V, c.V);
     return { vaddq_f32(vfmaq_f32(vnegq_f32(bc), a.V, d.V), roundOff) };
   }
-  // Not vminq and vmaxq: these return NaN if either argument is one.
+  // vminq and vmaxq are not used: they return NaN if either argument is NaN.
   static Float Min(Float a, Float b) { return Select(a < b, a, b); }
   static Float Max(Float a, Float b) { return Select(a > b, a, b); }
   static Float Abs(Float a) { return { vabsq_f32(a.V) }; }
@@ -116,7 +116,7 @@ struct SimdNEON
   {
     std::int32_t at[Width];
     Store(at, index);
-    // Nothing is read behind the third.
+    // No values beyond the third are read.
     const auto row = [&](int i)
     {
       const float* triple = from + std::int64_t{ 3 } * at[i];
@@ -128,7 +128,7 @@ struct SimdNEON
   static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
     Int (&links)[4], Float (&vertex)[4])
   {
-    // Up to 8 * 2^29 - 1: unsigned.
+    // Offsets into the cells are up to 8 * 2^29 - 1, so they are unsigned.
     const uint32x4_t number = vreinterpretq_u32_s32(cellFace.V);
     const uint32x4_t face = vandq_u32(number, vdupq_n_u32(3));
     const uint32x4_t cell = vshlq_n_u32(vsubq_u32(number, face), 1);
@@ -162,14 +162,14 @@ struct SimdNEON
   static Int AsInt(Float a) { return { vreinterpretq_s32_f32(a.V) }; }
 
 private:
-  /** Bit i in lane i. */
+  /** Lane i has bit i set. */
   static uint32x4_t LaneBits()
   {
     static const std::uint32_t bits[Width] = { 1, 2, 4, 8 };
     return vld1q_u32(bits);
   }
 
-  /** Per lane, from[index]. */
+  /** from[index] for each lane. */
   static Float LoadLanes(const float* from, Int index)
   {
     std::int32_t at[Width];

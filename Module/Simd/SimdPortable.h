@@ -70,11 +70,11 @@ inline PortableLanes<bool> operator|(const PortableLanes<bool>& a, const Portabl
 }
 
 /**
- * Packets of 4 lanes in plain C++, for any processor. SimdAVX2 and SimdAVX512 offer the same names
- * with intrinsics; they are all that the templates of the ray caster use.
+ * Packets of 4 lanes in plain C++, for any processor. The other instruction sets offer the same
+ * names with intrinsics; the templates of the ray caster use no others.
  *
- * Float, Int (32 bits) and Mask hold one value per lane. Comparisons with NaN are false;
- * Min and Max return their second argument then.
+ * Float, Int (32 bits) and Mask hold one value per lane. Comparisons with NaN are false; Min and
+ * Max return their second argument if either is NaN.
  */
 struct SimdPortable
 {
@@ -101,7 +101,7 @@ struct SimdPortable
     return EachLane<T>([value](T) { return value; }, PortableLanes<T>());
   }
 
-  /** a * b + c. */
+  /** a * b + c, with one rounding or two. */
   template <typename T>
   static PortableLanes<T> Fma(
     const PortableLanes<T>& a, const PortableLanes<T>& b, const PortableLanes<T>& c)
@@ -109,8 +109,8 @@ struct SimdPortable
     return a * b + c;
   }
   /**
-   * a * d - b * c. The sign may be wrong, and the value off, by 2^-22 of |b c|, where the factors
-   * are exact.
+   * a * d - b * c, for exact factors. The error is at most 2^-22 of |b c|, which may change the
+   * sign of the result.
    */
   static Float CrossProduct(const Float& a, const Float& b, const Float& c, const Float& d)
   {
@@ -139,7 +139,7 @@ struct SimdPortable
   {
     return EachLane<T>([](bool m, T x, T y) { return m ? x : y; }, mask, yes, no);
   }
-  /** 1 where set, else 0. */
+  /** 1 where the mask is set, otherwise 0. */
   static Int One(const Mask& mask)
   {
     return EachLane<std::int32_t>([](bool m) { return m ? 1 : 0; }, mask);
@@ -153,7 +153,7 @@ struct SimdPortable
   {
     return EachLane<bool>([](bool x) { return !x; }, a);
   }
-  /** Bit i is lane i. */
+  /** Bit mask in which bit i is lane i. */
   static unsigned int Bits(const Mask& mask)
   {
     unsigned int bits = 0;
@@ -173,7 +173,7 @@ struct SimdPortable
     return mask;
   }
 
-  /** a + 1 and a - 1 where set. */
+  /** a + 1 and a - 1 in the lanes where the mask is set. */
   static Int Increment(const Mask& mask, const Int& a) { return a + One(mask); }
   static Int Decrement(const Mask& mask, const Int& a) { return a - One(mask); }
   static Int And(const Int& a, const Int& b)
@@ -185,8 +185,8 @@ struct SimdPortable
     return EachLane<float>([](std::int32_t x) { return static_cast<float>(x); }, a);
   }
   /**
-   * The upper half of a * b + addend in 64 bits, rounded down; the addends of even and of odd lanes
-   * are apart.
+   * The upper half of the 64-bit value a * b + addend, rounded down. The addends of even and odd
+   * lanes are in separate arrays.
    */
   static Int MultiplyHigh(const Int& a, const std::int32_t* b, const std::int64_t* evenAddend,
     const std::int64_t* oddAddend)
@@ -199,7 +199,7 @@ struct SimdPortable
     }
     return result;
   }
-  /** Per lane, of[index]. */
+  /** of[index] for each lane. */
   static Int Pick(const Int& index, const Int (&of)[4])
   {
     Int result;
@@ -210,7 +210,7 @@ struct SimdPortable
     return result;
   }
 
-  /** Per lane, the four floats from `from + Stride * index`. */
+  /** Loads, for each lane, the four floats at `from + Stride * index`. */
   template <int Stride>
   static void GatherQuads(
     const float* from, const Int& index, Float& x, Float& y, Float& z, Float& w)
@@ -224,7 +224,7 @@ struct SimdPortable
       w.Of[i] = quad[3];
     }
   }
-  /** Per lane, the three floats from `from + 3 * index`. */
+  /** Loads, for each lane, the three floats at `from + 3 * index`. */
   static void GatherTriples(const float* from, const Int& index, Float& x, Float& y, Float& z)
   {
     for (int i = 0; i < Width; ++i)
@@ -236,8 +236,8 @@ struct SimdPortable
     }
   }
   /**
-   * For cell and face number cellFace / 4 and cellFace % 4: the links of the cell, of the integers
-   * from `cells + 8 cell` the last four, and the four floats of its vertex opposite to the face.
+   * For the cell cellFace / 4 and its face cellFace % 4: loads the links of the cell, the last four
+   * of the eight integers at `cells + 8 cell`, and the four floats of its vertex opposite the face.
    */
   static void GatherCells(const std::int32_t* cells, const float* vertices, const Int& cellFace,
     Int (&links)[4], Float (&vertex)[4])
@@ -254,19 +254,19 @@ struct SimdPortable
       }
     }
   }
-  /** scalars[cellFace / 4]. */
+  /** scalars[cellFace / 4] for each lane. */
   static Float GatherCellScalars(const float* scalars, const Int& cellFace)
   {
     return EachLane<float>([scalars](std::int32_t i) { return scalars[i / 4]; }, cellFace);
   }
-  /** table[index], of a table of `Blocks` (1 or 2) times LookupBlock entries. */
+  /** table[index], for a table of `Blocks` (1 or 2) times LookupBlock entries. */
   static constexpr int LookupBlock = 8;
   template <int Blocks>
   static Float Lookup(const float* table, const Int& index)
   {
     return EachLane<float>([table](std::int32_t i) { return table[i]; }, index);
   }
-  /** The same bits. */
+  /** The same bits as an integer. */
   static Int AsInt(const Float& a)
   {
     Int result;

@@ -25,7 +25,7 @@ std::uint64_t BitsOf(double value)
   return bits;
 }
 
-/** Whether the values lie in memory one after the other, as whole bytes. */
+/** True if the values are contiguous in memory, as whole bytes. */
 bool HasBytes(vtkDataArray* array)
 {
   return array->HasStandardMemoryLayout() && array->GetDataType() != VTK_BIT;
@@ -52,7 +52,8 @@ ObjectVersion ObjectVersion::Own(vtkObject* object)
 //------------------------------------------------------------------------------
 std::uint64_t ContentDigest::Step(std::uint64_t state, std::uint64_t word)
 {
-  // An odd factor and a shift of the upper half into the lower: both can be undone.
+  // Multiplication by an odd factor, and a shift of the upper half into the lower; both are
+  // invertible.
   constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u;
   const std::uint64_t product = ((state ^ word) + factor) * factor;
   return product ^ (product >> 32);
@@ -61,7 +62,7 @@ std::uint64_t ContentDigest::Step(std::uint64_t state, std::uint64_t word)
 //------------------------------------------------------------------------------
 std::uint64_t ContentDigest::DigestBytes(const unsigned char* bytes, std::size_t size)
 {
-  // Independent chains of steps, which a processor runs at the same time.
+  // Independent chains of steps, which a processor executes in parallel.
   constexpr std::size_t chains = 4;
   std::uint64_t states[chains] = { 0, 1, 2, 3 };
   std::uint64_t words[chains];

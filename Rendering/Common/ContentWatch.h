@@ -16,7 +16,7 @@ class vtkObject;
 namespace meniscus
 {
 
-/** An object and its modification time: equal as long as it is the same object, unmodified. */
+/** An object and its modification time. Equal for the same object as long as it is not modified. */
 struct ObjectVersion
 {
   const vtkObject* Object = nullptr;
@@ -34,23 +34,26 @@ struct ObjectVersion
 
 /**
  * A 64-bit digest of values, computed in parallel and independent of the number of threads. Every
- * step is invertible in the word that it takes in, so contents that differ in a single word never
- * have the same digest; others do with a probability of 2^-64. Values are compared bit by bit.
+ * step is invertible in the word that it adds, so contents that differ in a single word never have
+ * the same digest; others do with a probability of 2^-64. Values are compared bit by bit.
  */
 class ContentDigest
 {
 public:
-  /** The size, type and values of an array; of null that there is none. */
+  /** Adds the size, type and values of an array; for null, adds that there is none. */
   void Add(vtkDataArray* array);
   void Add(std::uint64_t word);
-  /** Values computed by valueOf(i), 0 <= i < count. @pre  several threads may call it. */
+  /**
+   * Adds the values computed by valueOf(i), 0 <= i < count.
+   * @pre several threads may call valueOf at the same time.
+   */
   template <typename Function>
   void AddValues(std::size_t count, Function&& valueOf);
 
   std::uint64_t GetValue() const { return this->State; }
 
 private:
-  /** Takes in digest(first, last) of each block of [0, count). */
+  /** Adds digest(first, last) of each block of [0, count). */
   void AddBlocks(std::size_t count,
     const std::function<std::uint64_t(std::size_t first, std::size_t last)>& digest);
   static std::uint64_t Step(std::uint64_t state, std::uint64_t word);
@@ -60,20 +63,21 @@ private:
 };
 
 /**
- * Tells whether values changed: by modification times, which cost nothing, and where one of these
- * moved, by the values' digest. An edit in place is seen whichever of the watched objects was told
- * of it, and an object that was modified without a change of values counts as unchanged.
+ * Detects changes of values: by modification times, which cost nothing, and, where one of these has
+ * moved, by the values' digest. An edit in place is detected whichever of the watched objects
+ * received Modified(), and an object that was modified without a change of values counts as
+ * unchanged.
  */
 class ContentWatch
 {
 public:
   /**
-   * @param times   versions of all objects that may be told of an edit.
-   * @param digest  computes the digest of the values.
-   * @return  whether the values differ from those of the previous call; true at the first call.
+   * @param times versions of all objects that may receive Modified() after an edit.
+   * @param digest computes the digest of the values.
+   * @return true if the values differ from those of the previous call, and at the first call.
    */
   bool HasChanged(std::vector<ObjectVersion> times, const std::function<std::uint64_t()>& digest);
-  /** The next values count as changed. */
+  /** Makes the next values count as changed. */
   void Forget();
 
 private:

@@ -11,7 +11,7 @@
 namespace meniscus
 {
 
-/** Counts the bytes of tables that are read where they are, once for each version of a table. */
+/** Counts the bytes of tables that are read in place, once for each version of a table. */
 class TableCounter
 {
 public:
@@ -30,7 +30,9 @@ public:
   };
   using Version = std::array<std::int64_t, 2>;
 
-  /** Adds the bytes of a table unless they were counted for this version; 0 is none. */
+  /**
+   * Adds the bytes of a table unless they were counted for this version; version 0 means no table.
+   */
   void Count(Table table, const Version& version, std::int64_t bytes)
   {
     if (this->Versions[table] != version)
@@ -39,10 +41,10 @@ public:
       this->Bytes += bytes;
     }
   }
-  /** All bytes counted. */
+  /** Number of bytes counted so far. */
   std::int64_t GetBytes() const { return this->Bytes; }
 
-  /** Bytes of the values of a table, without memory that it keeps for more. */
+  /** Number of bytes of a table's values, without reserved memory. */
   template <typename T>
   static std::int64_t SizeOf(const std::vector<T>& table)
   {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place where versions of VTK differ for us.
+// All code that depends on the version of VTK.
 #ifndef meniscus_Rendering_Common_VTKVersions_h
 #define meniscus_Rendering_Common_VTKVersions_h
 
@@ -20,7 +20,9 @@
 namespace meniscus
 {
 
-/** Adds the objects and the arrays that hold the faces of polyhedra; null if there are none. */
+/**
+ * Adds the objects and the arrays that hold the faces of polyhedra; adds nothing if there are none.
+ */
 inline void AddFaces(
   vtkUnstructuredGrid* grid, std::vector<vtkObject*>& holders, std::vector<vtkDataArray*>& arrays)
 {
@@ -38,7 +40,7 @@ inline void AddFaces(
 #endif
 }
 
-/** What a type of cells is called, such as "vtkWedge"; may be null. */
+/** Name of a cell type, such as "vtkWedge"; may be null. */
 inline const char* NameOfCellType(int type)
 {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 6, 0)

@@ -29,7 +29,7 @@ bool AreEqual(vtkPiecewiseFunction* a, vtkPiecewiseFunction* b)
   return equal;
 }
 
-/** Whether a component has a function other than the one that VTK makes when it is asked for. */
+/** True if a component has a function other than the default one that VTK creates on request. */
 bool HasOwnFunction(vtkVolumeProperty* property, int component)
 {
   vtkNew<vtkVolumeProperty> fresh;

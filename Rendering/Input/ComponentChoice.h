@@ -9,14 +9,15 @@ namespace meniscus
 {
 
 /**
- * The component of an array of several that a property's first colour function chooses, as in
- * vtkProjectedTetrahedraMapper: the length of the tuple unless the function's vector mode is
- * COMPONENT, else its vector component; without a colour function (a grey one has no vector mode)
- * the first. The first is also the default of a colour function, and then the property may ask for
- * all: if a further component has a function of its own, independent components mix.
+ * Component, of an array of several components, that a property's first colour function selects, as
+ * in vtkProjectedTetrahedraMapper: the length of the tuple unless the function's vector mode is
+ * COMPONENT, otherwise its vector component; without a colour function (a grey one has no vector
+ * mode) the first component. Component 0 is also the default of a colour function. In that case, if
+ * a further component has its own function, independent components are mixed.
  *
- * @param components  of the array.
- * @return  a component from 0, ScalarSelection::Magnitude, or ScalarSelection::Only if they mix.
+ * @param components number of components of the array.
+ * @return a component from 0, ScalarSelection::Magnitude, or ScalarSelection::Only if they are
+ *   mixed.
  */
 int ChooseComponent(vtkVolumeProperty* property, int components);
 

@@ -17,8 +17,8 @@ namespace
 {
 
 /**
- * Length of a tuple, without overflow on the way; a single component as it is, as VTK's colour maps
- * take it, with its sign.
+ * Length of a tuple, computed without overflow. A single component is returned with its sign, as
+ * VTK's colour maps use it.
  */
 double LengthOf(vtkDataArray* array, vtkIdType tuple)
 {
@@ -34,7 +34,7 @@ double LengthOf(vtkDataArray* array, vtkIdType tuple)
   return length;
 }
 
-/** The range of the finite values among some, and how many others there are. */
+/** Range of the finite values, and the number of values that are not finite. */
 struct ValueRange
 {
   double Lowest = std::numeric_limits<double>::infinity();

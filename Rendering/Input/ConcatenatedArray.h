@@ -12,13 +12,13 @@
 namespace meniscus
 {
 
-/** The arrays of all parts as one, by numbers that run through them. */
+/** Concatenation of the arrays of all parts, with a running index. */
 class ConcatenatedArray
 {
 public:
   /**
-   * @param component  as in ScalarSelection, the first for Only. An array of one component yields
-   *                   that one.
+   * @param component as in ScalarSelection; the first one for Only. For an array of one component,
+   *   it is ignored.
    */
   ConcatenatedArray(const InputBlocks& input, int component);
 
@@ -30,11 +30,11 @@ private:
   std::vector<std::int64_t> Firsts;
 };
 
-/** The values of those numbers, as they are in the arrays. */
+/** Values with the given indices, as stored in the arrays. */
 std::vector<double> GatherValues(
   const InputBlocks& input, int component, const std::vector<std::int32_t>& numbers);
 
-/** The finite ones among some values. */
+/** The finite values of a list. */
 struct FiniteValues
 {
   ScalarDistribution Distribution;

@@ -17,7 +17,7 @@ namespace meniscus
 namespace
 {
 
-/** A data set's scalars, or why they cannot be drawn. */
+/** Scalars of a data set, or the reason why they cannot be drawn. */
 struct FoundScalars
 {
   vtkDataArray* Scalars = nullptr;
@@ -74,7 +74,7 @@ FoundScalars FindScalars(vtkDataSet* grid, const ScalarSelection& selection)
   return found;
 }
 
-/** The leaves that may have something to draw. */
+/** Leaves that may have something to draw. */
 std::vector<vtkDataSet*> LeavesOf(vtkCompositeDataSet* composite)
 {
   std::vector<vtkDataSet*> leaves;

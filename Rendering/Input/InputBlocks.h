@@ -14,45 +14,47 @@ class vtkDataSet;
 namespace meniscus
 {
 
-/** What is to be told about an input; empty texts if nothing is. */
+/** Messages about an input; empty if there are none. */
 struct InputReport
 {
-  /** Why nothing can be drawn. */
+  /** Reason why nothing can be drawn. */
   std::string Error;
-  /** What is left out of the picture. */
+  /** Parts of the input that are not drawn. */
   std::string Warning;
 };
 
-/** What scalars belong to. */
+/** Association of scalars with points or cells. */
 enum class FieldAssociation
 {
   Points,
   Cells
 };
 
-/** Which array is drawn, in the terms of vtkAbstractVolumeMapper, and what of it. */
+/**
+ * Selection of the array to draw, in the terms of vtkAbstractVolumeMapper, and of its component.
+ */
 struct ScalarSelection
 {
   int ScalarMode = 0;
   int AccessMode = 0;
   int ArrayId = -1;
   const char* ArrayName = nullptr;
-  /** The length of the tuple. */
+  /** Length of the tuple. */
   static constexpr int Magnitude = -1;
-  /** The one component that there is, or all if they mix. */
+  /** The only component, or all components if they are mixed. */
   static constexpr int Only = -2;
-  /** A component, from 0, or one of these. */
+  /** A component, from 0, or one of the constants above. */
   int Component = Only;
 };
 
-/** A data set with cells, and its scalars: a tuple per point or cell. */
+/** A data set with cells, and its scalars: one tuple per point or cell. */
 struct InputPart
 {
   vtkDataSet* Grid = nullptr;
   vtkDataArray* Scalars = nullptr;
 };
 
-/** What is drawn: one data set, or the leaves of a composite one. */
+/** Input blocks to draw: one data set, or the leaves of a composite one. */
 struct InputBlocks
 {
   std::vector<InputPart> Parts;
@@ -60,9 +62,10 @@ struct InputBlocks
 };
 
 /**
- * Finds the data sets and scalars of an input. Leaves of a composite data set that have no usable
- * scalars, or have them in another place than the first that has some, are left out with a warning;
- * leaves without cells and surfaces (vtkPolyData) without. No part and no error: there is nothing.
+ * Finds the data sets and scalars of an input. Leaves of a composite data set are left out with a
+ * warning if they have no usable scalars or if their scalars have another association than those of
+ * the first leaf that has some; leaves without cells, and surfaces (vtkPolyData), are left out
+ * without a warning. If there is no part and no error, there is nothing to draw.
  */
 InputReport CollectInputBlocks(
   vtkDataObject* input, const ScalarSelection& selection, InputBlocks& parts);

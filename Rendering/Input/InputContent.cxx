@@ -26,15 +26,15 @@ namespace meniscus
 namespace
 {
 
-/** Where a data set keeps its points and cells. */
+/** Storage of the points and cells of a data set. */
 struct MeshParts
 {
-  /** Objects beside the arrays. */
+  /** Objects besides the arrays. */
   std::vector<vtkObject*> Holders;
   std::vector<vtkDataArray*> Arrays;
   /** Values that are members of the data set. */
   std::vector<double> Numbers;
-  /** Whether this is all that there is; if not, any modification counts as a change. */
+  /** True if this is the whole storage; otherwise any modification counts as a change. */
   bool IsComplete = true;
 };
 
@@ -101,7 +101,7 @@ MeshParts PartsOf(vtkDataSet* grid)
   return parts;
 }
 
-/** The types of the cells, which differently old versions of VTK keep in different arrays. */
+/** Adds the types of the cells, which versions of VTK keep in different arrays. */
 void AddCellTypes(vtkDataSet* grid, ContentDigest& digest)
 {
   if (vtkUnstructuredGrid::SafeDownCast(grid) && grid->GetNumberOfCells() > 0)
@@ -128,7 +128,8 @@ std::vector<ObjectVersion> MeshVersions(const InputBlocks& input)
     const MeshParts parts = PartsOf(part.Grid);
     for (vtkObject* holder : parts.Holders)
     {
-      // The time of a data set or of its attributes is otherwise that of all arrays, too.
+      // Own times are used because the time of a data set or of its attributes includes those of
+      // all arrays.
       versions.push_back(ObjectVersion::Own(holder));
     }
     for (vtkDataArray* array : parts.Arrays)

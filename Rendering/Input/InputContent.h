@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The content of an input for ContentWatch: which objects may be told of an edit, and the digest of
-// the values.
+// Content of an input for ContentWatch: the objects that may receive Modified() after an edit, and
+// the digest of the values.
 #ifndef meniscus_Rendering_Input_InputContent_h
 #define meniscus_Rendering_Input_InputContent_h
 
@@ -15,15 +15,15 @@ namespace meniscus
 {
 
 /**
- * Versions of the objects that may be told of an edit of the points or the cells: data sets, their
- * attributes, points, cells and the arrays below. Modifying another array than those does not
- * count.
+ * Versions of the objects that may receive Modified() after an edit of the points or the cells:
+ * data sets, their attributes, points, cells and their arrays. Modifications of other arrays are
+ * ignored.
  */
 std::vector<ObjectVersion> MeshVersions(const InputBlocks& input);
-/** Digest of the points, the cells and the flags of ghosts. */
+/** Digest of the points, the cells and the ghost flags. */
 std::uint64_t DigestMesh(const InputBlocks& input);
 
-/** Versions of the objects that may be told of an edit of the scalars. */
+/** Versions of the objects that may receive Modified() after an edit of the scalars. */
 std::vector<ObjectVersion> ScalarVersions(const InputBlocks& input);
 /** Digest of all components of the scalars. */
 std::uint64_t DigestScalars(const InputBlocks& input);

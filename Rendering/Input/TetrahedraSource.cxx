@@ -50,7 +50,7 @@ std::vector<T> CopyValues(vtkDataArray* array)
 
 constexpr int NoPoint = -1;
 
-/** The place of the point inside a cell, or NoPoint. */
+/** Index, in the cell, of the point inside it, or NoPoint. */
 int CenterOfCell(int type)
 {
   switch (type)
@@ -64,16 +64,16 @@ int CenterOfCell(int type)
   }
 }
 
-/** The parts that a face is split into, by the places of its points. */
+/** Parts into which a face is split, by the indices of its points in the face. */
 struct FaceSplit
 {
-  /** Polygons; none for a type that is not known. */
+  /** Polygons; empty for an unknown type. */
   std::vector<std::vector<int>> Parts;
-  /** The point inside the face, or NoPoint. */
+  /** Index of the point inside the face, or NoPoint. */
   int Center = NoPoint;
 };
 
-/** Triangles about the point inside a face, for the points around it. */
+/** Triangles between the point inside a face and the points around it. */
 FaceSplit SplitAbout(int center, const std::vector<int>& around)
 {
   FaceSplit split{ {}, center };
@@ -85,8 +85,8 @@ FaceSplit SplitAbout(int center, const std::vector<int>& around)
 }
 
 /**
- * The split of a face. It follows from the face alone, so it is the same on both sides, and is that
- * of the cells that Tetrahedralizer has rules for.
+ * Splitting of a face. It depends on the face alone, so it is the same on both sides, and agrees
+ * with Tetrahedralizer's rules for the cells that it knows.
  */
 FaceSplit SplitFace(vtkCell* face)
 {
@@ -117,7 +117,7 @@ FaceSplit SplitFace(vtkCell* face)
   }
 }
 
-/** Tetrahedra of a cell of a type whose cells are not degenerate. */
+/** Number of tetrahedra of a cell of the given type, unless the cell is degenerate. */
 int TetrahedraOf(int type)
 {
   switch (type)
@@ -154,20 +154,20 @@ int TetrahedraOf(int type)
   }
 }
 
-/** Whether all cells have one type, and which, as far as the class of the data set says. */
+/** True if the class of the data set guarantees that all cells have one type. */
 bool HasOneType(vtkDataSet* grid)
 {
   return vtkImageData::SafeDownCast(grid) || vtkRectilinearGrid::SafeDownCast(grid) ||
     vtkStructuredGrid::SafeDownCast(grid);
 }
 
-/** Whether several threads may ask for cells at the same time. */
+/** True if several threads may read cells at the same time. */
 bool IsThreadSafe(vtkDataSet* grid)
 {
   return HasOneType(grid) || vtkUnstructuredGrid::SafeDownCast(grid);
 }
 
-/** Whether it holds tetrahedra of four points each, and nothing else. */
+/** True if the grid contains only tetrahedra of four points each. */
 bool HasOnlyTetrahedra(vtkUnstructuredGrid* grid)
 {
   const vtkIdType cells = grid->GetNumberOfCells();
@@ -191,13 +191,13 @@ vtkPoints* PointsOf(vtkDataSet* grid)
 
 }
 
-/** What a block of cells becomes. */
+/** Tetrahedra of a block of cells. */
 struct TetrahedraSource::Part
 {
   Tetrahedralizer Tetrahedra;
   std::vector<std::int32_t> Sources;
   std::map<int, std::int64_t> Omitted;
-  /** What is added to the data set's numbers. */
+  /** Offsets that are added to the data set's point and cell indices. */
   std::int64_t FirstPoint = 0;
   std::int64_t FirstCell = 0;
 
@@ -230,9 +230,9 @@ void TetrahedraSource::Part::AddCell(vtkDataSet* grid, vtkIdType cell, int type,
 {
   if (type == VTK_EMPTY_CELL)
   {
-    return; // blanked
+    return; // blanked cell
   }
-  // Most points that a cell of a type with a rule of its own has.
+  // Largest number of points of a cell type with its own rule.
   constexpr vtkIdType mostPoints = 20;
   std::array<std::int64_t, mostPoints> points{};
   grid->GetCellPoints(cell, ids);
@@ -299,7 +299,8 @@ bool TetrahedraSource::Part::AddByFaces(vtkCell* cell)
   { return this->FirstPoint + static_cast<std::int64_t>(of->GetPointId(place)); };
   std::vector<std::int64_t> faces;
   std::size_t numberOfFaces = 0;
-  // A point inside the cell, or the smallest inside a face: in no plane of another face.
+  // A point inside the cell or, if there is none, the lowest-numbered point inside a face: it lies
+  // in no plane of another face.
   const int inside = CenterOfCell(cell->GetCellType());
   std::int64_t apex = inside == NoPoint ? NoPoint : pointOf(cell, inside);
   for (int f = 0; f < cell->GetNumberOfFaces(); ++f)
@@ -410,7 +411,7 @@ void TetrahedraSource::ViewTetrahedra(vtkUnstructuredGrid* grid)
   vtkDataArray* ids = grid->GetCells()->GetConnectivityArray();
   if (auto* longs = vtkAOSDataArrayTemplate<vtkTypeInt64>::FastDownCast(ids))
   {
-    // VTK's 64-bit integer and the standard's may have two names.
+    // VTK's 64-bit integer and the standard's may be different types.
     static_assert(sizeof(vtkTypeInt64) == sizeof(std::int64_t), "both have 64 bits");
     this->View.Cells = reinterpret_cast<const std::int64_t*>(longs->GetPointer(0));
   }
@@ -441,7 +442,7 @@ void TetrahedraSource::Tetrahedralize(const std::vector<vtkDataSet*>& grids, con
     const auto size = static_cast<std::size_t>(grid->GetNumberOfCells());
     const std::size_t firstPart = parts.size();
     parts.resize(firstPart + NumberOfBlocks(size));
-    // What VTK makes when it is first asked for must be there before threads ask.
+    // Objects that VTK creates on first access must exist before several threads access them.
     grid->GetCellType(0);
     grid->GetCellGhostArray();
     ForEachBlock(size, IsThreadSafe(grid) ? loop : SerialLoop,
@@ -513,7 +514,7 @@ GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids)
     const vtkIdType cells = grid->GetNumberOfCells();
     if (HasOneType(grid))
     {
-      // Of structured data also those that are blanked: counting them would take time.
+      // For structured data this includes blanked cells: counting them would take time.
       size.Tetrahedra += TetrahedraOf(VTK_VOXEL) * cells;
       continue;
     }

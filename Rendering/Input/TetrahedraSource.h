@@ -20,19 +20,25 @@ namespace meniscus
 {
 
 /**
- * The cells of data sets as tetrahedra: where they are stored, if it is one vtkUnstructuredGrid of
- * tetrahedra, else in arrays of its own. Points and cells of several are numbered through.
- * Duplicate, hidden and blanked cells (vtkGhostType) are left out. The data sets must outlive it.
+ * Cells of data sets as tetrahedra: a view of the stored cells if the input is one
+ * vtkUnstructuredGrid of tetrahedra, otherwise arrays of its own. Points and cells of several data
+ * sets are numbered consecutively. Duplicate, hidden and blanked cells (vtkGhostType) are left out.
+ * The data sets must outlive this object.
  */
 class TetrahedraSource
 {
 public:
-  /** @pre  MeasureGrids() says that 32 bits can number their points, cells and tetrahedra. */
+  /**
+   * @pre according to MeasureGrids(), 32 bits are enough for the indices of points, cells and
+   *   tetrahedra.
+   */
   TetrahedraSource(const std::vector<vtkDataSet*>& grids, const RangeLoop& loop);
 
   const TetrahedraView& GetView() const { return this->View; }
 
-  /** Cells that are not drawn because of their type, with their numbers; empty if there are none.
+  /**
+   * Types and numbers of the cells that are not drawn because of their type; empty if there are
+   * none.
    */
   std::string DescribeOmitted() const;
 
@@ -48,20 +54,20 @@ private:
   TetrahedraView View;
   std::vector<double> Points;
   std::vector<std::int64_t> Ids;
-  /** The cell of each tetrahedron. */
+  /** Cell of each tetrahedron. */
   std::vector<std::int32_t> Sources;
-  /** Cells by type that are not drawn. */
+  /** Number of cells that are not drawn, by type. */
   std::map<int, std::int64_t> Omitted;
 };
 
-/** How many points and tetrahedra data sets have, the latter if no cell is degenerate. */
+/** Number of points and tetrahedra of data sets, the latter if no cell is degenerate. */
 struct GridSize
 {
   std::int64_t Points = 0;
   std::int64_t Tetrahedra = 0;
 };
 
-/** Counted without tetrahedra being made. */
+/** Computes the size without creating tetrahedra. */
 GridSize MeasureGrids(const std::vector<vtkDataSet*>& grids);
 
 }

@@ -23,13 +23,15 @@ namespace
 
 constexpr float NotANumber = std::numeric_limits<float>::quiet_NaN();
 
-/** What a colour's full intensity is stored as: VTK's convention for bytes, 1 otherwise. */
+/**
+ * Stored value of a colour's full intensity: 255 for bytes, by VTK's convention, and 1 otherwise.
+ */
 double FullIntensity(const InputBlocks& parts)
 {
   return parts.Parts.front().Scalars->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
 }
 
-/** The components beside the main one that are scalars with a function of their own. */
+/** Components besides the main one that are scalars with their own functions. */
 std::vector<int> OtherScalars(ComponentMixture mixture, int components)
 {
   std::vector<int> others;
@@ -44,7 +46,10 @@ std::vector<int> OtherScalars(ComponentMixture mixture, int components)
   return others;
 }
 
-/** Makes all of a vertex NaN if one component is not finite, the main one included. Counts them. */
+/**
+ * Sets all values of a vertex to NaN if one component is not finite, the main one included. Returns
+ * the number of such vertices.
+ */
 std::int64_t MarkUnknown(const std::vector<std::int32_t>& points, const InputBlocks& parts,
   int components, std::vector<glm::vec3>& values)
 {
@@ -145,8 +150,8 @@ InputReport VolumeComponents::Update(const VolumeInput& input, const InputBlocks
 
 //------------------------------------------------------------------------------
 /**
- * @param keep  the normalisations that there are, as long as they serve.
- * @return  whether one changed.
+ * @param keep true: the present normalisations are kept as long as they are good enough.
+ * @return true if one has changed.
  */
 bool VolumeComponents::ChooseNormalizations(const FunctionFeatures& features, bool keep)
 {

@@ -17,29 +17,33 @@
 namespace meniscus
 {
 
-/** The component that VolumeInput takes as the scalar: the first, or what gives the opacity. */
+/**
+ * Component that VolumeInput uses as the scalar: the first one, or the one that determines the
+ * opacity.
+ */
 int MainComponent(ComponentMixture mixture);
 
-/** The components of the arrays beside the main one, for the vertices of a mesh. */
+/** Components of the arrays besides the main one, for the vertices of a mesh. */
 class VolumeComponents
 {
 public:
   /**
-   * Costs nothing if the input's mesh and scalars and the mixture are the same. As with
-   * VolumeInput, other functions cost something only where they change the normalisation.
+   * Updates the components. It costs nothing if the input's mesh and scalars and the mixture are
+   * unchanged. As for VolumeInput, other functions cost something only if they change the
+   * normalisation.
    */
   InputReport Update(const VolumeInput& input, const InputBlocks& parts, ComponentMixture mixture,
     const FunctionFeatures& features);
 
   ComponentMixture GetMixture() const { return this->Mixture; }
-  /** Of the array; 1 if there is no mixture. */
+  /** Number of components of the array; 1 if there is no mixture. */
   int GetNumberOfComponents() const { return this->NumberOfComponents; }
   /**
-   * Up to three other components per vertex, normalised each by itself, or colours in [0, 1]. All
-   * NaN where a component is not finite. Empty without a mixture.
+   * Up to three other components per vertex, each with its own normalisation, or colours in [0, 1].
+   * All of them are NaN where a component is not finite. Empty without a mixture.
    */
   const std::vector<glm::vec3>& GetValues() const { return this->Values; }
-  /** Of the other components that are scalars. */
+  /** Normalisation of one of the other components that are scalars. */
   const ScalarNormalization& GetNormalization(int other) const
   {
     return this->Normalizations[other];
@@ -55,7 +59,10 @@ private:
   ComponentMixture Mixture = ComponentMixture::None;
   int NumberOfComponents = 1;
   std::vector<glm::vec3> Values;
-  /** The other components that are scalars: number in the array, scalars, normalisation. */
+  /**
+   * The other components that are scalars: their indices in the array, distributions,
+   * normalisations.
+   */
   std::vector<int> Others;
   std::array<ScalarDistribution, 3> Distributions;
   std::array<ScalarNormalization, 3> Normalizations;

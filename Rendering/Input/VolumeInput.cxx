@@ -67,7 +67,7 @@ InputReport VolumeInput::BuildMesh(
   control.Progress = progress;
   if (this->Mesh.Build(view, control) == MeshStatus::Aborted)
   {
-    this->MeshWatch.Forget(); // begun again at the next call
+    this->MeshWatch.Forget(); // the next call starts again
   }
   const std::string omitted = gridView.DescribeOmitted();
   if (!omitted.empty())

@@ -21,73 +21,79 @@ namespace meniscus
 {
 
 /**
- * What is drawn, as the kernel's tables: mesh, normalised scalars, active cells. Each is remade
- * when its own input changed. The counters say how often that was, and so whether a copy is stale.
+ * The input as the kernel's tables: mesh, normalised scalars, active cells. Each table is rebuilt
+ * only when its own input has changed. Counters of the builds show whether a copy of a table is
+ * outdated.
  */
 class VolumeInput
 {
 public:
   /**
-   * The mesh of an input, all parts in one. Another with equal points and cells is the same.
-   * For scalars of cells it takes 4 bytes more per cell, which is kept up from then on; a mesh
-   * without is made again.
-   * @param progress  told the fraction done; false aborts, which leaves no mesh and no report.
+   * Updates the mesh of an input, with all parts in one. An input with equal points and cells
+   * counts as the same. Scalars of cells need 4 more bytes per cell, which are kept from then on; a
+   * mesh without them is built again.
+   * @param progress called with the fraction done; returns false to abort, which leaves no mesh and
+   *   no report.
    */
   InputReport UpdateMesh(const InputBlocks& input, const std::function<bool(double)>& progress);
 
   /**
-   * The scalars of that mesh, normalised for a function. Another function costs nothing, unless it
-   * changes where so normalised scalars are too coarse: then they are made again.
-   * @param component  as of ScalarSelection.
+   * Updates the scalars of the mesh, normalised for a function. Another function costs nothing
+   * unless its changes are too narrow for the present normalisation; in that case the scalars are
+   * normalised again.
+   * @param component as in ScalarSelection.
    */
   InputReport UpdateScalars(
     const InputBlocks& input, int component, const FunctionFeatures& features);
 
   /**
-   * The cells that rays visit. Costs nothing if mesh, scalars and visible scalars are the same.
-   * @param jumps  whether jumps of the scalars of cells can be seen.
+   * Updates the cells that rays visit. It costs nothing if mesh, scalars and visible scalars are
+   * unchanged.
+   * @param jumps whether jumps of the scalars between cells can be seen.
    */
   void UpdateActiveCells(const VisibleScalars& visible, TetrahedralMesh::CellJumps jumps);
 
-  /** Values beside the scalars, of which some can be seen by themselves. */
+  /** Values besides the scalars, some of which can be seen on their own. */
   struct OtherValues
   {
-    /** Per vertex; one that is NaN makes its cells transparent. */
+    /** One entry per vertex; NaN makes its cells transparent. */
     const std::vector<glm::vec3>* Values = nullptr;
     /** Changes with the values. */
     std::int64_t Version = 0;
-    /** Of the first values; the others cannot be seen. */
+    /** Visible scalars of the first values; the others cannot be seen. */
     std::vector<VisibleScalars> Visible;
   };
-  /** The same with values beside the scalars: a cell is visited if one of them can be seen. */
+  /** As above, with values besides the scalars: a cell is visited if one of them can be seen. */
   void UpdateActiveCells(const VisibleScalars& visible, const OtherValues& others);
 
   const TetrahedralMesh& GetMesh() const { return this->Mesh; }
   FieldAssociation GetFieldAssociation() const { return this->BuiltPlace; }
-  /** One normalised scalar per vertex; NaN where the input's is not finite. Empty if of cells. */
+  /**
+   * One normalised scalar per vertex; NaN if the input's is not finite. Empty for scalars of cells.
+   */
   const std::vector<float>& GetScalars() const { return this->Scalars; }
-  /** One per cell of the mesh, likewise; empty if of points. */
+  /** One normalised scalar per cell of the mesh; empty for scalars of points. */
   const std::vector<float>& GetCellScalars() const { return this->CellScalars; }
   const ScalarNormalization& GetNormalization() const { return this->Normalization; }
-  /** The finite scalars as they are in the input. */
+  /** Distribution of the finite scalars of the input. */
   const ScalarDistribution& GetDistribution() const { return this->Distribution; }
   /** The range of the data, normalised. */
   ScalarRange GetNormalizedRange() const;
-  /** Number of the input's scalar per vertex, or per cell of the mesh. */
+  /** Index of the input's scalar for each vertex, or for each cell of the mesh. */
   const std::vector<std::int32_t>& GetSources(FieldAssociation place) const;
-  /** Component that the scalars are, as of ScalarSelection. */
+  /** Component used as the scalar, as in ScalarSelection. */
   int GetComponent() const { return this->BuiltComponent; }
-  /** Over the boundary of the active cells; built when first asked for. */
+  /** Tree over the boundary of the active cells; built when first requested. */
   const BoundaryTree& GetBoundaryTree();
 
-  /** Bytes of the tables. */
+  /** Number of bytes of the tables. */
   std::int64_t GetBytes() const;
 
   std::int64_t GetMeshBuilds() const { return this->MeshBuilds; }
   std::int64_t GetScalarUpdates() const { return this->ScalarUpdates; }
-  /** Times that it was found out which cells are active. */
+  /** Number of updates of the active cells. */
   std::int64_t GetActiveSetBuilds() const { return this->ActiveSetBuilds; }
-  /** Times that the mesh's links and boundary became others. */
+  /** Number of changes of the mesh's links and boundary. */
   std::int64_t GetLinkChanges() const { return this->LinkChanges; }
 
 private:
@@ -103,7 +109,7 @@ private:
   VisibleScalars Visible;
   TetrahedralMesh::CellJumps Jumps = TetrahedralMesh::CellJumps::Hidden;
   std::vector<VisibleScalars> VisibleOthers;
-  /** Of the values beside the scalars; 0 without. */
+  /** Version of the values besides the scalars; 0 without. */
   std::int64_t OthersVersion = 0;
 
   ContentWatch MeshWatch;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Pass/RefractionTarget.h"
 
-#include "vtkOpenGLError.h" // OpenGL itself, whichever loader VTK has
+#include "vtkOpenGLError.h" // OpenGL itself, with whichever loader VTK uses
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 

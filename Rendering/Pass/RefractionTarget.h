@@ -14,7 +14,7 @@ class vtkWindow;
 namespace meniscus
 {
 
-/** A picture to draw to, of the size of the viewport. */
+/** An off-screen image of the size of the viewport, with depth. */
 struct RefractionTarget
 {
   vtkSmartPointer<vtkOpenGLFramebufferObject> Buffer;
@@ -23,7 +23,7 @@ struct RefractionTarget
   int Size[2] = { 0, 0 };
 
   bool Ready(vtkOpenGLRenderWindow* window, int width, int height, int colorType);
-  /** Binds and clears it: colour (0, 0, 0, 0), depth 1. */
+  /** Binds the framebuffer and clears it: colour (0, 0, 0, 0), depth 1. */
   void Begin(vtkOpenGLState* state);
   void Release(vtkWindow* window);
 };

@@ -59,8 +59,8 @@ void HoldInClippingRange(vtkRenderer* renderer, const double bounds[6])
     nearest = std::min(nearest, depth);
     farthest = std::max(farthest, depth);
   }
-  // As vtkRenderer::ResetCameraClippingRange: a little room, and not so near that all of the depth
-  // buffer's resolution is there.
+  // As in vtkRenderer::ResetCameraClippingRange: a small margin, and a limit on the near plane so
+  // that the depth buffer's resolution is not spent close to the eye.
   constexpr double room = 0.01;
   constexpr double smallestRatio = 0.001;
   const double low = std::max((1.0 - room) * nearest, smallestRatio * farthest);

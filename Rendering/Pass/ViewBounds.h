@@ -8,13 +8,12 @@ class vtkRenderer;
 namespace meniscus
 {
 
-/** Whether a part of the box may be in view: not all corners are beyond one plane of the frustum.
- */
+/** True if a part of the box may be in view: if no plane of the frustum has all corners outside. */
 bool MayBeInView(vtkRenderer* renderer, const double bounds[6]);
 
 /**
- * Widens the camera's clipping range so that it holds the bounds, as the renderer does for its own
- * props; never narrows it.
+ * Widens the camera's clipping range so that it contains the bounds, as the renderer does for its
+ * own props; never narrows it.
  */
 void HoldInClippingRange(vtkRenderer* renderer, const double bounds[6]);
 

@@ -20,54 +20,59 @@ namespace meniscus
 {
 
 /**
- * The membrane that a mapper's rays bend at. Its patches are kept as long as its shape, the rays
- * behind it as long as shape, view and indices, the vertices about them as long as those and the
- * mesh.
+ * Membrane at which a mapper's rays are refracted. Its patches are kept until its shape changes,
+ * the refracted rays until shape, view or indices change, and the vertices in their frames until
+ * those or the mesh change.
  */
 class RayCastMembrane
 {
 public:
   /**
-   * Takes the membrane's shape, if the indices of refraction differ or it is `wanted` all the same.
-   * With an error it cannot be used; a warning is told once.
-   * @param membrane  null if it is none.
+   * Reads the membrane's shape if the indices of refraction differ, or if it is `wanted` anyway.
+   * With an error it cannot be used; a warning is reported once.
+   * @param membrane null for none.
    */
   InputReport Update(vtkPolyData* membrane, double exterior, double interior, bool wanted);
 
   /**
-   * Traces an image's rays to the membrane. False if none of them meets it.
-   * @param view   but its Mesh.
-   * @param input  what the rays go through.
+   * Traces an image's rays to the membrane. Returns false if none of them meets it.
+   * @param view everything but its Mesh.
+   * @param input mesh through which the rays pass.
    */
   bool Trace(RefractedRayField::View view, VolumeInput& input);
-  /** What was traced, and the frames of the rays behind the membrane. */
+  /** Result of Trace(), and the frames of the refracted rays. */
   const RefractedRayField& GetSight() const { return this->Sight; }
   const RefractionFrames& GetFrames() const { return this->Frames; }
-  /** Whether a ray behind the membrane may begin within the mesh. */
+  /** True if a refracted ray may begin inside the mesh. */
   bool BeginsInside(VolumeInput& input);
-  /** What was traced for the native caster, with the vertices about the rays. @pre Trace() */
+  /**
+   * Result of Trace() for the native caster, with the vertices in the frames.
+   * @pre Trace()
+   */
   RefractedScene See(VolumeInput& input);
 
-  /** Times that the shape was taken in. */
+  /** Number of times that the shape was read. */
   std::int64_t GetBuilds() const { return this->Surface.GetNumberOfPatchBuilds(); }
-  /** Times that rays were traced to the membrane. */
+  /** Number of times that rays were traced to the membrane. */
   std::int64_t GetSightUpdates() const { return this->SightUpdates; }
-  /** Bytes of the rays and of the vertices about them. */
+  /** Bytes of the rays and of the vertices in their frames. */
   std::int64_t GetBytes() const { return this->Sight.GetBytes() + this->Frames.GetBytes(); }
 
 private:
-  /** Of the input's mesh and of its scalars, and of the sight; what vertices were placed for. */
+  /** Versions of the input's mesh and scalars and of the sight for which vertices were placed. */
   using PlacedVersion = std::array<std::int64_t, 3>;
 
   RefractionScene Surface;
-  /** What was last said of it: the same triangles are left out of the next wave. */
+  /**
+   * Last warning, so that it is not repeated when the same triangles are left out of the next wave.
+   */
   std::string Told;
   RefractedRayField Sight;
   RefractionFrames Frames;
   std::int64_t SightOf = 0;
   std::int64_t SightUpdates = 0;
   PlacedVersion Placed{ 0, 0, 0 };
-  /** Whether the mesh has inverted cells, and of which build that is known. */
+  /** True if the mesh has inverted cells, and the build for which that was determined. */
   bool Inverted = false;
   std::int64_t InvertedOf = 0;
 };

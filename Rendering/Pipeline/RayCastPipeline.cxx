@@ -163,8 +163,8 @@ std::string RayCastPipeline::DrawOpenGL(const RayCastFrame& frame)
 
 //------------------------------------------------------------------------------
 /**
- * Whether rays of a tile are expected to enter by more faces than the lists hold that are made on
- * the device. Those of tiles with more search the tree of the boundary one by one.
+ * True if rays of a tile are expected to enter by more faces than the device-made lists hold. Rays
+ * of tiles with more faces search the tree of the boundary one by one.
  */
 bool RayCastPipeline::WantsLongLists(const RayCastFrame& frame)
 {
@@ -180,7 +180,10 @@ bool RayCastPipeline::WantsLongLists(const RayCastFrame& frame)
 }
 
 //------------------------------------------------------------------------------
-/** Lists entries for shaders, if rays or boundary are others. False if the lists do not fit. */
+/**
+ * Lists entries for shaders if rays or boundary have changed. Returns false if the lists do not
+ * fit.
+ */
 bool RayCastPipeline::UpdateEntryTiles(const RayCastFrame& frame)
 {
   const FixedPointRays rays(frame.Rays, frame.Output.ImageSize[0], frame.Output.ImageSize[1]);
@@ -252,7 +255,7 @@ void RayCastPipeline::UpdateNative()
 }
 
 //------------------------------------------------------------------------------
-/** The tables that Upload() sends, which the native backend reads where they were made. */
+/** Counts the tables that Upload() would send, which the native backend reads in place. */
 void RayCastPipeline::CountNativeTables(const RayCastOptics& optics)
 {
   TableCounter& tables = this->NativeTables;

@@ -29,13 +29,13 @@ class vtkVolume;
 namespace meniscus
 {
 
-/** The same matrix, of column vectors. */
+/** The same matrix in column-vector convention. */
 glm::dmat4 ToGlm(vtkMatrix4x4* matrix);
 
 /**
- * From a mapper's input to a picture: what is made of mesh, scalars and property, and the backends
- * that draw it. Tables of a backend are brought up to date when it draws. Errors are texts, empty
- * if there is none.
+ * Drawing of a mapper's input: holds the tables of mesh, scalars and property, and the backends
+ * that draw them. Tables of a backend are updated when it draws. Errors are returned as texts,
+ * empty if there is none.
  */
 class RayCastPipeline
 {
@@ -48,24 +48,29 @@ public:
   RayCastNative Native;
   RayCastMembrane Membrane;
 
-  /** Where the mesh lies for the rays of an image of so many pixels. */
+  /**
+   * Computes the frame of the rays, and the place of the mesh in it, for an image of the given
+   * size.
+   */
   std::string ComputeFrame(
     vtkRenderer* renderer, vtkVolume* volume, const int imageSize[2], ViewContext& place) const;
-  /** Which table of a frame a limit in texels or the graphics device's own forbids; empty if none.
+  /**
+   * Name of the table of a frame that exceeds a limit in texels or the graphics device's own limit;
+   * empty if none does.
    */
   std::string DescribeExcess(const RayCastFrame& frame, std::int64_t limit) const;
   std::string DrawOpenGL(const RayCastFrame& frame);
   std::string DrawNative(const RayCastFrame& frame);
 
-  /** Times that entries were listed per tile on the processor, for shaders. */
+  /** Number of times that entries were listed per tile on the CPU, for shaders. */
   std::int64_t GetEntryListBuilds() const { return this->EntryListBuilds; }
   std::int64_t GetEntryListBytes() const { return this->Tiles.GetBytes(); }
   /**
-   * Brings the gradients that optics need up to date.
-   * @param parts  what the input's scalars were taken from.
+   * Updates the gradients that the optics need.
+   * @param parts source of the input's scalars.
    */
   void UpdateGradients(const InputBlocks& parts, const RayCastOptics& optics);
-  /** Computations of gradients at the vertices. */
+  /** Number of computations of gradients at the vertices. */
   std::int64_t GetGradientBuilds() const { return this->VertexGradients.Builds; }
   /** Bytes of gradients. */
   std::int64_t GetGradientBytes() const
@@ -73,14 +78,14 @@ public:
     return BytesOf(this->VertexGradients.Values) + BytesOf(this->CellGradients.Values);
   }
 
-  /** Bytes of tables sent to the graphics device, and of those made for the native backend. */
+  /** Bytes of tables sent to the graphics device, and of those created for the native backend. */
   std::int64_t GetUploadedBytes() const
   {
     return this->OpenGL.GetTables().GetUploadedBytes() + this->NativeTables.GetBytes();
   }
 
 private:
-  /** Gradients, and what they were computed from by the input's counters. */
+  /** Gradients, and the input's counters for which they were computed. */
   struct Gradients
   {
     std::vector<glm::vec3> Values;
@@ -90,7 +95,7 @@ private:
   };
 
   std::string Upload(const RayCastOptics& optics);
-  /** Whether rays of the image bend. */
+  /** True if rays of the image are refracted. */
   bool Trace(const RayCastFrame& frame, const int (&imageSize)[2]);
   std::string UploadRefractedRays(const int (&imageSize)[2]);
   bool WantsLongLists(const RayCastFrame& frame);
@@ -102,7 +107,10 @@ private:
   Gradients VertexGradients;
   Gradients CellGradients;
 
-  /** Entries per tile on the way to the shaders, and the rays and the boundary that they are of. */
+  /**
+   * Lists of entries per tile for the shaders, and the rays and the boundary for which they are
+   * valid.
+   */
   EntryTiles Tiles;
   FixedPointRays RaysOfTiles;
   std::int64_t LinksOfTiles = 0;
@@ -111,7 +119,7 @@ private:
   BoundaryMeasure Boundary;
   std::int64_t MeasuredLinks = 0;
 
-  /** What the tables on the graphics device were made of, by counters. */
+  /** Counters of the inputs of the tables on the graphics device. */
   std::int64_t UploadedLinks = 0;
   std::int64_t UploadedMesh = 0;
   std::int64_t UploadedScalars = 0;
@@ -123,7 +131,7 @@ private:
   std::int64_t UploadedPreIntegration = 0;
   std::int64_t UploadedSight = 0;
   std::int64_t UploadedTiles = 0;
-  /** The same of the native backend's. */
+  /** The same counters for the native backend's tables. */
   std::int64_t NativeProperty = 0;
   TableCounter NativeTables;
 };

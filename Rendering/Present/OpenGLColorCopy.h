@@ -12,15 +12,15 @@ class vtkWindow;
 namespace meniscus
 {
 
-/** The colours of the framebuffer object being drawn to, of 8 bits, as a texture. */
+/** Copy of the 8-bit colours of the current framebuffer object, as a texture. */
 class OpenGLColorCopy
 {
 public:
   vtkTextureObject* GetTexture() { return this->Texture; }
 
   /**
-   * Copies the viewport (x, y, width, height). Returns false, and copies nothing, if what is drawn
-   * to is multisampled, has no colours of 8 bits, or is the window itself.
+   * Copies the viewport (x, y, width, height). Returns false, and copies nothing, if the draw
+   * framebuffer is multisampled, has no 8-bit colours, or is the window itself.
    */
   bool Update(vtkOpenGLRenderWindow* window, const int viewport[4]);
 

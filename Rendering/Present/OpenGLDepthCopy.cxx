@@ -12,7 +12,7 @@ namespace meniscus
 //------------------------------------------------------------------------------
 OpenGLDepthCopy::Format OpenGLDepthCopy::ReadFormat(int framebuffer)
 {
-  // A window's own framebuffer names its parts otherwise than a framebuffer object.
+  // The buffers of a window's own framebuffer have other names than those of a framebuffer object.
   const GLenum depth = framebuffer == 0 ? GL_DEPTH : GL_DEPTH_ATTACHMENT;
   const GLenum stencil = framebuffer == 0 ? GL_STENCIL : GL_STENCIL_ATTACHMENT;
   const auto get = [](GLenum attachment, GLenum name)
@@ -57,8 +57,8 @@ void OpenGLDepthCopy::Update(vtkOpenGLRenderWindow* window, const int viewport[4
   }
   else
   {
-    // Not CopyFromFrameBuffer(), which goes by the window's samples, not by the framebuffer's (VTK
-    // 9.1; test MultisampledWindow).
+    // CopyFromFrameBuffer() is not used: it checks the window's samples instead of the
+    // framebuffer's (VTK 9.1; test MultisampledWindow).
     this->Texture->Activate();
     glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, viewport[0], viewport[1], viewport[2], viewport[3]);
     this->Texture->Deactivate();
@@ -117,12 +117,13 @@ void OpenGLDepthCopy::Allocate(
     return;
   }
   this->Release(window);
-  // A new object: a released one still remembers its format (VTK 9.1; test MultisampledWindow).
+  // A new object is needed: a released one still remembers its format (VTK 9.1; test
+  // MultisampledWindow).
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);
   this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
   this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-  // The same format as the source: a multisampled blit demands it.
+  // A multisampled blit requires the same format as the source.
   if (format.StencilBits > 0)
   {
     this->Texture->AllocateDepthStencil(width, height);

@@ -16,7 +16,7 @@ class vtkWindow;
 namespace meniscus
 {
 
-/** The depth buffer of the framebuffer being drawn to, as a texture of the viewport's size. */
+/** Copy of the depth buffer of the current framebuffer, as a texture of the viewport's size. */
 class OpenGLDepthCopy
 {
 public:
@@ -24,11 +24,11 @@ public:
 
   /**
    * Copies the viewport (x, y, width, height). Multisampled depth is resolved; a framebuffer
-   * without depth buffer counts as infinitely far.
+   * without a depth buffer is taken as infinitely far.
    */
   void Update(vtkOpenGLRenderWindow* window, const int viewport[4]);
 
-  /** Window depths of the last copy, rows from below. */
+  /** Window depths of the last copy, in rows from the bottom. */
   std::vector<float> Read(vtkOpenGLRenderWindow* window);
 
   void Release(vtkWindow* window);

@@ -31,7 +31,7 @@ static_assert(static_cast<int>(BlendMode::Composite) == vtkVolumeMapper::COMPOSI
     static_cast<int>(BlendMode::Isosurfaces) == vtkVolumeMapper::ISOSURFACE_BLEND,
   "blend modes have VTK's numbers");
 
-/** View to frame: depth counts along -z. */
+/** Converts view coordinates to the frame: depth is along -z. */
 glm::dvec3 ToFrame(const glm::dvec3& view)
 {
   return glm::dvec3(view.x, view.y, -view.z);
@@ -99,7 +99,7 @@ bool UsesGradientOpacity(vtkVolumeProperty* property)
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
   RayCastOptics& optics)
 {
-  // Components that mix have a gradient each: there is no normal for all.
+  // Mixed components have a gradient each: there is no common normal.
   const bool hasGradients =
     !optics.CellScalars && optics.Components != ComponentMixture::Independent;
   const bool isMedium = optics.Model().IsMedium();

@@ -23,48 +23,53 @@ class vtkVolumeProperty;
 namespace meniscus
 {
 
-/** What becomes of scalars along a ray, beside the transfer function's tables. */
+/** Optical parameters of rays, besides the transfer function's tables. */
 struct RayCastOptics
 {
   BlendMode Blending = BlendMode::Composite;
-  /** One scalar per cell, in place of those of the vertices. */
+  /** True: one scalar per cell, instead of those of the vertices. */
   bool CellScalars = false;
   /** None unless the blend mode shows a medium. */
   ComponentMixture Components = ComponentMixture::None;
-  /** Of the scalars' components, the main one first. */
+  /** Number of functions of the scalars' components, the main one first. */
   int NumberOfFunctions = 1;
-  /** Normalised scalars that additive blending counts as 0 and as 1. */
+  /** Normalised scalars that additive blending maps to 0 and to 1. */
   ScalarRange DataRange;
-  /** Composite blending by a table of segments; neither shading nor gradient opacity. */
+  /** Composite blending by a table of segments; without shading and gradient opacity. */
   bool PreIntegrated = false;
-  /** How the table of cells is laid out: see RayCastOpenGL::UploadCells(). */
+  /** Layout of the table of cells: see OpenGLTables::UploadCells(). */
   bool CompactCells = false;
-  /** Whether rays go on behind a membrane, for shaders: see OpenGLRefractedRays. */
+  /** True if rays are refracted at a membrane, for shaders: see OpenGLRefractedRays. */
   bool Refracting = false;
-  /** Whether lists of entries per tile of any length have been uploaded; not with Refracting. */
+  /** True if lists of entries per tile of any length have been uploaded; not with Refracting. */
   bool LongLists = false;
   bool Shading = false;
   bool GradientOpacity = false;
-  /** Gradients interpolated between vertices, not those of the cells; only with one of the above.
+  /**
+   * True: gradients interpolated between vertices; false: those of the cells. Used with one of the
+   * above.
    */
   bool VertexGradients = false;
-  /** Gradient in normalised model coordinates to the frame's. */
+  /** Matrix from gradients in normalised model coordinates to the frame's. */
   glm::dmat3 GradientToFrame{ 1.0 };
-  /** From a gradient's length in the frame to scalar per world length. */
+  /** Factor from a gradient's length in the frame to scalar per world length. */
   double GradientMagnitude = 1.0;
   SurfaceLighting Lighting;
   std::vector<RayClippingPlane> ClippingPlanes;
 
   bool HasComponents() const { return this->Components != ComponentMixture::None; }
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
-  /** Gradients of the cells; without those of vertices. Scalars of cells have no gradient. */
+  /**
+   * True if gradients of the cells are used, instead of those of vertices. Scalars of cells have no
+   * gradient.
+   */
   bool UsesCellGradients() const
   {
     return this->UsesGradients() && !this->VertexGradients && !this->CellScalars;
   }
   /** Description of the blend mode. */
   const BlendModel& Model() const { return GetBlendModel(this->Blending); }
-  /** Whether a medium of one scalar of the vertices follows the transfer function as it is. */
+  /** True for a medium of one scalar of the vertices by the transfer function alone. */
   bool IsPlainMedium() const
   {
     return this->Model().IsMedium() && !this->UsesGradients() && !this->HasComponents() &&
@@ -72,26 +77,28 @@ struct RayCastOptics
   }
 };
 
-/** Where the mesh lies for optics: its centre in world and view coordinates, and view coordinates.
+/**
+ * Place of the mesh for optics: its centre in world and view coordinates, and the view
+ * transformation.
  */
 struct ViewContext
 {
   RayFrame Frame;
   glm::dvec3 CenterInWorld{ 0.0 };
   glm::dmat4 WorldToView{ 1.0 };
-  /** Unit of gradients, times which a scalar counts. */
+  /** Unit of gradients: scalars are multiplied by it. */
   double GradientScale = 1.0;
 };
 
 /**
- * Sets shading, its material and the lights that are on; gradient opacity where there is one.
- * Scalars of cells have no gradient, only their isosurfaces a normal. Wants the other members of
- * the optics that do not follow from this.
+ * Sets shading, its material and the active lights, and gradient opacity if there is one. Scalars
+ * of cells have no gradient; only their isosurfaces have a normal. The other members of the optics,
+ * on which these depend, must be set.
  */
 void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const ViewContext& place,
   RayCastOptics& optics);
 
-/** Whether a property has a gradient opacity function in use. */
+/** True if a property uses a gradient opacity function. */
 bool UsesGradientOpacity(vtkVolumeProperty* property);
 
 /** Sets the clipping planes of a mapper, in world coordinates; null for none. */

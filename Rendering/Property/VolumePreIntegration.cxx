@@ -17,10 +17,10 @@ namespace meniscus
 namespace
 {
 
-/** Longer than needed by what rounding may add while a volume turns. */
+/** Factor for the rounding of lengths while a volume rotates. */
 constexpr double Allowance = 1.0 + 1.0 / 1024.0;
 
-/** By how much a matrix lengthens a vector at the most. */
+/** Largest factor by which a matrix lengthens a vector. */
 double LargestStretch(const glm::dmat4& matrix)
 {
   double a[3][3];

@@ -15,7 +15,7 @@ namespace meniscus
 class VolumeInput;
 class VolumePropertyTables;
 
-/** The pre-integration table of a volume; made again only where what it depends on changed. */
+/** The pre-integration table of a volume; rebuilt only when its inputs have changed. */
 class VolumePreIntegration
 {
 public:
@@ -27,8 +27,9 @@ public:
   };
 
   /**
-   * Depends on the transfer function, the size and the longest edge in world coordinates. Of that a
-   * table serves down to a quarter, so that a volume can turn and change its size.
+   * Updates the table. It depends on the transfer function, the size and the longest edge in world
+   * coordinates. A table is used down to a quarter of its longest edge, so that a volume can rotate
+   * and change its size.
    */
   void Update(const VolumeInput& input, const VolumePropertyTables& property,
     const glm::dmat4& modelToWorld, const TableSize& size);
@@ -38,7 +39,10 @@ public:
 
 private:
   PreIntegrationTable Table;
-  /** In units of the mesh's radius, of the mesh of this number. */
+  /**
+   * Longest edge in units of the mesh's radius, and the number of builds of the mesh for which it
+   * was computed.
+   */
   double LongestEdge = 0.0;
   std::int64_t LongestEdgeOf = 0;
   std::int64_t BuiltProperty = 0;

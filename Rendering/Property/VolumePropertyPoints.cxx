@@ -21,13 +21,16 @@ namespace
 constexpr double SamplingBound = 1.0 / 32768.0;
 /** Halvings of an interval: 2^12 samples resolve a unit step of a smooth function to the bound. */
 constexpr int MaximumHalvings = 12;
-/** The largest opacity below 1 that a float can tell from it. */
+/** Largest opacity below 1 that a float can represent. */
 constexpr double LargestOpacity = 1.0 - 1.0 / 16777216.0;
 
-/** Smaller jumps are not told from the change of a continuous function between adjacent doubles. */
+/**
+ * Smaller jumps cannot be distinguished from the change of a continuous function between adjacent
+ * doubles.
+ */
 constexpr double SmallestJump = 1.0 / 1073741824.0;
 
-/** The property's functions, evaluated with a side at jumps. */
+/** The property's functions, evaluated on a given side of jumps. */
 class PropertyCurve
 {
 public:
@@ -136,7 +139,8 @@ void Refine(const PropertyCurve& curve, const TransferFunctionPoint& a,
   {
     return;
   }
-  // Beside the middle, two places that are not symmetric about it: an odd curve must not hide.
+  // Besides the middle, two places that are not symmetric about it are tested, so that an odd curve
+  // is detected.
   const TransferFunctionPoint quarter = Middle(a, linear);
   const TransferFunctionPoint fiveEighths = Middle(linear, Middle(linear, b));
   const auto isClose = [&curve](const TransferFunctionPoint& p)

@@ -15,9 +15,9 @@ namespace meniscus
 
 /**
  * The transfer function of a property's component as control points of attenuation (per world
- * length, or alpha) and colour, ascending. Empty if nothing is visible: no opacity node. Where
- * property and points differ between two nodes, linear interpolation is off by less than 1/32768 in
- * colour and in alpha (over the unit distance).
+ * length, or alpha) and colour, ascending. Empty if nothing is visible: no opacity node. Between
+ * two nodes, the error of linear interpolation is less than 1/32768 in colour and in alpha (over
+ * the unit distance).
  */
 std::vector<TransferFunctionPoint> ReducePropertyToPoints(
   vtkVolumeProperty* property, int component, OpacityMeaning meaning);
@@ -26,9 +26,9 @@ std::vector<TransferFunctionPoint> ReducePropertyToPoints(
 TransferFunctionPoint EvaluateProperty(vtkVolumeProperty* property, double scalar);
 
 /**
- * The gradient opacity function of a property's first component, likewise: Attenuation holds the
- * factor, >= 0; Scalar the gradient's magnitude. Empty without a node, which means a factor of 0,
- * as vtkPiecewiseFunction evaluates and as VTK's mappers of image data draw.
+ * The gradient opacity function of a property's first component as points: Attenuation holds the
+ * factor, >= 0; Scalar the gradient's magnitude. Empty if there is no node, which means a factor of
+ * 0, in agreement with vtkPiecewiseFunction and VTK's mappers of image data.
  */
 std::vector<TransferFunctionPoint> ReduceGradientOpacityToPoints(vtkVolumeProperty* property);
 

@@ -14,7 +14,10 @@ namespace meniscus
 namespace
 {
 
-/** A property without functions makes default ones when asked: ask before taking its time. */
+/**
+ * Creates the property's default functions. VTK creates them on first access, which would change
+ * the property's time later.
+ */
 void MakeDefaultFunctions(vtkVolumeProperty* property, int components)
 {
   for (int component = 0; component < components; ++component)
@@ -31,7 +34,7 @@ void MakeDefaultFunctions(vtkVolumeProperty* property, int components)
   }
 }
 
-/** Components whose functions are used. */
+/** Number of components whose functions are used. */
 int NumberOfUsedComponents(ComponentMixture mixture, int components)
 {
   return mixture == ComponentMixture::Independent ? components : 1;
@@ -167,7 +170,7 @@ void VolumePropertyTables::NormalizeTables(
   for (const TransferFunctionPoint& point : this->SurfacePoints)
   {
     const double scalar = normalization(point.Scalar);
-    // Nothing is met beyond the data, and a NaN is no value.
+    // No isosurface is met outside the range of the data, and NaN is not a value.
     if (scalar >= -1.0 && scalar <= 1.0)
     {
       this->Isosurfaces.push_back({ static_cast<float>(scalar),

@@ -27,34 +27,38 @@ struct Isosurface
   glm::vec3 Color;
 };
 
-/** What a volume property asks for, as tables; made again only where the property changed. */
+/** Tables of a volume property; rebuilt only when the property has changed. */
 class VolumePropertyTables
 {
 public:
   /**
-   * Reduces a property to points, which needs no scalars.
-   * @param perUnitDistance  for composite blending: opacity is the alpha of one unit distance.
-   * @param components  of the scalars; their number counts if they are independent.
+   * Reduces a property to points, without using scalars.
+   * @param mode blend mode; determines the meaning of opacity.
+   * @param perUnitDistance for composite blending: opacity is the alpha of one unit distance.
+   * @param components number of components of the scalars, used if they are independent.
    */
   void Reduce(vtkVolumeProperty* property, BlendMode mode, bool perUnitDistance,
     ComponentMixture mixture, int components);
   /**
-   * Brings the tables to normalised scalars.
-   * @param normalization  of the main scalar, the components have their own.
+   * Converts the tables to normalised scalars.
+   * @param normalization that of the main scalar; the components have their own.
    */
   void Normalize(const ScalarNormalization& normalization, const VolumeComponents& components);
 
   const std::vector<TransferFunctionPoint>& GetPoints() const { return this->Points; }
-  /** Where the functions change, or surfaces are; for the normalisation of scalars. */
+  /** Scalars at which the functions change, or surfaces are; for the normalisation of scalars. */
   const FunctionFeatures& GetFeatures() const { return this->Features; }
-  /** Of the main scalar. */
+  /** Intervals of the main scalar's function. */
   const std::vector<TransferFunctionInterval>& GetIntervals() const { return this->Intervals; }
-  /** Of the other components that are scalars. */
+  /** Intervals of the functions of the other components that are scalars. */
   const std::vector<std::vector<TransferFunctionInterval>>& GetOtherIntervals() const
   {
     return this->OtherIntervals;
   }
-  /** Of the gradient's magnitude, per world length; empty without gradient opacity. */
+  /**
+   * Intervals of gradient opacity, by the gradient's magnitude per world length; empty without
+   * gradient opacity.
+   */
   const std::vector<TransferFunctionInterval>& GetGradientIntervals() const
   {
     return this->GradientIntervals;
@@ -62,14 +66,14 @@ public:
   /** Ascending; empty unless the blend mode shows isovalues. */
   const std::vector<Isosurface>& GetIsosurfaces() const { return this->Isosurfaces; }
 
-  /** The scalars that a ray must visit. */
+  /** Scalars for which rays must visit a cell. */
   VisibleScalars GetVisibleScalars() const;
-  /** Those of each other component that has an opacity. */
+  /** Visible scalars of each other component that has an opacity. */
   std::vector<VisibleScalars> GetVisibleOthers() const;
 
   /** Changes with the tables. */
   std::int64_t GetVersion() const { return this->Version; }
-  /** Reductions of a property to points. */
+  /** Number of reductions of a property to points. */
   std::int64_t GetNumberOfBuilds() const { return this->Builds; }
 
 private:
@@ -82,7 +86,7 @@ private:
   std::vector<TransferFunctionPoint> Points;
   std::vector<std::vector<TransferFunctionPoint>> OtherPoints;
   std::vector<TransferFunctionPoint> GradientPoints;
-  /** A gradient opacity function is in use; without points it is 0 everywhere. */
+  /** True if a gradient opacity function is used; without points it is 0 everywhere. */
   bool HasGradientOpacity = false;
   std::vector<TransferFunctionPoint> SurfacePoints;
   FunctionFeatures Features;
@@ -98,7 +102,7 @@ private:
   ComponentMixture BuiltMixture = ComponentMixture::None;
   int BuiltNumberOfComponents = 1;
   std::int64_t BuiltComponents = 0;
-  /** Of the points that the tables were made of. */
+  /** Version of the points from which the tables were built. */
   std::int64_t BuiltPoints = 0;
   std::int64_t Version = 0;
   std::int64_t Builds = 0;

@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Module/Refraction/Membrane/Optics.h (reflectance)
 //
-// A membrane, pixel by pixel: what is seen through it and what it reflects.
+// Colour of a membrane's pixel: transmitted and reflected light.
 
 //VTK::Environment::Dec
 
@@ -13,8 +13,8 @@ in vec2 texCoord;
 //VTK::Output::Dec
 
 uniform sampler2D refracted;       // premultiplied
-uniform sampler2D membraneNormal;  // view coordinates, towards the eye; 0 beside the membrane
-uniform sampler2D membraneDepth;   // of the window
+uniform sampler2D membraneNormal;  // view coordinates, towards the eye; 0 without a membrane
+uniform sampler2D membraneDepth;   // window depth
 #if HAS_ENVIRONMENT
 uniform samplerCube environment;
 uniform mat3 viewToWorld;
@@ -23,9 +23,10 @@ uniform mat4 clipToView;
 uniform bool parallelView;
 uniform vec3 background;
 uniform int reflectanceModel;      // NO_REFLECTANCE, SCHLICK or FRESNEL
-uniform float relativeIndex;       // interior to exterior
+uniform float relativeIndex;       // index of the interior relative to the exterior
 
-// Unpolarised light; c is the cosine of the angle of incidence. Eq. 2.6 and Eq. 2.7 of the thesis.
+// Reflectance of unpolarised light; c is the cosine of the angle of incidence. Eqs. 2.6 and 2.7 of
+// the thesis.
 float reflectance(float c)
 {
   if (reflectanceModel == NO_REFLECTANCE)

@@ -3,18 +3,18 @@
 // Twin: Module/Volume/Packet/Models/MultiComponentModel.h (integral of several components)
 //
 // Composite blending of scalars of several components. Each is linear in a cell. A segment is split
-// where one of them passes a node of its function. On a piece attenuation is linear, and emission,
-// attenuation times colour, quadratic.
+// where one of them passes a node of its function. On a piece, attenuation is linear, and emission
+// (attenuation times colour) is quadratic.
 
-// The functions, in the order of the scalars that they are taken at: the main scalar, then the other
-// components, if they are not colours themselves.
+// The functions, in the order of the scalars that are their arguments: the main scalar, then the
+// other components unless they are colours.
 uniform int functionStart[NUMBER_OF_FUNCTIONS];
 uniform int functionSize[NUMBER_OF_FUNCTIONS];
 
 const vec3 GAUSS_WEIGHTS = vec3(OUTER_GAUSS_WEIGHT, MIDDLE_GAUSS_WEIGHT, OUTER_GAUSS_WEIGHT);
 
-// Where each function is: the interval, its lower, upper, attenuation, slope, and colours there; the
-// scalar up to which the pending segment has been integrated.
+// Current interval of each function: its index; its lower and upper end, attenuation and slope; its
+// colours; and the scalar up to which the pending segment has been integrated.
 int functionInterval[NUMBER_OF_FUNCTIONS];
 vec4 functionRange[NUMBER_OF_FUNCTIONS];
 vec3 functionColor[NUMBER_OF_FUNCTIONS];
@@ -73,8 +73,8 @@ bool integratePiece()
   vec3 othersStart = COMPONENTS_OF(segmentValuesStart);
   vec3 othersEnd = COMPONENTS_OF(segmentValuesEnd);
 
-  // How far the piece reaches: to where the first function leaves its interval. A segment that begins
-  // outside of an interval first moves the interval, by an empty piece.
+  // End of the piece: where the first function leaves its interval. A segment that begins outside
+  // of an interval first moves the interval, by an empty piece.
   float leaves[NUMBER_OF_FUNCTIONS];
   int moves[NUMBER_OF_FUNCTIONS];
   bool inside = true;

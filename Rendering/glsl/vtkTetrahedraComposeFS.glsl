@@ -2,27 +2,26 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Puts the ray cast image, premultiplied RGBA, into the viewport.
+// Draws the ray cast image, premultiplied RGBA, to the viewport.
 
 in vec2 texCoord;
 
 //VTK::Output::Dec
 
 uniform sampler2D image;
-// Contents of the framebuffer from the viewport's corner on, if the framebuffer does not blend.
+// Contents of the framebuffer from the viewport's corner on, for framebuffers that do not blend.
 uniform sampler2D under;
 uniform vec2 corner;
 uniform bool hasUnder;
-// Bias of a picture that is composited later, in steps of 1/255; 0 if it is not.
+// Bias of an image that is composited later, in steps of 1/255; 0 if it is not.
 uniform float colorBias;
 
 const float STEPS = 255.0;
 
-// Rounds to whole steps, up or down by the bias, such that no colour exceeds the opacity: the sum of
-// whole steps front + back (255 - opacity) / 255 is then at most 255. Whatever the rounding of the
-// opacity takes from a colour behind, between none and all of it, half is made up for: half a step of
-// error in place of a whole one for a colour that is not known here.
+// Rounds to whole steps, up or down by the bias, such that no colour exceeds the opacity: the sum
+// of whole steps front + back (255 - opacity) / 255 is then at most 255. Rounding of the opacity
+// removes between none and all of one step of a colour behind; half of that is compensated: this
+// leaves an error of half a step instead of a whole one for the colour, which is unknown here.
 vec4 roundForCompositing(vec4 exact)
 {
   vec4 inSteps = STEPS * exact;
@@ -32,8 +31,8 @@ vec4 roundForCompositing(vec4 exact)
   return vec4(clamp(color, 0.0, opacity), opacity) / STEPS;
 }
 
-// The same where the framebuffer blends and rounds: a rounding that is monotonous keeps the order of
-// colour and opacity.
+// As above, for framebuffers that blend and round: a monotonic rounding keeps the order of colour
+// and opacity.
 vec4 biasForCompositing(vec4 exact)
 {
   float opacity = min(exact.a + colorBias / STEPS, 1.0);

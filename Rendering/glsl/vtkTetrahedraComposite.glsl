@@ -22,11 +22,11 @@ float absorbedOnAverage(float t, float a)
 }
 
 // Integrates the next piece of the pending segment: up to the end of the segment, to that of the
-// transfer function's interval or to an optical depth of 1. Returns whether the segment is done.
+// transfer function's interval or to an optical depth of 1. Returns true if the segment is done.
 //
 // Density-emitter integral with linear attenuation and colour: Moreland and Angel, "A Fast High
-// Accuracy Volume Renderer for Unstructured Data" (2004). Their cf - cb zeta + (cb - cf) psi is written
-// cf (1 - psi) + cb (psi - zeta), free of cancellation.
+// Accuracy Volume Renderer for Unstructured Data" (2004). Their cf - cb zeta + (cb - cf) psi is
+// written cf (1 - psi) + cb (psi - zeta), free of cancellation.
 bool integratePiece()
 {
 #if SHADING || GRADIENT_OPACITY

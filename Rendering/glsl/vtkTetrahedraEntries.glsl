@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// The search of a ray's next entries. With LONG_LISTS every tile has a list of faces of any length,
-// see Module/Volume/Entries/EntryTiles.h; else one of at most 32, and longer ones are searched in the tree.
+// Search for a ray's next entries. With LONG_LISTS every tile has a list of faces of any length,
+// see Module/Volume/Entries/EntryTiles.h; otherwise it has a list of at most 32 faces, and the tree
+// is searched for tiles with more.
 
 // The next entries of the ray in the order of depth, then number; -1 where there are none.
 ivec4 entryDepths;   // in grid units
 ivec4 entryFaces;
-bool moreEntries;    // whether there may be others behind them
+bool moreEntries;    // true if there may be further entries behind them
 
 bool isBefore(int depth, int number, int otherDepth, int otherNumber)
 {
@@ -15,18 +15,18 @@ bool isBefore(int depth, int number, int otherDepth, int otherNumber)
 }
 
 #if LONG_LISTS
-uniform isamplerBuffer tileBegins;   // where each tile's list begins, and where the last one ends
+uniform isamplerBuffer tileBegins;   // start of each tile's list, and end of the last one
 uniform isamplerBuffer tileFaces;    // the lists, from near to far
-uniform samplerBuffer nearestDepths; // per face, a depth before which no ray enters by it
+uniform samplerBuffer nearestDepths; // by face, a depth before which no ray enters by it
 uniform int tileColumns;
 uniform float longListTileSize;
 
-int listAt;          // the first face that has not been looked at
+int listAt;          // first face that has not been examined
 int listEnd;
-int listFace;        // that face and where it may be entered; AFTER_EVERYTHING behind the list
+int listFace;        // that face and the depth of its entry; AFTER_EVERYTHING beyond the list
 int listDepth;
-ivec4 entryPlaces;   // where the entries found are in the list
-// The entries found that there was no room for: the first place in the list, and the nearest of them.
+ivec4 entryPlaces;   // places in the list of the entries found
+// Entries for which there was no room: the first place in the list, and the smallest depth of them.
 int leftOutAt;
 int leftOutDepth;
 int leftOutFace;
@@ -55,7 +55,7 @@ void startEntries(bool meetsMesh)
   fetchListed();
 }
 
-// Nothing behind an entry that is left out is taken, so that all of them come in order.
+// No entry behind one that is left out is taken, so that all of them come in order.
 void insertEntry(int depth, int number, int place)
 {
   if (isBefore(depth, number, leftOutDepth, leftOutFace))
@@ -82,8 +82,8 @@ void insertEntry(int depth, int number, int place)
   leftOutAt = number >= 0 ? min(leftOutAt, place) : leftOutAt;
 }
 
-// Looks at faces of the list until none of the others can be entered before the next entry after
-// (lastDepth, lastFace). The condition comes last, as in walk().
+// Examines faces of the list until none of the others can be entered before the next entry after
+// (lastDepth, lastFace). The loop's condition comes last, as in walk().
 void findEntries(int lastDepth, int lastFace)
 {
   if (entryFaces.x < 0 && leftOutAt < listEnd)
@@ -112,26 +112,27 @@ void findEntries(int lastDepth, int lastFace)
 }
 
 #else
-uniform sampler3D entryTiles;        // per tile: faces to enter by, see vtkTetrahedraEntryTilesFS
+uniform sampler3D entryTiles;        // per tile: faces to enter by (vtkTetrahedraEntryTilesFS)
 #if REFRACTED
-uniform sampler3D refractedTiles;         // the same for the rays behind the membrane
+uniform sampler3D refractedTiles;         // the same for the refracted rays
 #endif
 
-// Bounds the depths of the mesh, which are within 2^30 - 2048 plus rounding (GRID_PER_DEPTH); the
-// difference of two such bounds is still an int.
+// Bound of the depths of the mesh, which are within 2^30 - 2048 plus rounding (GRID_PER_DEPTH); the
+// difference of two such bounds still fits an int.
 const int FARTHEST_DEPTH = 1073741823;
 const int LARGEST_REACH = 2147483646;
-// DEPTH_MARGIN in grid units, by which boxes of the tree are larger: less would not get on.
+// DEPTH_MARGIN in grid units, by which the boxes of the tree are enlarged: with a smaller reach the
+// search would make no progress.
 const int SMALLEST_REACH = 2048;
 
-int searchReach;     // how far behind the last entry the tree is searched for the next
+int searchReach;     // depth behind the last entry in which the tree is searched
 
 int twice(int reach)
 {
   return reach > FARTHEST_DEPTH ? LARGEST_REACH : 2 * reach;
 }
 
-// The depth that lies `reach` behind `first`, or `farthest` if that is nearer.
+// The depth at a distance of `reach` behind `first`, or `farthest` if that is nearer.
 int behind(int first, int reach, int farthest)
 {
   return farthest - first < reach ? farthest : first + reach;
@@ -178,8 +179,8 @@ vec4 fetchTile(ivec2 tile, int layer)
 }
 
 // Finds the next entries after (lastDepth, lastFace) among the faces listed for the ray's tile, or
-// among those of the tree if they did not fit. The tree is searched in a range of depths behind the
-// last entry that holds about four, so that each search looks at few of its nodes.
+// in the tree if the list was too long. The tree is searched in a range of depths behind the last
+// entry that holds about four entries, so that each search visits few of its nodes.
 void collectEntries(int lastDepth, int lastFace)
 {
   ivec2 tile = ivec2(rayTilePixel / tileSize);
@@ -213,7 +214,7 @@ void collectEntries(int lastDepth, int lastFace)
         insertEntry(f.depth, candidate);
       }
     }
-    // Nothing in the range: on to the next, of twice the depth.
+    // If the range holds no entry, the next range has twice the depth.
     bool goesOn = at >= end && !listed && entryFaces.x < 0 && range.y < farthest;
     searchReach = goesOn ? twice(searchReach) : searchReach;
     range = goesOn ? ivec2(range.y, behind(range.y, searchReach, farthest)) : range;

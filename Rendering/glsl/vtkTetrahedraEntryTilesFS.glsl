@@ -7,11 +7,12 @@
 // Twin: Module/Volume/Entries/EntryTiles.cxx (faces that a tile is entered by)
 //
 // Lists, for each tile of the image, the boundary faces by which a ray of the tile may enter the
-// mesh: up to 32 faces in 8 targets, filled up with -1. The list of a tile with more begins with -2.
-// Works with the tile's central ray, in its grid units, and bounds the difference to the others.
+// mesh: up to 32 faces in 8 targets, padded with -1. If a tile has more faces, its list begins with
+// -2. The computation uses the tile's central ray, in its grid units, and bounds the difference to
+// the others.
 //
-// With REFRACTED, rays straight on end at the membrane. With BEHIND the rays are those behind it; the list
-// of a tile where these are of several frames begins with -2, too.
+// With REFRACTED, straight rays end at the membrane. With BEHIND the rays are the refracted ones;
+// if those of a tile are in several frames, its list also begins with -2.
 
 in vec2 texCoord;
 
@@ -26,24 +27,28 @@ in vec2 texCoord;
 uniform float tileSize;
 uniform vec2 tileCount;
 
-// Bounds, relative to the products that areas are made of, what rounding of u and v to floats (2^-24),
-// of the central ray and of another, and of the sums here changes: 4 * 2^-24 and a few times 2^-24.
+// Bound, relative to the products of which areas consist, of the effect of rounding u and v to
+// floats (2^-24) for the central ray and for another, and of the sums here: 4 * 2^-24 and a few
+// times 2^-24.
 const float AREA_ROUNDING = 9.5367431640625e-07;
-// By how much (u, v) differ from affine functions of the pixel, in grid units: a ray's offset by 1/2
-// (behind a membrane), its slope by 1/8, the product of slope and depth by 1/8.
+// Largest deviation of (u, v) from affine functions of the pixel, in grid units: 1/2 for the
+// rounding of a ray's offset (behind a membrane), 1/8 for its slope, and 1/8 for the product of
+// slope and depth.
 const float GRID_ROUNDING = 1.0;
 
-// Tiles whose rays are farther apart search the tree: the mesh's radius.
+// Largest distance of the rays of a tile, the mesh's radius. If they are farther apart, the tree is
+// searched instead.
 const float LARGEST_REACH = 536870912.0;
-// The most by which a sight point's depth is refined.
+// Largest refinement of a sight point's depth.
 const int DEPTH_SLACK = 128;
 
-// By how much (u, v) of a vertex at depth 0, and more per unit of depth, differs among the rays.
+// Largest difference of (u, v) of a vertex at depth 0 among the rays, and its increase per unit of
+// depth.
 vec2 reach;
 vec2 reachPerDepth;
 
-// By how much the area of (ray, p, q) differs among the rays: with p and q displaced by d and
-// d + t (q.z - p.z), it changes by d x (q - p) + t (q.z - p.z) x p and the product of the two.
+// Largest difference of the area of (ray, p, q) among the rays: with p and q displaced by d and d +
+// t (q.z - p.z), it changes by d x (q - p) + t (q.z - p.z) x p and the product of the two.
 float areaReach(vec3 p, vec3 q)
 {
   vec2 d = reach + reachPerDepth * abs(p.z);
@@ -53,7 +58,7 @@ float areaReach(vec3 p, vec3 q)
   return d.x * edge.y + d.y * edge.x + t.x * from.y + t.y * from.x;
 }
 
-// By how much rounding changes that area for any of the rays.
+// Bound of the rounding error of that area for any of the rays.
 float areaRounding(vec3 p, vec3 q)
 {
   vec2 from = abs(p.xy) + reach + reachPerDepth * abs(p.z) + vec2(GRID_ROUNDING);
@@ -62,7 +67,7 @@ float areaRounding(vec3 p, vec3 q)
     GRID_ROUNDING * (from.x + from.y + to.x + to.y);
 }
 
-// By how much the area of (p, q, r) seen along the rays differs: by the slopes only.
+// Largest difference of the area of (p, q, r) among the rays: it is caused by the slopes only.
 float faceAreaReach(vec3 p, vec3 q, vec3 r)
 {
   vec3 e = abs(q - p);
@@ -72,13 +77,13 @@ float faceAreaReach(vec3 p, vec3 q, vec3 r)
   return te.x * (f.y + tf.y) + te.y * (f.x + tf.x) + tf.x * e.y + tf.y * e.x;
 }
 
-// A vertex about the central ray: u and v in grid units, depth in the frame.
+// A vertex relative to the central ray: u and v in grid units, depth in the frame.
 vec3 seen(RayVertex p)
 {
   return vec3(placeOf(p), frameDepthOf(p.z));
 }
 
-// Whether some ray of the tile may enter the mesh by the face.
+// True if a ray of the tile may enter the mesh by the face.
 bool mayEnter(int index)
 {
   ivec4 record = texelFetch(treeFaces, index);
@@ -97,7 +102,7 @@ bool mayEnter(int index)
 }
 
 #if REFRACTED
-// A texel of the tile's pixel number i; those outside of the image are the next in it.
+// A texel of the tile's pixel number i; the nearest pixel of the image if that is outside.
 ivec4 fetchLine(int i, int texel)
 {
   int columns = int(tileSize);
@@ -108,8 +113,8 @@ ivec4 fetchLine(int i, int texel)
 }
 #endif
 
-// Sets up the central ray. Yields where all rays end; whether there is one for all. False if there is
-// none.
+// Sets up the central ray. Returns in `end` the depth at which all rays have ended, and in `alike`
+// whether one list can serve all rays. Returns false if there is no ray.
 #if BEHIND
 bool setUpTile(out int end, out bool alike)
 {
@@ -135,9 +140,10 @@ bool setUpTile(out int end, out bool alike)
   {
     return false;
   }
-  // To 2 units, for halves are rounded.
+  // Within 2 units, since halves are rounded.
   setUpRefractedRay(frame, (least >> 1) + (most >> 1), vec2(0.0));
-  // The lines are those of the pixels' centres: there is no room between for rounding to the grid.
+  // The lines are those of the pixel centres, so no margin for rounding to the grid is needed
+  // between them.
   vec4 spread = 0.5 * (vec4(most) - vec4(least));
   reach = spread.xy + vec2(BOX_MARGIN);
   // Slopes are per grid unit of depth, in units of 2^-32.
@@ -174,7 +180,7 @@ void main()
   bool nearMesh = setUpTile(end, alike) &&
     all(lessThanEqual(abs(rayOrigin),
       vec2(length(rayU), length(rayV)) + vec2(BOX_MARGIN) + reach + 2.0 * reachPerDepth));
-  // Coordinates about the central ray of a tile that is larger than the mesh may not fit.
+  // Coordinates relative to the central ray of a tile that is larger than the mesh may overflow.
   alike = alike && !(nearMesh && any(greaterThan(reach + reachPerDepth, vec2(LARGEST_REACH))));
   nearMesh = nearMesh && alike;
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// A ray that collects colour from front to back, until next to nothing shines through.
+// A ray that collects colour from front to back, until its transmittance is negligible.
 
 uniform float terminationTransmittance;
 

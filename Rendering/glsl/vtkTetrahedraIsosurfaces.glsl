@@ -3,17 +3,18 @@
 // Twin: Module/Volume/Packet/Models/IsosurfaceModel.h (isovalues next to a scalar)
 // Twin: Module/Volume/Packet/Models/PacketSurfaces.cxx (surfaces that a segment meets)
 //
-// Isosurfaces, met exactly where the scalar, linear along a segment, passes an isovalue. A scalar equal
-// to an isovalue counts as above it: a surface through a face is met once, and one that a ray only
-// touches is not met. Scalars of cells pass isovalues on the faces where they jump.
+// Isosurfaces, intersected exactly where the scalar, linear along a segment, passes an isovalue. A
+// scalar equal to an isovalue counts as above it: a surface through a face is met once, and a
+// surface that a ray only touches is not met. Scalars of cells pass isovalues on the faces where
+// they jump.
 
 uniform samplerBuffer surfaces;      // ascending, 2 texels each: (isovalue, opacity), colour
 uniform int numberOfSurfaces;
 
 const float BEYOND = 3.0e+38;
 
-int surfacesBelow;   // isovalues not above the scalar
-vec2 surfaceRange;   // the isovalues next to it
+int surfacesBelow;   // number of isovalues not above the scalar
+vec2 surfaceRange;   // isovalues next to the scalar
 
 void loadSurfaceRange()
 {
@@ -59,7 +60,7 @@ void addSurface(int index, float at)
   transmittance -= transmittance * alpha;
 }
 
-// One surface per turn, front to back.
+// Adds one surface per turn, front to back.
 bool integratePiece()
 {
   // A segment that begins outside of the range first moves the range. After that segmentDone is 1.

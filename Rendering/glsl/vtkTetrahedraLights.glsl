@@ -3,8 +3,8 @@
 // Twin: Module/Volume/Packet/Models/PacketLights.h (lights)
 // Twin: Module/Volume/Optics/SurfaceLighting.cxx (lights)
 //
-// Gradients and lights. Positions and directions are in the frame of the view (x, y, depth), whose
-// metric is the world's up to a factor.
+// Gradients and lights. Positions and directions are in the frame of the view (x, y, depth), in
+// which lengths are world lengths up to a factor.
 
 // Normalised model coordinates in units of TetrahedralMesh::PositionUnit; bits of the normalised
 // scalar.
@@ -18,17 +18,17 @@ uniform float diffuse;
 uniform float specular;
 uniform float specularPower;
 #if NUMBER_OF_LIGHTS > 0
-uniform vec4 lightPosition[NUMBER_OF_LIGHTS];    // or the direction to it, with w = 0
+uniform vec4 lightPosition[NUMBER_OF_LIGHTS];    // or the direction to the light, with w = 0
 uniform vec3 lightDiffuse[NUMBER_OF_LIGHTS];
 uniform vec3 lightSpecular[NUMBER_OF_LIGHTS];
 uniform vec4 lightCone[NUMBER_OF_LIGHTS];        // axis, cosine of the angle (-2: no cone)
-uniform vec4 lightFalloff[NUMBER_OF_LIGHTS];     // by distance^0, 1, 2; exponent in the cone
+uniform vec4 lightFalloff[NUMBER_OF_LIGHTS];     // for distance^0, 1, 2; exponent in the cone
 #endif
 
 #if CELL_GRADIENTS
 uniform samplerBuffer cellGradients;
 
-// Gradient of the scalar in a cell; 0 in one without volume.
+// Gradient of the scalar in a cell; 0 in a cell without volume.
 vec3 cellGradient(int index)
 {
   return texelFetch(cellGradients, index).xyz;
@@ -36,7 +36,7 @@ vec3 cellGradient(int index)
 #endif
 
 #if CELL_SCALARS
-// The vertices of the cell that the ray is leaving; the three first are those of its exit.
+// Vertices of the cell that the ray is leaving; the first three are those of its exit face.
 ivec4 cellVertices(int index)
 {
 #if COMPACT_CELLS
@@ -49,7 +49,7 @@ ivec4 cellVertices(int index)
 #endif
 }
 
-// A vertex less another, in units of TetrahedralMesh::PositionUnit: exact up to the rounding of the float.
+// Difference of two vertices, in units of MODEL_UNIT: exact up to rounding to float.
 vec4 fromVertex(ivec4 from, int vertex)
 {
   ivec4 p = texelFetch(modelVertices, vertex);
@@ -68,7 +68,7 @@ vec3 faceNormal(int index)
 #endif
 
 #if GRADIENT_OPACITY
-// The factor of the attenuation.
+// Factor of the attenuation.
 float gradientOpacity(vec3 gradient)
 {
   float size = gradientMagnitude * length(gradientToFrame * gradient);
@@ -86,8 +86,8 @@ float gradientOpacity(vec3 gradient)
 }
 #endif
 
-// Phong's model, two-sided: the normal is the gradient, turned to the viewer. Yields what multiplies
-// the emitted colour and what is added to it, at a depth on the ray.
+// Phong's model, two-sided: the normal is the gradient, turned to the viewer. Returns the factor of
+// the emitted colour, and the light that is added to it, at a depth on the ray.
 void light(vec3 gradient, float depth, out vec3 reflected, out vec3 highlight)
 {
   reflected = vec3(ambient);

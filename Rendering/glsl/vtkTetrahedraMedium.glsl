@@ -3,11 +3,11 @@
 // Twin: Module/Volume/Packet/Models/PacketExponential.h (absorption)
 // Twin: Module/Volume/Packet/Models/PacketGradientShading.h (light and opacity by gradients)
 //
-// Light and absorption of a medium, for one or several components.
+// Light and absorption of a medium, for any number of components.
 
 #if SHADING || GRADIENT_OPACITY
-// What the gradient does to the pending segment, at its start and end and linear between: light that
-// multiplies the colour, light that is added to it, and the factor of the attenuation.
+// Effect of the gradient on the pending segment, at its start and end and linear in between: the
+// factor of the colour, the light that is added to it, and the factor of the attenuation.
 vec3 segmentReflected[2];
 vec3 segmentHighlight[2];
 vec2 segmentOpacity;

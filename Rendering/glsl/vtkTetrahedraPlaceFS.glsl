@@ -5,20 +5,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Module/Volume/Rays/FixedPointRays.cxx (place of a vertex)
 //
-// Places vertices in the grid of a view (Module/Volume/Rays/FixedPointRays.h), one per fragment. The kernel does
-// the same in double; here it is done in 64-bit fixed point. Coefficients are off by 2^-33 across and by
-// 2^-32 along, which moves the mesh by up to 3/8 and 3/4 of a grid unit, and results are rounded by 1/2.
-// All that reads the vertices reads these integers.
+// Places vertices in the grid of a view (Module/Volume/Rays/FixedPointRays.h), one per fragment.
+// The kernel does the same in double precision; here it is done in 64-bit fixed point. Coefficients
+// have errors of 2^-33 across the view and 2^-32 along it, which moves the mesh by up to 3/8 and
+// 3/4 of a grid unit, and results are rounded by 1/2. All shaders that read the vertices read these
+// integers.
 
 in vec2 texCoord;
 
 out ivec4 placed;
 
 uniform isamplerBuffer modelVertices; // fixed-point position, bits of the normalised scalar
-uniform int firstVertex;              // of the fragments
-uniform int columns;                  // vertices in a row of fragments
-uniform int rows;                     // of fragments
-uniform int toGrid[9];                // rows for x and y, in units of 2^-32, for depth of 2^-31
+uniform int firstVertex;              // first vertex of the fragments
+uniform int columns;                  // number of vertices in a row of fragments
+uniform int rows;                     // number of rows of fragments
+uniform int toGrid[9];                // rows for x and y in units of 2^-32, depth of 2^-31
 
 // a * b = high * 2^32 + low
 void multiply(ivec3 a, ivec3 b, out ivec3 high, out uvec3 low)
@@ -28,7 +29,7 @@ void multiply(ivec3 a, ivec3 b, out ivec3 high, out uvec3 low)
   imulExtended(a, b, high, bits);
   low = uvec3(bits);
 #else
-  // By halves of 16 bits, the lower ones without sign.
+  // By halves of 16 bits; the lower ones are unsigned.
   ivec3 lowA = a & 0xffff;
   ivec3 lowB = b & 0xffff;
   ivec3 highA = a >> 16;
@@ -41,7 +42,8 @@ void multiply(ivec3 a, ivec3 b, out ivec3 high, out uvec3 low)
 }
 
 // A row times a position, in whole units: the 64-bit sum of three products over 2^32, or 2^31 with
-// `doubled`, rounded. The last two bits of each are left out, so that the sum of the lower words fits.
+// `doubled`, rounded. The last two bits of each product are dropped, so that the sum of the lower
+// words fits.
 int along(int row, ivec3 position, int doubled)
 {
   ivec3 high;

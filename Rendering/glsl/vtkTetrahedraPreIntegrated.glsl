@@ -9,13 +9,13 @@ uniform sampler3D preIntegrated;     // colour / opacity, mean attenuation
 uniform vec2 preIntegratedSize;      // numbers of scalars and of lengths
 uniform float shortestLengthReciprocal;
 uniform float lengthsPerOctave;
-uniform vec2 preIntegratedRange;     // its middle, and the reciprocal of half its width
+uniform vec2 preIntegratedRange;     // middle, and the reciprocal of half the width
 
 void startPart(float scalar)
 {
 }
 
-// A part of the segment between two places of the table, in [-1, 1].
+// Adds a part of the segment between two places of the table, in [-1, 1].
 void addPart(vec2 places, float partLength)
 {
   // The lengths are 0, then a geometric sequence.
@@ -38,7 +38,7 @@ bool integratePiece()
     addPart(ends, segmentLength);
     return true;
   }
-  // Beyond the range of the table the function is constant.
+  // Outside the range of the table the function is constant.
   float change = ends.y - ends.x;
   float before = ends.x == within.x ? 0.0 : change == 0.0 ? 1.0 : (within.x - ends.x) / change;
   before = clamp(before, 0.0, 1.0);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Module/Volume/Packet/Models/IntensityProjectionModel.h (one number per ray)
 //
-// Blending that keeps one number per ray: the largest or smallest scalar or the scalar's mean, shown by
-// the transfer function, or the integral of opacity times scalar, shown as a grey level.
+// Blending that keeps one number per ray: the largest or smallest scalar or the scalar's mean,
+// mapped by the transfer function, or the integral of opacity times scalar, shown as a grey level.
 
 #if BLEND_MODE == MAXIMUM_INTENSITY
 #define REDUCE max
@@ -16,7 +16,7 @@ const float NEUTRAL = 0.0;
 #endif
 
 float collected;
-float collectedRest; // what rounding took from it: long rays add thousands of small terms
+float collectedRest; // rounding error of the sum: long rays add thousands of small terms
 float visibleLength;
 
 void startRay()
@@ -43,15 +43,15 @@ void collect(float term)
 
 #if BLEND_MODE == ADDITIVE
 
-uniform vec2 rangeShare;             // share of the data's range: at 0, per normalised scalar
+uniform vec2 rangeShare;             // position in the data's range: at 0, per scalar
 
 void startPart(float scalar)
 {
   findInterval(scalar);
 }
 
-// Attenuation times the scalar's place in the data's range is quadratic along a piece: Simpson's rule
-// is exact.
+// Attenuation times the scalar's position in the data's range is quadratic along a piece: Simpson's
+// rule is exact.
 bool integratePiece()
 {
   float to;

@@ -2,9 +2,8 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Casts one ray per invocation through a tetrahedral mesh: the fragment shader's twin, made of the
-// same functions.
+// Casts one ray per invocation through a tetrahedral mesh: the twin of the fragment shader
+// (vtkTetrahedraRayCastFS), made of the same functions.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

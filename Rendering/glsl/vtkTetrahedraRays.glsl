@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Module/Volume/Rays/ExactEdgeTest.h (sign of an edge)
 //
-// The rays of an image and the mesh's boundary as seen by one of them: the part that the passes
+// The rays of an image, and the mesh's boundary in the frame of one ray: the code that the passes
 // share. The frame and its names are those of Module/Volume/Rays/RayFrame.h, the tables those of
 // TetrahedralMesh.h and BoundaryTree.h.
 //
-// All decisions are taken in the ray-aligned projection: a vertex has coordinates (u, v) about the
-// ray, the same function of vertex and ray wherever it is needed. Vertices are placed once per view in
-// whole numbers (vtkTetrahedraPlaceFS), from which u and v follow as floats by a difference of integers,
-// the same for everybody: what is near the ray keeps all of its digits. The sign of
-// an edge as seen by the ray is that of these floats, exactly; a ray through an edge or a vertex counts
-// as displaced by (e, e^2) for an arbitrarily small e, and edges whose ends coincide are ordered by
-// vertex. So every cell that is entered has exactly one face to leave by, and a walk that begins on the
-// boundary ends on the boundary.
+// All decisions are made in the ray-aligned projection: a vertex has coordinates (u, v) relative to
+// the ray, the same function of vertex and ray wherever it is needed. Vertices are placed once per
+// view in integers (vtkTetrahedraPlaceFS), from which u and v follow as floats by a difference of
+// integers, always the same: near the ray all digits are kept. The sign of an edge relative to the
+// ray is computed exactly from these floats. A ray through an edge or a vertex is treated as
+// displaced by (e, e^2) for an arbitrarily small e, and edges whose ends coincide are ordered by
+// vertex. Therefore every cell that is entered has exactly one face by which to leave, and a walk
+// that begins on the boundary ends on the boundary.
 
 #ifdef GL_ARB_gpu_shader5
 #define EXACTLY_AS_WRITTEN precise
@@ -23,7 +23,7 @@
 
 uniform isamplerBuffer vertices;     // placed: x, y, depth in grid units; bits of the normalised scalar
 uniform samplerBuffer treeNodes;     // per node: (center, skip), (half, face or -1)
-uniform isamplerBuffer treeFaces;    // 3 vertices (first one complemented: faces in), cell face
+uniform isamplerBuffer treeFaces;    // 3 vertices (first complemented: faces inwards), cell face
 
 uniform int numberOfNodes;
 uniform vec2 imageCenter;
@@ -38,14 +38,15 @@ uniform vec2 slopePerColumn;
 uniform vec2 slopePerRow;
 // Grid units of x and y per unit of the frame.
 uniform float gridPerUnit;
-// Offset and slope of a pixel's ray in the grid, see FixedPointRays::GetGridMaps(): three times (x, y,
-// fractions of x and y in units of 2^-15), the base, then per half column and per half row.
+// Offset and slope of a pixel's ray in the grid, see FixedPointRays::GetGridMaps(): three times (x,
+// y, fractions of x and y in units of 2^-15), for the base, per half column and per half row.
 uniform int gridOffset[12];
 uniform int gridSlope[12];
 uniform int enteringSign;            // outward * enteringSign > 0: counter-clockwise is entering
 #if REFRACTED
-// Rays go on behind a membrane: per pixel two texels side by side, see Module/Volume/Refracted/RefractedRayTexels.h, in
-// one of several frames, given by their rows and by their axes in the frame of the view.
+// Rays continue behind a membrane as refracted rays: two adjacent texels per pixel, see
+// Module/Volume/Refracted/RefractedRayTexels.h, in one of several frames, given by their rows and
+// by their axes in the frame of the view.
 uniform isampler2D refractedRays;
 uniform vec3 frameRowX[NUMBER_OF_FRAMES];
 uniform vec3 frameRowY[NUMBER_OF_FRAMES];
@@ -54,45 +55,46 @@ uniform vec3 frameAxisX[NUMBER_OF_FRAMES];
 uniform vec3 frameAxisY[NUMBER_OF_FRAMES];
 uniform vec3 frameAxisDepth[NUMBER_OF_FRAMES];
 uniform float frameGridPerUnit[NUMBER_OF_FRAMES];
-uniform int frameFirstVertex[NUMBER_OF_FRAMES]; // where the vertices placed in it begin
+uniform int frameFirstVertex[NUMBER_OF_FRAMES]; // start of the vertices placed in each frame
 #endif
 
 // Units of the frame per grid unit of depth (PacketVertex::GridPerDepth).
 const float DEPTH_UNIT = 1.0 / GRID_PER_DEPTH;
-// The mesh's radius in grid units, seen along a ray, is at most 2^29 (FixedPointRays), and coordinates
-// about a ray that meets the mesh are below 2^30.
+// The mesh's radius in grid units, projected along a ray, is at most 2^29 (FixedPointRays), and
+// coordinates relative to a ray that meets the mesh are below 2^30.
 //
-// Bounds, in grid units, the difference between a vertex's u or v and the same sum in floats over a
-// box that holds the vertex. Terms are below 2^29 and rounded to 2^-24 of themselves: 3.5 * 32 for
-// those of a dot product and their sums, 3 * 32 for the rows, 3 * 16 for the box (of vertices in floats),
-// 1.25 * 32 for the half extent, 2 * 32 for the origin, 33 for u itself and its rounding to float: 393.
+// Bound, in grid units, of the difference between a vertex's u or v and the same sum in floats over
+// a box that holds the vertex. Terms are below 2^29 and rounded to 2^-24 of themselves: 3.5 * 32
+// for those of a dot product and their sums, 3 * 32 for the rows, 3 * 16 for the box (of vertices
+// in floats), 1.25 * 32 for the half extent, 2 * 32 for the origin, 33 for u itself and its
+// rounding to float: 393.
 const float BOX_MARGIN = 512.0;
-// The same for depths, which are below 2 in size.
+// The same bound for depths, which are below 2 in magnitude.
 const float DEPTH_MARGIN = 1.9073486328125e-06;
 
-// Depths, in grid units. The mesh is within 2^30; limits of rays are moved to that.
+// Depths in grid units. The mesh is within 2^30; limits of rays are clamped to that.
 const int BEFORE_EVERYTHING = -2147483647;
 const int AFTER_EVERYTHING = 2147483647;
 const float LARGEST_LIMIT = 1073741824.0;
 
-// A vertex about the ray: u and v as bits of floats, depth in grid units, bits of the scalar.
+// A vertex relative to the ray: u and v as bits of floats, depth in grid units, bits of the scalar.
 #define RayVertex ivec4
 
 // The ray: (u, v) = (x, y) - rayOffset - rayFraction - depth * raySlope.
 ivec2 rayOffset;
 vec2 rayFraction;
 vec2 raySlope;
-vec2 raySlopeHigh;   // its leading 9 digits
-vec2 raySlopeLow;    // the others
-// The same in floats: u = dot(rayU, p) - rayOrigin.x, likewise v.
+vec2 raySlopeHigh;   // leading 9 digits of the slope
+vec2 raySlopeLow;    // remaining digits
+// The ray in floats: u = dot(rayU, p) - rayOrigin.x, likewise v.
 vec3 rayU;
 vec3 rayV;
 vec2 rayOrigin;
-vec3 rayPlace;       // at depth 0, in the frame of the view
-vec3 rayAlong;       // what is added to it per depth
+vec3 rayPlace;       // position at depth 0, in the frame of the view
+vec3 rayAlong;       // change of the position per depth
 #if REFRACTED
 vec3 rayDepth;       // depth = dot(rayDepth, p)
-int rayFirstVertex;  // where the vertices placed for the ray begin
+int rayFirstVertex;  // start of the vertices placed for the ray
 float rayGrid;       // grid units of x and y per unit of the frame
 #define ROW_DEPTH rayDepth
 #define FIRST_VERTEX rayFirstVertex
@@ -112,9 +114,9 @@ void setSlope(ivec2 slope)
   raySlopeLow = vec2(low) * (1.0 / 4294967296.0);
 }
 
-// Sets up the line (x, y) = origin + depth * slope of the frame with these rows, but for rayPlace,
-// rayAlong and the line in the grid. False if it passes by the mesh's bounding sphere by more than `reach` grid
-// units.
+// Sets up the line (x, y) = origin + depth * slope of the frame with these rows, except for
+// rayPlace, rayAlong and the line in the grid. Returns false if it misses the mesh's bounding
+// sphere by more than `reach` grid units.
 bool setUpLine(vec3 toX, vec3 toY, vec3 toDepth, vec2 origin, vec2 slope, vec2 reach)
 {
 #if REFRACTED
@@ -127,8 +129,8 @@ bool setUpLine(vec3 toX, vec3 toY, vec3 toDepth, vec2 origin, vec2 slope, vec2 r
     abs(rayOrigin), vec2(length(rayU), length(rayV)) + vec2(BOX_MARGIN) + reach));
 }
 
-// An affine function of the pixel in the grid, rounded down, and what that leaves out, in units of
-// 2^-15; `halves` counts half pixels from the image's centre.
+// An affine function of the pixel in the grid, rounded down, and the remainder in units of 2^-15;
+// `halves` counts half pixels from the image's centre.
 ivec4 gridValue(int map[12], ivec2 halves)
 {
   ivec4 sum = ivec4(map[0], map[1], map[2], map[3]) +
@@ -157,7 +159,7 @@ bool setUpRay(vec2 pixel, vec2 reach)
 }
 
 #if REFRACTED
-// Sets up a line of a frame, its offset and slope in the grid.
+// Sets up a line of a frame from its offset and slope in the grid.
 bool setUpRefractedRay(int frame, ivec4 line, vec2 reach)
 {
   rayFirstVertex = frameFirstVertex[frame];
@@ -176,8 +178,9 @@ bool setUpRefractedRay(int frame, ivec4 line, vec2 reach)
 #endif
 
 
-// Depth times slope is taken in parts: the leading 15 digits of the one times the leading 9 of the
-// other are a whole number of 24 digits, subtracted as such; the rest is below 2^21 and known to 1/8.
+// The product of depth and slope is computed in parts: the leading 15 digits of one times the
+// leading 9 digits of the other are an integer of 24 digits, which is subtracted exactly; the rest
+// is below 2^21 and has an error of 1/8.
 RayVertex fetchVertex(int index)
 {
   ivec4 p = texelFetch(vertices, FIRST_VERTEX + index);
@@ -205,24 +208,24 @@ float frameDepthOf(int depth)
   return float(depth) * DEPTH_UNIT;
 }
 
-// A depth of the frame in grid units, or what is likewise before or behind all of the mesh.
+// A depth of the frame in grid units, or a value before or behind the whole mesh if it is there.
 int gridDepthOf(float depth)
 {
   return int(clamp(depth * GRID_PER_DEPTH, -LARGEST_LIMIT, LARGEST_LIMIT));
 }
 
-// The 12 leading of a float's 24 binary digits; the others are the difference.
+// The 12 leading binary digits of a float's 24; the remaining ones are the difference.
 vec2 leadingDigits(vec2 x)
 {
   return intBitsToFloat(floatBitsToInt(x) & -4096);
 }
 
-// Twice the area of (ray, p, q), a.x b.y - a.y b.x: its sign and zero are exact, its size is to 2^-22,
-// however much of the products cancels. The products' rounding errors are found without error (T. J.
-// Dekker, 1971; products of 12 digits are exact, whether fused or not) and added: the method of Cornea,
-// Harrison and Tang, whose relative error is at most 2^-23 or so (C.-P. Jeannerod, "A radix-independent
-// error analysis of the Cornea-Harrison-Tang method", 2016). Coordinates are multiples of 2^-15 below
-// 2^31, so nothing under- or overflows.
+// Twice the area of (ray, p, q), a.x b.y - a.y b.x: its sign and zero are exact, and its magnitude
+// has a relative error of 2^-22, however much of the products cancels. The products' rounding
+// errors are found without error (T. J. Dekker, 1971; products of 12 digits are exact, whether
+// fused or not) and added: the method of Cornea, Harrison and Tang, whose relative error is at most
+// 2^-23 or so (C.-P. Jeannerod, "A radix-independent error analysis of the Cornea-Harrison-Tang
+// method", 2016). Coordinates are multiples of 2^-15 below 2^31, so nothing under- or overflows.
 float edgeArea(RayVertex p, RayVertex q)
 {
   vec2 a = placeOf(p);
@@ -238,8 +241,8 @@ float edgeArea(RayVertex p, RayVertex q)
   return area;
 }
 
-// Whether (ray, p, q) is counter-clockwise, with the ray displaced by (e, e^2): the area less
-// e (q.y - p.y) plus e^2 (q.x - p.x).
+// True if (ray, p, q) is counter-clockwise, with the ray displaced by (e, e^2): the area less e
+// (q.y - p.y) plus e^2 (q.x - p.x).
 bool edgeTurnsLeft(RayVertex p, RayVertex q, float area, bool pBeforeQ)
 {
   vec2 a = placeOf(p);
@@ -248,9 +251,9 @@ bool edgeTurnsLeft(RayVertex p, RayVertex q, float area, bool pBeforeQ)
   return decisive > 0.0 || (decisive == 0.0 && pBeforeQ);
 }
 
-// Whether the boundary tree's box number `node` may hold a vertex within `reach` grid units of the
-// ray, given per unit of 1 and of depth, in a range of depths in grid units. Yields
-// the node to go on with and the leaf's face, or -1.
+// True if box number `node` of the boundary tree may hold a vertex, in a range of depths in grid
+// units, within a distance of the ray; the distance in grid units is `reach` plus `reachPerDepth`
+// per unit of depth. Returns the node to continue with, and the leaf's face or -1.
 bool meetsBox(int node, vec2 reach, vec2 reachPerDepth, ivec2 depthRange, out int next, out int leaf)
 {
   vec4 center = texelFetch(treeNodes, 2 * node);

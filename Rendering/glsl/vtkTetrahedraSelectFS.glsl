@@ -2,8 +2,7 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-//
-// Puts one value into the viewport wherever the ray cast image is visible: hardware selection.
+// Writes one value to the viewport wherever the ray cast image is visible, for hardware selection.
 
 in vec2 texCoord;
 

@@ -43,8 +43,8 @@ vec4 lookUp(float s)
     intervalColor + offset * intervalColorSlope, intervalRange.z + offset * intervalRange.w);
 }
 
-// The next piece of the pending segment within one interval: the scalar and the fraction of the
-// segment at its end, and the interval after it. Returns whether it ends the segment.
+// Next piece of the pending segment within one interval: the scalar and the fraction of the segment
+// at its end, and the interval after it. Returns true if it ends the segment.
 bool findPiece(out float to, out float reached, out int next)
 {
   // A segment that begins outside of the interval first moves the interval, by an empty piece.

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Twin: Module/Volume/Packet/Walk/PacketWalk.h (step through a cell)
 //
-// The walk of a ray through a tetrahedral mesh. The loops are flat, one step or one piece of the
-// optical model per turn: rays side by side do not wait for each other's inner loops.
+// Walk of a ray through a tetrahedral mesh. The loops are flat, with one step or one piece of the
+// optical model per turn, so that adjacent rays do not wait for each other's inner loops.
 
 #if COMPACT_CELLS
-// Per cell: the exclusive or of its vertices, from which three give the fourth; 4 links.
+// Per cell: the exclusive or of its vertices, from which the fourth follows given three; 4 links.
 #define CELL_SIZE 5
 #define FIRST_LINK 1
 #else
@@ -16,8 +16,8 @@
 #endif
 uniform isamplerBuffer cells;
 #if REFRACTED
-uniform bool beginsInside;           // whether a ray behind the membrane may begin within the mesh
-uniform int membranePart;            // a MembranePart: all of the ray, PART_IN_FRONT or PART_BEHIND
+uniform bool beginsInside;           // true if a refracted ray may begin inside the mesh
+uniform int membranePart;            // MembranePart: all of the ray, PART_IN_FRONT or PART_BEHIND
 #endif
 uniform int numberOfCells;
 uniform float tileSize;
@@ -27,16 +27,16 @@ uniform float nearDepth;
 uniform vec2 depthNumerator;
 uniform vec2 depthDenominator;
 #if NUMBER_OF_CLIPPING_PLANES > 0
-// Per plane, on its kept side >= 0: dot(constant, (1, i, j)) + depth * dot(perDepth, (1, i, j)), with
-// the pixel (i, j) counted from the image's centre.
+// Per plane, >= 0 on its kept side: dot(constant, (1, i, j)) + depth * dot(perDepth, (1, i, j)),
+// with the pixel (i, j) counted from the image's centre.
 uniform vec3 clippingConstant[NUMBER_OF_CLIPPING_PLANES];
 uniform vec3 clippingPerDepth[NUMBER_OF_CLIPPING_PLANES];
 #if REFRACTED
-// Of a place of the frame of the view: dot(clippingInFrame, (x, y, depth, 1)).
+// Distance of a point of the frame of the view: dot(clippingInFrame, (x, y, depth, 1)).
 uniform vec4 clippingInFrame[NUMBER_OF_CLIPPING_PLANES];
 #endif
 #endif
-uniform samplerBuffer intervals;     // of the optical model: functions by intervals, 3 texels each
+uniform samplerBuffer intervals;     // functions of the optical model by intervals, 3 texels each
 #if VERTEX_GRADIENTS
 uniform samplerBuffer vertexGradients;
 #endif
@@ -44,7 +44,7 @@ uniform samplerBuffer vertexGradients;
 uniform samplerBuffer vertexComponents;
 #endif
 #if CELL_SCALARS
-uniform samplerBuffer cellScalars;   // one per cell; those of the vertices do not count
+uniform samplerBuffer cellScalars;   // one per cell; those of the vertices are not used
 #endif
 
 vec2 rayPixel;       // from the image's centre
@@ -53,25 +53,25 @@ float rayLengthPerDepth; // per grid unit of depth
 int startDepth;
 int endDepth;
 #if REFRACTED
-bool rayIsRefracted;      // behind the membrane
-float membraneDepth; // where it is on the straight ray, in the frame
+bool rayIsRefracted;      // true for the refracted part of the ray
+float membraneDepth; // depth of the membrane on the straight ray, in the frame
 int membraneAt;      // the same in grid units
-int cycleStart;      // link to the face within the mesh by which the walk began; else -1
+int cycleStart;      // link to the face inside the mesh by which the walk began; otherwise -1
 ivec4 nearFace;      // that face: vertices, counter-clockwise, and link
 const int NEAR_FACE = -2;
 #endif
 
-// Where the walk is: the face just entered by, its vertices counter-clockwise about the ray.
+// State of the walk: the face just entered by, with its vertices counter-clockwise about the ray.
 RayVertex a;
 RayVertex b;
 RayVertex c;
-ivec3 corners;       // their numbers
-int apex;            // the vertex of the cell that the face entered by does not have
+ivec3 corners;       // indices of these vertices
+int apex;            // vertex of the cell opposite the face entered by
 vec3 edges;          // twice the areas that edges ab, bc, ca span with the ray
 int cell;
 int face;
-int faceDepth;       // where the ray meets that face
-float faceScalar;    // of scalars of cells, the last one that counted
+int faceDepth;       // depth at which the ray meets that face
+float faceScalar;    // for scalars of cells: that of the last integrated cell
 int depthNow;        // the largest depth reached
 
 // The segment whose ray integral is pending.
@@ -79,9 +79,9 @@ float segmentLength;
 float segmentStart;  // scalars
 float segmentEnd;
 float segmentDone;   // fraction integrated
-float segmentScalar; // scalar there
+float segmentScalar; // scalar at that fraction
 #if VERTEX_VALUES
-// What is interpolated beside depth and scalar.
+// Values interpolated besides depth and scalar.
 #if VERTEX_GRADIENTS && VERTEX_COMPONENTS
 #define VertexValues mat2x3
 #define GRADIENT_OF(values) values[0]
@@ -94,7 +94,7 @@ float segmentScalar; // scalar there
 VertexValues valuesA; // at the face's vertices
 VertexValues valuesB;
 VertexValues valuesC;
-VertexValues faceValues; // where the ray meets the face
+VertexValues faceValues; // at the intersection of the ray and the face
 VertexValues segmentValuesStart;
 VertexValues segmentValuesEnd;
 bool segmentIsNew;
@@ -116,24 +116,25 @@ float segmentStartDepth;
 float segmentEndDepth;
 #endif
 
-//--- What the optical model does -------------------------------------------------------------------
+//--- Interface of the optical model ----------------------------------------------------------------
 
-// The ray begins.
+// Starts the ray.
 void startRay();
-// It enters a connected part of the mesh, or comes back into it, with this scalar.
+// Called when the ray enters a connected part of the mesh, or comes back to it, with this scalar.
 void startPart(float scalar);
-// Takes in the next piece of the pending segment; returns whether the segment is done.
+// Integrates the next piece of the pending segment; returns true if the segment is done.
 bool integratePiece();
-// Whether the rest of the ray cannot be seen.
+// True if the rest of the ray cannot be seen.
 bool isRayDone();
 // Premultiplied colour of the ray.
 vec4 finishRay();
 
 //--- Walk ------------------------------------------------------------------------------------------
 
-// Advances to the exit of a cell and makes its segment the pending one; false if it is empty. What
-// lies before the largest depth reached, because of rounding, an inverted cell or cells that overlap,
-// has been passed already and does not count again. Nor does a cell with a vertex without scalar.
+// Advances to the exit of a cell and makes its segment the pending one; returns false if it is
+// empty. The part before the largest depth reached (after rounding, in an inverted cell, or where
+// cells overlap) has been integrated already and is skipped. So is a cell with a vertex without a
+// scalar.
 #if VERTEX_VALUES
 bool advance(int exitDepth, float exitScalar, VertexValues exitValues)
 #else
@@ -143,8 +144,8 @@ bool advance(int exitDepth, float exitScalar)
   int from = max(depthNow, startDepth);
   int to = min(exitDepth, endDepth);
 #if CELL_SCALARS
-  // One scalar throughout the cell. Isosurfaces also show the jump to it, unless the ray begins behind
-  // that.
+  // One scalar for the whole cell. Isosurfaces also use the jump to it, unless the ray begins
+  // behind that.
   segmentEnd = texelFetch(cellScalars, cell).r;
 #if SEES_JUMPS
   segmentStart = startDepth <= faceDepth ? faceScalar : segmentEnd;
@@ -153,7 +154,8 @@ bool advance(int exitDepth, float exitScalar)
 #endif
 #else
   float perDepth = (exitScalar - faceScalar) / float(exitDepth - faceDepth);
-  // Exact where nothing is cut off: `from` is not before the face entered by, `to` not behind the exit.
+  // Exact if nothing is cut off: `from` is not before the face entered by, `to` not behind the
+  // exit.
   segmentStart = faceScalar + float(from - faceDepth) * perDepth;
   segmentEnd = exitScalar + float(to - exitDepth) * perDepth;
 #endif
@@ -177,7 +179,7 @@ bool advance(int exitDepth, float exitScalar)
 #if CELL_SCALARS
   faceScalar = counts || exitDepth <= startDepth ? segmentEnd : faceScalar;
 #if !SEES_JUMPS
-  // Scalars that jump may be any number of the transfer function's intervals apart.
+  // A jump may cross any number of the transfer function's intervals.
   if (counts)
   {
     startPart(segmentEnd);
@@ -189,10 +191,10 @@ bool advance(int exitDepth, float exitScalar)
   return counts;
 }
 
-// Interpolates depth and scalar to where the ray meets the face pqr, from the areas that its edges pq,
-// qr, rp span with the ray, about p: so small faces are as precise as large ones. Differences of depths
-// fit, for depths are below 2^30 in size. A face without projected area keeps what is given. Returns
-// 1 / total area, 0 for that.
+// Interpolates depth and scalar at the intersection of the ray with the face pqr, from the areas
+// that its edges pq, qr, rp span with the ray, relative to p: small faces are therefore as precise
+// as large ones. Differences of depths fit, since depths are below 2^30 in magnitude. A face
+// without projected area keeps the given values. Returns 1 / total area, or 0 for such a face.
 float meetFace(RayVertex p, RayVertex q, RayVertex r, vec3 areas, inout int depth, inout float scalar)
 {
   float total = areas.x + areas.y + areas.z;
@@ -207,7 +209,7 @@ float meetFace(RayVertex p, RayVertex q, RayVertex r, vec3 areas, inout int dept
   return real ? inverse : 0.0;
 }
 
-// Crosses `cell` from `face`. Yields the link to follow; returns whether a segment is pending.
+// Crosses `cell` from `face`. Computes the link to follow; returns true if a segment is pending.
 bool stepThroughCell(out int link)
 {
 #if COMPACT_CELLS
@@ -223,8 +225,8 @@ bool stepThroughCell(out int link)
   bool leftOfC = edgeTurnsLeft(x, c, areas.z, number < corners.z);
   areas = abs(areas);
 
-  // The ray leaves between two consecutive edges from x, left of one and right of the next. The third
-  // vertex drops out; its rank among the cell's is where the link to follow stands.
+  // The ray leaves between two consecutive edges from x: left of one and right of the next. The
+  // third vertex is dropped; its rank among the cell's vertices is the index of the link to follow.
   bool dropC = leftOfA && !leftOfB;
   bool dropA = !dropC && leftOfB && !leftOfC;
   bool dropB = !dropC && !dropA;
@@ -233,7 +235,7 @@ bool stepThroughCell(out int link)
     int(corners.z < dropped);
   link = texelFetch(cells, CELL_SIZE * cell + FIRST_LINK + rank).r;
 
-  // The exit face: x takes the dropped vertex's place, which keeps the sense of rotation.
+  // Exit face: x replaces the dropped vertex, which keeps the sense of rotation.
   edges = vec3(dropC ? edges.x : (dropA ? areas.y : areas.x),
     dropA ? edges.y : (dropB ? areas.z : areas.y), dropB ? edges.z : (dropA ? areas.z : areas.x));
   a = dropA ? x : a;
@@ -258,12 +260,12 @@ bool stepThroughCell(out int link)
 #endif
 }
 
-// Walks from the boundary to the boundary, or until the ray ends. Adds to the number of steps; false
-// if the ray is lost. A walk that begins within the mesh comes to the boundary, too, or back to where
-// it began: every face and side has one predecessor.
+// Walks from the boundary to the boundary, or until the ray ends. Adds to the number of steps;
+// returns false if the ray is lost. A walk that begins inside the mesh reaches the boundary, too,
+// or returns to its start: every face and side has one predecessor.
 bool walk(inout int steps)
 {
-  // A ray crosses a cell once through each of its 4 faces, in 2 orientations, at the most.
+  // A ray crosses a cell at most once through each of its 4 faces, in 2 orientations.
   int limit = steps + 8 * numberOfCells;
   int link = 0;
   bool pending = false;
@@ -273,10 +275,10 @@ bool walk(inout int steps)
 #else
   const bool closedCycle = false;
 #endif
-  // What is read after the loop goes around it: Mesa's llvmpipe (22.3) lets rays that are done go on
-  // computing values that are only used behind a loop, and those come out wrong (test of lost rays).
-  // There a loop also takes a turn for nothing if its condition comes first, which in meshes of cells
-  // that share no points is every second.
+  // Values that are read after the loop are carried around it: Mesa's llvmpipe (22.3) lets finished
+  // rays continue to compute values that are only used behind a loop, and those come out wrong
+  // (test of lost rays). With llvmpipe a loop also takes one superfluous turn if its condition
+  // comes first; in meshes whose cells share no points that is every second turn.
   do
   {
     if (!pending)
@@ -303,7 +305,7 @@ bool walk(inout int steps)
 
 //--- Entry -----------------------------------------------------------------------------------------
 
-// A boundary face as seen by the ray.
+// A boundary face in the projection along a ray.
 struct ProjectedFace
 {
   RayVertex p;
@@ -311,14 +313,14 @@ struct ProjectedFace
   RayVertex r;
   ivec3 numbers;
   vec3 areas;
-  int depth;    // where the ray meets it
-  float scalar; // there
+  int depth;    // depth of the intersection with the ray
+  float scalar; // scalar at the intersection
   bool left;    // pqr is counter-clockwise if entered
   bool entered;
   int cellFace;
 };
 
-// @param left  whether the vertices are counter-clockwise if the face is entered.
+// @param left true if the vertices are counter-clockwise when the face is entered.
 ProjectedFace seeTriangle(ivec3 numbers, bool left)
 {
   ProjectedFace f;
@@ -339,7 +341,8 @@ ProjectedFace seeTriangle(ivec3 numbers, bool left)
   return f;
 }
 
-// A face of the boundary; with REFRACTED, also one within the mesh that nearFace holds: number -2.
+// A face of the boundary; with REFRACTED, also the face inside the mesh that nearFace holds: number
+// -2.
 ProjectedFace seeFace(int index)
 {
 #if REFRACTED
@@ -358,7 +361,7 @@ ProjectedFace seeFace(int index)
 
 //VTK::TetrahedraEntries::Dec
 
-// Puts the walk on a face.
+// Starts the walk at a face.
 void enter(ProjectedFace f)
 {
   a = f.left ? f.p : f.q;
@@ -386,7 +389,7 @@ void enter(ProjectedFace f)
 #endif
 }
 
-// Puts the walk on the first of the entries found, and removes it from them.
+// Starts the walk at the first of the entries found, and removes that from them.
 void enterFirst()
 {
   enter(seeFace(entryFaces.x));
@@ -405,7 +408,7 @@ float lengthPerGridDepth()
   return viewToWorldUnit * length(viewToWorld * rayAlong) * DEPTH_UNIT;
 }
 
-// On the straight ray, of a depth of the window.
+// Depth on the straight ray of a window depth.
 float depthOf(float opaque)
 {
   vec2 fraction = (2.0 * opaque - 1.0) * vec2(depthNumerator.x, depthDenominator.x) +
@@ -413,7 +416,8 @@ float depthOf(float opaque)
   return fraction.x / fraction.y;
 }
 
-// Narrows the ray to where height + depth * perDepth, with the depth in the frame, is not negative.
+// Narrows the ray to the part where height + depth * perDepth, with the depth in the frame, is not
+// negative.
 void clip(float height, float perDepth)
 {
   int met = gridDepthOf(-height / perDepth);
@@ -425,13 +429,13 @@ void clip(float height, float perDepth)
 #if REFRACTED
 //--- Behind the membrane ---------------------------------------------------------------------------
 
-// By how much an entry may lie before the sight point that the straight ray says is outside of the
-// mesh: 2^-10 of the frame's unit. Vertices are off by less than 2^-24, with u and v rounded to floats;
-// along a ray that leaves the boundary at an angle of 2^-14 that is 2^-10. To take an entry too many
-// costs a few steps, and changes nothing.
+// Distance by which an entry may lie in front of the sight point if the straight ray reports that
+// point outside of the mesh: 2^-10 of the frame's unit. The errors of vertices are less than 2^-24,
+// with u and v rounded to floats; along a ray that leaves the boundary at an angle of 2^-14 this is
+// 2^-10. A superfluous entry costs a few steps and does not change the result.
 const int START_MARGIN = 1048576;
 
-// The vertex of a cell that a face of it does not have.
+// Vertex of a cell opposite one of its faces.
 int oppositeVertex(int index, ivec3 numbers)
 {
 #if COMPACT_CELLS
@@ -443,9 +447,9 @@ int oppositeVertex(int index, ivec3 numbers)
   return all ^ numbers.x ^ numbers.y ^ numbers.z;
 }
 
-// Finds the face by which the ray behind the membrane enters one of the two cells about the face that
-// the straight ray came to last, if that is not behind the sight point: from there a walk comes to
-// that. False if the ray passes by them.
+// Finds the face by which the refracted ray enters one of the two cells at the face that the
+// straight ray reached last, if that entry is not behind the sight point: a walk from there reaches
+// the sight point. Returns false if the ray misses these cells.
 bool findNearFace(int sightDepth)
 {
   int front = texelFetch(cells, CELL_SIZE * cell + FIRST_LINK + face).r >> 2;
@@ -454,8 +458,8 @@ bool findNearFace(int sightDepth)
   nearFace = ivec4(0); // goes around the loop, see walk()
   while (!found && number < 8)
   {
-    // Counter-clockwise about a ray that leaves the cell by the face between; so are the other faces
-    // about one that enters by them.
+    // Counter-clockwise about a ray that leaves the cell by the face between the two cells; so are
+    // the other faces about a ray that enters by them.
     bool inFront = number < 4;
     int index = inFront ? front : cell;
     ivec3 n = inFront ? corners : corners.xzy;
@@ -477,15 +481,15 @@ bool findNearFace(int sightDepth)
 struct RefractedRayLine
 {
   ivec4 line;       // offset and slope in the grid
-  float depth;      // of the sight point on the straight ray
-  float start;      // its depth in the line's frame
-  float perDepth;   // depth there per depth on the straight ray; 0 where nothing goes on
+  float depth;      // depth of the sight point on the straight ray
+  float start;      // depth of the sight point in the line's frame
+  float perDepth;   // depth there per depth on the straight ray; 0 without a refracted ray
   int frame;
   int depthAt;      // the depths in grid units
   int startAt;
 };
 
-// A float's depth in grid units, with the grid units by which that is off.
+// Depth of a float in grid units, with its correction in grid units.
 int refinedDepth(float depth, int rest)
 {
   return gridDepthOf(depth) + (rest & 255) - 128;
@@ -505,8 +509,8 @@ RefractedRayLine fetchRefractedRayLine(ivec2 pixel)
   return line;
 }
 
-// The part of the ray behind the membrane that counts. What is in the depth buffer there is drawn at
-// the depths of straight rays (Eq. 2.4), where nothing is drawn the far plane does not matter.
+// Limits of the refracted ray. Geometry in the depth buffer behind the membrane is drawn at the
+// depths of straight rays (Eq. 2.4); where nothing is drawn, the far plane is no limit.
 void limitRefractedRay(float opaque, RefractedRayLine line)
 {
   startDepth = line.startAt;
@@ -547,9 +551,9 @@ void limitRay(float opaque)
 #endif
 }
 
-// Casts what is set up of the ray: from nearFace on, if that is the first of its entries, then from
-// those after `lastDepth`, if there are more. Adds cells crossed and walks that did not end on the
-// boundary.
+// Casts the part of the ray that is set up: from nearFace on, if that is its first entry, then from
+// the entries after `lastDepth`, if there are more. Adds the cells crossed and the walks that did
+// not end on the boundary.
 void castPart(int lastDepth, inout int steps, inout int lost)
 {
   int lastFace = -1;
@@ -566,7 +570,8 @@ void castPart(int lastDepth, inout int steps, inout int lost)
     startPart(faceScalar);
     bool ended = walk(steps);
 #if REFRACTED
-    // A walk that goes round within the mesh has passed nothing twice; the rest is from the boundary on.
+    // A walk that returns to its start inside the mesh has integrated nothing twice; the rest
+    // follows from the boundary.
     bool wasNear = lastFace == NEAR_FACE;
     entryDepth = wasNear ? (ended ? lastDepth : BEFORE_EVERYTHING) : entryDepth;
     lastFace = wasNear ? -1 : lastFace;
@@ -579,12 +584,12 @@ void castPart(int lastDepth, inout int steps, inout int lost)
 }
 
 #if REFRACTED
-// Sets up what is behind the membrane, when the straight ray has come there. Yields the depth from
-// which on entries count. False if nothing of it does.
+// Sets up the refracted ray, after the straight ray has reached the membrane. Returns in
+// `lastDepth` the depth from which entries are used. Returns false if no part of it is drawn.
 bool goOnBehind(float opaque, out int lastDepth)
 {
   RefractedRayLine line = fetchRefractedRayLine(ivec2(rayTilePixel));
-  // Where the straight ray has come to, if clipping planes did not end it.
+  // True if the straight ray has reached the membrane, and no clipping plane has ended it before.
   bool arrived = membranePart != PART_BEHIND && endDepth == membraneAt && entryFaces.x < 0 &&
     !moreEntries;
   bool inside = depthNow >= endDepth;
@@ -606,8 +611,8 @@ bool goOnBehind(float opaque, out int lastDepth)
 }
 #endif
 
-// Casts the ray of a pixel, given by its centre, up to an opaque depth of the window, in [0, 1].
-// Yields cells crossed and walks that did not end on the boundary.
+// Casts the ray of a pixel, given by its centre, up to an opaque window depth in [0, 1]. Returns
+// the cells crossed and the walks that did not end on the boundary.
 vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
 {
   rayTilePixel = pixel;
@@ -628,8 +633,8 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   membraneAt = behind.depthAt;
   bool bends = membraneDepth < NOWHERE && membranePart != PART_IN_FRONT;
   limitRay(opaque);
-  // First what is straight, if a ray of the tile enters the mesh there, then what is behind the
-  // membrane: in one loop, of which rays side by side take the turns that they need.
+  // The straight part comes first, if a ray of the tile enters the mesh there, then the refracted
+  // part: both in one loop, in which adjacent rays take the turns that they need.
   moreEntries = meetsMesh && membranePart != PART_BEHIND &&
     fetchTile(ivec2(pixel / tileSize), 0).x != -1.0;
   bool straight = moreEntries;

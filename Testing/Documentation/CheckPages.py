@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Nothing in the documentation is without a test: every block of code is in a language and on a page
-that a test runs; every line of an indented block is a command that a script or test runs as well, or
-whose parts are there; every script, preset, page and picture that a page names is there.
+"""Checks that the documentation is covered by tests: every block of code is in a language and on a
+page that a test runs; every line of an indented block is a command that a script or test runs, or
+whose parts exist; every script, preset, page, heading and picture that a page names exists.
 
-Arguments: the root of the project, then PAGE:LANGUAGE of what is run."""
+Arguments: the root of the project, then PAGE:LANGUAGE for each language that is run."""
 import json
 import os
 import re
@@ -12,10 +12,10 @@ import subprocess
 import sys
 
 
-# Commands, and the files whose scripts or tests run what each stands for.
+# Commands, and the files that run each of them.
 COMMANDS = [
-    (r"scripts/[a-z-]+( |$)", []),  # looked for below
-    (r"cmake --preset [a-z]+( |$)", []),  # looked for below
+    (r"scripts/[a-z0-9-]+( |$)", []),  # checked below
+    (r"cmake --preset [a-z]+( |$)", []),  # checked below
     (r"cmake --build build(-[a-z]+)?$", ["scripts/common.sh"]),
     (r"cmake --install build --prefix ", ["Testing/InstallFresh.cmake"]),
     (r"cmake -S \. -B build && cmake --build build && build/tutorial$",
@@ -27,7 +27,7 @@ COMMANDS = [
     (r"/usr/bin/python3 -m venv --system-site-packages ", ["scripts/wheel"]),
     (r"env/bin/pip install ", ["scripts/wheel"]),
 ]
-# Programs of ours, with the folders in whose sources their options are.
+# Programs of the project, with the folders whose sources contain their options.
 PROGRAMS = {
     "meniscus_benchmark_volume": ["Benchmarks"],
     "meniscus_benchmark_refraction": ["Benchmarks"],
@@ -48,7 +48,7 @@ def text_below(root, folder):
 
 
 def command_faults(root, command):
-    """What is wrong with a line of an indented block, which must be a command."""
+    """Faults of a line of an indented block, which must be a command."""
     if command.startswith("apt-get install "):
         scripts = text_below(root, "scripts")
         packages = [word for word in command.split()[2:] if not word.startswith("-")]
@@ -69,11 +69,14 @@ def command_faults(root, command):
 
 
 def indented_commands(text):
-    """Lines of indented blocks outside of fenced ones, without comments, continued lines joined."""
+    """Lines of indented blocks outside fenced ones, without comments, continued lines joined. An
+    indented line after text continues its paragraph or list item."""
     fenced = re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
     joined = re.sub(r"\\\n *", "", fenced)
-    for line in re.findall(r"^ {4}(.*\S)", joined, re.MULTILINE):
-        yield re.sub(r" +#.*", "", line.strip())
+    for block in re.split(r"\n\s*\n", joined):
+        if block.startswith("    "):
+            for line in block.strip().split("\n"):
+                yield re.sub(r" +#.*", "", line.strip())
 
 
 def pages(root):
@@ -90,6 +93,14 @@ def pages(root):
             and name]
 
 
+def anchors(root, page):
+    """Anchors of the page's headings, as GitHub makes them."""
+    with open(os.path.join(root, page)) as file:
+        text = re.sub(r"^```.*?^```$", "", file.read(), flags=re.DOTALL | re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+            for heading in re.findall(r"^#+ (.*)$", text, re.MULTILINE)}
+
+
 def check(root, page, run, presets):
     with open(os.path.join(root, page)) as file:
         text = file.read()
@@ -97,20 +108,26 @@ def check(root, page, run, presets):
     for language in re.findall(r"^```(.+)$", text, re.MULTILINE):
         if page + ":" + language not in run:
             faults.append("a block of %s that no test runs" % language)
-    for language in ("cpp", "cmake"):  # of these the tests take a page's first
+    for language in ("cpp", "cmake"):  # the tests run the first block of a page only
         if len(re.findall(r"^```%s$" % language, text, re.MULTILINE)) > 1:
             faults.append("only the first block of %s is run" % language)
     for command in indented_commands(text):
         faults += command_faults(root, command)
-    for script in re.findall(r"(?:^|[\s`/])(scripts/[a-z-]+)", text):
+    for script in re.findall(r"(?:^|[\s`/])(scripts/[a-z0-9-]+)", text):
         if not os.access(os.path.join(root, script), os.X_OK):
             faults.append("there is no " + script)
-    for preset in re.findall(r"--preset ([a-z-]+)", text):
+    for preset in re.findall(r"--preset ([a-z0-9-]+)", text):
         if preset not in presets:
             faults.append("there is no preset " + preset)
     for link in re.findall(r"\]\(([^)#\s]+)\)", text):
-        if "://" not in link and not os.path.exists(os.path.join(root, os.path.dirname(page), link)):
-            faults.append("a link to %s, which is not there" % link)
+        target = os.path.join(root, os.path.dirname(page), link)
+        if "://" not in link and not os.path.exists(target):
+            faults.append("a link to %s, which does not exist" % link)
+    for link, anchor in re.findall(r"\]\(([^)#\s]*)#([^)\s]+)\)", text):
+        target = os.path.normpath(os.path.join(os.path.dirname(page), link)) if link else page
+        if "://" not in link and os.path.exists(os.path.join(root, target)) and (
+                anchor not in anchors(root, target)):
+            faults.append("a link to the heading %s#%s, which does not exist" % (link, anchor))
     return ["%s: %s" % (page, fault) for fault in faults]
 
 
@@ -120,7 +137,7 @@ def main():
         presets = {preset["name"] for preset in json.load(file)["configurePresets"]}
     names = pages(root)
     faults = [fault for page in names for fault in check(root, page, run, presets)]
-    faults += ["%s is not there, or has no such block" % entry for entry in run
+    faults += ["%s does not exist" % entry for entry in run
                if not os.path.exists(os.path.join(root, entry.split(":")[0]))]
     print("%d pages" % len(names))
     sys.exit("\n".join(faults) if faults or not names else 0)

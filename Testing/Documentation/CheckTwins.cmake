@@ -1,6 +1,7 @@
 # usage: cmake -DROOT=<project> -P CheckTwins.cmake
-# Files that have one algorithm in C++ and in GLSL name each other, by lines "// Twin: <path>
-# (<subject>)" at their tops, on one line each. Fails unless each of these paths exists and names its
+# Files that have one algorithm in C++ and in GLSL name each other by lines at their tops:
+#   // Twin: <path> (<subject>)
+# Fails unless each of these paths exists and names its
 # partner back.
 cmake_minimum_required(VERSION 3.18)
 file(GLOB_RECURSE files RELATIVE "${ROOT}"

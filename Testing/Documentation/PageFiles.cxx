@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Files that the pages of the documentation read, and a look at the pictures that they make:
-// `write` writes object.vtp and water.vtp; `check` names pictures that must show something, each
-// of them something else.
+// Writes the files that the pages of the documentation read, and checks the images that they
+// produce: `write` writes object.vtp and water.vtp; `check` takes the names of images, each of
+// which must show something different.
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
 #include <vtkElevationFilter.h>
@@ -25,7 +25,7 @@
 namespace
 {
 
-// Colours of a picture, of at most 24 bits.
+// Smallest number of colours of an image, of at most 24 bits.
 constexpr std::size_t FewestColors = 50;
 
 bool write(vtkAlgorithm* source, const char* file)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of programs that pages show, as they stand there, among what they take for granted. Writes
-// a picture of each.
+// Parts of programs as the pages show them, within the code that they assume. Writes an image of
+// each.
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>

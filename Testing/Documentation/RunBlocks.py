@@ -1,18 +1,18 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the blocks of code of a page of the documentation, one after the other as one program, in an
-empty folder with the user's files that the pages speak of.
+"""Runs the code blocks of a page of the documentation, concatenated to one program, in an empty
+folder with the data files that the pages read.
 
-Arguments: the page, the language of the blocks, the folder; then the pictures that must be there
-afterwards and show something. A language `extract:LANGUAGE` only writes the blocks to the folder, to
-be compiled (cpp, cmake) or run by another program."""
+Arguments: the page, the language of the blocks, the folder; then the pictures that must exist
+afterwards and must not be uniform. A language `extract:LANGUAGE` only writes the blocks to the
+folder, to be compiled (cpp, cmake) or run by another program."""
 import os
 import re
 import shutil
 import sys
 
 SUFFIXES = {"python": "py", "pvpython": "py", "pyvista": "py", "cpp": "cxx", "cmake": "txt"}
-# Of [0, 255]; an empty picture spans nothing.
+# Smallest range of pixel values in a picture, within [0, 255]; that of an empty picture is 0.
 LEAST_CONTRAST = 50
 
 

@@ -1,9 +1,16 @@
-# cmake -DCOMMAND=... -DPICTURES=... -DCHECK=... -P RunPage.cmake: runs a command that writes pictures
-# to the current folder and checks each of them.
+# cmake -DCOMMAND=... -DPICTURES=... -DCHECK=... -P RunPage.cmake: runs a command that writes
+# pictures to the current folder and checks each of them. -DNEEDS=... names files without which it
+# is skipped.
 if (NOT DEFINED ENV{DISPLAY})
   message("SKIPPED: no display")
   return ()
 endif ()
+foreach (file IN LISTS NEEDS)
+  if (NOT EXISTS "${file}")
+    message("SKIPPED: no file ${file}")
+    return ()
+  endif ()
+endforeach ()
 foreach (picture IN LISTS PICTURES)
   file(REMOVE "${picture}")
 endforeach ()
@@ -13,5 +20,5 @@ if (failed)
 endif ()
 execute_process(COMMAND "${CHECK}" check ${PICTURES} RESULT_VARIABLE failed)
 if (failed)
-  message(FATAL_ERROR "A picture does not show what it should")
+  message(FATAL_ERROR "A picture has too few colours or equals the one before")
 endif ()

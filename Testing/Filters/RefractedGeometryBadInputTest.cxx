@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Input that is missing, empty or wrong: an error or a counted skip, a defined output, no crash.
+// Input that is missing, empty or invalid: an error or a counted skip, a defined output, no crash.
 #include "RefractedGeometryTestHelpers.h"
 
 #include "vtkCellArray.h"
@@ -120,7 +120,7 @@ TEST(RefractedGeometryBadInput, BadFacetsAreSkippedAndCounted)
   filter->Update();
   EXPECT_EQ(messages->Errors, 0) << messages->Text;
   EXPECT_EQ(messages->Warnings, 1) << messages->Text;
-  // The quad without area makes one or two triangles, the strip two.
+  // The quad without area yields one or two triangles, the strip two.
   EXPECT_GE(filter->GetNumberOfSkippedFacets(), 9);
   EXPECT_LE(filter->GetNumberOfSkippedFacets(), 10);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 25);
@@ -198,7 +198,7 @@ TEST(RefractedGeometryBadInput, IndicesOfRefraction)
       filter->Update();
       EXPECT_GE(messages->Errors, 1) << index;
       EXPECT_TRUE(HasNoGeometry(filter->GetOutput())) << index;
-      // And it recovers.
+      // The filter recovers afterwards.
       filter->SetExteriorIndexOfRefraction(1.0);
       filter->SetInteriorIndexOfRefraction(1.333);
       filter->Update();
@@ -276,7 +276,7 @@ TEST(RefractedGeometryBadInput, EyeBehindTheMembrane)
 {
   const auto filter = MakeFilter(MakeGrid(3, 10.0, -5.0), MakeFlatMembrane());
   filter->SetEyePosition(0.0, -100.0, 0.0);
-  filter->Update(); // extrapolated by Eq. 3.1; must only be defined
+  filter->Update(); // extrapolated by Eq. 3.1; must only be finite
   for (vtkIdType i = 0; i < filter->GetOutput()->GetNumberOfPoints(); ++i)
   {
     double p[3];

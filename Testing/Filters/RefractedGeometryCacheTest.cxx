@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What is computed again after a change, shown by the counters; eye, camera, composite data, abort.
+// Recomputation after a change, measured by the counters; eye, camera, composite data, abort.
 #include "RefractedGeometryTestHelpers.h"
 
 #include "vtkCallbackCommand.h"
@@ -192,7 +192,7 @@ TEST_F(RefractedGeometryCache, EyeFollowsTheCamera)
   this->Filter->GetOutput()->GetPoint(5, a);
   other->GetOutput()->GetPoint(5, b);
   EXPECT_TRUE(a[0] == b[0] && a[1] == b[1] && a[2] == b[2]);
-  // Turned, not moved: nothing is solved again.
+  // The camera is rotated, not moved: nothing is solved again.
   camera->SetFocalPoint(10.0, 0.0, 0.0);
   camera->Zoom(2.0);
   this->ExpectAfterUpdate({ 1, 2, 162 });
@@ -265,7 +265,7 @@ TEST(RefractedGeometryPipeline, CachesGoWithTheirData)
   filter->Update();
   for (int i = 0; i < 20; ++i)
   {
-    filter->SetInputData(0, MakeGrid(5, 80.0, -21.0 - i)); // the one before is deleted here
+    filter->SetInputData(0, MakeGrid(5, 80.0, -21.0 - i)); // deletes the previous one
     filter->Update();
   }
   EXPECT_EQ(Read(filter), (Counters{ 1, 1, 21 * 25 }));
@@ -315,7 +315,7 @@ TEST(RefractedGeometryPipeline, ProgressRisesToTheEndAndAbortLeavesNothing)
 }
 
 //------------------------------------------------------------------------------
-// A producer that records which piece it is asked for.
+// A producer that records the piece that is requested.
 class PieceRecorder : public vtkTrivialProducer
 {
 public:

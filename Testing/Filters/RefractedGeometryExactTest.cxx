@@ -107,8 +107,9 @@ double FindLargestDifference(vtkPolyData* a, vtkPolyData* b)
 }
 
 //------------------------------------------------------------------------------
-// A flat sheet and the waves' formula give what the waves' own mesh with exact normals gives. The
-// sheet's points move along the gradient, not upwards, so the patches are others, but as good.
+// A flat sheet with the waves' formula gives the same result as the waves' own mesh with exact
+// normals. The sheet's points move along the gradient, not upwards, so the patches differ, but are
+// equally accurate.
 TEST(RefractedGeometryExact, SheetTakesTheShapeOfTheFormula)
 {
   HeightField field;
@@ -139,7 +140,8 @@ TEST(RefractedGeometryExact, SheetTakesTheShapeOfTheFormula)
 }
 
 //------------------------------------------------------------------------------
-// Four facets that are only roughly on a sphere, with normals that are only roughly its own.
+// Four facets that are only approximately on a sphere, with normals that are only approximately its
+// own.
 TEST(RefractedGeometryExact, SpheresAreExactFromAnyMesh)
 {
   const double radius = 400.0;

@@ -51,7 +51,7 @@ glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
   return GetTuple(data->GetPoints()->GetData(), i);
 }
 
-/** A polygon that stands upright at x = 7, from `low` to `high`. */
+/** A vertical polygon at x = 7, from `low` to `high`. */
 vtkSmartPointer<vtkPolyData> MakeWall(double low, double high)
 {
   auto wall = MakePoints(
@@ -64,7 +64,8 @@ vtkSmartPointer<vtkPolyData> MakeWall(double low, double high)
   return wall;
 }
 
-// Area of the true polygons behind the output's polygons with (or without) a sight facet.
+// Area of the true polygons that correspond to the output's polygons with (or without) a sight
+// facet.
 double GetTrueArea(vtkPolyData* output, bool inFront)
 {
   vtkDataArray* truth = output->GetPointData()->GetArray("Truth");
@@ -129,7 +130,7 @@ TEST(RefractedGeometryImages, VerticesAreOnePerImage)
     const auto exact = Waves.FindSightPoints(Eye, p);
     several += images[i] > 1;
     without += images[i] == 0;
-    // A pair more or less near a caustic.
+    // One pair of images more or less near a caustic.
     EXPECT_LE(std::abs(images[i] - static_cast<int>(exact.size())), 2) << i;
   }
   EXPECT_GT(several, 10);
@@ -154,7 +155,7 @@ TEST(RefractedGeometryImages, PiecesCoverThePolygonOnce)
   vtkDataArray* depth = output->GetPointData()->GetArray("RefractionDepth");
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    // The made point is on the polygon, its sight point looks at it.
+    // The new point is on the polygon, and its sight point sees it.
     const glm::dvec3 t = GetTuple(truth, i);
     EXPECT_NEAR(glm::length(t - GetTuple(sight, i)), depth->GetTuple1(i), 1e-9);
     const glm::dvec3 a = glm::normalize(GetTuple(sight, i) - eye);
@@ -182,7 +183,7 @@ TEST(RefractedGeometryImages, SimpleCellsPassWhole)
 }
 
 //------------------------------------------------------------------------------
-// The part in front stays where it is, the part behind is refracted, nothing is lost or doubled.
+// The part in front is unchanged, the part behind is refracted, and nothing is lost or duplicated.
 TEST(RefractedGeometryImages, PolygonsAreCutWhereTheyCrossAFlatMembrane)
 {
   const auto filter = MakeAllImages(MakeWall(-25.0, 15.0), MakeFlatMembrane());
@@ -234,8 +235,8 @@ TEST(RefractedGeometryImages, PolygonsAreCutWhereTheyCrossWaves)
     {
       EXPECT_GE(height, -0.01) << i;
     }
-    // A ray that leaves through the membrane again sees up to the crest of the waves; what it sees
-    // in front is dropped piece by piece.
+    // A ray that leaves through the membrane again sees up to the crest of the waves; its hits in
+    // front are dropped piece by piece.
     wrong += facet->GetTuple1(i) >= 0.0 && height > 0.1;
   }
   EXPECT_LT(wrong, output->GetNumberOfPoints() / 50);

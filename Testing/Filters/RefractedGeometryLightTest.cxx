@@ -64,7 +64,7 @@ glm::dvec3 GetPoint(vtkPolyData* data, vtkIdType i)
   return p;
 }
 
-/** True point, true and virtual normal, and so on, of each point of an output. */
+/** True point, true and virtual normal, and other data of each point of an output. */
 struct Lit
 {
   glm::dvec3 Point;
@@ -111,7 +111,7 @@ TEST(RefractedGeometryLight, SchlickIsItsClosedForm)
     const double r = std::pow(0.333 / 2.333, 2);
     const double value = data->GetArray("Reflectance")->GetTuple1(i);
     EXPECT_NEAR(value, r + (1.0 - r) * std::pow(1.0 - cosine, 5), 1e-12);
-    // It is an approximation: near the exact one, not the same.
+    // The approximation is near the exact value, but not equal.
     largest = std::max(largest, std::fabs(value - fresnel->GetTuple1(i)));
   }
   EXPECT_GT(largest, 0.01);
@@ -127,12 +127,12 @@ TEST(RefractedGeometryLight, SchlickIsItsClosedForm)
 TEST(RefractedGeometryLight, HeadlightsSeeTheTrueAngles)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     const auto grid = MakeLitGrid(-60.0);
     const auto filter = MakeCurved(grid, MakeMembrane(Waves.MakeMesh(64)));
     filter->SetImages(images);
-    filter->SetAngularTolerance(10.0); // no made points, which have no true normal of their own
+    filter->SetAngularTolerance(10.0); // no new points, which have no true normal of their own
     filter->VirtualNormalsOn();
     filter->Update();
     const auto lit = Read(grid, filter->GetOutput());
@@ -151,7 +151,7 @@ TEST(RefractedGeometryLight, HeadlightsSeeTheTrueAngles)
 }
 
 //------------------------------------------------------------------------------
-// A light at infinity over a plane: its refracted ray by n1 sin a = n2 sin b.
+// A light at infinity above a plane: its refracted ray follows from n1 sin a = n2 sin b.
 TEST(RefractedGeometryLight, DistantLightsAreExactUnderPlanes)
 {
   const auto grid = MakeLitGrid(-60.0);
@@ -173,7 +173,7 @@ TEST(RefractedGeometryLight, DistantLightsAreExactUnderPlanes)
       const glm::dvec3 inside = glm::normalize(point.SightPoint - point.Point);
       const glm::dvec3 outside = glm::normalize(Eye - point.VirtualPoint);
       EXPECT_NEAR(diffuse, wanted, 1e-9);
-      // Both products, where a unit normal can have them.
+      // Both dot products, where a unit normal can have them.
       both +=
         std::fabs(glm::dot(point.VirtualNormal, outside) - glm::dot(point.Normal, inside)) < 1e-9;
       EXPECT_NEAR(glm::length(point.VirtualNormal), 1.0, 1e-12);
@@ -211,7 +211,7 @@ TEST(RefractedGeometryLight, NothingTurnsWhereNothingIsRefracted)
     {
       EXPECT_LT(glm::length(point.VirtualNormal - point.Normal), 1e-15);
     }
-    // In front of the membrane neither.
+    // In front of the membrane normals are unchanged.
     filter->SetInteriorIndexOfRefraction(1.333);
     filter->SetImagesToAllImages();
     const auto front = MakeLitGrid(30.0);
@@ -254,7 +254,7 @@ TEST(RefractedGeometryLight, BadNormalsAndLights)
   filter->VirtualNormalsOn();
   filter->Update();
   vtkDataArray* normals = filter->GetOutput()->GetPointData()->GetNormals();
-  EXPECT_EQ(GetTuple(normals, 3), glm::dvec3(0.0)); // as they came
+  EXPECT_EQ(GetTuple(normals, 3), glm::dvec3(0.0)); // unchanged
   EXPECT_TRUE(std::isnan(GetTuple(normals, 4).x));
   const auto messages = Observe(filter);
   filter->SetLightDirection(0.0, nan, 0.0);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Membranes that are closed, turned over, one-sided or of odd cells, and ports that are swapped.
+// Membranes that are closed, inverted, one-sided or of unusual cells, and swapped ports.
 #include "AnalyticMembrane.h"
 #include "RefractedGeometryTestHelpers.h"
 
@@ -43,7 +43,9 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeAllImages(
   return filter;
 }
 
-/** A whole sphere about the origin with exact normals, outwards or inwards; wound outwards. */
+/**
+ * A whole sphere about the origin with exact normals, outward or inward; the winding is outward.
+ */
 MembraneMesh MakeSphere(double radius, int rings, double sign)
 {
   MembraneMesh mesh;
@@ -104,7 +106,8 @@ glm::dvec3 GetTuple(vtkDataArray* array, vtkIdType i)
 }
 
 /**
- * Largest violation of Snell's law at a sphere about the origin, normals outwards (1) or inwards.
+ * Largest violation of Snell's law at a sphere about the origin, with outward (1) or inward
+ * normals.
  */
 double GetWorstSnell(vtkPolyData* output, const glm::dvec3& eye, double sign)
 {
@@ -128,7 +131,7 @@ double GetWorstSnell(vtkPolyData* output, const glm::dvec3& eye, double sign)
 }
 
 //------------------------------------------------------------------------------
-// A ball of water: what is inside is refracted, what is outside is not, all around.
+// A ball of water: points inside are refracted, points outside are not, on all sides.
 TEST(RefractedGeometryMembrane, ClosedMembranesAreBodies)
 {
   const auto geometry = MakeVertices({ { 0, 0, 0 }, { 20, 10, -30 }, { -50, 0, 20 }, { 0, 60, 0 },
@@ -182,7 +185,8 @@ TEST(RefractedGeometryMembrane, ClosedMembranesAreBubbles)
 }
 
 //------------------------------------------------------------------------------
-// An eye in a body that it should see from outside: told when it comes there, not again on the way.
+// An eye in a body that should be seen from outside: reported when it enters, not again as it
+// moves.
 TEST(RefractedGeometryMembrane, AnEyeInsideOfABodyIsTold)
 {
   const auto filter =
@@ -212,7 +216,7 @@ TEST(RefractedGeometryMembrane, AnEyeInsideOfABodyIsTold)
   EXPECT_EQ(messages->Warnings, 2) << messages->Text;
 }
 
-// Two sheets, above each other or side by side.
+// Two sheets, one above the other or side by side.
 TEST(RefractedGeometryMembrane, SheetsInSequenceAreTold)
 {
   for (const bool isStacked : { true, false })
@@ -240,7 +244,7 @@ TEST(RefractedGeometryMembrane, SheetsInSequenceAreTold)
 }
 
 //------------------------------------------------------------------------------
-// Facets wound at random, without normals: oriented as most of them are.
+// Facets with random winding, without normals: oriented as most of them are.
 TEST(RefractedGeometryMembrane, InconsistentFacetsAreTurned)
 {
   const MembraneMesh bowl = MakeDisc(141.5, 5, 400.0);
@@ -343,7 +347,7 @@ TEST(RefractedGeometryMembrane, OneSidedMembranesAreAnError)
   for (int i = 0; i < count; ++i)
   {
     const int next = (i + 1) % count;
-    const bool turns = next == 0; // half a turn: the sides change places
+    const bool turns = next == 0; // half a turn: the sides are exchanged
     const vtkIdType a = 2 * i;
     const vtkIdType c = 2 * next + (turns ? 1 : 0);
     const vtkIdType d = 2 * next + (turns ? 0 : 1);
@@ -373,7 +377,7 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
   {
     const auto filter = MakeAllImages(membrane, object);
     filter->SetMembraneModel(
-      curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FlatFacets);
+      curved ? vtkRefractedGeometryFilter::CURVED : vtkRefractedGeometryFilter::FLAT_FACETS);
     filter->SetImagesToFirstImage();
     const auto messages = Observe(filter);
     filter->Update();
@@ -382,7 +386,7 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
     EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 81);
     filter->SetEyePosition(0.0, 250.0, 0.0);
     filter->Update();
-    EXPECT_EQ(messages->Warnings, 1); // once a membrane
+    EXPECT_EQ(messages->Warnings, 1); // once per membrane
     filter->SetInputData(0, object);
     filter->SetInputData(1, membrane);
     filter->Update();
@@ -393,7 +397,7 @@ TEST(RefractedGeometryMembrane, SwappedPortsSaySo)
 TEST(RefractedGeometryMembrane, EyesBehindSaySoAndEyesOnItAreAnError)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     const auto filter = MakeAllImages(MakeGrid(5, 40.0, -30.0), MakeFlatMembrane());
     filter->SetImages(images);
@@ -416,7 +420,7 @@ TEST(RefractedGeometryMembrane, EyesBehindSaySoAndEyesOnItAreAnError)
 TEST(RefractedGeometryMembrane, FailedSolvesAreWarnedOfWithNumbers)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     auto grid = MakeGrid(3, 10.0, -5.0);
     grid->GetPoints()->SetPoint(0, std::numeric_limits<double>::quiet_NaN(), -5.0, 0.0);
@@ -430,7 +434,7 @@ TEST(RefractedGeometryMembrane, FailedSolvesAreWarnedOfWithNumbers)
     EXPECT_NE(messages->Text.find("2 of 9 points"), std::string::npos) << messages->Text;
     filter->Update();
     filter->SetOutputPointsPrecision(vtkAlgorithm::SINGLE_PRECISION);
-    filter->Update(); // nothing solved again
+    filter->Update(); // nothing is solved again
     EXPECT_EQ(messages->Warnings, 1);
   }
 }
@@ -440,7 +444,7 @@ TEST(RefractedGeometryMembrane, EqualIndicesAreTheIdentityExactly)
 {
   const auto grid = MakeGrid(9, 80.0, -50.0);
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     const auto filter = MakeAllImages(grid, MakeMembrane(MakeWaves(200.0, 32, 3.0, 2.0)));
     filter->SetImages(images);
@@ -461,7 +465,7 @@ TEST(RefractedGeometryMembrane, EqualIndicesAreTheIdentityExactly)
 }
 
 //------------------------------------------------------------------------------
-// Quads, a hexagon and strips: the same surface as its triangles.
+// Quads, a hexagon and strips: the same surface as their triangles.
 TEST(RefractedGeometryMembrane, CurvedMembranesMayBeStripsAndPolygons)
 {
   const MembraneMesh mesh = MakeWaves(200.0, 8, 3.0, 1.0);
@@ -490,7 +494,7 @@ TEST(RefractedGeometryMembrane, CurvedMembranesMayBeStripsAndPolygons)
   ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 81);
   for (vtkIdType i = 0; i < 81; ++i)
   {
-    // The diagonals run the other way: the same to the order of the patches.
+    // The diagonals run the other way: the results agree to the order of the patches.
     EXPECT_NEAR(filter->GetOutput()->GetPoint(i)[0], expected->GetOutput()->GetPoint(i)[0], 0.05);
     EXPECT_NEAR(filter->GetOutput()->GetPoint(i)[1], expected->GetOutput()->GetPoint(i)[1], 0.2);
   }
@@ -523,7 +527,7 @@ TEST(RefractedGeometryMembrane, EmptyAndMissingBlocksOfComposites)
 TEST(RefractedGeometryMembrane, ArraysOfOddTypes)
 {
   for (const int images :
-    { vtkRefractedGeometryFilter::FirstImage, vtkRefractedGeometryFilter::AllImages })
+    { vtkRefractedGeometryFilter::FIRST_IMAGE, vtkRefractedGeometryFilter::ALL_IMAGES })
   {
     const auto grid = MakeGrid(9, 150.0, -60.0);
     vtkNew<vtkStringArray> names;
@@ -578,7 +582,7 @@ TEST(RefractedGeometryMembrane, DataOfThePortsMayChangeBetweenUpdates)
   const auto filter = MakeAllImages(grid, membrane);
   filter->Update();
   EXPECT_GT(filter->GetOutput()->GetNumberOfPolys(), 0);
-  // Fewer points, other cells, another type of points, then nothing, then as before.
+  // Fewer points, other cells, another type of points, then nothing, then the first input again.
   grid->ShallowCopy(MakeVertices({ { 0, -50, 0 }, { 10, -40, 3 } }));
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfVerts(), 2);
@@ -602,8 +606,8 @@ TEST(RefractedGeometryMembrane, DataOfThePortsMayChangeBetweenUpdates)
 }
 
 //------------------------------------------------------------------------------
-// Abort while points are solved, and while cells are mapped: nothing half done comes out, and the
-// next update makes up for it.
+// Abort while points are solved, and while cells are mapped: the output is not incomplete, and the
+// next update finishes the work.
 TEST(RefractedGeometryMembrane, AbortWithAllImages)
 {
   struct Observed

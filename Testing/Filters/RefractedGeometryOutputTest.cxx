@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes out: positions, arrays, cells of every kind.
+// Output of the filter: positions, arrays, cells of every kind.
 #include "AnalyticMembrane.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "Refraction/Membrane/Optics.h"
@@ -74,15 +74,15 @@ TEST(RefractedGeometryOutput, GridKeepsConnectivityAndArrays)
     grid->GetPoint(i, p);
     output->GetPoint(i, v);
     PointArray(output, "SightPoint")->GetTuple(i, s);
-    // Interpolation over facets of 25 units of a map that bends over the eye's height of 300:
-    // at most size^2 / (8 radius).
+    // Interpolation, over facets of 25 units, of a map whose radius of curvature is the eye's
+    // height of 300: the error is at most size^2 / (8 radius).
     const auto truth = exact.FindSightPoints({ 20.0, 300.0, 10.0 }, { p[0], p[1], p[2] });
     ASSERT_EQ(truth.size(), 1u);
     EXPECT_LT(glm::length(truth[0] - glm::dvec3(s[0], s[1], s[2])), 25.0 * 25.0 / (8.0 * 300.0));
     const double depth = PointArray(output, "RefractionDepth")->GetTuple1(i);
     EXPECT_NEAR(depth, std::sqrt(vtkMath::Distance2BetweenPoints(p, s)), 1e-11);
     EXPECT_NEAR(std::sqrt(vtkMath::Distance2BetweenPoints(v, s)), depth / 1.333, 1e-11);
-    // The facet that is named holds the sight point: 16 by 8 facets of a 25 unit square each.
+    // The reported facet contains the sight point: 16 by 8 facets of squares of 25 units.
     const auto facet = static_cast<vtkIdType>(PointArray(output, "SightFacet")->GetTuple1(i));
     EXPECT_GE(s[0], -100.0 + 25.0 * static_cast<double>(facet / 2 % 8) - 1e-9);
     EXPECT_LE(s[0], -75.0 + 25.0 * static_cast<double>(facet / 2 % 8) + 1e-9);
@@ -104,7 +104,7 @@ TEST(RefractedGeometryOutput, GridKeepsConnectivityAndArrays)
 //------------------------------------------------------------------------------
 TEST(RefractedGeometryOutput, PointsWithoutImageTakeTheirCellsWithThem)
 {
-  // Two of the three columns lie below the membrane.
+  // Two of the three columns are below the membrane.
   auto grid = MakePoints({ { 0, -10, 0 }, { 10, -10, 0 }, { 0, 50, 0 }, { 10, -10, 10 },
     { 0, -10, 10 }, { 20, -10, 0 } });
   vtkNew<vtkCellArray> polys;
@@ -143,7 +143,7 @@ TEST(RefractedGeometryOutput, PointsWithoutImageTakeTheirCellsWithThem)
   ASSERT_NE(without, nullptr);
   ASSERT_EQ(without->GetNumberOfTuples(), 1);
   EXPECT_EQ(without->GetValue(0), 2);
-  // Cells: lines before polygons. Points 3, 4, 5 have moved up by one place.
+  // Cells: lines before polygons. The indices of points 3, 4, 5 are one lower.
   EXPECT_EQ(CellArray(output, "SourceCellId")->GetTuple1(0), 1);
   EXPECT_EQ(CellArray(output, "SourceCellId")->GetTuple1(1), 3);
   EXPECT_EQ(CellArray(output, "SourceCellId")->GetTuple1(2), 4);
@@ -246,8 +246,8 @@ double DoubleAreaFromAbove(vtkDataArray* positions, const std::vector<vtkIdType>
   return (p[1][2] - p[0][2]) * (p[2][0] - p[0][0]) - (p[1][0] - p[0][0]) * (p[2][2] - p[0][2]);
 }
 
-// Strong waves have their foci above the grid. Where a whole quad is seen in one facet, its sight
-// points show by themselves whether the image is mirrored.
+// Strong waves have their foci above the grid. If a whole quad is seen in one facet, its sight
+// points alone show whether the image is mirrored.
 TEST(RefractedGeometryOutput, CausticsMirrorCells)
 {
   const auto membrane = MakeMembrane(meniscus::reference::MakeWaves(200.0, 40, 8.0, 3.0));
@@ -287,11 +287,11 @@ TEST(RefractedGeometryOutput, CausticsMirrorCells)
 }
 
 //------------------------------------------------------------------------------
-// The same surface as quads, as strips and as triangles with vertices and lines before them.
+// The same surface as quads, as strips, and as triangles preceded by vertices and lines.
 TEST(RefractedGeometryOutput, MembraneMayBePolygonsOrStrips)
 {
   const auto grid = MakeGrid(9, 80.0, -50.0);
-  const auto quads = MakeGrid(9, 200.0, 0.0); // wound to the eye, no normals
+  const auto quads = MakeGrid(9, 200.0, 0.0); // facing the eye, without normals
   const auto byQuads = MakeFilter(grid, quads);
   byQuads->Update();
   ASSERT_EQ(byQuads->GetOutput()->GetNumberOfPoints(), 81);
@@ -342,7 +342,7 @@ TEST(RefractedGeometryOutput, MixedMembranesKeepTheOrderOfTheirCells)
   const vtkIdType quad[4] = { 0, 3, 2, 1 };
   const vtkIdType upper[3] = { 4, 7, 6 };
   const vtkIdType other[3] = { 4, 6, 5 };
-  polys->InsertNextCell(4, quad); // first, although it is split after the triangles were taken
+  polys->InsertNextCell(4, quad); // first, although it is split after the triangles have been read
   polys->InsertNextCell(3, upper);
   polys->InsertNextCell(3, other);
   membrane->SetPolys(polys);
@@ -422,7 +422,7 @@ TEST(RefractedGeometryOutput, LargeOffsetsInDoubleAreHarmless)
 }
 
 //------------------------------------------------------------------------------
-// Between the rays of the vertices as well: flat facets are off by half a unit here.
+// Also between the rays of the vertices: flat facets have an error of half a unit here.
 TEST(RefractedGeometryOutput, CurvedPatchesAreExactOnAPlane)
 {
   const auto grid = MakeGrid(9, 80.0, -50.0);
@@ -443,7 +443,7 @@ TEST(RefractedGeometryOutput, CurvedPatchesAreExactOnAPlane)
     ASSERT_EQ(truth.size(), 1u);
     EXPECT_LT(glm::length(truth[0] - glm::dvec3(s[0], s[1], s[2])), 1e-9);
   }
-  // The other model takes the membrane in anew, the same model does not.
+  // Another model reads the membrane again, the same model does not.
   EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
   filter->SetMembraneModelToFlatFacets();
   filter->Update();
@@ -457,7 +457,7 @@ TEST(RefractedGeometryOutput, PrintsItsState)
 {
   vtkNew<vtkRefractedGeometryFilter> filter;
   EXPECT_EQ(filter->GetMembraneModel(), vtkRefractedGeometryFilter::CURVED);
-  EXPECT_EQ(filter->GetImages(), vtkRefractedGeometryFilter::AllImages);
+  EXPECT_EQ(filter->GetImages(), vtkRefractedGeometryFilter::ALL_IMAGES);
   EXPECT_EQ(filter->GetExteriorIndexOfRefraction(), 1.0);
   EXPECT_EQ(filter->GetInteriorIndexOfRefraction(), 1.333);
   std::ostringstream text;

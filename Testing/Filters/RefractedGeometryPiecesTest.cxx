@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// ALL_IMAGES in a pipeline: arrays at points that were made, and pictures without cracks.
+// ALL_IMAGES in a pipeline: arrays at new points, and images without cracks.
 #include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "RefractionPicture.h"
 
+#include "vtkCellArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkSphereSource.h"
 
 #include <glm/geometric.hpp>
@@ -15,6 +17,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace
 {
@@ -60,8 +63,8 @@ class RefractedGeometryPieces : public ::testing::TestWithParam<PiecesCase>
 {
 };
 
-// An array of ones stays one, texture coordinates are those of the true position, which lies on
-// the floor at the end of the refracted path, and no piece reaches beyond its tile.
+// An array of ones stays one; texture coordinates are those of the true position, which is on the
+// floor at the end of the refracted path; and no piece extends beyond its tile.
 TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
 {
   const PiecesCase& test = GetParam();
@@ -121,7 +124,86 @@ TEST_P(RefractedGeometryPieces, ArraysAreThoseOfTheTruePosition)
   EXPECT_LE(worstPath, 1e-9);
 }
 
-// A pixel with nothing in it between pixels that show the ball, two at most away on either side.
+// Triangles of a torus about the y axis.
+vtkSmartPointer<vtkPolyData> MakeRing(const glm::dvec3& center, double radius, double thickness)
+{
+  constexpr int around = 48;
+  constexpr int across = 18;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> cells;
+  for (int j = 0; j < across; ++j)
+  {
+    for (int i = 0; i < around; ++i)
+    {
+      const double u = 2.0 * Pi * i / around;
+      const double v = 2.0 * Pi * j / across;
+      const double reach = radius + thickness * std::cos(v);
+      points->InsertNextPoint(center.x + reach * std::cos(u), center.y + thickness * std::sin(v),
+        center.z + reach * std::sin(u));
+      const vtkIdType a = j * around + i;
+      const vtkIdType b = j * around + (i + 1) % around;
+      const vtkIdType c = (j + 1) % across * around + (i + 1) % around;
+      const vtkIdType d = (j + 1) % across * around + i;
+      cells->InsertNextCell({ a, b, c });
+      cells->InsertNextCell({ a, c, d });
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  return data;
+}
+
+// How far a point of the pieces is from Snell's law behind a level plane.
+double GetLargestResidual(const PiecesCase& test, vtkPolyData* pieces)
+{
+  double worst = 0.0;
+  for (vtkIdType i = 0; i < pieces->GetNumberOfPoints(); ++i)
+  {
+    glm::dvec3 place;
+    glm::dvec3 from;
+    pieces->GetPointData()->GetArray("Truth")->GetTuple(i, &place.x);
+    pieces->GetPointData()->GetArray("SightPoint")->GetTuple(i, &from.x);
+    const glm::dvec3 law = test.Field.Exterior * glm::normalize(from - test.Eye) -
+      test.Field.Interior * glm::normalize(place - from);
+    worst = std::max(worst, std::hypot(law.x, law.z));
+  }
+  return worst;
+}
+
+// A plane shows one image of a point at most, so every point of every piece obeys Snell's law, at a
+// silhouette and near total reflection too. Sub-cells are exact at their corners and points between
+// them are solved to rounding; 1e-6 is far above that, and a thousandth of a pixel.
+TEST(RefractedGeometryPiecesBehindPlanes, ObeySnellsLaw)
+{
+  const PiecesCase planes[] = {
+    { "from above", { HeightField::Shape::Waves, 800.0, 0.0, 0.03 * Pi, 1.0, 1.333 }, 8,
+      { 2.0, 20.0, -3.0 } },
+    { "from below", { HeightField::Shape::Waves, 800.0, 0.0, 0.03 * Pi, 1.333, 1.0 }, 8,
+      { 2.0, 20.0, -3.0 } },
+  };
+  for (const PiecesCase& test : planes)
+  {
+    for (int i = 0; i < 12; ++i)
+    {
+      SCOPED_TRACE(test.Name + (" " + std::to_string(i)));
+      // Around the eye, nearer and farther, lower and higher.
+      const double away = 11.0 + i;
+      const auto ring =
+        MakeRing({ 2.0 + away * std::cos(5.2 + i), -9.0 + i % 4, -3.0 + away * std::sin(5.2 + i) },
+          8.0, 2.5);
+      AddTruth(ring);
+      const auto filter = MakeAllImages(test, ring);
+      filter->SetAngularTolerance(0.001);
+      filter->Update();
+      ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 500);
+      EXPECT_LT(GetLargestResidual(test, filter->GetOutput()), 1e-6);
+    }
+  }
+}
+
+// An empty pixel between pixels that show the ball, at most two away on either side.
 TEST_P(RefractedGeometryPieces, NoPixelShowsThroughABall)
 {
   const PiecesCase& test = GetParam();

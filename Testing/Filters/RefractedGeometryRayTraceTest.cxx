@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The filter's output, drawn, against ray tracing the analytic membrane pixel by pixel.
+// The filter's output, drawn, compared with ray tracing of the analytic membrane, pixel by pixel.
 #include "RefractedGeometryTestHelpers.h"
 #include "RefractionPicture.h"
 
@@ -37,9 +37,9 @@ class RefractedGeometryRayTrace : public ::testing::TestWithParam<int>
 {
 };
 
-// A pixel differs if only one of the two shows the object there, or if what it shows is more than
-// half a pixel away. Printed as well: how many are in another square of a checkerboard with 20
-// squares a side, which any shift of its many edges changes.
+// A pixel differs if only one of the two images shows the object there, or if their places differ
+// by more than half a pixel. Also printed: the number of pixels in another square of a checkerboard
+// with 20 squares a side, which a shift of any of its many edges changes.
 TEST_P(RefractedGeometryRayTrace, PixelsAgree)
 {
   const PictureScene scene = GetPictureScenes()[static_cast<std::size_t>(GetParam())];
@@ -71,8 +71,8 @@ TEST_P(RefractedGeometryRayTrace, PixelsAgree)
   EXPECT_LE(compared.Coverage + compared.Place, compared.Covered / 1000);
 }
 
-// With a tolerance of two pixels what is drawn may be two pixels off, but no crack shows: each
-// pixel that is well inside of what the membrane shows is drawn.
+// With a tolerance of two pixels the image may have an error of two pixels, but there are no
+// cracks: each pixel well inside of the visible part is drawn.
 TEST_P(RefractedGeometryRayTrace, NoCracksWithACoarseTolerance)
 {
   const PictureScene scene = GetPictureScenes()[static_cast<std::size_t>(GetParam())];

@@ -20,7 +20,7 @@ namespace meniscus::testing
 
 using Point = std::array<double, 3>;
 
-/** Counts errors and warnings, keeps their text, and lets nothing through to the output window. */
+/** Counts errors and warnings, keeps their text, and suppresses output to the output window. */
 class MessageCounter : public vtkCommand
 {
 public:
@@ -35,15 +35,16 @@ public:
 /** Observes a filter and its executive. */
 vtkSmartPointer<MessageCounter> Observe(vtkAlgorithm* filter);
 
-/** A flat membrane of side 200, eight cells a side. */
+/** A flat membrane of side 200, with eight cells along a side. */
 vtkSmartPointer<vtkPolyData> MakeFlatMembrane();
 
 /** Points without cells. */
 vtkSmartPointer<vtkPolyData> MakePoints(const std::vector<Point>& points);
 
 /**
- * `count` points a side of a horizontal grid of quads, at height `y`, with side `size`. Has the
- * point array "Rank" (the point's index) and the cell array "Label" (10 times the cell's index).
+ * A horizontal grid of quads at height `y`, with side `size` and `count` points along a side. Has
+ * the point array "Rank" (the point's index) and the cell array "Label" (10 times the cell's
+ * index).
  */
 vtkSmartPointer<vtkPolyData> MakeGrid(int count, double size, double y);
 
@@ -51,7 +52,7 @@ vtkSmartPointer<vtkPolyData> MakeGrid(int count, double size, double y);
 vtkSmartPointer<vtkRefractedGeometryFilter> MakeFilter(
   vtkPolyData* geometry, vtkPolyData* membrane);
 
-/** The true position as a point array `Truth`, so that interpolation can be checked. */
+/** Adds the true position as a point array `Truth`, so that interpolation can be checked. */
 void AddTruth(vtkPolyData* data);
 
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a camera cannot show through the membrane is left out, and nothing else.
+// Cells and points that a camera cannot show through the membrane are left out, and no others.
 #include "RefractedGeometryTestHelpers.h"
 
 #include "vtkCamera.h"
@@ -51,7 +51,7 @@ vtkSmartPointer<vtkRefractedGeometryFilter> MakeViewed(int model, int images, vt
   return filter;
 }
 
-/** Source cell and where its first point is drawn, to 1e-6. */
+/** Source cell, and the position at which its first point is drawn, to 1e-6. */
 using Cell = std::tuple<int, long, long, long>;
 
 Cell GetCell(vtkPolyData* output, vtkIdType cell, vtkIdType point)
@@ -62,7 +62,7 @@ Cell GetCell(vtkPolyData* output, vtkIdType cell, vtkIdType point)
     std::lround(1e6 * p[0]), std::lround(1e6 * p[1]), std::lround(1e6 * p[2]) };
 }
 
-/** The polygons with a point in the camera's view; of all with a null camera. */
+/** The polygons with a point in the camera's view; all polygons for a null camera. */
 std::multiset<Cell> GetCells(vtkPolyData* output, vtkCamera* camera)
 {
   double planes[24];
@@ -144,7 +144,7 @@ TEST_P(RefractedGeometryView, ATurnSolvesWhatComesIntoView)
   const vtkTypeInt64 first = filter->GetNumberOfSolvedVertices();
   const auto before = GetCells(filter->GetOutput(), nullptr);
   filter->Update();
-  camera->SetViewAngle(20.0 + 1e-9); // the view changes, what is in it does not
+  camera->SetViewAngle(20.0 + 1e-9); // the view changes, its contents do not
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), first);
 
@@ -156,7 +156,7 @@ TEST_P(RefractedGeometryView, ATurnSolvesWhatComesIntoView)
   fresh->GetCamera()->SetViewAngle(20.0 + 1e-9);
   fresh->Update();
   EXPECT_LT(second, first + fresh->GetNumberOfSolvedVertices());
-  // What is shown does not depend on where the camera looked before.
+  // The output does not depend on the camera's earlier views.
   EXPECT_EQ(GetCells(filter->GetOutput(), nullptr), GetCells(fresh->GetOutput(), nullptr));
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), fresh->GetOutput()->GetNumberOfPoints());
 
@@ -216,25 +216,25 @@ TEST_P(RefractedGeometryView, ViewsBesideTheMembraneCullAll)
   EXPECT_EQ(filter->GetNumberOfCulledVertices(), All);
   EXPECT_EQ(filter->GetNumberOfCulledCells(), 1600);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_EQ(messages->Warnings, 0) << messages->Text; // it is not the scene that is wrong
+  EXPECT_EQ(messages->Warnings, 0) << messages->Text; // the scene is valid
   vtkDataArray* without = filter->GetOutput()->GetFieldData()->GetArray("PointsWithoutImage");
   EXPECT_EQ(without->GetNumberOfTuples(), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, RefractedGeometryView,
-  ::testing::Values(std::array<int, 2>{ vtkRefractedGeometryFilter::FlatFacets,
-                      vtkRefractedGeometryFilter::FirstImage },
+  ::testing::Values(std::array<int, 2>{ vtkRefractedGeometryFilter::FLAT_FACETS,
+                      vtkRefractedGeometryFilter::FIRST_IMAGE },
     std::array<int, 2>{
-      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FirstImage },
+      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FIRST_IMAGE },
     std::array<int, 2>{
-      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::AllImages }));
+      vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::ALL_IMAGES }));
 
 //------------------------------------------------------------------------------
-// Without the viewport's shape only the sides of the view angle's own direction are known.
+// Without the viewport's aspect ratio only the sides in the direction of the view angle are known.
 TEST(RefractedGeometryViews, UnknownAspectRatiosCullTwoSides)
 {
   constexpr int model = vtkRefractedGeometryFilter::CURVED;
-  constexpr int images = vtkRefractedGeometryFilter::FirstImage;
+  constexpr int images = vtkRefractedGeometryFilter::FIRST_IMAGE;
   const auto beside = MakeCamera(20.0, 900.0); // far to the side; the view's up is x
   beside->SetViewUp(1.0, 0.0, 0.0);
   const auto filter = MakeViewed(model, images, beside);
@@ -243,7 +243,7 @@ TEST(RefractedGeometryViews, UnknownAspectRatiosCullTwoSides)
   const vtkTypeInt64 unknown = filter->GetNumberOfSolvedVertices();
   EXPECT_GT(unknown, 0);
   EXPECT_LT(unknown, All);
-  beside->UseHorizontalViewAngleOn(); // now the sides that shut out all of it
+  beside->UseHorizontalViewAngleOn(); // now the known sides exclude all of it
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 0);
 }
@@ -253,7 +253,7 @@ TEST(RefractedGeometryViews, ParallelProjectionsAndEyesWithoutCameraCullNothing)
   const auto camera = MakeCamera(900.0, 10.0);
   camera->ParallelProjectionOn();
   const auto filter =
-    MakeViewed(vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FirstImage, camera);
+    MakeViewed(vtkRefractedGeometryFilter::CURVED, vtkRefractedGeometryFilter::FIRST_IMAGE, camera);
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfSolvedVertices(), All);
@@ -263,22 +263,22 @@ TEST(RefractedGeometryViews, ParallelProjectionsAndEyesWithoutCameraCullNothing)
   EXPECT_EQ(filter->GetNumberOfCulledVertices(), 0);
 }
 
-// What is on the eye's side is seen past the membrane.
+// Geometry on the eye's side is seen without refraction, outside the membrane's bounds as well.
 TEST(RefractedGeometryViews, GeometryInFrontIsNeverCulled)
 {
   const auto filter = MakeViewed(vtkRefractedGeometryFilter::CURVED,
-    vtkRefractedGeometryFilter::AllImages, MakeCamera(900.0, 10.0));
+    vtkRefractedGeometryFilter::ALL_IMAGES, MakeCamera(900.0, 10.0));
   filter->SetInputData(0, MakeGrid(9, 40.0, 30.0));
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 64);
   EXPECT_EQ(filter->GetNumberOfCulledVertices(), 0);
 }
 
-// Points that cannot be solved are counted and warned of, in view or not.
+// Points that cannot be solved are counted and cause a warning, in view or not.
 TEST(RefractedGeometryViews, PointsThatAreNotFiniteAreNotCulled)
 {
   const auto filter = MakeViewed(vtkRefractedGeometryFilter::CURVED,
-    vtkRefractedGeometryFilter::FirstImage, MakeCamera(900.0, 10.0));
+    vtkRefractedGeometryFilter::FIRST_IMAGE, MakeCamera(900.0, 10.0));
   auto grid = MakeGrid(3, 10.0, -30.0);
   grid->GetPoints()->SetPoint(4, 0.0, std::nan(""), 0.0);
   filter->SetInputData(0, grid);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Irradiance through a membrane: closed forms for flat water, photons through exact waves.
+// Irradiance through a membrane: closed forms for flat water, and photons through exact waves.
 #include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 
@@ -29,7 +29,7 @@ using meniscus::reference::HeightField;
 
 const double Pi = std::acos(-1.0);
 constexpr double Water = 1.333;
-// The light is ten thousand sizes of the scene away.
+// The light is at a distance of ten thousand sizes of the scene.
 constexpr double Parallel = 2e-4;
 
 /** 1 - F of unpolarised light, by Fresnel's equations for both polarisations. */
@@ -62,7 +62,7 @@ vtkDataArray* OfPoints(vtkRefractedLightFilter* filter)
   return filter->GetOutput()->GetPointData()->GetArray("RefractionIrradiance");
 }
 
-/** What 10^6 rays of the sun bring to the cells of MakeGrid(cells + 1, size, y), per area. */
+/** Irradiance of the cells of MakeGrid(cells + 1, size, y) by 10^6 rays of the sun. */
 std::vector<double> ShinePhotons(
   const HeightField& waves, const glm::dvec3& sun, int cells, double size, double y, double& total)
 {
@@ -99,7 +99,7 @@ std::vector<double> ShinePhotons(
   return flux;
 }
 
-/** The quad of the grid that a cell covers, by its centre. */
+/** The quad of the grid that a cell covers, found by its centre. */
 std::size_t BinOf(vtkPolyData* grid, vtkIdType cell, int cells, double size)
 {
   double bounds[6];
@@ -139,7 +139,7 @@ TEST(RefractedLight, ALampAboveFlatWater)
   auto filter = MakeLight(floor, MakeFlatMembrane(), { 0.0, height, 0.0 });
   filter->PositionalOn();
   filter->Update();
-  // Rings: at the angle a light passes the water at Height tan a and ends at the radius r(a).
+  // Rings: light at the angle a passes the water at Height tan a and ends at the radius r(a).
   const auto sine = [](double a) { return std::sin(a) / Water; };
   const auto radius = [&](double a)
   { return height * std::tan(a) + depth * sine(a) / std::sqrt(1.0 - sine(a) * sine(a)); };
@@ -178,7 +178,7 @@ TEST(RefractedLight, CausticsOfWavesAreThoseOfPhotons)
   const glm::dvec3 sun = glm::normalize(glm::dvec3(0.2, 1.0, 0.1));
   constexpr int cells = 40;
   constexpr double size = 500.0;
-  // Before the light is folded, about where it gathers most, and behind it.
+  // Before the light is folded, near its focus, and behind it.
   for (const double depth : { 150.0, 300.0, 700.0 })
   {
     auto floor = MakeGrid(cells + 1, size, -depth);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Error volumes against the thesis's tables as measured by other means, exact surfaces of every
-// kind, and what becomes of bad input.
+// Error volumes compared with the thesis's tables, measured by other means; exact surfaces of every
+// kind; and invalid input.
 #include "HeightField.h"
 #include "RefractedGeometryTestHelpers.h"
 #include "ThesisTables.h"
@@ -77,7 +77,7 @@ vtkSmartPointer<vtkRefractionErrorVolume> MakeVolume(vtkPolyData* membrane)
   return volume;
 }
 
-/** The thesis's box: 40 samples a side, 20 apart. */
+/** The thesis's box: 40 samples along a side, 20 apart. */
 vtkSmartPointer<vtkRefractionErrorVolume> MakeThesisVolume(const ThesisRow& row)
 {
   const double radius = row.SphereRatio * 141.5;
@@ -120,8 +120,8 @@ bool SameBits(const std::vector<double>& a, const std::vector<double>& b)
 }
 
 //------------------------------------------------------------------------------
-// Rows whose mean the references measure without this class, to rounding; the printed ones within
-// what Documentation/refraction.md states for them.
+// Rows whose mean the references measure without this class agree to rounding; the printed ones
+// agree within the figures that Documentation/refraction.md states for them.
 TEST(RefractionErrorVolume, ReproducesTheThesis)
 {
   int rows = 0;
@@ -159,7 +159,7 @@ TEST(RefractionErrorVolume, CurvedPatchesReproduceSpheres)
   volume->Update();
   EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 20000);
   EXPECT_LT(volume->GetMeanError(), 1e-11);
-  // So its own patches serve as the exact surface of its facets.
+  // Its own patches are the exact surface of its facets.
   volume->SetMembraneModelToFlatFacets();
   volume->Update();
   const double mean = volume->GetMeanError();
@@ -173,12 +173,13 @@ TEST(RefractionErrorVolume, CurvedPatchesReproduceSpheres)
 }
 
 //------------------------------------------------------------------------------
-// A finer mesh stands for the surface as well as the function does, as far as it is better.
+// A finer mesh is as good as the function, in proportion to its resolution.
 TEST(RefractionErrorVolume, AFinerMeshStandsForTheSurface)
 {
   const auto volume = MakeVolume(MakeMembrane(Waves.MakeMesh(24)));
   vtkNew<WavesFunction> function;
-  for (const int model : { vtkRefractionErrorVolume::FlatFacets, vtkRefractionErrorVolume::CURVED })
+  for (const int model :
+    { vtkRefractionErrorVolume::FLAT_FACETS, vtkRefractionErrorVolume::CURVED })
   {
     volume->SetMembraneModel(model);
     volume->SetExactMembrane(function);
@@ -203,7 +204,8 @@ TEST(RefractionErrorVolume, AFinerMeshStandsForTheSurface)
       }
     }
     EXPECT_GT(both, 200u);
-    // Third order: the finer mesh is (24 / 192)^3 times as far off as CURVED on the coarse one.
+    // Third order: the error of the finer mesh is (24 / 192)^3 times that of CURVED on the coarse
+    // one.
     EXPECT_LT(worst, 0.01 * volume->GetLargestError()) << model;
     EXPECT_NEAR(volume->GetMeanError(), mean, 0.01 * mean) << model;
   }
@@ -241,7 +243,7 @@ TEST(RefractionErrorVolume, StatesSayWhyASampleIsNotMeasured)
   const auto volume = MakeVolume(MakeMembrane(strong.MakeMesh(48)));
   volume->SetModelBounds(-80.0, 80.0, -400.0, 40.0, -80.0, 80.0);
   volume->SetSampleDimensions(10, 9, 10);
-  const auto messages = Observe(volume); // CURVED against itself
+  const auto messages = Observe(volume); // CURVED compared with itself
   volume->Update();
   vtkImageData* output = volume->GetOutput();
   vtkDataArray* states = output->GetPointData()->GetArray("SampleState");
@@ -261,18 +263,19 @@ TEST(RefractionErrorVolume, StatesSayWhyASampleIsNotMeasured)
     output->GetPoint(i, p);
     const auto exact = strong.FindSightPoints({ 20.0, 300.0, 10.0 }, { p[0], p[1], p[2] }, 100);
     const int expected = p[1] > strong.GetHeight(p[0], p[2]) || exact.empty()
-      ? vtkRefractionErrorVolume::NoImage
-      : (exact.size() > 1 ? vtkRefractionErrorVolume::SeveralImages
+      ? vtkRefractionErrorVolume::NO_IMAGE
+      : (exact.size() > 1 ? vtkRefractionErrorVolume::SEVERAL_IMAGES
                           : vtkRefractionErrorVolume::MEASURED);
-    // A point in front may have an image too, seen through a crest (the membrane hides nothing).
+    // A point in front may also have an image, seen through a crest (occlusion by the membrane is
+    // not modelled).
     wrong += p[1] < -5.0 && state != expected;
   }
   EXPECT_GT(counts[vtkRefractionErrorVolume::MEASURED], 100);
-  EXPECT_GT(counts[vtkRefractionErrorVolume::NoImage], 50);
-  EXPECT_GT(counts[vtkRefractionErrorVolume::SeveralImages], 100);
+  EXPECT_GT(counts[vtkRefractionErrorVolume::NO_IMAGE], 50);
+  EXPECT_GT(counts[vtkRefractionErrorVolume::SEVERAL_IMAGES], 100);
   EXPECT_EQ(counts[vtkRefractionErrorVolume::MEASURED],
     static_cast<int>(volume->GetNumberOfMeasuredSamples()));
-  EXPECT_LE(wrong, 3); // pairs of images that merge, on a caustic
+  EXPECT_LE(wrong, 3); // pairs of images that merge on a caustic
 }
 
 //------------------------------------------------------------------------------
@@ -432,7 +435,7 @@ TEST(RefractionErrorVolume, ReportsProgressAndCanBeAborted)
 class RefractionErrorVolumeBadInput : public ::testing::Test
 {
 protected:
-  /** One error, an empty output, no statistics; and it recovers. */
+  /** Expects one error, an empty output, no statistics, and recovery. */
   void ExpectErrorAndRecovery(const std::function<void(vtkRefractionErrorVolume*)>& spoil,
     const std::function<void(vtkRefractionErrorVolume*)>& mend)
   {
@@ -513,7 +516,7 @@ TEST(RefractionErrorVolume, NoMembraneAtAll)
   EXPECT_EQ(volume->GetOutput()->GetNumberOfPoints(), 0);
 }
 
-// A function that has nothing to do with the membrane, or none of the values of one.
+// A function that is unrelated to the membrane, or whose values are invalid.
 TEST(RefractionErrorVolume, FunctionsThatAreNoSurface)
 {
   const auto volume = MakeVolume(MakeFlatMembrane());
@@ -525,8 +528,8 @@ TEST(RefractionErrorVolume, FunctionsThatAreNoSurface)
   vtkDataArray* states = volume->GetOutput()->GetPointData()->GetArray("SampleState");
   for (vtkIdType i = 0; i < states->GetNumberOfTuples(); ++i)
   {
-    EXPECT_TRUE(states->GetTuple1(i) == vtkRefractionErrorVolume::NoExactPoint ||
-      states->GetTuple1(i) == vtkRefractionErrorVolume::NoImage);
+    EXPECT_TRUE(states->GetTuple1(i) == vtkRefractionErrorVolume::NO_EXACT_POINT ||
+      states->GetTuple1(i) == vtkRefractionErrorVolume::NO_IMAGE);
   }
   volume->SetExactMembrane(MakeSphere(1e-3));
   volume->Update();

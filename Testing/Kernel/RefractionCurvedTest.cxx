@@ -50,15 +50,15 @@ const HeightField Waves{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * std::acos
 
 //------------------------------------------------------------------------------
 // The acceptance of issue 4: planes 1e-8, bowls, hemisphere from 450. Patches reproduce planes and
-// spheres, so what is left is rounding and Newton's rest of 1e-12 of a facet, magnified by
-// focusing.
+// spheres, so the remaining error is rounding and the error of Newton's method, 1e-12 of a facet,
+// magnified by focusing.
 TEST(RefractionCurved, ReachesTheTargetsOfTheThesisTables)
 {
   for (const auto& row : meniscus::reference::GetThesisRows())
   {
     if (row.SphereRatio > 0.0 && row.Exterior > row.Interior)
     {
-      continue; // minutes; the benchmark has them
+      continue; // takes minutes; it is covered by the benchmark
     }
     const auto ours = meniscus::reference::MeasureThesisRowCurved(row);
     EXPECT_LT(ours.Mean, 1e-8) << row.Table << " " << row.SphereRatio << " " << row.EyeHeight;
@@ -124,7 +124,7 @@ TEST(RefractionCurved, DerivativesOfAPatchAgreeWithDifferences)
       step[k] = h;
       const meniscus::PatchPoint after = patch.Evaluate(b + step);
       const meniscus::PatchPoint before = patch.Evaluate(b - step);
-      // Second-order differences: h^2 and rounding / h.
+      // Error of second-order differences: h^2, and rounding / h.
       EXPECT_LT(
         glm::length((after.Position - before.Position) / (2.0 * h) - jet.PositionBy[k]), 1e-6);
       EXPECT_LT(glm::length((after.Normal - before.Normal) / (2.0 * h) - jet.NormalBy[k]), 1e-8);
@@ -133,7 +133,7 @@ TEST(RefractionCurved, DerivativesOfAPatchAgreeWithDifferences)
 }
 
 //------------------------------------------------------------------------------
-// Whatever the surface: smooth, rough beyond all fallbacks, with borders, or non-manifold.
+// For any surface: smooth, rough beyond all fallbacks, with borders, or non-manifold.
 TEST(RefractionCurved, PatchesShareTheirEdges)
 {
   MembraneMesh fan = meniscus::reference::MakeRandom(200.0, 6, 40.0, 2.0, 5);
@@ -233,12 +233,13 @@ struct OracleCase
   HeightField Field;
   glm::dvec3 Eye;
   int Cells;
-  double Depth; ///< of the deepest point
-  double Reach; ///< of the points aside
+  double Depth; ///< depth of the deepest point
+  double Reach; ///< lateral extent of the points
 };
 
-// Points closer to a caustic than the two surfaces differ may gain or lose a pair of images: they
-// show as two of the oracle's or of ours, close together. What is left may move by a part of that.
+// Points closer to a caustic than the distance of the two surfaces may gain or lose a pair of
+// images: such images appear as two close ones of the oracle or of the solver. The others may move
+// by a part of that distance.
 bool HasClosePair(const std::vector<glm::dvec3>& points, double distance)
 {
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -316,8 +317,8 @@ TEST(RefractionCurved, FindsAllImagesAndNoOthers)
 }
 
 //------------------------------------------------------------------------------
-// On the axis of a dome, beyond its focus, the images are a ring: an end to the search, and no
-// image that is none.
+// On the axis of a dome, beyond its focus, the images form a ring: the search must end, and must
+// not return false images.
 TEST(RefractionCurved, RingsOfImagesDoNotHoldUp)
 {
   const HeightField dome{ HeightField::Shape::Dome, 200.0, 30.0, 0.025, 1.0, 1.5 };
@@ -462,7 +463,7 @@ TEST(RefractionCurved, OffsetsAndScalesDoNotMatter)
         const VirtualVertex a = SolveOne(here, point);
         const VirtualVertex b = SolveOne(there, scale * point + offset);
         ASSERT_EQ(a.State, b.State);
-        // Coordinates of 2e7 have a rounding of 4e-9; curvatures and depths magnify it.
+        // Coordinates of 2e7 have a rounding of 4e-9; curvatures and depths amplify it.
         EXPECT_LT(glm::length((b.Position - offset) / scale - a.Position), 1e-10 + 1e-13 * shift);
       }
     }

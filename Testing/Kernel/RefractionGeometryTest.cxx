@@ -41,8 +41,8 @@ bool Same(const VirtualVertex& a, const VirtualVertex& b)
 }
 
 //------------------------------------------------------------------------------
-// At the corners of a facet the thesis's method is exact: the ray through a vertex is refracted by
-// Snell's law itself.
+// At the corners of a facet the thesis's method is exact: the ray through a vertex is refracted
+// exactly by Snell's law.
 TEST(RefractionGeometry, IsExactOnTheRaysOfTheVertices)
 {
   const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
@@ -57,7 +57,7 @@ TEST(RefractionGeometry, IsExactOnTheRaysOfTheVertices)
     const glm::dvec3 point = s + 80.0 * *ray;
     const VirtualVertex vertex = geometry.SolvePoint(point);
     ASSERT_EQ(vertex.State, ImageState::Found);
-    // Coordinates of a few hundred units, a few dozen roundings.
+    // Coordinates of a few hundred units, with a few dozen roundings.
     EXPECT_LT(glm::length(vertex.SightPoint - s), 1e-11);
     EXPECT_NEAR(vertex.Depth, 80.0, 1e-11);
     // Eq. 2.4 and its corollary Eq. 2.5: above the true vertex, along the normal.
@@ -94,9 +94,10 @@ TEST(RefractionGeometry, PlanarSightPointsConvergeToTheClosedForm)
       worstAside =
         std::max(worstAside, std::hypot(vertex.Position.x - point.x, vertex.Position.z - point.z));
     }
-    // Linear interpolation of a smooth map: second order, a factor of 4 but for the sampling.
+    // Linear interpolation of a smooth map is of second order: a factor of 4, except for the
+    // sampling error.
     EXPECT_LT(worst, coarse > 0.0 ? coarse / 3.0 : 0.2) << cells << " cells";
-    // Eq. 2.5 holds as well as the sight point does: both ends of the segment err by that much.
+    // Eq. 2.5 is as accurate as the sight point: both ends of the segment have that error.
     EXPECT_LT(worstAside, 2.0 * worst);
     coarse = worst;
   }
@@ -130,8 +131,8 @@ TEST(RefractionGeometry, SphericalSightPointsConvergeToTheOracle)
 }
 
 //------------------------------------------------------------------------------
-// Equal indices bend nothing. On the rays of the vertices that is exact; between them the sight
-// point is interpolated, and only the depth along the sight ray is.
+// Equal indices do not refract. On the rays of the vertices this is exact; between them the sight
+// point is interpolated, and only the depth along the sight ray is exact.
 TEST(RefractionGeometry, EqualIndicesAreTheIdentityOnVertexRays)
 {
   const MembraneMesh mesh = meniscus::reference::MakeSquare(200.0, 8, 0.0);
@@ -190,13 +191,13 @@ TEST(RefractionGeometry, TreeAgreesWithBruteForce)
     constexpr int points = 4000;
     for (int i = 0; i < points; ++i)
     {
-      // A quarter each: near, below, all around, far away.
+      // A quarter of the points each: near, below, all around, far away.
       const double size = i % 4 == 0 ? 5.0 : (i % 4 == 1 ? 150.0 : (i % 4 == 2 ? 400.0 : 1e5));
       glm::dvec3 point(
         random(-size, size), random(-size, i % 4 == 1 ? 0.0 : 0.5 * size), random(-size, size));
       if (i % 8 < 2)
       {
-        // On round coordinates: walls, edges, vertices.
+        // On integer coordinates: walls, edges, vertices.
         point = glm::dvec3(std::round(point.x), std::round(point.y), std::round(point.z));
       }
       const VirtualVertex byTree = geometry.SolvePoint(point);
@@ -276,7 +277,7 @@ TEST(RefractionGeometry, FirstFacetOfSeveralWins)
 
 //------------------------------------------------------------------------------
 // Offsets that are powers of two times the rounding of the coordinates, so that the same shape
-// exists at both places; what is left is the rounding of the sum in the result.
+// exists at both places; the only difference is the rounding of the sum in the result.
 TEST(RefractionGeometry, OffsetCoordinatesCostNothing)
 {
   MembraneMesh mesh = meniscus::reference::MakeWaves(200.0, 16, 3.0, 2.0);
@@ -332,9 +333,9 @@ TEST(RefractionGeometry, ScalesDoNotMatter)
 }
 
 //------------------------------------------------------------------------------
-// Down to the surface itself. Cells do not tile (each has planes of its own, so a wall that two
-// cells share is two surfaces), and interpolation moves a shallow sight point by a second-order
-// amount.
+// Points down to the surface itself. Cells do not tile space (each has its own planes, so the
+// common wall of two cells is two surfaces), and interpolation moves a shallow sight point by a
+// second-order amount.
 TEST(RefractionGeometry, PointsCloseToTheMembraneKeepTheirImage)
 {
   for (const double depth : { 1.0, 1e-3, 1e-6, 1e-9, 0.0 })
@@ -414,7 +415,7 @@ TEST(RefractionGeometry, RefusesBadEyesAndIndices)
   EXPECT_EQ(geometry.SetEye({ 0.0, 0.0, 0.0 }, 1.0, 1.3), EyeStatus::OnTheMembrane);  // vertex
   EXPECT_EQ(geometry.SetEye({ 12.5, 0.0, 0.0 }, 1.0, 1.3), EyeStatus::OnTheMembrane); // edge
   EXPECT_EQ(geometry.SetEye({ 7.0, 0.0, 3.0 }, 1.0, 1.3), EyeStatus::OnTheMembrane);  // inside
-  EXPECT_EQ(geometry.SetEye({ 700.0, 0.0, 3.0 }, 1.0, 1.3), EyeStatus::Ready);        // beside it
+  EXPECT_EQ(geometry.SetEye({ 700.0, 0.0, 3.0 }, 1.0, 1.3), EyeStatus::Ready); // outside the facet
   EXPECT_EQ(geometry.SetEye({ 7.0, 1e-9, 3.0 }, 1.0, 1.3), EyeStatus::Ready);
   EXPECT_EQ(geometry.SetEye(eye, 1.0, 1.3), EyeStatus::Ready);
 }
@@ -435,7 +436,7 @@ TEST(RefractionGeometry, ResultsDoNotDependOnTheRanges)
   const FlatMembraneSolver serial = Make(mesh, eye, 1.0, 1.333);
   FlatMembraneSolver chopped;
   chopped.SetMembrane(mesh.AsInput());
-  // Backwards in ranges of seven.
+  // Ranges of seven, in reverse order.
   const auto loop = [](std::size_t count, const meniscus::RangeBody& body)
   {
     for (std::size_t k = (count + 6) / 7; k-- > 0;)

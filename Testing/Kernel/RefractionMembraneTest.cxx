@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a membrane accepts, what it skips and counts, and the normals that it computes.
+// Triangles that a membrane accepts, skips and counts, and the normals that it computes.
 #include "MembraneMeshes.h"
 #include "Refraction/Membrane/Membrane.h"
 
@@ -43,8 +43,8 @@ TEST(RefractionMembrane, SkipsAndCountsEveryBadFacet)
   mesh.AddTriangle(0, 1, 2);  // collinear
   mesh.AddTriangle(4, 4, 5);  // repeated corner
   const auto& t = mesh.Triangles;
-  mesh.AddTriangle(t[1], t[2], t[0]); // the first again, turned
-  mesh.AddTriangle(t[2], t[1], t[0]); // the first again, flipped
+  mesh.AddTriangle(t[1], t[2], t[0]); // the first one again, rotated
+  mesh.AddTriangle(t[2], t[1], t[0]); // the first one again, with the opposite winding
 
   Membrane membrane;
   ASSERT_EQ(membrane.Build(mesh.AsInput()), MembraneStatus::Ready);
@@ -128,7 +128,7 @@ TEST(RefractionMembrane, ComputedNormalsOfASphereConverge)
         worst = std::max(worst, glm::length(membrane.GetNormals()[v] - exact));
       }
     }
-    // First order at least: half the size, half the error. Facets of 1/8 on radius 2 turn by 1/16.
+    // At least first order: half the size, half the error. Facets of 1/8 on radius 2 turn by 1/16.
     EXPECT_LT(worst, coarse > 0.0 ? 0.55 * coarse : 1.0 / 16.0);
     coarse = worst;
   }
@@ -185,7 +185,7 @@ TEST(RefractionMembrane, FacetsThatCancelOutTakeTheFirstNormal)
   mesh.AddPoint({ 1.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 });
   mesh.AddPoint({ 0.0, 0.0, -1.0 }, { 0.0, 0.0, 0.0 });
   mesh.AddTriangle(0, 1, 2); // up
-  mesh.AddTriangle(0, 2, 3); // up; below the same angle downwards
+  mesh.AddTriangle(0, 2, 3); // up; further down the same angle downwards
   mesh.Triangles[4] = 3;
   mesh.Triangles[5] = 2;
   Membrane membrane;
@@ -231,7 +231,8 @@ TEST(RefractionMembrane, TheSurfacesOwnNormalsAreNotForeign)
 
 TEST(RefractionMembrane, NormalsOfAPlaneAreForeignToWaves)
 {
-  // Facets of a seventh of a wave turn as much as the normals differ: that cannot be told.
+  // Facets of a seventh of a wave turn as much as the normals differ: such normals cannot be
+  // detected.
   for (const int cells : { 40, 60, 200 })
   {
     MembraneMesh waves = meniscus::reference::MakeWaves(1.0, cells, 0.03, 3.0);

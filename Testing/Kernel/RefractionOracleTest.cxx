@@ -26,7 +26,8 @@ using meniscus::testing::Random;
 
 constexpr SurfaceError Exact{ 1e-12, 1e-12 };
 
-// Both lists are the same but for the order and for what either of them may leave out.
+// Number of differences of the two lists, except for their order and for the roots that either of
+// them may leave out.
 int CountDifferences(const OracleAnswer& answer, const std::vector<glm::dvec3>& others, double same)
 {
   int differences = 0;
@@ -101,8 +102,8 @@ TEST(RefractionOracle, AgreesWithADenseSearchOnWaves)
 }
 
 //------------------------------------------------------------------------------
-// With an error of the surface, what is certain stays so on every surface within it, and the closer
-// to a caustic the less is.
+// With an error of the surface, certain answers must hold on every surface within that error, and
+// fewer answers are certain closer to a caustic.
 TEST(RefractionOracle, DoubtGrowsWithTheError)
 {
   SmoothSurface surface;

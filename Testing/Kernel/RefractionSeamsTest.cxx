@@ -31,7 +31,7 @@ using meniscus::reference::MembraneMesh;
 
 const double Pi = std::acos(-1.0);
 
-/** Triangles. */
+/** An object of triangles. */
 struct Object
 {
   std::vector<glm::dvec3> Points;
@@ -86,7 +86,7 @@ struct Drawn
 {
   ImageMesh Pieces;
   ImageMesh Whole;
-  std::vector<ImagePoint> Points; ///< of `whole`
+  std::vector<ImagePoint> Points; ///< points of `Whole`
   meniscus::CellReport Report;
 };
 
@@ -128,7 +128,7 @@ void VisitSides(const ImageMesh& mesh, const std::vector<ImagePoint>& points, co
   }
 }
 
-/** Whether the membrane shows a point of the object at a sight point. */
+/** True if the membrane shows a point of the object at a sight point. */
 bool HasImage(const CurvedMembraneSolver& geometry, const glm::dvec3& point,
   const glm::dvec3& sight, double distance)
 {
@@ -140,7 +140,7 @@ bool HasImage(const CurvedMembraneSolver& geometry, const glm::dvec3& point,
 }
 
 /**
- * Whether a piece ends here at a caustic: it draws a corner of the object where that has no image.
+ * True if a piece ends here at a caustic: it draws a corner of the object where that has no image.
  */
 bool IsBeyondCaustic(
   const CurvedMembraneSolver& geometry, const Object& object, double size, const ImagePoint& point)
@@ -150,7 +150,7 @@ bool IsBeyondCaustic(
       point.Vertex.SightPoint, 1e-6 * size);
 }
 
-/** Sides that an odd number of pieces has, by their ends' positions bit by bit. */
+/** Sides that belong to an odd number of pieces, identified by their ends' positions bit by bit. */
 std::vector<std::array<ImagePoint, 2>> FindOpenSides(const Drawn& drawn)
 {
   using Key = std::tuple<double, double, double>;
@@ -183,7 +183,7 @@ std::vector<std::array<ImagePoint, 2>> FindOpenSides(const Drawn& drawn)
 struct SeamScene
 {
   HeightField Field;
-  int Cells; ///< of the membrane
+  int Cells; ///< cells of the membrane along an axis
   glm::dvec3 Eye;
   glm::dvec3 Center;
   Object Ball;
@@ -223,9 +223,9 @@ class RefractionSeams : public ::testing::TestWithParam<int>
 {
 };
 
-// A ball is closed and everything is in sight, so every side of a piece belongs to two pieces, of
-// the same triangle or of two, behind the membrane or in front of it. Pieces may end alone only at
-// caustics, where an image ends.
+// A ball is closed and entirely visible, so every side of a piece belongs to two pieces, of the
+// same triangle or of two, behind the membrane or in front of it. Only at caustics, where an image
+// ends, may a side belong to one piece.
 TEST_P(RefractionSeams, PiecesOfABallHaveNoBorder)
 {
   const SeamScene scene = MakeScene(GetParam());
@@ -243,14 +243,14 @@ TEST_P(RefractionSeams, PiecesOfABallHaveNoBorder)
     open += !IsBeyondCaustic(geometry, scene.Ball, size, side[0]) &&
       !IsBeyondCaustic(geometry, scene.Ball, size, side[1]);
   }
-  // With several images, two polygons may find the end of one a sub-cell apart.
+  // With several images, two polygons may place the end of one of them in different sub-cells.
   const std::size_t count = scene.Ball.Points.size();
   const bool hasCaustic = drawn.Points.size() > count;
   EXPECT_LE(open, hasCaustic ? drawn.Pieces.GetNumberOfCells() / 1000 : 0);
 }
 
-// Weights are those of a place in the triangle, and position and sight point are those of an image
-// of this place.
+// Weights are those of a place in the triangle; position and sight point are those of an image of
+// this place.
 TEST_P(RefractionSeams, CornersAreImagesOfPlacesInTheirCells)
 {
   const SeamScene scene = MakeScene(GetParam());
@@ -276,7 +276,7 @@ TEST_P(RefractionSeams, CornersAreImagesOfPlacesInTheirCells)
     }
     ASSERT_NEAR(
       glm::length(place - point.Vertex.SightPoint), point.Vertex.Depth, 1e-11 * scene.Field.Side);
-    // A search takes a while; on the membrane itself it has nothing to tell.
+    // The search takes a while; for a point on the membrane itself it tests nothing.
     if (i % 40 == 0 && point.Vertex.Depth > rounding)
     {
       ++searched;
@@ -284,19 +284,20 @@ TEST_P(RefractionSeams, CornersAreImagesOfPlacesInTheirCells)
         !IsBeyondCaustic(geometry, scene.Ball, size, point);
     }
   }
-  // Newton's method has no answer at a caustic.
+  // Newton's method has no solution at a caustic.
   EXPECT_LE(wrong, searched / 50);
 }
 
-// Not among them, since some sides stay open there: 11, where an image ends at a caustic within
-// triangles larger than the waves, 18, where two of several images of an end are a sub-cell apart,
-// and 22, where triangles all but touch the membrane.
+// The following scenes are left out, because some sides stay open there: 11, where an image ends at
+// a caustic within triangles larger than the waves; 18, where two of several images of an end are
+// in different sub-cells; and 22, where triangles almost touch the membrane.
 INSTANTIATE_TEST_SUITE_P(Scenes, RefractionSeams, ::testing::Range(0, 11));
 INSTANTIATE_TEST_SUITE_P(
   MoreScenes, RefractionSeams, ::testing::Values(12, 13, 14, 15, 16, 17, 19, 20, 21));
 
 //------------------------------------------------------------------------------
-// The part in front of a triangle that pierces the membrane is no finer than the pieces behind.
+// The part of a triangle in front of a membrane that it intersects is no finer than the pieces
+// behind.
 TEST(RefractionSeamsCost, TrianglesThatPierceTheMembraneAreNotShredded)
 {
   const HeightField field{ HeightField::Shape::Waves, 400.0, 0.5, 0.03 * Pi, 1.0, 1.333 };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The side of a membrane that a point is on, against analytic surfaces.
+// Side of a membrane on which a point lies, compared with analytic surfaces.
 #include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/PatchCrossings.h"
@@ -44,7 +44,7 @@ void AddRings(MembraneMesh& mesh, std::int64_t first, int rings, int around)
   }
 }
 
-// As vtkSphereSource makes it: poles on the z axis, `side` 1 for normals outwards.
+// As vtkSphereSource creates it: poles on the z axis; `side` is 1 for outward normals.
 MembraneMesh MakeSphere(int resolution, double side)
 {
   MembraneMesh mesh;
@@ -72,7 +72,7 @@ MembraneMesh MakeSphere(int resolution, double side)
   return mesh;
 }
 
-// z = r^2 / 2 up to where it is `steepest` degrees steep, the front above; `sign` -1 turns it over.
+// z = r^2 / 2 up to a slope of `steepest` degrees, with the front above; `sign` -1 flips it.
 MembraneMesh MakeParaboloid(int rings, double steepest, double sign)
 {
   MembraneMesh mesh;
@@ -98,8 +98,9 @@ MembraneMesh MakeParaboloid(int rings, double steepest, double sign)
   return mesh;
 }
 
-// A cylinder along z, 1 wide and high both ways: a side of `rings` rows, a cap below, one above
-// unless it is a cup. Normals are those of the sides, between two of them at the edges.
+// A cylinder along z, 1 wide and 1 high in both directions: a side of `rings` rows, a cap below,
+// and one above unless it is a cup. Normals are those of the sides; at the edges they are between
+// two of them.
 MembraneMesh MakeCylinder(int rings, int around, double side, bool isCup)
 {
   MembraneMesh mesh;
@@ -143,7 +144,7 @@ MembraneMesh Transform(const MembraneMesh& mesh, const std::function<glm::dvec3(
   return result;
 }
 
-// Oblique to everything.
+// Rotation that makes everything oblique.
 glm::dvec3 Turn(const glm::dvec3& v)
 {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
@@ -172,7 +173,8 @@ bool IsInFront(const CurvedMembraneSolver& geometry, const glm::dvec3& point)
   return geometry.IsInFront(point - geometry.GetMembrane().GetOrigin());
 }
 
-// Points that `make` draws and that are not in front, or are, as `front` says.
+// Number of points, drawn by `make`, that are in front although `front` is false, or the other way
+// round.
 int CountWrong(const CurvedMembraneSolver& geometry, bool front,
   const std::function<glm::dvec3(Random&)>& make, unsigned seed, int points = Points)
 {
@@ -185,7 +187,7 @@ int CountWrong(const CurvedMembraneSolver& geometry, bool front,
   return wrong;
 }
 
-// Patches reproduce spheres, up to rounding: nothing but that limits how close a point may be.
+// Patches reproduce spheres up to rounding, so only rounding limits how close a point may be.
 TEST(RefractionSide, OfClosedSpheres)
 {
   for (const int resolution : { 16, 64, 192 })
@@ -215,7 +217,7 @@ TEST(RefractionSide, OfClosedSpheres)
   }
 }
 
-// The farthest that patches are from the paraboloid, in height, where they are asked for.
+// Largest distance in height between patches and paraboloid, at the places tested.
 double MeasureError(const CurvedMembraneSolver& geometry, double sign)
 {
   double error = 0.0;
@@ -245,7 +247,7 @@ TEST(RefractionSide, OfSteepBowlsAndDomes)
       {
         CurvedMembraneSolver geometry;
         Set(geometry, MakeParaboloid(rings, steepest, sign));
-        // Twice what was sampled; the rim's chords are within 1 - cos(pi / 48) of it.
+        // Twice the sampled error; the rim's chords are within 1 - cos(pi / 48) of it.
         const double error = 2.0 * MeasureError(geometry, sign);
         const double rim = 0.99 * std::tan(steepest * Pi / 180.0);
         ASSERT_LT(error, 0.1 * rim);
@@ -268,7 +270,7 @@ TEST(RefractionSide, OfSteepBowlsAndDomes)
   }
 }
 
-// Sides of a body that are parallel to any direction one may think of, points next to them.
+// Sides of a body that are parallel to many directions, with points close to them.
 TEST(RefractionSide, OfCylinders)
 {
   for (const bool isTurned : { false, true })
@@ -277,7 +279,7 @@ TEST(RefractionSide, OfCylinders)
     for (const bool isCup : { false, true })
     {
       CurvedMembraneSolver geometry;
-      // The front of the cup is its inside.
+      // The front of the cup is on its inside.
       const double side = isCup ? -1.0 : 1.0;
       Set(geometry, Transform(MakeCylinder(20, 60, side, isCup), turn, { 1e3, 2e3, -3e3 }));
       ASSERT_EQ(geometry.IsClosed(), !isCup);
@@ -305,10 +307,11 @@ TEST(RefractionSide, OfCylinders)
   }
 }
 
-// Lines along the axis through vertices, edges and walls: points that lie over and under them.
+// Points above and below vertices, edges and walls, so that the line along the axis runs through
+// these.
 TEST(RefractionSide, OfPointsInLineWithVerticesAndWalls)
 {
-  // Walls of the cup, and points over, under and inside of them.
+  // Walls of the cup, with points above, below and inside of them.
   const MembraneMesh cup = MakeCylinder(9, 16, -1.0, true);
   CurvedMembraneSolver geometry;
   Set(geometry, cup);
@@ -325,7 +328,7 @@ TEST(RefractionSide, OfPointsInLineWithVerticesAndWalls)
       EXPECT_TRUE(IsInFront(geometry, { (1.0 - 1e-9) * x, (1.0 - 1e-9) * y, z })) << i << " " << z;
     }
   }
-  // A sphere whose poles and meridians are in line with its axis, whatever that is.
+  // A sphere whose poles and meridians are in line with its axis, whatever the axis is.
   CurvedMembraneSolver sphere;
   const glm::dvec3 axis(std::sqrt(1.0 / 6.0), std::sqrt(1.0 / 3.0), std::sqrt(0.5));
   const HeightFrame frame(axis);
@@ -379,7 +382,7 @@ TEST(RefractionSide, FindsAllCrossingsOfAPatch)
     {
       const glm::dvec3 at = place.x * frame.First + place.y * frame.Second +
         sign * std::sqrt(std::max(squared, 0.0)) * direction;
-      // Seen from the centre: a flat point times a number.
+      // Seen from the centre: a multiple of a flat point.
       const glm::dvec3 u = sphere.Corner[1] - sphere.Corner[0];
       const glm::dvec3 v = sphere.Corner[2] - sphere.Corner[0];
       const glm::dvec3 n = glm::cross(u, v);
@@ -418,7 +421,7 @@ TEST(RefractionSide, FindsAllCrossingsOfAPatch)
   EXPECT_GT(crossed[2], 100);
 }
 
-// An eye on a patch is found out, however the patch bends; one next to it is not on it.
+// An eye on a patch is detected, whatever the patch's curvature; an eye next to it is not on it.
 TEST(RefractionSide, OfAnEyeOnAPatch)
 {
   Random random(12);
@@ -441,7 +444,7 @@ TEST(RefractionSide, OfAnEyeOnAPatch)
       const meniscus::PatchPoint at = patch.Evaluate({ x, y });
       const glm::dvec3 eye = at.Position + geometry.GetMembrane().GetOrigin();
       found += geometry.SetEye(eye, 1.0, 1.333) == meniscus::EyeStatus::OnTheMembrane;
-      // A rough surface may come back there: not on all of these.
+      // A rough surface may come back to this place, but not for all of these.
       const glm::dvec3 beside = eye + 1e-5 * glm::normalize(at.Normal);
       falseAlarms += geometry.SetEye(beside, 1.0, 1.333) != meniscus::EyeStatus::Ready;
     }

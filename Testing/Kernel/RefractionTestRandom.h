@@ -10,7 +10,7 @@
 namespace meniscus::testing
 {
 
-/** Random numbers that are the same with every library. */
+/** Random numbers that do not depend on the standard library. */
 class Random
 {
 public:

@@ -42,7 +42,8 @@ TEST(RefractionThesis, ReproducesTheTables)
   RecordProperty("rows_within_3_percent", close);
 }
 
-// Bowls on the axis have no unexplained rule in their set-up: mean, deviation and number of points.
+// The set-up of bowls on the axis has no unexplained rule: mean, deviation and number of points can
+// be compared.
 TEST(RefractionThesis, ReproducesTheBowlsInEveryColumn)
 {
   int rows = 0;

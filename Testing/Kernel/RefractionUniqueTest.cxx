@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Where points have one image at most, against a search for all of them; cells divided there.
+// Regions in which points have at most one image, compared with a search for all images; cells
+// divided there.
 #include "HeightField.h"
 #include "MembraneMeshes.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
@@ -78,7 +79,7 @@ class RefractionUnique : public testing::TestWithParam<UniqueCase>
 }
 
 //------------------------------------------------------------------------------
-// Each box that is said to hold no point with several images is searched at random points.
+// Each box that is reported to hold no point with several images is searched at random points.
 TEST_P(RefractionUnique, NoPointOfABoxHasSeveral)
 {
   const UniqueCase& test = GetParam();
@@ -128,7 +129,7 @@ TEST(RefractionUnique, HeightsOutOfRangeAreNotTold)
 }
 
 //------------------------------------------------------------------------------
-// A sheet of triangles given by rows of heights over a grid, with holes.
+// A sheet of triangles, given by rows of heights over a grid, with holes.
 namespace
 {
 
@@ -163,7 +164,7 @@ bool IsConvex(const MembraneMesh& mesh)
 {
   CurvedMembraneSolver geometry;
   EXPECT_EQ(geometry.SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
-  EXPECT_FALSE(geometry.HasConvexField()); // not found out yet
+  EXPECT_FALSE(geometry.HasConvexField()); // not determined yet
   geometry.PrepareField();
   return geometry.HasConvexField();
 }
@@ -176,7 +177,7 @@ const auto Flat = [](int i, int j) { return glm::dvec3(i, 0.0, j); };
 TEST(RefractionHeightField, OnlyAConvexSheetWithoutHolesIsOne)
 {
   EXPECT_TRUE(IsConvex(MakeSheet(4, Flat, Everywhere)));
-  // Turned and moved: sides of the border are collinear up to rounding only.
+  // Rotated and translated: sides of the border are collinear up to rounding only.
   const auto turned = [](int i, int j)
   {
     const glm::dvec3 u = glm::normalize(glm::dvec3(1.0, 0.3, -0.2));
@@ -259,8 +260,8 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
     worst = std::max(worst, glm::length(glm::cross(seen, glm::normalize(drawn - test.Eye))));
   }
   EXPECT_NEAR(area, 1e4, 1e-6);
-  // The middle of a triangle bends by up to 4/3 of what the middles of its edges do, if by second
-  // degree.
+  // If the image is of second degree, the middle of a triangle deviates by up to 4/3 of the
+  // deviation of the middles of its edges.
   EXPECT_LT(worst, 1.5 * tolerance);
   double border = 0.0;
   for (const auto& [ends, count] : sides)
@@ -270,11 +271,11 @@ TEST(RefractionDivision, TrianglesAreStraightAndTile)
     border += count == 1 ? glm::length(side) : 0.0;
     EXPECT_LE(count, 2);
   }
-  EXPECT_NEAR(border, 400.0, 1e-6); // no side within the square is without its neighbour
+  EXPECT_NEAR(border, 400.0, 1e-6); // every side inside the square has its neighbour
 }
 
 //------------------------------------------------------------------------------
-// A line that leaves what the membrane shows is not divided, and nothing of it is left.
+// A line that leaves the visible region is not divided, and no part of it remains.
 TEST(RefractionDivision, NothingIsAddedWhereAnImageIsMissing)
 {
   const UniqueCase& test = Cases[0];

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Every operation of the SIMD types against scalar code, to the bit. AVX2 and AVX-512 need compiler
-// options of their own and are held by the pictures of PacketWalkTest and PacketOpticsTest.
+// Every operation of the SIMD types compared with scalar code, to the bit. AVX2 and AVX-512 need
+// their own compiler options; they are covered by the images of PacketWalkTest and
+// PacketOpticsTest.
 #include "Simd/SimdPortable.h"
 #ifdef __aarch64__
 #include "Simd/SimdNEON.h"
@@ -32,7 +33,7 @@ protected:
   using Int = typename Simd::Int;
   using Mask = typename Simd::Mask;
 
-  /** Numbers of all sizes, with zeros of both signs, infinities and NaN. */
+  /** Numbers of all magnitudes, with zeros of both signs, infinities and NaN. */
   float AnyFloat()
   {
     static const float special[] = { 0.0f, -0.0f, 1.0f, std::numeric_limits<float>::infinity(),
@@ -44,7 +45,7 @@ protected:
     }
     return this->Finite();
   }
-  /** Within 2^-10 to 2^10, of either sign. */
+  /** A number within 2^-10 to 2^10, of either sign. */
   float Finite()
   {
     const float size = std::ldexp(1.0f + static_cast<float>(this->Random() % 4096) / 4096.0f,
@@ -88,7 +89,7 @@ protected:
     EXPECT_EQ(Simd::Bits(value), bits) << name;
   }
 
-  /** Fills lanes and, by a function of the lane's number, what is expected of them. */
+  /** Fills lanes and, by a function of the lane's index, the expected values. */
   template <typename T, typename Make>
   static void Fill(T (&lanes)[Width], const Make& make)
   {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cells rays visit, counted by a plain search over cells and neighbours.
+// Cells that rays visit, counted by a simple search over cells and neighbours.
 #include "Simd/InstructionSets.h"
 #include "Volume/Optics/VisibleScalars.h"
 #include "VolumeTestMeshes.h"
@@ -41,7 +41,10 @@ VisibleScalars VisibleThrough(const std::vector<std::pair<double, double>>& poin
   return visible;
 }
 
-/** A jittered block whose scalar waves between -1 and 1, so that few cells see a narrow peak. */
+/**
+ * A jittered block whose scalar varies as a wave between -1 and 1, so that few cells show a narrow
+ * peak.
+ */
 struct Block
 {
   MeshArrays Arrays = KuhnGrid(10);
@@ -61,7 +64,7 @@ struct Block
   }
 };
 
-/** Faces of the cells that are flagged, by vertices: the number of flagged cells of each. */
+/** Number of flagged cells of each face, by the face's vertices. */
 std::map<std::array<std::int32_t, 3>, int> CountFaces(
   const TetrahedralMesh& mesh, const std::vector<bool>& active)
 {
@@ -77,7 +80,7 @@ std::map<std::array<std::int32_t, 3>, int> CountFaces(
   return faces;
 }
 
-/** Expects links and boundary to be those of the cells that are flagged. */
+/** Expects links and boundary to be those of the flagged cells. */
 void ExpectActive(const TetrahedralMesh& mesh, const std::vector<bool>& active)
 {
   EXPECT_EQ(mesh.GetNumberOfActiveCells(), std::count(active.begin(), active.end(), true));
@@ -121,7 +124,7 @@ TEST(VisibleScalars, RangesOfAPeak)
   EXPECT_TRUE(visible.Meets(0.0f, 1.0f)); // the peak lies within the cell's range
   EXPECT_TRUE(visible.Meets(0.35f, 0.35f));
   EXPECT_TRUE(visible.Meets(0.39f, 0.9f));
-  EXPECT_FALSE(visible.Meets(0.4f, 0.9f)); // touches
+  EXPECT_FALSE(visible.Meets(0.4f, 0.9f)); // only touches
   EXPECT_FALSE(visible.Meets(-1.0f, 0.2f));
   EXPECT_FALSE(visible.Meets(0.2f, 0.2f));
   EXPECT_FALSE(visible.Meets(0.4f, 0.4f)); // although float arithmetic may not reach exactly 0
@@ -132,7 +135,8 @@ TEST(VisibleScalars, JumpsAtCellValues)
 {
   const VisibleScalars visible =
     VisibleThrough({ { 0.25, 0.0 }, { 0.25, 1.0 }, { 0.5, 1.0 }, { 0.5, 0.0 } });
-  // A cell of one scalar may count for either side of a jump; one that only touches has no length.
+  // A cell of one scalar may count for either side of a jump; a cell that only touches has no
+  // length.
   EXPECT_TRUE(visible.Meets(0.25f, 0.25f));
   EXPECT_TRUE(visible.Meets(0.5f, 0.5f));
   EXPECT_FALSE(visible.Meets(0.0f, 0.25f));
@@ -233,7 +237,7 @@ TEST(ActiveCells, LinksAndBoundaryAreThoseOfTheVisibleCells)
   EXPECT_LT(block.Mesh.GetNumberOfActiveCells(), block.Mesh.GetNumberOfCells() / 2);
   EXPECT_FALSE(block.Mesh.UpdateActiveCells(block.Scalars, visible)); // the same again
 
-  // There and back: the mesh is as it was built.
+  // There and back: the mesh is as it was when built.
   block.Scalars[100] = 0.0f;
   EXPECT_TRUE(block.Mesh.UpdateActiveCells(block.Scalars, VisibleScalars()));
   EXPECT_EQ(block.Mesh.GetNumberOfActiveCells(), 0);
@@ -267,7 +271,7 @@ TEST(ActiveCells, SparsePictureIsTheDenseOneInFewerSteps)
   {
     largest = std::max(largest, std::abs(double(dense.Rgba[i]) - sparse.Rgba[i]));
   }
-  // Where a walk begins anew, depth and scalar are interpolated in another order: 2^-22 each, of
+  // Where a walk begins again, depth and scalar are interpolated in another order: 2^-22 each, of
   // which the function's slope of 600 per unit of scalar makes 1.4e-4 in optical density.
   EXPECT_LT(largest, 2e-5);
   EXPECT_LT(sparse.Statistics.Steps, dense.Statistics.Steps / 3);
@@ -323,7 +327,7 @@ TEST(ActiveCells, ScalarsOfCells)
   EXPECT_EQ(block.Mesh.GetNumberOfUnknownCells(),
     std::count_if(values.begin(), values.end(), [](float v) { return std::isnan(v); }));
 
-  // A value between those of two cells is seen on their face: both are active.
+  // A value between those of two cells is seen on their common face: both cells are active.
   VisibleScalars isovalue;
   isovalue.AddIsovalue(0.25f);
   const auto below = [&values](std::int64_t c) { return values[c] < 0.25f; };

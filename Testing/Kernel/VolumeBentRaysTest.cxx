@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays that bend at a membrane inside the mesh, by the kernel alone.
+// Rays refracted at a membrane inside the mesh, with the kernel alone.
 #include "VolumeTestMeshes.h"
 
 #include "Refraction/Membrane/CurvedPatches.h"
@@ -28,7 +28,7 @@ namespace
 
 constexpr int Size = 64;
 
-/** A mesh seen along z, cut in the middle by a membrane that slopes by 1 / 4. */
+/** A mesh seen along z, cut in the middle by a membrane with a slope of 1 / 4. */
 class RefractedPicture
 {
 public:
@@ -131,7 +131,7 @@ TEST(RefractedRays, NoneIsLostInAMeshTurnedInsideOut)
   EXPECT_TRUE(HasInvertedCells(picture.Mesh));
   for (const bool beginsInside : { false, true })
   {
-    // Begun inside, some rays go round for ever; these begin again on the boundary.
+    // Some rays that begin inside go round for ever; these begin again on the boundary.
     RayStatistics sums;
     picture.Cast(beginsInside, BestInstructionSet(), sums);
     EXPECT_GT(sums.Rays, 1000);

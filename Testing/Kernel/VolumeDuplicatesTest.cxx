@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells given repeatedly count once.
+// Cells that are given repeatedly count once.
 #include "VolumeTestMeshes.h"
 #include "VolumeTestPicture.h"
 
@@ -42,7 +42,7 @@ MeshArrays Doubled(const MeshArrays& arrays, unsigned int seed)
   return doubled;
 }
 
-/** The same cells twice, the second time with points of their own. */
+/** The same cells twice, the second time with their own points. */
 MeshArrays WithCopiedPoints(const MeshArrays& arrays)
 {
   MeshArrays copied = arrays;
@@ -97,7 +97,7 @@ TEST(DuplicateCells, MeshGivenInAnyNumberAndOrderIsTheMesh)
 
 TEST(DuplicateCells, MeshThatIsSmallBesideItsBoxAsWell)
 {
-  // All of the grid has one Morton code: thousands of cells are compared with each other.
+  // The whole grid has one Morton code: thousands of cells are compared with each other.
   MeshArrays arrays = KuhnGrid(8);
   for (double& x : arrays.Points)
   {
@@ -145,7 +145,7 @@ TEST(DuplicateCells, PositionsThatDifferByTheSignOfZeroOrTheLastBit)
 
 TEST(DuplicateCells, CubeGivenRepeatedlyHidesWhatItsLengthSays)
 {
-  // Along an axis every ray within the cube is 1 long.
+  // Along an axis, every ray has a length of 1 inside the cube.
   for (unsigned int seed = 0; seed < 3; ++seed)
   {
     PictureScene scene;

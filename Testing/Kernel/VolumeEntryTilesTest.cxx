@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists of the faces that rays may enter by, for meshes of cells that share no points.
+// Lists of the faces by which rays may enter, for meshes of cells that share no points.
 #include "VolumeTestMeshes.h"
 
 #include "Volume/Caster/TileCaster.h"
@@ -27,7 +27,7 @@ namespace
 constexpr int Pixels = 96;
 constexpr int TileSize = 2;
 
-/** Each cell with points of its own, shrunk about their mean. */
+/** Each cell with its own points, shrunk about their mean. */
 MeshArrays Apart(const MeshArrays& arrays, double factor)
 {
   MeshArrays apart;
@@ -48,7 +48,7 @@ MeshArrays Apart(const MeshArrays& arrays, double factor)
   return apart;
 }
 
-/** A view from outside, from within, or parallel. */
+/** A view from outside, from inside, or parallel. */
 RayFrame FrameFrom(const TetrahedralMesh& mesh, const glm::dvec3& eye, double degrees)
 {
   RayFrameInput input;
@@ -71,7 +71,10 @@ struct ListCheck
   std::int64_t Disorder = 0;
 };
 
-/** Every entry that the native backend finds has to be in the list of its tile, not before it. */
+/**
+ * Every entry that the native backend finds has to be in the list of its tile, and not before its
+ * listed depth.
+ */
 ListCheck CheckLists(
   const TetrahedralMesh& mesh, const EntryTiles& tiles, const FixedPointRays& rays)
 {
@@ -142,10 +145,11 @@ TEST(EntryTiles, HoldEveryEntryInTheOrderOfDepth)
 
 TEST(EntryTiles, AreFewFacesLongerThanTheEntriesOfTheirRays)
 {
-  // The work of a shader: each of a tile's rays looks at its faces once. The pixels' centres of a
-  // tile are a square of side t = 1. Kuhn's faces have a mean area of 0.60 e^2 and perimeter of
-  // 3.78 e, with e = 7.5 pixels here; seen from a random direction A = 17 and P = 22, and tiles
-  // look at A + 2 t P / pi + t^2 = 1.9 A. Half as much again is for one direction and needles.
+  // The work of a shader: each of a tile's rays examines its faces once. The pixel centres of a
+  // tile form a square of side t = 1. Kuhn's faces have a mean area of 0.60 e^2 and a mean
+  // perimeter of 3.78 e, with e = 7.5 pixels here; projected along a random direction A = 17 and P
+  // = 22, and tiles examine A + 2 t P / pi + t^2 = 1.9 A. A factor of 1.5 allows for a single
+  // direction and for needles.
   TetrahedralMesh mesh;
   ASSERT_EQ(mesh.Build(Apart(KuhnGrid(8), 1.0).View()), MeshStatus::Ok);
   const FixedPointRays rays(FrameFrom(mesh, { 1.9, 1.3, 2.2 }, 0.0), Pixels, Pixels);
@@ -179,7 +183,7 @@ TEST(EntryTiles, DoNotDependOnTheLoop)
 
 TEST(EntryTiles, ExpectedLengthIsThatOfManyViews)
 {
-  // The estimate is a mean over directions: that of 24 random ones is near it.
+  // The estimate is a mean over directions: the mean over 24 random ones is near it.
   TetrahedralMesh mesh;
   ASSERT_EQ(mesh.Build(Apart(KuhnGrid(6), 0.9).View()), MeshStatus::Ok);
   std::mt19937 random(3);
@@ -201,7 +205,7 @@ TEST(EntryTiles, ExpectedLengthIsThatOfManyViews)
       faces += length;
       covered += length > 0 ? 1.0 : 0.0;
     }
-    // The centres of its pixels.
+    // The side between the centres of its pixels.
     side = (TileSize - 1) * glm::length(frame.Origin.PerColumn);
   }
   const double expected = ExpectedEntriesPerTile(MeasureBoundary(mesh), side);
@@ -219,7 +223,7 @@ TEST(EntryLists, OrderEntriesHoweverTheyCome)
     for (int i = 0; i < count; ++i)
     {
       const auto ray = static_cast<std::int32_t>(random() % 3);
-      // Depths that are often equal, in no order.
+      // Depths that are often equal, in random order.
       const float depth = static_cast<float>(random() % 20);
       lists.Add(ray, { { 0, 1, 2 }, i, depth });
       expected[ray][{ depth, i }] = 1;

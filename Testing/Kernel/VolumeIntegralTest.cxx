@@ -21,7 +21,7 @@ namespace
 /** Bound of the fit of psi (3e-7 per unit of optical depth, damped) and of float sums. */
 constexpr double Tolerance = 1e-6;
 
-/** The integral by many midpoint steps in double: color r and alpha. */
+/** The integral by many midpoint steps in double precision: red and alpha. */
 glm::dvec2 Reference(double t0, double t1, double c0, double c1, double length)
 {
   const int steps = 400000;
@@ -38,7 +38,7 @@ glm::dvec2 Reference(double t0, double t1, double c0, double c1, double length)
   return { color, 1.0 - std::exp(-depth) };
 }
 
-/** One ray's integral: a lane of a packet whose other lanes are idle. */
+/** The integral of one ray: a lane of a packet whose other lanes are idle. */
 class RayIntegral
 {
 public:
@@ -120,7 +120,7 @@ TEST(RayIntegral, LinearAttenuationAndColor)
 
 TEST(RayIntegral, SplitsAtEveryPointInBothDirections)
 {
-  // A peak narrower than the segment: its optical depth is its area.
+  // A peak narrower than the segment: its optical depth is the area under the peak.
   const auto intervals =
     BuildIntervals({ { 0.40, 0.0, glm::dvec3(1.0) }, { 0.41, 50.0, glm::dvec3(1.0) },
                      { 0.42, 0.0, glm::dvec3(1.0) } },
@@ -205,6 +205,6 @@ TEST(TransferFunction, EmptyConstantAndHugeRanges)
   EXPECT_EQ(NormalizeRange(5.0, 5.0).Scale, 1.0);
   const double huge = 1e308;
   const auto normalization = NormalizeRange(-huge, huge);
-  // The scale is a denormal number, of fewer digits.
+  // The scale is a denormal number, which has fewer digits.
   EXPECT_NEAR((huge - normalization.Offset) * normalization.Scale, 1.0, 1e-14);
 }

@@ -37,7 +37,7 @@ double EnclosedVolume(const TetrahedralMesh& mesh)
   return volume;
 }
 
-/** Links lead there and back, across the same three vertices. */
+/** Expects links to lead there and back, across the same three vertices. */
 void ExpectConsistentLinks(const TetrahedralMesh& mesh)
 {
   const auto& cells = mesh.GetCells();
@@ -107,8 +107,8 @@ TEST(TetrahedralMesh, OrientationIsThatOfTheWholeNotOfEachCell)
 
 TEST(TetrahedralMesh, PartsOfBothSignsMakeOneWhole)
 {
-  // Cells are oriented in blocks of thousands, whose parts are joined: the boundary encloses the
-  // unit cube, whatever the parts' signs were.
+  // Cells are oriented in blocks of thousands, which are joined: the boundary encloses the unit
+  // cube, whatever the signs of the parts were.
   for (const int n : { 11, 12, 16, 20 })
   {
     TetrahedralMesh mesh;
@@ -255,8 +255,9 @@ TEST(TetrahedralMesh, TellsProgressAndCanBeAborted)
 
 TEST(TetrahedralMesh, LinkThatNoOrientationAllowsIsCut)
 {
-  // A Moebius ring of prisms, each in 3 tetrahedra: one twist of the square cross-section's sides.
-  // In 3D it shows as a ring of tetrahedra glued with a reversal; any cut makes it orientable.
+  // A Moebius ring of prisms, each split into 3 tetrahedra: one twist of the sides of the square
+  // cross-section. In 3D it is a ring of tetrahedra glued with a reversal; any cut makes it
+  // orientable.
   const int n = 6;
   MeshArrays arrays;
   for (int i = 0; i < n; ++i)

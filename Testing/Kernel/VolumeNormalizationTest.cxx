@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the precision of normalised scalars is spent.
+// Distribution of the precision of normalised scalars.
 #include "Volume/Optics/ScalarNormalization.h"
 #include "Volume/Optics/TransferFunction.h"
 
@@ -16,7 +16,7 @@ using namespace meniscus;
 namespace
 {
 
-/** Evenly from 0 to 1, and some others. */
+/** Evenly spaced from 0 to 1, and some others. */
 std::vector<double> Scalars(const std::vector<double>& others = {})
 {
   std::vector<double> scalars;
@@ -45,7 +45,7 @@ std::vector<ScalarFeature> Ramp(double first, double last)
   return FeaturesOf(points);
 }
 
-/** Largest error of scalars in [0, 1] kept as normalised floats, in scalars. */
+/** Largest error, in scalars, of scalars in [0, 1] stored as normalised floats. */
 double LargestError(const ScalarNormalization& normalization, double first, double last)
 {
   double largest = 0.0;
@@ -71,7 +71,7 @@ TEST(VolumeNormalization, OrdinaryDataMapsItsRange)
   EXPECT_EQ(ChooseNormalization(data, {}, nullptr), ofRange);
   EXPECT_EQ(ChooseNormalization(data, Ramp(0.0, 1.0), nullptr), ofRange);
   EXPECT_EQ(ChooseNormalization(data, Ramp(0.4, 0.45), nullptr), ofRange);
-  // Nodes outside of the data, isovalues, a jump.
+  // Nodes outside the range of the data, isovalues, a jump.
   EXPECT_EQ(ChooseNormalization(data, Ramp(100.0, 101.0), nullptr), ofRange);
   EXPECT_EQ(ChooseNormalization(data, { { 0.3, 0.0 }, { 0.9, 0.0 } }, nullptr), ofRange);
   EXPECT_EQ(ChooseNormalization(DistributionOf({ 5.0, 5.0 }), { { 5.0, 0.0 } }, nullptr),
@@ -91,7 +91,7 @@ TEST(VolumeNormalization, FillValuesLeaveTheFunctionItsPrecision)
       EXPECT_LE(LargestError(normalization, 0.0, 1.0), 6.0e-8) << fill;
       EXPECT_LE(std::abs(normalization(fill)), 1.0) << fill;
       EXPECT_GE(std::abs(normalization(fill)), 0.999) << fill;
-      // Above what products with areas can lose.
+      // Large enough for products with areas.
       EXPECT_GT(normalization.Scale, std::ldexp(1.0, -64)) << fill;
     }
   }
@@ -99,7 +99,7 @@ TEST(VolumeNormalization, FillValuesLeaveTheFunctionItsPrecision)
 
 TEST(VolumeNormalization, FillValuesOfBothSignsAboutTheFunction)
 {
-  // The middle of the range is where the function is; its unit would be too large.
+  // The function changes in the middle of the range; its unit would be too large.
   const ScalarDistribution data = DistributionOf(Scalars({ 1.0e36, -1.0e36 }));
   const ScalarNormalization normalization = ChooseNormalization(data, Ramp(0.0, 1.0), nullptr);
   EXPECT_GT(normalization.Scale, std::ldexp(1.0, -64));
@@ -128,7 +128,7 @@ TEST(VolumeNormalization, AscendsAndKeepsProportionsOfFarScalars)
       EXPECT_GE(now, last);
       last = now;
     }
-    // A segment between both passes the function where it should, to 2^-16 of its length.
+    // A segment between the two passes the function at the right place, to 2^-16 of its length.
     const double exact = -below / (above - below);
     const double low = normalization(below);
     EXPECT_NEAR(-low / (normalization(above) - low), exact, 1.0 / 65536.0) << below;
@@ -137,7 +137,8 @@ TEST(VolumeNormalization, AscendsAndKeepsProportionsOfFarScalars)
 
 TEST(VolumeNormalization, ScalarsBetweenFunctionAndFillStayWhatTheyAre)
 {
-  // Cells between -1000 and 3000 show an isovalue of 0 at a quarter, whatever noise is about it.
+  // Cells between -1000 and 3000 show an isovalue of 0 at a quarter of their length, with noise
+  // around it.
   std::vector<double> scalars = Scalars({ 1.0e36 });
   for (double& scalar : scalars)
   {
@@ -152,7 +153,7 @@ TEST(VolumeNormalization, ScalarsBetweenFunctionAndFillStayWhatTheyAre)
 
 TEST(VolumeNormalization, FunctionFromDataToFillValue)
 {
-  // Opacity changes in [0, 1], colour up to the fill value: both are kept.
+  // Opacity changes in [0, 1], colour up to the fill value: both must be resolved.
   const ScalarDistribution data = DistributionOf(Scalars({ 1.0e12 }));
   std::vector<ScalarFeature> features = Ramp(0.0, 1.0);
   features.push_back({ 0.0, 1.0e12 });
@@ -167,7 +168,7 @@ TEST(VolumeNormalization, EditsKeepItWhileItServes)
   const ScalarDistribution data = DistributionOf(Scalars({ 1.0e20 }));
   ScalarNormalization now = ChooseNormalization(data, Ramp(0.0, 1.0), nullptr);
   int changes = 0;
-  // A node, and then an isovalue, dragged through the data in 1000 steps each.
+  // A node, and then an isovalue, moved through the data in 1000 steps each.
   for (int i = 1; i <= 2000; ++i)
   {
     const double at = (i % 1000) / 1000.0;
@@ -183,7 +184,7 @@ TEST(VolumeNormalization, EditsKeepItWhileItServes)
     EXPECT_LE(LargestError(now, 0.0, 1.0), 1.2e-7);
   }
   EXPECT_EQ(changes, 0);
-  // To other scalars and back: once each.
+  // To other scalars and back: one change each.
   now = ChooseNormalization(data, Ramp(1.0e19, 2.0e19), &now);
   EXPECT_EQ(now, NormalizeRange(0.0, 1.0e20));
   now = ChooseNormalization(data, Ramp(0.0, 1.0), &now);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Clipping planes as rays see them, gradients at vertices.
+// Clipping planes in the frame of the rays, and gradients at vertices.
 #include "VolumeTestMeshes.h"
 
 #include "Volume/Mesh/ScalarGradients.h"
@@ -20,7 +20,7 @@ using namespace meniscus::test;
 namespace
 {
 
-/** One value per vertex of a mesh, by its normalised position. */
+/** One value per vertex of a mesh, a function of its normalised position. */
 template <typename Function>
 std::vector<double> Evaluate(const TetrahedralMesh& mesh, const Function& field)
 {
@@ -80,14 +80,14 @@ TEST(VolumeVertexGradients, LinearFieldIsExact)
   const auto scalars = Evaluate(mesh, [&](const glm::dvec3& p) { return glm::dot(slope, p); });
   for (const glm::vec3& gradient : ComputeVertexGradients(mesh, scalars, 1.0))
   {
-    // Three components of up to 1, each rounded by 2^-25 of itself.
+    // Three components of up to 1, each rounded to 2^-25 of itself.
     EXPECT_NEAR(glm::length(glm::dvec3(gradient) - slope), 0.0, 6e-8);
   }
 }
 
 TEST(VolumeCellGradients, NearlyEqualScalarsKeepTheDirection)
 {
-  // Changes of 1e-12 beside a scalar of 1: normalised floats would all be equal.
+  // Changes of 1e-12 at a scalar of 1: normalised floats would all be equal.
   MeshArrays arrays = KuhnGrid(4);
   Jitter(arrays, 0.05, 3);
   TetrahedralMesh mesh;
@@ -100,7 +100,7 @@ TEST(VolumeCellGradients, NearlyEqualScalarsKeepTheDirection)
   ASSERT_EQ(static_cast<std::int64_t>(gradients.size()), mesh.GetNumberOfCells());
   for (const glm::vec3& gradient : gradients)
   {
-    // Scalars are rounded by 2^-53, 1.1e-4 of the change; cells are about 0.2 wide.
+    // Scalars are rounded to 2^-53, 1.1e-4 of the change; cells are about 0.2 wide.
     EXPECT_NEAR(glm::length(glm::dvec3(gradient) - slope), 0.0, 5e-3);
   }
 }

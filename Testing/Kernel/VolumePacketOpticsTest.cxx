@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What packets show beside a plain medium: light, gradient opacity, components, tables of segments.
+// Optics of packets besides a plain medium: lighting, gradient opacity, components, tables of
+// segments.
 #include "VolumeTestMeshes.h"
 #include "VolumeTestPicture.h"
 
@@ -31,12 +32,12 @@ using namespace meniscus::test;
 namespace
 {
 
-/** Pixels of a picture of the unit cube, which fills it: each ray is 1 long. */
+/** Size in pixels of an image that the unit cube fills: each ray has a length of 1. */
 constexpr int Size = 32;
-/** Rounding of some 20 segments, and of gradients where cells have an edge of 1/4. */
+/** Rounding of some 20 segments, and of gradients in cells with an edge of 1/4. */
 constexpr double Tolerance = 3e-6;
 
-/** The cube; scalars are dot(slope, position), normalised by the radius alone. */
+/** The cube; scalars are dot(slope, position), normalised by the radius only. */
 class OpticsScene
 {
 public:
@@ -60,11 +61,11 @@ public:
     const RayFrame& frame = this->Picture.Frame;
     TileCaster::Scene& optics = this->Picture.Optics;
     optics.GradientToFrame = glm::inverse(glm::dmat3(frame.RowX, frame.RowY, frame.RowDepth));
-    // Scalars are those of the world over the radius.
+    // Scalars are those of world coordinates over the radius.
     optics.GradientMagnitude = this->Picture.Mesh.GetRadius() / glm::length(frame.ViewToWorld[0]);
   }
 
-  /** Values of a function of the position from the mesh's centre, over the radius. */
+  /** Values of a function of the position relative to the mesh's centre, over the radius. */
   template <typename Function>
   std::vector<float> Evaluate(const Function& function) const
   {
@@ -77,7 +78,7 @@ public:
     return values;
   }
 
-  /** A light from where the viewer is, of a material with every term. */
+  /** Adds a light at the viewer, for a material with all terms. */
   void AddHeadlight()
   {
     this->Lighting.Ambient = 0.1;
@@ -115,7 +116,7 @@ private:
   MeshArrays Arrays;
 };
 
-/** A ray of that colour in every pixel. */
+/** Expects a ray of that colour in every pixel. */
 void ExpectColor(const Picture& picture, const glm::dvec4& expected)
 {
   EXPECT_EQ(picture.Statistics.Lost, 0);
@@ -153,8 +154,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(PacketOpticsTest, LightOnALinearField)
 {
-  // The viewer looks along -z, the gradient is 60 degrees off: cosine 1/2; the mirrored light comes
-  // back 120 degrees off, behind the surface. Then 30 degrees off, where it is seen.
+  // The viewer looks along -z, and the gradient is at 60 degrees: cosine 1/2; the reflected light
+  // leaves at 120 degrees, behind the surface. Then at 30 degrees, where it is visible.
   for (const double degrees : { 60.0, 30.0 })
   {
     const double angle = degrees * std::acos(-1.0) / 180.0;
@@ -171,14 +172,15 @@ TEST_P(PacketOpticsTest, LightOnALinearField)
     {
       SCOPED_TRACE(degrees);
       OpticsScene scene({ 0.6 * std::sin(angle), 0.0, 0.6 * std::cos(angle) }, 0.03);
-      // A constant medium up to the cube's sides, which are jittered: seen inside of them.
+      // A constant medium up to the cube's sides, which are jittered: only its inner part is
+      // viewed.
       scene.Picture.Frame = FrameAlongZ(scene.Picture.Mesh, 0.4, Size);
       scene.AddHeadlight();
       if (vertices)
       {
         scene.UseVertexGradients();
       }
-      // What is emitted is white: divide by the opacity, which the sides change.
+      // The emission is white: divide by the opacity, which the sides change.
       const Picture picture = CastPicture(scene.Picture, Size, GetParam());
       double largest = 0.0;
       for (std::size_t i = 0; i < picture.Rgba.size(); i += 4)
@@ -191,7 +193,7 @@ TEST_P(PacketOpticsTest, LightOnALinearField)
             std::max(largest, std::abs(picture.Rgba[i + c] / opacity - expected[c] / alpha));
         }
       }
-      // Gradients of jittered cells, down to 1/8 high, of scalars rounded by 2^-24.
+      // Gradients of jittered cells, down to a height of 1/8, of scalars rounded to 2^-24.
       EXPECT_LT(largest, 1e-5);
     }
   }
@@ -326,7 +328,7 @@ TEST_P(PacketOpticsTest, InstructionSetsShowTheSame)
           const double difference = std::abs(plain.Rgba[i] - wide.Rgba[i]);
           largest = difference <= largest ? largest : difference;
         }
-        // Fused and separate operations, most of all in gradients of jittered cells.
+        // Fused and separate operations differ, most of all in gradients of jittered cells.
         EXPECT_LT(largest, 2e-5) << lit << vertices << static_cast<int>(mixture);
       }
     }
@@ -373,7 +375,7 @@ TEST(PacketSegmentTable, LinearBetweenTheSamples)
   const double between = std::sqrt(table.GetLength(2) * table.GetLength(3));
   LookUpSegment(packed, scalarOf(1), scalarOf(5), static_cast<float>(between), mean);
   EXPECT_NEAR(mean[0], 0.5 * (valueOf(1, 5, 2, 0) + valueOf(1, 5, 3, 0)), 1e-5);
-  // Beyond the table its rim holds, and a NaN reads nothing outside.
+  // Outside the table its border values hold, and a NaN reads no memory outside.
   LookUpSegment(packed, -1.5f, 1.5f, 1e9f, mean);
   EXPECT_EQ(mean[0], valueOf(0, 7, 5, 0));
   LookUpSegment(packed, std::numeric_limits<float>::quiet_NaN(), 1.0f, 0.0f, mean);

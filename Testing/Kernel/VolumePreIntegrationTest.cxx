@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Entries of the pre-integration table against the integral that they stand for.
+// Entries of the pre-integration table compared with the integrals that they represent.
 #include "VolumeTestMeshes.h"
 
 #include "Volume/Mesh/LongestEdge.h"
@@ -25,7 +25,7 @@ std::vector<TransferFunctionInterval> Intervals(const std::vector<TransferFuncti
   return BuildIntervals(points, ScalarNormalization());
 }
 
-/** Smooth, moderately dense and of many colours. */
+/** A smooth, moderately dense function with many colours. */
 std::vector<TransferFunctionInterval> Ramps()
 {
   return Intervals({ { -1.0, 0.5, { 1.0, 0.2, 0.0 } }, { -0.3, 2.0, { 0.1, 0.9, 0.3 } },
@@ -45,7 +45,7 @@ struct Segment
   double Opacity = 0.0;
 };
 
-/** The integral by midpoints of many steps, in double. */
+/** The integral by the midpoint rule with many steps, in double precision. */
 Segment Integrate(
   const std::vector<TransferFunctionInterval>& intervals, double front, double back, double length)
 {
@@ -71,7 +71,7 @@ struct Errors
   double Opacity = 0.0;
 };
 
-/** The largest errors over some entries of a table, as the shader reads them. */
+/** Largest errors over some entries of a table, interpolated as in the shader. */
 Errors LargestErrors(const PreIntegrationTable& table,
   const std::vector<TransferFunctionInterval>& intervals, int scalarStep, int lengthStep)
 {
@@ -111,10 +111,10 @@ TEST(VolumePreIntegration, OpacityIsExactAndColorConverges)
     table.Build(intervals, 3.0, scalars, 16);
     EXPECT_EQ(table.GetNumberOfLengths(), 16);
     const Errors errors = LargestErrors(table, intervals, (scalars - 1) / 8, 5);
-    // The midpoints' own error is below 1e-8; entries are floats.
+    // The error of the midpoint rule is below 1e-8; entries are floats.
     EXPECT_LT(errors.Opacity, 1e-6) << scalars;
-    // Nodes between samples are kinks, which interpolation meets with the first order of their
-    // distance at worst; elsewhere with the second.
+    // Nodes between samples are kinks, at which interpolation is of first order in their distance
+    // in the worst case; elsewhere it is of second order.
     EXPECT_TRUE(last == 0.0 || errors.Color < 0.6 * last) << scalars << ": " << errors.Color;
     last = errors.Color;
     RecordProperty("color error of " + std::to_string(scalars), std::to_string(errors.Color));
@@ -144,7 +144,7 @@ TEST(VolumePreIntegration, LengthsAreZeroAndAGeometricSequence)
   EXPECT_NEAR(table.GetLength(19), 5.0, 1e-12);
   EXPECT_EQ(table.GetLongest(), 5.0);
   EXPECT_NEAR(table.GetLength(1 + table.GetLengthsPerOctave()), 2.0 * table.GetShortest(), 1e-12);
-  // Fine enough for a depth of 4 * 5 to begin at 1/16 or above.
+  // Fine enough for the lengths of a depth of 4 * 5 to begin at 1/16 or above.
   EXPECT_GE(table.GetLengthsPerOctave(), 2);
 }
 
@@ -156,7 +156,7 @@ TEST(VolumePreIntegration, OneLengthWhereTheModelAllowsIt)
     { 0.0, 3.0, { 0.2, 0.4, 0.6 } }, { 1.0, 0.5, { 0.2, 0.4, 0.6 } } });
   table.Build(oneColor, 4.0, 33, 16);
   EXPECT_EQ(table.GetNumberOfLengths(), 1);
-  // Segments so short that they absorb nothing of themselves.
+  // Segments so short that their self-absorption is negligible.
   table.Build(Ramps(), 0.003, 33, 16);
   EXPECT_EQ(table.GetNumberOfLengths(), 1);
   const glm::dvec3 color(0.2, 0.4, 0.6);
@@ -222,6 +222,6 @@ TEST(VolumePreIntegration, LongestEdge)
   EXPECT_EQ(ComputeLongestEdge(mesh), 0.0);
   const MeshArrays arrays = KuhnGrid(2); // 2^3 cubes, each split along a diagonal
   mesh.Build(arrays.View());
-  // A grid's radius is half its diagonal, that of 2 cubes.
+  // The radius of a grid is half its diagonal, which is that of one of the cubes.
   EXPECT_NEAR(ComputeLongestEdge(mesh), 1.0, 1e-8);
 }

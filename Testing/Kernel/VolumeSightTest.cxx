@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Where rays meet a membrane: what is left out, and instruction sets.
+// Intersections of rays with a membrane: rays that may be skipped, and instruction sets.
 #include "RefractionTestRandom.h"
 
 #include "Refraction/Membrane/CurvedPatches.h"
@@ -32,7 +32,7 @@ struct Sheet
   Membrane Surface;
   CurvedPatches Patches;
 
-  /** z = height(x, y) over [-1, 1] squared. */
+  /** The sheet z = height(x, y) over [-1, 1] squared. */
   Sheet(const std::function<double(double, double)>& height, int cells)
   {
     std::vector<double> points;
@@ -67,7 +67,7 @@ struct WorldBox
   glm::dvec3 Center;
   glm::dvec3 Half;
 
-  /** Whether it has a place start + t along, 0 <= t <= end. */
+  /** True if the box contains a point start + t along, 0 <= t <= end. */
   bool Meets(const glm::dvec3& start, const glm::dvec3& along, double end) const
   {
     double first = 0.0;
@@ -83,7 +83,7 @@ struct WorldBox
   }
 };
 
-/** From an eye, or along parallel rays. */
+/** A view from an eye, or along parallel rays. */
 RefractedRayField::View LookAt(
   const glm::dvec3& eye, const glm::dvec3& target, double width, bool parallel)
 {
@@ -125,7 +125,7 @@ struct Counts
   int Wrong = 0;
 };
 
-/** Rays that come to the box, among all of a sight that leaves none out. */
+/** Compares the rays that reach the box with those of a field that skips none. */
 void Compare(
   const RefractedRayField& all, const RefractedRayField& some, const WorldBox& box, Counts& counts)
 {
@@ -150,7 +150,7 @@ void Compare(
       const bool isHidden = ray.MeetsMembrane() && !ray.GoesOn();
       counts.Shown += comes ? 1 : 0;
       counts.Hidden += exact.GoesOn() && isHidden ? 1 : 0;
-      // Rays that do not come to it may be left out; those beside the membrane go straight on.
+      // Rays that do not reach the box may be skipped; rays that miss the membrane are straight.
       const bool right = same || (!comes && exact.MeetsMembrane() && isHidden);
       counts.Wrong += right ? 0 : 1;
     }
@@ -232,8 +232,8 @@ void BuildSphere(int resolution, Membrane& surface, CurvedPatches& patches)
 }
 
 /**
- * Every ray meets a coarse sphere where the sphere itself is met, its outline included, where a ray
- * meets one patch twice and Newton's method goes astray.
+ * Every ray meets a coarse sphere at its exact intersection, including the outline, where a ray
+ * meets one patch twice and Newton's method diverges.
  */
 TEST(RefractedRayField, MeetsSpheresAtTheirOutlines)
 {
@@ -277,7 +277,7 @@ TEST(RefractedRayField, MeetsSpheresAtTheirOutlines)
         const RefractedRay ray = RayOf(sight, pixel % Size, pixel / Size);
         const bool meets = squared > 0.0 && first > looking.EyeDepth;
         met += meets;
-        // Newton's method leaves 1e-8 of a facet, more where the ray touches it.
+        // The error of Newton's method is 1e-8 of a facet, more where the ray touches the sphere.
         wrong += ray.MeetsMembrane() != meets || (meets && std::fabs(ray.Depth - first) > 1e-6);
       }
     }

@@ -63,7 +63,7 @@ void Jitter(MeshArrays& mesh, double amount, unsigned int seed)
   std::mt19937 random(seed);
   for (double& coordinate : mesh.Points)
   {
-    // The generator's own numbers: distributions differ between libraries.
+    // The generator's raw numbers: distributions differ between libraries.
     coordinate += amount * (2.0 * (random() / 4294967295.0) - 1.0);
   }
 }

@@ -18,7 +18,7 @@ namespace meniscus
 namespace test
 {
 
-/** Points and tetrahedra as a mesh's caller holds them. */
+/** Points and tetrahedra as arrays of a mesh's caller. */
 struct MeshArrays
 {
   std::vector<double> Points;
@@ -38,10 +38,12 @@ struct MeshArrays
 /** The unit tetrahedron, its vertices in positive orientation. */
 MeshArrays SingleTetrahedron();
 
-/** n^3 cubes of edge 1 / n that fill [0, 1]^3, each cut into the 6 tetrahedra of Kuhn. */
+/** n^3 cubes of edge 1 / n that fill [0, 1]^3, each split into Kuhn's 6 tetrahedra. */
 MeshArrays KuhnGrid(int n);
 
-/** Moves every point by up to `amount` in each axis, from a fixed seed; large amounts invert cells.
+/**
+ * Moves every point by up to `amount` along each axis, with a fixed seed; large amounts invert
+ * cells.
  */
 void Jitter(MeshArrays& mesh, double amount, unsigned int seed);
 

@@ -18,7 +18,7 @@ namespace meniscus
 namespace test
 {
 
-/** A mesh ready for rays; the caller fills in what is to be seen. */
+/** A mesh ready for ray casting; the caller sets the optics. */
 struct PictureScene
 {
   TetrahedralMesh Mesh;
@@ -27,7 +27,7 @@ struct PictureScene
   RayFrame Frame;
   std::vector<std::vector<TransferFunctionInterval>> OtherIntervals{};
   std::vector<TransferFunctionInterval> GradientIntervals{};
-  /** What is not of mesh, tables and rays. */
+  /** Everything but mesh, tables and rays. */
   TileCaster::Scene Optics{};
 };
 
@@ -41,13 +41,13 @@ struct Picture
 };
 
 /**
- * The size x size pixels about the image's centre, every ray integrated to its end.
- * @param windowDepth  where all rays end; 1 is the far plane.
+ * Casts the size x size pixels about the image's centre, every ray integrated to its end.
+ * @param windowDepth depth at which all rays end; 1 is the far plane.
  */
 Picture CastPicture(
   const PictureScene& scene, int size, InstructionSet set, float windowDepth = 1.0f);
 
-/** Name of a test of an instruction set: letters and digits. */
+/** Name of a test for an instruction set, of letters and digits. */
 std::string TestNameOf(const ::testing::TestParamInfo<InstructionSet>& tested);
 
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Tetrahedra in place of other cells: they fill the same volume and fit across shared faces.
+// Tetrahedra of other cells: they fill the same volume and match across shared faces.
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Mesh/Tetrahedralizer.h"
 
@@ -38,7 +38,7 @@ double VolumeOf(const Ids& tetrahedra, const std::vector<double>& points)
   return volume;
 }
 
-/** n^3 cubes, their points in random order, each column of another kind of cells. */
+/** n^3 cubes with their points in random order; each column has another cell type. */
 class MixedBlock
 {
 public:
@@ -156,7 +156,7 @@ TEST(Tetrahedralizer, MixedCellsFitAcrossFacesWhateverTheNumbersOfPoints)
     const Ids& tetrahedra = block.Cells.GetTetrahedra();
     EXPECT_NEAR(VolumeOf(tetrahedra, block.Points), n * n * n, 1e-9);
     const TetrahedralMesh mesh = BuildMesh(block.Points, tetrahedra);
-    // Were a square split in two ways, all four triangles would be boundary.
+    // If a square were split in two ways, all four triangles would be boundary.
     EXPECT_EQ(mesh.GetBoundary().size(), std::size_t(6 * 2 * n * n)) << "seed " << seed;
     EXPECT_EQ(mesh.GetNumberOfCutLinks(), 0);
     EXPECT_EQ(mesh.GetRejectedCells().Total(), 0);
@@ -165,7 +165,7 @@ TEST(Tetrahedralizer, MixedCellsFitAcrossFacesWhateverTheNumbersOfPoints)
 
 TEST(Tetrahedralizer, MergedCornersGiveNoCellsWithoutVolume)
 {
-  // A hexahedron whose top is merged into an edge: a wedge.
+  // A hexahedron whose top is merged into an edge, which makes it a wedge.
   const std::vector<double> points = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1 };
   const std::int64_t hexahedron[8] = { 0, 1, 2, 3, 4, 5, 5, 4 };
   Tetrahedralizer cells;
@@ -197,8 +197,8 @@ TEST(Tetrahedralizer, QuadraticTetrahedron)
 
 TEST(Tetrahedralizer, QuadraticCellsHaveNoFlatTetrahedra)
 {
-  // Corners of a cell of known volume and the edges that have a point in the middle. Whatever the
-  // numbers of the points, the tetrahedra are not flat and fill the cell.
+  // Corners of a cell of known volume, and the edges that have a point in the middle. Whatever the
+  // numbering of the points, the tetrahedra are not flat and fill the cell.
   struct Case
   {
     std::vector<glm::dvec3> Points;

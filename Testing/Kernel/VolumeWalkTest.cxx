@@ -19,7 +19,7 @@ using namespace meniscus::test;
 namespace
 {
 
-/** The scalar is z, normalised; attenuation and colour are the same everywhere. */
+/** The scalar is z, normalised; attenuation and colour are constant. */
 PictureScene MakeScene(const MeshArrays& arrays, double attenuation)
 {
   PictureScene scene;
@@ -33,7 +33,7 @@ PictureScene MakeScene(const MeshArrays& arrays, double attenuation)
   return scene;
 }
 
-/** Each test with every instruction set that this processor has. */
+/** Runs each test with every instruction set that this processor supports. */
 class PacketWalkTest : public testing::TestWithParam<InstructionSet>
 {
 };
@@ -62,7 +62,7 @@ TEST_P(PacketWalkTest, ConstantFieldGivesTheChord)
 TEST_P(PacketWalkTest, RaysThroughVerticesAndEdgesOfAnAlignedGrid)
 {
   // Pixels of 1/24 on a grid of 1/4: many rays run along edges and through vertices, all others in
-  // planes of faces. A ray on the outer boundary may count as in or out, but as one of them.
+  // planes of faces. A ray on the outer boundary may count as inside or outside, but consistently.
   PictureScene scene = MakeScene(KuhnGrid(4), 1.0);
   scene.Frame = FrameAlongZ(scene.Mesh, 0.5, 24);
   const Picture picture = CastPicture(scene, 25, GetParam());
@@ -119,9 +119,9 @@ TEST_P(PacketWalkTest, TinyAndHugeMeshes)
 
 TEST_P(PacketWalkTest, NeedlesSeenAslant)
 {
-  // Along needles of 1e4 edges are long in u and in v, and nearly all of their products cancels in
-  // the areas that depth and scalar are interpolated by. The box is 2e4 x 1 x 1, seen near its
-  // middle; attenuation grows across it, from 0 to 0.6.
+  // Along needles with an aspect ratio of 1e4 edges are long in u and in v, and most of their
+  // products cancels in the areas by which depth and scalar are interpolated. The box is 2e4 x 1 x
+  // 1, seen near its middle; attenuation increases across it from 0 to 0.6.
   MeshArrays arrays = KuhnGrid(4);
   for (std::size_t i = 0; i < arrays.Points.size(); ++i)
   {
@@ -170,8 +170,8 @@ TEST_P(PacketWalkTest, NeedlesSeenAslant)
     }
   }
   EXPECT_GT(seen, size * size / 4);
-  // Cells are 1,700 deep. Single precision rounds such depths by 7.5e-5, and their mean by about as
-  // much again per vertex: 3e-4 where the attenuation is 0.6.
+  // Cells have a depth of 1,700. Single precision rounds such depths by 7.5e-5, and their mean by
+  // about as much again per vertex: 3e-4 where the attenuation is 0.6.
   EXPECT_LT(largest, 2e-4);
 }
 
@@ -193,7 +193,7 @@ TEST_P(PacketWalkTest, OpaqueDepthAndNearPlaneCutTheRay)
 {
   PictureScene scene = MakeScene(KuhnGrid(2), 1.0);
   scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 60);
-  // The window depth of the mesh's centre, where depth is 0: half of the cube.
+  // Window depth of the mesh's centre, where the depth is 0: half of the cube is in front of it.
   const double clipDepth = -scene.Frame.DepthNumerator.y / scene.Frame.DepthNumerator.x;
   const auto half = static_cast<float>(0.5 * clipDepth + 0.5);
   const double expected = 1.0 - std::exp(-0.5);
@@ -224,7 +224,7 @@ TEST_P(PacketWalkTest, OneRayAndManyInAPacketAgree)
 
 TEST_P(PacketWalkTest, LengthOfTheTransferFunctionDoesNotMatter)
 {
-  // The same ramp with few, some and many points, which are looked up in different ways.
+  // The same ramp with few, some and many points, for which the look-up uses different methods.
   PictureScene scene = MakeScene(KuhnGrid(3), 1.0);
   scene.Frame = FrameAlongZ(scene.Mesh, 0.6, 48);
   std::vector<Picture> pictures;

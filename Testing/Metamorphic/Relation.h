@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Metamorphic relations: changes of a scene that must not change the result. No truth is needed,
- * so scenes can be anything that a user can make.
+ * Metamorphic relations: changes of a scene that must not change the result. No reference result is
+ * needed, so scenes can be arbitrary.
  */
 #ifndef meniscus_Relation_h
 #define meniscus_Relation_h
@@ -21,26 +21,29 @@ namespace test
 struct RelationTally
 {
   std::int64_t Scenes = 0;
-  /** Pairs of results that were compared: pictures, meshes. */
+  /** Number of pairs of results that were compared: images, meshes. */
   std::int64_t Comparisons = 0;
-  /** Values that were compared: pixels, points, array values. */
+  /** Number of values that were compared: pixels, points, array values. */
   std::int64_t Values = 0;
   /**
-   * Values beyond the plain tolerance, but within the change of the exact result under the
-   * rounding that the relation is derived for.
+   * Number of values beyond the plain tolerance, but within the change of the exact result under
+   * the rounding for which the relation is derived.
    */
   std::int64_t Conditioned = 0;
-  /** Values beyond their tolerance. */
+  /** Number of values beyond their tolerance. */
   std::int64_t Wrong = 0;
-  /** Scenes with a wrong value, or with a result that is missing. */
+  /** Number of scenes with a wrong value, or with a missing result. */
   std::int64_t Failures = 0;
-  /** The value with the largest ratio of deviation to tolerance; a tolerance below 0: none yet. */
+  /**
+   * Value with the largest ratio of deviation to tolerance; a tolerance below 0 means that there is
+   * none yet.
+   */
   double Deviation = 0.0;
   double Tolerance = -1.0;
   /** First failure in words; empty without one. */
   std::string FirstFailure;
 
-  /** Adds one value. Returns whether it is within its tolerance; NaN is not. */
+  /** Adds one value. Returns true if it is within its tolerance; NaN is not. */
   bool compare(double deviation, double tolerance);
 
   void add(const RelationTally& other);
@@ -56,7 +59,8 @@ struct Relation
   int Cases = 0;
   /**
    * Called in the process that runs its cases, before the first of them. All relations run in one
-   * process until a case ends it, so that they may share what is slow to make (a window).
+   * process until a case ends it, so that they can share objects that are slow to create (a
+   * window).
    */
   std::function<RelationWork()> Start;
 };

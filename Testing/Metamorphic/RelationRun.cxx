@@ -44,7 +44,7 @@ struct RelationResult
   }
 };
 
-// One case as the child reports it: a line of numbers, then the words.
+// One case in the child's report: a line of numbers, then the text.
 std::string encode(const RelationTally& t)
 {
   std::ostringstream line;
@@ -66,8 +66,8 @@ RelationTally decode(const std::string& text)
   return t;
 }
 
-// Whether a deviation is a larger part of its tolerance than another; NaN is. A tolerance below 0:
-// there is no other yet.
+// True if a deviation is a larger fraction of its tolerance than another one; NaN is. A tolerance
+// below 0 means that there is no other yet.
 bool outranks(double deviation, double tolerance, double other, double toleranceOfOther)
 {
   return toleranceOfOther < 0.0 || !(deviation * toleranceOfOther <= other * tolerance);
@@ -99,7 +99,7 @@ void printRow(std::ostream& out, const std::string& name, const RelationResult& 
   out << row.str() << std::flush;
 }
 
-// The chosen cases of the chosen relations in a row, and what came of them.
+// The selected cases of the selected relations in a row, and their results.
 class RelationTable
 {
 public:
@@ -125,7 +125,7 @@ public:
 
   int numberOfCases() const { return static_cast<int>(this->Cases.size()); }
 
-  // All cases of a process, whatever their relation.
+  // All cases of a process, of all relations.
   CaseWork start() const
   {
     const auto works = std::make_shared<std::map<std::size_t, RelationWork>>();
@@ -152,7 +152,7 @@ public:
     this->take(index, result, stuck ? "no end" : "the process ended by a signal");
   }
 
-  // Prints what is left; returns whether all is good.
+  // Prints the remaining output; returns true if no relation failed.
   bool finish()
   {
     RelationResult sum;
@@ -165,7 +165,7 @@ public:
     {
       this->Out << note << '\n';
     }
-    // Options that choose nothing must not pass as a success.
+    // Options that select nothing must not count as a success.
     return sum.isGood() && sum.Tally.Comparisons > 0;
   }
 

@@ -15,24 +15,25 @@ namespace test
 {
 
 /**
- * Makes all relations once the options are known. Cases grow with the intensity; every case draws
- * from a stream of its own (see seedOfCase()), so that it can be run alone.
+ * Creates all relations once the options are known. The number of cases grows with the intensity;
+ * every case draws from its own stream of random numbers (see seedOfCase()), so that it can be run
+ * alone.
  */
 using RelationMaker = std::function<std::vector<Relation>()>;
 
 /**
  * main() of a metamorphic programme: reads the options (--relation, --case, --seed, --intensity,
- * --seconds, --report, and those of `readMore`), runs every case in a process that a crash or an
- * endless loop does not take the others along with, prints the table and what failed. Returns the
- * exit status: success if no relation failed.
+ * --seconds, --report, and those of `readMore`), runs the cases in processes of their own, so that
+ * a crash or an endless loop does not affect the others, and prints the table and the failures.
+ * Returns the exit status: success if no relation failed.
  */
 int runMetamorphicProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
   const OptionReader& readMore, const RelationMaker& make);
 
-/** Cases at an intensity: the number at 1, times the intensity, at least 1. */
+/** Number of cases at an intensity: the number at 1 times the intensity, at least 1. */
 int casesAt(double intensity, int atOne);
 
-/** Seed of the random numbers of one case of the relation with a name. */
+/** Seed of the random numbers of one case of the relation with the given name. */
 std::uint64_t seedOfCase(std::uint64_t seed, const std::string& relation, int index);
 
 } // namespace test

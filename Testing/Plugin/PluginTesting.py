@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the pvbatch tests share."""
+"""Functions that the pvbatch tests share."""
 import os
 import sys
 import traceback

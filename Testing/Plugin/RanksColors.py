@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures for RunRanks.py with random colour maps, most of whose colours are saturated: premultiplied,
-such a colour equals the opacity, which is where compositing in 8 bits wraps around first. Meshes: those
-of MENISCUS_DATA_DIR that are there, one of 519,115 cells and one of 8,640. The number of scenes of each
-mesh is MENISCUS_RANKS_INTENSITY, 1 by default; scenes have fixed seeds, so that all numbers of ranks draw
-the same."""
+"""Pictures for RunRanks.py with random colour maps, most of whose colours are saturated:
+premultiplied, such a colour equals the opacity, which is where compositing in 8 bits wraps around
+first. Meshes: those of MENISCUS_DATA_DIR that are there, one of 519,115 cells and one of 8,640. The
+number of scenes of each mesh is MENISCUS_RANKS_INTENSITY, 1 by default; scenes have fixed seeds, so
+that all numbers of ranks draw the same."""
 import math
 import os
 import random

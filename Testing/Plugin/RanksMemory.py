@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The memory of each rank, for RunRanks.py: of a mesh of millions of tetrahedra that is drawn, and of
-a membrane of a million facets. Each stage is a line: its name, cells of the rank, memory that is
+"""The memory of each rank, for RunRanks.py: of a mesh of millions of tetrahedra that is drawn, and
+of a membrane of a million facets. Each stage is a line: its name, cells of the rank, memory that is
 resident now and was at most, in MiB."""
 import os
 

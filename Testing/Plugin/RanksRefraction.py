@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What RunRanks.py has ParaView do with the filters on each number of ranks: refracted geometry,
+"""The filters' part of RunRanks.py in ParaView, on each number of ranks: refracted geometry,
 refracted light and error volumes, behind a membrane that one rank has and one of which each has a
 part. Numbers are written with all their bits, in hexadecimal."""
 import os
@@ -55,8 +55,9 @@ def write_refracted(name, membrane):
 
 
 def write_light(name, membrane):
-    """What cells get, by their points, and what points get; the light is at infinity. The floor
-    reaches beyond the membrane, so that the parts of it have other bounds than all of it."""
+    """Writes the light on cells, by their points, and the light on points, from a light at
+    infinity. The floor extends beyond the membrane, so that the bounds of its parts differ from
+    those of the whole."""
     light = simple.RefractedLight(Geometry=sheet(10, -3.5), Membrane=membrane)
     light.LightPosition = [0.2, -0.1, 1]
     data = servermanager.Fetch(light)

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What RunRanks.py has ParaView do on each number of ranks: pictures of volumes, and what
-RanksRefraction.py has of the filters. Arguments: the prefix of the files that are written, the number
-of ranks, then the names of meshes in MENISCUS_DATA_DIR, or a scene, Colors, Waves, Large or Facets; without
-any, scenes made here."""
+"""The part of RunRanks.py that runs in ParaView on each number of ranks: pictures of volumes, and
+the filters' output by RanksRefraction.py. Arguments: the prefix of the files to write, the number
+of ranks, then the names of meshes in MENISCUS_DATA_DIR, or a scene, Colors, Waves, Large or Facets;
+without names, scenes made here."""
 import math
 import os
 import sys
@@ -132,8 +132,8 @@ self.GetOutputDataObject(0).ShallowCopy(append.GetOutput())
 
 
 def draw_without_array(prefix, ranks, mesh):
-    """One rank does not have the array: the others' cells are drawn, its own left out with a
-    warning. One rank draws what the others of so many ranks have."""
+    """One rank does not have the array: its cells are skipped with a warning, the others' are
+    drawn. On one rank, draws the cells that the other ranks have with so many ranks."""
     view = PluginTesting.make_view()
     view.UseFXAA = 0
     view.CameraPosition = [17, 12, 23]

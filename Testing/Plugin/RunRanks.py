@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs RanksScene.py on 1, 2 and 4 ranks and compares: pictures of composited volumes must be those
-of one rank up to the rounding of the compositing, what the filters make that of one rank.
-Arguments: mpirun, pvbatch, names of meshes or the scene Colors, random colour maps on several meshes. The
-environment variable MENISCUS_RANKS names a scene to run instead, which is only measured: Waves, pictures
-through membranes; Large, pictures and memory of millions of tetrahedra; Facets, memory of a large membrane.
+"""Runs RanksScene.py on 1, 2 and 4 ranks and compares: pictures of composited volumes must equal
+those of one rank up to the rounding of compositing, and the filters' output must equal that of one
+rank. Arguments: mpirun, pvbatch, names of meshes or the scene Colors, random colour maps on several
+meshes. The environment variable MENISCUS_RANKS names a scene to run instead, which is only
+measured: Waves, pictures through membranes; Large, pictures and memory of millions of tetrahedra;
+Facets, memory of a large membrane.
 
-Documentation/parallel.md derives how far apart they can be: less than 3 steps of 8 bits, so at most
-2, for two ranks; for four it is what is demanded here."""
+Documentation/parallel.md derives the bound for two ranks: less than 3 steps of 8 bits, so at most
+2. The bound for four ranks is a requirement of this test."""
 import collections
 import math
 import os
@@ -19,17 +20,18 @@ FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
 HERE = os.path.dirname(os.path.abspath(__file__))
 # Largest difference of a picture's pixels, of 255, by the number of ranks.
 WORST = {2: 2, 4: 3}
-# Of the pixels of a mesh with inverted cells, those that may be further off: which of two overlapping cells a
-# ray meets first changes where ParaView cuts them.
+# Share of the pixels of a mesh with inverted cells that may exceed the bound: where ParaView cuts
+# two overlapping cells, a ray may meet the other one first.
 SHARE_OF_INVERTED = {"crushed_can": 1e-4}
-# The rounding of what the filter is given, single precision in a scene 16 wide. An image is found from
-# its neighbour's, which may be on another rank: it differs by what Newton's method leaves.
+# Rounding of the filter's input, single precision in a scene 16 wide. An image is found from that
+# of its neighbour, which may be on another rank, so it differs by the remaining error of Newton's
+# method.
 POINT_TOLERANCE = 16 * 2**-24
-# Of errors behind the same membrane with its facets in another order: a few hundred roundings of double
-# precision in a scene 16 wide.
+# Tolerance of errors behind the same membrane with its facets in another order: a few hundred
+# roundings of double precision in a scene 16 wide.
 SAMPLE_TOLERANCE = 256 * 16 * 2**-53
-# Of light: cells are divided to a six-thousandth of the scene (vtkRefractedLightFilter.cxx); here they
-# are 1 wide in a scene 25 wide.
+# Tolerance of light: cells are divided to a six-thousandth of the scene
+# (vtkRefractedLightFilter.cxx); here they are 1 wide in a scene 25 wide.
 LIGHT_TOLERANCE = 25 / 6000
 SKIP = 125
 
@@ -57,7 +59,8 @@ def worst_of(other):
 
 
 def compare_pictures(name, other, most=None, share=0):
-    """At most so far apart, and above WORST in at most that share of the pixels that are not black."""
+    """At most so far apart, and above WORST in at most that share of the pixels that are not
+    black."""
     counts, lit = count_differences(name, other)
     worst = worst_of(other)
     above = sum(number for step, number in counts.items() if step > worst)
@@ -88,7 +91,8 @@ def farthest(some, others):
 
 
 def compare_points(name, other):
-    """Places and depths; points along seams are there more than once. All are behind the membrane."""
+    """Places and depths; points along seams are there more than once. All are behind the
+    membrane."""
     one, several = set(numbers(name)), set(numbers(other))
     worst = max(farthest(one, several), farthest(several, one))
     print("%-36s worst %.1e, %d and %d points" % (other, worst, len(one), len(several)))
@@ -97,9 +101,9 @@ def compare_points(name, other):
 
 
 def compare_light(name, other):
-    """By place, but for points that several ranks have, which know their own rank's cells: to the last
-    bit where one rank has the membrane, else up to where cells are divided: the order of its facets is
-    another."""
+    """Compares light by position, without points that several ranks have, because these use the
+    cells of their own rank only. Equal to the last bit if one rank has the membrane; otherwise up
+    to the division of cells, because the facets are in another order."""
     one = {values[:-1]: values[-1] for values in numbers(name)}
     found = collections.defaultdict(list)
     for values in numbers(other):
@@ -116,7 +120,7 @@ def compare_light(name, other):
 
 
 def samples(name):
-    """Of the files of all ranks: the samples, and the statistics of each."""
+    """Samples of all ranks' files, and the statistics of each file."""
     start, end = name.split("-0.")
     found, statistics = {}, []
     for part in sorted(os.listdir(FOLDER)):
@@ -133,9 +137,10 @@ def samples(name):
 
 
 def compare_samples(name, other):
-    """Samples to the last bit where one rank has the membrane, else up to rounding: the order of its
-    facets is another. Statistics: on all ranks those of one, number and largest error as exact as the
-    samples, mean and deviation up to the rounding of sums in another order."""
+    """Compares samples: equal to the last bit if one rank has the membrane, otherwise up to
+    rounding, because the facets are in another order. The statistics of all ranks equal those of
+    one: number and largest error as exactly as the samples, mean and deviation up to the rounding
+    of sums."""
     (one, [expected]), (several, found) = samples(name), samples(other)
     states = {place: value[1] for place, value in several.items()}
     same = states == {place: value[1] for place, value in one.items()}
@@ -154,7 +159,7 @@ def compare_samples(name, other):
 
 
 def print_memory(name):
-    """Of the rank that has most, on each number of ranks."""
+    """Prints the memory of the rank that uses most, for each number of ranks."""
     for ranks in (1, 2, 4):
         start = name.replace("Ranks1", "Ranks%d" % ranks).split("-0.")[0]
         parts = [[line.split() for line in lines("%s-%d.memory" % (start, rank))]
@@ -183,8 +188,8 @@ def run(mpirun, pvbatch, ranks, names):
 
 
 def check_warnings(log, several):
-    """Each on several ranks only, and as often as RanksScene.py has a reason for it: a rank without the
-    array, a blend mode, membranes that are drawn from several sides."""
+    """Each on several ranks only, and as often as RanksScene.py has a reason for it: a rank without
+    the array, a blend mode, membranes that are drawn from several sides."""
     for warning, reasons in [("There is no array 'RTData' on rank 1", 1),
                              ("right for the blend modes Composite and Isosurface only", 1),
                              ("The membrane is not a plane across an axis", 3)]:

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A client connected to a server of 1, 2 and 4 ranks: its pictures are those of a client alone, drawn
-by the server or, but for volumes, which ParaView leaves to it, by the client with what the server of
-two ranks sends.
-Arguments: mpirun, pvserver, the client's Python."""
+"""A client connected to a server of 1, 2 and 4 ranks: its pictures equal those of a client alone.
+The server draws; or the client draws with the data that a server of two ranks sends, except for
+volumes, which ParaView always draws on the server. Arguments: mpirun, pvserver, the client's
+Python."""
 import os
 import socket
 import subprocess
@@ -16,12 +16,13 @@ FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
 HERE = os.path.dirname(os.path.abspath(__file__))
 START_SECONDS = 60
 CLIENT_SECONDS = 240
-# Prefix of what is written, ranks, who draws.
+# Prefix of the files, number of ranks, drawing side.
 SERVERS = [("ServerDraws1", 1, "server"), ("ServerDraws2", 2, "server"),
            ("ServerDraws4", 4, "server"), ("ServerSends2", 2, "client")]
-# Of 255, for so many ranks: what Documentation/parallel.md derives; one rank composites nothing.
+# Largest difference, of 255, by number of ranks, from Documentation/parallel.md; one rank
+# composites nothing.
 MOST = {1: 0, 2: 2, 4: 6}
-# Of the pixels, those that four ranks may have off by more than two.
+# Share of the pixels that may differ by more than two.
 SHARE = {1: 0, 2: 0, 4: 1e-4}
 
 

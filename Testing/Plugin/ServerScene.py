@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What RunServer.py has a client of ParaView do: pictures of a volume, also through a membrane, and of
-refracted geometry. Arguments: the prefix of the files that are written, the port of a server or 0 for
-none, and who draws, `server` or `client`."""
+"""The part of RunServer.py that runs in a client of ParaView: pictures of a volume, also through a membrane, and
+of refracted geometry. Arguments: the prefix of the files that are written, the port of a server or
+0 for none, and who draws, `server` or `client`."""
 import os
 import sys
 import traceback

@@ -17,7 +17,7 @@ SCRIPT = os.path.join(FOLDER, "state.py")
 
 @contextlib.contextmanager
 def modified(proxy):
-    """What ParaView's panels do around changes of properties, for the trace to hold them."""
+    """Applies changes of properties as ParaView's panels do, so that the trace contains them."""
     item = smtrace.PropertiesModified(proxy.SMProxy)
     yield proxy
     item.finalize()
@@ -50,9 +50,9 @@ def show_error(waves, view):
 
 
 def make_scene():
-    """A volume with settings of its own, seen through waves; a ball behind a surface of a formula that
-    these waves are put on, the eye at the camera, which it follows; light through the waves, and how
-    far off their facets are."""
+    """A volume with settings of its own, seen through waves; a ball behind a surface of a formula
+    that these waves are put on, the eye at the camera, which it follows; light through the waves,
+    and how far off their facets are."""
     grid = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[-6, 6] * 3))
     view = simple.CreateRenderView()
     with modified(view):

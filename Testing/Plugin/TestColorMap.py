@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the colour map editor offers, against the colours that the map itself says: a bar whose scalars
-rise from left to right, seen from the front, opaque, by its maximum, is the map. Log scale, few colours,
-colours below and above the range and their borders, NaN."""
+"""Compares pictures with the colours of the colour map, for the settings of the colour map editor: an
+opaque bar whose scalars rise from left to right, seen from the front by its maximum, shows the map.
+Log scale, few colours, colours below and above the range and their borders, NaN."""
 import math
 
 import PluginTesting
@@ -14,7 +14,7 @@ LENGTH, LOWEST, HIGHEST = 100, 1.0, 1001.0
 RISING = "1+10*coordsX"
 LOW, HIGH = 10.0, 500.0
 TOLERANCE = 2  # of 255: the map's colours and ours are both rounded
-STEEPEST = 20  # of 255 in a pixel; what is more is a border
+STEEPEST = 20  # steps of 255 in a pixel; a larger step is a border
 
 
 def scalar_at(column):
@@ -66,7 +66,9 @@ def colors_of(table, scalars):
 
 
 def check(view, colors, name, columns=range(SIZE)):
-    """Each pixel has the colour of a surface with a scalar in the pixel or in its neighbours: no farther may a border be off. Returns the colours beside borders and the pixels at them."""
+    """Checks that each pixel has the colour of a surface with a scalar in the pixel or in its
+    neighbours, so that borders are off by a pixel at most. Returns the colours next to borders and
+    the pixels at them."""
     row = row_of(view, name)
     table = colors.SMProxy.GetClientSideObject()
     parts = 8  # of a pixel

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The eye of Refracted Geometry follows the camera of the view that shows it: in every picture, while
-the camera is moved, in one of several views, through other filters; until it is set. That of Refraction
-Error Volume only begins there."""
+"""The eye of Refracted Geometry follows the camera of the view that shows it: in every picture,
+while the camera is moved, in one of several views, through other filters; until it is set. That of
+Refraction Error Volume only begins there."""
 import os
 import time
 
@@ -56,7 +56,8 @@ def check_pictures(view, refracted):
 
 
 def check_motion(view, refracted):
-    """The vtkCamera is moved without its property, as by the mouse, and the view drawn interactively."""
+    """The vtkCamera is moved without its property, as by the mouse, and the view drawn
+    interactively."""
     camera = view.SMProxy.GetActiveCamera()
     for position in PLACES:
         camera.SetPosition(*position)
@@ -66,7 +67,7 @@ def check_motion(view, refracted):
 
 
 def check_views(view, refracted):
-    """Of two views that show it the first counts; one that does not show it never."""
+    """If two views show the result the first counts; a view that does not show it never does."""
     other = PluginTesting.make_view()
     assert simple.GetActiveView() is other
     simple.Render(other)  # the first one resets the camera
@@ -89,7 +90,7 @@ def check_views(view, refracted):
 
 
 def check_downstream(view, refracted):
-    """What is shown may be what another filter makes of it."""
+    """The view may show the output of another filter applied to the result."""
     simple.Hide(refracted, view)
     higher = simple.Transform(Input=refracted)
     simple.Show(higher, view)
@@ -105,7 +106,7 @@ def check_downstream(view, refracted):
 
 
 def check_culling(view, refracted):
-    """With ViewCulling the whole camera is followed: what it does not show is left out."""
+    """With ViewCulling the whole camera is followed: geometry that it does not show is left out."""
     place(view, PLACES[0])
     plain = screenshot(view, "FollowNotCulled")
     refracted.ViewCulling = 1
@@ -120,7 +121,7 @@ def check_culling(view, refracted):
 
 
 def check_work(view, refracted):
-    """What does not move the eye does not run the filter."""
+    """Changes that do not move the eye do not run the filter."""
     simple.Render(view)
     algorithm = refracted.SMProxy.GetClientSideObject()
     before = algorithm.GetOutputDataObject(0).GetMTime()
@@ -144,7 +145,7 @@ def check_setting(view, refracted):
 
 
 def check_slow(view, refracted):
-    """What takes longer than a fifth of a second follows when the camera has come to rest."""
+    """If an update takes longer than 0.2 s, the eye follows when the camera has stopped."""
     ball = refracted.Geometry
     ball.ThetaResolution = ball.PhiResolution = 400
     simple.Render(view)
@@ -171,8 +172,8 @@ def check_slow(view, refracted):
 
 
 def check_error_volume(view):
-    """The eye begins at the camera and stays there, unless it is told to follow; the box lies around
-    the membrane."""
+    """The eye begins at the camera and stays there, unless it is told to follow; the box lies
+    around the membrane."""
     water = simple.Plane(Origin=[-2, -1, 0.5], Point1=[2, -1, 0.5], Point2=[-2, 1, 0.5])
     water.UpdatePipeline()
     place(view, PLACES[0])
@@ -191,7 +192,8 @@ def check_error_volume(view):
 
 
 def check_links():
-    """Links of properties, as Tools > Manage Links makes them, go on to work, out of a state file, too."""
+    """Links of properties, as Tools > Manage Links makes them, go on to work, out of a state file,
+    too."""
     view = PluginTesting.make_view()
     refracted = make_filter()
     link = servermanager.vtkSMPropertyLink()

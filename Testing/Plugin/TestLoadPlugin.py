@@ -20,7 +20,8 @@ PROPERTIES = {
 
 
 def last_group(proxy, name):
-    """The group of properties in which ParaView's panel shows a property: the last that names it."""
+    """The group of properties in which ParaView's panel shows a property: the last that names
+    it."""
     groups = [proxy.GetPropertyGroup(i) for i in range(proxy.GetNumberOfPropertyGroups())]
     return [group for group in groups
             if proxy.GetProperty(name) in map(group.GetProperty, range(group.GetNumberOfProperties()))
@@ -28,7 +29,7 @@ def last_group(proxy, name):
 
 
 def values_of(element, inverse):
-    """What an XML element of decorators and those below it compare with, to show or to hide."""
+    """Values that the decorators of an XML element compare with, to show or to hide it."""
     found = set()
     if (element.GetAttribute("inverse") == "1") == inverse:
         found.add(element.GetAttribute("value"))

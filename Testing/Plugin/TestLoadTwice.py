@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin works beside another that adds representations, and after it was loaded again. Of the
-second time ParaView 5.11 says `Plugin load failed: No plugin loaded yet`, of its own plugins too."""
+"""The plugin works together with another plugin that adds representations, and after it was loaded
+again. At the second time ParaView 5.11 logs `Plugin load failed: No plugin loaded yet`, as for its
+own plugins."""
 import os
 
 import PluginTesting
@@ -12,18 +13,18 @@ OTHER = "EmbossingRepresentations"
 
 
 def test():
-    # Where ParaView keeps its own plugins, beside the library that its Python modules are made of.
+    # ParaView's own plugins are in a folder next to the library of its Python modules.
     with open("/proc/self/maps") as file:
         library = next(line.split()[-1] for line in file if "libvtkRemotingViews" in line)
     other = os.path.join(os.path.dirname(library), "paraview-5.11", "plugins", OTHER, OTHER + ".so")
-    beside = os.path.exists(other)
-    if beside:
+    found = os.path.exists(other)
+    if found:
         simple.LoadPlugin(other, remote=False, ns=globals())
     for _ in range(2):
         PluginTesting.load_plugin()
         TestLoadPlugin.check_plugin()
-    if not beside:
-        PluginTesting.skip("%s is not there: loaded twice, beside no other plugin" % other)
+    if not found:
+        PluginTesting.skip("there is no %s: loaded twice, without another plugin" % other)
     print("FINISHED")
 
 

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Without a display, and so without OpenGL, the plugin loads, its filter runs and its representation can
-be chosen and updated. Drawing, in a process of its own, says what is missing and ends as ParaView's
-surfaces do: ParaView 5.11 aborts there."""
+"""Without a display, and so without OpenGL, the plugin loads, its filter runs and its
+representation can be chosen and updated. Drawing, in a separate process, reports the missing
+display and ends as it does for ParaView's surfaces: ParaView 5.11 aborts."""
 import os
 import subprocess
 import sys

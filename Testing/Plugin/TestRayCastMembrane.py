@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """A volume seen through a membrane: an isosurface is where the filter Refracted Geometry puts its
-contour; the membrane follows its pipeline, animated or read per time step, may have blocks, and can be
-taken away again."""
+contour; the membrane follows its pipeline, animated or read per time step, may have blocks, and can
+be taken away again."""
 import os
 
 import PluginTesting
@@ -19,8 +19,8 @@ SERIES = """<VTKFile type="Collection"><Collection>
 </Collection></VTKFile>
 """
 FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
-# Of the pixels covered by either, those along the outlines, where pixels of the one are of points and
-# of the other of triangles: a length of about 4 diameters, two pixels wide.
+# Share of the covered pixels along the outlines, where one picture shows points and the other
+# triangles: a length of about 4 diameters, two pixels wide.
 SHARE_OF_OUTLINES = 0.05
 
 
@@ -72,20 +72,20 @@ def check_place(view, display, grid, waves):
 
 
 def check_changes(view, display, waves, straight):
-    bent = screenshot(view, "MembraneBent")
-    assert bent != straight
+    refracted = screenshot(view, "MembraneRefracted")
+    assert refracted != straight
     display.InteriorIndexOfRefraction = 1.0
     assert screenshot(view, "MembraneEqual") == straight, "equal indices"
     display.InteriorIndexOfRefraction = 1.333
 
     waves.Function = WAVES % 0.6
-    assert screenshot(view, "MembraneHigher") != bent, "the membrane does not follow its pipeline"
+    assert screenshot(view, "MembraneHigher") != refracted, "the membrane does not follow its pipeline"
     waves.Function = WAVES % 0.3
-    assert screenshot(view, "MembraneAgain") == bent
+    assert screenshot(view, "MembraneAgain") == refracted
 
     view.SMProxy.InteractiveRender()
     display.Membrane = simple.GroupDatasets(Input=[waves])
-    assert screenshot(view, "MembraneOfBlocks") == bent, "blocks"
+    assert screenshot(view, "MembraneBlocks") == refracted, "blocks"
     display.Membrane = None
     assert screenshot(view, "MembraneNone") == straight, "the membrane is still there"
 

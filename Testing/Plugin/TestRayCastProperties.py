@@ -8,7 +8,7 @@ import PluginTesting
 import vtkmodules.vtkRenderingVolume  # noqa: F401  the mapper's base class
 from paraview import simple
 
-# Property: its default, another value and what that is in numbers.
+# Property: its default, another value and the number of that value.
 MAPPER = {
     "Backend": ("Automatic", "Processor (native)", 2),
     "BlendMode": ("Composite", "Isosurface", 5),

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a user does with the representation: choose arrays and components, edit the opacity, step
-through time, animate a property, change the blend mode, light it, move the view, select; each changes
-the picture, and back again gives the first picture, bit for bit."""
+"""Typical use of the representation: choose arrays and components, edit the opacity, step
+through time, animate a property, change the blend mode, light it, move the view, select; each
+changes the picture, and back again gives the first picture, bit for bit."""
 import os
 
 import PluginTesting
@@ -89,7 +89,7 @@ def check_edits(view, display):
 
 
 def window_pixels(view):
-    """What the window shows now, without drawing it again."""
+    """Pixels of the window as it is, without drawing it again."""
     grab = vtkWindowToImageFilter()
     grab.SetInput(view.SMProxy.GetClientSideObject().GetRenderWindow())
     grab.ShouldRerenderOff()
@@ -104,8 +104,8 @@ def mean_difference(some, others):
 
 
 def check_interaction(view):
-    """While the view is moved the volume is drawn below ParaView's threshold and a surface above it;
-    afterwards the volume is back."""
+    """While the view is moved the volume is drawn below ParaView's threshold and a surface above
+    it; afterwards the volume is back."""
     first = screenshot(view, "InteractionNone")
     threshold = view.LODThreshold
     simple.Render(view)
@@ -214,7 +214,7 @@ def check_translucent(view, display, grid):
     simple.Hide(grid, view)
     surfaces = screenshot(view, "TranslucentSurface")
     assert renderer.GetUseDepthPeelingForVolumes() == 1
-    # Behind all of it: what of the volume is over the surface adds light to it.
+    # The surface is behind the volume: the part of the volume over it adds light.
     assert surfaces != both
     for of_both, of_volume, of_surface in zip(both, alone, surfaces):
         for channel in range(3):

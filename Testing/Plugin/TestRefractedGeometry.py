@@ -47,8 +47,8 @@ def follow_camera(refracted, view):
 
 
 def check_camera(refracted, view):
-    """The eye follows the camera; with ViewCulling, what the camera does not show is left out and
-    the picture is the same."""
+    """The eye follows the camera. With ViewCulling, geometry that the camera does not show is left
+    out and the picture is the same."""
     follow_camera(refracted, view)
     for position in [(0.5, -0.4, 3.0), (1.5, 0.3, 1.5)]:
         view.CameraPosition = position
@@ -67,8 +67,8 @@ def check_camera(refracted, view):
 
 
 def check_exact(sphere, membrane):
-    """With a formula for the membrane, its mesh counts by its extent alone: waves on a plane are gone,
-    and Snell's law holds as exactly as for a plane; without it they are there again."""
+    """With a formula for the membrane, its mesh counts by its extent alone: waves on a plane are
+    gone, and Snell's law holds as exactly as for a plane; without it they are there again."""
     waves = simple.Calculator(Input=membrane, CoordinateResults=1,
                               Function="coords+kHat*0.05*sin(3*coordsX)*cos(3*coordsY)")
     refracted = simple.RefractedGeometry(Geometry=sphere, Membrane=waves, EyePosition=EYE)

@@ -46,7 +46,8 @@ def measure_cap(resolution, exact):
 
 
 def check_exact():
-    """Against the formula: of second order, and not what the patches of the mesh itself say."""
+    """The error against the formula is of second order and differs from that against the mesh's
+    patches."""
     coarse, fine = measure_cap(12, "Sphere"), measure_cap(24, "Sphere")
     print("mean errors of a cap %.2e, %.2e" % (coarse, fine))
     assert 0 < fine < coarse / LEAST_GAIN

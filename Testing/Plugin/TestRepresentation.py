@@ -7,7 +7,7 @@ from paraview import simple
 
 # The two mappers may disagree in pixels that the silhouette only touches.
 LEAST_OVERLAP = 0.97
-# Of 255, averaged over the pixels that either covers.
+# Mean difference, in steps of 255, over the pixels that either mapper covers.
 MOST_MEAN_DIFFERENCE = 4
 
 

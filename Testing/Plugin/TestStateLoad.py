@@ -24,19 +24,19 @@ def check_eye(view, follows):
 def test():
     PluginTesting.load_plugin()
     saved = PluginTesting.read_pixels("State")
-    what = sys.argv[1]
+    kind = sys.argv[1]
     scripts = {"trace": StateScene.TRACE, "script": StateScene.SCRIPT}
-    if what in scripts:
-        with open(scripts[what]) as file:
-            exec(compile(file.read(), scripts[what], "exec"), {"__name__": what})
+    if kind in scripts:
+        with open(scripts[kind]) as file:
+            exec(compile(file.read(), scripts[kind], "exec"), {"__name__": kind})
     else:
-        simple.LoadState({"state": StateScene.STATE, "older": StateScene.OLDER_STATE}[what])
+        simple.LoadState({"state": StateScene.STATE, "older": StateScene.OLDER_STATE}[kind])
     view = simple.GetActiveView()
     assert view, "there is no view"
-    pixels = PluginTesting.screenshot(view, "State" + what)
+    pixels = PluginTesting.screenshot(view, "State" + kind)
     different = sum(a != b for a, b in zip(pixels, saved))
     assert not different, "%d pixels differ" % different
-    check_eye(view, follows=what != "older")
+    check_eye(view, follows=kind != "older")
 
 
 if __name__ == "__main__":

@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The state file OlderState.pvsm, as a version would have written it that had no membranes of volumes,
-did not follow the camera and lacked much else, loads and gives the picture of the same scene made now,
-bit for bit. ParaView saved that scene; then what is at its default was taken out of the file, with it
-what later versions added, and properties were put in that no version knows."""
+"""The state file OlderState.pvsm, as a version would have written it that had no membranes of
+volumes, did not follow the camera and lacked much else, loads and gives the picture of the same
+scene made now, bit for bit. ParaView saved that scene. Then all properties at their defaults were
+removed from the file, including those that later versions added, and unknown properties were
+added."""
 import os
 
 import PluginTesting

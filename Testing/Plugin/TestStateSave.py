@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Saves a scene as a state file, as the state file of another version, as a Python script of the
-state and as the trace of what a user did; TestStateLoad.py loads them in new processes."""
+state and as the trace of a user's actions; TestStateLoad.py loads them in new processes."""
 import re
 
 import PluginTesting
 import StateScene
 from paraview import simple, smstate, smtrace
 
-# What a version without them, at their defaults in the scene, would not have written.
+# Properties, at their defaults in the scene, that a version without them would not have written.
 MISSING = ["CompactTables", "PreIntegrationScalarSize", "OutputPointsPrecision", "ViewCulling",
            "FollowCamera"]
 UNKNOWN = """

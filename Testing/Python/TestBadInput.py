@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls that cannot be right are Python errors, or VTK errors that can be observed; none crashes."""
+"""Calls that cannot be right are Python errors, or VTK errors that can be observed; none
+crashes."""
 import gc
 import os
 import shutil
@@ -42,7 +43,7 @@ class TestBadInput(unittest.TestCase):
             mapper.SetNotThere(1)
 
     def test_deleted_objects(self):
-        """What Python has let go of is kept by those who use it."""
+        """Objects that Python released are kept by the objects that use them."""
         refraction = self.observe(meniscus.vtkRefractedGeometryFilter())
         ball = vtkSphereSource()
         ball.SetCenter(0, 0, -1)
@@ -81,7 +82,7 @@ class TestBadInput(unittest.TestCase):
         self.assertEqual(refraction.GetOutput().GetNumberOfPoints(), 0)
 
     def test_other_vtk(self):
-        """Another vtkmodules, or none, is an ImportError that says what to do."""
+        """Another vtkmodules, or none, is an ImportError that explains the correction."""
         other = ("class vtkVersion:\n    @staticmethod\n"
                  "    def GetVTKVersion():\n        return '9.9.9'\n")
         for text, message in [(other, "are VTK 9.9.9"), ("raise ImportError", "No vtkmodules")]:

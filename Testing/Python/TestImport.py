@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`import meniscus` works beside vtkmodules, and its classes are VTK's kind of classes."""
+"""`import meniscus` works together with vtkmodules, and its classes behave like VTK's."""
 import unittest
 
 import meniscus

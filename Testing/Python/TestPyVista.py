@@ -22,7 +22,7 @@ from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkVolume
 SIZE = 150
 CELLS = 12
 LIMITS = (3.0, 8.0)
-# Entries of a table as PyVista keeps them, in bytes: what comes out has no rounding to allow for.
+# Entries of a table as PyVista keeps them, in bytes, so that results are not rounded.
 OPACITIES = (numpy.arange(256) // 3).astype(numpy.uint8)
 ENTRIES = numpy.linspace(0.0, 1.0, 256)
 
@@ -89,10 +89,10 @@ class TestPyVista(unittest.TestCase):
                 plotter, image, "height", opacity_unit_distance=4.0,
                 OpacityModel=vtkTetrahedraRayCastMapper.OPACITY_PER_UNIT_DISTANCE, **options))
             self.assertGreater((own.max(axis=2) > 30).sum(), 0.1 * SIZE * SIZE)
-            # Inside the picture both integrate the same functions of the same linear field; PyVista's mapper
-            # takes two samples per cell and looks opacities up in a table, its silhouette is that of the
-            # voxels' centres. Functions on another range differ by 40 in the mean, and by more than 100 in
-            # one of ten values.
+            # Inside the picture both integrate the same functions of the same linear field;
+            # PyVista's mapper takes two samples per cell and looks opacities up in a table, its
+            # silhouette is that of the voxels' centres. Functions on another range differ by 40 in
+            # the mean, and by more than 100 in one of ten values.
             difference = abs(helper - own)
             self.assertLess(difference.mean(), 2.0, limits)
             self.assertLessEqual(numpy.percentile(difference, 90), 4, limits)

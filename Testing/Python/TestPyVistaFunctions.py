@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The functions that meniscus.pyvista gives a volume, with a stand-in for the little of PyVista that it uses.
+"""The functions that meniscus.pyvista gives a volume, with a stand-in for the little of PyVista
+that it uses.
 
-Real pictures are those of TestPyVista.py, which needs PyVista.
-"""
+Real pictures are those of TestPyVista.py, which needs PyVista."""
 import sys
 import types
 import unittest

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The mapper draws a tetrahedral mesh from Python and counts what it did."""
+"""The mapper draws a tetrahedral mesh from Python and counts its work."""
 import unittest
 
 from meniscus import vtkTetrahedraRayCastMapper

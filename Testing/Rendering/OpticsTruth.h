@@ -12,7 +12,7 @@ namespace meniscus
 namespace test
 {
 
-/** Opacity as it is, where a mode does not measure lengths. */
+/** Unchanged opacities, for modes that do not measure lengths. */
 reference::ReferenceTransferFunction toAlphas(vtkVolumeProperty* property);
 
 /** The material of a property, lit by the renderer's lights as they were in the last frame. */
@@ -22,9 +22,10 @@ reference::Material toMaterial(vtkVolumeProperty* property, vtkRenderer* rendere
 std::vector<reference::Surface> toSurfaces(vtkVolumeProperty* property);
 
 /**
- * Renders in float and expects every pixel to be within the tolerance of the truth of its ray, up
- * to a share of pixels that moving the ray by float rounding explains; no ray may be lost. Returns
- * the comparison, whose figures are recorded as properties of the test.
+ * Renders in float and expects every pixel to be within the tolerance of the exact result of its
+ * ray, except for a fraction of pixels in which moving the ray by float rounding explains the
+ * difference; no ray may be lost. Returns the comparison, whose figures are recorded as properties
+ * of the test.
  */
 TracedComparison expectTrace(RayCastScene& scene, const TraceRay& trace, const std::string& what,
   double tolerance = FloatTolerance, double excusedShare = LargestSilhouetteShare);

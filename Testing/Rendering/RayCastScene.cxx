@@ -90,7 +90,7 @@ SceneTruth makeTruth(const RayCastScene& scene)
   const PixelRays rays(scene.renderer());
   truth.RayOf = [rays](int x, int y) { return rays.ray(x, y); };
   const auto model =
-    scene.rayCaster()->GetOpacityModel() == vtkTetrahedraRayCastMapper::AttenuationCoefficient
+    scene.rayCaster()->GetOpacityModel() == vtkTetrahedraRayCastMapper::ATTENUATION_COEFFICIENT
     ? OpacityModel::AttenuationCoefficient
     : OpacityModel::OpacityPerUnitDistance;
   truth.Image = renderReference(*truth.Integrator, rays.width(), rays.height(), truth.RayOf,
@@ -102,7 +102,7 @@ SceneTruth makeTruth(const RayCastScene& scene)
 void expectMatchesReference(
   RayCastScene& scene, const std::string& what, const SilhouetteAllowance& allowance)
 {
-  // The window must have its size before pixels have rays.
+  // Pixels have rays only after the window has its size.
   scene.window()->Render();
   const SceneTruth truth = makeTruth(scene);
   const FloatImage floats = scene.renderFloat();

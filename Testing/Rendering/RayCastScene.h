@@ -42,12 +42,15 @@ private:
 };
 
 /**
- * What the environment variable MENISCUS_TEST_BACKEND says: OpenGL, Compute, Native; else
- * automatic.
+ * Backend selected by the environment variable MENISCUS_TEST_BACKEND: OpenGL, Compute, Native;
+ * otherwise automatic.
  */
 int backendUnderTest();
 
-/** Share of covered pixels that may be excused as silhouettes, or a number of pixels if larger. */
+/**
+ * Fraction of covered pixels that may be excused as silhouettes, or a number of pixels if that is
+ * larger.
+ */
 struct SilhouetteAllowance
 {
   double Share = LargestSilhouetteShare;
@@ -57,7 +60,7 @@ struct SilhouetteAllowance
 void expectMatch(const Comparison& comparison, const std::string& what,
   const SilhouetteAllowance& allowance = SilhouetteAllowance());
 
-/** What the reference says of a scene's volume in its present view. */
+/** Results of the reference for a scene's volume in its present view. */
 struct SceneTruth
 {
   std::unique_ptr<reference::ReferenceRayIntegrator> Integrator;
@@ -67,17 +70,17 @@ struct SceneTruth
 
 SceneTruth makeTruth(const RayCastScene& scene);
 
-/** Expects every value to be the same within 2e-5, and not all of them to be transparent. */
+/** Expects all values to be equal within 2e-5, and at least one of them not to be transparent. */
 void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what);
 
 /**
  * Renders in float and in 8 bits and expects every pixel to match the reference; no ray may be
- * lost. The scene must hold nothing but the volume, its renderer fill the window.
+ * lost. The scene must contain only the volume, and its renderer must fill the window.
  */
 void expectMatchesReference(RayCastScene& scene, const std::string& what,
   const SilhouetteAllowance& allowance = SilhouetteAllowance());
 
-/** Collects error and warning events of objects, and what reaches VTK's output window. */
+/** Collects error and warning events of objects, and the text in VTK's output window. */
 class ErrorObserver : public vtkCommand
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A volume through a plane and through a dome, beside the picture of rays that are refracted in
-// double and the difference of both: the sheet that the documentation shows.
+// A volume through a plane and through a dome, next to the image of rays refracted in double
+// precision and the difference of both: the figure in the documentation.
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 #include "ReferenceImage.h"
@@ -28,14 +28,14 @@ namespace
 constexpr int Size = 256;
 constexpr double Range[2] = { -1.0, 1.0 };
 constexpr double Block[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
-// Black in the picture of differences; equal is white.
+// Difference that is shown in black; equal pixels are white.
 constexpr double LargestShown = 2e-6;
-// Behind the volumes, of the pictures only.
+// Background of the images only, behind the volumes.
 constexpr double Background = 0.95;
-// The goal of the float error.
+// Goal for the float error.
 constexpr double Tolerance = 1e-4;
 
-/** Three pictures side by side, one row per membrane. */
+/** Three images side by side, one row per membrane. */
 class Sheet
 {
 public:
@@ -65,7 +65,7 @@ private:
   vtkNew<vtkImageData> Image;
 };
 
-/** The largest difference; every pixel counts. */
+/** Returns the largest difference; every pixel counts. */
 double drawRow(Sheet& sheet, int row, const MembraneCase& membrane)
 {
   const Grid grid = makeBlock(6, wavyField(3.0));

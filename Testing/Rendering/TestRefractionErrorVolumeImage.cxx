@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An error volume drawn as the thesis's figure 4.2 draws it: a cube of 400 flush with the top of a
 // hemisphere (yellow), one block per sample, green below one unit, blue below 10, red below 100,
-// white above, darker for less within each; cut open in the middle.
+// white above, darker for smaller errors within each colour; cut open in the middle.
 #include "MembraneMeshes.h"
 #include "RefractionPicture.h"
 #include "StrictImage.h"
@@ -125,7 +125,7 @@ TEST(RefractionErrorVolumeImage, LooksLikeTheThesis)
     -half, half, Radius - Spacing * (Samples - 0.5), Radius - 0.5 * Spacing, -half, half);
   volume->SetSampleDimensions(Samples, Samples, Samples);
   volume->Update();
-  // Mostly below 10 units; far below the rim, where rays turn the most, above.
+  // Mostly below 10 units; above that far below the rim, where rays turn the most.
   EXPECT_GT(volume->GetNumberOfMeasuredSamples(), 1000);
   EXPECT_GT(volume->GetLargestError(), 10.0);
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// vtkRefractionPass against closed forms: a plane of water, seen from above.
+// vtkRefractionPass compared with closed forms: a plane of water, seen from above.
 #include "RayCastScene.h"
 #include "VolumeScene.h"
 #include "WaterParts.h"
@@ -40,7 +40,7 @@ constexpr double EyeHeight = 4.0;
 constexpr double Depth = 1.5;
 constexpr double Water = 1.333;
 constexpr double Background[3] = { 0.1, 0.3, 0.7 };
-// Rounding to 8 bits, of the picture behind the membrane and of the result.
+// Rounding to 8 bits, of the image behind the membrane and of the result.
 constexpr double Rounding = 1.5 / 255.0;
 
 /** A window that looks down on water in the plane z = 0, with a white floor below it. */
@@ -94,14 +94,14 @@ public:
 struct Sight
 {
   bool OnMembrane;
-  /** Of the angles of incidence and refraction. */
+  /** Cosines of the angles of incidence and refraction. */
   double Cosine;
   double RefractedCosine;
-  /** Where the sight ray meets the water. */
+  /** Intersection of the sight ray with the water. */
   double Point[2];
 };
 
-/** What a pixel's ray sees of the plane, by Snell's law. */
+/** Place in a plane that a pixel's ray meets, by Snell's law. */
 Sight sightOf(vtkCamera* camera, int x, int y)
 {
   double eye[3];
@@ -135,14 +135,14 @@ Sight sightOf(vtkCamera* camera, int x, int y)
   return sight;
 }
 
-/** Pixels at the border of the membrane may count as in or out. */
+/** True for pixels at the border of the membrane, which may count as inside or outside. */
 bool isBorder(const Sight& sight)
 {
   const double reach = std::max(std::fabs(sight.Point[0]), std::fabs(sight.Point[1]));
   return std::fabs(reach - 3.0) < 0.15;
 }
 
-/** Of unpolarised light, from the amplitudes (the pass uses the form of Eq. 2.6). */
+/** Reflectance of unpolarised light, from the amplitudes (the pass uses the form of Eq. 2.6). */
 double fresnel(const Sight& sight)
 {
   const double c = sight.Cosine;
@@ -165,7 +165,7 @@ void expectColors(
   SCOPED_TRACE(what);
   const ByteImage image = pool.render();
   int seen = 0;
-  // A filter of that reach takes what is beyond the picture's border from its other side.
+  // A filter of that radius wraps around at the border of the image.
   for (int y = blur; y < Size - blur; ++y)
   {
     for (int x = blur; x < Size - blur; ++x)
@@ -255,8 +255,8 @@ TEST(RefractionPass, ReflectanceIsFresnels)
 }
 
 /**
- * The layout of the faces, as the documentation of SetReflectionTexture() has it, seen in mirrors
- * that face along each axis: the sky's colour is a function of the direction.
+ * The layout of the faces, as documented for SetReflectionTexture(), seen in mirrors that face
+ * along each axis: the sky's colour is a function of the direction.
  */
 TEST(RefractionPass, CubeMapFacesLieAsDocumented)
 {
@@ -335,7 +335,7 @@ TEST(RefractionPass, CubeMapFacesLieAsDocumented)
         const double reflectance = 0.5 * (s * s + p * p);
         for (int channel = 0; channel < 3; ++channel)
         {
-          // The texture's bytes are rounded, too.
+          // The texture's bytes are also rounded.
           ASSERT_NEAR(image.pixel(x, y)[channel] / 255.0, reflectance * colorOf(mirrored, channel),
             Rounding + 0.5 / 255.0)
             << x << " " << y << " " << channel;
@@ -384,7 +384,7 @@ TEST(RefractionPass, WhatIsInFrontHidesTheMembrane)
   const unsigned char* middle = above.pixel(Size / 2, Size / 2);
   EXPECT_EQ(middle[0], 255);
   EXPECT_EQ(middle[1], 0);
-  // Below the membrane it is hidden: only what the filter shows is behind water.
+  // Below the membrane it is occluded: only the filter's output is visible behind the water.
   cube->SetCenter(0.0, 0.0, -0.5);
   const ByteImage below = pool.render();
   EXPECT_EQ(below.pixel(Size / 2, Size / 2)[1], 255);
@@ -392,7 +392,7 @@ TEST(RefractionPass, WhatIsInFrontHidesTheMembrane)
 
 TEST(RefractionPass, APiercingObjectIsSeenAboveAndBelow)
 {
-  // Red as it is, an actor of the renderer; green as the membrane shows it.
+  // Red as an actor of the renderer; green as seen through the membrane.
   Pool pool;
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
   vtkNew<vtkCubeSource> post;
@@ -424,15 +424,16 @@ TEST(RefractionPass, APiercingObjectIsSeenAboveAndBelow)
   }
   EXPECT_GT(red, 50);
   EXPECT_GT(green, 20);
-  // The side towards the eye: just above the water red, just below green.
+  // The side facing the eye: red just above the water, green just below.
   const Sight foot = sightOf(pool.camera(), Size / 2, Size / 2);
-  EXPECT_NEAR(foot.Point[0], 0.0, 0.1); // the middle of the picture is the water within the post
+  EXPECT_NEAR(foot.Point[0], 0.0, 0.1); // the middle of the image is the water inside the post
   EXPECT_EQ(image.pixel(Size / 2, Size / 2)[0], 255);
 }
 
 TEST(RefractionPass, OtherActorsAreNotChanged)
 {
-  // The same picture to the bit beside the membrane, with the pass, without, and after it.
+  // The image is the same to the bit at pixels without the membrane: with the pass, without it, and
+  // after it.
   Pool pool;
   const auto ball = makePlane(20.0, -3.0, 1);
   const auto actor = makeActor(ball->GetOutputPort());
@@ -525,7 +526,7 @@ TEST(RefractionPass, CountersOfWhatMoves)
 
 TEST(RefractionPass, TwoMembranes)
 {
-  // Side by side, each with an object of its own.
+  // Side by side, each with its own object.
   Pool pool;
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
   pool.Surface->SetPoint1(-0.2, -3.0, 0.0); // x from -3 to -0.2
@@ -586,7 +587,7 @@ TEST(RefractionPass, SeveralViewports)
   EXPECT_EQ(image.pixel(3 * Size / 4, Size / 2)[0], 255);
 }
 
-// Within other passes, and with others within it.
+// The pass inside other passes, and with other passes inside it.
 TEST(RefractionPass, ComposesWithOtherPasses)
 {
   const auto expectFloor =
@@ -617,7 +618,7 @@ TEST(RefractionPass, ComposesWithOtherPasses)
   glass->GetProperty()->SetOpacity(0.5);
   pool.renderer()->AddActor(glass);
   pool.renderer()->UseDepthPeelingOn();
-  pool.render(); // must not fail; the water hides what is drawn before it where it is nearer
+  pool.render(); // must not fail; where the water is nearer, it occludes geometry drawn before
   pool.renderer()->RemoveActor(glass);
   pool.renderer()->UseDepthPeelingOff();
   expectFloor(pool, "after peeling");

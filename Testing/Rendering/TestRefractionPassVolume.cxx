@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Volumes behind the membranes of vtkRefractionPass: the same picture as by the mapper alone, and
-// Fresnel's share of it.
+// Volumes behind the membranes of vtkRefractionPass: the image equals that of the mapper alone,
+// apart from Fresnel's transmittance.
 #include "RayCastScene.h"
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
@@ -38,7 +38,7 @@ constexpr int Size = 160;
 constexpr double Water = 1.333;
 constexpr double Range[2] = { -1.0, 1.0 };
 
-/** A block of [-1, 1]^3 that stands in water up to a level, over a floor, seen from above. */
+/** A block of [-1, 1]^3 in water up to a level, above a floor, seen from above. */
 class Basin
 {
 public:
@@ -73,7 +73,7 @@ public:
   vtkRenderer* renderer() { return this->Scene.renderer(); }
   vtkCamera* camera() { return this->renderer()->GetActiveCamera(); }
 
-  /** By the mapper alone, the virtual floor an actor. */
+  /** Image by the mapper alone, with the virtual floor as an actor. */
   ByteImage renderPlain()
   {
     this->Pass->RemoveAllRefractions();
@@ -112,7 +112,7 @@ public:
 struct Differences
 {
   int Largest = 0;
-  int Pixels = 0; // off by more than 2
+  int Pixels = 0; // number of pixels with a difference of more than 2
 };
 
 Differences compare(const ByteImage& a, const ByteImage& b)
@@ -162,11 +162,10 @@ TEST(RefractionPassVolume, EveryBlendModeBehindWater)
 TEST(RefractionPassVolume, BesideTheMembraneItIsSeenAsItIs)
 {
   Basin basin(0.2, 0.7);
-  basin.Floor->VisibilityOff(); // alone, it is drawn where there is no membrane
+  basin.Floor->VisibilityOff(); // without a membrane, the pass would draw it where there is none
   const ByteImage plain = basin.renderPlain();
   const Differences off = compare(basin.renderPass(), plain);
-  // Along the membrane's border its picture decides by the pixel's centre, as rays do, up to
-  // rounding.
+  // At the membrane's border the pass decides by the pixel's centre, as rays do, up to rounding.
   EXPECT_LE(off.Pixels, 8) << off.Largest;
 }
 
@@ -190,7 +189,7 @@ TEST(RefractionPassVolume, FresnelTakesItsShare)
 
 TEST(RefractionPassVolume, BehindAMembraneThatIsNotVisibleNothingIsSeen)
 {
-  // All of the volume is above the water, then all of it below.
+  // The whole volume is above the water, then all of it below.
   Basin above(-1.2);
   above.Membrane->VisibilityOff();
   above.Floor->VisibilityOff();
@@ -236,7 +235,7 @@ TEST(RefractionPassVolume, RaysAreTracedOnceForBothParts)
 
 TEST(RefractionPassVolume, WithinSSAA)
 {
-  // Its pictures are larger than the window. What it shows is smoother, and nowhere else.
+  // Its images are larger than the window. The result is smoother, and covers the same pixels.
   Basin basin(0.2);
   basin.Floor->VisibilityOff();
   const ByteImage plain = basin.renderPass();

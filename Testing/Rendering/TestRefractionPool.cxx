@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// vtkRefractionPass against rays through exact waves: a pool with textured walls and three objects.
+// vtkRefractionPass compared with rays through exact waves: a pool with textured walls and three
+// objects.
 #include "PoolScene.h"
 
 #include <vtkImageData.h>
@@ -25,11 +26,14 @@ constexpr int Cells = 96;
 struct PoolDifference
 {
   int Water = 0;
-  int Differing = 0; ///< by more than Accepted in any channel
+  int Differing = 0; ///< number of pixels that differ by more than Accepted in any channel
   double percent() const { return 100.0 * this->Differing / this->Water; }
 };
 
-/** Drawn, traced, and their difference side by side, for the eye and for the documentation. */
+/**
+ * Drawn image, traced image and their difference side by side, for inspection and for the
+ * documentation.
+ */
 void save(const std::string& name, const meniscus::test::ByteImage& drawn, const PoolPicture& truth)
 {
   constexpr int size = PoolScene::Pixels;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The strict comparison itself: it must see what VTK's own lets pass.
+// Tests of the strict comparison: it must detect differences that VTK's own comparison accepts.
 #include "StrictImage.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace
 
 constexpr int Threshold = 1;
 
-// A smooth picture, in which a shift by one pixel changes little.
+// A smooth image, in which a shift by one pixel changes little.
 ByteImage ramp()
 {
   ByteImage image;

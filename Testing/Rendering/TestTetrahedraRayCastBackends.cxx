@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Compute and fragment shaders, made of the same functions, give the same picture.
+// Compute and fragment shaders consist of the same functions and give the same image.
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
@@ -27,7 +27,7 @@ namespace
 
 constexpr int Size = 100;
 constexpr double Range[2] = { -1.0, 1.0 };
-// What executions of the ray caster may differ by in float.
+// Largest difference in float between runs of the ray caster.
 constexpr double Agreement = 2e-5;
 
 vtkSmartPointer<vtkVolumeProperty> litProperty()
@@ -44,7 +44,7 @@ vtkSmartPointer<vtkVolumeProperty> litProperty()
   return property;
 }
 
-// Two that depend on the place, one of them a cone with an exponent that is not whole.
+// Two lights that depend on the position, one of them a cone with a fractional exponent.
 void addLights(vtkRenderer* renderer)
 {
   vtkNew<vtkLight> head;
@@ -79,7 +79,7 @@ bool hasCompute(vtkRenderWindow* window)
 void expectAgreement(RayCastScene& scene, int backend, const std::string& what)
 {
   vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
-  // Within the mesh rays may begin behind a membrane by one cell or the next.
+  // Inside the mesh, rays behind a membrane may begin in one cell or its neighbour.
   const bool sameSteps =
     backend != vtkTetrahedraRayCastMapper::NATIVE || mapper->GetMembrane() == nullptr;
   mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
@@ -144,7 +144,7 @@ TEST(TetrahedraRayCastBackends, ComputeAgreesWithFragmentsInEveryMode)
 
 TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
 {
-  // A convex mesh: rays beside a silhouette may count as in or out.
+  // A convex mesh, since rays next to a silhouette may count as inside or outside.
   const Grid grid = makeBlock(7, wavyField(3.0));
   RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
@@ -154,7 +154,7 @@ TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
   expectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
   addLights(scene.renderer());
   expectAgreementOfModes(scene, backend, { 0, 5 });
-  // Exponents that are not whole numbers; light alone, then the factor alone.
+  // Fractional exponents; lighting alone, then gradient opacity alone.
   scene.volume()->GetProperty()->SetSpecularPower(7.25);
   scene.volume()->GetProperty()->SetDisableGradientOpacity(1);
   expectAgreementOfModes(scene, backend, { 0 });
@@ -208,14 +208,15 @@ TEST(TetrahedraRayCastBackends, AutomaticIsNativeOnASoftwareRasteriser)
   scene.volume()->SetProperty(makeProperty(FunctionKind::Smooth, Range, 3.4));
   scene.window()->Render();
   EXPECT_EQ(mapper->GetActiveBackend(), expected) << "plain";
-  mapper->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+  mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   scene.window()->Render();
   EXPECT_EQ(mapper->GetActiveBackend(), expected) << "pre-integrated";
 }
 
 TEST(TetrahedraRayCastBackends, NativeAgreesFromWithinAMeshOfManyParts)
 {
-  // Cells that can be seen lie before, beside and behind the eye, and across the plane of the eye.
+  // Visible cells are in front of the eye, next to it and behind it, and cross the plane of the
+  // eye.
   const Grid grid = makeBlock(6, wavyField(3.0));
   RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0, 1.0);
@@ -238,7 +239,7 @@ TEST(TetrahedraRayCastBackends, NativeAgreesFromWithinAMeshOfManyParts)
 
 TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
 {
-  // Run once more with OpenGL held at 3.2.
+  // This test runs a second time with OpenGL limited to 3.2.
   const Grid grid = makeBlock(4, wavyField(3.0));
   RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Bad input: an error or a counted skip, and the picture of the scene without the volume (or
+// Invalid input: an error or a counted skip, and the image of the scene without the volume (or
 // without the cells that were left out). Never a crash.
 #include "RayCastScene.h"
 
@@ -37,7 +37,7 @@ vtkSmartPointer<vtkVolumeProperty> smooth()
   return makeProperty(FunctionKind::Smooth, Range, 3.5);
 }
 
-// Two frames of a scene with an opaque cube; the errors that they raised.
+// Two frames of a scene with an opaque cube, and the errors that they caused.
 struct Outcome
 {
   bool PictureIsTheCube;
@@ -80,7 +80,7 @@ void expectError(RayCastScene& scene, const std::vector<std::string>& words)
   }
 }
 
-// The rejected cells are counted, the rest of the picture is right.
+// Expects the rejected cells to be counted and the rest of the image to be right.
 void expectRest(const Grid& grid, vtkTypeInt64 rejected, const std::string& what)
 {
   RayCastScene scene(grid, smooth(), Size, Size);
@@ -115,7 +115,7 @@ TEST(TetrahedraRayCastBadInput, NoInput)
 
 TEST(TetrahedraRayCastBadInput, EmptyGrid)
 {
-  // A rank without cells is no mistake: nothing is drawn, and no error is due.
+  // A rank without cells is not an error: nothing is drawn, and no error may be reported.
   const Grid grid = Grid::New();
   RayCastScene scene(grid, smooth(), Size, Size);
   EXPECT_TRUE(render(scene).PictureIsTheCube);
@@ -202,7 +202,7 @@ TEST(TetrahedraRayCastBadInput, PointsThatAreNotFinite)
 TEST(TetrahedraRayCastBadInput, PointIndexOutOfRange)
 {
   const Grid grid = makeBlock(3, wavyField(2.0));
-  // One of more than 32 bits, whose lower ones would be a point.
+  // One value has more than 32 bits, and its lower 32 bits would be a valid point.
   for (const vtkIdType bad :
     { vtkIdType(1000000), vtkIdType(-1), grid->GetNumberOfPoints(), (vtkIdType(1) << 32) + 2 })
   {
@@ -223,7 +223,7 @@ TEST(TetrahedraRayCastBadInput, RepeatedPointsInACell)
 
 TEST(TetrahedraRayCastBadInput, ZeroVolumeCells)
 {
-  // Four points of a face of the block's boundary make a flat cell that is glued to nothing.
+  // Four points of a face of the block's boundary make a flat cell that shares no face.
   const Grid grid = makeBlock(3, wavyField(2.0));
   const vtkIdType flat[4] = { 0, 1, 4, 5 };
   grid->InsertNextCell(VTK_TETRA, 4, flat);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Cell data: one scalar throughout each cell, in every blend mode.
+// Cell data: a constant scalar in each cell, in every blend mode.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
@@ -75,7 +75,7 @@ Grid makeCellBlock(int n, const Region& region = nullptr)
   return grid;
 }
 
-/** A ray's cells with their own scalars; those without one are left out. */
+/** Cells of a ray with their own scalars; cells without a scalar are left out. */
 std::vector<RaySegment> findCells(
   const ReferenceRayIntegrator& integrator, vtkDataArray* values, const Ray& ray)
 {
@@ -116,7 +116,10 @@ Vector3 normalBetween(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
   return { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
 }
 
-/** Isosurfaces of cell scalars: where a ray goes from one cell to the next across isovalues. */
+/**
+ * Isosurfaces of cell scalars: the places where a ray passes from one cell to the next across
+ * isovalues.
+ */
 std::array<double, 4> blendJumps(const ReferenceMesh& mesh, const Ray& ray,
   const std::vector<RaySegment>& segments, std::vector<Surface> surfaces, const Material* material)
 {
@@ -129,7 +132,7 @@ std::array<double, 4> blendJumps(const ReferenceMesh& mesh, const Ray& ray,
     const RaySegment& to = segments[i];
     if (to.Begin - from.End > 1e-9)
     {
-      continue; // out of the mesh and back
+      continue; // left the mesh and came back
     }
     std::vector<Surface> met;
     for (const Surface& surface : surfaces)
@@ -184,7 +187,7 @@ public:
     lookAt(this->renderer(), this->grid()->GetBounds(), 30.0, 50.0);
   }
 
-  /** Traces in what is left of each ray by the clipping planes given. */
+  /** Compares with traces of the parts of the rays that the given clipping planes leave. */
   TracedComparison expectComposite(
     const std::string& what, const std::vector<HalfSpace>& halves = {})
   {
@@ -271,7 +274,7 @@ TEST(TetrahedraRayCastCellData, TwoSlabs)
   CellScene scene(grid, property);
   lookAlongAxis(scene.renderer(), grid->GetBounds(), 0, 1.3);
   const FloatImage image = scene.renderFloat();
-  // Along x, in this or that direction: 1 of each.
+  // Along x, in either direction: a length of 1 in each half.
   const float* middle = image.pixel(Size / 2, Size / 2);
   const bool redFirst = middle[0] > 0.3f;
   const double red = (1.0 - std::exp(-0.5)) * (redFirst ? 1.0 : std::exp(-2.0));
@@ -466,7 +469,8 @@ TEST(TetrahedraRayCastCellData, TetrahedraInheritTheirCellsValue)
   const Grid hexahedra = Grid::New();
   hexahedra->SetPoints(tetrahedra->GetPoints());
   const vtkIdType triangle[3] = { 0, 1, 2 };
-  hexahedra->InsertNextCell(VTK_TRIANGLE, 3, triangle); // not drawn, and not miscounted
+  hexahedra->InsertNextCell(VTK_TRIANGLE, 3, triangle); // not drawn, and must not shift the cell
+                                                        // data
   for (int k = 0; k < 4; ++k)
   {
     for (int j = 0; j < 4; ++j)
@@ -511,7 +515,7 @@ TEST(TetrahedraRayCastCellData, NewValuesUpdateOnlyThem)
   vtkDoubleArray* values = cellScalars(grid);
   for (vtkIdType c = 1; c < values->GetNumberOfTuples(); c += 2)
   {
-    std::swap(*values->GetPointer(c), *values->GetPointer(c - 1)); // the range stays
+    std::swap(*values->GetPointer(c), *values->GetPointer(c - 1)); // the range does not change
   }
   values->Modified();
   scene.expectComposite("other values");
@@ -529,7 +533,7 @@ TEST(TetrahedraRayCastCellData, PointDataAndBack)
   RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
   vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
-  // By default point data, if there is any.
+  // By default point data is used, if there is any.
   const FloatImage points = scene.renderFloat();
   expectMatchesReference(scene, "point data");
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);

@@ -164,7 +164,7 @@ TEST(TetrahedraRayCastClipping, RaysInThePlanes)
       }
       else if (met)
       {
-        // In the plane: one side or the other, nothing else.
+        // In the plane: either one side or the other.
         const double alpha = image.pixel(x, y)[3];
         ASSERT_TRUE(std::fabs(alpha - inside) < FloatTolerance || alpha == 0.0) << alpha;
       }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures with a closed form: the length of a ray in a box, a constant or a linear medium in it.
+// Images with a closed form: the length of a ray in a box, and a constant or a linear medium in it.
 #include "RayCastScene.h"
 
 #include <vtkMath.h>
@@ -125,7 +125,7 @@ TEST(TetrahedraRayCastClosedForm, ConstantFieldAsOpacityPerUnitDistance)
   for (const double opacity : { 0.05, 0.6, 0.95 })
   {
     RayCastScene scene(grid, makeConstantProperty(opacity, 1, 1, 1, 0.7), Size, Size);
-    scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OpacityPerUnitDistance);
+    scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
     place(scene, Placements[0]);
     expectClosedForm(scene, "opacity " + std::to_string(opacity),
       [=](const BoxHit& hit) { return 1.0 - std::pow(1.0 - opacity, hit.WorldLength / 0.7); });

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Scalars of several components: independent ones, colour and opacity, colours as they are.
+// Scalars of several components: independent ones, colour and opacity, and direct colours.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 #include "ReferenceComponents.h"
@@ -39,7 +39,7 @@ namespace
 
 constexpr int Size = 128;
 
-// Four fields that have nothing to do with each other, in [0, 1] or about so.
+// Four unrelated fields, in about [0, 1].
 std::vector<Field> fields()
 {
   const Field wavy = wavyField(3.0);
@@ -49,7 +49,7 @@ std::vector<Field> fields()
     [wavy](double x, double y, double z) { return 0.5 + 0.5 * wavy(y + 0.4, z, x - 0.3); } };
 }
 
-// A block whose active array has some components of the fields, times a factor.
+// A block whose active array has some of the fields as components, times a factor.
 template <typename Array>
 Grid makeComponents(const std::vector<int>& ofFields, double factor)
 {
@@ -72,7 +72,7 @@ Grid makeComponents(const std::vector<int>& ofFields, double factor)
   return grid;
 }
 
-// The reference's mesh with one component, by a factor.
+// The reference's mesh with one component, times a factor.
 std::unique_ptr<ReferenceRayIntegrator> referenceOf(
   vtkUnstructuredGrid* grid, int component, double factor)
 {
@@ -294,16 +294,16 @@ TEST(TetrahedraRayCastComponents, PartsOfOneMediumMakeTheWhole)
 
 TEST(TetrahedraRayCastComponents, LightOnDependentComponents)
 {
-  // Both components the same: what one scalar shows, with the gradient of the second.
+  // Both components are equal: the image is that of one scalar, with the gradient of the second.
   const Grid one = makeComponents<vtkDoubleArray>({ 0 }, 1.0);
   const Grid two = makeComponents<vtkDoubleArray>({ 0, 0 }, 1.0);
   for (const int gradients :
-    { vtkTetrahedraRayCastMapper::CellGradients, vtkTetrahedraRayCastMapper::VertexGradients })
+    { vtkTetrahedraRayCastMapper::CELL_GRADIENTS, vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS })
   {
     const auto part = makeParts(1, FunctionKind::Smooth)[0];
-    if (gradients == vtkTetrahedraRayCastMapper::VertexGradients)
+    if (gradients == vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS)
     {
-      // Light that varies along a piece times colour that varies is integrated otherwise.
+      // Varying light times varying colour along a piece is integrated in another way.
       part->GetRGBTransferFunction()->RemoveAllPoints();
       part->GetRGBTransferFunction()->AddRGBPoint(0.0, 0.8, 0.6, 0.4);
     }
@@ -343,7 +343,7 @@ TEST(TetrahedraRayCastComponents, LightOnIndependentOnesWarnsAndIsLeftOut)
 
 TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
 {
-  // x and y, each visible above 0.5 of [-1, 1]; the third is nowhere.
+  // x and y, each visible above 0.5 of [-1, 1]; the third is invisible.
   const Grid grid = makeBlock(8, constantField(0.0));
   vtkNew<vtkDoubleArray> array;
   array->SetNumberOfComponents(3);
@@ -367,12 +367,13 @@ TEST(TetrahedraRayCastComponents, CellsThatSomeComponentShowsAreActive)
   RayCastScene scene(grid, combine(parts, ones), Size, Size);
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
   scene.window()->Render();
-  // Of 8 layers along x 2 reach above 0.5, likewise along y: 1 - (3/4)^2 of the cubes.
+  // Two of the 8 layers along x reach above 0.5, and two along y: 1 - (3/4)^2 of the cubes are
+  // visible.
   EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() * 7 / 16);
   expectMixture(scene, Mixture::Independent,
     { toReference(parts[0]), toReference(parts[1]), toReference(parts[2]) }, 1.0, "sparse");
   EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveSetBuilds(), 1);
-  // One that is not finite hides its cells, whichever component it is.
+  // A value that is not finite hides its cells, whichever component it is.
   array->SetComponent(0, 2, std::numeric_limits<double>::quiet_NaN());
   array->SetComponent(grid->GetNumberOfPoints() - 1, 1, std::numeric_limits<double>::infinity());
   array->Modified();
@@ -423,7 +424,8 @@ TEST(TetrahedraRayCastComponents, NumbersThatDoNotFitAreErrors)
          Case{ 2, true, 1 }, Case{ 4, false, 5 } })
   {
     const Grid grid = makeComponents<vtkDoubleArray>(std::vector<int>(item.Components, 0), 1.0);
-    // With functions for more than the first, which independent components would mix by.
+    // With functions for components beyond the first, with which independent components would be
+    // mixed.
     auto property = combine(makeParts(2, FunctionKind::Smooth), Weights);
     property->SetIndependentComponents(item.Independent);
     RayCastScene scene(grid, property, Size, Size);
@@ -441,7 +443,7 @@ TEST(TetrahedraRayCastComponents, NumbersThatDoNotFitAreErrors)
 namespace
 {
 
-// The same mesh with one component of its scalars as the only one, or their length for -1.
+// The same mesh with one component of its scalars as the only one, or with their length for -1.
 Grid extract(vtkUnstructuredGrid* grid, int component, bool ofCells)
 {
   auto copy = Grid::New();
@@ -487,10 +489,10 @@ FloatImage draw(vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int blen
 
 TEST(TetrahedraRayCastComponents, ColorFunctionChoosesTheComponent)
 {
-  // As vtkAbstractVolumeMapper says and vtkProjectedTetrahedraMapper does, whatever the blend mode,
-  // of points and of cells, of numbers of components that can mix and of others.
+  // As vtkAbstractVolumeMapper documents and vtkProjectedTetrahedraMapper does, for every blend
+  // mode, for points and cells, for numbers of components that can be mixed and others.
   const auto property = makeParts(1, FunctionKind::Smooth)[0];
-  // Values that components of up to 0.5 meet, and their length.
+  // Values that components of up to 0.5 reach, and so does their length.
   property->GetIsoSurfaceValues()->SetValue(0, 0.3);
   property->GetIsoSurfaceValues()->SetValue(1, 0.6);
   vtkColorTransferFunction* colors = property->GetRGBTransferFunction();
@@ -555,14 +557,14 @@ TEST(TetrahedraRayCastComponents, ChoiceOrMixture)
   vtkColorTransferFunction* colors = property->GetRGBTransferFunction();
   const FloatImage first = draw(extract(grid, 0, false), parts[0], 0);
   const FloatImage second = draw(extract(grid, 1, false), parts[0], 0);
-  // A function for the second component mixes both, unless the first colour function chooses.
+  // A function for the second component mixes both, unless the first colour function selects one.
   const FloatImage mixture = draw(grid, property, 0);
   EXPECT_GT(largestDifference(mixture, first), 0.1);
   colors->SetVectorComponent(1);
   expectSamePicture(draw(grid, property, 0), second, "chosen in spite of other functions");
   colors->SetVectorComponent(0);
   expectSamePicture(draw(grid, property, 0), mixture, "mixed again");
-  // An opacity function alone makes the second component one that mixes.
+  // An opacity function alone is enough to mix the second component.
   vtkNew<vtkVolumeProperty> opacityOnly;
   opacityOnly->SetColor(0, parts[0]->GetRGBTransferFunction());
   opacityOnly->SetScalarOpacity(0, parts[0]->GetScalarOpacity());
@@ -575,7 +577,7 @@ TEST(TetrahedraRayCastComponents, ChoiceOrMixture)
   const FloatImage dependent = draw(grid, property, 0);
   colors->SetVectorModeToMagnitude();
   expectSamePicture(draw(grid, property, 0), dependent, "dependent");
-  // An array of one component has nothing to choose from.
+  // In an array of one component there is nothing to select.
   colors->SetVectorModeToComponent();
   colors->SetVectorComponent(2);
   property->IndependentComponentsOn();
@@ -617,7 +619,7 @@ TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)
     RayCastScene scene(grid, combine(makeParts(number, FunctionKind::Smooth), Weights), Size, Size);
     drawBoth(scene, std::to_string(number) + " independent");
   }
-  // Dependent ones, with and without what gradients do, seen from within and clipped as well.
+  // Dependent components, with and without gradients, seen from inside and clipped as well.
   for (const std::vector<int>& components : { std::vector<int>{ 0, 3 }, { 0, 1, 2, 3 } })
   {
     for (const int gradients : { -1, 0, 1 })
@@ -646,7 +648,7 @@ TEST(TetrahedraRayCastComponents, NativeDrawsTheSame)
 
 TEST(TetrahedraRayCastComponents, DenseBeyondMeasureEnds)
 {
-  // An attenuation of which nothing can be told apart, and rays that never end early.
+  // An attenuation beyond all resolution, and rays without early termination.
   const Grid grid = makeComponents<vtkDoubleArray>({ 0, 1 }, 1.0);
   auto part = makeConstantProperty(1.0, 1, 0.5, 0.25, 1e-30);
   const std::vector<double> ones(2, 1.0);

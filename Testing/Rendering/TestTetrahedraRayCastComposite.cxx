@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Composite data sets and structured grids: the picture of the same cells in one unstructured grid.
+// Composite data sets and structured grids: the image of the same cells in one unstructured grid.
 #include "RayCastScene.h"
 
 #include <vtkCellArray.h>
@@ -35,7 +35,7 @@ constexpr int Size = 100;
 constexpr double Range[2] = { -2.0, 2.0 };
 constexpr double Bounds[6] = { -1, 1, -1, 1, -1, 1 };
 
-// The same in any tetrahedra; only the walk's rounding differs.
+// A field that any tetrahedra represent equally; only the walk's rounding differs.
 Field linear()
 {
   return linearField(0.7, -0.4, 0.5);
@@ -78,7 +78,7 @@ FloatImage pictureOf(vtkDataObject* input, int scalarMode = VTK_SCALAR_MODE_DEFA
   return image;
 }
 
-/** Some cells of a grid, with points of their own and all data. */
+/** Some cells of a grid, with their own points and all data. */
 Grid extract(vtkUnstructuredGrid* grid, const std::function<bool(vtkIdType)>& keep)
 {
   const Grid part = Grid::New();
@@ -112,7 +112,7 @@ Grid extract(vtkUnstructuredGrid* grid, const std::function<bool(vtkIdType)>& ke
   return part;
 }
 
-/** Three grids whose cells interlock, with a gap in none. */
+/** Three grids whose cells interlock without gaps. */
 std::vector<Grid> interlocking(vtkUnstructuredGrid* grid)
 {
   std::vector<Grid> parts;
@@ -402,7 +402,7 @@ TEST(TetrahedraRayCastComposite, MeshesBeyond32BitsAreRefusedWithNumbers)
   ASSERT_EQ(scene.Observer->Errors.size(), 1u);
   EXPECT_NE(scene.Observer->text().find(std::to_string(6LL * 449 * 449 * 449)), std::string::npos);
   EXPECT_NE(scene.Observer->text().find("536870911"), std::string::npos);
-  // What fits is drawn after it.
+  // Input that fits is drawn after it.
   scene.rayCaster()->SetInputData(makeImage(4, linear()));
   expectSamePicture(scene.picture(), pictureOf(makeImage(4, linear())), "after the error");
 }

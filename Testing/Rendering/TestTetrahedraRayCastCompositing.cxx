@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Pictures of parts of a mesh that are composited afterwards in 8 bits, as IceT does for the ranks
-// of ParaView: no colour exceeds its opacity, and the result is the picture of the whole mesh.
+// Images of parts of a mesh that are composited afterwards in 8 bits, as IceT does for the ranks of
+// ParaView: no colour exceeds its opacity, and the result is the image of the whole mesh.
 #include "RayCastScene.h"
 
 #include <vtkActor.h>
@@ -49,7 +49,7 @@ double share(std::mt19937& random)
   return random() / (random.max() + 1.0);
 }
 
-// A random colour, of which most are saturated: there premultiplied colours are the opacity.
+// A random colour; most are saturated, so that premultiplied colours equal the opacity.
 std::array<double, 3> randomColor(std::mt19937& random)
 {
   std::array<double, 3> color;
@@ -61,7 +61,7 @@ std::array<double, 3> randomColor(std::mt19937& random)
   return color;
 }
 
-// A random transfer function: thin, medium or nearly opaque, by the unit distance.
+// A random transfer function: thin, medium or nearly opaque, depending on the unit distance.
 vtkSmartPointer<vtkVolumeProperty> randomProperty(
   std::mt19937& random, const double range[2], double diagonal)
 {
@@ -135,7 +135,7 @@ Excess countExcess(const Picture& picture)
   return excess;
 }
 
-// What IceT makes of two pixels (ICET_BLEND_UBYTE): whole numbers, of which 8 bits are kept.
+// IceT's blending of two pixels (ICET_BLEND_UBYTE): integers truncated to 8 bits.
 Pixel composite(const Pixel& front, const Pixel& back)
 {
   Pixel result;
@@ -168,8 +168,8 @@ public:
   }
 };
 
-// The pictures of parts that planes across x, and then y, make, composited in the order of depth:
-// the two of each side of the plane across x first, as IceT does.
+// Images of the parts between planes across x and then y, composited in the order of depth: first
+// the two on each side of the plane across x, as IceT does.
 Picture compositeParts(
   int parts, vtkVolumeProperty* property, const std::array<double, 2>& view, double bias)
 {
@@ -247,7 +247,7 @@ TEST(TetrahedraRayCastCompositing, ColorsNeverExceedOpacity)
   EXPECT_GT(translucent, 10000u);
 }
 
-// Also where the framebuffer has no 8 bits: whoever rounds the picture to 8 bits keeps the order of
+// Also for framebuffers without 8 bits: rounding the image to 8 bits later must keep the order of
 // colour and opacity.
 TEST(TetrahedraRayCastCompositing, ColorsNeverExceedOpacityInFloat)
 {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The real meshes at 512 x 512, two views each, against the double-precision reference. Skipped
-// with a message where the data folder is not there.
+// Real meshes at 512 x 512, two views each, compared with the double-precision reference. Skipped
+// with a message if the data folder does not exist.
 #include "RayCastScene.h"
 
 #include <vtkDataArray.h>
@@ -24,11 +24,11 @@ class TetrahedraRayCastDataMeshes : public testing::TestWithParam<const char*>
 {
 };
 
-// Share of pixels at which a sharp function may show rounding of the vertices.
+// Fraction of pixels at which a sharp function may show rounding of the vertices.
 constexpr double LargestRoundingShare = 1e-3;
 
-// At a function so sharp that the exact result moves by more than the tolerance when float rounding
-// moves a vertex, no pixel may be off by more than that.
+// For a function so sharp that the exact result changes by more than the tolerance when float
+// rounding moves a vertex, no pixel may have an error of more than that.
 void expectMatchesUpToRounding(const Comparison& comparison, const std::string& what)
 {
   SCOPED_TRACE(what + ": " + comparison.text());
@@ -38,7 +38,7 @@ void expectMatchesUpToRounding(const Comparison& comparison, const std::string& 
     LargestRoundingShare * static_cast<double>(comparison.Covered));
 }
 
-// One view with all functions: the reference finds the cells of a ray once.
+// One view with all functions: the reference locates the cells of a ray once.
 void expectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& name)
 {
   double range[2];

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Edits of the input in place: seen whichever object was told of them, and nothing is rebuilt for
-// an object that was modified without another value. The counters and the pictures of new objects
-// say so.
+// Edits of the input in place: they are detected whichever object receives Modified(), and nothing
+// is rebuilt for an object that was modified without a change of values. The counters and images of
+// new objects prove both.
 #include "RayCastScene.h"
 
 #include <vtkCellArray.h>
@@ -64,15 +64,15 @@ protected:
   {
     auto scene = std::make_unique<RayCastScene>(nullptr, this->Property, Size, Size);
     scene->rayCaster()->SetInputData(data);
-    // Of all data sets here: an edit that changes bounds does not move the camera.
+    // Bounds of all data sets here: an edit that changes bounds must not move the camera.
     const double bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
     lookAt(scene->renderer(), bounds, 30.0, 20.0);
     scene->window()->Render();
     return scene;
   }
 
-  // Makes an edit that is different each time, tells one object after the other, and expects the
-  // work and the picture of new objects.
+  // Makes an edit that is different each time, calls Modified() of one object after another, and
+  // expects the work and the image of new objects.
   void expectSeen(vtkDataSet* data, const NamedObjects& told, const std::function<void(int)>& edit,
     int meshBuilds)
   {
@@ -123,7 +123,7 @@ TEST_F(TetrahedraRayCastEdits, ScalarsOfPoints)
     { { "array", scalars }, { "point data", this->Mesh->GetPointData() }, { "grid", this->Mesh } },
     [scalars](int i)
     {
-      // One value: of a vertex inside, of which every ray of its cells shows something.
+      // One value: of an inner vertex, which every ray through its cells shows.
       scalars->SetComponent(62, 0, 0.3 + 0.3 * i);
     },
     0);
@@ -216,7 +216,7 @@ TEST_F(TetrahedraRayCastEdits, Membrane)
   source->SetResolution(4, 4);
   source->Update();
   vtkPolyData* membrane = source->GetOutput();
-  membrane->GetPointData()->Initialize(); // normals follow from the shape
+  membrane->GetPointData()->Initialize(); // normals are computed from the shape
   const auto draw = [this](vtkPolyData* surface)
   {
     auto scene = this->makeScene(this->Mesh);
@@ -282,7 +282,7 @@ TEST_F(TetrahedraRayCastEdits, EqualObjectsAreTheSameMesh)
   scene->window()->Render();
   EXPECT_EQ(scene->rayCaster()->GetNumberOfMeshBuilds(), 1);
   EXPECT_EQ(scene->rayCaster()->GetNumberOfScalarUpdates(), 1);
-  // The copy is what is watched from now on.
+  // From now on the copy is watched.
   copy->GetPointData()->GetScalars()->SetComponent(62, 0, 0.4);
   copy->Modified();
   scene->window()->Render();
@@ -300,7 +300,8 @@ TEST_F(TetrahedraRayCastEdits, UploadedBytesAreThoseOfTheTables)
   const vtkTypeInt64 all = mapper->GetUploadedBytes();
   EXPECT_GE(all, cells + vertices + 20 * faces);
   EXPECT_LE(all, cells + vertices + 80 * faces + 48 * 1000);
-  // Another view: nothing. Other scalars: those of the vertices. Another function: its points.
+  // Another view uploads nothing, other scalars upload those of the vertices, another function its
+  // points.
   lookAt(scene->renderer(), this->Mesh->GetBounds(), 70.0, -20.0);
   scene->window()->Render();
   EXPECT_EQ(mapper->GetUploadedBytes(), all);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A fill value far outside of the transfer function's range at a few vertices: the rest of the
-// picture must not suffer, in any mode.
+// Fill values far outside of the transfer function's range at a few vertices: the rest of the image
+// must be right, in every mode.
 #include "OpticsTruth.h"
 
 #include <vtkCellData.h>
@@ -31,7 +31,7 @@ namespace
 
 constexpr int Size = 100;
 constexpr double Range[2] = { -1.0, 1.0 };
-// A share of pixels may be off by more than two levels of 255.
+// A fraction of pixels may have an error of more than two levels of 255.
 constexpr double TwoLevels = 2.0 / 255.0;
 constexpr double LargestShare = 0.005;
 
@@ -45,9 +45,9 @@ const std::vector<Fill> Fills = { { 1.0e6, 0.0 }, { -1.0e6, 0.0 }, { 1.0e10, 0.0
   { -1.0e20, 0.0 }, { 9.97e36, 0.0 }, { -1.0e36, 0.0 }, { 1.0e36, -1.0e36 }, { 1.0e36, -1.0e34 },
   { 1.0e300, 0.0 } };
 
-// The truth's fill values, up to 1e8 in the same proportion: beyond that nothing that can be seen
-// depends on them, and in double, too, weights rounded to 1e-16 times 1e36 would exceed the
-// scalars.
+// Fill values for the reference, reduced to 1e8 in the same proportion: larger values do not affect
+// anything visible, and in double precision weights rounded to 1e-16 times 1e36 would also exceed
+// the scalars.
 Fill forTruth(const Fill& fill)
 {
   const double largest = std::max(std::fabs(fill.First), std::fabs(fill.Second));
@@ -89,7 +89,7 @@ using SceneMaker = std::function<void(RayCastScene& scene)>;
 using TraceMaker = std::function<TraceRay(RayCastScene& scene,
   const ReferenceRayIntegrator& integrator, const ReferenceGradients& gradients)>;
 
-// Compares the mapper's picture of each fill value with the truth.
+// Compares the mapper's image for each fill value with the exact one.
 void expectFills(const std::string& mode, vtkVolumeProperty* property, const SceneMaker& prepare,
   const TraceMaker& makeTrace, double tolerance = TwoLevels)
 {
@@ -164,7 +164,7 @@ TEST(TetrahedraRayCastFillValues, PreIntegrated)
   expectFills(
     "pre-integrated", property,
     [](RayCastScene& scene)
-    { scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated); },
+    { scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED); },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator, const ReferenceGradients&)
     {
       const auto function = toReference(scene.volume()->GetProperty());
@@ -178,7 +178,7 @@ TEST(TetrahedraRayCastFillValues, LightInTheMedium)
   expectFills(
     "lit", property,
     [](RayCastScene& scene)
-    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients); },
+    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
       const ReferenceGradients& gradients)
     { return traceMedium(scene, integrator, gradients, nullptr); });
@@ -194,7 +194,7 @@ TEST(TetrahedraRayCastFillValues, GradientOpacity)
   expectFills(
     "gradient opacity", property,
     [](RayCastScene& scene)
-    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients); },
+    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
       const ReferenceGradients& gradients)
     { return traceMedium(scene, integrator, gradients, gradientFactor); });
@@ -207,7 +207,7 @@ TEST(TetrahedraRayCastFillValues, Isosurfaces)
     "isosurfaces", property,
     [](RayCastScene& scene)
     {
-      scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+      scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
       scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
     },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
@@ -264,7 +264,7 @@ TEST(TetrahedraRayCastFillValues, Projections)
 
 TEST(TetrahedraRayCastFillValues, CellData)
 {
-  // A cell has one value: any fill value shows what another beyond the function does, exactly.
+  // A cell has one value: all fill values outside the function's range give exactly the same image.
   const auto property = makeFunction(true);
   for (const int mode : { vtkVolumeMapper::COMPOSITE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
   {
@@ -293,8 +293,8 @@ TEST(TetrahedraRayCastFillValues, CellData)
 
 TEST(TetrahedraRayCastFillValues, Components)
 {
-  // Fill values in either component. In a cell with one the rest of the function takes 1e-5 of the
-  // cell for the first, 1e-36 for the second.
+  // Fill values in either component. In a cell with a fill value, the rest of the function covers
+  // 1e-5 of the cell for the first and 1e-36 for the second.
   const auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
   const auto second = makeProperty(FunctionKind::Peaked, Range, 3.4);
   property->SetColor(1, second->GetRGBTransferFunction());
@@ -338,7 +338,7 @@ TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
   lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
   scene.window()->Render();
   EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1);
-  // A node dragged through the data, and out of it.
+  // A node moved through the data, and out of it.
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
   double last = 0.1;
   opacity->AddPoint(last, 0.9);
@@ -350,7 +350,7 @@ TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
     scene.window()->Render();
     EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1) << at;
   }
-  // A function of the fill value does, once.
+  // A function at the fill value causes one.
   property->GetScalarOpacity()->RemoveAllPoints();
   property->GetScalarOpacity()->AddPoint(0.0, 0.0);
   property->GetScalarOpacity()->AddPoint(1.0e20, 1.0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A few small pictures against baselines, to notice what the numeric tests do not look at. The
-// baselines were looked at; each pixel must be within one grey level.
+// A few small images compared with baselines, to detect changes that the numeric tests do not
+// cover. The baselines were inspected; each pixel must be within one grey level.
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 #include "StrictImage.h"
@@ -33,7 +33,7 @@ void expectBaseline(VolumeScene& scene, const std::string& name)
   const BaselineResult result = compareToBaseline(image, name, Threshold);
   EXPECT_TRUE(result.Passed) << result.Message;
 
-  // The same picture with one pixel spoiled must fail.
+  // The same image with one wrong pixel must fail.
   ByteImage wrong = image;
   unsigned char& value = wrong.Rgb[wrong.Rgb.size() / 2];
   value = static_cast<unsigned char>(value < 128 ? value + 3 : value - 3);
@@ -79,7 +79,7 @@ TEST(TetrahedraRayCastImages, OpaqueSphereInTwoBlocks)
 
 TEST(TetrahedraRayCastImages, ThroughAPlane)
 {
-  // Lit surfaces stand out of the water and go on below it, refracted.
+  // Lit surfaces rise out of the water and continue below it, refracted.
   const Grid grid = makeBlock(16, wavyField(3.0));
   auto property = makeProperty(FunctionKind::Opaque, Range, 3.5);
   property->GetIsoSurfaceValues()->SetValue(0, 0.2);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Inputs other than tetrahedra with one scalar: the same picture as of tetrahedra with one scalar.
+// Inputs other than tetrahedra with one scalar: the image equals that of tetrahedra with one
+// scalar.
 #include "RayCastScene.h"
 
 #include <vtkCellArray.h>
@@ -25,7 +26,7 @@ namespace
 constexpr int Size = 100;
 constexpr double Range[2] = { -2.0, 2.0 };
 
-// A linear field is the same in any tetrahedra; only the walk's rounding differs.
+// A linear field is represented equally by any tetrahedra; only the walk's rounding differs.
 
 Field linear()
 {
@@ -54,7 +55,7 @@ FloatImage pictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
   return image;
 }
 
-/** The cube [-1, 1]^3 in n^3 cells of a type that has the 8 corners of a cube in its order. */
+/** The cube [-1, 1]^3 as n^3 cells of a type with the 8 corners of a cube in its own order. */
 Grid makeCubes(int n, int type, const Field& field)
 {
   std::vector<double> points;
@@ -154,7 +155,8 @@ TEST(TetrahedraRayCastInputs, StorageDoesNotMatter)
   expectSamePicture(pictureOf(single), expected, "single precision points");
   vtkNew<vtkPoints> integers;
   integers->SetDataTypeToShort();
-  integers->DeepCopy(grid->GetPoints()); // the block's middle plane and its sides
+  integers->DeepCopy(grid->GetPoints()); // only the block's middle plane and its sides have integer
+                                         // coordinates
   single->SetPoints(integers);
   const FloatImage coarse = pictureOf(single);
   EXPECT_EQ(coarse.Width, Size);

@@ -69,7 +69,7 @@ struct PickCounts
   std::size_t Other = 0;
 };
 
-// Every pixel of the volume is the volume's, the others belong to `behind` (null: nothing).
+// Expects every pixel of the volume to select the volume, and all others `behind` (null: nothing).
 PickCounts expectPicks(RayCastScene& scene, vtkProp* behind, int association)
 {
   scene.volume()->SetVisibility(true);
@@ -164,7 +164,7 @@ TEST(TetrahedraRayCastDetail, FewerRaysDuringInteractionAllOfThemWhenStill)
     const vtkTypeInt64 rays = mapper->GetNumberOfRays();
     EXPECT_EQ(mapper->GetUsedImageSampleDistance(), 1.0);
 
-    // More frames per second than can be had.
+    // A higher frame rate than can be reached.
     scene.window()->SetDesiredUpdateRate(1e6);
     const FloatImage moving = scene.renderFloat();
     EXPECT_EQ(mapper->GetUsedImageSampleDistance(), mapper->GetMaximumImageSampleDistance());
@@ -208,11 +208,12 @@ TEST(TetrahedraRayCastDetail, RaysOfACoarseImageAreExact)
   {
     for (int x = 1; x < Size - 1; ++x)
     {
-      // Interpolation weights of a pixel a quarter off a ray: 9, 3, 3, 1 of 16.
+      // Interpolation weights of a pixel at a quarter of the distance between rays: 9, 3, 3, 1 of
+      // 16.
       const float expected = (9.0f * truth.pixel(x, y)[3] + 3.0f * truth.pixel(x + 1, y)[3] +
                                3.0f * truth.pixel(x, y + 1)[3] + truth.pixel(x + 1, y + 1)[3]) /
         16.0f;
-      // Filters have 8 bits of position.
+      // Texture filters have positions of 8 bits.
       ASSERT_NEAR(large.pixel(2 * x + 1, 2 * y + 1)[3], expected, 0.01f) << x << ", " << y;
     }
   }
@@ -234,7 +235,7 @@ TEST(TetrahedraRayCastDetail, LevelsOfDetailProp)
 
 TEST(TetrahedraRayCastNeighbors, TranslucentGeometry)
 {
-  // The volume is blended over what is translucent, as VTK's volumes are: behind it or in front.
+  // The volume is blended over translucent geometry, behind it or in front, as VTK's volumes are.
   const Grid grid = makeBlock(6, wavyField(3.0));
   for (const bool peeling : { false, true })
   {
@@ -291,7 +292,7 @@ TEST(TetrahedraRayCastNeighbors, PeeledVolumesAreLeftOutWithAWarning)
 
 TEST(TetrahedraRayCastNeighbors, SeveralVolumes)
 {
-  // Two volumes apart in depth: the front one over the back one, each as if alone.
+  // Two volumes apart in depth: the front one is drawn over the back one, each as if alone.
   const Grid grid = makeBlock(4, wavyField(3.0));
   RayCastScene scene(grid, smooth(), Size, Size);
   vtkNew<vtkTetrahedraRayCastMapper> mapper;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Light in the medium with gradients of cells on real and on graded meshes, where cells have nearly
-// equal scalars and very different sizes.
+// Lighting in the medium with gradients of cells, on real and on graded meshes, whose cells have
+// nearly equal scalars and very different sizes.
 #include "OpticsTruth.h"
 
 #include <vtkDataArray.h>
@@ -25,7 +25,8 @@ namespace
 {
 
 constexpr int Size = 128;
-// Midpoints per piece; the truth is extrapolated from these and from twice as many.
+// Number of midpoints per piece; the exact result is extrapolated from this number and twice as
+// many.
 constexpr int Steps = 6;
 
 // Cells from 0.44 to 1/32,768 of the domain.
@@ -48,8 +49,8 @@ Grid makeGradedBlock()
   return grid;
 }
 
-// Every term of light that is constant in a cell. The denser a medium, the more a single cell
-// shows.
+// All terms of lighting that are constant in a cell. The denser the medium, the more visible a
+// single cell is.
 TracedComparison compareLit(vtkUnstructuredGrid* grid, int view, double density)
 {
   double range[2];
@@ -62,7 +63,7 @@ TracedComparison compareLit(vtkUnstructuredGrid* grid, int view, double density)
   property->SetSpecular(0.4);
   property->SetSpecularPower(12.0);
   RayCastScene scene(grid, property, Size, Size);
-  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   vtkNew<vtkLight> light;
   light->SetLightTypeToSceneLight();
   light->SetPosition(4.0, 2.0, 1.0);
@@ -87,7 +88,7 @@ TracedComparison compareLit(vtkUnstructuredGrid* grid, int view, double density)
         return integrateShaded(
           ray, segments, function, gradients, &material, std::function<double(double)>(), steps);
       };
-      // The midpoint rule is off by a series in the square of the step.
+      // The error of the midpoint rule is a series in the square of the step.
       const auto coarse = traced(Steps);
       auto result = traced(2 * Steps);
       for (int c = 0; c < 4; ++c)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Volumes through a membrane, against rays that are refracted in double.
+// Volumes through a membrane, compared with rays refracted in double precision.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
@@ -63,7 +63,7 @@ struct MembraneTest
     lookAt(this->Scene.renderer(), Block, azimuth, elevation, zoom, parallel);
   }
 
-  // The truth of composite blending.
+  // Compares with the exact result of composite blending.
   TracedComparison expectComposite(const std::string& what, double tolerance = FloatTolerance)
   {
     this->Scene.window()->Render();
@@ -72,14 +72,14 @@ struct MembraneTest
     const TracedComparison result = expectTrace(this->Scene,
       this->Membrane.bend([&](const Ray& part) { return integrator->trace(part, function); }), what,
       tolerance);
-    // Measured: 1.6e-6 through waves, where patches are off, else 1.3e-7 native and 8.7e-7 by
-    // shaders.
+    // Measured: 1.6e-6 through waves, because of the patches' error; otherwise 1.3e-7 natively and
+    // 8.7e-7 with shaders.
     EXPECT_LT(result.Rms, 2e-6) << what << ": " << result.text();
     return result;
   }
 };
 
-// What isosurfaces show, with or without light.
+// Compares isosurfaces, with or without lighting.
 void expectSurfaces(MembraneTest& test, const std::string& what)
 {
   RayCastScene& scene = test.Scene;
@@ -150,7 +150,7 @@ TEST(TetrahedraRayCastMembrane, ThroughADome)
 
 TEST(TetrahedraRayCastMembrane, ThroughWaves)
 {
-  // Patches interpolate waves, so the error is theirs, of third order in the size of a facet.
+  // Patches interpolate waves, so the error is theirs: of third order in the size of a facet.
   const Grid grid = makeBlock(6, wavyField(3.0));
   MembraneTest test(makeWavesCase(1.3, 0.08, 3.0, 3.0, 192), grid);
   test.lookAtBlock(30.0, 50.0);
@@ -159,7 +159,7 @@ TEST(TetrahedraRayCastMembrane, ThroughWaves)
 
 TEST(TetrahedraRayCastMembrane, ConstantMediumUnderAPlane)
 {
-  // The closed form: 1 - exp(-tau l), l the length of the refracted ray in the box.
+  // Closed form: 1 - exp(-tau l), with the length l of the refracted ray in the box.
   const Grid grid = makeBlock(4, constantField(0.5));
   RayCastScene scene(grid, makeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
   const MembraneCase plane = makePlaneCase(1.5, 4.0, 2);
@@ -212,8 +212,8 @@ TEST(TetrahedraRayCastMembrane, MeshPartlyAbove)
 
 TEST(TetrahedraRayCastMembrane, CellsInDisorder)
 {
-  // Inverted and overlapping cells about the membrane: the walk must not get lost. What such a mesh
-  // shows depends on the order of its cells, so only statistics are compared.
+  // Inverted and overlapping cells around the membrane: no walk may get lost. The image of such a
+  // mesh depends on the order of its cells, so only statistics are compared.
   const Grid grid = makeBlock(6, wavyField(3.0));
   jitter(grid, 0.3, 5);
   MembraneTest test(makePlaneCase(0.1, 4.0, 2), grid);
@@ -225,7 +225,7 @@ TEST(TetrahedraRayCastMembrane, CellsInDisorder)
 
 TEST(TetrahedraRayCastMembrane, CellsFlatterThanRounding)
 {
-  // Two layers of cells that rounding may turn inside out, about the membrane: rays begin in them.
+  // Two layers of cells, which rounding may invert, around the membrane: rays begin in them.
   const Grid grid = makeBlock(6, wavyField(3.0));
   for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
   {
@@ -428,8 +428,8 @@ TEST(TetrahedraRayCastMembrane, Isosurfaces)
 
 TEST(TetrahedraRayCastMembrane, VirtualGeometryHides)
 {
-  // A rectangle across the view: behind the sight point its depth stands for the true length n2/n1
-  // times as long (Eq. 2.4), in front of it for itself.
+  // A rectangle across the view. Behind the sight point its depth corresponds to a true length
+  // n2/n1 times as large (Eq. 2.4), in front of it to itself.
   const Grid grid = makeBlock(6, wavyField(3.0));
   for (const double level : { 0.1, 1.2 })
   {
@@ -492,7 +492,7 @@ TEST(TetrahedraRayCastMembrane, EqualIndicesChangeNothing)
     EXPECT_EQ(test.Scene.renderFloat().Rgba, straight.Rgba);
     EXPECT_EQ(test.Scene.rayCaster()->GetNumberOfSightUpdates(), 0);
 
-    // As good as equal: rays are refracted, and do not bend.
+    // Nearly equal indices: the code for refraction runs, but rays keep their direction.
     test.setIndices(1.333, 1.333 * (1.0 + 1e-15));
     expectSamePicture(test.Scene.renderFloat(), straight, "nearly equal indices");
     EXPECT_EQ(test.Scene.rayCaster()->GetNumberOfSightUpdates(), 1);
@@ -501,7 +501,7 @@ TEST(TetrahedraRayCastMembrane, EqualIndicesChangeNothing)
 
 TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
 {
-  // Gradients of cells and directional light: where the medium's light is exact.
+  // Gradients of cells and directional light, for which the lighting of the medium is exact.
   const Grid grid = makeBlock(6, wavyField(3.0));
   for (const MembraneCase& membrane :
     { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
@@ -514,7 +514,7 @@ TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
     opacity->AddPoint(0.0, 0.2);
     opacity->AddPoint(4.0, 1.0);
     property->SetGradientOpacity(opacity);
-    test.Scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+    test.Scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
     vtkNew<vtkLight> sun;
     sun->SetPosition(-1.0, 2.0, 0.5);
     sun->SetFocalPoint(0.0, 0.0, 0.0);
@@ -551,7 +551,7 @@ TEST(TetrahedraRayCastMembrane, TheNumberOfThreadsDoesNotMatter)
   FloatImage several;
   vtkSMPTools::LocalScope(vtkSMPTools::Config(4), [&] { several = test.Scene.renderFloat(); });
   test.Scene.rayCaster()->SetInteriorIndexOfRefraction(1.5);
-  test.Scene.renderFloat(); // what the first frame found out is forgotten
+  test.Scene.renderFloat(); // the state from the first frame must not be used
   test.Scene.rayCaster()->SetInteriorIndexOfRefraction(1.333);
   FloatImage one;
   vtkSMPTools::LocalScope(vtkSMPTools::Config(1), [&] { one = test.Scene.renderFloat(); });

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A mapper with a membrane: what is done when, and membranes that cannot be used.
+// A mapper with a membrane: the work after each change, and membranes that cannot be used.
 #include "MembraneScene.h"
 #include "RayCastScene.h"
 
@@ -73,7 +73,7 @@ struct Counters
 
 using Moves = std::vector<vtkTypeInt64>;
 
-// Counters that a change moves, and whether it changes the picture, and the active cells.
+// Counters that a change increments, and whether it changes the image and the active cells.
 void expectWork(RayCastScene& scene, const std::string& what, const std::function<void()>& change,
   const Moves& moves, bool changesPicture = true, bool changesActive = false)
 {
@@ -88,8 +88,8 @@ void expectWork(RayCastScene& scene, const std::string& what, const std::functio
   {
     return;
   }
-  // The entries behind the membrane are listed for other rays or other active cells. A line of 32
-  // bytes per pixel is sent for other rays, and else nothing but scalars and functions.
+  // The entries behind the membrane are listed for other rays or other active cells. For other rays
+  // a line of 32 bytes per pixel is uploaded, otherwise only scalars and functions.
   const bool sight = moves[5] != 0;
   EXPECT_EQ(end.Lists - start.Lists, sight || changesActive ? 1 : 0) << what;
   if (moves[1] == 0 && moves[2] == 0)
@@ -195,7 +195,7 @@ TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
     { 0, 0, 1, 1, 0, 0 }, true, true);
 }
 
-// Rays are traced to where there is something to be seen: more of them if that grows.
+// Rays are traced only where they may reach visible geometry: more of them if that grows.
 TEST(TetrahedraRayCastMembraneInput, MoreOfTheMeshIsSeen)
 {
   const Grid grid = makeBlock(4, [](double x, double, double) { return x; });
@@ -232,14 +232,14 @@ TEST(TetrahedraRayCastMembraneInput, OutOfViewAndTakenAway)
   mapper->SetMembrane(nullptr);
   EXPECT_EQ(mapper->GetMembrane(), nullptr);
   EXPECT_EQ(scene.renderFloat().Rgba, without.Rgba);
-  // Below the mesh it is behind all that is seen.
+  // A membrane below the mesh is behind all visible geometry.
   mapper->SetMembrane(makePlaneCase(-1.2, 0.01, 1).Mesh);
   EXPECT_EQ(scene.renderFloat().Rgba, without.Rgba);
 }
 
 TEST(TetrahedraRayCastMembraneInput, ByAPipeline)
 {
-  vtkNew<vtkPlaneSource> source; // in the x-y plane; its normals along z
+  vtkNew<vtkPlaneSource> source; // in the x-y plane, with normals along z
   source->SetOrigin(-4.0, -4.0, 0.0);
   source->SetPoint1(4.0, -4.0, 0.0);
   source->SetPoint2(-4.0, 4.0, 0.0);
@@ -255,7 +255,7 @@ TEST(TetrahedraRayCastMembraneInput, ByAPipeline)
     { mapper->SetMembraneConnection(filter->GetOutputPort()); });
   EXPECT_TRUE(data.Told->Errors.empty()) << data.Told->text();
   EXPECT_TRUE(connected.Told->Errors.empty()) << connected.Told->text();
-  // Points are single precision there, and the polygons quads.
+  // In this case points are in single precision, and polygons are quads.
   expectSamePicture(data.Picture, connected.Picture, "connection");
 }
 
@@ -299,7 +299,7 @@ TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
   }
 }
 
-// Images that are not the window: all backends draw them alike.
+// Images of another size than the window: all backends draw them alike.
 TEST(TetrahedraRayCastMembraneInput, CoarserRaysAndPartOfTheWindow)
 {
   const Grid grid = makeBlock(4, wavyField(3.0));
@@ -389,7 +389,7 @@ TEST(TetrahedraRayCastMembraneInput, UnusableMembranes)
                  : mapper->SetExteriorIndexOfRefraction(index);
       };
       expectError(renderWith(makePlaneCase(1.2, 4.0, 2).Mesh, set), "Indices of refraction");
-      // Without a membrane they do not matter.
+      // Without a membrane the indices have no effect.
       EXPECT_TRUE(renderWith(nullptr, set).Told->Errors.empty());
     }
   }
@@ -417,7 +417,7 @@ TEST(TetrahedraRayCastMembraneInput, FacetsThatAreSkipped)
 
 TEST(TetrahedraRayCastMembraneInput, EyeOnTheMembrane)
 {
-  // Which side it is on is for rounding to say; something is drawn, and nothing breaks.
+  // Rounding decides on which side it is; something must be drawn, and nothing may fail.
   const Grid grid = makeBlock(4, wavyField(3.0));
   RayCastScene scene(grid, smooth(), Size, Size);
   scene.rayCaster()->SetMembraneData(makePlaneCase(2.0, 4.0, 2).Mesh);

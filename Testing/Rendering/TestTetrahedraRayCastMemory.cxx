@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The size of tables: what is kept, the compact layout, and meshes beyond the device's limits.
+// Size of tables: their memory, the compact layout, and meshes beyond the device's limits.
 #include "RayCastScene.h"
 
 #include <vtkCellData.h>
@@ -53,7 +53,7 @@ protected:
     this->Mapper->SetBackend(OpenGL);
   }
 
-  /** With full and with compact tables. */
+  /** Compares images with full and with compact tables. */
   void expectSamePicture(const std::string& what)
   {
     this->Mapper->CompactTablesOff();
@@ -112,7 +112,7 @@ TEST_F(TetrahedraRayCastMemory, CompactTablesGiveTheSamePicture)
 
 TEST_F(TetrahedraRayCastMemory, BytesAreThoseOfTheTables)
 {
-  // The block's sides: two triangles for each square. Vertices are the points.
+  // Sides of the block: two triangles for each square. Vertices are the points.
   const vtkTypeInt64 faces = 6 * 6 * 6 * 2;
   const vtkTypeInt64 points = this->Mesh->GetNumberOfPoints();
   const vtkTypeInt64 tree = (2 * faces - 1) * 32 + faces * 20;
@@ -136,7 +136,7 @@ TEST_F(TetrahedraRayCastMemory, BytesAreThoseOfTheTables)
 
 TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
 {
-  // What a frame sends for the first time is what it keeps.
+  // The first frame keeps all that it uploads.
   const auto expectSentAndKept = [this](const std::string& what)
   {
     const vtkTypeInt64 sent = this->Mapper->GetUploadedBytes();
@@ -149,14 +149,14 @@ TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
     EXPECT_GT(this->Mapper->GetHostBytes(), host) << what;
   };
   this->Scene.window()->Render();
-  this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+  this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   expectSentAndKept("pre-integration");
   this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
-  // A change of the property sends its table again, in place of the old one.
+  // A change of the property uploads its table again and frees the old one.
   this->Property->ShadeOn();
-  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   this->Scene.window()->Render();
-  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::VertexGradients);
+  this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
   expectSentAndKept("gradients");
   this->Mapper->ReleaseGraphicsResources(this->Scene.window());
   EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
@@ -188,7 +188,7 @@ TEST_F(TetrahedraRayCastMemory, SoDoTheirLightAndPreIntegration)
   {
     this->Property->SetShade(shade);
     this->Mapper->SetIntegration(
-      shade ? vtkTetrahedraRayCastMapper::EXACT : vtkTetrahedraRayCastMapper::PreIntegrated);
+      shade ? vtkTetrahedraRayCastMapper::EXACT : vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     this->Mapper->SetMaximumTableSize(VTK_TYPE_INT64_MAX);
     const FloatImage expected = this->Scene.renderFloat();
     EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Generated meshes against the double-precision reference.
+// Generated meshes compared with the double-precision reference.
 #include "RayCastScene.h"
 
 #include <vtkCamera.h>
@@ -66,7 +66,7 @@ TEST(TetrahedraRayCastMeshes, StructuredBlock)
 
 TEST(TetrahedraRayCastMeshes, JitteredBlock)
 {
-  // A tenth of a cube's side moves no vertex through a face.
+  // Moves of a tenth of a cube's side move no vertex through a face.
   const Grid grid = makeBlock(10, wavyField(3.0));
   jitter(grid, 0.02, 4711);
   expectMeshMatches(grid, "jittered block, seed 4711");
@@ -74,8 +74,9 @@ TEST(TetrahedraRayCastMeshes, JitteredBlock)
 
 TEST(TetrahedraRayCastMeshes, NeedlesSeenAslant)
 {
-  // Needles of 1e4, whose edges are long in u and in v: nearly all of the products cancels in the
-  // areas that depth is interpolated by. The function is as thin as the depth's last digit allows.
+  // Needles with an aspect ratio of 1e4, whose edges are long in u and in v: most of the products
+  // cancels in the areas by which depth is interpolated. The function is as narrow as the depth's
+  // last digit allows.
   const Grid grid = makeBlock(6, wavyField(3.0));
   for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
   {
@@ -102,10 +103,10 @@ TEST(TetrahedraRayCastMeshes, NeedlesSeenAslant)
   EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
   EXPECT_GT(comparison.Covered, 10000u);
   EXPECT_EQ(comparison.CoverageMismatches, 0u);
-  // Where a face is seen all but edge-on, either side of single precision's places may be shown.
+  // Where a face is nearly edge-on, either side of its position in single precision may be drawn.
   EXPECT_LE(comparison.BeyondRounding, 1u);
   EXPECT_LT(comparison.Largest, 2e-4);
-  // The shaders' grid is 2.4e-3 wide, over which optical depth changes by 7e-5.
+  // The shaders' grid has a unit of 2.4e-3, over which the optical depth changes by 7e-5.
   EXPECT_LT(comparison.Rms, 2e-5);
 }
 
@@ -168,7 +169,7 @@ TEST(TetrahedraRayCastMeshes, RaysThroughVerticesAndEdges)
 
 TEST(TetrahedraRayCastMeshes, OverlappingParts)
 {
-  // Two blocks that interpenetrate: the cell entered first counts up to its exit.
+  // Two blocks that interpenetrate: the cell entered first is used up to its exit.
   const Grid grid = makeBlock(1, constantField(0.0));
   std::vector<double> points;
   std::vector<vtkIdType> cells;
@@ -202,14 +203,14 @@ TEST(TetrahedraRayCastMeshes, FoldedMesh)
 
 TEST(TetrahedraRayCastMeshes, OpacityPerUnitDistance)
 {
-  // The mapper samples the logarithm between nodes to 1/32768 of alpha over the unit distance (its
-  // header); a ray is up to a diagonal long.
+  // The mapper samples the logarithm between nodes to 1/32768 of alpha over the unit distance (see
+  // its header); a ray is up to a diagonal long.
   const Grid grid = makeBlock(8, wavyField(3.0));
   RayCastScene scene(grid, propertyFor(grid, FunctionKind::Smooth), Size, Size);
   constexpr double unit = 0.8;
   const double tolerance = diagonalOf(grid->GetBounds()) / unit / 32768.0;
   scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(unit);
-  scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OpacityPerUnitDistance);
+  scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
   lookAt(scene.renderer(), grid->GetBounds(), 25.0, 30.0);
   scene.window()->Render();
   const SceneTruth truth = makeTruth(scene);

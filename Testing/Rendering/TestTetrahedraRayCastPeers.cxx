@@ -2,24 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes with the purposes of VTK's own tests of unstructured grid mappers, drawn by this mapper
 // and by vtkUnstructuredGridVolumeRayCastMapper in the same run: meshes with cavities, opaque
-// blocks, moved volumes, a close camera, grey levels, colours as they are, several components, cell
-// data, attenuation greater than 1, a component chosen by the colour function.
+// blocks, moved volumes, a close camera, grey levels, direct colours, several components, cell
+// data, attenuation greater than 1, a component selected by the colour function.
 //
-// The tolerance is what the peer documents in its source. Its linear integrator is exact for
-// piecewise linear functions, its homogeneous one for cell data. Its picture is made of
-//  - rays through the lower left corners of the pixels: the camera's window centre is moved by half
-//  a
-//    pixel for it;
-//  - colours and opacities cut to whole steps of 1/255: up to one step too small, never too large;
-//  - rays that end at an opacity of 0.99: colour and opacity too small by at most 0.01 in addition;
-//  - scalars interpolated linearly on the projected faces, which is exact without perspective only:
-//  the
-//    scenes are parallel projections;
-//  - an image that is stretched over the window by n pixels to n - 1 and interpolated: it is read
-//  before.
-// So 255 times the picture of this mapper minus the peer's lies in [0, 1], or in [0, 1 + 2.55]
-// where the opacity is 0.99 or more, up to the single precision of both, 1e-4 of a step and more
-// for hundreds of terms: a fiftieth of a step is granted.
+// The tolerance follows from the errors that the peer documents in its source. Its linear
+// integrator is exact for piecewise linear functions, its homogeneous one for cell data. Its image
+// is made of
+// - rays through the lower left corners of the pixels: the camera's window centre is moved by half
+//   a pixel to compensate;
+// - colours and opacities truncated to whole steps of 1/255: up to one step too small, never too
+//   large;
+// - rays that end at an opacity of 0.99: colour and opacity are too small by at most 0.01 more;
+// - scalars interpolated linearly on the projected faces, which is exact without perspective only:
+//   the scenes are parallel projections;
+// - an image that is stretched over the window by n pixels to n - 1 and interpolated: it is read
+//   before that.
+//
+// Therefore 255 times the difference of this mapper's image and the peer's lies in [0, 1], or in
+// [0, 1 + 2.55] where the opacity is 0.99 or more, up to the single precision of both, 1e-4 of a
+// step and more for hundreds of terms: a fiftieth of a step is allowed for that.
 #include "RayCastScene.h"
 
 #include <vtkCamera.h>
@@ -54,7 +55,7 @@ constexpr int Size = 90;
 constexpr double Rounding = 0.02;
 constexpr double EndOpacity = 0.99;
 
-// VTK's ray caster, whose image can be read before it is stretched over the window.
+// VTK's ray caster, with access to its image before that is stretched over the window.
 class PeerMapper : public vtkUnstructuredGridVolumeRayCastMapper
 {
 public:
@@ -81,7 +82,7 @@ public:
 struct PeerScene
 {
   Grid Mesh;
-  /** Given to the peer in place of the mesh, if set. */
+  /** Used by the peer instead of the mesh, if set. */
   Grid PeerMesh;
   vtkSmartPointer<vtkVolumeProperty> Property;
   vtkSmartPointer<vtkTransform> Transform;
@@ -124,7 +125,8 @@ FloatImage drawPeer(const PeerScene& scene)
   mapper->SetRayIntegrator(linear);
   if (scene.Cells)
   {
-    // By default 1024 entries; so many that the nearest one is exact to the rounding granted.
+    // The default is 1024 entries; with so many, the nearest one is exact within the accepted
+    // rounding.
     homogeneous->SetTransferFunctionTableSize(1 << 20);
     mapper->SetRayIntegrator(homogeneous);
   }
@@ -148,7 +150,7 @@ void expectPicturesMatch(const PeerScene& scene, const std::string& what)
     const double opacity = ours.Rgba[i | 3];
     const double bound =
       1.0 + Rounding + (opacity >= EndOpacity ? 255.0 * (1.0 - EndOpacity) : 0.0);
-    // A colour beyond 1 is cut by the peer.
+    // The peer clamps colours beyond 1.
     const double difference = 255.0 * std::min(1.0f, ours.Rgba[i]) - peer.Rgba[i];
     covered += i % 4 == 3 && opacity > 0.0;
     outside += difference < -Rounding || difference > bound;
@@ -171,7 +173,7 @@ vtkSmartPointer<vtkColorTransferFunction> rainbow()
   return colors;
 }
 
-// Nodes where the colours have theirs: the peer does not look for others.
+// Nodes at the places of the colours' nodes: the peer ignores others.
 vtkSmartPointer<vtkPiecewiseFunction> ramp(double factor)
 {
   auto opacities = vtkSmartPointer<vtkPiecewiseFunction>::New();
@@ -199,7 +201,7 @@ Grid block(const Region& region = nullptr)
   return makeBlock(4, wavyField(3.0), region);
 }
 
-// The points' array of several fields: the mesh's own, a linear one and so on.
+// Sets a point array of several fields: the mesh's own, a linear one and so on.
 void setComponents(const Grid& mesh, const std::vector<Field>& fields)
 {
   vtkNew<vtkDoubleArray> array;
@@ -264,8 +266,8 @@ TEST(TetrahedraRayCastPeers, GreyLevels)
   expectPicturesMatch(scene, "grey");
 }
 
-// Four dependent components: colour and attenuation of each point. The peer has no function of
-// these, so that of opacity is the identity here.
+// Four dependent components: colour and attenuation of each point. The peer uses no functions for
+// these, so the opacity function is the identity here.
 TEST(TetrahedraRayCastPeers, ColorsAsTheyAre)
 {
   PeerScene scene = makeScene(block());
@@ -297,7 +299,7 @@ TEST(TetrahedraRayCastPeers, CellsOfOneValue)
   expectPicturesMatch(scene, "cells");
 }
 
-// The component that the colour function chooses is drawn; the peer is given that component alone.
+// The component that the colour function selects is drawn; the peer gets that component alone.
 TEST(TetrahedraRayCastPeers, ComponentOfTheColorFunction)
 {
   PeerScene scene = makeScene(block());

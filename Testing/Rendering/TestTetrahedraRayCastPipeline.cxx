@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What is rebuilt when something changes, shown by the mapper's counters.
+// Work after each kind of change, measured by the mapper's counters.
 #include "RayCastScene.h"
 
 #include <vtkCallbackCommand.h>
@@ -39,7 +39,7 @@ struct Counters
   }
 };
 
-// Whether a counter is expected to stay or to move (by one for builds).
+// True if a counter is expected to increase (by one for builds).
 struct Expected
 {
   int MeshBuilds;
@@ -200,7 +200,7 @@ TEST_F(TetrahedraRayCastPipeline, SetUpTellsProgressAndCanBeAborted)
   vtkTetrahedraRayCastMapper* mapper = this->Scene->rayCaster();
   mapper->AddObserver(vtkCommand::ProgressEvent, observer);
   this->Scene->window()->Render();
-  EXPECT_EQ(observer->Events, 0); // nothing to set up
+  EXPECT_EQ(observer->Events, 0); // nothing to build
 
   jitter(this->Mesh, 0.02, 7);
   this->Mesh->Modified();
@@ -266,7 +266,7 @@ TEST_F(TetrahedraRayCastPipeline, MapperOutlivesItsWindow)
 
 TEST_F(TetrahedraRayCastPipeline, LostContext)
 {
-  // The window gives up its context and takes a new one.
+  // The window releases its context and creates a new one.
   const ByteImage first = this->Scene->renderBytes();
   this->Scene->window()->Finalize();
   EXPECT_EQ(this->Scene->renderBytes().Rgb, first.Rgb);
@@ -278,7 +278,7 @@ TEST_F(TetrahedraRayCastPipeline, TransferFunctionEditedDuringARenderOfAnotherWi
   lookAt(other.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
   this->Scene->window()->Render();
   other.window()->Render();
-  // After the other renderer has drawn its volume, before its window shows it.
+  // After the other renderer has drawn its volume, and before its window shows it.
   vtkNew<vtkCallbackCommand> edit;
   edit->SetClientData(this->Property.Get());
   edit->SetCallback(
@@ -290,7 +290,7 @@ TEST_F(TetrahedraRayCastPipeline, TransferFunctionEditedDuringARenderOfAnotherWi
   const unsigned long tag = other.renderer()->AddObserver(vtkCommand::EndEvent, edit);
   other.window()->Render();
   other.renderer()->RemoveObserver(tag);
-  // Now nothing is visible, in either window.
+  // Now nothing is visible in either window.
   for (RayCastScene* scene : { this->Scene.get(), &other })
   {
     for (const float value : scene->renderFloat().Rgba)

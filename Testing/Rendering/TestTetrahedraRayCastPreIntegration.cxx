@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Integration by the pre-integration table: how close it comes, and when the table is made.
+// Integration by the pre-integration table: its error, and when the table is built.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 #include "RayCastScene.h"
@@ -40,7 +40,7 @@ struct Block
 
 void usePreIntegration(RayCastScene& scene, int scalars, int lengths)
 {
-  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   scene.rayCaster()->SetPreIntegrationScalarSize(scalars);
   scene.rayCaster()->SetPreIntegrationLengthSize(lengths);
 }
@@ -87,7 +87,8 @@ TEST(TetrahedraRayCastPreIntegration, ConvergesWithTheSizeOfTheTable)
   }
 }
 
-// Peaks as wide as a few samples are what a table cannot hold: a single pixel may be off by more.
+// A table cannot resolve peaks of the width of a few samples: a single pixel may have a larger
+// error.
 TEST(TetrahedraRayCastPreIntegration, DefaultSizesAreCloseToTheReference)
 {
   const Block block;
@@ -97,7 +98,7 @@ TEST(TetrahedraRayCastPreIntegration, DefaultSizesAreCloseToTheReference)
     RayCastScene scene(block.Mesh, block.property(kind), Size, Size);
     lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
     const SceneTruth truth = truthOf(scene);
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     const Comparison result = compare(scene, truth);
     SCOPED_TRACE(result.text());
     RecordProperty("function " + std::to_string(static_cast<int>(kind)), result.text());
@@ -115,7 +116,7 @@ TEST(TetrahedraRayCastPreIntegration, ThroughAMembrane)
   {
     RayCastScene scene(block.Mesh, block.property(FunctionKind::Smooth), Size, Size);
     scene.rayCaster()->SetMembraneData(membrane.Mesh);
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 50.0);
     scene.window()->Render();
     const auto integrator = makeReference(block.Mesh);
@@ -138,7 +139,7 @@ TEST(TetrahedraRayCastPreIntegration, CutSegmentsAndScaledVolumes)
   const double distance = scene.renderer()->GetActiveCamera()->GetDistance();
   scene.renderer()->GetActiveCamera()->SetClippingRange(distance - 0.5, distance + 0.8);
   const SceneTruth truth = truthOf(scene);
-  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   const Comparison result = compare(scene, truth);
   EXPECT_GT(result.Covered, 1000u);
   EXPECT_LT(result.Largest, 1.0 / 255.0) << result.text();
@@ -165,7 +166,7 @@ TEST(TetrahedraRayCastPreIntegration, TableIsMadeWhenWhatItDependsOnChanges)
   bytes = mapper->GetUploadedBytes();
   usePreIntegration(scene, 64, 8);
   renderAndExpect(1, "first use");
-  // The native backend reads the table where it is.
+  // The native backend reads the table in place.
   EXPECT_TRUE(mapper->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE ||
     mapper->GetUploadedBytes() >= 64 * 64 * 8 * 16);
   lookAt(scene.renderer(), block.Mesh->GetBounds(), 77.0, -20.0);
@@ -205,7 +206,7 @@ TEST(TetrahedraRayCastPreIntegration, ExactWhereThereIsNoTable)
   {
     scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
     const FloatImage exact = scene.renderFloat();
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PreIntegrated);
+    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     EXPECT_EQ(scene.renderFloat().Rgba, exact.Rgba) << what;
     EXPECT_EQ(warnings->Warnings.size(), expectedWarnings) << what;
   };

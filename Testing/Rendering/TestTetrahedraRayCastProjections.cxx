@@ -55,7 +55,7 @@ TracedComparison expectReference(RayCastScene& scene, Projection projection,
     what, tolerance);
 }
 
-// Attenuation (alpha) s over the range [0, 1] of s.
+// Attenuation (alpha) equal to s over the range [0, 1] of s.
 vtkSmartPointer<vtkVolumeProperty> identityProperty(double unit)
 {
   auto property = makeConstantProperty(0.0, 1, 1, 1, unit);
@@ -173,7 +173,7 @@ TEST(TetrahedraRayCastProjections, UnknownModeWarnsAndComposites)
 
 TEST(TetrahedraRayCastProjections, ModesCanBeSwitched)
 {
-  // Back in composite blending, opacity is an attenuation again.
+  // With composite blending again, opacity is an attenuation.
   const Grid grid = makeBlock(4, wavyField(3.0));
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
@@ -201,7 +201,7 @@ TEST(TetrahedraRayCastProjections, EveryModeWalksTheSameCells)
   scene.window()->Render();
   const vtkTypeInt64 steps = scene.rayCaster()->GetNumberOfTraversalSteps();
   EXPECT_GT(steps, 0);
-  // The function shows every scalar, so no cell is skipped.
+  // All scalars are visible with this function, so no cell is skipped.
   EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
   for (const int mode : { 1, 2, 3, 4 })
   {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The volume among other things: camera inside it, opaque geometry, several renderers, resized and
+// The volume with other objects: camera inside it, opaque geometry, several renderers, resized and
 // multisampled windows.
 #include "RayCastScene.h"
 
@@ -43,8 +43,8 @@ struct Block
   }
 };
 
-// An opaque rectangle across the viewing direction, so that its depth is the same in every pixel
-// and the device's rounding of vertex positions does not move it.
+// An opaque rectangle across the view direction, so that its depth is the same in every pixel and
+// does not change with the device's rounding of vertex positions.
 class OpaqueRectangle
 {
 public:
@@ -72,7 +72,7 @@ public:
     renderer->AddActor(this->Actor);
   }
 
-  // Whether a ray hits it; ends the ray there.
+  // Returns true if a ray hits it, and ends the ray there.
   bool shorten(Ray& ray) const
   {
     Vector3 fromEye;
@@ -118,8 +118,8 @@ private:
   double Half[2];
 };
 
-// A rasteriser places vertices on a grid of 1/256 pixel: nearer to the rectangle's edge than this
-// (in pixels, with a factor of 4) a pixel may or may not be covered.
+// A rasteriser rounds vertices to a grid of 1/256 pixel: a pixel nearer to the rectangle's edge
+// than this (in pixels, with a factor of 4) may or may not be covered.
 constexpr double EdgeUncertainty = 4.0 / 256.0;
 
 bool nearEdge(const OpaqueRectangle& rectangle, const PixelRays& rays, int x, int y)
@@ -177,7 +177,7 @@ void expectMatchesWithRectangle(RayCastScene& scene, double depth, const std::st
   expectMatch(compareToReference(image, truth, *integrator, rayOf), what);
 }
 
-// The part of a window that a renderer draws, in 8 bits against the reference.
+// Compares the part of a window that a renderer draws, in 8 bits, with the reference.
 void expectViewportMatches(const RayCastScene& scene, vtkRenderer* renderer,
   const ByteImage& window, const std::string& what)
 {
@@ -211,8 +211,8 @@ TEST(TetrahedraRayCastScenes, ColoredBackground)
     "coloured background");
 }
 
-// The picture is rounded to 8 bits once, not before it is put over what is there; a bias is added
-// to what the volume covers, and to nothing else.
+// The image is rounded to 8 bits once, not before it is blended over the framebuffer; a bias is
+// added only where the volume is.
 TEST(TetrahedraRayCastScenes, RoundedOnceToEightBits)
 {
   const Block block;
@@ -240,7 +240,7 @@ TEST(TetrahedraRayCastScenes, RoundedOnceToEightBits)
       }
     }
     EXPECT_GT(empty, 100u);
-    // Half a step, and what single precision makes of 255.
+    // Half a step, plus the error of single precision times 255.
     EXPECT_LT(worst, 0.5 + 255.0 * 1.0e-5) << "bias " << bias;
   }
 }

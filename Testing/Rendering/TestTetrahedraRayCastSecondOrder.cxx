@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells of second order, alone and beside each other: the picture of linear cells with the same
-// corners, whose field is the same as long as it is linear; links across all shared faces; closed
-// forms where the points inside a face or a cell have values of their own.
+// Quadratic cells, alone and next to each other: the image of linear cells with the same corners,
+// whose field is the same if it is linear; links across all shared faces; closed forms where the
+// points inside a face or a cell have their own values.
 #include "RayCastScene.h"
 
 #include <vtkCellData.h>
@@ -36,7 +36,7 @@ namespace
 constexpr int Size = 80;
 using Corners = std::vector<int>;
 
-// The corners that each further point of a type is the mean of, in VTK's order.
+// Corners whose mean is each further point of a type, in VTK's order.
 std::vector<Corners> furtherPoints(int type)
 {
   const std::vector<Corners> hexahedron{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 },
@@ -79,9 +79,9 @@ std::vector<Corners> furtherPoints(int type)
 struct LinearCell
 {
   int LinearType;
-  /** Of second order. */
+  /** Type of the quadratic cell. */
   int Type;
-  /** Numbers of points of the mesh. */
+  /** Indices of points of the mesh. */
   Corners Points;
 };
 
@@ -96,8 +96,8 @@ double fieldAt(const double* x)
   return 0.7 * x[0] - 0.4 * x[1] + 0.5 * x[2];
 }
 
-// The mesh with cells of second order or of linear ones; cell data counts 0, 1, 0, 1. Points are
-// numbered at random, as the splits follow the numbers.
+// The mesh with quadratic or with linear cells; cell data counts 0, 1, 0, 1. Points are numbered at
+// random, since the splitting depends on the numbers.
 Grid makeMesh(const LinearMesh& mesh, bool secondOrder, unsigned int seed)
 {
   std::map<Corners, int> places;
@@ -175,7 +175,7 @@ enum Shape
   Pyramids
 };
 
-// A box of n[0] x n[1] x n[2] cubes within [-1, 1], each of a shape and a type.
+// A box of n[0] x n[1] x n[2] cubes in [-1, 1], each of a shape and a type.
 LinearMesh makeBox(
   const int (&n)[3], const std::function<std::pair<Shape, int>(int i, int j, int k)>& typeOf)
 {
@@ -336,8 +336,8 @@ TEST(TetrahedraRayCastSecondOrder, NeighboursThatShareQuadraticFaces)
 
 TEST(TetrahedraRayCastSecondOrder, CurvedFacesFitWithoutGapsOrOverlaps)
 {
-  // Points inside the box are moved: faces are no longer plane, and still every ray crosses the box
-  // once. Its chord gives alpha, as without the moves.
+  // Points inside the box are moved: faces are no longer planar, and every ray still crosses the
+  // box once. Its chord gives alpha, as without the moves.
   const std::pair<Shape, int> types[] = { { Hexahedron, VTK_TRIQUADRATIC_HEXAHEDRON },
     { Wedges, VTK_BIQUADRATIC_QUADRATIC_WEDGE }, { Pyramids, VTK_TRIQUADRATIC_PYRAMID },
     { Hexahedron, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON }, { Hexahedron, VTK_QUADRATIC_HEXAHEDRON },
@@ -404,7 +404,8 @@ TEST(TetrahedraRayCastSecondOrder, PointsInsideFacesAndCellsCount)
   {
     EXPECT_NEAR(alphaAlong(withOne(VTK_TRIQUADRATIC_HEXAHEDRON, { 0.0, 0.0, 0.0 }), axis), expected,
       FloatTolerance);
-    // Through the centres of two faces: with a point inside the cell the scalar is back at 0 there.
+    // Through the centres of two faces: if the cell has an inner point, the scalar is back at 0
+    // there.
     double face[3] = { 0.0, 0.0, 0.0 };
     face[axis] = 1.0;
     EXPECT_NEAR(alphaAlong(withOne(VTK_TRIQUADRATIC_HEXAHEDRON, face), axis), 1.0 - std::exp(-0.5),

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Isosurfaces, light on surfaces and in the medium, gradient opacity.
+// Isosurfaces, lighting of surfaces and of the medium, gradient opacity.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
@@ -26,7 +26,7 @@ namespace
 
 constexpr int Size = 160;
 constexpr double Range[2] = { -1.0, 1.0 };
-// Midpoints per piece of the truth: its error falls with the square, 3e-4 with 8.
+// Midpoints per piece of the reference: its error decreases with the square, and is 3e-4 with 8.
 constexpr int Steps = 40;
 
 // A headlight, a coloured directional light and a spot light near the mesh.
@@ -84,7 +84,7 @@ struct ShadingTruth
     scene.window()->Render();
     this->Integrator = makeReference(scene.grid(), scene.volume()->GetMatrix());
     const bool smooth =
-      scene.rayCaster()->GetGradients() == vtkTetrahedraRayCastMapper::VertexGradients;
+      scene.rayCaster()->GetGradients() == vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS;
     this->Gradients = std::make_unique<ReferenceGradients>(this->Integrator->mesh(), smooth);
     this->Light = toMaterial(scene.volume()->GetProperty(), scene.renderer());
   }
@@ -94,7 +94,7 @@ void expectSurfaces(RayCastScene& scene, const std::string& what)
 {
   const ShadingTruth truth(scene);
   std::vector<Surface> surfaces = toSurfaces(scene.volume()->GetProperty());
-  // One of two equal values, as blended.
+  // Two equal values are blended as one.
   const auto same = [](const Surface& a, const Surface& b) { return a.Scalar == b.Scalar; };
   std::sort(surfaces.begin(), surfaces.end(),
     [](const Surface& a, const Surface& b) { return a.Scalar < b.Scalar; });
@@ -135,7 +135,7 @@ void expectShadedMedium(RayCastScene& scene, bool factor, double tolerance, cons
     what, tolerance);
 }
 
-// Where the medium's light is not exact.
+// Comparison where the medium's lighting is not exact.
 TracedComparison compareShadedMedium(RayCastScene& scene, const MembraneCase& membrane)
 {
   scene.rayCaster()->SetMembraneData(membrane.Mesh);
@@ -173,7 +173,7 @@ vtkSmartPointer<vtkVolumeProperty> mediumProperty(bool shade, bool factor)
 TEST(TetrahedraRayCastIsosurfaces, PlanesOfALinearField)
 {
   // Isosurfaces of x in the box are squares that face the viewer, who looks along x: the headlight
-  // gives ambient + diffuse of the colour plus specular, seen under the angle of the ray.
+  // gives ambient + diffuse of the colour plus specular, at the angle of the ray.
   const Grid grid = makeBlock(5, linearField(1.0, 0.0, 0.0));
   for (const int gradients : { 0, 1 })
   {
@@ -262,7 +262,7 @@ TEST(TetrahedraRayCastIsosurfaces, ValueOfVerticesIsMetOnce)
         }
         else if (axis == 1)
         {
-          // Rays within the surface do not meet it, nor do those beside it.
+          // Rays inside the surface do not meet it, nor do rays next to it.
           ASSERT_EQ(image.pixel(x, y)[3], 0.0f) << x << ", " << y;
         }
       }
@@ -289,7 +289,7 @@ TEST(TetrahedraRayCastShading, CellGradientsAreExact)
   for (const bool factor : { false, true })
   {
     RayCastScene scene(grid, mediumProperty(true, factor), 72, 72);
-    scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+    scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
     vtkNew<vtkLight> light;
     light->SetLightTypeToSceneLight();
     light->SetPosition(4.0, 2.0, 1.0);
@@ -304,7 +304,7 @@ TEST(TetrahedraRayCastShading, GradientOpacityAlone)
 {
   const Grid grid = makeBlock(6, wavyField(3.0));
   RayCastScene scene(grid, mediumProperty(false, true), 72, 72);
-  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   scene.volume()->SetScale(0.5, 1.0, 2.0);
   lookAt(scene.renderer(), scene.volume()->GetBounds(), 30.0, 20.0);
   expectShadedMedium(scene, true, FloatTolerance, "scaled volume");
@@ -312,7 +312,7 @@ TEST(TetrahedraRayCastShading, GradientOpacityAlone)
 
 TEST(TetrahedraRayCastShading, GradientOpacityWithoutPointsHidesAll)
 {
-  // A function without points evaluates to 0, for the gradient opacity as for the scalar opacity.
+  // A function without points evaluates to 0, for gradient opacity as for scalar opacity.
   const Grid grid = makeBlock(4, wavyField(3.0));
   for (const int gradients : { 0, 1 })
   {
@@ -340,8 +340,8 @@ TEST(TetrahedraRayCastShading, GradientOpacityWithoutPointsHidesAll)
 
 TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
 {
-  // Light is linear between the ends of a cell's segment: not what the interpolated normal gives
-  // inside, and least so where the gradient turns over.
+  // Lighting is linear between the ends of a cell's segment, which differs from lighting by the
+  // interpolated normal inside, most of all where the gradient reverses.
   double last = 0.0;
   for (const int cubes : { 4, 8, 16 })
   {
@@ -362,7 +362,7 @@ TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
 
 TEST(TetrahedraRayCastShading, ThroughAMembrane)
 {
-  // Lights near and far on gradients of vertices: as far off as without a membrane.
+  // Lights near and far with gradients of vertices: the error is as without a membrane.
   const Grid grid = makeBlock(16, wavyField(2.0));
   RayCastScene scene(grid, mediumProperty(true, true), 64, 64);
   addLights(scene.renderer());
@@ -394,10 +394,10 @@ TEST(TetrahedraRayCastShading, GradientsAreComputedOnlyForLight)
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 0);
   mapper->SetBlendModeToComposite();
   scene.volume()->GetProperty()->ShadeOn();
-  mapper->SetGradients(vtkTetrahedraRayCastMapper::CellGradients);
+  mapper->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   scene.window()->Render();
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 0);
-  mapper->SetGradients(vtkTetrahedraRayCastMapper::VertexGradients);
+  mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
   scene.window()->Render();
   scene.window()->Render();
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 1);

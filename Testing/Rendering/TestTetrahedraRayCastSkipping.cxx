@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells that cannot be seen: not visited, not rebuilt without need, and no difference to the
-// picture.
+// Invisible cells: they are not visited, not rebuilt without need, and do not change the image.
 #include "RayCastScene.h"
 
 #include <vtkCamera.h>
@@ -38,7 +37,7 @@ protected:
     lookAt(this->Scene.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
   }
 
-  /** The window of visible scalars, opaque enough to be seen. */
+  /** Sets the window of visible scalars, opaque enough to be seen. */
   void setWindow(double lower, double upper)
   {
     vtkPiecewiseFunction* opacity = this->Property->GetScalarOpacity();
@@ -70,7 +69,7 @@ TEST_P(TetrahedraRayCastSkipping, FewerCellsAndStepsTheSamePicture)
   EXPECT_GT(active, 0);
   EXPECT_LT(active, this->Mesh->GetNumberOfCells() / 2);
 
-  this->Property->GetScalarOpacity()->AddPoint(-2.0, 1e-9); // everything can be seen, barely
+  this->Property->GetScalarOpacity()->AddPoint(-2.0, 1e-9); // everything is visible, but barely
   this->Property->GetScalarOpacity()->AddPoint(2.0, 1e-9);
   expectMatchesReference(this->Scene, "dense");
   EXPECT_EQ(this->Scene.rayCaster()->GetNumberOfActiveCells(), this->Mesh->GetNumberOfCells());
@@ -87,10 +86,10 @@ TEST_P(TetrahedraRayCastSkipping, BuiltOnlyWhenOtherScalarsBecomeVisible)
   EXPECT_EQ(this->builds(), 1);
   this->Property->GetRGBTransferFunction()->AddRGBPoint(-0.9, 1.0, 0.0, 1.0);
   this->Scene.window()->Render();
-  EXPECT_EQ(this->builds(), 1); // a colour
+  EXPECT_EQ(this->builds(), 1); // a change of a colour
   this->Property->GetScalarOpacity()->AddPoint(0.35, 0.5);
   this->Scene.window()->Render();
-  EXPECT_EQ(this->builds(), 1); // an opacity, of scalars that could be seen before
+  EXPECT_EQ(this->builds(), 1); // a change of an opacity of scalars that were visible before
   this->setWindow(-0.4, -0.3);
   this->Scene.window()->Render();
   EXPECT_EQ(this->builds(), 2);
@@ -148,7 +147,7 @@ TEST_P(TetrahedraRayCastSkipping, JumpsAtTheScalarsOfVertices)
   scalars->Modified();
   vtkPiecewiseFunction* opacity = this->Property->GetScalarOpacity();
   opacity->RemoveAllPoints();
-  opacity->ClampingOff(); // nothing outside of the points
+  opacity->ClampingOff(); // nothing is visible outside of the points
   opacity->AddPoint(0.2, 0.7);
   opacity->AddPoint(0.3, 0.7);
   this->Scene.window()->Render();

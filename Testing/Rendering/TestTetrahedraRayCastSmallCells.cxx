@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells from a third down to 1/30,000 of the domain, seen whole and from as near as the smallest
-// ones want, in every blend mode, straight and through a membrane, against the double reference.
+// ones require, in every blend mode, straight and through a membrane, compared with the
+// double-precision reference.
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
@@ -33,35 +34,36 @@ constexpr int Size = 120;
 constexpr int Cubes = 14;
 constexpr double Range[2] = { -1.0, 1.0 };
 
-// Parts of the domain that the pictures show. The smallest cells are 1/30,000 of it.
+// Fractions of the domain that the images show. The smallest cells are 1/30,000 of it.
 constexpr double Views[4] = { 1.0, 3e-2, 1e-3, 2e-4 };
 
 const double Radius = std::sqrt(3.0);
 
-// By how much a ray may miss what it should meet in a picture of a part of the domain. Shaders
-// place vertices to 2^-29 of the radius times 1 + the steepest slope, less than 2^-28, and
-// coordinates about a ray are rounded to 2^-24 of themselves: those of the needles between large
-// and small cells are as large as the picture. The native backend has depths in single precision,
-// too. A pixel may be excused if the truth itself changes by half of its error when the ray moves
-// by that: where a ray only touches an isosurface, or passes a silhouette.
+// Distance by which a ray may miss a feature in an image of a part of the domain. Shaders place
+// vertices to 2^-29 of the radius times 1 + the steepest slope, less than 2^-28, and coordinates
+// about a ray are rounded to 2^-24 of themselves: those of the needles between large and small
+// cells are as large as the image. The native backend also has depths in single precision. A pixel
+// may be excused if the exact result itself changes by half of the pixel's error when the ray moves
+// by this distance: where a ray only touches an isosurface, or passes a silhouette.
 double roundingOf(double part)
 {
   const bool native = backendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE;
   return Radius * (native ? std::pow(2.0, -24) : std::pow(2.0, -28) + part * std::pow(2.0, -24));
 }
 
-// Natively a depth's last digit, 2^-25 of the radius, is 8e-4 of the width of the smallest cells,
-// over which the functions change colours by up to 1.
+// For the native backend the last digit of a depth, 2^-25 of the radius, is 8e-4 of the width of
+// the smallest cells, over which the functions change colours by up to 1.
 double toleranceOf()
 {
   return backendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 8e-4 : FloatTolerance;
 }
 
-// The cube [-1, 1]^3, its cubes ever smaller towards the corner (1, 1, 1): their sides grow by a
-// constant factor. The scalar waves with the cubes' numbers, so that every size of cells shows it.
+// The cube [-1, 1]^3, with cubes that become smaller towards the corner (1, 1, 1): their sides grow
+// by a constant factor. The scalar is a wave in the cubes' numbers, so that it varies in cells of
+// every size.
 Grid makeGradedBlock()
 {
-  // (q - 1) / (q^n - 1) is the smallest side over the domain's.
+  // (q - 1) / (q^n - 1) is the smallest side over that of the domain.
   double low = 1.5;
   double high = 3.0;
   for (int i = 0; i < 60; ++i)
@@ -87,7 +89,7 @@ Grid makeGradedBlock()
   return grid;
 }
 
-// A part of the domain about the corner of the smallest cells, and a function for its size.
+// A part of the domain at the corner with the smallest cells, and a function for its size.
 struct CornerScene
 {
   RayCastScene Scene;
@@ -113,7 +115,7 @@ struct CornerScene
 using TraceSegments =
   std::function<std::array<double, 4>(const Ray&, const std::vector<RaySegment>&)>;
 
-// Renders and expects each pixel but `wrong` of them to be within the tolerance of the backend.
+// Renders and expects all pixels except `wrong` of them to be within the tolerance of the backend.
 void expectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrator& integrator,
   const RefractingSurface* membrane, const TraceSegments& show, const std::string& what,
   std::size_t wrong)
@@ -146,7 +148,8 @@ void expectMode(CornerScene& corner, const ReferenceRayIntegrator& integrator,
   RayCastScene& scene = corner.Scene;
   scene.rayCaster()->SetBlendMode(mode);
   scene.window()->Render();
-  // One pixel of the whole domain shows the maximum in the far end of a needle, off by 3.4e-4.
+  // One pixel of the whole domain shows the maximum in the far end of a needle, with an error of
+  // 3.4e-4.
   const std::size_t wrong = mode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ? 1 : 0;
   vtkVolumeProperty* property = scene.volume()->GetProperty();
   const std::vector<Surface> surfaces = toSurfaces(property);
@@ -223,7 +226,7 @@ TEST(TetrahedraRayCastSmallCells, OtherModes)
 
 TEST(TetrahedraRayCastSmallCells, RefractedRays)
 {
-  // Above the corner, and through the cells that are seen.
+  // Above the corner, and through the visible cells.
   const Grid grid = makeGradedBlock();
   const auto integrator = makeReference(grid);
   for (const double part : Views)
@@ -236,8 +239,8 @@ TEST(TetrahedraRayCastSmallCells, RefractedRays)
           vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
           vtkVolumeMapper::ADDITIVE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
       {
-        // Natively the depth of a sight point, single precision, may be on either side of a
-        // surface.
+        // For the native backend the depth of a sight point, in single precision, may be on either
+        // side of a surface.
         if (toleranceOf() > FloatTolerance && mode == vtkVolumeMapper::ISOSURFACE_BLEND)
         {
           continue;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells given repeatedly, and cells that share no points: the picture of the same cells as a mesh.
+// Repeated cells, and cells that share no points: the image of the same cells as a mesh.
 #include "RayCastScene.h"
 
 #include <vtkCellData.h>
@@ -41,7 +41,10 @@ struct Drawn
   vtkTypeInt64 Steps = 0;
 };
 
-/** The picture of any input by one backend; no ray may be lost, nothing be said but a warning. */
+/**
+ * Image of any input by one backend; no ray may be lost, and no message but a warning may be
+ * issued.
+ */
 Drawn draw(vtkDataObject* input, int backend, vtkVolumeProperty* property = nullptr,
   int blendMode = vtkVolumeMapper::COMPOSITE_BLEND)
 {
@@ -62,8 +65,8 @@ Drawn draw(vtkDataObject* input, int backend, vtkVolumeProperty* property = null
 }
 
 /**
- * The cells of a grid in random order, each one to three times; cell data goes with them, and a
- * copy has another value than the cell that comes first.
+ * The cells of a grid in random order, each one to three times. Cell data is copied, and a
+ * repetition has another value than the first occurrence.
  */
 Grid doubled(vtkUnstructuredGrid* grid, unsigned int seed, vtkTypeInt64& copies)
 {
@@ -140,7 +143,7 @@ Grid hexahedra(int n)
   return grid;
 }
 
-/** Each tetrahedron with points of its own, shrunk about their mean; the field as in the mesh. */
+/** Each tetrahedron with its own points, shrunk about their mean; the field is that of the mesh. */
 Grid apart(vtkUnstructuredGrid* grid, double factor, const Field& field)
 {
   std::vector<double> points;
@@ -245,7 +248,7 @@ TEST(TetrahedraRayCastTopology, FirstOfRepeatedCellsGivesTheValue)
 
 TEST(TetrahedraRayCastTopology, CellsOfSeveralBlocksCountOnce)
 {
-  // The second block is the first again, and part of it in another order, with copied points.
+  // The second block repeats the first one, partly in another order, with copied points.
   const Grid grid = makeBlock(4, wavyField(3.0));
   vtkTypeInt64 copies = 0;
   const Grid again = doubled(grid, 2, copies);
@@ -262,8 +265,8 @@ TEST(TetrahedraRayCastTopology, CellsOfSeveralBlocksCountOnce)
 
 TEST(TetrahedraRayCastTopology, FaceOfThreeAndFourCellsHidesNone)
 {
-  // Two cells on each side of a face, of which those on a side overlap: the union hides what a ray
-  // crosses of it. Along z it is between the lower and the upper apexes' planes.
+  // Two cells on each side of a face; those on one side overlap: a ray sees the union of the cells.
+  // Along z the union extends between the planes of the lower and of the upper apexes.
   const std::vector<double> points{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2, 0.2, 1, 0.4, 0.3, 0.8, 0.2, 0.3,
     -1, 0.5, 0.2, -0.6 };
   const std::vector<vtkIdType> all{ 0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5, 0, 1, 2, 6 };
@@ -272,7 +275,7 @@ TEST(TetrahedraRayCastTopology, FaceOfThreeAndFourCellsHidesNone)
     const Grid grid = makeGrid(points,
       std::vector<vtkIdType>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(4 * count)),
       constantField(0.5));
-    // Each with points of its own: no face is shared.
+    // Each with its own points: no face is shared.
     const Grid separate = apart(grid, 1.0, constantField(0.5));
     for (const int backend : Backends)
     {
@@ -295,7 +298,7 @@ TEST(TetrahedraRayCastTopology, CellsWithPointsOfTheirOwnLookLikeTheMesh)
       const Drawn mesh = draw(grid, backend, nullptr, mode);
       const Drawn cells = draw(separate, backend, nullptr, mode);
       expectSamePicture(cells.Image, mesh.Image, "mode " + std::to_string(mode));
-      // The same cells are crossed, those that rays touch in an edge apart.
+      // The same cells are crossed, except for cells that rays touch in an edge only.
       EXPECT_NEAR(static_cast<double>(cells.Steps) / static_cast<double>(mesh.Steps), 1.0, 0.01);
     }
   }

@@ -14,13 +14,13 @@ namespace meniscus
 namespace test
 {
 
-/** A square about the z axis at a height, of resolution x resolution quads. */
+/** A square around the z axis at a given height, of resolution x resolution quads. */
 vtkSmartPointer<vtkPlaneSource> makePlane(double halfWidth, double height, int resolution);
 
-/** Without colours from scalars. */
+/** An actor without colours from scalars. */
 vtkSmartPointer<vtkActor> makeActor(vtkAlgorithmOutput* port);
 
-/** Colours of its own, whatever the light. */
+/** Sets a colour that does not depend on lights. */
 void setFlatColor(vtkActor* actor, double red, double green, double blue);
 
 } // namespace test

@@ -101,7 +101,8 @@ void PatchSearch::search(
   {
     for (int i = 1; i + j <= Cells + 1; ++i)
     {
-      // Values at the nodes of the cell and around it: a root in the cell is hardly outside them.
+      // Values at the nodes of the cell and around it: at a root in the cell the values hardly
+      // exceed their range.
       glm::dvec2 low(std::numeric_limits<double>::max());
       glm::dvec2 high(std::numeric_limits<double>::lowest());
       for (int n = 0; n < 16; ++n)
@@ -130,7 +131,8 @@ void PatchSearch::search(
       const double facing = std::min(-glm::dot(glm::normalize(at.Position - this->Eye), normal),
         -glm::dot(glm::normalize(point - at.Position), normal));
       const double inside = FindOutside(b).Least;
-      // Where the normal lies in the facet's plane the two components may vanish without the rest.
+      // Where the normal lies in the facet's plane, the two components may vanish although the
+      // third does not.
       const glm::dvec3 v = this->misfit(at, point);
       const bool isRoot =
         glm::length(v - normal * glm::dot(v, normal)) < 1e-8 * (this->Exterior + this->Interior);
@@ -164,7 +166,7 @@ std::vector<PatchSearch::Sight> PatchSearch::find(const glm::dvec3& point) const
 double PatchSearch::residual(
   const glm::dvec3& point, const glm::dvec3& place, std::int32_t facet) const
 {
-  // The place on the patch that is nearest, by differences.
+  // The nearest place on the patch, by finite differences.
   const CurvedPatch patch = this->Patches.GetPatch(facet);
   glm::dvec2 b(1.0 / 3.0);
   for (int i = 0; i < 30; ++i)

@@ -16,8 +16,8 @@ namespace test
 
 /**
  * Sight points on the patches of a membrane by a dense search: every facet is sampled, and Newton's
- * method with differences started wherever the samples do not exclude a root. Of the kernel only
- * the patches are used. Some roots may be missed; those found are roots.
+ * method with finite differences is started wherever the samples do not exclude a root. Of the
+ * kernel only the patches are used. Some roots may be missed; those found are roots.
  */
 class PatchSearch
 {
@@ -37,8 +37,8 @@ public:
   {
     glm::dvec3 Place;
     /**
-     * Of the equation's derivative against the product of its columns' lengths: near 0 at a
-     * caustic.
+     * Determinant of the equation's derivative over the product of its columns' lengths: near 0 at
+     * a caustic.
      */
     double Condition;
     /** Smallest barycentric coordinate, and cosines towards the eye and away from the point. */
@@ -48,7 +48,7 @@ public:
   };
   std::vector<Sight> find(const glm::dvec3& point) const;
 
-  /** The part of Snell's law that a place fails by: the sine between h and the normal. */
+  /** Residual of Snell's law at a place: the sine of the angle between h and the normal. */
   double residual(const glm::dvec3& point, const glm::dvec3& place, std::int32_t facet) const;
 
 private:

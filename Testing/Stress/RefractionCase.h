@@ -21,16 +21,16 @@ namespace meniscus
 namespace test
 {
 
-/** What decides which images are right. */
+/** Criterion for the correct images. */
 enum class RefractionTruth
 {
-  Smooth, ///< the smooth surface that the mesh stands for, by the oracle
+  Smooth, ///< the smooth surface that the mesh approximates, by the oracle
   Patches ///< the membrane's own patches, by a dense search: rough, folded and joined surfaces
 };
 
 /**
- * A membrane, an eye and what it looks at, in a frame where the membrane is 200 wide. The kernel
- * gets all of it scaled, then moved.
+ * A membrane, an eye and an object, in a frame in which the membrane is 200 wide. The kernel gets
+ * all of them scaled and then translated.
  */
 struct RefractionCase
 {
@@ -39,8 +39,8 @@ struct RefractionCase
   reference::MembraneMesh Mesh;
   double FacetSize = 0.0;
   /**
-   * How often a place of the membrane may be there: facets repeated with points of their own are
-   * surfaces of their own.
+   * Largest number of coincident surfaces at a place of the membrane: repeated facets with their
+   * own points are separate surfaces.
    */
   int Layers = 1;
   /** Facets that were cut out of the mesh, in x and z. */
@@ -51,11 +51,11 @@ struct RefractionCase
   double Exterior = 1.0;
   double Interior = 1.0;
   std::vector<glm::dvec3> Points;
-  /** Triangles whose images are drawn, too. */
+  /** Triangles whose images are also drawn. */
   std::vector<std::array<glm::dvec3, 3>> Triangles;
 };
 
-/** Cases of one kind, made one by one. */
+/** Cases of one kind, created one by one. */
 struct RefractionFamily
 {
   std::string Name;
@@ -63,7 +63,10 @@ struct RefractionFamily
   std::function<RefractionCase(int)> Make;
 };
 
-/** All families. The number of cases grows with the intensity, 1 takes half a minute. */
+/**
+ * All families. The number of cases grows with the intensity; an intensity of 1 takes half a
+ * minute.
+ */
 std::vector<RefractionFamily> refractionFamilies(double intensity, std::uint64_t seed);
 
 } // namespace test

@@ -29,7 +29,7 @@ using reference::SightOracle;
 using reference::SmoothSurface;
 using reference::SurfaceError;
 
-// What Newton's method may leave, in facets: 1e-10 away from caustics.
+// Largest error of Newton's method, in facets: 1e-10 away from caustics.
 constexpr double Rest = 1e-8;
 
 // Reflectance by the amplitudes of the two polarisations, not by Eq. 2.6.
@@ -115,8 +115,8 @@ private:
     this->note(text.str());
   }
 
-  // How far the patches are from the smooth surface, and their normals; at places inside a facet
-  // and on its edges, half more for places between these.
+  // Distance of the patches from the smooth surface, and of their normals; measured at places
+  // inside a facet and on its edges, and enlarged by half for the places between these.
   void measureSurface()
   {
     const CurvedPatches& patches = this->Geometry.GetPatches();
@@ -143,7 +143,7 @@ private:
     this->Error.Normal = 1.5 * this->Error.Normal + this->Rounding / this->Test.FacetSize;
   }
 
-  // +1: in a hole, -1: not, 0: within `band` of a border.
+  // +1: in a hole; -1: not; 0: within `band` of a border.
   int isInHole(const glm::dvec3& sight, double band) const
   {
     int result = -1;
@@ -154,7 +154,7 @@ private:
       {
         const glm::dvec2 side = hole[(k + 1) % 3] - hole[k];
         const glm::dvec2 to = glm::dvec2(sight.x, sight.z) - hole[k];
-        // Wound clockwise in x and z: counter-clockwise as seen from above.
+        // Clockwise in x and z, which is counter-clockwise as seen from above.
         least = std::min(least, (side.y * to.x - side.x * to.y) / glm::length(side));
       }
       if (least > band)
@@ -211,7 +211,7 @@ private:
     }
   }
 
-  // All points as one object, with what tells where an image is the only one.
+  // All points as one object, with the regions in which images are unique.
   ObjectImages solveObject(const std::vector<double>& points)
   {
     this->Geometry.PrepareField();
@@ -223,7 +223,7 @@ private:
     return object;
   }
 
-  // The same images as one by one.
+  // Expects the same images as those found one by one.
   void checkObject(
     std::size_t i, const ObjectImages& object, const std::vector<VirtualVertex>& images)
   {
@@ -349,7 +349,7 @@ private:
       ? point
       : sight + way / glm::length(way) * (depth * this->Test.Exterior / this->Test.Interior);
     const glm::dvec3 position = this->fromWorld(vertex.Position);
-    // A direction from as far as the eye is has the rounding of its ends over its length.
+    // The rounding of a direction is that of its ends over its length, the distance of the eye.
     const double rounding =
       8.0 * this->Rounding * (1.0 + depth / std::min(glm::length(way), 1.0 + depth)) +
       1e-13 * (depth + glm::length(way));
@@ -368,7 +368,7 @@ private:
         2.0 * (this->Error.Position + this->Rounding) / glm::length(way) + 1e-9;
       const double ends[2] = { reflectance(cosine - turn, this->Test.Exterior, this->Test.Interior),
         reflectance(cosine + turn, this->Test.Exterior, this->Test.Interior) };
-      // Towards the normal reflectance may have a shallow minimum, below both ends.
+      // Towards normal incidence reflectance may have a shallow minimum below both ends.
       if (vertex.Reflectance > std::max(ends[0], ends[1]) + 1e-6 ||
         vertex.Reflectance < std::min(ends[0], ends[1]) - 1e-3)
       {
@@ -415,7 +415,7 @@ private:
     bool uncertain = false;
     for (const PatchSearch::Sight& sight : sights)
     {
-      // On a caustic or a border rounding decides.
+      // Rounding decides on a caustic or a border.
       if (sight.Condition < 1e-4 || sight.Inside < 1e-9 || sight.Facing < 1e-9)
       {
         uncertain = true;

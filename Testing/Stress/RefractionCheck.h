@@ -13,30 +13,30 @@ namespace meniscus
 namespace test
 {
 
-/** What came of some cases. Sums of several are sums of their parts but for the error. */
+/** Results of some cases. Results are added, except for the error. */
 struct RefractionTally
 {
   std::int64_t Points = 0;
-  /** Images that the truth is certain of. */
+  /** Images of which the reference is certain. */
   std::int64_t Images = 0;
-  /** Points where the mesh's error, a caustic or a border leaves open how many images there are. */
+  /** Points at which the mesh's error, a caustic or a border leaves the number of images open. */
   std::int64_t Uncertain = 0;
-  /** Points that the oracle gave up. */
+  /** Points that the oracle has given up. */
   std::int64_t GivenUp = 0;
   /** Images that were not found. */
   std::int64_t Missed = 0;
-  /** Images where there is none. */
+  /** Reported images where there is none. */
   std::int64_t False = 0;
   /**
-   * Images whose virtual vertex, depth, reflectance or orientation is not that of the sight point,
-   * and first images that are none of all.
+   * Images whose virtual vertex, depth, reflectance or orientation does not belong to the sight
+   * point, and first images that are not among all images.
    */
   std::int64_t Wrong = 0;
-  /** Points without an answer, and membranes or eyes that were refused. */
+  /** Points without an answer, and membranes or eyes that were rejected. */
   std::int64_t Failed = 0;
-  /** Distance between a sight point and the true one, in facets. */
+  /** Largest distance between a sight point and the true one, in facets. */
   double Largest = 0.0;
-  /** The first fault in words; empty without one. */
+  /** First failure as text; empty if there is none. */
   std::string First;
 
   void add(const RefractionTally& other);
@@ -46,7 +46,7 @@ struct RefractionTally
   }
 };
 
-/** Solves a case and judges every answer by the case's truth. */
+/** Solves a case and compares every answer with the case's reference. */
 RefractionTally checkCase(const RefractionCase& test);
 
 } // namespace test

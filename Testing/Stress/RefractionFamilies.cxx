@@ -23,7 +23,7 @@ const double Pi = std::acos(-1.0);
 constexpr double Side = 200.0;
 constexpr int PointsPerCase = 24;
 
-// 10 to a power between the two.
+// 10 to a random power between the two.
 double magnitude(StressRandom& random, double low, double high)
 {
   return std::pow(10.0, random.uniform(low, high));
@@ -94,7 +94,7 @@ RefractionCase makeSurface(StressRandom& random, int kind)
   return test;
 }
 
-// n1 / n2 from 0.3 to 3, at times 1.
+// n1 / n2 from 0.3 to 3, sometimes 1.
 void setIndices(RefractionCase& test, StressRandom& random)
 {
   const double ratio =
@@ -120,7 +120,7 @@ void setEye(RefractionCase& test, StressRandom& random, double low, double high,
         std::cos(elevation) * std::sin(angle));
 }
 
-// A point at `length` behind `sight` on the refracted ray; anywhere below if there is none.
+// A point at `length` behind `sight` on the refracted ray; a random place below if there is none.
 glm::dvec3 pointBehind(
   const RefractionCase& test, StressRandom& random, const glm::dvec3& sight, double length)
 {
@@ -167,7 +167,7 @@ RefractionCase makeFar(StressRandom& random)
   return test;
 }
 
-// The eye from a thousandth of a facet to one facet away.
+// The eye at a distance of a thousandth of a facet to one facet.
 RefractionCase makeNearEye(StressRandom& random)
 {
   RefractionCase test = makeSurface(random, 2 + 2 * random.below(2));
@@ -223,8 +223,8 @@ RefractionCase makeOffset(StressRandom& random)
 }
 
 //------------------------------------------------------------------------------
-// A sound mesh with facets that add nothing: repeated, with or without points of their own, of no
-// area, with corners that are not finite or do not exist; all in another order.
+// A valid mesh with facets that add nothing: repeated ones, with or without their own points, ones
+// without area, with corners that are not finite or do not exist; all in another order.
 RefractionCase makeDirty(StressRandom& random)
 {
   RefractionCase test = makeOrdinary(random, random.below(5));
@@ -282,7 +282,7 @@ RefractionCase makeDirty(StressRandom& random)
   return test;
 }
 
-// Without a tenth of its facets, in some cases in one piece.
+// Membranes without a tenth of their facets, in some cases a connected tenth.
 RefractionCase makeHoles(StressRandom& random)
 {
   RefractionCase test = makeOrdinary(random, random.below(5));
@@ -315,7 +315,7 @@ RefractionCase makeHoles(StressRandom& random)
 }
 
 //------------------------------------------------------------------------------
-// For surfaces that are their own truth: points in a box below, and eyes above.
+// For surfaces that are their own reference: points in a box below, and eyes above.
 void lookFromAbove(RefractionCase& test, StressRandom& random)
 {
   test.Truth = RefractionTruth::Patches;
@@ -328,7 +328,7 @@ void lookFromAbove(RefractionCase& test, StressRandom& random)
   }
 }
 
-// Heights and normals of their own at every vertex.
+// Random heights and normals at every vertex.
 RefractionCase makeRough(StressRandom& random)
 {
   RefractionCase test;
@@ -365,7 +365,7 @@ RefractionCase makeFolded(StressRandom& random)
   return test;
 }
 
-// Fins on edges of a waved sheet: three and four facets meet there.
+// Fins on edges of a wavy sheet: three and four facets meet there.
 RefractionCase makeNonManifold(StressRandom& random)
 {
   RefractionCase test;
@@ -391,7 +391,7 @@ RefractionCase makeNonManifold(StressRandom& random)
 }
 
 //------------------------------------------------------------------------------
-// Triangles of all sizes, some of them large against the membrane, none that crosses it.
+// Triangles of all sizes, some of them large relative to the membrane, none of which crosses it.
 RefractionCase makeTriangles(StressRandom& random)
 {
   RefractionCase test = makeSurface(random, random.below(5));
@@ -425,7 +425,7 @@ std::vector<RefractionFamily> refractionFamilies(double intensity, std::uint64_t
   const auto add = [&](const std::string& name, double cases,
                      const std::function<RefractionCase(StressRandom&)>& make)
   {
-    // Every case has its own stream, so that it can be run alone.
+    // Every case has its own random stream, so that it can be run alone.
     const std::uint64_t stream = seed + 0x1000003u * (families.size() + 1);
     families.push_back({ name, std::max(1, static_cast<int>(std::lround(cases * intensity))),
       [stream, make](int index)

@@ -23,11 +23,14 @@ using reference::OracleAnswer;
 using reference::OracleImage;
 using Triangle = std::array<glm::dvec3, 3>;
 
-// Of images, in radians at the eye: the filter's default of 0.005 degrees.
+// Tolerance of images, in radians at the eye: the filter's default of 0.005 degrees.
 constexpr double Tolerance = 0.005 * 3.14159265358979323846 / 180.0;
 constexpr int PlacesPerTriangle = 8;
 
-/** A triangle of a fan: where it is drawn, and what it shows, in barycentric coordinates. */
+/**
+ * A triangle of a fan: its drawn corners, and the place on the object that each shows, in
+ * barycentric coordinates.
+ */
 struct Piece
 {
   std::array<glm::dvec3, 3> Drawn;
@@ -93,7 +96,7 @@ std::vector<Piece> draw(const CurvedMembraneSolver& geometry, const Triangle& tr
   return result;
 }
 
-// Coordinates of `weights` in the piece; false if it is outside by more than `slack`.
+// Coordinates of `weights` in the piece; returns false if they are outside by more than `slack`.
 bool locate(const Piece& piece, const glm::dvec3& weights, double slack, glm::dvec3& inside)
 {
   const auto cross = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y * b.z - a.z * b.y; };
@@ -182,7 +185,7 @@ private:
     }
   }
 
-  // Where the triangle's plane is seen in a direction; false if it is not.
+  // Place where the triangle's plane is seen in a direction; returns false if it is not seen.
   bool trace(
     const Triangle& triangle, const glm::dvec3& direction, double distance, glm::dvec3& hit) const
   {
@@ -199,8 +202,8 @@ private:
     return t > 0.0 && std::isfinite(t);
   }
 
-  // Whether light from `place` comes from within a few tolerances of a direction: the places that
-  // are seen on a ring around it surround it.
+  // True if light from `place` arrives within a few tolerances of a direction: the places that are
+  // seen on a ring around the direction surround it.
   bool shows(const Triangle& triangle, const glm::dvec3& place, const glm::dvec3& direction,
     const glm::dvec3& sight) const
   {
@@ -208,7 +211,7 @@ private:
     glm::dvec3 middle;
     if (!this->trace(triangle, direction, distance, middle))
     {
-      return true; // at the critical angle or the edge of a grazing view
+      return true; // at the critical angle or at grazing incidence
     }
     const double angle =
       4.0 * Tolerance + 4.0 * (this->Error.Position / distance + 2.0 * this->Error.Normal);
@@ -236,7 +239,7 @@ private:
   {
     const glm::dvec3 direction = glm::normalize(image.Sight - this->Test.Eye);
     const double distance = glm::length(image.Sight - this->Test.Eye);
-    // Half way to where another image may be.
+    // Half of the distance to a possible other image.
     double limit = 0.1;
     for (const OracleImage& other : answer.Images)
     {

@@ -13,9 +13,9 @@ namespace test
 {
 
 /**
- * Draws the images of a case's triangles and judges them at random places of the triangles: every
+ * Draws the images of a case's triangles and checks them at random places of the triangles: every
  * certain image of the place must be shown by a polygon, and every polygon that shows the place
- * must show it where light from there goes.
+ * must show it in the direction from which its light arrives.
  */
 RefractionTally checkTriangles(const RefractionCase& test, const CurvedMembraneSolver& geometry,
   const reference::SightOracle& oracle, const reference::SurfaceError& error);

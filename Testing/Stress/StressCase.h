@@ -18,15 +18,15 @@ namespace meniscus
 namespace test
 {
 
-/** What decides whether a picture is right. */
+/** Criterion for a correct image. */
 enum class StressRule
 {
-  /** Cells do not overlap: the double reference, pixel by pixel. */
+  /** Cells do not overlap: compared with the double-precision reference, pixel by pixel. */
   Reference,
   /**
-   * There is no truth to the last digit (tangled cells, cells below the resolution of single
-   * precision): values are finite, opacities in [0, 1], colours within opacity times the brightest
-   * colour, and opacity at most that of the ray's whole way through the mesh's bounding box at the
+   * There is no exact reference (tangled cells, cells below the resolution of single precision).
+   * Checks that values are finite, opacities in [0, 1], colours within opacity times the brightest
+   * colour, and the opacity at most that of the ray's path through the mesh's bounding box at the
    * largest attenuation.
    */
   Bounds
@@ -42,13 +42,13 @@ struct StressCase
   StressRule Rule = StressRule::Reference;
   int Size = 64; ///< pixels per side
   /**
-   * Pixels on silhouettes that are excused, as a share of those covered. Aligned rays run in the
+   * Largest fraction of the covered pixels that are excused as silhouettes. Aligned rays run in the
    * mesh's boundary by design.
    */
   double SilhouetteShare = 0.01;
 };
 
-/** Cases of one kind, made one by one. */
+/** Cases of one kind, created one by one. */
 struct StressFamily
 {
   std::string Name;
@@ -58,7 +58,8 @@ struct StressFamily
 
 /**
  * All families.
- * @param intensity  1 takes seconds; random meshes grow with it, repetitions with its square root.
+ * @param intensity 1 takes seconds; the number of random meshes grows with it, that of repetitions
+ *   with its square root.
  */
 std::vector<StressFamily> stressFamilies(double intensity, std::uint64_t seed);
 

@@ -33,7 +33,7 @@ namespace test
 namespace
 {
 
-/** The input of ComputeRayFrame but for the mesh's centre and radius. */
+/** Input of ComputeRayFrame except for the mesh's centre and radius. */
 RayFrameInput frameInput(const VolumeView& view, int size)
 {
   RayFrameInput input;
@@ -151,7 +151,7 @@ public:
   explicit MapperCaster(int backend)
     : Scene(8, 8)
   {
-    // Soups make the mapper warn about every mesh.
+    // Soups cause a warning of the mapper for every mesh.
     vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
     this->Mapper->SetBackend(backend);
     this->Scene.setMapper(this->Mapper);

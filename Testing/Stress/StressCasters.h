@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * The only places where the stress programme touches what it tests.
- */
+/** All uses of the software under test by the stress programme. */
 #ifndef meniscus_StressCasters_h
 #define meniscus_StressCasters_h
 

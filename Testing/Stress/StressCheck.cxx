@@ -20,7 +20,7 @@ namespace test
 namespace
 {
 
-// Length of a ray's way through a box, by slabs.
+// Length of a ray's path through a box, by slabs.
 double lengthInBox(const reference::Ray& ray, const double bounds[6])
 {
   double begin = ray.Begin;
@@ -45,7 +45,7 @@ double lengthInBox(const reference::Ray& ray, const double bounds[6])
   return std::max(0.0, end - begin) * std::sqrt(square);
 }
 
-// Whether a pixel is what some mesh in the box could look like.
+// True if a pixel is possible for some mesh in the box.
 bool isWithinBounds(const float* rgba, double largestDepth, double brightest)
 {
   const double alpha = rgba[3];
@@ -58,7 +58,7 @@ bool isWithinBounds(const float* rgba, double largestDepth, double brightest)
   return good; // false for NaN
 }
 
-// What the image of one view is compared with.
+// Expected values for the image of one view.
 struct View
 {
   const StressCase& Stress;
@@ -76,7 +76,7 @@ void checkBounds(const StressImage& image, const View& view, StressTally& tally)
 {
   double bounds[6];
   view.Stress.Mesh->GetBounds(bounds);
-  // What single precision rounds.
+  // Margin for rounding in single precision.
   const double margin = 2.0 * RoundingDistance * diagonalOf(bounds);
   for (int i = 0; i < 6; ++i)
   {

@@ -14,7 +14,7 @@ namespace meniscus
 namespace test
 {
 
-/** What came of some views. Sums of several are sums of their parts but for the errors. */
+/** Results of some views. Results are added, except for the errors. */
 struct StressTally
 {
   std::int64_t Views = 0;
@@ -23,26 +23,29 @@ struct StressTally
   /** Rays whose walk did not end on the boundary. */
   std::int64_t Lost = 0;
   /**
-   * Pixels off by more than FloatTolerance and by more than moving the ray by RoundingDistance
-   * changes the exact result, or drawn where nothing is; silhouettes apart. With
-   * StressRule::Bounds pixels out of bounds.
+   * Pixels with an error of more than FloatTolerance and more than the change of the exact result
+   * when the ray moves by RoundingDistance, or drawn where there is nothing; silhouettes are not
+   * included. With StressRule::Bounds, pixels out of bounds.
    */
   std::int64_t Wrong = 0;
-  /** Pixels off by more than FloatTolerance, but by no more than rounding of vertices explains. */
+  /**
+   * Pixels with an error of more than FloatTolerance, but no more than rounding of vertices
+   * explains.
+   */
   std::int64_t Rounding = 0;
-  /** Pixels off on silhouettes; more than a case allows count as wrong. */
+  /** Pixels with an error on silhouettes; more of them than a case allows count as wrong. */
   std::int64_t Silhouettes = 0;
-  /** Against the reference, silhouettes and rounding apart. */
+  /** Largest error with respect to the reference, silhouettes and rounding not included. */
   double Largest = 0.0;
-  /** Root mean square over a view's covered pixels, of the worst view. */
+  /** Root mean square error over a view's covered pixels, of the worst view. */
   double Rms = 0.0;
-  /** The first wrong view in words; empty without one. */
+  /** The first wrong view as text; empty if there is none. */
   std::string FirstWrong;
 
   void add(const StressTally& other);
 };
 
-/** Casts a case in all of its views and judges the pictures by its rule. */
+/** Casts a case in all of its views and checks the images by its rule. */
 StressTally checkCase(StressCaster& caster, const StressCase& stress);
 
 } // namespace test

@@ -25,8 +25,7 @@ namespace test
 namespace
 {
 
-// What a case is made from: which repetition of the family's variants it is, and its own random
-// numbers.
+// Parameters of a case: the repetition of the family's variants, and its own random numbers.
 struct CaseSeed
 {
   int Variant;
@@ -52,7 +51,7 @@ public:
 
   void add(const std::string& name, int variants, int repetitions, const Maker& make)
   {
-    // Every case has its own stream, so that it can be run alone.
+    // Every case has its own random stream, so that it can be run alone.
     const std::uint64_t stream = this->Seed + 0x1000003u * (this->Families.size() + 1);
     this->Families.push_back({ name, variants * repetitions,
       [=](int index)
@@ -86,7 +85,7 @@ void takeFunction(StressCase& stress, const std::vector<NamedFunction>& function
   stress.Name += ", " + function.Name;
 }
 
-// A mesh with each of the usual functions in turn, seen at random.
+// A mesh with each of the usual functions in turn, from random views.
 StressCase usual(const std::string& name, const Grid& mesh, CaseSeed& seed, int function)
 {
   StressCase stress;
@@ -131,7 +130,7 @@ StressCase alignedRays(CaseSeed& seed)
   stress.Size = 65;
   view.HalfHeight = 0.5 * 65 / 16.0;
   stress.Views = { view };
-  // The border of the square that is seen: 4 * 32 of 33 * 33 rays.
+  // The border of the visible square: 4 * 32 of 33 * 33 rays.
   stress.SilhouetteShare = 0.12;
   return stress;
 }
@@ -171,7 +170,8 @@ StressCase tangled(CaseSeed& seed)
   return stress;
 }
 
-// Variants: seen from the side of the 1e-7, or at random; as usual, or as dense as it is thin.
+// Variants: seen along the flattened side of 1e-7, or from a random direction; with the usual
+// density, or increased in proportion to the flattening.
 StressCase flattened(CaseSeed& seed)
 {
   const int axis = seed.Variant % 3;
@@ -198,7 +198,7 @@ StressCase flattened(CaseSeed& seed)
     {
       node.Value.Attenuation *= 1e7;
     }
-    // Thinner than single precision places a vertex: no truth to compare with.
+    // Thinner than the positions of vertices in single precision: there is no exact reference.
     stress.Rule = StressRule::Bounds;
   }
   return stress;
@@ -206,7 +206,8 @@ StressCase flattened(CaseSeed& seed)
 
 StressCase farAndScaled(CaseSeed& seed)
 {
-  const double scales[6] = { 1.0, 1e-6, 1e6, 1e-20, 1e20, 1.0 }; // squares beyond floats, too
+  const double scales[6] = { 1.0, 1e-6, 1e6, 1e-20, 1e20, 1.0 }; // squares exceed the range of
+                                                                 // float, too
   const int variant = seed.Variant % 6;
   const double offset = variant == 0 || variant == 5 ? 1e6 : 0.0;
   const int n = variant == 5 ? 12 : 8;
@@ -238,8 +239,9 @@ StressCase slivers(CaseSeed& seed)
     usual(layers ? "layers of 1e-4" : "needles of 1e4", mesh, seed, seed.Variant + seed.Repetition);
   if (!layers && seed.Variant >= 6)
   {
-    // From near by, and as dense as they are thin: a ray is in the mesh for 2 of 1e4 units. The
-    // grid of 2^-22 of the radius that vertices are rounded to is 1/140 of a cell there: no truth.
+    // Seen from nearby, with a density in proportion to the thinness: a ray is in the mesh for 2 of
+    // 1e4 units. The grid of 2^-22 of the radius to which vertices are rounded is 1/140 of a cell
+    // there, so there is no exact reference.
     stress.Name += ", dense";
     stress.Rule = StressRule::Bounds;
     const glm::dvec3 direction = seed.Random.direction();
@@ -267,7 +269,7 @@ StressCase zeroVolume(CaseSeed& seed)
     stress.Views = { VolumeView::towards(mesh->GetBounds(), direction, true) };
     stress.Size = 65;
     // Scalars on the two sides of a flat layer differ: a row and a column of 37 * 37 rays run where
-    // the field jumps, and either side is right.
+    // the field jumps, and either side is correct.
     stress.SilhouetteShare = 0.06;
   }
   return stress;
@@ -288,7 +290,7 @@ StressCase degenerateFunction(CaseSeed& seed)
   return stress;
 }
 
-// Fields: constant, of huge and of tiny values, with a small range far from 0, with NaN.
+// Fields: constant, with huge and with tiny values, with a small range far from 0, with NaN.
 StressCase degenerateField(CaseSeed& seed)
 {
   const char* const names[5] = { "constant", "times 1e30", "times 1e-30", "range 1e-3 at 1e3",

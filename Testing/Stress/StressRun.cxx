@@ -16,7 +16,7 @@ namespace test
 namespace
 {
 
-// One case as the child reports it: a line of numbers, then the words.
+// One case in the child's report: a line of numbers, then the text.
 std::string encode(bool skipped, const StressTally& t)
 {
   std::ostringstream line;

@@ -26,7 +26,8 @@ struct FamilyResult : ProcessResult
 };
 
 /**
- * Runs every `stride`-th case of a family in a process of its own. A case may take the given time.
+ * Runs every `stride`-th case of a family in a separate process. `secondsPerCase` limits the time
+ * of a case.
  */
 FamilyResult runFamily(
   const StressFamily& family, const std::string& caster, int stride, double secondsPerCase);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Membranes, eyes and objects that are hard on virtual geometry of curved patches, judged by an
- * interval Newton method on the smooth surface or a dense search on the patches. Reports missed,
- * false, wrong and failed per family; the exit status is 0 without any.
+ * Membranes, eyes and objects that are difficult for virtual geometry with curved patches, checked
+ * by an interval Newton method on the smooth surface or a dense search on the patches. Reports
+ * missed, false, wrong and failed answers per family; the exit status is 0 if there are none.
  */
 #include "CaseProcess.h"
 #include "ProgrammeOptions.h"

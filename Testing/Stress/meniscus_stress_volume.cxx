@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Meshes, rays and transfer functions that are hard on a tetrahedral ray caster, judged by the
- * double reference. Reports lost, stuck and wrong per family; the exit status is 0 without any.
+ * Meshes, rays and transfer functions that are difficult for a tetrahedral ray caster, checked by
+ * the double-precision reference. Reports lost, stuck and wrong rays per family; the exit status is
+ * 0 if there are none.
  */
 #include "ProgrammeOptions.h"
 #include "StressRun.h"
@@ -92,7 +93,7 @@ void printRow(
 }
 
 //------------------------------------------------------------------------------
-// The same cases under another name, so that they count and print alike.
+// The same cases under another name, so that they are counted and printed alike.
 StressFamily onlyCase(const StressFamily& family, int index)
 {
   return { family.Name, index < family.Cases ? 1 : 0, [=](int) { return family.Make(index); } };

@@ -34,11 +34,13 @@ namespace
       break;
     }
   }
-  // Not exit(): the parent's buffers and static objects are not this process's to flush.
+  // _exit(), not exit(): this process must not flush the parent's buffers or destroy its static
+  // objects.
   _exit(EXIT_SUCCESS);
 }
 
-// Reads lines until the child ends or is silent for too long; returns the last case it finished.
+// Reads lines until the child ends or is silent for too long; returns the last case that it
+// finished.
 int followChild(
   int in, double secondsPerCase, const CaseTaker& take, ProcessResult& result, bool& silent)
 {
@@ -73,7 +75,8 @@ int followChild(
   }
 }
 
-// Runs cases from the first one on; returns the case after the last one done or given up.
+// Runs cases from the first one on; returns the case after the last one that was finished or
+// abandoned.
 int runSome(int cases, int first, int stride, double secondsPerCase, const CaseStart& start,
   const CaseTaker& take, ProcessResult& result, const CaseLoss& lose)
 {

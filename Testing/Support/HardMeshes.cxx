@@ -77,7 +77,7 @@ void shuffle(Sequence& sequence, RandomNumbers& random)
   }
 }
 
-// Renumbers points and cells, and turns cells over.
+// Renumbers points and cells, and inverts cells.
 void scramble(Arrays& arrays, RandomNumbers& random)
 {
   std::vector<vtkIdType> newId(arrays.Points.size());
@@ -100,13 +100,13 @@ void scramble(Arrays& arrays, RandomNumbers& random)
   shuffle(arrays.Cells, random);
 }
 
-// A random part of a block whose points have moved, less than inverts a cell.
+// A random part of a block whose points have been moved by less than inverts a cell.
 Arrays partOfBlock(RandomNumbers& random)
 {
   const int n = 1 + random.below(4);
   const Grid block = makeBlock(n, constantField(0.0));
-  // The least width of the tetrahedra of a unit cube is 0.577, between opposite edges. Moves of up
-  // to a in each axis from both sides close it for a >= 0.167.
+  // The smallest width of the tetrahedra of a unit cube is 0.577, between opposite edges. Moves of
+  // up to a along each axis from both sides close it for a >= 0.167.
   jitter(block, 2.0 / n * 0.1 * random.uniform(), static_cast<unsigned int>(random.bits()));
   Arrays all(block);
   Arrays arrays;
@@ -126,7 +126,7 @@ Arrays partOfBlock(RandomNumbers& random)
   return arrays;
 }
 
-// A tetrahedron with points put into random cells; cells become as thin as chance makes them.
+// A tetrahedron with points inserted into random cells; cells become arbitrarily thin.
 Arrays dividedTetrahedron(RandomNumbers& random)
 {
   Arrays arrays;
@@ -281,7 +281,7 @@ Grid makeSoup(RandomNumbers& random)
   const int points = 5 + random.below(20);
   for (int i = 0; i < points; ++i)
   {
-    // Some points coincide, some lie on a coarse lattice.
+    // Some points coincide, and some lie on a coarse lattice.
     glm::dvec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     p = random.below(3) ? p : glm::dvec3(random.below(3), random.below(3), random.below(3)) - 1.0;
     arrays.Points.push_back(p);

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * Meshes that are hard on a ray caster, on top of those of TestMeshes.h.
- */
+/** Meshes that are difficult for a ray caster, in addition to those of TestMeshes.h. */
 #ifndef meniscus_HardMeshes_h
 #define meniscus_HardMeshes_h
 
@@ -16,18 +14,18 @@ namespace meniscus
 namespace test
 {
 
-/** Replaces every point by the function of it. */
+/** Replaces every point by the function's value at it. */
 void mapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map);
 
-/** Share of cells whose volume has another sign than most. */
+/** Fraction of cells whose volume has another sign than that of most cells. */
 double invertedShare(vtkUnstructuredGrid* grid);
 
-/** A block tangled until at least the share of its cells is inverted. */
+/** A block that is tangled until at least the given fraction of its cells is inverted. */
 Grid makeTangledBlock(int n, double share, unsigned int seed);
 
 /**
- * A block with every second layer of cubes thinned to the share of the others' thickness, in all
- * directions; 0 gives runs of cells without volume.
+ * A block in which every second layer of cubes, in all directions, is thinned to the given fraction
+ * of the others' thickness; 0 gives runs of cells without volume.
  */
 Grid makeLayeredBlock(int n, double share);
 
@@ -35,15 +33,15 @@ Grid makeLayeredBlock(int n, double share);
 Grid makeSeam(int n);
 
 /**
- * A small valid mesh: either a part of a jittered block under a random affine map, cells left out
- * at random, or a tetrahedron divided at random points over and over. Points, cells and the
- * vertices of each cell in random order.
+ * A small valid mesh: either a part of a jittered block under a random affine map, with random
+ * cells left out, or a tetrahedron divided repeatedly at random points. Points, cells and the
+ * vertices of each cell are in random order.
  */
 Grid makeRandomMesh(RandomNumbers& random);
 
 /**
- * Unconnected and wrongly connected cells: random vertices, repeated vertices and cells, faces of
- * more than two cells.
+ * Disconnected and invalidly connected cells: random vertices, repeated vertices and cells, faces
+ * of more than two cells.
  */
 Grid makeSoup(RandomNumbers& random);
 

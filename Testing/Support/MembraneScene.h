@@ -16,15 +16,15 @@ namespace meniscus
 namespace test
 {
 
-/** A membrane as the mapper gets it and as the reference has it. */
+/** A membrane as the mapper's input and as the reference's surface. */
 struct MembraneCase
 {
   vtkSmartPointer<vtkPolyData> Mesh;
   reference::RefractingSurface Surface;
 
   /**
-   * What rays show of which a part shows `trace`, in front of the membrane or behind it; without a
-   * mesh, `trace` itself.
+   * The colour function of refracted rays, where `trace` returns the colour of a straight part of a
+   * ray, in front of the membrane or behind it. Without a mesh, it is `trace` itself.
    */
   TraceRay bend(const TraceRay& trace) const;
 };

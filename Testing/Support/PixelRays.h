@@ -13,9 +13,9 @@ namespace test
 {
 
 /**
- * World rays through the pixel centres of a renderer, in double and from the camera's parameters
- * alone (not by inverting a matrix). Valid for perspective and parallel cameras with a window
- * centre of 0 and without shear or user transform.
+ * World rays through the pixel centres of a renderer, in double precision and from the camera's
+ * parameters alone (not by inverting a matrix). Valid for perspective and parallel cameras with a
+ * window centre of 0 and without shear or user transform.
  *
  * With a perspective camera the ray parameter is the depth in front of the camera; with a parallel
  * one it is the distance from the plane through the camera. Rays begin and end at the clipping

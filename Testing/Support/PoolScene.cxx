@@ -97,7 +97,7 @@ vtkSmartPointer<vtkImageData> makeTiles()
   return image;
 }
 
-// Bilinear, as the sampler of OpenGL does it.
+// Bilinear interpolation, as in OpenGL's samplers.
 glm::dvec3 sample(vtkImageData* image, double u, double v)
 {
   const auto fetch = [image](int i, int j)
@@ -117,7 +117,9 @@ glm::dvec3 sample(vtkImageData* image, double u, double v)
     t * ((1.0 - s) * fetch(i, j + 1) + s * fetch(i + 1, j + 1));
 }
 
-/** Direction of a texel of a cube map: face, column and row after OpenGL's table of faces. */
+/**
+ * Direction of a texel of a cube map: face, column and row in the order of OpenGL's table of faces.
+ */
 glm::dvec3 cubeDirection(int face, int column, int row)
 {
   const double s = 2.0 * (column + 0.5) / SkySize - 1.0;
@@ -178,7 +180,7 @@ vtkSmartPointer<vtkPolyData> makeWalls()
     vtkNew<vtkPolyData> copy;
     copy->ShallowCopy(plane->GetOutput());
     copy->GetPointData()->RemoveArray("Normals");
-    // Away from the border of the image, so that how it is continued does not matter.
+    // Coordinates stay away from the border of the image, so that its wrap mode has no effect.
     vtkDataArray* coordinates = copy->GetPointData()->GetTCoords();
     vtkNew<vtkFloatArray> inner;
     inner->SetName("TextureCoordinates");
@@ -214,7 +216,7 @@ vtkSmartPointer<vtkPolyData> place(vtkPolyDataAlgorithm* source, const glm::dvec
   return data;
 }
 
-/** The nearest of several surfaces behind a point. */
+/** Nearest hit of several surfaces behind a point. */
 class PoolHit
 {
 public:
@@ -225,7 +227,7 @@ public:
       this->Locators.emplace_back(vtkSmartPointer<vtkStaticCellLocator>::New());
       this->Locators.back()->SetDataSet(part);
       this->Locators.back()->BuildLocator();
-      part->GetCell(0); // builds what threads share
+      part->GetCell(0); // builds the tables that threads share
     }
   }
 
@@ -260,7 +262,7 @@ private:
 
 double fresnel(double cosine)
 {
-  // Both polarisations after Snell's law; nothing of the kernel's formula.
+  // Both polarisations after Snell's law, independently of the kernel's formula.
   const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0)) / Index;
   const double inner = std::sqrt(1.0 - sine * sine);
   const double s = (cosine - Index * inner) / (cosine + Index * inner);
@@ -399,7 +401,7 @@ void PoolScene::setAccuracy(bool allImages, double tolerance)
   for (const Part& part : this->Parts)
   {
     part.Filter->SetImages(
-      allImages ? vtkRefractedGeometryFilter::AllImages : vtkRefractedGeometryFilter::FirstImage);
+      allImages ? vtkRefractedGeometryFilter::ALL_IMAGES : vtkRefractedGeometryFilter::FIRST_IMAGE);
     part.Filter->SetAngularTolerance(tolerance);
   }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * A pool of water with waves, textured walls and three objects, under a sky that it reflects: drawn
- * by vtkRefractionPass, and traced through the exact waves in double.
+ * by vtkRefractionPass, and traced through the exact waves in double precision.
  */
 #ifndef meniscus_PoolScene_h
 #define meniscus_PoolScene_h
@@ -34,7 +34,7 @@ namespace meniscus
 namespace testing
 {
 
-/** What the water does besides refracting. */
+/** Optical effects of the water besides refraction. */
 struct PoolOptics
 {
   bool Fresnel = false;
@@ -45,22 +45,25 @@ struct PoolOptics
 /** Colour of the sky in a direction, smooth. */
 glm::dvec3 skyColor(const glm::dvec3& direction);
 
-/** Colours from 0 to 1 of each pixel, rows upwards; `isWater` where the ray meets the water. */
+/**
+ * Colours from 0 to 1 of each pixel, in rows upwards; `IsWater` is set where the ray meets the
+ * water.
+ */
 struct PoolPicture
 {
   std::vector<glm::dvec3> Colors;
   std::vector<bool> IsWater;
 };
 
-/** What a ray from the eye meets. */
+/** Hit of a ray from the eye. */
 struct PoolSight
 {
   glm::dvec3 Ray;    ///< from the eye, a unit vector
-  glm::dvec3 Normal; ///< of the water where it is met
-  int Part = -1;     ///< behind the water; -1 for nothing
+  glm::dvec3 Normal; ///< normal of the water at the intersection
+  int Part = -1;     ///< part behind the water; -1 for none
   vtkIdType Cell = -1;
-  glm::dvec3 Weights{ 0.0 }; ///< of the cell's corners
-  double Distance = 0.0;     ///< behind the water
+  glm::dvec3 Weights{ 0.0 }; ///< barycentric weights of the cell's corners
+  double Distance = 0.0;     ///< distance behind the water
 };
 
 class PoolScene
@@ -68,16 +71,18 @@ class PoolScene
 public:
   static constexpr int Pixels = 512;
 
-  /** `cells` x `cells` x 2 facets of water. */
+  /** The water has `cells` x `cells` x 2 facets. */
   explicit PoolScene(int cells, double time = 0.0);
   ~PoolScene();
 
   void setOptics(const PoolOptics& optics);
-  /** Of all filters: all images or one, and the tolerance in degrees. */
+  /**
+   * Sets, for all filters, whether all images are computed or one, and the tolerance in degrees.
+   */
   void setAccuracy(bool allImages, double tolerance);
-  /** The walls alone, or the objects as well. */
+  /** Shows the walls alone, or the objects as well. */
   void showObjects(bool show);
-  /** Other waves. */
+  /** Sets other waves. */
   void moveWater(double time);
 
   vtkRenderWindow* window() const { return this->Window.window(); }
@@ -86,13 +91,13 @@ public:
 
   test::ByteImage draw();
 
-  /** What rays through the exact waves see, refracted once. */
+  /** Image of rays through the exact waves, refracted once. */
   PoolPicture trace() const;
 
-  /** The colour of a pixel, for rays that somebody else has traced. */
+  /** Colour of a pixel, for rays traced by the caller. */
   glm::dvec3 shade(const PoolSight& sight) const;
   int numberOfParts() const { return static_cast<int>(this->Parts.size()); }
-  /** Triangles. */
+  /** The part's triangles. */
   vtkPolyData* partData(int part) const { return this->Parts[static_cast<std::size_t>(part)].Data; }
   const reference::HeightField& field() const { return this->Field; }
 
@@ -100,8 +105,9 @@ private:
   struct Part
   {
     vtkSmartPointer<vtkPolyData> Data;
-    vtkSmartPointer<vtkImageData> Image;                ///< none: a colour
-    std::vector<std::array<glm::dvec2, 3>> Coordinates; ///< in the image, of the cells' corners
+    vtkSmartPointer<vtkImageData> Image;                ///< null: the part has a single colour
+    std::vector<std::array<glm::dvec2, 3>> Coordinates; ///< texture coordinates of the cells'
+                                                        ///< corners
     glm::dvec3 Color{ 1.0 };
     vtkSmartPointer<vtkRefractedGeometryFilter> Filter;
     vtkSmartPointer<vtkActor> Actor;

@@ -14,12 +14,12 @@ namespace meniscus
 namespace test
 {
 
-/** What every programme of random cases takes on its command line. */
+/** Command line options of all programmes of random cases. */
 struct ProgrammeOptions
 {
   double Intensity = 1.0;
   std::uint64_t Seed = 1;
-  /** Name of the option that chooses groups of cases: "--family" or "--relation". */
+  /** Name of the option that selects groups of cases: "--family" or "--relation". */
   std::string GroupOption = "--family";
   /** Text in the names of the groups to run; empty: all. */
   std::string Group;
@@ -30,7 +30,7 @@ struct ProgrammeOptions
   bool has(const std::string& group) const { return group.find(this->Group) != std::string::npos; }
 };
 
-/** Their usage, one line each. */
+/** Usage of these options, one line each. */
 extern const char* const ProgrammeUsage;
 
 template <typename Number>
@@ -40,15 +40,18 @@ bool readNumber(const std::string& text, Number& value)
   return in >> value && in.eof() && value >= Number(0);
 }
 
-/** Takes an option that only one programme has; false if it is unknown or its value is bad. */
+/**
+ * Reads an option that only one programme has; returns false if it is unknown or its value is
+ * invalid.
+ */
 using OptionReader = std::function<bool(const std::string& key, const std::string& value)>;
 
-/** Prints the tables and returns whether all is good. */
+/** Prints the tables and returns true if nothing failed. */
 using ProgrammeRunner = std::function<bool(std::ostream&)>;
 
 /**
- * main(): reads the options, calls `run` with a stream that goes to standard output and to the
- * file of --report, and returns the exit status: success if all is good.
+ * main(): reads the options, calls `run` with a stream that goes to standard output and to the file
+ * of --report, and returns the exit status: success if nothing failed.
  */
 int runProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
   const OptionReader& readMore, const ProgrammeRunner& run);

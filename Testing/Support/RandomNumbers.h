@@ -13,7 +13,7 @@ namespace meniscus
 namespace test
 {
 
-/** Numbers that every standard library draws alike. */
+/** Random numbers that are the same with every standard library. */
 class RandomNumbers
 {
 public:
@@ -37,7 +37,7 @@ public:
 
   glm::dvec3 direction()
   {
-    // Rejection from the cube: no library function whose last digit may differ.
+    // Rejection from the cube: avoids library functions whose last digit may differ.
     for (;;)
     {
       const double x = this->uniform(-1.0, 1.0);

@@ -27,7 +27,7 @@ namespace
 // One grey level of an 8-bit image.
 constexpr double GreyLevel = 1.0 / 255.0;
 
-// Wrong pixels beyond this number are counted without asking whether they are silhouettes.
+// Wrong pixels beyond this number are counted without testing whether they are silhouettes.
 constexpr std::size_t MostClassified = 4000;
 
 std::vector<double> worldPoints(vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix)
@@ -143,7 +143,7 @@ double difference(const PixelPair& pair)
   for (int c = 0; c < 4; ++c)
   {
     const double d = std::fabs(pair.Image[c] - pair.Reference[c]);
-    largest = d <= largest ? largest : d; // lets NaN through
+    largest = d <= largest ? largest : d; // passes NaN on
   }
   return largest;
 }
@@ -283,8 +283,9 @@ Comparison compareToReference(const ByteImage& image, const ReferenceImage& trut
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
   const std::array<double, 3>& background, int left, int bottom)
 {
-  // An 8-bit framebuffer rounds the source and the product of blending, and takes the source's
-  // alpha in 8 bits: up to half a level each, the last times the background. At least one level.
+  // An 8-bit framebuffer rounds the source and the product of blending, and uses the source's alpha
+  // in 8 bits: an error of up to half a level each, the last one times the background. At least one
+  // level.
   const double brightest = std::max({ background[0], background[1], background[2] });
   const double tolerance = GreyLevel * (1.0 + 0.5 * brightest) * (1.0 + 1e-9);
   Comparer comparer(integrator, truth.Function, rayOf, tolerance);
@@ -303,7 +304,7 @@ Comparison compareToReference(const ByteImage& image, const ReferenceImage& trut
         pair.Reference[c] = std::min(std::max(value, 0.0), 1.0);
       }
       pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
-      pair.Drawn = false; // cannot be told from the background
+      pair.Drawn = false; // indistinguishable from the background
       comparer.add(x, y, pair);
     }
   }

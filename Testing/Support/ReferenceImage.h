@@ -23,7 +23,7 @@ namespace test
 {
 
 /**
- * What the reference says about the pixels of a viewport, premultiplied, rows from the bottom up.
+ * Results of the reference for the pixels of a viewport, premultiplied, in rows from the bottom.
  */
 struct ReferenceImage
 {
@@ -39,18 +39,16 @@ struct ReferenceImage
   }
 };
 
-/** The reference on a grid's active point scalars, in world coordinates (matrix may be null). */
+/** The reference for a grid's active point scalars, in world coordinates (`matrix` may be null). */
 std::unique_ptr<reference::ReferenceRayIntegrator> makeReference(
   vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix = nullptr);
 
-/**
- * The ray of a pixel (counted from the viewport's lower left corner); may be shortened by a scene.
- */
+/** Ray of a pixel (counted from the viewport's lower left corner); a scene may shorten it. */
 using RayOfPixel = std::function<reference::Ray(int, int)>;
 
 /**
- * Traces all pixels on all processors, for several transfer functions at once (cells are found
- * once). The step leaves out pixels: only those with x and y divisible by it are traced.
+ * Traces all pixels on all processors, for several transfer functions at once (cells are located
+ * once). With a step, only pixels with x and y divisible by it are traced.
  */
 std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegrator& integrator,
   int width, int height, const RayOfPixel& rayOf,
@@ -60,12 +58,12 @@ std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegra
 constexpr double FloatTolerance = 1e-4;
 
 /**
- * What float rounding of the vertices moves a mesh by, relative to its diagonal: 2^-24 of twice
- * the half diagonal in each direction, and the same again from the ray's direction.
+ * Distance, relative to a mesh's diagonal, by which float rounding of the vertices moves the mesh:
+ * 2^-24 of twice the half diagonal in each direction, and the same again from the ray's direction.
  */
 constexpr double RoundingDistance = 1e-7;
 
-/** Share of a mesh's covered pixels that may be excused as silhouette before a test fails. */
+/** Fraction of a mesh's covered pixels that may be excused as silhouettes before a test fails. */
 constexpr double LargestSilhouetteShare = 1e-3;
 
 struct Comparison
@@ -73,16 +71,16 @@ struct Comparison
   double Largest = 0.0;               // over all pixels but silhouettes
   double Rms = 0.0;                   // over covered pixels but silhouettes
   std::size_t Covered = 0;            // pixels that the reference covers
-  std::size_t Wrong = 0;              // off by more than the tolerance, silhouettes apart
+  std::size_t Wrong = 0;              // error above the tolerance, not on a silhouette
   std::size_t BeyondRounding = 0;     // wrong, and by more than rounding of the vertices explains
-  std::size_t Silhouettes = 0;        // off by more than the tolerance, on a silhouette
+  std::size_t Silhouettes = 0;        // error above the tolerance, on a silhouette
   std::size_t CoverageMismatches = 0; // drawn where the reference misses, silhouettes apart
-  std::size_t OffByTwoLevels = 0;     // off by more than 2/255, silhouettes included
+  std::size_t OffByTwoLevels = 0;     // error above 2/255, silhouettes included
   int WorstPixel[2] = { -1, -1 };
   std::array<double, 4> WorstImage{};
   std::array<double, 4> WorstReference{};
-  // Change of the exact result at the worst pixel when its ray moves by RoundingDistance. Only for
-  // a wrong pixel.
+  // Change of the exact result at the worst pixel when its ray moves by RoundingDistance. Computed
+  // for a wrong pixel only.
   double WorstSensitivity = 0.0;
 
   std::string text() const;
@@ -94,9 +92,9 @@ Comparison compareToReference(const FloatImage& image, const ReferenceImage& tru
   double tolerance = FloatTolerance);
 
 /**
- * The same for an 8-bit image over an opaque background of whole grey levels, to 1/255 and what
- * 8-bit blending over that background adds; a window
- * may be larger than the viewport, whose lower left corner is given.
+ * As above, for an 8-bit image over an opaque background of whole grey levels, with a tolerance of
+ * 1/255 plus the error of 8-bit blending over that background. A window may be larger than the
+ * viewport, whose lower left corner is given.
  */
 Comparison compareToReference(const ByteImage& image, const ReferenceImage& truth,
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,

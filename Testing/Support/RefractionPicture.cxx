@@ -22,7 +22,7 @@ namespace meniscus::testing
 namespace
 {
 
-// Error in pixels beyond which a pixel shows another place.
+// Error in pixels beyond which a pixel counts as showing another place.
 constexpr double AcceptedPixels = 0.5;
 
 struct DrawnCorner
@@ -53,7 +53,7 @@ void DrawTriangle(
         const glm::dvec3& b = p[(i + 2) % 3];
         w[i] = ((b.x - a.x) * (y + 0.5 - a.y) - (b.y - a.y) * (x + 0.5 - a.x)) / area / p[i].z;
       }
-      // Borders belong to both sides; the depth decides and is the same there.
+      // Borders belong to both sides; the depth, which is the same there, decides.
       constexpr double border = -1e-12;
       if (!(w[0] * p[0].z >= border && w[1] * p[1].z >= border && w[2] * p[2].z >= border))
       {

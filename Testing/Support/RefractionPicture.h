@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Pictures of places: what of an object each pixel shows. Drawn from geometry in double, or made by
- * tracing rays through an analytic membrane. Two pictures are compared pixel by pixel.
+ * Images of places: the place on an object that each pixel shows. They are drawn from geometry in
+ * double precision, or made by tracing rays through an analytic membrane. Two images are compared
+ * pixel by pixel.
  */
 #ifndef meniscus_RefractionPicture_h
 #define meniscus_RefractionPicture_h
@@ -23,13 +24,13 @@ class vtkPolyData;
 namespace meniscus::testing
 {
 
-/** A membrane of the references as data set, with or without its normals. */
+/** A membrane of the references as a data set, with or without its normals. */
 vtkSmartPointer<vtkPolyData> MakeMembrane(
   const reference::MembraneMesh& mesh, bool withNormals = true);
 
 /**
- * A pinhole camera at the eye that looks at a point, with square pictures. `halfTangent` is the
- * tangent of half the angle of view; z points up in the picture.
+ * A pinhole camera at the eye that looks at a point, with square images. `halfTangent` is the
+ * tangent of half the view angle; z is up in the image.
  */
 class PixelCamera
 {
@@ -57,8 +58,8 @@ private:
 };
 
 /**
- * What a pixel shows of the object: a place, or nothing. Pixels beside the object have places,
- * too, if it has a plane that goes on.
+ * Place on the object that a pixel shows, or none. If the object's plane extends beyond it, pixels
+ * next to the object have places, too.
  */
 struct PlacePixel
 {
@@ -77,17 +78,17 @@ PlacePicture DrawPlaces(vtkPolyData* data, const PixelCamera& camera);
 /** Adds the point array "Place" with the points' own coordinates. */
 void AddPlaces(vtkPolyData* data);
 
-/** Where a ray behind the membrane meets the object; covered or not. */
+/** Intersection of a refracted ray with the object or its plane. */
 using PlaceTracer = std::function<PlacePixel(const glm::dvec3& start, const glm::dvec3& direction)>;
 
-/** What the membrane shows of an object; pixels beside the membrane stay empty. */
+/** Image of an object through the membrane; pixels that miss the membrane stay empty. */
 PlacePicture TracePlaces(
   const reference::HeightField& membrane, const PixelCamera& camera, const PlaceTracer& object);
 
-/** A horizontal square about the axis, at height `y`. */
+/** A horizontal square around the axis, at height `y`. */
 PlaceTracer MakeSquareTracer(double y, double size);
 
-/** What a pixel covers of the object: the largest step to a neighbour's place. */
+/** Extent of the object in a pixel: the largest distance to a neighbouring pixel's place. */
 double GetFootprint(const PlacePicture& picture, const PixelCamera& camera, std::size_t pixel);
 
 /** A membrane above a horizontal square of tiles. */
@@ -96,10 +97,10 @@ struct PictureScene
   std::string Name;
   reference::HeightField Field;
   glm::dvec3 Eye;
-  int Cells;    ///< of the membrane
-  double Depth; ///< of the square
-  double Size;  ///< its side
-  int Tiles;    ///< a side
+  int Cells;    ///< cells of the membrane along a side
+  double Depth; ///< depth of the square
+  double Size;  ///< side of the square
+  int Tiles;    ///< number of tiles along a side
 
   PixelCamera GetCamera() const;
 };
@@ -109,10 +110,10 @@ const std::vector<PictureScene>& GetPictureScenes();
 
 struct PlaceComparison
 {
-  int Covered = 0;  ///< in the truth
-  int Coverage = 0; ///< pixels that only one of the two covers
-  int Place = 0;    ///< pixels more than half a pixel off
-  /** Of all pixels that both cover, the largest error in pixels of `Part`. */
+  int Covered = 0;  ///< number of pixels covered in the reference
+  int Coverage = 0; ///< number of pixels that only one of the two images covers
+  int Place = 0;    ///< number of pixels with an error of more than half a pixel
+  /** Largest error, in pixels of `Part`, over the pixels that both images cover. */
   double Error = 0.0;
 
   static constexpr double Part = 0.99;

@@ -14,14 +14,15 @@ namespace test
 {
 
 /**
- * Difference of two 8-bit images, in grey levels, pixel against the same pixel: no shift, no
- * averaging, no allowance (VTK's own comparison lets a whole image be 50 levels off).
+ * Difference of two 8-bit images in grey levels, each pixel compared with the same pixel: without
+ * shifts, averaging or allowance (VTK's own comparison accepts an offset of 50 levels of a whole
+ * image).
  */
 struct StrictDifference
 {
   bool SameSize = false;
   int Largest = 0;
-  std::size_t PixelsBeyond = 0; // pixels off by more than the threshold
+  std::size_t PixelsBeyond = 0; // pixels with a difference above the threshold
   ByteImage Image;              // absolute differences, times 32 to be seen
 };
 
@@ -31,9 +32,9 @@ ByteImage readPng(const std::string& path);
 void writePng(const ByteImage& image, const std::string& path);
 
 /**
- * Compares with the baseline of that name (Testing/Data/Baseline/NAME.png). On a failure or without
- * a baseline, writes NAME.png and NAME-difference.png into the build tree's Testing/Temporary and
- * says so in the message.
+ * Result of a comparison with a baseline (Testing/Data/Baseline/NAME.png). On a failure, or without
+ * a baseline, NAME.png and NAME-difference.png are written to the build tree's Testing/Temporary,
+ * and the message says so.
  */
 struct BaselineResult
 {

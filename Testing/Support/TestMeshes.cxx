@@ -91,7 +91,7 @@ const std::vector<double> CubeCorners{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, //
   0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1 };
 
 // Paths from corner (0,0,0) to (1,1,1) of a cube along its axes: one tetrahedron each. Neighbouring
-// cubes split in this way match face to face.
+// cubes that are split in this way match face to face.
 constexpr int Paths[6][3] = { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
   { 2, 1, 0 } };
 
@@ -114,7 +114,7 @@ void appendCube(const CornerId& cornerId, std::vector<vtkIdType>& cells)
   }
 }
 
-// Leaves out points that no cell uses, so that bounds are those of the region.
+// Omits points that no cell uses, so that the bounds are those of the region.
 Grid makeCompactGrid(
   const std::vector<double>& points, std::vector<vtkIdType> cells, const Field& field)
 {
@@ -213,7 +213,7 @@ Region twoBlocks(double gap)
 //------------------------------------------------------------------------------
 void jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed)
 {
-  // Not uniform_real_distribution: its values may differ between libraries.
+  // std::uniform_real_distribution is not used: its values may differ between libraries.
   std::mt19937 random(seed);
   const auto draw = [&random, amount]() { return amount * (random() / 2147483648.0 - 1.0); };
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)

@@ -21,7 +21,7 @@ namespace test
 using Field = std::function<double(double, double, double)>;
 using Grid = vtkSmartPointer<vtkUnstructuredGrid>;
 
-/** Whether a cube of a structured grid (by the position of its centre) belongs to the mesh. */
+/** True if a cube of a structured grid (given by its centre) belongs to the mesh. */
 using Region = std::function<bool(double, double, double)>;
 
 Field constantField(double value);
@@ -29,10 +29,10 @@ Field constantField(double value);
 Field linearField(double x, double y, double z);
 /** Distance from the origin. */
 Field radialField();
-/** Smooth and not monotonous, between about -1 and 1. */
+/** Smooth and not monotonic, between about -1 and 1. */
 Field wavyField(double frequency);
 
-/** Name of the point array of every mesh made here. */
+/** Name of the point array of all these meshes. */
 extern const char* const ScalarName;
 
 Grid makeGrid(
@@ -46,7 +46,8 @@ Grid makeCubeOfFive(const Field& field);
 Grid makeCubeOfSix(const Field& field);
 
 /**
- * The cube [-1, 1]^3 of n^3 cubes, each in 6 tetrahedra, where the region says so (default: all).
+ * The cube [-1, 1]^3 of n^3 cubes, each split into 6 tetrahedra; only cubes in the region are
+ * included (default: all).
  */
 Grid makeBlock(int n, const Field& field, const Region& region = nullptr);
 
@@ -63,8 +64,8 @@ void jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed);
 void transformPoints(vtkUnstructuredGrid* grid, const std::array<double, 3>& offset, double scale);
 
 /**
- * A mesh of the data folder (MENISCUS_DATA_DIR in the environment or at configuration, else
- * ../shared/data beside the project) with its first point array active; null if it is not there.
+ * A mesh of the data folder (MENISCUS_DATA_DIR in the environment or at configuration, otherwise
+ * ../shared/data next to the project) with its first point array active; null if it does not exist.
  */
 Grid readDataMesh(const std::string& name);
 

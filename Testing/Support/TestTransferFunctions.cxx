@@ -29,8 +29,8 @@ void addColors(vtkColorTransferFunction* color, const double range[2])
   color->AddRGBPoint(at(1.0), 1.00, 0.85, 0.80);
 }
 
-// Opacity nodes (u, opacity) with u as a share of the range, and unit distance as a share of the
-// diagonal.
+// Opacity nodes (u, opacity), with u as a fraction of the range, and the unit distance as a
+// fraction of the diagonal.
 struct OpacityShape
 {
   std::vector<std::pair<double, double>> Nodes;
@@ -64,7 +64,7 @@ OpacityShape shapeOf(FunctionKind kind)
   }
 }
 
-// One-sided values at a node: a function that does not clamp jumps to 0 at its ends.
+// One-sided values at a node: a function without clamping jumps to 0 at its ends.
 struct OneSided
 {
   double Below;
@@ -77,7 +77,7 @@ OneSided limitsOf(vtkPiecewiseFunction* function, double scalar)
   OneSided limits{ value, value };
   if (!function->GetClamping())
   {
-    // At its first node itself such a function is 0: ask beside.
+    // At its first node itself such a function is 0, so it is evaluated next to the node.
     limits.Below = function->GetValue(std::nextafter(scalar, -HUGE_VAL));
     limits.Above = function->GetValue(std::nextafter(scalar, HUGE_VAL));
   }
@@ -90,7 +90,7 @@ double attenuationOf(double opacity, double unit, OpacityModel model)
   {
     return opacity / unit;
   }
-  // Full opacity stands for the largest one below 1 that a float holds.
+  // Full opacity is replaced by the largest one below 1 that a float can hold.
   return -std::log1p(-std::min(opacity, 1.0 - 5.9604644775390625e-8)) / unit;
 }
 

@@ -17,12 +17,14 @@ enum class FunctionKind
 {
   Smooth, ///< wide ramps, moderately transparent
   Peaked, ///< narrow opacity peaks (1 % of the range to each side) in transparent surroundings
-  Sharp,  ///< the same, ten times as dense: float rounding of vertices shows above 1e-4
-  Opaque, ///< the first part of the mesh hides the rest
+  Sharp,  ///< the same, ten times as dense: float rounding of vertices causes errors above 1e-4
+  Opaque, ///< the first part of the mesh occludes the rest
   Sparse  ///< one window of the range, transparent elsewhere
 };
 
-/** Transfer function over a scalar range; the unit distance is a share of the mesh's diagonal. */
+/**
+ * Transfer function over a scalar range; the unit distance is a fraction of the mesh's diagonal.
+ */
 vtkSmartPointer<vtkVolumeProperty> makeProperty(
   FunctionKind kind, const double range[2], double diagonal);
 
@@ -30,7 +32,7 @@ vtkSmartPointer<vtkVolumeProperty> makeProperty(
 vtkSmartPointer<vtkVolumeProperty> makeConstantProperty(
   double opacity, double red, double green, double blue, double unitDistance);
 
-/** How opacity becomes attenuation per world length (see vtkTetrahedraRayCastMapper). */
+/** Conversion of opacity to attenuation per world length (see vtkTetrahedraRayCastMapper). */
 enum class OpacityModel
 {
   AttenuationCoefficient, ///< tau = opacity / unit
@@ -39,7 +41,7 @@ enum class OpacityModel
 
 /**
  * The reference's nodes for the first component of a property with piecewise linear RGB colour and
- * opacity. Per unit distance, attenuation is not linear in opacity: pieces are split finely.
+ * opacity. Per unit distance, attenuation is not linear in opacity, so pieces are split finely.
  */
 reference::ReferenceTransferFunction toReference(
   vtkVolumeProperty* property, OpacityModel model = OpacityModel::AttenuationCoefficient);

@@ -28,12 +28,12 @@ double difference(const Color& a, const Color& b)
   for (int c = 0; c < 4; ++c)
   {
     const double d = std::fabs(a[c] - b[c]);
-    largest = d <= largest ? largest : d; // lets NaN through
+    largest = d <= largest ? largest : d; // passes NaN on
   }
   return largest;
 }
 
-// Largest change of the truth when the ray moves sideways in 8 directions.
+// Largest change of the exact result when the ray moves sideways in 8 directions.
 double sensitivity(
   const reference::Ray& ray, const TraceRay& trace, const Color& truth, double distance)
 {
@@ -54,7 +54,7 @@ double sensitivity(
   return largest;
 }
 
-// Adds up the pixels of a row.
+// Accumulates the pixels of a row.
 class RowComparer
 {
 public:

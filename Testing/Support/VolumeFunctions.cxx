@@ -26,7 +26,7 @@ namespace
 
 using Node = reference::TransferFunctionNode;
 
-// Scalars as a share u of the range, attenuations per length of a ray.
+// Builds functions with scalars as fractions u of the range and attenuations per length of a ray.
 class Builder
 {
 public:
@@ -39,7 +39,7 @@ public:
 
   Builder& add(double u, double depth)
   {
-    // Colours from the place, so that neighbouring points differ.
+    // Colours depend on the place, so that those of neighbouring points differ.
     const double hue = 7.0 * u;
     Node node;
     node.Scalar = this->Low + u * this->Width;
@@ -172,7 +172,7 @@ double brightestColor(const VolumeFunction& function)
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeFunction& function)
 {
-  // Opacities up to 1 over a unit distance that gives the largest attenuation.
+  // Opacities up to 1, over a unit distance that gives the largest attenuation.
   const double largest = largestAttenuation(function);
   const double unit = largest > 0.0 ? 1.0 / largest : 1.0;
   vtkNew<vtkPiecewiseFunction> opacity;

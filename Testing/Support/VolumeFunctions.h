@@ -32,9 +32,9 @@ struct NamedFunction
 std::vector<NamedFunction> usualFunctions(vtkUnstructuredGrid* grid);
 
 /**
- * Functions at the edge of what a user can make, for scalars in a range: none, one point, zero,
- * steps, jumps, many points, all out of range, a window too narrow to see, all but solid.
- * @param length  about the length of a ray in the mesh.
+ * Extreme functions that a user can make, for scalars in a range: none, one point, zero, steps,
+ * jumps, many points, all points outside the range, a window too narrow to see, nearly solid.
+ * @param length approximate length of a ray in the mesh.
  */
 std::vector<NamedFunction> degenerateFunctions(const double range[2], double length);
 
@@ -45,7 +45,7 @@ VolumeFunction randomFunction(const double range[2], double length, RandomNumber
 double largestAttenuation(const VolumeFunction& function);
 double brightestColor(const VolumeFunction& function);
 
-/** The property that gives a function's attenuation and colour. */
+/** A property with a function's attenuation and colour. */
 vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeFunction& function);
 
 } // namespace test

@@ -204,7 +204,7 @@ void lookAlongAxis(vtkRenderer* renderer, const double bounds[6], int axis, doub
 //------------------------------------------------------------------------------
 std::array<double, 2> viewAngles(int i)
 {
-  // Steps of the golden angle around, and up and down within 60 degrees.
+  // Steps of the golden angle in azimuth, and elevations within 60 degrees.
   const double azimuth = 17.3 + 137.50776405 * i;
   return { azimuth, 60.0 * std::sin(0.7 + 2.4 * i) };
 }

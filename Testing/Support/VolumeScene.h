@@ -24,7 +24,7 @@ namespace meniscus
 namespace test
 {
 
-/** Premultiplied float RGBA, rows from the bottom up. */
+/** Premultiplied float RGBA, in rows from the bottom. */
 struct FloatImage
 {
   int Width = 0;
@@ -37,7 +37,7 @@ struct FloatImage
   }
 };
 
-/** 8-bit RGB, rows from the bottom up. */
+/** 8-bit RGB, in rows from the bottom. */
 struct ByteImage
 {
   int Width = 0;
@@ -50,13 +50,13 @@ struct ByteImage
   }
 };
 
-/** Whether a window can be opened (VTK 9.1 aborts without a display). */
+/** True if a window can be opened (VTK 9.1 aborts without a display). */
 bool hasDisplay();
 
 /**
- * Keeps a connection to the display. An X server that is left by its last client resets (Xvfb
- * without -noreset does), and a window opened at that moment fails; so a program that opens one
- * window after the other holds one of these.
+ * Keeps a connection to the display. An X server resets when its last client leaves (as Xvfb does
+ * without -noreset), and a window that is opened at that moment fails. A program that opens one
+ * window after another therefore holds one of these.
  */
 class DisplayHold
 {
@@ -98,12 +98,12 @@ private:
   vtkNew<vtkFramebufferPass> FloatPass;
 };
 
-/** Reads the window's front result without rendering. */
+/** Reads the window's front buffer without rendering. */
 ByteImage readBytes(vtkRenderWindow* window);
 
 /**
  * Looks at the middle of a bounding box from a direction given by angles in degrees. The box fills
- * the view for zoom 1; the clipping range holds all of it.
+ * the view for zoom 1; the clipping range contains the whole box.
  */
 void lookAt(vtkRenderer* renderer, const double bounds[6], double azimuth, double elevation,
   double zoom = 1.0, bool parallel = false);

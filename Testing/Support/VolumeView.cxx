@@ -23,7 +23,7 @@ VolumeView VolumeView::towards(
   const glm::dvec3 low(bounds[0], bounds[2], bounds[4]);
   const glm::dvec3 high(bounds[1], bounds[3], bounds[5]);
   const double radius = 0.5 * glm::distance(low, high);
-  // As seen from 3.8 radii away, half the height at unit depth is the tangent of 15 degrees.
+  // From a distance of 3.8 radii, half the height at unit depth is the tangent of 15 degrees.
   const double distance = radius / std::sin(vtkMath::RadiansFromDegrees(15.0));
   VolumeView view;
   view.Focus = 0.5 * (low + high);

@@ -15,8 +15,8 @@ namespace test
 {
 
 /**
- * One camera as the kernel, VTK and the reference take it, from the same parameters in double.
- * Images are square.
+ * One camera in the forms that the kernel, VTK and the reference use, from the same parameters in
+ * double precision. Images are square.
  */
 struct VolumeView
 {
@@ -24,14 +24,16 @@ struct VolumeView
   glm::dvec3 Focus{ 0.0 };
   glm::dvec3 Up{ 0.0, 1.0, 0.0 };
   bool Parallel = false;
-  /** Half the height of what is seen, at unit depth (perspective) or anywhere (parallel). */
+  /**
+   * Half the height of the visible region, at unit depth (perspective) or at any depth (parallel).
+   */
   double HalfHeight = 0.27;
   /** Depths of the clipping planes. */
   double Near = 0.1;
   double Far = 10.0;
 
   /**
-   * Looks at the middle of bounds from a direction. All of a ball around them is seen at zoom 1.
+   * Looks at the middle of bounds from a direction. The whole bounding sphere is visible at zoom 1.
    */
   static VolumeView towards(
     const double bounds[6], const glm::dvec3& direction, bool parallel, double zoom = 1.0);

@@ -18,18 +18,18 @@ namespace
 
 constexpr int Steps = 12;
 
-// Quadratic convergence leaves the square of the last step.
+// Newton's method converges quadratically: the remaining error is the square of the last step.
 constexpr double LastStep = 1e-7;
 
-// The guess comes from linear interpolation over a curve that bends little; what goes farther than
-// the length of the curve has left it.
+// The guess comes from linear interpolation over a curve of small curvature; an iterate farther
+// away than the length of the curve has left it.
 constexpr double Reach = 1.0;
 
-// Part of a side that its zero is bracketed to. The side itself is known to some 1e-15 of its
+// Fraction of a side to which its zero is bracketed. The side itself is known to some 1e-15 of its
 // length.
 constexpr double Bracket = 1e-14;
 
-// Bisection alone brackets a zero in 47 steps; it is taken at least every other time.
+// Bisection alone brackets a zero in 47 steps; at least every other step is a bisection.
 constexpr int BracketSteps = 100;
 
 constexpr double Epsilon = std::numeric_limits<double>::epsilon();
@@ -52,7 +52,8 @@ struct Sample
 
 // Chandrupatla's method (Advances in Engineering Software 28, 1997): inverse quadratic
 // interpolation where the values at three samples are monotone enough for it to land inside the
-// bracket, else bisection. `measure(s, value)` tells whether the value is zero within its rounding.
+// bracket, otherwise bisection. `measure(s, value)` returns true if the value is zero within its
+// rounding.
 template <typename Measure>
 double FindZero(double atStart, double atEnd, const Measure& measure)
 {
@@ -145,7 +146,7 @@ SubCellSide::SubCellSide(const CurvedPatch& patch, const glm::dvec2& a, const gl
     this->To = this->Turned ? a : b;
     return;
   }
-  // In x the weight of the edge's end with the greater coordinates, which grows.
+  // x is the weight of the edge's end with the greater coordinates; it grows along the side.
   const int i = (this->Edge + 1) % 3;
   const int j = (this->Edge + 2) % 3;
   this->FarIsFirst = IsBefore(patch.Corner[j], patch.Corner[i]);
@@ -218,7 +219,7 @@ bool MeetPatchAgain(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2
   {
     return false;
   }
-  constexpr double grid = 1024.0; // near enough for two or three steps
+  constexpr double grid = 1024.0; // fine enough that two or three Newton steps suffice
   glm::dvec2 again = glm::round(grid * b) / grid;
   double alongAgain = std::round(grid * l) / grid;
   if (MeetPatch(patch, line, again, alongAgain))
@@ -257,7 +258,7 @@ bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep
     {
       b = atB;
       l = atL;
-      // Over so short a step the normal is as good as linear.
+      // The step is so short that the normal is linear within rounding.
       normal = jet.Normal + moveB.x * jet.NormalBy[0] + moveB.y * jet.NormalBy[1];
       return true;
     }

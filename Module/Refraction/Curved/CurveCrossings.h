@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Exact places of the corners that clipping makes: where the rays of a sub-cell's side pass a line
- * of the object, and where the side or the patch meets the object.
+ * Exact positions of the corners that clipping makes: points where the rays of a sub-cell's side
+ * cross a line of the object, and where the side or the patch meets the object.
  *
  * Pieces that share a corner compute it from the same numbers in the same order, whichever patch,
- * sub-cell and triangle they belong to: sides are taken from one end to the other in an order that
- * lies in the ends, and lines of the object too. The results are equal bit by bit.
+ * sub-cell and triangle they belong to: each side and each line of the object has a canonical
+ * direction that depends on its two ends only. The results are equal bit by bit.
  */
 #ifndef meniscus_Refraction_Curved_CurveCrossings_h
 #define meniscus_Refraction_Curved_CurveCrossings_h
@@ -22,11 +22,14 @@ struct ObjectLine
   glm::dvec3 Origin;
   glm::dvec3 Direction;
 
-  /** From the end with the smaller coordinates. */
+  /**
+   * The line from the end with the smaller coordinates to the other one. `turned` is set if that is
+   * `b`.
+   */
   static ObjectLine Order(const glm::dvec3& a, const glm::dvec3& b, bool& turned);
   glm::dvec3 GetPoint(double l) const
   {
-    // The far end as it is, not by way of a difference.
+    // Uses the far end as it is, rather than a scaled difference.
     return (1.0 - l) * this->Origin + l * (this->Origin + this->Direction);
   }
 };
@@ -43,26 +46,31 @@ struct RefractedPoint
 {
   PatchPoint At;
   glm::dvec3 Ray;
-  bool IsValid; ///< there is a refracted ray; otherwise it is extrapolated
+  bool IsValid; ///< true: the refracted ray exists; false: its direction is extrapolated
 };
 
 RefractedPoint RefractAt(const PatchPoint& at, const Media& media);
 
 /**
- * How far a ray passes the line, times the lengths of both: their moment about each other, zero
- * where they meet. It is linear in the line's direction and changes sign with it.
+ * Signed distance between a ray and the line, times the lengths of both direction vectors: their
+ * mutual moment, which is zero where they meet. It is linear in the line's direction and changes
+ * sign with it.
  */
 inline double GetMoment(const ObjectLine& line, const RefractedPoint& from)
 {
   return glm::dot(line.Direction, glm::cross(from.At.Position - line.Origin, from.Ray));
 }
 
-/** The line's parameter nearest to a ray that meets it; 0 if they are parallel. */
+/**
+ * Parameter of the point of the line that is nearest to a ray that meets it; 0 if they are
+ * parallel.
+ */
 double GetParameter(const ObjectLine& line, const RefractedPoint& from);
 
 /**
- * A side of a sub-cell, from s = 0 to 1. Sides on an edge of the patch run from the vertex with
- * the smaller coordinates, others from the corner with the smaller barycentric coordinates.
+ * One side of a sub-cell, parametrised from s = 0 to 1. A side on an edge of the patch runs from
+ * the vertex with the smaller coordinates, any other from the corner with the smaller barycentric
+ * coordinates.
  */
 class SubCellSide
 {
@@ -70,12 +78,12 @@ public:
   SubCellSide(const CurvedPatch& patch, const glm::dvec2& a, const glm::dvec2& b);
 
   PatchPoint Evaluate(double s) const;
-  /** It runs from b to a. */
+  /** True if the side runs from b to a. */
   bool IsTurned() const { return this->Turned; }
 
 private:
   const CurvedPatch& Patch;
-  int Edge = -1; ///< of the patch; -1 for a side in its interior
+  int Edge = -1; ///< edge of the patch that the side lies on; -1 for a side in the interior
   bool Turned = false;
   bool FarIsFirst = false;
   glm::dvec2 From;
@@ -83,26 +91,33 @@ private:
 };
 
 /**
- * Where the rays of the side, with the ends `a` and `b`, pass the line. The ends' rays pass it on
- * different sides; otherwise this is the end that passes it more closely.
+ * Point of the side, with the ends `a` and `b`, whose ray meets the line. The rays of the two ends
+ * must pass the line on different sides; otherwise the result is the end whose ray passes it more
+ * closely.
  */
 RefractedPoint MeetLine(const SubCellSide& side, const Media& media, const ObjectLine& line,
   const RefractedPoint& a, const RefractedPoint& b);
 
-/** Where the side meets the plane through `point` with `normal`, in the same way. */
+/**
+ * Point where the side meets the plane through `point` with `normal`. The two ends must lie on
+ * different sides of it; otherwise the result is the nearer end.
+ */
 RefractedPoint MeetPlane(const SubCellSide& side, const Media& media, const glm::dvec3& point,
   const glm::dvec3& normal, const RefractedPoint& a, const RefractedPoint& b);
 
 /**
- * Where the line meets the patch: Newton's method from the guess; false, and nothing changed, if
- * it does not settle near it.
+ * Intersection of the line and the patch by Newton's method from the guess in `b` and `l`. Returns
+ * false, and changes nothing, if the method does not converge near the guess.
  */
 bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l);
-/** The same bit by bit for all guesses near the place: it starts again from one of a grid. */
+/**
+ * As MeetPatch, but with the same result bit by bit for all guesses near the intersection: it
+ * starts again from a point of a grid.
+ */
 bool MeetPatchAgain(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l);
 /**
- * The same as MeetPatch with the patch's normal there, not normalised. Newton's method ends with a
- * step shorter than `lastStep`, the square of which is left.
+ * As MeetPatch, and returns the patch's normal at the intersection, not normalised. Newton's method
+ * ends with a step shorter than `lastStep`; the remaining error is of the order of its square.
  */
 bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
   double& l, glm::dvec3& normal);

@@ -17,27 +17,27 @@ namespace meniscus
 namespace
 {
 
-// A root on an edge is found in both of its facets, up to what Newton's method leaves.
+// A root on an edge is found in both of its facets, within the accuracy of Newton's method.
 constexpr double Border = PatchCrossings::Border;
 
-// Newton steps in one patch while the answers before are followed, how far a step may leave the
-// patch before another one takes over, and how often that may happen.
+// Limits while the previous answers are followed: Newton steps in one patch, how far a step may
+// leave the patch before the next patch takes over, and the number of such changes.
 constexpr int FollowSteps = 8;
 constexpr double FollowReach = 0.3;
 constexpr int LongestChase = 8;
 
-// Facets to cross on the way from the last answer. Farther away the tree is faster.
+// Facets to cross on the way from the previous answer. For longer ways the tree is faster.
 constexpr int LongestWalk = 64;
 
-// Points go on as before, and their sight points as well, if the step differs by no more than this
-// part of itself.
+// Points are taken to move on as before, and their sight points with them, if the step differs from
+// the previous one by no more than this fraction of it.
 constexpr double SameStep = 0.5;
 
 constexpr int FirstSteps = 10;
 constexpr double FirstReach = 1.5;
 
-// Images of one point in two patches are one if their sight points are this close, in units of
-// the patch's size: images on a common edge, up to what Newton's method leaves.
+// Images of one point in two patches are the same if their sight points are this close, in units of
+// the patch's size: they lie on a common edge and differ by the error of Newton's method only.
 constexpr double SamePlace = 1e-6;
 
 constexpr std::int32_t AllFacets = std::numeric_limits<std::int32_t>::max();
@@ -120,8 +120,9 @@ void CurvedMembraneSolver::FindAxis()
   }
   this->FindEnclosure();
   const double length = glm::length(sum);
-  // Normals of a closed membrane cancel out. No plane with small integers as normal has this
-  // direction: its components' squares are 1, 2 and 3 over 6.
+  // Normals of a closed membrane cancel out, so a fixed direction is taken. No plane whose normal
+  // has small integer components contains this direction: the squares of its components are 1, 2
+  // and 3 over 6.
   const glm::dvec3 oblique(std::sqrt(1.0 / 6.0), std::sqrt(1.0 / 3.0), std::sqrt(0.5));
   this->Axis = length > 0.0 && !this->Closed ? sum / length : oblique;
   this->Frame = HeightFrame(this->Axis);
@@ -159,7 +160,8 @@ void CurvedMembraneSolver::FindEnclosure()
 {
   const auto& facets = this->Surface.GetFacets();
   this->Closed = !facets.empty();
-  double volume = 0.0; // by the divergence theorem, six times, positive for normals outwards
+  double volume = 0.0; // six times the enclosed volume, by the divergence theorem; positive for
+                       // outward normals
   for (std::size_t i = 0; i < facets.size() && this->Closed; ++i)
   {
     const auto at = [this, &facets, i](std::size_t k) -> const glm::dvec3&
@@ -246,7 +248,7 @@ bool CurvedMembraneSolver::IsEyeOnPatch(const CurvedPatch& patch) const
   {
     return false;
   }
-  // The patch is crossed at right angles to its facet, where the eye is.
+  // The patch is intersected with the line through the eye at right angles to the facet.
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   const double slack =
     rounding * std::max(this->Surface.GetRadius(), glm::length(this->Optics.Eye));
@@ -254,7 +256,7 @@ bool CurvedMembraneSolver::IsEyeOnPatch(const CurvedPatch& patch) const
   const double height = frame.GetHeight(this->Optics.Eye);
   PatchCrossings crossings(patch, frame);
   crossings.Find(frame.Project(this->Optics.Eye), height - slack, height + slack);
-  // What cannot be told apart from the patch is on it.
+  // An eye that cannot be told apart from the patch within rounding counts as on it.
   return !crossings.IsComplete() ||
     std::any_of(crossings.begin(), crossings.end(),
       [height, slack](const PatchCrossing& crossing)
@@ -298,7 +300,7 @@ std::size_t CurvedMembraneSolver::CountVerticesBehindOtherPieces(std::size_t mos
     count += std::any_of(images.begin(), images.end(),
       [this, &pieces, &point, i, vertex](const VirtualVertex& image)
       {
-        // Pieces may share places, which are their own images.
+        // Vertices that two pieces share are their own images.
         constexpr double touching = 1e-6;
         return pieces.PieceOf[static_cast<std::size_t>(image.Facet)] != pieces.PieceOf[i] &&
           image.Depth > touching * this->Surface.GetRadius() &&
@@ -325,7 +327,8 @@ bool CurvedMembraneSolver::MayShow(
 bool CurvedMembraneSolver::IsInReach(const glm::dvec3& local) const
 {
   const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
-  // Written so that a NaN fails: it may hide from max() in one component but not in the sum.
+  // The sum is tested so that a NaN fails: max() may ignore a NaN in one component, the sum does
+  // not.
   return reach / this->Surface.GetRadius() < RayTubeTree::FarthestRadii &&
     std::isfinite(local.x + local.y + local.z);
 }
@@ -396,7 +399,8 @@ bool CurvedMembraneSolver::MeetRay(
 {
   const glm::dvec3& eye = this->Optics.Eye;
   const glm::dvec3 target = near.SightPoint - this->Surface.GetOrigin();
-  // As long as the way to the surface, so that its parameter is about 1.
+  // The direction is scaled to the distance of the surface, so that the line's parameter there is
+  // about 1.
   const double distance =
     std::max(glm::dot(target - eye, direction), std::numeric_limits<double>::min());
   const ObjectLine ray{ eye, distance * direction };
@@ -441,7 +445,8 @@ bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& se
 }
 
 //------------------------------------------------------------------------------
-// Newton's method across patches, from where the answers of the points before point to.
+// Newton's method across patches, starting where the answers for the previous points predict the
+// sight point.
 bool CurvedMembraneSolver::Follow(const SightEquation& equation, const glm::dvec3& local,
   const Memory& memory, SightPlace& place) const
 {
@@ -483,7 +488,7 @@ bool CurvedMembraneSolver::Follow(const SightEquation& equation, const glm::dvec
 bool CurvedMembraneSolver::FindFirst(
   const SightEquation& equation, const glm::dvec3& local, SightPlace& place) const
 {
-  // First what costs little: Newton's method from the middle of each patch that may show the
+  // The cheap attempt comes first: Newton's method from the middle of each patch that may show the
   // point.
   place.Facet = CurvedPatches::NoFacet;
   this->Tree.Visit(local, 0.0,
@@ -552,7 +557,7 @@ ImageState CurvedMembraneSolver::FindImages(
     return ImageState::NotFinite;
   }
   const SightEquation equation = this->MakeEquation(local);
-  thread_local std::vector<SightPlace> places; // kept from point to point for its memory alone
+  thread_local std::vector<SightPlace> places; // kept between points so that its memory is reused
   this->FindPlaces(equation, local, places);
   for (const SightPlace& place : places)
   {
@@ -579,7 +584,7 @@ VirtualVertex CurvedMembraneSolver::MakeVertex(
   VirtualVertex vertex;
   vertex.Depth = glm::length(local - at.Position);
   vertex.SightPoint = at.Position + this->Surface.GetOrigin();
-  // Eq. 2.4; the identity where nothing is refracted.
+  // Eq. 2.4; the identity if the indices are equal.
   const glm::dvec3 virtualPoint = this->Optics.Exterior == this->Optics.Interior
     ? local
     : at.Position + sight * (vertex.Depth * this->Optics.Exterior / this->Optics.Interior);

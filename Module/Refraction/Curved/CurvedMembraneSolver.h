@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Virtual vertices behind a membrane of curved patches: a membrane, its patches, a tree of ray
- * tubes over them, and Newton's method on Snell's law. World coordinates outside, local ones
- * inside.
+ * Virtual vertices behind a membrane of curved patches: the membrane, its patches, a tree of ray
+ * tubes over them, and Newton's method on Snell's law. The interface takes world coordinates;
+ * members use local ones, relative to the membrane's origin.
  *
- * Patches are kept as long as the shape, the tree's bounds as long as eye and indices. Solving
- * changes nothing and may run on any number of threads at once.
+ * The patches stay valid until the shape changes, the bounds in the tree until the eye or the
+ * indices change. Solving changes no state and may run on any number of threads at once.
  */
 #ifndef meniscus_Refraction_Curved_CurvedMembraneSolver_h
 #define meniscus_Refraction_Curved_CurvedMembraneSolver_h
@@ -43,42 +43,45 @@ public:
   CurvedMembraneSolver& operator=(const CurvedMembraneSolver&) = delete;
 
   /**
-   * Points that share a chain of warm starts. Ranges that begin and end at multiples of it give
-   * the same result whoever solves them.
+   * Number of points that share a chain of warm starts. Ranges that begin and end at multiples of
+   * it give the same result whichever thread solves them.
    */
   static constexpr std::size_t Chain = 128;
 
   /**
-   * Takes a shape. If only points and normals differ from the last one, patches are refitted and
+   * Sets the shape. If only points and normals differ from the last one, patches are refitted and
    * the topology is kept. The eye must be set again afterwards.
    */
   MembraneStatus SetMembrane(const MembraneInput& input, const RangeLoop& loop = SerialLoop);
 
-  /** Forgets the membrane. */
+  /** Removes the membrane. */
   void Clear();
 
   const Membrane& GetMembrane() const { return this->Surface; }
   const CurvedPatches& GetPatches() const { return this->Patches; }
 
-  /** Fits the tree for an eye in world coordinates. Unless `Ready`, nothing may be solved. */
+  /**
+   * Fits the tree to an eye in world coordinates. Solving is allowed only if the result is `Ready`.
+   */
   EyeStatus SetEye(
     const glm::dvec3& eye, double exterior, double interior, const RangeLoop& loop = SerialLoop);
 
   /**
-   * One image of each of `points` (x, y, z each) in [begin, end), written to the same places of
-   * `vertices`. Of several images it is the one that continues that of the point before, or, at
-   * the start of a chain and where this ends, the first that the tree meets.
+   * Finds one image of each of `points` (x, y, z each) in [begin, end) and writes it to the same
+   * places of `vertices`. If a point has several images, the result is the one that continues the
+   * image of the previous point; at the start of a chain, and where this continuation ends, it is
+   * the first one that the tree yields.
    */
   void Solve(
     const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const;
 
   /**
-   * Replaces `images` by every image of a point, in the order of their facets. `Found` if there is
-   * any.
+   * Replaces `images` by all images of a point, in the order of their facets. Returns `Found` if
+   * there are any.
    */
   ImageState FindImages(const glm::dvec3& point, std::vector<VirtualVertex>& images) const;
 
-  /** What a chain of points remembers: the last two answers. */
+  /** State of a chain of points: the last answer and the steps from the one before it. */
   struct Memory
   {
     SightPlace Place;
@@ -87,26 +90,25 @@ public:
     glm::dvec3 SightStep{ 0.0 };
   };
 
-  /** One image of a point, as Solve finds it after the points that `memory` has seen. */
+  /** One image of a point, as Solve finds it after the points that are recorded in `memory`. */
   VirtualVertex SolvePoint(const glm::dvec3& point, Memory& memory) const;
 
   /** @{ */
   /**
    * The directions that InjectivityGrid takes, along the mean of the membrane's normals, and
-   * whether the membrane is a convex field along them, which PrepareField finds out once per shape.
+   * whether the membrane is a convex field along them, which PrepareField determines once per
+   * shape.
    */
   void PrepareField();
   const HeightFrame& GetFrame() const { return this->Frame; }
   bool HasConvexField() const { return this->ConvexField; }
-  /**
-   * @}
-   * No patch is farther than this from its flat facet.
-   */
+  /** @} */
+  /** Largest distance of a patch from its flat facet. */
   double GetLargestBulge() const { return this->LargestBulge; }
 
   /**
-   * The image of a point that continues a known image of a point nearby, or two of points on both
-   * sides; NoImage if Newton's method does not get there.
+   * Image of a point that continues a known image of a nearby point, or two images of points on
+   * both sides of it; NoImage if Newton's method does not converge to one.
    */
   VirtualVertex SolveNear(const glm::dvec3& point, const VirtualVertex& known) const
   {
@@ -115,24 +117,25 @@ public:
   VirtualVertex SolveBetween(
     const glm::dvec3& point, const VirtualVertex& first, const VirtualVertex& second) const;
 
-  /** Whether the eye is in front of the surface at any vertex. */
+  /** True if the eye is in front of the surface at any vertex. */
   bool FacesEye() const;
   /**
-   * Vertices that the eye sees through another piece of the membrane, from their front, of at most
-   * `most` that are looked at: sight rays meet both pieces, one after the other.
+   * Number of vertices that the eye sees, from their front, through another piece of the membrane;
+   * at most `most` vertices are examined. Sight rays to them meet both pieces, one after the other.
    */
   std::size_t CountVerticesBehindOtherPieces(std::size_t most) const;
 
   /**
-   * Where the ray from the eye along the unit vector `direction` meets the membrane near the sight
-   * point of a known image, in world coordinates, with the unit normal. False if it does not.
+   * Intersection of the ray from the eye along the unit vector `direction` with the membrane near
+   * the sight point of a known image, in world coordinates, with the unit normal. Returns false if
+   * there is none.
    */
   bool MeetRay(const glm::dvec3& direction, const VirtualVertex& near, PatchPoint& at) const;
 
   /**
-   * Where a line in local coordinates meets the membrane near a place in the patch of `facet`,
-   * with the line's parameter near `l`: in this patch, or in those that the way there leads to
-   * over edges that are crossed as seen along `seenAlong`. False if it does not.
+   * Intersection of a line in local coordinates with the membrane near the place `b` in the patch
+   * of `facet` and near the line's parameter `l`. The search crosses edges to neighbouring patches
+   * as they are seen along `seenAlong`. Returns false if it finds none.
    */
   bool MeetLine(const ObjectLine& line, const glm::dvec3& seenAlong, std::int32_t& facet,
     glm::dvec2& b, double& l) const;
@@ -146,7 +149,8 @@ public:
   bool IsInReach(const glm::dvec3& local) const;
 
   /**
-   * Calls `visit(facet)` for every facet that may show a point of the cube of half side `padding`.
+   * Calls `visit(facet)` for every facet that may show a point of the cube with centre `local` and
+   * half side `padding`.
    */
   template <typename Visitor>
   void VisitFacets(const glm::dvec3& local, double padding, Visitor&& visit) const
@@ -155,8 +159,8 @@ public:
   }
 
   /**
-   * Whether a patch that `chosen` marks may show a point of the box from `low` to `high`, in world
-   * coordinates, or whether the box is not behind all of the membrane.
+   * True if a patch that `chosen` marks may show a point of the box from `low` to `high`, in world
+   * coordinates, or if the box is not entirely behind the membrane.
    */
   bool MayShow(
     const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const;
@@ -165,20 +169,21 @@ public:
   VirtualVertex MakeVertex(
     const glm::dvec3& local, const CurvedPatch& patch, const SightPlace& place) const;
 
-  /** A local point that is its own image, on the eye's side of the membrane. */
+  /** Virtual vertex of a local point on the eye's side of the membrane, which is its own image. */
   VirtualVertex PassThrough(const glm::dvec3& local) const;
 
   /** @{ */
   /**
-   * The eye's side of the membrane. Along an axis, the mean of the membrane's normals, it is a
-   * height field unless it overhangs: a point is in front if the nearest patch below it along the
-   * axis faces it, or if it lies on a patch within rounding. Beyond the border, a point above all
-   * of the membrane is in front. IsBehindAll is a first test that costs nothing; where it fails,
-   * IsInFront needs PrepareSides, a tree over the facets' columns that is built once per shape.
+   * Tests for the eye's side of the membrane. Along an axis, the mean of the membrane's normals, it
+   * is a height field unless it overhangs: a point is in front if the nearest patch below it along
+   * the axis faces it, or if it lies on a patch within rounding. Beyond the border, a point that is
+   * above the whole membrane is in front. IsBehindAll is a first test at almost no cost; where it
+   * fails, IsInFront needs PrepareSides, a tree over the facets' columns that is built once per
+   * shape.
    *
-   * A closed membrane has no such axis and needs none: a direction is taken along which neither
-   * boxes nor cylinders along the axes of coordinates have faces. Without a patch below it a point
-   * is outside, and that is in front if the normals point outwards.
+   * For a closed membrane the axis is a fixed direction that is parallel to no face of boxes and
+   * cylinders aligned with the coordinate axes. A point without a patch below it is outside, which
+   * is in front if the normals point outwards.
    */
   void PrepareSides();
   bool IsBehindAll(const glm::dvec3& local) const
@@ -188,7 +193,7 @@ public:
   bool IsClosed() const { return this->Closed; }
   bool IsInFront(const glm::dvec3& local) const;
   /**
-   * Points asked for since PrepareSides whose side could not be found out; they are not in front.
+   * Number of points since PrepareSides whose side could not be determined; they are not in front.
    */
   std::int64_t GetNumberOfUndecidedSides() const { return this->Sides.GetNumberOfUndecided(); }
   /** @} */
@@ -229,7 +234,7 @@ private:
   double Lowest = 0.0;
   double Highest = 0.0;
   bool Closed = false;
-  bool OutsideIsFront = false; ///< closed, with normals that point outwards
+  bool OutsideIsFront = false; ///< the membrane is closed and its normals point outwards
   Media Optics{ glm::dvec3(0.0), 1.0, 1.0 };
 };
 

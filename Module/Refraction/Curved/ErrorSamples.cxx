@@ -16,14 +16,14 @@ namespace meniscus
 namespace
 {
 
-// A point whose barycentric coordinates in two cells are this close to a wall is in both: what
-// reproduces the thesis's numbers of points (Documentation/refraction.md).
+// A point whose barycentric coordinates in two cells are this close to a wall is in both. This
+// tolerance reproduces the thesis's numbers of points (Documentation/refraction.md).
 constexpr double Wall = 1e-7;
 
 }
 
 //------------------------------------------------------------------------------
-// The patch that shows the point is the one that the ray meets, or close to it.
+// The patch that shows the point is the patch that the ray meets, or a neighbour of it.
 bool PatchesAsSurface::Meet(const glm::dvec3& point, const VirtualVertex& vertex,
   const glm::dvec3& direction, PatchPoint& at) const
 {
@@ -85,7 +85,7 @@ ErrorSample ErrorSampler::Compare(const glm::dvec3& point, const VirtualVertex& 
   }
   const RefractionRay ray =
     ComputeRefractionRay(direction, at.Normal, this->Optics.Exterior / this->Optics.Interior);
-  // A virtual vertex on the eye's side of the exact surface has no point behind it.
+  // A virtual vertex on the eye's side of the exact surface corresponds to no point behind it.
   const double apparent = glm::dot(vertex.Position - at.Position, direction);
   if (ray.Kind != RayKind::Refracted || apparent < 0.0)
   {

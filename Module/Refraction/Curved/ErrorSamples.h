@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The error of virtual vertices, as the thesis measures it (section 4.1): a point is taken through
- * the algorithm to its virtual vertex; the sight ray of that vertex is traced through the exact
- * surface, and Eq. 2.4 undone on the exact refraction ray. The distance from the point that this
- * gives to the one at the start is the error.
+ * Error of virtual vertices, as the thesis measures it (section 4.1): the algorithm maps a point to
+ * its virtual vertex; the sight ray of that vertex is traced through the exact surface, and Eq. 2.4
+ * is inverted on the exact refracted ray. The error is the distance between the resulting point and
+ * the original one.
  */
 #ifndef meniscus_Refraction_Curved_ErrorSamples_h
 #define meniscus_Refraction_Curved_ErrorSamples_h
@@ -19,25 +19,29 @@
 namespace meniscus
 {
 
-/** The surface that a membrane's mesh stands for, in world coordinates. */
+/** The exact surface that a membrane's mesh approximates, in world coordinates. */
 class ExactSurface
 {
 public:
   virtual ~ExactSurface() = default;
 
   /**
-   * Where the ray from the eye along the unit vector `direction` meets the surface near
-   * `vertex.sightPoint`, and the unit normal there, towards the eye's side. False if nowhere.
+   * Intersection of the ray from the eye along the unit vector `direction` with the surface near
+   * `vertex.SightPoint`, and the unit normal there, on the eye's side. Returns false if there is
+   * none.
    */
   virtual bool Meet(const glm::dvec3& point, const VirtualVertex& vertex,
     const glm::dvec3& direction, PatchPoint& at) const = 0;
 };
 
-/** Curved patches as the exact surface: of the same mesh, or of a finer one. */
+/** Curved patches as the exact surface, fitted to the same mesh or to a finer one. */
 class PatchesAsSurface : public ExactSurface
 {
 public:
-  /** `geometry` has the same eye and media as the one that is measured, and outlives this. */
+  /**
+   * `geometry` must have the same eye and media as the solver under test, and must outlive this
+   * object.
+   */
   explicit PatchesAsSurface(const CurvedMembraneSolver& geometry)
     : Geometry(geometry)
   {
@@ -49,44 +53,45 @@ private:
   const CurvedMembraneSolver& Geometry;
 };
 
-/** What became of a sample. */
+/** Outcome of one sample. */
 enum class SampleState : unsigned char
 {
   Measured = 0,
-  NoImage = 1,       ///< the algorithm has none
-  SeveralImages = 2, ///< a zone of convergence, or on the wall between two cells
-  NoExactPoint = 3,  ///< the exact surface shows nothing there: missed, or total reflection
-  NotFinite = 4      ///< the sample's coordinates are out of range
+  NoImage = 1,       ///< the algorithm finds no image
+  SeveralImages = 2, ///< the point lies in a zone of convergence, or on the wall between two cells
+  NoExactPoint = 3,  ///< the sight ray misses the exact surface or is totally reflected there
+  NotFinite = 4      ///< the coordinates of the sample are out of range
 };
 
 struct ErrorSample
 {
-  double Error = 0.0; ///< world length; of a measured sample only
+  double Error = 0.0; ///< length in world units; meaningful for measured samples only
   SampleState State = SampleState::NoImage;
 };
 
 struct ErrorSummary
 {
   double Mean = 0.0;
-  double Deviation = 0.0; ///< of the measured samples themselves, not an estimate for others
+  double Deviation = 0.0; ///< standard deviation of the measured samples themselves, not an
+                          ///< estimate for a larger population
   double Largest = 0.0;
-  std::size_t Count = 0; ///< measured samples
+  std::size_t Count = 0; ///< number of measured samples
 };
 
 class ErrorSampler
 {
 public:
-  /** Eye in the world, and media, that the geometries have. */
+  /** The eye in world coordinates and the indices must be those of the geometries under test. */
   ErrorSampler(const ExactSurface& exact, const glm::dvec3& eye, double exterior, double interior)
     : Exact(exact)
     , Optics{ eye, exterior, interior }
   {
   }
 
-  /** With the thesis's cells: points in exactly one of them count. */
+  /** Error with the thesis's cells. Only points in exactly one cell are measured. */
   ErrorSample Measure(const FlatMembraneSolver& geometry, const glm::dvec3& point) const;
 
-  /** With curved patches: points with exactly one image count. */
+  /** Error with curved patches. Only points with exactly one image are measured. */
   ErrorSample Measure(const CurvedMembraneSolver& geometry, const glm::dvec3& point) const;
 
 private:
@@ -97,7 +102,8 @@ private:
 };
 
 /**
- * In the order of the samples, in two passes: no cancellation, the same on any number of threads.
+ * Statistics in the order of the samples, in two passes, so that nothing cancels and the result
+ * does not depend on the number of threads.
  */
 ErrorSummary Summarize(const ErrorSample* samples, std::size_t count);
 

@@ -17,22 +17,24 @@ namespace meniscus
 namespace
 {
 
-// The part of higher degree, relative to that of second degree, as in the search for roots: on a
-// mesh that resolves the membrane each degree is a fraction of the one before.
+// Assumed part of higher degree, relative to the part of second degree, as in the search for roots:
+// on a mesh that resolves the membrane each degree is a fraction of the previous one.
 constexpr double HigherDegree = 0.5;
 
-// About two facets in a cell of the grid, and not more memory than for the facets.
+// The grid has about one cell for every two facets, so that it needs no more memory than the
+// facets.
 constexpr int LargestWidth = 512;
 
-// A box of sight points that is not smaller than this part of the last one is small enough.
+// The iteration ends when a box of sight points is not smaller than this fraction of the previous
+// one.
 constexpr double Shrinks = 0.9;
 constexpr int MostSteps = 12;
 
-// Cells along an axis that are collected one by one; a box that holds more is looked up in a
-// coarser level.
+// Largest number of cells along an axis that are examined one by one; a larger box is looked up in
+// a coarser level.
 constexpr int MostCells = 3;
 
-/** Where the ray behind a place of a patch meets the plane at height z: base - z slope. */
+/** Refracted ray at a place of a patch. It meets the plane at height z in base - z slope. */
 struct SlopedRay
 {
   glm::dvec2 Base;
@@ -62,7 +64,9 @@ bool MakeRay(const CurvedPatch& patch, const glm::dvec2& b, const HeightFrame& f
   return true;
 }
 
-/** Derivatives of a Bezier triangle of second degree at its three corners, by the plane's axes. */
+/**
+ * Derivatives along the plane's axes of a Bezier triangle of second degree, at its three corners.
+ */
 using CornerDerivatives = std::array<glm::dmat2, 3>;
 
 // `f` holds the values at the corners and in the middles of the edges opposite to them.
@@ -78,7 +82,7 @@ CornerDerivatives Differentiate(const std::array<glm::dvec2, 6>& f, const glm::d
     2.0 * glm::dmat2(c[3] - c[4], c[2] - c[4]) * inverse };
 }
 
-// The smaller eigenvalue of the symmetric part.
+// Smaller eigenvalue of the symmetric part.
 double FindLeastStretch(const glm::dmat2& m)
 {
   const double difference = 0.5 * (m[0][0] - m[1][1]);
@@ -91,7 +95,8 @@ double SquareOf(const glm::dmat2& m)
   return glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]);
 }
 
-// Concave in the height: a smallest eigenvalue of an affine function, less a norm of one.
+// Lower bound of the stretch at a height. It is concave in the height: the smallest eigenvalue of
+// an affine function, less a norm of one.
 double FindMargin(const CornerDerivatives& base, const CornerDerivatives& slope, double height)
 {
   CornerDerivatives m;
@@ -106,7 +111,7 @@ double FindMargin(const CornerDerivatives& base, const CornerDerivatives& slope,
   return least - HigherDegree * varies;
 }
 
-// Floats that are no nearer to zero than what they stand for is.
+// Rounds to a float that is no farther from zero than `value`.
 float RoundDown(double value)
 {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::lowest());
@@ -140,7 +145,8 @@ void InjectivityGrid::Merge(Cell& cell, const Cell& other)
 }
 
 //------------------------------------------------------------------------------
-// Slopes are unbounded where a place of the patch has no refracted ray: then nothing is known.
+// Where a place of the patch has no refracted ray, slopes are unbounded and the cell proves
+// nothing.
 InjectivityGrid::Cell InjectivityGrid::Judge(
   const CurvedPatch& patch, const HeightFrame& frame, const Media& media) const
 {
@@ -222,7 +228,8 @@ void InjectivityGrid::FitGrid(const Membrane& membrane)
 }
 
 //------------------------------------------------------------------------------
-// Monotonic, so that what lies within bounds lies between the bounds' cells.
+// The index is monotonic in the place, so that a place within bounds has an index between those of
+// the bounds.
 int InjectivityGrid::FindIndex(double place, int axis) const
 {
   const double cells = (place - this->Corner[axis]) * this->Scale[axis];
@@ -310,7 +317,7 @@ InjectivityGrid::Cell InjectivityGrid::Collect(const Box& box) const
 }
 
 //------------------------------------------------------------------------------
-// Those that the heights touch; none if some of the heights are in no slab.
+// Slabs that the heights touch, as bits; 0 if some of the heights lie in no slab.
 std::uint8_t InjectivityGrid::FindSlabs(double low, double high) const
 {
   const double top = this->LowHeight + Slabs * this->SlabHeight;
@@ -361,7 +368,7 @@ bool InjectivityGrid::HoldsAtMostOne(const glm::dvec3& low, const glm::dvec3& hi
     const double most = cell.High[2] - (height - rise);
     if (!(most > 0.0))
     {
-      return true; // all of the box is in front
+      return true; // the whole box is in front
     }
     Box next;
     for (int axis = 0; axis < 2; ++axis)
@@ -376,7 +383,7 @@ bool InjectivityGrid::HoldsAtMostOne(const glm::dvec3& low, const glm::dvec3& hi
     next.High = glm::min(next.High, box.High);
     if (!(next.Low.x <= next.High.x && next.Low.y <= next.High.y))
     {
-      return true; // no sight point anywhere
+      return true; // there is no sight point anywhere
     }
     const glm::dvec2 before = box.High - box.Low;
     const glm::dvec2 after = next.High - next.Low;

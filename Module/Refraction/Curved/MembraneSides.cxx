@@ -14,12 +14,14 @@ namespace meniscus
 namespace
 {
 
-// Crossings are in the order of their heights if these differ by more than this part of a patch's
-// size: two of one edge do by what PatchCrossings::Border is of both of its facets.
+// Two crossings are in the order of their heights if these differ by more than this fraction of the
+// patch's size. Two crossings at a common edge may differ by the effect of PatchCrossings::Border
+// in both of its facets.
 constexpr double SameHeight = 4.0 * PatchCrossings::Border;
 
-// Ways to take if the axis decides nothing. One decides nothing with a probability of the order of
-// the rounding of coordinates, or where the patch is crumpled.
+// Number of detours to try if the line along the axis decides nothing. The probability that one of
+// them decides nothing is of the order of the rounding of coordinates, unless the patch is
+// crumpled.
 constexpr int Ways = 12;
 
 constexpr double Lowest = std::numeric_limits<double>::lowest();
@@ -36,22 +38,23 @@ double GetSize(const CurvedPatch& patch)
     glm::length(patch.Corner[0] - patch.Corner[2]) });
 }
 
-/** The highest of the crossings, and whether others at its height agree with it. */
+/** Highest of the crossings, and the agreement of others at the same height. */
 struct NearestCrossing
 {
   double Height = Lowest;
   int Side = 0;
   std::int32_t Facet = CurvedPatches::NoFacet;
   double Same = 0.0;
-  bool IsInside = false; ///< of its patch, or in the patches on both sides of an edge
+  bool IsInside = false; ///< in the interior of its patch, or in the patches on both sides of an
+                         ///< edge
   bool IsDisputed = false;
 
-  /** Crossings below this are farther. */
+  /** Height below which crossings are certainly farther. */
   double GetLowest() const { return this->Height - this->Same; }
 
   /**
-   * Just outside of one facet, and not in its neighbour, an edge may be passed that both facets
-   * turn away from.
+   * True if the crossing decides the side. Just outside of one facet, and not in its neighbour, the
+   * line may pass an edge that both facets turn away from.
    */
   bool IsSure() const { return this->IsInside && !this->IsDisputed; }
 
@@ -72,7 +75,7 @@ struct NearestCrossing
   }
 };
 
-// Directions all around, no two of them parallel: along a spiral by the golden angle.
+// Directions on the unit sphere, no two of them parallel, along a golden-angle spiral.
 glm::dvec3 GetWay(int i)
 {
   constexpr double goldenAngle = 2.399963229728653;
@@ -91,7 +94,7 @@ void MembraneSides::Build(
   this->Patches = &patches;
   this->Frame = frame;
   this->Undecided = 0;
-  // Rounding of a patch's point and of Newton's method.
+  // Rounding error of a patch's point and of Newton's method.
   this->Slack = 1024.0 * std::numeric_limits<double>::epsilon() * surface.GetRadius();
   const std::size_t count = surface.GetFacets().size();
   this->Columns.resize(count);
@@ -148,7 +151,8 @@ MembraneSides::Side MembraneSides::FindAround(const glm::dvec3& local, std::int3
   const double size = GetSize(this->Patches->GetPatch(openFacet));
   for (int i = 0; i < Ways; ++i)
   {
-    // Half of a facet or so: past what the line runs along, and not past much else.
+    // About half of a facet: far enough to leave the patch that the line runs along, and not far
+    // beyond other patches.
     const double reach = size * (0.3 + 0.4 * i / Ways);
     const glm::dvec3 way = GetWay(i);
     Look look = this->LookAlong(HeightFrame(-way), local, reach);
@@ -172,7 +176,8 @@ MembraneSides::Side MembraneSides::FindAround(const glm::dvec3& local, std::int3
 MembraneSides::Look MembraneSides::LookAlong(
   const HeightFrame& frame, const glm::dvec3& local, double reach) const
 {
-  thread_local std::vector<Candidate> candidates; // kept from point to point for its memory alone
+  thread_local std::vector<Candidate> candidates; // kept between points so that its memory is
+                                                  // reused
   candidates.clear();
   const double low = frame.GetHeight(local) - reach - this->Slack;
   double floor = low;
@@ -188,7 +193,8 @@ MembraneSides::Look MembraneSides::LookAlong(
       }
       return std::numeric_limits<std::int32_t>::max();
     });
-  // By facet where heights are equal: the order of a sort must not depend on the library.
+  // Facets of equal height are ordered by their numbers: the result must not depend on the
+  // library's sort.
   std::sort(candidates.begin(), candidates.end(),
     [](const Candidate& a, const Candidate& b)
     { return a.High != b.High ? a.High > b.High : a.Facet < b.Facet; });
@@ -205,7 +211,7 @@ MembraneSides::Look MembraneSides::LookAlong(
 }
 
 //------------------------------------------------------------------------------
-// A candidate without heights, `high` the lowest number, is none.
+// A candidate with the lowest number as `high` stands for no crossing.
 MembraneSides::Candidate MembraneSides::Classify(
   std::int32_t facet, const HeightFrame& frame, const glm::dvec3& local, double low) const
 {
@@ -230,7 +236,7 @@ MembraneSides::Candidate MembraneSides::Classify(
   const Candidate none{ facet, Lowest, Lowest, 0 };
   if (lowest - bulge > this->Slack || own + highest + bulge < low)
   {
-    return none; // above the point, or too far below
+    return none; // above the point, or too far below it
   }
   const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
   const double area = cross(place[1] - place[0], place[2] - place[0]);
@@ -240,7 +246,8 @@ MembraneSides::Candidate MembraneSides::Classify(
   {
     const glm::dvec2& from = place[(k + 1) % 3];
     const glm::dvec2 side = place[(k + 2) % 3] - from;
-    const double distance = sign * cross(from, side); // times the side's length, positive inside
+    const double distance = sign * cross(from, side); // distance times the side's length, positive
+                                                      // inside
     const double margin = bulge * glm::length(side);
     if (distance < -margin)
     {
@@ -267,7 +274,7 @@ MembraneSides::Look MembraneSides::LookExactly(const std::vector<Candidate>& can
     const Candidate& candidate = candidates[i];
     if (candidate.High < nearest.GetLowest())
     {
-      break; // in their order
+      break; // the crossings are in the order of their heights
     }
     const bool isNext = i + 1 == candidates.size() || candidates[i + 1].High < candidate.Low;
     if (candidate.Side != 0 && isNext && std::max(open, nearest.Height) < candidate.Low)

@@ -16,19 +16,19 @@ namespace meniscus
 {
 
 /**
- * The side of a membrane of curved patches that a point is on: that of the nearest patch below it
- * along an axis.
+ * Side of a membrane of curved patches on which a point lies: the side of the nearest patch below
+ * it along an axis.
  *
- * Facets over or under the point are found by a tree over their columns. A facet's patch is no
- * farther from it than its bulge, so a line that passes the facet's border at more than that
- * crosses the patch just as the facet (their borders are homotopic in the plane without the line).
- * Only lines closer to a border, and points as close to the facet, ask for the crossings themselves
- * (PatchCrossings).
+ * Facets above or below the point are found by a tree over their columns. A facet's patch is no
+ * farther from the facet than its bulge, so a line that passes the facet's border at a larger
+ * distance crosses the patch exactly as it crosses the facet (their borders are homotopic in the
+ * plane without the line). Only lines closer to a border, and points that close to the facet, need
+ * the exact crossings (PatchCrossings).
  *
- * A line that runs along a patch, or touches it, decides nothing. Then the way to a place nearby is
- * taken instead, in a direction across the first: the side is that of the nearest patch on the way,
- * or of the place if there is none. Each way is as good as any other. A point for which a dozen of
- * them decide nothing is counted and is not in front.
+ * A line that touches a patch, or runs along it, decides nothing. In that case the straight way to
+ * a place nearby is examined, in a direction across the first: the side is that of the nearest
+ * patch on this way, or the side of the place itself if no patch is on it. All such ways are
+ * equally valid. A point for which none of a dozen ways decides is counted and is not in front.
  */
 class MembraneSides
 {
@@ -43,14 +43,14 @@ public:
   /** Builds the tree. `surface` and `patches` must outlive this. */
   void Build(const Membrane& surface, const CurvedPatches& patches, const HeightFrame& frame);
 
-  /** The side of a point in local coordinates. Points within rounding of a patch are in front. */
+  /** Side of a point in local coordinates. Points within rounding of a patch are in front. */
   Side Find(const glm::dvec3& local) const;
 
-  /** Points whose side no way has decided, since the membrane was built. */
+  /** Number of points since Build whose side no way could decide. */
   std::int64_t GetNumberOfUndecided() const { return this->Undecided; }
 
 private:
-  /** A facet whose patch the line may cross, and bounds of the height of that. */
+  /** A facet whose patch the line may cross, and bounds of the patch's height. */
   struct Candidate
   {
     std::int32_t Facet;
@@ -61,7 +61,8 @@ private:
   struct Look
   {
     Side Answer;
-    std::int32_t OpenFacet; ///< the line decides nothing because of it; NoFacet: it does
+    std::int32_t OpenFacet; ///< facet because of which the line decides nothing; NoFacet if it
+                            ///< decides
   };
   struct Column
   {
@@ -69,7 +70,7 @@ private:
     signed char Front;
   };
 
-  /** Of a sign; 0: no patch. */
+  /** Converts a sign to an answer; 0 means that there is no patch. */
   static Look MakeLook(int side);
   Candidate Classify(
     std::int32_t facet, const HeightFrame& frame, const glm::dvec3& local, double low) const;
@@ -83,7 +84,7 @@ private:
   HeightFrame Frame;
   RayTubeTree Tree;
   std::vector<Column> Columns;
-  double Slack = 0.0; ///< rounding of a point of a patch
+  double Slack = 0.0; ///< rounding error of a patch's point
   mutable std::atomic<std::int64_t> Undecided{ 0 };
 };
 

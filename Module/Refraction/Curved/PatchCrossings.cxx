@@ -10,14 +10,15 @@ namespace meniscus
 namespace
 {
 
-// Derivatives that differ from given ones by less than 1, relative to these, make X injective. A
-// little less, for rounding.
+// A map X is injective if its derivatives differ from given ones by less than 1, relative to these.
+// The bound is a little smaller to allow for rounding.
 constexpr double LargestSlope = 0.95;
 
-// Newton's method converges in three or four steps from there, or rounding forbids it.
+// Newton's method converges in three or four steps from such a start, unless rounding prevents it.
 constexpr int NewtonSteps = 12;
 
-// Quadratic convergence leaves the square of the last step, in parts.
+// Newton's method converges quadratically: the remaining error is the square of the last step, in
+// units of the part.
 constexpr double LastStep = 1e-7;
 
 double Cross(const glm::dvec2& a, const glm::dvec2& b)
@@ -30,7 +31,9 @@ constexpr double Largest(const std::array<double, 3>& values)
   return std::max({ values[0], values[1], values[2] });
 }
 
-/** Bounds of the length of a function and of its first and second derivatives along the edges. */
+/**
+ * Bounds of the magnitude of a function and of its first and second derivatives along the edges.
+ */
 struct Bounds
 {
   double Value = 0.0;
@@ -38,7 +41,7 @@ struct Bounds
   std::array<double, 3> Second{};
 };
 
-/** Bounds of a product. */
+/** Bounds of the product of two functions. */
 Bounds Multiply(const Bounds& f, const Bounds& g)
 {
   Bounds result;
@@ -52,12 +55,12 @@ Bounds Multiply(const Bounds& f, const Bounds& g)
   return result;
 }
 
-/** A triangle around a part: its corners, then the middles of its edges. */
+/** A triangle around a part: its three corners, then the midpoints of its edges. */
 using Around = std::array<glm::dvec2, 6>;
 
 /**
- * Values at the corners and in the middles of the edges as the control points of a function of
- * second degree.
+ * Control points of the function of second degree with the given values at the corners and edge
+ * midpoints.
  */
 std::array<double, 6> GetControls(const std::array<double, 6>& f)
 {
@@ -65,7 +68,7 @@ std::array<double, 6> GetControls(const std::array<double, 6>& f)
     2.0 * f[5] - 0.5 * (f[0] + f[1]) };
 }
 
-/** The gradient of q by b.x and b.y. */
+/** Gradient of q by b.x and b.y. */
 glm::dvec2 GetFormGradient(const CurvedPatch& patch, const glm::dvec2& b)
 {
   const double c = 1.0 - b.x - b.y;
@@ -89,9 +92,9 @@ double GetForm(const CurvedPatch& patch, const glm::dvec2& b)
 }
 
 /**
- * Bounds of q, whose sides are `size` times those of the facet. Its derivatives along edges are of
- * second degree, within their control points; those of these are differences of control points.
- * No point is farther from the middle than two thirds of edges.
+ * Bounds of q over a triangle whose sides are `size` times those of the facet. The derivatives of q
+ * along edges are of second degree and within their control points; the second derivatives are
+ * differences of control points. No point is farther from the middle than two thirds of the edges.
  */
 Bounds BoundForm(const CurvedPatch& patch, const Around& around, double size)
 {
@@ -121,7 +124,7 @@ Bounds BoundForm(const CurvedPatch& patch, const Around& around, double size)
   return result;
 }
 
-/** The normal's values at corners, control points of edges, and derivatives along these. */
+/** Values of the normal at corners, control points of edges, and derivatives along the edges. */
 struct NormalControls
 {
   std::array<glm::dvec3, 6> Control;
@@ -152,7 +155,7 @@ struct NormalControls
     }
   }
 
-  /** `square` gives the squared length of a vector. */
+  /** `square` returns the squared length of a vector. */
   template <typename Square>
   Bounds Bound(const Square& square) const
   {
@@ -171,7 +174,7 @@ struct NormalControls
     return result;
   }
 
-  /** No normal is shorter, if positive. */
+  /** Lower bound of the normal's length, if positive. */
   double GetShortest() const
   {
     const glm::dvec3 along = glm::normalize(this->Control[0] + this->Control[1] + this->Control[2]);
@@ -225,7 +228,7 @@ PatchCrossings::PatchCrossings(const CurvedPatch& patch, const HeightFrame& fram
     reach = std::max(reach, glm::length(patch.Corner[k]));
     this->IsFlat = this->IsFlat && patch.Symmetric[k] == 0.0 && patch.Asymmetric[k] == 0.0;
   }
-  // A position is a sum of a dozen products of such numbers, three of which make a coordinate.
+  // A position is a sum of a dozen products of such numbers, three of which make one coordinate.
   this->Rounding = 16.0 * std::numeric_limits<double>::epsilon() * reach;
 }
 
@@ -235,7 +238,7 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
   this->Place = place;
   this->Count = 0;
   this->HighestOpen = std::numeric_limits<double>::lowest();
-  // Each level leaves three more parts than it takes.
+  // Each level adds three more parts than it removes.
   std::array<Part, 3 * DeepestLevel + 4> parts;
   std::size_t waiting = 0;
   int divisions = 0;
@@ -255,7 +258,7 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
       continue;
     }
     ++divisions;
-    std::array<Corner, 3> middle; // opposite to the corners
+    std::array<Corner, 3> middle; // opposite the corners
     for (std::size_t k = 0; k < 3; ++k)
     {
       middle[k] =
@@ -265,7 +268,8 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
     {
       std::array<Corner, 3> corner = middle;
       corner[k] = part.Corners[k];
-      // The corner's part is wound as the whole: middles of the two sides at the corner.
+      // The part at a corner has the winding of the whole: its other corners are the midpoints of
+      // the two sides at the corner.
       corner[(k + 1) % 3] = middle[(k + 2) % 3];
       corner[(k + 2) % 3] = middle[(k + 1) % 3];
       parts[waiting++] = { corner, 0.5 * part.Size, part.Across, part.Along };
@@ -275,8 +279,8 @@ void PatchCrossings::Find(const glm::dvec2& place, double low, double high)
 }
 
 //------------------------------------------------------------------------------
-// As IsInjective for the whole: across the line the facet's sides are no longer, its area is that
-// over the slant.
+// As in IsInjective, for the whole patch: projected along the line, the facet's sides are no longer
+// than before, and its area is divided by the slant.
 double PatchCrossings::GetLargestSlant(const CurvedPatch& patch, double bend)
 {
   const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
@@ -295,9 +299,9 @@ double PatchCrossings::GetLargestSlant()
 }
 
 //------------------------------------------------------------------------------
-// The rule for products again, with bounds of sums: within Reach of the triangle barycentric
-// coordinates are in [-0.1, 1.2] and differ by 1.3 at most, the products of two are in
-// [-0.12, 0.3], and the sum of their absolute values is 1.4.
+// The rule for products, with bounds of sums: within Reach of the triangle barycentric coordinates
+// are in [-0.1, 1.2] and differ by 1.3 at most, the products of two are in [-0.12, 0.3], and the
+// sum of their absolute values is 1.4.
 double PatchCrossings::BoundLargestSlant(const CurvedPatch& patch)
 {
   double s = 0.0;
@@ -331,19 +335,19 @@ PatchCrossings::Corner PatchCrossings::MakeCorner(const glm::dvec2& b) const
 }
 
 //------------------------------------------------------------------------------
-// The linear interpolant of a function over an equilateral triangle of side s is off by at most
-// s^2 / 6 times its largest second derivative in any direction (half of the squared radius of the
-// circle around it). If the second derivatives along the three sides are at most M, those in any
-// direction are at most 5 M / 3. With first derivatives along the sides of at most H, it is off by
-// H s: that holds where the normal's length is cut off at ShortestNormal, too, and second
-// derivatives jump. An affine map makes any triangle equilateral.
+// The linear interpolant of a function over an equilateral triangle of side s has an error of at
+// most s^2 / 6 times the function's largest second derivative in any direction (half of the squared
+// radius of the circumscribed circle). If the second derivatives along the three sides are at most
+// M, those in any direction are at most 5 M / 3. If the first derivatives along the sides are at
+// most H, the error is at most H s: that bound also holds where the normal's length is cut off at
+// ShortestNormal and second derivatives jump. An affine map makes any triangle equilateral.
 double PatchCrossings::Bend::GetDeviation(double size) const
 {
   return std::min(5.0 / 18.0 * size * size * this->Second, size * this->First);
 }
 
 //------------------------------------------------------------------------------
-// Over the part and what is within Reach of it.
+// Bounds the deflection over the part and its surroundings within Reach.
 void PatchCrossings::BoundDeflection(Part& part) const
 {
   if (this->IsFlat)
@@ -385,8 +389,8 @@ void PatchCrossings::BoundDeflection(Part& part) const
 }
 
 //------------------------------------------------------------------------------
-// Whether the line is farther than `reach` from the triangle of the corners: beyond one of its
-// sides, or, if it is next to a segment, beyond an end of the longest side.
+// True if the line is farther than `reach` from the triangle of the corners: beyond one of its
+// sides or, if the triangle is nearly a segment, beyond an end of the longest side.
 bool PatchCrossings::IsSeparated(const Part& part, double reach)
 {
   const auto& c = part.Corners;
@@ -422,7 +426,7 @@ bool PatchCrossings::IsSeparated(const Part& part, double reach)
 }
 
 //------------------------------------------------------------------------------
-// Whether the line does not meet the part at the heights of interest.
+// True if the line does not meet the part at the heights of interest.
 bool PatchCrossings::IsPassed(const Part& part, double low, double high) const
 {
   const auto& c = part.Corners;
@@ -435,7 +439,7 @@ bool PatchCrossings::IsPassed(const Part& part, double low, double high) const
 //------------------------------------------------------------------------------
 PatchCrossings::Verdict PatchCrossings::Settle(Part& part, double low, double high)
 {
-  // What is known of the whole costs nothing.
+  // The test with the bounds of the whole patch is the cheapest.
   if (this->IsPassed(part, low, high))
   {
     return Verdict::Settled;
@@ -447,16 +451,17 @@ PatchCrossings::Verdict PatchCrossings::Settle(Part& part, double low, double hi
 }
 
 //------------------------------------------------------------------------------
-// Whether derivatives differ from those of the facet, or from those in the middle, by less than
-// these: by Cramer's rule the inverse of two vectors takes a vector to one no longer than this
-// times it, as a sum of absolute values.
+// True if the derivatives differ from those of the facet, or from those in the middle of the part,
+// by less than these as matrices: by Cramer's rule, the inverse of two vectors maps a vector to one
+// that is no longer than this bound times it, measured by the sum of absolute values.
 //
-// A derivative along a side differs from that in the middle by 2 H, and by M times the size: mixed
-// derivatives along two sides are 3 M / 2 at most, by that of their difference, and no point is
-// farther from the middle than two thirds of sides.
+// A derivative along a side differs from the one in the middle by at most 2 H, and by at most M
+// times the size: mixed derivatives along two sides are at most 3 M / 2, by the derivative along
+// the difference of the sides, and no point is farther from the middle than two thirds of the
+// sides.
 bool PatchCrossings::IsInjective(const Part& part) const
 {
-  // Written so that a NaN fails.
+  // The comparisons are written so that a NaN fails.
   const double rounding = 2.0 * this->Rounding / part.Size; // of differences
   const auto dominates = [this, rounding](
                            const glm::dvec3& first, const glm::dvec3& second, double by)
@@ -479,7 +484,7 @@ bool PatchCrossings::IsInjective(const Part& part) const
 }
 
 //------------------------------------------------------------------------------
-// False if Newton's method does not converge to a place where X is known to be injective.
+// Returns false if Newton's method does not converge to a place where X is known to be injective.
 bool PatchCrossings::TakeRoot(const Part& part)
 {
   const auto& c = part.Corners;
@@ -512,13 +517,13 @@ bool PatchCrossings::TakeRoot(const Part& part)
     const double outside = FindOutside(b).Least;
     if (outside < -Border)
     {
-      return true; // the root is beyond the patch
+      return true; // the root lies outside the patch
     }
     if (this->Count == Capacity)
     {
       return false;
     }
-    // Over so short a step the patch is as good as linear.
+    // The step is so short that the patch is linear within rounding.
     const glm::dvec3 position =
       jet.Position + move.x * jet.PositionBy[0] + move.y * jet.PositionBy[1];
     const glm::dvec3 normal = jet.Normal + move.x * jet.NormalBy[0] + move.y * jet.NormalBy[1];

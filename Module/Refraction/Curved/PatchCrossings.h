@@ -18,57 +18,63 @@ struct PatchCrossing
 {
   double Height;     ///< along the axis
   int Side;          ///< +1 if the patch's front faces along the axis there, -1 if its back does
-  double Outside;    ///< smallest barycentric coordinate, no less than -Border
-  glm::dvec3 Normal; ///< the patch's, not normalised
+  double Outside;    ///< smallest barycentric coordinate, not below -Border
+  glm::dvec3 Normal; ///< of the patch, not normalised
 };
 
 /**
- * Every crossing of one patch with a line parallel to an axis.
+ * All crossings of one patch with a line parallel to an axis.
  *
- * Seen along the axis, the patch is a map X from the facet's triangle to a plane, and crossings are
- * the roots of X(b) = place. The triangle is divided in four until each part is settled:
+ * Projected along the axis, the patch is a map X from the facet's triangle to a plane, and the
+ * crossings are the roots of X(b) = place. The triangle is divided in four until each part is
+ * settled:
  *
- * - X is within some E of the linear interpolant of the part's corners. If the place is farther
- *   than E from the interpolant's triangle, the part has no root.
+ * - X differs by at most some E from the linear interpolant of the part's corners. If the place is
+ *   farther than E from the interpolant's triangle, the part has no root.
  * - If the derivatives of X differ from those of the facet, or from those in the middle of the
- * part, by less than these are, as matrices, X is injective on the part and within Reach of it.
- * Newton's method then finds the only root there.
+ *   part, by less than these as matrices, X is injective on the part and within Reach of it.
+ *   Newton's method then finds the only root there.
  *
- * E, and how much derivatives differ, follow from bounds of q, n and |n| (CurvedPatch) and their
- * derivatives over the part: control points of polynomials and the rule for products.
+ * E and the bounds on the derivatives follow from bounds of q, n and |n| (CurvedPatch) and their
+ * derivatives over the part: control points of polynomials and the product rule.
  *
- * A part is divided as well if Newton's method does not converge there. What is left after
- * MostDivisions, or is smaller than the rounding of coordinates, is not decided: the line touches
- * the patch within rounding (at a fold of X), or runs along it. IsComplete says so; nothing is
- * guessed.
+ * A part is also divided if Newton's method does not converge there. Parts that remain after
+ * MostDivisions, or that are smaller than the rounding of coordinates, stay undecided: the line
+ * touches the patch within rounding (at a fold of X), or runs along it. IsComplete returns false in
+ * that case; nothing is guessed.
  */
 class PatchCrossings
 {
 public:
-  /** A root on an edge is found in both of its facets, up to what Newton's method leaves. */
+  /** A root on an edge is found in both of its facets, within the accuracy of Newton's method. */
   static constexpr double Border = 1e-8;
 
   /** `patch` and `frame` must outlive this. The axis is the frame's. */
   PatchCrossings(const CurvedPatch& patch, const HeightFrame& frame);
 
-  /** The crossings over `place` with heights in [low, high]; some beyond these may be there too. */
+  /**
+   * Finds the crossings over `place` with heights in [low, high]. The result may contain others as
+   * well.
+   */
   void Find(const glm::dvec2& place, double low, double high);
 
   /**
-   * Lines that make an angle with the facet's normal whose inverse cosine is no more than this
-   * cross the patch, and what is within Reach of it, once at most.
+   * Upper limit of 1 / cos of the angle between a line and the facet's normal such that the line is
+   * certain to cross the patch and its surroundings within Reach at most once.
    */
   double GetLargestSlant();
-  /** A lower bound of it that costs little. */
+  /** A cheap lower bound of GetLargestSlant. */
   static double BoundLargestSlant(const CurvedPatch& patch);
-  /** How far out of its triangle, in barycentric coordinates, the bounds of a part hold. */
+  /**
+   * Distance outside of a part's triangle, in barycentric coordinates, up to which its bounds hold.
+   */
   static constexpr double Reach = 0.1;
 
   const PatchCrossing* begin() const { return this->Crossings.data(); }
   const PatchCrossing* end() const { return this->Crossings.data() + this->Count; }
 
   bool IsComplete() const { return this->HighestOpen == std::numeric_limits<double>::lowest(); }
-  /** No undecided part of the patch is higher; the lowest number if all are decided. */
+  /** Upper bound of the height of all undecided parts; the lowest number if there are none. */
   double GetHighestOpen() const { return this->HighestOpen; }
 
 private:
@@ -77,7 +83,7 @@ private:
   static constexpr double SmallestPart = 0x1p-40;
   static constexpr int MostDivisions = 256;
 
-  /** A corner of a part: barycentric coordinates, the place relative to the line, the height. */
+  /** Corner of a part: barycentric coordinates, place relative to the line, and height. */
   struct Corner
   {
     glm::dvec2 B;
@@ -85,8 +91,8 @@ private:
     double Height;
   };
   /**
-   * Bounds of the derivatives along sides of what the patch adds to its facet: first ones, and
-   * second ones, which are infinite where they jump.
+   * Bounds of the derivatives, along sides, of the patch's deviation from its facet: first
+   * derivatives, and second ones, which are infinite where they jump.
    */
   struct Bend
   {
@@ -96,12 +102,12 @@ private:
     /** Largest distance from the linear interpolant of a part's corners. */
     double GetDeviation(double size) const;
   };
-  /** A triangle of the facet whose sides are `size` times the facet's. */
+  /** Part of the facet's triangle. Its sides are `size` times the facet's. */
   struct Part
   {
     std::array<Corner, 3> Corners;
     double Size;
-    Bend Across; ///< the axis; bounds that hold for a part hold for its parts
+    Bend Across; ///< across the axis; bounds for a part hold for its children too
     Bend Along;
   };
   enum class Verdict
@@ -123,8 +129,9 @@ private:
   const CurvedPatch& Patch;
   const HeightFrame& Frame;
   glm::dvec2 Place{ 0.0 };
-  int Front;       ///< +1 if the facet's winding goes round its front, -1 if round its back
-  double Rounding; ///< of positions
+  int Front; ///< +1 if the facet's winding is counterclockwise seen from its front, -1 seen from
+             ///< its back
+  double Rounding; ///< rounding error of positions
   bool IsFlat;
   std::array<PatchCrossing, Capacity> Crossings;
   std::size_t Count = 0;

@@ -11,36 +11,39 @@ namespace meniscus
 namespace
 {
 
-// Roots closer than this, in facets, are one: near a caustic two of them merge, and there Newton's
-// last step of 1e-5 leaves an error of that order.
+// Roots closer than this, in units of the facet, are the same: near a caustic two roots merge, and
+// Newton's last step of 1e-5 leaves an error of that order.
 constexpr double SameRoot = 1e-5;
 
-// A root on the border of a triangle belongs to both sides. Newton's method leaves 1e-10.
+// A root on the border of a triangle belongs to both sides. The error of Newton's method is 1e-10.
 constexpr double Border = 1e-8;
 
-// 2^-14 of a facet. A triangle that is still undecided there holds a double root, on a caustic, and
-// Newton's method decides.
+// Parts have at least 2^-14 of the facet's size. A smaller undecided triangle holds a double root,
+// on a caustic, and Newton's method decides.
 constexpr int DeepestLevel = 14;
 
-// Isolated roots take a dozen divisions each at most, a few near a caustic. A ring of roots would
-// take one for every triangle that it crosses, on every level.
+// Isolated roots take at most a dozen divisions each, a few more near a caustic. A ring of roots
+// would need a division of every triangle that it crosses, on every level.
 constexpr int MostDivisions = 1000;
 
-// Newton's method starts at the root of a nearly linear map.
+// Newton's method starts from the root of a nearly linear map.
 constexpr int NewtonSteps = 12;
 
-// A root this far outside of a triangle, in triangles, says nothing of the triangle.
+// A root farther outside of a triangle than this, in units of the triangle, is no evidence about
+// the triangle.
 constexpr double FarthestRoot = 0.5;
 
-// The part of second degree, relative to the linear part, above which the interpolant is a guess.
+// Size of the part of second degree, relative to the linear part, above which the interpolant is
+// only a guess.
 constexpr double LargestDeflection = 0.5;
 
-// The part of higher degree, relative to that of second degree. In a triangle half as large it is
-// half of this, so the margin that is really needed shrinks with the subdivision.
+// Assumed part of higher degree, relative to the part of second degree. In a triangle half as large
+// the ratio is half of this, so the margin that is really needed shrinks with the subdivision.
 constexpr double HigherDegree = 0.5;
 constexpr double HigherDegreeOfGuess = 2.0;
 
-// Determinants that differ by more are too close to a caustic to call the map injective.
+// Pairs of determinants that differ more than this are too close to a caustic to prove the map
+// injective.
 constexpr double SmallestDeterminant = 0.05;
 
 double Cross(const glm::dvec2& a, const glm::dvec2& b)
@@ -50,8 +53,8 @@ double Cross(const glm::dvec2& a, const glm::dvec2& b)
 
 using Control = std::array<glm::dvec2, 6>;
 
-// Whether one of the lines along the sides of the linear part has all control points, each a disc
-// of radius `margin`, on the side away from zero.
+// True if, for one of the lines along the sides of the linear part, all control points, each a disc
+// of radius `margin`, are on the side away from zero.
 bool IsSeparated(const Control& control, double margin)
 {
   for (std::size_t k = 0; k < 3; ++k)
@@ -74,8 +77,9 @@ bool IsSeparated(const Control& control, double margin)
   return false;
 }
 
-// Whether the corners alone keep the map away from zero, if its part of second degree is within
-// LargestDeflection: control points of edges are then within twice that from the edges' middles.
+// True if the corners alone keep the map away from zero, provided that its part of second degree is
+// within LargestDeflection: control points of edges are then within twice that distance of the
+// midpoints of the edges.
 bool IsFarFromZero(const Control& f)
 {
   const double size =
@@ -85,7 +89,8 @@ bool IsFarFromZero(const Control& f)
   return IsSeparated(corners, (2.0 * LargestDeflection + HigherDegree) * size);
 }
 
-// Each of the control points is off by up to `margin`, so each side of a determinant by twice that.
+// Each control point has an error of up to `margin`, so each column of a determinant has twice
+// that.
 bool IsInjective(const Control& c, double margin)
 {
   const glm::dvec2 first[3] = { c[5] - c[0], c[1] - c[5], c[3] - c[4] };
@@ -133,15 +138,16 @@ void PatchRoots::Find()
 }
 
 //------------------------------------------------------------------------------
-// Eye and point are so far that lines of sight turn by less than half a radian in the patch, and so
-// do its normals, which hardly bend on the way: the map bends by less than LargestDeflection.
+// True if the eye and the point are so far away that lines of sight turn by less than half a radian
+// over the patch, and the patch's normals, which are almost constant on the way, turn as little:
+// the second-degree part of the map is then below LargestDeflection.
 bool PatchRoots::IsFar() const
 {
   const glm::dvec3 first = this->Patch.Corner[1] - this->Patch.Corner[0];
   const glm::dvec3 second = this->Patch.Corner[2] - this->Patch.Corner[0];
   const double squared = 4.0 * (glm::dot(first, first) + glm::dot(second, second));
   constexpr double smallest = 0.875;  // cos 0.5
-  constexpr double straightest = 0.1; // a quarter of the largest bend of an edge
+  constexpr double straightest = 0.1; // a quarter of the largest bulge of an edge
   const auto turns = [this](int i, int j)
   {
     const glm::dvec3& bend = this->Patch.Bend[3 - i - j];
@@ -169,7 +175,8 @@ PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle)
     reach = std::max(reach, glm::length(a));
   }
   const bool isGuess = !(bend <= LargestDeflection * size);
-  // A residual is a difference of products of two lengths: a few roundings of the largest.
+  // A residual is a difference of products of two lengths: its error is a few roundings of the
+  // largest.
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   const double margin = (isGuess ? HigherDegreeOfGuess : HigherDegree) * bend + rounding * reach;
   if (IsSeparated(control, margin))
@@ -196,8 +203,8 @@ void PatchRoots::Search(const Triangle& triangle, int depth)
 }
 
 //------------------------------------------------------------------------------
-// False if Newton's method gave no answer. A root just outside the triangle is an answer: there is
-// none inside.
+// Returns false if Newton's method gives no answer. A root just outside the triangle is an answer:
+// there is none inside.
 bool PatchRoots::TakeRoot(const Triangle& triangle)
 {
   const glm::dvec2 u = triangle.F[1] - triangle.F[0];
@@ -221,12 +228,13 @@ bool PatchRoots::TakeRoot(const Triangle& triangle)
   const double area = Cross(side1, side2);
   const glm::dvec2 inside(
     Cross(root.B - triangle.B[0], side2) / area, Cross(side1, root.B - triangle.B[0]) / area);
-  // Newton's method may have gone to another root far away; the map is known here only.
+  // Newton's method may have converged to another root far away; the map is known near the triangle
+  // only.
   if (FindOutside(inside).Least < -FarthestRoot)
   {
     return false;
   }
-  // A triangle's border is as wide as the facet's, whatever its size.
+  // The border of a triangle is as wide as the facet's, whatever the triangle's size.
   const double border = Border / std::sqrt(std::fabs(area));
   if (FindOutside(inside).Least >= -border && FindOutside(root.B).Least >= -Border)
   {
@@ -241,7 +249,8 @@ void PatchRoots::Divide(const Triangle& t, int depth)
   ++this->Divisions;
   const auto evaluate = [this](const glm::dvec2& b)
   { return this->Equation.GetResidual(this->Patch, b); };
-  // Three children at the corners, one in the middle with the middles of the edges as corners.
+  // Three children at the corners, and one in the middle whose corners are the midpoints of the
+  // edges.
   Triangle middle;
   for (std::size_t k = 0; k < 3; ++k)
   {

@@ -12,23 +12,26 @@ namespace meniscus
 {
 
 /**
- * Every root of the sight equation in one patch.
+ * All roots of the sight equation in one patch.
  *
- * The residual is a map from the facet's triangle to a plane. On a triangle it is interpolated by
- * second degree from its corners and the middles of its edges; the control points of the
- * interpolant bound it, with a margin for what is of higher degree. If a line separates them from
- * zero there is no root. If the determinants of all pairs of control vectors of its two derivatives
- * have one sign the map is injective, so there is one root at most and Newton's method finds it.
- * Otherwise the triangle is divided in four.
+ * The residual is a map from the facet's triangle to a plane. On a triangle it is interpolated by a
+ * polynomial of second degree from its corners and the midpoints of its edges; the control points
+ * of the interpolant bound it, with a margin for the parts of higher degree. If a line separates
+ * them from zero, there is no root. If the determinants of all pairs of control vectors of its two
+ * derivatives have one sign, the map is injective, so there is at most one root and Newton's method
+ * finds it. Otherwise the triangle is divided in four.
  *
- * Where the patch focuses on the point the roots are not isolated: a dome on whose axis eye and
- * point lie shows a ring. The number of divisions is limited then, and what is found stands for the
- * rest.
+ * Where the patch focuses on the point, the roots are not isolated: a dome with eye and point on
+ * its axis shows a ring. In that case the number of divisions is limited, and the roots found
+ * represent the ring.
  */
 class PatchRoots
 {
 public:
-  /** A patch that focuses on a point may show any number of images; a smooth one shows few. */
+  /**
+   * Largest number of roots. A patch that focuses on a point may show any number of images; a
+   * smooth one shows few.
+   */
   static constexpr std::size_t Capacity = 16;
 
   PatchRoots(const SightEquation& equation, const CurvedPatch& patch)
@@ -37,14 +40,16 @@ public:
   {
   }
 
-  /** Roots inside the facet, images or not, are in [begin, end) afterwards. */
+  /**
+   * Finds all roots inside the facet, whether images or not; [begin, end) holds them afterwards.
+   */
   void Find();
 
   const SightRoot* begin() const { return this->Roots.data(); }
   const SightRoot* end() const { return this->Roots.data() + this->Count; }
 
 private:
-  /** Corners, then middles of the edges opposite to them. */
+  /** Values at the corners, then at the midpoints of the edges opposite to them. */
   struct Triangle
   {
     std::array<glm::dvec2, 6> B;

@@ -7,8 +7,8 @@
  *   h(S) = n1 |p| a - n2 |a| p
  *
  * is parallel to the normal where the ray along a is refracted along p. It is |a| |p| times the
- * difference that the tangential part of Eq. 2.2 makes, stays smooth beyond the critical angle and
- * where the surface faces away, and has no pole at the eye or at the point.
+ * difference in the tangential part of Eq. 2.2, stays smooth beyond the critical angle and where
+ * the surface faces away, and has no pole at the eye or at the point.
  */
 #ifndef meniscus_Refraction_Curved_SightEquation_h
 #define meniscus_Refraction_Curved_SightEquation_h
@@ -23,19 +23,20 @@
 namespace meniscus
 {
 
-/** Where Newton's method ended. */
+/** Result of Newton's method. */
 struct SightRoot
 {
   enum class End
   {
-    Converged, ///< anywhere in the plane of barycentric coordinates
-    Left,      ///< went out of the facet by more than it was allowed to
-    Failed     ///< singular, or too many steps
+    Converged, ///< converged, anywhere in the plane of barycentric coordinates
+    Left,      ///< left the facet by more than the allowed distance
+    Failed     ///< the Jacobian is singular, or the limit of steps is reached
   };
   End End;
   glm::dvec2 B;
-  PatchPoint At;      ///< the root's point, if converged
-  double Determinant; ///< of the Jacobian in the tangent plane; its sign turns at caustics
+  PatchPoint At;      ///< point of the patch at the root, if converged
+  double Determinant; ///< determinant of the Jacobian in the tangent plane; its sign changes at
+                      ///< caustics
 };
 
 class SightEquation
@@ -50,18 +51,21 @@ public:
   }
 
   /**
-   * h without its part along the normal, in the two directions of the facet's edges; zero at a
-   * sight point. Multiplied by the square of the normal's length.
+   * Component of h tangential to the surface, in the two directions of the facet's edges and
+   * multiplied by the square of the normal's length; zero at a sight point.
    */
   glm::dvec2 GetResidual(const CurvedPatch& patch, const glm::dvec2& b) const;
 
-  /** Newton's method from `b`, at most `steps` steps, leaving the facet by `reach` at most. */
+  /**
+   * Newton's method from `b` with at most `steps` steps; an iterate may leave the facet by `reach`
+   * at most.
+   */
   SightRoot Solve(const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const;
 
-  /** Whether a root is an image: eye in front of the surface, point behind it. */
+  /** True if a root is an image: the eye is in front of the surface, the point behind it. */
   bool IsImage(const PatchPoint& at) const;
 
-  /** Of a place from the eye or from the point, whichever is nearer. */
+  /** Squared distance of a place from the eye or from the point, whichever is nearer. */
   double GetSquaredDistance(const glm::dvec3& place) const
   {
     const glm::dvec3 a = place - this->Eye;
@@ -69,7 +73,7 @@ public:
     return std::min(glm::dot(a, a), glm::dot(p, p));
   }
 
-  /** Which way round the image of a facet is: +1, or -1 where it is mirrored. */
+  /** Orientation of the image of a facet: +1, or -1 where it is mirrored. */
   static int GetOrientation(const CurvedPatch& patch, const SightRoot& root);
 
 private:
@@ -77,7 +81,7 @@ private:
   {
     glm::dvec2 Move;
     double Determinant;
-    double Nearest; ///< of eye and point, the distance
+    double Nearest; ///< distance of the nearer of eye and point
   };
   Step GetStep(const PatchJet& jet) const;
 
@@ -104,9 +108,9 @@ inline glm::dvec2 SightEquation::GetResidual(const CurvedPatch& patch, const glm
 }
 
 //------------------------------------------------------------------------------
-// The tangential part of h + dh / du du + dh / dv dv - eta (n + dn) vanishes, eta = h.n / n.n:
-// terms with the residual times a derivative of n are left out, which vanish at a root. Solved by
-// Cramer's rule in the tangent plane.
+// Solves for the step where the tangential part of h + dh / du du + dh / dv dv - eta (n + dn), with
+// eta = h.n / n.n, vanishes. Terms with the residual times a derivative of n are left out; they
+// vanish at a root. Uses Cramer's rule in the tangent plane.
 inline SightEquation::Step SightEquation::GetStep(const PatchJet& jet) const
 {
   const glm::dvec3 a = jet.Position - this->Eye;
@@ -138,9 +142,9 @@ inline SightEquation::Step SightEquation::GetStep(const PatchJet& jet) const
 inline SightRoot SightEquation::Solve(
   const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const
 {
-  // The error after a step is of the order of the step's square, in facets: what is left is below
-  // 1e-10 of a facet but near a caustic. Where eye or point is closer to the surface than a facet
-  // is wide, that distance takes the facet's place.
+  // The error after a step is of the order of the step's square, in units of the facet: the
+  // remaining error is below 1e-10 of a facet except near a caustic. Where the eye or the point is
+  // closer to the surface than a facet is wide, that distance takes the place of the facet's size.
   constexpr double lastStep = 1e-5;
   const auto isLast = [](const Step& step, const PatchJet& at, double size)
   {
@@ -162,7 +166,7 @@ inline SightRoot SightEquation::Solve(
     b += step.Move;
     if (isLast(step, jet, size))
     {
-      // Over so short a step the patch is as good as linear.
+      // The step is so short that the patch is linear within rounding.
       const PatchPoint at{ jet.Position + step.Move.x * jet.PositionBy[0] +
           step.Move.y * jet.PositionBy[1],
         jet.Normal + step.Move.x * jet.NormalBy[0] + step.Move.y * jet.NormalBy[1] };

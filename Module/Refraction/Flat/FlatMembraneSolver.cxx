@@ -60,7 +60,8 @@ void FlatMembraneSolver::Solve(
 bool FlatMembraneSolver::IsInReach(const glm::dvec3& local) const
 {
   const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
-  // Written so that a NaN fails: it may hide from max() in one component but not in the sum.
+  // The sum is tested so that a NaN fails: max() may ignore a NaN in one component, the sum does
+  // not.
   return reach / this->Surface.GetRadius() < RayTubeTree::FarthestRadii &&
     std::isfinite(local.x + local.y + local.z);
 }
@@ -132,8 +133,8 @@ bool FlatMembraneSolver::HasOneCell(const glm::dvec3& point, double wall) const
   {
     return false;
   }
-  // A point that is outside by `wall` in each coordinate is at most 2 wall edges away from the
-  // cell.
+  // A point that is outside by `wall` in each coordinate is at most 2 `wall` edge lengths away from
+  // the cell.
   const double edge = 2.0 * RefractionCells::GetLargestStretch() *
     (glm::length(local) + std::sqrt(3.0) * this->Surface.GetRadius());
   int count = 0;
@@ -169,7 +170,7 @@ VirtualVertex FlatMembraneSolver::MakeVertex(
   // Eq. 2.4.
   vertex.Position = sightPoint + sight * (vertex.Depth * this->Exterior / this->Interior) +
     this->Surface.GetOrigin();
-  // Where normals cancel out the ray only grazes.
+  // Where the corner normals cancel out, the ray is taken to be at grazing incidence.
   vertex.Cosine = bent > 0.0 ? -glm::dot(sight, normal) / bent : 0.0;
   vertex.Reflectance = FresnelReflectance(vertex.Cosine, this->Exterior, this->Interior);
   vertex.Facet = facet;

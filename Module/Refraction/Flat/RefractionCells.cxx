@@ -21,15 +21,15 @@ constexpr double Epsilon = std::numeric_limits<double>::epsilon();
 // roundings of at most |w| |m| / r.m each.
 constexpr double CornerRounding = 16.0 * Epsilon;
 
-// Cells whose rays part further from their mean than 89.1 degrees hold nothing: the cross-section
-// would run away and its rounding with it (by 1 / cosine). Unit rays that obey Snell's law stay far
-// from this; only extrapolated ones (Eqs. 3.1, 3.2) get there.
+// Cells with a ray more than 89.1 degrees from the mean of the rays hold no point: the
+// cross-section and its rounding would grow without bound (by 1 / cosine). Unit rays that obey
+// Snell's law stay far from this angle; only extrapolated ones (Eqs. 3.1, 3.2) reach it.
 constexpr double SmallestCosine = 0x1p-6;
 
-// A cross-section thinner than this, height over longest edge, is a cell edge-on or at a focus: it
-// holds nothing. The bound keeps what wall rounding adds at a sharp corner, at most
-// 2 CornerRounding / (SmallestCosine Thinnest) = 2^-21 of the reach, within the padding that the
-// tree adds, 4 float epsilons = 2^-21 of the reach.
+// A cross-section thinner than this (height over longest edge) belongs to a cell that is edge-on or
+// at a focus; such a cell holds no point. The bound keeps the effect of wall rounding at a sharp
+// corner, at most 2 CornerRounding / (SmallestCosine Thinnest) = 2^-21 of the reach, within the
+// padding of the tree, 4 float epsilons = 2^-21 of the reach.
 constexpr double Thinnest = 0x1p-20;
 
 bool IsOpen(double cosine, double squaredMean)
@@ -39,9 +39,7 @@ bool IsOpen(double cosine, double squaredMean)
 
 }
 
-/**
- * The triangle in which the plane through a point cuts the rays of a cell, relative to the point.
- */
+/** Triangle in which the plane through a point cuts the rays of a cell, relative to the point. */
 struct RefractionCells::CrossSection
 {
   glm::dvec3 ToCorner[3];
@@ -50,7 +48,7 @@ struct RefractionCells::CrossSection
   double Cosine[3];
   double SquaredMean = 0.0;
 
-  /** Rounding of a corner of the cut, times the length of the mean ray. */
+  /** Rounding error of a corner of the cross-section, times the length of the mean ray. */
   double GetTolerance() const
   {
     const double mean = std::sqrt(this->SquaredMean);
@@ -63,8 +61,8 @@ struct RefractionCells::CrossSection
   }
 
   /**
-   * Whether no area is more negative than rounding or `wallArea` explains. The first pass takes no
-   * square root and a reach that is too large: almost every cell that is tested fails it.
+   * True if no area is more negative than rounding or `wallArea` explains. The first pass avoids
+   * the square root and overestimates the reach: almost every tested cell already fails it.
    */
   bool IsInside(const glm::dvec3& area, double wallArea) const
   {
@@ -183,8 +181,8 @@ bool RefractionCells::IsEyeOnFacet(const Membrane::Facet& facet) const
   const glm::dvec3 b = positions[static_cast<std::size_t>(facet[1])] - this->Eye;
   const glm::dvec3 c = positions[static_cast<std::size_t>(facet[2])] - this->Eye;
   const glm::dvec3 normal = glm::cross(b - a, c - a);
-  // Six times the volume of eye and facet, and its rounding: three products of three lengths, each
-  // within a few roundings of the local coordinates.
+  // Six times the volume of the tetrahedron of eye and facet, and its rounding error: three
+  // products of three lengths, each within a few roundings of the local coordinates.
   const double size = std::max({ glm::length(a), glm::length(b), glm::length(c) });
   const double reach = std::max(size, this->Surface->GetRadius());
   const double volume = glm::dot(a, normal);
@@ -277,9 +275,9 @@ bool RefractionCells::IsBehind(
   {
     return true;
   }
-  // Just behind a facet the plane cuts some rays in front of their corners, and the sight point
-  // that follows may lie behind the point by a second-order amount. The facet itself decides then,
-  // as long as the plane does not pass in front of all of it.
+  // Just behind a facet the plane cuts some rays in front of their corners, and the resulting sight
+  // point may lie behind the point by a second-order amount. In that case the facet itself decides,
+  // unless the plane passes entirely in front of it.
   if (!(std::max({ depth.x, depth.y, depth.z }) >= -tolerance))
   {
     return false;
@@ -308,9 +306,9 @@ TubeBounds RefractionCells::GetBounds(std::int32_t facet) const
       return TubeBounds();
     }
   }
-  // A plane through a point just behind the facet may cut a ray in front of its corner. No plane
-  // cuts it in front of the highest corner, so the tube starts there; behind it all three cuts are
-  // at non-negative distances and the point is a mean of starts plus a mean of directions.
+  // A plane through a point just behind the facet may cut a ray in front of its corner, but never
+  // in front of the highest corner, so the tube starts there. Behind it all three cuts are at
+  // non-negative distances, and the point is a mean of starts plus a mean of directions.
   const double highest = std::min({ height[0], height[1], height[2] });
   TubeBounds bounds;
   for (std::size_t i = 0; i < 3; ++i)

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The cells of a membrane for one eye (thesis 3.1.1 and 3.1.2): a cell is a facet and the
- * refraction rays at its corners. It holds a point if the plane through the point, normal to the
+ * Cells of a membrane for one eye (thesis 3.1.1 and 3.1.2). A cell consists of a facet and the
+ * refracted rays at its corners. It holds a point if the plane through the point, normal to the
  * mean of the three rays, cuts the rays in a triangle around the point, and if the point lies on
- * the far side of the facet. Each cell has planes of its own, so neighbouring cells may overlap or
+ * the far side of the facet. Each cell uses its own planes, so neighbouring cells may overlap or
  * leave gaps.
  */
 #ifndef meniscus_Refraction_Flat_RefractionCells_h
@@ -30,10 +30,10 @@ enum class EyeStatus
   OnTheMembrane ///< the eye lies on a facet, so there is no sight ray
 };
 
-/** What can be said of an eye and two indices without a membrane: never OnTheMembrane. */
+/** Checks an eye and two indices without a membrane; never returns OnTheMembrane. */
 EyeStatus CheckEye(const glm::dvec3& eye, double exterior, double interior);
 
-/** How the rays of the vertices that facets use came about. */
+/** Number of rays by the equation that they come from, over the vertices that facets use. */
 struct RayReport
 {
   std::size_t Refracted = 0;
@@ -41,35 +41,39 @@ struct RayReport
   std::size_t TotallyReflected = 0;
 };
 
-/** Where a point is seen in a cell. */
+/** Image of a point in a cell. */
 struct CellHit
 {
   glm::dvec3 Weights; ///< barycentric coordinates of the sight point in the facet
-  int Orientation;    ///< +1: the cell is upright at the point, -1: turned over by a caustic
+  int Orientation;    ///< +1: the image is upright; -1: it is inverted by a caustic
 };
 
 class RefractionCells
 {
 public:
   /**
-   * Computes all rays. `eye` is relative to the membrane's origin, the membrane must outlive this.
+   * Computes all rays. `eye` is relative to the membrane's origin; the membrane must outlive this
+   * object.
    */
   EyeStatus Update(const Membrane& membrane, const glm::dvec3& eye, double exterior,
     double interior, const RangeLoop& loop);
 
-  /** Whether the cell of `facet` holds `point`, borders included within rounding. */
+  /** True if the cell of `facet` holds `point`; borders are included within rounding. */
   bool Contains(std::int32_t facet, const glm::dvec3& point, CellHit& hit) const
   {
     return this->Contains(facet, point, 0.0, hit);
   }
 
-  /** The same with walls widened by `wall`, in barycentric coordinates. */
+  /** As above, with walls widened by `wall`, in barycentric coordinates. */
   bool Contains(std::int32_t facet, const glm::dvec3& point, double wall, CellHit& hit) const;
 
-  /** A tube around everything that Contains accepts for `facet` without wall. */
+  /** A tube around all points that Contains accepts for `facet` without widened walls. */
   TubeBounds GetBounds(std::int32_t facet) const;
 
-  /** How many times farther from a point than the corner of a cell its ray may cut the plane. */
+  /**
+   * Largest ratio of the distance between a point and a corner's cut of the plane to the distance
+   * between the point and that corner.
+   */
   static double GetLargestStretch();
 
   const glm::dvec3& GetEye() const { return this->Eye; }

@@ -11,14 +11,14 @@ namespace meniscus
 namespace
 {
 
-// Edges are as short as 2^-14 of the primitive's then: where the virtual geometry has a corner, at
-// a crease of the membrane, the error shrinks with the length.
+// Shortest part of an edge: 2^-14 of the primitive's edge. It is reached where the virtual geometry
+// has a corner, at a crease of the membrane; there the error shrinks with the length.
 constexpr int DeepestLevel = 14;
 
-// Those of a few dozen cells.
+// Enough for the edges of a few dozen cells.
 constexpr std::size_t CacheSize = 512;
 
-// Doubled where it does not do.
+// The table is doubled when it is half full.
 constexpr std::size_t SmallestEdgeTable = 64;
 
 constexpr std::int32_t NotSplit = -1;
@@ -27,7 +27,7 @@ std::size_t Hash(const glm::dvec3& point)
 {
   std::uint64_t bits[3];
   std::memcpy(bits, &point.x, sizeof(bits));
-  // Multipliers of a well mixed linear congruence, one for each coordinate.
+  // Multipliers of a well mixed linear congruential generator, one for each coordinate.
   std::uint64_t sum =
     bits[0] * 0x9e3779b97f4a7c15u + bits[1] * 0xbf58476d1ce4e5b9u + bits[2] * 0x94d049bb133111ebu;
   sum ^= sum >> 32;
@@ -51,7 +51,8 @@ EdgeSubdivision::EdgeSubdivision(const CurvedMembraneSolver& geometry, double to
 }
 
 //------------------------------------------------------------------------------
-// Solved from the ends in an order that is theirs, so that both neighbours get one answer.
+// The middle is solved from the ends in an order that depends on the ends alone, so that both
+// neighbours get the same answer.
 const VirtualVertex& EdgeSubdivision::FindMiddle(const glm::dvec3& a, const VirtualVertex& imageOfA,
   const glm::dvec3& b, const VirtualVertex& imageOfB)
 {
@@ -94,7 +95,7 @@ double EdgeSubdivision::GetSquaredSize(std::int32_t facet) const
 }
 
 //------------------------------------------------------------------------------
-// Whether sight points are no farther apart than the membrane's vertices there.
+// True if the sight points are no farther apart than the membrane's vertices there.
 bool EdgeSubdivision::AreNeighbours(const VirtualVertex& a, const VirtualVertex& b) const
 {
   const glm::dvec3 way = a.SightPoint - b.SightPoint;
@@ -105,7 +106,7 @@ bool EdgeSubdivision::AreNeighbours(const VirtualVertex& a, const VirtualVertex&
 //------------------------------------------------------------------------------
 EdgeSubdivision::Shape EdgeSubdivision::FindShape(const Stretch& part, int depth)
 {
-  // A copy: what is found next may take its place in the cache.
+  // A copy, because the next entry may overwrite this one in the cache.
   const VirtualVertex middle =
     this->FindMiddle(part.Point[0], *part.Image[0], part.Point[1], *part.Image[1]);
   if (middle.State != ImageState::Found)
@@ -161,7 +162,7 @@ void EdgeSubdivision::MoveOntoEdge(
     }
     if (shape == Shape::Straight)
     {
-      // Between the places that were tested the edge bends by little more than there.
+      // Between the tested places the edge deviates little more than at them.
       constexpr double sameBranch = 2.0;
       const glm::dvec3 drawn = (1.0 - l) * end[0].Position + l * end[1].Position;
       image.Position = this->IsDrawnWell(drawn, image, sameBranch) ? drawn : image.Position;
@@ -181,7 +182,7 @@ void EdgeSubdivision::Start(const std::array<ImagedPoint, 3>& corners, std::size
   this->Failed = false;
   this->Nodes.clear();
   this->EdgeCount = 0;
-  ++this->Round; // empties the table
+  ++this->Round; // empties the table without clearing it
   for (std::size_t k = 0; k < count; ++k)
   {
     glm::dvec3 weight(0.0);
@@ -191,7 +192,7 @@ void EdgeSubdivision::Start(const std::array<ImagedPoint, 3>& corners, std::size
 }
 
 //------------------------------------------------------------------------------
-// The edge's place, or a free one for it.
+// The edge's entry in the table, or a free entry for it.
 EdgeSubdivision::Edge& EdgeSubdivision::FindEdge(std::uint64_t key)
 {
   const std::size_t mask = this->Edges.size() - 1;
@@ -218,7 +219,7 @@ void EdgeSubdivision::GrowEdges()
 }
 
 //------------------------------------------------------------------------------
-// The node in the middle, or NotSplit.
+// The node in the middle, or NotSplit if the edge is straight.
 std::int32_t EdgeSubdivision::Split(std::int32_t a, std::int32_t b, int depth)
 {
   if (depth == DeepestLevel)
@@ -276,7 +277,7 @@ void EdgeSubdivision::Emit(const Cell& cell, const std::array<std::int32_t, N>& 
 //------------------------------------------------------------------------------
 void EdgeSubdivision::Divide(const Cell& cell, const std::array<std::int32_t, 3>& nodes, int depth)
 {
-  std::array<std::int32_t, 3> middle; // of the edge opposite to each node
+  std::array<std::int32_t, 3> middle; // of the edge opposite each node
   for (std::size_t k = 0; k < 3; ++k)
   {
     middle[k] = this->Split(nodes[(k + 1) % 3], nodes[(k + 2) % 3], depth);
@@ -292,7 +293,7 @@ void EdgeSubdivision::Divide(const Cell& cell, const std::array<std::int32_t, 3>
     this->Emit(cell, nodes);
     return;
   }
-  // Turned so that edge 0 is split, if two are edge 1 as well.
+  // Rotates the corners so that edge 0 is split and, if two edges are split, edge 1 as well.
   std::size_t k = 0;
   while (middle[k] == NotSplit || (splits == 2 && middle[(k + 1) % 3] == NotSplit))
   {

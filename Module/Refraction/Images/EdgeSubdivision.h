@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Lines and triangles that the membrane shows once, divided where the virtual geometry bends.
+ * Subdivision of lines and triangles that the membrane shows once, where their virtual geometry is
+ * curved.
  *
- * An edge is divided in the middle if the images of points on it are not where the virtual edge is
- * drawn, within a tolerance, and so are its halves. The points are its middle, the middles of its
- * halves and so on, until their sight points are as close as the membrane's vertices: between those
- * it has no waves. That depends on the edge alone, its two ends and their images, so neighbours
- * agree on every point and nothing is cracked. A triangle is divided by the middles of those of its
- * edges that are, until none is.
+ * An edge is divided in the middle unless the images of points on it lie on the virtual edge within
+ * a tolerance; its halves are then treated in the same way. The tested points are its middle, the
+ * middles of its halves and so on, until their sight points are as close as the membrane's
+ * vertices, between which the membrane has no waves. The result depends on the edge alone, on its
+ * two ends and their images, so neighbours agree on every point and no cracks appear. A triangle is
+ * divided at the middles of its divided edges until none of its edges needs division.
  */
 #ifndef meniscus_Refraction_Images_EdgeSubdivision_h
 #define meniscus_Refraction_Images_EdgeSubdivision_h
@@ -24,7 +25,7 @@
 namespace meniscus
 {
 
-/** A point of the object and its one image. */
+/** A point of the object that has a single image, and that image. */
 struct ImagedPoint
 {
   std::int64_t Id;
@@ -39,14 +40,14 @@ public:
   EdgeSubdivision(const CurvedMembraneSolver& geometry, double tolerance);
 
   /**
-   * Whether the images of points on the edge are where the virtual edge is drawn. Images of
-   * another branch are not.
+   * True if the images of points on the edge lie on the virtual edge within the tolerance. An image
+   * of another branch does not.
    */
   bool IsStraight(const ImagedPoint& a, const ImagedPoint& b);
 
   /**
-   * Adds the image of a triangle as triangles, wound as it is. False, and nothing is added, if a
-   * point in between has no image.
+   * Adds the image of a triangle as triangles with the same winding. Returns false, and adds
+   * nothing, if a point in between has no image.
    */
   bool AddTriangle(
     const std::array<ImagedPoint, 3>& corners, std::int64_t sourceCell, ImageMesh& images);
@@ -56,24 +57,25 @@ public:
     const ImagedPoint& from, const ImagedPoint& to, std::int64_t sourceCell, ImageMesh& images);
 
   /**
-   * Where neighbours draw the point at `l` from 0 to 1 of an edge, if `image` is on the branch
-   * that they draw: its position is moved there, by no more than twice the tolerance.
+   * Moves the position of `image` onto the virtual edge that the neighbours draw, at the parameter
+   * `l` from 0 to 1, if `image` is on the branch that they draw. The shift is at most twice the
+   * tolerance.
    */
   void MoveOntoEdge(const ImagedPoint& a, const ImagedPoint& b, double l, VirtualVertex& image);
 
 private:
   struct Node
   {
-    glm::dvec3 Weight; ///< of the corners
+    glm::dvec3 Weight; ///< barycentric weights with respect to the corners
     glm::dvec3 Point;
     VirtualVertex Vertex;
-    std::int64_t Output = -1; ///< its place among the points of `images`, once it is there
+    std::int64_t Output = -1; ///< index among the points of `images`; -1 until it is added
   };
-  /** A part of an edge. */
+  /** A part of an edge between two tested points. */
   struct Stretch
   {
     glm::dvec3 Point[2];
-    glm::dvec3 Drawn[2]; ///< where the edge has them
+    glm::dvec3 Drawn[2]; ///< positions of the ends on the virtual edge as it is drawn
     const VirtualVertex* Image[2];
   };
   struct Middle
@@ -81,12 +83,15 @@ private:
     glm::dvec3 Point{ std::numeric_limits<double>::quiet_NaN() };
     VirtualVertex Vertex;
   };
-  /** An edge of nodes and the node in its middle, in a table that is searched from a hash on. */
+  /**
+   * An edge between two nodes and the node in its middle: an entry of a hash table with linear
+   * probing.
+   */
   struct Edge
   {
     std::uint64_t Key;
     std::int32_t Middle;
-    std::uint32_t Round; ///< the primitive that it belongs to
+    std::uint32_t Round; ///< number of the primitive that the entry belongs to
   };
   struct Cell
   {
@@ -107,7 +112,7 @@ private:
   Shape FindShape(const glm::dvec3& a, const VirtualVertex& imageOfA, const glm::dvec3& b,
     const VirtualVertex& imageOfB);
   Shape FindShape(const Stretch& part, int depth);
-  /** Within so many parts of the tolerance. */
+  /** True if `image` is within `parts` times the tolerance of `drawn`, seen from the eye. */
   bool IsDrawnWell(const glm::dvec3& drawn, const VirtualVertex& image, double parts = 1.0) const;
   bool AreNeighbours(const VirtualVertex& a, const VirtualVertex& b) const;
   double GetSquaredSize(std::int32_t facet) const;
@@ -122,9 +127,11 @@ private:
 
   const CurvedMembraneSolver& Geometry;
   double Tolerance;
-  std::vector<Middle> Cache; ///< by the middle's coordinates, one each; forgets what is in the way
+  std::vector<Middle> Cache; ///< indexed by a hash of the middle's coordinates, one entry each; a
+                             ///< new entry replaces the old one
   std::vector<Node> Nodes;
-  std::vector<Edge> Edges; ///< a power of two, at most half of them of this round
+  std::vector<Edge> Edges; ///< the size is a power of two; at most half of the entries belong to
+                           ///< this round
   std::size_t EdgeCount = 0;
   std::uint32_t Round = 0;
   bool Failed = false;

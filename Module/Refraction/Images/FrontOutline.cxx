@@ -11,8 +11,8 @@ namespace meniscus
 namespace
 {
 
-// Barycentric coordinates are up to 1 and rounded once or twice, a product of two differences of
-// them a few times as often.
+// Barycentric coordinates are at most 1 and carry one or two roundings; a product of two
+// differences of them carries a few times as many.
 constexpr double Rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
@@ -20,7 +20,7 @@ bool IsBefore(const glm::dvec3& a, const glm::dvec3& b)
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-// Twice the area in the second and third coordinates.
+// Twice the signed area in the second and third barycentric coordinates.
 double GetArea(const TrianglePoint& first, const TrianglePoint& second, const TrianglePoint& third)
 {
   const glm::dvec3& a = first.Weight;
@@ -42,7 +42,7 @@ bool IsConvex(const FrontOutline::Polygon& polygon)
   return true;
 }
 
-// Whether the triangle at corner `i` holds no other corner.
+// True if the triangle at corner `i` holds no other corner.
 bool IsEar(const FrontOutline::Polygon& polygon, std::size_t i)
 {
   const std::size_t count = polygon.size();
@@ -61,7 +61,7 @@ bool IsEar(const FrontOutline::Polygon& polygon, std::size_t i)
     });
 }
 
-// Ear clipping; false if rounding leaves no ear.
+// Ear clipping. Returns false if rounding leaves no ear.
 bool SplitPolygon(FrontOutline::Polygon polygon, std::vector<FrontOutline::Polygon>& parts)
 {
   while (!IsConvex(polygon))
@@ -111,7 +111,8 @@ std::size_t FrontOutline::FindNode(const TrianglePoint& place)
     { return IsBefore(this->Nodes[node].At.Weight, weight); });
   if (at != this->Sorted.end() && this->Nodes[*at].At.Weight == place.Weight)
   {
-    this->Nodes[*at].At.Position = place.Position; // a corner, as the refracted part has it
+    this->Nodes[*at].At.Position = place.Position; // a corner: the position that the refracted part
+                                                   // uses
     return *at;
   }
   this->Sorted.insert(at, this->Nodes.size());
@@ -120,8 +121,8 @@ std::size_t FrontOutline::FindNode(const TrianglePoint& place)
 }
 
 //------------------------------------------------------------------------------
-// The part behind is on the left of a piece, the part in front on the left of the way back. A piece
-// there and back cancels out.
+// Links the ends of a piece. The part behind the membrane is on the left of the piece, the part in
+// front on the left of the reversed piece. Two opposite copies of a piece cancel out.
 bool FrontOutline::Link(const WaterlinePiece& piece)
 {
   const std::size_t from = this->FindNode(piece.To);
@@ -163,7 +164,7 @@ bool FrontOutline::Unlink(std::size_t from, std::size_t to)
 }
 
 //------------------------------------------------------------------------------
-// Links what is in front along the side from one corner to the next.
+// Links the parts of the side from one corner to the next that are in front.
 bool FrontOutline::FollowSide(std::size_t from)
 {
   const std::size_t to = (from + 1) % 3;
@@ -180,7 +181,7 @@ bool FrontOutline::FollowSide(std::size_t from)
   std::sort(stops.begin(), stops.end(),
     [this, along](std::size_t a, std::size_t b)
     { return this->Nodes[a].At.Weight[along] < this->Nodes[b].At.Weight[along]; });
-  // The curve may end in a corner, whichever side that counts to.
+  // The curve may end exactly in a corner, which may have been counted to either side.
   const bool isOdd = stops.size() % 2 == 1;
   if (isOdd != (this->IsFront[from] != this->IsFront[to]))
   {
@@ -207,8 +208,9 @@ bool FrontOutline::FollowSide(std::size_t from)
 }
 
 //------------------------------------------------------------------------------
-// Along a side where that is in front; otherwise along the waterline, away from the node before, or
-// from none with the part in front on the left.
+// Next node of the outline: along the triangle's side where that is in front, otherwise along the
+// waterline, away from the node `before`. If that is None, the direction is the one with the part
+// in front on its left.
 std::size_t FrontOutline::GoOn(std::size_t index, std::size_t before) const
 {
   const Node& node = this->Nodes[index];
@@ -239,7 +241,7 @@ bool FrontOutline::CollectLoop(
     seen[node] = true;
     loop.push_back(this->Nodes[node].At);
     area += GetArea(loop.front(), this->Nodes[node].At, this->Nodes[next].At);
-    // From a side the waterline goes away in the only way it can.
+    // At a node on a side, the waterline can be followed in one direction only.
     before = this->Nodes[node].Along != None ? None : node;
     before = before == None && this->IsEnd(next) ? next : before;
     node = next;
@@ -261,11 +263,11 @@ bool FrontOutline::Find(std::vector<Polygon>& polygons)
   }
   for (std::size_t i = 3; i < this->Nodes.size() && !this->Broken; ++i)
   {
-    // An end that is on no side.
+    // An end of the curve that lies on no side.
     this->Broken = this->IsEnd(i) && this->Nodes[i].At.Weight.x != 0.0 &&
       this->Nodes[i].At.Weight.y != 0.0 && this->Nodes[i].At.Weight.z != 0.0;
   }
-  // Loops with sides first: the others are closed by the waterline alone.
+  // Loops with sides come first; the others consist of the waterline alone.
   std::vector<bool> seen(this->Nodes.size(), false);
   for (const bool hasSide : { true, false })
   {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The part of a triangle in front of the membrane, as polygons between the triangle's sides and the
- * curve along which it meets the membrane. The curve's pieces are those at which the refracted part
- * ends, so the two parts meet bit by bit and neither is finer than the other.
+ * Part of a triangle in front of the membrane, as polygons between the triangle's sides and the
+ * curve along which the triangle meets the membrane. The pieces of the curve are the ones at which
+ * the refracted part ends, so the two parts meet bit by bit and have the same resolution.
  */
 #ifndef meniscus_Refraction_Images_FrontOutline_h
 #define meniscus_Refraction_Images_FrontOutline_h
@@ -22,16 +22,16 @@ namespace meniscus
 class FrontOutline
 {
 public:
-  /** Corners, wound as the triangle is. */
+  /** Corners, with the winding of the triangle. */
   using Polygon = std::vector<TrianglePoint>;
 
-  /** `corners` are the triangle's, `isFront` tells which of them are in front. */
+  /** `corners` are those of the triangle; `isFront` marks the corners in front of the membrane. */
   FrontOutline(const std::vector<WaterlinePiece>& waterline,
     const std::array<glm::dvec3, 3>& corners, const std::array<bool, 3>& isFront);
 
   /**
-   * False if the pieces do not separate the corners in front from the others along each side, or
-   * leave a hole in the part. Otherwise `polygons` becomes the part, as convex polygons.
+   * Computes the part as convex polygons. Returns false if the pieces do not separate the corners
+   * in front from the others along each side, or if they leave a hole in the part.
    */
   bool Find(std::vector<Polygon>& polygons);
 
@@ -42,8 +42,9 @@ private:
   {
     TrianglePoint At;
     std::array<std::size_t, 2> Next = { None, None }; ///< neighbours on the waterline
-    std::array<bool, 2> IsForward = {};               ///< the part in front is on the left there
-    std::size_t Along = None;                         ///< next along the triangle's sides
+    std::array<bool, 2> IsForward = {}; ///< true if the part in front is on the left in this
+                                        ///< direction
+    std::size_t Along = None;           ///< next node along the triangle's sides
   };
 
   std::size_t FindNode(const TrianglePoint& at);
@@ -59,7 +60,7 @@ private:
   bool CollectLoop(std::size_t first, std::vector<bool>& seen, std::vector<Polygon>& polygons);
 
   std::vector<Node> Nodes;         ///< the triangle's corners first
-  std::vector<std::size_t> Sorted; ///< nodes by their coordinates
+  std::vector<std::size_t> Sorted; ///< nodes in the order of their coordinates
   std::array<bool, 3> IsFront;
   bool Broken = false;
 };

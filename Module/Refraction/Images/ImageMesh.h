@@ -15,8 +15,8 @@ namespace meniscus
 {
 
 /**
- * A virtual vertex and its place in the object: a mean of at most three of its points. The weights
- * are not negative, fall from the first on, and add up to 1.
+ * A virtual vertex and its place in the object: a weighted mean of at most three of the object's
+ * points. The weights are not negative, do not increase, and add up to 1.
  */
 struct ImagePoint
 {
@@ -24,16 +24,19 @@ struct ImagePoint
   std::array<std::int64_t, 3> Source{ -1, -1, -1 };
   std::array<double, 3> Weight{ 1.0, 0.0, 0.0 };
 
-  /** The point of the object that this is an image of; -1 for a point made in between. */
+  /** Index of the object's point that this is an image of; -1 for a point made in between. */
   std::int64_t GetSource() const { return this->Weight[0] == 1.0 ? this->Source[0] : -1; }
 
-  /** Points with a weight; they come first. */
+  /** Number of points with a non-zero weight; they come first. */
   std::size_t GetNumberOfSources() const
   {
     return this->Weight[1] == 0.0 ? 1 : (this->Weight[2] == 0.0 ? 2 : 3);
   }
 
-  /** The largest weight first, so that a whole one is told at once. None may be negative. */
+  /**
+   * Sets the sources with the largest weight first, so that GetSource needs only the first. No
+   * weight may be negative.
+   */
   void SetSource(const std::array<std::int64_t, 3>& ids, const glm::dvec3& weights)
   {
     std::array<glm::length_t, 3> order = { 0, 1, 2 };
@@ -47,12 +50,12 @@ struct ImagePoint
   }
 };
 
-/** Images of cells: points, and cells of one kind as lists of them. */
+/** Images of cells: points, and cells of one kind as lists of point indices. */
 struct ImageMesh
 {
   std::vector<ImagePoint> Points;
   std::vector<std::int64_t> Connectivity;
-  std::vector<std::int64_t> Ends; ///< one past the last entry of each cell in `connectivity`
+  std::vector<std::int64_t> Ends; ///< one past the last entry of each cell in `Connectivity`
   std::vector<std::int64_t> SourceCells;
   std::vector<signed char> Orientations;
 
@@ -66,7 +69,7 @@ struct ImageMesh
     this->Orientations.push_back(static_cast<signed char>(orientation));
   }
 
-  /** A state to return to, when what has been added since turns out wrong. */
+  /** Sizes of all arrays, to return to if later additions have to be discarded. */
   struct Mark
   {
     std::size_t Points;

@@ -13,14 +13,14 @@ namespace meniscus
 namespace
 {
 
-// What a facet costs is a third of what a point saves.
+// The cost of testing a facet is a third of the cost that is saved for a point.
 constexpr std::size_t FacetsPerPoint = 3;
 
-// Points that are tested together, a part of a chunk.
+// Number of points that are tested together; a divisor of the chunk size.
 constexpr std::size_t Run = 8;
 static_assert(ObjectImages::Chunk % Run == 0, "runs make chunks");
 
-// Calls `visit(side)` for every side of every polygon that `isWanted(cell)` tells.
+// Calls `visit(side)` for every side of every polygon for which `isWanted(cell)` returns true.
 template <typename IsWanted, typename Visit>
 void VisitPolygonSides(
   const ObjectCells& cells, std::size_t count, const IsWanted& isWanted, const Visit& visit)
@@ -85,7 +85,7 @@ void ObjectImages::PrepareUnique(std::size_t wanted, const RangeLoop& loop)
   }
   if (low <= high)
   {
-    // A point's height is off by a few roundings of its coordinates.
+    // The rounding error of a point's height is a few roundings of its coordinates.
     const double slack = 16.0 * std::numeric_limits<double>::epsilon() *
       (std::fabs(low) + std::fabs(high) + std::fabs(origin) +
         this->Geometry.GetMembrane().GetRadius());
@@ -96,7 +96,7 @@ void ObjectImages::PrepareUnique(std::size_t wanted, const RangeLoop& loop)
 }
 
 //------------------------------------------------------------------------------
-// Whether no point of the points' bounds has several images.
+// True if no point of the points' bounding box has several images.
 bool ObjectImages::IsUnique(const std::int64_t* ids, std::size_t count) const
 {
   if (this->Unique.IsEmpty())
@@ -123,14 +123,15 @@ void ObjectImages::SolvePoints(std::size_t begin, std::size_t end)
   {
     if (i % Chunk == 0)
     {
-      memory = CurvedMembraneSolver::Memory(); // a chunk does not depend on who solves it
+      memory = CurvedMembraneSolver::Memory(); // a chunk gives the same result whichever thread
+                                               // solves it
     }
     this->SolveRun(i, std::min(i + Run, end), memory);
   }
 }
 
 //------------------------------------------------------------------------------
-// Points that follow each other are near each other in most objects: one test for a few of them.
+// In most objects consecutive points are near each other, so one test covers several of them.
 void ObjectImages::SolveRun(
   std::size_t begin, std::size_t end, CurvedMembraneSolver::Memory& memory)
 {
@@ -210,7 +211,7 @@ void ObjectImages::FinishPoints()
   }
   if (this->Wanted.empty())
   {
-    this->Chunks.clear(); // nothing can be wanted later
+    this->Chunks.clear(); // all points are solved, so no chunk can be requested later
   }
   this->Nearest = std::min(this->Nearest, this->Farthest);
 }
@@ -246,7 +247,7 @@ MappedTriangle ObjectImages::MakeTriangle(const std::array<std::int64_t, 3>& ids
 }
 
 //------------------------------------------------------------------------------
-// Each of the points, all of them the same way round.
+// True if each of the points has one image, all with the same orientation.
 bool ObjectImages::HaveOneImage(const std::int64_t* ids, std::size_t count) const
 {
   return std::all_of(ids, ids + count,
@@ -259,7 +260,7 @@ bool ObjectImages::HaveOneImage(const std::int64_t* ids, std::size_t count) cons
 }
 
 //------------------------------------------------------------------------------
-// Of points with one image each.
+// True if the cell can keep its points, each of which has one image.
 bool ObjectImages::IsSimple(
   const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const
 {
@@ -275,7 +276,8 @@ bool ObjectImages::IsSimple(
       return false;
     }
   }
-  // Between sight points in one facet the membrane holds no surprise; over several it may.
+  // Between sight points in one facet the membrane is smooth; between different facets the edges
+  // are tested.
   const VirtualVertex& first = *this->GetImagedPoint(ids[0]).Image;
   if (std::all_of(ids, ids + count,
         [this, &first](std::int64_t id)
@@ -387,7 +389,7 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
 }
 
 //------------------------------------------------------------------------------
-// The sides of mapped polygons and how many polygons have each.
+// Sides of mapped polygons, and the number of polygons that share each.
 std::vector<Seam> ObjectImages::FindSeams(
   const ObjectCells& cells, std::size_t count, const unsigned char* isMapped)
 {
@@ -474,7 +476,8 @@ void ObjectImages::MoveOntoNeighbours(const ObjectCells& cells, std::size_t coun
       this->HaveOneImage(point.Source.data(), 2) &&
       this->FindSide(point.Source.data(), 2) == Side::Behind)
     {
-      // From the lower end, whichever has the larger weight: all copies move alike.
+      // The place is measured from the end with the lower index, whichever has the larger weight,
+      // so that all copies move alike.
       const std::size_t low = point.Source[0] < point.Source[1] ? 0 : 1;
       division.MoveOntoEdge(this->GetImagedPoint(point.Source[low]),
         this->GetImagedPoint(point.Source[1 - low]), point.Weight[1 - low], point.Vertex);

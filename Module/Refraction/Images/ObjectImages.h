@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Every image of an object: of its points, and of its lines and polygons. A cell is simple, and
- * keeps its points, if each of them has one image and if the virtual cell is where the images of
- * the middles of its sides are, within a tolerance. A cell that is bent, but where no point can
- * have several images, is divided. All other cells are mapped from the membrane.
+ * Images of an object: of its points, lines and polygons. A cell is simple, and keeps its points,
+ * if each of them has one image and the images of the middles of its sides lie on the virtual cell
+ * within a tolerance. A cell whose image is curved is divided if no point of it can have several
+ * images. All other cells are mapped from the membrane.
  */
 #ifndef meniscus_Refraction_Images_ObjectImages_h
 #define meniscus_Refraction_Images_ObjectImages_h
@@ -27,8 +27,8 @@ namespace meniscus
 {
 
 /**
- * Cells of one kind, borrowed: cell i has the points connectivity[offsets[i]] up to
- * connectivity[offsets[i + 1]], all of which exist.
+ * Cells of one kind, borrowed. Cell i has the points connectivity[offsets[i]] to
+ * connectivity[offsets[i + 1] - 1]; all of them must exist.
  */
 struct ObjectCells
 {
@@ -36,13 +36,13 @@ struct ObjectCells
   const std::int64_t* Connectivity = nullptr;
 };
 
-/** What became of cells. */
+/** Number of cells by their treatment. */
 struct CellReport
 {
-  std::size_t Whole = 0;   ///< passed through with its points
-  std::size_t Divided = 0; ///< shown once, but bent: divided into several
+  std::size_t Whole = 0;   ///< passed through with their points
+  std::size_t Divided = 0; ///< have one image, which is curved: divided into several cells
   std::size_t Mapped = 0;  ///< mapped from the membrane, to any number of pieces
-  std::size_t Without = 0; ///< no image at all
+  std::size_t Without = 0; ///< have no image
 
   void Count(bool isDivided, bool hasPieces)
   {
@@ -53,35 +53,38 @@ struct CellReport
 class ObjectImages
 {
 public:
-  /** Splits the polygon with these points into triangles, three indices into the polygon each. */
+  /**
+   * Splits the polygon with these points into triangles; writes three indices into the polygon for
+   * each.
+   */
   using Triangulate = std::function<void(
     const std::int64_t* ids, std::size_t count, std::vector<std::int64_t>& triangles)>;
 
-  /** Eye and membrane must not change afterwards. */
+  /** The eye and the membrane of `geometry` must not change afterwards. */
   explicit ObjectImages(const CurvedMembraneSolver& geometry)
     : Geometry(geometry)
   {
   }
 
-  /** An angle at the eye in radians. */
+  /** Sets the tolerance, an angle in radians at the eye. */
   void SetTolerance(double tolerance) { this->Tolerance = tolerance; }
 
   /**
-   * Takes the object's points, x, y, z each, borrowed; `mayCross` if any of them is not behind all
-   * of the membrane. Finds no image yet.
+   * Sets the object's points (x, y, z each; borrowed). `mayCross` must be true if any of them is
+   * not behind all of the membrane. Computes no image.
    */
   void SetPoints(const double* points, std::size_t count, bool mayCross);
 
   /**
-   * Finds out where points have one image at most, if that costs less than it saves for `wanted`
-   * points and the geometry's PrepareField() has found it possible. What is found does not depend
-   * on it, but for rounding.
+   * Determines where points have at most one image, if the expected saving for `wanted` points
+   * exceeds the cost and the geometry's PrepareField() has found the membrane suitable. The results
+   * are the same with and without it, up to rounding.
    */
   void PrepareUnique(std::size_t wanted, const RangeLoop& loop);
 
   /**
-   * Chunks of points that are wanted from now on; none: all of them. What is solved is kept, for
-   * when it is wanted again, unless all of them were wanted.
+   * Selects the chunks of points that are wanted from now on; an empty list selects all of them.
+   * Solved points are kept for later requests, unless all points were wanted.
    */
   static constexpr std::size_t Chunk = 128;
   void SetWanted(const std::vector<bool>& chunks) { this->Wanted = chunks; }
@@ -92,12 +95,12 @@ public:
   }
 
   /**
-   * Images of the points in [begin, end), whole chunks, that are wanted and not solved. Different
-   * ranges may run at once.
+   * Solves the wanted and unsolved points in [begin, end), which must consist of whole chunks.
+   * Different ranges may run at once.
    */
   void SolvePoints(std::size_t begin, std::size_t end);
 
-  /** Collects what SolvePoints found. Cells of wanted points can be mapped afterwards. */
+  /** Collects the results of SolvePoints. Cells of wanted points can be mapped afterwards. */
   void FinishPoints();
 
   const std::vector<ImagePoint>& GetPointImages() const { return this->Images; }
@@ -105,13 +108,14 @@ public:
   {
     return this->First[point + 1] - this->First[point];
   }
-  /** NotAsked if the point has never been wanted. */
+  /** State of a point; NotAsked if it has never been wanted. */
   ImageState GetState(std::size_t point) const { return this->States[point]; }
 
   /**
-   * Adds the images of cells [begin, end), called `names`. Cells that pass whole go to `whole`,
-   * which has no points of its own but names those of GetPointImages(); others go to `pieces`.
-   * `isMapped[i]` becomes 1 if polygon i has been mapped from the membrane, otherwise 0.
+   * Adds the images of the cells [begin, end), whose ids are in `names`. Cells that keep their
+   * points go to `whole`, which has no points of its own but refers to those of GetPointImages();
+   * others go to `pieces`. `isMapped[i]` becomes 1 if polygon i has been mapped from the membrane,
+   * otherwise 0.
    */
   CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, ImageMesh& pieces, ImageMesh& whole) const;
@@ -120,9 +124,10 @@ public:
     unsigned char* isMapped) const;
 
   /**
-   * After all polygons have been mapped to `pieces` and `whole`: makes those that have been mapped
-   * from the membrane, `isMapped`, end where their neighbours do, which draw common sides as
-   * straight pieces, up to the tolerance off. With `closesSeams`, closes the seams between them.
+   * Call this after all polygons have been mapped to `pieces` and `whole`. Moves the ends of
+   * polygons that have been mapped from the membrane (`isMapped`) onto the common sides as their
+   * neighbours draw them: as straight pieces, which may be off by the tolerance. With
+   * `closesSeams`, also closes the seams between them.
    */
   void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
     bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const;
@@ -163,7 +168,7 @@ private:
   const double* Points = nullptr;
   bool MayCross = false;
   std::vector<std::vector<VirtualVertex>> Chunks;
-  std::vector<bool> Wanted; ///< chunks; empty: all
+  std::vector<bool> Wanted; ///< by chunk; empty: all are wanted
   std::vector<std::uint32_t> Counts;
   std::vector<ImageState> States;
   std::vector<bool> InFront;

@@ -17,11 +17,12 @@ namespace meniscus
 namespace
 {
 
-// An edge is divided into 32 parts at most. What is finer lies within a thirty-second of a facet of
-// total reflection or of a focus.
+// An edge is divided into at most 32 parts. Finer details lie within 1/32 of a facet of total
+// reflection or of a focus.
 constexpr int DeepestLevel = 5;
 
-// What limits a primitive; a corner has a bit for each that it lies on, the membrane first.
+// Number of linear constraints that limit a primitive. A corner has one bit for each constraint
+// that it lies on; the membrane is the first.
 constexpr int NumberOfConstraints = 4;
 
 double GetSpread(double a, double b, double c)
@@ -39,9 +40,10 @@ struct PrimitiveMapper::Node
 };
 
 /**
- * A corner of a clipped polygon. The values are linear in the sub-cell; none is negative inside.
- * Of a triangle: distance behind the membrane, barycentric coordinates, all times the cosine of
- * the ray. Of a line: distance, places from either end, and how far beside the line.
+ * Corner of a clipped polygon. The values are linear in the sub-cell, and none is negative inside
+ * the primitive. For a triangle they are the distance behind the membrane and the three barycentric
+ * coordinates, all times the cosine of the ray. For a line they are the distance, the distances
+ * from either end along the line, and the distance from the line.
  */
 struct PrimitiveMapper::Corner
 {
@@ -51,20 +53,24 @@ struct PrimitiveMapper::Corner
   unsigned Constraints;
 };
 
-/** What a clipped corner lies on. */
+/** Features that a clipped corner lies on. */
 struct PrimitiveMapper::Boundary
 {
-  int Node = -1;          ///< the sub-cell's corner that it is
-  int Edge = -1;          ///< the sub-cell's, if it is on one and no corner of it
-  bool Membrane = false;  ///< where the primitive meets the membrane
-  int Side = -1;          ///< one of the primitive's sides, by its constraint
-  glm::length_t End = -1; ///< the corner of the primitive that it is
+  int Node = -1; ///< corner of the sub-cell that coincides with it, or -1
+  int Edge = -1; ///< edge of the sub-cell that it lies on, unless it is a corner of it; otherwise
+                 ///< -1
+  bool Membrane = false; ///< the primitive meets the membrane there
+  int Side = -1;         ///< side of the primitive that it lies on, by the side's constraint, or -1
+  glm::length_t End = -1; ///< corner of the primitive that coincides with it, or -1
 };
 
 /** The primitive in local coordinates; point = corner[0] + l0 axis[0] + l1 axis[1]. */
 struct PrimitiveMapper::Context
 {
-  /** From corner k to k + 1, by its constraint k: the ends in one order for all primitives. */
+  /**
+   * Side from corner k to k + 1, by its constraint k. Its ends are in the same order for all
+   * primitives.
+   */
   struct Side
   {
     ObjectLine Line;
@@ -81,7 +87,8 @@ struct PrimitiveMapper::Context
   std::array<Side, NumberOfConstraints> Sides;
   const CurvedPatch* Patch = nullptr;
   std::int32_t Facet = CurvedPatches::NoFacet;
-  std::vector<char>* IsOnMembrane = nullptr; ///< of the points of `images`, if anybody asks
+  std::vector<char>* IsOnMembrane = nullptr; ///< marks points of `Images` on the membrane; null if
+                                             ///< not needed
 
   void SetSides()
   {
@@ -98,8 +105,8 @@ struct PrimitiveMapper::Context
     return this->Sides[k].Turned ? -moment : moment;
   }
 
-  // A barycentric coordinate times the cosine is the ray's moment about the opposite side, in which
-  // the plane does not appear: primitives that share the side take the same number.
+  // A barycentric coordinate times the cosine is the ray's moment about the opposite side. The
+  // plane does not appear in it, so primitives that share the side get the same number.
   void Measure(const RefractedPoint& from, double* value) const
   {
     const glm::dvec3 away = from.At.Position - this->Corners[0];
@@ -120,7 +127,7 @@ struct PrimitiveMapper::Context
     return weight.x * this->Corners[0] + weight.y * this->Corners[1] + weight.z * this->Corners[2];
   }
 
-  /** Weights of a point's sources in the order of the corners. */
+  /** Weights of a point's sources, in the order of the corners. */
   glm::dvec3 GetWeight(const ImagePoint& point) const
   {
     glm::dvec3 weight(0.0);
@@ -133,7 +140,7 @@ struct PrimitiveMapper::Context
     return weight;
   }
 
-  /** Weights of a point in the plane. */
+  /** Weights of a point in the primitive's plane. */
   glm::dvec3 GetWeight(const glm::dvec3& point) const
   {
     const glm::dvec3 away = point - this->Corners[0];
@@ -159,8 +166,8 @@ struct PrimitiveMapper::Context
       on.End = (clipped.Constraints & 2u) != 0 ? 0 : ((clipped.Constraints & 4u) != 0 ? 1 : -1);
       return on;
     }
-    // Constraint k is coordinate k - 1; it vanishes on the side from corner k to k + 1. The corner
-    // that two of them leave is the primitive's.
+    // Constraint k is barycentric coordinate k - 1; it vanishes on the side from corner k to k + 1.
+    // Where two of them vanish, the remaining one is the corner of the primitive.
     int left = 3;
     int count = 0;
     for (int k = 1; k < NumberOfConstraints; ++k)
@@ -209,7 +216,7 @@ void PrimitiveMapper::MapTriangle(
 }
 
 //------------------------------------------------------------------------------
-// In the plane that holds the line and stands across the view.
+// Maps a line in the plane that holds the line and is perpendicular to the view.
 void PrimitiveMapper::MapLine(
   const MappedTriangle& line, std::int64_t sourceCell, bool mayCross, ImageMesh& images) const
 {
@@ -254,7 +261,8 @@ void PrimitiveMapper::MapSides(Context& context, const glm::dvec3& middle, doubl
 }
 
 //------------------------------------------------------------------------------
-// A ray may leave the interior through the membrane and meet the primitive outside: no image.
+// Drops parts that lie in front of the membrane: a ray may leave the interior through the membrane
+// and meet the primitive outside, which is no image. Returns the pieces of the waterline.
 std::vector<WaterlinePiece> PrimitiveMapper::DropInFront(
   const Context& context, const ImageMesh& from, ImageMesh& images) const
 {
@@ -300,7 +308,7 @@ void PrimitiveMapper::Map(const Context& context, const glm::dvec3& middle, doub
 {
   if (!(glm::dot(context.Normal, context.Normal) > 0.0) || !this->Geometry.IsInReach(middle))
   {
-    return; // without area it covers no pixel; on the line of sight a line covers none
+    return; // a primitive without area covers no pixel; neither does a line along the line of sight
   }
   std::vector<std::int32_t> facets;
   this->Geometry.VisitFacets(
@@ -326,9 +334,10 @@ PrimitiveMapper::Node PrimitiveMapper::MakeNode(const CurvedPatch& patch, const 
 }
 
 //------------------------------------------------------------------------------
-// What linear interpolation between a and b is off at the middle, in the object at its nearest or
-// farthest, seen through the edge: the edge's angle at the eye for the distance between its ends'
-// hits. Nothing here depends on the primitive, so its neighbours divide the edge alike.
+// True if linear interpolation between a and b has an error above the tolerance at the middle. The
+// error is measured where the refracted rays are at the object's nearest and farthest distance, and
+// converted to an angle at the eye by the angle of the edge over the distance between the hits of
+// its ends. The result does not depend on the primitive, so its neighbours divide the edge alike.
 bool PrimitiveMapper::IsSplit(const Node& a, const Node& middle, const Node& b) const
 {
   if (!a.From.IsValid || !middle.From.IsValid || !b.From.IsValid)
@@ -359,7 +368,7 @@ void PrimitiveMapper::Divide(
     allValid = allValid && nodes[i].From.IsValid;
     context.Measure(nodes[i].From, value[i]);
   }
-  // Outside by more than the sub-cell's own extent: no bend brings it back.
+  // The sub-cell is outside by more than its own extent, so curvature cannot bring it back.
   for (int k = 0; allValid && k < NumberOfConstraints; ++k)
   {
     const double spread = GetSpread(value[0][k], value[1][k], value[2][k]);
@@ -375,7 +384,7 @@ void PrimitiveMapper::Divide(
       return;
     }
   }
-  std::array<Node, 3> middle; // opposite to the corners
+  std::array<Node, 3> middle; // opposite the corners
   bool split[3] = { false, false, false };
   if (depth < DeepestLevel)
   {
@@ -405,7 +414,8 @@ void PrimitiveMapper::Divide(
     this->Divide(context, middle, depth + 1);
     return;
   }
-  // One edge: two halves. Two edges: cut off the corner between them, halve the rest.
+  // One divided edge: two halves. Two divided edges: the corner between them is cut off and the
+  // rest is halved.
   std::size_t k = 0;
   while (split[k] != (count == 1))
   {
@@ -425,8 +435,9 @@ void PrimitiveMapper::Divide(
 }
 
 //------------------------------------------------------------------------------
-// Sutherland and Hodgman's clipping, in homogeneous coordinates: rays that go away from the plane
-// count as the other side of it, and a sub-cell with rays of both kinds is clipped on both.
+// Clipping by Sutherland and Hodgman in homogeneous coordinates: rays that point away from the
+// plane count as the other side of it, and a sub-cell with rays of both kinds is clipped on both
+// sides.
 void PrimitiveMapper::MapSubCell(const Context& context, const std::array<Node, 3>& nodes) const
 {
   Polygon whole(3);
@@ -475,7 +486,8 @@ void PrimitiveMapper::MapSubCell(const Context& context, const std::array<Node, 
         }
         if (inA != inB)
         {
-          // From the inside out, whichever way round the polygon is.
+          // The intersection is computed from the inside to the outside, whatever the winding of
+          // the polygon.
           next.push_back(inA ? cross(a, b, k) : cross(b, a, k));
         }
       }
@@ -496,7 +508,7 @@ void PrimitiveMapper::MapSubCell(const Context& context, const std::array<Node, 
 void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& nodes,
   const Polygon& polygon, double sign) const
 {
-  // Twice the area in the primitive's second and third barycentric coordinates.
+  // Twice the signed area in the primitive's second and third barycentric coordinates.
   double area = 0.0;
   const auto place = [](const Corner& corner)
   {
@@ -513,8 +525,9 @@ void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& no
   {
     return;
   }
-  // The rays go with the plane's normal where `sign` is positive, against the facet's towards the
-  // eye always: an upright image keeps the sense of rotation as the rays see it.
+  // Where `sign` is positive, the rays have a positive component along the plane's normal; they
+  // always point against the facet's normal, which faces the eye. An upright image keeps the sense
+  // of rotation as seen along the rays.
   const glm::dvec3 facet = glm::cross(nodes[1].From.At.Position - nodes[0].From.At.Position,
     nodes[2].From.At.Position - nodes[0].From.At.Position);
   const bool facetTurned = glm::dot(facet, nodes[0].From.Ray) < 0.0;
@@ -548,9 +561,9 @@ void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& no
 }
 
 //------------------------------------------------------------------------------
-// Where rays are nearly parallel to the primitive, or at a caustic, interpolation may find it in a
-// sub-cell that does not show it. Then a side does not meet the membrane there, or only ends of the
-// primitive seem to be there and none of them is.
+// False if interpolation has found the primitive in a sub-cell that does not show it, which happens
+// where rays are nearly parallel to the primitive, or at a caustic. Then a side does not meet the
+// membrane there, the images of an end are elsewhere, or all corners are ends without an image.
 bool PrimitiveMapper::IsSeen(const std::vector<MappedPoint>& points)
 {
   const auto count = [&points](Finding finding)
@@ -581,8 +594,8 @@ void PrimitiveMapper::EmitLine(
 }
 
 //------------------------------------------------------------------------------
-// The place of a clipped corner: interpolation is the guess, what the corner lies on decides what
-// is solved for. Corners of sub-cells are exact as they are.
+// Image at a clipped corner: interpolation gives the initial guess, and the features that the
+// corner lies on decide which equation is solved. Corners of sub-cells are exact already.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
   const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const
 {
@@ -597,7 +610,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
   }
   if (on.Node >= 0 && on.Side < 0)
   {
-    // The coordinates have one sign here.
+    // All coordinates have the same sign here.
     const glm::dvec3 value(corner.Value[1], corner.Value[2], corner.Value[3]);
     const glm::dvec3 weight = glm::max(value / (value.x + value.y + value.z), glm::dvec3(0.0));
     return { this->Finish(context, nodes[static_cast<std::size_t>(on.Node)].From.At,
@@ -619,7 +632,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
 }
 
 //------------------------------------------------------------------------------
-// What a ray shows of a side that it meets. Beyond the side's end the piece ends with the side.
+// Image of the point in which a ray meets a side of the primitive. Beyond the end of the side, the
+// result is the image of that end.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
   const std::array<Node, 3>& nodes, std::size_t side, const RefractedPoint& from,
   const glm::dvec2& interpolated) const
@@ -639,7 +653,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
   ImagePoint point = this->Finish(context, from.At, place, weight);
   if (glm::dot(place - from.At.Position, from.Ray) < 0.0)
   {
-    // Where the primitive meets the membrane, interpolation may take a bit of what is in front.
+    // Where the primitive meets the membrane, interpolation may include a small piece of the part
+    // in front.
     point.Vertex.Position = place + this->Geometry.GetMembrane().GetOrigin();
     point.Vertex.SightPoint = point.Vertex.Position;
     point.Vertex.Depth = 0.0;
@@ -648,9 +663,11 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
 }
 
 //------------------------------------------------------------------------------
-// The image of an end of the primitive: the known one that is seen in the sub-cell or next to it.
-// Near a caustic there may be none; then the end is drawn where interpolation has it. Nothing here
-// depends on the primitive's plane.
+// Image of an end of the primitive: the known image that is seen in the sub-cell or next to it. If
+// all images of the end are elsewhere, the piece is not seen here: near a silhouette or near total
+// reflection the interpolated rays of the sub-cell meet the primitive and the refracted rays do
+// not. Near a caustic there may be no image at all; then the end is drawn at the interpolated
+// place. The result does not depend on the primitive's plane.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
   const std::array<Node, 3>& nodes, glm::length_t end, const glm::dvec2& interpolated) const
 {
@@ -688,9 +705,12 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
   ImagePoint point = this->Finish(context, at, context.Corners[index], weight);
   if (known.Count == 1 && known.First->Vertex.Facet == CurvedPatches::NoFacet)
   {
-    point.Vertex.Position = known.First->Vertex.Position; // in front, where all others have it
+    point.Vertex.Position = known.First->Vertex.Position; // in front of the membrane: the position
+                                                          // that all other primitives use
   }
-  return { point, isFound ? Finding::Found : Finding::EndWithoutImage };
+  const bool isElsewhere = known.Count > 0 && nearest->Vertex.Facet != CurvedPatches::NoFacet;
+  const Finding without = isElsewhere ? Finding::Elsewhere : Finding::EndWithoutImage;
+  return { point, isFound ? Finding::Found : without };
 }
 
 //------------------------------------------------------------------------------
@@ -702,7 +722,8 @@ double PrimitiveMapper::GetSize(const std::array<Node, 3>& nodes)
 }
 
 //------------------------------------------------------------------------------
-// Where the sub-cell's rays pass a point most closely, if their moments about it are linear.
+// Place where the sub-cell's rays pass a point most closely, if their moments about the point are
+// linear.
 glm::dvec2 PrimitiveMapper::GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point)
 {
   const auto moment = [&nodes, &point](std::size_t k)
@@ -715,7 +736,7 @@ glm::dvec2 PrimitiveMapper::GuessSight(const std::array<Node, 3>& nodes, const g
   glm::dvec2 place(1.0 / 3.0);
   if (squared > 0.0)
   {
-    // The foot of 0 in the plane of the moments.
+    // Foot of the perpendicular from 0 to the plane of the moments.
     place = { glm::dot(glm::cross(v, first), normal) / squared,
       glm::dot(glm::cross(first, u), normal) / squared };
     place = glm::clamp(place, 0.0, 1.0);
@@ -725,8 +746,9 @@ glm::dvec2 PrimitiveMapper::GuessSight(const std::array<Node, 3>& nodes, const g
 }
 
 //------------------------------------------------------------------------------
-// Where the primitive meets the membrane: a side of the sub-cell its plane, or the patch a side of
-// the primitive. Beyond a side of the primitive the first one ends with the second.
+// Point where the primitive meets the membrane: a side of the sub-cell meets the primitive's plane,
+// or a side of the primitive meets the patch. If the first point lies beyond a side of the
+// primitive, it is replaced by the second.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(const Context& context,
   const std::array<Node, 3>& nodes, const Corner& corner, const Boundary& on) const
 {
@@ -754,8 +776,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(const Context& contex
 }
 
 //------------------------------------------------------------------------------
-// Found from a guess, then again by the patch in which it is from a start that is the same for all
-// guesses: every primitive with the side takes the same point.
+// The crossing is found from a guess, and then solved again from a start that is the same for all
+// guesses in the patch: every primitive with this side gets the same point.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& context,
   const std::array<Node, 3>& nodes, std::size_t side, const glm::dvec2& guess,
   const glm::dvec3& weight) const

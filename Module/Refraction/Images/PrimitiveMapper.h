@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Every image of a triangle or a line, driven from the membrane.
+ * All images of a triangle or a line, computed from the membrane.
  *
- * A patch that may show the primitive is divided into triangles, sub-cells, so fine that its rays
- * are nearly linear in each. The rays at the corners of a sub-cell meet the primitive's plane; what
- * they cut out of it is clipped by the primitive, and every corner of the clipped polygon is an
- * image. So caustics, borders of the membrane and places where the primitive crosses it need no
- * case of their own: an image is there exactly where a sub-cell looks at the primitive.
+ * Each patch that may show the primitive is divided into triangular sub-cells so fine that its rays
+ * are nearly linear in each of them. The rays at the corners of a sub-cell meet the primitive's
+ * plane in a polygon, which is clipped by the primitive; every corner of the clipped polygon is an
+ * image. Caustics, borders of the membrane and places where the primitive crosses it therefore need
+ * no special case: an image exists exactly where a sub-cell sees the primitive.
  *
- * Pieces meet bit by bit. A side of a sub-cell is divided for reasons that lie in the side alone.
- * Where it passes a side of the primitive, a node looks at the primitive's plane, or an end of the
- * primitive is seen, the corner is computed from the two that meet there alone (CurveCrossings),
- * and a corner that the exact place would put beyond an end of the primitive is that end's image.
- * Which sub-cell holds an end is told by linear interpolation, which two triangles with the end in
- * common may see differently: SeamClosure closes what that leaves open along their common side.
+ * Pieces meet bit by bit. Whether a side of a sub-cell is divided depends on that side alone. Where
+ * it passes a side of the primitive, where a node sees the primitive's plane, and where an end of
+ * the primitive is seen, the corner is computed from the two features that meet there alone
+ * (CurveCrossings). A corner whose exact place would lie beyond an end of the primitive becomes
+ * that end's image. The sub-cell that holds an end is determined by linear interpolation, which two
+ * triangles with this end in common may evaluate differently: SeamClosure closes the gaps that
+ * remain along their common side.
  */
 #ifndef meniscus_Refraction_Images_PrimitiveMapper_h
 #define meniscus_Refraction_Images_PrimitiveMapper_h
@@ -29,7 +30,7 @@
 namespace meniscus
 {
 
-/** The images of a point of the object, borrowed. */
+/** Known images of a point of the object, borrowed. */
 struct KnownImages
 {
   const ImagePoint* First = nullptr;
@@ -52,8 +53,8 @@ struct TrianglePoint
 };
 
 /**
- * A straight piece of the curve along which a triangle meets the membrane. The part behind the
- * membrane is on its left, as the triangle is wound.
+ * Straight piece of the curve along which a triangle meets the membrane. With respect to the
+ * triangle's winding, the part behind the membrane is on its left.
  */
 struct WaterlinePiece
 {
@@ -65,15 +66,15 @@ class PrimitiveMapper
 {
 public:
   /**
-   * `tolerance` is the angle, in radians at the eye, that linear interpolation in a sub-cell may
-   * be off at the distances `nearest` and `farthest` behind the membrane.
+   * `tolerance` is the largest error of linear interpolation in a sub-cell, as an angle in radians
+   * at the eye, at the distances `nearest` and `farthest` behind the membrane.
    */
   PrimitiveMapper(
     const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest);
 
   /**
-   * Adds the images of a triangle as convex polygons, wound as the triangle is. If it may cross
-   * the membrane, the part in front of it is added as it is.
+   * Adds the images of a triangle as convex polygons with the winding of the triangle. With
+   * `mayCross`, also adds the part of it in front of the membrane, unchanged.
    */
   void MapTriangle(const MappedTriangle& triangle, std::int64_t sourceCell, bool mayCross,
     ImageMesh& images) const;
@@ -91,8 +92,8 @@ private:
   enum class Finding
   {
     Found,
-    EndWithoutImage, ///< an end of the primitive that has no image in or next to the sub-cell
-    Elsewhere        ///< a side of the primitive that does not meet the membrane there
+    EndWithoutImage, ///< an end of the primitive without an image in or next to the sub-cell
+    Elsewhere ///< a side that does not meet the membrane there, or an end that is seen elsewhere
   };
   struct MappedPoint
   {

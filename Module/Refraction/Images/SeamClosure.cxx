@@ -14,8 +14,8 @@ namespace meniscus
 namespace
 {
 
-// Two chains are each within a tolerance of the true image, between the places where that is tested
-// by a little more, and a mapped one may have been moved by two.
+// Two chains each deviate from the true image by one tolerance, by a little more between the tested
+// places, and a mapped one may have been moved by two.
 constexpr double Widest = 4.0;
 
 auto GetKey(const ImagePoint& point)
@@ -29,7 +29,7 @@ bool AreSame(const ImagePoint& a, const ImagePoint& b)
   return a.Vertex.Position == b.Vertex.Position;
 }
 
-// Place of a point on a seam, from its lower end.
+// Parameter of a point on a seam, from 0 at the end with the lower index.
 double GetPlace(const ImagePoint& point, std::int64_t high)
 {
   for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
@@ -55,8 +55,8 @@ const ImagePoint* FindFarthest(const Loop& loop, const ImagePoint& from)
     });
 }
 
-// The two ways from the loop's lowest place on the seam to its highest; empty if the place falls on
-// either.
+// Both ways round the loop, from its lowest place on the seam to its highest; empty if the
+// parameter decreases along either.
 std::pair<Loop, Loop> FindWays(const Loop& loop, std::int64_t high)
 {
   const auto isBefore = [high](const ImagePoint* a, const ImagePoint* b)
@@ -126,7 +126,7 @@ void SeamClosure::Collect(
 }
 
 //------------------------------------------------------------------------------
-// A side of a cell, if both of its ends come from one side of the object.
+// Records a side of a cell if both of its ends come from one side of the object.
 void SeamClosure::AddPart(
   const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b, bool isWhole)
 {
@@ -148,7 +148,7 @@ void SeamClosure::AddPart(
   }
   const Seam seam{ std::min(first, last), std::max(first, last), 0 };
   const auto high = static_cast<std::size_t>(seam.High);
-  // A diagonal's ends are corners of a mapped polygon, which has seams at all of them.
+  // The ends of a diagonal are corners of a mapped polygon, at all of which there are seams.
   if (high >= this->HasSeam.size() || !this->HasSeam[high] ||
     !this->HasSeam[static_cast<std::size_t>(seam.Low)])
   {
@@ -184,7 +184,7 @@ void SeamClosure::Close(ImageMesh& mesh)
 }
 
 //------------------------------------------------------------------------------
-// Where more than two cells have the seam, each of them meets the first.
+// Where more than two cells share the seam, each of them is joined to the first.
 void SeamClosure::CloseSeam(Parts parts, ImageMesh& mesh) const
 {
   const Seam seam{ parts.front()->Low, parts.front()->High, 0 };
@@ -236,7 +236,8 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
       left.push_back(part);
     }
   }
-  // From each part against the sense of its cell, on by any that goes on, back to where it began.
+  // A loop starts with any part, reversed, and continues with any part that begins where the last
+  // one ended, until it returns to its start.
   while (!left.empty())
   {
     const Part& first = *left.back();
@@ -250,7 +251,7 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
         [&last](const Part* part) { return AreSame(part->From, last) || AreSame(part->To, last); });
       if (next == left.end())
       {
-        break; // it ends at a border of the membrane or of what is totally reflected
+        break; // the chain ends at a border of the membrane or of a region of total reflection
       }
       loop.push_back(AreSame((*next)->From, last) ? &(*next)->To : &(*next)->From);
       hasWhole = hasWhole || (*next)->IsWhole;
@@ -265,7 +266,7 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
 }
 
 //------------------------------------------------------------------------------
-// Whether the loop is within a few tolerances of a straight line.
+// True if the loop is within a few tolerances of a straight line.
 bool SeamClosure::IsThin(const Loop& loop) const
 {
   const glm::dvec3 begin = FindFarthest(loop, *loop.front())->Vertex.Position;
@@ -283,7 +284,8 @@ bool SeamClosure::IsThin(const Loop& loop) const
 //------------------------------------------------------------------------------
 void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, ImageMesh& mesh) const
 {
-  // A polygon that is drawn as it is may lack an image that its neighbour has: no gap to be filled.
+  // A polygon that is drawn unchanged may lack an image that its neighbour has; that leaves no gap
+  // to fill.
   const auto add = [this, mustBeThin, &first, &mesh](const Loop& polygon)
   {
     if (!mustBeThin || this->IsThin(polygon))
@@ -301,7 +303,7 @@ void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, Ima
     add(loop);
     return;
   }
-  // Along a bend: triangles between the two chains.
+  // Triangles between the two chains, for a curved seam.
   const auto [forward, backward] = FindWays(loop, first.High);
   std::size_t i = 0;
   std::size_t j = 0;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Closes what neighbours leave open along their common side, the seam. Each draws it as a chain of
- * straight parts between images of points of the side, but not always the same points: a neighbour
- * that is whole draws one part, one that is divided draws its own halves, and two mapped ones may
- * put an end of the side into different sub-cells. Parts that both draw cancel out. The others form
- * closed loops, no wider than the tolerances of the two, which become cells. Then each part of a
- * seam belongs to two cells with the same ends bit by bit, so no pixel between them stays open.
+ * Closes the gaps between neighbours along their common side, the seam. Each neighbour draws it as
+ * a chain of straight parts between images of points of the side, but not always of the same
+ * points: a neighbour that is whole draws one part, one that is divided draws its own halves, and
+ * two mapped ones may put an end of the side into different sub-cells. Parts that both draw cancel
+ * out. The others form closed loops, no wider than the tolerances of the two chains, which become
+ * cells. Each part of a seam then belongs to two cells with the same ends bit by bit, so no pixel
+ * between them stays open.
  */
 #ifndef meniscus_Refraction_Images_SeamClosure_h
 #define meniscus_Refraction_Images_SeamClosure_h
@@ -22,12 +23,12 @@
 namespace meniscus
 {
 
-/** A side of polygons of the object by its ends' points, the lower one first. */
+/** Side of polygons of the object, given by the indices of its ends, the lower one first. */
 struct Seam
 {
   std::int64_t Low;
   std::int64_t High;
-  std::int32_t Cells; ///< that have it
+  std::int32_t Cells; ///< number of cells that share it
 
   bool operator<(const Seam& other) const
   {
@@ -39,21 +40,27 @@ class SeamClosure
 {
 public:
   /**
-   * `seams` in order, borrowed. `hasDiagonals` if polygons have been split: then all sides between
-   * two points that are no seams are diagonals, which two parts of one polygon have in common.
-   * `tolerance` is an angle in radians at `eye`, in world coordinates.
+   * `seams` must be sorted; they are borrowed. Set `hasDiagonals` if polygons have been split: all
+   * sides between two points that are no seams are then diagonals, shared by two parts of one
+   * polygon. `tolerance` is an angle in radians at `eye`, in world coordinates.
    */
   SeamClosure(
     const std::vector<Seam>& seams, bool hasDiagonals, const glm::dvec3& eye, double tolerance);
 
-  /** Takes the cells of a mesh; polygons that are drawn as they are, or pieces of others. */
+  /**
+   * Records the cells of a mesh. `areWhole` is true for polygons that are drawn unchanged, false
+   * for pieces of others.
+   */
   void Collect(const ImageMesh& mesh, const std::vector<ImagePoint>& points, bool areWhole);
 
-  /** Adds the cells that are missing. `mesh` may be one that has been collected. */
+  /** Adds the missing cells. `mesh` may be one of the collected meshes. */
   void Close(ImageMesh& mesh);
 
 private:
-  /** A part of a seam as a cell draws it. Points are copied: closing may move them. */
+  /**
+   * A part of a seam as a cell draws it. Points are copied because closing a seam may reallocate
+   * them.
+   */
   struct Part
   {
     std::int64_t Low;
@@ -62,7 +69,7 @@ private:
     ImagePoint To;
     std::int64_t Cell;
     signed char Orientation;
-    bool IsWhole; ///< a side of a polygon that is drawn as it is
+    bool IsWhole; ///< side of a polygon that is drawn unchanged
   };
   using Parts = std::vector<const Part*>;
 
@@ -76,7 +83,7 @@ private:
 
   const std::vector<Seam>& Seams;
   bool HasDiagonals;
-  std::vector<char> HasSeam; ///< by points of the object
+  std::vector<char> HasSeam; ///< by point of the object
   glm::dvec3 Eye;
   double Tolerance;
   std::vector<Part> All;

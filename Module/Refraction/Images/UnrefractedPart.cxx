@@ -13,15 +13,15 @@ namespace meniscus
 namespace
 {
 
-// A primitive that crosses the membrane is looked at this finely at least, and this finely along
+// Smallest number of halvings for a primitive that crosses the membrane, and largest number along
 // the membrane.
 constexpr int FirstLevel = 2;
 constexpr int DeepestLevel = 5;
 
-// 2^-44 of a side: the rounding of its ends, nearly.
+// 2^-44 of a side, about the rounding of its ends.
 constexpr int Bisections = 44;
 
-// To see whether a cut is straight: a thousandth of a side.
+// A thousandth of a side is enough to see whether a cut is straight.
 constexpr int CoarseBisections = 10;
 
 /** A place in the primitive, in barycentric coordinates. */
@@ -54,7 +54,7 @@ public:
   }
 
   // A corner within the tolerance of the membrane may count to either side: the curve may have been
-  // drawn on the other one, or its last bit left out.
+  // drawn on the other side of it, or its last piece may be missing.
   bool FindOutline(const std::array<Place, 3>& corner, const std::vector<WaterlinePiece>& waterline,
     std::vector<FrontOutline::Polygon>& polygons) const
   {
@@ -90,7 +90,7 @@ public:
 
   void CutTriangle(const std::array<Place, 3>& corner, int level) const
   {
-    std::array<Place, 3> middle; // opposite to the corners
+    std::array<Place, 3> middle; // opposite the corners
     bool same =
       corner[0].IsInFront == corner[1].IsInFront && corner[0].IsInFront == corner[2].IsInFront;
     for (std::size_t k = 0; k < 3; ++k)
@@ -144,7 +144,7 @@ public:
   }
 
 private:
-  // Corners of the primitive as they are.
+  // A point of the primitive; its corners are used unchanged.
   TrianglePoint MakePoint(const glm::dvec3& weight) const
   {
     for (glm::length_t k = 0; k < 3; ++k)
@@ -162,8 +162,7 @@ private:
     return w.x * this->Corner[0] + w.y * this->Corner[1] + w.z * this->Corner[2];
   }
 
-  // A bit for each corner that is on the other side after a step of the tolerance into the
-  // triangle.
+  // Bit mask of the corners that change sides after a step of the tolerance into the triangle.
   unsigned FindNear(const std::array<Place, 3>& corner) const
   {
     unsigned near = 0;
@@ -182,10 +181,10 @@ private:
     return near;
   }
 
-  // Whether the membrane passes the middle of the straight cut within the tolerance.
+  // True if the membrane passes the middle of the straight cut within the tolerance.
   bool IsCutStraight(const std::array<Place, 3>& corner) const
   {
-    std::size_t odd = 0; // the corner that is alone on its side
+    std::size_t odd = 0; // the corner that is alone on its side of the membrane
     while (odd < 3 && corner[odd].IsInFront == corner[(odd + 1) % 3].IsInFront)
     {
       ++odd;
@@ -212,7 +211,7 @@ private:
       this->MakePlace(middle - step).IsInFront != alone.IsInFront;
   }
 
-  // The last place in front on the way between two sides.
+  // Last place in front of the membrane on the way between two places on different sides.
   Place Cross(const Place& a, const Place& b, int bisections = Bisections) const
   {
     Place front = a.IsInFront ? a : b;

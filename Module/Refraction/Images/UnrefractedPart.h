@@ -14,11 +14,12 @@ namespace meniscus
 {
 
 /**
- * Adds the part of a triangle or line that is in front of the membrane
- * (CurvedMembraneSolver::IsInFront, prepared), as it is. Of a triangle it is bounded by `waterline`
- * where that is complete (FrontOutline). Otherwise, as where the membrane faces away from the eye,
- * and of a line, the primitive is halved where it crosses the membrane until its cut is straight
- * within `tolerance`, an angle in radians at the eye, to a 32nd at most.
+ * Adds the part of a triangle or line in front of the membrane, unchanged. The sides of the
+ * membrane must be prepared (CurvedMembraneSolver::IsInFront). For a triangle, the part is bounded
+ * by `waterline` if that is complete (FrontOutline). Otherwise, for instance where the membrane
+ * faces away from the eye, and for every line, the primitive is halved where it crosses the
+ * membrane until its cut is straight within `tolerance`, an angle in radians at the eye, down to
+ * 1/32 of its size.
  */
 void AddFrontOfTriangle(const CurvedMembraneSolver& geometry, double tolerance,
   const MappedTriangle& triangle, std::int64_t sourceCell,

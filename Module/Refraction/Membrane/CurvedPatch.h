@@ -8,9 +8,10 @@
  *   q(b) = sum_ij b_i b_j (s_ij + d_ij (b_i - b_j))
  *   S(b) = sum_i b_i P_i + n / |n| * 2 q / (1 + |n|)
  *
- * m_ij bends the normal at the middle of an edge (CurvedPatches fits it). s and d follow from the
- * ends: the edge, a cubic, meets both normals at right angles. All of it belongs to an edge and its
- * two ends alone, so patches that share an edge share its points and its normals.
+ * m_ij is the deviation of the normal from linear interpolation at the middle of an edge (fitted by
+ * CurvedPatches). s and d follow from the ends: the edge is a cubic at right angles to both
+ * normals. These coefficients depend on the edge and its two ends alone, so patches that share an
+ * edge share its points and its normals.
  *
  * Planes and spheres are reproduced exactly. On a sphere of centre C and radius R with the normals
  * N = (C - P) / R, m is 0 and n = (C - L) / R at the flat point L, so that |n|^2 = 1 + 2 q / R and
@@ -37,17 +38,17 @@ struct PatchPoint
   glm::dvec3 Normal;
 };
 
-/** The same with derivatives by the second and the third barycentric coordinate. */
+/** A point of a patch with derivatives by the second and the third barycentric coordinate. */
 struct PatchJet : PatchPoint
 {
   glm::dvec3 PositionBy[2];
   glm::dvec3 NormalBy[2];
 };
 
-/** Edge k is opposite to corner k; it runs from corner k + 1 to corner k + 2. */
+/** One patch. Edge k is opposite corner k; it runs from corner k + 1 to corner k + 2. */
 struct CurvedPatch
 {
-  /** Shorter normals have no direction to rely on; lengths below it are raised to it. */
+  /** Smallest length that is used for a normal: shorter normals have no reliable direction. */
   static constexpr double ShortestNormal = 0.25;
 
   glm::dvec3 Corner[3];
@@ -73,7 +74,7 @@ struct CurvedPatch
     return (1.0 - b.x - b.y) * this->Corner[0] + b.x * this->Corner[1] + b.y * this->Corner[2];
   }
 
-  /** Not normalised. */
+  /** Normal at `b`, not normalised. */
   glm::dvec3 GetNormal(const glm::dvec2& b) const
   {
     const double c = 1.0 - b.x - b.y;
@@ -96,7 +97,7 @@ struct CurvedPatch
   }
 
   /**
-   * The point of edge k with the weights of its ends: the same bit by bit in both patches that
+   * Point of edge k with the given weights of its ends: the same bit by bit in both patches that
    * share the edge, and the same as Evaluate where the weights are exact.
    */
   PatchPoint EvaluateEdge(int k, double first, double second) const
@@ -151,7 +152,10 @@ struct CurvedPatch
   }
 };
 
-/** How far outside its facet a point is: the smallest barycentric coordinate and its corner. */
+/**
+ * Distance by which a point is outside its facet: the smallest barycentric coordinate and its
+ * corner.
+ */
 struct Outside
 {
   double Least;

@@ -11,22 +11,23 @@ namespace meniscus
 namespace
 {
 
-// cos 60 degrees, between the normals at the two ends of an edge. An arc that turns further is far
-// from a cubic.
+// cos 60 degrees: limit of the angle between the normals at the two ends of an edge. A cubic
+// approximates a longer arc badly.
 constexpr double SmoothCosine = 0.5;
 
-// sin 30 degrees: what a normal leans along an edge that is an arc of 60 degrees.
+// sin 30 degrees: lean of a normal along an edge that is an arc of 60 degrees.
 constexpr double LargestLean = 0.5;
 
-// Of the normal at the middle of an edge: 5.7 degrees away from linear interpolation. The bend of a
-// mesh that resolves its surface is the square of the angle per facet over eight, far smaller.
+// Largest deflection of the normal at the middle of an edge: 5.7 degrees away from linear
+// interpolation. On a mesh that resolves its surface the deflection is the square of the angle per
+// facet over eight, which is far smaller.
 constexpr double LargestDeflection = 0.1;
 
 // A regular vertex has six neighbours; five give ten equations for the seven unknowns.
 constexpr std::size_t FewNeighbours = 5;
 
-// A pivot of the normal equations relative to its diagonal before elimination. The equations are
-// squared and double has 2^-52: half of the digits.
+// Smallest pivot of the normal equations, relative to its diagonal before elimination. Normal
+// equations square the condition number, and double has 2^-52: half of the digits.
 constexpr double SmallestPivot = 0x1p-26;
 
 constexpr int Unknowns = 7;
@@ -38,7 +39,8 @@ glm::dvec3 Apply(const std::array<double, 6>& w, const glm::dvec3& e)
     w[2] * e.x + w[4] * e.y + w[5] * e.z };
 }
 
-// Solves the leading `size` equations by Cholesky's method, in place. False if singular.
+// Solves the leading `size` equations by Cholesky's method, in place. Returns false if they are
+// singular.
 bool SolveSymmetric(Matrix& a, double* x, int size)
 {
   for (int j = 0; j < size; ++j)
@@ -121,7 +123,7 @@ public:
     this->Right[6] += ny * yy;
   }
 
-  /** a, b and c in x; false if not even they are determined. */
+  /** Writes a, b and c to x. Returns false if not even these are determined. */
   bool Solve(double* x) const
   {
     for (const int size : { Unknowns, 3 })
@@ -138,7 +140,7 @@ public:
   }
 
 private:
-  // The lower triangle.
+  // Fills the lower triangle.
   void Fill(Matrix& m) const
   {
     const double* s = this->Second;
@@ -256,7 +258,8 @@ void CurvedPatches::FindNeighbours()
 }
 
 //------------------------------------------------------------------------------
-// Vertices that share a facet, per vertex, in the order of their indices.
+// Finds the neighbours of each vertex, the vertices that share a facet with it, in the order of
+// their indices.
 void CurvedPatches::FindRings()
 {
   const std::size_t count = this->Surface->GetPositions().size();
@@ -297,7 +300,7 @@ void CurvedPatches::FindRings()
 }
 
 //------------------------------------------------------------------------------
-// Vertices of borders and with few neighbours also use the neighbours of these.
+// For vertices of borders and vertices with few neighbours, also adds the neighbours of these.
 void CurvedPatches::AddSecondRings()
 {
   const std::size_t count = this->RingStart.size() - 1;
@@ -404,7 +407,7 @@ void CurvedPatches::FitFacet(Patch& patch) const
   patch.Straight = 0;
   for (int k = 0; k < 3; ++k)
   {
-    // The same order of the ends on both sides of the edge gives the same rounding.
+    // The ends are in the same order on both sides of the edge, so both patches round alike.
     const std::int32_t low = std::min(patch.Vertex[(k + 1) % 3], patch.Vertex[(k + 2) % 3]);
     const std::int32_t high = std::max(patch.Vertex[(k + 1) % 3], patch.Vertex[(k + 2) % 3]);
     const auto i = static_cast<std::size_t>(low);

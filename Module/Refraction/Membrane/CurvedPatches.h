@@ -3,17 +3,17 @@
 /**
  * Curved patches over the facets of a membrane, from its vertices and their normals alone.
  *
- * Linear interpolation of the normals is of second order on a general surface, so the normal in the
- * middle of an edge is fitted. In the tangent plane of each vertex the normals of its neighbours
- * are fitted by a gradient of second degree, whose linear part is the curvature tensor W of the
- * vertex. Cubic Hermite interpolation along an edge e from vertex 0 to 1 then bends the normal at
- * its middle by m = (W0 e - W1 e) / 8, less what points along N0 + N1 (which changes the length
- * only).
+ * Linear interpolation of the normals is only second-order accurate on a general surface, so the
+ * normal in the middle of an edge is fitted. In the tangent plane of each vertex the normals of its
+ * neighbours are fitted by a gradient of second degree, whose linear part is the curvature tensor W
+ * of the vertex. Cubic Hermite interpolation along an edge e from vertex 0 to 1 then deflects the
+ * normal at its middle by m = (W0 e - W1 e) / 8, without its component along N0 + N1, which changes
+ * the length only.
  *
- * Fallbacks, each decided by an edge's two ends, so that nothing is cracked: an edge whose normals
- * turn by more than 60 degrees, or lean along the edge by more than 30, is straight and its normals
- * are interpolated linearly. A bend is at most LargestDeflection. A vertex whose fit is singular is
- * fitted without the second degree, or counts as flat.
+ * Fallbacks, each decided by the two ends of an edge, so that no cracks appear: an edge whose
+ * normals turn by more than 60 degrees, or lean along the edge by more than 30, is straight and its
+ * normals are interpolated linearly. A deflection is at most LargestDeflection. A vertex whose fit
+ * is singular is fitted without the second degree, or counts as flat.
  */
 #ifndef meniscus_Refraction_Membrane_CurvedPatches_h
 #define meniscus_Refraction_Membrane_CurvedPatches_h
@@ -34,41 +34,44 @@ class CurvedPatches
 public:
   static constexpr std::int32_t NoFacet = -1;
 
-  /** Topology and fit of a new membrane, which must outlive this. */
+  /** Topology and fit of a new membrane, which must outlive this object. */
   void Build(const Membrane& membrane, const RangeLoop& loop);
 
-  /** The fit alone, after the membrane has moved with the same facets. */
+  /**
+   * Repeats the fit alone, after the points of the membrane have moved and the facets have not
+   * changed.
+   */
   void Refit(const RangeLoop& loop);
 
   CurvedPatch GetPatch(std::int32_t facet) const;
 
   /**
-   * The place in or near which the straight way from `facet` to `target` ends, seen along
-   * `normal`, after at most `steps` facets; a border ends it.
+   * Facet in or near which the straight way from `facet` to `target`, projected along `normal`,
+   * ends after at most `steps` facets. The way also ends at a border.
    */
   std::int32_t Walk(
     std::int32_t facet, const glm::dvec3& target, const glm::dvec3& normal, int steps) const;
 
   /**
-   * The facet behind the edge opposite to `corner`; NoFacet at a border, or where more or fewer
-   * than two facets meet.
+   * Facet across the edge opposite `corner`; NoFacet at a border, or where more or fewer than two
+   * facets meet.
    */
   std::int32_t GetNeighbour(std::int32_t facet, int corner) const
   {
     return this->Patches[static_cast<std::size_t>(facet)].Neighbour[corner];
   }
 
-  /** Edges that fell back to straight ones, each counted once per facet. */
+  /** Number of edges that are straight as a fallback, each counted once per facet. */
   std::size_t GetNumberOfStraightEdges() const;
 
 private:
-  /** One cache line. */
+  /** Stored patch; fills one cache line. */
   struct alignas(64) Patch
   {
     std::int32_t Vertex[3];
     std::int32_t Neighbour[3];
     float Bend[3][3];
-    std::uint32_t Straight; ///< bit k: edge k
+    std::uint32_t Straight; ///< bit k is set if edge k is straight
   };
 
   /** A symmetric tensor: xx, xy, xz, yy, yz, zz. */

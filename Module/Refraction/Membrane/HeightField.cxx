@@ -16,7 +16,7 @@ double Cross(const glm::dvec2& a, const glm::dvec2& b)
   return a.x * b.y - a.y * b.x;
 }
 
-/** The vertex behind each vertex of the border, -1 for others. */
+/** Border as a list: for each of its vertices the next one, -1 for others. */
 class Border
 {
 public:
@@ -25,7 +25,7 @@ public:
   {
   }
 
-  /** False if a border leaves the vertex already. */
+  /** Returns false if a border edge leaves the vertex already. */
   bool Add(std::int32_t from, std::int32_t to)
   {
     std::int32_t& next = this->Next[static_cast<std::size_t>(from)];
@@ -39,11 +39,11 @@ public:
     return true;
   }
 
-  /** Whether all of it is one loop that turns by one full circle, to the left everywhere. */
+  /** True if the border is one loop that makes one full turn and turns to the left everywhere. */
   bool IsConvexLoop(const Membrane& membrane, const HeightFrame& frame) const
   {
-    // Positions are rounded as world coordinates and as local ones, and so are the sides' ends; the
-    // cross product of two sides is off by that times their lengths.
+    // Positions are rounded as world coordinates and as local ones, and so are the ends of the
+    // sides; the error of the cross product of two sides is that times their lengths.
     constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
     const double slack = rounding * (membrane.GetRadius() + glm::length(membrane.GetOrigin()));
     double turned = 0.0;
@@ -112,7 +112,7 @@ bool IsConvexField(const Membrane& membrane, const CurvedPatches& patches, const
   }
   const auto at = [&membrane](std::int32_t vertex) -> const glm::dvec3&
   { return membrane.GetPositions()[static_cast<std::size_t>(vertex)]; };
-  // Facets may be wound either way round, but all of them the same.
+  // Facets may have either winding, but all of them the same.
   const auto area = [&at, &frame](const Membrane::Facet& f)
   { return frame.GetHeight(glm::cross(at(f[1]) - at(f[0]), at(f[2]) - at(f[0]))); };
   const bool left = area(facets[0]) > 0.0;

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * A membrane seen along an axis, as a field of heights over a plane.
- */
+/** Projection of a membrane along an axis, as a field of heights over a plane. */
 #ifndef meniscus_Refraction_Membrane_HeightField_h
 #define meniscus_Refraction_Membrane_HeightField_h
 
@@ -16,7 +14,7 @@
 namespace meniscus
 {
 
-/** Two directions across an axis, and the height along it. */
+/** Two directions perpendicular to an axis, and the height along it. */
 struct HeightFrame
 {
   HeightFrame() = default;
@@ -27,7 +25,7 @@ struct HeightFrame
     return { glm::dot(this->First, v), glm::dot(this->Second, v) };
   }
   double GetHeight(const glm::dvec3& v) const { return glm::dot(this->Axis, v); }
-  /** Both: coordinates whose third axis is the axis. */
+  /** Coordinates in the frame; the third one is along the axis. */
   glm::dvec3 ToFrame(const glm::dvec3& v) const { return { this->Project(v), this->GetHeight(v) }; }
 
   glm::dvec3 Axis{ 0.0, 0.0, 1.0 };
@@ -36,9 +34,10 @@ struct HeightFrame
 };
 
 /**
- * Whether the flat facets, seen along the axis, are a triangulation of one convex polygon: all are
- * wound alike, and their border is one loop that turns to one side only and once around. No place
- * of the polygon is then covered twice, and the way between two of its places stays inside.
+ * True if the flat facets, projected along the axis, are a triangulation of one convex polygon: all
+ * have the same winding, and their border is one loop that turns to one side only and once around.
+ * In that case no place of the polygon is covered twice, and the straight way between two of its
+ * places stays inside.
  */
 bool IsConvexField(
   const Membrane& membrane, const CurvedPatches& patches, const HeightFrame& frame);

@@ -32,8 +32,8 @@ glm::dvec3 Load(const double* array, std::size_t index)
   return { array[3 * index], array[3 * index + 1], array[3 * index + 2] };
 }
 
-// Edges are scaled by the longest, so that neither tiny nor huge coordinates leave the range of
-// double when squared.
+// Edges are scaled by the longest one, so that the squares of tiny and huge coordinates stay within
+// the range of double.
 bool HasArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
   glm::dvec3 first = b - a;

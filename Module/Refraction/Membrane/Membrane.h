@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The refracting surface: validated triangles with one unit normal per vertex, about a local
- * origin. What depends on the shape alone lives here and is built once per shape; what depends on
- * the eye is in RefractionCells.
+ * The refracting surface: validated triangles with one unit normal per vertex, relative to a local
+ * origin. It holds all data that depend on the shape alone and are built once per shape; data that
+ * depend on the eye are in RefractionCells.
  */
 #ifndef meniscus_Refraction_Membrane_Membrane_h
 #define meniscus_Refraction_Membrane_Membrane_h
@@ -28,30 +28,31 @@ struct MembraneInput
   std::size_t NumberOfPoints = 0;
   const std::int64_t* Triangles = nullptr; ///< three point indices per triangle
   std::size_t NumberOfTriangles = 0;
-  const std::int64_t* CellIds = nullptr; ///< caller's name of each triangle; null: its index
-  const double* Normals = nullptr;       ///< x, y, z per point, any length; null: computed
+  const std::int64_t* CellIds = nullptr; ///< caller's id of each triangle; null: its index
+  const double* Normals = nullptr; ///< x, y, z per point, of any length; null: normals are computed
 };
 
 enum class MembraneStatus
 {
   Ready,
-  Empty,    ///< no triangle at all, or none that passed
-  TooLarge, ///< more points or triangles than 32-bit indices can name
-  OneSided  ///< a Moebius band has no side for the eye
+  Empty,    ///< no triangles, or none that is valid
+  TooLarge, ///< more points or triangles than 32-bit indices can address
+  OneSided  ///< the surface has one side only, as a Moebius band has
 };
 
-/** What validation found. Skipped triangles are counted once, under the first fault found. */
+/** Result of the validation. A skipped triangle is counted once, under the first fault found. */
 struct MembraneReport
 {
-  std::size_t OutOfRange = 0;        ///< skipped: a point index that does not exist
+  std::size_t OutOfRange = 0;        ///< skipped: refers to a point that does not exist
   std::size_t NotFinite = 0;         ///< skipped: a corner with a NaN or infinite coordinate
   std::size_t ZeroArea = 0;          ///< skipped: area within the rounding of its cross product
   std::size_t Duplicated = 0;        ///< skipped: same three points as an earlier triangle
   std::size_t ComputedNormals = 0;   ///< vertices whose normal was missing, zero or not finite
-  std::size_t NonManifoldFacets = 0; ///< kept, but not joined to neighbours for computed normals
-  std::size_t TurnedFacets = 0;      ///< kept, wound the other way than their neighbours
-  std::size_t TurnedNormals = 0;     ///< kept, turned to the side of their neighbours
-  MismatchedNormals Normals;         ///< kept, of given ones
+  std::size_t NonManifoldFacets = 0; ///< kept, but not joined to their neighbours for computed
+                                     ///< normals
+  std::size_t TurnedFacets = 0;  ///< kept; the winding was reversed to agree with the neighbours
+  std::size_t TurnedNormals = 0; ///< kept; reversed to the side of the neighbours
+  MismatchedNormals Normals;     ///< kept; given normals that do not fit the facets
 
   std::size_t Skipped() const
   {
@@ -64,16 +65,16 @@ class Membrane
 public:
   using Facet = std::array<std::int32_t, 3>;
 
-  /** Replaces the surface. Unless `Ready` is returned, the membrane is empty afterwards. */
+  /** Replaces the surface. The membrane is empty afterwards unless the result is `Ready`. */
   MembraneStatus Build(const MembraneInput& input);
 
   /**
-   * Centre of the bounds of the used vertices. All positions below are relative to it, so that
-   * large coordinate offsets cost no accuracy after the subtraction.
+   * Centre of the bounding box of the used vertices. All positions below are relative to it, so
+   * that large coordinate offsets cost no accuracy after the subtraction.
    */
   const glm::dvec3& GetOrigin() const { return this->Origin; }
 
-  /** Largest absolute local coordinate of a used vertex, a positive number for a ready membrane. */
+  /** Largest absolute local coordinate of a used vertex; positive if the membrane is ready. */
   double GetRadius() const { return this->Radius; }
 
   const std::vector<glm::dvec3>& GetPositions() const { return this->Positions; }
@@ -84,7 +85,7 @@ public:
     return this->CellIds[static_cast<std::size_t>(facet)];
   }
   const MembraneReport& GetReport() const { return this->Report; }
-  /** Pieces that hang together by edges. */
+  /** Connected pieces of the surface. */
   const SurfacePieces& GetPieces() const { return this->Pieces; }
 
 private:
@@ -102,7 +103,7 @@ private:
   std::vector<std::int64_t> CellIds;
   MembraneReport Report;
 
-  /** Kept from shape to shape: a deforming membrane is wound as it was. */
+  /** Kept when the shape changes: a deforming membrane keeps its winding. */
   std::vector<Facet> WoundFacets;
   std::vector<Facet> OrientedFacets;
   SurfacePieces Pieces;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Membrane/MembraneNormals.h"
 
-// OpenMesh fills new properties with default-constructed vectors, which are uninitialised by
-// design: gcc 12 warns at -O2 and above. Nothing reads them before they are set.
+// OpenMesh fills new properties with default-constructed vectors, which it leaves uninitialised on
+// purpose: gcc 12 warns at -O2 and above. All of them are set before they are read.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -31,8 +31,8 @@ struct MeshTraits : OpenMesh::DefaultTraits
 };
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
 
-// Sum of k unit vectors with weights below pi each: a sum shorter than its own rounding has no
-// direction. 16 facets around a vertex are plenty for the constant.
+// A sum of k unit vectors with weights below pi each: if it is shorter than its own rounding error
+// it has no direction. The constant allows for 16 facets around a vertex.
 constexpr double CancellationRounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 glm::dvec3 ToVector(const OpenMesh::Vec3d& v)
@@ -40,7 +40,7 @@ glm::dvec3 ToVector(const OpenMesh::Vec3d& v)
   return { v[0], v[1], v[2] };
 }
 
-// Silences OpenMesh's report of every complex edge: they are counted instead.
+// Silences OpenMesh's message about every complex edge; complex edges are counted instead.
 class QuietOpenMesh
 {
 public:
@@ -63,7 +63,9 @@ private:
   bool WasEnabled;
 };
 
-/** The half-edge mesh and, per mesh vertex, the vertex of the membrane that it stands for. */
+/**
+ * The half-edge mesh and, for each of its vertices, the vertex of the membrane that it represents.
+ */
 struct Topology
 {
   Mesh Surface;

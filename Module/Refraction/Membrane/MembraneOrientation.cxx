@@ -46,7 +46,7 @@ struct Fans
   }
 };
 
-/** The one other facet at an edge, and whether it runs through the edge the same way. */
+/** The other facet at an edge, and whether it runs along the edge in the same direction. */
 struct Across
 {
   std::int32_t Facet = -1; ///< -1: none, or several
@@ -81,7 +81,9 @@ Across FindAcross(
   return result;
 }
 
-/** Visits a piece from `seed`; `turned` says how each facet has to be wound to agree with it. */
+/**
+ * Visits a piece from `seed`; `turned` marks the facets that have to be reversed to agree with it.
+ */
 void FillPiece(const std::vector<Facet>& facets, const Fans& fans, std::int32_t seed,
   SurfacePieces& pieces, std::vector<bool>& turned, std::vector<std::int32_t>& piece)
 {
@@ -155,7 +157,7 @@ SurfacePieces OrientFacets(std::vector<Facet>& facets, std::size_t points)
 std::size_t OrientNormals(const std::vector<glm::dvec3>& positions,
   const std::vector<Facet>& facets, const SurfacePieces& pieces, std::vector<glm::dvec3>& normals)
 {
-  // Corners whose normal is on the side of the winding, less those on the other side.
+  // Number of corners whose normal is on the side of the winding, minus the number of the others.
   std::vector<std::int64_t> balance(static_cast<std::size_t>(pieces.Count), 0);
   const auto forEachCorner = [&positions, &facets, &normals](const auto& visit)
   {
@@ -173,7 +175,8 @@ std::size_t OrientNormals(const std::vector<glm::dvec3>& positions,
   };
   forEachCorner([&balance, &pieces](std::size_t facet, std::size_t, int side)
     { balance[static_cast<std::size_t>(pieces.PieceOf[facet])] += side; });
-  std::vector<signed char> votes(normals.size(), 0); // 1: some facet agrees, -1: all of them object
+  std::vector<signed char> votes(normals.size(), 0); // 1: at least one facet agrees; -1: all of
+                                                     // them disagree
   forEachCorner(
     [&balance, &pieces, &votes](std::size_t facet, std::size_t vertex, int side)
     {

@@ -13,27 +13,28 @@
 namespace meniscus
 {
 
-/** Pieces of a surface that hang together by edges with two facets. */
+/** Pieces of a surface that are connected by edges with two facets. */
 struct SurfacePieces
 {
   std::vector<std::int32_t> PieceOf; ///< per facet
   std::int32_t Count = 0;
   std::size_t TurnedFacets = 0;
-  bool IsOneSided = false; ///< as a Moebius band is: no way of winding fits all facets
+  bool IsOneSided = false; ///< true for a surface such as a Moebius band: no winding is consistent
+                           ///< over all facets
 };
 
 /**
- * Winds the facets of each piece alike: those that are fewer than half of their piece are turned,
- * of two halves the one without the piece's first facet. Nothing is turned in a surface with a
- * one-sided piece.
+ * Makes the winding of the facets of each piece consistent: the minority is reversed; of two equal
+ * halves, the half without the piece's first facet. If any piece is one-sided, no facet is
+ * reversed.
  */
 SurfacePieces OrientFacets(std::vector<std::array<std::int32_t, 3>>& facets, std::size_t points);
 
 /**
- * Turns normals that contradict the surface: a vertex whose normal is on the other side of all of
- * its facets than those of the most corners of its piece are. Whole pieces whose normals are on the
- * other side of their facets' winding stay: normals say where the eye is. Returns how many were
- * turned.
+ * Reverses normals that contradict the surface: a normal is reversed if, with respect to all facets
+ * of its vertex, it is on the other side than the majority of the corners of its piece. A whole
+ * piece whose normals are opposite to the winding of its facets is kept: the normals define the
+ * eye's side. Returns the number of reversed normals.
  */
 std::size_t OrientNormals(const std::vector<glm::dvec3>& positions,
   const std::vector<std::array<std::int32_t, 3>>& facets, const SurfacePieces& pieces,

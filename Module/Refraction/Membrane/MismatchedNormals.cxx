@@ -16,28 +16,32 @@ namespace
 using Facet = std::array<std::int32_t, 3>;
 
 /**
- * About as many vertices are looked at: enough for a majority, and nothing beside what a moving
- * membrane costs anyway.
+ * Approximate number of vertices that are examined: enough for a majority, at a negligible cost
+ * compared to the other work for a moving membrane.
  */
 constexpr std::size_t Sample = 64;
 
-/** What is known of a vertex from the facets around it. */
+/** Data about a vertex from the facets around it. */
 struct Fan
 {
   std::vector<glm::dvec3> FacetNormals;
-  std::uint32_t Neighbours = 0; ///< all of them by exclusive or: 0 if each is in two facets
-  double Rounding = 0.0;        ///< by which a facet's normal may be off, in radians
+  std::uint32_t Neighbours = 0; ///< exclusive or of all neighbours: 0 if each is in two facets
+  double Rounding = 0.0;        ///< largest error of a facet's normal, in radians
 };
 
-/** Whether a vertex is looked at: a hash, since vertices in rows would alias with a stride. */
+/**
+ * True if a vertex is examined. A hash decides, since a stride would alias with vertices in rows.
+ */
 bool IsSampled(std::int32_t vertex, std::uint32_t limit)
 {
-  return static_cast<std::uint32_t>(vertex) * 2654435761U <= limit; // Knuth's, of the golden ratio
+  return static_cast<std::uint32_t>(vertex) * 2654435761U <= limit; // Knuth's multiplicative hash:
+                                                                    // 2^32 over the golden ratio
 }
 
 /**
- * Corners in single precision are off by sqrt(3) / 2 units in the last place of the largest
- * coordinate; two of them, over the lowest height, turn a facet by less than twice a unit.
+ * The corners in single precision have errors of sqrt(3) / 2 units in the last place of the largest
+ * coordinate; two of them, divided by the smallest height, turn a facet by less than two such
+ * units.
  */
 double RoundingOf(const std::array<glm::dvec3, 3>& corner, double doubleArea, double coordinate)
 {
@@ -60,7 +64,7 @@ bool IsForeign(const Fan& fan, const glm::dvec3& normal)
   const double length = glm::length(sum);
   if (!(length > 0.0))
   {
-    return false; // they cancel out: any normal may be
+    return false; // they cancel out: any normal is possible
   }
   const glm::dvec3 mean = sum / length;
   double spread = 0.0;
@@ -68,7 +72,7 @@ bool IsForeign(const Fan& fan, const glm::dvec3& normal)
   {
     spread = std::max(spread, glm::length(facet - mean));
   }
-  // On either side: normals say where the eye is, facets need not agree.
+  // The nearer side counts: normals define the eye's side, and facets need not agree with it.
   const double off = std::min(glm::length(normal - mean), glm::length(normal + mean));
   return off > 2.0 * (spread + fan.Rounding);
 }

@@ -13,26 +13,30 @@
 namespace meniscus
 {
 
-/** Vertices whose normals were looked at, and those whose normal cannot be that of the surface. */
+/**
+ * Number of vertices whose normals were examined, and of those whose normal cannot belong to the
+ * surface.
+ */
 struct MismatchedNormals
 {
   std::size_t Examined = 0;
   std::size_t Foreign = 0;
 
-  /** Single normals may be off at creases or on purpose; most are not. */
+  /** True if most of the normals are foreign. Single normals may be so at creases or on purpose. */
   bool AreMost() const { return 2 * this->Foreign > this->Examined; }
 };
 
 /**
- * Finds whether normals are those of another surface, as after points were moved and normals were
- * not. Looked at are some of the vertices that facets surround. A normal is foreign if it is
- * farther from the mean of the facets' normals than twice what any of these is: normals of a smooth
- * surface are nearer to that mean than the facets', by an order of their size. Where facets turn by
- * as much as the surfaces differ it cannot be told.
+ * Detects normals of another surface, for example when points were moved and normals were not. Some
+ * of the vertices that are surrounded by facets are examined. A normal is foreign if its distance
+ * from the mean of the facets' normals is more than twice the largest distance of any of these from
+ * it: normals of a smooth surface are nearer to that mean than the facets' normals by one order of
+ * the facet size. Where the facets turn by as much as the two surfaces differ, foreign normals
+ * cannot be detected.
  *
  * @param positions and `normals` of unit length, one per vertex.
- * @param coordinate  The largest coordinate before the positions were moved; what it is rounded by
- *   in single precision may turn facets.
+ * @param coordinate Largest coordinate before the positions were moved; its rounding in single
+ *   precision may have turned facets.
  */
 MismatchedNormals FindMismatchedNormals(const std::vector<glm::dvec3>& positions,
   const std::vector<std::array<std::int32_t, 3>>& facets, const std::vector<glm::dvec3>& normals,

@@ -4,7 +4,7 @@
 /**
  * Refraction and reflection of one ray at one point of a surface. Directions and normals are unit
  * vectors; a normal points to the side that the ray comes from. Equation numbers are those of the
- * thesis "Refraction by geometric transforms" that Documentation/refraction.md retells.
+ * thesis "Refraction by geometric transforms", which Documentation/refraction.md summarises.
  */
 #ifndef meniscus_Refraction_Membrane_Optics_h
 #define meniscus_Refraction_Membrane_Optics_h
@@ -18,7 +18,7 @@
 namespace meniscus
 {
 
-/** Which equation a refraction ray comes from. */
+/** Equation that a refracted ray comes from. */
 enum class RayKind : unsigned char
 {
   Refracted,       ///< Eq. 2.2, Snell's law.
@@ -32,13 +32,13 @@ struct RefractionRay
   RayKind Kind;
 };
 
-/** The square of the refracted ray's cosine, negative beyond the critical angle. */
+/** Square of the refracted ray's cosine; negative beyond the critical angle. */
 inline double RefractionRadicand(double cosine, double ratio)
 {
   return 1.0 - ratio * ratio * (1.0 - cosine * cosine);
 }
 
-/** Of the ray below. */
+/** Direction of the refracted ray, for ComputeRefractionRay. */
 inline glm::dvec3 RefractionDirection(
   const glm::dvec3& sight, const glm::dvec3& normal, double ratio, double cosine, double radicand)
 {
@@ -48,11 +48,11 @@ inline glm::dvec3 RefractionDirection(
 }
 
 /**
- * The ray of direction `sight` behind a surface of normal `normal`, with `ratio` = n1 / n2
- * (Eq. 2.2). Where there is none the ray is extrapolated, so that a facet with one bad corner keeps
- * its cell: a positive D.N counts as zero (Eq. 3.1), and beyond the critical angle the signs of the
- * radicand and of the root are flipped (Eq. 3.2). The result is normalised, which changes Eq. 2.2
- * by rounding only. It is not finite if and only if the arguments are not.
+ * Refracted ray of the sight ray `sight` behind a surface of normal `normal`, with `ratio` = n1 /
+ * n2 (Eq. 2.2). Where there is none the ray is extrapolated, so that a facet with one bad corner
+ * keeps its cell: a positive D.N counts as zero (Eq. 3.1), and beyond the critical angle the signs
+ * of the radicand and of the root are reversed (Eq. 3.2). The result is normalised, which changes
+ * Eq. 2.2 by rounding only. It is not finite if and only if the arguments are not.
  */
 inline RefractionRay ComputeRefractionRay(
   const glm::dvec3& sight, const glm::dvec3& normal, double ratio)
@@ -66,8 +66,9 @@ inline RefractionRay ComputeRefractionRay(
 }
 
 /**
- * Fresnel reflectance of unpolarised light (Eq. 2.6 with n = n2 / n1), in [0, 1]. `cosine` is that
- * of the angle of incidence in the exterior; 1 beyond the critical angle, 0 for equal indices.
+ * Fresnel reflectance of unpolarised light (Eq. 2.6 with n = n2 / n1), in [0, 1]. `cosine` is the
+ * cosine of the angle of incidence in the exterior. The result is 1 beyond the critical angle and 0
+ * for equal indices.
  */
 inline double FresnelReflectance(double cosine, double exterior, double interior)
 {
@@ -89,9 +90,9 @@ inline double FresnelReflectance(double cosine, double exterior, double interior
 }
 
 /**
- * Schlick's approximation of the Fresnel reflectance (Eq. 2.7), which the thesis draws with:
- * r + (1 - r) (1 - c)^5 with r = ((n1 - n2) / (n1 + n2))^2. It knows no critical angle. 0 for equal
- * indices, where the formula has (1 - c)^5.
+ * Schlick's approximation of the Fresnel reflectance (Eq. 2.7), which the thesis uses for drawing:
+ * r + (1 - r) (1 - c)^5 with r = ((n1 - n2) / (n1 + n2))^2. It ignores the critical angle. The
+ * result is 0 for equal indices, for which the formula gives (1 - c)^5.
  */
 inline double SchlickReflectance(double cosine, double exterior, double interior)
 {

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Normals for the lighting of virtual geometry. Diffuse light is N.w, with w the direction to the
- * light at the true point, and highlights depend on N.v too, with v the direction to the viewer.
- * Both are those of refracted rays there. At the virtual point they are w' and v', those of
- * straight ones, so a normal n with n.w' = N.w and n.v' = N.v is lit as the true one is.
+ * light at the true point; highlights also depend on N.v, with v the direction to the viewer. At
+ * the true point, both are directions of refracted rays. At the virtual point the corresponding
+ * directions w' and v' are those of straight rays, so a normal n with n.w' = N.w and n.v' = N.v
+ * receives the same lighting as the true one.
  */
 #ifndef meniscus_Refraction_Membrane_VirtualNormal_h
 #define meniscus_Refraction_Membrane_VirtualNormal_h
@@ -21,8 +22,8 @@ namespace meniscus
 {
 
 /**
- * `normal`, turned with the shortest turn of the unit vector `from` to `to`, which are less than a
- * right angle apart.
+ * Rotates `normal` by the smallest rotation that takes the unit vector `from` to `to`; the two must
+ * be less than a right angle apart.
  */
 inline glm::dvec3 TurnAlong(const glm::dvec3& normal, const glm::dvec3& from, const glm::dvec3& to)
 {
@@ -32,7 +33,7 @@ inline glm::dvec3 TurnAlong(const glm::dvec3& normal, const glm::dvec3& from, co
     axis * (glm::dot(axis, normal) / (1.0 + cosine));
 }
 
-/** Directions at a point, unit vectors away from it. */
+/** Directions to the viewer and to the light at a point: unit vectors away from it. */
 struct LitPoint
 {
   glm::dvec3 View;
@@ -40,20 +41,21 @@ struct LitPoint
 };
 
 /**
- * The unit normal with the products of `normal`. Where no unit vector has both, it has the product
- * with the light, and the nearest one with the view; where view and light have become one, the
- * product with the view.
+ * Unit normal with the same dot products with light and view as `normal`. Where no unit vector has
+ * both, the result has the product with the light and is nearest to the product with the view;
+ * where view and light coincide, it has the product with the view.
  */
 inline glm::dvec3 KeepLighting(
   const glm::dvec3& normal, const LitPoint& atTrue, const LitPoint& atVirtual)
 {
-  // Below this sine the two products no longer tell a direction: rounding of 1e-16 over its square.
+  // Below this sine the two products do not determine a direction: rounding of 1e-16 over its
+  // square.
   constexpr double smallestSine = 1e-5;
   const double p = glm::dot(normal, atTrue.View);
   const double q = glm::dot(normal, atTrue.Light);
   const double g = glm::dot(atVirtual.View, atVirtual.Light);
   const glm::dvec3 across = glm::cross(atVirtual.View, atVirtual.Light);
-  const double squared = glm::dot(across, across); // 1 - g g, without its cancellation
+  const double squared = glm::dot(across, across); // 1 - g g, without its cancellation error
   if (squared < smallestSine * smallestSine)
   {
     return TurnAlong(normal, atTrue.View, atVirtual.View);
@@ -72,10 +74,10 @@ inline glm::dvec3 KeepLighting(
 }
 
 /**
- * The normal at the virtual point `position` of the true point `point`. `light` is the direction to
- * a light at infinity outside the membrane; null for a light at the eye. The membrane counts as
- * plane about the sight point for the light's ray; where that is in the shade of the membrane, or
- * reflected by all of it, the normal points away from the light.
+ * Normal at the virtual point `position` of the true point `point`. `light` is the direction to a
+ * light at infinity outside the membrane; null for a light at the eye. For the light's ray the
+ * membrane is approximated by the tangent plane at the sight point. Where the light is behind this
+ * plane, or totally reflected by it, the normal points away from the light.
  */
 inline glm::dvec3 ComputeVirtualNormal(const glm::dvec3& normal, const glm::dvec3& point,
   const glm::dvec3& sightPoint, const glm::dvec3& eye, double exterior, double interior,
@@ -95,7 +97,8 @@ inline glm::dvec3 ComputeVirtualNormal(const glm::dvec3& normal, const glm::dvec
   {
     return TurnAlong(normal, atTrue.View, atVirtual.View);
   }
-  // By Snell's law the tangential parts of n1 d and n2 r are the same: the rest is the normal.
+  // By Snell's law the tangential parts of n1 d and n2 r are equal, so their difference is along
+  // the normal.
   glm::dvec3 surface = exterior * atVirtual.View - interior * atTrue.View;
   surface *= (glm::dot(surface, atVirtual.View) < 0.0 ? -1.0 : 1.0) / glm::length(surface);
   const RefractionRay ray = ComputeRefractionRay(-*light, surface, exterior / interior);

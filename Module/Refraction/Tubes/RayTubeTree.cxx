@@ -13,8 +13,8 @@ namespace
 
 using Iterator = std::vector<std::int32_t>::iterator;
 
-// A float that is not below the value, and at most two units in its last place above. Values beyond
-// float become infinite, which bounds them as well.
+// Smallest convenient float that is not below the value: at most two units in the last place above.
+// Values beyond the range of float become infinite, which bounds them as well.
 float RoundUp(double value)
 {
   const auto rounded = static_cast<float>(value);
@@ -24,7 +24,8 @@ float RoundUp(double value)
         std::numeric_limits<float>::min());
 }
 
-// A rate of exactly zero would make 0 / 0 of a touching point; the next larger bound is as valid.
+// A rate of exactly zero would give 0 / 0 for a point on the boundary; the next larger bound is
+// also valid.
 float RoundUpRate(double value)
 {
   const float rounded = RoundUp(value);
@@ -45,7 +46,8 @@ Iterator SplitInHalf(Iterator begin, Iterator end, const std::vector<glm::dvec3>
   const int axis =
     extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
   const Iterator middle = begin + (end - begin) / 2;
-  // Ties go by facet index: the topology depends on the facets alone, not on the library's sort.
+  // Ties are broken by facet index: the topology depends on the facets alone, not on the library's
+  // sort.
   std::nth_element(begin, middle, end,
     [axis, &centroids](std::int32_t a, std::int32_t b)
     {
@@ -76,8 +78,8 @@ void RayTubeTree::Build(const std::vector<glm::dvec3>& centroids, double unit)
   std::iota(order.begin(), order.end(), 0);
   if (!order.empty())
   {
-    // A node of the bottom has two leaves at least, a node above four children: 2/3 per leaf at
-    // most.
+    // A bottom node has at least two leaves and an inner node four children: at most 2/3 of a node
+    // per leaf.
     this->Nodes.reserve(order.size() + 1);
     this->BuildNode(order.begin(), order.end(), centroids);
     this->Nodes.shrink_to_fit();
@@ -100,7 +102,7 @@ std::int32_t RayTubeTree::BuildNode(
     const Iterator from = cut[child];
     const Iterator to = cut[child + 1];
     const std::int32_t link = to - from > 1 ? this->BuildNode(from, to, centroids) : NoNode;
-    Node& node = this->Nodes[index]; // only now: BuildNode may move the nodes
+    Node& node = this->Nodes[index]; // not earlier: BuildNode may move the nodes
     node.Link[child] = link;
     node.FirstFacet[child] = from != to ? *std::min_element(from, to) : NoFacet;
     ClearBounds(node, static_cast<int>(child));
@@ -128,7 +130,7 @@ void RayTubeTree::Refit(
         }
       }
     });
-  // Children come after their parents.
+  // Children come after their parents, so a backward loop visits them first.
   for (std::size_t i = this->Nodes.size(); i-- > 0;)
   {
     Node& node = this->Nodes[i];
@@ -145,8 +147,8 @@ void RayTubeTree::Refit(
 //------------------------------------------------------------------------------
 void RayTubeTree::ClearBounds(Node& node, int child)
 {
-  // A start box turned inside out that leaves to the wrong side: no t is allowed. No component of a
-  // unit direction is below -1, so merging this by maxima changes nothing.
+  // An inverted start box, with rates of the wrong sign, allows no t. No component of a unit
+  // direction is below -1, so merging this with other bounds by maxima does not change them.
   constexpr float outside = std::numeric_limits<float>::lowest() / 2.0f;
   for (int axis = 0; axis < 3; ++axis)
   {

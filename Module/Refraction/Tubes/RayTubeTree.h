@@ -46,30 +46,33 @@ struct TubeBounds
 class RayTubeTree
 {
 public:
-  /** Points farther than this many units from the origin do not fit the floats of the tests. */
+  /**
+   * Points farther than this many units from the origin exceed the range of the floats in the
+   * tests.
+   */
   static constexpr double FarthestRadii = 0x1p100;
 
   /**
-   * Facets are told apart by their index; `centroids` are those of all facets in local units.
-   * `unit` is the length that becomes 1 inside.
+   * Facets are identified by their index; `centroids` are those of all facets in local units.
+   * `unit` is the length that becomes 1 inside the tree.
    */
   void Build(const std::vector<glm::dvec3>& centroids, double unit);
 
-  /** Another unit for the same topology; Refit must follow. */
+  /** Sets another unit for the same topology; Refit must follow. */
   void SetUnit(double unit) { this->Scale = 1.0 / unit; }
 
-  /** Fits all bounds. `bounds(facet)` is called once per facet, from the threads of `loop`. */
+  /** Fits all bounds. `bounds(facet)` is called once per facet, on the threads of `loop`. */
   void Refit(const std::function<TubeBounds(std::int32_t)>& bounds, const RangeLoop& loop);
 
   /**
    * Calls `visit(facet)` for every facet whose tube may hold `point`, in an order fixed by the
-   * topology. `visit` returns a facet limit: facets from that index on are of no interest any more.
-   * `padding` widens every tube, in local units. The point must lie within FarthestRadii.
+   * topology. `visit` returns a limit: facets with this index or a larger one are skipped from then
+   * on. `padding` widens every tube, in local units. The point must lie within FarthestRadii.
    */
   template <typename Visitor>
   void Visit(const glm::dvec3& point, double padding, Visitor&& visit) const;
 
-  /** Whether the tube, widened by `padding`, of any facet that `chosen` marks may hold `point`. */
+  /** True if the tube, widened by `padding`, of any facet that `chosen` marks may hold `point`. */
   bool HasAny(const glm::dvec3& point, double padding, const std::vector<bool>& chosen) const
   {
     bool found = false;
@@ -86,14 +89,14 @@ private:
   static constexpr int Width = 4;
   static constexpr std::int32_t NoNode = -1;
   static constexpr std::int32_t NoFacet = std::numeric_limits<std::int32_t>::max();
-  // The ranges are halved by count, so 2^31 facets need at most 16 levels of four children, each of
+  // Each node divides its facets in four by count, so 2^31 facets need at most 16 levels, each of
   // which leaves at most three more entries on the stack.
   static constexpr std::size_t StackSize = 64;
 
   /**
-   * Four children, each a node or one facet, side by side, so that one test of all four is one
-   * loop over lanes. Rates are never zero and the lower ones are negated, so that all six
-   * constraints read a + t b >= 0.
+   * Four children, each an inner node or one facet. They are stored by component, so that one loop
+   * over lanes tests all four. Rates are never zero and the lower ones are negated, so that all six
+   * constraints have the form a + t b >= 0.
    */
   struct Node
   {
@@ -101,8 +104,9 @@ private:
     float NegatedStartLow[3][Width];
     float DirectionHigh[3][Width];
     float NegatedDirectionLow[3][Width];
-    std::int32_t Link[Width];       ///< inner child: node; otherwise NoNode
-    std::int32_t FirstFacet[Width]; ///< smallest facet below; leaf: the facet; none: NoFacet
+    std::int32_t Link[Width];       ///< inner child: its node; otherwise NoNode
+    std::int32_t FirstFacet[Width]; ///< smallest facet below an inner child; the facet of a leaf;
+                                    ///< NoFacet for no child
   };
 
   struct Query
@@ -124,7 +128,7 @@ private:
 };
 
 //------------------------------------------------------------------------------
-// Children are far apart in memory: the ones that wait on the stack are fetched meanwhile.
+// Children are far apart in memory: those that wait on the stack are prefetched.
 inline void RayTubeTree::Prefetch(std::int32_t node) const
 {
 #if defined(__GNUC__)
@@ -142,8 +146,8 @@ inline void RayTubeTree::Prefetch(std::int32_t node) const
 //------------------------------------------------------------------------------
 inline unsigned RayTubeTree::Overlaps(const Node& node, const Query& query)
 {
-  // Each of the two subtractions and the division is off by one rounding at most; 4 ulp of the
-  // terms and of the quotient cover them.
+  // Each of the two subtractions and the division has at most one rounding; 4 ulp of the terms and
+  // of the quotient cover them.
   constexpr float rounding = 4.0f * std::numeric_limits<float>::epsilon();
   float low[Width] = { 0.0f, 0.0f, 0.0f, 0.0f };
   float high[Width];

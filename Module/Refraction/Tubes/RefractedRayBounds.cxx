@@ -14,10 +14,10 @@ namespace meniscus
 namespace
 {
 
-// The largest of |b_i b_j (b_i - b_j)| is 1 / (6 sqrt 3), of b_i b_j 1 / 4.
+// Maximum of |b_i b_j (b_i - b_j)|, 1 / (6 sqrt 3); the maximum of b_i b_j is 1 / 4.
 constexpr double LargestAsymmetric = 0.0962250448649377;
 
-// The normal is a Bezier triangle of second degree.
+// Control points of the normal, which is a Bezier triangle of second degree.
 std::array<glm::dvec3, 6> NormalControls(const CurvedPatch& patch)
 {
   std::array<glm::dvec3, 6> control;
@@ -32,8 +32,8 @@ std::array<glm::dvec3, 6> NormalControls(const CurvedPatch& patch)
 }
 
 //------------------------------------------------------------------------------
-// 2 |q| / (1 + |n|). The sum of b_i b_j is 1 / 3 at most, |n| no less than the least of its control
-// points along one direction.
+// Bound of 2 |q| / (1 + |n|). The sum of b_i b_j is at most 1 / 3, and |n| is no less than the
+// least projection of its control points on one direction.
 double BoundBulge(const CurvedPatch& patch)
 {
   double sum = 0.0;
@@ -56,8 +56,8 @@ double BoundBulge(const CurvedPatch& patch)
 }
 
 //------------------------------------------------------------------------------
-// Along n + d for |d| within `ball` and d within `half`: n / |n| + (d - u (u.d)) / |n| and a rest
-// below (|d| / |n|)^2 as long as |d| < |n| / 2.
+// Unit vectors along n + d for |d| within `ball` and d within `half`: n / |n| + (d - u (u.d)) / |n|
+// plus a remainder below (|d| / |n|)^2 as long as |d| < |n| / 2.
 DirectionBox BoundDirections(
   const glm::dvec3& middle, const glm::dvec3* hull, int count, double reach)
 {
@@ -80,7 +80,7 @@ DirectionBox BoundDirections(
 }
 
 //------------------------------------------------------------------------------
-// Inside the hull of the control points.
+// The normals are inside the hull of their control points.
 DirectionBox BoundNormals(const CurvedPatch& patch)
 {
   const std::array<glm::dvec3, 6> control = NormalControls(patch);

@@ -12,7 +12,7 @@ namespace meniscus
 namespace
 {
 
-/** A vector in single precision. */
+/** Rounds a vector to single precision. */
 template <typename Vector, int Size>
 void Round(const Vector& from, float (&to)[Size])
 {

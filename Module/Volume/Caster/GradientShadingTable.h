@@ -13,7 +13,10 @@
 namespace meniscus
 {
 
-/** What gradients do to a medium, as packets read it; of the frame of some rays. */
+/**
+ * Effect of gradients on a medium (lighting, gradient opacity), in the packets' layout and in one
+ * frame of rays.
+ */
 class GradientShadingTable
 {
 public:
@@ -22,15 +25,16 @@ public:
   GradientShadingTable& operator=(const GradientShadingTable&) = delete;
 
   /**
-   * @param lighting  in the frame; null without light.
-   * @param gradientToFrame  from normalised model coordinates.
-   * @param gradientMagnitude  from a gradient's length in the frame to what `opacity` is of.
-   * @param opacity  null for none; must outlive this.
+   * @param lighting lights in the frame of the rays; null for none.
+   * @param gradientToFrame matrix from normalised model coordinates to the frame.
+   * @param gradientMagnitude factor from the length of a gradient in the frame to the argument of
+   *   `opacity`.
+   * @param opacity gradient opacity; null for none. Must outlive this object.
    */
   void Pack(const SurfaceLighting* lighting, const glm::dmat3& gradientToFrame,
     double gradientMagnitude, const std::vector<PacketInterval>* opacity);
 
-  /** Null if gradients do nothing. */
+  /** Null if gradients have no effect. */
   const GradientShading* Get() const
   {
     const bool used = this->Medium.Shading || this->Medium.NumberOfOpacityIntervals > 0;

@@ -12,19 +12,21 @@
 namespace meniscus
 {
 
-/** What the packets read, in their layout; see the builders below. */
+/** Input tables of the packets, in their layout; see the builders below. */
 struct PacketTables
 {
-  /** As the rays of an image see them. */
+  /** Vertices in the grid of an image's rays. */
   std::vector<PacketVertex> Vertices;
   std::vector<PacketInterval> Intervals;
   std::vector<PacketSurface> Surfaces;
-  /** Of components that have functions of their own; of the lengths of gradients. */
+  /**
+   * Intervals of the other components that have functions of their own, and of gradient opacity.
+   */
   std::vector<std::vector<PacketInterval>> OtherIntervals;
   std::vector<PacketInterval> GradientIntervals;
 };
 
-/** Intervals of a transfer function in the layout of the packets. */
+/** Converts intervals of a transfer function to the layout of the packets. */
 std::vector<PacketInterval> PackIntervals(const std::vector<TransferFunctionInterval>& intervals);
 
 }

@@ -23,30 +23,31 @@ namespace
 constexpr int TileSize = RefractedRayField::TileSize;
 static_assert(TileSize == BoundaryRaster::TileSize, "the same tiles");
 
-/** Pixels of a bundle, along each side. */
+/** Side length, in pixels, of a block of rays, which forms a bundle. */
 constexpr int BlockSize = 8;
 static_assert(BlockSize * BlockSize <= RayBundleEntries::LargestBundle, "a block is a bundle");
 
 /**
- * In units of the frame, by how much an entry may lie before the sight point that the straight ray
- * says is outside of the mesh. Depths are off by 2^-24; along a ray that leaves the boundary at an
- * angle of 2^-12 that is 2^-12. To take an entry too many costs a few steps, and changes nothing.
+ * Distance, in units of the frame, by which an entry may lie in front of the sight point if the
+ * straight ray reports that point outside of the mesh. Depths are rounded to 2^-24; along a ray
+ * that leaves the boundary at an angle of 2^-12 this is 2^-12. A superfluous entry costs a few
+ * steps and does not change the result.
  */
 constexpr double StartMargin = 1.0 / 4096.0;
 
-/** Vertices are off by the rounding of their grid, far less. */
+/** Larger than the relative rounding error of vertices by their grid. */
 constexpr double BoxMargin = 1.0 + 1.0e-6;
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 }
 
-/** The part that counts of what lies behind the membrane. */
+/** Part of the refracted ray that is drawn. */
 struct RefractedRayCaster::Part
 {
   glm::dvec3 SightPoint;
   glm::dvec3 Step;
-  /** In steps. */
+  /** Bounds of the part in steps behind the sight point. */
   double Start;
   double End;
 };
@@ -91,8 +92,8 @@ RefractedRayCaster::RefractedRayCaster(const RefractedScene& scene, const Tetrah
 
 //------------------------------------------------------------------------------
 /**
- * Whether the half-line meets the box about the mesh: by its ball, then by the three axes across
- * the line and an edge of the box that separate them if any does.
+ * True if the half-line may meet the box about the mesh. Tests the box's bounding sphere first,
+ * then three separating axes, each perpendicular to the line and to an edge of the box.
  */
 bool RefractedRayCaster::MayMeetMesh(const glm::dvec3& sightPoint, const glm::dvec3& step) const
 {
@@ -110,7 +111,8 @@ bool RefractedRayCaster::MayMeetMesh(const glm::dvec3& sightPoint, const glm::dv
     glm::cross(edges[0], edges[1]) };
   for (int k = 0; k < 3; ++k)
   {
-    // Along step x edge k: the centre's distance, and those of the other two edges.
+    // Along the cross product of step and edge k: the distance of the centre, and the extents of
+    // the other two edges.
     const double distance = std::fabs(glm::dot(across, edges[k]));
     const double reach =
       std::fabs(glm::dot(step, areas[(k + 1) % 3])) + std::fabs(glm::dot(step, areas[(k + 2) % 3]));
@@ -123,7 +125,7 @@ bool RefractedRayCaster::MayMeetMesh(const glm::dvec3& sightPoint, const glm::dv
 }
 
 //------------------------------------------------------------------------------
-/** False if nothing behind the membrane counts. */
+/** Computes the drawn part of a refracted ray. Returns false if there is none. */
 bool RefractedRayCaster::FindPart(const BoundaryRaster::PixelBox& box, std::int32_t pixel,
   const RefractedRay& refracted, const float* opaqueDepth, Part& part) const
 {
@@ -141,7 +143,8 @@ bool RefractedRayCaster::FindPart(const BoundaryRaster::PixelBox& box, std::int3
   }
   part.Start = std::max(0.0, frame.NearDepth - refracted.Depth);
   part.End = Infinity;
-  // Where nothing is drawn the far plane, which bounds what is drawn, says nothing.
+  // A window depth of 1 means that nothing opaque is drawn there. The far plane bounds drawn
+  // geometry, not refracted rays, so it is no limit.
   const float window =
     opaqueDepth ? opaqueDepth[std::int64_t{ row } * this->View.GetWidth() + column] : 1.0f;
   if (window < 1.0f)
@@ -156,7 +159,7 @@ bool RefractedRayCaster::FindPart(const BoundaryRaster::PixelBox& box, std::int3
 }
 
 //------------------------------------------------------------------------------
-/** @param end  where the straight ray ended: PacketResult::End. */
+/** @param end place where the straight ray ended: PacketResult::End. */
 void RefractedRayCaster::AddLine(
   const Part& part, std::int32_t pixel, std::int32_t end, Workspace& workspace) const
 {
@@ -292,7 +295,7 @@ void RefractedRayCaster::CastFrame(
 }
 
 //------------------------------------------------------------------------------
-/** Lines that began inside in vain, from the boundary on. */
+/** Casts again, from the boundary, the rays whose walk from the inside did not reach it. */
 void RefractedRayCaster::CastAgain(
   const PacketJob& job, int frame, Workspace& workspace, RayStatistics& sums) const
 {

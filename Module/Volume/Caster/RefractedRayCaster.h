@@ -20,20 +20,25 @@
 namespace meniscus
 {
 
-/** A membrane as the rays of an image see it; see RayCastMembrane for what makes it. */
+/** Refraction of the rays of an image at a membrane; RayCastMembrane creates it. */
 struct RefractedScene
 {
   const RefractedRayField* Sight = nullptr;
-  /** With the vertices placed. */
+  /** Frames with the vertices placed. */
   const RefractionFrames* Frames = nullptr;
-  /** Over the boundary that rays enter by. */
+  /** Tree over the boundary by which rays enter. */
   const BoundaryTree* Tree = nullptr;
-  /** Whether a ray may begin in the cell that the membrane is in; else it does on the boundary. */
+  /**
+   * True if a refracted ray may begin in the cell that contains the sight point; otherwise it
+   * begins on the boundary.
+   */
   bool BeginsInside = false;
   MembranePart Part = MembranePart::Whole;
 };
 
-/** What depends on the frame of the rays, in that of the view; as of GradientShadingTable::Pack().
+/**
+ * Optics that depend on the frame of the rays, given in the frame of the view; see
+ * GradientShadingTable::Pack().
  */
 struct RefractedOptics
 {
@@ -43,30 +48,34 @@ struct RefractedOptics
   const std::vector<PacketInterval>* GradientOpacity;
 };
 
-/** What the straight rays of a tile have come to at the membrane. */
+/** Results of the straight rays of a tile, up to the membrane. */
 struct StraightPart
 {
-  /** By pixel of the tile, in rows of RefractedRayField::TileSize: PacketResult's values and End.
+  /**
+   * Values and End of PacketResult, by pixel of the tile in rows of RefractedRayField::TileSize.
    */
   std::vector<std::array<float, 4>> Values;
   std::vector<std::int32_t> Ends;
-  /** Cells crossed so far. */
+  /** Number of cells crossed so far. */
   std::vector<std::int32_t> Steps;
 
-  /** @param end  of rays without a result: PacketResult::End. */
+  /** @param end value of PacketResult::End for rays without a result. */
   void Clear(BlendMode mode, std::int32_t end);
 };
 
-/** Casts the rays of a tile behind the membrane and joins them with what lies before it. */
+/**
+ * Casts the refracted rays of a tile and joins their results with those of the straight rays in
+ * front of the membrane.
+ */
 class RefractedRayCaster
 {
 public:
-  /** What the arguments point at must outlive this. */
+  /** All objects that the arguments refer to must outlive this object. */
   RefractedRayCaster(const RefractedScene& scene, const TetrahedralMesh& mesh,
     const FixedPointRays& view, const std::vector<RayClippingPlane>& clippingPlanes,
     const RefractedOptics& optics, InstructionSet set);
 
-  /** Room for the work of one thread. */
+  /** Buffers of one thread. */
   struct Workspace
   {
     struct OfFrame
@@ -74,15 +83,17 @@ public:
       std::vector<RayBundleEntries::Line> Lines;
       std::vector<std::int32_t> Pixels;
       std::vector<RayBundleEntries::Hit> Hits;
-      /** Lines of the block at hand whose start is known to be outside of the mesh, and others. */
+      /**
+       * Lines of the current block whose start is known to be outside of the mesh, and all others.
+       */
       std::vector<std::int32_t> Bundles[2];
-      /** Lines that began inside and did not come to the boundary. */
+      /** Lines that began inside and did not reach the boundary. */
       std::vector<std::int32_t> RetryLines;
     };
     std::array<OfFrame, RefractionFrames::Number> Frames;
     RayBundleEntries::Workspace Faces;
     std::vector<PacketRay> Rays;
-    /** Number of each ray's line. */
+    /** Index of the line of each ray. */
     std::vector<std::int32_t> Lines;
     std::vector<PacketEntry> Entries;
     std::vector<PacketResult> Results;
@@ -90,12 +101,12 @@ public:
   };
 
   /**
-   * @param job          as for straight rays, without rays.
-   * @param box          of the tile.
-   * @param rays         RefractedRayField::GetTile().
-   * @param opaqueDepth  window depth in [0, 1] per pixel of the image; null for none.
-   * @param workspace    Straight is read and used up.
-   * @param image        premultiplied RGBA per pixel.
+   * @param job as for straight rays, but without rays.
+   * @param box pixels of the tile.
+   * @param rays RefractedRayField::GetTile().
+   * @param opaqueDepth window depth in [0, 1] per pixel of the image; null for none.
+   * @param workspace its Straight is read and overwritten.
+   * @param image premultiplied RGBA per pixel.
    */
   RayStatistics Cast(PacketJob job, const BoundaryRaster::PixelBox& box, const RefractedRay* rays,
     const float* opaqueDepth, Workspace& workspace, float* image) const;
@@ -116,13 +127,13 @@ private:
   bool MayMeetMesh(const glm::dvec3& sightPoint, const glm::dvec3& step) const;
 
   RefractedScene Scene;
-  /** Box and ball about the mesh's boundary, in the frame of the view. */
+  /** Bounding box and bounding sphere of the mesh's boundary, in the frame of the view. */
   BoundsInFrame Box;
   double BallRadius = 0.0;
   const FixedPointRays& View;
   const std::vector<RayClippingPlane>& ClippingPlanes;
   std::vector<RayBundleEntries> Entries;
-  /** The same in each frame. */
+  /** Lighting and gradients in each frame. */
   struct Optics
   {
     SurfaceLighting Lighting;

@@ -36,7 +36,7 @@ TileCaster::TileCaster(const Scene& scene)
 }
 
 //------------------------------------------------------------------------------
-/** @param farthest  where the ray ends at the latest. */
+/** @param farthest largest depth at which the ray may end. */
 PacketRay TileCaster::RayOf(int column, int row, const float* opaqueDepth, double farthest) const
 {
   const FixedPointRays& rays = this->Input.Rays;
@@ -56,7 +56,7 @@ PacketRay TileCaster::RayOf(int column, int row, const float* opaqueDepth, doubl
 }
 
 //------------------------------------------------------------------------------
-/** Sets up a ray for each pixel with an entry and a part that counts. */
+/** Sets up a ray for each pixel with an entry and a non-empty depth range. */
 void TileCaster::TakeRays(
   int tile, const float* opaqueDepth, const RefractedRay* refracted, Workspace& workspace) const
 {
@@ -82,14 +82,14 @@ void TileCaster::TakeRays(
     }
     else if (refracted)
     {
-      // The membrane may be within the mesh all the same.
+      // The sight point may be inside the mesh all the same.
       workspace.Refracted.Straight.Ends[inTile] = PacketResult::Somewhere;
     }
   }
 }
 
 //------------------------------------------------------------------------------
-/** What becomes of scalars. */
+/** Sets the tables that map scalars to colours. */
 void TileCaster::SetOptics(PacketJob& job) const
 {
   const PacketTables& tables = *this->Input.Tables;
@@ -151,7 +151,7 @@ RayStatistics TileCaster::ShowStraight(const Workspace& workspace, float* image)
 }
 
 //------------------------------------------------------------------------------
-/** Hands the results on to what lies behind the membrane. */
+/** Stores the results for the refracted part of the rays. */
 void TileCaster::KeepStraight(int tile, const RefractedRay* refracted, Workspace& workspace) const
 {
   const BoundaryRaster::PixelBox box = this->Raster.BoxOfTile(tile);
@@ -165,14 +165,14 @@ void TileCaster::KeepStraight(int tile, const RefractedRay* refracted, Workspace
     const auto pixel = static_cast<std::size_t>(row * BoundaryRaster::TileSize + column);
     std::copy_n(result.Color, 4, straight.Values[pixel].data());
     straight.Steps[pixel] = result.Steps;
-    // A ray that a clipping plane has ended says nothing of the sight point.
+    // A ray that ended at a clipping plane gives no information about the sight point.
     const bool arrived = workspace.Rays[i].EndDepth == static_cast<float>(refracted[pixel].Depth);
     straight.Ends[pixel] = arrived ? result.End : PacketResult::Somewhere;
   }
 }
 
 //------------------------------------------------------------------------------
-/** Whether a ray of the tile may enter the mesh before the membrane. */
+/** True if a ray of the tile may enter the mesh in front of the membrane. */
 bool TileCaster::IsMeshInFront(int tile, const RefractedRay* refracted) const
 {
   const BoundaryRaster::PixelBox box = this->Raster.BoxOfTile(tile);
@@ -181,7 +181,7 @@ bool TileCaster::IsMeshInFront(int tile, const RefractedRay* refracted) const
   {
     for (int column = 0; column < box.Right - box.Left; ++column)
     {
-      // An entry counts if it is before the end, both in single precision.
+      // An entry is used if it is before the end, both in single precision.
       const double depth = refracted[row * BoundaryRaster::TileSize + column].Depth;
       if (static_cast<float>(nearest) < static_cast<float>(depth))
       {
@@ -205,7 +205,7 @@ RayStatistics TileCaster::Cast(
   }
   if (refracted)
   {
-    // Rays that are not cast say nothing of where the sight point is.
+    // Rays that are not cast give no information about the sight point.
     workspace.Refracted.Straight.Clear(
       this->Input.Blending, behindOnly ? PacketResult::Somewhere : PacketResult::Outside);
   }

@@ -30,48 +30,59 @@ public:
   struct Scene
   {
     const TetrahedralMesh* Mesh = nullptr;
-    /** The boundary that rays enter by. */
+    /** Boundary by which rays enter. */
     const std::vector<BoundaryFace>* Boundary = nullptr;
     const PacketTables* Tables = nullptr;
-    /** One normalised scalar per cell, in place of those of the vertices; null for none. */
+    /**
+     * One normalised scalar per cell, used instead of the scalars of the vertices; null for none.
+     */
     const float* CellScalars = nullptr;
     BlendMode Blending = BlendMode::Composite;
-    /** How the components of vertices mix in composite blending, and those beside the scalar. */
+    /**
+     * Mixture of the components of vertices in composite blending, and the components besides the
+     * scalar.
+     */
     ComponentMixture Mixture = ComponentMixture::None;
     const glm::vec3* Components = nullptr;
-    /** Normalised scalars that additive blending counts as 0 and as 1. */
+    /** Normalised scalars that additive blending maps to 0 and to 1. */
     ScalarRange DataRange;
-    /** Looked up in place of the transfer function; null for none. */
+    /** Table that is used instead of the transfer function; null for none. */
     const PreIntegrationTable* PreIntegration = nullptr;
-    /** Of isosurfaces and of composite blending; null for none. */
+    /** Lighting of isosurfaces and of composite blending; null for none. */
     const SurfaceLighting* Lighting = nullptr;
-    /** One per vertex, in normalised model coordinates; null for those of the cells. */
+    /**
+     * Gradient of the scalar per vertex, in normalised model coordinates; null if gradients of
+     * cells are used.
+     */
     const glm::vec3* VertexGradients = nullptr;
-    /** One per cell, likewise; needed by light and gradient opacity without those of vertices. */
+    /**
+     * Gradient per cell, in the same coordinates; required for lighting and gradient opacity
+     * without VertexGradients.
+     */
     const glm::vec3* CellGradients = nullptr;
     glm::dmat3 GradientToFrame{ 1.0 };
-    /** Whether gradients change the attenuation, by the table of that. */
+    /** True if Tables has a gradient opacity, a factor of the attenuation. */
     bool GradientOpacity = false;
-    /** From a gradient's length in the frame to what that table is of. */
+    /** Factor from the length of a gradient in the frame to the argument of that table. */
     double GradientMagnitude = 1.0;
     FixedPointRays Rays;
-    /** Rays count where all of them keep them. */
+    /** Planes that clip rays: only the part of a ray on the kept side of all of them is drawn. */
     std::vector<RayClippingPlane> ClippingPlanes;
-    /** Rays end when their transmittance is not above it. */
+    /** Transmittance at or below which a ray ends. */
     float TerminationTransmittance = 0.0f;
     InstructionSet Set = InstructionSet::Portable;
-    /** Rays that bend; without a Sight there are none. */
+    /** Refraction at a membrane; none without a Sight. */
     RefractedScene Refracted;
   };
 
-  /** What `scene` points at must outlive this. */
+  /** All objects that `scene` refers to must outlive this object. */
   explicit TileCaster(const Scene& scene);
   TileCaster(const TileCaster&) = delete;
   TileCaster& operator=(const TileCaster&) = delete;
 
   int GetNumberOfTiles() const { return this->Raster.GetNumberOfTiles(); }
 
-  /** Room for the work of one thread. */
+  /** Buffers of one thread. */
   struct Workspace
   {
     BoundaryRaster::Workspace Entries;
@@ -83,8 +94,8 @@ public:
 
   /**
    * Casts the rays of a tile.
-   * @param opaqueDepth  window depth in [0, 1] per pixel, where rays end; null: nowhere.
-   * @param image        premultiplied RGBA per pixel; pixels whose rays miss the mesh are left.
+   * @param opaqueDepth window depth in [0, 1] per pixel, at which rays end; null for none.
+   * @param image premultiplied RGBA per pixel; pixels whose rays miss the mesh are not written.
    */
   RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
 

@@ -19,7 +19,7 @@ namespace
 
 constexpr double Margin = ProjectedFaces::Margin;
 
-/** Pixels of a row, from a first one on. */
+/** A range of pixels in a row. */
 struct PixelSpan
 {
   int First;
@@ -27,8 +27,9 @@ struct PixelSpan
 };
 
 /**
- * The part of `count` pixels from `first` on where no edge is below -Margin, or a little more.
- * @param reciprocals  one over each edge's change per column; 0 if that is 0.
+ * Part of a row of `count` pixels from `first` in which no edge is below -Margin, give or take a
+ * little.
+ * @param reciprocals 1 over the change of each edge per column; 0 if there is no change.
  */
 PixelSpan SpanOf(
   const glm::dvec3 (&edges)[3], const double (&reciprocals)[3], const glm::dvec2& first, int count)
@@ -154,7 +155,9 @@ bool BoundaryRaster::EntersExactly(
 }
 
 //------------------------------------------------------------------------------
-/** Where the ray meets the face; one without projected area is met at its first vertex. */
+/**
+ * Depth at which the ray meets the face; a face without projected area is met at its first vertex.
+ */
 double BoundaryRaster::DepthAt(const ProjectedFaces::Face& face, const double (&areas)[3])
 {
   const double total = areas[0] + areas[1] + areas[2];
@@ -204,8 +207,8 @@ void BoundaryRaster::CollectFace(std::int32_t index, const PixelBox& tile, Entry
 //------------------------------------------------------------------------------
 void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
 {
-  // The faces of cells that touch no others are many to a pixel: taken from near to far, they leave
-  // little to sort.
+  // In a mesh whose cells share no faces, each pixel has many faces: taking them from near to far
+  // leaves little to sort.
   workspace.Faces.clear();
   for (std::int32_t slot = this->TileBegin[tile]; slot < this->TileBegin[tile + 1]; ++slot)
   {

@@ -15,11 +15,12 @@ namespace meniscus
 {
 
 /**
- * Which boundary faces the rays of an image enter by, tile by tile.
+ * Boundary faces by which the rays of an image enter the mesh, tile by tile.
  *
- * A face's edges are affine functions of the pixel. Where one is negative, or all are positive, by
- * more than rounding to the grid of (u, v) can change, that decides; else the signs are those that
- * the walk takes, exact and with its tie rule, so that each ray has as many entries as exits.
+ * The edges of a face are affine functions of the pixel. If one is negative, or all are positive,
+ * by more than the rounding to the grid of (u, v) can change, the answer follows from their signs.
+ * Otherwise the exact signs of the walk decide, with its rule for ties, so that each ray has as
+ * many entries as exits.
  */
 class BoundaryRaster
 {
@@ -28,8 +29,8 @@ public:
 
   /**
    * Sorts faces into tiles.
-   * @param vertices  those of the mesh in the grid of the rays; must outlive this.
-   * @param faces     the boundary that rays may enter by; must outlive this.
+   * @param vertices vertices of the mesh in the grid of the rays; must outlive this object.
+   * @param faces boundary by which rays may enter; must outlive this object.
    */
   void Build(const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& faces,
     const FixedPointRays& rays);
@@ -40,13 +41,13 @@ public:
   using PixelBox = ProjectedFaces::PixelBox;
   PixelBox BoxOfTile(int tile) const;
 
-  /** Least depth of the faces that a tile's rays may enter by; infinite without one. */
+  /** Smallest depth of the faces by which rays of a tile may enter; infinite if there is none. */
   double NearestDepth(int tile) const;
 
-  /** Room for the work of one thread. */
+  /** Buffers of one thread. */
   struct Workspace
   {
-    /** Entries of the tile's rays, numbered (row - Bottom) * TileSize + column - Left. */
+    /** Entries of the tile's rays, which are numbered (row - Bottom) * TileSize + column - Left. */
     EntryLists Lists;
     /** The tile's faces with their nearest depths. */
     std::vector<std::pair<float, std::int32_t>> Faces;

@@ -15,10 +15,13 @@ bool IsBefore(const PacketEntry& a, const PacketEntry& b)
   return a.Depth != b.Depth ? a.Depth < b.Depth : a.CellFace < b.CellFace;
 }
 
-/** Sorts by insertion, which is linear for entries that are nearly in order; else as usual. */
+/**
+ * Sorts by insertion, which is linear for entries that are nearly in order; falls back to
+ * std::sort.
+ */
 void SortEntries(PacketEntry* first, PacketEntry* last)
 {
-  // Mean number of places that an entry may move before sorting by comparison is cheaper.
+  // Mean number of places by which an entry may move before sorting by comparison is cheaper.
   constexpr std::ptrdiff_t moves = 8;
   std::ptrdiff_t movesLeft = moves * (last - first);
   for (PacketEntry* next = first; next != last; ++next)
@@ -60,7 +63,8 @@ void EntryLists::Sort()
   {
     ++this->Begins[hit.Ray];
   }
-  // The end of each ray's list, which moves to its beginning while the list fills from behind.
+  // End of each ray's list. It moves to the beginning of the list while the list is filled
+  // backwards.
   std::int32_t end = 0;
   for (std::int32_t& begin : this->Begins)
   {

@@ -13,18 +13,18 @@ namespace meniscus
 {
 
 /**
- * Entries of many rays, collected in any order and then put in order by ray, depth and face. The
- * cost is linear in the number of entries if they are added about in the order of depth.
+ * Entries of many rays, collected in any order and then sorted by ray, depth and face. The cost is
+ * linear in the number of entries if they are added approximately in the order of depth.
  */
 class EntryLists
 {
 public:
-  /** Forgets all entries and expects rays numbered from 0. */
+  /** Removes all entries and expects rays numbered from 0. */
   void Start(std::size_t numberOfRays);
 
   void Add(std::int32_t ray, const PacketEntry& entry) { this->Hits.push_back({ ray, entry }); }
 
-  /** Puts the entries in order; lists can be read from then on. */
+  /** Sorts the entries; the lists can be read afterwards. */
   void Sort();
 
   /** Entries of all rays; those of a ray are [GetBegin(ray), GetBegin(ray + 1)). */

@@ -22,32 +22,32 @@ namespace meniscus
 namespace
 {
 
-/** Rows of tiles that a thread fills at a time. */
+/** Number of rows of tiles that a thread fills at a time. */
 constexpr int RowsPerBand = 8;
 
 constexpr std::int64_t MostFaces = std::int64_t{ 1 } << 26;
 
-/** Bits of a depth in (-2, 2) that faces are sorted by. */
+/** Number of bits of the sorting key for depths in (-2, 2). */
 constexpr int DepthBits = 30;
 constexpr double DepthSteps = 268435456.0; // 2^28 per unit of depth
 
 /**
- * Bound of the error of a depth in a shader: depths of vertices are whole numbers of
- * FixedPointRays' grid, and the interpolation across a face rounds three products and two sums to
- * 2^-24 of less than 2 each; a float that holds the bound itself is rounded likewise. 2^-21 in all,
- * taken four times.
+ * Bound of the error of a depth in a shader. Depths of vertices are integers of FixedPointRays'
+ * grid; the interpolation across a face rounds three products and two sums to 2^-24 of less than 2
+ * each, and so does the float that holds the bound itself. The sum is 2^-21; the constant is four
+ * times that.
  */
 constexpr double DepthError = 1.9073486328125e-06; // 2^-19
 
 /**
  * Bound of the error of u and v of a vertex about a ray in a shader, in grid units. Both are below
- * 2^30 near a ray that meets the mesh; a whole number and a difference are rounded to float, by 32
- * each. Placing the vertex, the ray and the product of depth and slope add less than 4
+ * 2^30 near a ray that meets the mesh; one integer and one difference are rounded to float, with an
+ * error of 32 each. Placing the vertex, the ray, and the product of depth and slope add less than 4
  * (fetchVertex in vtkTetrahedraRays.glsl).
  */
 constexpr double ErrorInShader = 128.0;
 
-/** Tiles of a row. */
+/** A range of tiles in a row. */
 struct TileSpan
 {
   int First;
@@ -56,10 +56,13 @@ struct TileSpan
 
 }
 
-/** A face in units of tiles: where no edge is negative, a ray of the tile may enter by it. */
+/** A face in units of tiles: a ray of a tile may enter by it where no edge is negative. */
 struct EntryTiles::Outline
 {
-  /** Edges at column 0 and row 0, per column, per row; one over the change per column, or 0. */
+  /**
+   * Edges at column 0 and row 0, their change per column and per row, and 1 over the change per
+   * column, or 0.
+   */
   glm::dvec3 Constant;
   glm::dvec3 PerColumn;
   glm::dvec3 PerRow;
@@ -68,7 +71,7 @@ struct EntryTiles::Outline
   std::int32_t Face;
   std::uint32_t Depth;
 
-  /** Columns of a row. Rounding of the roots is far below the margin of the edges. */
+  /** Columns of a row. The rounding of the roots is far below the margin of the edges. */
   TileSpan ColumnsOf(int row) const
   {
     double begin = this->Tiles.Left;
@@ -126,7 +129,7 @@ double ExpectedEntriesPerTile(const BoundaryMeasure& boundary, double tileSide)
 {
   const double met = 0.25 * boundary.Area + 0.25 * tileSide * boundary.Perimeter +
     0.5 * tileSide * tileSide * static_cast<double>(boundary.Faces);
-  // A tile at the rim of the box is met by more than the box covers.
+  // Tiles at the rim extend beyond the box, so the tiles that meet it cover more than its area.
   const double covered = 0.25 * boundary.BoxArea + tileSide * tileSide;
   return covered > 0.0 ? met / covered : 0.0;
 }
@@ -148,13 +151,13 @@ bool EntryTiles::Build(const TetrahedralMesh& mesh, const std::vector<BoundaryFa
 }
 
 //------------------------------------------------------------------------------
-/** The faces that rays may enter by. */
+/** Outlines of the faces by which rays may enter. */
 std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
   const ProjectedFaces& projected, int tileSize, const RangeLoop& loop) const
 {
   const FixedPointRays& rays = projected.GetRays();
   const double error = ErrorInShader;
-  // From the image's centre to the centre of the first tile.
+  // Vector from the image's centre to the centre of the first tile.
   const glm::dvec2 first =
     0.5 * (glm::dvec2(tileSize) - glm::dvec2(rays.GetWidth(), rays.GetHeight()));
   std::vector<std::vector<Outline>> parts(NumberOfBlocks(projected.GetNumberOfFaces()));
@@ -177,8 +180,8 @@ std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
         const bool bounded = seen.Error < std::numeric_limits<double>::infinity();
         for (int k = 0; k < 3; ++k)
         {
-          // The rays are those of pixels' centres. Vertices that are off by less than `Error` span
-          // a triangle within that of the face's.
+          // Rays pass through pixel centres. Vertices with errors of less than `Error` span a
+          // triangle within that distance of the face's.
           const glm::dvec3& edge = face.Edges[k];
           const double reach = 0.5 * (tileSize - 1) * (std::abs(edge[1]) + std::abs(edge[2])) +
             (bounded ? seen.Error * std::sqrt(edge[1] * edge[1] + edge[2] * edge[2]) : 0.0) +
@@ -189,7 +192,7 @@ std::vector<EntryTiles::Outline> EntryTiles::OutlineFaces(
           outline.PerRow[k] = bounded ? tileSize * edge[2] : 0.0;
           outline.Reciprocal[k] = outline.PerColumn[k] != 0.0 ? 1.0 / outline.PerColumn[k] : 0.0;
         }
-        // Depths are less than 2 in size.
+        // Depths are below 2 in magnitude.
         const double depth = projected.GetNearestDepth(index) - DepthError + 2.0;
         outline.Depth = static_cast<std::uint32_t>(
           std::min(std::max(depth * DepthSteps, 0.0), std::ldexp(1.0, DepthBits) - 1.0));
@@ -213,7 +216,7 @@ void EntryTiles::SortByDepth(std::vector<Outline>& outlines, const RangeLoop& lo
   {
     const Outline& outline = outlines[i];
     keys.push_back(MakeMortonKey(outline.Depth, i));
-    // Rounded down: a float below the depth.
+    // Rounded down, to a float not above the depth.
     const float nearest = static_cast<float>(outline.Depth / DepthSteps - 2.0);
     this->NearestDepths[static_cast<std::size_t>(outline.Face)] =
       std::nextafter(nearest, -std::numeric_limits<float>::infinity());
@@ -247,7 +250,7 @@ std::vector<std::vector<std::int32_t>> EntryTiles::DealToBands(
 }
 
 //------------------------------------------------------------------------------
-/** Twice over the faces of each band: counts them, then fills the lists. */
+/** Visits the faces of each band twice: once to count them and once to fill the lists. */
 bool EntryTiles::FillTiles(const std::vector<Outline>& outlines, const RangeLoop& loop)
 {
   const std::vector<std::vector<std::int32_t>> bands = this->DealToBands(outlines);

@@ -14,11 +14,14 @@
 namespace meniscus
 {
 
-/** Sums over the boundary, from which the length of lists per tile can be foretold. */
+/** Sums over the boundary, from which the mean length of the lists per tile can be predicted. */
 struct BoundaryMeasure
 {
   std::int64_t Faces = 0;
-  /** In units of the mesh's radius; the box is the axis-aligned box about the faces. */
+  /**
+   * Area and perimeter of the faces in units of the mesh's radius. The box is their axis-aligned
+   * bounding box.
+   */
   double Area = 0.0;
   double Perimeter = 0.0;
   double BoxArea = 0.0;
@@ -27,35 +30,39 @@ struct BoundaryMeasure
 BoundaryMeasure MeasureBoundary(const TetrahedralMesh& mesh);
 
 /**
- * Number of faces that rays of a tile may enter by, the mean over directions of view and over the
- * tiles that the box of the boundary covers. 0 without a boundary.
+ * Expected number of faces by which rays of a tile may enter: the mean over view directions and
+ * over the tiles that the bounding box of the boundary covers. It is 0 without a boundary.
  *
- * Seen from a random direction, a convex figure of area A and perimeter P has an area of A / 2 and
- * a perimeter of pi P / 4, and half of the faces are entered by. A square of side t in random
- * orientation meets, of its positions per unit of area, A' + 2 t P' / pi + t^2 for a figure of area
- * A' and perimeter P' (Blaschke). A box of surface B covers B / 4 (Cauchy).
- * @param tileSide  side of a tile at the mesh's centre, in units of the mesh's radius.
+ * Seen from a random direction, a convex figure of area A and perimeter P has a projected area of A
+ * / 2 and a projected perimeter of pi P / 4, and half of the faces are front faces. For a figure of
+ * area A' and perimeter P', the measure of the positions in which a square of side t in random
+ * orientation meets it is A' + 2 t P' / pi + t^2 (Blaschke). A box of surface B covers B / 4
+ * (Cauchy).
+ * @param tileSide side of a tile at the mesh's centre, in units of the mesh's radius.
  */
 double ExpectedEntriesPerTile(const BoundaryMeasure& boundary, double tileSide);
 
 /**
- * Lists of any length of the boundary faces by which rays of a tile of an image may enter the mesh,
- * from near to far. For shaders, whose coordinates about a ray are single-precision numbers.
+ * Lists, of any length, of the boundary faces by which rays of a tile of an image may enter the
+ * mesh, from near to far. They are made for shaders, whose coordinates about a ray are
+ * single-precision numbers.
  */
 class EntryTiles
 {
 public:
   /**
-   * Replaces the lists. False, with empty lists, if there would be more than 2^26 faces in them
-   * (256 MiB), which faces about the eye make.
-   * @param faces     the boundary that rays may enter by.
-   * @param tileSize  pixels along a tile's side.
+   * Replaces the lists. Returns false, with empty lists, if they would hold more than 2^26 faces
+   * (256 MiB), which happens if faces surround the eye.
+   * @param faces boundary by which rays may enter.
+   * @param tileSize side of a tile in pixels.
    */
   bool Build(const TetrahedralMesh& mesh, const std::vector<BoundaryFace>& faces,
     const FixedPointRays& rays, int tileSize, const RangeLoop& loop = SerialLoop);
 
   int GetNumberOfColumns() const { return this->Columns; }
-  /** Faces of the tile at column c of row r: [begin[r * columns + c], the next). */
+  /**
+   * Faces of the tile at column c of row r: [begin[r * columns + c], begin[r * columns + c + 1]).
+   */
   const std::vector<std::int32_t>& GetBegins() const { return this->Begins; }
   std::int64_t GetBytes() const
   {
@@ -64,8 +71,8 @@ public:
   /** Indices of faces. */
   const std::vector<std::int32_t>& GetFaces() const { return this->Faces; }
   /**
-   * By index of the face, a depth before which no ray enters by it; ascending along each list. Only
-   * of faces that are in a list.
+   * Depth in front of which no ray enters by a face, by index of the face; ascending along each
+   * list. Defined for faces that are in a list only.
    */
   const std::vector<float>& GetNearestDepths() const { return this->NearestDepths; }
 

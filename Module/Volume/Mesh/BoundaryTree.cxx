@@ -25,7 +25,9 @@ namespace
 
 constexpr float Infinity = std::numeric_limits<float>::infinity();
 
-/** Smallest float half extent whose box around `center` holds [lower, upper] in exact arithmetic.
+/**
+ * Smallest float half extent for which the box around `center` contains [lower, upper] in exact
+ * arithmetic.
  */
 float HalfExtent(float center, float lower, float upper)
 {
@@ -96,7 +98,7 @@ void BoundaryTree::BuildSubtree(
     const int axis =
       extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
     const std::size_t middle = first + (last - first) / 2;
-    // Ties by index: the tree is the same on every machine.
+    // Ties are broken by index, so that the tree is the same on every machine.
     std::nth_element(items.begin() + first, items.begin() + middle, items.begin() + last,
       [axis](const Item& a, const Item& b)
       {

@@ -14,8 +14,8 @@ namespace meniscus
 {
 
 /**
- * A bounding volume hierarchy over boundary faces, in preorder, for traversal without a stack: a
- * node that is hit is followed by the next node, one that is missed by its Skip.
+ * Bounding volume hierarchy over boundary faces, in preorder, for traversal without a stack: a node
+ * that is hit is followed by the next node, a node that is missed by its Skip.
  */
 class BoundaryTree
 {
@@ -25,9 +25,9 @@ public:
     /** Centre and half extents of the box, relative to the mesh's centre. */
     glm::vec3 Center;
     glm::vec3 Half;
-    /** The node that follows this node's subtree. */
+    /** Index of the node that follows this node's subtree. */
     std::int32_t Skip;
-    /** A leaf's face in GetFaces(); -1 for an inner node. */
+    /** Index of a leaf's face in GetFaces(); -1 for an inner node. */
     std::int32_t Face;
   };
 

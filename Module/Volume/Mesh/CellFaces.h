@@ -16,8 +16,9 @@ inline std::array<std::int32_t, 3> FaceVertices(const std::array<std::int32_t, 4
 }
 
 /**
- * Orientation of the ascending face opposite to vertex `face`, relative to the cell's: with the
- * cell's vertices positively oriented, the face's normal points out for face 0 and 2.
+ * Orientation of the face opposite vertex `face`, with ascending vertices, relative to the cell's
+ * orientation: if the cell's vertices are positively oriented, the face's normal points outwards
+ * for faces 0 and 2.
  */
 inline int FaceParity(int face)
 {

@@ -21,7 +21,7 @@ std::uint32_t CodeOf(MortonKey key)
   return static_cast<std::uint32_t>(key >> 32);
 }
 
-/** Hash of 30 bits; equal positions have the same, zeros of both signs included. */
+/** 30-bit hash of a position. Equal positions have equal hashes; zeros of both signs are equal. */
 std::uint32_t HashOf(const glm::dvec3& position)
 {
   std::uint64_t hash = 0;
@@ -36,7 +36,7 @@ std::uint32_t HashOf(const glm::dvec3& position)
   return static_cast<std::uint32_t>(hash >> 2) & 0x3FFFFFFFu;
 }
 
-/** Marks the duplicates among the keys [first, last), which have the same code. */
+/** Marks the duplicates among the keys [first, last), which all have the same code. */
 void MarkDuplicates(const std::vector<MortonKey>& keys, std::size_t first, std::size_t last,
   const std::function<Quad(std::size_t)>& verticesOf,
   std::vector<std::pair<Quad, std::size_t>>& cells, std::vector<std::uint8_t>& duplicate)
@@ -73,7 +73,7 @@ std::vector<std::int32_t> FindLowestCoincident(std::size_t count,
   std::iota(lowest.begin(), lowest.end(), 0);
   for (std::size_t i = 1; i < count; ++i)
   {
-    // Ascending in each run of a hash.
+    // Indices are ascending in each run of equal hashes.
     const std::size_t vertex = IndexOf(keys[i]);
     for (std::size_t other = i; other > 0 && CodeOf(keys[other - 1]) == CodeOf(keys[i]); --other)
     {
@@ -100,7 +100,7 @@ std::size_t RemoveDuplicateCells(std::vector<MortonKey>& keys,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
       std::vector<std::pair<Quad, std::size_t>> cells;
-      // A run belongs to the block that it begins in.
+      // A run belongs to the block in which it begins.
       for (std::size_t i = first; i < last; ++i)
       {
         std::size_t end = i + 1;

@@ -10,7 +10,7 @@ namespace meniscus
 
 class TetrahedralMesh;
 
-/** Longest edge of a cell, in units of the mesh's radius; 0 without cells. */
+/** Length of the longest edge of a cell, in units of the mesh's radius; 0 without cells. */
 double ComputeLongestEdge(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
 
 }

@@ -16,9 +16,9 @@ namespace meniscus
 namespace
 {
 
-/** Longest gradient: its square is below the largest float, 3.4e38. */
+/** Longest gradient. Its square is below the largest float, 3.4e38. */
 constexpr double LongestGradient = 1.0e+18;
-/** Largest change of a scalar: its products with areas and volumes stay finite. */
+/** Largest change of a scalar. Its products with areas and volumes stay finite. */
 constexpr double LargestChange = 1.0e+150;
 
 /** Gradient of a cell times its signed volume. */
@@ -28,7 +28,7 @@ struct WeightedGradient
   /** Six times the volume. */
   double Volume;
 
-  /** Whether there is a gradient. */
+  /** True if the cell has a gradient. */
   bool IsKnown() const
   {
     return this->Volume != 0.0 && !std::isnan(this->Sum.x + this->Sum.y + this->Sum.z);
@@ -60,7 +60,8 @@ glm::vec3 Rounded(const glm::dvec3& gradient)
 {
   const glm::dvec3 size = glm::abs(gradient);
   const double largest = std::max({ size.x, size.y, size.z });
-  // Divided by its largest component first: squares of large ones would overflow.
+  // The vector is divided by its largest component first: squares of large components would
+  // overflow.
   const double length = largest > 0.0 ? largest * glm::length(gradient / largest) : 0.0;
   return glm::vec3(length > LongestGradient ? gradient * (LongestGradient / length) : gradient);
 }

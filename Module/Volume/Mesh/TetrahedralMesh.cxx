@@ -34,7 +34,7 @@ glm::dvec3 PointAt(const TetrahedraView& input, std::size_t index)
   return { p[0], p[1], p[2] };
 }
 
-/** Sorts without branches, which no predictor would foresee. */
+/** Sorts four values without branches, which no branch predictor would foresee. */
 void SortFour(std::array<std::int32_t, 4>& values)
 {
   constexpr int pairs[5][2] = { { 0, 1 }, { 2, 3 }, { 0, 2 }, { 1, 3 }, { 1, 2 } };
@@ -51,7 +51,7 @@ bool IsFinite(const glm::dvec3& p)
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/** What a table held before is memory for the next, unless it is far too much. */
+/** Resizes a table. Its memory is reused unless it is far too large. */
 template <typename T>
 void ResizeTable(std::vector<T>& table, std::size_t size)
 {
@@ -62,7 +62,7 @@ void ResizeTable(std::vector<T>& table, std::size_t size)
   table.resize(size);
 }
 
-/** Turns the counts of blocks into where each block's part starts; returns the sum. */
+/** Replaces the counts of blocks by the start of each block's part; returns the sum. */
 std::size_t CountsToStarts(std::vector<std::size_t>& counts)
 {
   std::size_t next = 0;
@@ -75,7 +75,7 @@ std::size_t CountsToStarts(std::vector<std::size_t>& counts)
 
 }
 
-/** The tables that only building needs. */
+/** Tables that are needed only while the mesh is built. */
 class TetrahedralMesh::Builder
 {
 public:
@@ -108,11 +108,12 @@ private:
   const TetrahedraView& Input;
   const RangeLoop& Loop;
   /**
-   * Per input cell: its points, then its vertices in ascending order; -1 first if rejected. They
-   * lie in links, which come to be after them: memory touched first costs more than most of this.
+   * Points, and later the vertices in ascending order, of each input cell; the first is -1 if the
+   * cell is rejected. They are stored in the memory of the links, which are filled later: touching
+   * new memory for the first time costs more than most of the work here.
    */
   Quad& CornersOf(std::size_t inputCell) { return this->Mesh.Cells[inputCell].Links; }
-  /** Per block of input cells: how many are accepted in the blocks before it. */
+  /** Number of accepted cells in the blocks before each block of input cells. */
   std::vector<std::size_t> CellStarts;
   std::size_t NumberOfCells = 0;
   std::vector<std::uint8_t> Finite;
@@ -140,7 +141,7 @@ void TetrahedralMesh::ForgetAllButTables()
 //------------------------------------------------------------------------------
 MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildControl& control)
 {
-  // A vertex index is 31 bits, and so is a link.
+  // A vertex index has 31 bits, and so has a link.
   if (input.NumberOfCells > MaximumNumberOfCells ||
     input.NumberOfPoints > std::numeric_limits<std::int32_t>::max())
   {
@@ -166,7 +167,7 @@ MeshStatus TetrahedralMesh::Build(const TetrahedraView& input, const MeshBuildCo
     this->Rejected = rejected;
     return MeshStatus::Empty;
   }
-  // Fractions of the time, as measured for meshes of 200 thousand cells.
+  // Fractions of the time, measured for meshes of 200 thousand cells.
   if (!goesOn(0.1))
   {
     return MeshStatus::Aborted;
@@ -266,7 +267,8 @@ void TetrahedralMesh::Builder::ReadBlock(const Id* cells, std::size_t first, std
       for (int i = 0; i < 4; ++i)
       {
         corners[i] = static_cast<std::int32_t>(ids[i]);
-        // Reading first leaves the cache lines of points that are used already to all threads.
+        // Reading first avoids writes to cache lines of points that are already marked, so that all
+        // threads can share these lines.
         if (!this->Used[ids[i]].load(std::memory_order_relaxed))
         {
           this->Used[ids[i]].store(1, std::memory_order_relaxed);
@@ -339,8 +341,8 @@ std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
 
 //------------------------------------------------------------------------------
 /**
- * Replaces the code of each point by the lowest of the centres of its cells. Where cells share no
- * points, those of a cell then lie side by side in memory.
+ * Replaces the code of each point by the lowest code of the centres of its cells. In meshes whose
+ * cells share no points, the points of a cell are then adjacent in memory.
  */
 void TetrahedralMesh::Builder::TakeCodesOfCells(
   const MortonCurve& curve, std::vector<MortonKey>& keys)
@@ -408,7 +410,7 @@ void TetrahedralMesh::Builder::NumberVertices()
 }
 
 //------------------------------------------------------------------------------
-/** Removes the keys of cells that have the same four vertices as one before them in the input. */
+/** Removes the keys of cells that have the same four vertices as an earlier cell of the input. */
 void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<MortonKey>& keys)
 {
   std::vector<std::int32_t> lowest;
@@ -450,7 +452,7 @@ void TetrahedralMesh::Builder::NumberCells()
         {
           continue;
         }
-        // Within +-2^32, as positions are within +-2^30.
+        // The sum is within +-2^32, since positions are within +-2^30.
         std::int64_t sum[3] = { 0, 0, 0 };
         for (std::int32_t& corner : corners)
         {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cells of a TetrahedralMesh are active, and the boundary of those.
+// Active cells of a TetrahedralMesh, and their boundary.
 #include "Common/BlockLoop.h"
 #include "Volume/Mesh/CellFaces.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -16,7 +16,7 @@ namespace meniscus
 namespace
 {
 
-/** What a block of cells adds to the sums over all. */
+/** Contribution of a block of cells to the totals. */
 struct BlockCount
 {
   std::int64_t Active = 0;
@@ -26,7 +26,7 @@ struct BlockCount
 
 }
 
-/** The scalars that a cell can show. */
+/** Range of the scalars that a cell can show. */
 struct TetrahedralMesh::ScalarRange
 {
   float Lowest;
@@ -43,7 +43,7 @@ bool TetrahedralMesh::UpdateActiveCells(
     {
       const auto& v = this->Cells[c].Vertices;
       const float s[4] = { scalars[v[0]], scalars[v[1]], scalars[v[2]], scalars[v[3]] };
-      // The sum of normalised scalars is NaN if one of them is.
+      // The sum of the scalars is NaN if one of them is.
       return ScalarRange{ std::min(std::min(s[0], s[1]), std::min(s[2], s[3])),
         std::max(std::max(s[0], s[1]), std::max(s[2], s[3])),
         !std::isnan(s[0] + s[1] + s[2] + s[3]) };
@@ -67,7 +67,7 @@ bool TetrahedralMesh::UpdateActiveCells(const std::vector<float>& cellScalars, C
       {
         if (link != NoNeighbor)
         {
-          // fmin and fmax pass over a NaN: to a cell without a value there is no jump.
+          // fmin and fmax ignore a NaN: there is no jump to a cell without a value.
           const float across = cellScalars[(link < NoNeighbor ? MarkedLink(link) : link) / 4];
           range.Lowest = std::fmin(range.Lowest, across);
           range.Highest = std::fmax(range.Highest, across);
@@ -173,7 +173,7 @@ void TetrahedralMesh::CollectBoundary(const RangeLoop& loop)
   const auto isBoundary = [this](std::size_t c, int face)
   { return std::abs(this->Orientation[c]) == 1 && this->Cells[c].Links[face] < 0; };
 
-  // Counted before they are written, so that the order is that of the cells on any threads.
+  // Cells are counted before they are written, so that their order does not depend on the threads.
   std::vector<std::size_t> starts(NumberOfBlocks(this->Cells.size()) + 1, 0);
   ForEachBlock(this->Cells.size(), loop,
     [&](std::size_t block, std::size_t first, std::size_t last)

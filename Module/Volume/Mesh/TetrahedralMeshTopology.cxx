@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// How the cells of a TetrahedralMesh hang together: links across faces, and orientation.
+// Topology of the cells of a TetrahedralMesh: links across faces, and orientation.
 #include "Common/BlockLoop.h"
 #include "Volume/Mesh/CellFaces.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
@@ -18,7 +18,7 @@ namespace meniscus
 namespace
 {
 
-/** A multiple of the signed volume of the ascending vertices. */
+/** A multiple of the signed volume of the cell with ascending vertices. */
 double SignedVolume(const std::vector<glm::ivec3>& positions, const TetrahedralMesh::Cell& cell)
 {
   const auto& v = cell.Vertices;
@@ -29,8 +29,8 @@ double SignedVolume(const std::vector<glm::ivec3>& positions, const TetrahedralM
 }
 
 /**
- * All faces, grouped by lowest vertex. Three faces of a cell have its lowest vertex, the fourth
- * begins with the second lowest. Threads file them in any order.
+ * All faces, grouped by their lowest vertex. Three faces of a cell contain its lowest vertex; the
+ * fourth begins with the second lowest. Within a group the order depends on the threads.
  */
 class FaceFile
 {
@@ -61,7 +61,7 @@ public:
       this->Ends[v].store(next, std::memory_order_relaxed);
       next += count;
     }
-    // Each group's start moves to its end, while it fills.
+    // The start of each group moves to its end while the group is filled.
     this->ForEachCell(cells.size(), loop,
       [&](std::size_t c)
       {
@@ -72,7 +72,7 @@ public:
       });
   }
 
-  /** 2 * cell, and 1 more if the vertex is the second lowest. */
+  /** Entries are 2 * cell, plus 1 if the vertex is the second lowest of the cell. */
   const std::uint32_t* Begin(std::size_t vertex) const
   {
     return this->Entries.get() +
@@ -101,7 +101,7 @@ private:
   std::unique_ptr<std::uint32_t[]> Entries;
 };
 
-/** Links the faces of a group after group, through a hash table of the two other vertices. */
+/** Links the faces of one group after another, using a hash table of the two other vertices. */
 class FaceMatcher
 {
 public:
@@ -112,7 +112,7 @@ public:
 
   void MatchGroup(const std::uint32_t* first, const std::uint32_t* last)
   {
-    // A cell has up to three faces here; at most half of the slots are filled.
+    // A cell has up to three faces here; the table has twice as many slots.
     const std::size_t most = 6 * static_cast<std::size_t>(last - first);
     if (most > this->Slots.size())
     {
@@ -146,7 +146,7 @@ private:
   {
     std::uint64_t Others = 0;
     std::uint32_t Group = 0;
-    /** The first face of these vertices, and the second or NoNeighbor. */
+    /** First face with these vertices, and the second one or NoNeighbor. */
     std::int32_t First = 0;
     std::int32_t Second = 0;
   };
@@ -174,7 +174,10 @@ private:
     }
   }
 
-  /** Two faces are linked, three or more are not. */
+  /**
+   * Links the face to an earlier one with the same vertices; three or more such faces are not
+   * linked.
+   */
   void Meet(Slot& slot, std::int32_t cellFace)
   {
     if (slot.Second == TetrahedralMesh::NoNeighbor)
@@ -197,11 +200,11 @@ private:
 
   std::vector<TetrahedralMesh::Cell>& Cells;
   std::vector<Slot> Slots;
-  /** Slots of other groups are empty. */
+  /** Number of the current group. Slots with another number are empty. */
   std::uint32_t Group = 0;
 };
 
-/** Sets of patches that are known to be oriented alike or oppositely, joined one by one. */
+/** Union-find over patches whose relative orientation (equal or opposite) is known. */
 class SignedSets
 {
 public:
@@ -212,7 +215,7 @@ public:
     std::iota(this->Parents.begin(), this->Parents.end(), 0);
   }
 
-  /** One patch more. */
+  /** Adds one patch. */
   std::int32_t Add()
   {
     this->Parents.push_back(static_cast<std::int32_t>(this->Parents.size()));
@@ -221,7 +224,7 @@ public:
   }
   std::size_t GetSize() const { return this->Parents.size(); }
 
-  /** The set of a patch, and the patch's sign in it. */
+  /** Returns the set of a patch, and the patch's sign in it. */
   std::int32_t Find(std::int32_t patch, int& sign)
   {
     sign = 1;
@@ -243,7 +246,9 @@ public:
     return root;
   }
 
-  /** Notes that sign(a) * sign(b) is `product`; false if the opposite is known. */
+  /**
+   * Records that sign(a) * sign(b) is `product`. Returns false if the opposite is known already.
+   */
   bool Join(std::int32_t a, std::int32_t b, int product)
   {
     int signA = 1;
@@ -263,14 +268,15 @@ public:
 
 private:
   std::vector<std::int32_t> Parents;
-  /** Relative to the parent. */
+  /** Sign relative to the parent. */
   std::vector<std::int8_t> Signs;
 };
 
 /**
- * Flood fill in two stages: within blocks of cells, side by side, then from block to block. So the
- * result does not depend on the number of threads. Within a block, a cell takes the orientation of
- * a neighbour before it, and patches that meet later are joined: no cell is visited out of order.
+ * Flood fill in two stages: within blocks of cells in parallel, then from block to block, so that
+ * the result does not depend on the number of threads. Within a block, a cell takes the orientation
+ * of a neighbour with a smaller index, and patches that meet later are joined, so cells are visited
+ * in order.
  */
 class Orienter
 {
@@ -297,18 +303,21 @@ public:
   }
 
 private:
-  /** A block's patches (parts connected within it), and its links to later blocks. */
+  /** Patches of a block (parts connected within it), and its links to later blocks. */
   struct Block
   {
     std::vector<double> Volumes;
-    /** Sums of the volumes' sizes. */
+    /** Sum of the magnitudes of the cells' volumes, by patch. */
     std::vector<double> Sizes;
     std::vector<std::int32_t> LinksOut;
     std::int64_t CutLinks = 0;
     std::int32_t FirstPatch = 0;
   };
 
-  /** The product of two linked cells' orientations: they see their face from opposite sides. */
+  /**
+   * Product of the orientations of two linked cells, which lie on opposite sides of their common
+   * face.
+   */
   static int Product(int face, std::int32_t link)
   {
     return -FaceParity(face) * FaceParity(link % 4);
@@ -328,7 +337,7 @@ private:
     {
       this->TakeOrientation(block, sets, static_cast<std::int32_t>(c), first, last);
     }
-    // Patches that were joined become one.
+    // Joined patches become one.
     std::vector<std::int32_t> numbers(sets.GetSize(), -1);
     std::vector<std::int8_t> signs(sets.GetSize());
     std::int32_t next = 0;
@@ -353,7 +362,7 @@ private:
     }
   }
 
-  /** Orients a cell like its neighbours before it; cuts links that none can satisfy. */
+  /** Orients a cell like its earlier neighbours; cuts links that contradict. */
   void TakeOrientation(
     Block& block, SignedSets& sets, std::int32_t cell, std::size_t first, std::size_t last)
   {
@@ -433,8 +442,8 @@ private:
   }
 
   /**
-   * Makes the volume of every component positive, and takes those apart whose volumes cancel.
-   * Returns the number of links cut.
+   * Makes the volume of every component positive, and takes apart the components whose volumes
+   * cancel. Returns the number of links cut.
    */
   std::int64_t ApplySigns(
     SignedSets& sets, const std::vector<double>& volumes, const std::vector<double>& sizes)
@@ -445,7 +454,8 @@ private:
     for (std::size_t patch = 0; patch < volumes.size(); ++patch)
     {
       int sign = 1;
-      // Not in one expression: the right side of += comes before the left one, which sets the sign.
+      // Two statements are needed: the right side of += may be evaluated before the left side,
+      // which sets the sign.
       const std::int32_t set = sets.Find(static_cast<std::int32_t>(patch), sign);
       volumeOfSet[set] += sign * volumes[patch];
       sizeOfSet[set] += sizes[patch];
@@ -474,10 +484,11 @@ private:
   }
 
   /**
-   * A part of the mesh that is filled twice, with different cells of the same points, hangs
-   * together at the faces that both fillings have outside: as one, half of its cells would be
-   * inverted, and it would have no boundary. Its cells are oriented one by one, and links between
-   * cells on the same side of their face are cut. Returns the number of links cut.
+   * A part of the mesh that is filled twice, with different cells of the same points, is connected
+   * through the faces that both fillings have on the outside. Oriented as one component, half of
+   * its cells would be inverted, and it would have no boundary. Its cells are therefore oriented
+   * one by one, and links between cells on the same side of their common face are cut. Returns the
+   * number of links cut.
    */
   std::int64_t TakeApart(const std::vector<std::uint8_t>& cancels)
   {
@@ -508,8 +519,8 @@ private:
   }
 
   /**
-   * Share of a component's volume that rounding may leave of volumes that cancel: 2^-52 of each of
-   * up to 2^29 cells.
+   * Fraction of a component's volume that may remain by rounding where volumes cancel: 2^-52 for
+   * each of up to 2^29 cells.
    */
   static constexpr double NegligibleVolume = 1.0 / (1 << 23);
 
@@ -517,7 +528,7 @@ private:
   std::vector<TetrahedralMesh::Cell>& Cells;
   std::vector<std::int8_t>& Orientation;
   const RangeLoop& Loop;
-  /** Number of each cell's patch within its block. */
+  /** Index of each cell's patch within its block. */
   std::vector<std::int32_t> PatchOf;
   std::vector<Block> Blocks;
 };

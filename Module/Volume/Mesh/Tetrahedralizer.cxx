@@ -10,18 +10,20 @@ namespace meniscus
 namespace
 {
 
-// Faces as their number of points and their points in the cell.
+// Faces of the cells: the number of points of each face, followed by its points as indices in the
+// cell.
 constexpr int HexahedronFaces[] = { 4, 0, 4, 7, 3, 4, 1, 2, 6, 5, 4, 0, 1, 5, 4, 4, 3, 7, 6, 2, 4,
   0, 3, 2, 1, 4, 4, 5, 6, 7 };
 constexpr int WedgeFaces[] = { 3, 0, 1, 2, 3, 3, 5, 4, 4, 0, 3, 4, 1, 4, 1, 4, 5, 2, 4, 2, 5, 3,
   0 };
 constexpr int PyramidFaces[] = { 4, 0, 3, 2, 1, 3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 3, 4, 3, 3, 0, 4 };
 
-// The tetrahedra at the corners of a quadratic one, and the octahedron between about its axis 4-9.
+// Four tetrahedra at the corners of a quadratic tetrahedron, and the four parts of the octahedron
+// between them, around its axis 4-9.
 constexpr int QuadraticParts[8][4] = { { 0, 4, 6, 7 }, { 1, 5, 4, 8 }, { 2, 6, 5, 9 },
   { 3, 7, 9, 8 }, { 4, 9, 5, 6 }, { 4, 9, 6, 7 }, { 4, 9, 7, 8 }, { 4, 9, 8, 5 } };
 
-// The tetrahedra at the corners of quadratic cells, and the faces of what is between them.
+// Tetrahedra at the corners of quadratic cells, and the faces of the remaining core.
 constexpr int HexahedronCorners[8][4] = { { 0, 8, 11, 16 }, { 1, 9, 8, 17 }, { 2, 10, 9, 18 },
   { 3, 11, 10, 19 }, { 4, 15, 12, 16 }, { 5, 12, 13, 17 }, { 6, 13, 14, 18 }, { 7, 14, 15, 19 } };
 constexpr int HexahedronCore[] = { 3, 8, 11, 16, 3, 9, 8, 17, 3, 10, 9, 18, 3, 11, 10, 19, 3, 15,
@@ -35,7 +37,7 @@ constexpr int PyramidCorners[4][4] = { { 0, 5, 8, 9 }, { 1, 6, 5, 10 }, { 2, 7, 
   { 3, 8, 7, 12 } };
 constexpr int PyramidCore[] = { 3, 5, 8, 9, 3, 6, 5, 10, 3, 7, 6, 11, 3, 8, 7, 12, 3, 5, 10, 9, 3,
   6, 11, 10, 3, 7, 12, 11, 3, 8, 9, 12, 4, 5, 6, 7, 8, 4, 9, 10, 11, 12 };
-// The top of a quadratic pyramid as a pyramid; the wedges of a wedge with linear sides.
+// Top of a quadratic pyramid as a pyramid, and the wedges of a wedge with linear sides.
 constexpr int PyramidTop[5] = { 9, 10, 11, 12, 4 };
 constexpr int LinearWedges[4][6] = { { 0, 6, 8, 3, 9, 11 }, { 1, 7, 6, 4, 10, 9 },
   { 2, 8, 7, 5, 11, 10 }, { 6, 7, 8, 9, 10, 11 } };
@@ -109,7 +111,7 @@ void Tetrahedralizer::AddShape(const std::int64_t* points, const int (&faces)[Si
 //------------------------------------------------------------------------------
 void Tetrahedralizer::AddTetrahedron(const std::int64_t* points)
 {
-  // As it is: a mesh rejects and counts what is wrong with it.
+  // Added unchanged: the mesh rejects and counts invalid tetrahedra.
   this->Tetrahedra.insert(this->Tetrahedra.end(), points, points + 4);
 }
 

@@ -11,17 +11,18 @@ namespace meniscus
 {
 
 /**
- * Tetrahedra in place of other cells, without new points, and the same on both sides of a face.
+ * Splits other cells into tetrahedra, without new points and with matching triangles on both sides
+ * of each face.
  *
- * Each cell is pulled to its point of the smallest number: that point with the triangles of all
- * faces that do not contain it; each face is a fan from its own smallest point. So a face is split
- * as its points' numbers say, whatever the cell (J. Dompierre, P. Labbe, M.-G. Vallet, R. Camarero,
- * "How to Subdivide Pyramids, Prisms, and Hexahedra into Tetrahedra", 1999, have the rule for
- * quadrilateral faces). Faces need not be plane. A cell that is not convex may get inverted
- * tetrahedra, which sum up to its volume. Tetrahedra with a repeated point, as of a hexahedron with
- * merged corners, have no volume and are left away. No tetrahedron of a convex cell with plane
- * faces is flat, also if it has points on its edges: flat ones would come between the cells of a
- * face.
+ * Each cell is split by pulling its lowest-numbered point: that point is joined to the triangles of
+ * all faces that do not contain it, and each face is a fan from its own lowest-numbered point. The
+ * splitting of a face therefore depends on the numbers of its points alone, whatever the cell (J.
+ * Dompierre, P. Labbe, M.-G. Vallet, R. Camarero, "How to Subdivide Pyramids, Prisms, and Hexahedra
+ * into Tetrahedra", 1999, give this rule for quadrilateral faces). Faces need not be planar. A cell
+ * that is not convex may yield inverted tetrahedra, whose signed volumes still add up to its
+ * volume. Tetrahedra with a repeated point, for example of a hexahedron with merged corners, have
+ * no volume and are omitted. No tetrahedron of a convex cell with planar faces is flat, even if the
+ * cell has points on its edges: flat tetrahedra would separate the cells on both sides of a face.
  */
 class Tetrahedralizer
 {
@@ -34,23 +35,26 @@ public:
   void AddPyramid(const std::int64_t* points);
   /** @{ */
   /**
-   * Cells with points on their edges. Their corners are cut off, so a triangle gives 4 triangles
-   * and a quadrilateral 4 and that between them, which is split as any; what is left is pulled like
-   * a cell.
+   * Cells with points on their edges. Their corners are cut off first: a triangle yields 4
+   * triangles, and a quadrilateral yields 4 triangles and the quadrilateral between them, which is
+   * split like any other. The remaining core is pulled like a cell.
    */
   void AddQuadraticTetrahedron(const std::int64_t* points);
   void AddQuadraticHexahedron(const std::int64_t* points);
   void AddQuadraticWedge(const std::int64_t* points);
   void AddQuadraticPyramid(const std::int64_t* points);
   /** @} */
-  /** A wedge with points on the edges of its triangles alone: 4 wedges side by side. */
+  /** A wedge with points on the edges of its triangles only: split into 4 adjacent wedges. */
   void AddQuadraticLinearWedge(const std::int64_t* points);
 
-  /** A cell given by its faces: for each the number of points, then the points, around the face. */
+  /**
+   * A cell given by its faces: for each, the number of points and then the points in order around
+   * the face.
+   */
   void AddPolyhedron(const std::int64_t* faces, std::size_t numberOfFaces);
   /**
-   * The same, pulled to a point of the caller's choice, in the cell or one of its faces: with all
-   * triangles that do not contain it.
+   * As AddPolyhedron, but pulled to a point chosen by the caller, in the cell or in one of its
+   * faces: joined to all triangles that do not contain it.
    */
   void AddCone(std::int64_t apex, const std::int64_t* faces, std::size_t numberOfFaces);
 

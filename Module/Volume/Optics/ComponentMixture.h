@@ -6,16 +6,16 @@
 namespace meniscus
 {
 
-/** Roles of the components of scalars in colour and opacity, as vtkVolumeProperty has them. */
+/** Use of the components of the scalars for colour and opacity, as defined by vtkVolumeProperty. */
 enum class ComponentMixture
 {
-  /** There is one scalar, which gives both. */
+  /** There is one scalar, which determines both. */
   None,
-  /** Each has a colour and an opacity; attenuations and emissions add up. */
+  /** Each component has its own colour and opacity; attenuations and emissions are added. */
   Independent,
-  /** The first of two gives the colour, the second the opacity. */
+  /** Of two components, the first determines the colour and the second the opacity. */
   ColorAndOpacity,
-  /** The first three are the colour, the fourth gives the opacity. */
+  /** Of four components, the first three are the colour and the fourth determines the opacity. */
   RedGreenBlueOpacity
 };
 

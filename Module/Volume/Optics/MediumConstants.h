@@ -20,8 +20,8 @@ namespace meniscus
  * Fitted for all densities that are nowhere negative: a in [0, 2 t].
  *
  * Largest absolute errors with these floats, in the product with t for Absorbed: Thin, for
- * t <= 1/8, 4.1e-9 and 3.8e-8; Thick, for t <= 1, 1.6e-8 and 2.9e-7. scripts/fit_polynomials.py fits
- * the polynomials and measures these errors.
+ * t <= 1/8, 4.1e-9 and 3.8e-8; Thick, for t <= 1, 1.6e-8 and 2.9e-7. They are measured by
+ * scripts/fit_polynomials.py, which also fits the polynomials.
  */
 struct AbsorptionFit
 {

@@ -16,15 +16,15 @@ namespace
 {
 
 /**
- * Up to this optical depth d a segment's colour is nearly that without attenuation in itself: with
- * linear colour from 0 to 1 and constant attenuation it is off by d^2 / 12, here 2e-5.
+ * Largest optical depth d of a segment whose absorption of its own emission is neglected: for
+ * linear colour from 0 to 1 and constant attenuation the colour's error is d^2 / 12, here 2e-5.
  */
 constexpr double ShallowDepth = 1.0 / 64.0;
 /** Optical depth of the first length above 0, if there are enough lengths. */
 constexpr double FirstDepth = 1.0 / 16.0;
-/** The doubling begins with segments of this depth: off by d^2 / 12 = 8e-8. */
+/** Optical depth of the segments from which the doubling starts: its error is d^2 / 12 = 8e-8. */
 constexpr double SeedDepth = 1.0 / 1024.0;
-/** Keeps products with lengths finite. */
+/** Limit that keeps products with lengths finite. */
 constexpr double LargestDepth = 1.0e+30;
 
 double AttenuationAt(const TransferFunctionInterval& interval, double scalar)
@@ -43,13 +43,13 @@ glm::dvec3 EmissionAt(const TransferFunctionInterval& interval, double scalar)
   return AttenuationAt(interval, scalar) * ColorAt(interval, scalar);
 }
 
-/** Opacity of a length of constant or mean attenuation. */
+/** Opacity of a segment with constant or mean attenuation. */
 double Opacity(double attenuation, double length)
 {
   return -std::expm1(-std::min(attenuation * length, LargestDepth));
 }
 
-/** The same function of (scalar - middle) * perHalfRange. */
+/** The same function with (scalar - middle) * perHalfRange as its argument. */
 std::vector<TransferFunctionInterval> Moved(
   std::vector<TransferFunctionInterval> intervals, double middle, double perHalfRange)
 {
@@ -68,7 +68,7 @@ std::vector<TransferFunctionInterval> Moved(
   return intervals;
 }
 
-/** Whether every scalar in [-1, 1] that can be seen has the same colour. */
+/** True if all visible scalars in [-1, 1] have the same colour. */
 bool HasOneColor(const std::vector<TransferFunctionInterval>& intervals)
 {
   const TransferFunctionInterval* first = nullptr;
@@ -126,8 +126,8 @@ void PreIntegrationTable::SampleFunction(const std::vector<TransferFunctionInter
   for (int i = 0; i < count; ++i)
   {
     const double to = scalarOf(i);
-    // Attenuation is linear in an interval, its product with colour quadratic: the rule of the
-    // middle and Simpson's are exact.
+    // Within an interval attenuation is linear and its product with colour quadratic, so the
+    // midpoint rule and Simpson's rule are exact.
     const auto add = [&](double end)
     {
       const TransferFunctionInterval& interval = intervals[at];
@@ -197,7 +197,7 @@ PreIntegrationTable::Slice PreIntegrationTable::ShortSegments(const RangeLoop& l
           const Sample& front = this->Samples[2 * f];
           const Sample& back = this->Samples[2 * b];
           const double depth = back.Depth - front.Depth;
-          // What cannot be seen has a colour too: that of the middle, for interpolation.
+          // Entries without opacity also need a colour, for interpolation: that of the middle.
           slice[static_cast<std::size_t>(b) * count + f] = depth != 0.0
             ? glm::vec3((back.Emission - front.Emission) / depth)
             : glm::vec3(this->Samples[f + b].Color);
@@ -222,7 +222,7 @@ PreIntegrationTable::Slice PreIntegrationTable::DoubleLength(
       {
         for (int f = 0; f < count; ++f)
         {
-          const int middle = f + b; // among the samples, of which there are two to a scalar
+          const int middle = f + b; // index among the samples, of which there are two per scalar
           const int below = middle / 2;
           const int above = below + middle % 2;
           const double front = Opacity(this->MeanAttenuation(2 * f, middle), 0.5 * length);

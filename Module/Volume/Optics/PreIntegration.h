@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Pre-integrated ray segments: a table over the scalars at both ends and the length, after
- * M. Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral Meshes"
- * (2003), Eqs. 3 and 4.
+ * Pre-integrated ray segments: a table over the scalars at both ends and the length, after M.
+ * Weiler, M. Kraus, M. Merz, T. Ertl, "Hardware-Based Ray Casting for Tetrahedral Meshes" (2003),
+ * Eqs. 3 and 4.
  *
  * Opacity does not need the length as a dimension: it is 1 - exp(-length * mean attenuation), and
- * the mean depends on the two scalars only. What is tabulated over the length is the segment's
- * colour divided by its opacity. Where that does not depend on the length (one colour, or segments
- * so short that what they absorb of themselves can be neglected) the table has two dimensions.
+ * the mean depends on the two scalars only. The table over the length holds the segment's colour
+ * divided by its opacity. If that does not depend on the length (one colour, or segments so short
+ * that their self-absorption can be neglected), the table has two dimensions.
  *
- * It is made incrementally, as the paper's, but by halves and not by steps of the shortest length:
- * a segment consists of two of half the length. So errors of interpolation add up over the
- * logarithm of the number of lengths. The lengths are a geometric sequence, as cells differ by
- * factors, and begin at 0.
+ * It is computed incrementally, as in the paper, but by doubling instead of steps of the shortest
+ * length: a segment consists of two segments of half its length. Errors of interpolation therefore
+ * add up over the logarithm of the number of lengths only. The lengths are a geometric sequence
+ * that begins at 0, because cell sizes differ by factors.
  */
 #ifndef meniscus_Volume_Optics_PreIntegration_h
 #define meniscus_Volume_Optics_PreIntegration_h
@@ -33,37 +33,39 @@ class PreIntegrationTable
 {
 public:
   /**
-   * @param function   intervals of the transfer function, in normalised scalars.
-   * @param longest    length of the longest segment, in the unit of the attenuation; > 0.
-   * @param scalars    samples of the scalar range, >= 2.
-   * @param lengths    samples of the length, >= 1; 1 neglects what a segment absorbs of itself.
-   * @param range      of scalars; at its ends and beyond, the function is taken as constant.
+   * @param function intervals of the transfer function, in normalised scalars.
+   * @param longest length of the longest segment, in the unit of the attenuation; > 0.
+   * @param scalars number of samples of the scalar range, >= 2.
+   * @param lengths number of samples of the length, >= 1; 1 neglects the self-absorption of
+   *   segments.
+   * @param range range of scalars; at its ends and outside of it, the function is taken as
+   *   constant.
    */
   void Build(const std::vector<TransferFunctionInterval>& function, double longest, int scalars,
     int lengths, const RangeLoop& loop = SerialLoop, const ScalarRange& range = ScalarRange());
 
-  /** A scalar has the place (scalar - middle) * perHalfRange in the table, in [-1, 1]. */
+  /** The table is indexed by (scalar - middle) * perHalfRange, in [-1, 1]. */
   double GetMiddle() const { return this->Middle; }
   double GetPerHalfRange() const { return this->PerHalfRange; }
 
   int GetNumberOfScalars() const { return this->Scalars; }
-  /** As many as asked for, or 1 where one is as good. */
+  /** Number of lengths as requested, or 1 if the colour does not depend on the length. */
   int GetNumberOfLengths() const { return this->Lengths; }
   double GetLongest() const { return this->Longest; }
-  /** The first length above 0, and how many there are until its double. */
+  /** The first length above 0, and the number of lengths from it to its double. */
   double GetShortest() const { return this->Shortest; }
   int GetLengthsPerOctave() const { return this->LengthsPerOctave; }
   /** The k-th length. */
   double GetLength(int k) const;
 
   /**
-   * Colour divided by opacity, then the mean attenuation: 4 numbers for each scalar at the front,
-   * within each scalar at the back, within each length.
+   * Colour divided by opacity, followed by the mean attenuation: 4 numbers for each scalar at the
+   * front, nested in the scalars at the back, nested in the lengths.
    */
   const std::vector<float>& GetValues() const { return this->Values; }
 
 private:
-  /** One length: colour divided by opacity, front scalars within back scalars. */
+  /** Values for one length: colour divided by opacity, front scalars nested in back scalars. */
   using Slice = std::vector<glm::vec3>;
 
   void SampleFunction(const std::vector<TransferFunctionInterval>& intervals);
@@ -75,8 +77,8 @@ private:
   void Store(int length, const Slice& slice, const RangeLoop& loop);
 
   /**
-   * At 2 Scalars - 1 places, so that a middle of two samples is one of them: attenuation, colour,
-   * and integrals up to there of attenuation and of attenuation times colour.
+   * Samples at 2 Scalars - 1 places, so that the middle of two scalars is one of them: attenuation,
+   * colour, and the integrals up to that place of attenuation and of attenuation times colour.
    */
   struct Sample
   {

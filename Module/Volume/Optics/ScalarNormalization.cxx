@@ -13,27 +13,32 @@ namespace
 
 constexpr double Largest = std::numeric_limits<double>::max();
 
-/** Size of the sample: a share of 1/64 is 16 of them, known to a quarter. */
+/**
+ * Size of the sample. A fraction of 1/64 is 16 of its elements, which is known to within a quarter.
+ */
 constexpr std::size_t SampleSize = 1024;
 constexpr std::size_t SpacingShare = 64;
 
 /**
- * Roundoff of a normalised scalar is 2^-24 of its distance from the offset. Up to this many widths
- * of a change away it is 1.5e-5 of what changes, 1/500 of two levels of 255.
+ * Largest accepted cost. The rounding error of a normalised scalar is 2^-24 of its distance from
+ * the offset. At a distance of this many widths of a change it is 1.5e-5 of the change, 1/500 of
+ * the step between two of 255 levels.
  */
 constexpr double LargestCost = 256.0;
-/** A renewed normalisation costs an upload of all scalars: it has to be so much better. */
+/**
+ * Improvement factor from which a new normalisation is accepted: it costs an upload of all scalars.
+ */
 constexpr double WorthwhileGain = 16.0;
-/** Cost of a width that far scalars lose, in those units: all of it. */
+/** Cost, in the same units, of a width that is lost by far scalars: no precision is left. */
 constexpr double LostCost = 16777216.0;
 
 /**
- * Ratio of the farthest scalar to the width of a change that single precision carries as it is:
- * products with areas of 2^-44 (of cells and of the mesh) and differences of 2^-16 of the width
- * stay above 2^-126.
+ * Largest ratio of the farthest scalar to the width of a change that single precision handles
+ * without compression of far scalars: products with areas of 2^-44 (of cells and of the mesh) and
+ * differences of 2^-16 of the width stay above 2^-126.
  */
 constexpr double LargestRatio = 18446744073709551616.0; // 2^64
-/** Beyond that ratio: that of the unit to the width, NearEnd times which is 2^24. */
+/** Ratio of the unit to the width beyond LargestRatio; NearEnd times this is 2^24. */
 constexpr double UnitPerWidth = 1099511627776.0; // 2^40
 
 double Distance(double a, double b)
@@ -41,7 +46,7 @@ double Distance(double a, double b)
   return std::min(std::abs(a - b), Largest);
 }
 
-/** 1 / x, or 1 where that is not a positive number. */
+/** 1 / x, or 1 if that is not a positive number. */
 double ReciprocalOf(double x)
 {
   const double reciprocal = 1.0 / x;
@@ -62,7 +67,7 @@ std::vector<ScalarFeature> FeaturesInRange(
   return inRange;
 }
 
-/** Makes features no narrower than the scalars are spaced there. */
+/** Widens each feature to at least the spacing of the scalars there. */
 void Resolve(const ScalarDistribution& scalars, std::vector<ScalarFeature>& features)
 {
   for (ScalarFeature& feature : features)
@@ -71,7 +76,10 @@ void Resolve(const ScalarDistribution& scalars, std::vector<ScalarFeature>& feat
   }
 }
 
-/** Largest distance of a feature from the offset, in widths of the feature; more if it is lost. */
+/**
+ * Largest distance of a feature from the offset, in widths of the feature; larger if the feature is
+ * lost.
+ */
 double CostOf(const ScalarNormalization& normalization, const std::vector<ScalarFeature>& features)
 {
   const double nearEnd = normalization.Farthest > 1.0
@@ -83,7 +91,8 @@ double CostOf(const ScalarNormalization& normalization, const std::vector<Scalar
     const double distance = Distance(feature.Scalar, normalization.Offset);
     if (feature.Width > 0.0 && 1.0 / normalization.Scale > LargestRatio * feature.Width)
     {
-      cost = std::max(cost, LostCost); // too small to be computed with, wherever it is
+      cost = std::max(cost, LostCost); // the feature is too small to be computed with, wherever it
+                                       // is
     }
     if (distance > 0.0)
     {
@@ -94,7 +103,7 @@ double CostOf(const ScalarNormalization& normalization, const std::vector<Scalar
   return cost;
 }
 
-/** Puts zero to a feature. */
+/** Normalisation that maps the feature to zero. */
 ScalarNormalization NormalizeAbout(const ScalarFeature& feature, const ScalarDistribution& scalars)
 {
   ScalarNormalization result;
@@ -105,7 +114,7 @@ ScalarNormalization NormalizeAbout(const ScalarFeature& feature, const ScalarDis
   double unit = farthest;
   if (feature.Width > 0.0 && farthest > LargestRatio * feature.Width)
   {
-    // Scalars that are not among the farthest are near, whatever the width.
+    // All scalars but the farthest ones are near, whatever the width.
     const double nearest = scalars.LargestDistance(feature.Scalar, farthest / LargestRatio);
     unit = std::min(
       farthest, std::max(UnitPerWidth * feature.Width, nearest / ScalarNormalization::NearEnd));
@@ -208,8 +217,9 @@ ScalarNormalization ChooseNormalization(const ScalarDistribution& scalars,
   {
     return ofRange;
   }
-  // The narrowest feature is within twice the best cost: the best offset is no farther from it, in
-  // its own width, the smallest, than that cost.
+  // The best cost bounds the distance of the best offset from the narrowest feature, in widths of
+  // that feature, which are the smallest. So an offset at the narrowest feature costs at most twice
+  // as much.
   const ScalarFeature narrowest = *std::min_element(resolved.begin(), resolved.end(),
     [](const ScalarFeature& a, const ScalarFeature& b) { return a.Width < b.Width; });
   const ScalarNormalization aboutFeature = NormalizeAbout(narrowest, scalars);

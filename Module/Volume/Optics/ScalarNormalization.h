@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Normalised scalars: the single-precision numbers that rays interpolate in place of the user's.
+ * Normalised scalars: the single-precision numbers that rays interpolate instead of the user's
+ * scalars.
  *
- * A float is as precise as it is near zero, so the scalar that becomes zero decides where precision
- * is spent. As a rule that is the middle of the data's range. Where a transfer function changes
- * over so small a part of the range that rounding would show (a fill value such as 1e20 among
- * scalars around 300), it is a scalar where the function changes fastest.
+ * Floats have the highest absolute precision near zero, so the scalar that is mapped to zero
+ * decides where precision is spent. Normally this is the middle of the data's range. Where a
+ * transfer function changes over so small a part of the range that rounding would be visible (for
+ * example with a fill value of 1e20 among scalars around 300), it is a scalar at which the function
+ * changes fastest.
  */
 #ifndef meniscus_Volume_Optics_ScalarNormalization_h
 #define meniscus_Volume_Optics_ScalarNormalization_h
@@ -24,19 +26,19 @@ struct ScalarNormalization
   double Offset = 0.0;
   double Scale = 1.0;
   /**
-   * Largest distance of a scalar from the offset, normalised; more than 1 if the range of double is
-   * too much for the products that rays form in single precision. Then normalised scalars beyond
-   * NearEnd are divided by it, but not to below NearEnd.
+   * Largest distance of a normalised scalar from the offset. It exceeds 1 if the range of double is
+   * too large for the products that rays form in single precision. In that case normalised scalars
+   * beyond NearEnd are divided by it, but not to below NearEnd.
    */
   double Farthest = 1.0;
-  /** Unit of gradients: scalars times this, per length. */
+  /** Unit of gradients: scalars times this factor, per length. */
   double GradientScale = 1.0;
 
   /**
-   * Scalars up to here are not changed by Farthest. It is 2^24 times the width of the function's
-   * changes at the offset, or more: in a cell from there to a far scalar, these changes take less
-   * than rounding of the cell's length either way. Far scalars keep their proportion to 2^-16 of
-   * the farthest.
+   * Limit up to which Farthest does not change scalars. It is at least 2^24 times the width of the
+   * function's changes at the offset: in a cell between such a scalar and a far one, these changes
+   * take a smaller part of the cell's length than its rounding error. Far scalars keep their
+   * proportions to 2^-16 of the farthest.
    */
   static constexpr double NearEnd = 1.0 / 65536.0;
 
@@ -50,22 +52,22 @@ struct ScalarNormalization
   bool operator!=(const ScalarNormalization& other) const { return !(*this == other); }
 };
 
-/** Maps a range to [-1, 1]. */
+/** Normalisation that maps a range to [-1, 1]. */
 ScalarNormalization NormalizeRange(double minimum, double maximum);
 
-/** A range of normalised scalars: what is seen as 0 and as 1 where a mode shows a share of it. */
+/** A range of normalised scalars that a blend mode maps to 0 and 1. */
 struct ScalarRange
 {
   double Lowest = -1.0;
   double Highest = 1.0;
 };
 
-/** Range of finite scalars, and how they are distributed in it. */
+/** Range of the finite scalars, and their distribution in it. */
 class ScalarDistribution
 {
 public:
   ScalarDistribution() = default;
-  /** @param scalars  those that are not finite do not count. */
+  /** @param scalars all scalars; those that are not finite are ignored. */
   ScalarDistribution(double lowest, double highest, const std::vector<double>& scalars);
 
   bool IsEmpty() const { return this->Sample.empty(); }
@@ -73,15 +75,16 @@ public:
   double GetHighest() const { return this->Highest; }
 
   /**
-   * Distance from a scalar within which 1/64 of the other scalars lie, at least one; 0 without.
-   * Fill values may take nearly all of the data without changing it near the rest.
+   * Distance from a scalar within which 1/64 of the other scalars lie, at least one; 0 if there is
+   * none. A fraction is used because fill values may make up nearly all of the data without
+   * affecting it near the rest.
    */
   double SpacingAt(double scalar) const;
-  /** Largest distance from a scalar that is not above a limit; 0 without. */
+  /** Largest distance of a scalar from `from` that is not above `limit`; 0 if there is none. */
   double LargestDistance(double from, double limit) const;
 
 private:
-  /** Ascending, evenly taken from all. */
+  /** Ascending, taken evenly from all scalars. */
   std::vector<double> Sample;
   double Lowest = 0.0;
   double Highest = 0.0;
@@ -94,11 +97,11 @@ struct ScalarFeature
   double Width;
 };
 
-/** The features of a function per scalar that it has: the main one, then other components. */
+/** Features of the function of each scalar: the main one first, then the other components. */
 struct FunctionFeatures
 {
   std::vector<std::vector<ScalarFeature>> OfScalars;
-  /** Changes with the features. */
+  /** Changes whenever the features change. */
   std::int64_t Version = 0;
 
   const std::vector<ScalarFeature>& Of(std::size_t scalar) const
@@ -109,15 +112,15 @@ struct FunctionFeatures
 };
 
 /**
- * The normalisation of scalars for a function with these features. Keeps `current`, if it is not
- * null and was made for the same scalars, as long as it serves.
+ * Normalisation of scalars for a function with these features. Keeps `current` as long as it is
+ * good enough; `current` is null or was made for the same scalars.
  */
 ScalarNormalization ChooseNormalization(const ScalarDistribution& scalars,
   const std::vector<ScalarFeature>& features, const ScalarNormalization* current);
 
 /**
- * Normalised scalars for a table of samples: the range of the data, or the part of it that all
- * features are in if that is less than 1/64.
+ * Range of normalised scalars for a table of samples: the range of the data or, if that is less
+ * than 1/64 of it, the part that contains all features.
  */
 ScalarRange SampledRange(const ScalarDistribution& scalars,
   const std::vector<ScalarFeature>& features, const ScalarNormalization& normalization);

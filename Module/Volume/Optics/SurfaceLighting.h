@@ -12,15 +12,15 @@
 namespace meniscus
 {
 
-/** A light in the frame of the rays (RayFrame): x, y, depth about the mesh's centre. */
+/** A light in the frame of the rays (RayFrame): x, y and depth relative to the mesh's centre. */
 struct RayCastLight
 {
-  /** Position and 1, or the direction towards the light and 0. */
+  /** Position and 1, or direction towards the light and 0. */
   glm::dvec4 Position{ 0.0 };
   /** Colours times intensity. */
   glm::dvec3 Diffuse{ 0.0 };
   glm::dvec3 Specular{ 0.0 };
-  /** Axis and cosine of the cone's half angle; -2 without a cone. */
+  /** Axis and cosine of the cone's half angle; the cosine is -2 without a cone. */
   glm::dvec4 Cone{ 0.0, 0.0, 1.0, -2.0 };
   /** Coefficients of the powers 0, 1, 2 of the distance, then the exponent within the cone. */
   glm::dvec4 Falloff{ 1.0, 0.0, 0.0, 0.0 };
@@ -36,7 +36,7 @@ struct SurfaceLighting
   std::vector<RayCastLight> Lights;
 };
 
-/** What light does to an emitted colour: multiplied by Reflected, then Highlight added. */
+/** Effect of light on an emitted colour: it is multiplied by Reflected, then Highlight is added. */
 struct ReflectedLight
 {
   glm::dvec3 Reflected;
@@ -45,9 +45,9 @@ struct ReflectedLight
 
 /**
  * Phong's model, two-sided: the normal is turned to the viewer.
- * @param normal    in the frame, any length; 0 leaves the ambient light.
- * @param place     of the surface, in the frame.
- * @param raySlope  of the ray that sees it: change of x and y per depth.
+ * @param normal in the frame, of any length; 0 leaves only the ambient light.
+ * @param place point of the surface, in the frame.
+ * @param raySlope change of x and y per depth of the ray that sees the point.
  */
 ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
   const glm::dvec3& place, const glm::dvec2& raySlope);

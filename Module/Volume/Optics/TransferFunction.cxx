@@ -10,7 +10,7 @@ namespace meniscus
 namespace
 {
 
-/** Beyond every normalised scalar, and its double still a finite float. */
+/** A value beyond all normalised scalars whose double is still a finite float. */
 constexpr float Beyond = std::numeric_limits<float>::max() / 4.0f;
 
 float ToFloat(double value)

@@ -12,7 +12,9 @@
 namespace meniscus
 {
 
-/** A control point. Two points at one scalar make a jump: the first holds below, the second above.
+/**
+ * A control point. Two points at one scalar make a jump: the first holds below it, the second
+ * above.
  */
 struct TransferFunctionPoint
 {
@@ -34,14 +36,18 @@ struct TransferFunctionInterval
 };
 
 /**
- * The intervals of a transfer function for float evaluation: piecewise linear attenuation and
- * colour between `points` (ascending scalars), constant outside of them. They cover every finite
- * normalised scalar, ascending and without gaps. No point gives one interval of no attenuation.
+ * Intervals of a transfer function for float evaluation: piecewise linear attenuation and colour
+ * between `points` (in the order of their scalars), constant outside of them. They cover every
+ * finite normalised scalar, ascending and without gaps. Without any point, the result is one
+ * interval of zero attenuation.
  */
 std::vector<TransferFunctionInterval> BuildIntervals(
   const std::vector<TransferFunctionPoint>& points, const ScalarNormalization& normalization);
 
-/** The features of the function of such points: where it changes, and over which width. */
+/**
+ * Features of the function with these points: the scalars at which it changes, and the widths of
+ * the changes.
+ */
 std::vector<ScalarFeature> FeaturesOf(const std::vector<TransferFunctionPoint>& points);
 
 }

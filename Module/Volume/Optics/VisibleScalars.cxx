@@ -11,7 +11,7 @@ namespace
 {
 
 /**
- * A ramp down to zero, evaluated at its end, misses zero by up to this times its start: width,
+ * Largest error at the end of a ramp down to zero, as a fraction of the value at its start: width,
  * slope, their product and the sum are each rounded to 2^-24.
  */
 constexpr float EndRounding = 1.0f / 4194304.0f;
@@ -70,7 +70,8 @@ void VisibleScalars::AddAttenuation(const std::vector<TransferFunctionInterval>&
     {
       continue;
     }
-    // Intervals follow each other without gaps; where one side counts, so does the common end.
+    // Intervals follow each other without gaps; where either side includes its end, the common end
+    // is visible.
     if (!spans.empty() && spans.back().Upper == span.Lower &&
       (spans.back().UpperCounts || span.LowerCounts))
     {

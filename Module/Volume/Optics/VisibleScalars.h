@@ -11,28 +11,32 @@ namespace meniscus
 {
 
 /**
- * The scalars that can be seen, in normalised units: what decides whether a cell is worth a ray's
- * visit. Starts empty: nothing can be seen.
+ * The scalars that can be seen, in normalised units. They decide whether rays have to visit a cell.
+ * Initially none can be seen.
  */
 class VisibleScalars
 {
 public:
-  /** Every finite scalar: for blend modes that look at all cells. */
+  /** All finite scalars: for blend modes that use every cell. */
   static VisibleScalars All();
 
   /**
-   * Adds what composite blending shows: emission is weighted by attenuation, so a scalar without
-   * attenuation cannot be seen. The function's points within a cell's range count as well as the
-   * values at its vertices; a range that only touches visible scalars has no length to be seen.
+   * Adds the scalars that composite blending shows: emission is weighted by attenuation, so a
+   * scalar without attenuation cannot be seen. Points of the function within a cell's range are
+   * considered as well as the values at its vertices. A cell whose range only touches visible
+   * scalars shows them over no length, so it is invisible.
    */
   void AddAttenuation(const std::vector<TransferFunctionInterval>& intervals);
 
-  /** Adds an isosurface. A cell that only touches the value counts: its face may be the surface. */
+  /**
+   * Adds an isosurface. A cell whose range only touches the value is visible: its face may be the
+   * surface.
+   */
   void AddIsovalue(float value);
 
   /**
-   * Whether a cell can be seen whose vertices have scalars from `lowest` to `highest`. False if one
-   * is NaN.
+   * True if a cell whose vertices have scalars from `lowest` to `highest` can be seen; false if one
+   * of them is NaN.
    */
   bool Meets(float lowest, float highest) const;
 
@@ -40,15 +44,15 @@ public:
   bool operator!=(const VisibleScalars& other) const { return !(*this == other); }
 
 private:
-  /** An open range; of its ends it is said when they count too. */
+  /** An open range, with flags for its ends. */
   struct Span
   {
     float Lower;
     float Upper;
-    /** Whether a cell whose scalars all equal that end can be seen. */
+    /** True if a cell whose scalars all equal that end can be seen. */
     bool LowerCounts;
     bool UpperCounts;
-    /** Whether a cell that only touches the range can be seen. */
+    /** True if a cell whose range only touches this range can be seen. */
     bool Touching;
 
     bool operator==(const Span& other) const;

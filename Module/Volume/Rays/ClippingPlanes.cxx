@@ -12,7 +12,7 @@ namespace meniscus
 namespace
 {
 
-/** Narrows to where constant + t * perUnit is not negative. */
+/** Narrows [start, end] to the part where constant + t * perUnit is not negative. */
 void Clip(double constant, double perUnit, double& start, double& end)
 {
   if (perUnit > 0.0)

@@ -13,30 +13,30 @@ namespace meniscus
 {
 
 /**
- * Half space as seen by the rays of a frame. On the ray of pixel (i, j), counted from the image's
- * centre, the distance to the plane in units of the frame is
- * dot(Constant, (1, i, j)) + depth * dot(PerDepth, (1, i, j)), positive on the kept side. The part
- * of a ray within half spaces is one interval of depth.
+ * Half space in the frame of the rays. On the ray of pixel (i, j), counted from the image's centre,
+ * the signed distance to the plane in units of the frame is dot(Constant, (1, i, j)) + depth *
+ * dot(PerDepth, (1, i, j)), positive on the kept side. The part of a ray within several half spaces
+ * is one interval of depth.
  */
 struct RayClippingPlane
 {
   glm::dvec3 Constant{ 0.0 };
   glm::dvec3 PerDepth{ 0.0 };
-  /** The distance of a place of the frame is dot(InFrame, (x, y, depth, 1)). */
+  /** The distance of a point of the frame is dot(InFrame, (x, y, depth, 1)). */
   glm::dvec4 InFrame{ 0.0 };
 };
 
 /**
- * @param normal  towards the kept side, world coordinates, any length; 0 keeps everything.
- * @param height  dot(normal, mesh's centre - a point of the plane), world coordinates.
+ * @param normal points to the kept side; world coordinates, any length. 0 keeps everything.
+ * @param height dot(normal, mesh's centre - a point of the plane), world coordinates.
  */
 RayClippingPlane ComputeClippingPlane(
   const RayFrame& frame, const glm::dvec3& normal, double height);
 
-/** Narrows the part of a pixel's ray between two depths to the half space; may leave nothing. */
+/** Narrows the depth range of a pixel's ray to the half space; the result may be empty. */
 void ClipRay(const RayClippingPlane& plane, const glm::dvec2& pixel, double& start, double& end);
 
-/** The same of the line place + s * step of the frame, between two values of s. */
+/** As ClipRay, for the line place + s * step of the frame and a range of s. */
 void ClipLine(const RayClippingPlane& plane, const glm::dvec3& place, const glm::dvec3& step,
   double& start, double& end);
 

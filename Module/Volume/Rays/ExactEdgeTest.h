@@ -10,19 +10,19 @@ namespace meniscus
 {
 
 /**
- * Integer arithmetic about a ray, one rule for all who decide by it. A template, so that each
- * instruction set has code of its own (see Packet.h).
+ * Integer arithmetic about a ray, shared by all code that has to decide alike. It is a template so
+ * that each instruction set gets its own code (see Packet.h).
  */
 template <class User>
 struct ExactEdgeTest
 {
   /**
-   * A cross product in float is surely of the right sign if it is larger than this part of its
-   * second product (PacketWalk::EdgeArea()).
+   * A cross product in float has the right sign for certain if its magnitude exceeds this fraction
+   * of its second product (PacketWalk::EdgeArea()).
    */
   static constexpr float RoundingOfArea = 9.5367431640625e-7f; // 2^-20
 
-  /** u or v of a vertex: its x or y less what the ray has at its depth (PacketRay). */
+  /** u or v of a vertex: its x or y minus that of the ray at the vertex's depth (PacketRay). */
   static std::int32_t AboutRay(
     std::int32_t place, std::int32_t depth, std::int32_t slope, std::int64_t offset)
   {
@@ -30,9 +30,10 @@ struct ExactEdgeTest
   }
 
   /**
-   * Whether the ray is left of the edge from p to q, each { u, v, vertex }. A ray through the edge
-   * counts as displaced by (e, e^2), e arbitrarily small; ends that coincide are ordered by vertex.
-   * @param area  twice what the edge spans with the ray, signed.
+   * True if the ray is left of the edge from p to q, each { u, v, vertex }. A ray through the edge
+   * is treated as displaced by (e, e^2), with e arbitrarily small; ends that coincide are ordered
+   * by vertex.
+   * @param area twice the signed area that the edge spans with the ray.
    */
   static bool TurnsLeft(const std::int32_t (&p)[3], const std::int32_t (&q)[3], std::int64_t& area)
   {

@@ -19,7 +19,7 @@ namespace
 
 // 2^29 - 2^12: slopes per grid unit of depth stay below 1/2, up to views of nearly 180 degrees.
 constexpr double GridRadius = 536866816.0;
-constexpr double FractionOfGrid = 4294967296.0; // 2^32, what PacketRay shifts out
+constexpr double FractionOfGrid = 4294967296.0; // 2^32, the factor that PacketRay shifts out
 constexpr double LargestSlope = 2147483647.0;
 
 AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
@@ -27,11 +27,11 @@ AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
   return { map.Base * scale, map.PerColumn * scale, map.PerRow * scale };
 }
 
-/** A map in whole numbers and fractions of 2^-15, `more` added to its base. */
+/** Converts a map to integers and fractions of 2^-15, with `more` added to its base. */
 FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::dvec2& more)
 {
   constexpr double fractions = 32768.0;
-  // Whole numbers count modulo 2^32: where a ray meets the mesh, their sum fits.
+  // Integers are computed modulo 2^32: where a ray meets the mesh, their sum is in range.
   constexpr double largest = 70368744177664.0; // 2^46
   const glm::dvec2 values[3] = { map.Base + more, 0.5 * map.PerColumn, 0.5 * map.PerRow };
   FixedPointRays::FixedPointMap fixed{};
@@ -122,14 +122,14 @@ FixedPointRays::FixedPointMap FixedPointRays::GetFixedPointSlope() const
 }
 
 //------------------------------------------------------------------------------
-/** @param perDepth  the slope in the frame; the others are in grid units. */
+/** @param perDepth slope in units of the frame; the other arguments are in grid units. */
 PacketRay FixedPointRays::MakeRay(
   const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const
 {
   PacketRay ray;
   for (int axis = 0; axis < 2; ++axis)
   {
-    // Half a unit more, for what is shifted out is rounded down.
+    // Half a unit is added because shifting out the fraction rounds down.
     ray.Offset[axis] =
       std::llrint((std::clamp(offset[axis], -LargestOffset, LargestOffset) + 0.5) * FractionOfGrid);
     ray.Slope[axis] = static_cast<std::int32_t>(

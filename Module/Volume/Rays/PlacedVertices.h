@@ -15,10 +15,10 @@ class FixedPointRays;
 class TetrahedralMesh;
 
 /**
- * Places the vertices of a mesh in the fixed-point frame of an image's rays.
- * @param scalars   one normalised scalar per mesh vertex; NaN makes its cells transparent. Empty
- * for none, where cells have scalars.
- * @param vertices  replaced.
+ * Converts the vertices of a mesh to the fixed-point frame of an image's rays.
+ * @param scalars one normalised scalar per mesh vertex; NaN makes its cells transparent. Empty if
+ *   cells have the scalars.
+ * @param vertices replaced by the result.
  */
 void PlaceVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars,
   const FixedPointRays& rays, const RangeLoop& loop, std::vector<PacketVertex>& vertices);

@@ -18,7 +18,7 @@ namespace
 static_assert(
   4.0 * FixedPointRays::RoundingOfRay * 1073741826.0 < ProjectedFaces::Margin, "rounding of rays");
 
-/** u or v of a vertex, a function of the pixel. */
+/** u or v of a vertex as an affine function of the pixel. */
 glm::dvec3 Coefficients(
   const AffinePixelMap& offset, const AffinePixelMap& slope, int axis, const PacketVertex& vertex)
 {
@@ -43,9 +43,9 @@ double At(const glm::dvec3& function, const glm::dvec2& pixel)
 }
 
 /**
- * Bound of the change of the doubled area of a face about the ray through one of its vertices, if
- * u and v of each vertex are off by `error`: the length of a vertex's displacement, sqrt(2) of it,
- * times the edges, and the products of two displacements.
+ * Bound of the change of the doubled area of a face about the ray through one of its vertices, if u
+ * and v of each vertex have an error of `error`: the length of a vertex's displacement, sqrt(2)
+ * times that, multiplied by the edges, plus the products of two displacements.
  */
 double AreaError(const ProjectedFaces::Vertex& p, const ProjectedFaces::Vertex& q,
   const glm::dvec2& pixel, double error)
@@ -111,8 +111,8 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
   const Vertex& first = face.Vertices[0];
   for (int k = 0; k < 3; ++k)
   {
-    // The pixel whose ray passes through the vertex: u = v = 0. How u and v change with the column
-    // is 0 in the plane of the eye and the other way behind it.
+    // Pixel whose ray passes through the vertex: u = v = 0. The determinant of the change of u and
+    // v per pixel is 0 in the plane of the eye and has the opposite sign behind it.
     const Vertex& vertex = face.Vertices[k];
     const double side = vertex.U[1] * vertex.V[2] - vertex.U[2] * vertex.V[1];
     const bool together = vertex.U[1] * first.U[1] + vertex.V[1] * first.V[1] > 0.0;
@@ -121,7 +121,7 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
       side;
     if (!together || !(std::abs(pixel.x) < 1.0e9) || !(std::abs(pixel.y) < 1.0e9))
     {
-      // About the plane of the eye, where the face is seen without bounds.
+      // Near the plane of the eye, the projection of the face is unbounded.
       return { whole, std::numeric_limits<double>::infinity() };
     }
     lower = glm::dvec2(std::min(lower.x, pixel.x), std::min(lower.y, pixel.y));
@@ -131,14 +131,13 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
     if (error > 0.0)
     {
       margin += AreaError(face.Vertices[(k + 1) % 3], face.Vertices[(k + 2) % 3], pixel, error);
-      // (u, v) changes by at least the smaller singular value per pixel, which is the determinant
-      // over the larger one. Both u and v are off.
+      // (u, v) changes per pixel by at least the smaller singular value, which is the determinant
+      // over the larger one. Both u and v have errors.
       const double largest = std::sqrt(vertex.U[1] * vertex.U[1] + vertex.U[2] * vertex.U[2] +
         vertex.V[1] * vertex.V[1] + vertex.V[2] * vertex.V[2]);
       pixelError = std::max(pixelError, 1.42 * error * largest / std::abs(side));
     }
-    // Within a face that turns the other way, one edge is below a third of its value at the vertex
-    // opposite.
+    // Inside a face that faces away, one edge is below a third of its value at the opposite vertex.
     facesAway = facesAway && opposite < -3.0 * margin;
   }
   if (facesAway)
@@ -148,7 +147,7 @@ ProjectedFaces::Footprint ProjectedFaces::BoundPixels(const Face& face, double e
   const auto clamped = [](double value, int size)
   { return static_cast<int>(std::min(std::max(value, 0.0), static_cast<double>(size))); };
   const glm::dvec2 center(0.5 * whole.Right, 0.5 * whole.Top);
-  // Pixel p has its centre at p + 0.5; one more on each side for rounding.
+  // Pixel p has its centre at p + 0.5; one more pixel on each side covers rounding.
   const double reach = 1.5 + pixelError;
   return { { clamped(lower.x + center.x - reach, whole.Right),
              clamped(upper.x + center.x + reach, whole.Right),

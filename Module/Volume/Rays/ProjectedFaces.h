@@ -15,13 +15,13 @@
 namespace meniscus
 {
 
-/** Boundary faces as the rays of an image see them. */
+/** Boundary faces projected along the rays of an image. */
 class ProjectedFaces
 {
 public:
   /**
-   * @param vertices  those of the mesh in the grid of the rays; must outlive this.
-   * @param faces     the boundary that rays may enter by; must outlive this.
+   * @param vertices vertices of the mesh in the grid of the rays; must outlive this object.
+   * @param faces boundary by which rays may enter; must outlive this object.
    */
   void Set(const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& faces,
     const FixedPointRays& rays);
@@ -44,12 +44,14 @@ public:
     glm::dvec3 V;
     double Depth;
   };
-  /** A face, its vertices counter-clockwise about the rays that enter by it. */
+  /** A face; its vertices are counter-clockwise about the rays that enter by it. */
   struct Face
   {
     std::int32_t Ids[3];
     Vertex Vertices[3];
-    /** Areas that the edges 01, 12, 20 span with a ray, doubled: affine functions of the pixel. */
+    /**
+     * Doubled areas that the edges 01, 12, 20 span with a ray, as affine functions of the pixel.
+     */
     glm::dvec3 Edges[3];
   };
   Face Project(std::int32_t index) const;
@@ -63,25 +65,25 @@ public:
 
     bool IsEmpty() const { return this->Left >= this->Right || this->Bottom >= this->Top; }
   };
-  /** A box of pixels and the error of a vertex in pixels. */
+  /** A box of pixels, and the error of a vertex in pixels. */
   struct Footprint
   {
     PixelBox Box;
     double Error;
   };
   /**
-   * The pixels whose rays may enter by a face; empty if it surely faces away.
-   * @param error  grid units by which u and v of a vertex may be off for whoever asks.
+   * Box of the pixels whose rays may enter by a face; empty if the face certainly faces away.
+   * @param error error of u and v of a vertex in the caller's arithmetic, in grid units.
    */
   Footprint BoundPixels(const Face& face, double error = 0.0) const;
 
-  /** Least depth of a face. */
+  /** Smallest depth of a face. */
   double GetNearestDepth(std::int32_t index) const;
 
   /**
    * Bound of the change of an edge's area by rounding to the grid: FixedPointRays::RoundingOfRay in
-   * each of four numbers, each the factor of another of at most 2^30 + 2, and the double
-   * arithmetic, much less.
+   * each of four numbers, each multiplied by another of at most 2^30 + 2, plus the much smaller
+   * error of double arithmetic.
    */
   static constexpr double Margin = 4294967296.0; // 2^32
 

@@ -21,8 +21,8 @@ double At(const glm::dmat4& m, int row, int column)
 }
 
 /**
- * View (x, y) of the ray at clip position `clip` in the plane at view z: the two linear equations
- * clip_i * w(z) = P_i (x, y, z, 1), where w does not depend on x and y.
+ * View coordinates (x, y), in the plane at view z, of the ray at clip position `clip`: the solution
+ * of the two linear equations clip_i * w(z) = P_i (x, y, z, 1), where w does not depend on x and y.
  */
 glm::dvec2 RayPoint(const glm::dmat4& p, const glm::dvec2& clip, double z)
 {
@@ -38,7 +38,7 @@ glm::dvec2 RayPoint(const glm::dmat4& p, const glm::dvec2& clip, double z)
 /** Slope d(x, y) / d(depth) of the ray; depth is -z. */
 glm::dvec2 RaySlope(const glm::dmat4& p, const glm::dvec2& clip)
 {
-  // RayPoint is linear in z: the difference over one unit, free of the point itself.
+  // RayPoint is linear in z: the difference over one unit does not depend on the point itself.
   const double determinant = At(p, 0, 0) * At(p, 1, 1) - At(p, 0, 1) * At(p, 1, 0);
   const glm::dvec2 right(clip.x * At(p, 3, 2) - At(p, 0, 2), clip.y * At(p, 3, 2) - At(p, 1, 2));
   return -glm::dvec2(At(p, 1, 1) * right.x - At(p, 0, 1) * right.y,
@@ -88,9 +88,9 @@ RayFrameStatus ComputeRayFrame(const RayFrameInput& input, RayFrame& frame)
     return input.Radius *
       glm::dvec3(At(modelToView, i, 0), At(modelToView, i, 1), At(modelToView, i, 2));
   };
-  // Bounds how much the matrix stretches any direction (the largest sum of a row of M M^T), so that
-  // the mesh is within the unit also along the axes of frames that are turned: for a similarity it
-  // is the scale.
+  // Bound of the stretch of the matrix in any direction (the largest sum of a row of M M^T), so
+  // that the mesh is within the unit also along the axes of rotated frames. For a similarity it is
+  // the scale.
   double stretch = 0.0;
   for (int i = 0; i < 3; ++i)
   {

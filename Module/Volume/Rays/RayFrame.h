@@ -4,12 +4,12 @@
  * The rays of an image in the frame of the view, as affine functions of the pixel.
  *
  * Frame: x to the right, y up, depth away from the viewer, all in view coordinates relative to the
- * mesh's centre and in units of about the mesh's radius. The ray of a pixel is
- * (x, y) = Origin + depth * Slope. With p a model position relative to the mesh's centre in units
- * of its radius, the ray-aligned projection of a vertex is u = RowX p - Origin_x - Slope_x * depth,
- * likewise v, and depth = RowDepth p. Numbers stay about 1 however far away the camera or the
- * origin of coordinates is, however large or small the mesh; all are computed in double precision
- * and rounded once.
+ * mesh's centre and in units of about the mesh's radius. The ray of a pixel is (x, y) = Origin +
+ * depth * Slope. With p a model position relative to the mesh's centre in units of its radius, the
+ * ray-aligned projection of a vertex is u = RowX p - Origin_x - Slope_x * depth, likewise v, and
+ * depth = RowDepth p. All numbers are of the order of 1, whatever the distance of the camera or of
+ * the origin of coordinates and the size of the mesh; they are computed in double precision and
+ * rounded once.
  */
 #ifndef meniscus_Volume_Rays_RayFrame_h
 #define meniscus_Volume_Rays_RayFrame_h
@@ -32,7 +32,7 @@ struct RayFrameInput
   glm::dvec3 Center{ 0.0 };
   /** Radius of the mesh about its centre, model coordinates, > 0. */
   double Radius = 1.0;
-  /** Pixels of the image that the clip coordinates [-1, 1] span. */
+  /** Number of pixels in the image, which the clip coordinates [-1, 1] span. */
   glm::dvec2 ImageSize{ 1.0 };
 };
 
@@ -49,20 +49,25 @@ struct AffinePixelMap
 
 struct RayFrame
 {
-  /** Normalised model position to x, y and depth. */
+  /** Rows of the map from a normalised model position to x, y and depth. */
   glm::dvec3 RowX{ 0.0 };
   glm::dvec3 RowY{ 0.0 };
   glm::dvec3 RowDepth{ 0.0 };
   AffinePixelMap Origin;
   AffinePixelMap Slope;
-  /** World length of a vector (x, y, depth) is the length of this matrix times it. */
+  /** The world length of a vector (x, y, depth) is the length of this matrix times the vector. */
   glm::dmat3 ViewToWorld{ 1.0 };
-  /** -1 if model to view mirrors, which exchanges entering and leaving faces; else 1. */
+  /**
+   * -1 if the map from model to view mirrors, which exchanges entering and leaving faces; otherwise
+   * 1.
+   */
   int Handedness = 1;
   /** Depth of the near clipping plane. */
   double NearDepth = 0.0;
-  /** Depth = (d * DepthNumerator.x + .y) / (d * DepthDenominator.x + .y), d = clip depth in [-1,
-   * 1]. */
+  /**
+   * Depth = (d * DepthNumerator.x + .y) / (d * DepthDenominator.x + .y), with the clip depth d in
+   * [-1, 1].
+   */
   glm::dvec2 DepthNumerator{ 0.0 };
   glm::dvec2 DepthDenominator{ 1.0 };
 
@@ -78,7 +83,9 @@ enum class RayFrameStatus
   Ok,
   /** A matrix is singular or not finite. */
   Singular,
-  /** The homogeneous coordinate varies within planes parallel to the image: not a camera's matrix.
+  /**
+   * The homogeneous coordinate varies within planes parallel to the image: not the matrix of a
+   * camera.
    */
   NotACamera
 };

@@ -11,11 +11,11 @@ namespace meniscus
 /** Sums over the rays of a frame. */
 struct RayStatistics
 {
-  /** Cells crossed. */
+  /** Number of cells crossed. */
   std::int64_t Steps = 0;
-  /** Rays that entered the mesh. */
+  /** Number of rays that entered the mesh. */
   std::int64_t Rays = 0;
-  /** Rays whose walk did not end on the boundary. */
+  /** Number of rays whose walk did not end on the boundary. */
   std::int64_t Lost = 0;
 };
 

@@ -16,7 +16,7 @@ namespace meniscus
 namespace
 {
 
-/** Of one lane each: what the loops do. */
+/** Loop bodies, for one lane each. */
 struct PlaneKernel
 {
   FacetPlane Plane;
@@ -65,7 +65,7 @@ struct PatchKernel
     lanes.PatchY[i] += y;
     lanes.Behind[i] += l * this->Scale;
     lanes.Move[i] = std::max(std::max(std::fabs(x), std::fabs(y)), std::fabs(l));
-    // Over so short a step as the last the normal is as good as linear.
+    // The last step is so short that the normal is linear within rounding.
     const glm::dvec3 normal = jet.Normal + x * jet.NormalBy[0] + y * jet.NormalBy[1];
     lanes.Normal[0][i] = normal.x;
     lanes.Normal[1][i] = normal.y;
@@ -85,13 +85,14 @@ struct RefractKernel
     const glm::dvec3 sight = direction / length;
     const glm::dvec3 normal =
       glm::normalize(glm::dvec3(lanes.Normal[0][i], lanes.Normal[1][i], lanes.Normal[2][i]));
-    // From behind, light goes from the interior into the exterior.
+    // From behind, light passes from the interior into the exterior.
     const double facing = glm::dot(sight, normal);
     const double sign = facing > 0.0 ? -1.0 : 1.0;
     const double ratio = facing > 0.0 ? 1.0 / this->Ratio : this->Ratio;
     const double cosine = sign * facing;
     const double radicand = RefractionRadicand(cosine, ratio);
-    // What is drawn at a distance behind the sight point is that times n2 / n1 away (Eq. 2.4).
+    // A point that is drawn at a distance behind the sight point is that distance times n2 / n1
+    // away along the refracted ray (Eq. 2.4).
     const glm::dvec3 step =
       length / ratio * RefractionDirection(sight, sign * normal, ratio, cosine, radicand);
     lanes.Normal[0][i] = step.x;

@@ -14,7 +14,7 @@ namespace meniscus
 namespace
 {
 
-/** A patch that is off its facet by no more than the rounding of its corners is flat. */
+/** A patch whose distance from its facet is within the rounding of its corners is flat. */
 constexpr double FlatBulge = 8.0 * std::numeric_limits<double>::epsilon();
 
 }
@@ -56,7 +56,7 @@ bool VisibilityBounds::MayBeSeen(const DirectionBox& sight, DirectionBox normal,
     BoundRays(-sight.Middle - sight.Half, -sight.Middle + sight.Half, points, count, reach);
   const TubeBounds refracted = BoundRefractedRays(
     sight, normal, fromBehind ? 1.0 / this->Ratio : this->Ratio, points, count, reach);
-  // Without valid bounds all are totally reflected.
+  // Without valid bounds all rays are totally reflected.
   return this->Meets(toEye) || (refracted.IsValid() && this->Meets(refracted));
 }
 
@@ -77,7 +77,7 @@ PatchIntersector::PatchIntersector(
   const double size =
     std::sqrt(std::max({ glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v) }));
   this->Scale = size / glm::length(rays.Direction[0]);
-  // Barycentric coordinates change by 1 over an altitude.
+  // Barycentric coordinates change by 1 over an altitude of the facet.
   const double steepest = std::max({ glm::length(this->Plane.ByX), glm::length(this->Plane.ByY),
     glm::length(this->Plane.ByX + this->Plane.ByY) });
   this->Bulge = BoundBulge(patch);
@@ -112,7 +112,7 @@ PatchIntersector::FlatHits PatchIntersector::MeetPlane(const CornerRays& rays) c
   hits.FromOneSide = front == 0 || front == 4;
   // Directions are affine in the pixel.
   hits.Slant = std::sqrt(longest) * this->NormalLength / least;
-  // Once more what counts as the edge.
+  // The margin is widened once more by the width of an edge.
   hits.Margin = this->MarginOf(hits.Slant) + Border;
   return hits;
 }
@@ -132,9 +132,9 @@ bool PatchIntersector::IsBeside(const FlatHits& hits) const
 
 //------------------------------------------------------------------------------
 /**
- * About the unit normals of a quadrilateral in barycentric coordinates, and `margin` about it. Its
- * two halves are Bezier triangles of second degree; their control points are those of the polar
- * form.
+ * Bounds of the unit normals over a quadrilateral in barycentric coordinates, widened by `margin`.
+ * Its two halves are Bezier triangles of second degree; their control points are values of the
+ * polar form.
  */
 DirectionBox PatchIntersector::BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const
 {
@@ -160,7 +160,7 @@ DirectionBox PatchIntersector::BoundNormalsOver(const glm::dvec2 (&b)[4], double
   }
   for (const glm::dvec3& bend : patch.Bend)
   {
-    // Of b_i b_j with coordinates up to `farthest`, by both.
+    // Derivative of b_i b_j by both coordinates, which are at most `farthest`.
     slope += 4.0 * farthest * glm::length(bend);
   }
   return BoundDirections(
@@ -194,7 +194,7 @@ bool PatchIntersector::MayMeetTwice(double slant) const
 }
 
 //------------------------------------------------------------------------------
-/** Keeps rays that may meet the patch. */
+/** Keeps only rays that may meet the patch. */
 void PatchIntersector::SiftNear(PatchIntersectionBatch& lanes) const
 {
   const int count = lanes.Count;
@@ -216,7 +216,7 @@ PatchCoverage::PatchCoverage(const PatchIntersector::FlatHits& hits, int columns
   double at[3][4];
   for (int corner = 0; corner < 4; ++corner)
   {
-    // Over the common denominator.
+    // With the common denominator multiplied out.
     const glm::dvec2& b = hits.Coordinates[corner];
     at[0][corner] = (1.0 - b.x - b.y + hits.Margin) * hits.Along[corner];
     at[1][corner] = (b.x + hits.Margin) * hits.Along[corner];
@@ -241,7 +241,7 @@ PatchCoverage::Span PatchCoverage::OfRow(int row) const
   double last = this->Columns - 1.0;
   for (const auto& edge : this->Edge)
   {
-    // Where the edge is crossed, and a pixel more for the rounding of that.
+    // Column in which the edge is crossed, with one more pixel for its rounding.
     const double start = edge[0] + row * edge[2];
     const double crossing = -start / edge[1];
     first = edge[1] > 0.0 ? std::max(first, crossing - 1.0) : first;

@@ -19,76 +19,92 @@
 namespace meniscus
 {
 
-/** More than rounding can change a distance by, in a view that shows anything of the ball. */
+/**
+ * Factor larger than the relative change of a distance by rounding, in any view that shows a part
+ * of the ball.
+ */
 constexpr double SightMargin = 1.0 + 1e-6;
 
-/** The rays at the corners of a rectangle of pixels, in turn around it; directions per depth. */
+/**
+ * Rays at the corners of a rectangle of pixels, in order around it; directions per unit of depth.
+ */
 struct CornerRays
 {
   glm::dvec3 Starts[4];
   glm::dvec3 Directions[4];
 };
 
-/** What there is to see, before the membrane and behind it. */
+/** Bounds of the visible geometry, in front of the membrane and behind it. */
 struct VisibilityBounds
 {
-  /** Of a box along the world's axes. */
+  /** Centre and half extents of a box along the world's axes. */
   glm::dvec3 Center{ 0.0 };
   glm::dvec3 Half{ 0.0 };
   /** n1 / n2, for rays against the normals. */
   double Ratio = 1.0;
 
-  /** Whether the box has a place of the tube. */
+  /** True if the box meets the tube. */
   bool Meets(const TubeBounds& tube) const;
   /**
-   * Whether rays may come to the box that meet the membrane within `reach` of the hull of `count`
-   * points: from the eye to there, or refracted.
+   * True if rays may reach the box that meet the membrane within `reach` of the hull of `count`
+   * points: between the eye and the membrane, or after refraction.
    */
   bool MayBeSeen(const DirectionBox& sight, DirectionBox normal, const glm::dvec3* points,
     int count, double reach) const;
 };
 
-/** The nearest place where a pixel's ray meets the membrane. */
+/** Nearest intersection of a pixel's ray with the membrane. */
 struct MembraneHit
 {
   double Depth = std::numeric_limits<double>::infinity();
-  /** 0 where the ray does not matter. */
+  /** 0 if the ray cannot reach the mesh, so that its refraction is not needed. */
   glm::dvec3 Normal{ 0.0 };
 };
 
-/** Cuts rays with one patch. */
+/** Intersects rays with one patch. */
 class PatchIntersector
 {
 public:
-  /** What `rays` points at must outlive this. */
+  /** The object that `rays` refers to must outlive this one. */
   PatchIntersector(const CurvedPatch& patch, const SightRays& rays, InstructionSet set);
 
-  /** Where the rays of a rectangle of pixels meet the plane of the facet. */
+  /** Intersections of the rays of a rectangle of pixels with the plane of the facet. */
   struct FlatHits
   {
-    /** Of the rays at the corners. */
+    /**
+     * Intersections of the rays at the corners: places, and barycentric coordinates in the facet.
+     */
     glm::dvec3 Places[4];
     glm::dvec2 Coordinates[4];
-    /** Their steps along the facet's normal, positive, if they pass the plane from one side. */
+    /**
+     * Components of these rays' directions along the facet's normal; positive if all rays pass the
+     * plane from one side.
+     */
     double Along[4];
     bool FromOneSide;
-    /** Of any ray of the rectangle: its length over that along the normal, at most. */
+    /**
+     * Upper bound, over the rays of the rectangle, of the length of a direction over its component
+     * along the normal.
+     */
     double Slant;
-    /** Rays that meet the patch meet the plane within this of the facet, in its coordinates. */
+    /**
+     * Rays that meet the patch meet the plane within this distance of the facet, in barycentric
+     * coordinates.
+     */
     double Margin;
   };
   FlatHits MeetPlane(const CornerRays& rays) const;
 
-  /** Whether none of the rays meets the patch. */
+  /** True if none of the rays meets the patch. */
   bool IsBeside(const FlatHits& hits) const;
-  /** Whether rays that meet the patch may come to the mesh. */
+  /** True if rays that meet the patch may reach the mesh. */
   bool Matters(const FlatHits& hits, const CornerRays& rays, const VisibilityBounds& mesh) const;
 
   /**
-   * Where rays meet the patch; uses up the lanes.
-   * @param matters  else nothing of theirs is seen: hits have no normal, and the depth of the
-   *                 facet's plane unless they are about its edges.
-   * @param visit    called with the index of each ray that does, and the hit.
+   * Intersects rays with the patch; overwrites the lanes.
+   * @param matters false: these rays show no part of the mesh, so hits get no normal, and the depth
+   *   of the facet's plane unless they are near its edges.
+   * @param visit called with the index of each ray that meets the patch, and the hit.
    */
   template <typename Visit>
   void Meet(bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const;
@@ -97,28 +113,33 @@ private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
   void SiftNear(PatchIntersectionBatch& lanes) const;
   /**
-   * In barycentric coordinates, between where a ray meets the plane and the place on the patch. A
-   * point of the patch lies within the bulge of a point of the facet; the ray through it meets the
-   * plane within bulge (1 + slant) of that.
+   * Bound of the distance, in barycentric coordinates, between a ray's intersection with the plane
+   * and its intersection with the patch. A point of the patch lies within the bulge of a point of
+   * the facet; the ray through it meets the plane within bulge (1 + slant) of that.
    */
   double MarginOf(double slant) const { return this->Overhang * (1.0 + slant) + Border; }
   template <typename Visit>
   void MeetCurved(bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const;
   bool MayMeetTwice(double slant) const;
   /**
-   * Every place where one ray meets the patch: for rays that may meet it twice, and those that
-   * Newton's method fails for.
+   * Finds all intersections of one ray with the patch: for rays that may meet it twice, and those
+   * for which Newton's method fails.
    */
   template <typename Visit>
   void MeetExactly(
     bool matters, const PatchIntersectionBatch& lanes, int lane, const Visit& visit) const;
 
-  /** A ray through an edge meets both of its patches, up to what Newton's method leaves. */
+  /** A ray through an edge meets both of its patches, within the accuracy of Newton's method. */
   static constexpr double Border = 1e-8;
-  /** Of Newton's method, in facets. What is left is its square times how much a patch bends, below
-   * 1e-9: the walk resolves 4e-9 of the mesh. */
+  /**
+   * Length of Newton's last step, in units of the facet. The remaining error is its square times
+   * the curvature of the patch, below 1e-9; the walk resolves 4e-9 of the mesh.
+   */
   static constexpr double LastStep = 1e-4;
-  /** It converges quadratically from a place on the facet, or MeetExactly() takes over. */
+  /**
+   * Limit of Newton's steps. From a place on the facet the method converges quadratically;
+   * otherwise MeetExactly() takes over.
+   */
   static constexpr int Steps = 12;
 
   CurvedPatch Patch;
@@ -126,11 +147,14 @@ private:
   InstructionSet Set;
   FacetPlane Plane;
   double NormalLength;
-  /** What is about as long along a ray as the facet, in depth. */
+  /** Depth along a ray of about the size of the facet. */
   double Scale;
   double Bulge;
   double Overhang;
-  /** Rays that are no more slanting do not meet the patch twice: a bound, then the best one. */
+  /**
+   * Rays with at most this slant do not meet the patch twice: a cheap bound first, then the best
+   * one.
+   */
   mutable double LargestSlant;
   mutable bool IsSlantBest = false;
   bool IsFlat;
@@ -194,7 +218,8 @@ void PatchIntersector::MeetCurved(
             MembraneHit{ lanes.Depth[i] + lanes.Behind[i], matters ? normal : glm::dvec3(0.0) });
         }
       }
-      // What goes farther than a facet has gone astray. What ends far from the patch, too.
+      // A ray that moves by more than a facet has diverged, and so has a ray that ends far from the
+      // patch.
       else if (lanes.Move[i] >= LastStep && std::fabs(lanes.PatchX[i] - lanes.X[i]) <= 1.0 &&
         std::fabs(lanes.PatchY[i] - lanes.Y[i]) <= 1.0 && std::fabs(lanes.Behind[i]) <= this->Scale)
       {
@@ -214,7 +239,7 @@ void PatchIntersector::MeetCurved(
 }
 
 //------------------------------------------------------------------------------
-/** A ray that touches the patch within rounding, which PatchCrossings leaves open, passes it. */
+/** A ray that touches the patch within rounding, undecided by PatchCrossings, counts as a miss. */
 template <typename Visit>
 void PatchIntersector::MeetExactly(
   bool matters, const PatchIntersectionBatch& lanes, int lane, const Visit& visit) const
@@ -234,16 +259,16 @@ void PatchIntersector::MeetExactly(
 }
 
 /**
- * Which of the pixels of a rectangle may meet a patch: which side of an edge a ray passes is the
- * sign of an affine function of the pixel, about one eye or along parallel rays.
+ * Pixels of a rectangle whose rays may meet a patch. The side of an edge on which a ray passes is
+ * the sign of an affine function of the pixel, both for rays from one eye and for parallel rays.
  */
 class PatchCoverage
 {
 public:
-  /** Of `columns` times `rows` pixels. */
+  /** Covers a rectangle of `columns` times `rows` pixels. */
   PatchCoverage(const PatchIntersector::FlatHits& hits, int columns, int rows);
 
-  /** The pixels of a row, [First, End). */
+  /** Pixels [First, End) of a row. */
   struct Span
   {
     int First;
@@ -254,7 +279,10 @@ public:
 private:
   int Columns;
   bool All;
-  /** By edge: at the first pixel, per column and per row; not negative inside. */
+  /**
+   * Edge functions: for each edge the value at the first pixel, per column and per row; not
+   * negative inside.
+   */
   double Edge[3][3];
 };
 

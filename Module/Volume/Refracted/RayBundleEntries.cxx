@@ -22,8 +22,9 @@ namespace
 {
 
 /**
- * In grid units, by how much a line may miss a face and yet enter by it: a vertex is rounded by
- * half a unit across and half along, and FixedPointRays::RoundingOfRay for the ray.
+ * Distance, in grid units, by which a line may miss a face and enter by it nevertheless: half a
+ * unit of rounding of a vertex across the ray and half along it, and FixedPointRays::RoundingOfRay
+ * for the ray.
  */
 constexpr double GridMargin = 2.0;
 static_assert(
@@ -49,8 +50,8 @@ bool HasInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop)
         };
         const glm::dvec3 edges[3] = { edge(1), edge(2), edge(3) };
         const double volume = glm::dot(edges[0], glm::cross(edges[1], edges[2]));
-        // Vertices were rounded by half a unit per axis, so edges are off by up to sqrt(3) units,
-        // and the volume by that times the area of each pair of edges.
+        // Vertices are rounded by half a unit per axis, so the error of an edge is up to sqrt(3)
+        // units, and the error of the volume is that times the area of each pair of edges.
         const double lengths[3] = { glm::length(edges[0]), glm::length(edges[1]),
           glm::length(edges[2]) };
         const double rounding = std::sqrt(3.0) *
@@ -80,14 +81,17 @@ BoundsInFrame BoxOf(const BoundaryTree& tree, const RayFrame& view)
   return box;
 }
 
-/** Lines between two depths: within a rectangle at both, and so between. */
+/**
+ * Lines between two depths. At both depths, and therefore between them, they are within a
+ * rectangle.
+ */
 struct RayBundleEntries::Bundle
 {
   double First;
   double Last;
   glm::dvec2 Lower[2];
   glm::dvec2 Upper[2];
-  /** Slopes are within the spread of the mean. */
+  /** Slopes differ from the mean by at most the spread. */
   glm::dvec2 MeanSlope;
   glm::dvec2 SlopeSpread;
 
@@ -127,8 +131,9 @@ PacketFace RayBundleEntries::SeenBy(const BoundaryFace& face) const
 
 //------------------------------------------------------------------------------
 /**
- * Whether a line of the bundle may enter by the face, by its side. Twice the area that it has about
- * a line is affine in the slopes; rounding of vertices and rays moves its corners by GridMargin.
+ * False if the orientation of the face shows that no line of the bundle enters by it. Twice its
+ * projected area about a line is affine in the slopes; rounding of vertices and rays moves its
+ * corners by GridMargin.
  */
 bool RayBundleEntries::MayFace(const PacketFace& face, const Bundle& bundle) const
 {
@@ -138,7 +143,7 @@ bool RayBundleEntries::MayFace(const PacketFace& face, const Bundle& bundle) con
     return glm::dvec3(place[0], place[1], place[2]);
   };
   const glm::dvec3 corner = placeOf(0);
-  // A unit of depth in units of the grid across.
+  // Unit of depth over unit of the grid across.
   const glm::dvec3 scale(
     1.0, 1.0, 1.0 / PacketVertex::GridPerDepth / this->Frame.Rays.GetGridUnit());
   const glm::dvec3 first = scale * (placeOf(1) - corner);
@@ -147,8 +152,8 @@ bool RayBundleEntries::MayFace(const PacketFace& face, const Bundle& bundle) con
   const glm::dvec2 across(normal);
   const double area = normal.z + glm::dot(across, bundle.MeanSlope);
   const double spread = glm::dot(glm::abs(across), bundle.SlopeSpread);
-  // Both ends of an edge are off by GridMargin, by sqrt(2) times 2 of it in all. About a line, with
-  // slopes within 1, an edge is at most sqrt(3) times as long.
+  // Both ends of an edge have an error of GridMargin, in all sqrt(2) times 2 of it. About a line
+  // with slopes within 1, an edge is at most sqrt(3) times as long.
   constexpr double offset = 2.83 * GridMargin;
   const double edges = 1.74 * (glm::length(first) + glm::length(second));
   return area + spread > -offset * (edges + offset);
@@ -252,7 +257,9 @@ void RayBundleEntries::Collect(const std::vector<Line>& lines,
 }
 
 //------------------------------------------------------------------------------
-/** Whether the ray enters by the face, and where; one without projected area at its first vertex.
+/**
+ * Tests whether the ray enters by the face and computes the depth; a face without projected area is
+ * met at its first vertex.
  */
 bool RayBundleEntries::Enters(const PacketFace& face, const PacketRay& ray, double& depth) const
 {

@@ -16,44 +16,47 @@ namespace meniscus
 {
 
 /**
- * Whether cells are turned inside out by more than rounding: then a ray may come back to a cell,
- * and only a walk from the boundary on is sure to end on it.
+ * True if a cell is inverted by more than rounding. A ray may then return to a cell it has left,
+ * and only a walk from the boundary is certain to end on the boundary.
  */
 bool HasInvertedCells(const TetrahedralMesh& mesh, const RangeLoop& loop = SerialLoop);
 
-/** The box about the boundary, in the frame of the view; without extent if there is none. */
+/**
+ * Bounding box of the boundary in the frame of the view; without extent if there is no boundary.
+ */
 BoundsInFrame BoxOf(const BoundaryTree& tree, const RayFrame& view);
 
 /**
- * Which boundary faces straight lines of a frame enter by. Lines are taken in bundles: at a depth
- * all of a bundle are in a rectangle that changes linearly with it, which sifts the tree of the
- * boundary; the faces left are tested with every line by the signs and the tie rule of the walk.
+ * Boundary faces by which straight lines of a frame enter the mesh. Lines are taken in bundles: at
+ * each depth, all lines of a bundle are in a rectangle that changes linearly with the depth, and
+ * the tree of the boundary is searched with these rectangles. The remaining faces are tested with
+ * every line by the signs and the tie rule of the walk.
  */
 class RayBundleEntries
 {
 public:
   static constexpr int LargestBundle = 64;
 
-  /** What `mesh`, `tree` and `frame` are must outlive this. */
+  /** `mesh`, `tree` and `frame` must outlive this object. */
   RayBundleEntries(const TetrahedralMesh& mesh, const BoundaryTree& tree,
     const RefractionFrame& frame, InstructionSet set);
 
   struct Line
   {
     FrameLine Of{};
-    /** From which depth on entries are wanted. */
+    /** Depth from which on entries are collected. */
     double From = 0.0;
     PacketRay Ray{};
-    /** Whether one of its entries is a face inside of the mesh: see FindEntryNear(). */
+    /** True if one of its entries is a face inside the mesh: see FindEntryNear(). */
     bool EntersInside = false;
   };
   struct Hit
   {
-    /** Number of the line. */
+    /** Index of the line. */
     std::int32_t Line;
     PacketEntry Entry;
   };
-  /** Room for the work of one thread. */
+  /** Buffers of one thread. */
   struct Workspace
   {
     std::vector<PacketFace> Faces;
@@ -62,18 +65,19 @@ public:
   };
 
   /**
-   * Appends the entries of lines, in no order.
-   * @param numbers  of the lines of the bundle; at most LargestBundle.
+   * Appends the entries of lines, unsorted.
+   * @param numbers indices of the lines of the bundle; at most LargestBundle.
    */
   void Collect(const std::vector<Line>& lines, const std::vector<std::int32_t>& numbers,
     Workspace& workspace, std::vector<Hit>& hits) const;
 
   /**
-   * How a line enters the cell in front of a face, or one about it, before a depth: an entry from
-   * which a walk comes to that depth. False if it passes by these cells.
+   * Finds an entry of a line before a given depth into the cell at a face, or into a cell next to
+   * it, from which a walk reaches that depth. Returns false if the line passes none of these cells.
    *
-   * In a mesh without inverted cells the walk goes on to the boundary. Cells that rounding inverts
-   * might make it go round for ever; the walk finds that out, and has to begin on the boundary.
+   * In a mesh without inverted cells the walk continues to the boundary. Cells that rounding
+   * inverts might make it go round for ever; the walk detects this and has to begin on the boundary
+   * instead.
    */
   bool FindEntryNear(
     std::int32_t cellFace, const PacketRay& ray, double before, PacketEntry& entry) const;
@@ -90,7 +94,7 @@ private:
   const BoundaryTree& Tree;
   const RefractionFrame& Frame;
   InstructionSet Set;
-  /** Columns: normalised model coordinates to the frame, and the size of that. */
+  /** Columns of the map from normalised model coordinates to the frame, and their magnitudes. */
   glm::dmat3 ToFrame;
   glm::dmat3 Reach;
 };

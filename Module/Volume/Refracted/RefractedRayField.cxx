@@ -20,7 +20,7 @@ namespace meniscus
 namespace
 {
 
-/** Pixels of a block, along each side: what its rays come to is bounded together. */
+/** Side length in pixels of a block whose rays are bounded together. */
 constexpr int BlockSize = 8;
 
 bool operator==(const AffinePixelMap& a, const AffinePixelMap& b)
@@ -46,7 +46,7 @@ bool RefractedRayField::View::operator==(const View& o) const
     this->Exterior == o.Exterior && this->Interior == o.Interior && this->Mesh == o.Mesh;
 }
 
-/** The rays of a tile, relative to the membrane's origin. */
+/** Rays of a tile, relative to the membrane's origin. */
 class RefractedRayField::TileRays
 {
 public:
@@ -60,12 +60,13 @@ public:
       this->CornersOf(this->Left, this->Bottom, this->Left + TileSize, this->Bottom + TileSize);
     const auto& starts = corners.Starts;
     const auto& along = corners.Directions;
-    // A place that the tile sees.
+    // A place inside the tile's frustum.
     const glm::dvec3 inside =
       0.5 * (starts[0] + starts[2]) + 0.5 * (sight.Of.EyeDepth + 1.0) * (along[0] + along[2]);
     for (int side = 0; side < 4; ++side)
     {
-      // Through two rays, of one eye or parallel: of two points of the next ray the better one.
+      // Plane through two rays, which meet in the eye or are parallel: of two points of the next
+      // ray, the better conditioned one is used.
       const int next = (side + 1) % 4;
       const glm::dvec3 across = starts[next] - starts[side];
       const glm::dvec3 first = glm::cross(along[side], across);
@@ -77,11 +78,11 @@ public:
     }
   }
 
-  /** From the image's centre. */
+  /** Column and row from the image's centre. */
   double ColumnOf(int column) const { return column + this->ToCenter.x; }
   double RowOf(int row) const { return row + this->ToCenter.y; }
 
-  /** Of a rectangle of pixels; right and top are exclusive. */
+  /** Rays at the corners of a rectangle of pixels; right and top are exclusive. */
   CornerRays CornersOf(int left, int bottom, int right, int top) const
   {
     const int columns[4] = { left, right - 1, right - 1, left };
@@ -97,7 +98,7 @@ public:
     return corners;
   }
 
-  /** Whether a ball is on the outer side of one of the tile's sides. */
+  /** True if a ball is on the outer side of one of the tile's sides. */
   bool IsBeside(const glm::dvec3& center, double radius) const
   {
     for (const glm::dvec4& side : this->Sides)
@@ -159,7 +160,10 @@ void RefractedRayField::PrepareRays(const Membrane& surface)
 }
 
 //------------------------------------------------------------------------------
-/** Where a place of the frame is seen, counted from the image's centre; false beside the eye. */
+/**
+ * Computes the pixel at which a place of the frame is seen, counted from the image's centre.
+ * Returns false for places not in front of the eye.
+ */
 bool RefractedRayField::PixelOf(const glm::dvec3& place, glm::dvec2& pixel) const
 {
   const AffinePixelMap& origin = this->Of.Frame.Origin;
@@ -170,12 +174,12 @@ bool RefractedRayField::PixelOf(const glm::dvec3& place, glm::dvec2& pixel) cons
   const double determinant = column.x * row.y - column.y * row.x;
   pixel = glm::dvec2(rest.x * row.y - rest.y * row.x, column.x * rest.y - column.y * rest.x) /
     determinant;
-  // Far pixels are no pixels, and would not fit an integer.
+  // Far pixels are outside of any image and would not fit an integer.
   return std::fabs(pixel.x) < 1e9 && std::fabs(pixel.y) < 1e9;
 }
 
 //------------------------------------------------------------------------------
-/** Along the sight ray of a place. */
+/** Direction of the sight ray to a place. */
 glm::dvec3 RefractedRayField::SightTo(const glm::dvec3& place) const
 {
   const bool isParallel =
@@ -185,7 +189,7 @@ glm::dvec3 RefractedRayField::SightTo(const glm::dvec3& place) const
 }
 
 //------------------------------------------------------------------------------
-/** Whether rays that meet the patch may come to the mesh, before it or behind it. */
+/** True if rays that meet the patch may reach the mesh, in front of the membrane or behind it. */
 bool RefractedRayField::MayShowMesh(const CurvedPatch& patch, double bulge) const
 {
   const glm::dvec3 sights[3] = { this->SightTo(patch.Corner[0]), this->SightTo(patch.Corner[1]),
@@ -211,7 +215,7 @@ RefractedRayField::SeenFacet RefractedRayField::See(
     glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]));
   SeenFacet seen{ { 0, this->Of.Width, 0, this->Of.Height }, true, isAtBorder,
     (facing > 0.0 ? 1 : 0) - (facing < 0.0 ? 1 : 0), false, glm::dvec3(0.0), 0.0 };
-  // What a ball of the world may be in the frame.
+  // Extents, in the frame, of a unit ball in world coordinates.
   glm::dvec3 reach(0.0);
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -257,7 +261,7 @@ RefractedRayField::SeenFacet RefractedRayField::See(
   const auto clamped = [](double value, int size)
   { return static_cast<int>(std::min(std::max(value, 0.0), static_cast<double>(size))); };
   const glm::dvec2 center(0.5 * this->Of.Width, 0.5 * this->Of.Height);
-  // Pixel p has its centre at p + 0.5; one more on each side for rounding.
+  // Pixel p has its centre at p + 0.5; one more pixel on each side covers rounding.
   seen.Pixels = { clamped(lower.x + center.x - 1.5, this->Of.Width),
     clamped(upper.x + center.x + 1.5, this->Of.Width),
     clamped(lower.y + center.y - 1.5, this->Of.Height),
@@ -345,7 +349,7 @@ void RefractedRayField::Build(
 }
 
 //------------------------------------------------------------------------------
-/** Puts in where a facet is met before what is there. */
+/** Replaces the hits of rays that meet this facet before the facet found so far. */
 void RefractedRayField::TraceFacet(const CurvedPatch& patch, const SeenFacet& seen,
   const TileRays& rays, std::vector<MembraneHit>& hits) const
 {
@@ -408,8 +412,9 @@ void RefractedRayField::TraceBox(const PatchIntersector& tracer,
 
 //------------------------------------------------------------------------------
 /**
- * Whether all rays of a tile end at the membrane before they come to the mesh. Facets seen from one
- * side, without an edge of the membrane among them, cover the whole tile if they cover any of it.
+ * True if all rays of a tile meet the membrane before they reach the mesh. Facets seen from one
+ * side, without an edge of the membrane among them, cover the whole tile if they cover any part of
+ * it.
  */
 bool RefractedRayField::HidesTile(const CurvedPatches& patches,
   const std::vector<SeenFacet>& facets, int tile, const TileRays& rays) const
@@ -462,7 +467,10 @@ void RefractedRayField::TraceTile(const CurvedPatches& patches,
 }
 
 //------------------------------------------------------------------------------
-/** @param directions  the steps along the refracted rays are added, in the world. */
+/**
+ * @param directions sum to which the steps along the refracted rays are added, in world
+ *   coordinates.
+ */
 void RefractedRayField::RefractTile(const TileRays& tile, const std::vector<MembraneHit>& hits,
   std::vector<RefractedRay>& rays, glm::dvec3& directions) const
 {

@@ -21,7 +21,10 @@
 namespace meniscus
 {
 
-/** What is drawn of a ray: all, before or beside the membrane, behind it. */
+/**
+ * Part of a ray that is drawn: the whole ray, the part in front of the membrane (and rays that miss
+ * it), or the part behind it.
+ */
 enum class MembranePart
 {
   Whole,
@@ -29,15 +32,15 @@ enum class MembranePart
   Behind
 };
 
-/** What becomes of a pixel's ray at a membrane, in the frame of the view. */
+/** Refraction of one pixel's ray at the membrane, in the frame of the view. */
 struct RefractedRay
 {
-  /** Of the sight point; infinite where the ray does not meet the membrane. */
+  /** Depth of the sight point; infinite if the ray does not meet the membrane. */
   double Depth = std::numeric_limits<double>::infinity();
   /**
-   * The way along the refracted ray for a unit of depth along the sight ray: what is drawn at the
-   * depth Depth + s is at the sight point + s * Step (the thesis's Eq. 2.4 undone). 0 where the ray
-   * is totally reflected.
+   * Step along the refracted ray per unit of depth along the sight ray: the point drawn at the
+   * depth Depth + s is the sight point + s * Step (the inverse of the thesis's Eq. 2.4). It is 0 if
+   * the ray is totally reflected.
    */
   glm::dvec3 Step{ 0.0 };
 
@@ -45,18 +48,19 @@ struct RefractedRay
   bool GoesOn() const { return this->Step != glm::dvec3(0.0); }
 };
 
-/** A box about what there is to see, in the frame of the view. */
+/** Bounding box of the visible geometry, in the frame of the view. */
 struct BoundsInFrame
 {
   glm::dvec3 Center{ 0.0 };
-  /** Columns: from the centre to the middles of three sides. */
+  /** Columns: vectors from the centre to the middles of three sides. */
   glm::dmat3 HalfEdges{ 0.0 };
 };
 
 /**
- * Where the rays of an image first meet a membrane of curved patches, and how they go on behind it,
- * by tiles. Facets are sorted into tiles by bounds of their patches' pictures; in a pixel, the ray
- * is cut with the patches by Newton's method, from where it meets the facet.
+ * First intersections of the rays of an image with a membrane of curved patches, and the refracted
+ * rays behind it, by tiles. Facets are sorted into tiles by bounds of the projections of their
+ * patches. In each pixel, the ray is intersected with the patches by Newton's method, starting from
+ * its intersection with the facet.
  */
 class RefractedRayField
 {
@@ -66,14 +70,20 @@ public:
     RayFrame Frame;
     int Width = 0;
     int Height = 0;
-    /** Of the frame, in world coordinates. */
+    /** Origin of the frame, in world coordinates. */
     glm::dvec3 Center{ 0.0 };
-    /** Depth of the eye: what lies before it is not seen. */
+    /** Depth of the eye: geometry at smaller depths is not seen. */
     double EyeDepth = 0.0;
-    /** Index of refraction on the side that the membrane's normals point to, and on the other. */
+    /**
+     * Indices of refraction on the side that the membrane's normals point to, and on the other
+     * side.
+     */
     double Exterior = 1.0;
     double Interior = 1.333;
-    /** Rays that cannot come there, before the membrane or behind it, do not matter. */
+    /**
+     * Bounds of the mesh. The refraction of rays that miss it on both sides of the membrane is not
+     * computed.
+     */
     BoundsInFrame Mesh;
 
     bool operator==(const View& other) const;
@@ -85,12 +95,12 @@ public:
   /** Traces all rays to the membrane. */
   void Build(const Membrane& surface, const CurvedPatches& patches, const View& view,
     const RangeLoop& loop = SerialLoop);
-  /** Forgets all rays. */
+  /** Removes all rays. */
   void Clear();
 
   /**
-   * Rows of TileSize rays, from the tile's lower left pixel on; null if none of the tile meets the
-   * membrane. Tiles are numbered as in BoundaryRaster.
+   * Rays of a tile in rows of TileSize, starting at the tile's lower left pixel; null if no ray of
+   * the tile meets the membrane. Tiles are numbered as in BoundaryRaster.
    */
   const RefractedRay* GetTile(int tile) const
   {
@@ -98,9 +108,12 @@ public:
     return rays.empty() ? nullptr : rays.data();
   }
   int GetNumberOfTiles() const { return static_cast<int>(this->Tiles.size()); }
-  /** Whether any ray meets the membrane. */
+  /** True if any ray meets the membrane. */
   bool IsSeen() const { return this->Seen; }
-  /** Of the rays behind the membrane, the mean, in the frame; a unit vector, or 0 without any. */
+  /**
+   * Mean direction of the refracted rays in the frame of the view; a unit vector, or 0 if there are
+   * none.
+   */
   const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
   const View& GetView() const { return this->Of; }
   std::int64_t GetBytes() const;
@@ -113,17 +126,18 @@ private:
     int Bottom;
     int Top; // exclusive
   };
-  /** What is known of a facet's patch before it is met with rays. */
+  /** Data of a facet's patch before it is intersected with rays. */
   struct SeenFacet
   {
     Box Pixels;
-    /** Whether what its rays meet may be the mesh. */
+    /** True if rays that meet the patch may reach the mesh. */
     bool Matters;
-    /** Of the membrane. */
+    /** True if the facet is at the border of the membrane. */
     bool IsAtBorder;
-    /** 1 or -1: the side of the facet that is seen; 0 on edge. */
+    /** Side of the facet that is seen: 1 or -1; 0 if it is edge-on. */
     int Side;
-    /** Whether nothing but the whole image bounds it; then about it: */
+    /** True if the projection has no bounds but the image; Center and Radius are set in that case.
+     */
     bool Unbounded;
     glm::dvec3 Center;
     double Radius;
@@ -153,9 +167,9 @@ private:
   bool Seen = false;
   glm::dvec3 MeanDirection{ 0.0 };
   glm::dmat3 WorldToFrame{ 1.0 };
-  /** Relative to the membrane's origin. */
+  /** Bounds of the mesh, relative to the membrane's origin. */
   VisibilityBounds Mesh;
-  /** Relative to the membrane's origin. */
+  /** Rays of the pixels, relative to the membrane's origin. */
   SightRays Rays;
   InstructionSet Set = BestInstructionSet();
   std::vector<std::int32_t> TileBegin;

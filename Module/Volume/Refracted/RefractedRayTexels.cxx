@@ -14,7 +14,7 @@ namespace
 
 constexpr int TileSize = RefractedRayField::TileSize;
 
-/** Grid depth of a float, as vtkTetrahedraRays has it. */
+/** Grid depth of a float, computed as in vtkTetrahedraRays.glsl. */
 std::int32_t GridDepthOf(float depth)
 {
   constexpr float largest = 1073741824.0f; // 2^30
@@ -22,7 +22,9 @@ std::int32_t GridDepthOf(float depth)
   return static_cast<std::int32_t>(std::clamp(grid, -largest, largest));
 }
 
-/** What has to be added to that, plus 128: a float below 1, and its product, are off by 2^-25. */
+/**
+ * Correction to that grid depth, plus 128: a float below 1 and its product are rounded to 2^-25.
+ */
 std::int32_t RestOf(double depth)
 {
   const std::int32_t grid = GridDepthOf(static_cast<float>(depth));
@@ -48,7 +50,7 @@ RefractedRayLine LineOf(const RefractedRay& ray, const glm::dvec2& pixel,
     const PacketRay packet = frames.Get(index).Rays.RayAlong(of.Origin, of.Slope);
     for (int axis = 0; axis < 2; ++axis)
     {
-      // The nearest whole number: the packet's offset is half a unit more.
+      // The nearest integer is stored: the packet's offset is half a unit larger.
       line.Offset[axis] = static_cast<std::int32_t>(packet.Offset[axis] >> 32);
       line.Slope[axis] = packet.Slope[axis];
     }

@@ -14,37 +14,45 @@ namespace meniscus
 {
 
 /**
- * What a shader wants to know of a pixel's ray behind the membrane, in two texels of integers. Like
- * a straight ray it is a line in a grid, that of one of the RefractionFrames in place of the grid
- * of the view.
+ * Data that a shader needs about a pixel's refracted ray, in two texels of integers. Like a
+ * straight ray it is a line in a grid: the grid of one of the RefractionFrames instead of that of
+ * the view.
  */
 struct RefractedRayLine
 {
-  /** In grid units. */
+  /** Offset in grid units. */
   std::int32_t Offset[2];
-  /** Per grid unit of depth, in units of 2^-32. */
+  /** Slope per grid unit of depth, in units of 2^-32. */
   std::int32_t Slope[2];
-  /** Of the sight point, on the straight ray; Nowhere where that does not meet the membrane. */
+  /**
+   * Depth of the sight point on the straight ray; Nowhere if that ray does not meet the membrane.
+   */
   float MembraneDepth;
-  /** The sight point's depth in the line's frame. */
+  /** Depth of the sight point in the line's frame. */
   float Start;
-  /** Depth in the line's frame per depth on the straight ray; 0 where nothing goes on. */
+  /**
+   * Depth in the line's frame per unit of depth on the straight ray; 0 if there is no refracted ray
+   * to draw.
+   */
   float PerDepth;
   /**
-   * Index of the frame; from bit 8 and 16 on what has to be added to the grid depths of
-   * MembraneDepth and Start, plus 128, for floats have too few digits.
+   * Index of the frame in bits 0 to 7. From bits 8 and 16 on, the corrections, plus 128, to the
+   * grid depths of MembraneDepth and Start, because floats have too few digits.
    */
   std::int32_t FrameAndRests;
 
   int GetFrame() const { return this->FrameAndRests & 255; }
-  /** Depths in grid units, exact where the mesh may be; as a shader finds them. */
+  /** Depths in grid units, exact where the mesh may be, computed as in the shader. */
   std::int32_t GetGridMembraneDepth() const;
   std::int32_t GetGridStart() const;
 
   static constexpr float Nowhere = 1.0e+30f;
 };
 
-/** The lines of all pixels, rows from below. Replaces `lines`. @pre frames.Turn() */
+/**
+ * Computes the lines of all pixels, in rows from the bottom. Replaces `lines`.
+ * @pre frames.Turn()
+ */
 void LayOutRefractedRays(const RefractedRayField& sight, const RefractionFrames& frames,
   const RangeLoop& loop, std::vector<RefractedRayLine>& lines);
 

@@ -18,7 +18,10 @@ namespace meniscus
 namespace
 {
 
-/** Depth along an axis of the cube (the columns), or against it: always the same handedness. */
+/**
+ * Rotation to a frame whose depth is along or against an axis of the cube (a column of `axes`); the
+ * handedness is always the same.
+ */
 glm::dmat3 RotationTo(const glm::dmat3& axes, int index)
 {
   const int axis = (2 + index / 2) % 3;
@@ -27,7 +30,7 @@ glm::dmat3 RotationTo(const glm::dmat3& axes, int index)
     glm::dmat3(sign * axes[(axis + 1) % 3], axes[(axis + 2) % 3], sign * axes[axis]));
 }
 
-/** `view` turned, with a grid for slopes within 1. */
+/** The frame `view` after a rotation, with a grid for slopes within 1. */
 RefractionFrame MakeFrame(const RayFrame& view, const glm::dmat3& rotation)
 {
   RefractionFrame frame;
@@ -41,7 +44,7 @@ RefractionFrame MakeFrame(const RayFrame& view, const glm::dmat3& rotation)
   turned.ViewToWorld = view.ViewToWorld * glm::transpose(rotation);
   turned.Handedness = view.Handedness;
   frame.Extent = std::max({ glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]) });
-  // FixedPointRays makes room for 1 + the steepest slope; a ray of slope 1 that meets the mesh
+  // FixedPointRays reserves range for 1 + the steepest slope; a ray of slope 1 that meets the mesh
   // passes the origin within 2 extents.
   turned.Slope.Base = glm::dvec2(2.0 * frame.Extent - 1.0);
   frame.Rays = FixedPointRays(turned, 1, 1);
@@ -69,7 +72,7 @@ int RefractionFrames::IndexOf(const glm::dvec3& step) const
 {
   const glm::dvec3 along = step * this->Axes;
   const glm::dvec3 size = glm::abs(along);
-  // In the order of the frames' axes, so that the mean direction's is preferred.
+  // In the order of the frames' axes, so that the axis of the mean direction is preferred.
   const int axis = size.z >= size.x && size.z >= size.y ? 2 : (size.x >= size.y ? 0 : 1);
   return (axis + 1) % 3 * 2 + (along[axis] < 0.0 ? 1 : 0);
 }

@@ -17,13 +17,13 @@
 namespace meniscus
 {
 
-/** A straight line of a frame: (x, y) = Origin + depth * Slope. */
+/** A straight line in a frame: (x, y) = Origin + depth * Slope. */
 struct FrameLine
 {
   glm::dvec2 Origin;
   glm::dvec2 Slope;
 
-  /** Through a place, along a step that has a depth. */
+  /** The line through `place` along `step`, which must have a depth component. */
   static FrameLine Through(const glm::dvec3& place, const glm::dvec3& step)
   {
     const glm::dvec2 slope = glm::dvec2(step) / step.z;
@@ -31,39 +31,42 @@ struct FrameLine
   }
 };
 
-/** The frame of the view turned, so that its depth is along the rays. */
+/** The frame of the view, rotated so that its depth is along the refracted rays. */
 struct RefractionFrame
 {
-  /** Of the view to this one: a rotation. */
+  /** Rotation from the frame of the view to this one. */
   glm::dmat3 FromView{ 1.0 };
-  /** The grid. */
+  /** Fixed-point grid of the frame. */
   FixedPointRays Rays;
-  /** The mesh's coordinates are within this. */
+  /** Bound of the magnitude of the mesh's coordinates. */
   double Extent = 0.0;
-  /** The mesh's, once they have been placed. */
+  /** Vertices of the mesh, after they have been placed. */
   std::vector<PacketVertex> Vertices;
 
-  /** Lights of the frame of the view. */
+  /** Rotates lights from the frame of the view to this frame. */
   SurfaceLighting Turn(const SurfaceLighting& lighting) const;
 };
 
 /**
- * Frames for rays of any direction. One alone places vertices for all slopes within 1; there are
- * six, with depth along and against the axes of a cube. The first one's depth is the mean direction
- * of the rays, so mostly it is all that is needed.
+ * Frames for rays of any direction. One frame handles all slopes within 1; there are six, with
+ * depth along and against the axes of a cube. The depth of the first one is the mean direction of
+ * the refracted rays, so that in most cases no other is needed.
  */
 class RefractionFrames
 {
 public:
   static constexpr int Number = 6;
 
-  /** Turns the frames to the rays behind the membrane, and finds out which are needed. */
+  /** Rotates the frames to the refracted rays, and determines which frames are needed. */
   void Turn(const RefractedRayField& sight, const RayFrame& view, const RangeLoop& loop);
 
-  /** Places the vertices of a mesh in the frames that are needed. Scalars as of PlaceVertices(). */
+  /**
+   * Places the vertices of a mesh in the frames that are needed. For the scalars see
+   * PlaceVertices().
+   */
   void Place(const TetrahedralMesh& mesh, const std::vector<float>& scalars, const RangeLoop& loop);
 
-  /** The frame of a ray of that direction. */
+  /** Index of the frame for a ray of that direction. */
   int IndexOf(const glm::dvec3& step) const;
   const RefractionFrame& Get(int index) const
   {

@@ -16,12 +16,12 @@
 namespace meniscus
 {
 
-/** Of a mesh and of its scalars; 0: none. */
+/** Version of a mesh and of its scalars; 0: none. */
 using VertexVersion = std::array<std::int64_t, 2>;
 
 /**
- * The ray caster on the CPU: SIMD packets of the widest instruction set there is, tiles in parallel
- * by vtkSMPTools. The image does not depend on the number of threads.
+ * The ray caster on the CPU: SIMD packets of the widest instruction set available, with tiles in
+ * parallel by vtkSMPTools. The image does not depend on the number of threads.
  */
 class RayCastNative
 {
@@ -32,11 +32,11 @@ public:
 
   /**
    * Casts the rays of an image.
-   * @param scene        its Tables and Set are filled in here.
-   * @param scalars      one normalised scalar per mesh vertex.
-   * @param version      changes with the mesh and the scalars.
-   * @param opaqueDepth  window depths in [0, 1], one per pixel, rows from below.
-   * @param image        premultiplied RGBA per pixel; resized.
+   * @param scene its Tables and Set are filled in here.
+   * @param scalars one normalised scalar per mesh vertex.
+   * @param version changes with the mesh and the scalars.
+   * @param opaqueDepth window depths in [0, 1], one per pixel, in rows from the bottom.
+   * @param image premultiplied RGBA per pixel; resized.
    */
   RayStatistics Cast(TileCaster::Scene scene, const std::vector<float>& scalars,
     const VertexVersion& version, const std::vector<float>& opaqueDepth, std::vector<float>& image);

@@ -13,8 +13,9 @@ namespace meniscus
 {
 
 /**
- * A program of one compute shader (OpenGL 4.3), which VTK's shader cache does not know (VTK 9.1),
- * with the uniforms of vtkShaderProgram. All calls want the window's context to be current.
+ * A program of one compute shader (OpenGL 4.3), which VTK's shader cache does not support (VTK
+ * 9.1), with the uniforms of vtkShaderProgram. All calls require the window's context to be
+ * current.
  */
 class OpenGLComputeProgram : public vtkShaderProgram
 {
@@ -22,16 +23,16 @@ public:
   static OpenGLComputeProgram* New();
   vtkTypeMacro(OpenGLComputeProgram, vtkShaderProgram);
 
-  /** Whether the current context has compute shaders. */
+  /** True if the current context has compute shaders. */
   static bool IsSupported();
 
-  /** Compiles and links; false if that fails. */
+  /** Compiles and links; returns false on failure. */
   bool Build(const std::string& source);
 
-  /** Makes it the current program, in place of what VTK believes to be. */
+  /** Makes it the current program, regardless of VTK's record of the current one. */
   void Use(vtkOpenGLRenderWindow* window);
 
-  /** Runs the groups and waits with later reads until images are written; unbinds the program. */
+  /** Runs the groups, delays later reads until images are written, and unbinds the program. */
   void Dispatch(int groupsX, int groupsY);
 
   /** Frees the program. */

@@ -20,7 +20,7 @@ namespace meniscus
 namespace
 {
 
-// Fragments of a pass: 4 MB.
+// Number of fragments of a pass: 4 MB.
 constexpr int Columns = 1024;
 constexpr int MostRows = 256;
 constexpr std::int64_t BytesOfVertex = 16;
@@ -34,7 +34,7 @@ OpenGLPlacedVertices::OpenGLPlacedVertices() = default;
 OpenGLPlacedVertices::~OpenGLPlacedVertices() = default;
 
 //------------------------------------------------------------------------------
-/** Makes what the passes draw with and to. */
+/** Creates the objects with which and to which the passes draw. */
 std::string OpenGLPlacedVertices::Prepare(vtkOpenGLRenderWindow* window, std::int64_t vertices)
 {
   if (!this->Quad)

@@ -22,8 +22,9 @@ namespace meniscus
 {
 
 /**
- * The vertices of a mesh in the grids of one or several frames, placed by the graphics device from
- * the table of the mesh: nothing is sent. All calls want the window's context to be current.
+ * The vertices of a mesh in the grids of one or several frames, computed by the graphics device
+ * from the table of the mesh, without uploads. All calls require the window's context to be
+ * current.
  */
 class OpenGLPlacedVertices
 {
@@ -37,17 +38,18 @@ public:
   using FrameRows = std::array<std::int32_t, 9>;
 
   /**
-   * Places the vertices, if they are not placed so already; those of frame i begin at i times their
-   * number. Binds a framebuffer and sets the viewport. Returns an error or nothing.
-   * @param vertices  (x, y, z, scalar) of each in fixed point.
-   * @param version   changes with the vertices.
+   * Places the vertices unless they are placed in this way already; those of frame i begin at i
+   * times their number. Binds a framebuffer and sets the viewport. Returns an error or an empty
+   * string.
+   * @param vertices (x, y, z, scalar) of each vertex in fixed point.
+   * @param version changes with the vertices.
    */
   std::string Update(vtkOpenGLRenderWindow* window, OpenGLTable& vertices, std::int64_t version,
     const std::vector<FrameRows>& frames);
 
   OpenGLTable& GetTable() { return this->Table; }
   const OpenGLTable& GetTable() const { return this->Table; }
-  /** Times that vertices were placed. */
+  /** Number of times that vertices were placed. */
   std::int64_t GetNumberOfPlacings() const { return this->Placings; }
 
   void Release(vtkWindow* window);

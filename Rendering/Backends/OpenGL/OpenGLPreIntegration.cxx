@@ -36,7 +36,7 @@ std::string OpenGLPreIntegration::Upload(
   texture->SetWrapR(vtkTextureObject::ClampToEdge);
   texture->SetMinificationFilter(vtkTextureObject::Linear);
   texture->SetMagnificationFilter(vtkTextureObject::Linear);
-  // VTK only reads the values, but wants a pointer to what is not const.
+  // VTK only reads the values, but requires a pointer to non-const data.
   auto* values = const_cast<float*>(table.GetValues().data());
   if (!texture->Create3DFromRaw(scalars, scalars, lengths, 4, VTK_FLOAT, values))
   {

@@ -18,20 +18,20 @@ namespace meniscus
 
 class PreIntegrationTable;
 
-/** A pre-integration table as a texture of three dimensions that shaders interpolate in. */
+/** A pre-integration table as a three-dimensional texture, which shaders interpolate. */
 class OpenGLPreIntegration
 {
 public:
   bool IsFilled() const { return this->Texture != nullptr; }
   std::int64_t GetBytes() const { return this->Bytes; }
 
-  /** Replaces the contents. Returns an error or nothing. */
+  /** Replaces the contents. Returns an error or an empty string. */
   std::string Upload(vtkOpenGLRenderWindow* window, const PreIntegrationTable& table);
 
   /** Sets the uniforms of vtkTetrahedraPreIntegrated. */
   void Activate(vtkShaderProgram* program);
   void Deactivate() { this->Texture->Deactivate(); }
-  /** Wants the window's context to be current. */
+  /** Requires the window's context to be current. */
   void Release(vtkWindow* window);
 
 private:

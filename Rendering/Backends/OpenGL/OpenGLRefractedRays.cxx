@@ -44,7 +44,7 @@ std::string OpenGLRefractedRays::Upload(vtkOpenGLRenderWindow* window,
   texture->SetInternalFormat(GL_RGBA32I);
   texture->SetFormat(GL_RGBA_INTEGER);
   texture->SetDataType(GL_INT);
-  // VTK only reads the values, but wants a pointer to what is not const.
+  // VTK only reads the values, but requires a pointer to non-const data.
   auto* values = const_cast<RefractedRayLine*>(lines.data());
   if (!texture->Create2DFromRaw(2 * width, height, 4, VTK_INT, values))
   {

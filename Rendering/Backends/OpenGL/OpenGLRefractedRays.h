@@ -25,22 +25,26 @@ class vtkWindow;
 namespace meniscus
 {
 
-/** The rays behind a membrane for shaders: a line per pixel, and the frames that they are of. */
+/** The refracted rays of an image for shaders: a line per pixel, and the frames of the lines. */
 class OpenGLRefractedRays
 {
 public:
   bool IsFilled() const { return this->Texture != nullptr; }
   std::int64_t GetBytes() const { return this->Bytes; }
 
-  /** Which limit an image of so many pixels exceeds, one in texels or the device's; empty if none.
+  /**
+   * Description of the limit, in texels or of the device, that an image of the given size exceeds;
+   * empty if none.
    */
   static std::string DescribeExcess(const int (&imageSize)[2], std::int64_t limit);
 
-  /** Replaces the contents. Returns an error or nothing. */
+  /** Replaces the contents. Returns an error or an empty string. */
   std::string Upload(vtkOpenGLRenderWindow* window, const std::vector<RefractedRayLine>& lines,
     int width, int height, const RefractionFrames& frames);
 
-  /** Rows of the frames with lines, in the order in which their vertices follow the view's. */
+  /**
+   * Rows of the frames with lines, in the order in which their vertices follow those of the view.
+   */
   const std::vector<std::array<std::int32_t, 9>>& GetFixedPointRows() const
   {
     return this->FixedRows;
@@ -52,16 +56,16 @@ public:
    */
   void Activate(vtkShaderProgram* program, std::int64_t vertices);
   void Deactivate() { this->Texture->Deactivate(); }
-  /** Wants the window's context to be current. */
+  /** Requires the window's context to be current. */
   void Release(vtkWindow* window);
 
 private:
   vtkSmartPointer<vtkTextureObject> Texture;
   std::int64_t Bytes = 0;
-  /** By frame: rows of the frame, then its axes in that of the view; three numbers each. */
+  /** Rows of each frame, and its axes in the frame of the view; three numbers each. */
   std::vector<float> Rows[3];
   std::vector<float> Axes[3];
-  /** By frame: grid units of x and y per unit; which of FixedRows is its, from 1 on. */
+  /** Grid units of x and y per unit of each frame; index of its rows in FixedRows, from 1. */
   std::vector<float> GridPerUnit;
   std::vector<int> Places;
   std::vector<std::array<std::int32_t, 9>> FixedRows;

@@ -21,7 +21,7 @@ std::string OpenGLTable::DescribeExcess(std::int64_t texels)
 }
 
 //------------------------------------------------------------------------------
-/** Of the buffer. */
+/** Creates the texture of the buffer. */
 bool OpenGLTable::MakeTexture(
   vtkOpenGLRenderWindow* window, std::int64_t texels, int components, int vtkType)
 {

@@ -32,21 +32,22 @@ public:
   std::int64_t GetBytes() const { return this->Bytes; }
 
   /**
-   * Replaces the contents by `count` values in texels of 1 or 4. Returns an error or nothing.
-   * @param texelsPerRow  only for GetNumberOfRows().
+   * Replaces the contents by `count` values in texels of 1 or 4. Returns an error or an empty
+   * string.
+   * @param texelsPerRow used by GetNumberOfRows() only.
    */
   std::string Upload(vtkOpenGLRenderWindow* window, const float* values, std::size_t count,
     int components, int texelsPerRow);
   std::string Upload(vtkOpenGLRenderWindow* window, const std::int32_t* values, std::size_t count,
     int components, int texelsPerRow);
 
-  /** Makes room for rows of a texel of 4 integers each, to be filled on the device. */
+  /** Allocates rows of one texel of 4 integers each, to be filled on the device. */
   std::string Allocate(vtkOpenGLRenderWindow* window, std::size_t rows);
   unsigned int GetBufferHandle() const;
 
   void Activate(vtkShaderProgram* program, const char* name);
   void Deactivate() { this->Texture->Deactivate(); }
-  /** Wants the window's context to be current. */
+  /** Requires the window's context to be current. */
   void Release(vtkWindow* window);
 
 private:

@@ -141,7 +141,7 @@ std::int64_t OpenGLTables::GetTableBytes()
 //------------------------------------------------------------------------------
 std::string OpenGLTables::UploadBoundary(const BoundaryTree& tree)
 {
-  // A node's indices travel as floats, which are whole up to 2^24.
+  // A node's indices are stored as floats, which represent integers up to 2^24 exactly.
   const std::int64_t largestIndex =
     static_cast<std::int64_t>(std::max(tree.GetNodes().size(), tree.GetFaces().size()));
   if (largestIndex > (std::int64_t{ 1 } << 24))

@@ -32,8 +32,8 @@ namespace meniscus
 struct RayCastOptics;
 
 /**
- * What the ray caster's shaders read, on the graphics device. All calls want the window's context
- * to be current. Errors are texts, empty if there is none.
+ * Tables of the ray caster's shaders, on the graphics device. All calls require the window's
+ * context to be current. Errors are returned as texts, empty if there is none.
  */
 class OpenGLTables
 {
@@ -43,7 +43,7 @@ public:
   OpenGLTables(const OpenGLTables&) = delete;
   void operator=(const OpenGLTables&) = delete;
 
-  /** To be told before anything is uploaded. */
+  /** Sets the window of the tables. Call this before the first upload. */
   void SetWindow(vtkOpenGLRenderWindow* window);
 
   bool HasCells(bool compact) const;
@@ -59,61 +59,66 @@ public:
   bool HasRefractedRays() const { return this->RefractedRayTexels.IsFilled(); }
 
   /**
-   * The cells in 32 bytes each or, compact, in 20: the exclusive or of a cell's vertices in place
-   * of those. A ray that comes by a face knows the three others. Wanted as optics' CompactCells.
+   * Uploads the cells in 32 bytes each or, compact, in 20: with the exclusive or of a cell's
+   * vertices instead of these. A ray that enters by a face knows the three others. The layout must
+   * be that of the optics' CompactCells.
    */
   std::string UploadCells(const TetrahedralMesh& mesh, bool compact);
-  /** Which table of a mesh a limit in texels or the device's own forbids; empty if none. */
-  /** @param frames  of the rays that may be needed: 1, more behind a membrane. */
+  /**
+   * Description of the table of a mesh that exceeds a limit in texels or the device's own; empty if
+   * none does.
+   * @param frames number of frames of rays that may be needed: 1, more behind a membrane.
+   */
   std::string DescribeExcess(
     const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit) const;
   std::string UploadBoundary(const BoundaryTree& tree);
-  /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
+  /** @param scalars one normalised scalar per vertex; empty if they belong to cells. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
-  /** One normalised scalar per cell. Needed for optics with CellScalars. */
+  /** One normalised scalar per cell. Required for optics with CellScalars. */
   std::string UploadCellScalars(const std::vector<float>& scalars);
-  /** One gradient per vertex. Needed for optics with VertexGradients. */
+  /** One gradient per vertex. Required for optics with VertexGradients. */
   std::string UploadGradients(const std::vector<glm::vec3>& gradients);
-  /** One gradient per cell. Needed for optics that use gradients of cells. */
+  /** One gradient per cell. Required for optics that use gradients of cells. */
   std::string UploadCellGradients(const std::vector<glm::vec3>& gradients);
-  /** Needed for optics with PreIntegrated. */
+  /** Required for optics with PreIntegrated. */
   std::string UploadPreIntegration(const PreIntegrationTable& table);
-  /** Up to three further components per vertex. Needed for optics with components. */
+  /** Up to three further components per vertex. Required for optics with components. */
   std::string UploadComponents(const std::vector<glm::vec3>& components);
   std::string UploadProperty(const VolumePropertyTables& tables);
-  /** Lists of entries per tile. Needed for optics with LongLists. */
+  /** Lists of entries per tile. Required for optics with LongLists. */
   std::string UploadEntryTiles(const EntryTiles& tiles);
-  /** A line per pixel. Needed for optics with Refracting. */
+  /** A line per pixel. Required for optics with Refracting. */
   std::string UploadRefractedRays(const std::vector<RefractedRayLine>& lines, int width, int height,
     const RefractionFrames& frames);
 
-  /** Places the vertices in the grid of rays, and with optics of Refracting in those of their
-   * frames.
+  /**
+   * Places the vertices in the grid of the rays and, for optics with Refracting, in the grids of
+   * their frames.
    */
   std::string PlaceVertices(const FixedPointRays& rays, bool refracting);
 
   std::int64_t GetUploadedBytes() const { return this->UploadedBytes; }
-  /** Bytes of the tables that are on the device now. */
+  /** Bytes of the tables that are currently on the device. */
   std::int64_t GetTableBytes();
 
-  /** Binds what finds and projects: vertices and the tree of the boundary. */
+  /** Binds the tables for entries and projections: vertices and the tree of the boundary. */
   std::vector<OpenGLTable*> ActivateRays(vtkShaderProgram* program);
-  /** Binds what the optical model reads. */
+  /** Binds the tables of the optical model. */
   std::vector<OpenGLTable*> Activate(vtkShaderProgram* program, const RayCastOptics& optics);
   OpenGLPreIntegration& GetPreIntegration() { return this->PreIntegration; }
   OpenGLRefractedRays& GetRefractedRays() { return this->RefractedRayTexels; }
-  /** Binds the rays behind a membrane. */
+  /** Binds the refracted rays. */
   void ActivateRefractedRays(vtkShaderProgram* program)
   {
     this->RefractedRayTexels.Activate(program, this->Vertices.GetNumberOfRows());
   }
   void SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const;
 
-  /** @param owner  the window of the tables; null if it is gone. */
+  /** @param owner window of the tables; null if it no longer exists. */
   void Release(vtkOpenGLRenderWindow* owner);
 
 private:
-  /** All but those of pre-integration and of refracted lines. */
+  /** All tables except those of pre-integration and of refracted rays. */
   std::vector<OpenGLTable*> List();
   std::string Count(OpenGLTable& table, const std::string& error);
   std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
@@ -135,9 +140,11 @@ private:
   OpenGLTable VertexGradients;
   OpenGLTable CellGradients;
   OpenGLTable VertexComponents;
-  /** Of the scalar, of its other components, of the gradient's magnitude. */
+  /**
+   * Intervals of the scalar's function, of those of its other components, and of gradient opacity.
+   */
   OpenGLTable Intervals;
-  /** Where the intervals of each function begin, the gradient's last, and where they end. */
+  /** Start of the intervals of each function, gradient opacity last, and their end. */
   std::vector<int> FunctionStarts;
   OpenGLTable Isosurfaces;
   OpenGLPreIntegration PreIntegration;

@@ -32,7 +32,10 @@ namespace meniscus
 namespace
 {
 
-/** Texels of four faces that list a tile's entries; also in vtkTetrahedraEntryTilesFS. */
+/**
+ * Number of texels, with four faces each, of a tile's list of entries; also in
+ * vtkTetrahedraEntryTilesFS.
+ */
 constexpr unsigned int TileLayers = 8;
 void Deactivate(const std::vector<OpenGLTable*>& tables)
 {
@@ -278,7 +281,10 @@ std::string RayCastOpenGL::AllocateTiles(vtkSmartPointer<vtkTextureObject>& tile
 }
 
 //------------------------------------------------------------------------------
-/** Only if rays behind the membrane, or what they enter by, are not those of the last time. */
+/**
+ * Lists the entries of refracted rays, if these rays or the boundary by which they enter have
+ * changed.
+ */
 std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame)
 {
   if (this->RefractedTiles && this->RefractedTilesVersion == frame.Refracting.Version)
@@ -298,7 +304,7 @@ std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame)
 }
 
 //------------------------------------------------------------------------------
-/** @param refracted  of the rays behind the membrane. */
+/** @param refracted true: the entries of the refracted rays. */
 std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, bool refracted)
 {
   if (!this->TileTarget)
@@ -485,7 +491,7 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
 {
   const RayFrame& rays = frame.Rays;
   this->Tables.SetUniforms(program, frame.Optics);
-  // Apart from its size, whose square may be beyond single precision.
+  // The matrix without its unit, whose square may exceed single precision.
   const glm::dmat3& toWorld = rays.ViewToWorld;
   const double unit =
     std::max({ glm::length(toWorld[0]), glm::length(toWorld[1]), glm::length(toWorld[2]) });
@@ -512,8 +518,8 @@ std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport
   {
     return error;
   }
-  // Rasterisers in software blend with 8 bits in 8 bits, which rounds three times; a picture that
-  // is composited later is rounded by the shader, which has to know all of the sum.
+  // Software rasterisers blend 8-bit values in 8 bits, which rounds three times. An image that is
+  // composited later is rounded by the shader, which needs the complete sum.
   const bool blends = !this->IsSoftware() && output.ColorBias == 0.0f;
   const bool hasUnder = !output.Selecting && !blends && this->Under.Update(this->Window, viewport);
   if (output.Selecting)
@@ -534,7 +540,7 @@ std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport
   this->Image->SetMagnificationFilter(whole ? vtkTextureObject::Nearest : vtkTextureObject::Linear);
   this->Image->Activate();
   drawer->Program->SetUniformi("image", this->Image->GetTextureUnit());
-  // A sampler wants a texture even where it is not read.
+  // A sampler needs a texture even if it is not read.
   vtkTextureObject* under = hasUnder ? this->Under.GetTexture() : this->Image.Get();
   under->Activate();
   if (!output.Selecting)
@@ -564,7 +570,7 @@ RayStatistics RayCastOpenGL::GetStatistics()
 //------------------------------------------------------------------------------
 bool RayCastOpenGL::ReadStatistics()
 {
-  // In VTK 9.6 a window that gives up its context frees textures before it tells the mappers.
+  // In VTK 9.6 a window that releases its context frees textures before it notifies the mappers.
   if (this->StatisticsImage->GetHandle() == 0)
   {
     return false;

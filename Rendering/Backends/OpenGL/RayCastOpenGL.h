@@ -36,41 +36,49 @@ class vtkWindow;
 namespace meniscus
 {
 
-/** How an image gets into the framebuffer. */
+/** Drawing of an image to the framebuffer. */
 struct RayCastOutput
 {
-  /** Rays of the image; fewer than the viewport's pixels are interpolated. */
+  /**
+   * Number of rays of the image; if there are fewer than the viewport's pixels, they are
+   * interpolated.
+   */
   int ImageSize[2] = { 0, 0 };
-  /** Hardware selection: a value where the image is visible, in place of its colour. */
+  /** Hardware selection: a value is drawn where the image is visible, instead of its colour. */
   bool Selecting = false;
   glm::vec3 SelectionValue{ 0.0f };
-  /** Bias of a picture that is composited later, in steps of 1/255. */
+  /** Bias of an image that is composited later, in steps of 1/255. */
   float ColorBias = 0.0f;
 };
 
-/** How rays bend at a membrane. */
+/** Refraction of rays at a membrane. */
 struct RayCastRefraction
 {
   MembranePart Part = MembranePart::Whole;
-  /** Whether there is a membrane that bends them. */
+  /** True if there is a membrane that refracts them. */
   bool Wanted = false;
   double Exterior = 1.0;
   double Interior = 1.0;
-  /** Of the frame, in world coordinates, and depth of the eye in it. */
+  /** Origin of the frame in world coordinates, and depth of the eye in the frame. */
   glm::dvec3 Center{ 0.0 };
   double EyeDepth = 0.0;
-  /** Whether a ray may begin within the mesh behind it; for optics with Refracting, as the next. */
+  /**
+   * True if a refracted ray may begin inside the mesh; like the next member, for optics with
+   * Refracting.
+   */
   bool BeginsInside = false;
-  /** Of the rays behind it and of the boundary that they enter by. */
+  /** Version of the refracted rays and of the boundary by which they enter. */
   std::array<std::int64_t, 2> Version{ 0, 0 };
 };
 
-/** What a frame needs beside the tables. */
+/** Data of a frame besides the tables. */
 struct RayCastFrame
 {
   RayFrame Rays;
   double EarlyTerminationOpacity;
-  /** What of a ray ends it. Where so little is left, single precision has no digits to lose. */
+  /**
+   * Transmittance at which a ray ends. It is so small that single precision has no digits to lose.
+   */
   double TerminationTransmittance() const
   {
     return std::max(1.0 - this->EarlyTerminationOpacity, 1.0e-30);
@@ -78,7 +86,7 @@ struct RayCastFrame
   RayCastOptics Optics;
   RayCastRefraction Refracting;
   RayCastOutput Output;
-  /** By a compute shader, not a fragment shader. */
+  /** true: a compute shader; false: a fragment shader. */
   bool Compute = false;
 };
 
@@ -86,7 +94,8 @@ struct RayCastFrame
  * The ray caster on OpenGL 3.2: tables in texture buffers; a pass that lists the possible entries
  * of each tile of the image, one that casts the rays into a float image of the viewport's size (a
  * fragment or a compute shader of the same functions), and one that blends it into the framebuffer.
- * All calls want the window's context to be current. Errors are texts, empty if there is none.
+ * All calls require the window's context to be current. Errors are returned as texts, empty if
+ * there is none.
  */
 class RayCastOpenGL
 {
@@ -96,28 +105,29 @@ public:
   RayCastOpenGL(const RayCastOpenGL&) = delete;
   void operator=(const RayCastOpenGL&) = delete;
 
-  /** Binds to a window; on a change of window all tables are gone. */
+  /** Binds to a window; a change of the window drops all tables. */
   std::string SetWindow(vtkOpenGLRenderWindow* window);
   OpenGLTables& GetTables() { return this->Tables; }
   const OpenGLTables& GetTables() const { return this->Tables; }
 
   /**
-   * Pixels along the side of a tile, whose rays share a list of entries: 8 overflows the lists of
-   * 7-14 % of the tiles of meshes of 200k cells.
+   * Side of a tile in pixels; its rays share a list of entries. With 8, the lists of 7-14 % of the
+   * tiles of meshes of 200k cells overflow.
    */
   static constexpr int TileSize = 4;
   /**
-   * The same where lists have any length: cells that share no points are many, and small. Lists of
-   * larger tiles have more faces that a ray does not enter by, of smaller ones more bytes in all.
+   * Side of a tile for lists of any length: cells that share no points are numerous and small.
+   * Lists of larger tiles have more faces by which a ray does not enter, lists of smaller tiles
+   * take more bytes in all.
    */
   static constexpr int LongListTileSize = 2;
-  /** Faces that the lists made on the device hold. */
+  /** Number of faces that the lists made on the device hold. */
   static constexpr int TileCapacity = EntryTileCapacity;
 
-  /** Whether the window's context has compute shaders (OpenGL 4.3). */
+  /** True if the window's context has compute shaders (OpenGL 4.3). */
   bool HasCompute() const { return OpenGLComputeProgram::IsSupported(); }
 
-  /** Whether the window's OpenGL runs on the processor: Mesa's llvmpipe, softpipe or swr. */
+  /** True if the window's OpenGL runs on the CPU: Mesa's llvmpipe, softpipe or swr. */
   bool IsSoftware() const;
 
   /** Viewport of the current framebuffer: x, y, width, height. */
@@ -126,26 +136,27 @@ public:
   /** Casts the rays of the current viewport and blends them into the current framebuffer. */
   std::string Draw(const RayCastFrame& frame);
 
-  /** Makes an image of width x height premultiplied RGBA from as many window depths. */
+  /** Creates an image of width x height premultiplied RGBA from as many window depths. */
   using ImageMaker = std::function<RayStatistics(
     int width, int height, const std::vector<float>& opaqueDepth, std::vector<float>& image)>;
-  /** The same with rays cast elsewhere; needs no tables. */
+  /** As Draw(), with rays cast elsewhere; needs no tables. */
   std::string DrawImageOf(const ImageMaker& maker, const RayCastOutput& output);
 
-  /** Waits until the device has drawn what it was told to. */
+  /** Waits until the device has finished drawing. */
   void Finish();
 
-  /** Times that the entries behind a membrane were listed. */
+  /** Number of times that the entries of refracted rays were listed. */
   std::int64_t GetNumberOfRefractedEntryLists() const { return this->RefractedEntryLists; }
 
-  /** Of the last frame; read back on the first call after it. */
+  /** Statistics of the last frame; read back on the first call after it. */
   RayStatistics GetStatistics();
-  /** Notes a frame without rays. */
+  /** Records a frame without rays. */
   void ClearStatistics();
 
   /**
    * Frees all graphics resources in the context of their window; null for the window last drawn to.
-   * A window that is being destroyed must be given, weak pointers to it are empty by then.
+   * For a window that is being destroyed it must be passed, since weak pointers to it are empty by
+   * then.
    */
   void Release(vtkWindow* window);
 
@@ -172,9 +183,9 @@ private:
   OpenGLTables Tables;
   OpenGLDepthCopy Depth;
   OpenGLColorCopy Under;
-  /** Without a membrane; before one, behind it. */
+  /** Listers without a membrane, in front of one, and behind it. */
   std::unique_ptr<vtkOpenGLQuadHelper> TileListers[3];
-  /** By RayCastShaderOptions(). */
+  /** Casters by RayCastShaderOptions(). */
   std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
   std::map<std::string, vtkSmartPointer<OpenGLComputeProgram>> ComputeCasters;
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
@@ -182,7 +193,9 @@ private:
   vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;
   vtkSmartPointer<vtkOpenGLFramebufferObject> ImageTarget;
   vtkSmartPointer<vtkTextureObject> EntryTiles;
-  /** The same for the rays behind a membrane, and RayCastRefraction::Version of what they list. */
+  /**
+   * Entries of the refracted rays, and the RayCastRefraction::Version for which they were listed.
+   */
   vtkSmartPointer<vtkTextureObject> RefractedTiles;
   std::array<std::int64_t, 2> RefractedTilesVersion{ 0, 0 };
   std::int64_t RefractedEntryLists = 0;

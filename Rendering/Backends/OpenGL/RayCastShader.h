@@ -13,20 +13,20 @@ class vtkShaderProgram;
 namespace meniscus
 {
 
-/** More lights or planes would not fit into the uniforms that OpenGL 3.2 grants. */
+/** More lights or planes would exceed the uniforms that OpenGL 3.2 guarantees. */
 constexpr std::size_t MaximumNumberOfLights = 16;
 constexpr std::size_t MaximumNumberOfClippingPlanes = 32;
 
-/** What exceeds these numbers, as text; empty if nothing does. */
+/** Description of the numbers that are exceeded; empty if none is. */
 std::string DescribeExcess(const RayCastOptics& optics);
 
 /**
- * The preprocessor's definitions that choose among the variants of the ray casting shader: what a
- * scene does not need is not compiled (software rasterisers execute branches that are never taken).
+ * Preprocessor definitions that select the variant of the ray casting shader: code that a scene
+ * does not need is not compiled (software rasterisers execute branches that are never taken).
  */
 std::string RayCastShaderOptions(const RayCastOptics& optics);
 
-/** A main shader with the walk and the optical model that the options need put in. */
+/** A main shader with the walk and the optical model for the options inserted. */
 std::string RayCastShaderSource(const char* mainShader, const RayCastOptics& optics);
 
 /** Sets the uniforms of the optical model and the clipping planes. */

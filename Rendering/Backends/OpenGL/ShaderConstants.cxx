@@ -6,7 +6,7 @@
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Optics/MediumConstants.h"
-#include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayTexels.h"
 #include "Volume/Refracted/RefractionFrames.h"
@@ -112,7 +112,7 @@ std::string Enumerators()
 std::string ShaderConstants()
 {
   return Enumerators() + MediumConstants() +
-    Define("GRID_PER_DEPTH", static_cast<float>(PacketVertex::GridPerDepth)) +
+    Define("GRID_PER_DEPTH", static_cast<float>(FixedPointRays::GridPerDepth)) +
     Define("MODEL_UNIT", static_cast<float>(TetrahedralMesh::PositionUnit)) +
     Define("NOWHERE", RefractedRayLine::Nowhere) +
     DefineNumber("NUMBER_OF_FRAMES", RefractionFrames::Number) +

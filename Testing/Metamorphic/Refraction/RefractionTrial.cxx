@@ -54,7 +54,7 @@ MembraneMesh makeParaboloid(int rings, double steepest, double sign)
   return mesh;
 }
 
-// A closed unit sphere, normals outwards, or inwards.
+// A closed unit sphere, with outward or inward normals.
 MembraneMesh makeSphere(int resolution, double side)
 {
   MembraneMesh mesh;
@@ -174,7 +174,7 @@ const VirtualVertex* nearestTo(const std::vector<VirtualVertex>& images, const g
   return nearest == images.end() ? nullptr : &*nearest;
 }
 
-// Along the axes and against them.
+// Directions along the axes and against them.
 glm::dvec3 moveOf(int i)
 {
   glm::dvec3 move(0.0);
@@ -277,7 +277,7 @@ double RefractionTrial::errorOf(double magnitude, double depth, std::int32_t fac
 }
 
 //------------------------------------------------------------------------------
-// Whether a point that is moved shows its image next to where it was, turned the same way.
+// True if the image of a point that is moved is near the previous one and has the same orientation.
 bool RefractionTrial::isSteady(
   const glm::dvec3& point, const VirtualVertex& image, double error, double& sensitivity) const
 {
@@ -319,7 +319,7 @@ void RefractionTrial::compare(const RefractionScene& changed, const Motion& moti
   const auto geometry = makeGeometry(changed);
   if (!geometry || !this->Geometry)
   {
-    // Refused by both, or by none: an eye on the membrane.
+    // An eye on the membrane must be rejected by both, or by none.
     if (!geometry != !this->Geometry)
     {
       this->fail("one of the scenes is refused");
@@ -364,7 +364,7 @@ void RefractionTrial::compare(const CurvedMembraneSolver& changed, const Motion&
     }
     if (shows)
     {
-      continue; // sides belong to the whole
+      continue; // sides are defined for the whole membrane only
     }
     const bool front = this->Geometry->IsInFront(point - this->Geometry->GetMembrane().GetOrigin());
     const bool same = front == changed.IsInFront(moved - changed.GetMembrane().GetOrigin());

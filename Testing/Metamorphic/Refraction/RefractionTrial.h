@@ -27,23 +27,23 @@ struct RefractionScene
 {
   std::string Family;
   reference::MembraneMesh Mesh;
-  /** Length of a facet's sides, about. */
+  /** Approximate length of a facet's sides. */
   double FacetSize = 1.0;
   glm::dvec3 Eye{ 0.0 };
   double Exterior = 1.0;
   double Interior = 1.333;
   std::vector<glm::dvec3> Points;
-  /** Spheres and planes with their normals, which patches reproduce however they are divided. */
+  /** True for spheres and planes with their normals, which patches reproduce for any division. */
   bool IsExact = false;
 };
 
 /** A scene of any family: waves, paraboloids of up to 80 degrees, spheres, noise, planes. */
 RefractionScene randomScene(RandomNumbers& random);
 
-/** The scene's membrane and eye as the kernel has them; null if it refuses them. */
+/** The scene's membrane and eye as the kernel's geometry; null if it rejects them. */
 std::unique_ptr<CurvedMembraneSolver> makeGeometry(const RefractionScene& scene);
 
-/** A change of coordinates: places, directions, and both back. */
+/** A change of coordinates: maps places and directions, and both back. */
 struct Motion
 {
   double Scale = 1.0;
@@ -61,27 +61,30 @@ struct Motion
 /**
  * Compares images and sides of a scene's points with those of a changed scene.
  *
- * Newton's method leaves 1e-10 of a facet of a sight point (SightEquation::Solve), and coordinates
- * of magnitude M are rounded to M 2^-53 a few times; positions of vertices change the bend of
- * patches by that over a facet, which rays carry to the depth of the point. So the error of a point
- * is within e = 1e-9 f + 64 eps M (1 + depth / f), f the size of a facet; and patches keep the
- * bends of their normals in single precision, which rounds each component to 2^-24 of them: that
- * tilts rays by as much, 2^-24 |bend| (f + depth). An image's place changes by that times its
- * sensitivity, which is measured by moving the point. An image or side that does not stand moves of
- * 1000 e is at a border, on a caustic or at the critical angle: not compared.
+ * Newton's method leaves an error of 1e-10 of a facet in a sight point (SightEquation::Solve), and
+ * coordinates of magnitude M are rounded to M 2^-53 a few times; positions of vertices change the
+ * curvature of patches by that over a facet, which rays carry to the depth of the point. The error
+ * of a point is therefore within e = 1e-9 f + 64 eps M (1 + depth / f), with the size f of a facet.
+ * Patches store the deflections of their normals in single precision, which rounds each component
+ * to 2^-24 of them: that tilts rays by as much, 2^-24 |deflection| (f + depth). An image's position
+ * changes by that times its sensitivity, which is measured by moving the point. An image or side
+ * that changes under moves of 1000 e is at a border, on a caustic or at the critical angle, and is
+ * not compared.
  */
 class RefractionTrial
 {
 public:
   explicit RefractionTrial(const RefractionScene& scene);
 
-  /** Adds to the tally. `shows` says which images the changed scene shows at all; null: all. */
+  /** Adds to the tally. `shows` returns true for images that the changed scene shows; null: all. */
   void compare(const RefractionScene& changed, const Motion& motion,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
-  /** The same for geometry that has been made; `magnitude` of its coordinates. */
+  /** As above, for given geometry; `magnitude` is that of its coordinates. */
   void compare(const CurvedMembraneSolver& changed, const Motion& motion, double magnitude,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
-  /** One image each, in an order of the points, is one of all. */
+  /**
+   * Checks that the single image of each point, solved in a given order, is one of all its images.
+   */
   void compareFirst(const std::vector<std::size_t>& order);
 
   void fail(const std::string& words);

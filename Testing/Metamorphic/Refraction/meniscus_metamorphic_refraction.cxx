@@ -88,7 +88,7 @@ void scale(RefractionTrial& trial, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-// Facets in another order, each from another corner on.
+// Facets in another order, each beginning with another corner.
 void reorderFacets(RefractionTrial& trial, RandomNumbers& random)
 {
   RefractionScene changed = trial.scene();
@@ -103,7 +103,7 @@ void reorderFacets(RefractionTrial& trial, RandomNumbers& random)
   trial.compare(changed, Motion());
 }
 
-// Normals say which side is the eye's; the winding of facets does not.
+// Normals define the eye's side; the winding of facets does not.
 void turnFacets(RefractionTrial& trial, RandomNumbers&)
 {
   RefractionScene changed = trial.scene();
@@ -137,13 +137,13 @@ void reorderVertices(RefractionTrial& trial, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-// Each facet in four, at the middles of its patch's edges.
+// Splits each facet in four at the middles of its patch's edges.
 void divide(RefractionTrial& trial, RandomNumbers&)
 {
   const auto geometry = makeGeometry(trial.scene());
   if (!trial.scene().IsExact || !geometry)
   {
-    return; // other patches are other surfaces when they are divided
+    return; // patches of other surfaces change when they are divided
   }
   RefractionScene changed = trial.scene();
   changed.Mesh = MembraneMesh();
@@ -164,11 +164,11 @@ void divide(RefractionTrial& trial, RandomNumbers&)
     changed.Mesh.AddTriangle(first + 4, first + 3, first + 2);
     changed.Mesh.AddTriangle(first + 3, first + 4, first + 5);
   }
-  // Facets do not share points: a body is open then, and points on it are on borders.
+  // Facets do not share points: a body is then open, and points on it are on borders.
   trial.compare(changed, Motion(), [](const VirtualVertex&) { return true; });
 }
 
-// A membrane that was another one before, with the same facets, and one that looked elsewhere.
+// A membrane replaced in place by one with the same facets, and an eye that was elsewhere before.
 void editInPlace(RefractionTrial& trial, RandomNumbers& random)
 {
   const RefractionScene& scene = trial.scene();
@@ -185,7 +185,7 @@ void editInPlace(RefractionTrial& trial, RandomNumbers& random)
   trial.compare(*geometry, Motion(), 0.0);
 }
 
-// The part of a closed membrane that the eye sees, with room around it.
+// Keeps the part of a closed membrane that the eye sees, with a margin.
 void keepFacingPart(RefractionTrial& trial, RandomNumbers&)
 {
   const RefractionScene& scene = trial.scene();
@@ -212,7 +212,7 @@ void keepFacingPart(RefractionTrial& trial, RandomNumbers&)
   }
   if (!changed.Mesh.Triangles.empty())
   {
-    // Images that are on facets that stay.
+    // Compares images on facets that are kept.
     trial.compare(changed, Motion(), [](const VirtualVertex& image) { return image.Cosine > 0.0; });
   }
 }

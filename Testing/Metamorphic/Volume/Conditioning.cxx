@@ -29,14 +29,14 @@ constexpr int NumberOfCopies = 12;
 
 struct Rounding
 {
-  /** Of points, in any direction and along the view. */
+  /** Rounding of points, in any direction and along the view. */
   double Point = 0.0;
   double Depth = 0.0;
   /** Share of a component's range. */
   double Scalar = 0.0;
 };
 
-// See the class: two pictures.
+// Rounding of two images; see the class.
 Rounding roundingOf(const VolumeCase& test)
 {
   double b[6];
@@ -76,7 +76,7 @@ std::size_t nextOf(const std::vector<Point>& points, double scalar, bool above)
   return static_cast<std::size_t>(found - points.begin());
 }
 
-// Opacity and colour as a function of both. Two nodes at each control point: it may be a jump.
+// Opacity and colour as one function. Two nodes at each control point, since it may be a jump.
 reference::ReferenceTransferFunction merged(const LookFunction& function, double factor)
 {
   std::vector<double> scalars;
@@ -111,7 +111,7 @@ reference::ReferenceTransferFunction merged(const LookFunction& function, double
   return reference::ReferenceTransferFunction(nodes);
 }
 
-// The function of one component; opacity as it is where a mode does not measure lengths.
+// Function of one component; opacity is taken unchanged where a mode does not measure lengths.
 reference::ReferenceTransferFunction functionOf(const VolumeLook& look, std::size_t component)
 {
   const LookFunction& function = look.Functions[std::min(component, look.Functions.size() - 1)];
@@ -156,7 +156,7 @@ double gradientFactor(const VolumeLook& look, double size)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-/** The exact picture of a case whose points and scalars are moved by given amounts at random. */
+/** The exact image of a case whose points and scalars are randomly moved by given amounts. */
 class Conditioning::Truth
 {
 public:
@@ -203,8 +203,8 @@ public:
   }
 
   /**
-   * @param exact  the copy that is not moved: gradients are those of the input, not of its
-   * rounding.
+   * @param exact the copy that is not moved: gradients are those of the input, not of its rounded
+   *   copy.
    */
   Color trace(int x, int y, const Truth& exact)
   {

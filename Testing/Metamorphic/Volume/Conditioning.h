@@ -19,24 +19,24 @@ namespace test
 /**
  * Change of a case's exact picture under the rounding that the software documents.
  *
- * Pictures of two equal scenes need not be equal where the exact result itself is not continuous:
- * at silhouettes, in front of steps of the transfer function, where a ray touches an isosurface.
- * Such a pixel can be told from a wrong one by the double reference alone: it is computed for
- * several copies of the case with points and scalars moved by the rounding, and the range of the
- * results is what two pictures may differ by, over and above the plain tolerance.
+ * Images of two equal scenes need not be equal where the exact result is discontinuous: at
+ * silhouettes, in front of steps of the transfer function, where a ray touches an isosurface. The
+ * double-precision reference alone distinguishes such a pixel from a wrong one: it is computed for
+ * several copies of the case with points and scalars moved by the rounding, and two images may
+ * differ by the range of the results, in addition to the plain tolerance.
  *
- * Rounding of a picture:
+ * Rounding of an image:
  * - points: to a grid of 2^-29 of the mesh's radius times 1 + the steepest slope, by half a unit,
- * and the ray by as much again; 1.5 units with the depth's. Shaders round coordinates about the
- * ray, at most the radius, to 2^-24 of themselves. Behind a membrane rays are kept in single
- * precision, and their origin and slope add up: 2^-22.
- * - depths, and with them lengths: in single precision, 3 units of 2^-24 of the radius. It counts
- * for the mean along a ray only, which divides by a length that may be short.
+ *   and the ray by as much again; 1.5 units with the depth's. Shaders round coordinates about the
+ *   ray, at most the radius, to 2^-24 of themselves. Behind a membrane rays are kept in single
+ *   precision, and their origin and slope add up: 2^-22.
+ * - depths, and with them lengths: in single precision, 3 units of 2^-24 of the radius. It affects
+ *   only the mean along a ray, which divides by a length that may be short.
  * - scalars: to 2^-24 of the range that they are normalised to, by half a unit, and interpolated
- *   along the ray in single precision: 2 units natively, 4 by shaders.
- *   The mean adds up a term per cell, half a unit each.
- * Twice that for two pictures. Points and scalars are moved by all of it, to either side: a random
- * move of vertices displaces an edge by its whole size in one of a few draws only, and 12 are made.
+ *   along the ray in single precision: 2 units natively, 4 by shaders. The mean adds up a term per
+ *   cell, half a unit each. Twice that for two images. Points and scalars are moved by the full
+ *   amount, to either side: a random move of vertices displaces an edge by its full size in one of
+ *   a few draws only, and 12 draws are made.
  */
 class Conditioning
 {
@@ -59,8 +59,9 @@ private:
 };
 
 /**
- * Largest difference of two pictures of one scene that is no failure, conditioning apart: the
- * error of each against the exact picture that is promised natively, and of shaders.
+ * Largest difference of two images of one scene that is not a failure, apart from conditioning: the
+ * error of each with respect to the exact image, as documented for the native backend and for
+ * shaders.
  */
 double plainTolerance(int backend);
 

@@ -23,7 +23,8 @@ glm::dvec3 vectorBy(const glm::dmat4& map, const glm::dvec3& v)
   return glm::dvec3(map * glm::dvec4(v, 0.0));
 }
 
-// A membrane's triangles turn over where the map mirrors, so that they face where its normals do.
+// The winding of a membrane's triangles is reversed where the map mirrors, so that they face where
+// its normals do.
 vtkSmartPointer<vtkPolyData> mapped(vtkPolyData* membrane, const glm::dmat4& map)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();

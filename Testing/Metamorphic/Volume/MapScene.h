@@ -16,8 +16,8 @@ namespace test
 glm::dvec3 pointBy(const glm::dmat4& map, const glm::dvec3& p);
 
 /**
- * Maps all of a scene by a similarity: mesh, camera, membrane, unit distance. The membrane's
- * surface, which only the conditioning of a scene asks for, stays.
+ * Maps a whole scene by a similarity: mesh, camera, membrane, unit distance. The membrane's exact
+ * surface, which only the conditioning of a scene uses, is not mapped.
  */
 void mapScene(VolumeCase& test, const glm::dmat4& map);
 

@@ -76,7 +76,7 @@ struct Facets
 };
 
 //------------------------------------------------------------------------------
-// Point of the surface on the normal through the middle of two points, made once per edge.
+// Point of the surface on the normal through the middle of two points, created once per edge.
 class EdgeMiddles
 {
 public:
@@ -127,14 +127,14 @@ private:
   std::map<std::pair<vtkIdType, vtkIdType>, vtkIdType> Known;
 };
 
-// Planes and spheres are what patches over them are, exactly; so are patches over their parts.
+// Patches over planes and spheres reproduce them exactly, and so do patches over their parts.
 void divideFacets(VolumeCase& test, RandomNumbers& random)
 {
   Facets facets(test.Membrane.Mesh);
   EdgeMiddles middles(facets, test.Membrane.Surface);
   const auto before = facets.Cells;
   facets.Cells.clear();
-  // All facets, so that no point lies on the edge of another facet.
+  // All facets are divided, so that no point lies on the edge of another facet.
   for (const auto& v : before)
   {
     const vtkIdType a = middles.of(v[0], v[1]);
@@ -147,7 +147,7 @@ void divideFacets(VolumeCase& test, RandomNumbers& random)
   test.Membrane.Mesh = facets.toMesh();
 }
 
-// A plane or a dome with the indices that it has.
+// A plane or a dome with its own indices.
 void makeExactMembrane(VolumeCase& test, RandomNumbers& random)
 {
   const auto before = test.Membrane.Surface;
@@ -265,8 +265,8 @@ std::vector<VolumeRelation> membraneRelations()
   return {
     prepared(relationOf("membrane divided", 4, membrane, divideFacets), makeExactMembrane),
     relationOf("order of facets", 3, membrane, shuffleFacets),
-    // Patches are fitted to the neighbours that a point is shared with: of other surfaces than
-    // planes and spheres a membrane without shared points makes another, coarser one.
+    // Patches are fitted to the neighbours with which a point is shared: for surfaces other than
+    // planes and spheres, a membrane without shared points gives another, coarser surface.
     prepared(relationOf("points given per facet", 3, membrane, unshareFacets), makeExactMembrane),
     relationOf("membrane turned over", 3, membrane, turnMembrane),
     prepared(relationOf("equal indices", 3, membrane, removeMembrane), makeEqual),

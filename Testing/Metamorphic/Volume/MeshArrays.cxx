@@ -118,7 +118,8 @@ vtkSmartPointer<vtkDataArray> makeArray(
   return array;
 }
 
-// A value that the array's type does not have would be a fault of the relation: it ends the case.
+// A value that the array's type cannot represent would be an error of the relation: it ends the
+// case.
 void setTuple(vtkDataArray* array, std::size_t at, const double* tuple)
 {
   const auto id = static_cast<vtkIdType>(at);
@@ -219,7 +220,7 @@ MeshArrays toArrays(vtkUnstructuredGrid* grid, bool onCells)
 namespace
 {
 
-// Faces of the cells with a volume and flat faces, as places in the cell's list of points.
+// Faces of the cells with a volume and flat faces, as indices into the cell's list of points.
 const std::vector<std::vector<int>>& facesOf(int type)
 {
   static const std::vector<std::vector<int>> hexahedron{ { 0, 4, 7, 3 }, { 1, 2, 6, 5 },

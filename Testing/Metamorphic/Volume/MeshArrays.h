@@ -27,13 +27,13 @@ struct MeshCell
   std::vector<vtkIdType> Ids;
 };
 
-/** An unstructured grid as plain arrays in double, which relations rewrite. */
+/** An unstructured grid as plain arrays in double precision, which relations rewrite. */
 struct MeshArrays
 {
   std::vector<glm::dvec3> Points;
   std::vector<MeshCell> Cells;
   int Components = 1;
-  /** Whether values belong to cells; else to points. */
+  /** True if values belong to cells, false if they belong to points. */
   bool OnCells = false;
   /** Components of the first tuple, of the second, ... */
   std::vector<double> Values;
@@ -43,9 +43,9 @@ struct MeshArrays
   {
     return this->Values[tuple * static_cast<std::size_t>(this->Components) + component];
   }
-  /** Appends the tuple of another mesh with as many components. */
+  /** Appends a tuple of another mesh with the same number of components. */
   void addTuple(const MeshArrays& from, std::size_t tuple);
-  /** Appends a point or a cell with the value, or with a tuple, of another mesh. */
+  /** Appends a point or a cell of another mesh with its value or tuple. */
   vtkIdType addPoint(const MeshArrays& from, std::size_t point);
   void addCell(const MeshArrays& from, std::size_t cell);
 
@@ -55,24 +55,24 @@ struct MeshArrays
   bool isTetrahedral() const;
 };
 
-/** How VTK stores a mesh. */
+/** Storage of a mesh in VTK. */
 struct MeshStorage
 {
   int PointType = VTK_DOUBLE;
   int ValueType = VTK_DOUBLE;
-  /** Ids of 32 bits in the cell array; else of 64. */
+  /** True: 32-bit ids in the cell array; false: 64-bit ids. */
   bool SmallIds = false;
   /** One array per component for points and values. */
   bool PerComponent = false;
 };
 
-/** Values have to be representable in the types of the storage. */
+/** Values must be representable in the types of the storage. */
 Grid toGrid(const MeshArrays& mesh, const MeshStorage& storage = MeshStorage());
 
 /** The active point scalars of a grid, or its active cell scalars. */
 MeshArrays toArrays(vtkUnstructuredGrid* grid, bool onCells = false);
 
-/** Tetrahedron of a mesh: four points and the cell that it is a part of. */
+/** A tetrahedron of a mesh: four points, and the cell to which it belongs. */
 struct MeshTetrahedron
 {
   std::array<std::int64_t, 4> Ids;
@@ -80,8 +80,8 @@ struct MeshTetrahedron
 };
 
 /**
- * Tetrahedra of all cells, by the rule that the mapper documents: a cell is divided by pulling its
- * point of the smallest number, and so is each face.
+ * Tetrahedra of all cells, by the rule that the mapper documents: a cell is split by pulling its
+ * lowest-numbered point, and so is each face.
  */
 std::vector<MeshTetrahedron> tetrahedraOf(const MeshArrays& mesh);
 

@@ -33,7 +33,7 @@ MeshArrays emptyLike(const MeshArrays& mesh)
   return result;
 }
 
-// Points in between points of a mesh, each made once.
+// Points between points of a mesh, each created once.
 class MiddlePoints
 {
 public:
@@ -162,7 +162,7 @@ void unsharePoints(MeshArrays& mesh)
 //------------------------------------------------------------------------------
 std::vector<MeshArrays> splitMesh(const MeshArrays& mesh, int parts, RandomNumbers& random)
 {
-  // Half-spaces, or cells here and there.
+  // Half-spaces, or scattered cells.
   const bool scattered = random.below(2) == 0;
   const glm::dvec3 normal = random.direction();
   std::vector<std::vector<std::size_t>> cells(static_cast<std::size_t>(parts));
@@ -276,7 +276,7 @@ namespace
 struct SecondOrder
 {
   int Type;
-  // Corners whose mean each further point is.
+  // Each further point is the mean of these corners.
   std::vector<std::vector<int>> Middles;
 };
 

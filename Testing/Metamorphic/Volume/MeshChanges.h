@@ -37,30 +37,32 @@ void shufflePoints(MeshArrays& mesh, RandomNumbers& random);
 /** Appends points that no cell uses, within the bounds. */
 void addIdlePoints(MeshArrays& mesh, RandomNumbers& random);
 
-/** Gives every cell points of its own, numbered in the order that they had within the cell. */
+/** Gives every cell its own points, numbered in the order that they had within the cell. */
 void unsharePoints(MeshArrays& mesh);
 
-/** Cells in parts at random, each with its points only, in the order that they had. */
+/** Random parts of the cells, each with its own points only, in the order that they had. */
 std::vector<MeshArrays> splitMesh(const MeshArrays& mesh, int parts, RandomNumbers& random);
 
-/** One mesh after the other, points numbered through. */
+/** Concatenates meshes and renumbers their points. */
 MeshArrays appendMeshes(const std::vector<MeshArrays>& meshes);
 
 /** Divides each tetrahedron in 4 at its middle, or in 8 at the middles of its edges. */
 void divideTetrahedra(MeshArrays& mesh, int parts);
 
 /**
- * Makes tetrahedra, hexahedra, wedges and pyramids cells of second order with straight edges;
- * hexahedra of 20 or 27 points, and so on, at random.
+ * Converts tetrahedra, hexahedra, wedges and pyramids to quadratic cells with straight edges;
+ * hexahedra get 20 or 27 points at random, and so on.
  */
 void makeQuadratic(MeshArrays& mesh, RandomNumbers& random);
 
 /** The cells of a rectilinear grid as hexahedra or voxels, without values. */
 MeshArrays makeRectilinearCells(RandomNumbers& random);
-/** The grid whose cells they are, with their values. */
+/** The grid to which these cells belong, with their values. */
 vtkSmartPointer<vtkRectilinearGrid> toRectilinear(const MeshArrays& mesh);
 
-/** Random fields with as many components, and on the same place, as those of another mesh. */
+/**
+ * Sets random fields with the number of components and the association of those of another mesh.
+ */
 void setRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumbers& random);
 
 } // namespace test

@@ -28,7 +28,7 @@ namespace
 
 using PointField = std::function<double(const glm::dvec3&)>;
 
-// A field of about the size of the box [-1, 1]^3: linear, waves, a peak, a radius, steps.
+// A field in about the box [-1, 1]^3: linear, waves, a peak, a radius, steps.
 PointField randomField(bool linear, RandomNumbers& random)
 {
   const glm::dvec3 slope = random.uniform(0.5, 2.0) * random.direction();
@@ -50,7 +50,7 @@ PointField randomField(bool linear, RandomNumbers& random)
       };
     case 3:
       return [=](const glm::dvec3& p) { return base + glm::distance(p, place); };
-    case 4: // whole steps: cells without a gradient next to steep ones
+    case 4: // integer steps: cells without a gradient next to steep ones
       return [=](const glm::dvec3& p) { return std::floor(2.0 * glm::dot(slope, p)); };
     default: // nearly constant in large parts
       return [=](const glm::dvec3& p) { return std::tanh(6.0 * glm::dot(slope, p)); };
@@ -161,7 +161,7 @@ public:
   MeshArrays Mesh;
 };
 
-// Wedges in whole columns, so that their triangles meet triangles.
+// Wedges in whole columns, so that their triangles match.
 MeshArrays cubes(MeshFamily family, RandomNumbers& random)
 {
   const int n = 1 + random.below(5);
@@ -195,7 +195,7 @@ MeshArrays cubes(MeshFamily family, RandomNumbers& random)
   return block.Mesh;
 }
 
-// Moves points within the box by up to a share of a cell.
+// Moves points inside the box by up to a fraction of a cell.
 void shake(MeshArrays& mesh, double amount, RandomNumbers& random)
 {
   for (glm::dvec3& p : mesh.Points)
@@ -207,7 +207,7 @@ void shake(MeshArrays& mesh, double amount, RandomNumbers& random)
   }
 }
 
-// An affine map about the origin that keeps lengths within a factor of 2.
+// A random affine map about the origin that changes lengths by at most a factor of 2.
 void shear(MeshArrays& mesh, RandomNumbers& random)
 {
   glm::dmat3 map(1.0);
@@ -227,7 +227,7 @@ MeshArrays graded(RandomNumbers& random)
   const Grid grid = makeBlock(n, constantField(0.0));
   jitter(grid, 0.15 / n, static_cast<unsigned int>(random.bits()));
   MeshArrays mesh = fromGrid(grid);
-  // The first of n cells is n^-power of the domain: down to 1 / 30,000.
+  // The size of the first of n cells is n^-power of the domain: down to 1 / 30,000.
   const double power = random.uniform(1.5, std::log(3e4) / std::log(n));
   for (glm::dvec3& p : mesh.Points)
   {
@@ -268,7 +268,7 @@ MeshArrays parts(RandomNumbers& random)
   return fromGrid(grid);
 }
 
-// Centre of the bounds to the origin, the longest side to 2.
+// Moves the centre of the bounds to the origin and scales the longest side to 2.
 void normalise(MeshArrays& mesh)
 {
   double b[6];
@@ -323,7 +323,7 @@ void makeMesh(MeshFamily family, FamilyMesh& result, bool linear, RandomNumbers&
       }
       else
       {
-        // A cube of five has 0.4; less than a sixth inverts no tetrahedron.
+        // A cube split in five has 0.4; less than a sixth inverts no tetrahedron.
         shake(result.Mesh, 0.06, random);
       }
       return;

@@ -19,11 +19,11 @@ struct FamilyMesh
   std::string Name;
   MeshArrays Mesh;
   /**
-   * Whether all components are linear functions of the position and all faces are planar, so that
-   * any division into tetrahedra shows the same.
+   * True if all components are linear functions of the position and all faces are planar, so that
+   * any division into tetrahedra gives the same image.
    */
   bool Linear = false;
-  /** Whether the mesh is within [-1, 1]^3 or hardly larger, as membranes expect. */
+  /** True if the mesh is in [-1, 1]^3 or hardly larger, as membranes expect. */
   bool UnitBox = true;
 };
 
@@ -36,22 +36,22 @@ enum class MeshFamily
   Pyramids,
   Mixed, ///< hexahedra, pyramids and wedges in one mesh
   Slivers,
-  Graded, ///< cells from the domain's size to 1 / 30,000 of it
+  Graded, ///< sizes of cells from that of the domain to 1 / 30,000 of it
   Parts,  ///< blocks with holes, or in two parts
-  Random, ///< small ones of HardMeshes.h
-  Data    ///< the shared data meshes; RandomPoints where they are missing
+  Random, ///< small meshes of HardMeshes.h
+  Data    ///< the shared data meshes; RandomPoints if they are missing
 };
 
 /**
  * A mesh of a family with a random field.
- * @param linear  a linear field, and no moved points where faces would not stay planar.
+ * @param linear a linear field, and no moved points where faces would not stay planar.
  */
 FamilyMesh makeFamilyMesh(MeshFamily family, bool linear, RandomNumbers& random);
 
-/** A family at random: data meshes once in 30, the others equally often. */
+/** A random family: data meshes once in 30, the others equally often. */
 MeshFamily randomFamily(RandomNumbers& random);
 
-/** Replaces the values by those of some fields, one per component, linear or not. */
+/** Replaces the values by random fields, one per component, linear or not. */
 void setRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumbers& random);
 
 /** Moves the values of a mesh's points to its cells: the mean of each cell's points. */

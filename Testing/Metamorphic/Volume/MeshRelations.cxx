@@ -51,7 +51,7 @@ void doubleCells(VolumeCase& test, RandomNumbers& random)
 {
   const MeshArrays before = test.mesh();
   MeshArrays& mesh = test.mesh();
-  // A A B B, or all once more, or some of them.
+  // A A B B, or everything twice, or some cells twice.
   const int kind = random.below(3);
   if (kind == 0)
   {
@@ -76,7 +76,7 @@ void doubleAcrossBlocks(VolumeCase& test, RandomNumbers& random)
 {
   test.Blocks = splitMesh(test.mesh(), 2, random);
   const MeshArrays second = test.Blocks.back();
-  // Some cells of the second block with their points in the first one, too.
+  // Some cells of the second block, with their points, are added to the first one.
   MeshArrays& first = test.Blocks[0];
   const auto shift = static_cast<vtkIdType>(first.Points.size());
   for (std::size_t p = 0; p < second.Points.size(); ++p)
@@ -97,7 +97,7 @@ void doubleAcrossBlocks(VolumeCase& test, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-// Hexahedra and others as tetrahedra by VTK's filter, which divides them by its own rule.
+// Hexahedra and others converted to tetrahedra by VTK's filter, which uses its own rule.
 void triangulate(VolumeCase& test, RandomNumbers&)
 {
   vtkNew<vtkDataSetTriangleFilter> filter;
@@ -106,7 +106,7 @@ void triangulate(VolumeCase& test, RandomNumbers&)
   test.mesh() = toArrays(filter->GetOutput());
 }
 
-// Cells that have no volume, or cannot be drawn, among the others.
+// Adds cells that have no volume or cannot be drawn.
 void addUselessCells(VolumeCase& test, RandomNumbers& random)
 {
   const MeshArrays before = test.mesh();
@@ -130,7 +130,7 @@ void addUselessCells(VolumeCase& test, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-// A function that ends in 0 above the data, so that larger values are invisible.
+// A function that ends with 0 above the data, so that larger values are invisible.
 void endInvisible(VolumeCase& test, RandomNumbers&)
 {
   const auto range = test.mesh().range(0);
@@ -175,7 +175,7 @@ double largestOpacity(const LookFunction& function, double low, double high)
   double largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    // A piece, or all beyond the outer points, that the range touches.
+    // A piece that the range touches, or the part outside the outer points.
     const double begin = i == 0 ? -HUGE_VAL : points[i - 1].Scalar;
     const double end = i + 1 == points.size() ? HUGE_VAL : points[i + 1].Scalar;
     largest = begin <= high && end >= low ? std::max(largest, points[i].Opacity) : largest;
@@ -209,12 +209,12 @@ void removeInvisibleCells(VolumeCase& test, RandomNumbers&)
 }
 
 //------------------------------------------------------------------------------
-// Cells marked as ghosts against the same mesh without them.
+// Compares cells marked as ghosts with the same mesh without them.
 void checkGhosts(VolumeTrial& trial)
 {
   VolumeCase changed = trial.scene();
   const MeshArrays before = changed.mesh();
-  // More cells than the scene has: some once more, moved aside, all of them ghosts.
+  // More cells than the scene has: some are repeated with an offset, all as ghosts.
   MeshArrays& mesh = changed.mesh();
   const std::size_t real = mesh.Cells.size();
   for (int i = 0; i < 20; ++i)
@@ -243,7 +243,7 @@ void checkGhosts(VolumeTrial& trial)
 }
 
 //------------------------------------------------------------------------------
-// A rectilinear grid as the hexahedra or voxels of it.
+// A rectilinear grid converted to hexahedra or voxels.
 void makeRectilinear(VolumeCase& test, RandomNumbers& random)
 {
   const MeshArrays old = test.mesh();

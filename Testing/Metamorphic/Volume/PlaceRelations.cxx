@@ -48,7 +48,7 @@ void checkMirror(VolumeTrial& trial)
     plainTolerance(changed.Backend), "mirrored");
 }
 
-// Points in model coordinates that an affine matrix brings to where they were.
+// Converts points to model coordinates, with an affine matrix that maps them back.
 void moveToMatrix(VolumeCase& test, RandomNumbers& random)
 {
   glm::dmat3 linear(1.0);
@@ -66,7 +66,7 @@ void moveToMatrix(VolumeCase& test, RandomNumbers& random)
   }
 }
 
-// Planes that keep all of the mesh, some of them touching its ball.
+// Planes that keep the whole mesh, some of them touching its bounding sphere.
 void addIdlePlanes(VolumeCase& test, RandomNumbers& random)
 {
   double b[6];
@@ -80,7 +80,7 @@ void addIdlePlanes(VolumeCase& test, RandomNumbers& random)
   }
 }
 
-// A plane that cuts, once and several times.
+// A plane that cuts the mesh, given once and several times.
 void checkRepeatedPlane(VolumeTrial& trial)
 {
   VolumeCase changed = trial.scene();
@@ -98,7 +98,8 @@ void addCuttingPlane(VolumeCase& test, RandomNumbers& random)
   test.Planes.push_back({ center, random.direction() });
 }
 
-// A parallel camera sees the same from farther away; clipping planes may lie anywhere outside.
+// A parallel camera sees the same image from farther away; clipping planes may lie anywhere
+// outside.
 void moveClippingRange(VolumeCase& test, RandomNumbers& random)
 {
   VolumeView& view = test.View;
@@ -113,15 +114,15 @@ void moveClippingRange(VolumeCase& test, RandomNumbers& random)
     view.Near += more * glm::length(back);
     view.Far += more * glm::length(back);
   }
-  // The near plane matters to an eye in the mesh.
+  // The near plane affects an eye inside the mesh.
   const bool outside = glm::distance(view.Eye, center) > 0.51 * diagonalOf(b);
   view.Near *= outside ? random.uniform(0.9, 1.0) : 1.0;
   view.Far *= random.uniform(1.0, 2.0);
 }
 
 //------------------------------------------------------------------------------
-// The quarters of the picture, each drawn as a picture of its own by a camera with a window centre,
-// as vtkWindowToImageFilter does for large images.
+// The quarters of the image, each drawn as a separate image by a camera with a window centre, as
+// vtkWindowToImageFilter does for large images.
 void checkTiles(VolumeTrial& trial)
 {
   FloatImage whole = trial.picture();

@@ -47,7 +47,7 @@ const char* const NoticeNames[3] = { "the array", "its owner", "the grid" };
 struct Edit
 {
   const char* Name;
-  /** Makes the scene that is edited to become the trial's. */
+  /** Sets up the scene that is then edited into the trial's scene. */
   std::function<void(VolumeCase&, RandomNumbers&)> Spoil;
   std::function<void(vtkUnstructuredGrid*, const VolumeCase&, Notice)> Apply;
 };
@@ -60,8 +60,8 @@ void spoilValues(VolumeCase& test, RandomNumbers& random)
   }
 }
 
-// Shrinks the mesh about its middle. It stays in view: vtkPoints keeps its old bounds where only
-// the grid is told, and the renderer leaves out what they place out of view, whatever draws it.
+// Shrinks the mesh about its middle. It stays in view: if only the grid receives Modified(),
+// vtkPoints keeps its old bounds, and the renderer culls by them.
 void spoilPoints(VolumeCase& test, RandomNumbers&)
 {
   double b[6];
@@ -73,7 +73,7 @@ void spoilPoints(VolumeCase& test, RandomNumbers&)
   }
 }
 
-// Every third cell becomes one without a volume.
+// Makes every third cell one without a volume.
 void spoilCells(VolumeCase& test, RandomNumbers&)
 {
   for (std::size_t c = 0; c < test.mesh().Cells.size(); c += 3)
@@ -120,7 +120,8 @@ void editCells(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice notic
       ids->SetValue(at++, id);
     }
   }
-  // VTK's cell array does not pass on that the array inside was modified: its owner stands for it.
+  // VTK's cell array does not propagate a modification of its inner array, so Modified() of the
+  // owner is called instead.
   vtkObject* const told[3] = { grid->GetCells(), grid->GetCells(), grid };
   told[static_cast<int>(notice)]->Modified();
 }
@@ -147,7 +148,7 @@ VolumeRelation editRelation(const Edit& edit)
 }
 
 //------------------------------------------------------------------------------
-// Control points moved in the objects that the property has.
+// Control points moved in the property's own objects.
 void checkEditedFunctions(VolumeTrial& trial)
 {
   trial.picture();
@@ -172,7 +173,7 @@ void checkEditedFunctions(VolumeTrial& trial)
 }
 
 //------------------------------------------------------------------------------
-// Something else is drawn by the same mapper, and then the scene again.
+// The mapper draws something else, and then the scene again.
 void checkLaterFrames(VolumeTrial& trial)
 {
   trial.picture();
@@ -251,13 +252,13 @@ void checkLaterFrames(VolumeTrial& trial)
 void checkThreads(VolumeTrial& trial)
 {
   trial.picture();
-  // Threads of VTK's own: TBB's number cannot be raised again once it was lowered.
+  // VTK's own threads are used: TBB's number of threads cannot be raised again once it was lowered.
   const std::string usual = vtkSMPTools::GetBackend();
   vtkSMPTools::SetBackend("STDThread");
   for (const int threads : { 1, 2, 3, 7 })
   {
     vtkSMPTools::Initialize(threads);
-    // The same operations on the same numbers: not the last digit may differ.
+    // The same operations on the same numbers: every digit must be equal.
     trial.expectSame(
       trial.stage().draw(trial.scene()),
       [](int x, int y) {
@@ -269,7 +270,7 @@ void checkThreads(VolumeTrial& trial)
   vtkSMPTools::SetBackend(usual.c_str());
 }
 
-// The picture against the double reference, which conditioning has anyway.
+// Compares the image with the double-precision reference, which conditioning computes anyway.
 void checkExact(VolumeTrial& trial)
 {
   FloatImage exact = trial.picture();
@@ -284,8 +285,8 @@ void checkExact(VolumeTrial& trial)
   trial.expectSame(exact, "the exact picture");
 }
 
-// Points on a coarse lattice: cells that are flat, inverted, in the same place. There is no truth,
-// but one result.
+// Points on a coarse lattice: cells that are flat, inverted, or in the same place. There is no
+// reference, but the result must be the same.
 void coarsen(VolumeCase& test, RandomNumbers& random)
 {
   if (random.below(2))
@@ -332,7 +333,7 @@ void checkBackends(VolumeTrial& trial)
   VolumeCase changed = trial.scene();
   changed.Backend = native;
   trial.picture();
-  // Each within its own tolerance of the exact picture.
+  // Each image is within its own tolerance of the exact one.
   trial.expectSame(
     trial.stage().draw(changed),
     [](int x, int y) {
@@ -355,7 +356,8 @@ void checkCompactTables(VolumeTrial& trial)
 std::vector<VolumeRelation> stateRelations()
 {
   const CaseNeeds any;
-  // Light in the medium has no truth to the last digit, and the patches of waves are not the waves.
+  // Lighting in the medium has no exact reference, and the patches of waves are not the waves
+  // themselves.
   CaseNeeds exact;
   exact.NoGradients = true;
   exact.NoMembrane = true;

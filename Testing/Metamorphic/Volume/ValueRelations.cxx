@@ -20,7 +20,7 @@ namespace test
 namespace
 {
 
-// The nearest number that single precision has. By way of memory: GCC 12 drops the rounding of two
+// The nearest number in single precision. It goes through memory: GCC 12 drops the rounding of two
 // neighbouring doubles to single precision and back when it vectorises.
 double inSinglePrecision(double value)
 {
@@ -28,7 +28,7 @@ double inSinglePrecision(double value)
   return rounded;
 }
 
-// Makes points and values those that single precision has.
+// Rounds points and values to single precision.
 void roundToFloat(VolumeCase& test, RandomNumbers&)
 {
   for (glm::dvec3& p : test.mesh().Points)
@@ -44,7 +44,7 @@ void roundToFloat(VolumeCase& test, RandomNumbers&)
   }
 }
 
-// Makes values whole ones from 0 to 200.
+// Rounds values to integers from 0 to 200.
 void roundToWhole(VolumeCase& test, RandomNumbers&)
 {
   MeshArrays& mesh = test.mesh();
@@ -69,7 +69,8 @@ void storeAs(VolumeCase& test, RandomNumbers& random)
 void scaleValues(VolumeCase& test, RandomNumbers& random)
 {
   const double factor = std::pow(10.0, random.uniform(-6.0, 6.0));
-  // Rounding of an offset in double precision is far below that of single precision to the range.
+  // Rounding of an offset in double precision is far below that of single precision, relative to
+  // the range.
   const double offset = factor * random.uniform(-1e3, 1e3);
   for (double& value : test.mesh().Values)
   {
@@ -79,7 +80,7 @@ void scaleValues(VolumeCase& test, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-// More control points on the straight lines between those there are, and beyond the outer ones.
+// Adds control points on the straight lines between the existing ones, and beyond the outer ones.
 template <typename Point, typename Mix>
 void addBetween(std::vector<Point>& points, RandomNumbers& random, const Mix& mix)
 {
@@ -128,7 +129,7 @@ void addRedundantPoints(VolumeCase& test, RandomNumbers& random)
   }
 }
 
-// Opacities and the unit distance by one factor; opacities stay within [0, 1].
+// Scales opacities and the unit distance by one factor; opacities stay within [0, 1].
 void scaleUnit(VolumeCase& test, RandomNumbers& random)
 {
   const double factor = random.uniform(0.1, 1.0);
@@ -148,8 +149,8 @@ vtkColorTransferFunction* colorsOf(VolumeTrial& trial)
   return trial.stage().scene().volume()->GetProperty()->GetRGBTransferFunction();
 }
 
-// One component of several, chosen by the mapper or by the function of colours, against an array of
-// it alone.
+// One component of several, selected by the mapper or by the colour function, compared with an
+// array of that component.
 void checkComponent(VolumeTrial& trial)
 {
   VolumeCase changed = trial.scene();
@@ -178,7 +179,7 @@ void checkComponent(VolumeTrial& trial)
   trial.expectSame(trial.stage().render(), "component " + std::to_string(chosen) + " by colours");
 }
 
-// The length of vectors against an array of it.
+// The length of vectors compared with an array of it.
 void checkMagnitude(VolumeTrial& trial)
 {
   VolumeCase changed = trial.scene();
@@ -203,7 +204,7 @@ void checkMagnitude(VolumeTrial& trial)
   trial.expectSame(trial.stage().render(), "length of vectors by colours");
 }
 
-// Lengths are not negative.
+// Makes values positive, since lengths are not negative.
 void makePositive(VolumeCase& test, RandomNumbers&)
 {
   const double shift = 1.0 - test.mesh().range(0)[0];
@@ -214,7 +215,7 @@ void makePositive(VolumeCase& test, RandomNumbers&)
   mapScalars(test.Look, 1.0, shift, 1.0);
 }
 
-// Independent components with their functions in another order, and one that weighs nothing.
+// Independent components with their functions in another order, and one with a weight of 0.
 void permuteComponents(VolumeCase& test, RandomNumbers& random)
 {
   const MeshArrays before = test.mesh();
@@ -260,7 +261,7 @@ void makeIndependent(VolumeCase& test, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-// A gradient opacity of 1 against none.
+// A gradient opacity of 1 compared with none.
 void checkPlainGradientOpacity(VolumeTrial& trial)
 {
   trial.picture();
@@ -296,7 +297,7 @@ std::vector<VolumeRelation> valueRelations()
   const CaseNeeds any;
   CaseNeeds single;
   single.OneComponent = true;
-  // Light of gradients of vertices is linear between the places where a segment is split: more
+  // Lighting by gradients of vertices is linear between the places where a segment is split: more
   // control points make it more exact.
   CaseNeeds flat;
   flat.NoVertexGradients = true;

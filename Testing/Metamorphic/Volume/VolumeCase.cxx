@@ -34,7 +34,7 @@ std::array<double, 3> randomColor(RandomNumbers& random)
   return { r, g, random.uniform() };
 }
 
-// Adds control points at shares of a range.
+// Adds control points at fractions of a range.
 class FunctionMaker
 {
 public:
@@ -127,7 +127,7 @@ void setView(VolumeCase& test, RandomNumbers& random)
   glm::dvec3 direction = random.direction();
   if (test.Membrane.Mesh)
   {
-    // From above, not at too flat an angle for the membrane's edge to be all there is.
+    // From above, at an angle steep enough to show more than the membrane's edge.
     direction.y = -std::fabs(direction.y) - 0.5;
   }
   const auto cell =
@@ -178,7 +178,8 @@ void setMembrane(VolumeCase& test, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-// Several components, or gradients, or a mode other than compositing; what the needs allow.
+// Selects several components, gradients, or a mode other than compositing, as far as the needs
+// allow.
 void setMode(VolumeCase& test, const CaseNeeds& needs, RandomNumbers& random)
 {
   VolumeLook& look = test.Look;
@@ -219,7 +220,7 @@ void setFunctions(VolumeCase& test, RandomNumbers& random)
   VolumeLook& look = test.Look;
   double b[6];
   test.mesh().bounds(b);
-  // Usually some units deep; one in four scenes is nearly opaque on the scale of small cells.
+  // Usually some units deep; one scene in four is nearly opaque on the scale of small cells.
   const double unit =
     random.below(4) ? random.uniform(0.05, 0.4) : std::pow(10.0, random.uniform(-4.0, -1.0));
   look.Unit = unit * diagonalOf(b);
@@ -248,7 +249,7 @@ void setFunctions(VolumeCase& test, RandomNumbers& random)
   }
 }
 
-// Colours have to be within [0, 1].
+// Scales colours to [0, 1].
 void normaliseColors(MeshArrays& mesh)
 {
   for (int c = 0; c + 1 < mesh.Components; ++c)
@@ -263,7 +264,7 @@ void normaliseColors(MeshArrays& mesh)
   }
 }
 
-// Scalars far from 0 for their range.
+// Offsets the scalars far from 0, relative to their range.
 void offsetValues(MeshArrays& mesh, RandomNumbers& random)
 {
   const double offset = std::pow(10.0, random.uniform(0.0, 5.0));
@@ -331,7 +332,7 @@ VolumeCase randomCase(const CaseNeeds& needs, RandomNumbers& random)
     const glm::dvec3 offset = scale * std::pow(10.0, random.uniform(0.0, 6.0)) * random.direction();
     mapScene(test, glm::scale(glm::translate(glm::dmat4(1.0), offset), glm::dvec3(scale)));
   }
-  // Shaders are slower by far where OpenGL is software: half of the cases.
+  // Shaders are far slower where OpenGL is software: they draw half of the cases.
   const int backends[4] = { vtkTetrahedraRayCastMapper::NATIVE, vtkTetrahedraRayCastMapper::NATIVE,
     vtkTetrahedraRayCastMapper::OPENGL, vtkTetrahedraRayCastMapper::COMPUTE };
   test.Backend = backends[random.below(4)];

@@ -39,12 +39,12 @@ struct LookFunction
   double Weight = 1.0;
 };
 
-/** What vtkVolumeProperty and the mapper's modes say. */
+/** Settings of vtkVolumeProperty and of the mapper's modes. */
 struct VolumeLook
 {
   /** One of vtkVolumeMapper::BlendModes. */
   int Blend = 0;
-  /** One per component. Of dependent components one: colour of the first, opacity of the last. */
+  /** One per component. Dependent components have one: colour of the first, opacity of the last. */
   std::vector<LookFunction> Functions;
   bool Independent = true;
   /** ScalarOpacityUnitDistance. */
@@ -55,7 +55,7 @@ struct VolumeLook
   double Diffuse = 0.6;
   double Specular = 0.4;
   double SpecularPower = 10.0;
-  /** Gradient length (scalar per world length) to opacity; none: no such function. */
+  /** Gradient length (scalar per world length) to opacity; empty: no such function. */
   std::vector<LookFunction::OpacityPoint> GradientOpacity;
   /** One of vtkTetrahedraRayCastMapper::GradientLocations. */
   int Gradients = 1;
@@ -65,19 +65,19 @@ struct VolumeLook
 struct VolumeCase
 {
   std::string Name;
-  /** Several: blocks of a composite data set. */
+  /** More than one: blocks of a composite data set. */
   std::vector<MeshArrays> Blocks;
   MeshStorage Storage;
-  /** Any division of the cells into tetrahedra shows the same field. */
+  /** True if any division of the cells into tetrahedra shows the same field. */
   bool Linear = false;
   VolumeLook Look;
   VolumeView View;
   int Size = 48;
   /** Model to world coordinates. */
   glm::dmat4 Matrix{ 1.0 };
-  /** Null mesh: none. */
+  /** No membrane if the mesh is null. */
   MembraneCase Membrane;
-  /** Planes as origin and normal; the side that the normal points to is kept. */
+  /** Planes as origin and normal; the side to which the normal points is kept. */
   std::vector<std::array<glm::dvec3, 2>> Planes;
   /** One of vtkTetrahedraRayCastMapper::Backends. */
   int Backend = 2;
@@ -88,7 +88,7 @@ struct VolumeCase
   bool hasGradients() const { return this->Look.Shade || !this->Look.GradientOpacity.empty(); }
 };
 
-/** What a relation asks of its scenes; the rest is random. */
+/** Requirements of a relation on its scenes; the rest is random. */
 struct CaseNeeds
 {
   bool Tetrahedra = false;
@@ -97,23 +97,26 @@ struct CaseNeeds
   bool NoMembrane = false;
   bool Composite = false;
   bool OneComponent = false;
-  /** No light nor gradient opacity by gradients of vertices, which are means about each point. */
+  /**
+   * True: no lighting or gradient opacity by gradients of vertices, which are means about each
+   * point.
+   */
   bool NoVertexGradients = false;
   bool NoCellData = false;
-  /** No gradient at all. */
+  /** True: no gradients at all. */
   bool NoGradients = false;
-  /** Meshes of a few thousand cells at most. */
+  /** True: meshes of a few thousand cells at most. */
   bool Small = false;
 };
 
 VolumeCase randomCase(const CaseNeeds& needs, RandomNumbers& random);
 
-/** The property of a look. */
+/** Volume property of a look. */
 vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeLook& look);
 
 /**
- * The functions and values of a look for scalars factor * s + offset, factor > 0. Gradients'
- * lengths change by the factor over `lengthFactor`, the unit distance with the latter.
+ * Maps the functions and values of a look to scalars factor * s + offset, factor > 0. Lengths of
+ * gradients are scaled by the factor over `lengthFactor`, the unit distance by the latter.
  */
 void mapScalars(VolumeLook& look, double factor, double offset, double lengthFactor);
 

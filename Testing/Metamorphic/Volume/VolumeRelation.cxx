@@ -35,12 +35,12 @@ double difference(const float* a, const float* b)
   for (int c = 0; c < 4; ++c)
   {
     const double d = std::fabs(double(a[c]) - double(b[c]));
-    largest = d <= largest ? largest : d; // lets NaN through
+    largest = d <= largest ? largest : d; // passes NaN on
   }
   return largest;
 }
 
-// The worst of the wrong pixels of one comparison, in words.
+// The worst of the wrong pixels of one comparison, as text.
 struct WorstPixel
 {
   int Count = 0;

@@ -18,7 +18,7 @@ namespace meniscus
 namespace test
 {
 
-/** Pixel of a changed scene's picture that shows what pixel (x, y) of the scene's own shows. */
+/** Pixel of a changed scene's image that corresponds to pixel (x, y) of the original scene. */
 using PixelMap = std::function<std::array<int, 2>(int x, int y)>;
 
 /** One random scene of a relation: draws it, draws changed ones, compares. */
@@ -31,20 +31,20 @@ public:
   RandomNumbers& random() { return this->Random; }
   VolumeStage& stage() { return this->Stage; }
 
-  /** The scene as it is, drawn once. */
+  /** Image of the unchanged scene, drawn once. */
   const FloatImage& picture();
 
   /** Exact colour of a pixel of the scene. */
   std::array<double, 4> exact(int x, int y) { return this->Condition.exact(x, y); }
 
-  /** Expects a changed scene to show the same. */
+  /** Expects a changed scene to give the same image. */
   void expectSame(const VolumeCase& changed, const std::string& words);
-  /** Expects a picture to be that of the scene. */
+  /** Expects an image to be that of the scene. */
   void expectSame(const FloatImage& changed, const std::string& words);
   void expectSame(
     const FloatImage& changed, const PixelMap& map, double tolerance, const std::string& words);
 
-  /** Counts a failure that is no deviation. */
+  /** Counts a failure other than a deviation. */
   void fail(const std::string& words);
 
   RelationTally done();
@@ -61,12 +61,12 @@ private:
 struct VolumeRelation
 {
   std::string Name;
-  /** Scenes at intensity 1. */
+  /** Number of scenes at intensity 1. */
   int Cases;
   CaseNeeds Needs;
   /** Draws changed scenes and compares. */
   std::function<void(VolumeTrial&)> Check;
-  /** Gives a random scene what the relation needs; may be empty. */
+  /** Adapts a random scene to the relation's needs; may be empty. */
   std::function<void(VolumeCase&, RandomNumbers&)> Prepare;
 };
 
@@ -74,7 +74,7 @@ struct VolumeRelation
 VolumeRelation relationOf(const std::string& name, int cases, const CaseNeeds& needs,
   const std::function<void(VolumeCase&, RandomNumbers&)>& change);
 
-/** Where the scene is: moves of all of it, cameras, windows. */
+/** Position of the scene: moves of the whole scene, cameras, windows. */
 std::vector<VolumeRelation> placeRelations();
 /** Cells and points that describe the same field. */
 std::vector<VolumeRelation> meshRelations();

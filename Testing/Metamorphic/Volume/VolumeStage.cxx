@@ -36,7 +36,7 @@ VolumeStage::VolumeStage()
   : Scene(8, 8)
   , Errors(vtkSmartPointer<Listener>::New())
 {
-  // Meshes with cells that cannot be drawn make the mapper warn.
+  // Meshes with cells that cannot be drawn cause warnings of the mapper.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
 }
 

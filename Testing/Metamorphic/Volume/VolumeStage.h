@@ -22,8 +22,8 @@ namespace test
 {
 
 /**
- * An off-screen window in which cases are drawn, each by a mapper of its own. The window and its
- * compiled shaders stay.
+ * An off-screen window in which cases are drawn, each by its own mapper. The window and its
+ * compiled shaders are kept.
  */
 class VolumeStage
 {
@@ -31,21 +31,21 @@ public:
   VolumeStage();
   ~VolumeStage();
 
-  /** Sets up a case with new objects, which the next calls may change. */
+  /** Sets up a case with new objects, which later calls may change. */
   void place(const VolumeCase& test);
-  /** Renders what place() has set up. */
+  /** Renders the case set up by place(). */
   FloatImage render();
   /** place() and render(). */
   FloatImage draw(const VolumeCase& test);
 
   vtkTetrahedraRayCastMapper* mapper() const;
   VolumeScene& scene() { return this->Scene; }
-  /** Block 0 as the mapper has it. */
+  /** Block 0 as passed to the mapper. */
   vtkUnstructuredGrid* grid() const;
-  /** Uses another input in place of the case's own. */
+  /** Uses another input instead of the case's own. */
   void setInput(vtkDataObject* input);
 
-  /** Errors of the mapper and rays that were lost since the last call; empty without any. */
+  /** Errors of the mapper and lost rays since the last call; empty if there are none. */
   std::string complaints();
 
 private:

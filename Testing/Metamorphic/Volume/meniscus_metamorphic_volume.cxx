@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Random scenes of volumes and changes that must not change their pictures. Reports deviations and
- * failures per relation; the exit status is 0 without a failure.
+ * Random volume scenes, and changes that must not change their images. Reports deviations and
+ * failures per relation; the exit status is 0 if none failed.
  */
 #include "RelationRun.h"
 #include "VolumeRelation.h"
@@ -26,7 +26,7 @@ const char* const Usage =
   "  --relation TEXT    only relations whose names contain the text\n"
   "  --backend NAME     native, opengl or compute for all scenes (default: all in turn)\n";
 
-// VTK's skip code of the tests.
+// Exit code by which tests are reported as skipped, as in VTK.
 constexpr int Skipped = 125;
 
 const std::map<std::string, int> Backends{ { "native", vtkTetrahedraRayCastMapper::NATIVE },
@@ -49,7 +49,7 @@ bool isBlank(const FloatImage& image)
 }
 
 //------------------------------------------------------------------------------
-// A trial whose picture is not blank, of the first of the case's scenes that shows one.
+// A trial whose image is not blank: the first of the case's scenes that shows something.
 RelationTally runCase(
   const VolumeRelation& relation, const Options& options, int index, VolumeStage& stage)
 {
@@ -78,7 +78,7 @@ RelationTally runCase(
   return none.done();
 }
 
-// The window of a process, made when it is first asked for: a process is forked without one.
+// Window of a process, created when first requested: a process is forked without one.
 VolumeStage& stageOfProcess()
 {
   static VolumeStage stage;

@@ -13,7 +13,7 @@ namespace
 
 const double Pi = std::acos(-1.0);
 
-// Halves a bracket until its middle is one of its ends.
+// Bisects a bracket until its middle equals one of its ends.
 template <typename Function>
 double Bisect(const Function& f, double low, double high)
 {
@@ -106,7 +106,8 @@ std::vector<glm::dvec3> AnalyticMembrane::FindOnPlane(
   {
     return { foot };
   }
-  // Fermat's derivative: rises with x, negative at 0, positive at the far end.
+  // Derivative of the optical path (Fermat): increases with x, negative at 0, positive at the far
+  // end.
   const auto residual = [this, &eye, &point, distance](double x)
   {
     return this->Exterior * x / std::hypot(x, eye.y) -

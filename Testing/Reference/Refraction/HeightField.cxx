@@ -31,7 +31,8 @@ struct Fermat
     return { v.x + dx * v.y, v.z + dz * v.y };
   }
 
-  // Newton's method with differences; false if it does not settle within `reach` of its start.
+  // Newton's method with finite differences; returns false if it does not converge within `reach`
+  // of its start.
   bool Solve(double& x, double& z, double reach) const
   {
     const double x0 = x;
@@ -123,7 +124,7 @@ std::vector<glm::dvec3> HeightField::FindSightPoints(
   const glm::dvec3& eye, const glm::dvec3& point, int grid) const
 {
   const Fermat fermat{ *this, eye, point };
-  // One node more on each side: a cell's search looks at its neighbours' nodes.
+  // One more node on each side: a cell's search uses its neighbours' nodes.
   const int nodes = grid + 3;
   const double step = this->Side / grid;
   const auto at = [this, step](int i) { return -0.5 * this->Side + step * (i - 1); };

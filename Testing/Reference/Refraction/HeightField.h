@@ -3,7 +3,7 @@
 /**
  * Refraction at an analytic height field y = f(x, z) over a square, the eye above it. Sight points
  * are the stationary points of the optical path n1 |S - E| + n2 |P - S| (Fermat), found by a dense
- * search in double: nothing of the kernel's patches, trees or equations.
+ * search in double precision, independently of the kernel's patches, trees and equations.
  */
 #ifndef meniscus_HeightField_h
 #define meniscus_HeightField_h
@@ -40,16 +40,18 @@ struct HeightField
   /** `cells` x `cells` x 2 facets with exact normals. */
   MembraneMesh MakeMesh(int cells) const;
 
-  /** Every sight point of `point`. Pairs closer than about 1 / `grid` of the side may be missed. */
+  /** All sight points of `point`. Pairs closer than about 1 / `grid` of the side may be missed. */
   std::vector<glm::dvec3> FindSightPoints(
     const glm::dvec3& eye, const glm::dvec3& point, int grid = 200) const;
 
-  /** Where the sight ray of `direction` meets the surface, starting near `distance`. */
+  /**
+   * Intersection of the sight ray of `direction` with the surface, by an iteration from `distance`.
+   */
   glm::dvec3 Intersect(const glm::dvec3& eye, const glm::dvec3& direction, double distance) const;
 
   /**
-   * The point at `length` behind `onSurface` on the refracted ray, by n1 sin a = n2 sin b; nothing
-   * under total internal reflection.
+   * Point at a distance of `length` behind `onSurface` on the refracted ray, by n1 sin a = n2 sin
+   * b; nothing under total internal reflection.
    */
   std::optional<glm::dvec3> Refract(
     const glm::dvec3& eye, const glm::dvec3& onSurface, double length) const;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Interval arithmetic for the oracle of sight points. Bounds are rounded to nearest, not outwards:
- * the oracle adds the error of the membrane's mesh to every bound, which is many orders above it.
+ * the oracle adds the error of the membrane's mesh to every bound, which is larger by many orders
+ * of magnitude.
  */
 #ifndef meniscus_Interval_h
 #define meniscus_Interval_h
@@ -71,7 +72,7 @@ inline Interval operator/(const Interval& a, const Interval& b)
   return a * Interval(1.0 / b.High, 1.0 / b.Low);
 }
 
-// The same functions for numbers, so that a formula can be written once for both.
+// The same functions for numbers, so that a formula can be written once for both types.
 
 inline double Square(double a)
 {
@@ -117,7 +118,7 @@ inline Interval Cosine(const Interval& a)
   {
     return { -1.0, 1.0 };
   }
-  // Multiples of pi inside are the extremes.
+  // The extremes are at the multiples of pi inside the interval.
   const double first = std::ceil(a.Low / pi);
   const double last = std::floor(a.High / pi);
   const double ends[2] = { std::cos(a.Low), std::cos(a.High) };

@@ -95,7 +95,7 @@ MembraneMesh MakeDisc(double radius, int rings, double sphereRadius)
 {
   MembraneMesh mesh;
   AddOnSphere(mesh, 0.0, 0.0, sphereRadius);
-  std::int64_t inner = 0; // first vertex of the ring inside
+  std::int64_t inner = 0; // first vertex of the next inner ring
   std::int64_t innerCount = 1;
   for (int ring = 1; ring <= rings; ++ring)
   {
@@ -155,7 +155,7 @@ MembraneMesh MakeWaves(double side, int cells, double amplitude, double waves)
 MembraneMesh MakeRandom(double side, int cells, double roughness, double tilt, unsigned seed)
 {
   std::mt19937 engine(seed);
-  // Not std::uniform_real_distribution, whose values differ between libraries.
+  // std::uniform_real_distribution is not used: its values differ between libraries.
   const auto random = [&engine] { return 2.0 * (engine() / 4294967296.0) - 1.0; };
   return MakeGrid(side, cells,
     [&random, roughness, tilt](MembraneMesh& mesh, double x, double z)

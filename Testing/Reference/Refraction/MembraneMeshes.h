@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Triangle meshes of membranes for tests and benchmarks. The y axis points to the eye, the apex is
- * the origin, facets are wound counter-clockwise as the eye sees them, normals are exact.
+ * the origin, facets are counter-clockwise as seen from the eye, and normals are exact.
  */
 #ifndef meniscus_MembraneMeshes_h
 #define meniscus_MembraneMeshes_h
@@ -26,7 +26,7 @@ struct MembraneMesh
   void AddPoint(const glm::dvec3& point, const glm::dvec3& normal);
   void AddTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
   std::size_t GetNumberOfFacets() const { return this->Triangles.size() / 3; }
-  /** Views of the arrays; with or without the normals. */
+  /** Views of the arrays, with or without the normals. */
   MembraneInput AsInput(bool withNormals = true) const;
   void Translate(const glm::dvec3& offset);
 };

@@ -13,10 +13,10 @@ namespace meniscus::reference
 namespace
 {
 
-// Boxes beyond which a point is given up: some ten times what a hard point takes.
+// Number of boxes after which a point is given up: some ten times the number for a difficult point.
 constexpr int MostBoxes = 200000;
 
-// Part of the side below which boxes are not divided.
+// Fraction of the side below which boxes are not divided.
 constexpr double SmallestPart = 1e-12;
 
 template <typename T>
@@ -65,12 +65,12 @@ Triple<Interval> Direction(const Triple<Interval>& a, const Interval& length)
   return result;
 }
 
-/** F, its derivatives, and what bounds the effect of the surface's error on it. */
+/** F, its derivatives, and bounds of the effect of the surface's error on it. */
 template <typename T>
 struct Equation
 {
   T F[2];
-  T By[2][2]; ///< by[i][k]: of F_i by x (0) or z (1)
+  T By[2][2]; ///< By[i][k]: derivative of F_i by x (0) or z (1)
   T Away;     ///< |a|
   T Below;    ///< |p|
   double PerPosition;
@@ -141,7 +141,7 @@ public:
   OracleAnswer Run()
   {
     const double side = this->Oracle.Surface.Side;
-    // A little beyond the border, where the mesh's own border may be.
+    // A little beyond the border, to which the mesh's own border may extend.
     const double half = 0.5 * side * (1.0 + 1e-3) + 4.0 * this->Oracle.Error.Position;
     std::vector<OracleBox> stack = { { 0.0, 0.0, half } };
     for (int boxes = 0; !stack.empty(); ++boxes)
@@ -188,7 +188,7 @@ private:
     return this->EvaluateAt(this->Oracle.Surface.At(x, z), x, z);
   }
 
-  // False if the box must be divided.
+  // Returns false if the box must be divided.
   bool IsSettled(const OracleBox& box)
   {
     const Interval x(box.X - box.Half, box.X + box.Half);
@@ -210,7 +210,7 @@ private:
     const bool regular = Invert(middle, inverse);
     if (regular)
     {
-      // Y J over the box: within `off` of the identity?
+      // Test whether Y J is within `off` of the identity over the box.
       double off[2] = { 0.0, 0.0 };
       double step[2];
       double radius[2];
@@ -226,7 +226,7 @@ private:
       }
       for (int i = 0; i < 2; ++i)
       {
-        // Krawczyk: roots are within off * half of the Newton step.
+        // Krawczyk's test: roots are within off * half of the Newton step.
         if (std::fabs(step[i]) > box.Half * (1.0 + off[i]) + radius[i])
         {
           return true;
@@ -240,14 +240,15 @@ private:
         }
         if (std::max(radius[0], radius[1]) > box.Half)
         {
-          // The root is farther away than the derivative is known, but within the error.
+          // The root lies outside the region in which the derivative is known, but within the
+          // error.
           this->Answer.Uncertain.push_back(box);
           return true;
         }
       }
     }
-    // Not even the error tells values in the box from zero, and the derivative is not known well
-    // enough: smaller boxes would only trace the border of what is uncertain.
+    // The values in the box cannot be distinguished from zero within the error, and the derivative
+    // is not known well enough: smaller boxes would only trace the border of the uncertain region.
     if (box.Half < SmallestPart * this->Oracle.Surface.Side || widest <= 3.0 * slack)
     {
       this->Answer.Uncertain.push_back(box);
@@ -266,8 +267,8 @@ private:
     return std::isfinite(inverse[0][0] + inverse[0][1] + inverse[1][0] + inverse[1][1]);
   }
 
-  // Newton's method from the middle of a box with one root at most. False if it leaves the box for
-  // farther than the error explains.
+  // Newton's method from the middle of a box with at most one root. Returns false if it leaves the
+  // box by more than the error explains.
   bool TakeRoot(const OracleBox& box)
   {
     double x = box.X;
@@ -327,7 +328,7 @@ private:
     this->Roots.push_back({ sight, radius, determinant < 0.0 ? -1 : 1 });
   }
 
-  // +1: an image on every surface within the error, -1: on none.
+  // +1: an image on every surface within the error; -1: on none.
   int Classify(const OracleImage& root) const
   {
     const SmoothSurface& surface = this->Oracle.Surface;
@@ -350,7 +351,8 @@ private:
     return result;
   }
 
-  // Roots that cannot be told from others or from an uncertain box become uncertain themselves.
+  // Roots that cannot be distinguished from others or from an uncertain box become uncertain
+  // themselves.
   void Sort()
   {
     std::vector<bool> doubtful(this->Roots.size(), false);

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Every sight point on a smooth surface, by interval Newton in double: nothing of the kernel's
- * patches, trees or searches.
+ * All sight points on a smooth surface, by an interval Newton method in double precision,
+ * independently of the kernel's patches, trees and searches.
  *
- * The equation is Snell's law along the surface, F = (h.tx, h.tz) with h = n1 |p| a - n2 |a| p,
- * a = S - eye, p = point - S, tx = (1, fx, 0), tz = (0, fz, 1). Boxes of (x, z) are divided until
- * the mean value form or a Newton step says that there is no root, or the derivative over the box
- * says that there is one at most.
+ * The equation is Snell's law along the surface, F = (h.tx, h.tz) with h = n1 |p| a - n2 |a| p, a =
+ * S - eye, p = point - S, tx = (1, fx, 0), tz = (0, fz, 1). Boxes of (x, z) are divided until the
+ * mean value form or a Newton step proves that there is no root, or the derivative over the box
+ * proves that there is at most one.
  *
- * The membrane that is judged is a mesh, whose surface differs from the smooth one. Its error is
- * given and widens every test: an image is `certain` if every surface within that error has exactly
- * one image within `radius` of it. Everything else (near caustics, borders, the critical angle, the
+ * The membrane under test is a mesh, whose surface differs from the smooth one. Its error is given
+ * and widens every test: an image is `certain` if every surface within that error has exactly one
+ * image within `radius` of it. Everything else (near caustics, borders, the critical angle, the
  * point's own place) lies in `uncertain` boxes.
  */
 #ifndef meniscus_SightOracle_h
@@ -27,8 +27,8 @@ namespace meniscus::reference
 {
 
 /**
- * How far a mesh's surface may be from the smooth one, and its unit normals from the smooth one's.
- * The first covers rounding of eye and point, too.
+ * Largest distance of a mesh's surface from the smooth one, and of its unit normals from those of
+ * the smooth one. The first also covers rounding of eye and point.
  */
 struct SurfaceError
 {
@@ -43,7 +43,7 @@ struct OracleImage
   int Orientation; ///< +1, or -1 where the image is mirrored
 };
 
-/** Where there may be any number of images, in x and z. */
+/** A box in x and z in which there may be any number of images. */
 struct OracleBox
 {
   double X;
@@ -55,7 +55,7 @@ struct OracleAnswer
 {
   std::vector<OracleImage> Images;
   std::vector<OracleBox> Uncertain;
-  bool Complete = true; ///< false: given up after too many boxes
+  bool Complete = true; ///< false: abandoned after too many boxes
 
   bool IsUncertain(double x, double z, double slack) const;
 };

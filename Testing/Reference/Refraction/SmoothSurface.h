@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * A height field y = f(x, z) over a square about the origin, a sum of plane waves, hills and a cap
- * of a sphere, with two derivatives, at points and over intervals.
+ * A height field y = f(x, z) over a square about the origin: a sum of plane waves, hills and a cap
+ * of a sphere, with first and second derivatives, at points and over intervals.
  */
 #ifndef meniscus_SmoothSurface_h
 #define meniscus_SmoothSurface_h
@@ -64,12 +64,12 @@ struct SmoothSurface
   glm::dvec3 GetPoint(double x, double z) const { return { x, this->At(x, z).F, z }; }
   glm::dvec3 GetNormal(double x, double z) const;
 
-  /** Where the ray from the eye meets the surface, by Newton's method from `distance`. */
+  /** Intersection of the ray from the eye with the surface, by Newton's method from `distance`. */
   glm::dvec3 Intersect(const glm::dvec3& eye, const glm::dvec3& direction, double distance) const;
 
   /**
-   * Unit direction behind `onSurface`, by n1 sin a = n2 sin b with `ratio` = n1 / n2; nothing from
-   * behind and under total internal reflection.
+   * Unit direction of the refracted ray at `onSurface`, by n1 sin a = n2 sin b with `ratio` = n1 /
+   * n2; nothing for rays from behind and under total internal reflection.
    */
   std::optional<glm::dvec3> Refract(
     const glm::dvec3& eye, const glm::dvec3& onSurface, double ratio) const;

@@ -20,18 +20,18 @@ namespace
 
 constexpr double DiscRadius = 141.5;
 
-// Side of a square membrane, whose corners just lie on the hemisphere of DiscRadius.
+// Side of a square membrane whose corners lie exactly on the hemisphere of DiscRadius.
 constexpr double SquareSide = 200.0;
 
-// Samples of the error volume: 40 a side, 20 units apart.
+// Samples of the error volume: 40 along a side, 20 units apart.
 constexpr int Samples = 40;
 constexpr double Spacing = 20.0;
 
-// Two cells whose walls are this close count as several answers, in barycentric coordinates.
+// Distance of walls, in barycentric coordinates, at which two cells count as several answers.
 constexpr double Wall = 1e-7;
 
-// On the flat disc sight points beyond this part of the radius have no exact point. The thesis does
-// not say so, but its numbers of points do.
+// Fraction of the radius of the flat disc beyond which sight points have no exact point. The thesis
+// does not say so, but its numbers of points imply it.
 constexpr double FlatDiscPart = 0.9;
 
 constexpr auto Disc = MembraneShape::Disc;
@@ -106,7 +106,7 @@ glm::dvec3 GetEye(const ThesisRow& row)
   return { row.EyeOffset, row.EyeHeight, 0.0 };
 }
 
-/** `solve(point, vertex)` returns whether the one image of a point was found. */
+/** `solve(point, vertex)` returns true if the single image of a point was found. */
 template <typename Solve>
 ErrorStatistics MeasureRow(const ThesisRow& row, const Solve& solve)
 {

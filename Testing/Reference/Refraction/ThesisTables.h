@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The error measurements of the thesis's Tables 4.1 to 4.5: what it printed, and a way to measure
- * the same rows again. Documentation/refraction.md describes the set-up.
+ * The error measurements of the thesis's Tables 4.1 to 4.5: the printed figures, and functions that
+ * measure the same rows again. Documentation/refraction.md describes the set-up.
  */
 #ifndef meniscus_ThesisTables_h
 #define meniscus_ThesisTables_h
@@ -46,16 +46,18 @@ struct ErrorStatistics
 /** The 54 rows of Tables 4.1, 4.2, 4.3, 4.4 and 4.5, in the order of the thesis. */
 const std::vector<ThesisRow>& GetThesisRows();
 
-/** Whether a row belongs to Tables 4.1, 4.2, 4.3 or 4.5, the 46 that count for the acceptance. */
+/**
+ * True if a row belongs to Tables 4.1, 4.2, 4.3 or 4.5, whose 46 rows are used for the acceptance.
+ */
 bool IsReproducible(const ThesisRow& row);
 
 /**
- * Samples the error volume of a row: distance between each true point and the exact point behind
- * its computed virtual vertex, with the thesis's flat facets.
+ * Samples the error volume of a row: the distance between each true point and the exact point that
+ * corresponds to its computed virtual vertex, with the thesis's flat facets.
  */
 ErrorStatistics MeasureThesisRow(const ThesisRow& row);
 
-/** The same with curved patches, over the points with exactly one image. */
+/** As above, with curved patches, over the points with exactly one image. */
 ErrorStatistics MeasureThesisRowCurved(const ThesisRow& row);
 
 }

@@ -16,10 +16,10 @@ namespace
 
 constexpr std::int32_t CellsPerLeaf = 3;
 
-// Boxes are padded by more than the half-spaces are widened (1e-13 of the diagonal).
+// Boxes are padded by more than the widening of the half-spaces (1e-13 of the diagonal).
 constexpr double BoxPadding = 1e-12;
 
-// A direction component of 0 stands for one so small that the ray stays in its slab.
+// Replaces a direction component of 0: so small that the ray stays in its slab.
 constexpr double SmallestComponent = 1e-300;
 
 struct RayFrame

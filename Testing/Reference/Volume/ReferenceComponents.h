@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * The density-emitter integral of several scalars at once, in double, on the segments that
- * ReferenceRayIntegrator finds.
+ * The density-emitter integral of several scalars at once, in double precision, on the segments of
+ * ReferenceRayIntegrator.
  */
 #ifndef meniscus_ReferenceComponents_h
 #define meniscus_ReferenceComponents_h
@@ -20,16 +20,16 @@ namespace reference
 
 enum class Mixture
 {
-  Independent,        ///< attenuations add up, each emits its colour
-  ColorAndOpacity,    ///< colour by the first, attenuation by the second
-  RedGreenBlueOpacity ///< the first three are the colour, attenuation by the fourth
+  Independent,        ///< attenuations are added, and each component emits its colour
+  ColorAndOpacity,    ///< colour by the first component, attenuation by the second
+  RedGreenBlueOpacity ///< the first three components are the colour, attenuation by the fourth
 };
 
 /**
- * Premultiplied.
- * @param segments   of one ray, once per component: the same but for the scalars.
- * @param functions  of each component, in the same order; without a meaning where a component is a
- *                   colour. Weights are part of the attenuations.
+ * Premultiplied colour of a ray.
+ * @param segments segments of one ray, once per component, with equal geometry.
+ * @param functions function of each component, in the same order; ignored if the component is a
+ *   colour. Weights are included in the attenuations.
  */
 std::array<double, 4> integrateComponents(const Ray& ray,
   const std::vector<std::vector<RaySegment>>& segments, Mixture mixture,

@@ -15,7 +15,7 @@ namespace reference
 namespace
 {
 
-// Faces of a tetrahedron, each opposite to the vertex of its index, outward for a positive volume.
+// Faces of a tetrahedron, each opposite the vertex with its index, outward for a positive volume.
 constexpr int FaceVertices[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 
 // Distance by which every half-space is widened, relative to the mesh's diagonal, so that rounding
@@ -23,8 +23,8 @@ constexpr int FaceVertices[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0,
 // 100.
 constexpr double WideningDistance = 1e-13;
 
-// A cell is flat if its height is below this share of the mesh's diagonal: with a factor of 10 over
-// the widening, which would otherwise dominate its shape.
+// A cell is flat if its height is below this fraction of the mesh's diagonal: ten times the
+// widening, which would otherwise dominate its shape.
 constexpr double FlatHeight = 10.0 * WideningDistance;
 
 using Exact = long double;
@@ -52,7 +52,7 @@ Exact dot(const ExactVector& a, const ExactVector& b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Sorts the ids of a face; the parity of the sorting tells the face's two sides apart.
+// Sorts the ids of a face; the parity of the sorting distinguishes the face's two sides.
 FaceKey makeFaceKey(const std::int64_t* cell, std::int64_t cellId, int face)
 {
   const int* local = FaceVertices[face];
@@ -77,7 +77,7 @@ struct Neighbor
   int Orientation = 1;
 };
 
-// Pairs faces with the same ids. Of a face shared by more than two cells only pairs are linked.
+// Pairs faces with the same ids. Of a face shared by more than two cells, only pairs are linked.
 std::vector<Neighbor> linkFaces(std::vector<FaceKey>& keys, std::size_t cells, std::size_t& single)
 {
   std::sort(keys.begin(), keys.end(),
@@ -148,7 +148,7 @@ bool ReferenceMesh::isUsable(std::size_t id) const
 }
 
 //------------------------------------------------------------------------------
-// Sign of each cell's volume; 0 for a flat cell, 2 for one that cannot be used at all.
+// Sign of each cell's volume; 0 for a flat cell, 2 for an unusable one.
 std::vector<int> ReferenceMesh::volumeSigns(const std::vector<char>& usable) const
 {
   std::vector<int> signs(this->numberOfCells(), 2);

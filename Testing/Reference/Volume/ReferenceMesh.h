@@ -21,19 +21,19 @@ struct CellPlanes
   /** Weight i at x is Gradient[i] . (x - mesh centre) + Offset[i]. */
   std::array<Vector3, 4> Gradient;
   std::array<double, 4> Offset;
-  /** Weight that corresponds to a distance of one tolerance outside face i. */
+  /** Weight at a distance of one tolerance outside face i. */
   std::array<double, 4> Slack;
 };
 
 /**
- * Tetrahedra as sets of half-spaces, for a reference that finds cells by clipping and not by
+ * Tetrahedra as sets of half-spaces, for a reference that finds cells by clipping instead of
  * walking.
  *
- * Which cells count as inverted: a flood fill over shared faces gives every cell of a component the
- * orientation that fits its neighbours; the component's sign is the one that most of its cells
- * have. A cell whose volume has the other sign is inverted and does not contribute. Cells without
- * volume, with repeated or out-of-range ids, or with positions or scalars that are not finite do
- * not contribute either.
+ * Inverted cells are determined by a flood fill over shared faces, which gives every cell of a
+ * component the orientation that agrees with its neighbours; the component's sign is that of most
+ * of its cells. A cell whose volume has the other sign is inverted and does not contribute. Cells
+ * without volume, with repeated or out-of-range ids, or with positions or scalars that are not
+ * finite do not contribute either.
  */
 class ReferenceMesh
 {

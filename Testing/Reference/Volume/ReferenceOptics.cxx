@@ -190,7 +190,8 @@ Vector3 ReferenceGradients::ofCell(std::int64_t cell) const
 {
   const std::int64_t* ids = this->Mesh.cell(static_cast<std::size_t>(cell));
   const CellPlanes& planes = this->Mesh.planes(static_cast<std::size_t>(cell));
-  // Of differences: equal scalars have no gradient, not one of rounding.
+  // The gradient is computed from differences, so that equal scalars have no gradient instead of
+  // one of rounding.
   Vector3 gradient{ 0.0, 0.0, 0.0 };
   for (int i = 1; i < 4; ++i)
   {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Optical models other than plain compositing, in double, on the segments that
- * ReferenceRayIntegrator finds: what a ray shows by projection, by isosurfaces and with light.
+ * Optical models other than plain compositing, in double precision, on the segments of
+ * ReferenceRayIntegrator: projections, isosurfaces and lighting.
  */
 #ifndef meniscus_ReferenceOptics_h
 #define meniscus_ReferenceOptics_h
@@ -22,13 +22,14 @@ namespace reference
 
 enum class Projection
 {
-  Maximum, ///< largest scalar, shown by the function (attenuation read as alpha)
+  Maximum, ///< largest scalar, mapped by the function (attenuation is taken as alpha)
   Minimum,
   Average, ///< mean over the length
-  Additive ///< integral of attenuation times the scalar's place in the range, grey, alpha 1
+  Additive ///< integral of attenuation times the scalar mapped from the range to [0, 1], grey,
+           ///< alpha 1
 };
 
-/** Premultiplied. The range is that of the data, for Additive. */
+/** Premultiplied colour of a projection. The range, used by Additive, is that of the data. */
 std::array<double, 4> project(const Ray& ray, const std::vector<RaySegment>& segments,
   Projection projection, const ReferenceTransferFunction& function, const double range[2]);
 
@@ -39,7 +40,7 @@ struct HalfSpace
   Vector3 Origin;
 };
 
-/** The part of a ray in half spaces; Begin >= End if there is none. */
+/** The part of a ray inside half spaces; Begin >= End if there is none. */
 Ray clipRay(const Ray& ray, const std::vector<HalfSpace>& halfSpaces);
 
 struct Light
@@ -51,7 +52,7 @@ struct Light
   Vector3 Specular{ 1.0, 1.0, 1.0 };
   /** Coefficients of the powers 0, 1, 2 of the distance. */
   Vector3 Falloff{ 1.0, 0.0, 0.0 };
-  /** Cosine of the half angle of a cone about Axis, -2 without; exponent within. */
+  /** Cosine of the half angle of a cone about Axis, -2 without a cone; exponent inside the cone. */
   double ConeCosine = -2.0;
   Vector3 Axis{ 0.0, 0.0, 1.0 };
   double Exponent = 0.0;
@@ -70,7 +71,7 @@ struct Material
 class ReferenceGradients
 {
 public:
-  /** Of the cells, or interpolated between the volume-weighted means about each point. */
+  /** Gradients of the cells, or interpolated between the volume-weighted means about each point. */
   ReferenceGradients(const ReferenceMesh& mesh, bool smooth);
 
   Vector3 at(std::int64_t cell, const Vector3& position) const;
@@ -82,7 +83,7 @@ private:
   std::vector<Vector3> AtPoints;
 };
 
-/** Phong's model, two-sided: the colour that a point with an emitted colour shows to a ray. */
+/** Phong's model, two-sided: lit colour of a point with an emitted colour, as seen along a ray. */
 std::array<double, 3> shade(const Material& material, const Ray& ray, const Vector3& position,
   const Vector3& gradient, const std::array<double, 3>& emitted);
 
@@ -93,14 +94,14 @@ struct Surface
   std::array<double, 3> Color;
 };
 
-/** Surfaces in front-to-back order. Without gradients they show their colour. */
+/** Surfaces in front-to-back order. Without gradients they have their own colour. */
 std::array<double, 4> blendSurfaces(const Ray& ray, const std::vector<RaySegment>& segments,
   const std::vector<Surface>& surfaces, const ReferenceGradients* gradients,
   const Material& material);
 
 /**
- * The density-emitter integral with light and a factor of the attenuation by the gradient's length
- * (null: 1), by midpoints of many equal steps per segment between the function's nodes.
+ * The density-emitter integral with lighting, and a factor of the attenuation by the gradient's
+ * length (null: 1), by midpoints of many equal steps per segment between the function's nodes.
  */
 std::array<double, 4> integrateShaded(const Ray& ray, const std::vector<RaySegment>& segments,
   const ReferenceTransferFunction& function, const ReferenceGradients& gradients,

@@ -15,11 +15,11 @@ namespace reference
 namespace
 {
 
-// Breaks and clipped lengths below this share of the diagonal are rounding, not geometry:
+// Gaps and clipped lengths below this fraction of the diagonal are rounding, not geometry:
 // half-spaces are widened by 1e-13, and a face met at 1e-4 radian stretches that by 1e4.
 constexpr double NegligibleLength = 1e-9;
 
-// Light behind this transmittance cannot change a result in double by 1e-15.
+// Emission behind this transmittance cannot change a result in double precision by 1e-15.
 constexpr double DarkTransmittance = 1e-16;
 
 // Optical depth of a piece up to which 4 points are exact to 1e-12, and of a piece for 8 points
@@ -118,7 +118,7 @@ void addLinearPiece(
   }
 }
 
-// Splits one segment at the nodes of the transfer function that lie inside its scalar range.
+// Splits one segment at the nodes of the transfer function inside its scalar range.
 void addSegment(const RaySegment& segment, double lengthPerUnit,
   const ReferenceTransferFunction& function, Accumulator& total)
 {
@@ -167,7 +167,7 @@ ReferenceRayIntegrator::ReferenceRayIntegrator(
 namespace
 {
 
-// A cell crossed, with the faces at its two ends.
+// A cell that the ray crosses, with the faces at its two ends.
 struct Crossing
 {
   RaySegment Segment;
@@ -226,7 +226,7 @@ bool clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vect
   return true;
 }
 
-// Whether a function attenuates anywhere in a cell's range of scalars.
+// True if a function attenuates anywhere in a cell's range of scalars.
 bool canBeSeen(
   const ReferenceMesh& mesh, std::int64_t id, const ReferenceTransferFunction& function)
 {
@@ -253,7 +253,8 @@ bool canBeSeen(
   return false;
 }
 
-// Cells crossed, each found on its own, in order of entry; with a function, those it lets be seen.
+// Cells crossed, each found independently, in the order of entry; with a function, only visible
+// cells.
 void findCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
   const ReferenceTransferFunction* function, std::vector<Crossing>& crossings)
 {
@@ -280,7 +281,7 @@ void findCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, con
     });
 }
 
-// Whether two cells have an edge in common: a ray in it is in both, without any real overlap.
+// True if two cells have a common edge: a ray in it is in both, without any real overlap.
 bool shareAnEdge(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
 {
   int shared = 0;
@@ -292,7 +293,7 @@ bool shareAnEdge(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
   return shared >= 2;
 }
 
-// Whether the depth of entry does not settle the order.
+// True if the depth of entry does not determine the order.
 bool needsOrder(
   const ReferenceMesh& mesh, const std::vector<Crossing>& crossings, double negligible)
 {
@@ -314,7 +315,7 @@ bool needsOrder(
   return false;
 }
 
-// Puts crossings in the order in which paths across shared faces meet them.
+// Sorts crossings in the order in which paths across shared faces meet them.
 class FaceOrder
 {
 public:
@@ -357,8 +358,8 @@ public:
     {
       this->append(start, sorted);
     }
-    // What is left are closed paths: they have no entry, and each of their inverted cells takes
-    // back what another one covers.
+    // The remaining crossings are closed paths: they have no entry, and each of their inverted
+    // cells cancels the part that another one covers.
     return sorted;
   }
 
@@ -477,7 +478,7 @@ RayReport ReferenceRayIntegrator::findVisibleSegments(const Ray& ray,
   const ReferenceTransferFunction& function, std::vector<RaySegment>& segments) const
 {
   const RayReport report = this->findSegments(ray, nullptr, segments);
-  // Without overlap, segments that cannot be seen are only superfluous.
+  // Without overlap, invisible segments are superfluous but harmless.
   return report.Ordered || report.Overlaps > 0 ? this->findSegments(ray, &function, segments)
                                                : report;
 }
@@ -503,7 +504,7 @@ RayReport ReferenceRayIntegrator::findSegments(const Ray& ray,
     const RaySegment& whole = crossing.Segment;
     if (crossing.Inverted)
     {
-      // A path enters it at its far end, which it has then reached.
+      // A path enters it at its far end, which is then the depth reached.
       cursor = std::max(cursor, whole.End);
       continue;
     }
@@ -573,7 +574,7 @@ std::vector<CoveredSpan> ReferenceRayIntegrator::coveredSpans(const Ray& ray) co
 namespace
 {
 
-// Largest move of an end of a span, infinite if their number differs.
+// Largest move of an end of a span; infinite if the numbers of spans differ.
 double spanChange(const std::vector<CoveredSpan>& a, const std::vector<CoveredSpan>& b)
 {
   if (a.size() != b.size())
@@ -640,10 +641,10 @@ std::array<Vector3, 8> directionsAcross(const Vector3& direction)
   return result;
 }
 
-// Part of the distance at which a change is looked at again.
+// Fraction of the distance at which a change is evaluated again.
 constexpr double Fraction = 0.125;
 
-// Whether a change above the threshold fails to shrink with the distance.
+// True if a change above the threshold does not shrink with the distance.
 bool isJump(double near, double far, double threshold)
 {
   const bool proportional = near > 0.5 * Fraction * far && near < 2.0 * Fraction * far;
@@ -656,10 +657,10 @@ bool isJump(double near, double far, double threshold)
 RayClass ReferenceRayIntegrator::classify(
   const Ray& ray, double distance, const ReferenceTransferFunction& function) const
 {
-  // A face met at a slope below this moves a span's end in proportion; a jump over a silhouette
-  // edge exceeds it and does not shrink with the distance.
+  // A face met at a slope below this moves a span's end in proportion; a jump at a silhouette edge
+  // exceeds it and does not shrink with the distance.
   constexpr double steepestSlope = 20.0;
-  // A jump of the result below this cannot be what makes a pixel wrong.
+  // A smaller jump of the result cannot be the cause of a wrong pixel.
   constexpr double smallestJump = 1e-5;
   const double steep = steepestSlope * distance / length(ray.Direction);
   const std::vector<CoveredSpan> here = this->coveredSpans(ray);

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Double-precision truth for the tetrahedral ray caster.
+ * Double-precision reference for the tetrahedral ray caster.
  *
  * It shares neither code nor method with the kernel's walk: every cell that a ray crosses is found
- * on its own (box tree, then clipping against the cell's four half-spaces), so a wrong neighbour
- * table, a wrong entry or a lost ray cannot be wrong in the same way here.
+ * independently (box tree, then clipping by the cell's four half-spaces), so errors such as a wrong
+ * neighbour table, a wrong entry or a lost ray cannot occur in the same way here.
  *
  * Model: density emitter. dC = tau(s) c(s) T dt, T = exp(-integral of tau), with t in world length.
  * The result is premultiplied, alpha = 1 - T.
  *
  * Overlap: inverted and flat cells do not contribute (see ReferenceMesh). On a ray that crosses an
- * inverted cell or overlapping parts, the cells found are put in the order in which a path across
- * shared faces meets them, parts in the order of their entries; each then counts from the largest
- * depth reached before it to its own exit. Closed paths, which no entry leads to, do not count.
- * This only orders: the cells and their ends stay those of clipping. A cell that the transfer
- * function makes invisible in all of its range of scalars hides nothing.
+ * inverted cell or overlapping parts, the cells found are sorted in the order in which a path
+ * across shared faces meets them, and parts in the order of their entries; each cell is then used
+ * from the largest depth reached before it to its own exit. Closed paths, which have no entry, are
+ * ignored. Only the order follows from the faces: the cells and their ends are those of clipping. A
+ * cell that the transfer function makes invisible in its whole range of scalars occludes nothing.
  */
 #ifndef meniscus_ReferenceRayIntegrator_h
 #define meniscus_ReferenceRayIntegrator_h
@@ -43,7 +43,7 @@ struct RaySegment
   std::int64_t Cell;
 };
 
-/** Part of a ray inside the mesh without a break. */
+/** Part of a ray inside the mesh without a gap. */
 struct CoveredSpan
 {
   double Begin;
@@ -53,10 +53,10 @@ struct CoveredSpan
 struct RayReport
 {
   std::size_t Cells = 0;      // segments that contribute
-  std::size_t Gaps = 0;       // breaks between the first entry and the last exit
+  std::size_t Gaps = 0;       // gaps between the first entry and the last exit
   std::size_t Overlaps = 0;   // cells clipped by the overlap rule by more than rounding
   double OverlapLength = 0.0; // world length that was clipped away
-  bool Ordered = false;       // order taken from shared faces, not from the depth of entry
+  bool Ordered = false;       // order determined by shared faces, not by the depth of entry
 };
 
 enum class RayClass
@@ -77,11 +77,13 @@ public:
   /** Segments in order along the ray, without overlap. The vector is reused by the caller. */
   RayReport findSegments(const Ray& ray, std::vector<RaySegment>& segments) const;
 
-  /** The same without the cells that the function makes invisible, wherever cells overlap. */
+  /** As above, without the cells that the function makes invisible, wherever cells overlap. */
   RayReport findVisibleSegments(const Ray& ray, const ReferenceTransferFunction& function,
     std::vector<RaySegment>& segments) const;
 
-  /** Premultiplied RGBA along the segments that one of them returned for the same ray. */
+  /**
+   * Premultiplied RGBA along the segments that one of the two functions returned for the same ray.
+   */
   static std::array<double, 4> integrate(const Ray& ray, const std::vector<RaySegment>& segments,
     const ReferenceTransferFunction& function);
 
@@ -90,9 +92,9 @@ public:
   /**
    * Silhouette: the covered spans change by a jump (not in proportion) when the ray is moved
    * sideways by the distance, in any of 8 directions. Rounding of the vertices to float then
-   * decides what the ray meets, so such rays are counted apart. In folded or overlapping parts a
-   * jump of the result itself counts too: there the order of cells changes at edges inside the
-   * mesh.
+   * decides which cells the ray meets, so such rays are counted separately. In folded or
+   * overlapping parts a jump of the result itself counts too: there the order of cells changes at
+   * edges inside the mesh.
    */
   RayClass classify(
     const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
@@ -102,8 +104,8 @@ public:
     const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
 
   /**
-   * Distance for classify: float rounding of positions and directions seen from a few diagonals
-   * away is 3e-7 of the diagonal; the margin is about 3.
+   * Distance for classify: float rounding of positions and directions, at a distance of a few
+   * diagonals, is 3e-7 of the diagonal; the margin is a factor of about 3.
    */
   double silhouetteDistance() const { return 1e-6 * this->Mesh.diagonal(); }
 

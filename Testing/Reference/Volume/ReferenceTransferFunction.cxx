@@ -16,7 +16,7 @@ ReferenceTransferFunction::ReferenceTransferFunction(
   : Nodes(std::move(nodes))
   , Beyond(outside)
 {
-  // Stable: the two nodes of a jump keep their order.
+  // A stable sort keeps the order of the two nodes of a jump.
   std::stable_sort(this->Nodes.begin(), this->Nodes.end(),
     [](const TransferFunctionNode& a, const TransferFunctionNode& b)
     { return a.Scalar < b.Scalar; });

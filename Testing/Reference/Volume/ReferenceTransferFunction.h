@@ -26,7 +26,7 @@ struct TransferFunctionNode
 };
 
 /**
- * Piecewise linear transfer function in double.
+ * Piecewise linear transfer function in double precision.
  *
  * Two nodes with the same scalar make a jump. Beyond the outer nodes the function keeps the value
  * of the outer node (Clamped) or is transparent (Zero). A function without nodes is transparent.

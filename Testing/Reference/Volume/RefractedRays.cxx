@@ -100,7 +100,7 @@ RefractingSurface makeWaves(double level, double amplitude, double k)
       const Vector3 x = sum(ray.Origin, t, ray.Direction);
       return x[1] - level - amplitude * std::sin(k * x[0]) * std::sin(k * x[2]);
     };
-    // Within the slab of the waves, by steps of 1 / 128 of a wave.
+    // Inside the slab of the waves, by steps of 1 / 128 of a wave.
     const double a = (level + amplitude - ray.Origin[1]) / ray.Direction[1];
     const double b = (level - amplitude - ray.Origin[1]) / ray.Direction[1];
     const double first = std::min(a, b);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Rays that bend at a refracting surface, in double, and the mesh along them: what the integrators
- * need of a volume that is seen through a membrane. Surfaces are formulas, and Snell's law is
- * n1 sin a = n2 sin b: nothing of the kernel's patches or of its optics.
+ * Rays that are refracted at a surface, in double precision, and the mesh along them: the input of
+ * the integrators for a volume that is seen through a membrane. Surfaces are formulas, and Snell's
+ * law is n1 sin a = n2 sin b, independently of the kernel's patches and optics.
  */
 #ifndef meniscus_RefractedRays_h
 #define meniscus_RefractedRays_h
@@ -20,11 +20,11 @@ namespace reference
 
 struct RefractingSurface
 {
-  /** Whether a place of the endless surface belongs to it. */
+  /** True if a point of the infinite surface belongs to it. */
   std::function<bool(const Vector3&)> Has = [](const Vector3&) { return true; };
-  /** All parameters at which a ray with a direction of unit length meets the endless surface. */
+  /** All parameters at which a ray with a direction of unit length meets the infinite surface. */
   std::function<std::vector<double>(const Ray&)> Meet;
-  /** Unit normal at a place of it, to the exterior. */
+  /** Unit normal at a point of it, towards the exterior. */
   std::function<Vector3(const Vector3&)> Normal;
   double Exterior = 1.0;
   double Interior = 1.333;
@@ -32,15 +32,15 @@ struct RefractingSurface
 
 /** The plane through a point. */
 RefractingSurface makePlane(const Vector3& origin, const Vector3& normal);
-/** The sphere, its normals outwards. */
+/** The sphere, with outward normals. */
 RefractingSurface makeSphere(const Vector3& center, double radius);
 /**
- * The height field y = level + amplitude sin(k x) sin(k z), its normals upwards. Pairs of places
- * that are nearer to each other than 1 / 64 of a wave may be missed.
+ * The height field y = level + amplitude sin(k x) sin(k z), with upward normals. Pairs of
+ * intersections closer to each other than 1 / 64 of a wave may be missed.
  */
 RefractingSurface makeWaves(double level, double amplitude, double k);
 
-/** A ray before and behind the surface; directions have unit length. */
+/** A ray in front of the surface and behind it; directions have unit length. */
 struct RefractedRay
 {
   Ray Straight;
@@ -49,17 +49,18 @@ struct RefractedRay
 };
 
 /**
- * @param eye  the ray's parameter where looking begins; its Begin is the near plane.
- * @param endsOpaque  whether something opaque is drawn at the ray's End: behind the surface at what
- * Eq. 2.4 makes of that. Else it is the far plane, which does not end the bent part.
+ * @param eye parameter of the ray at the eye; the ray's Begin is the near plane.
+ * @param endsOpaque true: opaque geometry is drawn at the ray's End, which behind the surface
+ *   corresponds to the place given by Eq. 2.4. false: End is the far plane, which does not limit
+ *   the refracted part.
  */
 RefractedRay refract(const RefractingSurface& surface, const Ray& ray, double eye, bool endsOpaque);
 
-/** Segments along both parts, as of one ray with a direction of unit length. */
+/** Segments along both parts, as those of one ray with a direction of unit length. */
 std::vector<RaySegment> findSegments(
   const ReferenceRayIntegrator& integrator, const RefractedRay& ray);
 
-/** What both parts show, one behind the other; premultiplied. */
+/** Colour of both parts, one behind the other; premultiplied. */
 std::array<double, 4> compose(
   const RefractedRay& ray, const std::function<std::array<double, 4>(const Ray&)>& trace);
 

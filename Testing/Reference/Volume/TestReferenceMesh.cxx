@@ -35,7 +35,7 @@ TEST(ReferenceMesh, StoredVertexOrderDoesNotMatter)
 
 TEST(ReferenceMesh, CellFoldedOverItsNeighborIsInverted)
 {
-  // Three cells in a row; the last vertex is pulled through the face to the side of its neighbours.
+  // Three cells in a row; the last vertex is moved through the face to the side of its neighbours.
   std::vector<double> points = TwoCellPoints;
   points.insert(points.end(), { 1, 1, 1 });
   points[3 * 4 + 2] = 0.5;

@@ -119,7 +119,7 @@ void expectNear(const Rgba& a, const Rgba& b, double tolerance)
 constexpr double Target = 1e-10;
 
 // Half-spaces are widened by 1e-13 of the diagonal (below 6 here) at both ends of a ray, and
-// optical depth changes alpha by at most its own change: with a factor of 5.
+// optical depth changes alpha by at most its own change; includes a factor of 5.
 constexpr double Widening = 5e-12;
 
 } // anonymous namespace
@@ -183,7 +183,7 @@ TEST(ReferenceRayIntegrator, SplitsAtTransferFunctionNodes)
   const Rgba truth =
     bruteForce([&](double u) { return function.value(std::min(u - 0.75, 1.25)); }, 2.0, 65536);
   expectNear(integrator.trace(alongZ(0.5, 0.3), function), truth, 1e-9);
-  // Backwards the nodes are met in the opposite order.
+  // On the reverse ray the nodes are met in the opposite order.
   const Ray backwards{ { 0.5, 0.3, 10.0 }, { 0.0, 0.0, -1.0 }, 0.0, 100.0 };
   const Rgba mirrored = bruteForce([&](double u) { return function.value(1.25 - u); }, 2.0, 65536);
   expectNear(integrator.trace(backwards, function), mirrored, 1e-9);
@@ -221,7 +221,7 @@ TEST(ReferenceRayIntegrator, RayThroughVerticesEdgesAndFaces)
 
 TEST(ReferenceRayIntegrator, OverlappingCellsFollowTheRunningMaximum)
 {
-  // Boxes [-1, 1] (scalar 0) and [0, 2] (scalar 1) along z: the first keeps on until its exit.
+  // Boxes [-1, 1] (scalar 0) and [0, 2] (scalar 1) along z: the first one is used up to its exit.
   Mesh mesh;
   appendBox(mesh, -1.0, 1.0, 1, [](double, double, double) { return 0.0; });
   appendBox(mesh, 0.0, 2.0, 1, [](double, double, double) { return 1.0; });
@@ -233,8 +233,8 @@ TEST(ReferenceRayIntegrator, OverlappingCellsFollowTheRunningMaximum)
   const RayReport report = integrator.findSegments(ray, segments);
   EXPECT_GT(report.Overlaps, 0u);
   EXPECT_EQ(report.Gaps, 0u);
-  // Inside each box the cells of its own: the overlap [0, 1] belongs to whichever was entered first
-  // at each exit, so only the lengths of the two media are known in general, here from the cells.
+  // Each box has its own cells: the overlap [0, 1] belongs to the cell that was entered first at
+  // each exit, so only the lengths in the two media, here from the cells, are known in general.
   double lengths[2] = { 0.0, 0.0 };
   double cursor = segments.front().Begin;
   for (const RaySegment& segment : segments)
@@ -264,8 +264,8 @@ TEST(ReferenceRayIntegrator, TwoOverlappingCellsExactly)
 
 TEST(ReferenceRayIntegrator, FoldOutwardCountsNowhere)
 {
-  // The vertex below the shared face is pulled above it: the path enters the inverted cell at its
-  // far end, 0.5, so only what the other cell covers beyond that counts.
+  // The vertex below the shared face is moved above it: the path enters the inverted cell at its
+  // far end, 0.5, so only the part of the other cell beyond that is used.
   const Mesh mesh{ { -1, -1, 0, 3, -1, 0, -1, 3, 0, 0, 0, 1, 0, 0, 0.5 },
     { 0, 1, 2, 3, 0, 1, 2, 4 }, { 1, 1, 1, 1, 1 } };
   const ReferenceRayIntegrator integrator = mesh.integrator();

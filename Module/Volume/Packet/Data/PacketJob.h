@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Plain data only: kernels are compiled once per instruction set, and inline functions that such
- * files share with others could be merged by the linker.
+ * Plain data only: kernels are compiled once per instruction set, and the linker could merge inline
+ * functions that such files share with others.
  */
 #ifndef meniscus_Volume_Packet_Data_PacketJob_h
 #define meniscus_Volume_Packet_Data_PacketJob_h
@@ -28,46 +28,51 @@ struct PacketJob
   /** Per cell, 4 ascending vertices, then 4 links (TetrahedralMesh::Cell). */
   const std::int32_t* Cells;
   std::int64_t NumberOfCells;
-  /** One normalised scalar per cell, in place of those of the vertices; null for none. */
+  /** One normalised scalar per cell, used instead of the scalars of the vertices; null for none. */
   const float* CellScalars;
   const PacketInterval* Intervals;
   std::int32_t NumberOfIntervals;
-  /** Share of the data's range that a scalar is: ShareAtZero + SharePerScalar * scalar. */
+  /** Position of a scalar in the data's range, 0 to 1: ShareAtZero + SharePerScalar * scalar. */
   float ShareAtZero;
   float SharePerScalar;
   ComponentMixture Mixture;
-  /** Three numbers per vertex: scalars beside the main one, normalised, or a colour; if mixed. */
+  /**
+   * Three numbers per vertex, for mixtures of components: normalised scalars besides the main one,
+   * or a colour.
+   */
   const float* Components;
-  /** Of those scalars, where they have functions. */
+  /** Intervals of the functions of these scalars, if they have functions. */
   const PacketInterval* OtherIntervals[3];
   std::int32_t NumberOfOtherIntervals[3];
-  /** In place of the intervals, for one scalar without gradients; null for none. */
+  /** Table used instead of the intervals, for one scalar without gradients; null for none. */
   const PacketSegmentTable* SegmentTable;
-  /** Null where gradients do nothing to the medium. */
+  /** Effects of gradients on the medium; null if there are none. */
   const GradientShading* Medium;
-  /** Ascending scalars. */
+  /** Isosurfaces in the order of their scalars. */
   const PacketSurface* Surfaces;
   std::int32_t NumberOfSurfaces;
-  /** Of surfaces; null for none. */
+  /** Lighting of surfaces; null for none. */
   const SurfaceLighting* Lighting;
-  /** Three numbers per vertex, in normalised model coordinates; null for those of the cells. */
+  /**
+   * Three numbers per vertex, in normalised model coordinates; null if gradients of cells are used.
+   */
   const float* VertexGradients;
-  /** The same per cell, where gradients of cells are needed. */
+  /** Three numbers per cell, where gradients of cells are needed. */
   const float* CellGradients;
   const glm::dmat3* GradientToFrame;
   /** Grid unit of x and y, in units of the frame. */
   double GridUnit;
-  /** Rays end when their transmittance is not above it. */
+  /** Transmittance at or below which a ray ends. */
   float TerminationTransmittance;
   const PacketRay* Rays;
   std::int32_t NumberOfRays;
   const PacketEntry* Entries;
   /**
-   * Whether results are what the model keeps of a ray, to be joined with what lies behind
-   * (JoinValues()) and shown by FinishValues(): see KeptResult.
+   * True if results are the model's values, to be joined with those of the refracted part of the
+   * ray (JoinValues()) and converted by FinishValues(): see KeptResult.
    */
   bool KeepsValues;
-  /** One per ray. */
+  /** One result per ray. */
   PacketResult* Results;
 };
 

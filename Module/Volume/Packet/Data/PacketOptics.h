@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Plain data only: kernels are compiled once per instruction set, and inline functions that such
- * files share with others could be merged by the linker.
+ * Plain data only: kernels are compiled once per instruction set, and the linker could merge inline
+ * functions that such files share with others.
  */
 #ifndef meniscus_Volume_Packet_Data_PacketOptics_h
 #define meniscus_Volume_Packet_Data_PacketOptics_h
@@ -41,17 +41,17 @@ struct PacketLight
   float Falloff[4];
 };
 
-/** What gradients do to the medium of composite blending. */
+/** Effects of gradients on the medium in composite blending. */
 struct GradientShading
 {
   /** Rows: normalised model coordinates to the frame of the rays. */
   float GradientToFrame[3][3];
-  /** From a gradient's length in the frame to what gradient opacity is a function of. */
+  /** Factor from the length of a gradient in the frame to the argument of gradient opacity. */
   float GradientMagnitude;
-  /** The factor of the attenuation; none if the number is 0. */
+  /** Gradient opacity, a factor of the attenuation; none if the number of intervals is 0. */
   const PacketInterval* Opacity;
   std::int32_t NumberOfOpacityIntervals;
-  /** Whether the colour is lit. */
+  /** True if the colour is lit. */
   bool Shading;
   float Ambient;
   float Diffuse;
@@ -69,7 +69,9 @@ struct PacketSegmentTable
   std::int32_t Lengths;
   float ShortestReciprocal;
   float LengthsPerOctave;
-  /** A scalar has the place (scalar - Middle) * PerHalfRange in [-1, 1]; beyond, all is constant.
+  /**
+   * The table is indexed by (scalar - Middle) * PerHalfRange in [-1, 1]; outside of that it is
+   * constant.
    */
   float Middle;
   float PerHalfRange;

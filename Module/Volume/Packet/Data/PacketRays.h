@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /**
- * Plain data only: kernels are compiled once per instruction set, and inline functions that such
- * files share with others could be merged by the linker.
+ * Plain data only: kernels are compiled once per instruction set, and the linker could merge inline
+ * functions that such files share with others.
  */
 #ifndef meniscus_Volume_Packet_Data_PacketRays_h
 #define meniscus_Volume_Packet_Data_PacketRays_h
@@ -12,12 +12,12 @@
 namespace meniscus
 {
 
-/** A vertex as the rays of an image see it: 16 bytes. */
+/** A vertex in the grid of an image's rays: 16 bytes. */
 struct PacketVertex
 {
-  /** Grid coordinates x, y and depth (FixedPointRays), depth in units of DepthUnit. */
+  /** Grid coordinates x, y and depth (FixedPointRays); depth in units of DepthUnit. */
   std::int32_t Place[3];
-  /** Normalised; NaN makes the vertex's cells transparent. */
+  /** Normalised scalar; NaN makes the vertex's cells transparent. */
   float Scalar;
 
   /**
@@ -29,20 +29,22 @@ struct PacketVertex
 };
 
 /**
- * A ray and the frame about it: where a vertex lies as seen along the ray, from which it is
- * (u, v) = (x, y) - floor((depth * Slope + Offset) / 2^32), in grid units.
+ * A ray and its frame of reference. Relative to the ray, a vertex has the coordinates (u, v) = (x,
+ * y) - floor((depth * Slope + Offset) / 2^32), in grid units.
  */
 struct PacketRay
 {
-  /** |u|, |v| < 2^31 for all vertices of the mesh. */
+  /** Such that |u|, |v| < 2^31 for all vertices of the mesh. */
   std::int32_t Slope[2];
   std::int64_t Offset[2];
   /** World length of a unit of depth. */
   float LengthPerDepth;
-  /** Where the ray begins and ends to count. */
+  /** Depths between which the ray is integrated. */
   float StartDepth;
   float EndDepth;
-  /** Its entries: [FirstEntry, EndEntry) of the job's, ascending depth. */
+  /**
+   * Entries of the ray: [FirstEntry, EndEntry) of the job's entries, in the order of their depth.
+   */
   std::int32_t FirstEntry;
   std::int32_t EndEntry;
 };
@@ -52,38 +54,39 @@ struct PacketEntry
 {
   /** Counter-clockwise about the ray. */
   std::int32_t Vertices[3];
-  /** Cell * 4 + index of the cell's vertex opposite to the face. */
+  /** Cell * 4 + index of the cell's vertex opposite the face. */
   std::int32_t CellFace;
   float Depth;
 };
 
 struct PacketResult
 {
-  /** Premultiplied RGBA, or PacketJob::KeepsValues. */
+  /** Premultiplied RGBA; with PacketJob::KeepsValues, the values of the model. */
   float Color[4];
   /**
-   * Where the ray's end lies, if nothing hides it: the face by which it entered the cell behind the
-   * last one that counts, 4 * cell + face, if there is no other cell at the end; else one of these.
+   * Place of the ray's end, unless the ray became opaque before it: the face by which the ray
+   * entered the cell behind the last integrated one, as 4 * cell + face, if no other cell can
+   * contain the end; otherwise one of these constants.
    */
   std::int32_t End;
   static constexpr std::int32_t Outside = -1;
-  /** In the mesh, or on its boundary, nothing else is known. */
+  /** In the mesh or on its boundary; the cell is not known. */
   static constexpr std::int32_t Somewhere = -2;
-  /** Cells crossed. */
+  /** Number of cells crossed. */
   std::int32_t Steps;
-  /** 1 if a walk did not end on the boundary: never, if arithmetic is IEEE's. */
+  /** 1 if a walk did not end on the boundary, which cannot happen with IEEE arithmetic. */
   std::int32_t Lost;
 };
 
-/** A face of the boundary, counter-clockwise about the rays that enter by it. */
+/** A boundary face, counter-clockwise about the rays that enter by it. */
 struct PacketFace
 {
   std::int32_t Vertices[3];
-  /** As of PacketEntry. */
+  /** As in PacketEntry. */
   std::int32_t CellFace;
 };
 
-/** Which of up to 64 rays enter by which faces. */
+/** Faces by which up to 64 rays enter. */
 struct PacketFaceJob
 {
   const PacketVertex* Vertices;
@@ -91,7 +94,7 @@ struct PacketFaceJob
   std::int32_t NumberOfFaces;
   const PacketRay* Rays;
   std::int32_t NumberOfRays;
-  /** One per face; bit i: ray i enters by it. */
+  /** One entry per face; bit i is set if ray i enters by it. */
   std::uint64_t* Entered;
 };
 

@@ -8,13 +8,13 @@
 namespace meniscus
 {
 
-/** What a ray that meets nothing keeps. */
+/** Values of a ray that meets nothing. */
 void ClearValues(BlendMode mode, float (&values)[4]);
 
-/** Puts the values of what lies behind to those of what lies before. */
+/** Joins the values of the refracted part of a ray to those of the straight part. */
 void JoinValues(BlendMode mode, const float (&behind)[4], float (&values)[4]);
 
-/** Premultiplied RGBA of kept values. */
+/** Premultiplied RGBA of values. */
 void FinishValues(const PacketJob& job, const float (&values)[4], float (&color)[4]);
 
 }

@@ -13,7 +13,7 @@
 namespace meniscus
 {
 
-/** Model is made for a medium: what gradients do is not asked for where they do nothing. */
+/** Instantiates Model for a medium; effects of gradients are compiled only where there are some. */
 template <class Simd, template <class...> class Model>
 void CastMedium(const PacketJob& job)
 {
@@ -37,7 +37,7 @@ using PacketColorAndOpacity =
 template <class Simd, class Medium>
 using PacketColorsAsTheyAre =
   MultiComponentModel<Simd, ComponentMixture::RedGreenBlueOpacity, 1, Medium>;
-/** Gradients do nothing to independent components. */
+/** Gradients have no effect on independent components. */
 template <class Simd, int Functions>
 using PacketIndependent = MultiComponentModel<Simd, ComponentMixture::Independent, Functions,
   PacketNoGradientShading<Simd>>;
@@ -61,7 +61,7 @@ void CastIndependent(const PacketJob& job)
 
 /** Casts a medium of one scalar by Model, of several components by MultiComponentModel. */
 template <class Simd, template <class...> class Model>
-void CastMixture(const PacketJob& job)
+void CastComposite(const PacketJob& job)
 {
   switch (job.Mixture)
   {
@@ -89,7 +89,7 @@ void CastBlendMode(const PacketJob& job)
   static_assert(Model<Simd>::SeesJumps == description.SeesJumps());
   if constexpr (description.IsMedium())
   {
-    CastMixture<Simd, Model>(job);
+    CastComposite<Simd, Model>(job);
   }
   else
   {

@@ -11,7 +11,7 @@
 namespace meniscus
 {
 
-/** Which rays enter by which faces, by the signs and the tie rule of PacketWalk. */
+/** Tests which rays enter by which faces, with the signs and the tie rule of PacketWalk. */
 template <class Simd>
 class PacketFaceTest
 {
@@ -131,7 +131,7 @@ private:
   const PacketFaceJob& Job;
   unsigned int Valid = 0;
   std::int32_t Slope[2][Width];
-  /** Of even and of odd lanes. */
+  /** Offsets of even and of odd lanes. */
   std::int64_t Offset[2][2][Width / 2];
 };
 

@@ -10,10 +10,16 @@
 namespace meniscus
 {
 
-/** Casts all rays of the job on the calling thread. @pre GetInstructionSets() has the set */
+/**
+ * Casts all rays of the job on the calling thread.
+ * @pre GetInstructionSets() has the set
+ */
 void CastPackets(const PacketJob& job, InstructionSet set);
 
-/** Tests all faces with all rays. @pre GetInstructionSets() has the set */
+/**
+ * Tests all faces with all rays.
+ * @pre GetInstructionSets() has the set
+ */
 void FindEntered(const PacketFaceJob& job, InstructionSet set);
 
 }

@@ -16,15 +16,15 @@ namespace meniscus
 {
 
 /**
- * The density-emitter integral along rays, front to back, over segments whose scalar is linear:
- * dC = attenuation * color * T ds, dT = -attenuation * T ds. One ray per lane.
+ * The density-emitter integral along rays, front to back, over segments whose scalar is linear: dC
+ * = attenuation * color * T ds, dT = -attenuation * T ds. One ray per lane.
  *
  * A segment is split at the transfer function's points and into parts of optical depth <= 1. For a
  * part with linear attenuation and colour, K. Moreland and E. Angel, "A Fast High Accuracy Volume
  * Renderer for Unstructured Data" (2004), give cf - cb zeta + (cb - cf) psi; it is written
  * cf (1 - psi) + cb (psi - zeta), free of cancellation, with psi by a polynomial (AbsorptionFit).
  *
- * Medium is what gradients do to it: PacketNoGradientShading, or PacketGradientShading.
+ * Medium defines the effect of gradients: PacketNoGradientShading or PacketGradientShading.
  */
 template <class Simd, class Medium = PacketNoGradientShading<Simd>>
 class CompositeModel
@@ -36,7 +36,7 @@ public:
 
   explicit CompositeModel(const PacketJob& job);
 
-  /** Nothing passed yet. */
+  /** Resets lanes to the start of a ray. */
   void Reset(Mask lanes)
   {
     for (Float& channel : this->Color)
@@ -47,8 +47,8 @@ public:
   }
 
   /**
-   * Gives lanes a segment each; returns those that have one to integrate. A segment with a scalar
-   * that is not finite, or of no length, is none.
+   * Gives a segment to each of `lanes`; returns the lanes with a segment to integrate. Segments
+   * without length, or with a scalar that is not finite, are skipped.
    */
   template <class Place>
   Mask Begin(Mask lanes, Float from, Float to, Float length, const Place& place)
@@ -64,26 +64,26 @@ public:
     this->Optics.Begin(valid, place);
     return valid;
   }
-  /** The rays of some lanes enter the mesh, or come back into it. */
+  /** Called when the rays of some lanes enter the mesh, or come back into it. */
   void Enter(Mask lanes) { this->Optics.Enter(lanes); }
 
   /**
-   * Integrates one part of the segments of `lanes`; returns those that have more. Inlined whatever
-   * the compiler thinks of so many variants: a call is 6 % of a frame's instructions.
+   * Integrates one part of the segments of `lanes`; returns the lanes that have more. Always
+   * inlined, although there are many variants: a call would cost 6 % of a frame's instructions.
    */
   [[gnu::always_inline]] Mask Advance(Mask lanes);
 
-  /** Where the ray has not been terminated. */
+  /** Lanes whose ray has not been terminated. */
   Mask IsOn() const { return this->Transmittance > this->Termination; }
 
-  /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
+  /** False: jumps of the scalar between cells, for scalars of cells, are not used. */
   static constexpr bool SeesJumps = false;
-  /** What Begin() wants to know of the place: PacketWalk::SegmentPlace. */
+  /** Requirements of Begin() on its place (PacketWalk::SegmentPlace). */
   static constexpr int NumberOfTriples = Medium::NumberOfTriples;
   static constexpr bool UsesCellGradients = Medium::UsesCellGradients;
   static constexpr bool UsesLines = Medium::UsesGradients;
   static constexpr int NumberOfValues = 4;
-  /** Of a ray that meets nothing. */
+  /** Values of a ray that meets nothing. */
   static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
   /** Premultiplied colour and transmittance of each lane. */
   void Store(float (&values)[NumberOfValues][Simd::Width]) const
@@ -118,9 +118,9 @@ private:
   Float Termination;
   Float From;
   Float To;
-  /** Length still to integrate; 0 where there is none. */
+  /** Length still to be integrated; 0 if there is none. */
   Float Remaining;
-  /** The same as a fraction of the segment; only with gradients. */
+  /** The same as a fraction of the segment; used with gradients only. */
   Float Ahead;
   Float Color[3];
   Float Transmittance;
@@ -216,8 +216,8 @@ inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
     this->Intervals.Find(outside, this->From);
   }
 
-  // The part of the segment that is in the interval. Without a change of scalar the share is 0 / 0,
-  // which Min() makes 1; lanes without a segment get something finite.
+  // Part of the segment inside the interval. If the scalar does not change, the share is 0 / 0,
+  // which Min() replaces by 1; lanes without a segment get a finite value.
   Mask upward = this->To > fields.Upper;
   Mask downward = this->To < fields.Lower;
   Float to = Simd::Min(Simd::Max(this->To, fields.Lower), fields.Upper);
@@ -238,8 +238,7 @@ inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
   Mask thick = depth > one;
   if (Simd::Bits(thick) != 0)
   {
-    // part (density + part (densityTo - density) / 2) = 1, the root without cancellation. Beyond
-    // a depth of 1e18 nothing can be told apart; its square is finite.
+    // part (density + part (densityTo - density) / 2) = 1, the root without cancellation.
     const Float largest = Simd::Splat(LargestDepth);
     density = Simd::Min(density, largest);
     densityTo = Simd::Min(densityTo, largest);

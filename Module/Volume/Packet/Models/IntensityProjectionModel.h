@@ -14,8 +14,8 @@ namespace meniscus
 
 /**
  * Blending that keeps one number per ray: the largest or smallest scalar or the scalar's mean,
- * shown by the transfer function, or the integral of attenuation times the scalar's place in the
- * data's range, shown as a grey level. The same interface as CompositeModel.
+ * mapped by the transfer function, or the integral of attenuation times the scalar's position in
+ * the data's range, shown as a grey level. The same interface as CompositeModel.
  */
 template <class Simd>
 class IntensityProjectionModel
@@ -57,18 +57,18 @@ public:
   Mask Advance(Mask lanes);
   void Enter(Mask) {}
 
-  /** Nothing hides what is behind. */
+  /** All lanes: nothing is occluded in these modes. */
   Mask IsOn() const { return Simd::FromBits((1u << Simd::Width) - 1u); }
 
-  /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
+  /** False: jumps of the scalar between cells, for scalars of cells, are not used. */
   static constexpr bool SeesJumps = false;
   static constexpr int NumberOfTriples = 0;
   static constexpr bool UsesCellGradients = false;
   static constexpr bool UsesLines = false;
   static constexpr int NumberOfValues = 2;
-  /** Of a ray that meets nothing. */
+  /** Values of a ray that meets nothing. */
   static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f };
-  /** What is kept of each lane, and the length over which. */
+  /** Value of each lane, and the length over which it was collected. */
   void Store(float (&values)[NumberOfValues][Simd::Width]) const
   {
     Simd::Store(values[0], this->Collected);
@@ -84,14 +84,14 @@ private:
   BlendMode Blending;
   PacketIntervals<Simd> Intervals;
   Float Collected;
-  /** What rounding took from it: long rays add thousands of small terms. */
+  /** Rounding error of the sum: long rays add thousands of small terms. */
   Float Rest;
   /** Length of the ray's segments so far. */
   Float Seen;
   Float From;
   Float To;
   Float Remaining;
-  /** Share of the data's range that a scalar is. */
+  /** Position of a scalar in the data's range, 0 to 1. */
   Float ShareAtZero;
   Float SharePerScalar;
 };
@@ -156,7 +156,7 @@ auto IntensityProjectionModel<Simd>::Advance(Mask lanes) -> Mask
   const Mask upward = lanes & (this->To > fields.Upper);
   const Mask downward = lanes & (this->To < fields.Lower);
   const Float to = Simd::Min(Simd::Max(this->To, fields.Lower), fields.Upper);
-  // 0 / 0, which Min() makes 1, where the scalar does not change.
+  // 0 / 0, which Min() replaces by 1, if the scalar does not change.
   const Float share = (to - this->From) / (this->To - this->From);
   const Float length = Simd::Max(Simd::Min(share, Simd::Splat(1.0f)), zero) * this->Remaining;
   const auto valueAt = [&](Float scalar)

@@ -16,8 +16,8 @@ namespace meniscus
 /**
  * Isosurfaces, met where the scalar, linear along a segment, passes an isovalue; scalars of cells
  * pass isovalues on the faces where they jump. A scalar equal to an isovalue counts as above it.
- * Segments are sifted in packets; the few that meet a surface are dealt with one by one
- * (CrossSurfaces). The same interface as CompositeModel.
+ * Packets test all segments; the few that meet a surface are processed one by one (CrossSurfaces).
+ * The same interface as CompositeModel.
  */
 template <class Simd>
 class IsosurfaceModel
@@ -38,7 +38,7 @@ public:
 
   void Reset(Mask lanes)
   {
-    // A range that holds nothing: the first segment finds its own.
+    // An empty range: the first segment determines its own.
     this->Transmittance = Simd::Select(lanes, Simd::Splat(1.0f), this->Transmittance);
     this->Lower = Simd::Select(lanes, Simd::Splat(1.0f), this->Lower);
     this->Upper = Simd::Select(lanes, Simd::Splat(-1.0f), this->Upper);
@@ -52,7 +52,7 @@ public:
     }
   }
 
-  /** Takes segments in whole: none is left pending. */
+  /** Processes whole segments: none is left pending. */
   template <class Place>
   Mask Begin(Mask lanes, Float from, Float to, Float length, const Place& place)
   {
@@ -74,7 +74,7 @@ public:
     return this->Transmittance > Simd::Splat(this->Job.TerminationTransmittance);
   }
 
-  /** Whether it matters how the scalar changes from cell to cell, where cells have scalars. */
+  /** True: jumps of the scalar between cells, for scalars of cells, are used. */
   static constexpr bool SeesJumps = true;
   static constexpr int NumberOfTriples = 0;
   static constexpr bool UsesCellGradients = false;

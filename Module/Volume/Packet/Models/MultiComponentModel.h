@@ -17,13 +17,13 @@ namespace meniscus
 {
 
 /**
- * The density-emitter integral of scalars of several components, each linear along a segment: as
- * vtkTetrahedraComponents.glsl has it. A segment is split where one of the scalars passes a point
+ * The density-emitter integral of scalars of several components, each linear along a segment: the
+ * twin of vtkTetrahedraComponents.glsl. A segment is split where one of the scalars passes a point
  * of its function, and into pieces of optical depth <= 1/2. On a piece attenuation is linear, and
  * emission, attenuation times colour, quadratic; Gauss' rule of three points integrates it times
  * the transmittance to 1e-6 of the largest emission. The same interface as CompositeModel.
  *
- * Functions: the number of scalars that have a function of their own.
+ * Functions: number of scalars that have their own function.
  */
 template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 class MultiComponentModel
@@ -77,7 +77,7 @@ private:
   template <std::size_t... Number>
   MultiComponentModel(const PacketJob& job, std::index_sequence<Number...>)
     : Intervals{ IntervalsOf(job, static_cast<int>(Number))... }
-    // Where transmittances are so small, they have no digits left to shrink by.
+    // Lower transmittances have too few digits left to decrease further.
     , Termination(Simd::Max(Simd::Splat(job.TerminationTransmittance), Simd::Splat(1.0e-30f)))
     , Transmittance(Simd::Splat(1.0f))
     , Done(Simd::Splat(0.0f))
@@ -104,7 +104,7 @@ private:
                              job.NumberOfOtherIntervals[function - 1]);
   }
 
-  /** Up to where a function goes in a piece, as a fraction of the segment. */
+  /** Place up to which a function is linear in a piece, as a fraction of the segment. */
   struct Course
   {
     Mask Upward;
@@ -113,7 +113,7 @@ private:
   };
   Course FindCourse(int f) const;
 
-  /** A piece of the segments; all of it is of lanes. */
+  /** A piece of the segments, for all lanes. */
   struct Piece
   {
     Float Reached;
@@ -123,7 +123,7 @@ private:
     /** Optical density at both ends. */
     Float Density;
     Float DensityTo;
-    /** What of it is integrated: up to an optical depth of 1/2. */
+    /** Integrated fraction of the piece: up to an optical depth of 1/2. */
     Float Part;
     Float Depth;
     Mask Whole;
@@ -137,7 +137,7 @@ private:
   static Float Mix(Float from, Float to, Float at) { return Simd::Fma(at, to - from, from); }
   static Float DensityAt(const Fields& fields, Float scalar, Float length)
   {
-    // Beyond a depth of 1e18 nothing can be told apart; its square is finite.
+    // Beyond a depth of 1e18 results do not differ; its square is finite.
     const Float attenuation =
       Simd::Fma(scalar - fields.Lower, fields.AttenuationSlope, fields.Attenuation);
     return Simd::Min(Simd::Max(attenuation * length, Simd::Splat(0.0f)), Simd::Splat(LargestDepth));
@@ -151,15 +151,15 @@ private:
   Float Termination;
   Float Color[3];
   Float Transmittance;
-  // The pending segment: scalars at its ends and where it has been integrated to.
+  // The pending segment: scalars at its ends, and the place up to which it has been integrated.
   Float Start[Functions];
   Float End[Functions];
   Float Now[Functions];
   Float StartColor[3];
   Float EndColor[3];
-  /** As a fraction. */
+  /** Integrated fraction. */
   Float Done;
-  /** Of the whole segment; 0 where there is none. */
+  /** Length of the whole segment; 0 if there is none. */
   Float Length;
   Medium Optics;
 };
@@ -334,7 +334,7 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Integrate(con
 }
 
 //------------------------------------------------------------------------------
-/** Goes on behind the piece; returns the lanes that have more. */
+/** Continues behind the piece; returns the lanes that have more. */
 template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Move(
   Mask lanes, const Course (&courses)[Functions], const Piece& piece) -> Mask

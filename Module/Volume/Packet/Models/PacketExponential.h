@@ -9,7 +9,7 @@
 namespace meniscus
 {
 
-/** 1 - exp(-x) for x in [0, 1], to 1.6e-8: AbsorptionFit::ThickAbsorbed. */
+/** 1 - exp(-x) for x in [0, 1], with an error of at most 1.6e-8: AbsorptionFit::ThickAbsorbed. */
 template <class Simd>
 inline typename Simd::Float Absorbed(typename Simd::Float x)
 {
@@ -23,7 +23,10 @@ inline typename Simd::Float Absorbed(typename Simd::Float x)
   return x * sum;
 }
 
-/** 1 - exp(-x) for all x >= 0, to 1e-6: beyond 1 by squaring exp(-x / 32) five times. */
+/**
+ * 1 - exp(-x) for all x >= 0, with an error of at most 1e-6: beyond 1 it squares exp(-x / 32) five
+ * times.
+ */
 template <class Simd>
 inline typename Simd::Float AbsorbedAll(typename Simd::Float x)
 {
@@ -35,7 +38,7 @@ inline typename Simd::Float AbsorbedAll(typename Simd::Float x)
   {
     return near;
   }
-  // At 32 less is left than can be told apart.
+  // Beyond 32, exp(-x) is below the resolution of the result.
   const Float root = Simd::Min(x, Simd::Splat(32.0f)) * Simd::Splat(1.0f / 32.0f);
   Float left = one - Absorbed<Simd>(root);
   for (int i = 0; i < 5; ++i)

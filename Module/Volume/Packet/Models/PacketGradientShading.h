@@ -13,7 +13,7 @@
 namespace meniscus
 {
 
-/** A medium that gradients do nothing to: all of it vanishes in what is made of it. */
+/** A medium without effects of gradients: its functions compile to nothing. */
 template <class Simd>
 class PacketNoGradientShading
 {
@@ -23,7 +23,7 @@ public:
 
   static constexpr bool UsesGradients = false;
   static constexpr bool UsesCellGradients = false;
-  /** Of the vertices, the first ones of the values that are interpolated. */
+  /** Number of vectors per vertex that it uses, the first of the interpolated values. */
   static constexpr int NumberOfTriples = 0;
 
   explicit PacketNoGradientShading(const PacketJob&) {}
@@ -38,9 +38,9 @@ public:
 };
 
 /**
- * What gradients do to the segments of composite blending: light that multiplies the colour, light
- * that is added to it, and a factor of the attenuation; computed at the ends of a segment, linear
- * between. Gradients are interpolated between vertices or those of the cells.
+ * Effects of gradients on the segments of composite blending: light that multiplies the colour,
+ * light that is added to it, and a factor of the attenuation; computed at the ends of a segment and
+ * linear in between. Gradients are interpolated between vertices, or those of the cells.
  */
 template <class Simd, bool OfVertices>
 class PacketGradientShading
@@ -64,19 +64,22 @@ public:
     this->Back.SetNeutral();
   }
 
-  /** The rays of some lanes enter the mesh: what was before is not next to what comes. */
+  /**
+   * Called when the rays of some lanes enter the mesh: the next segment does not continue the last
+   * one.
+   */
   void Enter(Mask lanes) { this->Continues = Simd::AndNot(this->Continues, lanes); }
 
-  /** New segments for `lanes`, a part of those that made a step. */
+  /** Starts new segments for `lanes`, a subset of the lanes that made a step. */
   template <class Place>
   void Begin(Mask lanes, const Place& place);
 
-  /** The density of the medium at a fraction of the segment. */
+  /** Density of the medium at a fraction of the segment. */
   Float ApplyGradientOpacity(Float density, Float done) const
   {
     return density * Simd::Fma(done, this->Back.Opacity - this->Front.Opacity, this->Front.Opacity);
   }
-  /** Lights a colour emitted there. */
+  /** Lights a colour that is emitted at a fraction of the segment. */
   void Shade(Float (&color)[3], Float done) const
   {
     if (!this->Medium.Shading)
@@ -95,7 +98,7 @@ public:
 private:
   using Vector = std::array<Float, 3>;
 
-  /** At one end of the segments. */
+  /** Effects at one end of the segments. */
   struct End
   {
     PacketLit<Simd> Light;

@@ -12,7 +12,7 @@
 namespace meniscus
 {
 
-/** Lanes with a segment to show: of some length and of finite scalars (LargestChange). */
+/** Lanes with a segment to draw: of positive length and with finite scalars (LargestChange). */
 template <class Simd>
 inline typename Simd::Mask SegmentsOf(typename Simd::Mask lanes, typename Simd::Float from,
   typename Simd::Float to, typename Simd::Float length)
@@ -31,7 +31,7 @@ inline void FinishBlended(const float (&values)[4], float (&color)[4])
   color[3] = 1.0f - values[3];
 }
 
-/** The intervals of a transfer function, and in which of them the scalar of each lane is. */
+/** Intervals of a transfer function, and the interval that holds the scalar of each lane. */
 template <class Simd>
 class PacketIntervals
 {
@@ -53,16 +53,16 @@ public:
 
   PacketIntervals(const PacketInterval* table, std::int32_t size);
 
-  /** Of the interval of each lane. */
+  /** Fields of the interval of each lane. */
   const Fields& GetFields() const { return this->Now; }
 
   /** The first interval of a table whose upper end is not below the scalar. */
   static std::int32_t IndexOf(const PacketInterval* table, std::int32_t size, float scalar);
 
-  /** Puts lanes where a scalar is. */
+  /** Moves lanes to the interval that holds a scalar. */
   void Find(Mask lanes, Float scalar);
 
-  /** Moves lanes by one interval; few segments leave theirs. */
+  /** Moves lanes by one interval; few segments leave their interval. */
   void Move(Mask upward, Mask downward)
   {
     if (Simd::Bits(upward | downward) != 0)
@@ -84,7 +84,7 @@ private:
   std::int32_t Size;
   Int At;
   Fields Now;
-  /** The table by field, where it fits. */
+  /** The table by field, if it fits. */
   float Columns[NumberOfFields][LargestColumn];
 };
 

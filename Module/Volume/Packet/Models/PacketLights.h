@@ -13,7 +13,10 @@
 namespace meniscus
 {
 
-/** x^y for x in [0, 1], by lane; 0^0 = 1. Whole exponents by squaring: off by about y 2^-24. */
+/**
+ * x^y for x in [0, 1], by lane; 0^0 = 1. Integer exponents are computed by squaring, with an error
+ * of about y 2^-24.
+ */
 template <class Simd>
 class PacketPower
 {
@@ -49,14 +52,14 @@ public:
   }
 
 private:
-  /** Beyond, the general function is as fast. */
+  /** For larger exponents, the general function is as fast. */
   static constexpr float LargestWhole = 1024.0f;
 
   float Exponent;
   bool Whole;
 };
 
-/** What light does to a colour: multiplied by Reflected, then Highlight added. */
+/** Effect of light on a colour: it is multiplied by Reflected, then Highlight is added. */
 template <class Simd>
 struct PacketLit
 {
@@ -74,7 +77,7 @@ struct PacketLine
   typename Simd::Float SlopeY;
 };
 
-/** Light() of SurfaceLighting.h, single precision, one place per lane. */
+/** Single-precision version of Light() of SurfaceLighting.h, for one place per lane. */
 template <class Simd>
 class PacketLights
 {
@@ -93,10 +96,12 @@ public:
     }
   }
 
-  /** Whether it matters where on a ray a normal is. */
+  /** True if the result depends on the position of a normal on the ray. */
   bool DependOnPlace() const { return this->Positional; }
 
-  /** Of a surface with a normal of any length, in the frame; 0 leaves the ambient light. */
+  /**
+   * Light on a surface with a normal of any length, in the frame; 0 leaves the ambient light only.
+   */
   PacketLit<Simd> Light(const Vector& normal, Float depth, const PacketLine<Simd>& ray) const;
 
 private:
@@ -141,7 +146,7 @@ inline void PacketLights<Simd>::Add(const PacketLight& light, const Vector& plac
       Reciprocal(Simd::Fma(distance, Simd::Fma(distance, quadratic, Simd::Splat(light.Falloff[1])),
         Simd::Splat(light.Falloff[0])));
   }
-  // A light in the very place shines from nowhere: NaN, which Max() makes 0.
+  // A light at exactly this place has no direction: NaN, which Max() replaces by 0.
   const Float facing = Simd::Max(Dot(normal, toLight), zero);
   Mask lit = facing > zero;
   if (light.Cone[3] >= -1.0f)

@@ -12,7 +12,7 @@ namespace meniscus
 namespace
 {
 
-/** A place between two samples. */
+/** A position between two samples. */
 struct TablePlace
 {
   std::int64_t Low;
@@ -21,7 +21,7 @@ struct TablePlace
 
   TablePlace(float at, std::int32_t size)
   {
-    // A NaN is at the first sample.
+    // A NaN is mapped to the first sample.
     const float last = static_cast<float>(size - 1);
     const float within = at > 0.0f ? std::min(at, last) : 0.0f;
     this->Low = static_cast<std::int64_t>(within);

@@ -18,7 +18,7 @@ namespace meniscus
 namespace
 {
 
-/** A cell in the frame of the rays, double precision from whole grid units. */
+/** A cell in the frame of the rays, in double precision from integer grid units. */
 struct SeenCell
 {
   const std::int32_t* Ids;
@@ -45,14 +45,14 @@ SeenCell SeeCell(const PacketJob& job, std::int32_t cell)
   return seen;
 }
 
-/** One of a table of three numbers each. */
+/** One vector of a table with three numbers each. */
 glm::dvec3 TripleAt(const float* table, std::int64_t index)
 {
   const float* triple = table + 3 * index;
   return { triple[0], triple[1], triple[2] };
 }
 
-/** The gradients of the cell's vertices, interpolated at a place in it. */
+/** The gradients of the cell's vertices, interpolated at a point in it. */
 glm::dvec3 VertexGradient(const PacketJob& job, const SeenCell& cell, const glm::dvec3& place)
 {
   const auto gradientOf = [&](int k) { return TripleAt(job.VertexGradients, cell.Ids[k]); };
@@ -73,7 +73,7 @@ glm::dvec3 FaceNormal(const SeenCell& cell, int opposite)
     cell.Corners[opposite <= 1 ? 2 : 1] - p, cell.Corners[opposite == 3 ? 2 : 3] - p);
 }
 
-/** Colour of a surface as lit where a ray meets it. */
+/** Lit colour of a surface where a ray meets it. */
 glm::dvec3 LitColor(
   const PacketJob& job, const PacketSegment& segment, const PacketSurface& surface, double at)
 {

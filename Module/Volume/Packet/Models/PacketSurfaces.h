@@ -10,13 +10,13 @@
 namespace meniscus
 {
 
-/** What isosurfaces have left of a ray. */
+/** State of a ray after the isosurfaces that it has met. */
 struct PacketSurfaceState
 {
-  /** Premultiplied. */
+  /** Premultiplied colour. */
   float Color[3];
   float Transmittance;
-  /** The isovalues next to the scalar, the lower one included. */
+  /** Isovalues next to the scalar, the lower one included. */
   float Lower;
   float Upper;
 };
@@ -28,7 +28,7 @@ struct PacketSegment
   float To;
   float StartDepth;
   float EndDepth;
-  /** 4 * cell + the face entered by. */
+  /** 4 * cell + face by which the cell was entered. */
   std::int32_t CellFace;
   std::int32_t Ray;
 };

@@ -13,8 +13,8 @@ namespace meniscus
 {
 
 /**
- * Composite blending of segments looked up in a table (PreIntegration.h), one by one: the table
- * is there to be compared with CompositeModel, which has the same interface.
+ * Composite blending of segments by a table (PreIntegration.h), one by one. It exists for
+ * comparison with CompositeModel, which has the same interface.
  */
 template <class Simd>
 class PreIntegratedModel
@@ -44,7 +44,7 @@ public:
   }
   void Enter(Mask) {}
 
-  /** Takes segments in whole: none is left pending. */
+  /** Processes whole segments: none is left pending. */
   template <class Place>
   Mask Begin(Mask lanes, Float from, Float to, Float length, const Place&)
   {
@@ -84,7 +84,7 @@ private:
 };
 
 //------------------------------------------------------------------------------
-/** Beyond the range of the table the function is constant: a segment has up to three parts. */
+/** Outside the range of the table the function is constant, so a segment has up to three parts. */
 template <class Simd>
 void PreIntegratedModel<Simd>::Add(Mask lanes, Float from, Float to, Float length)
 {
@@ -103,7 +103,7 @@ void PreIntegratedModel<Simd>::Add(Mask lanes, Float from, Float to, Float lengt
     this->AddWithin(lanes, front, back, length);
     return;
   }
-  // Without a change of scalar a share is 0 / 0 or infinite, which Min() makes 1.
+  // If the scalar does not change, a share is 0 / 0 or infinite, which Min() replaces by 1.
   const auto share = [&](Float part)
   { return Simd::Max(Simd::Min(part / (back - front), one), zero); };
   const Float before = Simd::Select(Simd::Abs(front) > one, share(enters - front), zero);

@@ -10,8 +10,8 @@ namespace meniscus
 {
 
 /**
- * What models have interpolated beside depth and scalar: triples of numbers per vertex, of one
- * vertex per lane. Without triples all of it does nothing.
+ * Values that models interpolate besides depth and scalar: vectors of three numbers per vertex, for
+ * one vertex per lane. Without such vectors the functions do nothing.
  */
 template <class Simd, int Triples>
 struct VertexAttributes
@@ -44,7 +44,7 @@ struct VertexAttributes
     }
   }
 
-  /** What is there and `share` of the way to where it is `to`. */
+  /** Values at the fraction `share` of the way to `to`. */
   VertexAttributes Between(Float share, const VertexAttributes& to) const
   {
     VertexAttributes result;

@@ -15,16 +15,17 @@ namespace meniscus
 {
 
 /**
- * Rays from cell to cell by edge signs in the ray-aligned projection, one ray per lane; a lane
- * whose ray has ended takes the next of the job.
+ * Walks rays from cell to cell by edge signs in the ray-aligned projection, one ray per lane. A
+ * lane whose ray has ended takes the next ray of the job.
  *
- * A vertex has coordinates (u, v) about a ray: the same function of vertex and ray wherever it is
- * needed, rounded to whole grid units. The sign of an edge, which side of it the ray passes, is
- * that of a cross product: taken in float where that is sure, else in 64-bit integers. A ray
- * through an edge or a vertex counts as displaced by (e, e^2) for an arbitrarily small e, and edges
- * whose ends coincide are ordered by vertex. So every cell that is entered has exactly one face to
- * leave by, every face and side one way to come there, and a walk that begins on the boundary ends
- * on the boundary.
+ * A vertex has coordinates (u, v) relative to a ray: the same function of vertex and ray wherever
+ * it is needed, rounded to integer grid units. The sign of an edge, which tells the side on which
+ * the ray passes, is that of a cross product; it is computed in float where the rounding error
+ * cannot change it, otherwise in 64-bit integers. A ray through an edge or a vertex is treated as
+ * displaced by (e, e^2) for an arbitrarily small e, and edges whose ends coincide are ordered by
+ * vertex. Therefore every cell that is entered has exactly one face by which to leave, every face
+ * and side can be reached in one way only, and a walk that begins on the boundary ends on the
+ * boundary.
  */
 template <class Simd, class Model>
 class PacketWalk
@@ -42,19 +43,22 @@ private:
   using CellValues = VertexAttributes<Simd, Model::UsesCellGradients ? 1 : 0>;
   static constexpr int Width = Simd::Width;
 
-  /** A vertex about the ray of each lane. */
+  /** A vertex relative to the ray of each lane. */
   struct Corner
   {
     Float U;
     Float V;
     Float Depth;
     Float Scalar;
-    /** By vertex among those of its face: 0, 1 or 2. Cells and faces order vertices alike. */
+    /**
+     * Rank of the vertex among those of its face: 0, 1 or 2. Cells and faces order vertices in the
+     * same way.
+     */
     Int Rank;
-    /** What models want beside. */
+    /** Further values that models need. */
     VertexValues Others{};
   };
-  /** What an axis of PacketRay takes off, by lane; even and odd lanes are multiplied apart. */
+  /** Offset of one axis of PacketRay, by lane; even and odd lanes are multiplied separately. */
   struct Shift
   {
     std::int32_t Slope[Width];
@@ -72,14 +76,16 @@ private:
   static Float EdgeArea(const Corner& p, const Corner& q, Float& excess);
   void MakeSure(
     unsigned int lanes, const Int (&corners)[4], Float (&areas)[3], Mask (&left)[3]) const;
-  /** The cell that is entered next: the face it is entered by, its links, the vertex not seen yet.
+  /**
+   * The cell to be entered next: the face by which it is entered, its links, and the vertex
+   * opposite that face.
    */
   struct Ahead
   {
     Int Face;
     Int Links[4];
     Corner X;
-    /** Only with scalars of cells. */
+    /** Used with scalars of cells only. */
     Float CellScalar;
     CellValues Gradient;
   };
@@ -90,16 +96,19 @@ private:
   Int OppositeVertices(Int cellFace) const;
   CellValues GradientsOf(Int cellFace) const;
   void LoadLines();
-  /** Where a segment is, for models that ask. */
+  /** Place of a segment, for models that need it. */
   struct SegmentPlace
   {
     Float StartDepth;
     Float EndDepth;
-    /** Of the cell, and the face entered by. */
+    /** 4 * cell + face by which the cell was entered. */
     Int CellFace;
-    /** Number of each lane's ray. */
+    /** Index of each lane's ray. */
     const std::int32_t (&Rays)[Width];
-    /** Lanes that crossed a cell; that begin behind the face they entered it by. */
+    /**
+     * Lanes that crossed a cell, and lanes whose segment begins behind the face by which the cell
+     * was entered.
+     */
     Mask Stepped;
     Mask Late;
     const VertexValues& StartValues;
@@ -127,8 +136,8 @@ private:
 
   Model Integral;
   Shift Axes[2];
-  // The face just entered by, counter-clockwise about the ray, and twice the areas that its edges
-  // AB, BC, CA span with the ray.
+  // Vertices of the face just entered by, counter-clockwise about the ray, and twice the areas that
+  // its edges AB, BC, CA span with the ray.
   Corner A;
   Corner B;
   Corner C;
@@ -140,15 +149,15 @@ private:
   Float FaceDepth;
   Float FaceScalar;
   VertexValues FaceValues;
-  /** Each lane's ray, for models that ask. */
+  /** Line of each lane's ray, for models that need it. */
   PacketLine<Simd> Line;
-  /** The largest depth reached. */
+  /** Largest depth reached. */
   Float DepthNow;
   Float StartDepth;
   Float EndDepth;
   Float LengthPerDepth;
   Int Steps;
-  /** Lanes with a ray; with a segment not yet integrated to its end. */
+  /** Lanes with a ray, and lanes with a segment that is not yet completely integrated. */
   Mask Busy;
   Mask Pending;
 
@@ -173,7 +182,7 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   , VertexTable(&job.Vertices->Scalar - 3)
   , Integral(job)
 {
-  // A ray crosses a cell once through each of its 4 faces, in 2 orientations, at the most.
+  // A ray crosses a cell at most once through each of its 4 faces, in 2 orientations.
   const std::int64_t limit = 8 * job.NumberOfCells;
   this->StepLimit = static_cast<std::int32_t>(limit < 0x7fffffff ? limit : 0x7fffffff);
   const Int none = Simd::Splat(0);
@@ -185,7 +194,7 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   this->FaceDepth = this->FaceScalar = zero;
   this->FaceValues.Clear();
   this->Line = { zero, zero, zero, zero };
-  // Of gradients first.
+  // Gradients come first.
   const bool gradients = job.Medium && job.VertexGradients;
   this->ValueTables[0] = gradients ? job.VertexGradients : job.Components;
   this->ValueTables[1] = job.Components;
@@ -208,14 +217,14 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
 template <class Simd, class Model>
 void PacketWalk<Simd, Model>::Run()
 {
-  // Replacing rays costs about as much as a step: worth it once half of the lanes wait.
+  // Replacing rays costs about as much as a step: it is worthwhile once half of the lanes wait.
   constexpr int enough = Width / 2;
   const Int zero = Simd::Splat(0);
   unsigned int busy = this->Replace((1u << Width) - 1u);
   while (busy != 0)
   {
-    // The cell ahead is fetched before the segment behind is integrated, which takes as long; where
-    // cells do not touch there is often none in any lane.
+    // The cell ahead is fetched before the segment behind is integrated, which hides the latency.
+    // In meshes whose cells share no faces, there is often no cell ahead in any lane.
     Ahead ahead;
     const bool inside = (busy & ~Simd::Bits(this->CellFace < zero)) != 0;
     if (inside)
@@ -242,7 +251,7 @@ void PacketWalk<Simd, Model>::Run()
 }
 
 //------------------------------------------------------------------------------
-/** A vertex of the table about the rays; its Rank is left. */
+/** Loads a vertex relative to the rays, except for its Rank. */
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& corner) const
 {
@@ -270,9 +279,10 @@ void PacketWalk<Simd, Model>::Project(Int id, Corner& corner) const
 
 //------------------------------------------------------------------------------
 /**
- * Twice the area that the edge pq spans with the ray. Each factor is off by 2^-24 of itself, their
- * products and difference by as much again: by less than 2^-22 (|area| + 2 |pv qu|) in all. So the
- * sign is sure if |area| - 2^-20 |pv qu| is positive; `excess` is lowered to that.
+ * Twice the area that the edge pq spans with the ray. Each factor has a relative error of 2^-24,
+ * and so have their products and difference: the error is less than 2^-22 (|area| + 2 |pv qu|) in
+ * all. The sign is therefore certain if |area| - 2^-20 |pv qu| is positive; `excess` is lowered to
+ * that value.
  */
 template <class Simd, class Model>
 inline auto PacketWalk<Simd, Model>::EdgeArea(const Corner& p, const Corner& q, Float& excess)
@@ -288,7 +298,7 @@ inline auto PacketWalk<Simd, Model>::EdgeArea(const Corner& p, const Corner& q, 
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
 {
-  // Lanes outside of the mesh look at cell 0.
+  // Lanes outside of the mesh use cell 0.
   const Int zero = Simd::Splat(0);
   const Int cellFace = Simd::Select(this->CellFace < zero, zero, this->CellFace);
   Float vertex[4];
@@ -309,7 +319,7 @@ inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
 }
 
 //------------------------------------------------------------------------------
-/** Crosses the cells of `lanes` and gives the segments passed to the integral. */
+/** Crosses the cells of `lanes` and passes the segments to the integral. */
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
 {
@@ -320,8 +330,8 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
     EdgeArea(x, this->C, excess) };
   Mask left[3] = { areas[0] > zero, areas[1] > zero, areas[2] > zero };
 
-  // Places of the vertices in the cell: a face's ranks leave out that of the vertex opposite. In
-  // lanes that stay where they are the last place takes that part, which changes nothing.
+  // Positions of the vertices in the cell: the ranks in a face skip the vertex opposite it. In
+  // lanes without a step the last position is used for that vertex, which has no effect.
   const Int last = Simd::Splat(3);
   const Int face = Simd::Select(lanes, ahead.Face, last);
   const Int before = face - Simd::Splat(1);
@@ -334,8 +344,8 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
     this->MakeSure(unsureBits, places, areas, left);
   }
 
-  // The ray leaves between two consecutive edges from x, left of one and right of the next. The
-  // third vertex drops out; the link to follow is that across the face opposite to it.
+  // The ray leaves between two consecutive edges from x: left of one and right of the next. The
+  // third vertex is dropped; the link to follow is across the face opposite it.
   const Mask dropC = Simd::AndNot(left[0], left[1]);
   const Mask dropA = Simd::AndNot(Simd::AndNot(left[1], left[2]), dropC);
   const Mask keepB = dropC | dropA;
@@ -343,7 +353,7 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
   const Int link = Simd::Pick(opposite, ahead.Links);
   const Int dropped = Simd::Select(lanes, opposite, last);
 
-  // The exit face: x takes the dropped vertex's place, which keeps the sense of rotation.
+  // Exit face: x replaces the dropped vertex, which keeps the sense of rotation.
   const Mask replaceA = dropA & lanes;
   const Mask replaceC = dropC & lanes;
   const Mask replaceB = Simd::AndNot(lanes, keepB);
@@ -370,7 +380,7 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
 }
 
 //------------------------------------------------------------------------------
-/** All but its Rank. */
+/** Replaces all members but Rank. */
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, Corner& corner)
 {
@@ -382,7 +392,9 @@ inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, 
 }
 
 //------------------------------------------------------------------------------
-/** What is where the ray meets ABC; a face without projected area keeps what is given. */
+/**
+ * Values at the ray's intersection with ABC; a face without projected area keeps the given values.
+ */
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Interpolate(
   Float& depth, Float& scalar, VertexValues& others) const
@@ -402,7 +414,7 @@ inline void PacketWalk<Simd, Model>::Interpolate(
 }
 
 //------------------------------------------------------------------------------
-/** Gives the integral what lies between the last face and this one. */
+/** Passes the part of the ray between the last face and this one to the integral. */
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead& crossed)
 {
@@ -411,7 +423,7 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
   VertexValues exitValues = this->FaceValues;
   this->Interpolate(depth, scalar, exitValues);
 
-  // What lies before the largest depth reached has been passed already and does not count again.
+  // The part before the largest depth reached has been passed already and is not passed again.
   const Float start = Simd::Max(this->DepthNow, this->StartDepth);
   const Float end = Simd::Min(depth, this->EndDepth);
   Float from = this->FaceScalar;
@@ -422,7 +434,8 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
   const Mask early = depth > end;
   if (this->Job.CellScalars)
   {
-    // A jump counts where the cell is entered, unless the ray begins behind that.
+    // A jump between cells is integrated where the cell is entered, unless the ray begins behind
+    // that face.
     to = crossed.CellScalar;
     from = Simd::Select(this->StartDepth > this->FaceDepth, to, this->FaceScalar);
     from = Model::SeesJumps ? from : to;
@@ -452,7 +465,7 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
   Mask known = lanes;
   if (this->Job.CellScalars)
   {
-    // Of the last cell that counted.
+    // The scalar is that of the last integrated cell.
     known = SegmentsOf<Simd>(segment, from, to, end - start) |
       Simd::AndNot(lanes, depth > this->StartDepth);
     scalar = crossed.CellScalar;
@@ -462,8 +475,8 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
 
 //------------------------------------------------------------------------------
 /**
- * Gives lanes whose walk has ended the next entry of their ray or the next ray. Returns the lanes
- * that have a ray.
+ * Assigns the next entry of their ray, or the next ray, to lanes whose walk has ended. Returns the
+ * lanes that have a ray.
  */
 template <class Simd, class Model>
 unsigned int PacketWalk<Simd, Model>::Replace(unsigned int ended)
@@ -523,7 +536,7 @@ bool PacketWalk<Simd, Model>::NextEntry(int lane)
 }
 
 //------------------------------------------------------------------------------
-/** Starts the next ray that has an entry before its end; false if there is none. */
+/** Starts the next ray that has an entry before its end. Returns false if there is none. */
 template <class Simd, class Model>
 bool PacketWalk<Simd, Model>::TakeRay(int lane)
 {
@@ -585,7 +598,7 @@ void PacketWalk<Simd, Model>::Finish(int lane)
 }
 
 //------------------------------------------------------------------------------
-/** PacketResult::End of a ray that is finished. */
+/** PacketResult::End of a finished ray. */
 template <class Simd, class Model>
 std::int32_t PacketWalk<Simd, Model>::EndOf(int lane) const
 {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of PacketWalk.h: signs of edges where single precision cannot tell.
+// Part of PacketWalk.h: signs of edges that single precision cannot decide.
 #ifndef meniscus_Volume_Packet_Walk_PacketWalkExact_h
 #define meniscus_Volume_Packet_Walk_PacketWalkExact_h
 
@@ -13,9 +13,10 @@ namespace meniscus
 //------------------------------------------------------------------------------
 /**
  * Exact signs, in some lanes, of the edges from the vertex ahead to A, B, C; `corners` are the
- * places of the four in the cell. Areas stay those of the places in single precision, as those of
- * the other edges are: depth is interpolated by their ratios, and on needles of 1e4 exact ones
- * among rounded ones move it by more than a cell is wide. They are 0 where the signs differ.
+ * positions of the four vertices in the cell. Areas remain those of the single-precision
+ * coordinates, like the areas of the other edges: depth is interpolated by their ratios, and on
+ * needles with an aspect ratio of 1e4, exact areas among rounded ones would move it by more than
+ * the width of a cell. They are 0 where the signs differ.
  */
 template <class Simd, class Model>
 void PacketWalk<Simd, Model>::MakeSure(

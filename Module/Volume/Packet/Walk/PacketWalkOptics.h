@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Part of PacketWalk.h: what only some models ask the walk for.
+// Part of PacketWalk.h: values that only some models need.
 #ifndef meniscus_Volume_Packet_Walk_PacketWalkOptics_h
 #define meniscus_Volume_Packet_Walk_PacketWalkOptics_h
 
@@ -11,7 +11,7 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-/** The vertices that the faces do not have. */
+/** Vertices opposite the faces, which the faces do not contain. */
 template <class Simd, class Model>
 inline auto PacketWalk<Simd, Model>::OppositeVertices(Int cellFace) const -> Int
 {
@@ -55,7 +55,7 @@ void PacketWalk<Simd, Model>::LoadLines()
       const double offset =
         fraction * static_cast<double>(this->Axes[axis].Offset[lane % 2][lane / 2]);
       slopes[axis][lane] = static_cast<float>(unit / PacketVertex::DepthUnit * slope);
-      // What is shifted out is rounded down: offsets are half a unit larger.
+      // Offsets are half a unit larger because shifting out the fraction rounds down.
       places[axis][lane] = static_cast<float>(unit * (offset - 0.5));
     }
   }

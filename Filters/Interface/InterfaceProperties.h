@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Properties of the classes that have a list of refracting interfaces. */
+#ifndef meniscus_Filters_Interface_InterfaceProperties_h
+#define meniscus_Filters_Interface_InterfaceProperties_h
+
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
+
+/**
+ * Defines the methods of a class that forward to its member Interfaces and to the first interface:
+ * SetInterfaces, GetInterfaces, and setters and getters of the two indices of refraction.
+ */
+#define meniscusInterfacePropertiesMacro(className)                                                \
+  void className::SetInterfaces(vtkRefractingInterfaceCollection* interfaces)                      \
+  {                                                                                                \
+    if (this->Interfaces != interfaces)                                                            \
+    {                                                                                              \
+      this->Interfaces = interfaces;                                                               \
+      if (!interfaces)                                                                             \
+      {                                                                                            \
+        this->Interfaces = vtkSmartPointer<vtkRefractingInterfaceCollection>::New();               \
+      }                                                                                            \
+      this->Modified();                                                                            \
+    }                                                                                              \
+  }                                                                                                \
+  vtkRefractingInterfaceCollection* className::GetInterfaces()                                     \
+  {                                                                                                \
+    return this->Interfaces;                                                                       \
+  }                                                                                                \
+  void className::SetExteriorIndexOfRefraction(double index)                                       \
+  {                                                                                                \
+    this->Interfaces->GetFirstInterface()->SetExteriorIndexOfRefraction(index);                    \
+  }                                                                                                \
+  double className::GetExteriorIndexOfRefraction()                                                 \
+  {                                                                                                \
+    return this->Interfaces->GetFirstInterface()->GetExteriorIndexOfRefraction();                  \
+  }                                                                                                \
+  void className::SetInteriorIndexOfRefraction(double index)                                       \
+  {                                                                                                \
+    this->Interfaces->GetFirstInterface()->SetInteriorIndexOfRefraction(index);                    \
+  }                                                                                                \
+  double className::GetInteriorIndexOfRefraction()                                                 \
+  {                                                                                                \
+    return this->Interfaces->GetFirstInterface()->GetInteriorIndexOfRefraction();                  \
+  }
+
+namespace meniscus
+{
+
+/** Text of the error for a list that cannot be used: rays are refracted once. Null if it can. */
+inline const char* FindFault(vtkRefractingInterfaceCollection* interfaces)
+{
+  return interfaces->GetNumberOfItems() > 1
+    ? "Rays are refracted at one interface only, and the list has more"
+    : nullptr;
+}
+
+}
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkRefractingInterface
+ * @brief   a surface between two media: indices of refraction and exact form
+ *
+ * Filters and mappers that refract hold a vtkRefractingInterfaceCollection. The interface of number
+ * i has the surface of connection i of their membrane port; its triangles are taken from there. One
+ * interface may be given to several filters and mappers, which then share indices and exact
+ * surface.
+ *
+ * @sa vtkRefractingInterfaceCollection vtkRefractedGeometryFilter vtkTetrahedraRayCastMapper
+ */
+#ifndef vtkRefractingInterface_h
+#define vtkRefractingInterface_h
+
+#include "vtkMeniscusModule.h" // for export macro
+#include "vtkObject.h"
+#include "vtkSmartPointer.h" // for vtkSmartPointer
+
+class vtkImplicitFunction;
+
+class VTKMENISCUS_EXPORT vtkRefractingInterface : public vtkObject
+{
+public:
+  static vtkRefractingInterface* New();
+  vtkTypeMacro(vtkRefractingInterface, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** @{ */
+  /**
+   * Index of refraction on the side that the surface's normals point to, the eye's or the light's.
+   * Positive and finite; other values are an error of the filter or mapper when it runs. Default is
+   * 1.0, that of air.
+   */
+  vtkSetMacro(ExteriorIndexOfRefraction, double);
+  vtkGetMacro(ExteriorIndexOfRefraction, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Index of refraction on the other side. Positive and finite; other values are an error of the
+   * filter or mapper when it runs. Default is 1.333, that of water.
+   */
+  vtkSetMacro(InteriorIndexOfRefraction, double);
+  vtkGetMacro(InteriorIndexOfRefraction, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Function whose zero set is the exact surface, or null if there is none, the default. See
+   * vtkRefractedGeometryFilter::SetExactMembrane() and
+   * vtkRefractionErrorVolume::SetExactMembrane().
+   */
+  void SetExactSurface(vtkImplicitFunction* function);
+  vtkImplicitFunction* GetExactSurface();
+  /** @} */
+
+  /** True if the indices differ, so that rays change their direction at the surface. */
+  bool IsRefracting() const
+  {
+    return this->ExteriorIndexOfRefraction != this->InteriorIndexOfRefraction;
+  }
+
+  /** Modification time of the interface and of its exact surface, the later one. */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkRefractingInterface();
+  ~vtkRefractingInterface() override;
+
+private:
+  vtkRefractingInterface(const vtkRefractingInterface&) = delete;
+  void operator=(const vtkRefractingInterface&) = delete;
+
+  double ExteriorIndexOfRefraction = 1.0;
+  double InteriorIndexOfRefraction = 1.333;
+  vtkSmartPointer<vtkImplicitFunction> ExactSurface;
+};
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkRefractingInterfaceCollection
+ * @brief   the interfaces that a ray meets, in the order of the list
+ *
+ * Today's filters and mappers refract once: they use the first interface, and report more of them
+ * as an error. The list is never shorter than one: without any, the first is one with default
+ * values.
+ *
+ * @sa vtkRefractingInterface
+ */
+#ifndef vtkRefractingInterfaceCollection_h
+#define vtkRefractingInterfaceCollection_h
+
+#include "vtkCollection.h"
+#include "vtkMeniscusModule.h" // for export macro
+
+class vtkRefractingInterface;
+
+class VTKMENISCUS_EXPORT vtkRefractingInterfaceCollection : public vtkCollection
+{
+public:
+  static vtkRefractingInterfaceCollection* New();
+  vtkTypeMacro(vtkRefractingInterfaceCollection, vtkCollection);
+
+  /** Adds an interface behind those of the list. */
+  void AddItem(vtkRefractingInterface* interface);
+
+  /** Interface of number `i`, counted from 0, or null if there is none. */
+  vtkRefractingInterface* GetInterface(int i);
+
+  /** First interface; made with default values if the list is empty. */
+  vtkRefractingInterface* GetFirstInterface();
+
+  /** Latest modification time of the list, its interfaces and their exact surfaces. */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkRefractingInterfaceCollection() = default;
+  ~vtkRefractingInterfaceCollection() override = default;
+
+private:
+  vtkRefractingInterfaceCollection(const vtkRefractingInterfaceCollection&) = delete;
+  void operator=(const vtkRefractingInterfaceCollection&) = delete;
+
+  // Hidden: the list has interfaces only.
+  void AddItem(vtkObject* object) { this->vtkCollection::AddItem(object); }
+};
+
+#endif

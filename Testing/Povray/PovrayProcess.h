@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_PovrayProcess_h
+#define meniscus_PovrayProcess_h
+
+#include "PovrayWriter.h"
+#include "VolumeScene.h"
+
+#include <string>
+
+namespace meniscus
+{
+namespace test
+{
+
+/// How POV-Ray is started, and where.
+struct PovrayProcess
+{
+  std::string Program = "povray";
+  std::string Folder;
+
+  /**
+   * Writes NAME.pov and NAME.ini into the folder, runs POV-Ray there and reads NAME-povray.png. Its
+   * messages go to NAME.log; a picture without pixels says that it failed. To draw the picture
+   * again by hand: `cd FOLDER; povray NAME.ini`.
+   */
+  ByteImage draw(const ComparisonScene& scene, const std::string& name, int pixels,
+    const PictureWindow& window = {}) const;
+};
+
+} // namespace test
+} // namespace meniscus
+
+#endif

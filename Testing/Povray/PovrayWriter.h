@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_PovrayWriter_h
+#define meniscus_PovrayWriter_h
+
+#include "ComparisonScene.h"
+
+#include <string>
+
+namespace meniscus
+{
+namespace test
+{
+
+/// A number as POV-Ray reads it, with all its digits.
+std::string povrayNumber(double value);
+
+/// A vector, "<x, y, z>".
+std::string povrayVector(const glm::dvec3& value);
+
+/// A square of a camera's picture, which goes from -1/2 to 1/2 to the right and up.
+struct PictureWindow
+{
+  double Right = 0.0; ///< of its middle
+  double Up = 0.0;
+  double Size = 1.0;
+};
+
+/**
+ * Camera of a square of the picture. The ray through the middle of a pixel is VTK's: POV-Ray's is
+ * direction + x right + y up with x and y from -1/2 to 1/2; given as vectors in world coordinates,
+ * they need no change of POV-Ray's left-handed axes and no angle (POV-Ray's is horizontal, VTK's
+ * vertical).
+ */
+std::string povrayCamera(const SceneCamera& camera, const PictureWindow& window = {});
+
+/// Mesh of the triangles, each in its flat colour.
+std::string povrayMesh(vtkPolyData* object);
+
+/// Clear body of the interior medium, without reflection; nothing without a membrane.
+std::string povraySurface(const RefractingSurface& surface);
+
+/// The whole scene.
+std::string povrayScene(const ComparisonScene& scene, const PictureWindow& window = {});
+
+/// Options of a picture of NAME.pov to NAME-povray.png: no antialiasing, no gamma, nothing on a
+/// display.
+std::string povrayOptions(const std::string& name, int pixels);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_RefractedScene_h
+#define meniscus_RefractedScene_h
+
+#include "ComparisonScene.h"
+#include "VolumeScene.h"
+
+namespace meniscus
+{
+namespace test
+{
+
+/// Draws a scene by vtkRefractedGeometryFilter and vtkRefractionPass; `tolerance` is the filter's
+/// AngularTolerance in degrees.
+ByteImage drawRefractedScene(const ComparisonScene& scene, int pixels, double tolerance);
+
+} // namespace test
+} // namespace meniscus
+
+#endif

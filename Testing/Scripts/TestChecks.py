@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The checks that scripts/lint calls find the faults that they are for. Argument: the project's root."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPTS = pathlib.Path(sys.argv.pop(1)) / "scripts"
+
+TABLE = """# Architecture
+
+| Folder | Subject | May include |
+|---|---|---|
+| `Module/Low` | low |  |
+| `Module/High` | high | `Module/Low` |
+"""
+TRACES = """
+## From a scalar to a pixel
+
+1. `Module/Low/Low.h`, `Low::Begin`: begins.
+2. `Module/High/High.h`, `High`: ends.
+
+## From a membrane vertex to a virtual vertex
+
+1. `Module/Low/Low.h`, `Begin`: begins.
+2. `Module/High/High.h`, `High`: ends.
+"""
+
+
+class Checks(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.folder.name)
+        self.write("ARCHITECTURE.md", TABLE + TRACES)
+        self.write("Module/Low/Low.h", "/** Depth of a point. */\nvoid Begin();\n")
+        self.write("Module/High/High.h", '#include "Low/Low.h"\nvoid High();\n')
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write(self, name, text):
+        file = self.root / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+
+    def run_check(self, script, *arguments):
+        result = subprocess.run(
+            [sys.executable, str(SCRIPTS / script), *arguments], stdout=subprocess.PIPE, text=True)
+        return result.returncode, result.stdout
+
+    def expect_fault(self, part, script, *arguments):
+        status, text = self.run_check(script, *arguments)
+        self.assertEqual(status, 1)
+        self.assertIn(part, text)
+
+    def rooms(self):
+        return self.run_check("check_rooms.py", str(self.root))
+
+    def text_of(self, name):
+        return "check_text.py", str(self.root / name)
+
+    def test_a_clean_tree_passes(self):
+        self.assertEqual(self.rooms(), (0, ""))
+        self.assertEqual(self.run_check("check_traces.py", str(self.root)), (0, ""))
+        self.assertEqual(self.run_check(*self.text_of("Module/Low/Low.h")), (0, ""))
+
+    def test_an_include_that_points_up_is_found(self):
+        self.write("Module/Low/Low.h", '#include "High/High.h"\nvoid Begin();\n')
+        self.expect_fault(
+            "Module/Low -> Module/High is not allowed", "check_rooms.py", str(self.root))
+
+    def test_a_row_that_points_up_is_found(self):
+        self.write("ARCHITECTURE.md", TABLE.replace("low |  |", "low | `Module/High` |") + TRACES)
+        self.write("Module/Low/Low.h", '#include "High/High.h"\nvoid Begin();\n')
+        self.expect_fault("an arrow up in ARCHITECTURE.md", "check_rooms.py", str(self.root))
+
+    def test_a_folder_without_a_row_is_found(self):
+        self.write("Module/New/New.h", "void New();\n")
+        self.expect_fault("Module/New: no row", "check_rooms.py", str(self.root))
+
+    def test_an_arrow_without_an_include_is_found(self):
+        self.write("Module/High/High.h", "void High();\n")
+        self.expect_fault("allowed in ARCHITECTURE.md, but not used", "check_rooms.py", str(self.root))
+
+    def test_a_trace_without_its_function_is_found(self):
+        self.write("Module/Low/Low.h", "void Start();\n")
+        self.expect_fault("has no Low::Begin", "check_traces.py", str(self.root))
+
+    def test_a_missing_trace_is_found(self):
+        self.write("ARCHITECTURE.md", TABLE)
+        self.expect_fault("a trace without steps", "check_traces.py", str(self.root))
+
+    def test_wide_lines_are_found(self):
+        self.write("wide.h", "// " + 97 * "x" + "\n// " + 98 * "x" + "\n")
+        status, text = self.run_check(*self.text_of("wide.h"))
+        self.assertEqual(status, 1)
+        self.assertEqual(text.count("columns, at most 100"), 1)
+        self.assertIn("wide.h:2:", text)
+
+    def test_tables_and_code_of_pages_may_be_wide(self):
+        self.write("page.md", "| " + 120 * "x" + " |\n\n    " + 120 * "x" + "\n\n" + 120 * "y" + "\n")
+        status, text = self.run_check(*self.text_of("page.md"))
+        self.assertEqual((status, text.count("columns")), (1, 1))
+
+    def test_openings_of_comments_are_found(self):
+        openings = (
+            "/** What is kept of a ray. */", "/**\n * Of the rays behind, the mean.\n */",
+            "// Whether it matters.", "int a; ///< Of the ray", "/**\n * One.\n *\n * What two is.\n */")
+        for text in openings:
+            self.write("comment.h", text + "\n")
+            self.expect_fault("a comment that opens with", *self.text_of("comment.h"))
+
+    def test_sentences_inside_a_comment_may_open_so(self):
+        self.write("comment.h", "/**\n * Mean of the rays.\n * Of these, none is lost.\n */\n// A\n// What\n")
+        self.assertEqual(self.run_check(*self.text_of("comment.h")), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main()
