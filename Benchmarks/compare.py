@@ -4,8 +4,9 @@
 Compares the benchmarks of two build trees on one machine. BEFORE and AFTER are build folders; their
 programs run in turns, in alternating order, and each row takes the smallest processor time of all
 rounds, because disturbances only add time. Prints a table in Markdown and exits with 1 if a row of
-AFTER is more than 3 % slower. Meshes are taken from the folder that MENISCUS_DATA_DIR names, or from
-../shared/data next to the clone; without them only a generated block is used. Needs a display.
+AFTER is more than 3 % slower. Meshes are taken from the folder that MENISCUS_DATA_DIR names, or
+from ../shared/data next to the clone; without them only a generated block is used. Needs a
+display.
 """
 import argparse
 import json
@@ -18,7 +19,8 @@ import tempfile
 SLOWER = 1.03
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BACKENDS = "meniscus/native/exact,meniscus/opengl/exact,meniscus/compute/exact"
-# Rows of the growth of the refraction benchmark; those of brute force take minutes and change nothing.
+# Rows of the growth of the refraction benchmark. Those of brute force take minutes and measure no
+# code of ours.
 PER_MEMBRANE = (
     "shape_s", "eye_s", "us_per_vertex_grid_order", "us_per_vertex_random_order", "curved_shape_s",
     "curved_deform_s", "curved_eye_s", "curved_us_per_vertex_one_image",
@@ -30,7 +32,8 @@ def run(command):
     with tempfile.TemporaryDirectory() as folder:
         name = os.path.join(folder, "figures.json")
         result = subprocess.run(
-            [*command, "--json", name], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            [*command, "--json", name],
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         if result.returncode != 0 or not os.path.exists(name):
             sys.exit("failed: " + " ".join(command) + "\n" + result.stderr)
         with open(name, encoding="utf-8") as file:
@@ -52,8 +55,8 @@ def volume_cases():
 def measure_volume(build, arguments):
     """Processor milliseconds per frame by mapper; the least of all frames' views."""
     figures = run([
-        str(build / "bin/meniscus_benchmark_volume"), *arguments, "--mappers", BACKENDS, "--views", "4",
-        "--repetitions", "3", "--error-views", "0"])
+        str(build / "bin/meniscus_benchmark_volume"), *arguments, "--mappers", BACKENDS,
+        "--views", "4", "--repetitions", "3", "--error-views", "0"])
     rows = {}
     for mapper in figures["mappers"]:
         if mapper["name"].endswith("/exact"):

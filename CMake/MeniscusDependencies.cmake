@@ -25,7 +25,8 @@ endfunction ()
 macro (meniscus_find package debian)
   find_package("${package}" QUIET)
   if (NOT ${package}_FOUND)
-    message(FATAL_ERROR "Meniscus needs ${package}, which was not found. On Debian: apt-get install "
+    message(FATAL_ERROR
+      "Meniscus needs ${package}, which was not found. On Debian: apt-get install "
       "${debian}; elsewhere set CMAKE_PREFIX_PATH or ${package}_DIR to its location.")
   endif ()
 endmacro ()

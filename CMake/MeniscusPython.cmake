@@ -23,10 +23,12 @@ set(CMAKE_INSTALL_RPATH "${_meniscus_install_rpath}")
 if (VTK_DIR MATCHES "/vtk_sdk/")
   set(MENISCUS_VTK_HINT "run pip install vtk==${VTK_VERSION}")
 else ()
-  set(MENISCUS_VTK_HINT "use that of ${Python3_EXECUTABLE}; in a virtual environment use --system-site-packages and install no other vtk")
+  string(CONCAT MENISCUS_VTK_HINT "use that of ${Python3_EXECUTABLE}; in a virtual environment use "
+    "--system-site-packages and install no other vtk")
 endif ()
 set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
-configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in" "${_meniscus_package}/__init__.py" @ONLY)
+configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
+  "${_meniscus_package}/__init__.py" @ONLY)
 configure_file("${PROJECT_SOURCE_DIR}/Python/pyvista.py" "${_meniscus_package}/pyvista.py" COPYONLY)
 
 # Types for editors and type checkers, from the signatures that the wrappers put into doc strings.

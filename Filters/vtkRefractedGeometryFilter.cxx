@@ -504,7 +504,7 @@ int vtkRefractedGeometryFilter::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   if (!input || !membrane || !output)
   {
-    vtkErrorMacro("Geometry or membrane is missing or no vtkPolyData; the output is empty.");
+    vtkErrorMacro("Geometry or membrane is missing or is not a vtkPolyData; the output is empty.");
     return 0;
   }
   this->WarnOfModes();
@@ -543,13 +543,13 @@ int vtkRefractedGeometryFilter::RequestData(
   if (report.BrokenCells > 0)
   {
     vtkErrorMacro(<< report.BrokenCells << " of " << input->GetNumberOfCells()
-                  << " cells name points that do not exist; left out.");
+                  << " cells refer to points that do not exist; they are left out.");
   }
   if (report.ArraysOfWrongSize > 0)
   {
     vtkWarningMacro(
       << report.ArraysOfWrongSize
-      << " point or cell arrays do not have one tuple per point or cell; not passed.");
+      << " point or cell arrays do not have one tuple per point or cell; they are left out.");
   }
   return 1;
 }
@@ -585,7 +585,7 @@ void vtkRefractedGeometryFilter::ReportPoints(
     internals.WarnedOfNoImage = internals.Scene.GetNumberOfPatchBuilds();
     vtkWarningMacro("None of the "
       << points << " points has an image. Is the eye on the side that the membrane's normals point "
-      << "to, and are geometry (port 0) and membrane (port 1) where they belong?");
+      << "to, and are geometry (port 0) and membrane (port 1) at the right ports?");
   }
   if (this->VirtualNormals && !internals.WarnedOfNoNormals && points > 0 &&
     !input->GetPointData()->GetNormals())
@@ -610,7 +610,7 @@ void vtkRefractedGeometryFilter::WarnOfModes()
     this->Camera->GetParallelProjection())
   {
     this->Internals->WarnedOfParallelProjection = true;
-    vtkWarningMacro("A camera in parallel projection has no eye; its position is used as one.");
+    vtkWarningMacro("A camera in parallel projection has no eye; its position is used as the eye.");
   }
 }
 

@@ -45,7 +45,7 @@
  * FIRST_IMAGE, lines, polygons and strips that need such a point are left out whole. Both are
  * counted. The filter warns of points that are not finite, and of a geometry without any image.
  *
- * Method of CURVED (Documentation/refraction.md has the equations):
+ * Method of CURVED (Documentation/refraction-method.md has the equations):
  * 1. A patch per facet, from the vertices and their normals: cubic edges, and a quadratic normal
  *    whose value in the middle of an edge is fitted to the curvature at its ends. Planes and
  *    spheres are reproduced exactly, other surfaces to third order.
@@ -83,9 +83,9 @@
  * @note The side of a point is determined along the mean of the membrane's normals: where the
  *   membrane overhangs in this direction (ALL_IMAGES, geometry on both sides), it may be wrong.
  * @note Between the rays of the vertices FLAT_FACETS interpolates linearly. The error is of second
- *   order in the size of the facets; Documentation/refraction.md has measurements. Cells of
- *   neighbouring facets may overlap or leave thin gaps, and zones of convergence show the first
- *   image only.
+ *   order in the size of the facets; Documentation/refraction-measurements.md has measurements.
+ * Cells of neighbouring facets may overlap or leave thin gaps, and zones of convergence show the
+ * first image only.
  * @note Normals of the input are passed unchanged, although the virtual surface has other ones,
  *   unless VirtualNormals is on.
  *
@@ -197,8 +197,8 @@ public:
   /** @{ */
   /**
    * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
-   * first interface has the indices of refraction and the exact surface; more than one are an
-   * error when it runs. Null stands for a list of one with default values, which is the default.
+   * first interface has the indices of refraction and the exact surface; more than one interface is
+   * an error when the filter runs. Null, the default, stands for a list of one with default values.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();

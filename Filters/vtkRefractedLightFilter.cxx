@@ -281,7 +281,7 @@ bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkPolyData* membra
   {
     vtkErrorMacro("LightPosition ("
       << this->LightPosition[0] << ", " << this->LightPosition[1] << ", " << this->LightPosition[2]
-      << ") is no place, or no direction, of a light; no irradiance.");
+      << ") is not a valid position or direction of a light; no irradiance is computed.");
     return false;
   }
   this->View->SetEyePosition(light.x, light.y, light.z);
@@ -314,7 +314,7 @@ int vtkRefractedLightFilter::RequestData(
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   if (!input || !membrane || !output)
   {
-    vtkErrorMacro("Geometry or membrane is missing or no vtkPolyData; the output is empty.");
+    vtkErrorMacro("Geometry or membrane is missing or is not a vtkPolyData; the output is empty.");
     return 0;
   }
   output->ShallowCopy(input);

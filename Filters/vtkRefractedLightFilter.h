@@ -20,11 +20,11 @@
  *
  * with the cell's area A, the area A' of the part of the membrane that its light passes, projected
  * along the light, and the Fresnel reflectance F there (Eq. 2.6 of the thesis that
- * Documentation/refraction.md summarises). With the light in place of the eye, these parts consist
- * of the sight points of the cell's images, which vtkRefractedGeometryFilter computes. Where the
- * light is folded, a cell has several images, which are added. The sum over all cells is therefore
- * the light that the membrane transmits, whatever the size of the cells. A point has the mean of
- * its cells, weighted by area.
+ * Documentation/refraction-method.md summarises). With the light in place of the eye, these parts
+ * consist of the sight points of the cell's images, which vtkRefractedGeometryFilter computes.
+ * Where the light is folded, a cell has several images, which are added. The sum over all cells is
+ * therefore the light that the membrane transmits, whatever the size of the cells. A point has the
+ * mean of its cells, weighted by area.
  *
  * Lines and vertices get 0, and so do cells that the light does not reach through the membrane.
  *
@@ -95,8 +95,8 @@ public:
   /**
    * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
    * first interface has the indices of refraction and, optionally, the exact surface; more than one
-   * are an error when it runs. Null stands for a list of one with default values, which is the
-   * default.
+   * interface is an error when the filter runs. Null, the default, stands for a list of one with
+   * default values.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();

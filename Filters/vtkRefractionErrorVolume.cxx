@@ -144,12 +144,12 @@ bool vtkRefractionErrorVolume::HasValidBox()
     if (!std::isfinite(range[0]) || !std::isfinite(range[1]) || range[0] > range[1])
     {
       vtkErrorMacro("ModelBounds " << range[0] << " to " << range[1] << " along axis " << axis
-                                   << " are not finite or turned over; the output is empty.");
+                                   << " are not finite or not in order; the output is empty.");
       return false;
     }
     if (this->SampleDimensions[axis] < 1)
     {
-      vtkErrorMacro("SampleDimensions must be 1 at least, not "
+      vtkErrorMacro("SampleDimensions must be at least 1, not "
         << this->SampleDimensions[axis] << " along axis " << axis << "; the output is empty.");
       return false;
     }
@@ -214,7 +214,7 @@ int vtkRefractionErrorVolume::RequestData(
   vtkImageData* output = vtkImageData::GetData(outputs);
   if (!membrane || !output)
   {
-    vtkErrorMacro("The membrane is missing or no vtkPolyData; the output is empty.");
+    vtkErrorMacro("The membrane is missing or is not a vtkPolyData; the output is empty.");
     return 0;
   }
   if (!this->HasValidBox() || !this->UpdateScenes(membrane, vtkPolyData::GetData(inputs[1])))
@@ -271,7 +271,7 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
   {
     internals.WarnedOfNoReference = true;
     vtkWarningMacro("CURVED is compared with itself: set the exact membrane, or a finer one on "
-                    "port 1, to learn how good the mesh is.");
+                    "port 1, to measure the error of the mesh.");
   }
   return ready;
 }

@@ -104,8 +104,8 @@ public:
   /** @{ */
   /**
    * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
-   * first interface has the indices of refraction and the exact surface; more than one are an
-   * error when it runs. Null stands for a list of one with default values, which is the default.
+   * first interface has the indices of refraction and the exact surface; more than one interface is
+   * an error when the filter runs. Null, the default, stands for a list of one with default values.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();

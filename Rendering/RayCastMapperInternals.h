@@ -8,6 +8,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include <set>
 #include <string>
 
 class vtkTetrahedraRayCastMapper::vtkInternals : public meniscus::RayCastPipeline
@@ -27,8 +28,8 @@ public:
   bool WarnedIntegration = false;
   bool WarnedBlendMode = false;
   bool WarnedComponents = false;
-  bool WarnedCompute = false;
-  bool WarnedTableSize = false;
+  /** Fallbacks that were reported: the backends that refused, and the one that drew. */
+  std::set<std::string> WarnedFallbacks;
   bool WarnedPeeling = false;
   /** Matrix of the last frame, for positions given in world coordinates. */
   glm::dmat4 WorldToModel{ 1.0 };

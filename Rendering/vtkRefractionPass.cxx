@@ -249,7 +249,7 @@ void vtkRefractionPass::AddVolume(vtkActor* membrane, vtkVolume* volume)
 {
   if (!membrane || !volume || !RayCasterOf(volume))
   {
-    vtkErrorMacro("A volume behind a membrane needs both, and a vtkTetrahedraRayCastMapper.");
+    vtkErrorMacro("AddVolume needs a membrane, and a volume with a vtkTetrahedraRayCastMapper.");
     return;
   }
   this->Internals->Refractions.push_back({ membrane, volume, nullptr });
@@ -420,8 +420,8 @@ void vtkRefractionPass::DrawMembrane(
   state->Pop();
   if (!ready)
   {
-    vtkErrorMacro("Nothing is drawn behind a membrane: no picture of "
-      << size[0] << " x " << size[1] << " pixels to draw to.");
+    vtkErrorMacro("Nothing is drawn behind a membrane: no framebuffer of "
+      << size[0] << " x " << size[1] << " pixels could be created.");
     return;
   }
   state->Push();

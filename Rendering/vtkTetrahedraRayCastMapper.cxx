@@ -243,7 +243,7 @@ bool vtkTetrahedraRayCastMapper::HasChosenComponent(const meniscus::InputBlocks&
       const char* name = part.Scalars->GetName();
       vtkErrorMacro("The array '" << (name ? name : "without a name") << "' has " << components
                                   << " components, none of number " << chosen
-                                  << ", which the colour function chooses; nothing is rendered.");
+                                  << ", which the colour function selects; nothing is rendered.");
       return false;
     }
   }
@@ -265,7 +265,7 @@ void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 {
   vtkInternals& internals = *this->Internals;
   this->WarnOnce(!meniscus::FindBlendModel(this->BlendMode), internals.WarnedBlendMode,
-    "There is no such blend mode for meshes; rendering with composite blending.");
+    "The blend mode is not available for meshes; rendering with composite blending.");
 }
 
 //------------------------------------------------------------------------------
@@ -368,19 +368,6 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction()
 }
 
 //------------------------------------------------------------------------------
-int vtkTetrahedraRayCastMapper::ChooseBackend()
-{
-  if (this->Backend == AUTOMATIC)
-  {
-    return this->Internals->OpenGL.IsSoftware() ? NATIVE : OPENGL;
-  }
-  const bool computeLacks = this->Backend == COMPUTE && !this->Internals->OpenGL.HasCompute();
-  this->WarnOnce(computeLacks, this->Internals->WarnedCompute,
-    "The window has no OpenGL 4.3, which compute shaders need; rendering with fragment shaders.");
-  return computeLacks ? OPENGL : this->Backend;
-}
-
-//------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::ChooseIntegration(
   vtkVolume* volume, meniscus::RayCastOptics& optics)
 {
@@ -402,19 +389,38 @@ void vtkTetrahedraRayCastMapper::ChooseIntegration(
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::FallsBackToNative(
-  const meniscus::RayCastFrame& frame, std::string& error)
+std::string vtkTetrahedraRayCastMapper::DrawFrame(
+  meniscus::RayCastFrame& frame, const meniscus::InputBlocks& parts)
 {
+  using Number = meniscus::RayCastBackendNumber;
+  static_assert(int(Number::Automatic) == AUTOMATIC && int(Number::OpenGL) == OPENGL &&
+      int(Number::Native) == NATIVE && int(Number::Compute) == COMPUTE &&
+      int(Number::Registered) == REGISTERED,
+    "the same numbers");
   vtkInternals& internals = *this->Internals;
-  error = internals.DescribeExcess(frame, this->MaximumTableSize);
+  const meniscus::RayCastBackendChoice choice =
+    internals.ChooseBackend(frame, { this->BackendName, static_cast<Number>(this->Backend) });
+  if (!choice.Backend)
+  {
+    return "no backend can draw it: " + choice.Reasons;
+  }
+  std::string fallback;
+  for (const std::string& refused : choice.Refused)
+  {
+    fallback += refused + " -> ";
+  }
+  if (!fallback.empty() && internals.WarnedFallbacks.insert(fallback + choice.Name).second)
+  {
+    vtkWarningMacro("Rendering with the backend " << choice.Name << ": " << choice.Reasons << ".");
+  }
+  internals.UpdateGradients(parts, frame.Optics);
+  const std::string error = internals.Draw(frame, *choice.Backend);
   if (error.empty())
   {
-    return false;
+    this->ActiveBackend = static_cast<int>(choice.Number);
+    this->ActiveBackendName = choice.Name;
   }
-  this->WarnOnce(
-    true, internals.WarnedTableSize, ("Rendering with the native backend: " + error + ".").c_str());
-  error.clear();
-  return true;
+  return error;
 }
 
 //------------------------------------------------------------------------------
@@ -439,13 +445,14 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   vtkHardwareSelector* selector = renderer->GetSelector();
   const double sampleDistance = selector ? 1.0 : this->ChooseImageSampleDistance(volume);
   int viewport[4];
-  internals.OpenGL.GetViewport(viewport);
+  internals.GetPresenter().GetViewport(viewport);
   for (int i = 0; i < 2; ++i)
   {
     frame.Output.ImageSize[i] =
       std::max(1, static_cast<int>(std::ceil(viewport[2 + i] / sampleDistance)));
   }
   frame.Output.ColorBias = static_cast<float>(this->ColorBias);
+  frame.MaximumTableSize = this->MaximumTableSize;
   this->UsedImageSampleDistance = sampleDistance;
   if (selector)
   {
@@ -503,30 +510,19 @@ bool vtkTetrahedraRayCastMapper::Draw(
   // A mesh without extent has no cell that a ray could cross.
   if (mesh.GetNumberOfActiveCells() == 0 || mesh.GetRadius() == 0.0)
   {
-    internals.OpenGL.ClearStatistics();
+    internals.ClearStatistics();
     return true;
   }
   vtkOpenGLClearErrorMacro();
   meniscus::RayCastFrame frame;
-  std::string error = internals.OpenGL.SetWindow(window);
+  std::string error = internals.SetWindow(window);
   if (error.empty())
   {
     error = this->PrepareFrame(renderer, volume, frame);
   }
-  int backend = OPENGL;
   if (error.empty())
   {
-    backend = this->ChooseBackend();
-    if (backend != NATIVE && this->FallsBackToNative(frame, error))
-    {
-      backend = NATIVE;
-    }
-  }
-  if (error.empty())
-  {
-    frame.Compute = backend == COMPUTE;
-    internals.UpdateGradients(parts, frame.Optics);
-    error = backend == NATIVE ? internals.DrawNative(frame) : internals.DrawOpenGL(frame);
+    error = this->DrawFrame(frame, parts);
   }
   if (!error.empty())
   {
@@ -534,7 +530,6 @@ bool vtkTetrahedraRayCastMapper::Draw(
     return false;
   }
   vtkOpenGLCheckErrorMacro("failed after Render");
-  this->ActiveBackend = backend;
   return true;
 }
 
@@ -553,8 +548,8 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   const bool peeled = renderer->GetUseDepthPeelingForVolumes() && keys &&
     keys->Has(vtkOpenGLRenderPass::RenderPasses());
   this->WarnOnce(peeled, this->Internals->WarnedPeeling,
-    "A renderer with UseDepthPeelingForVolumes on does not show this volume beside translucent "
-    "geometry; switch it off, and the volume is drawn over that.");
+    "A renderer with UseDepthPeelingForVolumes does not show this volume together with "
+    "translucent geometry; turn it off to draw the volume over that geometry.");
   if (peeled)
   {
     return;
@@ -579,8 +574,8 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
   const double start = vtkTimerLog::GetUniversalTime();
   if (this->Draw(renderer, volume, parts))
   {
-    // The frame ends when the device has finished, not when the commands have been sent.
-    this->Internals->OpenGL.Finish();
+    // Drawing is over when the device says so, not when the commands are sent.
+    this->Internals->GetPresenter().Finish();
     this->TimeToDraw = std::max(vtkTimerLog::GetUniversalTime() - start, 1.0e-9);
     this->Internals->FullImageTime =
       this->TimeToDraw * this->UsedImageSampleDistance * this->UsedImageSampleDistance;
@@ -590,5 +585,5 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
-  this->Internals->OpenGL.Release(window);
+  this->Internals->ReleaseGraphicsResources(window);
 }

@@ -179,9 +179,8 @@ public:
   /** @{ */
   /**
    * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
-   * first interface has the indices of refraction; more than one are an
-   * error when it draws through a membrane. Null stands for a list of one with default values,
-   * which is the default.
+   * first interface has the indices of refraction. Drawing through a membrane with more than one
+   * interface is an error. Null, the default, stands for a list of one with default values.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
@@ -252,7 +251,8 @@ public:
     AUTOMATIC = 0,
     OPENGL = 1,
     NATIVE = 2,
-    COMPUTE = 3
+    COMPUTE = 3,
+    REGISTERED = 4 ///< one registered from outside; of GetActiveBackend() only
   };
 
   /** @{ */
@@ -261,14 +261,32 @@ public:
    * shader with the same functions (OpenGL 4.3; on a window without it, OPENGL after a warning);
    * NATIVE, the CPU, in SIMD packets of the best instruction set available on all threads of
    * vtkSMPTools; AUTOMATIC, the default: OPENGL, or NATIVE where OpenGL is a software rasteriser.
-   * The choice depends on nothing else: every backend has every optical model.
+   * Every backend of the library has every optical model. AUTOMATIC asks backends that were
+   * registered from outside first (see RayCastBackendRegistry.h). If a backend cannot draw a frame,
+   * the next one does, after a warning with the reason.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, COMPUTE);
   vtkGetMacro(Backend, int);
   /** @} */
 
-  /** The backend of the last Render(); AUTOMATIC if nothing has been rendered. */
+  /** @{ */
+  /**
+   * Name of the backend to use in place of the number set by SetBackend(): "OpenGL", "Compute",
+   * "Native", or one registered from outside. Empty, the default, or null: the number counts. Under
+   * a name that is not registered, AUTOMATIC draws after a warning.
+   */
+  vtkSetStdStringFromCharMacro(BackendName);
+  vtkGetCharFromStdStringMacro(BackendName);
+  /** @} */
+
+  /** @{ */
+  /**
+   * The backend of the last Render(), REGISTERED for one from outside, and its name; AUTOMATIC and
+   * empty if nothing has been rendered.
+   */
   vtkGetMacro(ActiveBackend, int);
+  vtkGetCharFromStdStringMacro(ActiveBackendName);
+  /** @} */
 
   /** Integration of ray segments. */
   enum Integrations
@@ -528,10 +546,9 @@ private:
   bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts);
   void UpdateTransferFunction();
   const meniscus::BlendModel& GetBlendModel();
-  int ChooseBackend();
-  bool FallsBackToNative(const meniscus::RayCastFrame& frame, std::string& error);
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
+  std::string DrawFrame(meniscus::RayCastFrame& frame, const meniscus::InputBlocks& parts);
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, const meniscus::InputBlocks& parts);
 
   int VectorMode = DISABLED;
@@ -539,6 +556,8 @@ private:
   int OpacityModel = ATTENUATION_COEFFICIENT;
   int Backend = AUTOMATIC;
   int ActiveBackend = AUTOMATIC;
+  std::string BackendName;
+  std::string ActiveBackendName;
   int Integration = EXACT;
   int PreIntegrationScalarSize = 256;
   int PreIntegrationLengthSize = 16;

@@ -1,22 +1,20 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Counters and statistics of vtkTetrahedraRayCastMapper.
+// Counters and properties of vtkTetrahedraRayCastMapper as it reports them.
 #include "Rendering/RayCastMapperInternals.h"
 
 #include "vtkTetrahedraRayCastMapper.h"
 
-#include <cstddef>
-
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMeshBuilds()
 {
-  return this->Internals->Input.GetMeshBuilds();
+  return this->Internals->Input.GetMeshVersion().GetChanges();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfScalarUpdates()
 {
-  return this->Internals->Input.GetScalarUpdates();
+  return this->Internals->Input.GetScalarVersion().GetChanges();
 }
 
 //------------------------------------------------------------------------------
@@ -28,31 +26,31 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTransferFunctionBuilds()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfGradientBuilds()
 {
-  return this->Internals->GetGradientBuilds();
+  return this->Internals->VertexGradients.GetVersion().GetChanges();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfPreIntegrationBuilds()
 {
-  return this->Internals->PreIntegration.GetNumberOfBuilds();
+  return this->Internals->PreIntegration.GetVersion().GetChanges();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfMembraneBuilds()
 {
-  return this->Internals->Membrane.GetBuilds();
+  return this->Internals->Membrane.GetShapeVersion().GetChanges();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfSightUpdates()
 {
-  return this->Internals->Membrane.GetSightUpdates();
+  return this->Internals->Membrane.GetSightVersion().GetChanges();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRefractedEntryLists()
 {
-  return this->Internals->OpenGL.GetNumberOfRefractedEntryLists();
+  return this->Internals->GetCounters().RefractedEntryLists;
 }
 
 //------------------------------------------------------------------------------
@@ -64,7 +62,7 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfBentEntryLists()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfEntryListBuilds()
 {
-  return this->Internals->GetEntryListBuilds();
+  return this->Internals->GetCounters().EntryListBuilds;
 }
 
 //------------------------------------------------------------------------------
@@ -76,24 +74,19 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfActiveSetBuilds()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetUploadedBytes()
 {
-  return this->Internals->GetUploadedBytes();
+  return this->Internals->GetCounters().UploadedBytes;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetHostBytes()
 {
-  const vtkInternals& internals = *this->Internals;
-  const std::size_t vectors = internals.Components.GetValues().size();
-  const std::size_t table = internals.PreIntegration.GetTable().GetValues().size();
-  return internals.Input.GetBytes() + internals.Native.GetBytes() + internals.Membrane.GetBytes() +
-    internals.GetEntryListBytes() + internals.GetGradientBytes() +
-    static_cast<vtkTypeInt64>(vectors * sizeof(glm::vec3) + table * sizeof(float));
+  return this->Internals->GetBytes() + this->Internals->GetCounters().HostBytes;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetDeviceBytes()
 {
-  return this->Internals->OpenGL.GetTables().GetTableBytes();
+  return this->Internals->GetCounters().DeviceBytes;
 }
 
 //------------------------------------------------------------------------------
@@ -117,19 +110,19 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRejectedCells()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTraversalSteps()
 {
-  return this->Internals->OpenGL.GetStatistics().Steps;
+  return this->Internals->GetStatistics().Steps;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRays()
 {
-  return this->Internals->OpenGL.GetStatistics().Rays;
+  return this->Internals->GetStatistics().Rays;
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfLostRays()
 {
-  return this->Internals->OpenGL.GetStatistics().Lost;
+  return this->Internals->GetStatistics().Lost;
 }
 
 //------------------------------------------------------------------------------
@@ -141,6 +134,8 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "OpacityModel: " << this->OpacityModel << "\n";
   os << indent << "Backend: " << this->Backend << "\n";
   os << indent << "ActiveBackend: " << this->ActiveBackend << "\n";
+  os << indent << "BackendName: " << this->BackendName << "\n";
+  os << indent << "ActiveBackendName: " << this->ActiveBackendName << "\n";
   os << indent << "Integration: " << this->Integration << "\n";
   os << indent << "PreIntegrationScalarSize: " << this->PreIntegrationScalarSize << "\n";
   os << indent << "PreIntegrationLengthSize: " << this->PreIntegrationLengthSize << "\n";

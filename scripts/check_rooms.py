@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """usage: scripts/check_rooms.py [ROOT]
 
-Checks the includes between the folders of the library against the table of ARCHITECTURE.md. Each row
-of the table names a folder, its subject and the folders that its files may include; a folder may only
-name folders of rows above its own, so that no arrow points up and no circle is possible. Prints each
-include that the table does not allow, each folder without a row and each allowed arrow that no file
-uses; exits with 1 if there is any.
+Checks the includes between the folders of the library against the table of ARCHITECTURE.md. Each
+row of the table names a folder, its subject and the folders that its files may include; a folder
+may only name folders of rows above its own, so that no arrow points up and no circle is possible.
+Prints each include that the table does not allow, each folder without a row and each allowed arrow
+that no file uses; exits with 1 if there is any.
 """
 import pathlib
 import re

@@ -2,8 +2,8 @@
 """usage: scripts/check_text.py FILE...
 
 Checks the text of sources and pages: no line is wider than 100 columns, and no comment opens with a
-construction that leaves its subject out ("What ...", "Of ...", "Whether it matters ..."). Tables, links
-and code of pages may be wider. Prints each fault as FILE:LINE; exits with 1 if there is any.
+construction that leaves its subject out ("What ...", "Of ...", "Whether it matters ..."). Tables,
+links and code of pages may be wider. Prints each fault as FILE:LINE; exits with 1 if there is any.
 """
 import pathlib
 import re

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """usage: scripts/check_traces.py [ROOT]
 
-Checks the traces of ARCHITECTURE.md, numbered steps of the form "1. `file`, `function`: ...": each file
-has the function, and each step but the first of a trace is the next number. Prints each fault; exits
-with 1 if there is any, or if a trace is missing.
+Checks the traces of ARCHITECTURE.md, numbered steps of the form "1. `file`, `function`: ...": each
+file has the function, and each step has the next number. Prints each fault; exits with 1 if there
+is any, or if a trace is missing.
 """
 import pathlib
 import re
@@ -15,7 +15,8 @@ TRACES = ("From a scalar to a pixel", "From a membrane vertex to a virtual verte
 
 def section(text, title):
     """The text between a heading and the next one."""
-    found = re.search(r"^## " + re.escape(title) + r"\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL)
+    pattern = r"^## " + re.escape(title) + r"\n(.*?)(?=^## |\Z)"
+    found = re.search(pattern, text, re.MULTILINE | re.DOTALL)
     return found.group(1) if found else ""
 
 
@@ -38,7 +39,8 @@ def trace_faults(root, title, text):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     text = (root / "ARCHITECTURE.md").read_text(encoding="utf-8")
-    faults = [fault for title in TRACES for fault in trace_faults(root, title, section(text, title))]
+    faults = [fault for title in TRACES
+              for fault in trace_faults(root, title, section(text, title))]
     print("\n".join(faults), end="\n" if faults else "")
     return 1 if faults else 0
 

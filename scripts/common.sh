@@ -77,7 +77,8 @@ install_packages()
     die "apt-get not found; install the equivalents of: ${missing[*]}"
   say "Installing ${missing[*]}"
   update_package_lists
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends \
+    "${missing[@]}"
 }
 
 # configure PRESET [CMAKE-ARGUMENT...]

@@ -27,9 +27,9 @@ const char* NameFault(MembraneStatus status)
   switch (status)
   {
     case MembraneStatus::TooLarge:
-      return "The membrane has more points or triangles than 32-bit indices can name";
+      return "The membrane has more points or triangles than 32-bit indices can address";
     case MembraneStatus::OneSided:
-      return "The membrane is one-sided, as a Moebius band is: no side is the eye's";
+      return "The membrane is one-sided, like a Moebius band, so it has no side for the eye";
     case MembraneStatus::Empty:
     case MembraneStatus::Ready:
       break;
@@ -121,8 +121,8 @@ bool RefractionScene::ReportMembrane(
   if (lost > 0)
   {
     text << lost << " of " << points
-         << " membrane points have no place on the exact membrane's zero set; they stay where they "
-            "are. ";
+         << " membrane points cannot be moved onto the exact membrane's zero set; they keep their "
+            "positions. ";
   }
   if (this->Arrays.NormalsRejected)
   {
@@ -137,20 +137,20 @@ bool RefractionScene::ReportMembrane(
   if (report.TurnedFacets > 0)
   {
     text << report.TurnedFacets << " of " << triangles
-         << " membrane triangles are wound the other way than their neighbours; turned. ";
+         << " membrane triangles have another winding than their neighbours; it is reversed. ";
   }
   if (report.TurnedNormals > 0)
   {
     text << report.TurnedNormals << " of " << points
-         << " membrane normals point to the other side than their neighbours'; turned. ";
+         << " membrane normals point to another side than their neighbours; they are reversed. ";
   }
   if (report.Normals.AreMost())
   {
     text
       << report.Normals.Foreign << " of " << report.Normals.Examined
       << " membrane normals do not fit the triangles around them, as if points had been moved and "
-         "normals had not; they are used as they are. Without normals, or with those of "
-         "vtkPolyDataNormals, rays bend as the triangles say. ";
+         "normals had not; they are used nevertheless. To refract by the triangles themselves, "
+         "remove the normals or compute them by vtkPolyDataNormals. ";
   }
   messages.Warning = text.str();
   return true;
@@ -203,14 +203,14 @@ void RefractionScene::ReportEye(SceneMessages& messages)
   std::ostringstream text;
   if (isEnclosed && (isNew || !this->EyeEnclosed))
   {
-    text << "The eye is inside of a closed membrane whose normals point outwards: what is outside "
-            "passes unchanged. For a bubble around the eye let the normals point inwards. ";
+    text << "The eye is inside of a closed membrane whose normals point outwards: geometry "
+            "outside passes unchanged. For a bubble around the eye, reverse the normals. ";
   }
   if (behind > 0 && (isNew || this->PointsBehind == 0))
   {
     text
-      << "Pieces of the membrane lie behind each other, as the eye sees them: rays that meet two "
-         "of them are refracted at one only, and objects behind both show an image through each. "
+      << "Pieces of the membrane lie behind each other as seen from the eye: rays that meet two "
+         "of them are refracted at one only, and objects behind both have an image through each. "
          "Use one piece, or a filter for each. ";
   }
   this->EyeEnclosed = isEnclosed;

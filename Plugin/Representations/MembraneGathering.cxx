@@ -28,11 +28,12 @@ namespace
 
 using Pieces = std::vector<vtkSmartPointer<vtkPolyData>>;
 
-/** What rounding can put between two equal numbers of this size: half a unit in the last place
- * each. */
+/**
+ * Rounding that may separate two equal numbers of this size: half a unit in the last place each.
+ */
 constexpr double Rounding = std::numeric_limits<float>::epsilon();
 
-/** Adds what the data object has of a surface, without ghost cells. */
+/** Adds the surfaces in the data object, without ghost cells. */
 void AddPieces(vtkDataObject* data, Pieces& pieces)
 {
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
@@ -58,7 +59,7 @@ void AddPieces(vtkDataObject* data, Pieces& pieces)
   }
 }
 
-/** One surface of all pieces, sewn together where points coincide. */
+/** One surface of all pieces, joined where points coincide. */
 vtkSmartPointer<vtkPolyData> Join(const Pieces& pieces)
 {
   if (pieces.empty())
@@ -97,7 +98,7 @@ vtkSmartPointer<vtkPolyData> GatherMembrane(vtkDataObject* local)
   {
     return Join(pieces);
   }
-  // Blocks are joined where they are: ranks may have different numbers of them.
+  // Blocks are joined locally first: ranks may have different numbers of them.
   std::vector<vtkSmartPointer<vtkDataObject>> all;
   if (!controller->AllGather(Join(pieces), all))
   {

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPVRefractedGeometryFilter
- * @brief   vtkRefractedGeometryFilter as ParaView runs it: on several ranks, with a view by numbers
+ * @brief   vtkRefractedGeometryFilter for ParaView: on several ranks, with a view given by numbers
  *
- * Every rank refracts the geometry that it has, behind the whole membrane, which is gathered from
- * all ranks and blocks each time the filter runs. Nothing is gathered of the geometry. The membrane
- * travels once per run, and each rank keeps all of it: about 400 bytes per facet.
+ * Every rank refracts its own geometry behind the whole membrane, which is gathered from all ranks
+ * and blocks each time the filter runs. The geometry is not gathered. The membrane is transferred
+ * once per run, and each rank keeps all of it: about 400 bytes per facet.
  *
- * Geometry may be composite; its output has the same structure, with nothing in place of blocks
- * that are no vtkPolyData. `SightFacet` numbers the gathered membrane's cells: those of the input
- * if only one rank and block has any.
+ * Geometry may be composite; its output has the same structure, with empty blocks where the input
+ * is not a vtkPolyData. `SightFacet` numbers the gathered membrane's cells: those of the input if
+ * only one rank and block has any.
  *
- * The view that ViewCulling needs is given by numbers, which can be linked to those of a view.
- * ViewCulling is off by default: the output can be looked at from any side.
+ * The view for ViewCulling is given by numbers, which can be linked to those of a view. ViewCulling
+ * is off by default, so that the output can be viewed from any side.
  */
 #ifndef vtkPVRefractedGeometryFilter_h
 #define vtkPVRefractedGeometryFilter_h
@@ -36,8 +36,8 @@ public:
 
   /** @{ */
   /**
-   * The view that ViewCulling is for, beside the eye's position: where it looks, what is up, and
-   * its vertical angle in degrees. Defaults are (0, 0, 0), (0, 1, 0) and 30.
+   * Set the view for ViewCulling, besides the eye's position: focal point, view up, and vertical
+   * view angle in degrees. Defaults are (0, 0, 0), (0, 1, 0) and 30.
    */
   void SetViewFocalPoint(double x, double y, double z);
   void SetViewUp(double x, double y, double z);

@@ -18,7 +18,7 @@ vtkStandardNewMacro(vtkPVRefractedLightFilter);
 namespace
 {
 
-/** Of the polygonal blocks of all ranks. To be called by all of them alike. */
+/** Bounds of the polygonal blocks of all ranks. Must be called by all of them alike. */
 vtkBoundingBox BoundsOfAll(vtkDataObject* local)
 {
   vtkBoundingBox box;

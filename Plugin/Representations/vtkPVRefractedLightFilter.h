@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPVRefractedLightFilter
- * @brief   vtkRefractedLightFilter as ParaView runs it on several ranks
+ * @brief   vtkRefractedLightFilter for ParaView on several ranks
  *
- * Every rank lights the geometry that it has, through the whole membrane, as in
- * vtkPVRefractedGeometryFilter. A light at infinity is at the same place for all ranks and blocks,
- * so that a cell gets the same irradiance wherever it is. Points on the border of a rank's part
- * have the mean of its own cells.
+ * Every rank lights its own geometry through the whole membrane, as in
+ * vtkPVRefractedGeometryFilter. A light at infinity has the same position for all ranks and blocks,
+ * so that a cell has the same irradiance on whichever rank it is. Points on the border of a rank's
+ * part have the mean of its own cells.
  */
 #ifndef vtkPVRefractedLightFilter_h
 #define vtkPVRefractedLightFilter_h

@@ -36,8 +36,10 @@ bool Contains(const Extent& extent, int i, int j, int k)
 }
 
 //------------------------------------------------------------------------------
-/** The errors measured here, without those of samples that an earlier rank has as well: the parts
- * of neighbours share a layer. */
+/**
+ * Errors measured here, without those of samples that an earlier rank also has: the parts of
+ * neighbours share a layer.
+ */
 std::vector<double> CollectOwnErrors(vtkImageData* output, const std::vector<Extent>& earlier)
 {
   std::vector<double> errors;
@@ -87,7 +89,7 @@ int vtkPVRefractionErrorVolume::FillInputPortInformation(int port, vtkInformatio
 int vtkPVRefractionErrorVolume::RequestUpdateExtent(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  // Each rank asks for its own piece of the membranes, whatever part of the box it measures.
+  // Each rank requests its own piece of the membranes, whatever part of the box it measures.
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   vtkInformation* output = outputs->GetInformationObject(0);
   for (int port = 0; port < 2; ++port)
@@ -132,7 +134,8 @@ int vtkPVRefractionErrorVolume::RequestData(
 }
 
 //------------------------------------------------------------------------------
-// In two passes, like those of one rank: no cancellation. To be called by all ranks alike.
+// Computes the statistics in two passes, like those of one rank, so that nothing cancels. Must be
+// called by all ranks alike.
 void vtkPVRefractionErrorVolume::ReduceStatistics(vtkImageData* output)
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPVRefractionErrorVolume
- * @brief   vtkRefractionErrorVolume as ParaView runs it on several ranks
+ * @brief   vtkRefractionErrorVolume for ParaView on several ranks
  *
  * Every rank measures its part of the box behind the whole membrane, which is gathered from all
- * ranks and blocks, as is the finer one. The statistics are of the samples of all ranks, each
- * counted once, and are the same on all: the number and the largest error are those of one rank to
- * the last bit, mean and deviation up to the rounding of their sums.
+ * ranks and blocks, as is the finer one. The statistics are over the samples of all ranks, each
+ * counted once, and are the same on all of them. The number and the largest error equal those of a
+ * run on one rank to the last bit, mean and deviation up to the rounding of their sums.
  */
 #ifndef vtkPVRefractionErrorVolume_h
 #define vtkPVRefractionErrorVolume_h

@@ -38,7 +38,7 @@ void vtkSMCubeAroundDomain::Update(vtkSMProperty* vtkNotUsed(property))
   for (double middle : center)
   {
     const vtkEntry range(middle - half, middle + half);
-    entries.insert(entries.end(), 2, range); // of the least and of the most
+    entries.insert(entries.end(), 2, range); // for the minimum and the maximum
   }
   this->SetEntries(entries);
 }

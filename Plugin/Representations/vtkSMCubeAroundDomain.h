@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMCubeAroundDomain
- * @brief   ParaView's default of a box around a surface: with room on both sides of a flat one
+ * @brief   default box around a surface, with room on both sides of a flat one
  *
- * For a property of six numbers, least and most along each axis. The range of each axis is as long
- * as the longest side of the input's bounds, around the middle of its own.
+ * For a property of six numbers, minimum and maximum along each axis. The range along each axis is
+ * as long as the longest side of the input's bounds and centred in them.
  */
 #ifndef vtkSMCubeAroundDomain_h
 #define vtkSMCubeAroundDomain_h

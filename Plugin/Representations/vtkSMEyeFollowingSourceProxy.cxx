@@ -27,19 +27,19 @@ vtkStandardNewMacro(vtkSMEyeFollowingSourceProxy);
 namespace
 {
 
-/** Whether what a representation, or the one that it is a part of, draws is visible. */
+/** True if a representation, or the one to which it belongs, is visible. */
 bool IsVisible(vtkSMProxy* representation)
 {
   return vtkSMPropertyHelper(representation->GetTrueParentProxy(), "Visibility", true).GetAsInt() !=
     0;
 }
 
-/** Adds the views in which an output of the proxy, or of filters behind it, is visible. */
+/** Adds the views in which an output of the proxy, or of filters that use it, is visible. */
 void AddShowingViews(vtkSMProxy* proxy, std::set<vtkSMProxy*>& views)
 {
   for (unsigned int i = 0; i < proxy->GetNumberOfConsumers(); ++i)
   {
-    vtkSMProxy* consumer = proxy->GetConsumerProxy(i); // null if it is gone
+    vtkSMProxy* consumer = proxy->GetConsumerProxy(i); // null if it has been deleted
     if (vtkSMRenderViewProxy::SafeDownCast(consumer))
     {
       views.insert(consumer);
@@ -53,7 +53,7 @@ void AddShowingViews(vtkSMProxy* proxy, std::set<vtkSMProxy*>& views)
   }
 }
 
-/** Sets a property if it has other values; an equal one must not modify the pipeline. */
+/** Sets a property if its values differ; an equal value must not modify the pipeline. */
 bool SetIfOther(vtkSMProxy* proxy, const char* name, const double* values, unsigned int number)
 {
   vtkSMPropertyHelper helper(proxy, name);
@@ -110,7 +110,7 @@ void vtkSMEyeFollowingSourceProxy::CreateVTKObjects()
 //------------------------------------------------------------------------------
 int vtkSMEyeFollowingSourceProxy::LoadXMLState(vtkPVXMLElement* element, vtkSMProxyLocator* locator)
 {
-  // Of a state without the property the eye stays where it is.
+  // For a state without the property the eye keeps its position.
   vtkSMPropertyHelper(this, "FollowCamera").Set(0);
   this->EyeIsSet = true;
   return this->Superclass::LoadXMLState(element, locator);
@@ -165,7 +165,7 @@ void vtkSMEyeFollowingSourceProxy::OnViewStarts(
   }
   if (this->MoveEye(view))
   {
-    // The view would do it next; here it is timed.
+    // The view would update next; the update is done here to measure its time.
     const double start = vtkTimerLog::GetUniversalTime();
     view->Update();
     this->UpdateTime = vtkTimerLog::GetUniversalTime() - start;
@@ -224,7 +224,7 @@ bool vtkSMEyeFollowingSourceProxy::MoveEye(vtkSMRenderViewProxy* view)
   this->IsMovingEye = true;
   bool moved = SetIfOther(this, "EyePosition", camera->GetPosition(), 3);
   this->IsMovingEye = false;
-  // What is not used must not make the filter run again.
+  // Unused values must not make the filter run again.
   if (vtkSMPropertyHelper(this, "ViewCulling", true).GetAsInt() != 0)
   {
     const double angle = camera->GetViewAngle();

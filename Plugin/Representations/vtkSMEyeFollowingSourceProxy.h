@@ -2,22 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMEyeFollowingSourceProxy
- * @brief   ParaView's proxy of a filter with an eye that follows the camera of a view
+ * @brief   proxy of a filter with an eye that follows the camera of a view
  *
- * Needs the properties EyePosition and FollowCamera. While FollowCamera is on, EyePosition is where
- * the camera is of the view that shows what the filter makes, or what other filters make of it: of
- * several such views the first by name, so that a second one can be turned freely. As long as none
- * does, of the active view. It follows before a view updates what it shows, so that each picture is
- * of its own camera, while the camera is moved as well: unless an update takes longer than
- * MaximumUpdateTime, then when it rests. If the properties ViewCulling, ViewFocalPoint, ViewUp and
- * ViewAngle are there and ViewCulling is on, the latter follow, too.
+ * Requires the properties EyePosition and FollowCamera. While FollowCamera is on, EyePosition is
+ * the camera's position in the view that shows the filter's output, or the output of filters that
+ * use it. If there are several such views, it is the first by name, so that a second one can be
+ * rotated freely; if there is none, it is the active view. The eye follows before a view is
+ * updated, so that each image belongs to its own camera, also while the camera moves. If an update
+ * takes longer than MaximumUpdateTime, the eye follows only when the camera rests. If the
+ * properties ViewCulling, ViewFocalPoint, ViewUp and ViewAngle exist and ViewCulling is on, the
+ * last three follow, too.
  *
  * Setting EyePosition by hand, by a script, a link or an animation ends following. FollowCamera is
- * on for a new filter whose XML says so by the hint `<FollowCamera/>`; of others, an eye that was
- * not set goes once, before the first update, to where the active view's camera is. The default in
- * the XML must be off: traces and states in Python leave out defaults. EyePosition must stand
- * before FollowCamera, for such scripts set them in that order. A state file without FollowCamera
- * has it off.
+ * on for a new filter whose XML has the hint `<FollowCamera/>`. For other filters, an eye that was
+ * not set is moved once, before the first update, to the active view's camera. The default in the
+ * XML must be off, because traces and states in Python omit defaults. EyePosition must precede
+ * FollowCamera, because such scripts set them in that order. A state file without FollowCamera
+ * turns it off.
  */
 #ifndef vtkSMEyeFollowingSourceProxy_h
 #define vtkSMEyeFollowingSourceProxy_h
@@ -34,7 +35,7 @@ public:
   vtkTypeMacro(vtkSMEyeFollowingSourceProxy, vtkSMSourceProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** Seconds that an update may take for the eye to follow while the camera is moved. */
+  /** Longest time of an update, in seconds, for which the eye follows while the camera moves. */
   static constexpr double MaximumUpdateTime = 0.2;
 
   void UpdatePipeline() override;

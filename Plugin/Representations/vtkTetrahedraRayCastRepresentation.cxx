@@ -27,7 +27,7 @@ namespace
 {
 constexpr int MembranePort = 1;
 
-/** For what IceT drops when it puts the pictures of the ranks over each other. */
+/** Bias for the fractions that IceT truncates when it composites the images of the ranks. */
 double ChooseColorBias()
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
@@ -71,7 +71,7 @@ int vtkTetrahedraRayCastRepresentation::ProcessViewRequest(
   if (request == vtkPVView::REQUEST_UPDATE())
   {
     vtkPVRenderView::SetRedistributionModeToSplitBoundaryCells(inputs, this);
-    // Every rank has all of the membrane: a client is sent that of one of them.
+    // Every rank has the whole membrane: a client gets that of one of them.
     vtkPVView::SetPiece(inputs, this, this->Membrane, 0, MembranePort);
     vtkPVRenderView::SetDeliverToClientAndRenderingProcesses(
       inputs, this, true, false, MembranePort);
@@ -119,7 +119,7 @@ void vtkTetrahedraRayCastRepresentation::LetViewPeelVolumes(bool peel)
 {
   auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
   vtkRenderer* renderer = view ? view->GetRenderer() : nullptr;
-  // What was off before stays off.
+  // Peeling that was off before stays off.
   const bool changes =
     renderer && (peel ? this->HasStoppedPeeling : renderer->GetUseDepthPeelingForVolumes());
   if (changes)
@@ -199,7 +199,7 @@ void vtkTetrahedraRayCastRepresentation::LeaveOutWithoutArray()
   vtkDataSetAttributes* arrays = grid->GetAttributes(place);
   vtkDataArray* array = arrays ? arrays->GetArray(name.c_str()) : nullptr;
 
-  // Type and number of components, which a rank without the array has to learn.
+  // Type and number of components, which a rank without the array has to receive.
   int shape[2] = { array ? array->GetDataType() : 0, array ? array->GetNumberOfComponents() : 0 };
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
   const int ranks = controller ? controller->GetNumberOfProcesses() : 1;

@@ -6,26 +6,27 @@
  *          vtkTetrahedraRayCastMapper
  *
  * ParaView fills the list of mappers of vtkUnstructuredGridVolumeRepresentation in C++; this class
- * adds ours under the name `Tetrahedra ray cast` and passes on what can be set about it. Splitting
- * cells into tetrahedra and the surface shown during interaction are inherited.
+ * adds vtkTetrahedraRayCastMapper under the name `Tetrahedra ray cast` and forwards its settings.
+ * The splitting of cells into tetrahedra and the surface shown during interaction are inherited.
  *
- * Of an array of several components the colour map chooses one or the length, as for ParaView's
- * volumes of image data; with MultiComponentsMapping, without MapScalars, or with a separate
- * opacity array, components mix as vtkTetrahedraRayCastMapper says.
+ * For an array of several components, the colour map selects one or the length, as for ParaView's
+ * volumes of image data. With MultiComponentsMapping, without MapScalars, or with a separate
+ * opacity array, components are mixed as vtkTetrahedraRayCastMapper documents.
  *
- * Of several ranks each gets the cells of a box, cut at its sides. ParaView's own representation
- * gives cells whole to one box, so that what sticks out is composited in the wrong order. Cells of
- * a rank that does not have the chosen array are left out, with a warning; ParaView would drop the
- * array on all ranks.
+ * On several ranks, each gets the cells of a box, cut at its sides. ParaView's own representation
+ * assigns whole cells to one box, so that parts outside the box are composited in the wrong order.
+ * Cells of a rank that does not have the selected array are left out, with a warning; ParaView
+ * would drop the array on all ranks.
  *
- * Port 1 is a membrane at which rays bend, if it is there: vtkPolyData, or composite data of it.
- * All that the ranks have of it is gathered and delivered to every process that renders. Pictures
- * of several ranks are composited in the order of straight rays, which is that of the bent ones
- * behind a plane across an axis; any other membrane is warned of, once for each change of it. See
+ * Port 1 is an optional membrane at which rays are refracted: vtkPolyData, or composite data of it.
+ * The parts of all ranks are gathered and delivered to every process that renders. Images of
+ * several ranks are composited in the order of straight rays, which is also that of rays refracted
+ * at a plane across an axis; any other membrane causes a warning, once for each change of it. See
  * Documentation/parallel.md.
  *
- * While it is shown, the view does not peel volumes: translucent geometry is drawn first and the
- * volume over it. ParaView peels volumes by default, which mappers of unstructured grids cannot do.
+ * While this representation is visible, the view does not peel volumes: translucent geometry is
+ * drawn first and the volume over it. ParaView peels volumes by default, which mappers of
+ * unstructured grids do not support.
  */
 #ifndef vtkTetrahedraRayCastRepresentation_h
 #define vtkTetrahedraRayCastRepresentation_h
@@ -99,11 +100,11 @@ private:
 
   vtkNew<vtkTetrahedraRayCastMapper> Mapper;
   /**
-   * As gathered on this rank; empty if there is none, for every process must be delivered
-   * something.
+   * Membrane gathered on this rank; empty if there is none, because every process must receive a
+   * data object.
    */
   vtkSmartPointer<vtkPolyData> Membrane;
-  /** Of the input that the user was last told about, if need be. */
+  /** Time of the input for which the user was last warned. */
   vtkMTimeType MembraneTime = 0;
   bool HasStoppedPeeling = false;
 };

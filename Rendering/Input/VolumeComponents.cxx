@@ -99,29 +99,28 @@ int MainComponent(ComponentMixture mixture)
 InputReport VolumeComponents::Update(const VolumeInput& input, const InputBlocks& parts,
   ComponentMixture mixture, const FunctionFeatures& features)
 {
-  const bool same = mixture == this->Mixture &&
-    (mixture == ComponentMixture::None ||
-      (this->BuiltScalars == input.GetScalarUpdates() && this->BuiltMesh == input.GetMeshBuilds()));
+  const TableVersions versions{ input.GetMeshVersion(), input.GetScalarVersion() };
+  const bool same =
+    mixture == this->Mixture && (mixture == ComponentMixture::None || this->BuiltInput == versions);
   const TetrahedralMesh& mesh = input.GetMesh();
   InputReport report;
   if (same)
   {
     if (this->BuiltFeatures != features.Version && this->ChooseNormalizations(features, true))
     {
-      ++this->Version;
+      this->Version.Bump();
       this->TakeScalars(mesh, parts);
       MarkUnknown(mesh.GetSourcePoints(), parts, this->NumberOfComponents, this->Values);
     }
     return report;
   }
   this->Mixture = mixture;
-  this->BuiltScalars = input.GetScalarUpdates();
-  this->BuiltMesh = input.GetMeshBuilds();
+  this->BuiltInput = versions;
   this->NumberOfComponents =
     mixture == ComponentMixture::None ? 1 : parts.Parts.front().Scalars->GetNumberOfComponents();
   this->Values.clear();
   this->Others = OtherScalars(mixture, this->NumberOfComponents);
-  ++this->Version;
+  this->Version.Bump();
   if (mixture == ComponentMixture::None)
   {
     return report;

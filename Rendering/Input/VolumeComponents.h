@@ -3,6 +3,7 @@
 #ifndef meniscus_Rendering_Input_VolumeComponents_h
 #define meniscus_Rendering_Input_VolumeComponents_h
 
+#include "Common/TableVersion.h"
 #include "Rendering/Input/VolumeInput.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/ComponentMixture.h"
@@ -49,7 +50,7 @@ public:
     return this->Normalizations[other];
   }
   /** Changes with the values. */
-  std::int64_t GetVersion() const { return this->Version; }
+  TableVersion GetVersion() const { return this->Version; }
 
 private:
   bool ChooseNormalizations(const FunctionFeatures& features, bool keep);
@@ -66,10 +67,10 @@ private:
   std::vector<int> Others;
   std::array<ScalarDistribution, 3> Distributions;
   std::array<ScalarNormalization, 3> Normalizations;
-  std::int64_t BuiltFeatures = 0;
-  std::int64_t BuiltScalars = 0;
-  std::int64_t BuiltMesh = 0;
-  std::int64_t Version = 0;
+  TableVersion BuiltFeatures;
+  /** Versions of the mesh and of the scalars that the values were taken for. */
+  TableVersions BuiltInput;
+  TableVersion Version;
 };
 
 }

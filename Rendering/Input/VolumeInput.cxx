@@ -43,8 +43,8 @@ InputReport VolumeInput::BuildMesh(
 {
   this->ScalarWatch.Forget();
   this->ActiveSetStale = true;
-  ++this->MeshBuilds;
-  ++this->LinkChanges;
+  this->MeshVersion.Bump();
+  this->LinkVersion.Bump();
 
   InputReport report;
   std::ostringstream text;
@@ -82,7 +82,8 @@ InputReport VolumeInput::BuildMesh(
          << " cells are left out: " << rejected.IndexOutOfRange
          << " with a point index out of range, " << rejected.RepeatedVertex
          << " with a repeated point, " << rejected.PointNotFinite
-         << " with a point that is not finite, " << rejected.Duplicate << " given before.";
+         << " with a point that is not finite, " << rejected.Duplicate
+         << " equal to earlier cells.";
     report.Warning = text.str();
   }
   return report;
@@ -143,7 +144,7 @@ InputReport VolumeInput::UpdateScalars(
   this->BuiltPlace = input.Place;
   this->BuiltComponent = component;
   this->ActiveSetStale = true;
-  ++this->ScalarUpdates;
+  this->ScalarVersion.Bump();
   return report;
 }
 
@@ -168,18 +169,21 @@ ScalarRange VolumeInput::GetNormalizedRange() const
 void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, TetrahedralMesh::CellJumps jumps)
 {
   if (!this->ActiveSetStale && visible == this->Visible && jumps == this->Jumps &&
-    this->OthersVersion == 0)
+    this->OthersVersion == TableVersion())
   {
     return;
   }
   const bool changed = this->BuiltPlace == FieldAssociation::Cells
     ? this->Mesh.UpdateActiveCells(this->CellScalars, jumps, visible, ThreadedLoop)
     : this->Mesh.UpdateActiveCells(this->Scalars, visible, ThreadedLoop);
-  this->LinkChanges += changed ? 1 : 0;
+  if (changed)
+  {
+    this->LinkVersion.Bump();
+  }
   this->Visible = visible;
   this->Jumps = jumps;
   this->VisibleOthers.clear();
-  this->OthersVersion = 0;
+  this->OthersVersion = TableVersion();
   this->ActiveSetStale = false;
   ++this->ActiveSetBuilds;
 }
@@ -225,7 +229,10 @@ void VolumeInput::UpdateActiveCells(const VisibleScalars& visible, const OtherVa
     });
   const std::int64_t unknownCells =
     std::accumulate(unknown.begin(), unknown.end(), std::int64_t{ 0 });
-  this->LinkChanges += this->Mesh.SetActiveCells(active, unknownCells, ThreadedLoop) ? 1 : 0;
+  if (this->Mesh.SetActiveCells(active, unknownCells, ThreadedLoop))
+  {
+    this->LinkVersion.Bump();
+  }
   this->Visible = visible;
   this->VisibleOthers = others.Visible;
   this->OthersVersion = others.Version;
@@ -243,10 +250,10 @@ std::int64_t VolumeInput::GetBytes() const
 //------------------------------------------------------------------------------
 const BoundaryTree& VolumeInput::GetBoundaryTree()
 {
-  if (this->TreeOf != this->LinkChanges)
+  if (this->TreeOf != this->LinkVersion)
   {
     this->Tree.Build(this->Mesh);
-    this->TreeOf = this->LinkChanges;
+    this->TreeOf = this->LinkVersion;
   }
   return this->Tree;
 }

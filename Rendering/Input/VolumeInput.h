@@ -3,6 +3,7 @@
 #ifndef meniscus_Rendering_Input_VolumeInput_h
 #define meniscus_Rendering_Input_VolumeInput_h
 
+#include "Common/TableVersion.h"
 #include "Rendering/Common/ContentWatch.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Volume/Mesh/BoundaryTree.h"
@@ -21,9 +22,8 @@ namespace meniscus
 {
 
 /**
- * The input as the kernel's tables: mesh, normalised scalars, active cells. Each table is rebuilt
- * only when its own input has changed. Counters of the builds show whether a copy of a table is
- * outdated.
+ * Kernel tables of the drawn volume: mesh, normalised scalars, active cells. Each is remade when
+ * its own input changes. Users compare the versions with those of the tables that they read last.
  */
 class VolumeInput
 {
@@ -59,8 +59,8 @@ public:
     /** One entry per vertex; NaN makes its cells transparent. */
     const std::vector<glm::vec3>* Values = nullptr;
     /** Changes with the values. */
-    std::int64_t Version = 0;
-    /** Visible scalars of the first values; the others cannot be seen. */
+    TableVersion Version;
+    /** Visible ranges of the first values; other values cannot be seen. */
     std::vector<VisibleScalars> Visible;
   };
   /** As above, with values besides the scalars: a cell is visited if one of them can be seen. */
@@ -89,12 +89,13 @@ public:
   /** Number of bytes of the tables. */
   std::int64_t GetBytes() const;
 
-  std::int64_t GetMeshBuilds() const { return this->MeshBuilds; }
-  std::int64_t GetScalarUpdates() const { return this->ScalarUpdates; }
-  /** Number of updates of the active cells. */
+  /** Version of the mesh without its links and boundary. */
+  TableVersion GetMeshVersion() const { return this->MeshVersion; }
+  TableVersion GetScalarVersion() const { return this->ScalarVersion; }
+  /** Times that it was found out which cells are active. */
   std::int64_t GetActiveSetBuilds() const { return this->ActiveSetBuilds; }
-  /** Number of changes of the mesh's links and boundary. */
-  std::int64_t GetLinkChanges() const { return this->LinkChanges; }
+  /** Version of the mesh's links and boundary. */
+  TableVersion GetLinkVersion() const { return this->LinkVersion; }
 
 private:
   InputReport BuildMesh(
@@ -109,22 +110,22 @@ private:
   VisibleScalars Visible;
   TetrahedralMesh::CellJumps Jumps = TetrahedralMesh::CellJumps::Hidden;
   std::vector<VisibleScalars> VisibleOthers;
-  /** Version of the values besides the scalars; 0 without. */
-  std::int64_t OthersVersion = 0;
+  /** Version of the values besides the scalars; the default without. */
+  TableVersion OthersVersion;
 
   ContentWatch MeshWatch;
   ContentWatch ScalarWatch;
   FieldAssociation BuiltPlace = FieldAssociation::Points;
   int BuiltComponent = 0;
-  std::int64_t BuiltFeatures = 0;
+  TableVersion BuiltFeatures;
   bool KeepsSourceCells = false;
   bool ActiveSetStale = true;
-  std::int64_t TreeOf = 0;
+  TableVersion TreeOf;
 
-  std::int64_t MeshBuilds = 0;
-  std::int64_t ScalarUpdates = 0;
+  TableVersion MeshVersion;
+  TableVersion ScalarVersion;
+  TableVersion LinkVersion;
   std::int64_t ActiveSetBuilds = 0;
-  std::int64_t LinkChanges = 0;
 };
 
 }

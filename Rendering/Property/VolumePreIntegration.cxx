@@ -45,17 +45,18 @@ void VolumePreIntegration::Update(const VolumeInput& input, const VolumeProperty
   const glm::dmat4& modelToWorld, const TableSize& size)
 {
   const TetrahedralMesh& mesh = input.GetMesh();
-  if (this->LongestEdgeOf != input.GetMeshBuilds())
+  if (this->LongestEdgeOf != input.GetMeshVersion())
   {
     this->LongestEdge = ComputeLongestEdge(mesh, ThreadedLoop);
-    this->LongestEdgeOf = input.GetMeshBuilds();
+    this->LongestEdgeOf = input.GetMeshVersion();
   }
   const double needed =
     this->LongestEdge * mesh.GetRadius() * LargestStretch(modelToWorld) * Allowance;
   const double built = this->Table.GetLongest();
   const bool lengthsServe = needed <= built * Allowance && needed >= 0.25 * built;
-  if (this->Builds > 0 && lengthsServe && this->BuiltProperty == property.GetVersion() &&
-    this->BuiltSize.Scalars == size.Scalars && this->BuiltSize.Lengths == size.Lengths)
+  if (this->Version != TableVersion() && lengthsServe &&
+    this->BuiltProperty == property.GetVersion() && this->BuiltSize.Scalars == size.Scalars &&
+    this->BuiltSize.Lengths == size.Lengths)
   {
     return;
   }
@@ -65,7 +66,7 @@ void VolumePreIntegration::Update(const VolumeInput& input, const VolumeProperty
     property.GetIntervals(), needed, size.Scalars, size.Lengths, ThreadedLoop, range);
   this->BuiltProperty = property.GetVersion();
   this->BuiltSize = size;
-  ++this->Builds;
+  this->Version.Bump();
 }
 
 }

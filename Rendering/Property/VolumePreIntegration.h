@@ -3,11 +3,10 @@
 #ifndef meniscus_Rendering_Property_VolumePreIntegration_h
 #define meniscus_Rendering_Property_VolumePreIntegration_h
 
+#include "Common/TableVersion.h"
 #include "Volume/Optics/PreIntegration.h"
 
 #include <glm/mat4x4.hpp>
-
-#include <cstdint>
 
 namespace meniscus
 {
@@ -35,19 +34,17 @@ public:
     const glm::dmat4& modelToWorld, const TableSize& size);
 
   const PreIntegrationTable& GetTable() const { return this->Table; }
-  std::int64_t GetNumberOfBuilds() const { return this->Builds; }
+  /** Changes with the table, once per build. */
+  TableVersion GetVersion() const { return this->Version; }
 
 private:
   PreIntegrationTable Table;
-  /**
-   * Longest edge in units of the mesh's radius, and the number of builds of the mesh for which it
-   * was computed.
-   */
+  /** Length of the longest edge in units of the mesh's radius, and the version of that mesh. */
   double LongestEdge = 0.0;
-  std::int64_t LongestEdgeOf = 0;
-  std::int64_t BuiltProperty = 0;
+  TableVersion LongestEdgeOf;
+  TableVersion BuiltProperty;
   TableSize BuiltSize;
-  std::int64_t Builds = 0;
+  TableVersion Version;
 };
 
 }

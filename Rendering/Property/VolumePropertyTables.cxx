@@ -81,14 +81,13 @@ void VolumePropertyTables::Reduce(vtkVolumeProperty* property, BlendMode mode, b
 void VolumePropertyTables::Normalize(
   const ScalarNormalization& normalization, const VolumeComponents& components)
 {
-  if (this->BuiltPoints != this->Builds || normalization != this->BuiltNormalization ||
-    components.GetVersion() != this->BuiltComponents)
+  const TableVersions versions{ this->PointVersion, components.GetVersion() };
+  if (versions != this->BuiltVersions || normalization != this->BuiltNormalization)
   {
     this->NormalizeTables(normalization, components);
     this->BuiltNormalization = normalization;
-    this->BuiltComponents = components.GetVersion();
-    this->BuiltPoints = this->Builds;
-    ++this->Version;
+    this->BuiltVersions = versions;
+    this->Version.Bump();
   }
 }
 
@@ -96,7 +95,7 @@ void VolumePropertyTables::Normalize(
 void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, BlendMode mode,
   OpacityMeaning meaning, ComponentMixture mixture, int components)
 {
-  ++this->Builds;
+  this->PointVersion.Bump();
   this->OtherPoints.clear();
   switch (mixture)
   {
@@ -134,7 +133,7 @@ void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, BlendMode
 //------------------------------------------------------------------------------
 void VolumePropertyTables::FindFeatures()
 {
-  this->Features.Version = this->Builds;
+  this->Features.Version = this->PointVersion;
   this->Features.OfScalars.assign(1, FeaturesOf(this->Points));
   if (GetBlendModel(this->BuiltMode).Visible == VisibleBy::Isovalues)
   {

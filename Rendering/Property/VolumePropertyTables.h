@@ -3,6 +3,7 @@
 #ifndef meniscus_Rendering_Property_VolumePropertyTables_h
 #define meniscus_Rendering_Property_VolumePropertyTables_h
 
+#include "Common/TableVersion.h"
 #include "Rendering/Input/VolumeComponents.h"
 #include "Rendering/Input/VolumeInput.h"
 #include "Rendering/Property/VolumePropertyPoints.h"
@@ -72,9 +73,9 @@ public:
   std::vector<VisibleScalars> GetVisibleOthers() const;
 
   /** Changes with the tables. */
-  std::int64_t GetVersion() const { return this->Version; }
-  /** Number of reductions of a property to points. */
-  std::int64_t GetNumberOfBuilds() const { return this->Builds; }
+  TableVersion GetVersion() const { return this->Version; }
+  /** Reductions of a property to points. */
+  std::int64_t GetNumberOfBuilds() const { return this->PointVersion.GetChanges(); }
 
 private:
   void ReduceProperty(vtkVolumeProperty* property, BlendMode mode, OpacityMeaning meaning,
@@ -101,11 +102,10 @@ private:
   ScalarNormalization BuiltNormalization;
   ComponentMixture BuiltMixture = ComponentMixture::None;
   int BuiltNumberOfComponents = 1;
-  std::int64_t BuiltComponents = 0;
-  /** Version of the points from which the tables were built. */
-  std::int64_t BuiltPoints = 0;
-  std::int64_t Version = 0;
-  std::int64_t Builds = 0;
+  /** Versions of the points and of the components that the tables were made of. */
+  TableVersions BuiltVersions;
+  TableVersion PointVersion;
+  TableVersion Version;
 };
 
 }

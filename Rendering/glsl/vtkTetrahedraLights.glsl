@@ -43,8 +43,9 @@ ivec4 cellVertices(int index)
   int last = texelFetch(cells, CELL_SIZE * index).r ^ corners.x ^ corners.y ^ corners.z;
   return ivec4(corners, last);
 #else
-  ivec4 v = ivec4(texelFetch(cells, CELL_SIZE * index).r, texelFetch(cells, CELL_SIZE * index + 1).r,
-    texelFetch(cells, CELL_SIZE * index + 2).r, texelFetch(cells, CELL_SIZE * index + 3).r);
+  ivec4 v = ivec4(texelFetch(cells, CELL_SIZE * index).r,
+    texelFetch(cells, CELL_SIZE * index + 1).r, texelFetch(cells, CELL_SIZE * index + 2).r,
+    texelFetch(cells, CELL_SIZE * index + 3).r);
   return ivec4(corners, v.x ^ v.y ^ v.z ^ v.w ^ corners.x ^ corners.y ^ corners.z);
 #endif
 }
@@ -121,7 +122,8 @@ void light(vec3 gradient, float depth, out vec3 reflected, out vec3 highlight)
       float glance = dot(2.0 * facing * normal - toLight, toEye);
       reflected += strength * diffuse * facing * lightDiffuse[i];
       highlight +=
-        glance > 0.0 ? strength * specular * pow(glance, specularPower) * lightSpecular[i] : vec3(0.0);
+        glance > 0.0 ? strength * specular * pow(glance, specularPower) * lightSpecular[i]
+                     : vec3(0.0);
     }
   }
 #endif

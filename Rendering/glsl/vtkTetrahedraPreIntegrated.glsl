@@ -3,7 +3,8 @@
 // Twin: Module/Volume/Packet/Models/PreIntegratedModel.h (parts of a segment)
 // Twin: Module/Volume/Packet/Models/PacketSegmentTable.cxx (look-up in the table)
 //
-// Composite blending by a table of pre-integrated segments, see Module/Volume/Optics/PreIntegration.h.
+// Composite blending by a table of pre-integrated segments, see
+// Module/Volume/Optics/PreIntegration.h.
 
 uniform sampler3D preIntegrated;     // colour / opacity, mean attenuation
 uniform vec2 preIntegratedSize;      // numbers of scalars and of lengths

@@ -21,7 +21,7 @@
 #define EXACTLY_AS_WRITTEN
 #endif
 
-uniform isamplerBuffer vertices;     // placed: x, y, depth in grid units; bits of the normalised scalar
+uniform isamplerBuffer vertices;     // placed: x, y, depth in grid units; bits of the scalar
 uniform samplerBuffer treeNodes;     // per node: (center, skip), (half, face or -1)
 uniform isamplerBuffer treeFaces;    // 3 vertices (first complemented: faces inwards), cell face
 
@@ -254,7 +254,8 @@ bool edgeTurnsLeft(RayVertex p, RayVertex q, float area, bool pBeforeQ)
 // True if box number `node` of the boundary tree may hold a vertex, in a range of depths in grid
 // units, within a distance of the ray; the distance in grid units is `reach` plus `reachPerDepth`
 // per unit of depth. Returns the node to continue with, and the leaf's face or -1.
-bool meetsBox(int node, vec2 reach, vec2 reachPerDepth, ivec2 depthRange, out int next, out int leaf)
+bool meetsBox(
+  int node, vec2 reach, vec2 reachPerDepth, ivec2 depthRange, out int next, out int leaf)
 {
   vec4 center = texelFetch(treeNodes, 2 * node);
   vec4 extent = texelFetch(treeNodes, 2 * node + 1);

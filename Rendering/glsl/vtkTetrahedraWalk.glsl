@@ -116,7 +116,7 @@ float segmentStartDepth;
 float segmentEndDepth;
 #endif
 
-//--- Interface of the optical model ----------------------------------------------------------------
+//--- Interface of the optical model --------------------------------------------------------------
 
 // Starts the ray.
 void startRay();
@@ -129,7 +129,7 @@ bool isRayDone();
 // Premultiplied colour of the ray.
 vec4 finishRay();
 
-//--- Walk ------------------------------------------------------------------------------------------
+//--- Walk ----------------------------------------------------------------------------------------
 
 // Advances to the exit of a cell and makes its segment the pending one; returns false if it is
 // empty. The part before the largest depth reached (after rounding, in an inverted cell, or where
@@ -195,7 +195,8 @@ bool advance(int exitDepth, float exitScalar)
 // that its edges pq, qr, rp span with the ray, relative to p: small faces are therefore as precise
 // as large ones. Differences of depths fit, since depths are below 2^30 in magnitude. A face
 // without projected area keeps the given values. Returns 1 / total area, or 0 for such a face.
-float meetFace(RayVertex p, RayVertex q, RayVertex r, vec3 areas, inout int depth, inout float scalar)
+float meetFace(
+  RayVertex p, RayVertex q, RayVertex r, vec3 areas, inout int depth, inout float scalar)
 {
   float total = areas.x + areas.y + areas.z;
   bool real = total > 0.0;
@@ -303,7 +304,7 @@ bool walk(inout int steps)
   return ended;
 }
 
-//--- Entry -----------------------------------------------------------------------------------------
+//--- Entry ---------------------------------------------------------------------------------------
 
 // A boundary face in the projection along a ray.
 struct ProjectedFace
@@ -400,7 +401,7 @@ void enterFirst()
 #endif
 }
 
-//--- Limits ----------------------------------------------------------------------------------------
+//--- Limits --------------------------------------------------------------------------------------
 
 // World length of a grid unit of depth.
 float lengthPerGridDepth()
@@ -427,7 +428,7 @@ void clip(float height, float perDepth)
 }
 
 #if REFRACTED
-//--- Behind the membrane ---------------------------------------------------------------------------
+//--- Behind the membrane -------------------------------------------------------------------------
 
 // Distance by which an entry may lie in front of the sight point if the straight ray reports that
 // point outside of the mesh: 2^-10 of the frame's unit. The errors of vertices are less than 2^-24,
@@ -531,7 +532,7 @@ void limitRefractedRay(float opaque, RefractedRayLine line)
 }
 #endif
 
-//--- Ray -------------------------------------------------------------------------------------------
+//--- Ray -----------------------------------------------------------------------------------------
 
 // The visible part of the ray: from the near plane to opaque geometry, within the clipping planes.
 void limitRay(float opaque)

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Uses both classes of an installed Meniscus: one refracts a sphere, the other draws a volume.
+// Uses both classes of an installed Meniscus, one refracts a sphere, the other draws a volume; and
+// registers a backend of its own.
+#include <RayCastBackend.h>
+#include <RayCastBackendRegistry.h>
 #include <vtkDataSetTriangleFilter.h>
 #include <vtkNew.h>
 #include <vtkPiecewiseFunction.h>
@@ -19,6 +22,9 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -40,7 +46,23 @@ bool Refract()
   return count > 0;
 }
 
-bool Draw()
+/** Fills the image with white. */
+class White : public meniscus::RayCastBackend
+{
+public:
+  std::string CanDraw(const meniscus::RayCastRequest& request) override
+  {
+    return request.GetMesh().NumberOfCells > 0 ? "" : "there is no mesh";
+  }
+  std::string Cast(const meniscus::RayCastRequest&, meniscus::RayCastTarget& target) override
+  {
+    return target.WriteImage(
+      std::vector<float>(std::size_t{ 4 } * target.GetWidth() * target.GetHeight(), 1.0f));
+  }
+};
+
+/** @param backend  name of the one to draw with; empty for the library's choice. */
+bool Draw(const std::string& backend, double least, double most)
 {
   vtkNew<vtkRTAnalyticSource> field;
   field->SetWholeExtent(-4, 4, -4, 4, -4, 4);
@@ -48,6 +70,7 @@ bool Draw()
   tetrahedra->SetInputConnection(field->GetOutputPort());
   vtkNew<vtkTetrahedraRayCastMapper> mapper;
   mapper->SetInputConnection(tetrahedra->GetOutputPort());
+  mapper->SetBackendName(backend.c_str());
   vtkNew<vtkVolume> volume;
   volume->SetMapper(mapper);
   volume->GetProperty()->GetScalarOpacity()->AddSegment(0, 0, 300, 1);
@@ -61,8 +84,10 @@ bool Draw()
   vtkNew<vtkUnsignedCharArray> pixels;
   window->GetPixelData(0, 0, 199, 199, 0, pixels);
   const double brightest = pixels->GetMaxNorm();
-  std::cout << mapper->GetClassName() << ": brightest pixel " << brightest << " of 442\n";
-  return brightest > 100;
+  std::cout << mapper->GetClassName() << " by " << mapper->GetActiveBackendName()
+            << ": brightest pixel " << brightest << " of 442\n";
+  return brightest > least && brightest < most &&
+    (backend.empty() || backend == mapper->GetActiveBackendName());
 }
 
 /** The file that the tutorial's program reads. */
@@ -80,5 +105,9 @@ bool WriteMesh()
 
 int main()
 {
-  return Refract() && Draw() && WriteMesh() ? EXIT_SUCCESS : EXIT_FAILURE;
+  const bool drawn = Draw("", 100.0, 443.0);
+  const bool registered = meniscus::RegisterRayCastBackend(
+    { "White", [](meniscus::RayCastSharing&) { return std::make_unique<White>(); } });
+  const bool drawnWhite = registered && Draw("White", 440.0, 443.0);
+  return Refract() && drawn && drawnWhite && WriteMesh() ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -25,8 +25,8 @@ def blocks(page, language):
 
 
 def write_files():
-    """mesh.vtu, a field on tetrahedra, object.vtp, a torus, and water.vtp, a plane that it pierces;
-    ASCII for every reader."""
+    """Writes mesh.vtu, a field on tetrahedra, object.vtp, a torus, and water.vtp, a plane that it
+    intersects; in ASCII, for every reader."""
     from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
     from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
     from vtkmodules.vtkFiltersSources import vtkParametricFunctionSource, vtkPlaneSource

@@ -155,7 +155,7 @@ vtkSmartPointer<vtkPolyData> MakeRing(const glm::dvec3& center, double radius, d
   return data;
 }
 
-// How far a point of the pieces is from Snell's law behind a level plane.
+// Largest violation of Snell's law by a point of the pieces behind a level plane.
 double GetLargestResidual(const PiecesCase& test, vtkPolyData* pieces)
 {
   double worst = 0.0;
@@ -172,9 +172,9 @@ double GetLargestResidual(const PiecesCase& test, vtkPolyData* pieces)
   return worst;
 }
 
-// A plane shows one image of a point at most, so every point of every piece obeys Snell's law, at a
-// silhouette and near total reflection too. Sub-cells are exact at their corners and points between
-// them are solved to rounding; 1e-6 is far above that, and a thousandth of a pixel.
+// A plane shows at most one image of a point, so every point of every piece obeys Snell's law, also
+// at a silhouette and near total reflection. Sub-cells are exact at their corners and points
+// between them are solved to rounding; 1e-6 is far above that, and a thousandth of a pixel.
 TEST(RefractedGeometryPiecesBehindPlanes, ObeySnellsLaw)
 {
   const PiecesCase planes[] = {

@@ -121,7 +121,7 @@ bool SameBits(const std::vector<double>& a, const std::vector<double>& b)
 
 //------------------------------------------------------------------------------
 // Rows whose mean the references measure without this class agree to rounding; the printed ones
-// agree within the figures that Documentation/refraction.md states for them.
+// agree within the figures that Documentation/refraction-measurements.md states for them.
 TEST(RefractionErrorVolume, ReproducesTheThesis)
 {
   int rows = 0;

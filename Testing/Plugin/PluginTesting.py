@@ -41,7 +41,7 @@ def load_plugin():
 
 
 def value_of(proxy, name):
-    """The value of a property as it is now; ParaView hands out some that follow later changes."""
+    """Current value of a property; ParaView returns some objects that follow later changes."""
     value = getattr(proxy, name)
     return value.GetData() if hasattr(value, "GetData") else value
 

@@ -14,7 +14,7 @@ import RanksScene
 from paraview import simple
 
 DATA_MESHES = ["blunt_fin", "combustor", "crushed_can"]
-# On rank 0 alone, so that the tetrahedra are the same on any number of ranks.
+# On rank 0 only, so that the tetrahedra are the same on any number of ranks.
 WAVELET = """
 from paraview.modules.vtkRemotingCore import vtkProcessModule
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
@@ -68,7 +68,7 @@ def set_functions(source, array, low, high):
 
 
 def set_view(source, view, center, size):
-    """From any side, with the mesh filling the view or beyond it."""
+    """From a random side, with the mesh filling the view or extending beyond it."""
     z = source.uniform(-0.8, 0.8)
     angle = source.uniform(0, 2 * math.pi)
     across = math.sqrt(1 - z * z)

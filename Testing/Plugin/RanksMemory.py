@@ -35,7 +35,7 @@ def write_stage(name, stage, source):
 
 
 def start(name):
-    """With all that the first picture loads."""
+    """Includes everything that the first image loads."""
     ball = simple.Sphere()
     view = PluginTesting.make_view()
     view.UseFXAA = 0

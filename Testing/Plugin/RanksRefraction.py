@@ -22,7 +22,7 @@ def sheet(half, height):
 
 
 def plane(resolution):
-    """The same with as many squares along each side as is said, on one rank."""
+    """As above, on one rank, with the given number of squares along each side."""
     return simple.Plane(Origin=[-8, -8, 0.5], Point1=[8, -8, 0.5], Point2=[-8, 8, 0.5],
                         XResolution=resolution, YResolution=resolution)
 

@@ -27,8 +27,8 @@ def write_mesh(name, source):
 
 
 def made_meshes():
-    """Name, source, array. The last is distributed from the start; its field is linear, so that it
-    does not matter how each rank splits its cubes."""
+    """Name, source, array. The last source is distributed from the start; its field is linear, so
+    that the result does not depend on how each rank splits its cubes."""
     wavelet = simple.Wavelet(WholeExtent=[-6, 6] * 3)
     one = simple.Wavelet(WholeExtent=[0, 1] * 3)
     slope = simple.Calculator(
@@ -69,14 +69,14 @@ def show_ray_cast(mesh, view, array):
 
 
 def write_picture(view, name):
-    """A picture for people, NAME.png, and its bytes for the comparison, NAME.rgb."""
+    """An image for inspection, NAME.png, and its bytes for the comparison, NAME.rgb."""
     PluginTesting.screenshot(view, name)
     with open(os.path.join(FOLDER, name + ".rgb"), "wb") as file:
         file.write(bytes(memoryview(PluginTesting.read_picture(name))))
 
 
 def draw_volume(prefix, name, mesh, array, balls):
-    """Both blend modes, without and with an opaque ball inside, as `balls` says."""
+    """Both blend modes, without and with an opaque ball inside, as `balls` selects."""
     mesh.UpdatePipeline()
     bounds = mesh.GetDataInformation().GetBounds()
     low, high = mesh.PointData[array].GetRange(0)
@@ -111,7 +111,7 @@ if vtkProcessModule.GetProcessModule().GetPartitionId() == 1:
     output.GetPointData().RemoveArray("RTData")
 """
 
-# The cells that all ranks but the second have of the same mesh.
+# The cells of the same mesh on all ranks but the second.
 OTHER_PIECES = """
 from vtkmodules.vtkFiltersCore import vtkAppendFilter
 from vtkmodules.vtkFiltersGeneral import vtkDataSetTriangleFilter
@@ -159,7 +159,7 @@ def draw_without_arrays(prefix, ranks):
 
 
 def draw_maximum(prefix):
-    """A blend mode that several ranks cannot have is told of."""
+    """A blend mode that is not available on several ranks causes a warning."""
     mesh = simple.Tetrahedralize(Input=simple.Wavelet(WholeExtent=[0, 1] * 3))
     view = PluginTesting.make_view()
     display = show_ray_cast(mesh, view, "RTData")
@@ -170,7 +170,7 @@ def draw_maximum(prefix):
 
 
 def plane(slope=0):
-    """That several parts of the volume are seen through."""
+    """A plane through which several parts of the volume are seen."""
     return simple.Plane(Origin=[-30, -30, 10 - 30 * slope], Point1=[30, -30, 10 + 30 * slope],
                         Point2=[-30, 30, 10 - 30 * slope], XResolution=120, YResolution=120)
 
@@ -192,8 +192,8 @@ CAMERAS = {"Above": 80, "Aslant": 36}
 
 
 def draw_membranes(prefix, membranes):
-    """A linear field, distributed from the start, seen through membranes: name, how it is made,
-    directions of CAMERAS. Through the last one another field, too."""
+    """A linear field, distributed from the start, seen through membranes: name, function that
+    creates it, directions of CAMERAS. Through the last one another field is also drawn."""
     slope = simple.Calculator(
         Input=simple.Wavelet(WholeExtent=[-6, 6] * 3), ResultArrayName="Slope",
         Function="coordsX+0.5*coordsY-0.7*coordsZ")
@@ -217,7 +217,7 @@ def draw_membranes(prefix, membranes):
 
 
 BOTH = list(CAMERAS)
-# All but the first are warned of, once each.
+# All but the first cause a warning, once each.
 MEMBRANES = [("Plane", plane, BOTH), ("Waves", lambda: waves(0.2), ["Above"]),
              ("Bumps", bumps, ["Above"]), ("Tilted", lambda: plane(0.1), BOTH)]
 WAVES = [("Waves0.2", lambda: waves(0.2), BOTH), ("Waves0.5", lambda: waves(0.5), BOTH),

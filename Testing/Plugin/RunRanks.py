@@ -18,7 +18,7 @@ import sys
 
 FOLDER = os.environ["MENISCUS_OUTPUT_DIR"]
 HERE = os.path.dirname(os.path.abspath(__file__))
-# Largest difference of a picture's pixels, of 255, by the number of ranks.
+# Largest difference of an image's pixels, of 255, by the number of ranks.
 WORST = {2: 2, 4: 3}
 # Share of the pixels of a mesh with inverted cells that may exceed the bound: where ParaView cuts
 # two overlapping cells, a ray may meet the other one first.
@@ -42,7 +42,7 @@ def pixels(name):
 
 
 def count_differences(name, other):
-    """Number of pixels that are off by 0, 1, 2 ..., and of those that are not black."""
+    """Number of pixels that differ by 0, 1, 2 ..., and of those that are not black."""
     one, several = pixels(name), pixels(other)
     assert len(one) == len(several), other
     counts, lit = collections.Counter(), 0
@@ -85,7 +85,7 @@ def numbers(name):
 
 
 def farthest(some, others):
-    """How far the worst point of some is from the nearest of others."""
+    """Distance of the worst point of some from the nearest of others."""
     return max(min(max(abs(a - b) for a, b in zip(point, other)) for other in others)
                for point in some)
 
@@ -147,7 +147,7 @@ def compare_samples(name, other):
     measured = [(float.fromhex(value[0]), float.fromhex(several[place][0]))
                 for place, value in one.items() if value[1] == "0" and place in several]
     worst = max(abs(a - b) for a, b in measured)
-    # A sum of n positive numbers is off by n - 1 roundings at most; two sums.
+    # The error of a sum of n positive numbers is at most n - 1 roundings; there are two sums.
     bound = 2 * len(one) * 2**-53 * max(expected[2:])
     most = 0 if "OneRank" in name else SAMPLE_TOLERANCE
     off = max(abs(a - b) for part in found for a, b in zip(part[2:], expected[2:]))

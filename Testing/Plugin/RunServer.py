@@ -37,7 +37,7 @@ def environment():
 
 
 def start_server(mpirun, pvserver, ranks, port, log):
-    """Once it waits for a client: a connection to try it out would be taken for one."""
+    """Waits until the server accepts a client; a test connection would be taken for one."""
     server = subprocess.Popen(
         [mpirun, "--allow-run-as-root", "--oversubscribe", "-np", str(ranks), pvserver,
          "--server-port=%d" % port],

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The part of RunServer.py that runs in a client of ParaView: pictures of a volume, also through a membrane, and
-of refracted geometry. Arguments: the prefix of the files that are written, the port of a server or
+"""The part of RunServer.py that runs in a client of ParaView: pictures of a volume, also through
+a membrane, and of refracted geometry. Arguments: the prefix of the files that are written, the port of a server or
 0 for none, and who draws, `server` or `client`."""
 import os
 import sys
@@ -17,7 +17,7 @@ PREFIX, PORT, DRAWS = sys.argv[1], int(sys.argv[2]), sys.argv[3]
 def make_view():
     view = PluginTesting.make_view()
     view.UseFXAA = 0
-    # In MiB of geometry, from which on the server draws.
+    # In MiB of geometry above which the server draws.
     view.RemoteRenderThreshold = 0 if DRAWS == "server" else 1e6
     view.CameraPosition = [6, -9, 40]
     view.CameraFocalPoint = [0, 0, 0]

@@ -24,7 +24,7 @@ def modified(proxy):
 
 
 def show_light(waves, view):
-    """A floor below the waves by the light that it gets."""
+    """A floor below the waves with the light that it receives."""
     floor = simple.Plane(Origin=[-12, -12, -8], Point1=[12, -12, -8], Point2=[-12, 12, -8],
                          XResolution=60, YResolution=60)
     normals = simple.GenerateSurfaceNormals(Input=waves)
@@ -37,7 +37,7 @@ def show_light(waves, view):
 
 
 def show_error(waves, view):
-    """How far off flat facets of the waves are, on a slice through a box below them."""
+    """Error of flat facets of the waves, on a slice through a box below them."""
     error = simple.RefractionErrorVolume(Membrane=waves)
     with modified(error):
         error.EyePosition = [3, 4, 40]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""ParaView finds the plugin by PV_PLUGIN_PATH, with no LoadPlugin in the script."""
+"""ParaView finds the plugin by PV_PLUGIN_PATH, without LoadPlugin in the script."""
 import PluginTesting
 import TestLoadPlugin
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Compares pictures with the colours of the colour map, for the settings of the colour map editor: an
-opaque bar whose scalars rise from left to right, seen from the front by its maximum, shows the map.
+"""Compares pictures with the colours of the colour map, for the settings of the colour map editor:
+an opaque bar whose scalars rise from left to right, seen from the front by its maximum, shows the map.
 Log scale, few colours, colours below and above the range and their borders, NaN."""
 import math
 
@@ -18,7 +18,7 @@ STEEPEST = 20  # steps of 255 in a pixel; a larger step is a border
 
 
 def scalar_at(column):
-    """In the middle of a column of pixels; the bar is as long as the picture is wide."""
+    """Scalar in the middle of a column of pixels; the bar is as long as the image is wide."""
     return LOWEST + (HIGHEST - LOWEST) * (column + 0.5) / SIZE
 
 
@@ -52,12 +52,12 @@ def distance(a, b):
 
 
 def is_between(color, others):
-    """On a border, which is a 4096th of an interval wide, a pixel may be a mixture."""
+    """At a border, which is a 4096th of an interval wide, a pixel may be a mixture."""
     return all(min(channel) <= value <= max(channel) for value, channel in zip(color, zip(*others)))
 
 
 def colors_of(table, scalars):
-    """The colours by which ParaView draws surfaces."""
+    """Colours with which ParaView draws surfaces."""
     array = vtkDoubleArray()
     for scalar in scalars:
         array.InsertNextValue(scalar)

@@ -36,7 +36,7 @@ def place(view, position):
 
 
 def check_pictures(view, refracted):
-    """Each picture is that of an eye set to where its camera is."""
+    """Each image equals that of an eye set to the camera's position."""
     fixed = make_filter()
     fixed.EyePosition = [0, 0, 9]
     assert not fixed.FollowCamera, "a set eye follows the camera"

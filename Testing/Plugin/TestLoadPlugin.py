@@ -24,7 +24,8 @@ def last_group(proxy, name):
     it."""
     groups = [proxy.GetPropertyGroup(i) for i in range(proxy.GetNumberOfPropertyGroups())]
     return [group for group in groups
-            if proxy.GetProperty(name) in map(group.GetProperty, range(group.GetNumberOfProperties()))
+            if proxy.GetProperty(name) in map(
+                group.GetProperty, range(group.GetNumberOfProperties()))
             ][-1]
 
 

@@ -79,7 +79,8 @@ def check_changes(view, display, waves, straight):
     display.InteriorIndexOfRefraction = 1.333
 
     waves.Function = WAVES % 0.6
-    assert screenshot(view, "MembraneHigher") != refracted, "the membrane does not follow its pipeline"
+    higher = screenshot(view, "MembraneHigher")
+    assert higher != refracted, "the membrane does not follow its pipeline"
     waves.Function = WAVES % 0.3
     assert screenshot(view, "MembraneAgain") == refracted
 
@@ -91,7 +92,7 @@ def check_changes(view, display, waves, straight):
 
 
 def check_empty(view, display, straight):
-    """A membrane without cells, as a clip may leave, is told of; rays are straight."""
+    """A membrane without cells, as a clip may produce, causes a warning; rays are straight."""
     nothing = simple.Contour(Input=simple.Wavelet(WholeExtent=[0, 1] * 3),
                              ContourBy=["POINTS", "RTData"], Isosurfaces=[1e9])
     told = []
@@ -111,7 +112,7 @@ def check_empty(view, display, straight):
 
 
 def check_keyframes(view, display, plane, straight):
-    """Waves whose height is animated: each time's picture is that of the height set by hand."""
+    """Waves with an animated height: the image at each time equals that of the height set by hand."""
     heights = simple.Calculator(Input=plane, ResultArrayName="Height", Function=HEIGHT)
     waves = simple.GenerateSurfaceNormals(
         Input=simple.WarpByScalar(Input=heights, Scalars=["POINTS", "Height"], ScaleFactor=0.2))

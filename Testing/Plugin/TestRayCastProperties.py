@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every property of the representation reaches the mapper or the volume's property, and begins at
+"""Every property of the representation reaches the mapper or the volume's property, and starts with
 the mapper's default."""
 import re
 

@@ -33,7 +33,7 @@ def color(display, name, association="POINTS"):
 
 
 def check_arrays(view, grid):
-    """Cell data, components and length look as an array that holds just that."""
+    """Cell data, components and length look like an array with only these values."""
     calculator = simple.Calculator(
         Input=grid, ResultArrayName="Vectors", Function="iHat*coordsX+jHat*RTData/20+kHat*coordsZ")
     lengths = simple.Calculator(
@@ -128,7 +128,8 @@ def check_selection(view, grid):
     simple.ClearSelection(grid)
     assert screenshot(view, "SelectionCleared") == first, "the selection is still shown"
     middle = PluginTesting.SIZE // 2
-    simple.SelectSurfaceCells(Rectangle=[middle - 50, middle - 50, middle + 50, middle + 50], View=view)
+    simple.SelectSurfaceCells(
+        Rectangle=[middle - 50, middle - 50, middle + 50, middle + 50], View=view)
     assert screenshot(view, "SelectionByView") == first, "a rectangle selects"
 
 
@@ -138,7 +139,8 @@ def check_screenshots(view):
     folder = os.environ["MENISCUS_OUTPUT_DIR"]
     for name, options, shape in [
             ("Large", {"ImageResolution": [700, 700]}, (700 * 700, 3)),
-            ("Transparent", {"ImageResolution": [PluginTesting.SIZE] * 2, "TransparentBackground": 1},
+            ("Transparent",
+             {"ImageResolution": [PluginTesting.SIZE] * 2, "TransparentBackground": 1},
              (PluginTesting.SIZE**2, 4))]:
         reader = vtkPNGReader()
         reader.SetFileName(os.path.join(folder, "Screenshot%s.png" % name))
@@ -202,8 +204,8 @@ def check_time(view, grid):
 
 
 def check_translucent(view, display, grid):
-    """The volume is drawn over a translucent surface, in front of it as behind; afterwards the view
-    peels other volumes again."""
+    """The volume is drawn over a translucent surface, in front of it and behind it; afterwards the
+    view peels other volumes again."""
     alone = screenshot(view, "TranslucentNone")
     plane = simple.Plane(Origin=[-60, -60, -20], Point1=[60, -60, -20], Point2=[-60, 60, -20])
     surface = simple.Show(plane, view)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A mesh file with raw appended data, the usual .vtu, is read by this ParaView and drawn.
 
-ParaView 5.11 with a libexpat newer than 2.5.0-1+deb12u1 cannot read such files; that is a fault of
-the pair, not of the plugin, so the test then says so and is skipped.
+ParaView 5.11 with a libexpat newer than 2.5.0-1+deb12u1 cannot read such files; this is a fault of
+that combination, not of the plugin, so the test reports it and is skipped.
 """
 import os
 

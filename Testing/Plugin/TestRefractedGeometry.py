@@ -90,7 +90,7 @@ def check_exact(sphere, membrane):
 
 
 def check_blocks(sphere, membrane):
-    """Composite inputs: the blocks of the geometry stay, those of the membrane become one."""
+    """Composite inputs: the blocks of the geometry are kept, those of the membrane become one."""
     other = simple.Sphere(Center=[0.5, 0, -1], Radius=0.2)
     halves = [simple.Plane(Origin=[x, -2, 0], Point1=[x + 2, -2, 0], Point2=[x, 2, 0],
                            XResolution=RESOLUTION // 2, YResolution=RESOLUTION) for x in (-2, 0)]

@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The error volume of flat facets against a finer mesh of the same waves, measured and drawn."""
+"""The error volume of flat facets compared with a finer mesh of the same waves, measured and
+drawn."""
 import PluginTesting
 from paraview import servermanager, simple
 
 WAVES = "coords+kHat*0.1*sin(2*coordsX)*cos(2*coordsY)"
-# Second order: a quarter of the error; 3 leaves room for samples that fall luckily.
+# Second order: a quarter of the error; a factor of 3 allows for the positions of the samples.
 LEAST_GAIN = 3
 
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A tetrahedral mesh drawn by our representation looks as ParaView's own volume: same silhouette,
-same opacity and colours. ParaView's (projected tetrahedra) is off by a few units itself."""
+"""A tetrahedral mesh drawn by our representation looks like ParaView's own volume: same silhouette,
+same opacity and colours. ParaView's result (projected tetrahedra) has an error of a few units."""
 import PluginTesting
 from paraview import simple
 

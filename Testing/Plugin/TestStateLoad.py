@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A state file, that of another version, a Python script of the state and a trace give the picture
-that TestStateSave.py saved, bit for bit, and the eye of Refracted Geometry goes on to follow the
-camera; of another version, which could not, it stays. The argument says which of them."""
+"""A state file, that of another version, a Python script of the state and a trace give the image
+that TestStateSave.py saved, bit for bit, and the eye of Refracted Geometry continues to follow the
+camera; for the other version, which had no such eye, it keeps its position. The argument selects
+one of them."""
 import sys
 
 import PluginTesting

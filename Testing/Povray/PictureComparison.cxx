@@ -24,7 +24,7 @@ bool isDifferent(const unsigned char* a, const unsigned char* b)
   return largest > PictureComparison::Threshold;
 }
 
-/// Whether one of the eight neighbours differs.
+/// True if one of the eight neighbours differs.
 bool isEdge(const ByteImage& reference, int x, int y)
 {
   for (int j = std::max(y - 1, 0); j <= std::min(y + 1, reference.Height - 1); ++j)

@@ -46,7 +46,7 @@ struct PictureComparison
 PictureComparison comparePictures(const ByteImage& picture, const ByteImage& reference);
 
 /**
- * Whether a displaced edge explains a pixel, after the reference's close-up around its middle: the
+ * True if a displaced edge explains a pixel, after the reference's close-up around its middle: the
  * close-up has the pixel's colour; or it has the border of the object that has this colour (another
  * of its colours, and one that is not its), where a face that the object hides may come out on top.
  */

@@ -40,7 +40,7 @@ bool writeText(const std::string& path, const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-/// Whether the program ran and ended with status 0.
+/// True if the program ran and ended with status 0.
 bool runProgram(const std::string& program, const std::string& argument, const std::string& folder,
   const std::string& log)
 {

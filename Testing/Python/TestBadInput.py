@@ -36,7 +36,8 @@ class TestBadInput(unittest.TestCase):
                 (refraction.SetEyePosition, [1, 2]), (refraction.SetCamera, [vtkPolyData()]),
                 (refraction.SetMembraneData, [vtkUnstructuredGrid()]),
                 (volume.SetSampleDimensions, ["a", "b", "c"]),
-                (light.SetLightPosition, ["above"]), (step.AddVolume, [vtkPolyData(), vtkVolume()])]:
+                (light.SetLightPosition, ["above"]),
+                (step.AddVolume, [vtkPolyData(), vtkVolume()])]:
             with self.assertRaises(TypeError, msg=call.__name__):
                 call(*arguments)
         with self.assertRaises(AttributeError):
@@ -100,7 +101,7 @@ class TestBadInput(unittest.TestCase):
                 self.assertRegex(done.stderr, "--system-site-packages|pip install vtk==")
 
     def test_library_missing(self):
-        """A library of ours that does not load is an ImportError that names it."""
+        """If the library cannot be loaded, an ImportError names it."""
         with tempfile.TemporaryDirectory() as folder:
             package = os.path.join(folder, "meniscus")
             os.mkdir(package)
@@ -109,7 +110,8 @@ class TestBadInput(unittest.TestCase):
                 file.write("no library")
             done = subprocess.run(
                 [sys.executable, "-B", "-c", "import meniscus"], stderr=subprocess.PIPE, text=True,
-                env=dict(os.environ, PYTHONPATH=folder + os.pathsep + os.environ.get("PYTHONPATH", "")))
+                env=dict(
+                    os.environ, PYTHONPATH=folder + os.pathsep + os.environ.get("PYTHONPATH", "")))
             self.assertEqual(done.returncode, 1)
             self.assertIn("A library that meniscus needs does not load", done.stderr)
             self.assertIn("vtkMeniscus.so", done.stderr)

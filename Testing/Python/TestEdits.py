@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Edits of the input in place are seen, whichever object was told of them by Modified()."""
+"""Edits of the input in place are detected, whichever object receives Modified()."""
 import unittest
 
 from meniscus import vtkRefractedGeometryFilter, vtkTetrahedraRayCastMapper
@@ -39,7 +39,7 @@ class TestEdits(unittest.TestCase):
         self.window.Render()
 
     def draw(self):
-        """The picture, and the builds of the mesh and updates of the scalars that it took."""
+        """The image, and the builds of the mesh and updates of the scalars for it."""
         mapper = self.mapper
         before = mapper.GetNumberOfMeshBuilds(), mapper.GetNumberOfScalarUpdates()
         self.window.Render()
@@ -100,14 +100,16 @@ class TestEdits(unittest.TestCase):
         last = output()
         for surface in surfaces:
             points = surface.GetPoints()
-            for step, told in enumerate((points, points.GetData(), surface.GetPointData(), surface)):
+            changed = (points, points.GetData(), surface.GetPointData(), surface)
+            for step, told in enumerate(changed):
                 x, y, z = surface.GetPoint(12)
                 points.SetPoint(12, x, y, z + 0.05 * (step + 1))
                 told.Modified()
                 patches = refraction.GetNumberOfPatchBuilds()
                 now = output()
                 self.assertNotEqual(now, last)
-                self.assertEqual(refraction.GetNumberOfPatchBuilds() - patches, int(surface is water))
+                self.assertEqual(
+                    refraction.GetNumberOfPatchBuilds() - patches, int(surface is water))
                 last = now
                 solved = refraction.GetNumberOfSolvedVertices()
                 told.Modified()

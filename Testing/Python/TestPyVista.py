@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""meniscus.pyvista against pictures of the same scene by other means; skipped without PyVista.
+"""meniscus.pyvista compared with images of the same scene made by other means; skipped without
+PyVista.
 
-The status is 125 then, which CTest counts as skipped.
+The exit status is then 125, which CTest counts as skipped.
 """
 import sys
 import unittest
@@ -34,7 +35,7 @@ def make_image():
 
 
 def picture_of(fill):
-    """The picture, as whole numbers, of a plotter that fill(plotter) puts a volume into."""
+    """The image, as integers, of a plotter to which fill(plotter) adds a volume."""
     plotter = pyvista.Plotter(off_screen=True, window_size=(SIZE, SIZE))
     plotter.set_background("black")
     fill(plotter)
@@ -45,7 +46,7 @@ def picture_of(fill):
 
 
 def add_explicitly(plotter, mesh, cmap):
-    """The same volume by the mapper and functions made here."""
+    """The same volume with a mapper and functions created here."""
     colors = vtkColorTransferFunction()
     opacity = vtkPiecewiseFunction()
     for entry, alpha in zip(ENTRIES, OPACITIES):
@@ -74,14 +75,15 @@ class TestPyVista(unittest.TestCase):
                 opacity_unit_distance=1.0, show_scalar_bar=False))
             explicit = picture_of(lambda plotter: add_explicitly(plotter, mesh, cmap))
             self.assertGreater((explicit.max(axis=2) > 30).sum(), 0.1 * SIZE * SIZE)
-            # Colours are cut down to bytes in PyVista's table, the picture's are rounded: 1 each.
+            # Colours are truncated to bytes in PyVista's table, and those of the image are rounded:
+            # 1 each.
             self.assertLessEqual(abs(helper - explicit).max(), 2, cmap)
 
     def test_looks_as_a_volume_of_pyvista(self):
         image = make_image()
         for limits in (None, LIMITS):
             options = dict(cmap="coolwarm", clim=limits, opacity="linear", show_scalar_bar=False)
-            # PyVista's unit is clear from version to version only if it is said.
+            # PyVista's unit differs between versions unless it is given explicitly.
             own = picture_of(lambda plotter: plotter.add_volume(
                 image, scalars="height", mapper="smart", shade=False, opacity_unit_distance=4.0,
                 **options))

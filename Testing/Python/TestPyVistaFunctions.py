@@ -15,7 +15,7 @@ ENTRIES = 4
 
 
 class LookupTable(vtkLookupTable):
-    """Grey levels, and opacities as they are given; its own functions must not be asked for."""
+    """Grey levels, and opacities as given; its own functions must not be called."""
 
     def __init__(self, cmap=None, scalar_range=(0.0, 1.0)):
         self.cmap = cmap

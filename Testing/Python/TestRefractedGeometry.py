@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The filter from Python: a point under a plane is where Snell's law puts its sight point."""
+"""The filter from Python: the sight point of a point under a plane is where Snell's law puts it."""
 import math
 import unittest
 
@@ -11,9 +11,9 @@ from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 
 EYE = (0.3, 0.2, 2.0)
 INDICES = (1.0, 1.333)
-# Linear interpolation over a facet is wrong by the square of the facet's size over the distance:
-# (4 / 32 / 2)^2 = 4e-3, times the second derivative of the sine, below 1. Halving the facets must
-# divide the error by 4; 3 leaves room for points that fall luckily.
+# Linear interpolation over a facet has an error of the square of the facet's size over the
+# distance: (4 / 32 / 2)^2 = 4e-3, times the second derivative of the sine, below 1. Halving the
+# facets must divide the error by 4; a factor of 3 allows for the positions of the sample points.
 RESOLUTION = 32
 SNELL_TOLERANCE = 4e-3
 LEAST_GAIN = 3
@@ -72,7 +72,7 @@ class TestRefractedGeometry(unittest.TestCase):
         self.assertEqual(self.filter.GetNumberOfPatchBuilds(), builds)
 
     def test_inputs_from_images(self):
-        """Neither input asks the other's source for its own extent."""
+        """No input requests its own extent from the other's source."""
         objects = vtkRTAnalyticSource()
         objects.SetWholeExtent(-4, 4, -4, 4, -5, -1)
         vertices = vtkMaskPoints()

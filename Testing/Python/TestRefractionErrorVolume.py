@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The error volume from Python: facets of a bowl against its sphere, halved, are better by four."""
+"""The error volume from Python: for a bowl compared with its sphere, halving the facets divides the
+error by four."""
 import math
 import unittest
 
@@ -11,7 +12,7 @@ from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
 EYE = (0.3, 0.2, 6.0)
 RADIUS = 4.0
-# Second order: a quarter of the error; 3 leaves room for samples that fall luckily.
+# Second order: a quarter of the error; a factor of 3 allows for the positions of the samples.
 LEAST_GAIN = 3
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The type stubs are Python and name every class and method that the package has."""
+"""The type stubs are valid Python and contain every class and method of the package."""
 import ast
 import os
 import unittest
@@ -26,10 +26,11 @@ class TestStubs(unittest.TestCase):
             self.assertGreater(len(methods), 5, name)
 
     def test_types(self):
-        """Types of VTK are those of vtkmodules, numbers are numbers."""
+        """Types of VTK are those of vtkmodules, and numbers are number types."""
         with open(STUBS) as file:
             text = file.read()
-        self.assertIn("from vtkmodules.vtkRenderingVolume import vtkUnstructuredGridVolumeMapper", text)
+        self.assertIn(
+            "from vtkmodules.vtkRenderingVolume import vtkUnstructuredGridVolumeMapper", text)
         self.assertRegex(text, r"def SetCamera\(self, camera: vtkCamera\) -> None")
         self.assertRegex(text, r"def SetInteriorIndexOfRefraction\(self, \w+: float\) -> None")
         self.assertNotRegex(text, r"vtk(Camera|PolyData|Renderer) = Any")

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtk.module names every VTK module whose headers the classes include, as VTK's own build demands, where
-each module has a folder of its own, and Remote/vtk.module names the same.
+"""vtk.module names every VTK module whose headers the classes include, as VTK's own build demands,
+where each module has a folder of its own, and Remote/vtk.module names the same.
 
 Arguments: the root of the project, the folder of VTK's hierarchy files, VTK's file of module
 properties."""

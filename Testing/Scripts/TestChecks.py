@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The checks that scripts/lint calls find the faults that they are for. Argument: the project's root."""
+"""The checks that scripts/lint calls find the faults that they are for. Argument: the root of the
+project."""
 import pathlib
 import subprocess
 import sys
@@ -82,7 +83,8 @@ class Checks(unittest.TestCase):
 
     def test_an_arrow_without_an_include_is_found(self):
         self.write("Module/High/High.h", "void High();\n")
-        self.expect_fault("allowed in ARCHITECTURE.md, but not used", "check_rooms.py", str(self.root))
+        self.expect_fault(
+            "allowed in ARCHITECTURE.md, but not used", "check_rooms.py", str(self.root))
 
     def test_a_trace_without_its_function_is_found(self):
         self.write("Module/Low/Low.h", "void Start();\n")
@@ -100,20 +102,24 @@ class Checks(unittest.TestCase):
         self.assertIn("wide.h:2:", text)
 
     def test_tables_and_code_of_pages_may_be_wide(self):
-        self.write("page.md", "| " + 120 * "x" + " |\n\n    " + 120 * "x" + "\n\n" + 120 * "y" + "\n")
+        wide = 120 * "x"
+        self.write("page.md", f"| {wide} |\n\n    {wide}\n\n{wide}\n")
         status, text = self.run_check(*self.text_of("page.md"))
         self.assertEqual((status, text.count("columns")), (1, 1))
 
     def test_openings_of_comments_are_found(self):
         openings = (
             "/** What is kept of a ray. */", "/**\n * Of the rays behind, the mean.\n */",
-            "// Whether it matters.", "int a; ///< Of the ray", "/**\n * One.\n *\n * What two is.\n */")
+            "// Whether it matters.", "int a; ///< Of the ray",
+            "/**\n * One.\n *\n * What two is.\n */")
         for text in openings:
             self.write("comment.h", text + "\n")
             self.expect_fault("a comment that opens with", *self.text_of("comment.h"))
 
     def test_sentences_inside_a_comment_may_open_so(self):
-        self.write("comment.h", "/**\n * Mean of the rays.\n * Of these, none is lost.\n */\n// A\n// What\n")
+        self.write(
+            "comment.h",
+            "/**\n * Mean of the rays.\n * Of these, none is lost.\n */\n// A\n// What\n")
         self.assertEqual(self.run_check(*self.text_of("comment.h")), (0, ""))
 
 

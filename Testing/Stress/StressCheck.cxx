@@ -168,7 +168,7 @@ StressTally checkCase(StressCaster& caster, const StressCase& stress)
     if (image.Image.Width != stress.Size || image.Image.Height != stress.Size)
     {
       tally.Wrong = std::int64_t{ stress.Size } * stress.Size;
-      tally.FirstWrong = "no picture of the size asked for";
+      tally.FirstWrong = "no image of the requested size";
     }
     else if (integrator)
     {

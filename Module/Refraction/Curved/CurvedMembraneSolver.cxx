@@ -256,7 +256,7 @@ bool CurvedMembraneSolver::IsEyeOnPatch(const CurvedPatch& patch) const
   const double height = frame.GetHeight(this->Optics.Eye);
   PatchCrossings crossings(patch, frame);
   crossings.Find(frame.Project(this->Optics.Eye), height - slack, height + slack);
-  // An eye that cannot be told apart from the patch within rounding counts as on it.
+  // An eye within rounding of the patch counts as on it.
   return !crossings.IsComplete() ||
     std::any_of(crossings.begin(), crossings.end(),
       [height, slack](const PatchCrossing& crossing)

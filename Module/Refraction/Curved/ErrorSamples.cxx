@@ -17,7 +17,7 @@ namespace
 {
 
 // A point whose barycentric coordinates in two cells are this close to a wall is in both. This
-// tolerance reproduces the thesis's numbers of points (Documentation/refraction.md).
+// tolerance reproduces the thesis's numbers of points (Documentation/refraction-measurements.md).
 constexpr double Wall = 1e-7;
 
 }

@@ -26,9 +26,13 @@ constexpr double LargestDeflection = 0.1;
 // A regular vertex has six neighbours; five give ten equations for the seven unknowns.
 constexpr std::size_t FewNeighbours = 5;
 
-// Smallest pivot of the normal equations, relative to its diagonal before elimination. Normal
-// equations square the condition number, and double has 2^-52: half of the digits.
-constexpr double SmallestPivot = 0x1p-26;
+// Determinant of the normal equations, scaled to diagonals of 1, below which they are singular. The
+// smallest eigenvalue of n such equations is at least (1 - 1 / n)^(n - 1) > 0.36 of the
+// determinant. Cholesky's method is exact for equations that differ from the given ones by a few
+// times 2^-53, so half of the digits are right above this, and singular equations are far below it
+// in any frame. (A single pivot is not: after a pivot that is small by the choice of the frame, the
+// next ones are rounding.)
+constexpr double SmallestDeterminant = 0x1p-26;
 
 constexpr int Unknowns = 7;
 using Matrix = double[Unknowns][Unknowns];
@@ -39,19 +43,20 @@ glm::dvec3 Apply(const std::array<double, 6>& w, const glm::dvec3& e)
     w[2] * e.x + w[4] * e.y + w[5] * e.z };
 }
 
-// Solves the leading `size` equations by Cholesky's method, in place. Returns false if they are
-// singular.
-bool SolveSymmetric(Matrix& a, double* x, int size)
+// Solves the leading `size` equations by Cholesky's method, in place. Equation j and its unknown
+// are scaled by the root of scale[j] for the determinant. False if singular.
+bool SolveSymmetric(Matrix& a, const double* scale, double* x, int size)
 {
+  double determinant = 1.0;
   for (int j = 0; j < size; ++j)
   {
-    const double diagonal = a[j][j];
-    double pivot = diagonal;
+    double pivot = a[j][j];
     for (int k = 0; k < j; ++k)
     {
       pivot -= a[j][k] * a[j][k];
     }
-    if (!(pivot > SmallestPivot * diagonal))
+    determinant *= scale[j] * pivot;
+    if (!(pivot > 0.0))
     {
       return false;
     }
@@ -72,6 +77,10 @@ bool SolveSymmetric(Matrix& a, double* x, int size)
       right -= a[j][k] * x[k];
     }
     x[j] = right * inverse;
+  }
+  if (!(determinant > SmallestDeterminant))
+  {
+    return false;
   }
   for (int j = size; j-- > 0;)
   {
@@ -123,15 +132,50 @@ public:
     this->Right[6] += ny * yy;
   }
 
-  /** Writes a, b and c to x. Returns false if not even these are determined. */
-  bool Solve(double* x) const
+  /**
+   * Sets x to the solution of the whole. False if it is singular, and sometimes if it is not: all
+   * equations have one scale here, which no choice of the frame changes, while the determinant is
+   * largest with diagonals of 1.
+   */
+  bool SolveInAnyFrame(double* x) const
+  {
+    // Coordinates in which a rotation of the frame is orthogonal: second and third derivatives are
+    // symmetric tensors, b stands for two of their components, e and f for three.
+    constexpr double inverseCount[Unknowns] = { 1.0, 0.5, 1.0, 1.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 };
+    Matrix matrix;
+    this->Fill(matrix);
+    double trace = 0.0;
+    for (int j = 0; j < Unknowns; ++j)
+    {
+      trace += inverseCount[j] * matrix[j][j];
+    }
+    double scale[Unknowns];
+    for (int j = 0; j < Unknowns; ++j)
+    {
+      scale[j] = inverseCount[j] * (Unknowns / trace);
+    }
+    std::copy(this->Right, this->Right + Unknowns, x);
+    return SolveSymmetric(matrix, scale, x, Unknowns);
+  }
+
+  /**
+   * Sets x to the solution, or, if that is singular, a, b and c to that of second degree; false if
+   * not even this is determined. The decision depends on the frame, which must be that of the
+   * neighbours themselves.
+   */
+  bool SolveInOwnFrame(double* x) const
   {
     for (const int size : { Unknowns, 3 })
     {
       Matrix matrix;
       this->Fill(matrix);
+      double scale[Unknowns];
+      for (int j = 0; j < size; ++j)
+      {
+        scale[j] = 1.0 / matrix[j][j];
+      }
       std::copy(this->Right, this->Right + Unknowns, x);
-      if (SolveSymmetric(matrix, x, size))
+      if (SolveSymmetric(matrix, scale, x, size))
       {
         return true;
       }
@@ -167,6 +211,31 @@ private:
   double Third[4] = {};  ///< x3, x2y, xy2, y3
   double Fourth[5] = {}; ///< x4, x3y, x2y2, xy3, y4
   double Right[Unknowns] = {};
+};
+
+/** Two directions across a unit normal and each other. */
+struct TangentFrame
+{
+  glm::dvec3 First;
+  glm::dvec3 Second;
+
+  explicit TangentFrame(const glm::dvec3& normal)
+  {
+    const int axis = std::fabs(normal.x) < 0.6 ? 0 : 1;
+    glm::dvec3 aside(0.0);
+    aside[axis] = 1.0;
+    this->First = glm::normalize(aside - normal * normal[axis]);
+    this->Second = glm::cross(normal, this->First);
+  }
+
+  /** Turns to the principal axes of points with the sums xx, xy and yy. */
+  void TurnToAxes(const glm::dvec3& moments)
+  {
+    const double angle = 0.5 * std::atan2(2.0 * moments.y, moments.x - moments.z);
+    const glm::dvec3 first = this->First;
+    this->First = std::cos(angle) * first + std::sin(angle) * this->Second;
+    this->Second = std::cos(angle) * this->Second - std::sin(angle) * first;
+  }
 };
 
 }
@@ -357,45 +426,73 @@ bool CurvedPatches::IsSmooth(std::int32_t from, std::int32_t to) const
 }
 
 //------------------------------------------------------------------------------
-CurvedPatches::Tensor CurvedPatches::FitCurvature(std::int32_t vertex) const
+// Calls `visit(edge, normal)` for the neighbours that the surface is smooth to.
+template <typename Visit>
+void CurvedPatches::VisitSmoothNeighbours(std::int32_t vertex, const Visit& visit) const
 {
   const auto index = static_cast<std::size_t>(vertex);
-  const glm::dvec3& position = this->Surface->GetPositions()[index];
-  const glm::dvec3& normal = this->Surface->GetNormals()[index];
-  const glm::dvec3 aside = std::fabs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 first =
-    glm::normalize(aside - normal * normal[std::fabs(normal.x) < 0.6 ? 0 : 1]);
-  const glm::dvec3 second = glm::cross(normal, first);
-
-  double unit = 0.0;
-  for (std::int32_t k = this->RingStart[index]; k < this->RingStart[index + 1]; ++k)
-  {
-    const auto other = static_cast<std::size_t>(this->Ring[static_cast<std::size_t>(k)]);
-    const glm::dvec3 edge = this->Surface->GetPositions()[other] - position;
-    unit = std::max(unit, glm::dot(edge, edge));
-  }
-  const double scale = unit > 0.0 ? 1.0 / std::sqrt(unit) : 0.0;
-  GradientFit fit;
   for (std::int32_t k = this->RingStart[index]; k < this->RingStart[index + 1]; ++k)
   {
     const std::int32_t other = this->Ring[static_cast<std::size_t>(k)];
-    const glm::dvec3 edge =
-      scale * (this->Surface->GetPositions()[static_cast<std::size_t>(other)] - position);
-    const double x = glm::dot(edge, first);
-    const double y = glm::dot(edge, second);
-    if (x * x + y * y > 0.0 && this->IsSmooth(vertex, other))
+    if (this->IsSmooth(vertex, other))
     {
-      const glm::dvec3& n = this->Surface->GetNormals()[static_cast<std::size_t>(other)];
-      fit.Add(x, y, glm::dot(n, first), glm::dot(n, second));
+      const auto to = static_cast<std::size_t>(other);
+      visit(this->Surface->GetPositions()[to] - this->Surface->GetPositions()[index],
+        this->Surface->GetNormals()[to]);
     }
   }
-  double s[Unknowns];
-  if (!fit.Solve(s))
+}
+
+//------------------------------------------------------------------------------
+CurvedPatches::Tensor CurvedPatches::FitCurvature(std::int32_t vertex) const
+{
+  const auto index = static_cast<std::size_t>(vertex);
+  double longest = 0.0;
+  for (std::int32_t k = this->RingStart[index]; k < this->RingStart[index + 1]; ++k)
   {
-    return Tensor{};
+    const auto other = static_cast<std::size_t>(this->Ring[static_cast<std::size_t>(k)]);
+    const glm::dvec3 edge =
+      this->Surface->GetPositions()[other] - this->Surface->GetPositions()[index];
+    longest = std::max(longest, glm::dot(edge, edge));
   }
-  const glm::dvec3 a = scale * (s[0] * first + s[1] * second);
-  const glm::dvec3 b = scale * (s[1] * first + s[2] * second);
+  const double scale = longest > 0.0 ? 1.0 / std::sqrt(longest) : 0.0;
+  const auto fitIn = [this, vertex, scale](const TangentFrame& frame)
+  {
+    GradientFit fit;
+    this->VisitSmoothNeighbours(vertex,
+      [scale, &frame, &fit](const glm::dvec3& edge, const glm::dvec3& normal)
+      {
+        const double x = scale * glm::dot(edge, frame.First);
+        const double y = scale * glm::dot(edge, frame.Second);
+        if (x * x + y * y > 0.0)
+        {
+          fit.Add(x, y, glm::dot(normal, frame.First), glm::dot(normal, frame.Second));
+        }
+      });
+    return fit;
+  };
+  TangentFrame frame(this->Surface->GetNormals()[index]);
+  double s[Unknowns];
+  if (!fitIn(frame).SolveInAnyFrame(s))
+  {
+    glm::dvec3 moments(0.0); // xx, xy, yy
+    this->VisitSmoothNeighbours(vertex,
+      [scale, &frame, &moments](const glm::dvec3& edge, const glm::dvec3&)
+      {
+        const double x = scale * glm::dot(edge, frame.First);
+        const double y = scale * glm::dot(edge, frame.Second);
+        moments += glm::dvec3(x * x, x * y, y * y);
+      });
+    frame.TurnToAxes(moments);
+    if (!fitIn(frame).SolveInOwnFrame(s))
+    {
+      return Tensor{};
+    }
+  }
+  const glm::dvec3 a = scale * (s[0] * frame.First + s[1] * frame.Second);
+  const glm::dvec3 b = scale * (s[1] * frame.First + s[2] * frame.Second);
+  const glm::dvec3& first = frame.First;
+  const glm::dvec3& second = frame.Second;
   return { a.x * first.x + b.x * second.x, a.x * first.y + b.x * second.y,
     a.x * first.z + b.x * second.z, a.y * first.y + b.y * second.y, a.y * first.z + b.y * second.z,
     a.z * first.z + b.z * second.z };

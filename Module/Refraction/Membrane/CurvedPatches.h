@@ -81,6 +81,8 @@ private:
   void FindRings();
   void AddSecondRings();
   bool IsSmooth(std::int32_t from, std::int32_t to) const;
+  template <typename Visit>
+  void VisitSmoothNeighbours(std::int32_t vertex, const Visit& visit) const;
   Tensor FitCurvature(std::int32_t vertex) const;
   void FitFacet(Patch& patch) const;
 

@@ -13,9 +13,9 @@ enum class ComponentMixture
   None,
   /** Each component has its own colour and opacity; attenuations and emissions are added. */
   Independent,
-  /** Of two components, the first determines the colour and the second the opacity. */
+  /** Two components: the first determines the colour and the second the opacity. */
   ColorAndOpacity,
-  /** Of four components, the first three are the colour and the fourth determines the opacity. */
+  /** Four components: the first three are the colour and the fourth determines the opacity. */
   RedGreenBlueOpacity
 };
 

@@ -13,8 +13,9 @@
 #ifndef meniscus_Volume_Optics_ScalarNormalization_h
 #define meniscus_Volume_Optics_ScalarNormalization_h
 
+#include "Common/TableVersion.h"
+
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace meniscus
@@ -101,8 +102,8 @@ struct ScalarFeature
 struct FunctionFeatures
 {
   std::vector<std::vector<ScalarFeature>> OfScalars;
-  /** Changes whenever the features change. */
-  std::int64_t Version = 0;
+  /** Changes with the features. */
+  TableVersion Version;
 
   const std::vector<ScalarFeature>& Of(std::size_t scalar) const
   {

@@ -3,6 +3,8 @@
 #include "Rendering/Backends/Native/RayCastNative.h"
 
 #include "Filters/Common/ThreadedLoop.h"
+#include "Rendering/Backends/RayCastFrame.h"
+#include "Rendering/Backends/RayCastTables.h"
 #include "Volume/Rays/PlacedVertices.h"
 
 #include "vtkSMPThreadLocal.h"
@@ -52,17 +54,113 @@ std::int64_t RayCastNative::GetPropertyBytes() const
 }
 
 //------------------------------------------------------------------------------
-RayStatistics RayCastNative::Cast(TileCaster::Scene scene, const std::vector<float>& scalars,
-  const VertexVersion& version, const std::vector<float>& opaqueDepth, std::vector<float>& image)
+std::string RayCastNative::Update(const RayCastRequest& request)
 {
-  if (version != this->PlacedVersion || !scene.Rays.PlacesAs(this->PlacedBy))
+  const RayCastTables& tables = request.Tables;
+  if (this->PropertyVersion != tables.Property.GetVersion())
   {
-    PlaceVertices(*scene.Mesh, scalars, scene.Rays, ThreadedLoop, this->Tables.Vertices);
-    this->PlacedBy = scene.Rays;
-    this->PlacedVersion = version;
+    this->UpdateProperty(tables.Property);
+    this->PropertyVersion = tables.Property.GetVersion();
   }
+  for (const RayCastTableState& wanted : tables.ListWanted(request.Frame))
+  {
+    this->Counter.Count(wanted, this->SizeOf(wanted.Table, tables));
+  }
+  return std::string();
+}
+
+//------------------------------------------------------------------------------
+/** Bytes of a table that this backend reads; the transfer function's are in a form of its own. */
+std::int64_t RayCastNative::SizeOf(RayCastTable table, const RayCastTables& tables) const
+{
+  const VolumeInput& input = tables.Input;
+  const TetrahedralMesh& mesh = input.GetMesh();
+  switch (table)
+  {
+    case RayCastTable::Cells:
+      return TableCounter::SizeOf(mesh.GetCells());
+    case RayCastTable::Boundary:
+      return TableCounter::SizeOf(mesh.GetBoundary());
+    case RayCastTable::Vertices:
+      return TableCounter::SizeOf(mesh.GetFixedPositions()) +
+        TableCounter::SizeOf(input.GetScalars());
+    case RayCastTable::CellScalars:
+      return TableCounter::SizeOf(input.GetCellScalars());
+    case RayCastTable::VertexGradients:
+      return TableCounter::SizeOf(tables.VertexGradients.GetValues());
+    case RayCastTable::CellGradients:
+      return TableCounter::SizeOf(tables.CellGradients.GetValues());
+    case RayCastTable::Components:
+      return TableCounter::SizeOf(tables.Components.GetValues());
+    case RayCastTable::Functions:
+      return this->GetPropertyBytes();
+    case RayCastTable::PreIntegration:
+      return TableCounter::SizeOf(tables.PreIntegration.GetTable().GetValues());
+    case RayCastTable::RefractedRays:
+      return tables.Membrane.GetSight().GetBytes();
+    default:
+      return 0;
+  }
+}
+
+//------------------------------------------------------------------------------
+TileCaster::Scene RayCastNative::MakeScene(const RayCastRequest& request)
+{
+  RayCastTables& tables = request.Tables;
+  const RayCastFrame& frame = request.Frame;
+  const RayCastOptics& optics = frame.Optics;
+  TileCaster::Scene scene;
+  scene.Mesh = &tables.Input.GetMesh();
+  scene.Boundary = &scene.Mesh->GetBoundary();
   scene.Tables = &this->Tables;
   scene.Set = this->Set;
+  scene.CellScalars = optics.CellScalars ? tables.Input.GetCellScalars().data() : nullptr;
+  scene.Lighting = optics.Shading ? &optics.Lighting : nullptr;
+  scene.VertexGradients =
+    optics.VertexGradients ? tables.VertexGradients.GetValues().data() : nullptr;
+  scene.CellGradients =
+    optics.UsesCellGradients() ? tables.CellGradients.GetValues().data() : nullptr;
+  scene.GradientToFrame = optics.GradientToFrame;
+  scene.GradientOpacity = optics.GradientOpacity;
+  scene.GradientMagnitude = optics.GradientMagnitude;
+  scene.Blending = optics.Blending;
+  scene.Mixture = optics.Components;
+  scene.Components = optics.HasComponents() ? tables.Components.GetValues().data() : nullptr;
+  scene.DataRange = optics.DataRange;
+  scene.PreIntegration = optics.PreIntegrated ? &tables.PreIntegration.GetTable() : nullptr;
+  scene.ClippingPlanes = optics.ClippingPlanes;
+  scene.TerminationTransmittance = static_cast<float>(frame.TerminationTransmittance());
+  if (frame.Refracting.Met)
+  {
+    scene.Refracted = tables.Membrane.See(tables.Input);
+  }
+  scene.Refracted.Part = frame.Refracting.Part;
+  return scene;
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& target)
+{
+  TileCaster::Scene scene = this->MakeScene(request);
+  scene.Rays = FixedPointRays(request.Frame.Rays, target.GetWidth(), target.GetHeight());
+  const VolumeInput& input = request.Tables.Input;
+  const TableVersions versions{ input.GetMeshVersion(), input.GetScalarVersion() };
+  if (versions != this->PlacedVersions || !scene.Rays.PlacesAs(this->PlacedBy))
+  {
+    PlaceVertices(
+      input.GetMesh(), input.GetScalars(), scene.Rays, ThreadedLoop, this->Tables.Vertices);
+    this->PlacedBy = scene.Rays;
+    this->PlacedVersions = versions;
+  }
+  std::vector<float> image;
+  this->Statistics = this->CastTiles(scene, target.ReadDepths(), image);
+  return target.WriteImage(image);
+}
+
+//------------------------------------------------------------------------------
+RayStatistics RayCastNative::CastTiles(
+  const TileCaster::Scene& scene, const std::vector<float>& opaqueDepth, std::vector<float>& image)
+{
   image.assign(std::size_t{ 4 } * scene.Rays.GetWidth() * scene.Rays.GetHeight(), 0.0f);
   const TileCaster caster(scene);
   std::vector<RayStatistics> ofTile(caster.GetNumberOfTiles());
@@ -86,6 +184,27 @@ RayStatistics RayCastNative::Cast(TileCaster::Scene scene, const std::vector<flo
     total.Lost += tile.Lost;
   }
   return total;
+}
+
+//------------------------------------------------------------------------------
+RayCastStatistics RayCastNative::GetStatistics()
+{
+  return { this->Statistics.Steps, this->Statistics.Rays, this->Statistics.Lost };
+}
+
+//------------------------------------------------------------------------------
+RayCastCounters RayCastNative::GetCounters()
+{
+  RayCastCounters counters;
+  counters.UploadedBytes = this->Counter.GetBytes();
+  counters.HostBytes = BytesOf(this->Tables.Vertices) + this->GetPropertyBytes();
+  return counters;
+}
+
+//------------------------------------------------------------------------------
+std::unique_ptr<RayCastBackend> MakeNativeBackend(RayCastSharing&)
+{
+  return std::make_unique<RayCastNative>();
 }
 
 }

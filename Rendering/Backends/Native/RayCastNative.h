@@ -3,59 +3,60 @@
 #ifndef meniscus_Rendering_Backends_Native_RayCastNative_h
 #define meniscus_Rendering_Backends_Native_RayCastNative_h
 
-#include "Rendering/Property/VolumePropertyTables.h"
+#include "Common/TableVersion.h"
+#include "Rendering/Backends/RayCastBackend.h"
+#include "Rendering/Backends/TableCounter.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Rays/RayStatistics.h"
 
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace meniscus
 {
 
-/** Version of a mesh and of its scalars; 0: none. */
-using VertexVersion = std::array<std::int64_t, 2>;
+class VolumePropertyTables;
 
 /**
- * The ray caster on the CPU: SIMD packets of the widest instruction set available, with tiles in
- * parallel by vtkSMPTools. The image does not depend on the number of threads.
+ * Ray caster on the CPU: SIMD packets of the widest instruction set there is, tiles in parallel by
+ * vtkSMPTools. The image does not depend on the number of threads. Draws every frame; reads the
+ * mapper's tables where they are and counts their bytes once per version.
  */
-class RayCastNative
+class RayCastNative : public RayCastBackend
 {
 public:
   RayCastNative();
 
-  void UpdateProperty(const VolumePropertyTables& property);
-
-  /**
-   * Casts the rays of an image.
-   * @param scene its Tables and Set are filled in here.
-   * @param scalars one normalised scalar per mesh vertex.
-   * @param version changes with the mesh and the scalars.
-   * @param opaqueDepth window depths in [0, 1], one per pixel, in rows from the bottom.
-   * @param image premultiplied RGBA per pixel; resized.
-   */
-  RayStatistics Cast(TileCaster::Scene scene, const std::vector<float>& scalars,
-    const VertexVersion& version, const std::vector<float>& opaqueDepth, std::vector<float>& image);
-
-  InstructionSet GetInstructionSet() const { return this->Set; }
-  /** Bytes of the tables. */
-  std::int64_t GetBytes() const
-  {
-    return BytesOf(this->Tables.Vertices) + this->GetPropertyBytes();
-  }
-  /** Bytes of the tables of the transfer function. */
-  std::int64_t GetPropertyBytes() const;
+  std::string CanDraw(const RayCastRequest&) override { return std::string(); }
+  std::string Update(const RayCastRequest& request) override;
+  std::string Cast(const RayCastRequest& request, RayCastTarget& target) override;
+  RayCastStatistics GetStatistics() override;
+  RayCastCounters GetCounters() override;
 
 private:
+  void UpdateProperty(const VolumePropertyTables& property);
+  std::int64_t SizeOf(RayCastTable table, const RayCastTables& tables) const;
+  /** Bytes of the tables of the transfer function. */
+  std::int64_t GetPropertyBytes() const;
+  TileCaster::Scene MakeScene(const RayCastRequest& request);
+  /** @param opaqueDepth  window depths in [0, 1], one per pixel, rows from below. */
+  RayStatistics CastTiles(const TileCaster::Scene& scene, const std::vector<float>& opaqueDepth,
+    std::vector<float>& image);
+
   PacketTables Tables;
   FixedPointRays PlacedBy;
-  VertexVersion PlacedVersion{ 0, 0 };
+  TableVersions PlacedVersions;
+  TableVersion PropertyVersion;
+  TableCounter Counter;
+  RayStatistics Statistics;
   InstructionSet Set;
 };
+
+/** Makes the backend of one mapper. */
+std::unique_ptr<RayCastBackend> MakeNativeBackend(RayCastSharing& sharing);
 
 }
 

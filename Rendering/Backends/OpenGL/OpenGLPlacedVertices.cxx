@@ -114,7 +114,7 @@ void OpenGLPlacedVertices::Place(OpenGLTable& vertices, const FrameRows& frame, 
 
 //------------------------------------------------------------------------------
 std::string OpenGLPlacedVertices::Update(vtkOpenGLRenderWindow* window, OpenGLTable& vertices,
-  std::int64_t version, const std::vector<FrameRows>& frames)
+  TableVersion version, const std::vector<FrameRows>& frames)
 {
   if (this->Table.IsFilled() && this->Version == version && this->Frames == frames)
   {

@@ -3,6 +3,7 @@
 #ifndef meniscus_Rendering_Backends_OpenGL_OpenGLPlacedVertices_h
 #define meniscus_Rendering_Backends_OpenGL_OpenGLPlacedVertices_h
 
+#include "Common/TableVersion.h"
 #include "Rendering/Backends/OpenGL/OpenGLTable.h"
 #include "vtkSmartPointer.h"
 
@@ -44,7 +45,7 @@ public:
    * @param vertices (x, y, z, scalar) of each vertex in fixed point.
    * @param version changes with the vertices.
    */
-  std::string Update(vtkOpenGLRenderWindow* window, OpenGLTable& vertices, std::int64_t version,
+  std::string Update(vtkOpenGLRenderWindow* window, OpenGLTable& vertices, TableVersion version,
     const std::vector<FrameRows>& frames);
 
   OpenGLTable& GetTable() { return this->Table; }
@@ -60,7 +61,7 @@ private:
 
   OpenGLTable Table;
   std::vector<FrameRows> Frames;
-  std::int64_t Version = 0;
+  TableVersion Version;
   std::int64_t Placings = 0;
   std::unique_ptr<vtkOpenGLQuadHelper> Quad;
   vtkSmartPointer<vtkOpenGLFramebufferObject> Target;

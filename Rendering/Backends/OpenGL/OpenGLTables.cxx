@@ -4,7 +4,8 @@
 
 #include "Common/BlockLoop.h"
 #include "Filters/Common/ThreadedLoop.h"
-#include "Rendering/Property/RayCastOptics.h"
+#include "Rendering/Backends/RayCastFrame.h"
+#include "Volume/Refracted/RefractedRayTexels.h"
 
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -57,21 +58,85 @@ void OpenGLTables::SetWindow(vtkOpenGLRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
-bool OpenGLTables::HasCells(bool compact) const
+std::string OpenGLTables::Update(RayCastTables& tables, const RayCastFrame& frame)
 {
-  return this->Cells.IsFilled() && compact == this->CellsAreCompact;
+  for (const RayCastTableState& wanted : tables.ListWanted(frame))
+  {
+    TableVersions& held = this->Held[static_cast<std::size_t>(wanted.Table)];
+    if (held == wanted.Versions && this->IsFilled(wanted.Table, frame.Optics.CompactCells))
+    {
+      continue;
+    }
+    const std::string error = this->Upload(wanted.Table, tables, frame);
+    held = error.empty() ? wanted.Versions : TableVersions();
+    if (!error.empty())
+    {
+      return error;
+    }
+  }
+  return std::string();
 }
 
 //------------------------------------------------------------------------------
-bool OpenGLTables::HasBoundary() const
+bool OpenGLTables::IsFilled(RayCastTable table, bool compact) const
 {
-  return this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
+  switch (table)
+  {
+    case RayCastTable::Cells:
+      return this->Cells.IsFilled() && compact == this->CellsAreCompact;
+    case RayCastTable::Boundary:
+      return this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
+    case RayCastTable::Vertices:
+      return this->Vertices.IsFilled();
+    case RayCastTable::CellScalars:
+      return this->CellScalars.IsFilled();
+    case RayCastTable::VertexGradients:
+      return this->VertexGradients.IsFilled();
+    case RayCastTable::CellGradients:
+      return this->CellGradients.IsFilled();
+    case RayCastTable::Components:
+      return this->VertexComponents.IsFilled();
+    case RayCastTable::Functions:
+      return this->Intervals.IsFilled();
+    case RayCastTable::PreIntegration:
+      return this->PreIntegration.IsFilled();
+    case RayCastTable::RefractedRays:
+      return this->RefractedRayTexels.IsFilled();
+    default:
+      return false;
+  }
 }
 
 //------------------------------------------------------------------------------
-bool OpenGLTables::HasVertices() const
+std::string OpenGLTables::Upload(
+  RayCastTable table, RayCastTables& tables, const RayCastFrame& frame)
 {
-  return this->Vertices.IsFilled();
+  VolumeInput& input = tables.Input;
+  switch (table)
+  {
+    case RayCastTable::Cells:
+      return this->UploadCells(input.GetMesh(), frame.Optics.CompactCells);
+    case RayCastTable::Boundary:
+      return this->UploadBoundary(input.GetBoundaryTree());
+    case RayCastTable::Vertices:
+      return this->UploadVertices(input.GetMesh(), input.GetScalars());
+    case RayCastTable::CellScalars:
+      return this->UploadCellScalars(input.GetCellScalars());
+    case RayCastTable::VertexGradients:
+      return this->UploadVectors(this->VertexGradients, tables.VertexGradients.GetValues());
+    case RayCastTable::CellGradients:
+      return this->UploadVectors(this->CellGradients, tables.CellGradients.GetValues());
+    case RayCastTable::Components:
+      return this->UploadVectors(this->VertexComponents, tables.Components.GetValues());
+    case RayCastTable::Functions:
+      return this->UploadProperty(tables.Property);
+    case RayCastTable::PreIntegration:
+      return this->UploadPreIntegration(tables.PreIntegration.GetTable());
+    case RayCastTable::RefractedRays:
+      return this->UploadRefractedRays(tables.Membrane, frame.Output.ImageSize);
+    default:
+      return "a table is unknown";
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -104,7 +169,7 @@ std::string OpenGLTables::UploadCells(const TetrahedralMesh& mesh, bool compact)
 
 //------------------------------------------------------------------------------
 std::string OpenGLTables::DescribeExcess(
-  const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit) const
+  const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit)
 {
   GLint ofDevice = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &ofDevice);
@@ -218,7 +283,7 @@ std::string OpenGLTables::UploadVertices(
         std::memcpy(value + 3, &scalar, sizeof(scalar));
       }
     });
-  ++this->VertexUploads;
+  this->VertexUploads.Bump();
   const std::string error = this->Vertices.Upload(this->Window, values.data(), values.size(), 4, 1);
   return this->Count(this->Vertices, error);
 }
@@ -256,24 +321,6 @@ std::string OpenGLTables::UploadVectors(OpenGLTable& table, const std::vector<gl
 }
 
 //------------------------------------------------------------------------------
-std::string OpenGLTables::UploadGradients(const std::vector<glm::vec3>& gradients)
-{
-  return this->UploadVectors(this->VertexGradients, gradients);
-}
-
-//------------------------------------------------------------------------------
-std::string OpenGLTables::UploadCellGradients(const std::vector<glm::vec3>& gradients)
-{
-  return this->UploadVectors(this->CellGradients, gradients);
-}
-
-//------------------------------------------------------------------------------
-std::string OpenGLTables::UploadComponents(const std::vector<glm::vec3>& components)
-{
-  return this->UploadVectors(this->VertexComponents, components);
-}
-
-//------------------------------------------------------------------------------
 std::string OpenGLTables::UploadPreIntegration(const PreIntegrationTable& table)
 {
   const std::string error = this->PreIntegration.Upload(this->Window, table);
@@ -283,10 +330,12 @@ std::string OpenGLTables::UploadPreIntegration(const PreIntegrationTable& table)
 
 //------------------------------------------------------------------------------
 std::string OpenGLTables::UploadRefractedRays(
-  const std::vector<RefractedRayLine>& lines, int width, int height, const RefractionFrames& frames)
+  const RayCastMembrane& membrane, const int (&imageSize)[2])
 {
-  const std::string error =
-    this->RefractedRayTexels.Upload(this->Window, lines, width, height, frames);
+  std::vector<RefractedRayLine> lines;
+  LayOutRefractedRays(membrane.GetSight(), membrane.GetFrames(), ThreadedLoop, lines);
+  const std::string error = this->RefractedRayTexels.Upload(
+    this->Window, lines, imageSize[0], imageSize[1], membrane.GetFrames());
   this->UploadedBytes += this->RefractedRayTexels.GetBytes();
   return error;
 }

@@ -14,11 +14,13 @@
 #include "Rendering/Backends/OpenGL/OpenGLPreIntegration.h"
 #include "Rendering/Backends/OpenGL/OpenGLRefractedRays.h"
 #include "Rendering/Backends/OpenGL/OpenGLTable.h"
-#include "Rendering/Property/VolumePropertyTables.h"
+#include "Rendering/Backends/RayCastTables.h"
 #include "vtkWeakPointer.h"
 
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -29,6 +31,7 @@ class vtkShaderProgram;
 namespace meniscus
 {
 
+struct RayCastFrame;
 struct RayCastOptics;
 
 /**
@@ -46,50 +49,18 @@ public:
   /** Sets the window of the tables. Call this before the first upload. */
   void SetWindow(vtkOpenGLRenderWindow* window);
 
-  bool HasCells(bool compact) const;
-  bool HasBoundary() const;
-  bool HasVertices() const;
-  bool HasCellScalars() const { return this->CellScalars.IsFilled(); }
-  bool HasGradients() const { return this->VertexGradients.IsFilled(); }
-  bool HasCellGradients() const { return this->CellGradients.IsFilled(); }
-  bool HasComponents() const { return this->VertexComponents.IsFilled(); }
-  bool HasPreIntegration() const { return this->PreIntegration.IsFilled(); }
-  bool HasProperty() const { return this->Intervals.IsFilled(); }
+  /** Sends the tables that a frame reads, unless they are on the device in their versions. */
+  std::string Update(RayCastTables& tables, const RayCastFrame& frame);
+  /** Lists of entries per tile. Needed for optics with LongLists. */
+  std::string UploadEntryTiles(const EntryTiles& tiles);
   bool HasEntryTiles() const { return this->TileFaces.IsFilled(); }
-  bool HasRefractedRays() const { return this->RefractedRayTexels.IsFilled(); }
 
   /**
-   * Uploads the cells in 32 bytes each or, compact, in 20: with the exclusive or of a cell's
-   * vertices instead of these. A ray that enters by a face knows the three others. The layout must
-   * be that of the optics' CompactCells.
+   * Names the table of a mesh that a limit in texels or the device's own forbids; empty if none.
+   * @param frames  number of frames of rays that may be needed: 1, more behind a membrane.
    */
-  std::string UploadCells(const TetrahedralMesh& mesh, bool compact);
-  /**
-   * Description of the table of a mesh that exceeds a limit in texels or the device's own; empty if
-   * none does.
-   * @param frames number of frames of rays that may be needed: 1, more behind a membrane.
-   */
-  std::string DescribeExcess(
-    const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit) const;
-  std::string UploadBoundary(const BoundaryTree& tree);
-  /** @param scalars one normalised scalar per vertex; empty if they belong to cells. */
-  std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
-  /** One normalised scalar per cell. Required for optics with CellScalars. */
-  std::string UploadCellScalars(const std::vector<float>& scalars);
-  /** One gradient per vertex. Required for optics with VertexGradients. */
-  std::string UploadGradients(const std::vector<glm::vec3>& gradients);
-  /** One gradient per cell. Required for optics that use gradients of cells. */
-  std::string UploadCellGradients(const std::vector<glm::vec3>& gradients);
-  /** Required for optics with PreIntegrated. */
-  std::string UploadPreIntegration(const PreIntegrationTable& table);
-  /** Up to three further components per vertex. Required for optics with components. */
-  std::string UploadComponents(const std::vector<glm::vec3>& components);
-  std::string UploadProperty(const VolumePropertyTables& tables);
-  /** Lists of entries per tile. Required for optics with LongLists. */
-  std::string UploadEntryTiles(const EntryTiles& tiles);
-  /** A line per pixel. Required for optics with Refracting. */
-  std::string UploadRefractedRays(const std::vector<RefractedRayLine>& lines, int width, int height,
-    const RefractionFrames& frames);
+  static std::string DescribeExcess(
+    const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit);
 
   /**
    * Places the vertices in the grid of the rays and, for optics with Refracting, in the grids of
@@ -118,7 +89,22 @@ public:
   void Release(vtkOpenGLRenderWindow* owner);
 
 private:
-  /** All tables except those of pre-integration and of refracted rays. */
+  bool IsFilled(RayCastTable table, bool compact) const;
+  std::string Upload(RayCastTable table, RayCastTables& tables, const RayCastFrame& frame);
+  /**
+   * The cells in 32 bytes each or, compact, in 20: the exclusive or of a cell's vertices in place
+   * of those. A ray that comes by a face knows the three others.
+   */
+  std::string UploadCells(const TetrahedralMesh& mesh, bool compact);
+  std::string UploadBoundary(const BoundaryTree& tree);
+  /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
+  std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
+  std::string UploadCellScalars(const std::vector<float>& scalars);
+  std::string UploadPreIntegration(const PreIntegrationTable& table);
+  std::string UploadProperty(const VolumePropertyTables& tables);
+  /** A line per pixel. */
+  std::string UploadRefractedRays(const RayCastMembrane& membrane, const int (&imageSize)[2]);
+  /** All tables but those of pre-integration and of refracted lines. */
   std::vector<OpenGLTable*> List();
   std::string Count(OpenGLTable& table, const std::string& error);
   std::string UploadVectors(OpenGLTable& table, const std::vector<glm::vec3>& vectors);
@@ -126,7 +112,7 @@ private:
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   /** Fixed-point positions and bits of the scalars. */
   OpenGLTable Vertices;
-  std::int64_t VertexUploads = 0;
+  TableVersion VertexUploads;
   OpenGLPlacedVertices PlacedVertices;
   OpenGLTable Cells;
   bool CellsAreCompact = false;
@@ -149,6 +135,8 @@ private:
   OpenGLTable Isosurfaces;
   OpenGLPreIntegration PreIntegration;
   OpenGLRefractedRays RefractedRayTexels;
+  /** Versions that are on the device. */
+  std::array<TableVersions, static_cast<std::size_t>(RayCastTable::NumberOfTables)> Held;
   std::int64_t UploadedBytes = 0;
 };
 

@@ -3,14 +3,14 @@
 #include "Rendering/Backends/OpenGL/RayCastOpenGL.h"
 
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
+#include "Rendering/Backends/RayCastFrame.h"
+#include "Rendering/Backends/RayCastTables.h"
 #include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Rays/PlacedVertices.h"
 
-#include "vtkTetrahedraComposeFS.h"
 #include "vtkTetrahedraEntryTilesFS.h"
 #include "vtkTetrahedraRayCastCS.h"
 #include "vtkTetrahedraRayCastFS.h"
-#include "vtkTetrahedraSelectFS.h"
 
 #include "vtkOpenGLError.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -66,157 +66,85 @@ RayCastOpenGL::RayCastOpenGL() = default;
 //------------------------------------------------------------------------------
 RayCastOpenGL::~RayCastOpenGL()
 {
-  this->Release(nullptr);
+  this->ReleaseGraphicsResources(nullptr);
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
+/** Binds to a window; on a change of window all that was on the device is gone. */
+void RayCastOpenGL::SetWindow(vtkOpenGLRenderWindow* window)
 {
   if (window != this->Window)
   {
-    this->Release(nullptr);
+    this->ReleaseGraphicsResources(nullptr);
     this->Window = window;
     this->Tables.SetWindow(window);
     window->MakeCurrent();
   }
-  GLint version[2] = { 0, 0 };
-  glGetIntegerv(GL_MAJOR_VERSION, &version[0]);
-  glGetIntegerv(GL_MINOR_VERSION, &version[1]);
-  if (version[0] < 3 || (version[0] == 3 && version[1] < 2))
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::DescribeExcess(const RayCastRequest& request)
+{
+  const RayCastFrame& frame = request.Frame;
+  const bool refracts = frame.Refracting.Wanted;
+  const std::string error = OpenGLTables::DescribeExcess(request.Tables.Input.GetMesh(),
+    frame.Optics.CompactCells, refracts ? 1 + RefractionFrames::Number : 1, frame.MaximumTableSize);
+  return error.empty() && refracts
+    ? OpenGLRefractedRays::DescribeExcess(frame.Output.ImageSize, frame.MaximumTableSize)
+    : error;
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastOpenGL::Update(const RayCastRequest& request)
+{
+  this->SetWindow(request.GetWindow());
+  RayCastTables& tables = request.Tables;
+  this->Frame = request.Frame;
+  this->Frame.Optics.Refracting = request.Frame.Refracting.Met;
+  const std::string error = this->Tables.Update(tables, request.Frame);
+  if (!error.empty())
   {
-    return "OpenGL 3.2 is needed, the window has " + std::to_string(version[0]) + "." +
-      std::to_string(version[1]);
+    return error;
+  }
+  if (this->Frame.Optics.Refracting)
+  {
+    this->BeginsInside = tables.Membrane.BeginsInside(tables.Input);
+    this->RefractedVersions = { tables.Membrane.GetSightVersion(), tables.Input.GetLinkVersion() };
+  }
+  else
+  {
+    this->Frame.Optics.LongLists = this->LongLists.Update(tables.Input, this->Frame, this->Tables);
   }
   return std::string();
 }
 
 //------------------------------------------------------------------------------
-void RayCastOpenGL::GetViewport(int viewport[4]) const
+std::string RayCastOpenGL::Cast(RayCastTarget& target, RayProgram program)
 {
-  this->Window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
-}
-
-//------------------------------------------------------------------------------
-template <typename Function>
-std::string RayCastOpenGL::DrawImage(const RayCastOutput& output, Function&& makeImage)
-{
-  vtkOpenGLState* state = this->Window->GetState();
-  vtkOpenGLState::ScopedglViewport viewportScope(state);
-  vtkOpenGLState::ScopedglScissor scissorScope(state);
-  vtkOpenGLState::ScopedglEnableDisable scissorTestScope(state, GL_SCISSOR_TEST);
-  vtkOpenGLState::ScopedglEnableDisable depthTestScope(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blendScope(state, GL_BLEND);
-  vtkOpenGLState::ScopedglEnableDisable cullScope(state, GL_CULL_FACE);
-  vtkOpenGLState::ScopedglDepthMask depthMaskScope(state);
-  vtkOpenGLState::ScopedglColorMask colorMaskScope(state);
-  vtkOpenGLState::ScopedglBlendFuncSeparate blendFuncScope(state);
-  vtkOpenGLState::ScopedglActiveTexture activeTextureScope(state);
-
-  int viewport[4];
-  this->GetViewport(viewport);
-  this->Depth.Update(this->Window, viewport);
-  std::string error = this->Resize(output.ImageSize[0], output.ImageSize[1]);
+  this->Image = target.GetImageTexture();
+  this->Depth = target.GetDepthTexture();
+  const bool refracting = this->Frame.Optics.Refracting;
+  const bool straight = this->Frame.Refracting.Part != MembranePart::Behind;
+  std::string error = this->Resize(target.GetWidth(), target.GetHeight());
+  if (error.empty())
+  {
+    error = this->Tables.PlaceVertices(
+      FixedPointRays(this->Frame.Rays, this->Size[0], this->Size[1]), refracting);
+  }
+  if (error.empty() && straight && !this->Frame.Optics.LongLists)
+  {
+    error = this->ListEntries(this->Frame, false);
+  }
+  if (error.empty() && refracting)
+  {
+    error = this->ListRefractedEntries(this->Frame);
+  }
   if (!error.empty())
   {
     return error;
   }
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDisable(GL_CULL_FACE);
-  state->vtkglDepthMask(GL_FALSE);
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  {
-    vtkOpenGLState::ScopedglEnableDisable imageScissorScope(state, GL_SCISSOR_TEST);
-    state->vtkglDisable(GL_SCISSOR_TEST);
-    state->vtkglDisable(GL_BLEND);
-    state->PushFramebufferBindings();
-    error = makeImage();
-    state->PopFramebufferBindings();
-  }
-  return error.empty() ? this->Blend(output, viewport) : error;
-}
-
-//------------------------------------------------------------------------------
-bool RayCastOpenGL::IsSoftware() const
-{
-  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  const std::string renderer(name ? name : "");
-  for (const char* software : { "llvmpipe", "softpipe", "swrast", "SWR" })
-  {
-    if (renderer.find(software) != std::string::npos)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::Draw(const RayCastFrame& frame)
-{
-  return this->DrawImage(frame.Output,
-    [this, &frame]()
-    {
-      std::string error = this->Tables.PlaceVertices(
-        FixedPointRays(frame.Rays, this->Size[0], this->Size[1]), frame.Optics.Refracting);
-      if (error.empty() && frame.Refracting.Part != MembranePart::Behind && !frame.Optics.LongLists)
-      {
-        error = this->ListEntries(frame, false);
-      }
-      if (error.empty() && frame.Optics.Refracting)
-      {
-        error = this->ListRefractedEntries(frame);
-      }
-      if (!error.empty())
-      {
-        return error;
-      }
-      return frame.Compute ? this->DispatchRays(frame) : this->CastRays(frame);
-    });
-}
-
-//------------------------------------------------------------------------------
-std::string RayCastOpenGL::DrawImageOf(const ImageMaker& maker, const RayCastOutput& output)
-{
-  return this->DrawImage(output,
-    [this, &maker]() -> std::string
-    {
-      const std::vector<float> depths = this->ReadDepths();
-      std::vector<float> image;
-      this->Statistics = maker(this->Size[0], this->Size[1], depths, image);
-      this->StatisticsStale = false;
-      const bool made =
-        this->Image->Create2DFromRaw(this->Size[0], this->Size[1], 4, VTK_FLOAT, image.data());
-      return made ? std::string() : "the image could not be sent to the graphics device";
-    });
-}
-
-//------------------------------------------------------------------------------
-std::vector<float> RayCastOpenGL::ReadDepths()
-{
-  const std::vector<float> all = this->Depth.Read(this->Window);
-  const int width = static_cast<int>(this->Depth.GetTexture()->GetWidth());
-  const int height = static_cast<int>(this->Depth.GetTexture()->GetHeight());
-  if (width == this->Size[0] && height == this->Size[1])
-  {
-    return all;
-  }
-  std::vector<float> depths;
-  depths.reserve(static_cast<std::size_t>(this->Size[0]) * this->Size[1]);
-  for (int y = 0; y < this->Size[1]; ++y)
-  {
-    const std::size_t row = static_cast<std::size_t>((y + 0.5) * height / this->Size[1]) * width;
-    for (int x = 0; x < this->Size[0]; ++x)
-    {
-      depths.push_back(all[row + static_cast<std::size_t>((x + 0.5) * width / this->Size[0])]);
-    }
-  }
-  return depths;
-}
-
-//------------------------------------------------------------------------------
-void RayCastOpenGL::Finish()
-{
-  glFinish();
+  return program == RayProgram::Compute ? this->DispatchRays(this->Frame)
+                                        : this->CastRays(this->Frame);
 }
 
 //------------------------------------------------------------------------------
@@ -226,23 +154,18 @@ std::string RayCastOpenGL::Resize(int width, int height)
   {
     return std::string();
   }
-  this->Image = vtkSmartPointer<vtkTextureObject>::New();
   this->StatisticsImage = vtkSmartPointer<vtkTextureObject>::New();
+  this->StatisticsImage->SetContext(this->Window);
+  this->StatisticsImage->SetMinificationFilter(vtkTextureObject::Nearest);
+  this->StatisticsImage->SetMagnificationFilter(vtkTextureObject::Nearest);
   this->RefractedTiles = nullptr;
-  for (const auto& texture : { this->Image, this->StatisticsImage })
-  {
-    texture->SetContext(this->Window);
-    texture->SetMinificationFilter(vtkTextureObject::Nearest);
-    texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-  }
-  this->Tiles[0] = (width + TileSize - 1) / TileSize;
-  this->Tiles[1] = (height + TileSize - 1) / TileSize;
-  if (!this->Image->Allocate2D(width, height, 4, VTK_FLOAT) ||
-    !this->StatisticsImage->Allocate2D(width, height, 2, VTK_FLOAT) ||
+  this->Tiles[0] = (width + OpenGLEntryLists::TileSize - 1) / OpenGLEntryLists::TileSize;
+  this->Tiles[1] = (height + OpenGLEntryLists::TileSize - 1) / OpenGLEntryLists::TileSize;
+  if (!this->StatisticsImage->Allocate2D(width, height, 2, VTK_FLOAT) ||
     !this->AllocateTiles(this->EntryTiles).empty())
   {
     this->Size[0] = this->Size[1] = 0;
-    return "no float image of " + std::to_string(width) + " x " + std::to_string(height) +
+    return "no statistics and lists for " + std::to_string(width) + " x " + std::to_string(height) +
       " pixels can be made on the graphics device";
   }
   this->Size[0] = width;
@@ -287,7 +210,7 @@ std::string RayCastOpenGL::AllocateTiles(vtkSmartPointer<vtkTextureObject>& tile
  */
 std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame)
 {
-  if (this->RefractedTiles && this->RefractedTilesVersion == frame.Refracting.Version)
+  if (this->RefractedTiles && this->RefractedTilesVersions == this->RefractedVersions)
   {
     return std::string();
   }
@@ -298,8 +221,7 @@ std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame)
     error = this->ListEntries(frame, true);
     ++this->RefractedEntryLists;
   }
-  this->RefractedTilesVersion =
-    error.empty() ? frame.Refracting.Version : std::array<std::int64_t, 2>{ 0, 0 };
+  this->RefractedTilesVersions = error.empty() ? this->RefractedVersions : TableVersions();
   return error;
 }
 
@@ -419,8 +341,8 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
     this->EntryTiles->Activate();
     program->SetUniformi("entryTiles", this->EntryTiles->GetTextureUnit());
   }
-  this->Depth.GetTexture()->Activate();
-  program->SetUniformi("opaqueDepth", this->Depth.GetTexture()->GetTextureUnit());
+  this->Depth->Activate();
+  program->SetUniformi("opaqueDepth", this->Depth->GetTextureUnit());
   this->SetCastUniforms(program, frame);
   SetOpticsUniforms(program, frame.Optics);
   if (frame.Optics.PreIntegrated)
@@ -432,7 +354,7 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
     this->Tables.ActivateRefractedRays(program);
     this->RefractedTiles->Activate();
     program->SetUniformi("refractedTiles", this->RefractedTiles->GetTextureUnit());
-    program->SetUniformi("beginsInside", frame.Refracting.BeginsInside ? 1 : 0);
+    program->SetUniformi("beginsInside", this->BeginsInside ? 1 : 0);
     program->SetUniformi("membranePart", static_cast<int>(frame.Refracting.Part));
   }
   run();
@@ -445,7 +367,7 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
   {
     this->Tables.GetPreIntegration().Deactivate();
   }
-  this->Depth.GetTexture()->Deactivate();
+  this->Depth->Deactivate();
   if (!frame.Optics.LongLists)
   {
     this->EntryTiles->Deactivate();
@@ -464,8 +386,8 @@ std::vector<OpenGLTable*> RayCastOpenGL::ActivateRays(
   const auto set3 = [program](const char* name, const glm::dvec3& value)
   { program->SetUniform3f(name, glm::value_ptr(glm::vec3(value))); };
 
-  program->SetUniformf("tileSize", static_cast<float>(TileSize));
-  program->SetUniformf("longListTileSize", static_cast<float>(LongListTileSize));
+  program->SetUniformf("tileSize", static_cast<float>(OpenGLEntryLists::TileSize));
+  program->SetUniformf("longListTileSize", static_cast<float>(OpenGLEntryLists::LongListTileSize));
   set2("imageCenter", 0.5 * glm::dvec2(this->Size[0], this->Size[1]));
   set3("rowX", rays.RowX);
   set3("rowY", rays.RowY);
@@ -506,55 +428,7 @@ void RayCastOpenGL::SetCastUniforms(vtkShaderProgram* program, const RayCastFram
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::Blend(const RayCastOutput& output, const int viewport[4])
-{
-  vtkOpenGLState* state = this->Window->GetState();
-  state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
-  std::unique_ptr<vtkOpenGLQuadHelper>& drawer = output.Selecting ? this->Selector : this->Composer;
-  const std::string error = this->ReadyQuad(drawer,
-    [&output]()
-    { return std::string(output.Selecting ? vtkTetrahedraSelectFS : vtkTetrahedraComposeFS); });
-  if (!error.empty())
-  {
-    return error;
-  }
-  // Software rasterisers blend 8-bit values in 8 bits, which rounds three times. An image that is
-  // composited later is rounded by the shader, which needs the complete sum.
-  const bool blends = !this->IsSoftware() && output.ColorBias == 0.0f;
-  const bool hasUnder = !output.Selecting && !blends && this->Under.Update(this->Window, viewport);
-  if (output.Selecting)
-  {
-    state->vtkglDisable(GL_BLEND);
-    drawer->Program->SetUniform3f("selectionValue", glm::value_ptr(output.SelectionValue));
-  }
-  else
-  {
-    drawer->Program->SetUniformf("colorBias", output.ColorBias);
-    const float corner[2] = { static_cast<float>(viewport[0]), static_cast<float>(viewport[1]) };
-    drawer->Program->SetUniform2f("corner", corner);
-    drawer->Program->SetUniformi("hasUnder", hasUnder ? 1 : 0);
-    state->SetEnumState(GL_BLEND, !hasUnder);
-    state->vtkglBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  }
-  const bool whole = this->Size[0] == viewport[2] && this->Size[1] == viewport[3];
-  this->Image->SetMagnificationFilter(whole ? vtkTextureObject::Nearest : vtkTextureObject::Linear);
-  this->Image->Activate();
-  drawer->Program->SetUniformi("image", this->Image->GetTextureUnit());
-  // A sampler needs a texture even if it is not read.
-  vtkTextureObject* under = hasUnder ? this->Under.GetTexture() : this->Image.Get();
-  under->Activate();
-  if (!output.Selecting)
-  {
-    drawer->Program->SetUniformi("under", under->GetTextureUnit());
-  }
-  drawer->Render();
-  under->Deactivate();
-  this->Image->Deactivate();
-  return std::string();
-}
-
-//------------------------------------------------------------------------------
-RayStatistics RayCastOpenGL::GetStatistics()
+RayCastStatistics RayCastOpenGL::GetStatistics()
 {
   if (!this->StatisticsStale || !this->Window || !this->StatisticsImage)
   {
@@ -584,7 +458,7 @@ bool RayCastOpenGL::ReadStatistics()
   {
     return false;
   }
-  this->Statistics = RayStatistics();
+  this->Statistics = RayCastStatistics();
   for (std::size_t i = 0; i < values.size(); i += 2)
   {
     this->Statistics.Steps += static_cast<std::int64_t>(values[i]);
@@ -595,14 +469,19 @@ bool RayCastOpenGL::ReadStatistics()
 }
 
 //------------------------------------------------------------------------------
-void RayCastOpenGL::ClearStatistics()
+RayCastCounters RayCastOpenGL::GetCounters()
 {
-  this->Statistics = RayStatistics();
-  this->StatisticsStale = false;
+  RayCastCounters counters;
+  counters.UploadedBytes = this->Tables.GetUploadedBytes();
+  counters.DeviceBytes = this->Tables.GetTableBytes();
+  counters.HostBytes = this->LongLists.GetBytes();
+  counters.EntryListBuilds = this->LongLists.GetBuilds();
+  counters.RefractedEntryLists = this->RefractedEntryLists;
+  return counters;
 }
 
 //------------------------------------------------------------------------------
-void RayCastOpenGL::Release(vtkWindow* window)
+void RayCastOpenGL::ReleaseGraphicsResources(vtkWindow* window)
 {
   vtkOpenGLRenderWindow* owner =
     window ? vtkOpenGLRenderWindow::SafeDownCast(window) : this->Window.Get();
@@ -612,8 +491,6 @@ void RayCastOpenGL::Release(vtkWindow* window)
   }
   this->GetStatistics();
   this->Tables.Release(owner);
-  this->Depth.Release(owner);
-  this->Under.Release(owner);
   for (std::unique_ptr<vtkOpenGLQuadHelper>& lister : this->TileListers)
   {
     lister.reset();
@@ -627,13 +504,10 @@ void RayCastOpenGL::Release(vtkWindow* window)
     }
   }
   this->ComputeCasters.clear();
-  this->Composer.reset();
-  this->Selector.reset();
   this->TileTarget = nullptr;
   this->ImageTarget = nullptr;
   this->EntryTiles = nullptr;
   this->RefractedTiles = nullptr;
-  this->Image = nullptr;
   this->StatisticsImage = nullptr;
   this->Size[0] = this->Size[1] = 0;
   this->StatisticsStale = false;

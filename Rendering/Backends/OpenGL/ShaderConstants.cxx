@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Backends/OpenGL/ShaderConstants.h"
 
+#include "Rendering/Backends/OpenGL/OpenGLEntryLists.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/ComponentMixture.h"
@@ -116,7 +117,7 @@ std::string ShaderConstants()
     Define("MODEL_UNIT", static_cast<float>(TetrahedralMesh::PositionUnit)) +
     Define("NOWHERE", RefractedRayLine::Nowhere) +
     DefineNumber("NUMBER_OF_FRAMES", RefractionFrames::Number) +
-    DefineNumber("TILE_CAPACITY", EntryTileCapacity);
+    DefineNumber("TILE_CAPACITY", OpenGLEntryLists::TileCapacity);
 }
 
 }

@@ -8,9 +8,6 @@
 namespace meniscus
 {
 
-/** Faces that an entry list made on the device holds. */
-constexpr int EntryTileCapacity = 32;
-
 /**
  * Definitions of the constants that the ray casting shader shares with C++: enumerators, units of
  * the tables, and the coefficients of polynomials. They have the values of C++ to the last bit.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The error measurements of the thesis's Tables 4.1 to 4.5: the printed figures, and functions that
- * measure the same rows again. Documentation/refraction.md describes the set-up.
+ * measure the same rows again. Documentation/refraction-measurements.md describes the set-up.
  */
 #ifndef meniscus_ThesisTables_h
 #define meniscus_ThesisTables_h

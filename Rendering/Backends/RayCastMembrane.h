@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Pipeline_RayCastMembrane_h
-#define meniscus_Rendering_Pipeline_RayCastMembrane_h
+#ifndef meniscus_Rendering_Backends_RayCastMembrane_h
+#define meniscus_Rendering_Backends_RayCastMembrane_h
 
+#include "Common/TableVersion.h"
 #include "Filters/Membrane/RefractionScene.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Rendering/Input/VolumeInput.h"
@@ -10,7 +11,6 @@
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
-#include <array>
 #include <cstdint>
 #include <string>
 
@@ -51,17 +51,17 @@ public:
    */
   RefractedScene See(VolumeInput& input);
 
-  /** Number of times that the shape was read. */
-  std::int64_t GetBuilds() const { return this->Surface.GetNumberOfPatchBuilds(); }
-  /** Number of times that rays were traced to the membrane. */
-  std::int64_t GetSightUpdates() const { return this->SightUpdates; }
-  /** Bytes of the rays and of the vertices in their frames. */
+  /** Changes when the shape is taken in. */
+  TableVersion GetShapeVersion() const
+  {
+    return TableVersion(this->Surface.GetNumberOfPatchBuilds());
+  }
+  /** Changes when rays are traced to the membrane. */
+  TableVersion GetSightVersion() const { return this->SightVersion; }
+  /** Bytes of the rays and of the vertices about them. */
   std::int64_t GetBytes() const { return this->Sight.GetBytes() + this->Frames.GetBytes(); }
 
 private:
-  /** Versions of the input's mesh and scalars and of the sight for which vertices were placed. */
-  using PlacedVersion = std::array<std::int64_t, 3>;
-
   RefractionScene Surface;
   /**
    * Last warning, so that it is not repeated when the same triangles are left out of the next wave.
@@ -69,12 +69,14 @@ private:
   std::string Told;
   RefractedRayField Sight;
   RefractionFrames Frames;
-  std::int64_t SightOf = 0;
-  std::int64_t SightUpdates = 0;
-  PlacedVersion Placed{ 0, 0, 0 };
-  /** True if the mesh has inverted cells, and the build for which that was determined. */
+  /** Version of the shape that the sight was traced for. */
+  TableVersion SightOf;
+  TableVersion SightVersion;
+  /** Versions of the mesh, of its scalars and of the sight that vertices were placed for. */
+  TableVersions Placed;
+  /** Whether the mesh has inverted cells, and the version of the mesh that was examined. */
   bool Inverted = false;
-  std::int64_t InvertedOf = 0;
+  TableVersion InvertedOf;
 };
 
 }

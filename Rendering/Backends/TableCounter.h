@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Common_TableCounter_h
-#define meniscus_Rendering_Common_TableCounter_h
+#ifndef meniscus_Rendering_Backends_TableCounter_h
+#define meniscus_Rendering_Backends_TableCounter_h
+
+#include "Rendering/Backends/RayCastTables.h"
 
 #include <array>
 #include <cstddef>
@@ -15,29 +17,13 @@ namespace meniscus
 class TableCounter
 {
 public:
-  enum Table
+  /** Adds the bytes of a table unless they were counted for this version. */
+  void Count(const RayCastTableState& table, std::int64_t bytes)
   {
-    Cells,
-    Vertices,
-    CellScalars,
-    VertexGradients,
-    CellGradients,
-    Components,
-    Functions,
-    PreIntegration,
-    RefractedRays,
-    NumberOfTables
-  };
-  using Version = std::array<std::int64_t, 2>;
-
-  /**
-   * Adds the bytes of a table unless they were counted for this version; version 0 means no table.
-   */
-  void Count(Table table, const Version& version, std::int64_t bytes)
-  {
-    if (this->Versions[table] != version)
+    TableVersions& counted = this->Counted[static_cast<std::size_t>(table.Table)];
+    if (counted != table.Versions)
     {
-      this->Versions[table] = version;
+      counted = table.Versions;
       this->Bytes += bytes;
     }
   }
@@ -52,7 +38,7 @@ public:
   }
 
 private:
-  std::array<Version, NumberOfTables> Versions{};
+  std::array<TableVersions, static_cast<std::size_t>(RayCastTable::NumberOfTables)> Counted;
   std::int64_t Bytes = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Rendering/Pipeline/RayCastMembrane.h"
+#include "Rendering/Backends/RayCastMembrane.h"
 
 #include "Filters/Common/ThreadedLoop.h"
 
@@ -16,7 +16,7 @@ InputReport RayCastMembrane::Update(
   const auto isIndex = [](double index) { return index > 0.0 && std::isfinite(index); };
   if (!membrane)
   {
-    return { "The membrane is no vtkPolyData", std::string() };
+    return { "The membrane is not a vtkPolyData", std::string() };
   }
   if (!isIndex(exterior) || !isIndex(interior))
   {
@@ -39,13 +39,13 @@ InputReport RayCastMembrane::Update(
 bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
 {
   view.Mesh = BoxOf(input.GetBoundaryTree(), view.Frame);
-  if (this->SightOf != this->GetBuilds() || !(this->Sight.GetView() == view))
+  if (this->SightOf != this->GetShapeVersion() || !(this->Sight.GetView() == view))
   {
     const CurvedMembraneSolver& surface = this->Surface.GetCurved();
     this->Sight.Build(surface.GetMembrane(), surface.GetPatches(), view, ThreadedLoop);
     this->Frames.Turn(this->Sight, view.Frame, ThreadedLoop);
-    this->SightOf = this->GetBuilds();
-    ++this->SightUpdates;
+    this->SightOf = this->GetShapeVersion();
+    this->SightVersion.Bump();
   }
   return this->Sight.IsSeen();
 }
@@ -53,10 +53,10 @@ bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
 //------------------------------------------------------------------------------
 bool RayCastMembrane::BeginsInside(VolumeInput& input)
 {
-  if (this->InvertedOf != input.GetMeshBuilds())
+  if (this->InvertedOf != input.GetMeshVersion())
   {
     this->Inverted = HasInvertedCells(input.GetMesh(), ThreadedLoop);
-    this->InvertedOf = input.GetMeshBuilds();
+    this->InvertedOf = input.GetMeshVersion();
   }
   return !this->Inverted;
 }
@@ -64,8 +64,8 @@ bool RayCastMembrane::BeginsInside(VolumeInput& input)
 //------------------------------------------------------------------------------
 RefractedScene RayCastMembrane::See(VolumeInput& input)
 {
-  const PlacedVersion version{ input.GetMeshBuilds(), input.GetScalarUpdates(),
-    this->SightUpdates };
+  const TableVersions version{ input.GetMeshVersion(), input.GetScalarVersion(),
+    this->SightVersion };
   if (version != this->Placed)
   {
     this->Frames.Place(input.GetMesh(), input.GetScalars(), ThreadedLoop);

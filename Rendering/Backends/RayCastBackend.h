@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Interface of what casts the rays of vtkTetrahedraRayCastMapper. A backend gets the mapper's
+ * tables and the rays of a frame and fills an image; a presenter blends that into the window. See
+ * Documentation/extending.md for the steps, RayCastBackendRegistry.h for the registration.
+ */
+#ifndef meniscus_Rendering_Backends_RayCastBackend_h
+#define meniscus_Rendering_Backends_RayCastBackend_h
+
+#include "TableVersion.h"
+
+#include "vtkMeniscusModule.h" // For export macro
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <typeindex>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace meniscus
+{
+
+/** Tables and frame as the library's own backends read them; not installed. */
+struct RayCastTables;
+struct RayCastFrame;
+
+/** Sums over the rays of a frame. */
+struct RayCastStatistics
+{
+  /** Cells crossed. */
+  std::int64_t Steps = 0;
+  /** Rays that entered the mesh. */
+  std::int64_t Rays = 0;
+  /** Rays whose walk did not end on the boundary. */
+  std::int64_t Lost = 0;
+};
+
+/** Memory and work of a backend, which the mapper adds up over its backends. */
+struct RayCastCounters
+{
+  /** Bytes of tables taken in because an input changed, since construction. */
+  std::int64_t UploadedBytes = 0;
+  /** Bytes of tables kept now in the computer's memory and on a device. */
+  std::int64_t HostBytes = 0;
+  std::int64_t DeviceBytes = 0;
+  /** Times that entries were listed on the processor for a device. */
+  std::int64_t EntryListBuilds = 0;
+  /** Times that the entries of refracted rays were listed. */
+  std::int64_t RefractedEntryLists = 0;
+};
+
+/** Mesh and scalars as arrays, which stay the mapper's and are valid during a call. */
+struct RayCastMesh
+{
+  /** Positions: xyz per vertex, relative to Center, in units of PositionUnit. */
+  const std::int32_t* Positions = nullptr;
+  std::int64_t NumberOfVertices = 0;
+  /** Length of one step of a position in model coordinates. */
+  double PositionUnit = 1.0;
+  /** Centre in model coordinates. */
+  double Center[3] = { 0.0, 0.0, 0.0 };
+  /**
+   * Eight numbers per cell: its vertices in ascending order; then, per vertex, the link across the
+   * opposite face: 4 * cell + face of the neighbour, negative on the boundary of the visible cells.
+   */
+  const std::int32_t* Cells = nullptr;
+  std::int64_t NumberOfCells = 0;
+  /** One normalised scalar per vertex, or one per cell; the other is null. NaN: transparent. */
+  const float* VertexScalars = nullptr;
+  const float* CellScalars = nullptr;
+  /** Versions of vertices with cells, of links, and of scalars. */
+  TableVersion MeshVersion;
+  TableVersion LinkVersion;
+  TableVersion ScalarVersion;
+};
+
+/** Piecewise linear transfer function of the main scalar. */
+struct RayCastTransferFunction
+{
+  /**
+   * Ten numbers per interval, ascending and without gaps: lower and upper normalised scalar;
+   * attenuation coefficient at the lower one, in 1 / world length, and its slope; colour there,
+   * red, green and blue, and its slope.
+   */
+  const float* Intervals = nullptr;
+  std::int64_t NumberOfIntervals = 0;
+  TableVersion Version;
+};
+
+/** Numbers that are affine in the pixel: a vector per frame, column and row of the image. */
+struct RayCastAffineMap
+{
+  double Base[3];
+  double PerColumn[3];
+  double PerRow[3];
+};
+
+/**
+ * Rays of an image, in coordinates relative to RayCastMesh::Center with model coordinates' axes and
+ * unit. The ray of a pixel is Origin + depth * Direction, both at (column + 0.5 - Width / 2, row +
+ * 0.5 - Height / 2), rows from below. It begins at NearDepth.
+ */
+struct RayCastRays
+{
+  int Width = 0;
+  int Height = 0;
+  RayCastAffineMap Origin;
+  RayCastAffineMap Direction;
+  double NearDepth = 0.0;
+  /**
+   * A window depth w ends the ray at depth (d * Numerator[0] + Numerator[1]) / (d * Denominator[0]
+   * + Denominator[1]), d = 2 w - 1.
+   */
+  double DepthNumerator[2];
+  double DepthDenominator[2];
+  /** World vector of a model vector, rows of a matrix; its length is the world length. */
+  double ModelToWorld[3][3];
+};
+
+/** Properties of a frame that a backend may not have. */
+struct RayCastFeatures
+{
+  /** A number of vtkVolumeMapper::BlendModes. */
+  int BlendMode = 0;
+  bool CellScalars = false;
+  bool SeveralComponents = false;
+  bool Shading = false;
+  bool GradientOpacity = false;
+  bool PreIntegration = false;
+  bool ClippingPlanes = false;
+  /** Rays are refracted at a membrane, or only the part before or behind it is wanted. */
+  bool Membrane = false;
+};
+
+/** One frame to draw: the mapper's tables, brought up to date, and the rays. */
+class VTKMENISCUS_EXPORT RayCastRequest
+{
+public:
+  RayCastRequest(RayCastTables& tables, const RayCastFrame& frame, vtkOpenGLRenderWindow* window);
+
+  RayCastMesh GetMesh() const;
+  RayCastTransferFunction GetTransferFunction() const;
+  RayCastRays GetRays() const;
+  RayCastFeatures GetFeatures() const;
+  /** Opacity at which a ray may end. */
+  double GetEarlyTerminationOpacity() const;
+  /** Window that is drawn to; its OpenGL context is current. */
+  vtkOpenGLRenderWindow* GetWindow() const { return this->Window; }
+
+  /** Everything there is, for the library's own backends. */
+  RayCastTables& Tables;
+  const RayCastFrame& Frame;
+
+private:
+  vtkOpenGLRenderWindow* Window;
+};
+
+/** Image to fill and opaque geometry to end rays at, in the memory or on the graphics device. */
+class VTKMENISCUS_EXPORT RayCastTarget
+{
+public:
+  virtual ~RayCastTarget() = default;
+
+  /** Pixels of the image; one ray each. */
+  virtual int GetWidth() const = 0;
+  virtual int GetHeight() const = 0;
+  /** Window depths in [0, 1], one per pixel, rows from below. */
+  virtual std::vector<float> ReadDepths() = 0;
+  /** Takes premultiplied RGBA, four numbers per pixel, rows from below. Returns an error or "". */
+  virtual std::string WriteImage(const std::vector<float>& rgba) = 0;
+
+  /** The same on the device: depths of the viewport's size, an image of 4 floats per pixel. */
+  virtual vtkTextureObject* GetDepthTexture() = 0;
+  virtual vtkTextureObject* GetImageTexture() = 0;
+};
+
+/** Memory with counters: of a backend alone, or shared by several (RayCastSharing). */
+class VTKMENISCUS_EXPORT RayCastResources
+{
+public:
+  virtual ~RayCastResources() = default;
+  virtual RayCastCounters GetCounters() { return RayCastCounters(); }
+  /**
+   * Frees what is on the graphics device; the next frame makes it again.
+   * @param window  null for the window last drawn to.
+   */
+  virtual void ReleaseGraphicsResources(vtkWindow* window) { static_cast<void>(window); }
+};
+
+/**
+ * Caster of rays. Each mapper has its own, made when first asked for a frame. All calls are made on
+ * one thread with the window's OpenGL context current. Errors are texts, empty if there is none.
+ */
+class VTKMENISCUS_EXPORT RayCastBackend : public RayCastResources
+{
+public:
+  /** Returns why the frame cannot be drawn, for the user to read; "" if it can be. */
+  virtual std::string CanDraw(const RayCastRequest& request) = 0;
+  /** Whether the mapper's AUTOMATIC may choose this backend for the frame if it can draw it. */
+  virtual bool IsAutomatic(const RayCastRequest& request)
+  {
+    static_cast<void>(request);
+    return true;
+  }
+  /** Makes what it needs of tables that changed. Called before Cast(). */
+  virtual std::string Update(const RayCastRequest& request)
+  {
+    static_cast<void>(request);
+    return std::string();
+  }
+  /** Fills the target's image: by WriteImage() or on the device. */
+  virtual std::string Cast(const RayCastRequest& request, RayCastTarget& target) = 0;
+  /** Statistics of the last frame. */
+  virtual RayCastStatistics GetStatistics() { return RayCastStatistics(); }
+};
+
+/** Resources that backends of one mapper share, one object of each class. */
+class RayCastSharing
+{
+public:
+  template <typename Resources>
+  std::shared_ptr<Resources> Get()
+  {
+    std::shared_ptr<RayCastResources>& object = this->Objects[typeid(Resources)];
+    if (!object)
+    {
+      object = std::make_shared<Resources>();
+    }
+    return std::static_pointer_cast<Resources>(object);
+  }
+
+  const std::map<std::type_index, std::shared_ptr<RayCastResources>>& GetObjects() const
+  {
+    return this->Objects;
+  }
+
+private:
+  std::map<std::type_index, std::shared_ptr<RayCastResources>> Objects;
+};
+
+}
+
+#endif

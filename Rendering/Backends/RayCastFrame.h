@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Backends_RayCastFrame_h
+#define meniscus_Rendering_Backends_RayCastFrame_h
+
+#include "Rendering/Property/RayCastOptics.h"
+#include "Volume/Rays/RayFrame.h"
+#include "Volume/Refracted/RefractedRayField.h"
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace meniscus
+{
+
+/** How an image gets into the framebuffer. */
+struct RayCastOutput
+{
+  /** Rays of the image; fewer than the viewport's pixels are interpolated. */
+  int ImageSize[2] = { 0, 0 };
+  /** Hardware selection: a value where the image is visible, in place of its colour. */
+  bool Selecting = false;
+  glm::vec3 SelectionValue{ 0.0f };
+  /** Bias of a picture that is composited later, in steps of 1/255. */
+  float ColorBias = 0.0f;
+};
+
+/** Refraction of a frame's rays at a membrane. */
+struct RayCastRefraction
+{
+  MembranePart Part = MembranePart::Whole;
+  /** Whether there is a membrane that bends rays. */
+  bool Wanted = false;
+  /** Whether rays of this frame meet it; known when the frame is cast. */
+  bool Met = false;
+  double Exterior = 1.0;
+  double Interior = 1.0;
+  /** Origin of the frame in world coordinates, and depth of the eye in the frame. */
+  glm::dvec3 Center{ 0.0 };
+  double EyeDepth = 0.0;
+};
+
+/** Parameters of a frame besides the tables. */
+struct RayCastFrame
+{
+  RayFrame Rays;
+  double EarlyTerminationOpacity = 1.0;
+  /**
+   * Transmittance at which a ray ends. Where so little is left, single precision has no digits to
+   * lose.
+   */
+  double TerminationTransmittance() const
+  {
+    return std::max(1.0 - this->EarlyTerminationOpacity, 1.0e-30);
+  }
+  RayCastOptics Optics;
+  RayCastRefraction Refracting;
+  RayCastOutput Output;
+  /** Texels that a table on the graphics device may have. */
+  std::int64_t MaximumTableSize = std::numeric_limits<std::int64_t>::max();
+};
+
+}
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Backends_RayCastTables_h
+#define meniscus_Rendering_Backends_RayCastTables_h
+
+#include "Common/TableVersion.h"
+#include "Rendering/Backends/RayCastMembrane.h"
+#include "Rendering/Input/VolumeComponents.h"
+#include "Rendering/Input/VolumeGradients.h"
+#include "Rendering/Input/VolumeInput.h"
+#include "Rendering/Property/VolumePreIntegration.h"
+#include "Rendering/Property/VolumePropertyTables.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+struct RayCastFrame;
+
+/** Tables that a frame may read. */
+enum class RayCastTable
+{
+  Cells,
+  Boundary,
+  Vertices,
+  CellScalars,
+  VertexGradients,
+  CellGradients,
+  Components,
+  Functions,
+  PreIntegration,
+  RefractedRays,
+  NumberOfTables
+};
+
+/** A table and the versions of its owner's data that it stands for. */
+struct RayCastTableState
+{
+  RayCastTable Table;
+  TableVersions Versions;
+};
+
+/** A mapper's input as tables, which every backend draws from. Each is kept by its owner. */
+struct RayCastTables
+{
+  VolumeInput Input;
+  VolumeComponents Components;
+  VolumePropertyTables Property;
+  VolumePreIntegration PreIntegration;
+  VolumeGradients VertexGradients{ FieldAssociation::Points };
+  VolumeGradients CellGradients{ FieldAssociation::Cells };
+  RayCastMembrane Membrane;
+
+  /** Lists the tables that a frame reads. */
+  std::vector<RayCastTableState> ListWanted(const RayCastFrame& frame) const;
+  /** Bytes of all tables. */
+  std::int64_t GetBytes() const;
+};
+
+}
+
+#endif

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Present_RayCastPresenter_h
+#define meniscus_Rendering_Present_RayCastPresenter_h
+
+#include "Rendering/Backends/RayCastBackend.h"
+#include "Rendering/Backends/RayCastFrame.h"
+#include "Rendering/Present/OpenGLColorCopy.h"
+#include "Rendering/Present/OpenGLDepthCopy.h"
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkOpenGLQuadHelper;
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace meniscus
+{
+
+/**
+ * Way of an image into the window, whichever backend makes it: a copy of the depths of opaque
+ * geometry to begin with, the image as a float texture, and its blending into the framebuffer. All
+ * calls want the window's context to be current. Errors are texts, empty if there is none.
+ */
+class RayCastPresenter : public RayCastTarget
+{
+public:
+  RayCastPresenter();
+  ~RayCastPresenter() override;
+  RayCastPresenter(const RayCastPresenter&) = delete;
+  void operator=(const RayCastPresenter&) = delete;
+
+  /** Binds to a window and makes its context current; all textures of another window are freed. */
+  std::string SetWindow(vtkOpenGLRenderWindow* window);
+  vtkOpenGLRenderWindow* GetWindow() const;
+
+  /** Whether the current OpenGL runs on the processor: Mesa's llvmpipe, softpipe or swr. */
+  static bool IsSoftware();
+
+  /** Viewport of the current framebuffer: x, y, width, height. */
+  void GetViewport(int viewport[4]) const;
+
+  /** Has an image of the current viewport made and blends it into the current framebuffer. */
+  std::string Present(
+    const RayCastOutput& output, const std::function<std::string(RayCastTarget&)>& makeImage);
+
+  /** Waits until the device has drawn what it was told to. */
+  void Finish();
+
+  int GetWidth() const override { return this->Size[0]; }
+  int GetHeight() const override { return this->Size[1]; }
+  std::vector<float> ReadDepths() override;
+  std::string WriteImage(const std::vector<float>& rgba) override;
+  vtkTextureObject* GetDepthTexture() override { return this->Depth.GetTexture(); }
+  vtkTextureObject* GetImageTexture() override { return this->Image; }
+
+  /**
+   * Frees all graphics resources in the context of their window; null for the window last drawn to.
+   * A window that is being destroyed must be given, weak pointers to it are empty by then.
+   */
+  void Release(vtkWindow* window);
+
+private:
+  std::string Resize(int width, int height);
+  std::string ReadyDrawer(bool selecting);
+  std::string Blend(const RayCastOutput& output, const int viewport[4]);
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
+  OpenGLDepthCopy Depth;
+  OpenGLColorCopy Under;
+  vtkSmartPointer<vtkTextureObject> Image;
+  std::unique_ptr<vtkOpenGLQuadHelper> Composer;
+  std::unique_ptr<vtkOpenGLQuadHelper> Selector;
+  int Size[2] = { 0, 0 };
+};
+
+}
+
+#endif

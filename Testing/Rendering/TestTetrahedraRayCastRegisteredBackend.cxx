@@ -1,0 +1,401 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// A backend registered from outside the library, with installed headers only, against the analytic
+// length of each ray within a box. Documentation/extending.md follows it.
+#include "PixelRays.h"
+#include "RayCastScene.h"
+
+#include <RayCastBackend.h>
+#include <RayCastBackendRegistry.h>
+
+#include <vtkCamera.h>
+#include <vtkDataArray.h>
+#include <vtkMatrix4x4.h>
+#include <vtkPointData.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolume.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+constexpr double Range[2] = { -1.0, 1.0 };
+constexpr int Width = 61;
+constexpr int Height = 47;
+
+using Vector = std::array<double, 3>;
+
+Vector operator-(const Vector& a, const Vector& b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+
+double dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector cross(const Vector& a, const Vector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+
+Vector at(const meniscus::RayCastAffineMap& map, double i, double j)
+{
+  Vector result;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result[axis] = map.Base[axis] + i * map.PerColumn[axis] + j * map.PerRow[axis];
+  }
+  return result;
+}
+
+/** Range of depths of a ray that lies within a tetrahedron; empty if first > last. */
+struct DepthRange
+{
+  double First;
+  double Last;
+};
+
+DepthRange clip(const std::array<Vector, 4>& corners, const Vector& origin, const Vector& direction,
+  DepthRange range)
+{
+  for (int i = 0; i < 4; ++i)
+  {
+    const Vector& a = corners[(i + 1) % 4];
+    const Vector outside = cross(corners[(i + 2) % 4] - a, corners[(i + 3) % 4] - a);
+    // The side of the face that corner i is on counts.
+    const double sign = dot(outside, corners[i] - a) < 0.0 ? -1.0 : 1.0;
+    const double start = sign * dot(outside, origin - a);
+    const double slope = sign * dot(outside, direction);
+    if (slope == 0.0)
+    {
+      range.Last = start < 0.0 ? range.First - 1.0 : range.Last;
+      continue;
+    }
+    (slope > 0.0 ? range.First : range.Last) =
+      slope > 0.0 ? std::max(range.First, -start / slope) : std::min(range.Last, -start / slope);
+  }
+  return range;
+}
+
+/** Orders of the tests to a backend, and its reports to them. */
+struct Talk
+{
+  std::string Reason;
+  bool Automatic = true;
+  int MeshCopies = 0;
+  int ScalarCopies = 0;
+};
+
+/** Draws as grey how long each ray is within the mesh, in world units. */
+class PathLengthBackend : public meniscus::RayCastBackend
+{
+public:
+  explicit PathLengthBackend(Talk& talk)
+    : Tester(talk)
+  {
+  }
+
+  std::string CanDraw(const meniscus::RayCastRequest& request) override
+  {
+    return request.GetFeatures().Membrane ? "path lengths know no membrane" : this->Tester.Reason;
+  }
+
+  bool IsAutomatic(const meniscus::RayCastRequest&) override { return this->Tester.Automatic; }
+
+  std::string Update(const meniscus::RayCastRequest& request) override
+  {
+    const meniscus::RayCastMesh mesh = request.GetMesh();
+    if (mesh.MeshVersion != this->MeshVersion)
+    {
+      this->Cells.clear();
+      for (std::int64_t c = 0; c < mesh.NumberOfCells; ++c)
+      {
+        this->Cells.emplace_back();
+        for (int i = 0; i < 4; ++i)
+        {
+          const std::int32_t* position = mesh.Positions + 3 * mesh.Cells[8 * c + i];
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            this->Cells.back()[i][axis] = mesh.PositionUnit * position[axis];
+          }
+        }
+      }
+      this->MeshVersion = mesh.MeshVersion;
+      ++this->Tester.MeshCopies;
+    }
+    this->Tester.ScalarCopies += mesh.ScalarVersion != this->ScalarVersion ? 1 : 0;
+    this->ScalarVersion = mesh.ScalarVersion;
+    return std::string();
+  }
+
+  std::string Cast(
+    const meniscus::RayCastRequest& request, meniscus::RayCastTarget& target) override
+  {
+    const meniscus::RayCastRays rays = request.GetRays();
+    const std::vector<float> depths = target.ReadDepths();
+    std::vector<float> image;
+    this->Statistics = meniscus::RayCastStatistics();
+    for (int row = 0; row < rays.Height; ++row)
+    {
+      for (int column = 0; column < rays.Width; ++column)
+      {
+        const double i = column + 0.5 - 0.5 * rays.Width;
+        const double j = row + 0.5 - 0.5 * rays.Height;
+        const double w = 2.0 * depths[image.size() / 4] - 1.0;
+        const double end = (w * rays.DepthNumerator[0] + rays.DepthNumerator[1]) /
+          (w * rays.DepthDenominator[0] + rays.DepthDenominator[1]);
+        const auto length = static_cast<float>(
+          this->lengthOf(at(rays.Origin, i, j), at(rays.Direction, i, j), { rays.NearDepth, end }) *
+          worldLength(rays, at(rays.Direction, i, j)));
+        image.insert(image.end(), { length, length, length, length > 0.0f ? 1.0f : 0.0f });
+      }
+    }
+    return target.WriteImage(image);
+  }
+
+  meniscus::RayCastStatistics GetStatistics() override { return this->Statistics; }
+
+  meniscus::RayCastCounters GetCounters() override
+  {
+    meniscus::RayCastCounters counters;
+    counters.HostBytes = static_cast<std::int64_t>(this->Cells.size() * sizeof(this->Cells[0]));
+    return counters;
+  }
+
+private:
+  static double worldLength(const meniscus::RayCastRays& rays, const Vector& direction)
+  {
+    Vector world;
+    for (int row = 0; row < 3; ++row)
+    {
+      const double* values = rays.ModelToWorld[row];
+      world[row] = dot({ values[0], values[1], values[2] }, direction);
+    }
+    return std::sqrt(dot(world, world));
+  }
+
+  double lengthOf(const Vector& origin, const Vector& direction, const DepthRange& range)
+  {
+    double length = 0.0;
+    std::int64_t crossed = 0;
+    for (const std::array<Vector, 4>& corners : this->Cells)
+    {
+      const DepthRange inside = clip(corners, origin, direction, range);
+      crossed += inside.First < inside.Last ? 1 : 0;
+      length += std::max(inside.Last - inside.First, 0.0);
+    }
+    this->Statistics.Steps += crossed;
+    this->Statistics.Rays += crossed > 0 ? 1 : 0;
+    return length;
+  }
+
+  Talk& Tester;
+  std::vector<std::array<Vector, 4>> Cells;
+  meniscus::TableVersion MeshVersion;
+  meniscus::TableVersion ScalarVersion;
+  meniscus::RayCastStatistics Statistics;
+};
+
+/** Length of a ray within the box [-1, 1]^3 of a volume's model coordinates, in world units. */
+double lengthInBox(const meniscus::reference::Ray& ray, vtkMatrix4x4* modelToWorld)
+{
+  vtkNew<vtkMatrix4x4> inverse;
+  vtkMatrix4x4::Invert(modelToWorld, inverse);
+  const double origin[4] = { ray.Origin[0], ray.Origin[1], ray.Origin[2], 1.0 };
+  const double direction[4] = { ray.Direction[0], ray.Direction[1], ray.Direction[2], 0.0 };
+  double o[4];
+  double d[4];
+  inverse->MultiplyPoint(origin, o);
+  inverse->MultiplyPoint(direction, d);
+  double first = 0.0;
+  double last = 1e30;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double a = (-1.0 - o[axis]) / d[axis];
+    const double b = (1.0 - o[axis]) / d[axis];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  const Vector world{ ray.Direction[0], ray.Direction[1], ray.Direction[2] };
+  return std::max(last - first, 0.0) * std::sqrt(dot(world, world));
+}
+
+/** A box of 6 * 3^3 tetrahedra, and the backend registered as long as the test runs. */
+class TetrahedraRayCastRegisteredBackend : public testing::Test
+{
+protected:
+  TetrahedraRayCastRegisteredBackend()
+    : Mesh(makeBlock(3, wavyField(3.0)))
+    , Scene(this->Mesh, makeProperty(FunctionKind::Smooth, Range, 3.4), Width, Height)
+    , Mapper(this->Scene.rayCaster())
+    , Observer(vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New()))
+  {
+    this->Registered =
+      meniscus::RegisterRayCastBackend({ "Path length", [this](meniscus::RayCastSharing&) {
+                                          return std::make_unique<PathLengthBackend>(this->Words);
+                                        } });
+    this->Observer->observe(this->Mapper);
+    this->Scene.volume()->SetOrientation(20.0, 10.0, 5.0);
+    this->Scene.volume()->SetScale(1.5);
+    this->Scene.volume()->SetPosition(0.3, -0.2, 0.1);
+    lookAt(this->Scene.renderer(), this->Scene.volume()->GetBounds(), 30.0, 20.0);
+    this->Mapper->SetBackend(vtkTetrahedraRayCastMapper::AUTOMATIC);
+  }
+  ~TetrahedraRayCastRegisteredBackend() override
+  {
+    meniscus::UnregisterRayCastBackend("Path length");
+  }
+
+  std::string drawnBy()
+  {
+    this->Scene.window()->Render();
+    return this->Mapper->GetActiveBackendName();
+  }
+
+  /** Name of the backend that AUTOMATIC chooses if none is registered. */
+  std::string ownBackend()
+  {
+    const bool software = deviceName(this->Scene.window()).find("llvmpipe") != std::string::npos;
+    return software ? "Native" : "OpenGL";
+  }
+
+  Talk Words;
+  bool Registered = false;
+  Grid Mesh;
+  RayCastScene Scene;
+  vtkTetrahedraRayCastMapper* Mapper;
+  vtkSmartPointer<ErrorObserver> Observer;
+};
+
+} // anonymous namespace
+
+TEST_F(TetrahedraRayCastRegisteredBackend, DrawsTheLengthsOfRaysInABox)
+{
+  // Lengths are below 8: rounded to float they are off by at most 2^-22. Positions are rounded to
+  // 2^-31 of the radius, 2.6, at both ends of a ray that meets no side flatter than 1 : 20: 5e-8.
+  constexpr double tolerance = 1.0 / (1 << 22) + 5e-8;
+  ASSERT_TRUE(this->Registered);
+  this->Mapper->SetBackendName("Path length");
+  this->Scene.window()->Render();
+  const FloatImage image = this->Scene.renderFloat();
+  EXPECT_EQ(this->Mapper->GetActiveBackend(), int(vtkTetrahedraRayCastMapper::REGISTERED));
+  EXPECT_STREQ(this->Mapper->GetActiveBackendName(), "Path length");
+  const PixelRays rays(this->Scene.renderer());
+  ASSERT_EQ(image.Width, rays.width());
+  ASSERT_EQ(image.Height, rays.height());
+  double longest = 0.0;
+  std::int64_t hits = 0;
+  for (int y = 0; y < image.Height; ++y)
+  {
+    for (int x = 0; x < image.Width; ++x)
+    {
+      const double expected = lengthInBox(rays.ray(x, y), this->Scene.volume()->GetMatrix());
+      ASSERT_NEAR(image.pixel(x, y)[0], expected, tolerance) << x << ", " << y;
+      longest = std::max(longest, expected);
+      hits += expected > tolerance ? 1 : 0;
+    }
+  }
+  EXPECT_GT(longest, 3.0);
+  EXPECT_GT(hits, Width * Height / 4);
+  EXPECT_NEAR(static_cast<double>(this->Mapper->GetNumberOfRays()), static_cast<double>(hits), 2.0);
+  EXPECT_TRUE(this->Observer->Warnings.empty()) << this->Observer->Warnings[0];
+  EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->text();
+}
+
+TEST_F(TetrahedraRayCastRegisteredBackend, AutomaticAsksItFirstAndReportsItsReason)
+{
+  EXPECT_EQ(this->drawnBy(), "Path length");
+  this->Words.Automatic = false;
+  EXPECT_EQ(this->drawnBy(), this->ownBackend());
+  EXPECT_TRUE(this->Observer->Warnings.empty()) << "not asked";
+  this->Words.Automatic = true;
+  this->Words.Reason = "it is out of ink";
+  EXPECT_EQ(this->drawnBy(), this->ownBackend());
+  ASSERT_EQ(this->Observer->Warnings.size(), 1u);
+  EXPECT_NE(this->Observer->Warnings[0].find("it is out of ink"), std::string::npos);
+  EXPECT_NE(this->Observer->Warnings[0].find(this->ownBackend()), std::string::npos);
+  const FloatImage other = this->Scene.renderFloat();
+  EXPECT_EQ(this->Observer->Warnings.size(), 1u) << "said once";
+  this->Words.Reason.clear();
+  EXPECT_EQ(this->drawnBy(), "Path length");
+  // The picture of the fallback is that of the library's own backend.
+  meniscus::UnregisterRayCastBackend("Path length");
+  EXPECT_EQ(this->drawnBy(), this->ownBackend());
+  EXPECT_EQ(this->Scene.renderFloat().Rgba, other.Rgba);
+  EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->text();
+}
+
+TEST_F(TetrahedraRayCastRegisteredBackend, NamesTakePrecedenceAndFallBack)
+{
+  this->Mapper->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+  EXPECT_EQ(this->drawnBy(), "Native") << "asked for by number";
+  this->Mapper->SetBackendName("OpenGL");
+  EXPECT_EQ(this->drawnBy(), "OpenGL");
+  EXPECT_EQ(this->Mapper->GetActiveBackend(), int(vtkTetrahedraRayCastMapper::OPENGL));
+  this->Mapper->SetBackendName("");
+  EXPECT_EQ(this->drawnBy(), "Native");
+  EXPECT_TRUE(this->Observer->Warnings.empty());
+  this->Words.Automatic = false;
+  this->Mapper->SetBackendName("No such");
+  EXPECT_EQ(this->drawnBy(), this->ownBackend());
+  ASSERT_EQ(this->Observer->Warnings.size(), 1u);
+  EXPECT_NE(this->Observer->Warnings[0].find("No such"), std::string::npos);
+  this->Words.Reason = "it is out of ink";
+  this->Mapper->SetBackendName("Path length");
+  EXPECT_EQ(this->drawnBy(), this->ownBackend());
+  ASSERT_EQ(this->Observer->Warnings.size(), 2u);
+  EXPECT_NE(this->Observer->Warnings[1].find("it is out of ink"), std::string::npos);
+  EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->text();
+}
+
+TEST_F(TetrahedraRayCastRegisteredBackend, TablesAreTakenOncePerVersion)
+{
+  this->Mapper->SetBackendName("Path length");
+  const vtkTypeInt64 before = this->Mapper->GetHostBytes();
+  this->Scene.window()->Render();
+  this->Scene.renderer()->GetActiveCamera()->Azimuth(10.0);
+  this->Scene.window()->Render();
+  EXPECT_EQ(this->Words.MeshCopies, 1);
+  EXPECT_EQ(this->Words.ScalarCopies, 1);
+  EXPECT_GE(this->Mapper->GetHostBytes() - before, 96 * this->Mesh->GetNumberOfCells());
+  vtkDataArray* scalars = this->Mesh->GetPointData()->GetScalars();
+  scalars->SetComponent(0, 0, 0.5 * scalars->GetComponent(0, 0) + 0.1);
+  scalars->Modified();
+  this->Scene.window()->Render();
+  EXPECT_EQ(this->Words.MeshCopies, 1);
+  EXPECT_EQ(this->Words.ScalarCopies, 2);
+  this->Mesh->GetPoints()->SetPoint(0, -1.1, -1.1, -1.1);
+  this->Mesh->GetPoints()->Modified();
+  this->Scene.window()->Render();
+  EXPECT_EQ(this->Words.MeshCopies, 2);
+}
+
+TEST_F(TetrahedraRayCastRegisteredBackend, NamesAreTakenOnce)
+{
+  const auto make = [this](meniscus::RayCastSharing&)
+  { return std::make_unique<PathLengthBackend>(this->Words); };
+  EXPECT_FALSE(meniscus::RegisterRayCastBackend({ "Path length", make }));
+  EXPECT_FALSE(meniscus::RegisterRayCastBackend({ "Native", make }));
+  EXPECT_FALSE(meniscus::RegisterRayCastBackend({ "", make }));
+  EXPECT_FALSE(meniscus::RegisterRayCastBackend({ "Nothing", nullptr }));
+  EXPECT_FALSE(meniscus::UnregisterRayCastBackend("Native"));
+  EXPECT_FALSE(meniscus::UnregisterRayCastBackend("No such"));
+  std::vector<std::string> names;
+  for (const auto& entry : meniscus::ListRayCastBackends())
+  {
+    names.push_back(entry->Name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{ "Path length", "OpenGL", "Compute", "Native" }));
+}
