@@ -515,8 +515,11 @@ void vtkRefractionPass::Compose(
   if (!composer)
   {
     std::string source = vtkRefractionMembraneFS;
+    const auto define = [](const char* name, int value)
+    { return "#define " + std::string(name) + " " + std::to_string(value) + "\n"; };
     vtkShaderProgram::Substitute(source, "//VTK::Environment::Dec",
-      cubeMap ? "#define HAS_ENVIRONMENT 1" : "#define HAS_ENVIRONMENT 0");
+      define("HAS_ENVIRONMENT", cubeMap ? 1 : 0) + define("NO_REFLECTANCE", NONE) +
+        define("SCHLICK", SCHLICK) + define("FRESNEL", FRESNEL));
     composer = std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source.c_str(), "");
   }
   else

@@ -22,7 +22,6 @@
 #include "vtkRenderer.h"
 #include "vtkTimerLog.h"
 #include "vtkVolume.h"
-#include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 
 #include <glm/matrix.hpp>
@@ -215,8 +214,7 @@ bool vtkTetrahedraRayCastMapper::ChooseMixture(
     problem = independent ? "; 1 to 4 are needed, or a VectorMode"
                           : "; 1, 2 or 4 are needed, or a VectorMode";
   }
-  else if (parts.Place == meniscus::FieldAssociation::Cells ||
-    this->GetUsedBlendMode() != vtkVolumeMapper::COMPOSITE_BLEND)
+  else if (parts.Place == meniscus::FieldAssociation::Cells || !this->GetBlendModel().IsMedium())
   {
     problem = "; cell data and other than composite blending need 1, or a VectorMode";
   }
@@ -266,7 +264,7 @@ void vtkTetrahedraRayCastMapper::WarnOnce(bool condition, bool& warned, const ch
 void vtkTetrahedraRayCastMapper::WarnAboutUnavailable()
 {
   vtkInternals& internals = *this->Internals;
-  this->WarnOnce(this->GetUsedBlendMode() != this->BlendMode, internals.WarnedBlendMode,
+  this->WarnOnce(!meniscus::FindBlendModel(this->BlendMode), internals.WarnedBlendMode,
     "The blend mode is not available for meshes; rendering with composite blending.");
 }
 
@@ -288,7 +286,7 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
   {
     return false;
   }
-  internals.Property.Reduce(volume->GetProperty(), this->GetUsedBlendMode(),
+  internals.Property.Reduce(volume->GetProperty(), this->GetBlendModel().Mode,
     this->OpacityModel == OPACITY_PER_UNIT_DISTANCE, internals.Mixture,
     mixed ? parts.Parts.front().Scalars->GetNumberOfComponents() : 1);
   const meniscus::FunctionFeatures& features = internals.Property.GetFeatures();
@@ -338,11 +336,17 @@ vtkMTimeType vtkTetrahedraRayCastMapper::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-int vtkTetrahedraRayCastMapper::GetUsedBlendMode()
+const meniscus::BlendModel& vtkTetrahedraRayCastMapper::GetBlendModel()
 {
-  const bool known = this->BlendMode >= vtkVolumeMapper::COMPOSITE_BLEND &&
-    this->BlendMode <= vtkVolumeMapper::ISOSURFACE_BLEND;
-  return known ? this->BlendMode : vtkVolumeMapper::COMPOSITE_BLEND;
+  const meniscus::BlendModel* model = meniscus::FindBlendModel(this->BlendMode);
+  return model ? *model : meniscus::GetBlendModel(meniscus::BlendMode::Composite);
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayCastMapper::CanRanksComposite(int blendMode)
+{
+  const meniscus::BlendModel* model = meniscus::FindBlendModel(blendMode);
+  return !model || model->RanksComposite(); // composite blending replaces an unknown mode
 }
 
 //------------------------------------------------------------------------------
@@ -359,23 +363,22 @@ void vtkTetrahedraRayCastMapper::UpdateTransferFunction()
     return;
   }
   using Jumps = meniscus::TetrahedralMesh::CellJumps;
-  const bool isosurfaces = this->GetUsedBlendMode() == vtkVolumeMapper::ISOSURFACE_BLEND;
-  internals.Input.UpdateActiveCells(visible, isosurfaces ? Jumps::Visible : Jumps::Hidden);
+  internals.Input.UpdateActiveCells(
+    visible, this->GetBlendModel().SeesJumps() ? Jumps::Visible : Jumps::Hidden);
 }
 
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayCastMapper::ChooseIntegration(
   vtkVolume* volume, meniscus::RayCastOptics& optics)
 {
-  const bool wanted =
-    this->Integration == PRE_INTEGRATED && optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND;
+  const bool wanted = this->Integration == PRE_INTEGRATED && optics.Model().IsMedium();
   // No warning for scalars of cells: they are constant in each cell, so the table would hold the
   // exact values.
-  this->WarnOnce(wanted && !optics.IsComposite() && !optics.CellScalars,
+  this->WarnOnce(wanted && !optics.IsPlainMedium() && !optics.CellScalars,
     this->Internals->WarnedIntegration,
     "Pre-integration is not available with shading, gradient opacity and several components; "
     "integrating exactly.");
-  optics.PreIntegrated = wanted && optics.IsComposite();
+  optics.PreIntegrated = wanted && optics.IsPlainMedium();
   if (optics.PreIntegrated)
   {
     vtkInternals& internals = *this->Internals;
@@ -470,7 +473,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   frame.Rays = place.Frame;
   this->PrepareRefraction(place, frame);
   frame.EarlyTerminationOpacity = this->EarlyTerminationOpacity;
-  frame.Optics.BlendMode = this->GetUsedBlendMode();
+  frame.Optics.Blending = this->GetBlendModel().Mode;
   frame.Optics.Components = internals.Mixture;
   frame.Optics.NumberOfFunctions =
     1 + static_cast<int>(internals.Property.GetOtherIntervals().size());

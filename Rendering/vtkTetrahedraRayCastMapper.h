@@ -109,6 +109,7 @@ class vtkRenderWindow;
 
 namespace meniscus
 {
+struct BlendModel;
 struct InputBlocks;
 struct InputReport;
 struct RayCastFrame;
@@ -363,6 +364,12 @@ public:
   vtkGetMacro(MaximumTableSize, vtkTypeInt64);
   /** @} */
 
+  /**
+   * Whether pictures of parts of a volume in this blend mode can be put one over the other: those
+   * of several ranks, for example.
+   */
+  static bool CanRanksComposite(int blendMode);
+
   /** @{ */
   /**
    * Set/Get the bias of images that are composited afterwards by arithmetic that truncates
@@ -544,7 +551,7 @@ private:
   void PrepareRefraction(const meniscus::ViewContext& place, meniscus::RayCastFrame& frame);
   bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts);
   void UpdateTransferFunction();
-  int GetUsedBlendMode();
+  const meniscus::BlendModel& GetBlendModel();
   double ChooseImageSampleDistance(vtkVolume* volume);
   std::string PrepareFrame(vtkRenderer* renderer, vtkVolume* volume, meniscus::RayCastFrame& frame);
   std::string DrawFrame(meniscus::RayCastFrame& frame, const meniscus::InputBlocks& parts);

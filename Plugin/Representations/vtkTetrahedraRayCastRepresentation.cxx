@@ -18,7 +18,6 @@
 #include "vtkPolyData.h"
 #include "vtkRenderer.h"
 #include "vtkTetrahedraRayCastMapper.h"
-#include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 #include "vtkVolumeRepresentationPreprocessor.h"
 
@@ -259,8 +258,7 @@ void vtkTetrahedraRayCastRepresentation::SetBlendMode(int mode)
 {
   this->Mapper->SetBlendMode(mode);
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  const bool composites =
-    mode == vtkVolumeMapper::COMPOSITE_BLEND || mode == vtkVolumeMapper::ISOSURFACE_BLEND;
+  const bool composites = vtkTetrahedraRayCastMapper::CanRanksComposite(mode);
   if (!composites && controller && controller->GetNumberOfProcesses() > 1 &&
     controller->GetLocalProcessId() == 0)
   {

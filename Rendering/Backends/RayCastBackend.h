@@ -126,7 +126,7 @@ struct RayCastRays
 /** Properties of a frame that a backend may not have. */
 struct RayCastFeatures
 {
-  /** A number of vtkVolumeMapper::BlendModes up to ISOSURFACE_BLEND. */
+  /** A number of vtkVolumeMapper::BlendModes. */
   int BlendMode = 0;
   bool CellScalars = false;
   bool SeveralComponents = false;

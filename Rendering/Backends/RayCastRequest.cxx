@@ -114,7 +114,7 @@ RayCastFeatures RayCastRequest::GetFeatures() const
 {
   const RayCastOptics& optics = this->Frame.Optics;
   RayCastFeatures features;
-  features.BlendMode = optics.BlendMode;
+  features.BlendMode = static_cast<int>(optics.Blending);
   features.CellScalars = optics.CellScalars;
   features.SeveralComponents = optics.HasComponents();
   features.Shading = optics.Shading;

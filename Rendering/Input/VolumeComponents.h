@@ -4,9 +4,9 @@
 #define meniscus_Rendering_Input_VolumeComponents_h
 
 #include "Common/TableVersion.h"
-#include "Rendering/Input/ComponentMixture.h"
 #include "Rendering/Input/VolumeInput.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
+#include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Optics/TransferFunction.h"
 
 #include <glm/vec3.hpp>

@@ -23,6 +23,14 @@ namespace meniscus
 namespace
 {
 
+static_assert(static_cast<int>(BlendMode::Composite) == vtkVolumeMapper::COMPOSITE_BLEND &&
+    static_cast<int>(BlendMode::MaximumIntensity) == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND &&
+    static_cast<int>(BlendMode::MinimumIntensity) == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND &&
+    static_cast<int>(BlendMode::AverageIntensity) == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND &&
+    static_cast<int>(BlendMode::Additive) == vtkVolumeMapper::ADDITIVE_BLEND &&
+    static_cast<int>(BlendMode::Isosurfaces) == vtkVolumeMapper::ISOSURFACE_BLEND,
+  "blend modes have VTK's numbers");
+
 /** Converts view coordinates to the frame: depth is along -z. */
 glm::dvec3 ToFrame(const glm::dvec3& view)
 {
@@ -92,11 +100,12 @@ void GatherShading(vtkVolumeProperty* property, vtkRenderer* renderer, const Vie
   RayCastOptics& optics)
 {
   // Mixed components have a gradient each: there is no common normal.
-  const bool composite = optics.BlendMode == vtkVolumeMapper::COMPOSITE_BLEND &&
+  const bool hasGradients =
     !optics.CellScalars && optics.Components != ComponentMixture::Independent;
-  optics.Shading = property->GetShade() != 0 &&
-    (composite || optics.BlendMode == vtkVolumeMapper::ISOSURFACE_BLEND);
-  optics.GradientOpacity = composite && UsesGradientOpacity(property);
+  const bool isMedium = optics.Model().IsMedium();
+  optics.Shading =
+    property->GetShade() != 0 && optics.Model().IsLit() && (hasGradients || !isMedium);
+  optics.GradientOpacity = isMedium && hasGradients && UsesGradientOpacity(property);
   if (!optics.UsesGradients())
   {
     return;

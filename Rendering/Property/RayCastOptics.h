@@ -3,7 +3,8 @@
 #ifndef meniscus_Rendering_Property_RayCastOptics_h
 #define meniscus_Rendering_Property_RayCastOptics_h
 
-#include "Rendering/Input/ComponentMixture.h"
+#include "Volume/Optics/BlendModels.h"
+#include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Optics/ScalarNormalization.h"
 #include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Rays/ClippingPlanes.h"
@@ -25,11 +26,10 @@ namespace meniscus
 /** Optical parameters of rays, besides the transfer function's tables. */
 struct RayCastOptics
 {
-  /** A number of vtkVolumeMapper::BlendModes up to ISOSURFACE_BLEND. */
-  int BlendMode = 0;
+  BlendMode Blending = BlendMode::Composite;
   /** True: one scalar per cell, instead of those of the vertices. */
   bool CellScalars = false;
-  /** Not None with composite blending only. */
+  /** None unless the blend mode shows a medium. */
   ComponentMixture Components = ComponentMixture::None;
   /** Number of functions of the scalars' components, the main one first. */
   int NumberOfFunctions = 1;
@@ -67,10 +67,12 @@ struct RayCastOptics
   {
     return this->UsesGradients() && !this->VertexGradients && !this->CellScalars;
   }
-  /** True for composite blending of one scalar of the vertices by the transfer function alone. */
-  bool IsComposite() const
+  /** Description of the blend mode. */
+  const BlendModel& Model() const { return GetBlendModel(this->Blending); }
+  /** True for a medium of one scalar of the vertices by the transfer function alone. */
+  bool IsPlainMedium() const
   {
-    return this->BlendMode == 0 && !this->UsesGradients() && !this->HasComponents() &&
+    return this->Model().IsMedium() && !this->UsesGradients() && !this->HasComponents() &&
       !this->CellScalars;
   }
 };

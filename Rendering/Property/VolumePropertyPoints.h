@@ -3,6 +3,7 @@
 #ifndef meniscus_Rendering_Property_VolumePropertyPoints_h
 #define meniscus_Rendering_Property_VolumePropertyPoints_h
 
+#include "Volume/Optics/BlendModels.h"
 #include "Volume/Optics/TransferFunction.h"
 
 #include <vector>
@@ -11,17 +12,6 @@ class vtkVolumeProperty;
 
 namespace meniscus
 {
-
-/** Meaning of an opacity o of the transfer function, with the property's unit distance u. */
-enum class OpacityMeaning
-{
-  /** An attenuation coefficient o / u. */
-  Attenuation,
-  /** The alpha of one unit distance: an attenuation coefficient -ln(1 - o) / u. */
-  AlphaPerUnitDistance,
-  /** The alpha itself. */
-  Alpha
-};
 
 /**
  * The transfer function of a property's component as control points of attenuation (per world

@@ -5,7 +5,6 @@
 #include "Rendering/Property/RayCastOptics.h"
 
 #include "vtkContourValues.h"
-#include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
 
 #include <algorithm>
@@ -14,19 +13,6 @@ namespace meniscus
 {
 namespace
 {
-
-OpacityMeaning MeaningOf(int blendMode, bool perUnitDistance)
-{
-  switch (blendMode)
-  {
-    case vtkVolumeMapper::COMPOSITE_BLEND:
-      return perUnitDistance ? OpacityMeaning::AlphaPerUnitDistance : OpacityMeaning::Attenuation;
-    case vtkVolumeMapper::ADDITIVE_BLEND:
-      return OpacityMeaning::Attenuation;
-    default:
-      return OpacityMeaning::Alpha;
-  }
-}
 
 /**
  * Creates the property's default functions. VTK creates them on first access, which would change
@@ -68,23 +54,23 @@ std::vector<TransferFunctionPoint> ReduceWeighted(
 }
 
 //------------------------------------------------------------------------------
-void VolumePropertyTables::Reduce(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
+void VolumePropertyTables::Reduce(vtkVolumeProperty* property, BlendMode mode, bool perUnitDistance,
   ComponentMixture mixture, int components)
 {
   MakeDefaultFunctions(property, NumberOfUsedComponents(mixture, components));
   const ObjectVersion version(property);
   const ObjectVersion isovalues(property->GetIsoSurfaceValues());
-  const OpacityMeaning meaning = MeaningOf(blendMode, perUnitDistance);
+  const OpacityMeaning meaning = OpacityMeaningOf(mode, perUnitDistance);
   const bool reduced = version == this->BuiltProperty && isovalues == this->BuiltIsovalues &&
-    meaning == this->BuiltMeaning && blendMode == this->BuiltBlendMode &&
-    mixture == this->BuiltMixture && components == this->BuiltNumberOfComponents;
+    meaning == this->BuiltMeaning && mode == this->BuiltMode && mixture == this->BuiltMixture &&
+    components == this->BuiltNumberOfComponents;
   if (!reduced)
   {
-    this->ReduceProperty(property, blendMode, meaning, mixture, components);
+    this->ReduceProperty(property, mode, meaning, mixture, components);
     this->BuiltProperty = version;
     this->BuiltIsovalues = isovalues;
     this->BuiltMeaning = meaning;
-    this->BuiltBlendMode = blendMode;
+    this->BuiltMode = mode;
     this->BuiltMixture = mixture;
     this->BuiltNumberOfComponents = components;
     this->FindFeatures();
@@ -106,7 +92,7 @@ void VolumePropertyTables::Normalize(
 }
 
 //------------------------------------------------------------------------------
-void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, int blendMode,
+void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, BlendMode mode,
   OpacityMeaning meaning, ComponentMixture mixture, int components)
 {
   this->PointVersion.Bump();
@@ -127,15 +113,14 @@ void VolumePropertyTables::ReduceProperty(vtkVolumeProperty* property, int blend
     default:
       this->Points = ReducePropertyToPoints(property, 0, meaning);
   }
-  this->HasGradientOpacity =
-    blendMode == vtkVolumeMapper::COMPOSITE_BLEND && UsesGradientOpacity(property);
+  this->HasGradientOpacity = GetBlendModel(mode).IsMedium() && UsesGradientOpacity(property);
   this->GradientPoints.clear();
   if (this->HasGradientOpacity)
   {
     this->GradientPoints = ReduceGradientOpacityToPoints(property);
   }
   this->SurfacePoints.clear();
-  if (blendMode == vtkVolumeMapper::ISOSURFACE_BLEND)
+  if (GetBlendModel(mode).Visible == VisibleBy::Isovalues)
   {
     vtkContourValues* values = property->GetIsoSurfaceValues();
     for (int i = 0; i < values->GetNumberOfContours(); ++i)
@@ -150,7 +135,7 @@ void VolumePropertyTables::FindFeatures()
 {
   this->Features.Version = this->PointVersion;
   this->Features.OfScalars.assign(1, FeaturesOf(this->Points));
-  if (this->BuiltBlendMode == vtkVolumeMapper::ISOSURFACE_BLEND)
+  if (GetBlendModel(this->BuiltMode).Visible == VisibleBy::Isovalues)
   {
     this->Features.OfScalars[0].clear();
     for (const TransferFunctionPoint& point : this->SurfacePoints)
@@ -217,12 +202,12 @@ std::vector<VisibleScalars> VolumePropertyTables::GetVisibleOthers() const
 VisibleScalars VolumePropertyTables::GetVisibleScalars() const
 {
   VisibleScalars visible;
-  switch (this->BuiltBlendMode)
+  switch (GetBlendModel(this->BuiltMode).Visible)
   {
-    case vtkVolumeMapper::COMPOSITE_BLEND:
+    case VisibleBy::Attenuation:
       visible.AddAttenuation(this->Intervals);
       return visible;
-    case vtkVolumeMapper::ISOSURFACE_BLEND:
+    case VisibleBy::Isovalues:
       for (const Isosurface& surface : this->Isosurfaces)
       {
         visible.AddIsovalue(surface.Scalar);

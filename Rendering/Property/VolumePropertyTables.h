@@ -34,11 +34,11 @@ class VolumePropertyTables
 public:
   /**
    * Reduces a property to points, without using scalars.
-   * @param blendMode value of vtkVolumeMapper::BlendModes; determines the meaning of opacity.
+   * @param mode blend mode; determines the meaning of opacity.
    * @param perUnitDistance for composite blending: opacity is the alpha of one unit distance.
    * @param components number of components of the scalars, used if they are independent.
    */
-  void Reduce(vtkVolumeProperty* property, int blendMode, bool perUnitDistance,
+  void Reduce(vtkVolumeProperty* property, BlendMode mode, bool perUnitDistance,
     ComponentMixture mixture, int components);
   /**
    * Converts the tables to normalised scalars.
@@ -64,7 +64,7 @@ public:
   {
     return this->GradientIntervals;
   }
-  /** Ascending; empty except for isosurfaces. */
+  /** Ascending; empty unless the blend mode shows isovalues. */
   const std::vector<Isosurface>& GetIsosurfaces() const { return this->Isosurfaces; }
 
   /** Scalars for which rays must visit a cell. */
@@ -78,7 +78,7 @@ public:
   std::int64_t GetNumberOfBuilds() const { return this->PointVersion.GetChanges(); }
 
 private:
-  void ReduceProperty(vtkVolumeProperty* property, int blendMode, OpacityMeaning meaning,
+  void ReduceProperty(vtkVolumeProperty* property, BlendMode mode, OpacityMeaning meaning,
     ComponentMixture mixture, int components);
   void FindFeatures();
   void NormalizeTables(
@@ -98,7 +98,7 @@ private:
   ObjectVersion BuiltProperty;
   ObjectVersion BuiltIsovalues;
   OpacityMeaning BuiltMeaning = OpacityMeaning::Attenuation;
-  int BuiltBlendMode = -1;
+  BlendMode BuiltMode = BlendMode::Composite;
   ScalarNormalization BuiltNormalization;
   ComponentMixture BuiltMixture = ComponentMixture::None;
   int BuiltNumberOfComponents = 1;

@@ -2,6 +2,8 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Refraction/Membrane/Optics.h (reflectance)
+//
 // Colour of a membrane's pixel: transmitted and reflected light.
 
 //VTK::Environment::Dec
@@ -20,18 +22,18 @@ uniform mat3 viewToWorld;
 uniform mat4 clipToView;
 uniform bool parallelView;
 uniform vec3 background;
-uniform int reflectanceModel;      // 0: none, 1: Schlick, 2: exact
+uniform int reflectanceModel;      // NO_REFLECTANCE, SCHLICK or FRESNEL
 uniform float relativeIndex;       // index of the interior relative to the exterior
 
 // Reflectance of unpolarised light; c is the cosine of the angle of incidence. Eqs. 2.6 and 2.7 of
 // the thesis.
 float reflectance(float c)
 {
-  if (reflectanceModel == 0)
+  if (reflectanceModel == NO_REFLECTANCE)
   {
     return 0.0;
   }
-  if (reflectanceModel == 1)
+  if (reflectanceModel == SCHLICK)
   {
     float r = (relativeIndex - 1.0) / (relativeIndex + 1.0);
     float x = 1.0 - c;

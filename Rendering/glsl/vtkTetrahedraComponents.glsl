@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Models/MultiComponentModel.h (integral of several components)
+//
 // Composite blending of scalars of several components. Each is linear in a cell. A segment is split
 // where one of them passes a node of its function. On a piece, attenuation is linear, and emission
 // (attenuation times colour) is quadratic.
@@ -9,11 +11,7 @@
 uniform int functionStart[NUMBER_OF_FUNCTIONS];
 uniform int functionSize[NUMBER_OF_FUNCTIONS];
 
-// Pieces end at this optical depth: up to it, Gauss' rule of three points, exact for polynomials of
-// the fifth degree, integrates emission times transmittance to 1e-6 of the largest emission.
-const float PIECE_DEPTH = 0.5;
-const float GAUSS_PLACE = 0.3872983346207417;   // sqrt(3/5) / 2, to both sides of the middle
-const vec3 GAUSS_WEIGHTS = vec3(5.0, 8.0, 5.0) / 18.0;
+const vec3 GAUSS_WEIGHTS = vec3(OUTER_GAUSS_WEIGHT, MIDDLE_GAUSS_WEIGHT, OUTER_GAUSS_WEIGHT);
 
 // Current interval of each function: its index; its lower and upper end, attenuation and slope; its
 // colours; and the scalar up to which the pending segment has been integrated.
@@ -137,13 +135,13 @@ bool integratePiece()
   float slope = density.y - density.x;
   float depth = 0.5 * (density.x + density.y);
   float part = 1.0;
-  bool whole = depth <= PIECE_DEPTH;
+  bool whole = depth <= LARGEST_GAUSS_DEPTH;
   if (!whole)
   {
-    // part (density + part slope / 2) = PIECE_DEPTH, the root without cancellation.
-    part = min(1.0, 2.0 * PIECE_DEPTH /
-      (density.x + sqrt(max(0.0, density.x * density.x + 2.0 * PIECE_DEPTH * slope))));
-    depth = PIECE_DEPTH;
+    // part (density + part slope / 2) = LARGEST_GAUSS_DEPTH, the root without cancellation.
+    part = min(1.0, 2.0 * LARGEST_GAUSS_DEPTH / (density.x +
+      sqrt(max(0.0, density.x * density.x + 2.0 * LARGEST_GAUSS_DEPTH * slope))));
+    depth = LARGEST_GAUSS_DEPTH;
   }
 
   vec3 emitted = vec3(0.0);

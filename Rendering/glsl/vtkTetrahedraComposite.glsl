@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Models/CompositeModel.h (integral of a medium)
 //
 // Composite blending: the density-emitter integral along the ray.
 
@@ -8,19 +9,16 @@ void startPart(float scalar)
   findInterval(scalar);
 }
 
-// 1 - psi, the mean over a piece of the absorption up to a place: the integral over [0, 1] of 1 -
-// exp(-(a x + (t - a) x^2)), with density a at the front and optical depth t <= 1. A polynomial of
-// degree 5, exact to first order, fitted to 3e-7 for all densities that are nowhere negative.
+// 1 - psi, the mean over a piece of the absorption up to a place, with density a at the front and
+// optical depth t <= 1: see AbsorptionFit in Module/Volume/Optics/MediumConstants.h.
 float absorbedOnAverage(float t, float a)
 {
-  float p0 = t * (0.3333333333 + t * (-0.0999792881 + t * (0.0236830118 +
-    t * (-0.0043518064 + t * 0.0004903571))));
-  float p1 = 0.1666666667 + t * (-0.0500173281 + t * (0.0119526605 +
-    t * (-0.0023320093 + t * 0.0003181505)));
-  float p2 = -0.0166512718 + t * (0.0047084626 + t * (-0.0008994605 + t * 0.0000935654));
-  float p3 = 0.0011768438 + t * (-0.0003058993 + t * 0.0000410537);
-  float p4 = -0.0000596959 + t * 0.0000104829;
-  return p0 + a * (p1 + a * (p2 + a * (p3 + a * (p4 + a * 0.0000017222))));
+  float p0 = t * MEAN_ABSORBED_0(t);
+  float p1 = MEAN_ABSORBED_1(t);
+  float p2 = MEAN_ABSORBED_2(t);
+  float p3 = MEAN_ABSORBED_3(t);
+  float p4 = MEAN_ABSORBED_4(t);
+  return p0 + a * (p1 + a * (p2 + a * (p3 + a * (p4 + a * MEAN_ABSORBED_5(t)))));
 }
 
 // Integrates the next piece of the pending segment: up to the end of the segment, to that of the

@@ -117,7 +117,6 @@ uniform sampler3D entryTiles;        // per tile: faces to enter by (vtkTetrahed
 uniform sampler3D refractedTiles;         // the same for the refracted rays
 #endif
 
-const int TILE_CAPACITY = 32;
 // Bound of the depths of the mesh, which are within 2^30 - 2048 plus rounding (GRID_PER_DEPTH); the
 // difference of two such bounds still fits an int.
 const int FARTHEST_DEPTH = 1073741823;

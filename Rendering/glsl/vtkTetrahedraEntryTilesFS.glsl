@@ -4,6 +4,8 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Entries/EntryTiles.cxx (faces that a tile is entered by)
+//
 // Lists, for each tile of the image, the boundary faces by which a ray of the tile may enter the
 // mesh: up to 32 faces in 8 targets, padded with -1. If a tile has more faces, its list begins with
 // -2. The computation uses the tile's central ray, in its grid units, and bounds the difference to
@@ -25,7 +27,6 @@ in vec2 texCoord;
 uniform float tileSize;
 uniform vec2 tileCount;
 
-const int CAPACITY = 32;
 // Bound, relative to the products of which areas consist, of the effect of rounding u and v to
 // floats (2^-24) for the central ray and for another, and of the sums here: 4 * 2^-24 and a few
 // times 2^-24.
@@ -183,27 +184,27 @@ void main()
   alike = alike && !(nearMesh && any(greaterThan(reach + reachPerDepth, vec2(LARGEST_REACH))));
   nearMesh = nearMesh && alike;
 
-  vec4 list[8];
-  for (int i = 0; i < 8; ++i)
+  vec4 list[TILE_CAPACITY / 4];
+  for (int i = 0; i < TILE_CAPACITY / 4; ++i)
   {
     list[i] = vec4(-1.0);
   }
-  int count = alike ? 0 : CAPACITY + 1;
+  int count = alike ? 0 : TILE_CAPACITY + 1;
   int node = nearMesh ? 0 : numberOfNodes;
-  while (node < numberOfNodes && count <= CAPACITY)
+  while (node < numberOfNodes && count <= TILE_CAPACITY)
   {
     int leaf;
     meetsBox(node, reach, reachPerDepth, ivec2(BEFORE_EVERYTHING, end), node, leaf);
     if (leaf >= 0 && mayEnter(leaf))
     {
-      if (count < CAPACITY)
+      if (count < TILE_CAPACITY)
       {
         list[count / 4][count % 4] = float(leaf);
       }
       ++count;
     }
   }
-  if (count > CAPACITY)
+  if (count > TILE_CAPACITY)
   {
     list[0].x = -2.0;
   }

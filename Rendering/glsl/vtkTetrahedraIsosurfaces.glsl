@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Models/IsosurfaceModel.h (isovalues next to a scalar)
+// Twin: Module/Volume/Packet/Models/PacketSurfaces.cxx (surfaces that a segment meets)
+//
 // Isosurfaces, intersected exactly where the scalar, linear along a segment, passes an isovalue. A
 // scalar equal to an isovalue counts as above it: a surface through a face is met once, and a
 // surface that a ray only touches is not met. Scalars of cells pass isovalues on the faces where

@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Models/PacketLights.h (lights)
+// Twin: Module/Volume/Optics/SurfaceLighting.cxx (lights)
+//
 // Gradients and lights. Positions and directions are in the frame of the view (x, y, depth), in
 // which lengths are world lengths up to a factor.
 
-// Normalised model coordinates in units of MODEL_UNIT; bits of the normalised scalar.
+// Normalised model coordinates in units of TetrahedralMesh::PositionUnit; bits of the normalised
+// scalar.
 uniform isamplerBuffer modelVertices;
-const float MODEL_UNIT = 1.0 / 1073741824.0; // TetrahedralMesh::PositionUnit
 uniform mat3 gradientToFrame;        // from normalised model coordinates
 uniform float gradientMagnitude;     // per length in the frame: scalar per world length, normalised
 uniform int firstGradientInterval;   // gradient opacity follows the intervals of the scalar

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Functions of composite blending for any number of components.
-
-// Optical depth of a piece beyond which results do not differ; its square is finite.
-const float LARGEST_DEPTH = 1.0e+18;
+// Twin: Module/Volume/Packet/Models/PacketExponential.h (absorption)
+// Twin: Module/Volume/Packet/Models/PacketGradientShading.h (light and opacity by gradients)
+//
+// Light and absorption of a medium, for any number of components.
 
 #if SHADING || GRADIENT_OPACITY
 // Effect of the gradient on the pending segment, at its start and end and linear in between: the
@@ -43,11 +43,8 @@ vec3 shade(vec3 emitted, float done)
 #endif
 #endif
 
-// 1 - exp(-x) for x in [0, 1], with an error of at most 2e-9: x times a Chebyshev interpolant of (1
-// - exp(-x)) / x.
+// 1 - exp(-x) for x in [0, 1]: see AbsorptionFit in Module/Volume/Optics/MediumConstants.h.
 float absorbed(float x)
 {
-  return x * (0.99999999793357 + x * (-0.49999979725212 + x * (0.16666340311502 +
-    x * (-0.04164684931339 + x * (0.00827550484353 +
-    x * (-0.00130077495785 + x * 0.00012907631016))))));
+  return x * ABSORBED_PER_DEPTH(x);
 }

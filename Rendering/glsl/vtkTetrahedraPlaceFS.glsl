@@ -3,6 +3,8 @@
 
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Rays/FixedPointRays.cxx (place of a vertex)
+//
 // Places vertices in the grid of a view (Module/Volume/Rays/FixedPointRays.h), one per fragment.
 // The kernel does the same in double precision; here it is done in 64-bit fixed point. Coefficients
 // have errors of 2^-33 across the view and 2^-32 along it, which moves the mesh by up to 3/8 and

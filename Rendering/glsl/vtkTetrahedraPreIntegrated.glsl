@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Models/PreIntegratedModel.h (parts of a segment)
+// Twin: Module/Volume/Packet/Models/PacketSegmentTable.cxx (look-up in the table)
+//
 // Composite blending by a table of pre-integrated segments, see
 // Module/Volume/Optics/PreIntegration.h.
 

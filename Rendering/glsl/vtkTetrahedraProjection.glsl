@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Models/IntensityProjectionModel.h (one number per ray)
+//
 // Blending that keeps one number per ray: the largest or smallest scalar or the scalar's mean,
 // mapped by the transfer function, or the integral of opacity times scalar, shown as a grey level.
 

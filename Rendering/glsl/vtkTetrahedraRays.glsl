@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Rays/ExactEdgeTest.h (sign of an edge)
+//
 // The rays of an image, and the mesh's boundary in the frame of one ray: the code that the passes
 // share. The frame and its names are those of Module/Volume/Rays/RayFrame.h, the tables those of
 // TetrahedralMesh.h and BoundaryTree.h.
@@ -46,18 +48,17 @@ uniform int enteringSign;            // outward * enteringSign > 0: counter-cloc
 // Module/Volume/Refracted/RefractedRayTexels.h, in one of several frames, given by their rows and
 // by their axes in the frame of the view.
 uniform isampler2D refractedRays;
-uniform vec3 frameRowX[6];
-uniform vec3 frameRowY[6];
-uniform vec3 frameRowDepth[6];
-uniform vec3 frameAxisX[6];
-uniform vec3 frameAxisY[6];
-uniform vec3 frameAxisDepth[6];
-uniform float frameGridPerUnit[6];
-uniform int frameFirstVertex[6];     // start of the vertices placed in each frame
+uniform vec3 frameRowX[NUMBER_OF_FRAMES];
+uniform vec3 frameRowY[NUMBER_OF_FRAMES];
+uniform vec3 frameRowDepth[NUMBER_OF_FRAMES];
+uniform vec3 frameAxisX[NUMBER_OF_FRAMES];
+uniform vec3 frameAxisY[NUMBER_OF_FRAMES];
+uniform vec3 frameAxisDepth[NUMBER_OF_FRAMES];
+uniform float frameGridPerUnit[NUMBER_OF_FRAMES];
+uniform int frameFirstVertex[NUMBER_OF_FRAMES]; // start of the vertices placed in each frame
 #endif
 
-// Grid units of depth per unit of the frame: PacketVertex::GridPerDepth.
-const float GRID_PER_DEPTH = 1073739776.0;
+// Units of the frame per grid unit of depth (PacketVertex::GridPerDepth).
 const float DEPTH_UNIT = 1.0 / GRID_PER_DEPTH;
 // The mesh's radius in grid units, projected along a ray, is at most 2^29 (FixedPointRays), and
 // coordinates relative to a ray that meets the mesh are below 2^30.

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Models/PacketIntervals.h (intervals of a function)
 //
 // The transfer function: a table of intervals in which attenuation and colour are linear.
 

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Module/Volume/Packet/Walk/PacketWalk.h (step through a cell)
+//
 // Walk of a ray through a tetrahedral mesh. The loops are flat, with one step or one piece of the
 // optical model per turn, so that adjacent rays do not wait for each other's inner loops.
 
@@ -15,10 +17,7 @@
 uniform isamplerBuffer cells;
 #if REFRACTED
 uniform bool beginsInside;           // true if a refracted ray may begin inside the mesh
-uniform int membranePart;            // part to draw, see MembranePart: all, or
-const float NOWHERE = 1.0e+30; // RefractedRayLine::Nowhere
-const int PART_IN_FRONT = 1;
-const int PART_BEHIND = 2;
+uniform int membranePart;            // MembranePart: all of the ray, PART_IN_FRONT or PART_BEHIND
 #endif
 uniform int numberOfCells;
 uniform float tileSize;
@@ -148,7 +147,7 @@ bool advance(int exitDepth, float exitScalar)
   // One scalar for the whole cell. Isosurfaces also use the jump to it, unless the ray begins
   // behind that.
   segmentEnd = texelFetch(cellScalars, cell).r;
-#if BLEND_MODE == ISOSURFACES
+#if SEES_JUMPS
   segmentStart = startDepth <= faceDepth ? faceScalar : segmentEnd;
 #else
   segmentStart = segmentEnd;
@@ -176,10 +175,10 @@ bool advance(int exitDepth, float exitScalar)
 #endif
   faceDepth = exitDepth;
   depthNow = max(depthNow, exitDepth);
-  bool counts = to > from && abs(segmentEnd - segmentStart) <= 4.0;
+  bool counts = to > from && abs(segmentEnd - segmentStart) <= LARGEST_CHANGE;
 #if CELL_SCALARS
   faceScalar = counts || exitDepth <= startDepth ? segmentEnd : faceScalar;
-#if BLEND_MODE != ISOSURFACES
+#if !SEES_JUMPS
   // A jump may cross any number of the transfer function's intervals.
   if (counts)
   {

@@ -6,12 +6,12 @@
 #include "VolumeTestPicture.h"
 
 #include "Simd/InstructionSets.h"
-#include "Simd/PacketExponential.h"
 #include "Simd/SimdPortable.h"
 #include "Volume/Mesh/ScalarGradients.h"
 #include "Volume/Optics/PreIntegration.h"
 #include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Packet/Data/PacketOptics.h"
+#include "Volume/Packet/Models/PacketExponential.h"
 #include "Volume/Packet/Models/PacketLights.h"
 #include "Volume/Packet/Models/PacketSegmentTable.h"
 
@@ -98,7 +98,7 @@ public:
       this->Picture.Mesh, { this->Picture.Scalars.begin(), this->Picture.Scalars.end() }, 1.0);
     this->Picture.Optics.VertexGradients = this->Gradients.data();
   }
-  void SetComponents(PacketMixture mixture, const std::vector<std::vector<float>>& others)
+  void SetComponents(ComponentMixture mixture, const std::vector<std::vector<float>>& others)
   {
     this->Components.assign(this->Picture.Scalars.size(), glm::vec3(0.0f));
     for (std::size_t c = 0; c < others.size(); ++c)
@@ -240,7 +240,7 @@ TEST_P(PacketOpticsTest, IndependentComponentsAddUp)
     OpticsScene scene({ 0.3, 0.2, 0.1 });
     const auto other = scene.Evaluate([](const glm::dvec3& p) { return 0.5 * p.z - 0.2 * p.x; });
     scene.SetComponents(
-      PacketMixture::Independent, { static_cast<std::size_t>(number - 1), other });
+      ComponentMixture::Independent, { static_cast<std::size_t>(number - 1), other });
     scene.Picture.Intervals = Function(attenuations[0], colors[0], colors[0]);
     double sum = attenuations[0];
     glm::dvec3 emission = attenuations[0] * colors[0];
@@ -267,7 +267,7 @@ TEST_P(PacketOpticsTest, ColorComesFromAnotherScalar)
   scene.Picture.Intervals = Function(2.0, glm::dvec3(0.0), glm::dvec3(0.0));
   const double radius = scene.Picture.Mesh.GetRadius();
   const auto depth = scene.Evaluate([](const glm::dvec3& p) { return -p.z; });
-  scene.SetComponents(PacketMixture::ColorAndOpacity, { depth });
+  scene.SetComponents(ComponentMixture::ColorAndOpacity, { depth });
   scene.Picture.OtherIntervals = { BuildIntervals(
     { { -0.5 / radius, 7.0, { 0.0, 1.0, 0.25 } }, { 0.5 / radius, 9.0, { 1.0, 0.0, 0.25 } } },
     ScalarNormalization()) };
@@ -282,8 +282,8 @@ TEST_P(PacketOpticsTest, ColorComesFromAnotherScalar)
     reds.push_back(0.5f + place * static_cast<float>(radius));
     greens.push_back(1.0f - reds.back());
   }
-  scene.SetComponents(
-    PacketMixture::RedGreenBlueOpacity, { reds, greens, std::vector<float>(depth.size(), 0.25f) });
+  scene.SetComponents(ComponentMixture::RedGreenBlueOpacity,
+    { reds, greens, std::vector<float>(depth.size(), 0.25f) });
   scene.Picture.OtherIntervals.clear();
   ExpectColor(CastPicture(scene.Picture, Size, GetParam()), expected);
 }
@@ -294,12 +294,13 @@ TEST_P(PacketOpticsTest, InstructionSetsShowTheSame)
   {
     for (const bool vertices : { false, true })
     {
-      for (const PacketMixture mixture : { PacketMixture::None, PacketMixture::ColorAndOpacity,
-             PacketMixture::RedGreenBlueOpacity, PacketMixture::Independent })
+      for (const ComponentMixture mixture :
+        { ComponentMixture::None, ComponentMixture::ColorAndOpacity,
+          ComponentMixture::RedGreenBlueOpacity, ComponentMixture::Independent })
       {
         OpticsScene scene({ 0.3, 0.5, 0.7 }, 0.05);
         scene.Picture.Intervals = Bumps(0.0);
-        if (lit && mixture != PacketMixture::Independent)
+        if (lit && mixture != ComponentMixture::Independent)
         {
           scene.AddHeadlight();
           scene.Lighting.SpecularPower = 3.5;
@@ -310,7 +311,7 @@ TEST_P(PacketOpticsTest, InstructionSetsShowTheSame)
         {
           scene.UseVertexGradients();
         }
-        if (mixture != PacketMixture::None)
+        if (mixture != ComponentMixture::None)
         {
           const auto across = scene.Evaluate([](const glm::dvec3& p) { return p.x * p.y - p.z; });
           const auto round = scene.Evaluate([](const glm::dvec3& p) { return glm::length(p); });

@@ -53,11 +53,11 @@ struct RefractedRayCaster::Part
 };
 
 //------------------------------------------------------------------------------
-void StraightPart::Clear(PacketBlending blending, std::int32_t end)
+void StraightPart::Clear(BlendMode mode, std::int32_t end)
 {
   constexpr std::size_t pixels = RefractedRayField::RaysOfTile;
   float empty[4];
-  ClearValues(blending, empty);
+  ClearValues(mode, empty);
   this->Values.assign(pixels, { empty[0], empty[1], empty[2], empty[3] });
   this->Ends.assign(pixels, end);
   this->Steps.assign(pixels, 0);
@@ -216,8 +216,7 @@ RayStatistics RefractedRayCaster::Cast(PacketJob job, const BoundaryRaster::Pixe
     work.Hits.clear();
     work.RetryLines.clear();
   }
-  const bool hides =
-    job.Blending == PacketBlending::Composite || job.Blending == PacketBlending::Isosurfaces;
+  const bool hides = GetBlendModel(job.Blending).HidesBehind();
   for (int block = 0; block < TileSize * TileSize; block += BlockSize * BlockSize)
   {
     const int corner = block / (TileSize * BlockSize) * TileSize * BlockSize +

@@ -60,7 +60,7 @@ struct StraightPart
   std::vector<std::int32_t> Steps;
 
   /** @param end value of PacketResult::End for rays without a result. */
-  void Clear(PacketBlending blending, std::int32_t end);
+  void Clear(BlendMode mode, std::int32_t end);
 };
 
 /**

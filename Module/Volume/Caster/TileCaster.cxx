@@ -116,7 +116,7 @@ void TileCaster::SetOptics(PacketJob& job) const
     job.NumberOfOtherIntervals[i] = sizeOf(tables.OtherIntervals[i]);
   }
   job.SegmentTable = this->Input.PreIntegration ? &this->SegmentTable : nullptr;
-  job.Medium = job.Blending == PacketBlending::Composite ? this->Medium.Get() : nullptr;
+  job.Medium = GetBlendModel(job.Blending).IsMedium() ? this->Medium.Get() : nullptr;
 }
 
 //------------------------------------------------------------------------------

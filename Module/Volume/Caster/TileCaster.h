@@ -37,12 +37,12 @@ public:
      * One normalised scalar per cell, used instead of the scalars of the vertices; null for none.
      */
     const float* CellScalars = nullptr;
-    PacketBlending Blending = PacketBlending::Composite;
+    BlendMode Blending = BlendMode::Composite;
     /**
      * Mixture of the components of vertices in composite blending, and the components besides the
      * scalar.
      */
-    PacketMixture Mixture = PacketMixture::None;
+    ComponentMixture Mixture = ComponentMixture::None;
     const glm::vec3* Components = nullptr;
     /** Normalised scalars that additive blending maps to 0 and to 1. */
     ScalarRange DataRange;

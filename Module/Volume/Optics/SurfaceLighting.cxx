@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraLights.glsl (lights)
+// Twin: Module/Volume/Packet/Models/PacketLights.h (lights)
 #include "Volume/Optics/SurfaceLighting.h"
 
 #include <glm/common.hpp>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraRays.glsl (sign of an edge)
 #ifndef meniscus_Volume_Rays_ExactEdgeTest_h
 #define meniscus_Volume_Rays_ExactEdgeTest_h
 

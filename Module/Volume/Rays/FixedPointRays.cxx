@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraPlaceFS.glsl (place of a vertex)
 #include "Volume/Rays/FixedPointRays.h"
 
 #include "Volume/Mesh/TetrahedralMesh.h"

@@ -100,10 +100,10 @@ public:
   static constexpr double LargestOffset = 536870912.0 + 2.0;
   /** Depth of a vertex in the grid, in units of the frame. */
   static double DepthOf(std::int32_t gridDepth) { return gridDepth / GridPerDepth; }
-
-private:
+  /** Grid units of depth per unit of the frame. */
   static constexpr double GridPerDepth = PacketVertex::GridPerDepth;
 
+private:
   PacketRay MakeRay(
     const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const;
 

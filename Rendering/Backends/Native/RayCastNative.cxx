@@ -123,9 +123,8 @@ TileCaster::Scene RayCastNative::MakeScene(const RayCastRequest& request)
   scene.GradientToFrame = optics.GradientToFrame;
   scene.GradientOpacity = optics.GradientOpacity;
   scene.GradientMagnitude = optics.GradientMagnitude;
-  // The numbers are the same.
-  scene.Blending = static_cast<PacketBlending>(optics.BlendMode);
-  scene.Mixture = static_cast<PacketMixture>(optics.Components);
+  scene.Blending = optics.Blending;
+  scene.Mixture = optics.Components;
   scene.Components = optics.HasComponents() ? tables.Components.GetValues().data() : nullptr;
   scene.DataRange = optics.DataRange;
   scene.PreIntegration = optics.PreIntegrated ? &tables.PreIntegration.GetTable() : nullptr;

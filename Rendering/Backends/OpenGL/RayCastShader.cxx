@@ -1,22 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
+#include "Rendering/Backends/OpenGL/ShaderConstants.h"
 
-#include "vtkTetrahedraComponents.h"
-#include "vtkTetrahedraComposite.h"
-#include "vtkTetrahedraEntries.h"
-#include "vtkTetrahedraFrontToBack.h"
-#include "vtkTetrahedraIsosurfaces.h"
-#include "vtkTetrahedraLights.h"
-#include "vtkTetrahedraMedium.h"
-#include "vtkTetrahedraPreIntegrated.h"
-#include "vtkTetrahedraProjection.h"
-#include "vtkTetrahedraRays.h"
-#include "vtkTetrahedraTransferFunction.h"
-#include "vtkTetrahedraWalk.h"
+#include "TetrahedraShaderParts.h"
 
 #include "vtkShaderProgram.h"
-#include "vtkVolumeMapper.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
@@ -28,44 +17,36 @@ namespace meniscus
 namespace
 {
 
-const char* BlendModeName(int blendMode)
+/** Optical model of a blend mode, for a scene without variants of its own. */
+const char* PartOf(BlendMode mode)
 {
-  switch (blendMode)
+  switch (mode)
   {
-    case vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND:
-      return "MAXIMUM_INTENSITY";
-    case vtkVolumeMapper::MINIMUM_INTENSITY_BLEND:
-      return "MINIMUM_INTENSITY";
-    case vtkVolumeMapper::AVERAGE_INTENSITY_BLEND:
-      return "AVERAGE_INTENSITY";
-    case vtkVolumeMapper::ADDITIVE_BLEND:
-      return "ADDITIVE";
-    case vtkVolumeMapper::ISOSURFACE_BLEND:
-      return "ISOSURFACES";
-    default:
-      return "COMPOSITE";
+#define MENISCUS_PART(name, number, label, model, part, ...)                                       \
+  case BlendMode::name:                                                                            \
+    return vtkTetrahedra##part;
+    MENISCUS_BLEND_MODES(MENISCUS_PART)
+#undef MENISCUS_PART
   }
+  return "";
 }
 
+/** The parts that make the optical model of a scene, each after those that it uses. */
 std::string ModelSource(const RayCastOptics& optics)
 {
-  const std::string lights = optics.UsesGradients() ? vtkTetrahedraLights : "";
+  const BlendModel& model = optics.Model();
+  std::string source = model.HidesBehind() ? vtkTetrahedraFrontToBack : "";
   if (optics.PreIntegrated)
   {
-    return std::string(vtkTetrahedraFrontToBack) + vtkTetrahedraPreIntegrated;
+    return source + vtkTetrahedraPreIntegrated;
   }
-  switch (optics.BlendMode)
+  if (model.Visible != VisibleBy::Isovalues && !optics.HasComponents())
   {
-    case vtkVolumeMapper::COMPOSITE_BLEND:
-      return vtkTetrahedraFrontToBack +
-        (optics.HasComponents() ? "" : std::string(vtkTetrahedraTransferFunction)) + lights +
-        vtkTetrahedraMedium +
-        (optics.HasComponents() ? vtkTetrahedraComponents : vtkTetrahedraComposite);
-    case vtkVolumeMapper::ISOSURFACE_BLEND:
-      return vtkTetrahedraFrontToBack + lights + vtkTetrahedraIsosurfaces;
-    default:
-      return std::string(vtkTetrahedraTransferFunction) + vtkTetrahedraProjection;
+    source += vtkTetrahedraTransferFunction;
   }
+  source += optics.UsesGradients() ? vtkTetrahedraLights : "";
+  source += model.IsMedium() ? vtkTetrahedraMedium : "";
+  return source + (optics.HasComponents() ? vtkTetrahedraComponents : PartOf(model.Mode));
 }
 
 /** An array of uniforms, one per item; none if there are no items. */
@@ -107,12 +88,8 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   std::ostringstream text;
   const auto define = [&text](const char* name, int value)
   { text << "#define " << name << " " << value << "\n"; };
-  for (int mode = vtkVolumeMapper::COMPOSITE_BLEND; mode <= vtkVolumeMapper::ISOSURFACE_BLEND;
-       ++mode)
-  {
-    define(BlendModeName(mode), mode);
-  }
-  text << "#define BLEND_MODE " << BlendModeName(optics.BlendMode) << "\n";
+  define("BLEND_MODE", static_cast<int>(optics.Blending));
+  define("SEES_JUMPS", optics.Model().SeesJumps() ? 1 : 0);
   define("PRE_INTEGRATED", optics.PreIntegrated ? 1 : 0);
   define("SHADING", optics.Shading ? 1 : 0);
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
@@ -124,8 +101,6 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
   define("VERTEX_VALUES", optics.VertexGradients || optics.HasComponents() ? 1 : 0);
-  define("INDEPENDENT", static_cast<int>(ComponentMixture::Independent));
-  define("COLOR_AND_OPACITY", static_cast<int>(ComponentMixture::ColorAndOpacity));
   define("COMPONENT_MIXTURE", static_cast<int>(optics.Components));
   define("NUMBER_OF_FUNCTIONS", optics.NumberOfFunctions);
   define("NEEDS_POSITION", optics.UsesGradients() ? 1 : 0);
@@ -139,7 +114,7 @@ std::string RayCastShaderSource(const char* mainShader, const RayCastOptics& opt
 {
   std::string source(mainShader);
   vtkShaderProgram::Substitute(
-    source, "//VTK::TetrahedraOptions::Dec", RayCastShaderOptions(optics));
+    source, "//VTK::TetrahedraOptions::Dec", ShaderConstants() + RayCastShaderOptions(optics));
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraRays::Dec", vtkTetrahedraRays);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraWalk::Dec", vtkTetrahedraWalk);
   vtkShaderProgram::Substitute(source, "//VTK::TetrahedraEntries::Dec", vtkTetrahedraEntries);
@@ -160,7 +135,7 @@ void SetOpticsUniforms(vtkShaderProgram* program, const RayCastOptics& optics)
     set3("clippingPerDepth", Collect(optics.ClippingPlanes, &RayClippingPlane::PerDepth));
     set4("clippingInFrame", Collect(optics.ClippingPlanes, &RayClippingPlane::InFrame));
   }
-  if (optics.BlendMode == vtkVolumeMapper::ADDITIVE_BLEND)
+  if (program->IsUniformUsed("rangeShare"))
   {
     const double width = optics.DataRange.Highest - optics.DataRange.Lowest;
     const float share[2] = { static_cast<float>(-optics.DataRange.Lowest / width),

@@ -7,6 +7,8 @@
 #ifndef meniscus_Volume_Packet_Data_PacketJob_h
 #define meniscus_Volume_Packet_Data_PacketJob_h
 
+#include "Volume/Optics/BlendModels.h"
+#include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Packet/Data/PacketOptics.h"
 #include "Volume/Packet/Data/PacketRays.h"
 
@@ -21,7 +23,7 @@ struct SurfaceLighting;
 
 struct PacketJob
 {
-  PacketBlending Blending;
+  BlendMode Blending;
   const PacketVertex* Vertices;
   /** Per cell, 4 ascending vertices, then 4 links (TetrahedralMesh::Cell). */
   const std::int32_t* Cells;
@@ -33,7 +35,7 @@ struct PacketJob
   /** Position of a scalar in the data's range, 0 to 1: ShareAtZero + SharePerScalar * scalar. */
   float ShareAtZero;
   float SharePerScalar;
-  PacketMixture Mixture;
+  ComponentMixture Mixture;
   /**
    * Three numbers per vertex, for mixtures of components: normalised scalars besides the main one,
    * or a colour.
@@ -67,8 +69,7 @@ struct PacketJob
   const PacketEntry* Entries;
   /**
    * True if results are the model's values, to be joined with those of the refracted part of the
-   * ray (JoinValues()) and converted by FinishValues(): colour and transmittance, or a number and
-   * the length that belongs to it.
+   * ray (JoinValues()) and converted by FinishValues(): see KeptResult.
    */
   bool KeepsValues;
   /** One result per ray. */

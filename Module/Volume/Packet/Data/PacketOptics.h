@@ -23,38 +23,12 @@ struct PacketInterval
   float ColorSlope[4];
 };
 
-/**
- * Blend model of a ray's segments: see CompositeModel, IntensityProjectionModel, IsosurfaceModel.
- */
-enum class PacketBlending
-{
-  Composite,
-  Maximum,
-  Minimum,
-  Average,
-  Additive,
-  Isosurfaces
-};
-
 /** An isosurface in normalised scalars. */
 struct PacketSurface
 {
   float Scalar;
   float Opacity;
   float Color[3];
-};
-
-/** Mixture of the components of the vertices into colour and attenuation, in composite blending. */
-enum class PacketMixture
-{
-  /** There is one scalar. */
-  None,
-  /** Each component has its own function; attenuations and emissions are added. */
-  Independent,
-  /** The scalar determines the attenuation, another component the colour. */
-  ColorAndOpacity,
-  /** The scalar determines the attenuation, the other components are the colour. */
-  RedGreenBlueOpacity
 };
 
 /** A RayCastLight in single precision. */

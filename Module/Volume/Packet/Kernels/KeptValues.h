@@ -9,10 +9,10 @@ namespace meniscus
 {
 
 /** Values of a ray that meets nothing. */
-void ClearValues(PacketBlending blending, float (&values)[4]);
+void ClearValues(BlendMode mode, float (&values)[4]);
 
 /** Joins the values of the refracted part of a ray to those of the straight part. */
-void JoinValues(PacketBlending blending, const float (&behind)[4], float (&values)[4]);
+void JoinValues(BlendMode mode, const float (&behind)[4], float (&values)[4]);
 
 /** Premultiplied RGBA of values. */
 void FinishValues(const PacketJob& job, const float (&values)[4], float (&color)[4]);

@@ -4,9 +4,7 @@
 #define meniscus_Volume_Packet_Kernels_PacketCast_h
 
 #include "Volume/Packet/Data/PacketJob.h"
-#include "Volume/Packet/Models/CompositeModel.h"
-#include "Volume/Packet/Models/IntensityProjectionModel.h"
-#include "Volume/Packet/Models/IsosurfaceModel.h"
+#include "Volume/Packet/Models/BlendModeModels.h"
 #include "Volume/Packet/Models/MultiComponentModel.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PreIntegratedModel.h"
@@ -16,7 +14,7 @@ namespace meniscus
 {
 
 /** Instantiates Model for a medium; effects of gradients are compiled only where there are some. */
-template <class Simd, template <class, class> class Model>
+template <class Simd, template <class...> class Model>
 void CastMedium(const PacketJob& job)
 {
   if (!job.Medium)
@@ -34,14 +32,15 @@ void CastMedium(const PacketJob& job)
 }
 
 template <class Simd, class Medium>
-using PacketColorAndOpacity = MultiComponentModel<Simd, PacketMixture::ColorAndOpacity, 2, Medium>;
+using PacketColorAndOpacity =
+  MultiComponentModel<Simd, ComponentMixture::ColorAndOpacity, 2, Medium>;
 template <class Simd, class Medium>
 using PacketColorsAsTheyAre =
-  MultiComponentModel<Simd, PacketMixture::RedGreenBlueOpacity, 1, Medium>;
+  MultiComponentModel<Simd, ComponentMixture::RedGreenBlueOpacity, 1, Medium>;
 /** Gradients have no effect on independent components. */
 template <class Simd, int Functions>
-using PacketIndependent =
-  MultiComponentModel<Simd, PacketMixture::Independent, Functions, PacketNoGradientShading<Simd>>;
+using PacketIndependent = MultiComponentModel<Simd, ComponentMixture::Independent, Functions,
+  PacketNoGradientShading<Simd>>;
 
 template <class Simd>
 void CastIndependent(const PacketJob& job)
@@ -60,22 +59,41 @@ void CastIndependent(const PacketJob& job)
   }
 }
 
-template <class Simd>
+/** Casts a medium of one scalar by Model, of several components by MultiComponentModel. */
+template <class Simd, template <class...> class Model>
 void CastComposite(const PacketJob& job)
 {
   switch (job.Mixture)
   {
-    case PacketMixture::Independent:
+    case ComponentMixture::Independent:
       CastIndependent<Simd>(job);
       break;
-    case PacketMixture::ColorAndOpacity:
+    case ComponentMixture::ColorAndOpacity:
       CastMedium<Simd, PacketColorAndOpacity>(job);
       break;
-    case PacketMixture::RedGreenBlueOpacity:
+    case ComponentMixture::RedGreenBlueOpacity:
       CastMedium<Simd, PacketColorsAsTheyAre>(job);
       break;
     default:
-      CastMedium<Simd, CompositeModel>(job);
+      CastMedium<Simd, Model>(job);
+  }
+}
+
+/** Casts with the packet model of a blend mode. */
+template <class Simd, BlendMode Mode, template <class...> class Model>
+void CastBlendMode(const PacketJob& job)
+{
+  constexpr const BlendModel& description = GetBlendModel(Mode);
+  static_assert(Model<Simd>::NumberOfValues == (description.HidesBehind() ? 4 : 2),
+    "colour and transmittance, or a number and a length");
+  static_assert(Model<Simd>::SeesJumps == description.SeesJumps());
+  if constexpr (description.IsMedium())
+  {
+    CastComposite<Simd, Model>(job);
+  }
+  else
+  {
+    PacketWalk<Simd, Model<Simd>>(job).Run();
   }
 }
 
@@ -85,18 +103,16 @@ void CastPacketsWith(const PacketJob& job)
   if (job.SegmentTable)
   {
     PacketWalk<Simd, PreIntegratedModel<Simd>>(job).Run();
+    return;
   }
-  else if (job.Blending == PacketBlending::Composite)
+  switch (job.Blending)
   {
-    CastComposite<Simd>(job);
-  }
-  else if (job.Blending == PacketBlending::Isosurfaces)
-  {
-    PacketWalk<Simd, IsosurfaceModel<Simd>>(job).Run();
-  }
-  else
-  {
-    PacketWalk<Simd, IntensityProjectionModel<Simd>>(job).Run();
+#define MENISCUS_CAST(name, number, label, model, ...)                                             \
+  case BlendMode::name:                                                                            \
+    CastBlendMode<Simd, BlendMode::name, model>(job);                                              \
+    break;
+    MENISCUS_BLEND_MODES(MENISCUS_CAST)
+#undef MENISCUS_CAST
   }
 }
 

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraComposite.glsl (integral of a medium)
 #ifndef meniscus_Volume_Packet_Models_CompositeModel_h
 #define meniscus_Volume_Packet_Models_CompositeModel_h
 
+#include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
@@ -19,8 +21,8 @@ namespace meniscus
  *
  * A segment is split at the transfer function's points and into parts of optical depth <= 1. For a
  * part with linear attenuation and colour, K. Moreland and E. Angel, "A Fast High Accuracy Volume
- * Renderer for Unstructured Data" (2004), give cf - cb zeta + (cb - cf) psi; it is written cf (1 -
- * psi) + cb (psi - zeta), free of cancellation, with psi by a polynomial (Coefficients).
+ * Renderer for Unstructured Data" (2004), give cf - cb zeta + (cb - cf) psi; it is written
+ * cf (1 - psi) + cb (psi - zeta), free of cancellation, with psi by a polynomial (AbsorptionFit).
  *
  * Medium defines the effect of gradients: PacketNoGradientShading or PacketGradientShading.
  */
@@ -98,13 +100,7 @@ public:
   }
 
 private:
-  /**
-   * Polynomials of the optical depth t of a part and the density a at its front, lowest power
-   * first: 1 - exp(-t), divided by t; and, by power of a, 1 - psi, the mean over the part of the
-   * absorption up to a place: the integral over [0, 1] of 1 - exp(-(a x + (t - a) x^2)). Fitted for
-   * all densities that are nowhere negative. Thin: t <= 1/8, to 3e-8 and 4e-8. Thick: t <= 1, to
-   * 2e-9 and 3e-7.
-   */
+  /** AbsorptionFit in all lanes. */
   struct Coefficients
   {
     Float ThinAbsorbed[4];
@@ -155,20 +151,6 @@ CompositeModel<Simd, Medium>::CompositeModel(const PacketJob& job)
 template <class Simd, class Medium>
 void CompositeModel<Simd, Medium>::SetCoefficients()
 {
-  static const float thinAbsorbed[4] = { 0.999999972267f, -0.499995547289f, 0.166505568729f,
-    -0.039642346780f };
-  static const float thinMean[4][3] = { { 0.3333348310f, -0.0999958838f, 0.0231317024f },
-    { 0.1666630304f, -0.0499135420f, 0.0111462326f }, { -0.0166403724f, 0.0044698893f, 0.0f },
-    { 0.0011184650f, 0.0f, 0.0f } };
-  static const float thickAbsorbed[7] = { 0.99999999793357f, -0.49999979725212f, 0.16666340311502f,
-    -0.04164684931339f, 0.00827550484353f, -0.00130077495785f, 0.00012907631016f };
-  static const float thickMean[6][5] = {
-    { 0.3333333333f, -0.0999792881f, 0.0236830118f, -0.0043518064f, 0.0004903571f },
-    { 0.1666666667f, -0.0500173281f, 0.0119526605f, -0.0023320093f, 0.0003181505f },
-    { -0.0166512718f, 0.0047084626f, -0.0008994605f, 0.0000935654f, 0.0f },
-    { 0.0011768438f, -0.0003058993f, 0.0000410537f, 0.0f, 0.0f },
-    { -0.0000596959f, 0.0000104829f, 0.0f, 0.0f, 0.0f }, { 0.0000017222f, 0.0f, 0.0f, 0.0f, 0.0f }
-  };
   const auto splat = [](const float* from, Float* to, int count)
   {
     for (int i = 0; i < count; ++i)
@@ -176,10 +158,10 @@ void CompositeModel<Simd, Medium>::SetCoefficients()
       to[i] = Simd::Splat(from[i]);
     }
   };
-  splat(thinAbsorbed, this->Fit.ThinAbsorbed, 4);
-  splat(thinMean[0], this->Fit.ThinMean[0], 12);
-  splat(thickAbsorbed, this->Fit.ThickAbsorbed, 7);
-  splat(thickMean[0], this->Fit.ThickMean[0], 30);
+  splat(AbsorptionFit::ThinAbsorbed, this->Fit.ThinAbsorbed, 4);
+  splat(AbsorptionFit::ThinMean[0], this->Fit.ThinMean[0], 12);
+  splat(AbsorptionFit::ThickAbsorbed, this->Fit.ThickAbsorbed, 7);
+  splat(AbsorptionFit::ThickMean[0], this->Fit.ThickMean[0], 30);
 }
 
 //------------------------------------------------------------------------------
@@ -256,9 +238,8 @@ inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
   Mask thick = depth > one;
   if (Simd::Bits(thick) != 0)
   {
-    // part (density + part (densityTo - density) / 2) = 1, the root without cancellation. Beyond a
-    // depth of 1e18 results do not differ; its square is finite.
-    const Float largest = Simd::Splat(1.0e+18f);
+    // part (density + part (densityTo - density) / 2) = 1, the root without cancellation.
+    const Float largest = Simd::Splat(LargestDepth);
     density = Simd::Min(density, largest);
     densityTo = Simd::Min(densityTo, largest);
     const Float root = Simd::Sqrt(

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraProjection.glsl (one number per ray)
 #ifndef meniscus_Volume_Packet_Models_IntensityProjectionModel_h
 #define meniscus_Volume_Packet_Models_IntensityProjectionModel_h
 
@@ -40,9 +41,9 @@ public:
   void Reset(Mask lanes)
   {
     const Float zero = Simd::Splat(0.0f);
-    const Float neutral = Simd::Splat(this->Blending == PacketBlending::Maximum
+    const Float neutral = Simd::Splat(this->Blending == BlendMode::MaximumIntensity
         ? -1.0e+30f
-        : (this->Blending == PacketBlending::Minimum ? 1.0e+30f : 0.0f));
+        : (this->Blending == BlendMode::MinimumIntensity ? 1.0e+30f : 0.0f));
     this->Collected = Simd::Select(lanes, neutral, this->Collected);
     this->Rest = Simd::Select(lanes, zero, this->Rest);
     this->Seen = Simd::Select(lanes, zero, this->Seen);
@@ -80,7 +81,7 @@ private:
   Mask Begin(Mask lanes, Float from, Float to, Float length);
   void Collect(Mask lanes, Float term);
 
-  PacketBlending Blending;
+  BlendMode Blending;
   PacketIntervals<Simd> Intervals;
   Float Collected;
   /** Rounding error of the sum: long rays add thousands of small terms. */
@@ -114,15 +115,15 @@ auto IntensityProjectionModel<Simd>::Begin(Mask lanes, Float from, Float to, Flo
   this->Seen = Simd::Select(valid, this->Seen + length, this->Seen);
   switch (this->Blending)
   {
-    case PacketBlending::Maximum:
+    case BlendMode::MaximumIntensity:
       this->Collected =
         Simd::Select(valid, Simd::Max(this->Collected, Simd::Max(from, to)), this->Collected);
       break;
-    case PacketBlending::Minimum:
+    case BlendMode::MinimumIntensity:
       this->Collected =
         Simd::Select(valid, Simd::Min(this->Collected, Simd::Min(from, to)), this->Collected);
       break;
-    case PacketBlending::Average:
+    case BlendMode::AverageIntensity:
       this->Collect(valid, Simd::Splat(0.5f) * (from + to) * length);
       break;
     default:
@@ -185,13 +186,14 @@ void IntensityProjectionModel<Simd>::Finish(
     color[0] = color[1] = color[2] = color[3] = 0.0f;
     return;
   }
-  if (job.Blending == PacketBlending::Additive)
+  if (job.Blending == BlendMode::Additive)
   {
     color[0] = color[1] = color[2] = unit(values[0]);
     color[3] = 1.0f;
     return;
   }
-  const float scalar = job.Blending == PacketBlending::Average ? values[0] / values[1] : values[0];
+  const float scalar =
+    job.Blending == BlendMode::AverageIntensity ? values[0] / values[1] : values[0];
   const PacketInterval& interval =
     job.Intervals[PacketIntervals<Simd>::IndexOf(job.Intervals, job.NumberOfIntervals, scalar)];
   const float offset = scalar - interval.Lower;

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraIsosurfaces.glsl (isovalues next to a scalar)
 #ifndef meniscus_Volume_Packet_Models_IsosurfaceModel_h
 #define meniscus_Volume_Packet_Models_IsosurfaceModel_h
 

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraComponents.glsl (integral of several components)
 #ifndef meniscus_Volume_Packet_Models_MultiComponentModel_h
 #define meniscus_Volume_Packet_Models_MultiComponentModel_h
 
-#include "Simd/PacketExponential.h"
+#include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/PacketExponential.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
 
@@ -23,7 +25,7 @@ namespace meniscus
  *
  * Functions: number of scalars that have their own function.
  */
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 class MultiComponentModel
 {
 public:
@@ -138,7 +140,7 @@ private:
     // Beyond a depth of 1e18 results do not differ; its square is finite.
     const Float attenuation =
       Simd::Fma(scalar - fields.Lower, fields.AttenuationSlope, fields.Attenuation);
-    return Simd::Min(Simd::Max(attenuation * length, Simd::Splat(0.0f)), Simd::Splat(1.0e+18f));
+    return Simd::Min(Simd::Max(attenuation * length, Simd::Splat(0.0f)), Simd::Splat(LargestDepth));
   }
   static Float ColorAt(const Fields& fields, Float scalar, int channel)
   {
@@ -163,7 +165,7 @@ private:
 };
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 template <class Place>
 inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Begin(
   Mask lanes, Float from, Float to, Float length, const Place& place) -> Mask
@@ -178,7 +180,7 @@ inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Begin(
     this->End[f] = Simd::Select(valid, end, this->End[f]);
     this->Now[f] = Simd::Select(valid, start, this->Now[f]);
   }
-  if constexpr (Mixture == PacketMixture::RedGreenBlueOpacity)
+  if constexpr (Mixture == ComponentMixture::RedGreenBlueOpacity)
   {
     for (int channel = 0; channel < 3; ++channel)
     {
@@ -195,7 +197,7 @@ inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Begin(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::FindCourse(int f) const -> Course
 {
   const Fields& fields = this->Intervals[f].GetFields();
@@ -211,7 +213,7 @@ inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::FindCourse(in
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindBacks(
   const Course (&courses)[Functions], Piece& piece) const
 {
@@ -229,13 +231,13 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindBacks(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindDensity(Piece& piece) const
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
-  const Float largest = Simd::Splat(0.5f);
-  constexpr int dense = Mixture == PacketMixture::Independent ? Functions : 1;
+  const Float largest = Simd::Splat(LargestGaussDepth);
+  constexpr int dense = Mixture == ComponentMixture::Independent ? Functions : 1;
   piece.Density = piece.DensityTo = zero;
   for (int f = 0; f < dense; ++f)
   {
@@ -262,11 +264,11 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::FindDensity(P
 
 //------------------------------------------------------------------------------
 /** Attenuation times colour at a fraction of the piece, over its length. */
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Emission(
   const Piece& piece, Float at, Float (&emission)[3]) const
 {
-  if constexpr (Mixture == PacketMixture::Independent)
+  if constexpr (Mixture == ComponentMixture::Independent)
   {
     for (Float& channel : emission)
     {
@@ -288,7 +290,7 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Emission(
     const Float done = Mix(this->Done, piece.Reached, at);
     for (int channel = 0; channel < 3; ++channel)
     {
-      if constexpr (Mixture == PacketMixture::ColorAndOpacity)
+      if constexpr (Mixture == ComponentMixture::ColorAndOpacity)
       {
         emission[channel] =
           ColorAt(this->Intervals[1].GetFields(), Mix(piece.Front[1], piece.Back[1], at), channel);
@@ -308,14 +310,13 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Emission(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Integrate(const Piece& piece)
 {
   const Float one = Simd::Splat(1.0f);
   const Float slope = piece.DensityTo - piece.Density;
-  constexpr float fromMiddle = 0.3872983346207417f; // sqrt(3/5) / 2
-  constexpr float places[3] = { 0.5f - fromMiddle, 0.5f, 0.5f + fromMiddle };
-  constexpr float weights[3] = { 5.0f / 18.0f, 8.0f / 18.0f, 5.0f / 18.0f };
+  constexpr float places[3] = { 0.5f - GaussPlace, 0.5f, 0.5f + GaussPlace };
+  constexpr float weights[3] = { GaussWeights[0], GaussWeights[1], GaussWeights[0] };
   for (int q = 0; q < 3; ++q)
   {
     const Float at = piece.Part * Simd::Splat(places[q]);
@@ -334,7 +335,7 @@ inline void MultiComponentModel<Simd, Mixture, Functions, Medium>::Integrate(con
 
 //------------------------------------------------------------------------------
 /** Continues behind the piece; returns the lanes that have more. */
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Move(
   Mask lanes, const Course (&courses)[Functions], const Piece& piece) -> Mask
 {
@@ -355,7 +356,7 @@ inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Move(
 }
 
 //------------------------------------------------------------------------------
-template <class Simd, PacketMixture Mixture, int Functions, class Medium>
+template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
 inline auto MultiComponentModel<Simd, Mixture, Functions, Medium>::Advance(Mask lanes) -> Mask
 {
   if (Simd::Bits(lanes) == 0)

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraMedium.glsl (light and opacity by gradients)
 #ifndef meniscus_Volume_Packet_Models_PacketGradientShading_h
 #define meniscus_Volume_Packet_Models_PacketGradientShading_h
 

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraTransferFunction.glsl (intervals of a function)
 #ifndef meniscus_Volume_Packet_Models_PacketIntervals_h
 #define meniscus_Volume_Packet_Models_PacketIntervals_h
 
+#include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketOptics.h"
 
 #include <cstdint>
@@ -10,15 +12,12 @@
 namespace meniscus
 {
 
-/**
- * Lanes with a segment to draw: of positive length and with finite scalars. Normalised scalars are
- * in [-1, 1]: a larger change is that of a vertex without a scalar.
- */
+/** Lanes with a segment to draw: of positive length and with finite scalars (LargestChange). */
 template <class Simd>
 inline typename Simd::Mask SegmentsOf(typename Simd::Mask lanes, typename Simd::Float from,
   typename Simd::Float to, typename Simd::Float length)
 {
-  return lanes & (Simd::Abs(to - from) < Simd::Splat(4.0f)) & (length > Simd::Splat(0.0f));
+  return lanes & (Simd::Abs(to - from) < Simd::Splat(LargestChange)) & (length > Simd::Splat(0.0f));
 }
 
 /** Premultiplied colour and alpha from colour and transmittance. */

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraLights.glsl (lights)
+// Twin: Module/Volume/Optics/SurfaceLighting.cxx (lights)
 #ifndef meniscus_Volume_Packet_Models_PacketLights_h
 #define meniscus_Volume_Packet_Models_PacketLights_h
 

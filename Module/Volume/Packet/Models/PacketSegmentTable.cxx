@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraPreIntegrated.glsl (look-up in the table)
 #include "Volume/Packet/Models/PacketSegmentTable.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraIsosurfaces.glsl (surfaces that a segment meets)
 #include "Volume/Packet/Models/PacketSurfaces.h"
 #include "Volume/Optics/SurfaceLighting.h"
 

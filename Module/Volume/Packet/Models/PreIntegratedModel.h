@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraPreIntegrated.glsl (parts of a segment)
 #ifndef meniscus_Volume_Packet_Models_PreIntegratedModel_h
 #define meniscus_Volume_Packet_Models_PreIntegratedModel_h
 
-#include "Simd/PacketExponential.h"
 #include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/PacketExponential.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
 #include "Volume/Packet/Models/PacketSegmentTable.h"
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Twin: Rendering/glsl/vtkTetrahedraWalk.glsl (step through a cell)
 #ifndef meniscus_Volume_Packet_Walk_PacketWalk_h
 #define meniscus_Volume_Packet_Walk_PacketWalk_h
 

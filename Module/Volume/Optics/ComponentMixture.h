@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Rendering_Input_ComponentMixture_h
-#define meniscus_Rendering_Input_ComponentMixture_h
+#ifndef meniscus_Volume_Optics_ComponentMixture_h
+#define meniscus_Volume_Optics_ComponentMixture_h
 
 namespace meniscus
 {
@@ -11,7 +11,7 @@ enum class ComponentMixture
 {
   /** There is one scalar, which determines both. */
   None,
-  /** Each component has its own colour and opacity. */
+  /** Each component has its own colour and opacity; attenuations and emissions are added. */
   Independent,
   /** Two components: the first determines the colour and the second the opacity. */
   ColorAndOpacity,

@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Simd_PacketExponential_h
-#define meniscus_Simd_PacketExponential_h
+// Twin: Rendering/glsl/vtkTetrahedraMedium.glsl (absorption)
+#ifndef meniscus_Volume_Packet_Models_PacketExponential_h
+#define meniscus_Volume_Packet_Models_PacketExponential_h
+
+#include "Volume/Optics/MediumConstants.h"
 
 namespace meniscus
 {
 
-/**
- * 1 - exp(-x) for x in [0, 1], with an error of at most 2e-9: x times a Chebyshev interpolant of (1
- * - exp(-x)) / x.
- */
+/** 1 - exp(-x) for x in [0, 1], with an error of at most 1.6e-8: AbsorptionFit::ThickAbsorbed. */
 template <class Simd>
 inline typename Simd::Float Absorbed(typename Simd::Float x)
 {
-  constexpr float coefficients[] = { -0.00130077495785f, 0.00827550484353f, -0.04164684931339f,
-    0.16666340311502f, -0.49999979725212f, 0.99999999793357f };
-  typename Simd::Float sum = Simd::Splat(0.00012907631016f);
-  for (const float coefficient : coefficients)
+  constexpr auto& coefficients = AbsorptionFit::ThickAbsorbed;
+  constexpr int degree = sizeof(coefficients) / sizeof(float) - 1;
+  typename Simd::Float sum = Simd::Splat(coefficients[degree]);
+  for (int i = degree - 1; i >= 0; --i)
   {
-    sum = Simd::Fma(x, sum, Simd::Splat(coefficient));
+    sum = Simd::Fma(x, sum, Simd::Splat(coefficients[i]));
   }
   return x * sum;
 }
