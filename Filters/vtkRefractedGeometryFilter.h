@@ -330,9 +330,9 @@ public:
    * times that refracted rays were computed for it, number of points solved, number of these that
    * had no answer because a coordinate was not finite or out of range, number of those that had no
    * image, and number of cells left out because they need a point that has no image or does not
-   * exist. Undecided searches looked for all images of a point, or for its side, and may have missed
-   * some: at a focus, which shows a ring of images, or within rounding of a caustic or of the
-   * membrane. They are counted each time, with one warning per shape of the membrane.
+   * exist. Undecided searches looked for all images of a point, or for its side, and may have
+   * missed some: at a focus, which shows a ring of images, or within rounding of a caustic or of
+   * the membrane. They are counted each time, with one warning per shape of the membrane.
    */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
   vtkTypeInt64 GetNumberOfEyeUpdates() const;

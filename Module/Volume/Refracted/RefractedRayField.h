@@ -157,7 +157,7 @@ private:
   void SortFacets(const std::vector<SeenFacet>& facets);
   bool HidesTile(const CurvedPatches& patches, const std::vector<SeenFacet>& facets, int tile,
     const TileRays& rays) const;
-  /** Of a tile: the sum of its refracted rays' steps, in the world, and its undecided rays. */
+  /** Sum of the steps of a tile's refracted rays in world coordinates, and its undecided rays. */
   struct TileSum
   {
     glm::dvec3 Directions{ 0.0 };
