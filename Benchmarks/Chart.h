@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Chart_h
-#define meniscus_Chart_h
+#ifndef meniscus_Benchmarks_Chart_h
+#define meniscus_Benchmarks_Chart_h
 
 #include <string>
 #include <utility>

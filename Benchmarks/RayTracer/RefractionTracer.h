@@ -8,8 +8,8 @@
  * colours; the packet contains the data for Fresnel's equations, attenuation along the true path,
  * textures or a reflected environment. A shader may trace further rays with intersect().
  */
-#ifndef meniscus_RefractionTracer_h
-#define meniscus_RefractionTracer_h
+#ifndef meniscus_Benchmarks_RayTracer_RefractionTracer_h
+#define meniscus_Benchmarks_RayTracer_RefractionTracer_h
 
 #include <glm/vec3.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Accuracy_h
-#define meniscus_Accuracy_h
+#ifndef meniscus_Benchmarks_Refraction_Accuracy_h
+#define meniscus_Benchmarks_Refraction_Accuracy_h
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Frames_h
-#define meniscus_Frames_h
+#ifndef meniscus_Benchmarks_Refraction_Frames_h
+#define meniscus_Benchmarks_Refraction_Frames_h
 
 #include <ostream>
 #include <string>

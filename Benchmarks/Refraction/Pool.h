@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Pool_h
-#define meniscus_Pool_h
+#ifndef meniscus_Benchmarks_Refraction_Pool_h
+#define meniscus_Benchmarks_Refraction_Pool_h
 
 #include <string>
 #include <vector>

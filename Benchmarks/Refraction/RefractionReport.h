@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RefractionReport_h
-#define meniscus_RefractionReport_h
+#ifndef meniscus_Benchmarks_Refraction_RefractionReport_h
+#define meniscus_Benchmarks_Refraction_RefractionReport_h
 
 #include "RefractionOptions.h"
 

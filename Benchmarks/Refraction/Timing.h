@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Timing_h
-#define meniscus_Timing_h
+#ifndef meniscus_Benchmarks_Refraction_Timing_h
+#define meniscus_Benchmarks_Refraction_Timing_h
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_WellScene_h
-#define meniscus_WellScene_h
+#ifndef meniscus_Benchmarks_Refraction_WellScene_h
+#define meniscus_Benchmarks_Refraction_WellScene_h
 
 #include "HeightField.h"
 #include "RefractionPicture.h"

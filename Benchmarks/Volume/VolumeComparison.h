@@ -5,8 +5,8 @@
  * mapper draws one frame, so that other load of the machine affects all of them alike. Ratios of
  * frames of one round are therefore more reliable than the times.
  */
-#ifndef meniscus_VolumeComparison_h
-#define meniscus_VolumeComparison_h
+#ifndef meniscus_Benchmarks_Volume_VolumeComparison_h
+#define meniscus_Benchmarks_Volume_VolumeComparison_h
 
 #include "ReferenceImage.h"
 #include "VolumeContestants.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeContestants_h
-#define meniscus_VolumeContestants_h
+#ifndef meniscus_Benchmarks_Volume_VolumeContestants_h
+#define meniscus_Benchmarks_Volume_VolumeContestants_h
 
 #include "TestTransferFunctions.h"
 #include "VolumeOptions.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Cost of a membrane over the whole image. */
-#ifndef meniscus_VolumeMembranes_h
-#define meniscus_VolumeMembranes_h
+#ifndef meniscus_Benchmarks_Volume_VolumeMembranes_h
+#define meniscus_Benchmarks_Volume_VolumeMembranes_h
 
 #include "VolumeComparison.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeOptions_h
-#define meniscus_VolumeOptions_h
+#ifndef meniscus_Benchmarks_Volume_VolumeOptions_h
+#define meniscus_Benchmarks_Volume_VolumeOptions_h
 
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"

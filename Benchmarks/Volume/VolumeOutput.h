@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeOutput_h
-#define meniscus_VolumeOutput_h
+#ifndef meniscus_Benchmarks_Volume_VolumeOutput_h
+#define meniscus_Benchmarks_Volume_VolumeOutput_h
 
 #include "VolumeComparison.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeProbe_h
-#define meniscus_VolumeProbe_h
+#ifndef meniscus_Benchmarks_Volume_VolumeProbe_h
+#define meniscus_Benchmarks_Volume_VolumeProbe_h
 
 #include "VolumeContestants.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeReport_h
-#define meniscus_VolumeReport_h
+#ifndef meniscus_Benchmarks_Volume_VolumeReport_h
+#define meniscus_Benchmarks_Volume_VolumeReport_h
 
 #include "VolumeOptions.h"
 

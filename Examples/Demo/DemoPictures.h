@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DemoPictures_h
-#define DemoPictures_h
+#ifndef meniscus_Examples_Demo_DemoPictures_h
+#define meniscus_Examples_Demo_DemoPictures_h
 
 #include "vtkNew.h"
 #include "vtkRenderWindow.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DemoProgress_h
-#define DemoProgress_h
+#ifndef meniscus_Examples_Demo_DemoProgress_h
+#define meniscus_Examples_Demo_DemoProgress_h
 
 #include <string>
 

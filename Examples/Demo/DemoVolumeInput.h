@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DemoVolumeInput_h
-#define DemoVolumeInput_h
+#ifndef meniscus_Examples_Demo_DemoVolumeInput_h
+#define meniscus_Examples_Demo_DemoVolumeInput_h
 
 #include "vtkSmartPointer.h"
 

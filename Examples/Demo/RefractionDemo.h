@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef RefractionDemo_h
-#define RefractionDemo_h
+#ifndef meniscus_Examples_Demo_RefractionDemo_h
+#define meniscus_Examples_Demo_RefractionDemo_h
 
 #include <string>
 

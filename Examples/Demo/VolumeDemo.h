@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef VolumeDemo_h
-#define VolumeDemo_h
+#ifndef meniscus_Examples_Demo_VolumeDemo_h
+#define meniscus_Examples_Demo_VolumeDemo_h
 
 #include <string>
 

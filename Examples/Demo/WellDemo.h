@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef WellDemo_h
-#define WellDemo_h
+#ifndef meniscus_Examples_Demo_WellDemo_h
+#define meniscus_Examples_Demo_WellDemo_h
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef WellScene_h
-#define WellScene_h
+#ifndef meniscus_Examples_Demo_WellScene_h
+#define meniscus_Examples_Demo_WellScene_h
 
 #include "vtkSmartPointer.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef WaterWindow_h
-#define WaterWindow_h
+#ifndef meniscus_Examples_Water_WaterWindow_h
+#define meniscus_Examples_Water_WaterWindow_h
 
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"

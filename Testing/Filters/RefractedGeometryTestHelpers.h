@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RefractedGeometryTestHelpers_h
-#define meniscus_RefractedGeometryTestHelpers_h
+#ifndef meniscus_Testing_Filters_RefractedGeometryTestHelpers_h
+#define meniscus_Testing_Filters_RefractedGeometryTestHelpers_h
 
 #include "MembraneMeshes.h"
 #include "RefractionPicture.h"

@@ -4,8 +4,8 @@
  * Metamorphic relations: changes of a scene that must not change the result. No reference result is
  * needed, so scenes can be arbitrary.
  */
-#ifndef meniscus_Relation_h
-#define meniscus_Relation_h
+#ifndef meniscus_Testing_Metamorphic_Relation_h
+#define meniscus_Testing_Metamorphic_Relation_h
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RelationRun_h
-#define meniscus_RelationRun_h
+#ifndef meniscus_Testing_Metamorphic_RelationRun_h
+#define meniscus_Testing_Metamorphic_RelationRun_h
 
 #include "ProgrammeOptions.h"
 #include "Relation.h"

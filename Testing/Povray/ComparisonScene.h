@@ -5,8 +5,8 @@
  * Light plays no part, so that pictures differ by the geometry of refraction alone. All rays of a
  * camera meet the surface, or miss its body as a whole: the rim of a membrane is not in view.
  */
-#ifndef meniscus_ComparisonScene_h
-#define meniscus_ComparisonScene_h
+#ifndef meniscus_Testing_Povray_ComparisonScene_h
+#define meniscus_Testing_Povray_ComparisonScene_h
 
 #include <glm/vec3.hpp>
 

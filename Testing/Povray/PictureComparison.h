@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_PictureComparison_h
-#define meniscus_PictureComparison_h
+#ifndef meniscus_Testing_Povray_PictureComparison_h
+#define meniscus_Testing_Povray_PictureComparison_h
 
 #include "ComparisonScene.h"
 #include "VolumeScene.h"

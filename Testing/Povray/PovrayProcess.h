@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_PovrayProcess_h
-#define meniscus_PovrayProcess_h
+#ifndef meniscus_Testing_Povray_PovrayProcess_h
+#define meniscus_Testing_Povray_PovrayProcess_h
 
 #include "PovrayWriter.h"
 #include "VolumeScene.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_PovrayWriter_h
-#define meniscus_PovrayWriter_h
+#ifndef meniscus_Testing_Povray_PovrayWriter_h
+#define meniscus_Testing_Povray_PovrayWriter_h
 
 #include "ComparisonScene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RefractedScene_h
-#define meniscus_RefractedScene_h
+#ifndef meniscus_Testing_Povray_RefractedScene_h
+#define meniscus_Testing_Povray_RefractedScene_h
 
 #include "ComparisonScene.h"
 #include "VolumeScene.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_OpticsTruth_h
-#define meniscus_OpticsTruth_h
+#ifndef meniscus_Testing_Rendering_OpticsTruth_h
+#define meniscus_Testing_Rendering_OpticsTruth_h
 
 #include "RayCastScene.h"
 #include "ReferenceOptics.h"

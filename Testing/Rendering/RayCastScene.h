@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RayCastScene_h
-#define meniscus_RayCastScene_h
+#ifndef meniscus_Testing_Rendering_RayCastScene_h
+#define meniscus_Testing_Rendering_RayCastScene_h
 
 #include "ReferenceImage.h"
 #include "TestMeshes.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_WaterParts_h
-#define meniscus_WaterParts_h
+#ifndef meniscus_Testing_Rendering_WaterParts_h
+#define meniscus_Testing_Rendering_WaterParts_h
 
 #include <vtkPlaneSource.h>
 #include <vtkSmartPointer.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_PatchSearch_h
-#define meniscus_PatchSearch_h
+#ifndef meniscus_Testing_Stress_PatchSearch_h
+#define meniscus_Testing_Stress_PatchSearch_h
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 

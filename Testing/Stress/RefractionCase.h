@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RefractionCase_h
-#define meniscus_RefractionCase_h
+#ifndef meniscus_Testing_Stress_RefractionCase_h
+#define meniscus_Testing_Stress_RefractionCase_h
 
 #include "MembraneMeshes.h"
 #include "SmoothSurface.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RefractionCheck_h
-#define meniscus_RefractionCheck_h
+#ifndef meniscus_Testing_Stress_RefractionCheck_h
+#define meniscus_Testing_Stress_RefractionCheck_h
 
 #include "RefractionCase.h"
 

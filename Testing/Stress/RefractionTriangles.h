@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RefractionTriangles_h
-#define meniscus_RefractionTriangles_h
+#ifndef meniscus_Testing_Stress_RefractionTriangles_h
+#define meniscus_Testing_Stress_RefractionTriangles_h
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "RefractionCheck.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_StressCase_h
-#define meniscus_StressCase_h
+#ifndef meniscus_Testing_Stress_StressCase_h
+#define meniscus_Testing_Stress_StressCase_h
 
 #include "RandomNumbers.h"
 #include "TestMeshes.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** All uses of the software under test by the stress programme. */
-#ifndef meniscus_StressCasters_h
-#define meniscus_StressCasters_h
+#ifndef meniscus_Testing_Stress_StressCasters_h
+#define meniscus_Testing_Stress_StressCasters_h
 
 #include "StressCase.h"
 #include "VolumeScene.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_StressCheck_h
-#define meniscus_StressCheck_h
+#ifndef meniscus_Testing_Stress_StressCheck_h
+#define meniscus_Testing_Stress_StressCheck_h
 
 #include "StressCase.h"
 #include "StressCasters.h"

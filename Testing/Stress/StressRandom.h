@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_StressRandom_h
-#define meniscus_StressRandom_h
+#ifndef meniscus_Testing_Stress_StressRandom_h
+#define meniscus_Testing_Stress_StressRandom_h
 
 #include "RandomNumbers.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_StressRun_h
-#define meniscus_StressRun_h
+#ifndef meniscus_Testing_Stress_StressRun_h
+#define meniscus_Testing_Stress_StressRun_h
 
 #include "CaseProcess.h"
 #include "StressCheck.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_CaseProcess_h
-#define meniscus_CaseProcess_h
+#ifndef meniscus_Testing_Support_CaseProcess_h
+#define meniscus_Testing_Support_CaseProcess_h
 
 #include <cstddef>
 #include <functional>

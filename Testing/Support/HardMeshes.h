@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 /** Meshes that are difficult for a ray caster, in addition to those of TestMeshes.h. */
-#ifndef meniscus_HardMeshes_h
-#define meniscus_HardMeshes_h
+#ifndef meniscus_Testing_Support_HardMeshes_h
+#define meniscus_Testing_Support_HardMeshes_h
 
 #include "RandomNumbers.h"
 #include "TestMeshes.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_MembraneScene_h
-#define meniscus_MembraneScene_h
+#ifndef meniscus_Testing_Support_MembraneScene_h
+#define meniscus_Testing_Support_MembraneScene_h
 
 #include "RefractedRays.h"
 #include "TracedImage.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_PixelRays_h
-#define meniscus_PixelRays_h
+#ifndef meniscus_Testing_Support_PixelRays_h
+#define meniscus_Testing_Support_PixelRays_h
 
 #include "ReferenceCellTree.h"
 

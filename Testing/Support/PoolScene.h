@@ -4,8 +4,8 @@
  * A pool of water with waves, textured walls and three objects, under a sky that it reflects: drawn
  * by vtkRefractionPass, and traced through the exact waves in double precision.
  */
-#ifndef meniscus_PoolScene_h
-#define meniscus_PoolScene_h
+#ifndef meniscus_Testing_Support_PoolScene_h
+#define meniscus_Testing_Support_PoolScene_h
 
 #include "HeightField.h"
 #include "RefractionPicture.h"

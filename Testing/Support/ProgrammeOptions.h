@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_ProgrammeOptions_h
-#define meniscus_ProgrammeOptions_h
+#ifndef meniscus_Testing_Support_ProgrammeOptions_h
+#define meniscus_Testing_Support_ProgrammeOptions_h
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RandomNumbers_h
-#define meniscus_RandomNumbers_h
+#ifndef meniscus_Testing_Support_RandomNumbers_h
+#define meniscus_Testing_Support_RandomNumbers_h
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

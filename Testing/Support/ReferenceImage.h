@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_ReferenceImage_h
-#define meniscus_ReferenceImage_h
+#ifndef meniscus_Testing_Support_ReferenceImage_h
+#define meniscus_Testing_Support_ReferenceImage_h
 
 #include "PixelRays.h"
 #include "ReferenceRayIntegrator.h"

@@ -5,8 +5,8 @@
  * double precision, or made by tracing rays through an analytic membrane. Two images are compared
  * pixel by pixel.
  */
-#ifndef meniscus_RefractionPicture_h
-#define meniscus_RefractionPicture_h
+#ifndef meniscus_Testing_Support_RefractionPicture_h
+#define meniscus_Testing_Support_RefractionPicture_h
 
 #include "HeightField.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_StrictImage_h
-#define meniscus_StrictImage_h
+#ifndef meniscus_Testing_Support_StrictImage_h
+#define meniscus_Testing_Support_StrictImage_h
 
 #include "VolumeScene.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_TestMeshes_h
-#define meniscus_TestMeshes_h
+#ifndef meniscus_Testing_Support_TestMeshes_h
+#define meniscus_Testing_Support_TestMeshes_h
 
 #include <vtkSmartPointer.h>
 

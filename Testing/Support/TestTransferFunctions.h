@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_TestTransferFunctions_h
-#define meniscus_TestTransferFunctions_h
+#ifndef meniscus_Testing_Support_TestTransferFunctions_h
+#define meniscus_Testing_Support_TestTransferFunctions_h
 
 #include "ReferenceTransferFunction.h"
 

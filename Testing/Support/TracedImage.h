@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_TracedImage_h
-#define meniscus_TracedImage_h
+#ifndef meniscus_Testing_Support_TracedImage_h
+#define meniscus_Testing_Support_TracedImage_h
 
 #include "PixelRays.h"
 #include "VolumeScene.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeFunctions_h
-#define meniscus_VolumeFunctions_h
+#ifndef meniscus_Testing_Support_VolumeFunctions_h
+#define meniscus_Testing_Support_VolumeFunctions_h
 
 #include "RandomNumbers.h"
 #include "ReferenceTransferFunction.h"

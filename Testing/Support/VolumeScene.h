@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeScene_h
-#define meniscus_VolumeScene_h
+#ifndef meniscus_Testing_Support_VolumeScene_h
+#define meniscus_Testing_Support_VolumeScene_h
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeView_h
-#define meniscus_VolumeView_h
+#ifndef meniscus_Testing_Support_VolumeView_h
+#define meniscus_Testing_Support_VolumeView_h
 
 #include "ReferenceCellTree.h"
 

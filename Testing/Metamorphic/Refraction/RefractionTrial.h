@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_RefractionTrial_h
-#define meniscus_RefractionTrial_h
+#ifndef meniscus_Testing_Metamorphic_Refraction_RefractionTrial_h
+#define meniscus_Testing_Metamorphic_Refraction_RefractionTrial_h
 
 #include "MembraneMeshes.h"
 #include "RandomNumbers.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_Conditioning_h
-#define meniscus_Conditioning_h
+#ifndef meniscus_Testing_Metamorphic_Volume_Conditioning_h
+#define meniscus_Testing_Metamorphic_Volume_Conditioning_h
 
 #include "TracedImage.h"
 #include "VolumeCase.h"

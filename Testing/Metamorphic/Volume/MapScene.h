@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_MapScene_h
-#define meniscus_MapScene_h
+#ifndef meniscus_Testing_Metamorphic_Volume_MapScene_h
+#define meniscus_Testing_Metamorphic_Volume_MapScene_h
 
 #include "VolumeCase.h"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_MeshArrays_h
-#define meniscus_MeshArrays_h
+#ifndef meniscus_Testing_Metamorphic_Volume_MeshArrays_h
+#define meniscus_Testing_Metamorphic_Volume_MeshArrays_h
 
 #include "TestMeshes.h"
 

@@ -3,8 +3,8 @@
 /**
  * Meshes rewritten so that they describe the same field.
  */
-#ifndef meniscus_MeshChanges_h
-#define meniscus_MeshChanges_h
+#ifndef meniscus_Testing_Metamorphic_Volume_MeshChanges_h
+#define meniscus_Testing_Metamorphic_Volume_MeshChanges_h
 
 #include "MeshArrays.h"
 #include "RandomNumbers.h"

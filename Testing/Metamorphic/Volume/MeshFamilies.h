@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_MeshFamilies_h
-#define meniscus_MeshFamilies_h
+#ifndef meniscus_Testing_Metamorphic_Volume_MeshFamilies_h
+#define meniscus_Testing_Metamorphic_Volume_MeshFamilies_h
 
 #include "MeshArrays.h"
 #include "RandomNumbers.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeCase_h
-#define meniscus_VolumeCase_h
+#ifndef meniscus_Testing_Metamorphic_Volume_VolumeCase_h
+#define meniscus_Testing_Metamorphic_Volume_VolumeCase_h
 
 #include "MembraneScene.h"
 #include "MeshArrays.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeRelation_h
-#define meniscus_VolumeRelation_h
+#ifndef meniscus_Testing_Metamorphic_Volume_VolumeRelation_h
+#define meniscus_Testing_Metamorphic_Volume_VolumeRelation_h
 
 #include "Conditioning.h"
 #include "Relation.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_VolumeStage_h
-#define meniscus_VolumeStage_h
+#ifndef meniscus_Testing_Metamorphic_Volume_VolumeStage_h
+#define meniscus_Testing_Metamorphic_Volume_VolumeStage_h
 
 #include "VolumeCase.h"
 #include "VolumeScene.h"

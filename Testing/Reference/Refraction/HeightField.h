@@ -5,8 +5,8 @@
  * are the stationary points of the optical path n1 |S - E| + n2 |P - S| (Fermat), found by a dense
  * search in double precision, independently of the kernel's patches, trees and equations.
  */
-#ifndef meniscus_HeightField_h
-#define meniscus_HeightField_h
+#ifndef meniscus_Testing_Reference_Refraction_HeightField_h
+#define meniscus_Testing_Reference_Refraction_HeightField_h
 
 #include "MembraneMeshes.h"
 

@@ -5,8 +5,8 @@
  * the oracle adds the error of the membrane's mesh to every bound, which is larger by many orders
  * of magnitude.
  */
-#ifndef meniscus_Interval_h
-#define meniscus_Interval_h
+#ifndef meniscus_Testing_Reference_Refraction_Interval_h
+#define meniscus_Testing_Reference_Refraction_Interval_h
 
 #include <algorithm>
 #include <cmath>

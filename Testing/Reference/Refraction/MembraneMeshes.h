@@ -4,8 +4,8 @@
  * Triangle meshes of membranes for tests and benchmarks. The y axis points to the eye, the apex is
  * the origin, facets are counter-clockwise as seen from the eye, and normals are exact.
  */
-#ifndef meniscus_MembraneMeshes_h
-#define meniscus_MembraneMeshes_h
+#ifndef meniscus_Testing_Reference_Refraction_MembraneMeshes_h
+#define meniscus_Testing_Reference_Refraction_MembraneMeshes_h
 
 #include "Refraction/Membrane/Membrane.h"
 

@@ -14,8 +14,8 @@
  * image within `radius` of it. Everything else (near caustics, borders, the critical angle, the
  * point's own place) lies in `uncertain` boxes.
  */
-#ifndef meniscus_SightOracle_h
-#define meniscus_SightOracle_h
+#ifndef meniscus_Testing_Reference_Refraction_SightOracle_h
+#define meniscus_Testing_Reference_Refraction_SightOracle_h
 
 #include "SmoothSurface.h"
 

@@ -4,8 +4,8 @@
  * The error measurements of the thesis's Tables 4.1 to 4.5: the printed figures, and functions that
  * measure the same rows again. Documentation/refraction-measurements.md describes the set-up.
  */
-#ifndef meniscus_ThesisTables_h
-#define meniscus_ThesisTables_h
+#ifndef meniscus_Testing_Reference_Refraction_ThesisTables_h
+#define meniscus_Testing_Reference_Refraction_ThesisTables_h
 
 #include <cstddef>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_ReferenceCellTree_h
-#define meniscus_ReferenceCellTree_h
+#ifndef meniscus_Testing_Reference_Volume_ReferenceCellTree_h
+#define meniscus_Testing_Reference_Volume_ReferenceCellTree_h
 
 #include "ReferenceMesh.h"
 

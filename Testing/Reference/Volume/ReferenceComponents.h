@@ -4,8 +4,8 @@
  * The density-emitter integral of several scalars at once, in double precision, on the segments of
  * ReferenceRayIntegrator.
  */
-#ifndef meniscus_ReferenceComponents_h
-#define meniscus_ReferenceComponents_h
+#ifndef meniscus_Testing_Reference_Volume_ReferenceComponents_h
+#define meniscus_Testing_Reference_Volume_ReferenceComponents_h
 
 #include "ReferenceRayIntegrator.h"
 #include "ReferenceTransferFunction.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_ReferenceMesh_h
-#define meniscus_ReferenceMesh_h
+#ifndef meniscus_Testing_Reference_Volume_ReferenceMesh_h
+#define meniscus_Testing_Reference_Volume_ReferenceMesh_h
 
 #include <array>
 #include <cstddef>

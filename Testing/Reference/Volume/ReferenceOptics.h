@@ -4,8 +4,8 @@
  * Optical models other than plain compositing, in double precision, on the segments of
  * ReferenceRayIntegrator: projections, isosurfaces and lighting.
  */
-#ifndef meniscus_ReferenceOptics_h
-#define meniscus_ReferenceOptics_h
+#ifndef meniscus_Testing_Reference_Volume_ReferenceOptics_h
+#define meniscus_Testing_Reference_Volume_ReferenceOptics_h
 
 #include "ReferenceMesh.h"
 #include "ReferenceRayIntegrator.h"

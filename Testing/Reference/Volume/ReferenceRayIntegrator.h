@@ -17,8 +17,8 @@
  * ignored. Only the order follows from the faces: the cells and their ends are those of clipping. A
  * cell that the transfer function makes invisible in its whole range of scalars occludes nothing.
  */
-#ifndef meniscus_ReferenceRayIntegrator_h
-#define meniscus_ReferenceRayIntegrator_h
+#ifndef meniscus_Testing_Reference_Volume_ReferenceRayIntegrator_h
+#define meniscus_Testing_Reference_Volume_ReferenceRayIntegrator_h
 
 #include "ReferenceCellTree.h"
 #include "ReferenceMesh.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef meniscus_ReferenceTransferFunction_h
-#define meniscus_ReferenceTransferFunction_h
+#ifndef meniscus_Testing_Reference_Volume_ReferenceTransferFunction_h
+#define meniscus_Testing_Reference_Volume_ReferenceTransferFunction_h
 
 #include <array>
 #include <cstddef>

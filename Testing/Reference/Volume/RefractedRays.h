@@ -5,8 +5,8 @@
  * the integrators for a volume that is seen through a membrane. Surfaces are formulas, and Snell's
  * law is n1 sin a = n2 sin b, independently of the kernel's patches and optics.
  */
-#ifndef meniscus_RefractedRays_h
-#define meniscus_RefractedRays_h
+#ifndef meniscus_Testing_Reference_Volume_RefractedRays_h
+#define meniscus_Testing_Reference_Volume_RefractedRays_h
 
 #include "ReferenceRayIntegrator.h"
 

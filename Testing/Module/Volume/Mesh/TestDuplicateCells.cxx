@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells that are given repeatedly count once.
-#include "VolumeTestMeshes.h"
-#include "VolumeTestPicture.h"
+#include "KernelMeshes.h"
+#include "KernelPicture.h"
 
 #include <gtest/gtest.h>
 

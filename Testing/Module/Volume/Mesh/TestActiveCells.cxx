@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Cells that rays visit, counted by a simple search over cells and neighbours.
+#include "KernelMeshes.h"
+#include "KernelPicture.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Optics/VisibleScalars.h"
-#include "VolumeTestMeshes.h"
-#include "VolumeTestPicture.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Optics of packets besides a plain medium: lighting, gradient opacity, components, tables of
 // segments.
-#include "VolumeTestMeshes.h"
-#include "VolumeTestPicture.h"
+#include "KernelMeshes.h"
+#include "KernelPicture.h"
 
 #include "Simd/InstructionSets.h"
 #include "Simd/SimdPortable.h"

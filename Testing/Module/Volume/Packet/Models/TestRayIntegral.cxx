@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "KernelMeshes.h"
 #include "Simd/SimdPortable.h"
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/CompositeModel.h"
-#include "VolumeTestMeshes.h"
 
 #include <gtest/gtest.h>
 

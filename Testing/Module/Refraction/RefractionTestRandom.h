@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef RefractionTestRandom_h
-#define RefractionTestRandom_h
+#ifndef meniscus_Testing_Module_Refraction_RefractionTestRandom_h
+#define meniscus_Testing_Module_Refraction_RefractionTestRandom_h
 
 #include <glm/vec3.hpp>
 

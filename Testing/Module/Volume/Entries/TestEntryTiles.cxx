@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Lists of the faces by which rays may enter, for meshes of cells that share no points.
-#include "VolumeTestMeshes.h"
+#include "KernelMeshes.h"
 
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Entries/BoundaryRaster.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Rays refracted at a membrane inside the mesh, with the kernel alone.
-#include "VolumeTestMeshes.h"
+#include "KernelMeshes.h"
 
 #include "Refraction/Membrane/CurvedPatches.h"
 #include "Refraction/Membrane/Membrane.h"

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Clipping planes in the frame of the rays, and gradients at vertices.
-#include "VolumeTestMeshes.h"
+// Gradients of the scalar at vertices and in cells.
+#include "KernelMeshes.h"
 
 #include "Volume/Mesh/ScalarGradients.h"
-#include "Volume/Rays/ClippingPlanes.h"
 
 #include <glm/geometric.hpp>
 
@@ -34,43 +33,7 @@ std::vector<double> Evaluate(const TetrahedralMesh& mesh, const Function& field)
 
 }
 
-TEST(VolumeClippingPlanes, DistanceAlongRays)
-{
-  TetrahedralMesh mesh;
-  const MeshArrays arrays = KuhnGrid(2);
-  mesh.Build(arrays.View());
-  const RayFrame frame = FrameAlongZ(mesh, 0.7, 100);
-  const glm::dvec3 normal(0.3, -2.0, 0.9);
-  const glm::dvec3 origin(0.2, 0.9, 0.4);
-  // The view looks along -z of the world, and depth 0 is at the mesh's centre.
-  const RayClippingPlane plane =
-    ComputeClippingPlane(frame, normal, glm::dot(normal, mesh.GetCenter() - origin));
-  for (const double depth : { -0.8, 0.0, 0.5 })
-  {
-    for (const double i : { -40.0, 0.0, 13.5 })
-    {
-      for (const double j : { -7.25, 31.0 })
-      {
-        const glm::dvec2 across = frame.Origin.At(i, j) + depth * frame.Slope.At(i, j);
-        const glm::dvec3 world = mesh.GetCenter() + frame.ViewToWorld * glm::dvec3(across, depth);
-        const glm::dvec3 place(1.0, i, j);
-        const double height =
-          glm::dot(plane.Constant, place) + depth * glm::dot(plane.PerDepth, place);
-        const double size = glm::length(frame.ViewToWorld[0]) * glm::length(normal);
-        EXPECT_NEAR(height, glm::dot(normal, world - origin) / size, 1e-13);
-      }
-    }
-  }
-}
-
-TEST(VolumeClippingPlanes, NormalOfNoLengthKeepsEverything)
-{
-  const RayClippingPlane plane = ComputeClippingPlane(RayFrame(), glm::dvec3(0.0), 3.0);
-  EXPECT_EQ(plane.Constant, glm::dvec3(0.0));
-  EXPECT_EQ(plane.PerDepth, glm::dvec3(0.0));
-}
-
-TEST(VolumeVertexGradients, LinearFieldIsExact)
+TEST(VertexGradients, LinearFieldIsExact)
 {
   MeshArrays arrays = KuhnGrid(4);
   Jitter(arrays, 0.05, 3);
@@ -85,7 +48,7 @@ TEST(VolumeVertexGradients, LinearFieldIsExact)
   }
 }
 
-TEST(VolumeCellGradients, NearlyEqualScalarsKeepTheDirection)
+TEST(CellGradients, NearlyEqualScalarsKeepTheDirection)
 {
   // Changes of 1e-12 at a scalar of 1: normalised floats would all be equal.
   MeshArrays arrays = KuhnGrid(4);
@@ -105,7 +68,7 @@ TEST(VolumeCellGradients, NearlyEqualScalarsKeepTheDirection)
   }
 }
 
-TEST(VolumeCellGradients, EqualScalarsHaveNone)
+TEST(CellGradients, EqualScalarsHaveNone)
 {
   MeshArrays arrays = KuhnGrid(3);
   Jitter(arrays, 0.05, 5);
@@ -122,7 +85,7 @@ TEST(VolumeCellGradients, EqualScalarsHaveNone)
   }
 }
 
-TEST(VolumeCellGradients, FarScalarsHaveFiniteSquares)
+TEST(CellGradients, FarScalarsHaveFiniteSquares)
 {
   const MeshArrays arrays{ { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 1, 2, 3 } };
   TetrahedralMesh mesh;
@@ -142,7 +105,7 @@ TEST(VolumeCellGradients, FarScalarsHaveFiniteSquares)
   }
 }
 
-TEST(VolumeCellGradients, CellsWithoutVolumeOrScalarHaveNone)
+TEST(CellGradients, CellsWithoutVolumeOrScalarHaveNone)
 {
   const MeshArrays arrays{ { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1 },
     { 0, 1, 2, 3, 0, 1, 2, 4 } };
@@ -167,7 +130,7 @@ TEST(VolumeCellGradients, CellsWithoutVolumeOrScalarHaveNone)
   }
 }
 
-TEST(VolumeVertexGradients, MeansAreWeightedByVolume)
+TEST(VertexGradients, MeansAreWeightedByVolume)
 {
   // Two tetrahedra on both sides of the face 0, 1, 2; the second is three times as high.
   const MeshArrays arrays{ { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -3 },
@@ -188,7 +151,7 @@ TEST(VolumeVertexGradients, MeansAreWeightedByVolume)
   }
 }
 
-TEST(VolumeVertexGradients, CellsWithoutVolumeOrScalarDoNotCount)
+TEST(VertexGradients, CellsWithoutVolumeOrScalarDoNotCount)
 {
   MeshArrays arrays = KuhnGrid(2);
   const std::int64_t points = static_cast<std::int64_t>(arrays.Points.size() / 3);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Entries of the pre-integration table compared with the integrals that they represent.
-#include "VolumeTestMeshes.h"
+#include "KernelMeshes.h"
 
 #include "Volume/Mesh/LongestEdge.h"
 #include "Volume/Optics/PreIntegration.h"
@@ -101,7 +101,7 @@ Errors LargestErrors(const PreIntegrationTable& table,
 
 }
 
-TEST(VolumePreIntegration, OpacityIsExactAndColorConverges)
+TEST(PreIntegration, OpacityIsExactAndColorConverges)
 {
   const auto intervals = Ramps();
   double last = 0.0;
@@ -122,7 +122,7 @@ TEST(VolumePreIntegration, OpacityIsExactAndColorConverges)
   EXPECT_LT(last, 5e-4);
 }
 
-TEST(VolumePreIntegration, LinearColorInConstantMediumIsExact)
+TEST(PreIntegration, LinearColorInConstantMediumIsExact)
 {
   // Without kinks the colour over opacity is linear in both scalars: interpolation is exact.
   const auto intervals =
@@ -134,7 +134,7 @@ TEST(VolumePreIntegration, LinearColorInConstantMediumIsExact)
   EXPECT_LT(errors.Opacity, 1e-6);
 }
 
-TEST(VolumePreIntegration, LengthsAreZeroAndAGeometricSequence)
+TEST(PreIntegration, LengthsAreZeroAndAGeometricSequence)
 {
   PreIntegrationTable table;
   table.Build(Ramps(), 5.0, 4, 20);
@@ -148,7 +148,7 @@ TEST(VolumePreIntegration, LengthsAreZeroAndAGeometricSequence)
   EXPECT_GE(table.GetLengthsPerOctave(), 2);
 }
 
-TEST(VolumePreIntegration, OneLengthWhereTheModelAllowsIt)
+TEST(PreIntegration, OneLengthWhereTheModelAllowsIt)
 {
   PreIntegrationTable table;
   // One colour wherever there is attenuation.
@@ -173,7 +173,7 @@ TEST(VolumePreIntegration, OneLengthWhereTheModelAllowsIt)
   EXPECT_EQ(table.GetLength(0), 0.0);
 }
 
-TEST(VolumePreIntegration, ExtremeFunctionsGiveFiniteTables)
+TEST(PreIntegration, ExtremeFunctionsGiveFiniteTables)
 {
   const double huge = 1e37;
   const std::vector<std::vector<TransferFunctionPoint>> functions{ {},
@@ -201,7 +201,7 @@ TEST(VolumePreIntegration, ExtremeFunctionsGiveFiniteTables)
   }
 }
 
-TEST(VolumePreIntegration, DoesNotDependOnTheThreads)
+TEST(PreIntegration, DoesNotDependOnTheThreads)
 {
   const RangeLoop two = [](std::size_t count, const RangeBody& body)
   {
@@ -216,7 +216,7 @@ TEST(VolumePreIntegration, DoesNotDependOnTheThreads)
   EXPECT_EQ(serial.GetValues(), parallel.GetValues());
 }
 
-TEST(VolumePreIntegration, LongestEdge)
+TEST(PreIntegration, LongestEdge)
 {
   TetrahedralMesh mesh;
   EXPECT_EQ(ComputeLongestEdge(mesh), 0.0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef VolumeTestMeshes_h
-#define VolumeTestMeshes_h
+#ifndef meniscus_Testing_Module_Volume_KernelMeshes_h
+#define meniscus_Testing_Module_Volume_KernelMeshes_h
 
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"

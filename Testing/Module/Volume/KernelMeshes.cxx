@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "VolumeTestMeshes.h"
+#include "KernelMeshes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "VolumeTestMeshes.h"
-#include "VolumeTestPicture.h"
+#include "KernelMeshes.h"
+#include "KernelPicture.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

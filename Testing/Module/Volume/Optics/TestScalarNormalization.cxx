@@ -64,7 +64,7 @@ const std::vector<double> FillValues = { 1.0e6, -1.0e6, 1.0e10, 1.0e20, -1.0e20,
 
 }
 
-TEST(VolumeNormalization, OrdinaryDataMapsItsRange)
+TEST(ScalarNormalization, OrdinaryDataMapsItsRange)
 {
   const ScalarDistribution data = DistributionOf(Scalars());
   const ScalarNormalization ofRange = NormalizeRange(0.0, 1.0);
@@ -78,7 +78,7 @@ TEST(VolumeNormalization, OrdinaryDataMapsItsRange)
     NormalizeRange(5.0, 5.0));
 }
 
-TEST(VolumeNormalization, FillValuesLeaveTheFunctionItsPrecision)
+TEST(ScalarNormalization, FillValuesLeaveTheFunctionItsPrecision)
 {
   for (const double fill : FillValues)
   {
@@ -97,7 +97,7 @@ TEST(VolumeNormalization, FillValuesLeaveTheFunctionItsPrecision)
   }
 }
 
-TEST(VolumeNormalization, FillValuesOfBothSignsAboutTheFunction)
+TEST(ScalarNormalization, FillValuesOfBothSignsAboutTheFunction)
 {
   // The function changes in the middle of the range; its unit would be too large.
   const ScalarDistribution data = DistributionOf(Scalars({ 1.0e36, -1.0e36 }));
@@ -108,7 +108,7 @@ TEST(VolumeNormalization, FillValuesOfBothSignsAboutTheFunction)
   EXPECT_LE(LargestError(normalization, 0.0, 1.0), 6.0e-8);
 }
 
-TEST(VolumeNormalization, AscendsAndKeepsProportionsOfFarScalars)
+TEST(ScalarNormalization, AscendsAndKeepsProportionsOfFarScalars)
 {
   for (const double below : { -1.0e30, -1.0e36, -1.0e25 })
   {
@@ -135,7 +135,7 @@ TEST(VolumeNormalization, AscendsAndKeepsProportionsOfFarScalars)
   }
 }
 
-TEST(VolumeNormalization, ScalarsBetweenFunctionAndFillStayWhatTheyAre)
+TEST(ScalarNormalization, ScalarsBetweenFunctionAndFillStayWhatTheyAre)
 {
   // Cells between -1000 and 3000 show an isovalue of 0 at a quarter of their length, with noise
   // around it.
@@ -151,7 +151,7 @@ TEST(VolumeNormalization, ScalarsBetweenFunctionAndFillStayWhatTheyAre)
   EXPECT_NEAR((normalization(0.0) - low) / (high - low), 0.25, 1e-7);
 }
 
-TEST(VolumeNormalization, FunctionFromDataToFillValue)
+TEST(ScalarNormalization, FunctionFromDataToFillValue)
 {
   // Opacity changes in [0, 1], colour up to the fill value: both must be resolved.
   const ScalarDistribution data = DistributionOf(Scalars({ 1.0e12 }));
@@ -163,7 +163,7 @@ TEST(VolumeNormalization, FunctionFromDataToFillValue)
   EXPECT_NEAR(normalization(5.0e11) / normalization(1.0e12), 0.5, 1e-6);
 }
 
-TEST(VolumeNormalization, EditsKeepItWhileItServes)
+TEST(ScalarNormalization, EditsKeepItWhileItServes)
 {
   const ScalarDistribution data = DistributionOf(Scalars({ 1.0e20 }));
   ScalarNormalization now = ChooseNormalization(data, Ramp(0.0, 1.0), nullptr);
@@ -191,7 +191,7 @@ TEST(VolumeNormalization, EditsKeepItWhileItServes)
   EXPECT_LE(LargestError(now, 0.0, 1.0), 6.0e-8);
 }
 
-TEST(VolumeNormalization, MostOfTheDataMayBeFillValues)
+TEST(ScalarNormalization, MostOfTheDataMayBeFillValues)
 {
   const ScalarDistribution data = DistributionOf(Scalars(std::vector<double>(20000, 1.0e20)));
   for (const auto& features : { Ramp(0.0, 1.0), std::vector<ScalarFeature>{ { 0.5, 0.0 } } })
@@ -200,7 +200,7 @@ TEST(VolumeNormalization, MostOfTheDataMayBeFillValues)
   }
 }
 
-TEST(VolumeNormalization, NothingFinite)
+TEST(ScalarNormalization, NothingFinite)
 {
   EXPECT_EQ(
     ChooseNormalization(ScalarDistribution(), Ramp(0.0, 1.0), nullptr), ScalarNormalization());
@@ -208,7 +208,7 @@ TEST(VolumeNormalization, NothingFinite)
   EXPECT_EQ(DistributionOf({ 2.0 }).SpacingAt(2.0), 0.0);
 }
 
-TEST(VolumeNormalization, TablesSampleWhereTheFunctionChanges)
+TEST(ScalarNormalization, TablesSampleWhereTheFunctionChanges)
 {
   const ScalarDistribution data = DistributionOf(Scalars({ 1.0e20 }));
   const auto features = Ramp(0.0, 1.0);

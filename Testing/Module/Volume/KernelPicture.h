@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef VolumeTestPicture_h
-#define VolumeTestPicture_h
+#ifndef meniscus_Testing_Module_Volume_KernelPicture_h
+#define meniscus_Testing_Module_Volume_KernelPicture_h
 
 #include "Simd/InstructionSets.h"
 #include "Volume/Caster/TileCaster.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "VolumeTestPicture.h"
+#include "KernelPicture.h"
 
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Mesh/ScalarGradients.h"
