@@ -18,6 +18,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkRectilinearGrid.h"
+#include "vtkSOADataArrayTemplate.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -46,6 +47,24 @@ std::vector<T> CopyValues(vtkDataArray* array)
       static_cast<vtkIdType>(i / components), static_cast<int>(i % components)));
   }
   return values;
+}
+
+/** Looks at the coordinates in the array's memory; false for arrays of another layout or type. */
+template <typename T>
+bool ViewCoordinates(vtkDataArray* points, PointsView& view)
+{
+  if (auto* triples = vtkAOSDataArrayTemplate<T>::FastDownCast(points))
+  {
+    view = PointsView(triples->GetPointer(0));
+    return true;
+  }
+  if (auto* axes = vtkSOADataArrayTemplate<T>::FastDownCast(points))
+  {
+    view = PointsView(axes->GetComponentArrayPointer(0), axes->GetComponentArrayPointer(1),
+      axes->GetComponentArrayPointer(2));
+    return true;
+  }
+  return false;
 }
 
 constexpr int NoPoint = -1;
@@ -368,15 +387,8 @@ TetrahedraSource::TetrahedraSource(const std::vector<vtkDataSet*>& grids, const 
 //------------------------------------------------------------------------------
 void TetrahedraSource::ViewPoints(vtkDataArray* points)
 {
-  if (auto* doubles = vtkAOSDataArrayTemplate<double>::FastDownCast(points))
-  {
-    this->View.Points = doubles->GetPointer(0);
-  }
-  else if (auto* floats = vtkAOSDataArrayTemplate<float>::FastDownCast(points))
-  {
-    this->View.FloatPoints = floats->GetPointer(0);
-  }
-  else
+  if (!ViewCoordinates<double>(points, this->View.Points) &&
+    !ViewCoordinates<float>(points, this->View.Points))
   {
     this->Points = CopyValues<double>(points);
     this->View.Points = this->Points.data();

@@ -23,17 +23,6 @@ namespace
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-glm::dvec3 PointAt(const TetrahedraView& input, std::size_t index)
-{
-  if (input.FloatPoints)
-  {
-    const float* p = input.FloatPoints + 3 * index;
-    return { p[0], p[1], p[2] };
-  }
-  const double* p = input.Points + 3 * index;
-  return { p[0], p[1], p[2] };
-}
-
 /** Sorts four values without branches, which no branch predictor would foresee. */
 void SortFour(std::array<std::int32_t, 4>& values)
 {
@@ -205,7 +194,7 @@ void TetrahedralMesh::Builder::ValidateCells()
     {
       for (std::size_t p = first; p < last; ++p)
       {
-        this->Finite[p] = IsFinite(PointAt(this->Input, p));
+        this->Finite[p] = IsFinite(this->Input.Points[p]);
         this->Used[p].store(0, std::memory_order_relaxed);
       }
     });
@@ -298,7 +287,7 @@ std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
       {
         if (this->Used[p].load(std::memory_order_relaxed))
         {
-          const glm::dvec3 point = PointAt(this->Input, p);
+          const glm::dvec3 point = this->Input.Points[p];
           part.Lower = glm::min(part.Lower, point);
           part.Upper = glm::max(part.Upper, point);
           ++starts[block];
@@ -325,7 +314,7 @@ std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
       {
         if (this->Used[p].load(std::memory_order_relaxed))
         {
-          const glm::dvec3 point = PointAt(this->Input, p);
+          const glm::dvec3 point = this->Input.Points[p];
           radii[block] = std::max(radii[block], glm::length(point - this->Mesh.Center));
           keys[next++] = MakeMortonKey(curve.Code(point), p);
         }
@@ -366,7 +355,7 @@ void TetrahedralMesh::Builder::TakeCodesOfCells(
         glm::dvec3 center(0.0);
         for (const std::int32_t corner : corners)
         {
-          center += 0.25 * PointAt(this->Input, corner);
+          center += 0.25 * this->Input.Points[corner];
         }
         const std::uint32_t code = curve.Code(center);
         for (const std::int32_t corner : corners)
@@ -404,7 +393,7 @@ void TetrahedralMesh::Builder::NumberVertices()
         this->VertexOfPoint[point] = static_cast<std::int32_t>(v);
         this->Mesh.SourcePoints[v] = static_cast<std::int32_t>(point);
         this->Mesh.Positions[v] =
-          glm::round((PointAt(this->Input, point) - this->Mesh.Center) * scale);
+          glm::round((this->Input.Points[point] - this->Mesh.Center) * scale);
       }
     });
 }
@@ -418,7 +407,7 @@ void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<MortonKey>& keys)
   {
     const auto& points = this->Mesh.SourcePoints;
     lowest = FindLowestCoincident(
-      points.size(), [&](std::size_t v) { return PointAt(this->Input, points[v]); }, this->Loop);
+      points.size(), [&](std::size_t v) { return this->Input.Points[points[v]]; }, this->Loop);
   }
   const auto verticesOf = [this, &lowest](std::size_t cell)
   {

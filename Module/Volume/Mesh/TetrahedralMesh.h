@@ -26,6 +26,7 @@
 #define meniscus_Volume_Mesh_TetrahedralMesh_h
 
 #include "Common/RangeLoop.h"
+#include "Volume/Mesh/PointsView.h"
 
 #include <glm/vec3.hpp>
 
@@ -40,13 +41,12 @@ namespace meniscus
 /** A mesh as plain arrays, owned by the caller. */
 struct TetrahedraView
 {
-  /** xyz triples, NumberOfPoints of them; null if FloatPoints are given. */
-  const double* Points = nullptr;
+  PointsView Points;
   std::int64_t NumberOfPoints = 0;
   /** Point indices, four per cell, in either orientation; null if ShortCells are given. */
   const std::int64_t* Cells = nullptr;
   std::int64_t NumberOfCells = 0;
-  const float* FloatPoints = nullptr;
+  /** The same as Cells in 32 bits. */
   const std::int32_t* ShortCells = nullptr;
   /**
    * One entry per cell; a cell with any of LeftOutBits set is skipped without being counted. Null
@@ -56,10 +56,7 @@ struct TetrahedraView
   std::uint8_t LeftOutBits = 0xFF;
   /** True if GetSourceCells() is wanted, which takes 4 bytes per cell. */
   bool KeepSourceCells = false;
-  /**
-   * True if points at the same position make cells duplicates of each other: needed for several
-   * data sets.
-   */
+  /** Cell of the caller's data that each cell is a part of; null if it is the cell itself. */
   const std::int32_t* SourceCells = nullptr;
   /** True if equal positions make cells duplicates of each other: needed for several data sets. */
   bool MatchPositions = false;

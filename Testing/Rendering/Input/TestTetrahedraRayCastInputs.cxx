@@ -11,6 +11,7 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkRenderWindow.h>
+#include <vtkSOADataArrayTemplate.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVolumeProperty.h>
@@ -153,6 +154,12 @@ TEST(TetrahedraRayCastInputs, StorageDoesNotMatter)
   single->ShallowCopy(grid);
   single->SetPoints(floats);
   expectSamePicture(pictureOf(single), expected, "single precision points");
+  vtkNew<vtkSOADataArrayTemplate<double>> axes;
+  axes->DeepCopy(grid->GetPoints()->GetData());
+  vtkNew<vtkPoints> perAxis;
+  perAxis->SetData(axes);
+  single->SetPoints(perAxis);
+  expectSamePicture(pictureOf(single), expected, "an array of points per axis");
   vtkNew<vtkPoints> integers;
   integers->SetDataTypeToShort();
   integers->DeepCopy(grid->GetPoints()); // only the block's middle plane and its sides have integer

@@ -168,8 +168,7 @@ TEST(TetrahedralMesh, DoesNotDependOnTheLoopNorOnTheTypesOfTheInput)
   const std::vector<float> points(arrays.Points.begin(), arrays.Points.end());
   const std::vector<std::int32_t> cells(arrays.Cells.begin(), arrays.Cells.end());
   TetrahedraView view = arrays.View();
-  view.Points = nullptr;
-  view.FloatPoints = points.data();
+  view.Points = points.data();
   view.Cells = nullptr;
   view.ShortCells = cells.data();
   view.KeepSourceCells = true;
@@ -209,6 +208,40 @@ TEST(TetrahedralMesh, DoesNotDependOnTheLoopNorOnTheTypesOfTheInput)
   {
     EXPECT_EQ(parallel.GetBoundary()[f].CellFace, serial.GetBoundary()[f].CellFace);
     EXPECT_EQ(parallel.GetBoundary()[f].Outward, serial.GetBoundary()[f].Outward);
+  }
+}
+
+TEST(TetrahedralMesh, DoesNotDependOnTheLayoutOfThePoints)
+{
+  MeshArrays arrays = KuhnGrid(4);
+  Jitter(arrays, 0.06, 5);
+  for (double& coordinate : arrays.Points)
+  {
+    coordinate = static_cast<float>(coordinate); // the same number in both precisions
+  }
+  TetrahedralMesh expected;
+  ASSERT_EQ(expected.Build(arrays.View()), MeshStatus::Ok);
+
+  std::vector<double> axes[3];
+  std::vector<float> floatAxes[3];
+  for (std::size_t i = 0; i < arrays.Points.size(); ++i)
+  {
+    axes[i % 3].push_back(arrays.Points[i]);
+    floatAxes[i % 3].push_back(static_cast<float>(arrays.Points[i]));
+  }
+  for (const PointsView& points : { PointsView(axes[0].data(), axes[1].data(), axes[2].data()),
+         PointsView(floatAxes[0].data(), floatAxes[1].data(), floatAxes[2].data()) })
+  {
+    TetrahedraView view = arrays.View();
+    view.Points = points;
+    TetrahedralMesh mesh;
+    ASSERT_EQ(mesh.Build(view), MeshStatus::Ok);
+    EXPECT_EQ(mesh.GetSourcePoints(), expected.GetSourcePoints());
+    ASSERT_EQ(mesh.GetNumberOfVertices(), expected.GetNumberOfVertices());
+    for (std::int64_t v = 0; v < mesh.GetNumberOfVertices(); ++v)
+    {
+      EXPECT_EQ(mesh.GetPosition(v), expected.GetPosition(v));
+    }
   }
 }
 
