@@ -40,14 +40,14 @@ struct Range
 {
   double Low = 1e300;
   double High = 0.0;
-  void add(double value)
+  void Add(double value)
   {
     this->Low = std::min(this->Low, value);
     this->High = std::max(this->High, value);
   }
 };
 
-ChartSeries onlyPositive(const ChartSeries& series)
+ChartSeries OnlyPositive(const ChartSeries& series)
 {
   ChartSeries result;
   result.Label = series.Label;
@@ -61,7 +61,7 @@ ChartSeries onlyPositive(const ChartSeries& series)
   return result;
 }
 
-void addPlot(vtkChartXY* chart, const ChartSeries& series, std::size_t number, bool joined)
+void AddPlot(vtkChartXY* chart, const ChartSeries& series, std::size_t number, bool joined)
 {
   vtkNew<vtkTable> table;
   vtkNew<vtkFloatArray> x;
@@ -87,7 +87,7 @@ void addPlot(vtkChartXY* chart, const ChartSeries& series, std::size_t number, b
 }
 
 // A logarithmic axis over whole decades around the values.
-void setAxis(vtkAxis* axis, const std::string& title, const Range& range)
+void SetAxis(vtkAxis* axis, const std::string& title, const Range& range)
 {
   axis->SetTitle(title);
   axis->GetTitleProperties()->SetFontSize(18);
@@ -101,7 +101,7 @@ void setAxis(vtkAxis* axis, const std::string& title, const Range& range)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-bool writeChart(const std::string& file, const std::string& title, const std::string& xTitle,
+bool WriteChart(const std::string& file, const std::string& title, const std::string& xTitle,
   const std::string& yTitle, const std::vector<ChartSeries>& series)
 {
   vtkNew<vtkChartXY> chart;
@@ -109,16 +109,16 @@ bool writeChart(const std::string& file, const std::string& title, const std::st
   Range y;
   for (std::size_t i = 0; i < series.size(); ++i)
   {
-    const ChartSeries positive = onlyPositive(series[i]);
+    const ChartSeries positive = OnlyPositive(series[i]);
     if (positive.Points.empty())
     {
       continue;
     }
-    addPlot(chart, positive, i, positive.Points.size() > 1);
+    AddPlot(chart, positive, i, positive.Points.size() > 1);
     for (const auto& point : positive.Points)
     {
-      x.add(point.first);
-      y.add(point.second);
+      x.Add(point.first);
+      y.Add(point.second);
     }
   }
   if (!(x.High > 0.0))
@@ -127,8 +127,8 @@ bool writeChart(const std::string& file, const std::string& title, const std::st
   }
   chart->SetTitle(title);
   chart->GetTitleProperties()->SetFontSize(18);
-  setAxis(chart->GetAxis(vtkAxis::BOTTOM), xTitle, x);
-  setAxis(chart->GetAxis(vtkAxis::LEFT), yTitle, y);
+  SetAxis(chart->GetAxis(vtkAxis::BOTTOM), xTitle, x);
+  SetAxis(chart->GetAxis(vtkAxis::LEFT), yTitle, y);
   chart->SetShowLegend(true);
   chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::RIGHT);
   chart->GetLegend()->SetVerticalAlignment(vtkChartLegend::CENTER);

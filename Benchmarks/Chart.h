@@ -23,7 +23,7 @@ struct ChartSeries
  * Draws a chart with two logarithmic axes to a PNG file. Points that are not positive are left out.
  * Returns false if none is left, or if the file cannot be written.
  */
-bool writeChart(const std::string& file, const std::string& title, const std::string& xTitle,
+bool WriteChart(const std::string& file, const std::string& title, const std::string& xTitle,
   const std::string& yTitle, const std::vector<ChartSeries>& series);
 
 } // namespace benchmark

@@ -25,17 +25,17 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-bool measureTables(const RefractionOptions& options)
+bool MeasureTables(const RefractionOptions& options)
 {
   std::string json = "{\n  \"program\": \"meniscus_benchmark_refraction\",\n"
                      "  \"compiler\": \"" __VERSION__ "\",\n  \"threads\": 1";
   if (options.Thesis)
   {
-    json += ",\n" + runThesisTables();
+    json += ",\n" + RunThesisTables();
   }
   if (options.Growth)
   {
-    const std::string growth = runGrowth(options);
+    const std::string growth = RunGrowth(options);
     if (growth.empty())
     {
       return false;
@@ -60,14 +60,14 @@ bool measureTables(const RefractionOptions& options)
 //------------------------------------------------------------------------------
 int main(int argc, char* argv[])
 {
-  const RefractionOptions options = parseRefractionOptions(argc, argv);
+  const RefractionOptions options = ParseRefractionOptions(argc, argv);
   if (options.Help || !options.Problem.empty())
   {
     (options.Help ? std::cout : std::cerr) << options.Problem << '\n' << RefractionUsage;
     return options.Help ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   const bool draws = options.Frames || options.Report || !options.Plot.empty();
-  if (draws && !meniscus::test::hasDisplay())
+  if (draws && !meniscus::test::HasDisplay())
   {
     std::cerr << "no display: run under xvfb-run\n";
     return EXIT_FAILURE;
@@ -75,18 +75,18 @@ int main(int argc, char* argv[])
   // Before the first window is opened: llvmpipe reads this variable when it starts.
   setenv("LP_NUM_THREADS", std::to_string(options.Threads).c_str(), 1);
   vtkSMPTools::Initialize(options.Threads);
-  if ((options.Thesis || options.Growth) && !measureTables(options))
+  if ((options.Thesis || options.Growth) && !MeasureTables(options))
   {
     return EXIT_FAILURE;
   }
   if (options.Frames)
   {
-    printThesisFrames(std::cout);
-    printRaces(std::cout);
+    PrintThesisFrames(std::cout);
+    PrintRaces(std::cout);
   }
   if (options.Report)
   {
-    printRefractionReport(std::cout, options);
+    PrintRefractionReport(std::cout, options);
   }
   return EXIT_SUCCESS;
 }

@@ -24,7 +24,7 @@ namespace
 
 //------------------------------------------------------------------------------
 // Before the first window is opened: llvmpipe reads this variable when it starts.
-void useThreads(int threads)
+void UseThreads(int threads)
 {
   if (threads > 0)
   {
@@ -35,14 +35,14 @@ void useThreads(int threads)
 
 //------------------------------------------------------------------------------
 // Contestants that survive a test in another process; the reasons for the others are recorded.
-std::vector<Contestant> trySurvivors(
+std::vector<Contestant> TrySurvivors(
   const std::vector<Contestant>& all, const VolumeOptions& options, std::vector<Figures>& figures)
 {
   std::vector<Contestant> survivors;
   for (const Contestant& contestant : all)
   {
     std::cerr << "  trying " << contestant.Name << std::endl;
-    const ProbeResult probe = probeContestant(contestant.Name, options);
+    const ProbeResult probe = ProbeContestant(contestant.Name, options);
     Figures entry;
     entry.Name = contestant.Name;
     entry.Survives = probe.Survives;
@@ -58,9 +58,9 @@ std::vector<Contestant> trySurvivors(
 }
 
 //------------------------------------------------------------------------------
-int compareAll(const VolumeOptions& options)
+int CompareAll(const VolumeOptions& options)
 {
-  const auto grid = makeVolumeMesh(options);
+  const auto grid = MakeVolumeMesh(options);
   if (!grid)
   {
     std::cerr << "no cells or no point array in " << options.Mesh << '\n';
@@ -68,14 +68,14 @@ int compareAll(const VolumeOptions& options)
   }
   std::vector<Figures> all;
   const auto contestants =
-    trySurvivors(selectContestants(makeContestants(options), options.Mappers), options, all);
+    TrySurvivors(SelectContestants(MakeContestants(options), options.Mappers), options, all);
   VolumeComparison comparison(options, grid);
-  comparison.enter(contestants);
+  comparison.Enter(contestants);
   std::cerr << "  times ..." << std::endl;
-  comparison.measureTimes();
+  comparison.MeasureTimes();
   std::cerr << "  errors ..." << std::endl;
-  comparison.measureErrors();
-  for (const Figures& measured : comparison.figures())
+  comparison.MeasureErrors();
+  for (const Figures& measured : comparison.GetFigures())
   {
     for (Figures& figures : all)
     {
@@ -88,15 +88,15 @@ int compareAll(const VolumeOptions& options)
     }
   }
   const RunDescription description{ options.Mesh.empty() ? "generated block" : options.Mesh,
-    grid->GetNumberOfCells(), comparison.device() };
-  printDescription(std::cout, options, description);
-  printTable(std::cout, all);
-  if (!options.Json.empty() && !writeJson(options, description, all))
+    grid->GetNumberOfCells(), comparison.GetDevice() };
+  PrintDescription(std::cout, options, description);
+  PrintTable(std::cout, all);
+  if (!options.Json.empty() && !WriteJson(options, description, all))
   {
     std::cerr << "cannot write " << options.Json << '\n';
     return EXIT_FAILURE;
   }
-  if (!options.Plot.empty() && !writePlot(options, description, all))
+  if (!options.Plot.empty() && !WritePlot(options, description, all))
   {
     std::cerr << "cannot write " << options.Plot << '\n';
     return EXIT_FAILURE;
@@ -105,13 +105,13 @@ int compareAll(const VolumeOptions& options)
 }
 
 //------------------------------------------------------------------------------
-int probe(const VolumeOptions& options)
+int MakeProbe(const VolumeOptions& options)
 {
-  for (const Contestant& contestant : makeContestants(options))
+  for (const Contestant& contestant : MakeContestants(options))
   {
     if (contestant.Name == options.Probe)
     {
-      return runProbe(contestant, options);
+      return RunProbe(contestant, options);
     }
   }
   return EXIT_FAILURE;
@@ -122,32 +122,32 @@ int probe(const VolumeOptions& options)
 //------------------------------------------------------------------------------
 int main(int argc, char* argv[])
 {
-  const VolumeOptions options = parseVolumeOptions(argc, argv);
+  const VolumeOptions options = ParseVolumeOptions(argc, argv);
   if (options.Help || !options.Problem.empty())
   {
     (options.Help ? std::cout : std::cerr) << options.Problem << '\n' << VolumeUsage;
     return options.Help ? EXIT_SUCCESS : EXIT_FAILURE;
   }
-  if (!meniscus::test::hasDisplay())
+  if (!meniscus::test::HasDisplay())
   {
     std::cerr << "no display: run under xvfb-run\n";
     return EXIT_FAILURE;
   }
-  useThreads(options.Threads);
+  UseThreads(options.Threads);
   const meniscus::test::DisplayHold hold;
   if (!options.Probe.empty())
   {
-    return probe(options);
+    return MakeProbe(options);
   }
   if (options.Report)
   {
-    printReport(std::cout, options);
+    PrintReport(std::cout, options);
     return EXIT_SUCCESS;
   }
   if (options.Growth)
   {
-    printGrowth(std::cout, options);
+    PrintGrowth(std::cout, options);
     return EXIT_SUCCESS;
   }
-  return compareAll(options);
+  return CompareAll(options);
 }

@@ -25,7 +25,7 @@ constexpr float Far = std::numeric_limits<float>::infinity();
 // an object that touches the membrane is met on its far side only.
 constexpr float StartPart = 1e-6f;
 
-void traceCoherent(RTCScene scene, const int* valid, RTCRayHit8& rays)
+void TraceCoherent(RTCScene scene, const int* valid, RTCRayHit8& rays)
 {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -33,7 +33,7 @@ void traceCoherent(RTCScene scene, const int* valid, RTCRayHit8& rays)
   rtcIntersect8(valid, scene, &context, &rays);
 }
 
-void clearHits(RTCRayHit8& rays, float near)
+void ClearHits(RTCRayHit8& rays, float near)
 {
   for (int k = 0; k < Width; ++k)
   {
@@ -51,7 +51,7 @@ void clearHits(RTCRayHit8& rays, float near)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void TracedMesh::addPoint(const double* point)
+void TracedMesh::AddPoint(const double* point)
 {
   for (int i = 0; i < 3; ++i)
   {
@@ -60,7 +60,7 @@ void TracedMesh::addPoint(const double* point)
 }
 
 //------------------------------------------------------------------------------
-void TriangleColors::shade(const TracedPacket& packet, unsigned char* rgba) const
+void TriangleColors::Shade(const TracedPacket& packet, unsigned char* rgba) const
 {
   std::uint32_t colors[Width];
   for (int k = 0; k < Width; ++k)
@@ -91,14 +91,14 @@ RefractionTracer::~RefractionTracer()
 }
 
 //------------------------------------------------------------------------------
-void RefractionTracer::setIndices(double exterior, double interior)
+void RefractionTracer::SetIndices(double exterior, double interior)
 {
   this->Ratio = static_cast<float>(exterior / interior);
 }
 
 //------------------------------------------------------------------------------
 // The arrays are shared with Embree, so `mesh` must stay alive.
-RTCGeometry RefractionTracer::commit(RTCDevice device, RTCScene scene, RTCGeometry old,
+RTCGeometry RefractionTracer::Commit(RTCDevice device, RTCScene scene, RTCGeometry old,
   const TracedMesh& mesh, RTCBuildQuality quality)
 {
   RTCGeometry geometry = old;
@@ -110,7 +110,7 @@ RTCGeometry RefractionTracer::commit(RTCDevice device, RTCScene scene, RTCGeomet
   }
   rtcSetGeometryBuildQuality(geometry, quality);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-    mesh.Points.data(), 0, 3 * sizeof(float), mesh.numberOfPoints());
+    mesh.Points.data(), 0, 3 * sizeof(float), mesh.GetNumberOfPoints());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
     mesh.Triangles.data(), 0, 3 * sizeof(std::uint32_t), mesh.Triangles.size() / 3);
   rtcCommitGeometry(geometry);
@@ -119,7 +119,7 @@ RTCGeometry RefractionTracer::commit(RTCDevice device, RTCScene scene, RTCGeomet
 }
 
 //------------------------------------------------------------------------------
-void RefractionTracer::setMembrane(const TracedMesh& mesh)
+void RefractionTracer::SetMembrane(const TracedMesh& mesh)
 {
   this->Surface = mesh;
   if (this->Membrane)
@@ -129,20 +129,20 @@ void RefractionTracer::setMembrane(const TracedMesh& mesh)
   this->Membrane = rtcNewScene(this->Device);
   rtcSetSceneFlags(this->Membrane, RTC_SCENE_FLAG_DYNAMIC);
   this->MembraneGeometry =
-    commit(this->Device, this->Membrane, nullptr, this->Surface, RTC_BUILD_QUALITY_MEDIUM);
+    Commit(this->Device, this->Membrane, nullptr, this->Surface, RTC_BUILD_QUALITY_MEDIUM);
 }
 
 //------------------------------------------------------------------------------
-void RefractionTracer::moveMembrane(const TracedMesh& mesh)
+void RefractionTracer::MoveMembrane(const TracedMesh& mesh)
 {
   std::copy(mesh.Points.begin(), mesh.Points.end(), this->Surface.Points.begin());
   std::copy(mesh.Normals.begin(), mesh.Normals.end(), this->Surface.Normals.begin());
-  this->MembraneGeometry = commit(
+  this->MembraneGeometry = Commit(
     this->Device, this->Membrane, this->MembraneGeometry, this->Surface, RTC_BUILD_QUALITY_REFIT);
 }
 
 //------------------------------------------------------------------------------
-void RefractionTracer::setObject(const TracedMesh& mesh)
+void RefractionTracer::SetObject(const TracedMesh& mesh)
 {
   if (this->Object)
   {
@@ -150,21 +150,21 @@ void RefractionTracer::setObject(const TracedMesh& mesh)
   }
   this->Shape = mesh;
   this->Object = rtcNewScene(this->Device);
-  commit(this->Device, this->Object, nullptr, this->Shape, RTC_BUILD_QUALITY_HIGH);
+  Commit(this->Device, this->Object, nullptr, this->Shape, RTC_BUILD_QUALITY_HIGH);
 }
 
 //------------------------------------------------------------------------------
-void RefractionTracer::intersect(const int* valid, RTCRayHit8& rays) const
+void RefractionTracer::Intersect(const int* valid, RTCRayHit8& rays) const
 {
-  traceCoherent(this->Object, valid, rays);
+  TraceCoherent(this->Object, valid, rays);
 }
 
 //------------------------------------------------------------------------------
-void RefractionTracer::findSights(const TracedView& view, TracedPacket& packet) const
+void RefractionTracer::FindSights(const TracedView& view, TracedPacket& packet) const
 {
   alignas(32) int valid[Width];
   alignas(32) RTCRayHit8 rays;
-  clearHits(rays, 0.0f);
+  ClearHits(rays, 0.0f);
   const double step = 2.0 / view.Pixels;
   const glm::dvec3 rowStart = view.Forward + (step * (packet.Y + 0.5) - 1.0) * view.Up - view.Right;
   for (int k = 0; k < Width; ++k)
@@ -184,7 +184,7 @@ void RefractionTracer::findSights(const TracedView& view, TracedPacket& packet) 
     rays.ray.dir_y[k] = packet.Sight[1][k];
     rays.ray.dir_z[k] = packet.Sight[2][k];
   }
-  traceCoherent(this->Membrane, valid, rays);
+  TraceCoherent(this->Membrane, valid, rays);
   for (int k = 0; k < Width; ++k)
   {
     packet.Facet[k] = valid[k] ? rays.hit.primID[k] : TracedPacket::None;
@@ -214,7 +214,7 @@ void RefractionTracer::findSights(const TracedView& view, TracedPacket& packet) 
 
 //------------------------------------------------------------------------------
 // Eq. 2.2 for all lanes; lanes without a ray are disabled.
-void RefractionTracer::refract(TracedPacket& packet, RTCRayHit8& rays, int* valid) const
+void RefractionTracer::Refract(TracedPacket& packet, RTCRayHit8& rays, int* valid) const
 {
   for (int k = 0; k < Width; ++k)
   {
@@ -250,14 +250,14 @@ void RefractionTracer::refract(TracedPacket& packet, RTCRayHit8& rays, int* vali
 }
 
 //------------------------------------------------------------------------------
-void RefractionTracer::tracePacket(const TracedView& view, TracedPacket& packet) const
+void RefractionTracer::TracePacket(const TracedView& view, TracedPacket& packet) const
 {
-  this->findSights(view, packet);
+  this->FindSights(view, packet);
   alignas(32) int valid[Width];
   alignas(32) RTCRayHit8 rays;
-  clearHits(rays, 0.0f);
-  this->refract(packet, rays, valid);
-  this->intersect(valid, rays);
+  ClearHits(rays, 0.0f);
+  this->Refract(packet, rays, valid);
+  this->Intersect(valid, rays);
   for (int k = 0; k < Width; ++k)
   {
     packet.Triangle[k] = valid[k] ? rays.hit.primID[k] : TracedPacket::None;
@@ -268,7 +268,7 @@ void RefractionTracer::tracePacket(const TracedView& view, TracedPacket& packet)
 }
 
 //------------------------------------------------------------------------------
-void RefractionTracer::trace(
+void RefractionTracer::Trace(
   const TracedView& view, const TracedShader& shader, unsigned char* rgba) const
 {
   constexpr vtkIdType rowsPerTask = 8;
@@ -282,8 +282,8 @@ void RefractionTracer::trace(
         for (packet.X = 0; packet.X < view.Pixels; packet.X += Width)
         {
           packet.Count = std::min(Width, view.Pixels - packet.X);
-          this->tracePacket(view, packet);
-          shader.shade(packet, rgba + 4 * (y * view.Pixels + packet.X));
+          this->TracePacket(view, packet);
+          shader.Shade(packet, rgba + 4 * (y * view.Pixels + packet.X));
         }
       }
     });

@@ -31,9 +31,9 @@ struct TracedMesh
   std::vector<float> Normals; ///< per point; for membranes only
   std::vector<std::uint32_t> Triangles;
 
-  void addPoint(const double* point);
-  void finish() { this->Points.resize(this->Points.size() + 1, 0.0f); }
-  std::size_t numberOfPoints() const { return (this->Points.size() - 1) / 3; }
+  void AddPoint(const double* point);
+  void Finish() { this->Points.resize(this->Points.size() + 1, 0.0f); }
+  std::size_t GetNumberOfPoints() const { return (this->Points.size() - 1) / 3; }
 };
 
 /** Eight neighbouring pixels of a row after tracing, component by component. */
@@ -76,7 +76,7 @@ class TracedShader
 public:
   virtual ~TracedShader() = default;
   /** Four bytes for each of the packet's pixels. */
-  virtual void shade(const TracedPacket& packet, unsigned char* rgba) const = 0;
+  virtual void Shade(const TracedPacket& packet, unsigned char* rgba) const = 0;
 };
 
 /** One colour for each triangle of the object, and a background colour. */
@@ -85,7 +85,7 @@ class TriangleColors : public TracedShader
 public:
   std::vector<std::uint32_t> Colors; ///< RGBA bytes in memory order
   std::uint32_t Background = 0xff000000u;
-  void shade(const TracedPacket& packet, unsigned char* rgba) const override;
+  void Shade(const TracedPacket& packet, unsigned char* rgba) const override;
 };
 
 /**
@@ -108,26 +108,26 @@ public:
   RefractionTracer(const RefractionTracer&) = delete;
   void operator=(const RefractionTracer&) = delete;
 
-  void setIndices(double exterior, double interior);
-  void setMembrane(const TracedMesh& mesh);
+  void SetIndices(double exterior, double interior);
+  void SetMembrane(const TracedMesh& mesh);
   /** Sets another shape of the same facets: refits instead of building again. */
-  void moveMembrane(const TracedMesh& mesh);
-  void setObject(const TracedMesh& mesh);
+  void MoveMembrane(const TracedMesh& mesh);
+  void SetObject(const TracedMesh& mesh);
 
   /** Traces all pixels with vtkSMPTools. `rgba` has Pixels x Pixels x 4 bytes, in rows upwards. */
-  void trace(const TracedView& view, const TracedShader& shader, unsigned char* rgba) const;
+  void Trace(const TracedView& view, const TracedShader& shader, unsigned char* rgba) const;
 
   /** Traces one packet, for callers that need more than colours. */
-  void tracePacket(const TracedView& view, TracedPacket& packet) const;
+  void TracePacket(const TracedView& view, TracedPacket& packet) const;
 
   /** Traces a shader's own rays against the object. */
-  void intersect(const int* valid, RTCRayHit8& rays) const;
+  void Intersect(const int* valid, RTCRayHit8& rays) const;
 
 private:
-  static RTCGeometry commit(RTCDevice device, RTCScene scene, RTCGeometry old,
+  static RTCGeometry Commit(RTCDevice device, RTCScene scene, RTCGeometry old,
     const TracedMesh& mesh, RTCBuildQuality quality);
-  void findSights(const TracedView& view, TracedPacket& packet) const;
-  void refract(TracedPacket& packet, RTCRayHit8& rays, int* valid) const;
+  void FindSights(const TracedView& view, TracedPacket& packet) const;
+  void Refract(TracedPacket& packet, RTCRayHit8& rays, int* valid) const;
 
   RTCDevice Device = nullptr;
   RTCScene Membrane = nullptr;

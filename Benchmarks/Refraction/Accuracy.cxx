@@ -50,7 +50,7 @@ private:
   std::mt19937 Engine{ 5 };
 };
 
-std::string describe(const ThesisRow& row)
+std::string Describe(const ThesisRow& row)
 {
   std::ostringstream text;
   const char* kind =
@@ -75,7 +75,7 @@ std::string describe(const ThesisRow& row)
 
 // Error of the virtual vertex of a sight point: its distance from the point behind it on the exact
 // surface.
-double errorOf(const HeightField& field, const glm::dvec3& eye, const glm::dvec3& point,
+double ErrorOf(const HeightField& field, const glm::dvec3& eye, const glm::dvec3& point,
   const VirtualVertex& vertex)
 {
   const glm::dvec3 sight = vertex.SightPoint - eye;
@@ -95,7 +95,7 @@ struct ImageScene
   double Reach;
 };
 
-std::vector<ImageScene> makeImageScenes()
+std::vector<ImageScene> MakeImageScenes()
 {
   // sin(kx) sin(kz) as a sum of two waves.
   const auto waves = [](double amplitude, double k)
@@ -112,7 +112,7 @@ std::vector<ImageScene> makeImageScenes()
     { waves(3.0, 0.04 * Pi), 1.0, 1.333, { 120.0, 90.0, 20.0 }, 96, 80.0 } };
 }
 
-reference::SurfaceError errorOf(const CurvedMembraneSolver& geometry, const SmoothSurface& surface)
+reference::SurfaceError ErrorOf(const CurvedMembraneSolver& geometry, const SmoothSurface& surface)
 {
   reference::SurfaceError error;
   const auto facets = static_cast<std::int32_t>(geometry.GetMembrane().GetFacets().size());
@@ -132,7 +132,7 @@ reference::SurfaceError errorOf(const CurvedMembraneSolver& geometry, const Smoo
   return { 1.5 * error.Position, 1.5 * error.Normal };
 }
 
-void compare(const OracleAnswer& answer, const std::vector<VirtualVertex>& images,
+void Compare(const OracleAnswer& answer, const std::vector<VirtualVertex>& images,
   const reference::SurfaceError& error, ImageCount& count)
 {
   const auto matches = [&error](const OracleImage& image, const VirtualVertex& vertex)
@@ -159,7 +159,7 @@ void compare(const OracleAnswer& answer, const std::vector<VirtualVertex>& image
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::string runThesisTables()
+std::string RunThesisTables()
 {
   std::ostringstream json;
   json << "  \"thesis\": [\n";
@@ -182,11 +182,11 @@ std::string runThesisTables()
     const std::string points = row.Points > 0 ? std::to_string(row.Points) : "-";
     std::printf(
       "%-5s %-30s | %11.4f %10.4f %7s | %10.4f %10.4f %7zu | %+7.2f%%%s | %9.2e %9.2e %7zu\n",
-      row.Table, describe(row).c_str(), row.Mean, row.Deviation, points.c_str(), ours.Mean,
+      row.Table, Describe(row).c_str(), row.Mean, row.Deviation, points.c_str(), ours.Mean,
       ours.Deviation, ours.Points, percent, accepted ? " " : "*", curved.Mean, curved.Largest,
       curved.Points);
     std::fflush(stdout);
-    json << "    { \"table\": \"" << row.Table << "\", \"setup\": \"" << describe(row)
+    json << "    { \"table\": \"" << row.Table << "\", \"setup\": \"" << Describe(row)
          << "\", \"thesis_mean\": " << row.Mean << ", \"thesis_deviation\": " << row.Deviation
          << ", \"thesis_points\": " << row.Points << ", \"mean\": " << ours.Mean
          << ", \"deviation\": " << ours.Deviation << ", \"points\": " << ours.Points
@@ -202,7 +202,7 @@ std::string runThesisTables()
 }
 
 //------------------------------------------------------------------------------
-WaveError measureWaveError(int cells)
+WaveError MeasureWaveError(int cells)
 {
   const HeightField field{ HeightField::Shape::Waves, 200.0, 3.0, 0.02 * Pi, 1.0, 1.333 };
   const glm::dvec3 eye(20.0, 300.0, 10.0);
@@ -226,7 +226,7 @@ WaveError measureWaveError(int cells)
     {
       if (vertex[k].State == ImageState::Found)
       {
-        sums[k] += errorOf(field, eye, point, vertex[k]);
+        sums[k] += ErrorOf(field, eye, point, vertex[k]);
         ++counts[k];
       }
     }
@@ -235,17 +235,17 @@ WaveError measureWaveError(int cells)
 }
 
 //------------------------------------------------------------------------------
-ImageCount countImages()
+ImageCount CountImages()
 {
   ImageCount count;
   Random random;
-  for (const ImageScene& scene : makeImageScenes())
+  for (const ImageScene& scene : MakeImageScenes())
   {
     CurvedMembraneSolver geometry;
     const auto mesh = scene.Surface.MakeMesh(scene.Cells);
     geometry.SetMembrane(mesh.AsInput());
     geometry.SetEye(scene.Eye, scene.Exterior, scene.Interior);
-    const auto error = errorOf(geometry, scene.Surface);
+    const auto error = ErrorOf(geometry, scene.Surface);
     const reference::SightOracle oracle(
       scene.Surface, scene.Eye, scene.Exterior, scene.Interior, error);
     std::vector<VirtualVertex> images;
@@ -254,14 +254,14 @@ ImageCount countImages()
       const glm::dvec3 point(random(-scene.Reach, scene.Reach), random(-250.0, -40.0),
         random(-scene.Reach, scene.Reach));
       geometry.FindImages(point, images);
-      compare(oracle.Find(point), images, error, count);
+      Compare(oracle.Find(point), images, error, count);
     }
   }
   return count;
 }
 
 //------------------------------------------------------------------------------
-double measureHemispherePixels()
+double MeasureHemispherePixels()
 {
   constexpr double radius = 141.5;
   const glm::dvec3 eye(0.0, 450.0, 0.0);

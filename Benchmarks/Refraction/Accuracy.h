@@ -11,7 +11,7 @@ namespace benchmark
 {
 
 /** Prints thesis Tables 4.1 to 4.5 side by side and returns them as members of a JSON object. */
-std::string runThesisTables();
+std::string RunThesisTables();
 
 /**
  * Mean error of virtual vertices on waves of two periods with `cells` x `cells` x 2 facets, as the
@@ -22,7 +22,7 @@ struct WaveError
   double Flat = 0.0;
   double Curved = 0.0;
 };
-WaveError measureWaveError(int cells);
+WaveError MeasureWaveError(int cells);
 
 /** Images of points on two waves, a dome and for a low eye, compared with the interval oracle. */
 struct ImageCount
@@ -33,13 +33,13 @@ struct ImageCount
   int False = 0;
   int Uncertain = 0; ///< uncertain points
 };
-ImageCount countImages();
+ImageCount CountImages();
 
 /**
  * Largest error of a sight point on the hemisphere of 184 facets, with the eye at 450, in pixels of
  * an image of 512 pixels that the opening of the hemisphere fills exactly.
  */
-double measureHemispherePixels();
+double MeasureHemispherePixels();
 
 } // namespace benchmark
 } // namespace meniscus

@@ -39,12 +39,12 @@ const ThesisFrames Printed[] = { { 120, 105, "492-530", "520-560", "705-709" },
   { 1820, 528, "136-150", "221-236", "549-551" }, { 1820, 2628, "31-37", "61-62", "229-230" } };
 
 // Squares and wells with the nearest numbers of facets.
-int cellsFor(int facets)
+int CellsFor(int facets)
 {
   return facets == 120 ? 8 : (facets == 484 ? 16 : 30);
 }
 
-int quadsFor(int vertices)
+int QuadsFor(int vertices)
 {
   return vertices == 105 ? 4 : (vertices == 528 ? 9 : 22);
 }
@@ -53,22 +53,22 @@ constexpr int Frames = 40;
 
 using Change = std::function<void(WellScene&, int frame)>;
 
-double framesPerSecond(WellScene& scene, const Change& change)
+double FramesPerSecond(WellScene& scene, const Change& change)
 {
   std::vector<Seconds> times;
   for (int i = 0; i < Frames; ++i)
   {
-    times.push_back(timeOnce(
+    times.push_back(TimeOnce(
       [&]
       {
         change(scene, i);
-        scene.draw();
+        scene.Draw();
       }));
   }
-  return 1.0 / medianOf(times).Wall;
+  return 1.0 / MedianOf(times).Wall;
 }
 
-void printShares(std::ostream& out)
+void PrintShares(std::ostream& out)
 {
   out << "\nTable 4.9, 1,805 vertices: % of a frame in cell creation and cell containment\n"
          "| facets | thesis centred | FLAT_FACETS | CURVED |\n|---|---|---|---|\n";
@@ -76,33 +76,33 @@ void printShares(std::ostream& out)
   for (int i = 0; i < 3; ++i)
   {
     const int facets = i == 0 ? 120 : (i == 1 ? 484 : 1820);
-    WellScene scene(cellsFor(facets), 18);
+    WellScene scene(CellsFor(facets), 18);
     out << "| " << facets << " | " << printed[i];
     std::vector<double> points;
-    for (vtkIdType p = 0; p < scene.well()->GetNumberOfPoints(); ++p)
+    for (vtkIdType p = 0; p < scene.GetWell()->GetNumberOfPoints(); ++p)
     {
-      const double* x = scene.well()->GetPoint(p);
+      const double* x = scene.GetWell()->GetPoint(p);
       points.insert(points.end(), x, x + 3);
     }
     std::vector<VirtualVertex> vertices(points.size() / 3);
-    const auto mesh = scene.field().MakeMesh(cellsFor(facets));
+    const auto mesh = scene.MakeField().MakeMesh(CellsFor(facets));
     const auto share = [&](auto& geometry, int model)
     {
-      scene.filter()->SetMembraneModel(model);
-      scene.filter()->SetImagesToFirstImage();
+      scene.GetFilter()->SetMembraneModel(model);
+      scene.GetFilter()->SetImagesToFirstImage();
       geometry.SetMembrane(mesh.AsInput());
-      const double eye = timeMedian(
+      const double eye = TimeMedian(
         [&] {
           geometry.SetEye({ 20.0, 300.0, 10.0 }, 1.0, 1.333);
         }).Cpu;
       const double solve =
-        timeMedian([&] { geometry.Solve(points.data(), 0, vertices.size(), vertices.data()); }).Cpu;
+        TimeMedian([&] { geometry.Solve(points.data(), 0, vertices.size(), vertices.data()); }).Cpu;
       int frame = 0;
-      const double all = timeMedian(
+      const double all = TimeMedian(
         [&]
         {
-          scene.moveEye(0.01 * ++frame);
-          scene.draw();
+          scene.MoveEye(0.01 * ++frame);
+          scene.Draw();
         },
         Frames)
                            .Cpu;
@@ -119,7 +119,7 @@ void printShares(std::ostream& out)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void printThesisFrames(std::ostream& out)
+void PrintThesisFrames(std::ostream& out)
 {
   const struct
   {
@@ -130,11 +130,11 @@ void printThesisFrames(std::ostream& out)
     { "Table 4.6, everything recomputed", &ThesisFrames::Complete,
       [](WellScene& scene, int i)
       {
-        scene.moveMembrane(0.1 * i);
-        scene.moveEye(0.01 * i);
+        scene.MoveMembrane(0.1 * i);
+        scene.MoveEye(0.01 * i);
       } },
     { "Table 4.7, cell creation skipped: the object moves", &ThesisFrames::Containment,
-      [](WellScene& scene, int i) { scene.moveWell(0.1 * i); } },
+      [](WellScene& scene, int i) { scene.MoveWell(0.1 * i); } },
     { "Table 4.8, drawing alone", &ThesisFrames::Drawing, [](WellScene&, int) {} },
   };
   out << std::fixed << std::setprecision(0);
@@ -149,22 +149,22 @@ void printThesisFrames(std::ostream& out)
       for (const int model :
         { vtkRefractedGeometryFilter::FLAT_FACETS, vtkRefractedGeometryFilter::CURVED })
       {
-        WellScene scene(cellsFor(row.Facets), quadsFor(row.Vertices));
-        scene.filter()->SetMembraneModel(model);
-        scene.filter()->SetImagesToFirstImage();
-        scene.draw();
-        out << " | " << framesPerSecond(scene, table.Make);
+        WellScene scene(CellsFor(row.Facets), QuadsFor(row.Vertices));
+        scene.GetFilter()->SetMembraneModel(model);
+        scene.GetFilter()->SetImagesToFirstImage();
+        scene.Draw();
+        out << " | " << FramesPerSecond(scene, table.Make);
       }
       out << " |" << std::endl;
     }
     out << '\n';
   }
   out << std::setprecision(1);
-  printShares(out);
+  PrintShares(out);
 }
 
 //------------------------------------------------------------------------------
-std::vector<WellFrames> measureWell()
+std::vector<WellFrames> MeasureWell()
 {
   std::vector<WellFrames> result;
   const struct
@@ -177,24 +177,24 @@ std::vector<WellFrames> measureWell()
   for (const auto& mode : modes)
   {
     WellScene scene(16, 16);
-    scene.filter()->SetImages(mode.All);
-    scene.filter()->SetAngularTolerance(mode.Tolerance);
+    scene.GetFilter()->SetImages(mode.All);
+    scene.GetFilter()->SetAngularTolerance(mode.Tolerance);
     std::vector<Seconds> times;
     for (int i = 0; i < 4 * Frames; ++i)
     {
-      scene.moveMembrane(0.1 * i);
-      times.push_back(timeOnce([&] { scene.update(); }));
+      scene.MoveMembrane(0.1 * i);
+      times.push_back(TimeOnce([&] { scene.Update(); }));
     }
-    const Seconds frame = medianOf(times);
+    const Seconds frame = MedianOf(times);
     result.push_back({ mode.Name, 1.0 / frame.Wall, 1e3 * frame.Cpu });
   }
   return result;
 }
 
 //------------------------------------------------------------------------------
-void printRaces(std::ostream& out)
+void PrintRaces(std::ostream& out)
 {
-  const auto reports = runRaces();
+  const auto reports = RunRaces();
   if (reports.empty())
   {
     out << "against Embree: skipped, built without it\n";

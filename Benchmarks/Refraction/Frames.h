@@ -13,7 +13,7 @@ namespace benchmark
 {
 
 /** Thesis Tables 4.6 to 4.9 next to the filter's frames, drawn at 512 x 512. */
-void printThesisFrames(std::ostream& out);
+void PrintThesisFrames(std::ostream& out);
 
 /**
  * Frames per second of the filter alone, and processor milliseconds of one: the well of 1,445
@@ -25,7 +25,7 @@ struct WellFrames
   double PerSecond = 0.0;
   double CpuMs = 0.0;
 };
-std::vector<WellFrames> measureWell();
+std::vector<WellFrames> MeasureWell();
 
 /**
  * Filter and drawing compared with tracing the same scene by Embree, both at an image error of half
@@ -46,9 +46,9 @@ struct RaceReport
   std::vector<Race> Races;
 };
 /** Empty without Embree. */
-std::vector<RaceReport> runRaces();
+std::vector<RaceReport> RunRaces();
 
-void printRaces(std::ostream& out);
+void PrintRaces(std::ostream& out);
 
 } // namespace benchmark
 } // namespace meniscus

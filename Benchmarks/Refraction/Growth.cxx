@@ -37,7 +37,7 @@ constexpr double Exterior = 1.0;
 constexpr double Interior = 1.333;
 
 // A box of n^3 points below the waves, in grid order.
-std::vector<double> makePoints(int n)
+std::vector<double> MakePoints(int n)
 {
   std::vector<double> points;
   for (int i = 0; i < n * n * n; ++i)
@@ -49,7 +49,7 @@ std::vector<double> makePoints(int n)
   return points;
 }
 
-std::vector<double> shuffle(const std::vector<double>& points)
+std::vector<double> Shuffle(const std::vector<double>& points)
 {
   std::vector<std::size_t> order(points.size() / 3);
   std::iota(order.begin(), order.end(), std::size_t(0));
@@ -63,32 +63,32 @@ std::vector<double> shuffle(const std::vector<double>& points)
   return shuffled;
 }
 
-MembraneMesh makeWaves(int cells)
+MembraneMesh MakeWaves(int cells)
 {
   return reference::MakeWaves(200.0, cells, 3.0, 2.0);
 }
 
 template <typename Geometry>
-double microsecondsPerVertex(const Geometry& geometry, const std::vector<double>& points)
+double MicrosecondsPerVertex(const Geometry& geometry, const std::vector<double>& points)
 {
   std::vector<VirtualVertex> vertices(points.size() / 3);
   return 1e6 / static_cast<double>(vertices.size()) *
-    timeMedian([&] { geometry.Solve(points.data(), 0, vertices.size(), vertices.data()); }).Cpu;
+    TimeMedian([&] { geometry.Solve(points.data(), 0, vertices.size(), vertices.data()); }).Cpu;
 }
 
-void measureFlat(
+void MeasureFlat(
   const MembraneMesh& mesh, const std::vector<double>& points, GrowthFigures& figures)
 {
   FlatMembraneSolver geometry;
-  figures.FlatShape = timeMedian([&] { geometry.SetMembrane(mesh.AsInput()); }).Cpu;
-  figures.FlatEye = timeMedian([&] { geometry.SetEye(Eye, Exterior, Interior); }).Cpu;
-  figures.FlatCoherent = microsecondsPerVertex(geometry, points);
-  const std::vector<double> shuffled = shuffle(points);
-  figures.FlatScattered = microsecondsPerVertex(geometry, shuffled);
+  figures.FlatShape = TimeMedian([&] { geometry.SetMembrane(mesh.AsInput()); }).Cpu;
+  figures.FlatEye = TimeMedian([&] { geometry.SetEye(Eye, Exterior, Interior); }).Cpu;
+  figures.FlatCoherent = MicrosecondsPerVertex(geometry, points);
+  const std::vector<double> shuffled = Shuffle(points);
+  figures.FlatScattered = MicrosecondsPerVertex(geometry, shuffled);
   // About 4e6 cell tests in all.
   const std::size_t sample = std::max<std::size_t>(4000000 / figures.Facets, 4);
   double sink = 0.0;
-  const double seconds = timeOnce(
+  const double seconds = TimeOnce(
     [&]
     {
       for (std::size_t i = 0; i < sample; ++i)
@@ -100,28 +100,28 @@ void measureFlat(
   figures.FlatBruteForce = sink >= 0.0 ? 1e6 * seconds / static_cast<double>(sample) : 0.0;
 }
 
-void measureCurved(
+void MeasureCurved(
   const MembraneMesh& mesh, const std::vector<double>& points, GrowthFigures& figures)
 {
   CurvedMembraneSolver geometry;
-  figures.CurvedShape = timeMedian(
+  figures.CurvedShape = TimeMedian(
     [&]
     {
       geometry.Clear();
       geometry.SetMembrane(mesh.AsInput());
     }).Cpu;
   MembraneMesh moved = mesh;
-  figures.CurvedDeform = timeMedian(
+  figures.CurvedDeform = TimeMedian(
     [&]
     {
       moved.Points[1] += 1e-6;
       geometry.SetMembrane(moved.AsInput());
     }).Cpu;
   geometry.SetMembrane(mesh.AsInput());
-  figures.CurvedEye = timeMedian([&] { geometry.SetEye(Eye, Exterior, Interior); }).Cpu;
-  figures.CurvedOne = microsecondsPerVertex(geometry, points);
+  figures.CurvedEye = TimeMedian([&] { geometry.SetEye(Eye, Exterior, Interior); }).Cpu;
+  figures.CurvedOne = MicrosecondsPerVertex(geometry, points);
   figures.CurvedAll = 3e6 / static_cast<double>(points.size()) *
-    timeMedian(
+    TimeMedian(
       [&]
       {
         geometry.PrepareField();
@@ -134,7 +134,7 @@ void measureCurved(
       .Cpu;
   std::vector<VirtualVertex> images;
   figures.CurvedSearch = 3e6 / static_cast<double>(points.size()) *
-    timeMedian(
+    TimeMedian(
       [&]
       {
         for (std::size_t i = 0; i < points.size(); i += 3)
@@ -145,7 +145,7 @@ void measureCurved(
       .Cpu;
 }
 
-std::vector<GrowthFigures> growByFacets()
+std::vector<GrowthFigures> GrowByFacets()
 {
   std::printf("%9s | %9s %9s %9s %9s %10s %9s | %9s %9s %9s %9s %9s %9s\n", "facets", "flat shape",
     "eye s", "us grid", "us random", "us brute", "error", "curved s", "deform s", "eye s", "us one",
@@ -153,8 +153,8 @@ std::vector<GrowthFigures> growByFacets()
   std::vector<GrowthFigures> all;
   for (const int cells : { 7, 23, 64, 128, 226, 400, 708 })
   {
-    GrowthFigures f = measureGrowth(cells);
-    const WaveError error = measureWaveError(cells);
+    GrowthFigures f = MeasureGrowth(cells);
+    const WaveError error = MeasureWaveError(cells);
     f.FlatError = error.Flat;
     f.CurvedError = error.Curved;
     std::printf("%9zu | %9.4f %9.4f %9.3f %9.3f %10.1f %9.2e | %9.4f %9.4f %9.4f %9.3f %9.3f %9.2e"
@@ -168,11 +168,11 @@ std::vector<GrowthFigures> growByFacets()
   return all;
 }
 
-std::string growByVertices()
+std::string GrowByVertices()
 {
   std::ostringstream json;
   json << "  \"vertices\": [\n";
-  const MembraneMesh mesh = makeWaves(128);
+  const MembraneMesh mesh = MakeWaves(128);
   CurvedMembraneSolver geometry;
   geometry.SetMembrane(mesh.AsInput());
   geometry.SetEye(Eye, Exterior, Interior);
@@ -180,7 +180,7 @@ std::string growByVertices()
   const int sizes[] = { 10, 22, 46, 100 };
   for (const int n : sizes)
   {
-    const double one = microsecondsPerVertex(geometry, makePoints(n));
+    const double one = MicrosecondsPerVertex(geometry, MakePoints(n));
     std::printf("%9d | %9.3f\n", n * n * n, one);
     json << "    { \"vertices\": " << n * n * n << ", \"curved_us_per_vertex_one_image\": " << one
          << " }" << (n != 100 ? ",\n" : "\n");
@@ -189,7 +189,7 @@ std::string growByVertices()
   return json.str();
 }
 
-std::string toJson(const std::vector<GrowthFigures>& all)
+std::string ToJson(const std::vector<GrowthFigures>& all)
 {
   std::ostringstream json;
   json << "  \"growth\": [\n";
@@ -211,7 +211,7 @@ std::string toJson(const std::vector<GrowthFigures>& all)
   return json.str();
 }
 
-bool writeCsv(const std::string& file, const std::vector<GrowthFigures>& all)
+bool WriteCsv(const std::string& file, const std::vector<GrowthFigures>& all)
 {
   std::ofstream out(file);
   out << "facets,method,us_per_vertex,mean_error\n";
@@ -225,7 +225,7 @@ bool writeCsv(const std::string& file, const std::vector<GrowthFigures>& all)
   return out.good();
 }
 
-bool plot(const std::string& file, const std::vector<GrowthFigures>& all)
+bool Plot(const std::string& file, const std::vector<GrowthFigures>& all)
 {
   std::vector<ChartSeries> series = { { "thesis: flat, brute force", {} }, { "flat, tree", {} },
     { "curved, one image", {} }, { "curved, all images", {} } };
@@ -236,26 +236,26 @@ bool plot(const std::string& file, const std::vector<GrowthFigures>& all)
     series[2].Points.emplace_back(f.CurvedOne, f.CurvedError);
     series[3].Points.emplace_back(f.CurvedAll, f.CurvedError);
   }
-  return writeChart(file, "Waves of 98 to 1M facets, one thread", "microseconds per virtual vertex",
+  return WriteChart(file, "Waves of 98 to 1M facets, one thread", "microseconds per virtual vertex",
     "mean error (membrane 200 wide)", series);
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-GrowthFigures measureGrowth(int cells)
+GrowthFigures MeasureGrowth(int cells)
 {
-  const MembraneMesh mesh = makeWaves(cells);
-  const std::vector<double> points = makePoints(48);
+  const MembraneMesh mesh = MakeWaves(cells);
+  const std::vector<double> points = MakePoints(48);
   GrowthFigures figures;
   figures.Facets = mesh.GetNumberOfFacets();
-  measureFlat(mesh, points, figures);
-  measureCurved(mesh, points, figures);
+  MeasureFlat(mesh, points, figures);
+  MeasureCurved(mesh, points, figures);
   return figures;
 }
 
 //------------------------------------------------------------------------------
-ThreadedFigures measureThreaded(int cells)
+ThreadedFigures MeasureThreaded(int cells)
 {
   const RangeLoop loop = [](std::size_t count, const RangeBody& body)
   {
@@ -264,13 +264,13 @@ ThreadedFigures measureThreaded(int cells)
       [&body](vtkIdType begin, vtkIdType end)
       { body(static_cast<std::size_t>(begin), static_cast<std::size_t>(end)); });
   };
-  MembraneMesh mesh = makeWaves(cells);
+  MembraneMesh mesh = MakeWaves(cells);
   CurvedMembraneSolver geometry;
   geometry.SetMembrane(mesh.AsInput(), loop);
   ThreadedFigures figures;
   figures.Facets = mesh.GetNumberOfFacets();
-  const Seconds eye = timeMedian([&] { geometry.SetEye(Eye, Exterior, Interior, loop); });
-  const Seconds deform = timeMedian(
+  const Seconds eye = TimeMedian([&] { geometry.SetEye(Eye, Exterior, Interior, loop); });
+  const Seconds deform = TimeMedian(
     [&]
     {
       mesh.Points[1] += 1e-6;
@@ -284,16 +284,16 @@ ThreadedFigures measureThreaded(int cells)
 }
 
 //------------------------------------------------------------------------------
-std::string runGrowth(const RefractionOptions& options)
+std::string RunGrowth(const RefractionOptions& options)
 {
-  const std::vector<GrowthFigures> all = growByFacets();
-  const std::string json = toJson(all) + ",\n" + growByVertices();
-  if (!options.Csv.empty() && !writeCsv(options.Csv, all))
+  const std::vector<GrowthFigures> all = GrowByFacets();
+  const std::string json = ToJson(all) + ",\n" + GrowByVertices();
+  if (!options.Csv.empty() && !WriteCsv(options.Csv, all))
   {
     std::cerr << "cannot write " << options.Csv << '\n';
     return {};
   }
-  if (!options.Plot.empty() && !plot(options.Plot, all))
+  if (!options.Plot.empty() && !Plot(options.Plot, all))
   {
     std::cerr << "cannot write " << options.Plot << '\n';
     return {};

@@ -37,7 +37,7 @@ struct GrowthFigures
 };
 
 /** Waves of `cells` x `cells` x 2 facets. */
-GrowthFigures measureGrowth(int cells);
+GrowthFigures MeasureGrowth(int cells);
 
 /**
  * Wall and processor seconds of CURVED for a new eye and for a deformed membrane, by number of
@@ -51,13 +51,13 @@ struct ThreadedFigures
   double DeformWall = 0.0;
   double DeformCpu = 0.0;
 };
-ThreadedFigures measureThreaded(int cells);
+ThreadedFigures MeasureThreaded(int cells);
 
 /**
  * Prints cost by facets and by vertices, and time against error; returns members of a JSON object.
  * Writes CSV and plot if requested; returns an empty string if one of them cannot be written.
  */
-std::string runGrowth(const RefractionOptions& options);
+std::string RunGrowth(const RefractionOptions& options);
 
 } // namespace benchmark
 } // namespace meniscus

@@ -33,12 +33,12 @@ constexpr int PictureCells = 96;
 constexpr int Frames = 60;
 constexpr double Accepted = 8.0 / 255.0;
 
-testing::PoolOptics everything()
+testing::PoolOptics Everything()
 {
   return { true, true, glm::dvec3(0.02, 0.008, 0.004) };
 }
 
-double percentOff(const std::vector<glm::dvec3>& colors, const testing::PoolPicture& truth)
+double PercentOff(const std::vector<glm::dvec3>& colors, const testing::PoolPicture& truth)
 {
   double water = 0.0;
   double off = 0.0;
@@ -55,7 +55,7 @@ double percentOff(const std::vector<glm::dvec3>& colors, const testing::PoolPict
 }
 
 template <typename Bytes>
-std::vector<glm::dvec3> toColors(const Bytes& bytes, std::size_t stride)
+std::vector<glm::dvec3> ToColors(const Bytes& bytes, std::size_t stride)
 {
   std::vector<glm::dvec3> colors(bytes.size() / stride);
   for (std::size_t i = 0; i < colors.size(); ++i)
@@ -74,14 +74,14 @@ public:
   explicit PoolShader(const testing::PoolScene& scene)
     : Scene(scene)
   {
-    for (int part = 0; part < scene.numberOfParts(); ++part)
+    for (int part = 0; part < scene.NumberOfParts(); ++part)
     {
       this->First.push_back(static_cast<std::uint32_t>(this->Mesh.Triangles.size() / 3));
       const auto firstPoint = static_cast<std::uint32_t>(this->Mesh.Points.size() / 3);
-      vtkPolyData* data = scene.partData(part);
+      vtkPolyData* data = scene.PartData(part);
       for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
       {
-        this->Mesh.addPoint(data->GetPoint(i));
+        this->Mesh.AddPoint(data->GetPoint(i));
       }
       vtkNew<vtkIdList> ids;
       for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
@@ -93,12 +93,12 @@ public:
         }
       }
     }
-    this->Mesh.finish();
+    this->Mesh.Finish();
   }
 
-  const TracedMesh& mesh() const { return this->Mesh; }
+  const TracedMesh& MakeMesh() const { return this->Mesh; }
 
-  void shade(const TracedPacket& packet, unsigned char* rgba) const override
+  void Shade(const TracedPacket& packet, unsigned char* rgba) const override
   {
     for (int k = 0; k < packet.Count; ++k)
     {
@@ -117,7 +117,7 @@ public:
           sight.Weights = { 1.0 - packet.U[k] - packet.V[k], packet.U[k], packet.V[k] };
           sight.Distance = packet.Depth[k];
         }
-        color = this->Scene.shade(sight);
+        color = this->Scene.Shade(sight);
       }
       for (int c = 0; c < 3; ++c)
       {
@@ -134,35 +134,35 @@ private:
   std::vector<std::uint32_t> First; ///< triangle of each part
 };
 
-void traceWithEmbree(
+void TraceWithEmbree(
   const testing::PoolScene& scene, const testing::PoolPicture& truth, PoolPictures& result)
 {
   const PoolShader shader(scene);
   TracedMesh water;
-  const reference::MembraneMesh mesh = scene.field().MakeMesh(PictureCells);
+  const reference::MembraneMesh mesh = scene.MakeField().MakeMesh(PictureCells);
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
-    water.addPoint(mesh.Points.data() + i);
+    water.AddPoint(mesh.Points.data() + i);
   }
   water.Normals.assign(mesh.Normals.begin(), mesh.Normals.end());
   water.Triangles.assign(mesh.Triangles.begin(), mesh.Triangles.end());
-  water.finish();
+  water.Finish();
   RefractionTracer tracer;
-  tracer.setIndices(scene.field().Exterior, scene.field().Interior);
-  tracer.setMembrane(water);
-  tracer.setObject(shader.mesh());
-  const testing::PixelCamera& camera = scene.camera();
+  tracer.SetIndices(scene.MakeField().Exterior, scene.MakeField().Interior);
+  tracer.SetMembrane(water);
+  tracer.SetObject(shader.MakeMesh());
+  const testing::PixelCamera& camera = scene.GetCamera();
   const TracedView view{ camera.GetEye(), camera.GetForward(), camera.GetRight(), camera.GetUp(),
     camera.GetPixels() };
   std::vector<unsigned char> picture(4 * truth.Colors.size());
   std::vector<Seconds> times;
   for (int i = 0; i < 10; ++i)
   {
-    times.push_back(timeOnce([&] { tracer.trace(view, shader, picture.data()); }));
+    times.push_back(TimeOnce([&] { tracer.Trace(view, shader, picture.data()); }));
   }
   result.HasTraced = true;
-  result.TracedMs = 1e3 * medianOf(times).Wall;
-  result.TracedPercent = percentOff(toColors(picture, 4), truth);
+  result.TracedMs = 1e3 * MedianOf(times).Wall;
+  result.TracedPercent = PercentOff(ToColors(picture, 4), truth);
 }
 
 #endif
@@ -170,7 +170,7 @@ void traceWithEmbree(
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<PassFrames> measurePass()
+std::vector<PassFrames> MeasurePass()
 {
   const struct
   {
@@ -186,44 +186,44 @@ std::vector<PassFrames> measurePass()
   for (const auto& mode : modes)
   {
     testing::PoolScene scene(Cells);
-    scene.setOptics(everything());
-    scene.setAccuracy(mode.All, mode.Tolerance);
-    scene.showObjects(mode.Objects);
+    scene.SetOptics(Everything());
+    scene.SetAccuracy(mode.All, mode.Tolerance);
+    scene.ShowObjects(mode.Objects);
     std::vector<Seconds> times;
     for (int i = 0; i < Frames; ++i)
     {
-      times.push_back(timeOnce(
+      times.push_back(TimeOnce(
         [&]
         {
-          scene.moveWater(0.02 * i);
-          scene.window()->Render();
-          scene.window()->WaitForCompletion();
+          scene.MoveWater(0.02 * i);
+          scene.GetWindow()->Render();
+          scene.GetWindow()->WaitForCompletion();
         }));
     }
-    const Seconds frame = medianOf(times);
+    const Seconds frame = MedianOf(times);
     result.push_back({ mode.Name, 1.0 / frame.Wall, 1e3 * frame.Cpu });
   }
   return result;
 }
 
 //------------------------------------------------------------------------------
-PoolPictures comparePool()
+PoolPictures ComparePool()
 {
   testing::PoolScene scene(PictureCells);
-  scene.setOptics(everything());
-  const testing::PoolPicture truth = scene.trace();
+  scene.SetOptics(Everything());
+  const testing::PoolPicture truth = scene.Trace();
   PoolPictures result;
   std::vector<Seconds> times;
   test::ByteImage drawn;
   for (int i = 0; i < 10; ++i)
   {
-    scene.moveWater(i % 2 ? 0.0 : 1e-9); // the last one is that which has been traced
-    times.push_back(timeOnce([&] { drawn = scene.draw(); }));
+    scene.MoveWater(i % 2 ? 0.0 : 1e-9); // the last one is that which has been traced
+    times.push_back(TimeOnce([&] { drawn = scene.Draw(); }));
   }
-  result.PassMs = 1e3 * medianOf(times).Wall;
-  result.PassPercent = percentOff(toColors(drawn.Rgb, 3), truth);
+  result.PassMs = 1e3 * MedianOf(times).Wall;
+  result.PassPercent = PercentOff(ToColors(drawn.Rgb, 3), truth);
 #ifdef MENISCUS_HAS_EMBREE
-  traceWithEmbree(scene, truth, result);
+  TraceWithEmbree(scene, truth, result);
 #endif
   return result;
 }

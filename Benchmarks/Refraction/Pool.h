@@ -21,7 +21,7 @@ struct PassFrames
   double PerSecond = 0.0;
   double CpuMs = 0.0;
 };
-std::vector<PassFrames> measurePass();
+std::vector<PassFrames> MeasurePass();
 
 /**
  * Percentage of the water's pixels that differ by more than 8/255 from rays through the exact
@@ -36,7 +36,7 @@ struct PoolPictures
   double TracedMs = 0.0;
   bool HasTraced = false; ///< built with Embree
 };
-PoolPictures comparePool();
+PoolPictures ComparePool();
 
 } // namespace benchmark
 } // namespace meniscus

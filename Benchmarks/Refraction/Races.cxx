@@ -46,26 +46,26 @@ constexpr int FinerQuads[] = { 16, 32, 48 };
 // Half a pixel of 512 pixels and 29 degrees is 0.028 degrees.
 constexpr double Tolerances[] = { 0.015, 0.03, 0.06 };
 
-TracedMesh membraneOf(const reference::MembraneMesh& mesh)
+TracedMesh MembraneOf(const reference::MembraneMesh& mesh)
 {
   TracedMesh result;
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
-    result.addPoint(mesh.Points.data() + i);
+    result.AddPoint(mesh.Points.data() + i);
   }
   result.Normals.assign(mesh.Normals.begin(), mesh.Normals.end());
   result.Triangles.assign(mesh.Triangles.begin(), mesh.Triangles.end());
-  result.finish();
+  result.Finish();
   return result;
 }
 
 // Triangles 2 i and 2 i + 1 are those of quad i.
-TracedMesh objectOf(vtkPolyData* data)
+TracedMesh ObjectOf(vtkPolyData* data)
 {
   TracedMesh result;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {
-    result.addPoint(data->GetPoint(i));
+    result.AddPoint(data->GetPoint(i));
   }
   vtkNew<vtkIdList> ids;
   for (vtkIdType i = 0; i < data->GetNumberOfCells(); ++i)
@@ -79,11 +79,11 @@ TracedMesh objectOf(vtkPolyData* data)
       }
     }
   }
-  result.finish();
+  result.Finish();
   return result;
 }
 
-TriangleColors colorsOf(vtkPolyData* data)
+TriangleColors ColorsOf(vtkPolyData* data)
 {
   TriangleColors result;
   vtkDataArray* colors = data->GetCellData()->GetScalars();
@@ -99,16 +99,16 @@ TriangleColors colorsOf(vtkPolyData* data)
   return result;
 }
 
-TracedView viewOf(const testing::PixelCamera& camera)
+TracedView ViewOf(const testing::PixelCamera& camera)
 {
   return { camera.GetEye(), camera.GetForward(), camera.GetRight(), camera.GetUp(),
     camera.GetPixels() };
 }
 
 // Places that the tracer's image shows.
-testing::PlacePicture placesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera)
+testing::PlacePicture PlacesOf(const RefractionTracer& tracer, const testing::PixelCamera& camera)
 {
-  const TracedView view = viewOf(camera);
+  const TracedView view = ViewOf(camera);
   testing::PlacePicture picture(static_cast<std::size_t>(view.Pixels) * view.Pixels);
   TracedPacket packet = {};
   for (packet.Y = 0; packet.Y < view.Pixels; ++packet.Y)
@@ -116,7 +116,7 @@ testing::PlacePicture placesOf(const RefractionTracer& tracer, const testing::Pi
     for (packet.X = 0; packet.X < view.Pixels; packet.X += TracedPacket::Width)
     {
       packet.Count = std::min(TracedPacket::Width, view.Pixels - packet.X);
-      tracer.tracePacket(view, packet);
+      tracer.TracePacket(view, packet);
       for (int k = 0; k < packet.Count; ++k)
       {
         if (packet.Triangle[k] == TracedPacket::None)
@@ -144,13 +144,13 @@ public:
     : All(all)
   {
     WellScene scene(Sizes[0], Quads);
-    this->Truth = scene.trace();
+    this->Truth = scene.Trace();
   }
 
-  RaceReport run()
+  RaceReport Run()
   {
-    this->findOurs();
-    const int traced = this->findTraced();
+    this->FindOurs();
+    const int traced = this->FindTraced();
     RaceReport report;
     std::ostringstream text;
     text << "CURVED, " << (this->All ? "ALL_IMAGES" : "FIRST_IMAGE");
@@ -168,28 +168,28 @@ public:
     report.Traced = text.str();
 
     WellScene scene(this->Ours.Cells, this->Ours.Quads);
-    this->prepare(scene, this->Ours.Tolerance);
+    this->Prepare(scene, this->Ours.Tolerance);
     WellScene tracedScene(Sizes[0], Quads);
     RefractionTracer tracer;
-    this->prepare(tracer, tracedScene, traced);
+    this->Prepare(tracer, tracedScene, traced);
     const auto race = [&](const char* name, const std::function<void(int)>& move,
                         const std::function<void(int)>& moveTraced)
-    { report.Races.push_back(this->race(name, scene, tracer, move, moveTraced)); };
+    { report.Races.push_back(this->RunRace(name, scene, tracer, move, moveTraced)); };
     race(
-      "the eye", [&](int i) { scene.moveEye(0.01 * i); }, [](int) {});
+      "the eye", [&](int i) { scene.MoveEye(0.01 * i); }, [](int) {});
     race(
-      "nothing but colours", [&](int i) { scene.changeColors(i); },
+      "nothing but colours", [&](int i) { scene.ChangeColors(i); },
       [&](int i) { this->Colors.Colors[static_cast<std::size_t>(i)] ^= 0xffu; });
     // The arrays of both are prepared outside of the measured time: in practice, water comes from a
     // simulation.
     std::vector<TracedMesh> meshes;
     for (int i = 0; i < Frames; ++i)
     {
-      meshes.push_back(membraneOf(scene.fieldAt(0.1 * i).MakeMesh(traced)));
+      meshes.push_back(MembraneOf(scene.FieldAt(0.1 * i).MakeMesh(traced)));
     }
     race(
-      "the membrane", [&](int i) { scene.moveMembrane(0.1 * i); },
-      [&](int i) { tracer.moveMembrane(meshes[static_cast<std::size_t>(i)]); });
+      "the membrane", [&](int i) { scene.MoveMembrane(0.1 * i); },
+      [&](int i) { tracer.MoveMembrane(meshes[static_cast<std::size_t>(i)]); });
     return report;
   }
 
@@ -203,23 +203,23 @@ private:
     double Seconds = std::numeric_limits<double>::max();
   };
 
-  void prepare(WellScene& scene, double tolerance) const
+  void Prepare(WellScene& scene, double tolerance) const
   {
-    scene.filter()->SetImages(this->All);
-    scene.filter()->SetAngularTolerance(tolerance);
+    scene.GetFilter()->SetImages(this->All);
+    scene.GetFilter()->SetAngularTolerance(tolerance);
   }
 
-  void prepare(RefractionTracer& tracer, WellScene& scene, int cells)
+  void Prepare(RefractionTracer& tracer, WellScene& scene, int cells)
   {
-    tracer.setIndices(scene.field().Exterior, scene.field().Interior);
-    tracer.setMembrane(membraneOf(scene.field().MakeMesh(cells)));
-    tracer.setObject(objectOf(scene.well()));
-    this->Colors = colorsOf(scene.well());
+    tracer.SetIndices(scene.MakeField().Exterior, scene.MakeField().Interior);
+    tracer.SetMembrane(MembraneOf(scene.MakeField().MakeMesh(cells)));
+    tracer.SetObject(ObjectOf(scene.GetWell()));
+    this->Colors = ColorsOf(scene.GetWell());
   }
 
   // Finds the fastest of several wells and tolerances, each with the coarsest membrane whose image
   // is right to half a pixel.
-  void findOurs()
+  void FindOurs()
   {
     for (const int quads : FinerQuads)
     {
@@ -227,29 +227,29 @@ private:
       {
         if (this->All || tolerance == Tolerances[0])
         {
-          this->tryOurs(quads, tolerance);
+          this->TryOurs(quads, tolerance);
         }
       }
     }
   }
 
-  void tryOurs(int quads, double tolerance)
+  void TryOurs(int quads, double tolerance)
   {
     for (const int cells : Sizes)
     {
       WellScene scene(cells, quads);
-      this->prepare(scene, tolerance);
+      this->Prepare(scene, tolerance);
       const double error =
-        testing::ComparePlaces(this->Truth, scene.drawPlaces(), scene.camera()).Error;
+        testing::ComparePlaces(this->Truth, scene.DrawPlaces(), scene.GetCamera()).Error;
       if (error <= AcceptedPixels)
       {
         int frame = 0;
         const auto work = [&]
         {
-          scene.moveEye(0.01 * ++frame);
-          scene.update();
+          scene.MoveEye(0.01 * ++frame);
+          scene.Update();
         };
-        const double seconds = timeMedian(work, 3).Cpu;
+        const double seconds = TimeMedian(work, 3).Cpu;
         if (seconds < this->Ours.Seconds)
         {
           this->Ours = { cells, quads, tolerance, error, seconds };
@@ -263,15 +263,15 @@ private:
     }
   }
 
-  int findTraced()
+  int FindTraced()
   {
     WellScene scene(Sizes[0], Quads);
     for (const int cells : Sizes)
     {
       RefractionTracer tracer;
-      this->prepare(tracer, scene, cells);
-      const auto picture = placesOf(tracer, scene.camera());
-      this->TracedError = testing::ComparePlaces(this->Truth, picture, scene.camera()).Error;
+      this->Prepare(tracer, scene, cells);
+      const auto picture = PlacesOf(tracer, scene.GetCamera());
+      this->TracedError = testing::ComparePlaces(this->Truth, picture, scene.GetCamera()).Error;
       if (this->TracedError <= AcceptedPixels)
       {
         return cells;
@@ -281,27 +281,27 @@ private:
   }
 
   // Frames alternate between both, so that both meet the same load.
-  Race race(const char* name, WellScene& scene, RefractionTracer& tracer,
+  Race RunRace(const char* name, WellScene& scene, RefractionTracer& tracer,
     const std::function<void(int)>& move, const std::function<void(int)>& moveTraced)
   {
     std::vector<unsigned char> rgba(std::size_t(4) * 512 * 512);
     std::vector<Seconds> ours;
     std::vector<Seconds> traced;
-    scene.draw();
+    scene.Draw();
     for (int i = 0; i < Frames; ++i)
     {
       move(i);
-      ours.push_back(timeOnce([&] { scene.draw(); }));
-      const TracedView view = viewOf(scene.camera());
-      traced.push_back(timeOnce(
+      ours.push_back(TimeOnce([&] { scene.Draw(); }));
+      const TracedView view = ViewOf(scene.GetCamera());
+      traced.push_back(TimeOnce(
         [&]
         {
           moveTraced(i);
-          tracer.trace(view, this->Colors, rgba.data());
+          tracer.Trace(view, this->Colors, rgba.data());
         }));
     }
-    const Seconds a = medianOf(ours);
-    const Seconds b = medianOf(traced);
+    const Seconds a = MedianOf(ours);
+    const Seconds b = MedianOf(traced);
     return { name, 1e3 * a.Wall, 1e3 * b.Wall, 1e3 * a.Cpu, 1e3 * b.Cpu };
   }
 
@@ -317,13 +317,13 @@ private:
 #endif
 
 //------------------------------------------------------------------------------
-std::vector<RaceReport> runRaces()
+std::vector<RaceReport> RunRaces()
 {
   std::vector<RaceReport> reports;
 #ifdef MENISCUS_HAS_EMBREE
   for (const bool all : { true, false })
   {
-    reports.push_back(RaceTrack(all).run());
+    reports.push_back(RaceTrack(all).Run());
   }
 #endif
   return reports;

@@ -28,7 +28,7 @@ const char* const RefractionUsage =
   "nothing else is said; nothing is judged.\n";
 
 //------------------------------------------------------------------------------
-RefractionOptions parseRefractionOptions(int argc, char* argv[])
+RefractionOptions ParseRefractionOptions(int argc, char* argv[])
 {
   RefractionOptions options;
   for (int i = 1; i < argc; ++i)

@@ -27,7 +27,7 @@ struct RefractionOptions
 
 extern const char* const RefractionUsage;
 
-RefractionOptions parseRefractionOptions(int argc, char* argv[]);
+RefractionOptions ParseRefractionOptions(int argc, char* argv[]);
 
 } // namespace benchmark
 } // namespace meniscus

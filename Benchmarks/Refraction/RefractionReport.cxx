@@ -30,7 +30,7 @@ namespace benchmark
 namespace
 {
 
-std::string number(double value, int digits = 2)
+std::string MakeNumber(double value, int digits = 2)
 {
   std::ostringstream text;
   text << std::setprecision(digits) << value;
@@ -46,33 +46,34 @@ public:
   {
   }
 
-  void print()
+  void Print()
   {
     this->Out << "| row | goal | measured |\n|---|---|---|\n";
-    this->row("planar error", "mean <= 1e-8", [this] { return this->planar(); });
-    this->row("bowl errors", "mean <= 1e-5 / 1e-4 / 4e-4 / 2e-3", [this] { return this->bowls(); });
-    this->row(
-      "hemisphere error", "mean <= 0.05, pixels <= 0.2", [this] { return this->hemisphere(); });
-    this->row("wave error", "<= 1e-5 at 51,200 facets, order >= 2.8", [] { return waves(); });
-    this->row("vertex cost",
+    this->GetRow("planar error", "mean <= 1e-8", [this] { return this->Planar(); });
+    this->GetRow(
+      "bowl errors", "mean <= 1e-5 / 1e-4 / 4e-4 / 2e-3", [this] { return this->Bowls(); });
+    this->GetRow(
+      "hemisphere error", "mean <= 0.05, pixels <= 0.2", [this] { return this->Hemisphere(); });
+    this->GetRow("wave error", "<= 1e-5 at 51,200 facets, order >= 2.8", [] { return GetWaves(); });
+    this->GetRow("vertex cost",
       "one image <= 250 ns to 32k facets, 500 ns at 1M; all <= 1.5 us to "
       "131k",
-      [] { return vertices(); });
-    this->row("membrane cost",
+      [] { return GetVertices(); });
+    this->GetRow("membrane cost",
       "new eye of 1M facets <= 150 ms, deforming <= 1 us a facet, 2 "
       "threads",
-      [] { return membranes(); });
-    this->row("images", "all, none false", [] { return images(); });
-    this->row("pictures", "<= 0.1 % of covered pixels differ", [] { return pictures(); });
-    this->row("well", ">= 500 frames/s of filter time", [] { return well(); });
-    this->row("pass", ">= 30 frames/s, everything on", [] { return pass(); });
-    this->row(
-      "pool picture", "< 0.5 % of the water differs by more than 8/255", [] { return pool(); });
-    this->row("Embree", "eye moving >= 2x, colours alone >= 10x", [] { return races(); });
+      [] { return GetMembranes(); });
+    this->GetRow("images", "all, none false", [] { return GetImages(); });
+    this->GetRow("pictures", "<= 0.1 % of covered pixels differ", [] { return GetPictures(); });
+    this->GetRow("well", ">= 500 frames/s of filter time", [] { return GetWell(); });
+    this->GetRow("pass", ">= 30 frames/s, everything on", [] { return GetPass(); });
+    this->GetRow(
+      "pool picture", "< 0.5 % of the water differs by more than 8/255", [] { return MakePool(); });
+    this->GetRow("Embree", "eye moving >= 2x, colours alone >= 10x", [] { return GetRaces(); });
   }
 
 private:
-  void row(const char* name, const char* goal, const std::function<std::string()>& measure)
+  void GetRow(const char* name, const char* goal, const std::function<std::string()>& measure)
   {
     if (std::strstr(name, this->Options.Row.c_str()))
     {
@@ -83,7 +84,7 @@ private:
 
   using Choice = std::function<bool(const reference::ThesisRow&)>;
 
-  static std::string means(const Choice& choice, bool largestOnly)
+  static std::string Means(const Choice& choice, bool largestOnly)
   {
     std::string text;
     double largest = 0.0;
@@ -93,34 +94,34 @@ private:
       {
         const double mean = reference::MeasureThesisRowCurved(row).Mean;
         largest = std::max(largest, mean);
-        text += (text.empty() ? "" : " / ") + number(mean);
+        text += (text.empty() ? "" : " / ") + MakeNumber(mean);
       }
     }
-    return largestOnly ? "at most " + number(largest) : text;
+    return largestOnly ? "at most " + MakeNumber(largest) : text;
   }
 
-  std::string planar() const
+  std::string Planar() const
   {
-    return means([](const reference::ThesisRow& row) { return row.SphereRatio == 0.0; }, true);
+    return Means([](const reference::ThesisRow& row) { return row.SphereRatio == 0.0; }, true);
   }
 
-  std::string bowls() const
+  std::string Bowls() const
   {
-    return means([](const reference::ThesisRow& row)
+    return Means([](const reference::ThesisRow& row)
       { return std::strcmp(row.Table, "4.2") == 0 && row.SphereRatio > 1.0; },
       false);
   }
 
-  std::string hemisphere() const
+  std::string Hemisphere() const
   {
     return "mean " +
-      means([](const reference::ThesisRow& row)
+      Means([](const reference::ThesisRow& row)
         { return std::strcmp(row.Table, "4.2") == 0 && row.SphereRatio == 1.0; },
         false) +
-      ", largest " + number(measureHemispherePixels()) + " pixels";
+      ", largest " + MakeNumber(MeasureHemispherePixels()) + " pixels";
   }
 
-  static std::string waves()
+  static std::string GetWaves()
   {
     const int cells[] = { 20, 40, 80, 160, 320 };
     std::string text;
@@ -128,51 +129,51 @@ private:
     std::string orders;
     for (const int n : cells)
     {
-      const double error = measureWaveError(n).Curved;
+      const double error = MeasureWaveError(n).Curved;
       if (n == 160)
       {
-        text = number(error);
+        text = MakeNumber(error);
       }
       if (last > 0.0)
       {
-        orders += (orders.empty() ? "" : ", ") + number(std::log2(last / error));
+        orders += (orders.empty() ? "" : ", ") + MakeNumber(std::log2(last / error));
       }
       last = error;
     }
     return text + "; orders from 800 to 204,800 facets " + orders;
   }
 
-  static std::string vertices()
+  static std::string GetVertices()
   {
     std::string text;
     for (const int cells : { 23, 128, 256, 708 })
     {
-      const GrowthFigures f = measureGrowth(cells);
+      const GrowthFigures f = MeasureGrowth(cells);
       text += (text.empty() ? "" : "; ") + std::to_string(f.Facets) + " facets: one " +
-        number(1e3 * f.CurvedOne, 3) + " ns, all " + number(1e3 * f.CurvedAll, 4) +
-        " ns, searched " + number(1e3 * f.CurvedSearch, 4) + " ns";
+        MakeNumber(1e3 * f.CurvedOne, 3) + " ns, all " + MakeNumber(1e3 * f.CurvedAll, 4) +
+        " ns, searched " + MakeNumber(1e3 * f.CurvedSearch, 4) + " ns";
     }
     return text;
   }
 
-  static std::string membranes()
+  static std::string GetMembranes()
   {
-    const ThreadedFigures f = measureThreaded(708);
+    const ThreadedFigures f = MeasureThreaded(708);
     const auto facets = static_cast<double>(f.Facets);
-    return "eye " + number(1e3 * f.EyeWall, 3) + " ms (" + number(1e3 * f.EyeCpu, 3) +
-      " ms CPU); deforming " + number(1e6 * f.DeformWall / facets) + " us a facet (" +
-      number(1e6 * f.DeformCpu / facets) + " us CPU)";
+    return "eye " + MakeNumber(1e3 * f.EyeWall, 3) + " ms (" + MakeNumber(1e3 * f.EyeCpu, 3) +
+      " ms CPU); deforming " + MakeNumber(1e6 * f.DeformWall / facets) + " us a facet (" +
+      MakeNumber(1e6 * f.DeformCpu / facets) + " us CPU)";
   }
 
-  static std::string images()
+  static std::string GetImages()
   {
-    const ImageCount count = countImages();
+    const ImageCount count = CountImages();
     return std::to_string(count.Images) + " images of " + std::to_string(count.Points) +
       " points: " + std::to_string(count.Missed) + " missed, " + std::to_string(count.False) +
       " false, " + std::to_string(count.Uncertain) + " points uncertain";
   }
 
-  static std::string pictures()
+  static std::string GetPictures()
   {
     std::string text;
     for (const testing::PictureScene& scene : testing::GetPictureScenes())
@@ -199,55 +200,55 @@ private:
                                  testing::MakeSquareTracer(-scene.Depth, scene.Size)),
           testing::DrawPlaces(filter->GetOutput(), camera), camera);
       text += (text.empty() ? "" : "; ") + scene.Name + " " +
-        number(100.0 * (compared.Coverage + compared.Place) / compared.Covered) + " %";
+        MakeNumber(100.0 * (compared.Coverage + compared.Place) / compared.Covered) + " %";
     }
     return text;
   }
 
-  static std::string well()
+  static std::string GetWell()
   {
     std::string text;
-    for (const WellFrames& frames : measureWell())
+    for (const WellFrames& frames : MeasureWell())
     {
-      text += (text.empty() ? "" : "; ") + frames.Mode + " " + number(frames.PerSecond, 3) + " (" +
-        number(frames.CpuMs, 3) + " ms CPU)";
+      text += (text.empty() ? "" : "; ") + frames.Mode + " " + MakeNumber(frames.PerSecond, 3) +
+        " (" + MakeNumber(frames.CpuMs, 3) + " ms CPU)";
     }
     return text;
   }
 
-  static std::string pass()
+  static std::string GetPass()
   {
     std::string text;
-    for (const PassFrames& frames : measurePass())
+    for (const PassFrames& frames : MeasurePass())
     {
-      text += (text.empty() ? "" : "; ") + frames.Mode + " " + number(frames.PerSecond, 3) + " (" +
-        number(frames.CpuMs, 3) + " ms CPU)";
+      text += (text.empty() ? "" : "; ") + frames.Mode + " " + MakeNumber(frames.PerSecond, 3) +
+        " (" + MakeNumber(frames.CpuMs, 3) + " ms CPU)";
     }
     return text;
   }
 
-  static std::string pool()
+  static std::string MakePool()
   {
-    const PoolPictures pictures = comparePool();
-    return "pass " + number(pictures.PassPercent, 2) + " % in " + number(pictures.PassMs, 3) +
-      " ms, new waves; " +
-      (pictures.HasTraced ? "Embree " + number(pictures.TracedPercent, 2) + " % in " +
-            number(pictures.TracedMs, 3) + " ms"
+    const PoolPictures pictures = ComparePool();
+    return "pass " + MakeNumber(pictures.PassPercent, 2) + " % in " +
+      MakeNumber(pictures.PassMs, 3) + " ms, new waves; " +
+      (pictures.HasTraced ? "Embree " + MakeNumber(pictures.TracedPercent, 2) + " % in " +
+            MakeNumber(pictures.TracedMs, 3) + " ms"
                           : std::string("built without Embree"));
   }
 
-  static std::string races()
+  static std::string GetRaces()
   {
     std::string text;
-    for (const RaceReport& report : runRaces())
+    for (const RaceReport& report : RunRaces())
     {
       text += (text.empty() ? "" : "; ") + report.Ours + " against " + report.Traced;
       for (const Race& race : report.Races)
       {
-        text += ", " + race.Change + " " + number(race.TracedMs / race.OursMs, 3) + "x (" +
-          number(race.OursMs, 3) + " against " + number(race.TracedMs, 3) + " ms; CPU " +
-          number(race.TracedCpuMs / race.OursCpuMs, 3) + "x, " + number(race.OursCpuMs, 3) +
-          " against " + number(race.TracedCpuMs, 3) + " ms)";
+        text += ", " + race.Change + " " + MakeNumber(race.TracedMs / race.OursMs, 3) + "x (" +
+          MakeNumber(race.OursMs, 3) + " against " + MakeNumber(race.TracedMs, 3) + " ms; CPU " +
+          MakeNumber(race.TracedCpuMs / race.OursCpuMs, 3) + "x, " + MakeNumber(race.OursCpuMs, 3) +
+          " against " + MakeNumber(race.TracedCpuMs, 3) + " ms)";
       }
     }
     return text.empty() ? "skipped: built without Embree" : text;
@@ -260,9 +261,9 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void printRefractionReport(std::ostream& out, const RefractionOptions& options)
+void PrintRefractionReport(std::ostream& out, const RefractionOptions& options)
 {
-  Report(out, options).print();
+  Report(out, options).Print();
 }
 
 } // namespace benchmark

@@ -13,7 +13,7 @@ namespace benchmark
 {
 
 /** Measures each row of the table of goals and prints it next to its goal. */
-void printRefractionReport(std::ostream& out, const RefractionOptions& options);
+void PrintRefractionReport(std::ostream& out, const RefractionOptions& options);
 
 } // namespace benchmark
 } // namespace meniscus

@@ -14,12 +14,12 @@ namespace benchmark
 {
 
 /** Processor time of all threads of this program, which does not include other programs. */
-inline double cpuSeconds()
+inline double CpuSeconds()
 {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-inline double wallSeconds()
+inline double WallSeconds()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -31,15 +31,15 @@ struct Seconds
 };
 
 template <typename Work>
-Seconds timeOnce(const Work& work)
+Seconds TimeOnce(const Work& work)
 {
-  const double wall = wallSeconds();
-  const double cpu = cpuSeconds();
+  const double wall = WallSeconds();
+  const double cpu = CpuSeconds();
   work();
-  return { wallSeconds() - wall, cpuSeconds() - cpu };
+  return { WallSeconds() - wall, CpuSeconds() - cpu };
 }
 
-inline double medianOf(std::vector<double> values)
+inline double MedianOf(std::vector<double> values)
 {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -47,7 +47,7 @@ inline double medianOf(std::vector<double> values)
 }
 
 /** Medians of wall and processor times, each separately. */
-inline Seconds medianOf(const std::vector<Seconds>& times)
+inline Seconds MedianOf(const std::vector<Seconds>& times)
 {
   std::vector<double> wall;
   std::vector<double> cpu;
@@ -56,20 +56,20 @@ inline Seconds medianOf(const std::vector<Seconds>& times)
     wall.push_back(time.Wall);
     cpu.push_back(time.Cpu);
   }
-  return { medianOf(wall), medianOf(cpu) };
+  return { MedianOf(wall), MedianOf(cpu) };
 }
 
 /** Median of `runs` runs after one warm-up. */
 template <typename Work>
-Seconds timeMedian(const Work& work, int runs = 5)
+Seconds TimeMedian(const Work& work, int runs = 5)
 {
   work();
   std::vector<Seconds> times;
   for (int i = 0; i < runs; ++i)
   {
-    times.push_back(timeOnce(work));
+    times.push_back(TimeOnce(work));
   }
-  return medianOf(times);
+  return MedianOf(times);
 }
 
 } // namespace benchmark

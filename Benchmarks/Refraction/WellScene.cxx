@@ -37,7 +37,7 @@ const double Pi = std::acos(-1.0);
 constexpr double HalfTangent = 0.26;
 const glm::dvec3 Target(0.0, -30.0, 0.0);
 
-void addSide(vtkPoints* points, vtkCellArray* quads, const glm::dvec3& origin, const glm::dvec3& u,
+void AddSide(vtkPoints* points, vtkCellArray* quads, const glm::dvec3& origin, const glm::dvec3& u,
   const glm::dvec3& v, int n)
 {
   const vtkIdType first = points->GetNumberOfPoints();
@@ -60,7 +60,7 @@ void addSide(vtkPoints* points, vtkCellArray* quads, const glm::dvec3& origin, c
   }
 }
 
-vtkSmartPointer<vtkPolyData> makeWell(int n)
+vtkSmartPointer<vtkPolyData> MakeWell(int n)
 {
   constexpr double w = WellScene::HalfWidth;
   constexpr double low = -WellScene::Depth;
@@ -69,11 +69,11 @@ vtkSmartPointer<vtkPolyData> makeWell(int n)
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> quads;
   const glm::dvec3 up(0.0, height, 0.0);
-  addSide(points, quads, { -w, low, -w }, { 2 * w, 0, 0 }, { 0, 0, 2 * w }, n);
-  addSide(points, quads, { -w, low, -w }, { 2 * w, 0, 0 }, up, n);
-  addSide(points, quads, { -w, low, w }, { 2 * w, 0, 0 }, up, n);
-  addSide(points, quads, { -w, low, -w }, { 0, 0, 2 * w }, up, n);
-  addSide(points, quads, { w, low, -w }, { 0, 0, 2 * w }, up, n);
+  AddSide(points, quads, { -w, low, -w }, { 2 * w, 0, 0 }, { 0, 0, 2 * w }, n);
+  AddSide(points, quads, { -w, low, -w }, { 2 * w, 0, 0 }, up, n);
+  AddSide(points, quads, { -w, low, w }, { 2 * w, 0, 0 }, up, n);
+  AddSide(points, quads, { -w, low, -w }, { 0, 0, 2 * w }, up, n);
+  AddSide(points, quads, { w, low, -w }, { 0, 0, 2 * w }, up, n);
   auto well = vtkSmartPointer<vtkPolyData>::New();
   well->SetPoints(points);
   well->SetPolys(quads);
@@ -92,22 +92,22 @@ WellScene::WellScene(int cells, int quads)
   : Field{ reference::HeightField::Shape::Waves, 200.0, 1.5, 0.03 * Pi, 1.0, 1.333 }
   , Present(this->Field)
   , Cells(cells)
-  , Well(makeWell(quads))
+  , Well(MakeWell(quads))
   , Membrane(testing::MakeMembrane(this->Field.MakeMesh(cells)))
 {
   this->Filter->SetInputData(0, this->Well);
   this->Filter->SetMembraneData(this->Membrane);
   this->Filter->SetExteriorIndexOfRefraction(this->Field.Exterior);
   this->Filter->SetInteriorIndexOfRefraction(this->Field.Interior);
-  this->changeColors(0);
-  this->moveEye(0.0);
+  this->ChangeColors(0);
+  this->MoveEye(0.0);
 }
 
 //------------------------------------------------------------------------------
 WellScene::~WellScene() = default;
 
 //------------------------------------------------------------------------------
-reference::HeightField WellScene::fieldAt(double time) const
+reference::HeightField WellScene::FieldAt(double time) const
 {
   reference::HeightField field = this->Field;
   field.Amplitude *= 1.0 + 0.3 * std::sin(time);
@@ -115,9 +115,9 @@ reference::HeightField WellScene::fieldAt(double time) const
 }
 
 //------------------------------------------------------------------------------
-void WellScene::moveMembrane(double time)
+void WellScene::MoveMembrane(double time)
 {
-  this->Present = this->fieldAt(time);
+  this->Present = this->FieldAt(time);
   vtkPoints* points = this->Membrane->GetPoints();
   vtkDataArray* normals = this->Membrane->GetPointData()->GetNormals();
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
@@ -135,14 +135,14 @@ void WellScene::moveMembrane(double time)
 }
 
 //------------------------------------------------------------------------------
-void WellScene::moveEye(double time)
+void WellScene::MoveEye(double time)
 {
   this->Eye = glm::dvec3(20.0 * std::cos(time), 300.0, 20.0 * std::sin(time));
   this->Filter->SetEyePosition(this->Eye.x, this->Eye.y, this->Eye.z);
 }
 
 //------------------------------------------------------------------------------
-void WellScene::changeColors(int number)
+void WellScene::ChangeColors(int number)
 {
   vtkDataArray* colors = this->Well->GetCellData()->GetScalars();
   for (vtkIdType i = 0; i < colors->GetNumberOfTuples(); ++i)
@@ -155,7 +155,7 @@ void WellScene::changeColors(int number)
 }
 
 //------------------------------------------------------------------------------
-void WellScene::moveWell(double time)
+void WellScene::MoveWell(double time)
 {
   vtkPoints* points = this->Well->GetPoints();
   const double by = 0.01 * std::sin(time);
@@ -170,13 +170,13 @@ void WellScene::moveWell(double time)
 }
 
 //------------------------------------------------------------------------------
-testing::PixelCamera WellScene::camera() const
+testing::PixelCamera WellScene::GetCamera() const
 {
   return { this->Eye, Target, HalfTangent };
 }
 
 //------------------------------------------------------------------------------
-void WellScene::setUpWindow()
+void WellScene::SetUpWindow()
 {
   this->Mapper->SetInputConnection(this->Filter->GetOutputPort());
   this->Mapper->SetScalarModeToUseCellData();
@@ -196,11 +196,11 @@ void WellScene::setUpWindow()
 }
 
 //------------------------------------------------------------------------------
-void WellScene::draw()
+void WellScene::Draw()
 {
   if (!this->HasWindow)
   {
-    this->setUpWindow();
+    this->SetUpWindow();
   }
   this->Renderer->GetActiveCamera()->SetPosition(this->Eye.x, this->Eye.y, this->Eye.z);
   this->Window->Render();
@@ -208,15 +208,15 @@ void WellScene::draw()
 }
 
 //------------------------------------------------------------------------------
-void WellScene::update()
+void WellScene::Update()
 {
   this->Filter->Update();
 }
 
 //------------------------------------------------------------------------------
-testing::PlacePicture WellScene::trace() const
+testing::PlacePicture WellScene::Trace() const
 {
-  return testing::TracePlaces(this->Present, this->camera(),
+  return testing::TracePlaces(this->Present, this->GetCamera(),
     [](const glm::dvec3& start, const glm::dvec3& direction)
     {
       // Leaves the box through a wall or the bottom.
@@ -252,12 +252,12 @@ testing::PlacePicture WellScene::trace() const
 }
 
 //------------------------------------------------------------------------------
-testing::PlacePicture WellScene::drawPlaces()
+testing::PlacePicture WellScene::DrawPlaces()
 {
   testing::AddPlaces(this->Well);
   this->Well->Modified();
   this->Filter->Update();
-  const auto picture = testing::DrawPlaces(this->Filter->GetOutput(), this->camera());
+  const auto picture = testing::DrawPlaces(this->Filter->GetOutput(), this->GetCamera());
   this->Well->GetPointData()->RemoveArray("Place");
   return picture;
 }

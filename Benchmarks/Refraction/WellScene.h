@@ -36,36 +36,36 @@ public:
   WellScene(int cells, int quads);
   ~WellScene();
 
-  vtkRefractedGeometryFilter* filter() { return this->Filter; }
-  vtkPolyData* well() { return this->Well; }
-  const reference::HeightField& field() const { return this->Field; }
+  vtkRefractedGeometryFilter* GetFilter() { return this->Filter; }
+  vtkPolyData* GetWell() { return this->Well; }
+  const reference::HeightField& MakeField() const { return this->Field; }
 
   /** The membrane at a given time. */
-  reference::HeightField fieldAt(double time) const;
-  void moveMembrane(double time);
+  reference::HeightField FieldAt(double time) const;
+  void MoveMembrane(double time);
   /** Moves the eye on a circle. */
-  void moveEye(double time);
-  void changeColors(int number);
+  void MoveEye(double time);
+  void ChangeColors(int number);
   /** Moves the well itself up and down. */
-  void moveWell(double time);
+  void MoveWell(double time);
 
-  testing::PixelCamera camera() const;
+  testing::PixelCamera GetCamera() const;
 
   /** Runs the filter and draws, until the image is complete. */
-  void draw();
+  void Draw();
   /** Runs the filter alone. */
-  void update();
+  void Update();
 
   /**
    * Places of the well that the present eye sees through the present membrane, by rays in double
    * precision.
    */
-  testing::PlacePicture trace() const;
+  testing::PlacePicture Trace() const;
   /** The same places from the filter's output. */
-  testing::PlacePicture drawPlaces();
+  testing::PlacePicture DrawPlaces();
 
 private:
-  void setUpWindow();
+  void SetUpWindow();
 
   reference::HeightField Field;
   reference::HeightField Present;

@@ -31,7 +31,7 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-double cpuMilliseconds()
+double CpuMilliseconds()
 {
   rusage usage;
   getrusage(RUSAGE_SELF, &usage);
@@ -44,7 +44,7 @@ double cpuMilliseconds()
 class ErrorSum
 {
 public:
-  void add(double difference, bool covered)
+  void Add(double difference, bool covered)
   {
     this->Largest = std::max(this->Largest, difference);
     if (covered)
@@ -55,7 +55,7 @@ public:
     }
   }
 
-  PictureError result() const
+  PictureError GetResult() const
   {
     const double covered = std::max<double>(1.0, static_cast<double>(this->Covered));
     return { this->Largest, std::sqrt(this->Squares / covered),
@@ -72,7 +72,7 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-Spread spreadOf(std::vector<double> values)
+Spread SpreadOf(std::vector<double> values)
 {
   if (values.empty())
   {
@@ -90,7 +90,7 @@ Spread spreadOf(std::vector<double> values)
 }
 
 //------------------------------------------------------------------------------
-Spread ratioOf(const Figures& slow, const Figures& fast, bool cpu)
+Spread RatioOf(const Figures& slow, const Figures& fast, bool cpu)
 {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < std::min(slow.Frames.size(), fast.Frames.size()); ++i)
@@ -98,7 +98,7 @@ Spread ratioOf(const Figures& slow, const Figures& fast, bool cpu)
     ratios.push_back(cpu ? slow.Frames[i].CpuMs / fast.Frames[i].CpuMs
                          : slow.Frames[i].WallMs / fast.Frames[i].WallMs);
   }
-  return spreadOf(ratios);
+  return SpreadOf(ratios);
 }
 
 //------------------------------------------------------------------------------
@@ -112,42 +112,42 @@ VolumeComparison::VolumeComparison(const VolumeOptions& options, vtkUnstructured
 VolumeComparison::~VolumeComparison() = default;
 
 //------------------------------------------------------------------------------
-void VolumeComparison::look(VolumeScene& scene, int view) const
+void VolumeComparison::LookFrom(VolumeScene& scene, int view) const
 {
-  const auto angles = viewAngles(view);
-  lookAt(scene.renderer(), this->Grid->GetBounds(), angles[0], angles[1]);
+  const auto angles = ViewAngles(view);
+  LookAt(scene.GetRenderer(), this->Grid->GetBounds(), angles[0], angles[1]);
 }
 
 //------------------------------------------------------------------------------
-FrameTime VolumeComparison::timeFrame(Arena& arena) const
+FrameTime VolumeComparison::TimeFrame(Arena& arena) const
 {
-  const double cpu = cpuMilliseconds();
+  const double cpu = CpuMilliseconds();
   const auto begin = std::chrono::steady_clock::now();
-  arena.Scene->window()->Render();
-  arena.Scene->window()->WaitForCompletion();
+  arena.Scene->GetWindow()->Render();
+  arena.Scene->GetWindow()->WaitForCompletion();
   const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - begin;
-  return { wall.count(), cpuMilliseconds() - cpu };
+  return { wall.count(), CpuMilliseconds() - cpu };
 }
 
 //------------------------------------------------------------------------------
 // A new camera time makes every mapper do the work for a moving camera.
-FrameTime VolumeComparison::timeSteady(Arena& arena, int view) const
+FrameTime VolumeComparison::TimeSteady(Arena& arena, int view) const
 {
-  this->look(*arena.Scene, view + 1);
-  this->look(*arena.Scene, view);
-  return this->timeFrame(arena);
+  this->LookFrom(*arena.Scene, view + 1);
+  this->LookFrom(*arena.Scene, view);
+  return this->TimeFrame(arena);
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkVolumeProperty> VolumeComparison::propertyOf(FunctionKind kind) const
+vtkSmartPointer<vtkVolumeProperty> VolumeComparison::PropertyOf(FunctionKind kind) const
 {
   double range[2];
   this->Grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  return makeProperty(kind, range, diagonalOf(this->Grid->GetBounds()));
+  return MakeProperty(kind, range, DiagonalOf(this->Grid->GetBounds()));
 }
 
 //------------------------------------------------------------------------------
-void VolumeComparison::enter(const std::vector<Contestant>& contestants)
+void VolumeComparison::Enter(const std::vector<Contestant>& contestants)
 {
   this->Arenas.clear();
   this->Results.clear();
@@ -155,34 +155,34 @@ void VolumeComparison::enter(const std::vector<Contestant>& contestants)
   {
     Arena arena{ contestant, contestant.Make(),
       std::make_unique<VolumeScene>(this->Settings.Size, this->Settings.Size) };
-    this->look(*arena.Scene, 0);
-    arena.Scene->volume()->SetVisibility(false);
-    this->timeFrame(arena); // opens the window
-    this->Device = deviceName(arena.Scene->window());
+    this->LookFrom(*arena.Scene, 0);
+    arena.Scene->GetVolume()->SetVisibility(false);
+    this->TimeFrame(arena); // opens the window
+    this->Device = DeviceName(arena.Scene->GetWindow());
     Figures figures;
     figures.Name = contestant.Name;
     figures.HasFloat = contestant.HasFloat;
     arena.Mapper->SetInputDataObject(this->Grid);
-    arena.Scene->setMapper(arena.Mapper);
-    arena.Scene->setProperty(this->propertyOf(contestant.Function));
-    arena.Scene->volume()->SetVisibility(true);
-    figures.ColdMs = this->timeFrame(arena).WallMs;
+    arena.Scene->SetMapper(arena.Mapper);
+    arena.Scene->SetProperty(this->PropertyOf(contestant.Function));
+    arena.Scene->GetVolume()->SetVisibility(true);
+    figures.ColdMs = this->TimeFrame(arena).WallMs;
     this->Arenas.push_back(std::move(arena));
     this->Results.push_back(figures);
   }
 }
 
 //------------------------------------------------------------------------------
-void VolumeComparison::timeRound(int view)
+void VolumeComparison::TimeRound(int view)
 {
   for (std::size_t i = 0; i < this->Arenas.size(); ++i)
   {
-    this->Results[i].Frames.push_back(this->timeSteady(this->Arenas[i], view));
+    this->Results[i].Frames.push_back(this->TimeSteady(this->Arenas[i], view));
   }
 }
 
 //------------------------------------------------------------------------------
-void VolumeComparison::measureTimes()
+void VolumeComparison::MeasureTimes()
 {
   std::vector<double> steps(this->Arenas.size(), 0.0);
   for (Figures& figures : this->Results)
@@ -194,15 +194,15 @@ void VolumeComparison::measureTimes()
   {
     for (Arena& arena : this->Arenas)
     {
-      this->timeSteady(arena, view); // warm-up
+      this->TimeSteady(arena, view); // warm-up
     }
     for (int round = 0; round < this->Settings.Repetitions; ++round)
     {
-      this->timeRound(view);
+      this->TimeRound(view);
     }
     for (std::size_t i = 0; i < this->Arenas.size(); ++i)
     {
-      if (auto* mapper = this->ours(i))
+      if (auto* mapper = this->GetOurs(i))
       {
         steps[i] += static_cast<double>(mapper->GetNumberOfTraversalSteps());
       }
@@ -223,40 +223,40 @@ void VolumeComparison::measureTimes()
         rounds.push_back(frame.WallMs);
         cpu.push_back(frame.CpuMs);
       }
-      figures.ViewMs.push_back(spreadOf(rounds).Median);
+      figures.ViewMs.push_back(SpreadOf(rounds).Median);
       sum += figures.ViewMs.back();
     }
-    figures.SteadyMs = spreadOf(figures.ViewMs).Median;
-    figures.CpuMs = spreadOf(cpu).Median;
+    figures.SteadyMs = SpreadOf(figures.ViewMs).Median;
+    figures.CpuMs = SpreadOf(cpu).Median;
     figures.StepsPerSecond = steps[i] / (1e-3 * sum);
-    figures.SetUpMs = spreadOf(this->measureSetUp(i, 3).ChangedMs).Median;
+    figures.SetUpMs = SpreadOf(this->MeasureSetUp(i, 3).ChangedMs).Median;
   }
 }
 
 //------------------------------------------------------------------------------
-VolumeComparison::Change VolumeComparison::measureChange(
+VolumeComparison::Change VolumeComparison::MeasureChange(
   std::size_t contestant, int times, const std::function<void(Arena&, int)>& change)
 {
   Arena& arena = this->Arenas[contestant];
   Change result;
   for (int i = 0; i < times; ++i)
   {
-    this->timeSteady(arena, i % this->Settings.Views);
-    result.SteadyMs.push_back(this->timeSteady(arena, i % this->Settings.Views).WallMs);
+    this->TimeSteady(arena, i % this->Settings.Views);
+    result.SteadyMs.push_back(this->TimeSteady(arena, i % this->Settings.Views).WallMs);
     change(arena, i);
-    result.ChangedMs.push_back(this->timeFrame(arena).WallMs);
+    result.ChangedMs.push_back(this->TimeFrame(arena).WallMs);
   }
   arena.Mapper->SetInputDataObject(this->Grid);
   return result;
 }
 
 //------------------------------------------------------------------------------
-VolumeComparison::Change VolumeComparison::measureEdit(std::size_t contestant, int times)
+VolumeComparison::Change VolumeComparison::MeasureEdit(std::size_t contestant, int times)
 {
-  return this->measureChange(contestant, times,
+  return this->MeasureChange(contestant, times,
     [](Arena& arena, int i)
     {
-      vtkPiecewiseFunction* opacity = arena.Scene->volume()->GetProperty()->GetScalarOpacity();
+      vtkPiecewiseFunction* opacity = arena.Scene->GetVolume()->GetProperty()->GetScalarOpacity();
       double node[4];
       opacity->GetNodeValue(opacity->GetSize() / 2, node);
       node[1] *= i % 2 ? 1.25 : 0.8;
@@ -265,7 +265,7 @@ VolumeComparison::Change VolumeComparison::measureEdit(std::size_t contestant, i
 }
 
 //------------------------------------------------------------------------------
-VolumeComparison::Change VolumeComparison::measureScalars(std::size_t contestant, int times)
+VolumeComparison::Change VolumeComparison::MeasureScalars(std::size_t contestant, int times)
 {
   std::vector<vtkSmartPointer<vtkUnstructuredGrid>> grids;
   for (int i = 0; i < times; ++i)
@@ -278,16 +278,16 @@ VolumeComparison::Change VolumeComparison::measureScalars(std::size_t contestant
     grid->GetPointData()->SetScalars(scalars);
     grids.push_back(grid);
   }
-  return this->measureChange(contestant, times,
+  return this->MeasureChange(contestant, times,
     [&grids](Arena& arena, int i)
     { arena.Mapper->SetInputDataObject(grids[static_cast<std::size_t>(i)]); });
 }
 
 //------------------------------------------------------------------------------
-VolumeComparison::Change VolumeComparison::measureSetUp(std::size_t contestant, int times)
+VolumeComparison::Change VolumeComparison::MeasureSetUp(std::size_t contestant, int times)
 {
   vtkSmartPointer<vtkUnstructuredGrid> grid; // one at a time, since they may be large
-  return this->measureChange(contestant, times,
+  return this->MeasureChange(contestant, times,
     [this, &grid](Arena& arena, int)
     {
       grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -297,13 +297,13 @@ VolumeComparison::Change VolumeComparison::measureSetUp(std::size_t contestant, 
 }
 
 //------------------------------------------------------------------------------
-VolumeComparison::Moves VolumeComparison::measureMoves()
+VolumeComparison::Moves VolumeComparison::MeasureMoves()
 {
   Moves moves{ this->Results, this->Results };
   for (int view = 0; view < this->Settings.Views; ++view)
   {
     // From 35 to 75 degrees above.
-    const auto angles = viewAngles(view);
+    const auto angles = ViewAngles(view);
     const double elevation = 55.0 + angles[1] / 3.0;
     for (int round = 0; round <= this->Settings.Repetitions; ++round)
     {
@@ -312,9 +312,9 @@ VolumeComparison::Moves VolumeComparison::measureMoves()
         Arena& arena = this->Arenas[i];
         const auto frame = [&](std::vector<FrameTime>& frames)
         {
-          lookAt(
-            arena.Scene->renderer(), this->Grid->GetBounds(), angles[0] + 0.2 * round, elevation);
-          const FrameTime time = this->timeFrame(arena);
+          LookAt(arena.Scene->GetRenderer(), this->Grid->GetBounds(), angles[0] + 0.2 * round,
+            elevation);
+          const FrameTime time = this->TimeFrame(arena);
           if (round > 0) // the round before is the warm-up
           {
             frames.push_back(time);
@@ -329,48 +329,48 @@ VolumeComparison::Moves VolumeComparison::measureMoves()
 }
 
 //------------------------------------------------------------------------------
-vtkTetrahedraRayCastMapper* VolumeComparison::ours(std::size_t contestant) const
+vtkTetrahedraRayCastMapper* VolumeComparison::GetOurs(std::size_t contestant) const
 {
   return vtkTetrahedraRayCastMapper::SafeDownCast(this->Arenas[contestant].Mapper);
 }
 
 //------------------------------------------------------------------------------
-void VolumeComparison::measureErrors()
+void VolumeComparison::MeasureErrors()
 {
   if (this->Settings.ErrorViews < 1 || this->Arenas.empty())
   {
     return;
   }
-  const auto integrator = makeReference(this->Grid);
+  const auto integrator = MakeReference(this->Grid);
   FunctionKind kind = FunctionKind::Smooth;
-  findFunctionKind(this->Settings.Function, kind);
+  FindFunctionKind(this->Settings.Function, kind);
   std::vector<ReferenceImage> truth;
   VolumeScene& scene = *this->Arenas.front().Scene;
   for (int view = 0; view < this->Settings.ErrorViews; ++view)
   {
-    this->look(scene, view);
-    const PixelRays rays(scene.renderer());
-    truth.push_back(renderReference(*integrator, rays.width(), rays.height(),
-      [&rays](int x, int y) { return rays.ray(x, y); },
-      { toReference(this->propertyOf(kind)) })[0]);
+    this->LookFrom(scene, view);
+    const PixelRays rays(scene.GetRenderer());
+    truth.push_back(RenderReference(*integrator, rays.GetWidth(), rays.GetHeight(),
+      [&rays](int x, int y) { return rays.GetRay(x, y); },
+      { ToReference(this->PropertyOf(kind)) })[0]);
   }
   for (std::size_t i = 0; i < this->Arenas.size(); ++i)
   {
-    this->findError(this->Arenas[i], truth, this->Results[i]);
+    this->FindError(this->Arenas[i], truth, this->Results[i]);
   }
 }
 
 //------------------------------------------------------------------------------
-void VolumeComparison::findError(
+void VolumeComparison::FindError(
   Arena& arena, const std::vector<ReferenceImage>& truth, Figures& figures)
 {
   ErrorSum bytes;
   ErrorSum floats;
   for (std::size_t view = 0; view < truth.size(); ++view)
   {
-    this->look(*arena.Scene, static_cast<int>(view));
-    const ByteImage byteImage = arena.Scene->renderBytes();
-    const FloatImage floatImage = figures.HasFloat ? arena.Scene->renderFloat() : FloatImage{};
+    this->LookFrom(*arena.Scene, static_cast<int>(view));
+    const ByteImage byteImage = arena.Scene->RenderBytes();
+    const FloatImage floatImage = figures.HasFloat ? arena.Scene->RenderFloat() : FloatImage{};
     for (std::size_t pixel = 0; pixel < truth[view].Rgba.size(); ++pixel)
     {
       double byteError = 0.0;
@@ -384,12 +384,12 @@ void VolumeComparison::findError(
           : 0.0;
       }
       const bool covered = truth[view].Covered[pixel] != 0;
-      bytes.add(byteError, covered);
-      floats.add(floatError, covered);
+      bytes.Add(byteError, covered);
+      floats.Add(floatError, covered);
     }
   }
-  figures.Bytes = bytes.result();
-  figures.Float = floats.result();
+  figures.Bytes = bytes.GetResult();
+  figures.Float = floats.GetResult();
 }
 
 } // namespace benchmark

@@ -66,10 +66,10 @@ struct Spread
   double High = 0.0;
 };
 
-Spread spreadOf(std::vector<double> values);
+Spread SpreadOf(std::vector<double> values);
 
 /** Ratio of the times of a frame of `slow` and the frame of `fast` in the same round. */
-Spread ratioOf(const Figures& slow, const Figures& fast, bool cpu = false);
+Spread RatioOf(const Figures& slow, const Figures& fast, bool cpu = false);
 
 class VolumeComparison
 {
@@ -78,15 +78,15 @@ public:
   ~VolumeComparison();
 
   /** Opens a window for each contestant and draws the first frames. */
-  void enter(const std::vector<Contestant>& contestants);
+  void Enter(const std::vector<Contestant>& contestants);
 
   /** Measures steady frames and set-up of all contestants. */
-  void measureTimes();
+  void MeasureTimes();
   /** Errors against the reference of the run's function. */
-  void measureErrors();
+  void MeasureErrors();
 
-  const std::vector<Figures>& figures() const { return this->Results; }
-  std::string device() const { return this->Device; }
+  const std::vector<Figures>& GetFigures() const { return this->Results; }
+  std::string GetDevice() const { return this->Device; }
 
   /** Frames after a change, each next to a steady frame of the same view. */
   struct Change
@@ -95,11 +95,11 @@ public:
     std::vector<double> SteadyMs;
   };
   /** One opacity node moved. */
-  Change measureEdit(std::size_t contestant, int times);
+  Change MeasureEdit(std::size_t contestant, int times);
   /** A new scalar array on the same points and cells. */
-  Change measureScalars(std::size_t contestant, int times);
+  Change MeasureScalars(std::size_t contestant, int times);
   /** A new mesh: other point and cell objects with the same contents. */
-  Change measureSetUp(std::size_t contestant, int times);
+  Change MeasureSetUp(std::size_t contestant, int times);
 
   /**
    * Frames from above, by contestant: with the camera moved by a fifth of a degree, and not moved.
@@ -109,9 +109,9 @@ public:
     std::vector<Figures> Moving;
     std::vector<Figures> Resting;
   };
-  Moves measureMoves();
+  Moves MeasureMoves();
 
-  vtkTetrahedraRayCastMapper* ours(std::size_t contestant) const;
+  vtkTetrahedraRayCastMapper* GetOurs(std::size_t contestant) const;
 
 private:
   struct Arena
@@ -122,13 +122,13 @@ private:
   };
 
   /** A new property each time, since some measurements change it. */
-  vtkSmartPointer<vtkVolumeProperty> propertyOf(test::FunctionKind kind) const;
-  void look(test::VolumeScene& scene, int view) const;
-  void timeRound(int view);
-  FrameTime timeFrame(Arena& arena) const;
-  FrameTime timeSteady(Arena& arena, int view) const;
-  void findError(Arena& arena, const std::vector<test::ReferenceImage>& truth, Figures& figures);
-  Change measureChange(
+  vtkSmartPointer<vtkVolumeProperty> PropertyOf(test::FunctionKind kind) const;
+  void LookFrom(test::VolumeScene& scene, int view) const;
+  void TimeRound(int view);
+  FrameTime TimeFrame(Arena& arena) const;
+  FrameTime TimeSteady(Arena& arena, int view) const;
+  void FindError(Arena& arena, const std::vector<test::ReferenceImage>& truth, Figures& figures);
+  Change MeasureChange(
     std::size_t contestant, int times, const std::function<void(Arena&, int)>& change);
 
   VolumeOptions Settings;

@@ -27,7 +27,7 @@ namespace
 {
 
 template <typename Integrator>
-Contestant makeRayCast(const std::string& name, int threads)
+Contestant MakeRayCast(const std::string& name, int threads)
 {
   return { "raycast/" + name,
     [threads]()
@@ -47,7 +47,7 @@ Contestant makeRayCast(const std::string& name, int threads)
     false };
 }
 
-Contestant makeZSweep()
+Contestant MakeZSweep()
 {
   return { "zsweep",
     []()
@@ -60,19 +60,19 @@ Contestant makeZSweep()
     false };
 }
 
-std::vector<Contestant> makePeers(const VolumeOptions& options)
+std::vector<Contestant> MakePeers(const VolumeOptions& options)
 {
   std::vector<Contestant> peers{ { "projected",
     []() { return MapperPointer(vtkSmartPointer<vtkProjectedTetrahedraMapper>::New()); }, false } };
   const int threads = options.Threads;
   // The first one is the mapper's default for point data.
-  peers.push_back(makeRayCast<vtkUnstructuredGridPreIntegration>("pre-integration", threads));
-  peers.push_back(makeRayCast<vtkUnstructuredGridPartialPreIntegration>("partial", threads));
-  peers.push_back(makeRayCast<vtkUnstructuredGridLinearRayIntegrator>("linear", threads));
-  peers.push_back(makeRayCast<vtkUnstructuredGridHomogeneousRayIntegrator>("homogeneous", threads));
+  peers.push_back(MakeRayCast<vtkUnstructuredGridPreIntegration>("pre-integration", threads));
+  peers.push_back(MakeRayCast<vtkUnstructuredGridPartialPreIntegration>("partial", threads));
+  peers.push_back(MakeRayCast<vtkUnstructuredGridLinearRayIntegrator>("linear", threads));
+  peers.push_back(MakeRayCast<vtkUnstructuredGridHomogeneousRayIntegrator>("homogeneous", threads));
   if (options.ZSweep)
   {
-    peers.push_back(makeZSweep());
+    peers.push_back(MakeZSweep());
   }
   return peers;
 }
@@ -89,7 +89,7 @@ struct OurSettings
 // Sizes besides the default: coarse, without self-absorption (two dimensions), fine.
 constexpr int TableSizes[][2] = { { 64, 16 }, { 256, 1 }, { 512, 64 } };
 
-MapperPointer makeOurMapper(const OurSettings& settings)
+MapperPointer MakeOurMapper(const OurSettings& settings)
 {
   auto mapper = vtkSmartPointer<vtkTetrahedraRayCastMapper>::New();
   mapper->SetBackend(settings.Backend);
@@ -107,10 +107,10 @@ MapperPointer makeOurMapper(const OurSettings& settings)
 }
 
 // True if a small image can be drawn with these settings, without a message.
-bool isAvailable(const OurSettings& settings)
+bool IsAvailable(const OurSettings& settings)
 {
-  const test::Grid grid = test::makeCubeOfFive(test::radialField());
-  const MapperPointer mapper = makeOurMapper(settings);
+  const test::Grid grid = test::MakeCubeOfFive(test::RadialField());
+  const MapperPointer mapper = MakeOurMapper(settings);
   bool complained = false;
   vtkNew<vtkCallbackCommand> listener;
   listener->SetClientData(&complained);
@@ -120,16 +120,16 @@ bool isAvailable(const OurSettings& settings)
   mapper->AddObserver(vtkCommand::ErrorEvent, listener);
   mapper->SetInputDataObject(grid);
   test::VolumeScene scene(32, 32);
-  scene.setMapper(mapper);
+  scene.SetMapper(mapper);
   const double range[2] = { 0.0, 2.0 };
-  scene.setProperty(test::makeProperty(test::FunctionKind::Smooth, range, 2.0));
-  test::lookAt(scene.renderer(), grid->GetBounds(), 20.0, 30.0);
-  scene.window()->Render();
+  scene.SetProperty(test::MakeProperty(test::FunctionKind::Smooth, range, 2.0));
+  test::LookAt(scene.GetRenderer(), grid->GetBounds(), 20.0, 30.0);
+  scene.GetWindow()->Render();
   auto* ours = vtkTetrahedraRayCastMapper::SafeDownCast(mapper);
   return !complained && ours->GetActiveBackend() == settings.Backend;
 }
 
-std::string backendName(int backend)
+std::string BackendName(int backend)
 {
   return backend == vtkTetrahedraRayCastMapper::OPENGL ? "opengl"
     : backend == vtkTetrahedraRayCastMapper::NATIVE    ? "native"
@@ -140,26 +140,26 @@ std::string backendName(int backend)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-Contestant makeOurs(int backend, const std::string& name)
+Contestant MakeOurs(int backend, const std::string& name)
 {
   return { name,
     [backend]() {
-      return makeOurMapper({ backend, vtkTetrahedraRayCastMapper::EXACT, -1.0 });
+      return MakeOurMapper({ backend, vtkTetrahedraRayCastMapper::EXACT, -1.0 });
     },
     true };
 }
 
 //------------------------------------------------------------------------------
-std::vector<Contestant> makeContestants(const VolumeOptions& options)
+std::vector<Contestant> MakeContestants(const VolumeOptions& options)
 {
-  std::vector<Contestant> all = makePeers(options);
+  std::vector<Contestant> all = MakePeers(options);
   vtkNew<vtkTetrahedraRayCastMapper> ours;
   for (int backend = 1; backend <= ours->GetBackendMaxValue(); ++backend)
   {
     for (int integration = 0; integration <= ours->GetIntegrationMaxValue(); ++integration)
     {
       const OurSettings settings{ backend, integration, -1.0 };
-      if (!isAvailable(settings))
+      if (!IsAvailable(settings))
       {
         continue;
       }
@@ -167,23 +167,23 @@ std::vector<Contestant> makeContestants(const VolumeOptions& options)
         : integration == vtkTetrahedraRayCastMapper::PRE_INTEGRATED
         ? "pre-integrated"
         : "integration-" + std::to_string(integration);
-      const std::string name = "meniscus/" + backendName(backend) + "/" + integrationName;
-      all.push_back({ name, [settings]() { return makeOurMapper(settings); }, true });
+      const std::string name = "meniscus/" + BackendName(backend) + "/" + integrationName;
+      all.push_back({ name, [settings]() { return MakeOurMapper(settings); }, true });
       const OurSettings early{ backend, integration, 0.99 };
-      all.push_back({ name + "/0.99", [early]() { return makeOurMapper(early); }, true });
+      all.push_back({ name + "/0.99", [early]() { return MakeOurMapper(early); }, true });
       for (const auto& size : TableSizes)
       {
         if (integration == vtkTetrahedraRayCastMapper::PRE_INTEGRATED)
         {
           const OurSettings sized{ backend, integration, -1.0, size[0], size[1] };
           all.push_back({ name + "/" + std::to_string(size[0]) + "x" + std::to_string(size[1]),
-            [sized]() { return makeOurMapper(sized); }, true });
+            [sized]() { return MakeOurMapper(sized); }, true });
         }
       }
     }
   }
   test::FunctionKind kind = test::FunctionKind::Smooth;
-  findFunctionKind(options.Function, kind);
+  FindFunctionKind(options.Function, kind);
   for (Contestant& contestant : all)
   {
     contestant.Function = kind;
@@ -192,7 +192,7 @@ std::vector<Contestant> makeContestants(const VolumeOptions& options)
 }
 
 //------------------------------------------------------------------------------
-std::vector<Contestant> selectContestants(
+std::vector<Contestant> SelectContestants(
   const std::vector<Contestant>& all, const std::vector<std::string>& words)
 {
   std::vector<Contestant> selected;

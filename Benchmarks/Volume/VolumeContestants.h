@@ -39,13 +39,13 @@ struct Contestant
  * VTK's mappers, and ours with every backend and integration that is available, which is tested by
  * a small image. Ours is also included with rays that end at an opacity of 0.99. Needs a display.
  */
-std::vector<Contestant> makeContestants(const VolumeOptions& options);
+std::vector<Contestant> MakeContestants(const VolumeOptions& options);
 
 /** Our mapper with one backend and exact integration. */
-Contestant makeOurs(int backend, const std::string& name);
+Contestant MakeOurs(int backend, const std::string& name);
 
 /** Contestants whose names contain one of the words; all of them without words. */
-std::vector<Contestant> selectContestants(
+std::vector<Contestant> SelectContestants(
   const std::vector<Contestant>& all, const std::vector<std::string>& words);
 
 } // namespace benchmark

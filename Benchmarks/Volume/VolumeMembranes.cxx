@@ -26,11 +26,11 @@ struct NamedMembrane
 
 //------------------------------------------------------------------------------
 // As long and wide as is visible in the images from elevations of 35 degrees and more.
-std::vector<NamedMembrane> makeMembranes(vtkUnstructuredGrid* grid)
+std::vector<NamedMembrane> MakeMembranes(vtkUnstructuredGrid* grid)
 {
   double bounds[6];
   grid->GetBounds(bounds);
-  const double diagonal = test::diagonalOf(bounds);
+  const double diagonal = test::DiagonalOf(bounds);
   const double half = 2.5 * diagonal;
   const double top = 0.5 * (bounds[3] - bounds[2]) + 0.1 * diagonal;
   vtkNew<vtkTransform> toCenter;
@@ -45,24 +45,24 @@ std::vector<NamedMembrane> makeMembranes(vtkUnstructuredGrid* grid)
     return vtkSmartPointer<vtkPolyData>(mover->GetOutput());
   };
   return { { "none", nullptr },
-    { "plane above, 8 facets", placed(test::makePlaneCase(top, half, 2)) },
-    { "plane through the middle, 8 facets", placed(test::makePlaneCase(0.0, half, 2)) },
-    { "dome, 3,200 facets", placed(test::makeDomeCase(top, 4.0 * diagonal, half, 40)) },
+    { "plane above, 8 facets", placed(test::MakePlaneCase(top, half, 2)) },
+    { "plane through the middle, 8 facets", placed(test::MakePlaneCase(0.0, half, 2)) },
+    { "dome, 3,200 facets", placed(test::MakeDomeCase(top, 4.0 * diagonal, half, 40)) },
     { "waves, 20,000 facets",
-      placed(test::makeWavesCase(top, 0.02 * diagonal, 12.0 / diagonal, half, 100)) } };
+      placed(test::MakeWavesCase(top, 0.02 * diagonal, 12.0 / diagonal, half, 100)) } };
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<MembraneCost> measureMembranes(
+std::vector<MembraneCost> MeasureMembranes(
   const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend)
 {
-  const std::vector<NamedMembrane> membranes = makeMembranes(grid);
+  const std::vector<NamedMembrane> membranes = MakeMembranes(grid);
   std::vector<Contestant> contestants;
   for (const NamedMembrane& membrane : membranes)
   {
-    Contestant ours = makeOurs(backend, membrane.Name);
+    Contestant ours = MakeOurs(backend, membrane.Name);
     ours.Make = [make = ours.Make, mesh = membrane.Mesh]()
     {
       const MapperPointer mapper = make();
@@ -72,13 +72,13 @@ std::vector<MembraneCost> measureMembranes(
     contestants.push_back(ours);
   }
   VolumeComparison comparison(options, grid);
-  comparison.enter(contestants);
-  const auto moves = comparison.measureMoves();
+  comparison.Enter(contestants);
+  const auto moves = comparison.MeasureMoves();
   std::vector<MembraneCost> costs;
   for (std::size_t i = 1; i < membranes.size(); ++i)
   {
-    costs.push_back({ membranes[i].Name, ratioOf(moves.Moving[i], moves.Moving[0], true),
-      ratioOf(moves.Resting[i], moves.Resting[0], true) });
+    costs.push_back({ membranes[i].Name, RatioOf(moves.Moving[i], moves.Moving[0], true),
+      RatioOf(moves.Resting[i], moves.Resting[0], true) });
   }
   return costs;
 }

@@ -23,7 +23,7 @@ struct MembraneCost
 };
 
 /** One backend through a plane above the mesh, a plane through its middle, a dome and waves. */
-std::vector<MembraneCost> measureMembranes(
+std::vector<MembraneCost> MeasureMembranes(
   const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend);
 
 } // namespace benchmark

@@ -45,7 +45,7 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-bool readNumber(const std::string& text, int& value)
+bool ReadNumber(const std::string& text, int& value)
 {
   char* end = nullptr;
   const long number = std::strtol(text.c_str(), &end, 10);
@@ -54,7 +54,7 @@ bool readNumber(const std::string& text, int& value)
 }
 
 //------------------------------------------------------------------------------
-std::vector<std::string> split(const std::string& text)
+std::vector<std::string> Split(const std::string& text)
 {
   std::vector<std::string> words;
   std::istringstream in(text);
@@ -66,7 +66,7 @@ std::vector<std::string> split(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-bool readFlag(const std::string& key, VolumeOptions& options)
+bool ReadFlag(const std::string& key, VolumeOptions& options)
 {
   const std::map<std::string, bool*> flags{ { "--help", &options.Help }, { "-h", &options.Help },
     { "--zsweep", &options.ZSweep }, { "--growth", &options.Growth },
@@ -80,7 +80,7 @@ bool readFlag(const std::string& key, VolumeOptions& options)
 }
 
 //------------------------------------------------------------------------------
-bool readValue(const std::string& key, const std::string& value, VolumeOptions& options)
+bool ReadValue(const std::string& key, const std::string& value, VolumeOptions& options)
 {
   const std::map<std::string, int*> numbers{ { "--size", &options.Size },
     { "--views", &options.Views }, { "--error-views", &options.ErrorViews },
@@ -93,11 +93,11 @@ bool readValue(const std::string& key, const std::string& value, VolumeOptions& 
   const auto number = numbers.find(key);
   if (number != numbers.end())
   {
-    return readNumber(value, *number->second);
+    return ReadNumber(value, *number->second);
   }
   if (key == "--mappers")
   {
-    options.Mappers = split(value);
+    options.Mappers = Split(value);
     return true;
   }
   const auto text = texts.find(key);
@@ -111,25 +111,25 @@ bool readValue(const std::string& key, const std::string& value, VolumeOptions& 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-VolumeOptions parseVolumeOptions(int argc, char* argv[])
+VolumeOptions ParseVolumeOptions(int argc, char* argv[])
 {
   VolumeOptions options;
   for (int i = 1; i < argc && !options.Help; ++i)
   {
     const std::string key = argv[i];
-    if (readFlag(key, options))
+    if (ReadFlag(key, options))
     {
       continue;
     }
     const std::string value = i + 1 < argc ? argv[i + 1] : "";
-    if (++i >= argc || !readValue(key, value, options))
+    if (++i >= argc || !ReadValue(key, value, options))
     {
       options.Problem = "unknown option, or bad or missing value: " + key + " " + value;
       return options;
     }
   }
   test::FunctionKind kind;
-  if (!findFunctionKind(options.Function, kind))
+  if (!FindFunctionKind(options.Function, kind))
   {
     options.Problem = "no such function: " + options.Function;
   }
@@ -142,7 +142,7 @@ VolumeOptions parseVolumeOptions(int argc, char* argv[])
 }
 
 //------------------------------------------------------------------------------
-bool findFunctionKind(const std::string& name, test::FunctionKind& kind)
+bool FindFunctionKind(const std::string& name, test::FunctionKind& kind)
 {
   using test::FunctionKind;
   const std::map<std::string, FunctionKind> kinds{ { "smooth", FunctionKind::Smooth },
@@ -157,11 +157,11 @@ bool findFunctionKind(const std::string& name, test::FunctionKind& kind)
 }
 
 //------------------------------------------------------------------------------
-test::Grid makeVolumeMesh(const VolumeOptions& options)
+test::Grid MakeVolumeMesh(const VolumeOptions& options)
 {
   const test::Grid grid = options.Mesh.empty()
-    ? test::makeBlock(options.Cubes, test::wavyField(3.0), test::shell(0.3, 1.3))
-    : test::readMesh(options.Mesh);
+    ? test::MakeBlock(options.Cubes, test::WavyField(3.0), test::Shell(0.3, 1.3))
+    : test::ReadMesh(options.Mesh);
   return grid && grid->GetPointData()->GetScalars() ? grid : nullptr;
 }
 

@@ -41,15 +41,15 @@ struct VolumeOptions
 
 extern const char* const VolumeUsage;
 
-VolumeOptions parseVolumeOptions(int argc, char* argv[]);
+VolumeOptions ParseVolumeOptions(int argc, char* argv[]);
 
 /**
  * Finds a function by name: smooth, peaked, sharp, opaque, sparse. Returns false for other names.
  */
-bool findFunctionKind(const std::string& name, test::FunctionKind& kind);
+bool FindFunctionKind(const std::string& name, test::FunctionKind& kind);
 
 /** The requested mesh; null if it cannot be read. */
-test::Grid makeVolumeMesh(const VolumeOptions& options);
+test::Grid MakeVolumeMesh(const VolumeOptions& options);
 
 } // namespace benchmark
 } // namespace meniscus

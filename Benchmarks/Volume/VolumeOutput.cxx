@@ -19,13 +19,13 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-bool isOurs(const Figures& figures)
+bool IsOurs(const Figures& figures)
 {
   return figures.Name.compare(0, 8, "meniscus") == 0;
 }
 
 //------------------------------------------------------------------------------
-std::string number(double value, int digits, bool known = true)
+std::string MakeNumber(double value, int digits, bool known = true)
 {
   std::ostringstream text;
   text << std::fixed << std::setprecision(digits) << value;
@@ -33,7 +33,7 @@ std::string number(double value, int digits, bool known = true)
 }
 
 //------------------------------------------------------------------------------
-std::string scientific(double value, bool known = true)
+std::string Scientific(double value, bool known = true)
 {
   std::ostringstream text;
   text << std::scientific << std::setprecision(1) << value;
@@ -41,7 +41,7 @@ std::string scientific(double value, bool known = true)
 }
 
 //------------------------------------------------------------------------------
-void printRow(std::ostream& out, const std::vector<std::string>& cells)
+void PrintRow(std::ostream& out, const std::vector<std::string>& cells)
 {
   const int widths[] = { 38, 10, 10, 10, 17, 10, 10, 8, 10, 10, 10, 10, 10 };
   for (std::size_t i = 0; i < cells.size(); ++i)
@@ -52,26 +52,26 @@ void printRow(std::ostream& out, const std::vector<std::string>& cells)
 }
 
 //------------------------------------------------------------------------------
-void printFigures(std::ostream& out, const Figures& f)
+void PrintFigures(std::ostream& out, const Figures& f)
 {
   if (!f.Survives)
   {
-    printRow(out, { f.Name, f.Fate });
+    PrintRow(out, { f.Name, f.Fate });
     return;
   }
   const auto ends = std::minmax_element(f.ViewMs.begin(), f.ViewMs.end());
   const std::string spread =
-    f.ViewMs.empty() ? "" : number(*ends.first, 1) + " - " + number(*ends.second, 1);
-  printRow(out,
-    { f.Name, number(f.ColdMs, 1), number(f.SetUpMs, 1), number(f.SteadyMs, 1), spread,
-      number(f.CpuMs, 1), number(1e-6 * f.StepsPerSecond, 1, f.StepsPerSecond > 0.0),
-      number(f.BytesPerCell, 0, f.BytesPerCell > 0.0), scientific(f.Bytes.Largest),
-      scientific(f.Bytes.Rms), number(100.0 * f.Bytes.OffShare, 2),
-      scientific(f.Float.Largest, f.HasFloat), scientific(f.Float.Rms, f.HasFloat) });
+    f.ViewMs.empty() ? "" : MakeNumber(*ends.first, 1) + " - " + MakeNumber(*ends.second, 1);
+  PrintRow(out,
+    { f.Name, MakeNumber(f.ColdMs, 1), MakeNumber(f.SetUpMs, 1), MakeNumber(f.SteadyMs, 1), spread,
+      MakeNumber(f.CpuMs, 1), MakeNumber(1e-6 * f.StepsPerSecond, 1, f.StepsPerSecond > 0.0),
+      MakeNumber(f.BytesPerCell, 0, f.BytesPerCell > 0.0), Scientific(f.Bytes.Largest),
+      Scientific(f.Bytes.Rms), MakeNumber(100.0 * f.Bytes.OffShare, 2),
+      Scientific(f.Float.Largest, f.HasFloat), Scientific(f.Float.Rms, f.HasFloat) });
 }
 
 //------------------------------------------------------------------------------
-std::string quoted(const std::string& text)
+std::string Quoted(const std::string& text)
 {
   std::string result = "\"";
   for (const char c : text)
@@ -86,19 +86,19 @@ std::string quoted(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-void writeError(std::ostream& out, const char* name, const PictureError& error)
+void WriteError(std::ostream& out, const char* name, const PictureError& error)
 {
   out << ", \"" << name << "\": {\"max\": " << error.Largest << ", \"rms\": " << error.Rms
       << ", \"share_off_by_2\": " << error.OffShare << "}";
 }
 
 //------------------------------------------------------------------------------
-void writeFigures(std::ostream& out, const Figures& f)
+void WriteFigures(std::ostream& out, const Figures& f)
 {
-  out << "  {\"name\": " << quoted(f.Name);
+  out << "  {\"name\": " << Quoted(f.Name);
   if (!f.Survives)
   {
-    out << ", \"fate\": " << quoted(f.Fate) << "}";
+    out << ", \"fate\": " << Quoted(f.Fate) << "}";
     return;
   }
   out << ", \"cold_ms\": " << f.ColdMs << ", \"set_up_ms\": " << f.SetUpMs
@@ -115,10 +115,10 @@ void writeFigures(std::ostream& out, const Figures& f)
     out << (i ? ", " : "") << f.Frames[i].WallMs;
   }
   out << "]";
-  writeError(out, "error_8_bit", f.Bytes);
+  WriteError(out, "error_8_bit", f.Bytes);
   if (f.HasFloat)
   {
-    writeError(out, "error_float", f.Float);
+    WriteError(out, "error_float", f.Float);
   }
   out << "}";
 }
@@ -126,7 +126,7 @@ void writeFigures(std::ostream& out, const Figures& f)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void printDescription(
+void PrintDescription(
   std::ostream& out, const VolumeOptions& options, const RunDescription& description)
 {
   out << description.Mesh << ": " << description.Cells << " tetrahedra, " << options.Size << " x "
@@ -138,27 +138,28 @@ void printDescription(
 }
 
 //------------------------------------------------------------------------------
-void printTable(std::ostream& out, const std::vector<Figures>& all)
+void PrintTable(std::ostream& out, const std::vector<Figures>& all)
 {
-  printRow(out,
+  PrintRow(out,
     { "mapper", "cold ms", "set-up ms", "ms/frame", "views", "CPU ms", "Msteps/s", "B/cell",
       "8 bit max", "RMS", ">2/255 %", "float max", "RMS" });
   for (const Figures& f : all)
   {
-    printFigures(out, f);
+    PrintFigures(out, f);
   }
   for (const Figures& mine : all)
   {
     for (const Figures& other : all)
     {
-      if (isOurs(mine) && !isOurs(other) && mine.Survives && other.Survives &&
+      if (IsOurs(mine) && !IsOurs(other) && mine.Survives && other.Survives &&
         mine.Name.find("/0.99") == std::string::npos)
       {
-        const Spread wall = ratioOf(other, mine);
-        const Spread cpu = ratioOf(other, mine, true);
-        out << mine.Name << " against " << other.Name << ": " << number(wall.Median, 2)
-            << " x the frame rate (quartiles " << number(wall.Low, 2) << ", "
-            << number(wall.High, 2) << "), " << number(cpu.Median, 2) << " x less CPU time\n";
+        const Spread wall = RatioOf(other, mine);
+        const Spread cpu = RatioOf(other, mine, true);
+        out << mine.Name << " against " << other.Name << ": " << MakeNumber(wall.Median, 2)
+            << " x the frame rate (quartiles " << MakeNumber(wall.Low, 2) << ", "
+            << MakeNumber(wall.High, 2) << "), " << MakeNumber(cpu.Median, 2)
+            << " x less CPU time\n";
       }
     }
   }
@@ -169,21 +170,21 @@ void printTable(std::ostream& out, const std::vector<Figures>& all)
 }
 
 //------------------------------------------------------------------------------
-bool writeJson(
+bool WriteJson(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all)
 {
   std::ofstream out(options.Json);
-  out << "{\"mesh\": " << quoted(description.Mesh) << ", \"tetrahedra\": " << description.Cells
+  out << "{\"mesh\": " << Quoted(description.Mesh) << ", \"tetrahedra\": " << description.Cells
       << ", \"size\": " << options.Size << ", \"views\": " << options.Views
       << ", \"repetitions\": " << options.Repetitions
-      << ", \"function\": " << quoted(options.Function)
-      << ", \"gl_renderer\": " << quoted(description.Device)
-      << ", \"vtk\": " << quoted(vtkVersion::GetVTKVersion())
+      << ", \"function\": " << Quoted(options.Function)
+      << ", \"gl_renderer\": " << Quoted(description.Device)
+      << ", \"vtk\": " << Quoted(vtkVersion::GetVTKVersion())
       << ", \"threads\": " << vtkSMPTools::GetEstimatedNumberOfThreads() << ", \"mappers\": [";
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     out << (i ? ",\n" : "\n");
-    writeFigures(out, all[i]);
+    WriteFigures(out, all[i]);
   }
   out << "\n]}\n";
   return out.good();

@@ -25,20 +25,20 @@ struct RunDescription
 };
 
 /** Mesh, window, device, versions, threads. */
-void printDescription(
+void PrintDescription(
   std::ostream& out, const VolumeOptions& options, const RunDescription& description);
 
 /** One line per mapper, then the ratios of our mapper to the others. */
-void printTable(std::ostream& out, const std::vector<Figures>& all);
+void PrintTable(std::ostream& out, const std::vector<Figures>& all);
 
-bool writeJson(
+bool WriteJson(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);
 
 /**
  * Plots milliseconds per frame against the RMS error of an image, both logarithmic: 8-bit and float
  * images of every mapper.
  */
-bool writePlot(
+bool WritePlot(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);
 
 } // namespace benchmark

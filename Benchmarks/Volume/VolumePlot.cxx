@@ -9,7 +9,7 @@ namespace benchmark
 {
 
 //------------------------------------------------------------------------------
-bool writePlot(
+bool WritePlot(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all)
 {
   std::vector<ChartSeries> points;
@@ -24,7 +24,7 @@ bool writePlot(
       }
     }
   }
-  return writeChart(options.Plot,
+  return WriteChart(options.Plot,
     description.Mesh + ", " + std::to_string(description.Cells) + " tetrahedra, " +
       std::to_string(options.Size) + " x " + std::to_string(options.Size) + ", " + options.Function,
     "ms per frame", "RMS error", points);

@@ -35,7 +35,7 @@ namespace
 {
 
 //------------------------------------------------------------------------------
-std::vector<std::string> probeArguments(const std::string& name, const VolumeOptions& options)
+std::vector<std::string> ProbeArguments(const std::string& name, const VolumeOptions& options)
 {
   std::vector<std::string> arguments{ "--probe", name, "--size", std::to_string(options.Size),
     "--views", std::to_string(options.Views), "--function", options.Function, "--cubes",
@@ -52,10 +52,10 @@ std::vector<std::string> probeArguments(const std::string& name, const VolumeOpt
 }
 
 //------------------------------------------------------------------------------
-[[noreturn]] void executeProbe(const std::string& name, const VolumeOptions& options, int out)
+[[noreturn]] void ExecuteProbe(const std::string& name, const VolumeOptions& options, int out)
 {
   dup2(out, STDOUT_FILENO);
-  std::vector<std::string> arguments = probeArguments(name, options);
+  std::vector<std::string> arguments = ProbeArguments(name, options);
   std::vector<char*> pointers;
   std::string program = "/proc/self/exe";
   pointers.push_back(program.data());
@@ -70,7 +70,7 @@ std::vector<std::string> probeArguments(const std::string& name, const VolumeOpt
 
 //------------------------------------------------------------------------------
 // Reads everything until the other end closes; returns false if that takes too long.
-bool readAll(int in, int seconds, std::string& text)
+bool ReadAll(int in, int seconds, std::string& text)
 {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
   for (;;)
@@ -93,7 +93,7 @@ bool readAll(int in, int seconds, std::string& text)
 }
 
 //------------------------------------------------------------------------------
-double residentBytes()
+double ResidentBytes()
 {
   malloc_trim(0);
   std::ifstream in("/proc/self/statm");
@@ -106,7 +106,7 @@ double residentBytes()
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-ProbeResult probeContestant(const std::string& name, const VolumeOptions& options)
+ProbeResult ProbeContestant(const std::string& name, const VolumeOptions& options)
 {
   ProbeResult result;
   int ends[2];
@@ -119,11 +119,11 @@ ProbeResult probeContestant(const std::string& name, const VolumeOptions& option
   if (child == 0)
   {
     close(ends[0]);
-    executeProbe(name, options, ends[1]);
+    ExecuteProbe(name, options, ends[1]);
   }
   close(ends[1]);
   std::string text;
-  const bool inTime = child > 0 && readAll(ends[0], options.ProbeSeconds, text);
+  const bool inTime = child > 0 && ReadAll(ends[0], options.ProbeSeconds, text);
   close(ends[0]);
   if (!inTime && child > 0)
   {
@@ -140,37 +140,37 @@ ProbeResult probeContestant(const std::string& name, const VolumeOptions& option
 }
 
 //------------------------------------------------------------------------------
-int runProbe(const Contestant& contestant, const VolumeOptions& options)
+int RunProbe(const Contestant& contestant, const VolumeOptions& options)
 {
   // Large blocks are returned to the system when they are freed.
   mallopt(M_MMAP_THRESHOLD, 128 * 1024);
-  const test::Grid grid = makeVolumeMesh(options);
+  const test::Grid grid = MakeVolumeMesh(options);
   if (!grid)
   {
     return EXIT_FAILURE;
   }
   // A small mesh comes first: shaders, framebuffers and threads are not part of the cost of a mesh.
-  const test::Grid small = makeCubeOfFive(radialField());
+  const test::Grid small = MakeCubeOfFive(RadialField());
   VolumeScene scene(options.Size, options.Size);
   const MapperPointer mapper = contestant.Make();
   mapper->SetInputDataObject(small);
-  scene.setMapper(mapper);
+  scene.SetMapper(mapper);
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  scene.setProperty(makeProperty(contestant.Function, range, diagonalOf(grid->GetBounds())));
-  lookAt(scene.renderer(), small->GetBounds(), 20.0, 30.0);
-  scene.window()->Render();
-  const double before = residentBytes();
+  scene.SetProperty(MakeProperty(contestant.Function, range, DiagonalOf(grid->GetBounds())));
+  LookAt(scene.GetRenderer(), small->GetBounds(), 20.0, 30.0);
+  scene.GetWindow()->Render();
+  const double before = ResidentBytes();
   mapper->SetInputDataObject(grid);
   for (int view = 0; view < options.Views; ++view)
   {
-    const auto angles = viewAngles(view);
-    lookAt(scene.renderer(), grid->GetBounds(), angles[0], angles[1]);
-    scene.window()->Render();
-    scene.window()->WaitForCompletion();
+    const auto angles = ViewAngles(view);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), angles[0], angles[1]);
+    scene.GetWindow()->Render();
+    scene.GetWindow()->WaitForCompletion();
     if (view == 0)
     {
-      std::cout << (residentBytes() - before) / static_cast<double>(grid->GetNumberOfCells())
+      std::cout << (ResidentBytes() - before) / static_cast<double>(grid->GetNumberOfCells())
                 << std::endl;
     }
   }

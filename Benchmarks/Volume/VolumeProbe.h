@@ -23,10 +23,10 @@ struct ProbeResult
  * Draws all views with one mapper in a separate process (this program with --probe NAME), which may
  * crash or be terminated, and measures the memory for the mesh in it.
  */
-ProbeResult probeContestant(const std::string& name, const VolumeOptions& options);
+ProbeResult ProbeContestant(const std::string& name, const VolumeOptions& options);
 
 /** Work of that process; returns its exit status. */
-int runProbe(const Contestant& contestant, const VolumeOptions& options);
+int RunProbe(const Contestant& contestant, const VolumeOptions& options);
 
 } // namespace benchmark
 } // namespace meniscus

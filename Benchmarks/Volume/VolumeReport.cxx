@@ -34,7 +34,7 @@ struct NamedMesh
 };
 
 //------------------------------------------------------------------------------
-std::string format(double value, int digits)
+std::string FormatNumber(double value, int digits)
 {
   std::ostringstream text;
   text << std::setprecision(digits) << value;
@@ -42,10 +42,10 @@ std::string format(double value, int digits)
 }
 
 //------------------------------------------------------------------------------
-std::string format(const Spread& spread, const char* unit)
+std::string FormatNumber(const Spread& spread, const char* unit)
 {
-  return format(spread.Median, 3) + unit + " (" + format(spread.Low, 3) + " - " +
-    format(spread.High, 3) + ")";
+  return FormatNumber(spread.Median, 3) + unit + " (" + FormatNumber(spread.Low, 3) + " - " +
+    FormatNumber(spread.High, 3) + ")";
 }
 
 //------------------------------------------------------------------------------
@@ -55,15 +55,15 @@ public:
   Report(std::ostream& out, const VolumeOptions& options)
     : Out(out)
     , Options(options)
-    , Peers(makeContestants(options))
+    , Peers(MakeContestants(options))
   {
     if (!options.Mesh.empty())
     {
-      this->Meshes.push_back({ options.Mesh, makeVolumeMesh(options) });
+      this->Meshes.push_back({ options.Mesh, MakeVolumeMesh(options) });
     }
     for (const char* name : { "blunt_fin", "combustor" })
     {
-      const test::Grid mesh = options.Mesh.empty() ? test::readDataMesh(name) : nullptr;
+      const test::Grid mesh = options.Mesh.empty() ? test::ReadDataMesh(name) : nullptr;
       if (mesh)
       {
         this->Meshes.push_back({ name, mesh });
@@ -71,32 +71,32 @@ public:
     }
     if (this->Meshes.empty())
     {
-      this->Meshes.push_back({ "generated block", makeVolumeMesh(options) });
+      this->Meshes.push_back({ "generated block", MakeVolumeMesh(options) });
     }
   }
 
-  void print()
+  void Print()
   {
     this->Out << "| row | mesh | goal | measured |\n|---|---|---|---|\n";
-    this->printIf(
-      "native", [this]() { this->backendRow(Mapper::NATIVE, 512, ">= 15 (AVX-512), 11 (AVX2)"); });
-    this->printIf("native-1024",
+    this->PrintIf(
+      "native", [this]() { this->BackendRow(Mapper::NATIVE, 512, ">= 15 (AVX-512), 11 (AVX2)"); });
+    this->PrintIf("native-1024",
       [this]()
-      { this->backendRow(Mapper::NATIVE, 1024, ">= 6 (AVX-512), 5 (AVX2) against projected"); });
-    this->printIf("opengl", [this]() { this->backendRow(Mapper::OPENGL, 512, ">= 3.5"); });
-    this->printIf("sparse", [this]() { this->sparseRow(); });
-    this->printIf("opaque", [this]() { this->opaqueRow(); });
-    this->printIf("setup", [this]() { this->setUpRow(); });
-    this->printIf("edit", [this]() { this->editRow(); });
-    this->printIf("scalars", [this]() { this->scalarsRow(); });
-    this->printIf("memory", [this]() { this->memoryRow(); });
-    this->printIf("membrane", [this]() { this->membraneRow(); });
-    this->printIf("error", [this]() { this->errorRow(); });
-    this->printIf("growth", [this]() { printGrowth(this->Out, this->Options); });
+      { this->BackendRow(Mapper::NATIVE, 1024, ">= 6 (AVX-512), 5 (AVX2) against projected"); });
+    this->PrintIf("opengl", [this]() { this->BackendRow(Mapper::OPENGL, 512, ">= 3.5"); });
+    this->PrintIf("sparse", [this]() { this->SparseRow(); });
+    this->PrintIf("opaque", [this]() { this->OpaqueRow(); });
+    this->PrintIf("setup", [this]() { this->SetUpRow(); });
+    this->PrintIf("edit", [this]() { this->EditRow(); });
+    this->PrintIf("scalars", [this]() { this->ScalarsRow(); });
+    this->PrintIf("memory", [this]() { this->MemoryRow(); });
+    this->PrintIf("membrane", [this]() { this->MembraneRow(); });
+    this->PrintIf("error", [this]() { this->ErrorRow(); });
+    this->PrintIf("growth", [this]() { PrintGrowth(this->Out, this->Options); });
   }
 
 private:
-  void printIf(const char* row, const std::function<void()>& print)
+  void PrintIf(const char* row, const std::function<void()>& print)
   {
     if (this->Options.Row.empty() || this->Options.Row == row)
     {
@@ -105,35 +105,35 @@ private:
     }
   }
 
-  void line(const std::string& mesh, const std::string& goal, const std::string& measured)
+  void GetLine(const std::string& mesh, const std::string& goal, const std::string& measured)
   {
     this->Out << "| " << this->Row << " | " << mesh << " | " << goal << " | " << measured << " |"
               << std::endl;
   }
 
   // Alternating frames of contestants.
-  std::vector<Figures> race(
+  std::vector<Figures> RunRace(
     const NamedMesh& mesh, int size, const std::vector<Contestant>& contestants) const
   {
     VolumeOptions options = this->Options;
     options.Size = size;
     VolumeComparison comparison(options, mesh.Mesh);
-    comparison.enter(contestants);
-    comparison.measureTimes();
-    return comparison.figures();
+    comparison.Enter(contestants);
+    comparison.MeasureTimes();
+    return comparison.GetFigures();
   }
 
-  std::vector<Contestant> peers() const
+  std::vector<Contestant> GetPeers() const
   {
     // Both peers with their defaults.
-    return selectContestants(this->Peers, { "projected", "raycast/pre-integration" });
+    return SelectContestants(this->Peers, { "projected", "raycast/pre-integration" });
   }
 
   // Both backends, exact, with a given function.
-  std::vector<Contestant> bothBackends(FunctionKind kind) const
+  std::vector<Contestant> BothBackends(FunctionKind kind) const
   {
-    std::vector<Contestant> both{ makeOurs(Mapper::OPENGL, "opengl"),
-      makeOurs(Mapper::NATIVE, "native") };
+    std::vector<Contestant> both{ MakeOurs(Mapper::OPENGL, "opengl"),
+      MakeOurs(Mapper::NATIVE, "native") };
     for (Contestant& contestant : both)
     {
       contestant.Function = kind;
@@ -141,47 +141,47 @@ private:
     return both;
   }
 
-  void backendRow(int backend, int size, const std::string& goal)
+  void BackendRow(int backend, int size, const std::string& goal)
   {
     for (const NamedMesh& mesh : this->Meshes)
     {
-      std::vector<Contestant> contestants = this->peers();
-      contestants.push_back(makeOurs(backend, "ours"));
-      const auto all = this->race(mesh, size, contestants);
+      std::vector<Contestant> contestants = this->GetPeers();
+      contestants.push_back(MakeOurs(backend, "ours"));
+      const auto all = this->RunRace(mesh, size, contestants);
       std::string measured;
       for (std::size_t i = 0; i + 1 < all.size(); ++i)
       {
-        measured += all[i].Name + " " + format(ratioOf(all[i], all.back()), " x") + ", ";
+        measured += all[i].Name + " " + FormatNumber(RatioOf(all[i], all.back()), " x") + ", ";
       }
-      this->line(mesh.Name, goal, measured + format(all.back().SteadyMs, 3) + " ms/frame");
+      this->GetLine(mesh.Name, goal, measured + FormatNumber(all.back().SteadyMs, 3) + " ms/frame");
     }
   }
 
-  void sparseRow()
+  void SparseRow()
   {
     for (const NamedMesh& mesh : this->Meshes)
     {
-      std::vector<Contestant> contestants = this->bothBackends(FunctionKind::Smooth);
-      const auto sparse = this->bothBackends(FunctionKind::Sparse);
+      std::vector<Contestant> contestants = this->BothBackends(FunctionKind::Smooth);
+      const auto sparse = this->BothBackends(FunctionKind::Sparse);
       contestants.insert(contestants.end(), sparse.begin(), sparse.end());
       VolumeComparison comparison(this->Options, mesh.Mesh);
-      comparison.enter(contestants);
-      comparison.measureTimes();
-      const double active = static_cast<double>(comparison.ours(2)->GetNumberOfActiveCells()) /
+      comparison.Enter(contestants);
+      comparison.MeasureTimes();
+      const double active = static_cast<double>(comparison.GetOurs(2)->GetNumberOfActiveCells()) /
         static_cast<double>(mesh.Mesh->GetNumberOfCells());
-      const auto& all = comparison.figures();
-      this->line(mesh.Name, ">= 5 times the dense function's frame rate",
-        "opengl " + format(ratioOf(all[0], all[2]), " x") + ", native " +
-          format(ratioOf(all[1], all[3]), " x") + ", " + format(100.0 * active, 3) +
+      const auto& all = comparison.GetFigures();
+      this->GetLine(mesh.Name, ">= 5 times the dense function's frame rate",
+        "opengl " + FormatNumber(RatioOf(all[0], all[2]), " x") + ", native " +
+          FormatNumber(RatioOf(all[1], all[3]), " x") + ", " + FormatNumber(100.0 * active, 3) +
           " % of cells active");
     }
   }
 
-  void opaqueRow()
+  void OpaqueRow()
   {
     for (const NamedMesh& mesh : this->Meshes)
     {
-      std::vector<Contestant> contestants = this->bothBackends(FunctionKind::Opaque);
+      std::vector<Contestant> contestants = this->BothBackends(FunctionKind::Opaque);
       for (int i = 0; i < 4; ++i)
       {
         Contestant other = contestants[i % 2];
@@ -193,33 +193,33 @@ private:
         };
         contestants.push_back(other);
       }
-      const auto all = this->race(mesh, 512, contestants);
-      this->line(mesh.Name, ">= 1.8 times the frame rate without early termination",
-        "opengl " + format(ratioOf(all[2], all[0]), " x") + ", at 0.99 " +
-          format(ratioOf(all[2], all[4]), " x") + "; native " +
-          format(ratioOf(all[3], all[1]), " x") + ", at 0.99 " +
-          format(ratioOf(all[3], all[5]), " x"));
+      const auto all = this->RunRace(mesh, 512, contestants);
+      this->GetLine(mesh.Name, ">= 1.8 times the frame rate without early termination",
+        "opengl " + FormatNumber(RatioOf(all[2], all[0]), " x") + ", at 0.99 " +
+          FormatNumber(RatioOf(all[2], all[4]), " x") + "; native " +
+          FormatNumber(RatioOf(all[3], all[1]), " x") + ", at 0.99 " +
+          FormatNumber(RatioOf(all[3], all[5]), " x"));
     }
   }
 
   // First frame of a new mesh per cell, for every mapper.
-  void setUpRow()
+  void SetUpRow()
   {
     for (const NamedMesh& mesh : this->Meshes)
     {
-      std::vector<Contestant> contestants = this->peers();
-      const auto ours = this->bothBackends(FunctionKind::Smooth);
+      std::vector<Contestant> contestants = this->GetPeers();
+      const auto ours = this->BothBackends(FunctionKind::Smooth);
       contestants.insert(contestants.end(), ours.begin(), ours.end());
       VolumeComparison comparison(this->Options, mesh.Mesh);
-      comparison.enter(contestants);
+      comparison.Enter(contestants);
       std::string measured;
       for (std::size_t i = 0; i < contestants.size(); ++i)
       {
-        const double ms = spreadOf(comparison.measureSetUp(i, 5).ChangedMs).Median;
+        const double ms = SpreadOf(comparison.MeasureSetUp(i, 5).ChangedMs).Median;
         measured += (i ? ", " : "") + contestants[i].Name + " " +
-          format(1e3 * ms / static_cast<double>(mesh.Mesh->GetNumberOfCells()), 3);
+          FormatNumber(1e3 * ms / static_cast<double>(mesh.Mesh->GetNumberOfCells()), 3);
       }
-      this->line(
+      this->GetLine(
         mesh.Name, "<= 0.4 us per cell to the first frame, less than peers", measured + " us");
     }
   }
@@ -227,35 +227,35 @@ private:
   using Measure = std::function<std::string(VolumeComparison&, std::size_t)>;
 
   // A measurement of each backend alone.
-  void changeRow(const std::string& goal, const Measure& measure)
+  void ChangeRow(const std::string& goal, const Measure& measure)
   {
     for (const NamedMesh& mesh : this->Meshes)
     {
       VolumeComparison comparison(this->Options, mesh.Mesh);
-      comparison.enter(this->bothBackends(FunctionKind::Smooth));
-      this->line(
+      comparison.Enter(this->BothBackends(FunctionKind::Smooth));
+      this->GetLine(
         mesh.Name, goal, "opengl " + measure(comparison, 0) + ", native " + measure(comparison, 1));
     }
   }
 
-  void editRow()
+  void EditRow()
   {
-    this->changeRow("<= 1.1 times a frame, and 60 ns per cell where the active set changes",
+    this->ChangeRow("<= 1.1 times a frame, and 60 ns per cell where the active set changes",
       [](VolumeComparison& comparison, std::size_t i)
       {
-        const auto change = comparison.measureEdit(i, 16);
+        const auto change = comparison.MeasureEdit(i, 16);
         std::vector<double> ratios;
         for (std::size_t k = 0; k < change.SteadyMs.size(); ++k)
         {
           ratios.push_back(change.ChangedMs[k] / change.SteadyMs[k]);
         }
-        return format(spreadOf(ratios), " x");
+        return FormatNumber(SpreadOf(ratios), " x");
       });
   }
 
-  void scalarsRow()
+  void ScalarsRow()
   {
-    this->changeRow("<= 20 % of a full set-up, both less the frame itself",
+    this->ChangeRow("<= 20 % of a full set-up, both less the frame itself",
       [](VolumeComparison& comparison, std::size_t i)
       {
         const auto extra = [](const VolumeComparison::Change& change)
@@ -265,53 +265,54 @@ private:
           {
             differences.push_back(change.ChangedMs[k] - change.SteadyMs[k]);
           }
-          return spreadOf(differences).Median;
+          return SpreadOf(differences).Median;
         };
-        const double scalars = extra(comparison.measureScalars(i, 8));
-        const double all = extra(comparison.measureSetUp(i, 5));
-        return format(100.0 * scalars / all, 3) + " % (" + format(scalars, 3) + " of " +
-          format(all, 3) + " ms)";
+        const double scalars = extra(comparison.MeasureScalars(i, 8));
+        const double all = extra(comparison.MeasureSetUp(i, 5));
+        return FormatNumber(100.0 * scalars / all, 3) + " % (" + FormatNumber(scalars, 3) + " of " +
+          FormatNumber(all, 3) + " ms)";
       });
   }
 
   // Each in a separate process. With a software rasteriser, resident memory contains both copies of
   // the tables.
-  void memoryRow()
+  void MemoryRow()
   {
     VolumeOptions options = this->Options;
     options.Views = 1;
     for (const char* name :
       { "meniscus/opengl/exact", "meniscus/native/exact", "projected", "raycast/pre-integration" })
     {
-      const ProbeResult probe = probeContestant(name, options);
-      const test::Grid mesh = makeVolumeMesh(options);
+      const ProbeResult probe = ProbeContestant(name, options);
+      const test::Grid mesh = MakeVolumeMesh(options);
       const double points = static_cast<double>(mesh->GetNumberOfPoints()) /
         static_cast<double>(mesh->GetNumberOfCells());
-      this->line(options.Mesh.empty() ? "generated block" : options.Mesh,
-        "<= " + format(36.0 + 16.0 * points, 3) + " B/cell (36 and 16 per point)",
+      this->GetLine(options.Mesh.empty() ? "generated block" : options.Mesh,
+        "<= " + FormatNumber(36.0 + 16.0 * points, 3) + " B/cell (36 and 16 per point)",
         std::string(name) + ": " +
-          (probe.Survives ? format(probe.BytesPerCell, 3) + " B/cell resident" : probe.Fate));
+          (probe.Survives ? FormatNumber(probe.BytesPerCell, 3) + " B/cell resident" : probe.Fate));
     }
   }
 
-  void membraneRow()
+  void MembraneRow()
   {
     for (const NamedMesh& mesh : this->Meshes)
     {
       for (const int backend : { Mapper::NATIVE, Mapper::OPENGL })
       {
-        for (const MembraneCost& cost : measureMembranes(this->Options, mesh.Mesh, backend))
+        for (const MembraneCost& cost : MeasureMembranes(this->Options, mesh.Mesh, backend))
         {
-          this->line(
+          this->GetLine(
             mesh.Name + (backend == Mapper::NATIVE ? ", native, " : ", opengl, ") + cost.Name,
             "<= 1.5 times the frame without the membrane",
-            "camera moves " + format(cost.Moving, " x") + ", rests " + format(cost.Resting, " x"));
+            "camera moves " + FormatNumber(cost.Moving, " x") + ", rests " +
+              FormatNumber(cost.Resting, " x"));
         }
       }
     }
   }
 
-  void errorRow()
+  void ErrorRow()
   {
     for (const NamedMesh& mesh : this->Meshes)
     {
@@ -320,17 +321,17 @@ private:
         VolumeOptions options = this->Options;
         options.Function = function;
         FunctionKind kind = FunctionKind::Smooth;
-        findFunctionKind(function, kind);
+        FindFunctionKind(function, kind);
         VolumeComparison comparison(options, mesh.Mesh);
-        comparison.enter(this->bothBackends(kind));
-        comparison.measureErrors();
+        comparison.Enter(this->BothBackends(kind));
+        comparison.MeasureErrors();
         std::string measured;
-        for (const Figures& f : comparison.figures())
+        for (const Figures& f : comparison.GetFigures())
         {
-          measured += (measured.empty() ? "" : ", ") + f.Name + " " + format(f.Float.Largest, 2) +
-            ", " + format(f.Float.Rms, 2);
+          measured += (measured.empty() ? "" : ", ") + f.Name + " " +
+            FormatNumber(f.Float.Largest, 2) + ", " + FormatNumber(f.Float.Rms, 2);
         }
-        this->line(mesh.Name + ", " + function, "max 2e-5, RMS 4e-6 in float", measured);
+        this->GetLine(mesh.Name + ", " + function, "max 2e-5, RMS 4e-6 in float", measured);
       }
     }
   }
@@ -345,17 +346,17 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void printReport(std::ostream& out, const VolumeOptions& options)
+void PrintReport(std::ostream& out, const VolumeOptions& options)
 {
-  Report(out, options).print();
+  Report(out, options).Print();
 }
 
 //------------------------------------------------------------------------------
-void printGrowth(std::ostream& out, const VolumeOptions& options)
+void PrintGrowth(std::ostream& out, const VolumeOptions& options)
 {
   VolumeOptions growing = options;
   growing.Views = std::min(options.Views, 4);
-  std::vector<Contestant> contestants = selectContestants(makeContestants(options),
+  std::vector<Contestant> contestants = SelectContestants(MakeContestants(options),
     options.Mappers.empty()
       ? std::vector<std::string>{ "opengl/exact", "native/exact", "projected" }
       : options.Mappers);
@@ -374,20 +375,20 @@ void printGrowth(std::ostream& out, const VolumeOptions& options)
   std::vector<double> exponents(contestants.size(), 0.0);
   for (const int n : { 12, 18, 25, 32, 44, 55, 79, 94 })
   {
-    const test::Grid mesh = test::makeBlock(n, test::wavyField(3.0));
+    const test::Grid mesh = test::MakeBlock(n, test::WavyField(3.0));
     const auto cells = static_cast<double>(mesh->GetNumberOfCells());
     if (cells > 1e3 * options.GrowthLimit)
     {
       break;
     }
     VolumeComparison comparison(growing, mesh);
-    comparison.enter(contestants);
-    comparison.measureTimes();
+    comparison.Enter(contestants);
+    comparison.MeasureTimes();
     out << "| " << mesh->GetNumberOfCells() << " |";
     for (std::size_t i = 0; i < contestants.size(); ++i)
     {
-      const double ms = comparison.figures()[i].SteadyMs;
-      out << ' ' << format(ms, 4) << " |";
+      const double ms = comparison.GetFigures()[i].SteadyMs;
+      out << ' ' << FormatNumber(ms, 4) << " |";
       if (n == 32)
       {
         first[i] = { cells, ms };
@@ -402,7 +403,7 @@ void printGrowth(std::ostream& out, const VolumeOptions& options)
   out << "| exponent from 200k up to 3M |";
   for (const double exponent : exponents)
   {
-    out << ' ' << format(exponent, 2) << " |";
+    out << ' ' << FormatNumber(exponent, 2) << " |";
   }
   out << " (goal: below 0.5)\n";
 }

@@ -16,10 +16,10 @@ namespace benchmark
  * Prints the mapper's goals next to the measured values: rows of a Markdown table. Uses the meshes
  * of the data folder if they exist, otherwise generated ones, or the one mesh given.
  */
-void printReport(std::ostream& out, const VolumeOptions& options);
+void PrintReport(std::ostream& out, const VolumeOptions& options);
 
 /** Milliseconds per frame for generated meshes of growing size, and the exponent of the growth. */
-void printGrowth(std::ostream& out, const VolumeOptions& options);
+void PrintGrowth(std::ostream& out, const VolumeOptions& options);
 
 } // namespace benchmark
 } // namespace meniscus

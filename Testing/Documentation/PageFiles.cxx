@@ -28,7 +28,7 @@ namespace
 // Smallest number of colours of an image, of at most 24 bits.
 constexpr std::size_t FewestColors = 50;
 
-bool write(vtkAlgorithm* source, const char* file)
+bool Write(vtkAlgorithm* source, const char* file)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputConnection(source->GetOutputPort());
@@ -36,7 +36,7 @@ bool write(vtkAlgorithm* source, const char* file)
   return writer->Write() == 1;
 }
 
-bool writeFiles()
+bool WriteFiles()
 {
   vtkNew<vtkSphereSource> ball;
   ball->SetCenter(0.0, 0.0, -1.0);
@@ -52,10 +52,10 @@ bool writeFiles()
   water->SetPoint1(1.0, -1.0, 0.0);
   water->SetPoint2(-1.0, 1.0, 0.0);
   water->SetResolution(16, 16);
-  return write(colors, "object.vtp") && write(water, "water.vtp");
+  return Write(colors, "object.vtp") && Write(water, "water.vtp");
 }
 
-bool check(const char* file, std::vector<unsigned char>& pixels)
+bool CheckResult(const char* file, std::vector<unsigned char>& pixels)
 {
   vtkNew<vtkPNGReader> reader;
   reader->SetFileName(file);
@@ -83,14 +83,14 @@ int main(int argc, char* argv[])
 {
   if (argc == 2 && std::strcmp(argv[1], "write") == 0)
   {
-    return writeFiles() ? EXIT_SUCCESS : EXIT_FAILURE;
+    return WriteFiles() ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   bool good = argc > 2 && std::strcmp(argv[1], "check") == 0;
   std::vector<unsigned char> last;
   for (int i = 2; i < argc && good; ++i)
   {
     std::vector<unsigned char> pixels;
-    good = check(argv[i], pixels) && pixels != last;
+    good = CheckResult(argv[i], pixels) && pixels != last;
     last = std::move(pixels);
   }
   return good ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -25,7 +25,7 @@
 namespace
 {
 
-vtkNew<vtkPlaneSource> makeWater(double half, double height)
+vtkNew<vtkPlaneSource> MakeWater(double half, double height)
 {
   vtkNew<vtkPlaneSource> water;
   water->SetOrigin(-half, -half, height);
@@ -35,7 +35,7 @@ vtkNew<vtkPlaneSource> makeWater(double half, double height)
   return water;
 }
 
-void write(vtkRenderer* renderer, const char* file)
+void Write(vtkRenderer* renderer, const char* file)
 {
   vtkNew<vtkRenderWindow> window;
   window->SetSize(200, 200);
@@ -50,7 +50,7 @@ void write(vtkRenderer* renderer, const char* file)
 }
 
 // Documentation/refraction.md
-void drawPass()
+void DrawPass()
 {
   vtkNew<vtkSphereSource> ball;
   ball->SetCenter(0.0, 0.0, -1.0);
@@ -58,7 +58,7 @@ void drawPass()
   ball->SetThetaResolution(30);
   vtkNew<vtkElevationFilter> object;
   object->SetInputConnection(ball->GetOutputPort());
-  const auto water = makeWater(2.0, 0.0);
+  const auto water = MakeWater(2.0, 0.0);
   vtkNew<vtkRefractedGeometryFilter> filter;
   vtkNew<vtkRenderer> renderer;
   renderer->GetActiveCamera()->SetPosition(0.3, -2.0, 3.0);
@@ -73,16 +73,16 @@ void drawPass()
   virtualActor->SetMapper(virtualMapper);
   vtkNew<vtkRefractionPass> pass;
 #include "refraction.inc"
-  write(renderer, "part-refraction.png");
+  Write(renderer, "part-refraction.png");
 }
 
 // Documentation/volume.md
-void drawVolume()
+void DrawVolume()
 {
   vtkNew<vtkRTAnalyticSource> field;
   vtkNew<vtkDataSetTriangleFilter> tetrahedra;
   tetrahedra->SetInputConnection(field->GetOutputPort());
-  const auto water = makeWater(30.0, 14.0);
+  const auto water = MakeWater(30.0, 14.0);
   vtkNew<vtkTetrahedraRayCastMapper> mapper;
   mapper->SetInputConnection(tetrahedra->GetOutputPort());
 #include "volume.inc"
@@ -96,14 +96,14 @@ void drawVolume()
   renderer->GetActiveCamera()->SetPosition(10.0, -30.0, 60.0);
   renderer->GetActiveCamera()->SetFocalPoint(0.0, 0.0, 0.0);
   renderer->ResetCameraClippingRange();
-  write(renderer, "part-volume.png");
+  Write(renderer, "part-volume.png");
 }
 
 }
 
 int main()
 {
-  drawPass();
-  drawVolume();
+  DrawPass();
+  DrawVolume();
   return 0;
 }

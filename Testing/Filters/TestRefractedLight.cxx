@@ -33,7 +33,7 @@ constexpr double Water = 1.333;
 constexpr double Parallel = 2e-4;
 
 /** 1 - F of unpolarised light, by Fresnel's equations for both polarisations. */
-double transmittance(double cosine)
+double MakeTransmittance(double cosine)
 {
   const double refracted = std::sqrt(1.0 - (1.0 - cosine * cosine) / (Water * Water));
   const double s = (cosine - Water * refracted) / (cosine + Water * refracted);
@@ -79,7 +79,7 @@ std::vector<double> ShinePhotons(
       const glm::dvec3 place(x, waves.GetHeight(x, z), z);
       const glm::dvec3 normal = waves.GetNormal(x, z);
       const double cosine = glm::dot(sun, normal);
-      const double power = step * step / normal.y * cosine * transmittance(cosine);
+      const double power = step * step / normal.y * cosine * MakeTransmittance(cosine);
       total += power;
       const auto end = waves.Refract(place + 1e6 * sun, place, 1.0);
       const glm::dvec3 along = *end - place;
@@ -119,7 +119,7 @@ TEST(RefractedLight, FlatWaterUnderTheSun)
     const glm::dvec3 sun(std::sin(angle), std::cos(angle), 0.0);
     auto filter = MakeLight(MakeGrid(9, 60.0, -20.0), membrane, sun);
     filter->Update();
-    const double expected = std::cos(angle) * transmittance(std::cos(angle));
+    const double expected = std::cos(angle) * MakeTransmittance(std::cos(angle));
     for (vtkIdType i = 0; i < OfCells(filter)->GetNumberOfTuples(); ++i)
     {
       EXPECT_NEAR(OfCells(filter)->GetComponent(i, 0), expected, Parallel) << angle;
@@ -165,7 +165,7 @@ TEST(RefractedLight, ALampAboveFlatWater)
     const double onWater = height * std::tan(low);
     const double waterSlope = height / (std::cos(low) * std::cos(low));
     const double expected =
-      transmittance(std::cos(low)) * std::cos(low) * onWater * waterSlope / (r * slope);
+      MakeTransmittance(std::cos(low)) * std::cos(low) * onWater * waterSlope / (r * slope);
     largest = std::max(largest, std::fabs(OfPoints(filter)->GetComponent(i, 0) - expected));
   }
   EXPECT_LT(largest, 1e-3);
@@ -252,7 +252,7 @@ TEST(RefractedLight, StripsAreTheSameAsTriangles)
   const double angle = 0.5;
   auto filter = MakeLight(strip, MakeFlatMembrane(), { std::sin(angle), std::cos(angle), 0.0 });
   filter->Update();
-  const double expected = std::cos(angle) * transmittance(std::cos(angle));
+  const double expected = std::cos(angle) * MakeTransmittance(std::cos(angle));
   ASSERT_EQ(OfCells(filter)->GetNumberOfTuples(), 1);
   EXPECT_NEAR(OfCells(filter)->GetComponent(0, 0), expected, Parallel);
   EXPECT_NEAR(OfPoints(filter)->GetComponent(3, 0), expected, Parallel);
@@ -325,7 +325,7 @@ TEST(RefractedLight, BadInput)
     filter->Update();
     ASSERT_EQ(OfCells(filter)->GetNumberOfTuples(), 5);
     EXPECT_EQ(OfCells(filter)->GetComponent(0, 0), 0.0);
-    EXPECT_NEAR(OfCells(filter)->GetComponent(1, 0), transmittance(1.0), Parallel);
+    EXPECT_NEAR(OfCells(filter)->GetComponent(1, 0), MakeTransmittance(1.0), Parallel);
     for (vtkIdType i = 2; i < 5; ++i)
     {
       EXPECT_EQ(OfCells(filter)->GetComponent(i, 0), 0.0);

@@ -44,9 +44,9 @@ struct RelationTally
   std::string FirstFailure;
 
   /** Adds one value. Returns true if it is within its tolerance; NaN is not. */
-  bool compare(double deviation, double tolerance);
+  bool Compare(double deviation, double tolerance);
 
-  void add(const RelationTally& other);
+  void Add(const RelationTally& other);
 };
 
 /** Runs one case. */

@@ -31,14 +31,14 @@ struct RelationResult
   int Stuck = 0;
   double Seconds = 0.0;
 
-  bool isGood() const
+  bool IsGood() const
   {
     return this->Tally.Failures == 0 && this->Crashed == 0 && this->Stuck == 0;
   }
 
-  void add(const RelationResult& other)
+  void Add(const RelationResult& other)
   {
-    this->Tally.add(other.Tally);
+    this->Tally.Add(other.Tally);
     this->Crashed += other.Crashed;
     this->Stuck += other.Stuck;
     this->Seconds += other.Seconds;
@@ -46,7 +46,7 @@ struct RelationResult
 };
 
 // One case in the child's report: a line of numbers, then the text.
-std::string encode(const RelationTally& t)
+std::string Encode(const RelationTally& t)
 {
   std::ostringstream line;
   line.precision(std::numeric_limits<double>::max_digits10);
@@ -56,7 +56,7 @@ std::string encode(const RelationTally& t)
   return line.str();
 }
 
-RelationTally decode(const std::string& text)
+RelationTally Decode(const std::string& text)
 {
   std::istringstream line(text);
   RelationTally t;
@@ -72,19 +72,19 @@ RelationTally decode(const std::string& text)
 
 // True if a deviation is a larger fraction of its tolerance than another one; NaN is. A tolerance
 // below 0 means that there is no other yet.
-bool outranks(double deviation, double tolerance, double other, double toleranceOfOther)
+bool Outranks(double deviation, double tolerance, double other, double toleranceOfOther)
 {
   return toleranceOfOther < 0.0 || !(deviation * toleranceOfOther <= other * tolerance);
 }
 
-void printHead(std::ostream& out)
+void PrintHead(std::ostream& out)
 {
   out << "| relation | scenes | comparisons | values | conditioned | largest deviation | of "
          "tolerance | wrong values | failures | stuck | crashed | s |\n"
       << "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
-void printRow(std::ostream& out, const std::string& name, const RelationResult& r)
+void PrintRow(std::ostream& out, const std::string& name, const RelationResult& r)
 {
   const RelationTally& t = r.Tally;
   std::ostringstream row;
@@ -116,7 +116,7 @@ public:
   {
     for (std::size_t r = 0; r < relations.size(); ++r)
     {
-      const bool chosen = options.has(relations[r].Name);
+      const bool chosen = options.Has(relations[r].Name);
       for (int i = 0; i < relations[r].Cases && chosen; ++i)
       {
         if (options.Case < 0 || options.Case == i)
@@ -127,10 +127,10 @@ public:
     }
   }
 
-  int numberOfCases() const { return static_cast<int>(this->Cases.size()); }
+  int NumberOfCases() const { return static_cast<int>(this->Cases.size()); }
 
   // All cases of a process, of all relations.
-  CaseWork start() const
+  CaseWork GetStart() const
   {
     const auto works = std::make_shared<std::map<std::size_t, RelationWork>>();
     return [this, works](int index)
@@ -138,49 +138,49 @@ public:
       const auto& one = this->Cases[static_cast<std::size_t>(index)];
       RelationWork& work = (*works)[one.first];
       work = work ? work : this->Relations[one.first].Start();
-      return encode(work(one.second));
+      return Encode(work(one.second));
     };
   }
 
-  void take(int index, const std::string& line)
+  void Take(int index, const std::string& line)
   {
     RelationResult result;
-    result.Tally = decode(line);
-    this->take(index, result, result.Tally.FirstFailure);
+    result.Tally = Decode(line);
+    this->Take(index, result, result.Tally.FirstFailure);
   }
 
-  void lose(int index, bool stuck)
+  void Lose(int index, bool stuck)
   {
     RelationResult result;
     ++(stuck ? result.Stuck : result.Crashed);
-    this->take(index, result, stuck ? "no end" : "the process ended by a signal");
+    this->Take(index, result, stuck ? "no end" : "the process ended by a signal");
   }
 
   // Prints the remaining output; returns true if no relation failed.
-  bool finish()
+  bool Finish()
   {
     RelationResult sum;
     for (const RelationResult& result : this->Results)
     {
-      sum.add(result);
+      sum.Add(result);
     }
-    printRow(this->Out, "all", sum);
+    PrintRow(this->Out, "all", sum);
     for (const std::string& note : this->Notes)
     {
       this->Out << note << '\n';
     }
     // Options that select nothing must not count as a success.
-    return sum.isGood() && sum.Tally.Comparisons > 0;
+    return sum.IsGood() && sum.Tally.Comparisons > 0;
   }
 
 private:
-  void take(int index, const RelationResult& result, const std::string& words)
+  void Take(int index, const RelationResult& result, const std::string& words)
   {
     const auto at = static_cast<std::size_t>(index);
     const std::size_t relation = this->Cases[at].first;
     const std::string& name = this->Relations[relation].Name;
     RelationResult& total = this->Results[relation];
-    total.add(result);
+    total.Add(result);
     if (!words.empty())
     {
       this->Notes.push_back(
@@ -191,7 +191,7 @@ private:
       const auto now = std::chrono::steady_clock::now();
       total.Seconds = std::chrono::duration<double>(now - this->Begin).count();
       this->Begin = now;
-      printRow(this->Out, name, total);
+      PrintRow(this->Out, name, total);
     }
   }
 
@@ -204,28 +204,28 @@ private:
   std::chrono::steady_clock::time_point Begin;
 };
 
-bool runAll(
+bool RunAll(
   const std::vector<Relation>& relations, const ProgrammeOptions& options, std::ostream& out)
 {
-  printHead(out);
+  PrintHead(out);
   RelationTable table(relations, options, out);
   ProcessResult processes;
-  runCases(
-    table.numberOfCases(), 1, options.Seconds, [&table]() { return table.start(); },
-    [&table](int index, const std::string& line) { table.take(index, line); }, processes,
-    [&table](int index, bool stuck) { table.lose(index, stuck); });
-  return table.finish();
+  RunCases(
+    table.NumberOfCases(), 1, options.Seconds, [&table]() { return table.GetStart(); },
+    [&table](int index, const std::string& line) { table.Take(index, line); }, processes,
+    [&table](int index, bool stuck) { table.Lose(index, stuck); });
+  return table.Finish();
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-bool RelationTally::compare(double deviation, double tolerance)
+bool RelationTally::Compare(double deviation, double tolerance)
 {
   ++this->Values;
   const bool good = deviation <= tolerance; // false for NaN
   this->Wrong += !good;
-  if (outranks(deviation, tolerance, this->Deviation, this->Tolerance))
+  if (Outranks(deviation, tolerance, this->Deviation, this->Tolerance))
   {
     this->Deviation = deviation;
     this->Tolerance = tolerance;
@@ -234,7 +234,7 @@ bool RelationTally::compare(double deviation, double tolerance)
 }
 
 //------------------------------------------------------------------------------
-void RelationTally::add(const RelationTally& other)
+void RelationTally::Add(const RelationTally& other)
 {
   this->Scenes += other.Scenes;
   this->Comparisons += other.Comparisons;
@@ -243,7 +243,7 @@ void RelationTally::add(const RelationTally& other)
   this->Wrong += other.Wrong;
   this->Failures += other.Failures;
   if (other.Tolerance >= 0.0 &&
-    outranks(other.Deviation, other.Tolerance, this->Deviation, this->Tolerance))
+    Outranks(other.Deviation, other.Tolerance, this->Deviation, this->Tolerance))
   {
     this->Deviation = other.Deviation;
     this->Tolerance = other.Tolerance;
@@ -252,22 +252,22 @@ void RelationTally::add(const RelationTally& other)
 }
 
 //------------------------------------------------------------------------------
-int runMetamorphicProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
+int RunMetamorphicProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
   const OptionReader& readMore, const RelationMaker& make)
 {
   options.GroupOption = "--relation";
-  return runProgramme(argc, argv, usage, options, readMore,
-    [&options, &make](std::ostream& out) { return runAll(make(), options, out); });
+  return RunProgramme(argc, argv, usage, options, readMore,
+    [&options, &make](std::ostream& out) { return RunAll(make(), options, out); });
 }
 
 //------------------------------------------------------------------------------
-int casesAt(double intensity, int atOne)
+int CasesAt(double intensity, int atOne)
 {
   return std::max(1, static_cast<int>(std::lround(intensity * atOne)));
 }
 
 //------------------------------------------------------------------------------
-std::uint64_t seedOfCase(std::uint64_t seed, const std::string& relation, int index)
+std::uint64_t SeedOfCase(std::uint64_t seed, const std::string& relation, int index)
 {
   // FNV-1a of the name: a relation's scenes do not change when another one is added before it.
   std::uint64_t hash = 0xcbf29ce484222325u;
@@ -276,7 +276,7 @@ std::uint64_t seedOfCase(std::uint64_t seed, const std::string& relation, int in
     hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   }
   RandomNumbers mix(seed ^ hash);
-  return RandomNumbers(mix.bits() + static_cast<std::uint64_t>(index)).bits();
+  return RandomNumbers(mix.Bits() + static_cast<std::uint64_t>(index)).Bits();
 }
 
 } // namespace test

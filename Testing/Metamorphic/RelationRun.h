@@ -16,7 +16,7 @@ namespace test
 
 /**
  * Creates all relations once the options are known. The number of cases grows with the intensity;
- * every case draws from its own stream of random numbers (see seedOfCase()), so that it can be run
+ * every case draws from its own stream of random numbers (see SeedOfCase()), so that it can be run
  * alone.
  */
 using RelationMaker = std::function<std::vector<Relation>()>;
@@ -27,14 +27,14 @@ using RelationMaker = std::function<std::vector<Relation>()>;
  * a crash or an endless loop does not affect the others, and prints the table and the failures.
  * Returns the exit status: success if no relation failed.
  */
-int runMetamorphicProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
+int RunMetamorphicProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
   const OptionReader& readMore, const RelationMaker& make);
 
 /** Number of cases at an intensity: the number at 1 times the intensity, at least 1. */
-int casesAt(double intensity, int atOne);
+int CasesAt(double intensity, int atOne);
 
 /** Seed of the random numbers of one case of the relation with the given name. */
-std::uint64_t seedOfCase(std::uint64_t seed, const std::string& relation, int index);
+std::uint64_t SeedOfCase(std::uint64_t seed, const std::string& relation, int index);
 
 } // namespace test
 } // namespace meniscus

@@ -65,10 +65,10 @@ struct ComparisonScene
 using ObjectColors = std::set<std::array<unsigned char, 3>>;
 
 /// Colours of the object that has a colour; none for the background. No two objects share one.
-ObjectColors findObjectColors(const ComparisonScene& scene, const unsigned char* color);
+ObjectColors FindObjectColors(const ComparisonScene& scene, const unsigned char* color);
 
 /// Objects without a refracting surface; behind a plane, from both sides, a sphere, waves, a bowl.
-std::vector<ComparisonScene> makeComparisonScenes();
+std::vector<ComparisonScene> MakeComparisonScenes();
 
 } // namespace test
 } // namespace meniscus

@@ -14,7 +14,7 @@ namespace test
 namespace
 {
 
-bool isDifferent(const unsigned char* a, const unsigned char* b)
+bool IsDifferent(const unsigned char* a, const unsigned char* b)
 {
   int largest = 0;
   for (int c = 0; c < 3; ++c)
@@ -25,13 +25,13 @@ bool isDifferent(const unsigned char* a, const unsigned char* b)
 }
 
 /// True if one of the eight neighbours differs.
-bool isEdge(const ByteImage& reference, int x, int y)
+bool IsEdge(const ByteImage& reference, int x, int y)
 {
   for (int j = std::max(y - 1, 0); j <= std::min(y + 1, reference.Height - 1); ++j)
   {
     for (int i = std::max(x - 1, 0); i <= std::min(x + 1, reference.Width - 1); ++i)
     {
-      if (isDifferent(reference.pixel(i, j), reference.pixel(x, y)))
+      if (IsDifferent(reference.GetPixel(i, j), reference.GetPixel(x, y)))
       {
         return true;
       }
@@ -41,41 +41,41 @@ bool isEdge(const ByteImage& reference, int x, int y)
 }
 
 /// Number of pairs that the pixel differs in: with its neighbours to the right and above.
-int countEdges(const ByteImage& reference, int x, int y)
+int CountEdges(const ByteImage& reference, int x, int y)
 {
-  const unsigned char* const color = reference.pixel(x, y);
-  const bool right = x + 1 < reference.Width && isDifferent(color, reference.pixel(x + 1, y));
-  const bool above = y + 1 < reference.Height && isDifferent(color, reference.pixel(x, y + 1));
+  const unsigned char* const color = reference.GetPixel(x, y);
+  const bool right = x + 1 < reference.Width && IsDifferent(color, reference.GetPixel(x + 1, y));
+  const bool above = y + 1 < reference.Height && IsDifferent(color, reference.GetPixel(x, y + 1));
   return int(right) + int(above);
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-double PictureComparison::fraction() const
+double PictureComparison::GetFraction() const
 {
   return this->Pixels > 0 ? double(this->Different.size()) / this->Pixels : 0.0;
 }
 
 //------------------------------------------------------------------------------
-double PictureComparison::fractionOffEdges() const
+double PictureComparison::FractionOffEdges() const
 {
   return this->Pixels > 0 ? double(this->DifferentOffEdges) / this->Pixels : 0.0;
 }
 
 //------------------------------------------------------------------------------
-PictureComparison comparePictures(const ByteImage& picture, const ByteImage& reference)
+PictureComparison ComparePictures(const ByteImage& picture, const ByteImage& reference)
 {
   PictureComparison result;
   for (int y = 0; y < reference.Height; ++y)
   {
     for (int x = 0; x < reference.Width; ++x)
     {
-      const bool onEdge = isEdge(reference, x, y);
+      const bool onEdge = IsEdge(reference, x, y);
       ++result.Pixels;
       result.EdgePixels += onEdge;
-      result.EdgeLength += countEdges(reference, x, y);
-      if (isDifferent(picture.pixel(x, y), reference.pixel(x, y)))
+      result.EdgeLength += CountEdges(reference, x, y);
+      if (IsDifferent(picture.GetPixel(x, y), reference.GetPixel(x, y)))
       {
         result.Different.push_back({ x, y });
         result.DifferentOffEdges += !onEdge;
@@ -86,19 +86,19 @@ PictureComparison comparePictures(const ByteImage& picture, const ByteImage& ref
 }
 
 //------------------------------------------------------------------------------
-bool isExplained(const unsigned char* pixel, const ByteImage& closeUp, const ObjectColors& object)
+bool IsExplained(const unsigned char* pixel, const ByteImage& closeUp, const ObjectColors& object)
 {
   bool hasObject = false;
   bool hasOther = false;
   for (std::size_t i = 0; i < closeUp.Rgb.size(); i += 3)
   {
     const unsigned char* const color = &closeUp.Rgb[i];
-    if (!isDifferent(color, pixel))
+    if (!IsDifferent(color, pixel))
     {
       return true;
     }
     const bool isObjects = std::any_of(object.begin(), object.end(),
-      [color](const auto& one) { return !isDifferent(color, one.data()); });
+      [color](const auto& one) { return !IsDifferent(color, one.data()); });
     hasObject = hasObject || isObjects;
     hasOther = hasOther || !isObjects;
   }
@@ -106,7 +106,7 @@ bool isExplained(const unsigned char* pixel, const ByteImage& closeUp, const Obj
 }
 
 //------------------------------------------------------------------------------
-double largestDifference(const PictureComparison& comparison, double offset, double area)
+double LargestDifference(const PictureComparison& comparison, double offset, double area)
 {
   const double expected = comparison.EdgeLength * offset + area;
   return expected + 3.0 * std::sqrt(expected);

@@ -38,19 +38,19 @@ struct PictureComparison
   /// per pixel of length.
   int EdgeLength = 0;
 
-  double fraction() const;
-  double fractionOffEdges() const;
+  double GetFraction() const;
+  double FractionOffEdges() const;
 };
 
 /// Compares pixel against the same pixel; both pictures have the same size.
-PictureComparison comparePictures(const ByteImage& picture, const ByteImage& reference);
+PictureComparison ComparePictures(const ByteImage& picture, const ByteImage& reference);
 
 /**
  * True if a displaced edge explains a pixel, after the reference's close-up around its middle: the
  * close-up has the pixel's colour; or it has the border of the object that has this colour (another
  * of its colours, and one that is not its), where a face that the object hides may come out on top.
  */
-bool isExplained(const unsigned char* pixel, const ByteImage& closeUp, const ObjectColors& object);
+bool IsExplained(const unsigned char* pixel, const ByteImage& closeUp, const ObjectColors& object);
 
 /**
  * Largest number of different pixels of a picture whose edges are off by at most `offset` pixels,
@@ -58,7 +58,7 @@ bool isExplained(const unsigned char* pixel, const ByteImage& closeUp, const Obj
  * length * offset, and as many middles of pixels are in it on average; three standard deviations of
  * that number as a Poisson variable are added.
  */
-double largestDifference(const PictureComparison& comparison, double offset, double area);
+double LargestDifference(const PictureComparison& comparison, double offset, double area);
 
 } // namespace test
 } // namespace meniscus

@@ -21,7 +21,7 @@ constexpr Color Gray{ 100, 100, 100 };
 constexpr Color Red{ 255, 0, 0 };
 constexpr Color White{ 255, 255, 255 };
 
-ByteImage makePicture(const std::function<Color(int x, int y)>& colorOf)
+ByteImage MakePicture(const std::function<Color(int x, int y)>& colorOf)
 {
   ByteImage image;
   image.Width = Size;
@@ -38,33 +38,33 @@ ByteImage makePicture(const std::function<Color(int x, int y)>& colorOf)
 }
 
 /// Black left of a column, white from there.
-ByteImage makeEdge(int column)
+ByteImage MakeEdge(int column)
 {
-  return makePicture([column](int x, int) { return x < column ? Black : White; });
+  return MakePicture([column](int x, int) { return x < column ? Black : White; });
 }
 
 } // anonymous namespace
 
 TEST(PictureComparison, EqualPicturesHaveEdgesAndNoDifference)
 {
-  const PictureComparison result = comparePictures(makeEdge(7), makeEdge(7));
+  const PictureComparison result = ComparePictures(MakeEdge(7), MakeEdge(7));
   EXPECT_EQ(result.Pixels, Size * Size);
   EXPECT_EQ(result.EdgeLength, Size);
   EXPECT_EQ(result.EdgePixels, 2 * Size);
   EXPECT_TRUE(result.Different.empty());
-  EXPECT_EQ(result.fraction(), 0.0);
+  EXPECT_EQ(result.GetFraction(), 0.0);
 }
 
 TEST(PictureComparison, DisplacedEdgesDifferOnEdges)
 {
-  const PictureComparison near = comparePictures(makeEdge(8), makeEdge(7));
+  const PictureComparison near = ComparePictures(MakeEdge(8), MakeEdge(7));
   EXPECT_EQ(near.Different.size(), static_cast<std::size_t>(Size));
   EXPECT_EQ(near.DifferentOffEdges, 0);
-  EXPECT_DOUBLE_EQ(near.fraction(), 1.0 / Size);
-  const PictureComparison far = comparePictures(makeEdge(10), makeEdge(7));
+  EXPECT_DOUBLE_EQ(near.GetFraction(), 1.0 / Size);
+  const PictureComparison far = ComparePictures(MakeEdge(10), MakeEdge(7));
   EXPECT_EQ(far.Different.size(), static_cast<std::size_t>(3 * Size));
   EXPECT_EQ(far.DifferentOffEdges, 2 * Size);
-  EXPECT_DOUBLE_EQ(far.fractionOffEdges(), 2.0 / Size);
+  EXPECT_DOUBLE_EQ(far.FractionOffEdges(), 2.0 / Size);
 }
 
 TEST(PictureComparison, SmallDifferencesOfColorDoNotCount)
@@ -72,18 +72,18 @@ TEST(PictureComparison, SmallDifferencesOfColorDoNotCount)
   const auto level = [](int value)
   {
     const auto byte = static_cast<unsigned char>(value);
-    return makePicture([byte](int, int) { return Color{ byte, 50, 50 }; });
+    return MakePicture([byte](int, int) { return Color{ byte, 50, 50 }; });
   };
-  EXPECT_TRUE(comparePictures(level(58), level(50)).Different.empty());
+  EXPECT_TRUE(ComparePictures(level(58), level(50)).Different.empty());
   EXPECT_EQ(
-    comparePictures(level(59), level(50)).Different.size(), static_cast<std::size_t>(Size * Size));
+    ComparePictures(level(59), level(50)).Different.size(), static_cast<std::size_t>(Size * Size));
 }
 
 TEST(PictureComparison, SingleWrongPixelIsFound)
 {
-  const ByteImage drawn = makePicture([](int x, int y) { return x == 3 && y == 16 ? Red : White; });
+  const ByteImage drawn = MakePicture([](int x, int y) { return x == 3 && y == 16 ? Red : White; });
   const PictureComparison result =
-    comparePictures(drawn, makePicture([](int, int) { return White; }));
+    ComparePictures(drawn, MakePicture([](int, int) { return White; }));
   ASSERT_EQ(result.Different.size(), 1u);
   EXPECT_EQ(result.Different[0].X, 3);
   EXPECT_EQ(result.Different[0].Y, 16);
@@ -93,25 +93,25 @@ TEST(PictureComparison, SingleWrongPixelIsFound)
 TEST(PictureComparison, CloseUpsExplainWhatTheyShow)
 {
   const ObjectColors object{ Black, White };
-  const ByteImage border = makePicture([](int x, int) { return x < 5 ? Gray : White; });
+  const ByteImage border = MakePicture([](int x, int) { return x < 5 ? Gray : White; });
   // Its own colour; the colour of a face that the object's border may show.
-  EXPECT_TRUE(isExplained(White.data(), border, object));
-  EXPECT_TRUE(isExplained(Black.data(), border, object));
+  EXPECT_TRUE(IsExplained(White.data(), border, object));
+  EXPECT_TRUE(IsExplained(Black.data(), border, object));
   // Within the object there is no hidden face; far from it, nothing of it.
-  const ByteImage inside = makePicture([](int, int) { return White; });
-  EXPECT_FALSE(isExplained(Black.data(), inside, object));
-  const ByteImage outside = makePicture([](int, int) { return Gray; });
-  EXPECT_FALSE(isExplained(Black.data(), outside, object));
+  const ByteImage inside = MakePicture([](int, int) { return White; });
+  EXPECT_FALSE(IsExplained(Black.data(), inside, object));
+  const ByteImage outside = MakePicture([](int, int) { return Gray; });
+  EXPECT_FALSE(IsExplained(Black.data(), outside, object));
   // The background, which is no object.
-  EXPECT_FALSE(isExplained(Red.data(), border, {}));
-  EXPECT_TRUE(isExplained(Gray.data(), border, {}));
+  EXPECT_FALSE(IsExplained(Red.data(), border, {}));
+  EXPECT_TRUE(IsExplained(Gray.data(), border, {}));
 }
 
 TEST(PictureComparison, LimitIsTheSweptArea)
 {
   PictureComparison comparison;
   comparison.EdgeLength = 1000;
-  EXPECT_DOUBLE_EQ(largestDifference(comparison, 0.1, 0.0), 130.0); // 100 + 3 * 10
-  EXPECT_DOUBLE_EQ(largestDifference(comparison, 0.0, 25.0), 40.0); // 25 + 3 * 5
-  EXPECT_EQ(largestDifference(comparison, 0.0, 0.0), 0.0);
+  EXPECT_DOUBLE_EQ(LargestDifference(comparison, 0.1, 0.0), 130.0); // 100 + 3 * 10
+  EXPECT_DOUBLE_EQ(LargestDifference(comparison, 0.0, 25.0), 40.0); // 25 + 3 * 5
+  EXPECT_EQ(LargestDifference(comparison, 0.0, 0.0), 0.0);
 }

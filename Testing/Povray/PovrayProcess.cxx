@@ -18,7 +18,7 @@ namespace test
 namespace
 {
 
-bool writeText(const std::string& path, const std::string& text)
+bool WriteText(const std::string& path, const std::string& text)
 {
   std::ofstream file(path);
   return static_cast<bool>((file << text).flush());
@@ -26,7 +26,7 @@ bool writeText(const std::string& path, const std::string& text)
 
 //------------------------------------------------------------------------------
 /// The child's part: POV-Ray in a folder, with all its messages in a file. Never returns.
-[[noreturn]] void becomeProgram(const std::string& program, const std::string& argument,
+[[noreturn]] void BecomeProgram(const std::string& program, const std::string& argument,
   const std::string& folder, const std::string& log)
 {
   constexpr int NotFound = 127; // as a shell says it
@@ -41,13 +41,13 @@ bool writeText(const std::string& path, const std::string& text)
 
 //------------------------------------------------------------------------------
 /// True if the program ran and ended with status 0.
-bool runProgram(const std::string& program, const std::string& argument, const std::string& folder,
+bool RunProgram(const std::string& program, const std::string& argument, const std::string& folder,
   const std::string& log)
 {
   const pid_t child = fork();
   if (child == 0)
   {
-    becomeProgram(program, argument, folder, log);
+    BecomeProgram(program, argument, folder, log);
   }
   int status = 0;
   pid_t ended = -1;
@@ -61,19 +61,19 @@ bool runProgram(const std::string& program, const std::string& argument, const s
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-ByteImage PovrayProcess::draw(const ComparisonScene& scene, const std::string& name, int pixels,
+ByteImage PovrayProcess::Draw(const ComparisonScene& scene, const std::string& name, int pixels,
   const PictureWindow& window) const
 {
   const std::string path = this->Folder + "/" + name;
   const std::string picture = path + "-povray.png";
   unlink(picture.c_str()); // so that an old picture is not taken for a new one
-  if (!writeText(path + ".pov", povrayScene(scene, window)) ||
-    !writeText(path + ".ini", povrayOptions(name, pixels)) ||
-    !runProgram(this->Program, name + ".ini", this->Folder, name + ".log"))
+  if (!WriteText(path + ".pov", PovrayScene(scene, window)) ||
+    !WriteText(path + ".ini", PovrayOptions(name, pixels)) ||
+    !RunProgram(this->Program, name + ".ini", this->Folder, name + ".log"))
   {
     return ByteImage();
   }
-  return readPng(picture);
+  return ReadPng(picture);
 }
 
 } // namespace test

@@ -24,7 +24,7 @@ struct PovrayProcess
    * messages go to NAME.log; a picture without pixels says that it failed. To draw the picture
    * again by hand: `cd FOLDER; povray NAME.ini`.
    */
-  ByteImage draw(const ComparisonScene& scene, const std::string& name, int pixels,
+  ByteImage Draw(const ComparisonScene& scene, const std::string& name, int pixels,
     const PictureWindow& window = {}) const;
 };
 

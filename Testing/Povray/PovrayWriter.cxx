@@ -28,7 +28,7 @@ namespace
 // Emission alone: neither light nor POV-Ray's ambient colour changes a flat colour.
 const char* const FlatFinish = "finish { ambient 0 diffuse 0 emission 1 }";
 
-std::string join(const std::vector<std::string>& items)
+std::string Join(const std::vector<std::string>& items)
 {
   std::string result = std::to_string(items.size());
   for (const std::string& item : items)
@@ -41,7 +41,7 @@ std::string join(const std::vector<std::string>& items)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::string povrayNumber(double value)
+std::string PovrayNumber(double value)
 {
   std::ostringstream out;
   out.imbue(std::locale::classic());
@@ -51,34 +51,34 @@ std::string povrayNumber(double value)
 }
 
 //------------------------------------------------------------------------------
-std::string povrayVector(const glm::dvec3& value)
+std::string PovrayVector(const glm::dvec3& value)
 {
-  return '<' + povrayNumber(value.x) + ", " + povrayNumber(value.y) + ", " + povrayNumber(value.z) +
+  return '<' + PovrayNumber(value.x) + ", " + PovrayNumber(value.y) + ", " + PovrayNumber(value.z) +
     '>';
 }
 
 //------------------------------------------------------------------------------
-std::string povrayCamera(const SceneCamera& camera, const PictureWindow& window)
+std::string PovrayCamera(const SceneCamera& camera, const PictureWindow& window)
 {
   const glm::dvec3 forward = glm::normalize(camera.Target - camera.Eye);
   const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.Up));
   const glm::dvec3 up = glm::cross(right, forward);
   const double width = 2.0 * std::tan(0.5 * vtkMath::RadiansFromDegrees(camera.ViewAngle));
-  return "camera {\n  perspective\n  location " + povrayVector(camera.Eye) + "\n  direction " +
-    povrayVector(forward + width * (window.Right * right + window.Up * up)) + "\n  right " +
-    povrayVector(width * window.Size * right) + "\n  up " + povrayVector(width * window.Size * up) +
+  return "camera {\n  perspective\n  location " + PovrayVector(camera.Eye) + "\n  direction " +
+    PovrayVector(forward + width * (window.Right * right + window.Up * up)) + "\n  right " +
+    PovrayVector(width * window.Size * right) + "\n  up " + PovrayVector(width * window.Size * up) +
     "\n}\n";
 }
 
 //------------------------------------------------------------------------------
-std::string povrayMesh(vtkPolyData* object)
+std::string PovrayMesh(vtkPolyData* object)
 {
   std::vector<std::string> points;
   for (vtkIdType i = 0; i < object->GetNumberOfPoints(); ++i)
   {
     glm::dvec3 p;
     object->GetPoint(i, &p.x);
-    points.push_back(povrayVector(p));
+    points.push_back(PovrayVector(p));
   }
   vtkDataArray* colors = object->GetCellData()->GetArray(ColorArrayName);
   std::map<std::array<double, 3>, std::size_t> numbers;
@@ -94,7 +94,7 @@ std::string povrayMesh(vtkPolyData* object)
     {
       const glm::dvec3 rgb = glm::dvec3(color[0], color[1], color[2]) / 255.0;
       textures.push_back(
-        "texture { pigment { rgb " + povrayVector(rgb) + " } " + FlatFinish + " }");
+        "texture { pigment { rgb " + PovrayVector(rgb) + " } " + FlatFinish + " }");
     }
     object->GetCellPoints(i, ids);
     std::ostringstream face;
@@ -108,12 +108,12 @@ std::string povrayMesh(vtkPolyData* object)
   {
     list += "\n    " + texture;
   }
-  return "mesh2 {\n  vertex_vectors { " + join(points) + " }\n  texture_list { " + list +
-    " }\n  face_indices { " + join(faces) + " }\n}\n";
+  return "mesh2 {\n  vertex_vectors { " + Join(points) + " }\n  texture_list { " + list +
+    " }\n  face_indices { " + Join(faces) + " }\n}\n";
 }
 
 //------------------------------------------------------------------------------
-std::string povraySurface(const RefractingSurface& surface)
+std::string PovraySurface(const RefractingSurface& surface)
 {
   if (!surface.Membrane)
   {
@@ -122,25 +122,25 @@ std::string povraySurface(const RefractingSurface& surface)
   return surface.Primitive +
     "\n  pigment { rgbt <1, 1, 1, 1> }\n  finish { ambient 0 diffuse 0 emission 0 }\n  interior { "
     "ior " +
-    povrayNumber(surface.Interior / surface.Exterior) + " }\n}\n";
+    PovrayNumber(surface.Interior / surface.Exterior) + " }\n}\n";
 }
 
 //------------------------------------------------------------------------------
-std::string povrayScene(const ComparisonScene& scene, const PictureWindow& window)
+std::string PovrayScene(const ComparisonScene& scene, const PictureWindow& window)
 {
   std::string text = "// " + scene.Description + "\n#version 3.7;\n" +
     "global_settings { assumed_gamma 1 max_trace_level 20 }\n" +
-    povrayCamera(scene.Camera, window) + "background { rgb " + povrayVector(scene.Background) +
-    " }\n" + povraySurface(scene.Surface);
+    PovrayCamera(scene.Camera, window) + "background { rgb " + PovrayVector(scene.Background) +
+    " }\n" + PovraySurface(scene.Surface);
   for (vtkPolyData* object : scene.Objects)
   {
-    text += povrayMesh(object);
+    text += PovrayMesh(object);
   }
   return text;
 }
 
 //------------------------------------------------------------------------------
-std::string povrayOptions(const std::string& name, int pixels)
+std::string PovrayOptions(const std::string& name, int pixels)
 {
   const std::string size = std::to_string(pixels);
   return "Input_File_Name=" + name + ".pov\nOutput_File_Name=" + name +

@@ -13,10 +13,10 @@ namespace test
 {
 
 /// A number as POV-Ray reads it, with all its digits.
-std::string povrayNumber(double value);
+std::string PovrayNumber(double value);
 
 /// A vector, "<x, y, z>".
-std::string povrayVector(const glm::dvec3& value);
+std::string PovrayVector(const glm::dvec3& value);
 
 /// A square of a camera's picture, which goes from -1/2 to 1/2 to the right and up.
 struct PictureWindow
@@ -32,20 +32,20 @@ struct PictureWindow
  * they need no change of POV-Ray's left-handed axes and no angle (POV-Ray's is horizontal, VTK's
  * vertical).
  */
-std::string povrayCamera(const SceneCamera& camera, const PictureWindow& window = {});
+std::string PovrayCamera(const SceneCamera& camera, const PictureWindow& window = {});
 
 /// Mesh of the triangles, each in its flat colour.
-std::string povrayMesh(vtkPolyData* object);
+std::string PovrayMesh(vtkPolyData* object);
 
 /// Clear body of the interior medium, without reflection; nothing without a membrane.
-std::string povraySurface(const RefractingSurface& surface);
+std::string PovraySurface(const RefractingSurface& surface);
 
 /// The whole scene.
-std::string povrayScene(const ComparisonScene& scene, const PictureWindow& window = {});
+std::string PovrayScene(const ComparisonScene& scene, const PictureWindow& window = {});
 
 /// Options of a picture of NAME.pov to NAME-povray.png: no antialiasing, no gamma, nothing on a
 /// display.
-std::string povrayOptions(const std::string& name, int pixels);
+std::string PovrayOptions(const std::string& name, int pixels);
 
 } // namespace test
 } // namespace meniscus

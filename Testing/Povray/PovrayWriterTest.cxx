@@ -26,7 +26,7 @@ namespace
 {
 
 /// The numbers of a text in their order; digits of a name are none.
-std::vector<double> numbersIn(const std::string& text)
+std::vector<double> NumbersIn(const std::string& text)
 {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < text.size();)
@@ -48,7 +48,7 @@ std::vector<double> numbersIn(const std::string& text)
 }
 
 /// The text between the first `open` after `name` and the next `close`.
-std::string blockOf(const std::string& text, const std::string& name, const std::string& close)
+std::string BlockOf(const std::string& text, const std::string& name, const std::string& close)
 {
   const std::size_t begin = text.find(name);
   EXPECT_NE(begin, std::string::npos) << name;
@@ -56,16 +56,16 @@ std::string blockOf(const std::string& text, const std::string& name, const std:
   return text.substr(start, text.find(close, start) - start);
 }
 
-glm::dvec3 vectorAfter(const std::string& text, const std::string& name)
+glm::dvec3 VectorAfter(const std::string& text, const std::string& name)
 {
-  const std::vector<double> numbers = numbersIn(blockOf(text, name, ">"));
+  const std::vector<double> numbers = NumbersIn(BlockOf(text, name, ">"));
   EXPECT_EQ(numbers.size(), 3u) << name;
   return { numbers.at(0), numbers.at(1), numbers.at(2) };
 }
 
-ComparisonScene sceneOf(const std::string& name)
+ComparisonScene SceneOf(const std::string& name)
 {
-  for (const ComparisonScene& scene : makeComparisonScenes())
+  for (const ComparisonScene& scene : MakeComparisonScenes())
   {
     if (scene.Name == name)
     {
@@ -79,7 +79,7 @@ ComparisonScene sceneOf(const std::string& name)
 /// Every point of the membrane is a zero of the function, its normal is the gradient times `side`,
 /// and triangles are wound to the side of their normals. The tolerances are roundings of a few
 /// operations on coordinates of up to 100: 1e-16 of their squares.
-void expectMembrane(const RefractingSurface& surface, double side,
+void ExpectMembrane(const RefractingSurface& surface, double side,
   const std::function<double(const glm::dvec3&)>& function,
   const std::function<glm::dvec3(const glm::dvec3&)>& gradient)
 {
@@ -116,9 +116,9 @@ TEST(PovrayWriter, NumbersKeepAllDigits)
 {
   for (const double value : { 0.0, 1.0 / 3.0, -2.0 / 7.0, 1e-300, 6.02e23, 0.1, -1e-17 })
   {
-    EXPECT_EQ(std::strtod(povrayNumber(value).c_str(), nullptr), value);
+    EXPECT_EQ(std::strtod(PovrayNumber(value).c_str(), nullptr), value);
   }
-  EXPECT_EQ(numbersIn(povrayVector({ 1.0, -2.5, 1e-3 })), (std::vector<double>{ 1.0, -2.5, 1e-3 }));
+  EXPECT_EQ(NumbersIn(PovrayVector({ 1.0, -2.5, 1e-3 })), (std::vector<double>{ 1.0, -2.5, 1e-3 }));
 }
 
 /// The ray through a place of the picture meets the same place of VTK's picture.
@@ -133,13 +133,13 @@ TEST(PovrayWriter, CameraIsVtks)
   vtkMatrix4x4* const matrix = vtk->GetCompositeProjectionTransformMatrix(1.0, -1.0, 1.0);
   for (const PictureWindow& window : { PictureWindow(), PictureWindow{ 0.3, -0.2, 0.01 } })
   {
-    const std::string text = povrayCamera(camera, window);
-    EXPECT_EQ(vectorAfter(text, "location"), camera.Eye);
+    const std::string text = PovrayCamera(camera, window);
+    EXPECT_EQ(VectorAfter(text, "location"), camera.Eye);
     for (const glm::dvec3& place :
       { glm::dvec3(0.0), glm::dvec3(0.5, 0.5, 0.0), glm::dvec3(-0.5, 0.25, 0.0) })
     {
-      const glm::dvec3 point = camera.Eye + vectorAfter(text, "direction") +
-        place.x * vectorAfter(text, "right") + place.y * vectorAfter(text, "up");
+      const glm::dvec3 point = camera.Eye + VectorAfter(text, "direction") +
+        place.x * VectorAfter(text, "right") + place.y * VectorAfter(text, "up");
       const double in[4] = { point.x, point.y, point.z, 1.0 };
       double out[4];
       matrix->MultiplyPoint(in, out);
@@ -152,18 +152,18 @@ TEST(PovrayWriter, CameraIsVtks)
 
 TEST(PovrayWriter, MeshHasEveryTriangleInItsColor)
 {
-  for (vtkPolyData* object : sceneOf("plane").Objects)
+  for (vtkPolyData* object : SceneOf("plane").Objects)
   {
-    const std::string text = povrayMesh(object);
-    const std::vector<double> points = numbersIn(blockOf(text, "vertex_vectors {", "}"));
-    const std::vector<double> faces = numbersIn(blockOf(text, "face_indices {", "}"));
+    const std::string text = PovrayMesh(object);
+    const std::vector<double> points = NumbersIn(BlockOf(text, "vertex_vectors {", "}"));
+    const std::vector<double> faces = NumbersIn(BlockOf(text, "face_indices {", "}"));
     std::vector<glm::dvec3> colors;
     for (std::size_t at = text.find("rgb <"); at != std::string::npos;
          at = text.find("rgb <", at + 1))
     {
-      colors.push_back(vectorAfter(text.substr(at), "rgb <"));
+      colors.push_back(VectorAfter(text.substr(at), "rgb <"));
     }
-    EXPECT_EQ(numbersIn(blockOf(text, "texture_list {", "texture")).at(0), colors.size());
+    EXPECT_EQ(NumbersIn(BlockOf(text, "texture_list {", "texture")).at(0), colors.size());
     ASSERT_EQ(points.size(), 1u + 3u * static_cast<std::size_t>(object->GetNumberOfPoints()));
     ASSERT_EQ(faces.size(), 1u + 4u * static_cast<std::size_t>(object->GetNumberOfCells()));
     EXPECT_EQ(points[0], object->GetNumberOfPoints());
@@ -193,29 +193,29 @@ TEST(PovrayWriter, MeshHasEveryTriangleInItsColor)
 
 TEST(PovrayWriter, MembranesLieOnThePrimitives)
 {
-  const RefractingSurface plane = sceneOf("plane").Surface;
-  EXPECT_EQ(numbersIn(plane.Primitive), (std::vector<double>{ 0.0, 1.0, 0.0, 0.0 }));
-  expectMembrane(
+  const RefractingSurface plane = SceneOf("plane").Surface;
+  EXPECT_EQ(NumbersIn(plane.Primitive), (std::vector<double>{ 0.0, 1.0, 0.0, 0.0 }));
+  ExpectMembrane(
     plane, 1.0, [](const glm::dvec3& p) { return p.y; },
     [](const glm::dvec3&) { return glm::dvec3(0.0, 1.0, 0.0); });
 
   // POV-Ray's plane has its inside where the normal does not point to: the air above the water.
-  const RefractingSurface window = sceneOf("window").Surface;
-  EXPECT_EQ(numbersIn(window.Primitive), (std::vector<double>{ 0.0, -1.0, 0.0, 0.0 }));
-  expectMembrane(
+  const RefractingSurface window = SceneOf("window").Surface;
+  EXPECT_EQ(NumbersIn(window.Primitive), (std::vector<double>{ 0.0, -1.0, 0.0, 0.0 }));
+  ExpectMembrane(
     window, 1.0, [](const glm::dvec3& p) { return -p.y; },
     [](const glm::dvec3&) { return glm::dvec3(0.0, -1.0, 0.0); });
 
-  const RefractingSurface sphere = sceneOf("sphere").Surface;
-  const double radius = numbersIn(sphere.Primitive).at(3);
-  expectMembrane(
+  const RefractingSurface sphere = SceneOf("sphere").Surface;
+  const double radius = NumbersIn(sphere.Primitive).at(3);
+  ExpectMembrane(
     sphere, 1.0, [=](const glm::dvec3& p) { return glm::length(p) - radius; },
     [](const glm::dvec3& p) { return p; });
 
-  const RefractingSurface waves = sceneOf("waves").Surface;
-  const std::vector<double> f = numbersIn(blockOf(waves.Primitive, "function {", "}"));
+  const RefractingSurface waves = SceneOf("waves").Surface;
+  const std::vector<double> f = NumbersIn(BlockOf(waves.Primitive, "function {", "}"));
   ASSERT_EQ(f.size(), 3u);
-  expectMembrane(
+  ExpectMembrane(
     waves, 1.0,
     [&f](const glm::dvec3& p) { return p.y - f[0] * std::sin(f[1] * p.x) * std::sin(f[2] * p.z); },
     [&f](const glm::dvec3& p)
@@ -225,11 +225,11 @@ TEST(PovrayWriter, MembranesLieOnThePrimitives)
     });
 
   // The eye is where the quadric is negative, its inside; `inverse` puts the medium outside.
-  const RefractingSurface bowl = sceneOf("bowl").Surface;
-  const std::vector<double> q = numbersIn(bowl.Primitive);
+  const RefractingSurface bowl = SceneOf("bowl").Surface;
+  const std::vector<double> q = NumbersIn(bowl.Primitive);
   ASSERT_EQ(q.size(), 10u);
   EXPECT_NE(bowl.Primitive.find("inverse"), std::string::npos);
-  expectMembrane(
+  ExpectMembrane(
     bowl, -1.0,
     [&q](const glm::dvec3& p)
     { return (q[0] * p.x * p.x + q[2] * p.z * p.z + q[7] * p.y) / std::fabs(q[7]); },
@@ -239,9 +239,9 @@ TEST(PovrayWriter, MembranesLieOnThePrimitives)
 /// The bound on the gradient that POV-Ray's search for roots relies on.
 TEST(PovrayWriter, WavesAreNoSteeperThanStated)
 {
-  const std::string primitive = sceneOf("waves").Surface.Primitive;
-  const std::vector<double> f = numbersIn(blockOf(primitive, "function {", "}"));
-  const double bound = numbersIn(blockOf(primitive, "max_gradient", "}")).at(0);
+  const std::string primitive = SceneOf("waves").Surface.Primitive;
+  const std::vector<double> f = NumbersIn(BlockOf(primitive, "function {", "}"));
+  const double bound = NumbersIn(BlockOf(primitive, "max_gradient", "}")).at(0);
   double steepest = 0.0;
   for (int i = 0; i < 100; ++i)
   {
@@ -259,11 +259,11 @@ TEST(PovrayWriter, WavesAreNoSteeperThanStated)
 
 TEST(PovrayWriter, SceneHasAllParts)
 {
-  const ComparisonScene scene = sceneOf("window");
-  const std::string text = povrayScene(scene);
-  EXPECT_EQ(numbersIn(blockOf(text, "ior", "}")).at(0), 1.0 / 1.333);
+  const ComparisonScene scene = SceneOf("window");
+  const std::string text = PovrayScene(scene);
+  EXPECT_EQ(NumbersIn(BlockOf(text, "ior", "}")).at(0), 1.0 / 1.333);
   EXPECT_NE(text.find("assumed_gamma 1 "), std::string::npos);
-  EXPECT_EQ(vectorAfter(text, "background { rgb"), scene.Background);
+  EXPECT_EQ(VectorAfter(text, "background { rgb"), scene.Background);
   std::size_t meshes = 0;
   for (std::size_t at = text.find("mesh2"); at != std::string::npos;
        at = text.find("mesh2", at + 1))
@@ -271,8 +271,8 @@ TEST(PovrayWriter, SceneHasAllParts)
     ++meshes;
   }
   EXPECT_EQ(meshes, scene.Objects.size());
-  EXPECT_EQ(povraySurface(sceneOf("straight").Surface), "");
-  const std::string options = povrayOptions("window", 77);
+  EXPECT_EQ(PovraySurface(SceneOf("straight").Surface), "");
+  const std::string options = PovrayOptions("window", 77);
   EXPECT_NE(options.find("Width=77\nHeight=77\nAntialias=off"), std::string::npos);
   EXPECT_NE(options.find("File_Gamma=1.0"), std::string::npos);
 }
@@ -280,7 +280,7 @@ TEST(PovrayWriter, SceneHasAllParts)
 /// A colour says which object a pixel shows.
 TEST(PovrayWriter, ColorsAreOfOneObject)
 {
-  for (const ComparisonScene& scene : makeComparisonScenes())
+  for (const ComparisonScene& scene : MakeComparisonScenes())
   {
     ObjectColors all;
     std::size_t sum = 0;
@@ -290,13 +290,13 @@ TEST(PovrayWriter, ColorsAreOfOneObject)
       object->GetCellData()->GetArray(ColorArrayName)->GetTuple(0, color);
       const unsigned char bytes[3] = { static_cast<unsigned char>(color[0]),
         static_cast<unsigned char>(color[1]), static_cast<unsigned char>(color[2]) };
-      const ObjectColors colors = findObjectColors(scene, bytes);
+      const ObjectColors colors = FindObjectColors(scene, bytes);
       EXPECT_EQ(colors.size(), 2u) << scene.Name;
       sum += colors.size();
       all.insert(colors.begin(), colors.end());
     }
     EXPECT_EQ(all.size(), sum) << scene.Name;
     const unsigned char background[3] = { 51, 102, 153 };
-    EXPECT_TRUE(findObjectColors(scene, background).empty()) << scene.Name;
+    EXPECT_TRUE(FindObjectColors(scene, background).empty()) << scene.Name;
   }
 }

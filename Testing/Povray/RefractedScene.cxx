@@ -20,7 +20,7 @@ namespace test
 namespace
 {
 
-void placeCamera(vtkRenderer* renderer, const ComparisonScene& scene)
+void PlaceCamera(vtkRenderer* renderer, const ComparisonScene& scene)
 {
   const SceneCamera& view = scene.Camera;
   renderer->SetBackground(scene.Background.r, scene.Background.g, scene.Background.b);
@@ -33,7 +33,7 @@ void placeCamera(vtkRenderer* renderer, const ComparisonScene& scene)
 }
 
 /// An actor of flat triangles in the colours of their cells.
-vtkSmartPointer<vtkActor> makeFlatActor(vtkPolyDataMapper* mapper)
+vtkSmartPointer<vtkActor> MakeFlatActor(vtkPolyDataMapper* mapper)
 {
   mapper->SetScalarModeToUseCellFieldData();
   mapper->SelectColorArray(ColorArrayName);
@@ -46,11 +46,11 @@ vtkSmartPointer<vtkActor> makeFlatActor(vtkPolyDataMapper* mapper)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-ByteImage drawRefractedScene(const ComparisonScene& scene, int pixels, double tolerance)
+ByteImage DrawRefractedScene(const ComparisonScene& scene, int pixels, double tolerance)
 {
   VolumeScene window(pixels, pixels);
-  vtkRenderer* renderer = window.renderer();
-  placeCamera(renderer, scene);
+  vtkRenderer* renderer = window.GetRenderer();
+  PlaceCamera(renderer, scene);
   vtkNew<vtkPolyDataMapper> surfaceMapper;
   surfaceMapper->SetInputData(scene.Surface.Membrane);
   vtkNew<vtkActor> surface;
@@ -60,7 +60,7 @@ ByteImage drawRefractedScene(const ComparisonScene& scene, int pixels, double to
   for (vtkPolyData* object : scene.Objects)
   {
     vtkNew<vtkPolyDataMapper> mapper;
-    const auto actor = makeFlatActor(mapper);
+    const auto actor = MakeFlatActor(mapper);
     if (!scene.Surface.Membrane)
     {
       mapper->SetInputData(object);
@@ -79,8 +79,8 @@ ByteImage drawRefractedScene(const ComparisonScene& scene, int pixels, double to
     pass->AddRefraction(surface, actor, filter);
   }
   renderer->SetPass(pass);
-  window.window()->Render();
-  return readBytes(window.window());
+  window.GetWindow()->Render();
+  return ReadBytes(window.GetWindow());
 }
 
 } // namespace test

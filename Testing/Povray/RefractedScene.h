@@ -13,7 +13,7 @@ namespace test
 
 /// Draws a scene by vtkRefractedGeometryFilter and vtkRefractionPass; `tolerance` is the filter's
 /// AngularTolerance in degrees.
-ByteImage drawRefractedScene(const ComparisonScene& scene, int pixels, double tolerance);
+ByteImage DrawRefractedScene(const ComparisonScene& scene, int pixels, double tolerance);
 
 } // namespace test
 } // namespace meniscus

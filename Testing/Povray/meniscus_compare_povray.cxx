@@ -65,7 +65,7 @@ struct Row
   double Seconds = 0.0;
   double PovraySeconds = 0.0;
 
-  bool isGood() const
+  bool IsGood() const
   {
     return this->Problem.empty() && this->Unexplained == 0 &&
       this->Comparison.Different.size() <= this->Limit;
@@ -73,7 +73,7 @@ struct Row
 };
 
 //------------------------------------------------------------------------------
-bool readOption(const std::string& key, const std::string& value, Options& options)
+bool ReadOption(const std::string& key, const std::string& value, Options& options)
 {
   if (key == "--pixels")
   {
@@ -99,7 +99,7 @@ bool readOption(const std::string& key, const std::string& value, Options& optio
 //------------------------------------------------------------------------------
 /// Runs the work and returns its seconds by the clock.
 template <typename Work>
-double secondsOf(Work&& work)
+double SecondsOf(Work&& work)
 {
   const auto start = std::chrono::steady_clock::now();
   work();
@@ -113,7 +113,7 @@ double secondsOf(Work&& work)
  * pixel and Mesa rounds to 1/256 in x and y, half of that each. POV-Ray keeps the vertices of a
  * mesh in single precision: 6e-8 of a coordinate, nothing to be seen here.
  */
-double largestOffset(const ComparisonScene& scene, const Options& options)
+double LargestOffset(const ComparisonScene& scene, const Options& options)
 {
   const double width = 2.0 * std::tan(scene.Camera.ViewAngle * std::acos(-1.0) / 360.0);
   const double pixel = width / options.Pixels;
@@ -128,7 +128,7 @@ double largestOffset(const ComparisonScene& scene, const Options& options)
  * two images meet, by the root of a number of that size. A picture with more than `MostCloseUps`
  * different pixels is wrong as it is.
  */
-int countUnexplained(const ComparisonScene& scene, const ByteImage& drawn,
+int CountUnexplained(const ComparisonScene& scene, const ByteImage& drawn,
   const std::vector<PixelPlace>& places, const PovrayProcess& povray)
 {
   constexpr std::size_t MostCloseUps = 200;
@@ -143,9 +143,9 @@ int countUnexplained(const ComparisonScene& scene, const ByteImage& drawn,
   {
     const PictureWindow window{ (place.X + 0.5) / drawn.Width - 0.5,
       (place.Y + 0.5) / drawn.Height - 0.5, Width / drawn.Width };
-    const ByteImage closeUp = povray.draw(scene, "close-up", Samples, window);
-    const unsigned char* const color = drawn.pixel(place.X, place.Y);
-    if (!isExplained(color, closeUp, findObjectColors(scene, color)))
+    const ByteImage closeUp = povray.Draw(scene, "close-up", Samples, window);
+    const unsigned char* const color = drawn.GetPixel(place.X, place.Y);
+    if (!IsExplained(color, closeUp, FindObjectColors(scene, color)))
     {
       ++result;
       std::cout << scene.Name << ": nothing explains pixel " << place.X << ' ' << place.Y << '\n';
@@ -156,7 +156,7 @@ int countUnexplained(const ComparisonScene& scene, const ByteImage& drawn,
 
 //------------------------------------------------------------------------------
 /// Pixels that the wrong outline of the membrane may change.
-double outlinePixels(const ComparisonScene& scene, const Options& options)
+double OutlinePixels(const ComparisonScene& scene, const Options& options)
 {
   const double width = 2.0 * std::tan(scene.Camera.ViewAngle * std::acos(-1.0) / 360.0);
   const double pixel = glm::length(scene.Camera.Target - scene.Camera.Eye) * width / options.Pixels;
@@ -164,7 +164,7 @@ double outlinePixels(const ComparisonScene& scene, const Options& options)
 }
 
 //------------------------------------------------------------------------------
-Row compareScene(const ComparisonScene& scene, const Options& options)
+Row CompareScene(const ComparisonScene& scene, const Options& options)
 {
   Row row;
   row.Name = scene.Name;
@@ -172,27 +172,27 @@ Row compareScene(const ComparisonScene& scene, const Options& options)
   ByteImage drawn;
   ByteImage reference;
   row.Seconds =
-    secondsOf([&]() { drawn = drawRefractedScene(scene, options.Pixels, options.Tolerance); });
+    SecondsOf([&]() { drawn = DrawRefractedScene(scene, options.Pixels, options.Tolerance); });
   row.PovraySeconds =
-    secondsOf([&]() { reference = povray.draw(scene, scene.Name, options.Pixels); });
+    SecondsOf([&]() { reference = povray.Draw(scene, scene.Name, options.Pixels); });
   const std::string path = options.Output + "/" + scene.Name;
-  writePng(drawn, path + "-meniscus.png");
+  WritePng(drawn, path + "-meniscus.png");
   const StrictDifference difference =
-    compareStrictly(drawn, reference, PictureComparison::Threshold);
+    CompareStrictly(drawn, reference, PictureComparison::Threshold);
   if (!difference.SameSize)
   {
     row.Problem = options.Povray + " drew nothing, see " + path + ".log";
     return row;
   }
-  writePng(difference.Image, path + "-difference.png");
-  row.Comparison = comparePictures(drawn, reference);
-  row.Unexplained = countUnexplained(scene, drawn, row.Comparison.Different, povray);
-  row.Offset = largestOffset(scene, options);
-  row.Limit = largestDifference(row.Comparison, row.Offset, outlinePixels(scene, options));
+  WritePng(difference.Image, path + "-difference.png");
+  row.Comparison = ComparePictures(drawn, reference);
+  row.Unexplained = CountUnexplained(scene, drawn, row.Comparison.Different, povray);
+  row.Offset = LargestOffset(scene, options);
+  row.Limit = LargestDifference(row.Comparison, row.Offset, OutlinePixels(scene, options));
   return row;
 }
 
-std::string percent(double part, double whole)
+std::string Percent(double part, double whole)
 {
   std::ostringstream out;
   out << std::fixed << std::setprecision(4) << 100.0 * part / whole << " %";
@@ -200,7 +200,7 @@ std::string percent(double part, double whole)
 }
 
 //------------------------------------------------------------------------------
-std::string makeTable(const std::vector<Row>& rows)
+std::string MakeTable(const std::vector<Row>& rows)
 {
   std::ostringstream out;
   out << "| scene | pixels off | of all | limit | off edges | unexplained | edge pixels | "
@@ -215,16 +215,16 @@ std::string makeTable(const std::vector<Row>& rows)
       out << row.Problem << " | | | | | | | | FAILED |\n";
       continue;
     }
-    out << c.Different.size() << " | " << percent(c.Different.size(), c.Pixels) << " | "
-        << percent(row.Limit, c.Pixels) << " | " << c.DifferentOffEdges << " | " << row.Unexplained
-        << " | " << percent(c.EdgePixels, c.Pixels) << " | " << std::setprecision(3) << row.Seconds
-        << " | " << row.PovraySeconds << " | " << (row.isGood() ? "good" : "FAILED") << " |\n";
+    out << c.Different.size() << " | " << Percent(c.Different.size(), c.Pixels) << " | "
+        << Percent(row.Limit, c.Pixels) << " | " << c.DifferentOffEdges << " | " << row.Unexplained
+        << " | " << Percent(c.EdgePixels, c.Pixels) << " | " << std::setprecision(3) << row.Seconds
+        << " | " << row.PovraySeconds << " | " << (row.IsGood() ? "good" : "FAILED") << " |\n";
   }
   return out.str();
 }
 
 //------------------------------------------------------------------------------
-std::string makeJson(const std::vector<Row>& rows, const Options& options)
+std::string MakeJson(const std::vector<Row>& rows, const Options& options)
 {
   std::ostringstream out;
   out << std::setprecision(8)
@@ -237,10 +237,10 @@ std::string makeJson(const std::vector<Row>& rows, const Options& options)
     const PictureComparison& c = row.Comparison;
     out << separator << "    { \"name\": \"" << row.Name
         << "\", \"compared\": " << (row.Problem.empty() ? "true" : "false")
-        << ", \"good\": " << (row.isGood() ? "true" : "false")
-        << ", \"different\": " << c.Different.size() << ", \"fraction\": " << c.fraction()
+        << ", \"good\": " << (row.IsGood() ? "true" : "false")
+        << ", \"different\": " << c.Different.size() << ", \"fraction\": " << c.GetFraction()
         << ", \"differentOffEdges\": " << c.DifferentOffEdges
-        << ", \"fractionOffEdges\": " << c.fractionOffEdges()
+        << ", \"fractionOffEdges\": " << c.FractionOffEdges()
         << ", \"unexplained\": " << row.Unexplained << ", \"edgePixels\": " << c.EdgePixels
         << ", \"edgeLength\": " << c.EdgeLength << ", \"largestOffset\": " << row.Offset
         << ", \"limit\": " << row.Limit << ", \"seconds\": " << row.Seconds
@@ -251,7 +251,7 @@ std::string makeJson(const std::vector<Row>& rows, const Options& options)
   return out.str();
 }
 
-bool writeReport(const std::string& path, const std::string& text)
+bool WriteReport(const std::string& path, const std::string& text)
 {
   std::ofstream file(path);
   if (!(file << text).flush())
@@ -263,17 +263,17 @@ bool writeReport(const std::string& path, const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-int compareScenes(const Options& options)
+int CompareScenes(const Options& options)
 {
   const DisplayHold hold;
   std::vector<Row> rows;
   bool isGood = true;
-  for (const ComparisonScene& scene : makeComparisonScenes())
+  for (const ComparisonScene& scene : MakeComparisonScenes())
   {
     if (scene.Name.find(options.Scene) != std::string::npos)
     {
-      rows.push_back(compareScene(scene, options));
-      isGood = isGood && rows.back().isGood();
+      rows.push_back(CompareScene(scene, options));
+      isGood = isGood && rows.back().IsGood();
     }
   }
   if (rows.empty())
@@ -281,10 +281,10 @@ int compareScenes(const Options& options)
     std::cerr << "no scene of that name\n";
     return EXIT_FAILURE;
   }
-  const std::string table = makeTable(rows);
+  const std::string table = MakeTable(rows);
   std::cout << table;
-  const bool isWritten = writeReport(options.Output + "/report.md", table) &&
-    writeReport(options.Output + "/report.json", makeJson(rows, options));
+  const bool isWritten = WriteReport(options.Output + "/report.md", table) &&
+    WriteReport(options.Output + "/report.json", MakeJson(rows, options));
   return isGood && isWritten ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
@@ -302,13 +302,13 @@ int main(int argc, char* argv[])
       std::cout << Usage;
       return EXIT_SUCCESS;
     }
-    if (i + 1 >= argc || !readOption(key, argv[i + 1], options))
+    if (i + 1 >= argc || !ReadOption(key, argv[i + 1], options))
     {
       std::cerr << "unknown option, or bad or missing value: " << key << '\n' << Usage;
       return EXIT_FAILURE;
     }
   }
-  if (!hasDisplay())
+  if (!HasDisplay())
   {
     std::cerr << "no display: run under xvfb-run\n";
     return EXIT_FAILURE;
@@ -318,5 +318,5 @@ int main(int argc, char* argv[])
     std::cerr << "cannot make the folder " << options.Output << '\n';
     return EXIT_FAILURE;
   }
-  return compareScenes(options);
+  return CompareScenes(options);
 }

@@ -21,16 +21,16 @@ namespace test
 {
 
 //------------------------------------------------------------------------------
-reference::ReferenceTransferFunction toAlphas(vtkVolumeProperty* property)
+reference::ReferenceTransferFunction ToAlphas(vtkVolumeProperty* property)
 {
   vtkNew<vtkVolumeProperty> copy;
   copy->DeepCopy(property);
   copy->SetScalarOpacityUnitDistance(1.0);
-  return toReference(copy);
+  return ToReference(copy);
 }
 
 //------------------------------------------------------------------------------
-reference::Material toMaterial(vtkVolumeProperty* property, vtkRenderer* renderer)
+reference::Material ToMaterial(vtkVolumeProperty* property, vtkRenderer* renderer)
 {
   reference::Material material;
   material.Ambient = property->GetAmbient();
@@ -70,35 +70,35 @@ reference::Material toMaterial(vtkVolumeProperty* property, vtkRenderer* rendere
 }
 
 //------------------------------------------------------------------------------
-std::vector<reference::Surface> toSurfaces(vtkVolumeProperty* property)
+std::vector<reference::Surface> ToSurfaces(vtkVolumeProperty* property)
 {
-  const reference::ReferenceTransferFunction alphas = toAlphas(property);
+  const reference::ReferenceTransferFunction alphas = ToAlphas(property);
   std::vector<reference::Surface> surfaces;
   vtkContourValues* values = property->GetIsoSurfaceValues();
   for (int i = 0; i < values->GetNumberOfContours(); ++i)
   {
-    const reference::OpticalSample sample = alphas.value(values->GetValue(i));
+    const reference::OpticalSample sample = alphas.GetValue(values->GetValue(i));
     surfaces.push_back({ values->GetValue(i), sample.Attenuation, sample.Color });
   }
   return surfaces;
 }
 
 //------------------------------------------------------------------------------
-TracedComparison expectTrace(RayCastScene& scene, const TraceRay& trace, const std::string& what,
+TracedComparison ExpectTrace(RayCastScene& scene, const TraceRay& trace, const std::string& what,
   double tolerance, double excusedShare)
 {
-  const FloatImage image = scene.renderFloat();
-  const PixelRays rays(scene.renderer());
-  const double diagonal = scene.volume()->GetLength();
+  const FloatImage image = scene.RenderFloat();
+  const PixelRays rays(scene.GetRenderer());
+  const double diagonal = scene.GetVolume()->GetLength();
   const TracedComparison comparison =
-    compareToTrace(image, rays, trace, tolerance, RoundingDistance * diagonal);
-  SCOPED_TRACE(what + ": " + comparison.text());
+    CompareToTrace(image, rays, trace, tolerance, RoundingDistance * diagonal);
+  SCOPED_TRACE(what + ": " + comparison.GetText());
   EXPECT_GT(comparison.Visible, 0u);
   EXPECT_EQ(comparison.Wrong, 0u);
   EXPECT_LE(static_cast<double>(comparison.Excused),
     std::max(1.0, excusedShare * static_cast<double>(comparison.Visible)));
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
-  testing::Test::RecordProperty(what, comparison.text());
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
+  testing::Test::RecordProperty(what, comparison.GetText());
   return comparison;
 }
 

@@ -13,13 +13,13 @@ namespace test
 {
 
 /** Unchanged opacities, for modes that do not measure lengths. */
-reference::ReferenceTransferFunction toAlphas(vtkVolumeProperty* property);
+reference::ReferenceTransferFunction ToAlphas(vtkVolumeProperty* property);
 
 /** The material of a property, lit by the renderer's lights as they were in the last frame. */
-reference::Material toMaterial(vtkVolumeProperty* property, vtkRenderer* renderer);
+reference::Material ToMaterial(vtkVolumeProperty* property, vtkRenderer* renderer);
 
 /** The isosurfaces of a property. */
-std::vector<reference::Surface> toSurfaces(vtkVolumeProperty* property);
+std::vector<reference::Surface> ToSurfaces(vtkVolumeProperty* property);
 
 /**
  * Renders in float and expects every pixel to be within the tolerance of the exact result of its
@@ -27,7 +27,7 @@ std::vector<reference::Surface> toSurfaces(vtkVolumeProperty* property);
  * difference; no ray may be lost. Returns the comparison, whose figures are recorded as properties
  * of the test.
  */
-TracedComparison expectTrace(RayCastScene& scene, const TraceRay& trace, const std::string& what,
+TracedComparison ExpectTrace(RayCastScene& scene, const TraceRay& trace, const std::string& what,
   double tolerance = FloatTolerance, double excusedShare = LargestSilhouetteShare);
 
 } // namespace test

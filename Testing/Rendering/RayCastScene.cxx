@@ -29,13 +29,13 @@ RayCastScene::RayCastScene(
   {
     this->RayCaster->SetInputDataObject(grid);
   }
-  this->RayCaster->SetBackend(backendUnderTest());
-  this->setMapper(this->RayCaster);
-  this->setProperty(property);
+  this->RayCaster->SetBackend(BackendUnderTest());
+  this->SetMapper(this->RayCaster);
+  this->SetProperty(property);
 }
 
 //------------------------------------------------------------------------------
-int backendUnderTest()
+int BackendUnderTest()
 {
   const char* name = std::getenv("MENISCUS_TEST_BACKEND");
   const std::string backend(name ? name : "");
@@ -53,10 +53,10 @@ int backendUnderTest()
 }
 
 //------------------------------------------------------------------------------
-void expectMatch(
+void ExpectMatch(
   const Comparison& comparison, const std::string& what, const SilhouetteAllowance& allowance)
 {
-  SCOPED_TRACE(what + ": " + comparison.text());
+  SCOPED_TRACE(what + ": " + comparison.GetText());
   EXPECT_GT(comparison.Covered, 0u);
   EXPECT_EQ(comparison.Wrong, 0u);
   EXPECT_EQ(comparison.CoverageMismatches, 0u);
@@ -66,7 +66,7 @@ void expectMatch(
 }
 
 //------------------------------------------------------------------------------
-void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what)
+void ExpectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what)
 {
   ASSERT_EQ(a.Rgba.size(), b.Rgba.size());
   constexpr float tolerance = 2e-5f;
@@ -82,41 +82,41 @@ void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::stri
 }
 
 //------------------------------------------------------------------------------
-SceneTruth makeTruth(const RayCastScene& scene)
+SceneTruth MakeTruth(const RayCastScene& scene)
 {
-  scene.volume()->ComputeMatrix();
+  scene.GetVolume()->ComputeMatrix();
   SceneTruth truth;
-  truth.Integrator = makeReference(scene.grid(), scene.volume()->GetMatrix());
-  const PixelRays rays(scene.renderer());
-  truth.RayOf = [rays](int x, int y) { return rays.ray(x, y); };
+  truth.Integrator = MakeReference(scene.MakeGrid(), scene.GetVolume()->GetMatrix());
+  const PixelRays rays(scene.GetRenderer());
+  truth.RayOf = [rays](int x, int y) { return rays.GetRay(x, y); };
   const auto model =
-    scene.rayCaster()->GetOpacityModel() == vtkTetrahedraRayCastMapper::ATTENUATION_COEFFICIENT
+    scene.GetRayCaster()->GetOpacityModel() == vtkTetrahedraRayCastMapper::ATTENUATION_COEFFICIENT
     ? OpacityModel::AttenuationCoefficient
     : OpacityModel::OpacityPerUnitDistance;
-  truth.Image = renderReference(*truth.Integrator, rays.width(), rays.height(), truth.RayOf,
-    { toReference(scene.volume()->GetProperty(), model) })[0];
+  truth.Image = RenderReference(*truth.Integrator, rays.GetWidth(), rays.GetHeight(), truth.RayOf,
+    { ToReference(scene.GetVolume()->GetProperty(), model) })[0];
   return truth;
 }
 
 //------------------------------------------------------------------------------
-void expectMatchesReference(
+void ExpectMatchesReference(
   RayCastScene& scene, const std::string& what, const SilhouetteAllowance& allowance)
 {
   // Pixels have rays only after the window has its size.
-  scene.window()->Render();
-  const SceneTruth truth = makeTruth(scene);
-  const FloatImage floats = scene.renderFloat();
+  scene.GetWindow()->Render();
+  const SceneTruth truth = MakeTruth(scene);
+  const FloatImage floats = scene.RenderFloat();
   ASSERT_EQ(floats.Width, truth.Image.Width);
   ASSERT_EQ(floats.Height, truth.Image.Height);
-  expectMatch(compareToReference(floats, truth.Image, *truth.Integrator, truth.RayOf),
+  ExpectMatch(CompareToReference(floats, truth.Image, *truth.Integrator, truth.RayOf),
     what + " (float)", allowance);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << what;
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0) << what;
 
   double background[3];
-  scene.renderer()->GetBackground(background);
-  const ByteImage bytes = scene.renderBytes();
+  scene.GetRenderer()->GetBackground(background);
+  const ByteImage bytes = scene.RenderBytes();
   ASSERT_EQ(bytes.Width, truth.Image.Width);
-  expectMatch(compareToReference(bytes, truth.Image, *truth.Integrator, truth.RayOf,
+  ExpectMatch(CompareToReference(bytes, truth.Image, *truth.Integrator, truth.RayOf,
                 { background[0], background[1], background[2] }),
     what + " (8 bits)", allowance);
 }
@@ -130,14 +130,14 @@ void ErrorObserver::Execute(vtkObject* vtkNotUsed(caller), unsigned long event, 
 }
 
 //------------------------------------------------------------------------------
-void ErrorObserver::observe(vtkObject* object)
+void ErrorObserver::Observe(vtkObject* object)
 {
   object->AddObserver(vtkCommand::ErrorEvent, this);
   object->AddObserver(vtkCommand::WarningEvent, this);
 }
 
 //------------------------------------------------------------------------------
-std::string ErrorObserver::text() const
+std::string ErrorObserver::GetText() const
 {
   std::string all;
   for (const std::string& error : this->Errors)

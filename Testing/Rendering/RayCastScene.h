@@ -33,8 +33,8 @@ public:
   RayCastScene(vtkUnstructuredGrid* grid, vtkVolumeProperty* property, int width, int height,
     int multiSamples = 0);
 
-  vtkTetrahedraRayCastMapper* rayCaster() const { return this->RayCaster; }
-  vtkUnstructuredGrid* grid() const { return this->Grid; }
+  vtkTetrahedraRayCastMapper* GetRayCaster() const { return this->RayCaster; }
+  vtkUnstructuredGrid* MakeGrid() const { return this->Grid; }
 
 private:
   vtkNew<vtkTetrahedraRayCastMapper> RayCaster;
@@ -45,7 +45,7 @@ private:
  * Backend selected by the environment variable MENISCUS_TEST_BACKEND: OpenGL, Compute, Native;
  * otherwise automatic.
  */
-int backendUnderTest();
+int BackendUnderTest();
 
 /**
  * Fraction of covered pixels that may be excused as silhouettes, or a number of pixels if that is
@@ -57,7 +57,7 @@ struct SilhouetteAllowance
   std::size_t Pixels = 1;
 };
 
-void expectMatch(const Comparison& comparison, const std::string& what,
+void ExpectMatch(const Comparison& comparison, const std::string& what,
   const SilhouetteAllowance& allowance = SilhouetteAllowance());
 
 /** Results of the reference for a scene's volume in its present view. */
@@ -68,16 +68,16 @@ struct SceneTruth
   ReferenceImage Image;
 };
 
-SceneTruth makeTruth(const RayCastScene& scene);
+SceneTruth MakeTruth(const RayCastScene& scene);
 
 /** Expects all values to be equal within 2e-5, and at least one of them not to be transparent. */
-void expectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what);
+void ExpectSamePicture(const FloatImage& a, const FloatImage& b, const std::string& what);
 
 /**
  * Renders in float and in 8 bits and expects every pixel to match the reference; no ray may be
  * lost. The scene must contain only the volume, and its renderer must fill the window.
  */
-void expectMatchesReference(RayCastScene& scene, const std::string& what,
+void ExpectMatchesReference(RayCastScene& scene, const std::string& what,
   const SilhouetteAllowance& allowance = SilhouetteAllowance());
 
 /** Collects error and warning events of objects, and the text in VTK's output window. */
@@ -86,12 +86,12 @@ class ErrorObserver : public vtkCommand
 public:
   static ErrorObserver* New() { return new ErrorObserver; }
   void Execute(vtkObject* caller, unsigned long event, void* data) override;
-  void observe(vtkObject* object);
+  void Observe(vtkObject* object);
 
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
 
-  std::string text() const;
+  std::string GetText() const;
 };
 
 } // namespace test

@@ -19,7 +19,7 @@ int main(int argc, char* argv[])
     listing = listing || std::strncmp(argv[i], "--gtest_list_tests", 18) == 0;
   }
   testing::InitGoogleTest(&argc, argv);
-  if (!listing && !meniscus::test::hasDisplay())
+  if (!listing && !meniscus::test::HasDisplay())
   {
     std::cout << "no display: skipped\n";
     return Skipped;

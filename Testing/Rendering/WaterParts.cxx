@@ -13,7 +13,7 @@ namespace test
 {
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPlaneSource> makePlane(double halfWidth, double height, int resolution)
+vtkSmartPointer<vtkPlaneSource> MakePlane(double halfWidth, double height, int resolution)
 {
   auto plane = vtkSmartPointer<vtkPlaneSource>::New();
   plane->SetOrigin(-halfWidth, -halfWidth, height);
@@ -24,7 +24,7 @@ vtkSmartPointer<vtkPlaneSource> makePlane(double halfWidth, double height, int r
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkActor> makeActor(vtkAlgorithmOutput* port)
+vtkSmartPointer<vtkActor> MakeActor(vtkAlgorithmOutput* port)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(port);
@@ -35,7 +35,7 @@ vtkSmartPointer<vtkActor> makeActor(vtkAlgorithmOutput* port)
 }
 
 //------------------------------------------------------------------------------
-void setFlatColor(vtkActor* actor, double red, double green, double blue)
+void SetFlatColor(vtkActor* actor, double red, double green, double blue)
 {
   actor->GetProperty()->SetColor(red, green, blue);
   actor->GetProperty()->SetAmbient(1.0);

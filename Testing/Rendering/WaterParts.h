@@ -15,13 +15,13 @@ namespace test
 {
 
 /** A square around the z axis at a given height, of resolution x resolution quads. */
-vtkSmartPointer<vtkPlaneSource> makePlane(double halfWidth, double height, int resolution);
+vtkSmartPointer<vtkPlaneSource> MakePlane(double halfWidth, double height, int resolution);
 
 /** An actor without colours from scalars. */
-vtkSmartPointer<vtkActor> makeActor(vtkAlgorithmOutput* port);
+vtkSmartPointer<vtkActor> MakeActor(vtkAlgorithmOutput* port);
 
 /** Sets a colour that does not depend on lights. */
-void setFlatColor(vtkActor* actor, double red, double green, double blue);
+void SetFlatColor(vtkActor* actor, double red, double green, double blue);
 
 } // namespace test
 } // namespace meniscus

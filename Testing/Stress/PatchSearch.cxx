@@ -21,12 +21,12 @@ namespace
 constexpr int Cells = 16;
 constexpr int Nodes = Cells + 3;
 
-glm::dvec2 nodeAt(int i, int j)
+glm::dvec2 NodeAt(int i, int j)
 {
   return { static_cast<double>(i - 1) / Cells, static_cast<double>(j - 1) / Cells };
 }
 
-double cross(const glm::dvec2& a, const glm::dvec2& b)
+double Cross(const glm::dvec2& a, const glm::dvec2& b)
 {
   return a.x * b.y - a.y * b.x;
 }
@@ -35,42 +35,42 @@ double cross(const glm::dvec2& a, const glm::dvec2& b)
 
 //------------------------------------------------------------------------------
 // n1 a / |a| - n2 p / |p|, whose part along the surface vanishes (Fermat).
-glm::dvec3 PatchSearch::misfit(const PatchPoint& at, const glm::dvec3& point) const
+glm::dvec3 PatchSearch::Misfit(const PatchPoint& at, const glm::dvec3& point) const
 {
   return this->Exterior * glm::normalize(at.Position - this->Eye) -
     this->Interior * glm::normalize(point - at.Position);
 }
 
 //------------------------------------------------------------------------------
-glm::dvec2 PatchSearch::equation(
+glm::dvec2 PatchSearch::GetEquation(
   const CurvedPatch& patch, const glm::dvec3& point, const glm::dvec2& b) const
 {
   const PatchPoint at = patch.Evaluate(b);
   const glm::dvec3 normal = glm::normalize(at.Normal);
-  const glm::dvec3 v = this->misfit(at, point);
+  const glm::dvec3 v = this->Misfit(at, point);
   const glm::dvec3 along = v - normal * glm::dot(v, normal);
   return { glm::dot(along, glm::normalize(patch.Corner[1] - patch.Corner[0])),
     glm::dot(along, glm::normalize(patch.Corner[2] - patch.Corner[0])) };
 }
 
 //------------------------------------------------------------------------------
-bool PatchSearch::solve(
+bool PatchSearch::Solve(
   const CurvedPatch& patch, const glm::dvec3& point, glm::dvec2& b, double& condition) const
 {
   constexpr double h = 1e-6;
   const glm::dvec2 start = b;
   for (int i = 0; i < 40; ++i)
   {
-    const glm::dvec2 f = this->equation(patch, point, b);
-    const glm::dvec2 fx = (this->equation(patch, point, b + glm::dvec2(h, 0.0)) -
-                            this->equation(patch, point, b - glm::dvec2(h, 0.0))) /
+    const glm::dvec2 f = this->GetEquation(patch, point, b);
+    const glm::dvec2 fx = (this->GetEquation(patch, point, b + glm::dvec2(h, 0.0)) -
+                            this->GetEquation(patch, point, b - glm::dvec2(h, 0.0))) /
       (2.0 * h);
-    const glm::dvec2 fy = (this->equation(patch, point, b + glm::dvec2(0.0, h)) -
-                            this->equation(patch, point, b - glm::dvec2(0.0, h))) /
+    const glm::dvec2 fy = (this->GetEquation(patch, point, b + glm::dvec2(0.0, h)) -
+                            this->GetEquation(patch, point, b - glm::dvec2(0.0, h))) /
       (2.0 * h);
-    const double determinant = cross(fx, fy);
+    const double determinant = Cross(fx, fy);
     condition = std::fabs(determinant) / (glm::length(fx) * glm::length(fy));
-    const glm::dvec2 step(-cross(f, fy) / determinant, -cross(fx, f) / determinant);
+    const glm::dvec2 step(-Cross(f, fy) / determinant, -Cross(fx, f) / determinant);
     b += step;
     if (!(glm::length(b - start) < 4.0 / Cells))
     {
@@ -85,7 +85,7 @@ bool PatchSearch::solve(
 }
 
 //------------------------------------------------------------------------------
-void PatchSearch::search(
+void PatchSearch::SearchImages(
   std::int32_t facet, const glm::dvec3& point, std::vector<Sight>& found) const
 {
   const CurvedPatch patch = this->Patches.GetPatch(facet);
@@ -94,7 +94,8 @@ void PatchSearch::search(
   {
     for (int i = 0; i < Nodes - j + 2 && i < Nodes; ++i)
     {
-      values[static_cast<std::size_t>(j * Nodes + i)] = this->equation(patch, point, nodeAt(i, j));
+      values[static_cast<std::size_t>(j * Nodes + i)] =
+        this->GetEquation(patch, point, NodeAt(i, j));
     }
   }
   for (int j = 1; j <= Cells; ++j)
@@ -120,9 +121,9 @@ void PatchSearch::search(
       {
         continue;
       }
-      glm::dvec2 b = nodeAt(i, j) + glm::dvec2(0.4 / Cells);
+      glm::dvec2 b = NodeAt(i, j) + glm::dvec2(0.4 / Cells);
       double condition = 0.0;
-      if (!this->solve(patch, point, b, condition))
+      if (!this->Solve(patch, point, b, condition))
       {
         continue;
       }
@@ -133,7 +134,7 @@ void PatchSearch::search(
       const double inside = FindOutside(b).Least;
       // Where the normal lies in the facet's plane, the two components may vanish although the
       // third does not.
-      const glm::dvec3 v = this->misfit(at, point);
+      const glm::dvec3 v = this->Misfit(at, point);
       const bool isRoot =
         glm::length(v - normal * glm::dot(v, normal)) < 1e-8 * (this->Exterior + this->Interior);
       const bool known = std::any_of(found.begin(), found.end(),
@@ -152,18 +153,18 @@ void PatchSearch::search(
 }
 
 //------------------------------------------------------------------------------
-std::vector<PatchSearch::Sight> PatchSearch::find(const glm::dvec3& point) const
+std::vector<PatchSearch::Sight> PatchSearch::Find(const glm::dvec3& point) const
 {
   std::vector<Sight> found;
   for (std::size_t facet = 0; facet < this->Facets; ++facet)
   {
-    this->search(static_cast<std::int32_t>(facet), point, found);
+    this->SearchImages(static_cast<std::int32_t>(facet), point, found);
   }
   return found;
 }
 
 //------------------------------------------------------------------------------
-double PatchSearch::residual(
+double PatchSearch::Residual(
   const glm::dvec3& point, const glm::dvec3& place, std::int32_t facet) const
 {
   // The nearest place on the patch, by finite differences.
@@ -187,7 +188,7 @@ double PatchSearch::residual(
   const double away =
     glm::length(at.Position - place) / glm::length(patch.Corner[1] - patch.Corner[0]);
   const glm::dvec3 normal = glm::normalize(at.Normal);
-  const glm::dvec3 v = this->misfit(at, point);
+  const glm::dvec3 v = this->Misfit(at, point);
   return away + glm::length(v - normal * glm::dot(v, normal)) / (this->Exterior + this->Interior) +
     std::max(0.0, -FindOutside(b).Least);
 }

@@ -46,17 +46,18 @@ public:
     double Facing;
     std::int32_t Facet;
   };
-  std::vector<Sight> find(const glm::dvec3& point) const;
+  std::vector<Sight> Find(const glm::dvec3& point) const;
 
   /** Residual of Snell's law at a place: the sine of the angle between h and the normal. */
-  double residual(const glm::dvec3& point, const glm::dvec3& place, std::int32_t facet) const;
+  double Residual(const glm::dvec3& point, const glm::dvec3& place, std::int32_t facet) const;
 
 private:
-  glm::dvec2 equation(const CurvedPatch& patch, const glm::dvec3& point, const glm::dvec2& b) const;
-  bool solve(
+  glm::dvec2 GetEquation(
+    const CurvedPatch& patch, const glm::dvec3& point, const glm::dvec2& b) const;
+  bool Solve(
     const CurvedPatch& patch, const glm::dvec3& point, glm::dvec2& b, double& condition) const;
-  void search(std::int32_t facet, const glm::dvec3& point, std::vector<Sight>& found) const;
-  glm::dvec3 misfit(const PatchPoint& at, const glm::dvec3& point) const;
+  void SearchImages(std::int32_t facet, const glm::dvec3& point, std::vector<Sight>& found) const;
+  glm::dvec3 Misfit(const PatchPoint& at, const glm::dvec3& point) const;
 
   const CurvedPatches& Patches;
   std::size_t Facets;

@@ -67,7 +67,7 @@ struct RefractionFamily
  * All families. The number of cases grows with the intensity; an intensity of 1 takes half a
  * minute.
  */
-std::vector<RefractionFamily> refractionFamilies(double intensity, std::uint64_t seed);
+std::vector<RefractionFamily> RefractionFamilies(double intensity, std::uint64_t seed);
 
 } // namespace test
 } // namespace meniscus

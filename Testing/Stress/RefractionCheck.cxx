@@ -33,7 +33,7 @@ using reference::SurfaceError;
 constexpr double Rest = 1e-8;
 
 // Reflectance by the amplitudes of the two polarisations, not by Eq. 2.6.
-double reflectance(double cosine, double exterior, double interior)
+double MakeReflectance(double cosine, double exterior, double interior)
 {
   const double c1 = std::clamp(cosine, 0.0, 1.0);
   const double sine = exterior / interior * std::sqrt(1.0 - c1 * c1);
@@ -56,7 +56,7 @@ public:
   {
   }
 
-  RefractionTally run()
+  RefractionTally Run()
   {
     reference::MembraneMesh mesh = this->Test.Mesh;
     for (std::size_t i = 0; i < mesh.Points.size(); ++i)
@@ -65,11 +65,11 @@ public:
         this->Test.Scale * mesh.Points[i] + this->Test.Offset[static_cast<int>(i % 3)];
     }
     if (this->Geometry.SetMembrane(mesh.AsInput()) != MembraneStatus::Ready ||
-      this->Geometry.SetEye(this->toWorld(this->Test.Eye), this->Test.Exterior,
+      this->Geometry.SetEye(this->ToWorld(this->Test.Eye), this->Test.Exterior,
         this->Test.Interior) != EyeStatus::Ready)
     {
       ++this->Tally.Failed;
-      this->note("membrane or eye refused");
+      this->Note("membrane or eye refused");
       return this->Tally;
     }
     double reach = glm::length(this->Test.Offset) / this->Test.Scale + glm::length(this->Test.Eye);
@@ -80,24 +80,24 @@ public:
     this->Rounding = 4.0 * std::numeric_limits<double>::epsilon() * (reach + 200.0);
     if (this->Test.Truth == RefractionTruth::Smooth)
     {
-      this->measureSurface();
-      this->checkBySurface();
+      this->MeasureSurface();
+      this->CheckBySurface();
     }
     else
     {
-      this->checkByPatches();
+      this->CheckByPatches();
     }
     return this->Tally;
   }
 
 private:
-  glm::dvec3 toWorld(const glm::dvec3& p) const { return this->Test.Scale * p + this->Test.Offset; }
-  glm::dvec3 fromWorld(const glm::dvec3& p) const
+  glm::dvec3 ToWorld(const glm::dvec3& p) const { return this->Test.Scale * p + this->Test.Offset; }
+  glm::dvec3 FromWorld(const glm::dvec3& p) const
   {
     return (p - this->Test.Offset) / this->Test.Scale;
   }
 
-  void note(const std::string& what)
+  void Note(const std::string& what)
   {
     if (this->Tally.First.empty())
     {
@@ -105,19 +105,19 @@ private:
     }
   }
 
-  void count(
+  void GetCount(
     std::int64_t RefractionTally::*fault, std::size_t point, const char* what, double x, double z)
   {
     ++(this->Tally.*fault);
     std::ostringstream text;
     text.precision(10);
     text << "point " << point << ": " << what << " at x " << x << ", z " << z;
-    this->note(text.str());
+    this->Note(text.str());
   }
 
   // Distance of the patches from the smooth surface, and of their normals; measured at places
   // inside a facet and on its edges, and enlarged by half for the places between these.
-  void measureSurface()
+  void MeasureSurface()
   {
     const CurvedPatches& patches = this->Geometry.GetPatches();
     const auto facets = static_cast<std::int32_t>(this->Geometry.GetMembrane().GetFacets().size());
@@ -131,7 +131,7 @@ private:
       {
         const PatchPoint at = patch.Evaluate(b);
         const glm::dvec3 p =
-          this->fromWorld(at.Position + this->Geometry.GetMembrane().GetOrigin());
+          this->FromWorld(at.Position + this->Geometry.GetMembrane().GetOrigin());
         const glm::dvec3 normal = this->Test.Surface.GetNormal(p.x, p.z);
         this->Error.Position =
           std::max(this->Error.Position, std::fabs(p.y - this->Test.Surface.At(p.x, p.z).F));
@@ -144,7 +144,7 @@ private:
   }
 
   // +1: in a hole; -1: not; 0: within `band` of a border.
-  int isInHole(const glm::dvec3& sight, double band) const
+  int IsInHole(const glm::dvec3& sight, double band) const
   {
     int result = -1;
     for (const auto& hole : this->Test.Holes)
@@ -167,19 +167,19 @@ private:
   }
 
   //----------------------------------------------------------------------------
-  void checkBySurface()
+  void CheckBySurface()
   {
     const SightOracle oracle(
       this->Test.Surface, this->Test.Eye, this->Test.Exterior, this->Test.Interior, this->Error);
     std::vector<double> points;
     for (const glm::dvec3& p : this->Test.Points)
     {
-      const glm::dvec3 world = this->toWorld(p);
+      const glm::dvec3 world = this->ToWorld(p);
       points.insert(points.end(), { world.x, world.y, world.z });
     }
     std::vector<VirtualVertex> first(this->Test.Points.size());
     this->Geometry.Solve(points.data(), 0, first.size(), first.data());
-    const ObjectImages object = this->solveObject(points);
+    const ObjectImages object = this->SolveObject(points);
     std::vector<VirtualVertex> images;
     for (std::size_t i = 0; i < this->Test.Points.size(); ++i)
     {
@@ -187,7 +187,7 @@ private:
       const glm::dvec3 world(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
       if (this->Geometry.FindImages(world, images) == ImageState::NotFinite)
       {
-        this->count(&RefractionTally::Failed, i, "no answer", 0.0, 0.0);
+        this->GetCount(&RefractionTally::Failed, i, "no answer", 0.0, 0.0);
         continue;
       }
       OracleAnswer answer = oracle.Find(this->Test.Points[i]);
@@ -196,23 +196,23 @@ private:
         ++this->Tally.GivenUp;
         continue;
       }
-      this->cutHoles(answer);
+      this->CutHoles(answer);
       this->Tally.Uncertain += !answer.Uncertain.empty();
-      this->compare(i, answer, images);
+      this->Compare(i, answer, images);
       if (answer.Uncertain.empty())
       {
-        this->checkObject(i, object, images);
+        this->CheckObject(i, object, images);
       }
-      this->checkFirst(i, answer, first[i]);
+      this->CheckFirst(i, answer, first[i]);
     }
     if (!this->Test.Triangles.empty())
     {
-      this->Tally.add(checkTriangles(this->Test, this->Geometry, oracle, this->Error));
+      this->Tally.Add(CheckTriangles(this->Test, this->Geometry, oracle, this->Error));
     }
   }
 
   // All points as one object, with the regions in which images are unique.
-  ObjectImages solveObject(const std::vector<double>& points)
+  ObjectImages SolveObject(const std::vector<double>& points)
   {
     this->Geometry.PrepareField();
     ObjectImages object(this->Geometry);
@@ -224,7 +224,7 @@ private:
   }
 
   // Expects the same images as those found one by one.
-  void checkObject(
+  void CheckObject(
     std::size_t i, const ObjectImages& object, const std::vector<VirtualVertex>& images)
   {
     std::size_t first = 0;
@@ -246,18 +246,18 @@ private:
     }
     if (!same)
     {
-      this->count(&RefractionTally::Wrong, i, "other images as part of an object",
+      this->GetCount(&RefractionTally::Wrong, i, "other images as part of an object",
         this->Test.Points[i].x, this->Test.Points[i].z);
     }
   }
 
-  void cutHoles(OracleAnswer& answer) const
+  void CutHoles(OracleAnswer& answer) const
   {
     std::vector<OracleImage> kept;
     for (const OracleImage& image : answer.Images)
     {
       const double band = 2.0 * image.Radius + 4.0 * this->Error.Position + 1e-7;
-      const int hole = this->isInHole(image.Sight, band);
+      const int hole = this->IsInHole(image.Sight, band);
       if (hole == 0)
       {
         answer.Uncertain.push_back({ image.Sight.x, image.Sight.z, band });
@@ -270,23 +270,23 @@ private:
     answer.Images = kept;
   }
 
-  double slackOf(const OracleImage& image) const
+  double SlackOf(const OracleImage& image) const
   {
     return 2.0 * image.Radius + 2.0 * this->Error.Position + Rest * this->Test.FacetSize;
   }
 
-  void compare(std::size_t i, const OracleAnswer& answer, const std::vector<VirtualVertex>& images)
+  void Compare(std::size_t i, const OracleAnswer& answer, const std::vector<VirtualVertex>& images)
   {
     std::vector<int> matches(answer.Images.size(), 0);
     for (const VirtualVertex& vertex : images)
     {
-      const glm::dvec3 sight = this->fromWorld(vertex.SightPoint);
+      const glm::dvec3 sight = this->FromWorld(vertex.SightPoint);
       bool known = false;
       for (std::size_t k = 0; k < answer.Images.size(); ++k)
       {
         const OracleImage& image = answer.Images[k];
         const double distance = glm::length(image.Sight - sight);
-        if (distance > this->slackOf(image))
+        if (distance > this->SlackOf(image))
         {
           continue;
         }
@@ -294,17 +294,17 @@ private:
         this->Tally.Largest = std::max(this->Tally.Largest, distance / this->Test.FacetSize);
         if (++matches[k] > this->Test.Layers)
         {
-          this->count(&RefractionTally::False, i, "an image too often", sight.x, sight.z);
+          this->GetCount(&RefractionTally::False, i, "an image too often", sight.x, sight.z);
         }
         if (vertex.Orientation != image.Orientation)
         {
-          this->count(&RefractionTally::Wrong, i, "orientation", sight.x, sight.z);
+          this->GetCount(&RefractionTally::Wrong, i, "orientation", sight.x, sight.z);
         }
       }
-      this->checkVertex(i, vertex);
+      this->CheckVertex(i, vertex);
       if (!known && !answer.IsUncertain(sight.x, sight.z, Rest * this->Test.FacetSize))
       {
-        this->count(&RefractionTally::False, i, "false image", sight.x, sight.z);
+        this->GetCount(&RefractionTally::False, i, "false image", sight.x, sight.z);
       }
     }
     for (std::size_t k = 0; k < answer.Images.size(); ++k)
@@ -312,43 +312,43 @@ private:
       ++this->Tally.Images;
       if (matches[k] == 0)
       {
-        this->count(&RefractionTally::Missed, i, "missed image", answer.Images[k].Sight.x,
+        this->GetCount(&RefractionTally::Missed, i, "missed image", answer.Images[k].Sight.x,
           answer.Images[k].Sight.z);
       }
     }
   }
 
-  void checkFirst(std::size_t i, const OracleAnswer& answer, const VirtualVertex& vertex)
+  void CheckFirst(std::size_t i, const OracleAnswer& answer, const VirtualVertex& vertex)
   {
-    const glm::dvec3 sight = this->fromWorld(vertex.SightPoint);
+    const glm::dvec3 sight = this->FromWorld(vertex.SightPoint);
     const bool found = vertex.State == ImageState::Found;
     const bool known = found &&
       std::any_of(answer.Images.begin(), answer.Images.end(),
         [&](const OracleImage& image)
-        { return glm::length(image.Sight - sight) <= this->slackOf(image); });
+        { return glm::length(image.Sight - sight) <= this->SlackOf(image); });
     const bool excused = found && answer.IsUncertain(sight.x, sight.z, Rest * this->Test.FacetSize);
     if (found && !known && !excused)
     {
-      this->count(&RefractionTally::False, i, "first image is none", sight.x, sight.z);
+      this->GetCount(&RefractionTally::False, i, "first image is none", sight.x, sight.z);
     }
     if (!found && !answer.Images.empty())
     {
-      this->count(&RefractionTally::Missed, i, "no first image", answer.Images[0].Sight.x,
+      this->GetCount(&RefractionTally::Missed, i, "no first image", answer.Images[0].Sight.x,
         answer.Images[0].Sight.z);
     }
   }
 
   // Eq. 2.4, depth and reflectance from the sight point and the patch's normal there.
-  void checkVertex(std::size_t i, const VirtualVertex& vertex)
+  void CheckVertex(std::size_t i, const VirtualVertex& vertex)
   {
     const glm::dvec3 point = this->Test.Points[i];
-    const glm::dvec3 sight = this->fromWorld(vertex.SightPoint);
+    const glm::dvec3 sight = this->FromWorld(vertex.SightPoint);
     const double depth = glm::length(point - sight);
     const glm::dvec3 way = sight - this->Test.Eye;
     const glm::dvec3 expected = this->Test.Exterior == this->Test.Interior
       ? point
       : sight + way / glm::length(way) * (depth * this->Test.Exterior / this->Test.Interior);
-    const glm::dvec3 position = this->fromWorld(vertex.Position);
+    const glm::dvec3 position = this->FromWorld(vertex.Position);
     // The rounding of a direction is that of its ends over its length, the distance of the eye.
     const double rounding =
       8.0 * this->Rounding * (1.0 + depth / std::min(glm::length(way), 1.0 + depth)) +
@@ -358,7 +358,7 @@ private:
       vertex.Reflectance >= 0.0 && vertex.Reflectance <= 1.0;
     if (!right)
     {
-      this->count(&RefractionTally::Wrong, i, "virtual vertex", sight.x, sight.z);
+      this->GetCount(&RefractionTally::Wrong, i, "virtual vertex", sight.x, sight.z);
     }
     if (this->Test.Truth == RefractionTruth::Smooth)
     {
@@ -366,19 +366,20 @@ private:
       const double cosine = -glm::dot(way, normal) / glm::length(way);
       const double turn = 2.0 * this->Error.Normal +
         2.0 * (this->Error.Position + this->Rounding) / glm::length(way) + 1e-9;
-      const double ends[2] = { reflectance(cosine - turn, this->Test.Exterior, this->Test.Interior),
-        reflectance(cosine + turn, this->Test.Exterior, this->Test.Interior) };
+      const double ends[2] = { MakeReflectance(
+                                 cosine - turn, this->Test.Exterior, this->Test.Interior),
+        MakeReflectance(cosine + turn, this->Test.Exterior, this->Test.Interior) };
       // Towards normal incidence reflectance may have a shallow minimum below both ends.
       if (vertex.Reflectance > std::max(ends[0], ends[1]) + 1e-6 ||
         vertex.Reflectance < std::min(ends[0], ends[1]) - 1e-3)
       {
-        this->count(&RefractionTally::Wrong, i, "reflectance", sight.x, sight.z);
+        this->GetCount(&RefractionTally::Wrong, i, "reflectance", sight.x, sight.z);
       }
     }
   }
 
   //----------------------------------------------------------------------------
-  void checkByPatches()
+  void CheckByPatches()
   {
     const glm::dvec3 origin = this->Geometry.GetMembrane().GetOrigin();
     const std::size_t facets = this->Geometry.GetMembrane().GetFacets().size();
@@ -391,25 +392,25 @@ private:
       const glm::dvec3 local = this->Test.Points[i] - origin;
       if (this->Geometry.FindImages(this->Test.Points[i], images) == ImageState::NotFinite)
       {
-        this->count(&RefractionTally::Failed, i, "no answer", 0.0, 0.0);
+        this->GetCount(&RefractionTally::Failed, i, "no answer", 0.0, 0.0);
         continue;
       }
       for (const VirtualVertex& vertex : images)
       {
         const glm::dvec3 place = vertex.SightPoint - origin;
-        this->checkVertex(i, vertex);
-        const double residual = search.residual(local, place, vertex.Facet);
+        this->CheckVertex(i, vertex);
+        const double residual = search.Residual(local, place, vertex.Facet);
         this->Tally.Largest = std::max(this->Tally.Largest, residual);
         if (!(residual < 1e-6))
         {
-          this->count(&RefractionTally::False, i, "false image", place.x, place.z);
+          this->GetCount(&RefractionTally::False, i, "false image", place.x, place.z);
         }
       }
-      this->comparePatches(i, search.find(local), images, origin);
+      this->ComparePatches(i, search.Find(local), images, origin);
     }
   }
 
-  void comparePatches(std::size_t i, const std::vector<PatchSearch::Sight>& sights,
+  void ComparePatches(std::size_t i, const std::vector<PatchSearch::Sight>& sights,
     const std::vector<VirtualVertex>& images, const glm::dvec3& origin)
   {
     bool uncertain = false;
@@ -429,7 +430,7 @@ private:
         });
       if (!found)
       {
-        this->count(&RefractionTally::Missed, i, "missed image", sight.Place.x, sight.Place.z);
+        this->GetCount(&RefractionTally::Missed, i, "missed image", sight.Place.x, sight.Place.z);
       }
     }
     this->Tally.Uncertain += uncertain;
@@ -445,7 +446,7 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void RefractionTally::add(const RefractionTally& other)
+void RefractionTally::Add(const RefractionTally& other)
 {
   this->Points += other.Points;
   this->Images += other.Images;
@@ -463,9 +464,9 @@ void RefractionTally::add(const RefractionTally& other)
 }
 
 //------------------------------------------------------------------------------
-RefractionTally checkCase(const RefractionCase& test)
+RefractionTally CheckCase(const RefractionCase& test)
 {
-  return Checker(test).run();
+  return Checker(test).Run();
 }
 
 } // namespace test

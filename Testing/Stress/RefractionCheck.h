@@ -39,15 +39,15 @@ struct RefractionTally
   /** First failure as text; empty if there is none. */
   std::string First;
 
-  void add(const RefractionTally& other);
-  bool isGood() const
+  void Add(const RefractionTally& other);
+  bool IsGood() const
   {
     return this->Missed == 0 && this->False == 0 && this->Wrong == 0 && this->Failed == 0;
   }
 };
 
 /** Solves a case and compares every answer with the case's reference. */
-RefractionTally checkCase(const RefractionCase& test);
+RefractionTally CheckCase(const RefractionCase& test);
 
 } // namespace test
 } // namespace meniscus

@@ -24,43 +24,43 @@ constexpr double Side = 200.0;
 constexpr int PointsPerCase = 24;
 
 // 10 to a random power between the two.
-double magnitude(StressRandom& random, double low, double high)
+double Magnitude(StressRandom& random, double low, double high)
 {
-  return std::pow(10.0, random.uniform(low, high));
+  return std::pow(10.0, random.Uniform(low, high));
 }
 
 //------------------------------------------------------------------------------
 // Waves of several directions, with slopes of `slope` at most in all.
-void addWaves(RefractionCase& test, StressRandom& random, int count, double slope)
+void AddWaves(RefractionCase& test, StressRandom& random, int count, double slope)
 {
   double shortest = Side;
   for (int i = 0; i < count; ++i)
   {
-    const double length = random.uniform(30.0, 150.0);
-    const double angle = random.uniform(0.0, 2.0 * Pi);
+    const double length = random.Uniform(30.0, 150.0);
+    const double angle = random.Uniform(0.0, 2.0 * Pi);
     const double k = 2.0 * Pi / length;
-    test.Surface.Waves.push_back({ slope / count * random.uniform(0.3, 1.0) / k,
-      k * std::cos(angle), k * std::sin(angle), random.uniform(0.0, 2.0 * Pi) });
+    test.Surface.Waves.push_back({ slope / count * random.Uniform(0.3, 1.0) / k,
+      k * std::cos(angle), k * std::sin(angle), random.Uniform(0.0, 2.0 * Pi) });
     shortest = std::min(shortest, length);
   }
   test.FacetSize = std::min(test.FacetSize, shortest / 16.0);
 }
 
-void addHills(RefractionCase& test, StressRandom& random)
+void AddHills(RefractionCase& test, StressRandom& random)
 {
-  const int count = 1 + random.below(4);
+  const int count = 1 + random.Below(4);
   for (int i = 0; i < count; ++i)
   {
-    const double k = random.uniform(0.015, 0.04);
+    const double k = random.Uniform(0.015, 0.04);
     // The steepest slope is 0.86 amplitude k.
-    const double slope = random.uniform(0.1, 0.8) / count * (random.below(3) ? 1.0 : -1.0);
+    const double slope = random.Uniform(0.1, 0.8) / count * (random.Below(3) ? 1.0 : -1.0);
     test.Surface.Hills.push_back(
-      { slope / k, k, random.uniform(-60.0, 60.0), random.uniform(-60.0, 60.0) });
+      { slope / k, k, random.Uniform(-60.0, 60.0), random.Uniform(-60.0, 60.0) });
     test.FacetSize = std::min(test.FacetSize, 1.0 / (8.0 * k));
   }
 }
 
-void makeMesh(RefractionCase& test)
+void MakeMesh(RefractionCase& test)
 {
   const int cells = std::clamp(static_cast<int>(std::ceil(Side / test.FacetSize)), 6, 96);
   test.FacetSize = Side / cells;
@@ -68,60 +68,60 @@ void makeMesh(RefractionCase& test)
 }
 
 //------------------------------------------------------------------------------
-RefractionCase makeSurface(StressRandom& random, int kind)
+RefractionCase MakeSurface(StressRandom& random, int kind)
 {
   RefractionCase test;
   test.FacetSize = Side / 16;
   switch (kind)
   {
     case 0:
-      addWaves(test, random, 1 + random.below(5), 0.5);
+      AddWaves(test, random, 1 + random.Below(5), 0.5);
       break;
     case 1:
-      addHills(test, random);
+      AddHills(test, random);
       break;
     case 2:
-      test.Surface.SphereRadius = Side * random.uniform(0.8, 5.0) * (random.below(2) ? 1.0 : -1.0);
-      test.FacetSize = Side / (6 + random.below(26));
+      test.Surface.SphereRadius = Side * random.Uniform(0.8, 5.0) * (random.Below(2) ? 1.0 : -1.0);
+      test.FacetSize = Side / (6 + random.Below(26));
       break;
     case 3:
-      addWaves(test, random, 16, 1.2);
+      AddWaves(test, random, 16, 1.2);
       break;
     default: // flat
       break;
   }
-  makeMesh(test);
+  MakeMesh(test);
   return test;
 }
 
 // n1 / n2 from 0.3 to 3, sometimes 1.
-void setIndices(RefractionCase& test, StressRandom& random)
+void SetIndices(RefractionCase& test, StressRandom& random)
 {
   const double ratio =
-    random.below(16) == 0 ? 1.0 : std::exp(random.uniform(std::log(0.3), std::log(3.0)));
-  test.Interior = random.below(2) ? 1.0 : random.uniform(0.5, 2.0);
+    random.Below(16) == 0 ? 1.0 : std::exp(random.Uniform(std::log(0.3), std::log(3.0)));
+  test.Interior = random.Below(2) ? 1.0 : random.Uniform(0.5, 2.0);
   test.Exterior = test.Interior * ratio;
 }
 
-glm::dvec3 randomSight(const RefractionCase& test, StressRandom& random)
+glm::dvec3 RandomSight(const RefractionCase& test, StressRandom& random)
 {
   return test.Surface.GetPoint(
-    random.uniform(-0.5 * Side, 0.5 * Side), random.uniform(-0.5 * Side, 0.5 * Side));
+    random.Uniform(-0.5 * Side, 0.5 * Side), random.Uniform(-0.5 * Side, 0.5 * Side));
 }
 
 // Elevation in degrees.
-void setEye(RefractionCase& test, StressRandom& random, double low, double high, double distance)
+void SetEye(RefractionCase& test, StressRandom& random, double low, double high, double distance)
 {
-  const double elevation = random.uniform(low, high) * Pi / 180.0;
-  const double angle = random.uniform(0.0, 2.0 * Pi);
-  test.Eye = 0.3 * randomSight(test, random) +
+  const double elevation = random.Uniform(low, high) * Pi / 180.0;
+  const double angle = random.Uniform(0.0, 2.0 * Pi);
+  test.Eye = 0.3 * RandomSight(test, random) +
     distance *
       glm::dvec3(std::cos(elevation) * std::cos(angle), std::sin(elevation),
         std::cos(elevation) * std::sin(angle));
 }
 
 // A point at `length` behind `sight` on the refracted ray; a random place below if there is none.
-glm::dvec3 pointBehind(
+glm::dvec3 PointBehind(
   const RefractionCase& test, StressRandom& random, const glm::dvec3& sight, double length)
 {
   const auto ray = test.Surface.Refract(test.Eye, sight, test.Exterior / test.Interior);
@@ -129,105 +129,105 @@ glm::dvec3 pointBehind(
   {
     return sight + length * *ray;
   }
-  return sight + length * glm::dvec3(random.uniform(-1.0, 1.0), -1.0, random.uniform(-1.0, 1.0));
+  return sight + length * glm::dvec3(random.Uniform(-1.0, 1.0), -1.0, random.Uniform(-1.0, 1.0));
 }
 
-void addPoints(RefractionCase& test, StressRandom& random, double low, double high)
+void AddPoints(RefractionCase& test, StressRandom& random, double low, double high)
 {
   for (int i = 0; i < PointsPerCase; ++i)
   {
-    const double length = Side * magnitude(random, low, high);
-    if (random.below(4) == 0)
+    const double length = Side * Magnitude(random, low, high);
+    if (random.Below(4) == 0)
     {
-      test.Points.push_back(randomSight(test, random) - glm::dvec3(0.0, length, 0.0));
+      test.Points.push_back(RandomSight(test, random) - glm::dvec3(0.0, length, 0.0));
     }
     else
     {
-      test.Points.push_back(pointBehind(test, random, randomSight(test, random), length));
+      test.Points.push_back(PointBehind(test, random, RandomSight(test, random), length));
     }
   }
 }
 
-RefractionCase makeOrdinary(StressRandom& random, int kind)
+RefractionCase MakeOrdinary(StressRandom& random, int kind)
 {
-  RefractionCase test = makeSurface(random, kind);
-  setIndices(test, random);
-  setEye(test, random, 20.0, 90.0, Side * magnitude(random, 0.0, 1.0));
-  addPoints(test, random, -2.0, 0.5);
+  RefractionCase test = MakeSurface(random, kind);
+  SetIndices(test, random);
+  SetEye(test, random, 20.0, 90.0, Side * Magnitude(random, 0.0, 1.0));
+  AddPoints(test, random, -2.0, 0.5);
   return test;
 }
 
 //------------------------------------------------------------------------------
-RefractionCase makeFar(StressRandom& random)
+RefractionCase MakeFar(StressRandom& random)
 {
-  RefractionCase test = makeSurface(random, random.below(5));
-  setIndices(test, random);
-  setEye(test, random, 15.0, 90.0, 0.5 * Side * magnitude(random, 0.0, 4.0));
-  addPoints(test, random, -1.0, 3.7);
+  RefractionCase test = MakeSurface(random, random.Below(5));
+  SetIndices(test, random);
+  SetEye(test, random, 15.0, 90.0, 0.5 * Side * Magnitude(random, 0.0, 4.0));
+  AddPoints(test, random, -1.0, 3.7);
   return test;
 }
 
 // The eye at a distance of a thousandth of a facet to one facet.
-RefractionCase makeNearEye(StressRandom& random)
+RefractionCase MakeNearEye(StressRandom& random)
 {
-  RefractionCase test = makeSurface(random, 2 + 2 * random.below(2));
-  setIndices(test, random);
-  const double height = test.FacetSize * magnitude(random, -3.0, 0.0);
-  const glm::dvec3 foot = 0.9 * randomSight(test, random);
+  RefractionCase test = MakeSurface(random, 2 + 2 * random.Below(2));
+  SetIndices(test, random);
+  const double height = test.FacetSize * Magnitude(random, -3.0, 0.0);
+  const glm::dvec3 foot = 0.9 * RandomSight(test, random);
   const glm::dvec3 below = test.Surface.GetPoint(foot.x, foot.z);
   test.Eye = below + height * test.Surface.GetNormal(foot.x, foot.z);
   for (int i = 0; i < PointsPerCase; ++i)
   {
-    const double away = std::min(height * magnitude(random, -1.0, 1.5), 0.25 * Side);
-    const double angle = random.uniform(0.0, 2.0 * Pi);
+    const double away = std::min(height * Magnitude(random, -1.0, 1.5), 0.25 * Side);
+    const double angle = random.Uniform(0.0, 2.0 * Pi);
     const glm::dvec3 sight =
       test.Surface.GetPoint(below.x + away * std::cos(angle), below.z + away * std::sin(angle));
-    test.Points.push_back(pointBehind(test, random, sight, height * magnitude(random, -1.0, 3.0)));
+    test.Points.push_back(PointBehind(test, random, sight, height * Magnitude(random, -1.0, 3.0)));
   }
   return test;
 }
 
-RefractionCase makeGrazing(StressRandom& random)
+RefractionCase MakeGrazing(StressRandom& random)
 {
-  RefractionCase test = makeSurface(random, random.below(5));
-  setIndices(test, random);
-  setEye(test, random, 0.2, 8.0, Side * magnitude(random, 0.0, 1.0));
-  addPoints(test, random, -2.0, 0.3);
+  RefractionCase test = MakeSurface(random, random.Below(5));
+  SetIndices(test, random);
+  SetEye(test, random, 0.2, 8.0, Side * Magnitude(random, 0.0, 1.0));
+  AddPoints(test, random, -2.0, 0.3);
   return test;
 }
 
 // Points on the membrane, down to 1e-6 of a facet below it, and above it.
-RefractionCase makeNearObject(StressRandom& random)
+RefractionCase MakeNearObject(StressRandom& random)
 {
-  RefractionCase test = makeSurface(random, random.below(5));
-  setIndices(test, random);
-  setEye(test, random, 20.0, 90.0, Side * magnitude(random, 0.0, 1.0));
+  RefractionCase test = MakeSurface(random, random.Below(5));
+  SetIndices(test, random);
+  SetEye(test, random, 20.0, 90.0, Side * Magnitude(random, 0.0, 1.0));
   for (int i = 0; i < PointsPerCase; ++i)
   {
-    const glm::dvec3 sight = randomSight(test, random);
-    const double length = test.FacetSize * magnitude(random, -6.0, 0.0);
-    const int where = random.below(8);
+    const glm::dvec3 sight = RandomSight(test, random);
+    const double length = test.FacetSize * Magnitude(random, -6.0, 0.0);
+    const int where = random.Below(8);
     test.Points.push_back(where == 0 ? sight
         : where == 1                 ? sight + glm::dvec3(0.0, length, 0.0)
-                                     : pointBehind(test, random, sight, length));
+                                     : PointBehind(test, random, sight, length));
   }
   return test;
 }
 
-RefractionCase makeOffset(StressRandom& random)
+RefractionCase MakeOffset(StressRandom& random)
 {
-  RefractionCase test = makeOrdinary(random, random.below(5));
-  test.Scale = magnitude(random, -6.0, 6.0);
-  test.Offset = test.Scale * magnitude(random, 0.0, 7.0) * random.direction();
+  RefractionCase test = MakeOrdinary(random, random.Below(5));
+  test.Scale = Magnitude(random, -6.0, 6.0);
+  test.Offset = test.Scale * Magnitude(random, 0.0, 7.0) * random.GetDirection();
   return test;
 }
 
 //------------------------------------------------------------------------------
 // A valid mesh with facets that add nothing: repeated ones, with or without their own points, ones
 // without area, with corners that are not finite or do not exist; all in another order.
-RefractionCase makeDirty(StressRandom& random)
+RefractionCase MakeDirty(StressRandom& random)
 {
-  RefractionCase test = makeOrdinary(random, random.below(5));
+  RefractionCase test = MakeOrdinary(random, random.Below(5));
   test.Layers = 3;
   MembraneMesh& mesh = test.Mesh;
   const auto facets = static_cast<int>(mesh.GetNumberOfFacets());
@@ -245,8 +245,8 @@ RefractionCase makeDirty(StressRandom& random)
   const auto bad = static_cast<std::int64_t>(mesh.Points.size() / 3) - 1;
   for (int i = 0; i < facets / 8; ++i)
   {
-    const int f = random.below(facets);
-    switch (random.below(6))
+    const int f = random.Below(facets);
+    switch (random.Below(6))
     {
       case 0:
         mesh.AddTriangle(corner(f, 1), corner(f, 2), corner(f, 0));
@@ -261,7 +261,7 @@ RefractionCase makeDirty(StressRandom& random)
         mesh.AddTriangle(corner(f, 0), bad, corner(f, 1));
         break;
       case 4:
-        mesh.AddTriangle(corner(f, 0), corner(f, 1), random.below(2) ? -1 : 1000000000);
+        mesh.AddTriangle(corner(f, 0), corner(f, 1), random.Below(2) ? -1 : 1000000000);
         break;
       default:
       {
@@ -274,7 +274,7 @@ RefractionCase makeDirty(StressRandom& random)
   }
   for (std::size_t i = mesh.GetNumberOfFacets(); i > 1; --i)
   {
-    const auto j = static_cast<std::size_t>(random.below(static_cast<int>(i)));
+    const auto j = static_cast<std::size_t>(random.Below(static_cast<int>(i)));
     std::swap_ranges(mesh.Triangles.begin() + static_cast<std::ptrdiff_t>(3 * (i - 1)),
       mesh.Triangles.begin() + static_cast<std::ptrdiff_t>(3 * i),
       mesh.Triangles.begin() + static_cast<std::ptrdiff_t>(3 * j));
@@ -283,12 +283,12 @@ RefractionCase makeDirty(StressRandom& random)
 }
 
 // Membranes without a tenth of their facets, in some cases a connected tenth.
-RefractionCase makeHoles(StressRandom& random)
+RefractionCase MakeHoles(StressRandom& random)
 {
-  RefractionCase test = makeOrdinary(random, random.below(5));
+  RefractionCase test = MakeOrdinary(random, random.Below(5));
   MembraneMesh& mesh = test.Mesh;
-  const bool inOnePiece = random.below(2) == 0;
-  const glm::dvec3 middle = 0.7 * randomSight(test, random);
+  const bool inOnePiece = random.Below(2) == 0;
+  const glm::dvec3 middle = 0.7 * RandomSight(test, random);
   std::vector<std::int64_t> kept;
   for (std::size_t i = 0; i < mesh.Triangles.size(); i += 3)
   {
@@ -300,7 +300,7 @@ RefractionCase makeHoles(StressRandom& random)
     }
     const bool drop = inOnePiece
       ? glm::length(corners[0] - glm::dvec2(middle.x, middle.z)) < 0.18 * Side
-      : random.below(10) == 0;
+      : random.Below(10) == 0;
     if (drop)
     {
       test.Holes.push_back(corners);
@@ -316,40 +316,40 @@ RefractionCase makeHoles(StressRandom& random)
 
 //------------------------------------------------------------------------------
 // For surfaces that are their own reference: points in a box below, and eyes above.
-void lookFromAbove(RefractionCase& test, StressRandom& random)
+void LookFromAbove(RefractionCase& test, StressRandom& random)
 {
   test.Truth = RefractionTruth::Patches;
-  setIndices(test, random);
-  setEye(test, random, 20.0, 90.0, Side * magnitude(random, 0.0, 1.0));
+  SetIndices(test, random);
+  SetEye(test, random, 20.0, 90.0, Side * Magnitude(random, 0.0, 1.0));
   for (int i = 0; i < PointsPerCase; ++i)
   {
-    test.Points.emplace_back(random.uniform(-80.0, 80.0), -Side * magnitude(random, -1.0, 0.3),
-      random.uniform(-80.0, 80.0));
+    test.Points.emplace_back(random.Uniform(-80.0, 80.0), -Side * Magnitude(random, -1.0, 0.3),
+      random.Uniform(-80.0, 80.0));
   }
 }
 
 // Random heights and normals at every vertex.
-RefractionCase makeRough(StressRandom& random)
+RefractionCase MakeRough(StressRandom& random)
 {
   RefractionCase test;
-  const int cells = 4 + random.below(7);
+  const int cells = 4 + random.Below(7);
   test.FacetSize = Side / cells;
-  test.Mesh = reference::MakeRandom(Side, cells, test.FacetSize * magnitude(random, -2.0, 0.0),
-    magnitude(random, -2.0, 0.3), static_cast<unsigned>(random.bits()));
-  lookFromAbove(test, random);
+  test.Mesh = reference::MakeRandom(Side, cells, test.FacetSize * Magnitude(random, -2.0, 0.0),
+    Magnitude(random, -2.0, 0.3), static_cast<unsigned>(random.Bits()));
+  LookFromAbove(test, random);
   return test;
 }
 
 // A sheet that overhangs: x swings back along it.
-RefractionCase makeFolded(StressRandom& random)
+RefractionCase MakeFolded(StressRandom& random)
 {
   RefractionCase test;
-  const int cells = 8 + random.below(6);
+  const int cells = 8 + random.Below(6);
   test.FacetSize = Side / cells;
   test.Mesh = reference::MakeSquare(Side, cells, 0.0);
-  const double k = 2.0 * Pi * random.uniform(1.0, 2.0) / Side;
-  const double swing = random.uniform(0.5, 1.6) / k; // above 1 / k it overhangs
-  const double height = random.uniform(0.3, 1.5) / k;
+  const double k = 2.0 * Pi * random.Uniform(1.0, 2.0) / Side;
+  const double swing = random.Uniform(0.5, 1.6) / k; // above 1 / k it overhangs
+  const double height = random.Uniform(0.3, 1.5) / k;
   MembraneMesh& mesh = test.Mesh;
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
   {
@@ -361,52 +361,52 @@ RefractionCase makeFolded(StressRandom& random)
     const glm::dvec3 normal = glm::normalize(glm::dvec3(-along.y, along.x, 0.0));
     std::copy(&normal.x, &normal.x + 3, mesh.Normals.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  lookFromAbove(test, random);
+  LookFromAbove(test, random);
   return test;
 }
 
 // Fins on edges of a wavy sheet: three and four facets meet there.
-RefractionCase makeNonManifold(StressRandom& random)
+RefractionCase MakeNonManifold(StressRandom& random)
 {
   RefractionCase test;
-  addWaves(test, random, 2, 0.4);
+  AddWaves(test, random, 2, 0.4);
   test.FacetSize = Side / 10;
-  makeMesh(test);
+  MakeMesh(test);
   MembraneMesh& mesh = test.Mesh;
   const std::size_t facets = mesh.GetNumberOfFacets();
   for (int i = 0; i < 40; ++i)
   {
-    const auto f = static_cast<std::size_t>(random.below(static_cast<int>(facets)));
+    const auto f = static_cast<std::size_t>(random.Below(static_cast<int>(facets)));
     const std::int64_t a = mesh.Triangles[3 * f];
     const std::int64_t b = mesh.Triangles[3 * f + 1];
     const auto at = static_cast<std::size_t>(3 * a);
     const glm::dvec3 tip = glm::dvec3(mesh.Points[at], mesh.Points[at + 1], mesh.Points[at + 2]) +
       test.FacetSize *
-        glm::dvec3(random.uniform(-1.0, 1.0), random.uniform(-0.5, 0.5), random.uniform(-1.0, 1.0));
+        glm::dvec3(random.Uniform(-1.0, 1.0), random.Uniform(-0.5, 0.5), random.Uniform(-1.0, 1.0));
     mesh.AddPoint(tip, test.Surface.GetNormal(tip.x, tip.z));
     mesh.AddTriangle(a, b, static_cast<std::int64_t>(mesh.Points.size() / 3) - 1);
   }
-  lookFromAbove(test, random);
+  LookFromAbove(test, random);
   return test;
 }
 
 //------------------------------------------------------------------------------
 // Triangles of all sizes, some of them large relative to the membrane, none of which crosses it.
-RefractionCase makeTriangles(StressRandom& random)
+RefractionCase MakeTriangles(StressRandom& random)
 {
-  RefractionCase test = makeSurface(random, random.below(5));
-  setIndices(test, random);
-  setEye(test, random, 30.0, 90.0, Side * magnitude(random, 0.0, 0.7));
+  RefractionCase test = MakeSurface(random, random.Below(5));
+  SetIndices(test, random);
+  SetEye(test, random, 30.0, 90.0, Side * Magnitude(random, 0.0, 0.7));
   for (int i = 0; i < 6; ++i)
   {
-    const double depth = Side * magnitude(random, -0.6, 0.2);
+    const double depth = Side * Magnitude(random, -0.6, 0.2);
     const glm::dvec3 middle =
-      pointBehind(test, random, 0.8 * randomSight(test, random), depth) - glm::dvec3(0, 40, 0);
-    const double size = std::min(Side * magnitude(random, -1.7, 0.0), 0.6 * (-30.0 - middle.y));
+      PointBehind(test, random, 0.8 * RandomSight(test, random), depth) - glm::dvec3(0, 40, 0);
+    const double size = std::min(Side * Magnitude(random, -1.7, 0.0), 0.6 * (-30.0 - middle.y));
     std::array<glm::dvec3, 3> triangle;
     for (glm::dvec3& corner : triangle)
     {
-      corner = middle + size * random.direction();
+      corner = middle + size * random.GetDirection();
     }
     if (size > 0.0)
     {
@@ -419,7 +419,7 @@ RefractionCase makeTriangles(StressRandom& random)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<RefractionFamily> refractionFamilies(double intensity, std::uint64_t seed)
+std::vector<RefractionFamily> RefractionFamilies(double intensity, std::uint64_t seed)
 {
   std::vector<RefractionFamily> families;
   const auto add = [&](const std::string& name, double cases,
@@ -434,22 +434,22 @@ std::vector<RefractionFamily> refractionFamilies(double intensity, std::uint64_t
         return make(random);
       } });
   };
-  add("waves", 12, [](StressRandom& random) { return makeOrdinary(random, 0); });
-  add("domes", 12, [](StressRandom& random) { return makeOrdinary(random, 1); });
-  add("bowls", 12, [](StressRandom& random) { return makeOrdinary(random, 2); });
-  add("noise", 4, [](StressRandom& random) { return makeOrdinary(random, 3); });
-  add("flat", 8, [](StressRandom& random) { return makeOrdinary(random, 4); });
-  add("far eyes and objects", 16, makeFar);
-  add("near eyes", 16, makeNearEye);
-  add("grazing eyes", 16, makeGrazing);
-  add("near objects", 12, makeNearObject);
-  add("offset and scaled", 12, makeOffset);
-  add("dirty meshes", 12, makeDirty);
-  add("holes", 12, makeHoles);
-  add("rough", 12, makeRough);
-  add("folded", 12, makeFolded);
-  add("non-manifold", 12, makeNonManifold);
-  add("triangles", 12, makeTriangles);
+  add("waves", 12, [](StressRandom& random) { return MakeOrdinary(random, 0); });
+  add("domes", 12, [](StressRandom& random) { return MakeOrdinary(random, 1); });
+  add("bowls", 12, [](StressRandom& random) { return MakeOrdinary(random, 2); });
+  add("noise", 4, [](StressRandom& random) { return MakeOrdinary(random, 3); });
+  add("flat", 8, [](StressRandom& random) { return MakeOrdinary(random, 4); });
+  add("far eyes and objects", 16, MakeFar);
+  add("near eyes", 16, MakeNearEye);
+  add("grazing eyes", 16, MakeGrazing);
+  add("near objects", 12, MakeNearObject);
+  add("offset and scaled", 12, MakeOffset);
+  add("dirty meshes", 12, MakeDirty);
+  add("holes", 12, MakeHoles);
+  add("rough", 12, MakeRough);
+  add("folded", 12, MakeFolded);
+  add("non-manifold", 12, MakeNonManifold);
+  add("triangles", 12, MakeTriangles);
   return families;
 }
 

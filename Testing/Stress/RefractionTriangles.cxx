@@ -38,7 +38,7 @@ struct Piece
   std::array<glm::dvec3, 3> Weights;
 };
 
-glm::dvec3 weightsOf(const ImagePoint& point)
+glm::dvec3 WeightsOf(const ImagePoint& point)
 {
   glm::dvec3 result(0.0);
   for (std::size_t k = 0; k < 3; ++k)
@@ -51,7 +51,7 @@ glm::dvec3 weightsOf(const ImagePoint& point)
   return result;
 }
 
-void addPieces(
+void AddPieces(
   const ImageMesh& mesh, const std::vector<ImagePoint>& points, std::vector<Piece>& pieces)
 {
   std::int64_t begin = 0;
@@ -67,7 +67,7 @@ void addPieces(
           points[static_cast<std::size_t>(mesh.Connectivity[static_cast<std::size_t>(ids[i])])];
         piece.Drawn[i] = point.Vertex.Position;
         piece.Sight[i] = point.Vertex.SightPoint;
-        piece.Weights[i] = weightsOf(point);
+        piece.Weights[i] = WeightsOf(point);
       }
       pieces.push_back(piece);
     }
@@ -75,7 +75,7 @@ void addPieces(
   }
 }
 
-std::vector<Piece> draw(const CurvedMembraneSolver& geometry, const Triangle& triangle)
+std::vector<Piece> Draw(const CurvedMembraneSolver& geometry, const Triangle& triangle)
 {
   ObjectImages images(geometry);
   images.SetTolerance(Tolerance);
@@ -91,13 +91,13 @@ std::vector<Piece> draw(const CurvedMembraneSolver& geometry, const Triangle& tr
   unsigned char isMapped = 0;
   images.MapPolygons({ offsets, connectivity }, &name, 0, 1, nullptr, pieces, whole, &isMapped);
   std::vector<Piece> result;
-  addPieces(pieces, pieces.Points, result);
-  addPieces(whole, images.GetPointImages(), result);
+  AddPieces(pieces, pieces.Points, result);
+  AddPieces(whole, images.GetPointImages(), result);
   return result;
 }
 
 // Coordinates of `weights` in the piece; returns false if they are outside by more than `slack`.
-bool locate(const Piece& piece, const glm::dvec3& weights, double slack, glm::dvec3& inside)
+bool Locate(const Piece& piece, const glm::dvec3& weights, double slack, glm::dvec3& inside)
 {
   const auto cross = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y * b.z - a.z * b.y; };
   const glm::dvec3 u = piece.Weights[1] - piece.Weights[0];
@@ -122,19 +122,20 @@ public:
   {
   }
 
-  void check(const CurvedMembraneSolver& geometry, const Triangle& triangle, StressRandom& random)
+  void CheckResult(
+    const CurvedMembraneSolver& geometry, const Triangle& triangle, StressRandom& random)
   {
-    const std::vector<Piece> pieces = draw(geometry, triangle);
+    const std::vector<Piece> pieces = Draw(geometry, triangle);
     for (int i = 0; i < PlacesPerTriangle; ++i)
     {
-      double u = random.uniform();
-      double v = random.uniform();
+      double u = random.Uniform();
+      double v = random.Uniform();
       if (u + v > 1.0)
       {
         u = 1.0 - u;
         v = 1.0 - v;
       }
-      this->checkPlace(triangle, pieces, { 1.0 - u - v, u, v });
+      this->CheckPlace(triangle, pieces, { 1.0 - u - v, u, v });
     }
   }
 
@@ -147,7 +148,7 @@ private:
     bool IsTrue;
   };
 
-  void checkPlace(
+  void CheckPlace(
     const Triangle& triangle, const std::vector<Piece>& pieces, const glm::dvec3& weights)
   {
     const glm::dvec3 place =
@@ -164,29 +165,29 @@ private:
     for (const Piece& piece : pieces)
     {
       glm::dvec3 inside;
-      if (locate(piece, weights, 1e-9, inside))
+      if (Locate(piece, weights, 1e-9, inside))
       {
         const glm::dvec3 drawn =
           inside.x * piece.Drawn[0] + inside.y * piece.Drawn[1] + inside.z * piece.Drawn[2];
         const glm::dvec3 sight =
           inside.x * piece.Sight[0] + inside.y * piece.Sight[1] + inside.z * piece.Sight[2];
         const glm::dvec3 direction = glm::normalize(drawn - this->Test.Eye);
-        shown.push_back({ direction, this->shows(triangle, place, direction, sight) });
+        shown.push_back({ direction, this->Shows(triangle, place, direction, sight) });
         if (!shown.back().IsTrue)
         {
-          this->count(&RefractionTally::False, "a piece shows another place", place, sight);
+          this->GetCount(&RefractionTally::False, "a piece shows another place", place, sight);
         }
       }
     }
     for (const OracleImage& image : answer.Images)
     {
       ++this->Tally.Images;
-      this->checkImage(answer, image, shown, place);
+      this->CheckImage(answer, image, shown, place);
     }
   }
 
   // Place where the triangle's plane is seen in a direction; returns false if it is not seen.
-  bool trace(
+  bool Trace(
     const Triangle& triangle, const glm::dvec3& direction, double distance, glm::dvec3& hit) const
   {
     const glm::dvec3 s = this->Test.Surface.Intersect(this->Test.Eye, direction, distance);
@@ -204,12 +205,12 @@ private:
 
   // True if light from `place` arrives within a few tolerances of a direction: the places that are
   // seen on a ring around the direction surround it.
-  bool shows(const Triangle& triangle, const glm::dvec3& place, const glm::dvec3& direction,
+  bool Shows(const Triangle& triangle, const glm::dvec3& place, const glm::dvec3& direction,
     const glm::dvec3& sight) const
   {
     const double distance = glm::length(sight - this->Test.Eye);
     glm::dvec3 middle;
-    if (!this->trace(triangle, direction, distance, middle))
+    if (!this->Trace(triangle, direction, distance, middle))
     {
       return true; // at the critical angle or at grazing incidence
     }
@@ -225,7 +226,7 @@ private:
       glm::dvec3 hit;
       const glm::dvec3 near =
         glm::normalize(direction + angle * (std::cos(turn) * right + std::sin(turn) * up));
-      if (!this->trace(triangle, near, distance, hit))
+      if (!this->Trace(triangle, near, distance, hit))
       {
         return true;
       }
@@ -234,7 +235,7 @@ private:
     return glm::length(place - middle) <= reach;
   }
 
-  void checkImage(const OracleAnswer& answer, const OracleImage& image,
+  void CheckImage(const OracleAnswer& answer, const OracleImage& image,
     const std::vector<Shown>& shown, const glm::dvec3& place)
   {
     const glm::dvec3 direction = glm::normalize(image.Sight - this->Test.Eye);
@@ -252,11 +253,11 @@ private:
       { return other.IsTrue && glm::length(other.Direction - direction) <= limit; });
     if (!found)
     {
-      this->count(&RefractionTally::Missed, "no piece shows an image", place, image.Sight);
+      this->GetCount(&RefractionTally::Missed, "no piece shows an image", place, image.Sight);
     }
   }
 
-  void count(std::int64_t RefractionTally::*fault, const char* what, const glm::dvec3& place,
+  void GetCount(std::int64_t RefractionTally::*fault, const char* what, const glm::dvec3& place,
     const glm::dvec3& sight)
   {
     ++(this->Tally.*fault);
@@ -278,14 +279,14 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-RefractionTally checkTriangles(const RefractionCase& test, const CurvedMembraneSolver& geometry,
+RefractionTally CheckTriangles(const RefractionCase& test, const CurvedMembraneSolver& geometry,
   const reference::SightOracle& oracle, const reference::SurfaceError& error)
 {
   TriangleChecker checker(test, oracle, error);
   StressRandom random(test.Triangles.size());
   for (const Triangle& triangle : test.Triangles)
   {
-    checker.check(geometry, triangle, random);
+    checker.CheckResult(geometry, triangle, random);
   }
   return checker.Tally;
 }

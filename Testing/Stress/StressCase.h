@@ -61,7 +61,7 @@ struct StressFamily
  * @param intensity 1 takes seconds; the number of random meshes grows with it, that of repetitions
  *   with its square root.
  */
-std::vector<StressFamily> stressFamilies(double intensity, std::uint64_t seed);
+std::vector<StressFamily> StressFamilies(double intensity, std::uint64_t seed);
 
 } // namespace test
 } // namespace meniscus

@@ -34,7 +34,7 @@ namespace
 {
 
 /** Input of ComputeRayFrame except for the mesh's centre and radius. */
-RayFrameInput frameInput(const VolumeView& view, int size)
+RayFrameInput FrameInput(const VolumeView& view, int size)
 {
   RayFrameInput input;
   input.WorldToView = glm::lookAt(view.Eye, view.Focus, view.Up);
@@ -50,10 +50,10 @@ RayFrameInput frameInput(const VolumeView& view, int size)
 class KernelCaster : public StressCaster
 {
 public:
-  void take(const StressCase& stress) override
+  void Take(const StressCase& stress) override
   {
     this->Size = stress.Size;
-    this->buildMesh(stress.Mesh);
+    this->BuildMesh(stress.Mesh);
     vtkDataArray* scalars = stress.Mesh->GetPointData()->GetScalars();
     double range[2];
     scalars->GetFiniteRange(range);
@@ -78,7 +78,7 @@ public:
     this->Tables.Intervals = PackIntervals(this->Intervals);
   }
 
-  StressImage cast(const VolumeView& view) override
+  StressImage Cast(const VolumeView& view) override
   {
     StressImage result;
     result.Image.Width = result.Image.Height = this->Size;
@@ -89,7 +89,7 @@ public:
     scene.Tables = &this->Tables;
     scene.TerminationTransmittance = Transmittance;
     scene.Set = BestInstructionSet();
-    RayFrameInput input = frameInput(view, this->Size);
+    RayFrameInput input = FrameInput(view, this->Size);
     input.Center = this->Mesh.GetCenter();
     input.Radius = this->Mesh.GetRadius();
     RayFrame frame;
@@ -118,7 +118,7 @@ private:
   // The mapper's default.
   static constexpr float Transmittance = 1.0f / 131072.0f;
 
-  void buildMesh(vtkUnstructuredGrid* grid)
+  void BuildMesh(vtkUnstructuredGrid* grid)
   {
     std::vector<double> points;
     for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
@@ -154,21 +154,21 @@ public:
     // Soups cause a warning of the mapper for every mesh.
     vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
     this->Mapper->SetBackend(backend);
-    this->Scene.setMapper(this->Mapper);
+    this->Scene.SetMapper(this->Mapper);
   }
 
-  void take(const StressCase& stress) override
+  void Take(const StressCase& stress) override
   {
     this->Mapper->SetInputDataObject(stress.Mesh);
-    this->Scene.setProperty(toProperty(stress.Function));
-    this->Scene.window()->SetSize(stress.Size, stress.Size);
+    this->Scene.SetProperty(ToProperty(stress.Function));
+    this->Scene.GetWindow()->SetSize(stress.Size, stress.Size);
   }
 
-  StressImage cast(const VolumeView& view) override
+  StressImage Cast(const VolumeView& view) override
   {
-    view.applyTo(this->Scene.renderer());
+    view.ApplyTo(this->Scene.GetRenderer());
     StressImage result;
-    result.Image = this->Scene.renderFloat();
+    result.Image = this->Scene.RenderFloat();
     result.Steps = this->Mapper->GetNumberOfTraversalSteps();
     result.Rays = this->Mapper->GetNumberOfRays();
     result.Lost = this->Mapper->GetNumberOfLostRays();
@@ -184,7 +184,7 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::unique_ptr<StressCaster> makeStressCaster(const std::string& name)
+std::unique_ptr<StressCaster> MakeStressCaster(const std::string& name)
 {
   if (name == "kernel")
   {

@@ -29,12 +29,12 @@ class StressCaster
 {
 public:
   virtual ~StressCaster() = default;
-  virtual void take(const StressCase& stress) = 0;
-  virtual StressImage cast(const VolumeView& view) = 0;
+  virtual void Take(const StressCase& stress) = 0;
+  virtual StressImage Cast(const VolumeView& view) = 0;
 };
 
 /** "kernel", "opengl" or "native" (the last two: the mapper with that backend); null for others. */
-std::unique_ptr<StressCaster> makeStressCaster(const std::string& name);
+std::unique_ptr<StressCaster> MakeStressCaster(const std::string& name);
 
 } // namespace test
 } // namespace meniscus

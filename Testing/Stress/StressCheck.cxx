@@ -21,7 +21,7 @@ namespace
 {
 
 // Length of a ray's path through a box, by slabs.
-double lengthInBox(const reference::Ray& ray, const double bounds[6])
+double LengthInBox(const reference::Ray& ray, const double bounds[6])
 {
   double begin = ray.Begin;
   double end = ray.End;
@@ -46,7 +46,7 @@ double lengthInBox(const reference::Ray& ray, const double bounds[6])
 }
 
 // True if a pixel is possible for some mesh in the box.
-bool isWithinBounds(const float* rgba, double largestDepth, double brightest)
+bool IsWithinBounds(const float* rgba, double largestDepth, double brightest)
 {
   const double alpha = rgba[3];
   const double mostOpaque = -std::expm1(-largestDepth) + FloatTolerance;
@@ -66,31 +66,31 @@ struct View
   RayOfPixel RayOf;
 };
 
-std::string nameOf(const View& view, std::size_t number)
+std::string NameOf(const View& view, std::size_t number)
 {
   return view.Stress.Name + ", view " + std::to_string(number) +
     (view.Camera.Parallel ? " (parallel)" : " (perspective)");
 }
 
-void checkBounds(const StressImage& image, const View& view, StressTally& tally)
+void CheckBounds(const StressImage& image, const View& view, StressTally& tally)
 {
   double bounds[6];
   view.Stress.Mesh->GetBounds(bounds);
   // Margin for rounding in single precision.
-  const double margin = 2.0 * RoundingDistance * diagonalOf(bounds);
+  const double margin = 2.0 * RoundingDistance * DiagonalOf(bounds);
   for (int i = 0; i < 6; ++i)
   {
     bounds[i] += i % 2 ? margin : -margin;
   }
-  const double attenuation = largestAttenuation(view.Stress.Function);
-  const double brightest = brightestColor(view.Stress.Function);
+  const double attenuation = LargestAttenuation(view.Stress.Function);
+  const double brightest = BrightestColor(view.Stress.Function);
   for (int y = 0; y < image.Image.Height; ++y)
   {
     for (int x = 0; x < image.Image.Width; ++x)
     {
-      const double depth = attenuation * lengthInBox(view.RayOf(x, y), bounds);
-      const float* rgba = image.Image.pixel(x, y);
-      if (!isWithinBounds(rgba, depth, brightest) && ++tally.Wrong == 1)
+      const double depth = attenuation * LengthInBox(view.RayOf(x, y), bounds);
+      const float* rgba = image.Image.GetPixel(x, y);
+      if (!IsWithinBounds(rgba, depth, brightest) && ++tally.Wrong == 1)
       {
         std::ostringstream text;
         text << "pixel (" << x << ", " << y << ") is " << rgba[0] << ' ' << rgba[1] << ' '
@@ -101,13 +101,13 @@ void checkBounds(const StressImage& image, const View& view, StressTally& tally)
   }
 }
 
-void checkReference(const StressImage& image, const View& view,
+void CheckReference(const StressImage& image, const View& view,
   const reference::ReferenceRayIntegrator& integrator, StressTally& tally)
 {
-  const auto truth = renderReference(integrator, view.Stress.Size, view.Stress.Size, view.RayOf,
+  const auto truth = RenderReference(integrator, view.Stress.Size, view.Stress.Size, view.RayOf,
     { reference::ReferenceTransferFunction(view.Stress.Function) });
   const Comparison comparison =
-    compareToReference(image.Image, truth[0], integrator, view.RayOf, FloatTolerance);
+    CompareToReference(image.Image, truth[0], integrator, view.RayOf, FloatTolerance);
   tally.Silhouettes = static_cast<std::int64_t>(comparison.Silhouettes);
   tally.Rounding = static_cast<std::int64_t>(comparison.Wrong - comparison.BeyondRounding);
   tally.Wrong =
@@ -122,14 +122,14 @@ void checkReference(const StressImage& image, const View& view,
   }
   if (tally.Wrong > 0)
   {
-    tally.FirstWrong = comparison.text();
+    tally.FirstWrong = comparison.GetText();
   }
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void StressTally::add(const StressTally& other)
+void StressTally::Add(const StressTally& other)
 {
   this->Views += other.Views;
   this->Rays += other.Rays;
@@ -144,22 +144,22 @@ void StressTally::add(const StressTally& other)
 }
 
 //------------------------------------------------------------------------------
-StressTally checkCase(StressCaster& caster, const StressCase& stress)
+StressTally CheckCase(StressCaster& caster, const StressCase& stress)
 {
   StressTally total;
   if (!stress.Mesh)
   {
     return total;
   }
-  caster.take(stress);
+  caster.Take(stress);
   const auto integrator =
-    stress.Rule == StressRule::Reference ? makeReference(stress.Mesh) : nullptr;
+    stress.Rule == StressRule::Reference ? MakeReference(stress.Mesh) : nullptr;
   for (std::size_t i = 0; i < stress.Views.size(); ++i)
   {
     const VolumeView& camera = stress.Views[i];
     const View view{ stress, camera,
-      [&camera, &stress](int x, int y) { return camera.ray(x, y, stress.Size); } };
-    const StressImage image = caster.cast(camera);
+      [&camera, &stress](int x, int y) { return camera.GetRay(x, y, stress.Size); } };
+    const StressImage image = caster.Cast(camera);
     StressTally tally;
     tally.Views = 1;
     tally.Rays = image.Rays;
@@ -172,11 +172,11 @@ StressTally checkCase(StressCaster& caster, const StressCase& stress)
     }
     else if (integrator)
     {
-      checkReference(image, view, *integrator, tally);
+      CheckReference(image, view, *integrator, tally);
     }
     else
     {
-      checkBounds(image, view, tally);
+      CheckBounds(image, view, tally);
     }
     if (tally.Lost > 0 && tally.FirstWrong.empty())
     {
@@ -184,9 +184,9 @@ StressTally checkCase(StressCaster& caster, const StressCase& stress)
     }
     if (!tally.FirstWrong.empty())
     {
-      tally.FirstWrong = nameOf(view, i) + ": " + tally.FirstWrong;
+      tally.FirstWrong = NameOf(view, i) + ": " + tally.FirstWrong;
     }
-    total.add(tally);
+    total.Add(tally);
   }
   return total;
 }

@@ -42,11 +42,11 @@ struct StressTally
   /** The first wrong view as text; empty if there is none. */
   std::string FirstWrong;
 
-  void add(const StressTally& other);
+  void Add(const StressTally& other);
 };
 
 /** Casts a case in all of its views and checks the images by its rule. */
-StressTally checkCase(StressCaster& caster, const StressCase& stress);
+StressTally CheckCase(StressCaster& caster, const StressCase& stress);
 
 } // namespace test
 } // namespace meniscus

@@ -17,7 +17,7 @@ namespace
 {
 
 // One case in the child's report: a line of numbers, then the text.
-std::string encode(bool skipped, const StressTally& t)
+std::string Encode(bool skipped, const StressTally& t)
 {
   std::ostringstream line;
   line.precision(std::numeric_limits<double>::max_digits10);
@@ -27,7 +27,7 @@ std::string encode(bool skipped, const StressTally& t)
   return line.str();
 }
 
-void decode(int index, const std::string& text, FamilyResult& result)
+void Decode(int index, const std::string& text, FamilyResult& result)
 {
   std::istringstream line(text);
   StressTally t;
@@ -37,32 +37,32 @@ void decode(int index, const std::string& text, FamilyResult& result)
   line.ignore(1);
   std::getline(line, t.FirstWrong);
   result.Skipped += skipped;
-  result.Tally.add(t);
+  result.Tally.Add(t);
   if (!t.FirstWrong.empty())
   {
-    result.note("case " + std::to_string(index) + ": " + t.FirstWrong);
+    result.Note("case " + std::to_string(index) + ": " + t.FirstWrong);
   }
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-FamilyResult runFamily(
+FamilyResult RunFamily(
   const StressFamily& family, const std::string& caster, int stride, double secondsPerCase)
 {
   FamilyResult result;
   const auto start = [&family, &caster]() -> CaseWork
   {
-    const std::shared_ptr<StressCaster> shared = makeStressCaster(caster);
+    const std::shared_ptr<StressCaster> shared = MakeStressCaster(caster);
     return [&family, shared](int index)
     {
       const StressCase stress = family.Make(index);
-      return encode(!stress.Mesh, checkCase(*shared, stress));
+      return Encode(!stress.Mesh, CheckCase(*shared, stress));
     };
   };
-  runCases(
+  RunCases(
     family.Cases, stride, secondsPerCase, start,
-    [&result](int index, const std::string& line) { decode(index, line, result); }, result);
+    [&result](int index, const std::string& line) { Decode(index, line, result); }, result);
   return result;
 }
 

@@ -18,7 +18,7 @@ struct FamilyResult : ProcessResult
   StressTally Tally;
   int Skipped = 0;
 
-  bool isGood() const
+  bool IsGood() const
   {
     return this->Tally.Lost == 0 && this->Tally.Wrong == 0 && this->Crashed == 0 &&
       this->Stuck == 0;
@@ -29,7 +29,7 @@ struct FamilyResult : ProcessResult
  * Runs every `stride`-th case of a family in a separate process. `secondsPerCase` limits the time
  * of a case.
  */
-FamilyResult runFamily(
+FamilyResult RunFamily(
   const StressFamily& family, const std::string& caster, int stride, double secondsPerCase);
 
 } // namespace test

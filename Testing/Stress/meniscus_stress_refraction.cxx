@@ -31,7 +31,7 @@ struct FamilyResult : ProcessResult
 };
 
 //------------------------------------------------------------------------------
-std::string encode(const RefractionTally& t)
+std::string Encode(const RefractionTally& t)
 {
   std::ostringstream line;
   line.precision(std::numeric_limits<double>::max_digits10);
@@ -40,7 +40,7 @@ std::string encode(const RefractionTally& t)
   return line.str();
 }
 
-RefractionTally decode(const std::string& text)
+RefractionTally Decode(const std::string& text)
 {
   std::istringstream line(text);
   RefractionTally t;
@@ -52,31 +52,31 @@ RefractionTally decode(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-FamilyResult runFamily(const RefractionFamily& family, const ProgrammeOptions& options)
+FamilyResult RunFamily(const RefractionFamily& family, const ProgrammeOptions& options)
 {
   FamilyResult result;
   const int only = options.Case;
   const auto start = [&family, only]() -> CaseWork
   {
     return [&family, only](int index)
-    { return encode(checkCase(family.Make(only < 0 ? index : only))); };
+    { return Encode(CheckCase(family.Make(only < 0 ? index : only))); };
   };
   const auto take = [&result, only](int index, const std::string& line)
   {
-    const RefractionTally tally = decode(line);
-    result.Tally.add(tally);
+    const RefractionTally tally = Decode(line);
+    result.Tally.Add(tally);
     if (!tally.First.empty())
     {
-      result.note("case " + std::to_string(only < 0 ? index : only) + ": " + tally.First);
+      result.Note("case " + std::to_string(only < 0 ? index : only) + ": " + tally.First);
     }
   };
   const int cases = only < 0 ? family.Cases : (only < family.Cases ? 1 : 0);
-  runCases(cases, 1, options.Seconds, start, take, result);
+  RunCases(cases, 1, options.Seconds, start, take, result);
   return result;
 }
 
 //------------------------------------------------------------------------------
-void printRow(std::ostream& out, const std::string& family, const FamilyResult& r)
+void PrintRow(std::ostream& out, const std::string& family, const FamilyResult& r)
 {
   const RefractionTally& t = r.Tally;
   std::ostringstream row;
@@ -89,7 +89,7 @@ void printRow(std::ostream& out, const std::string& family, const FamilyResult& 
 }
 
 //------------------------------------------------------------------------------
-bool runAll(const ProgrammeOptions& options, std::ostream& out)
+bool RunAll(const ProgrammeOptions& options, std::ostream& out)
 {
   out << "| family | cases | points | images | uncertain | given up | missed | false | wrong | "
          "failed | stuck | crashed | max error | s |\n"
@@ -97,26 +97,26 @@ bool runAll(const ProgrammeOptions& options, std::ostream& out)
   std::vector<std::string> notes;
   FamilyResult sum;
   bool good = true;
-  for (const RefractionFamily& family : refractionFamilies(options.Intensity, options.Seed))
+  for (const RefractionFamily& family : RefractionFamilies(options.Intensity, options.Seed))
   {
-    if (!options.has(family.Name))
+    if (!options.Has(family.Name))
     {
       continue;
     }
-    const FamilyResult result = runFamily(family, options);
-    printRow(out, family.Name, result);
-    good = good && result.Tally.isGood() && result.Crashed == 0 && result.Stuck == 0;
+    const FamilyResult result = RunFamily(family, options);
+    PrintRow(out, family.Name, result);
+    good = good && result.Tally.IsGood() && result.Crashed == 0 && result.Stuck == 0;
     for (const std::string& note : result.Notes)
     {
       notes.push_back(family.Name + ", " + note);
     }
-    sum.Tally.add(result.Tally);
+    sum.Tally.Add(result.Tally);
     sum.Cases += result.Cases;
     sum.Stuck += result.Stuck;
     sum.Crashed += result.Crashed;
     sum.Seconds += result.Seconds;
   }
-  printRow(out, "all", sum);
+  PrintRow(out, "all", sum);
   for (const std::string& note : notes)
   {
     out << note << '\n';
@@ -130,7 +130,7 @@ bool runAll(const ProgrammeOptions& options, std::ostream& out)
 int main(int argc, char* argv[])
 {
   ProgrammeOptions options;
-  return runProgramme(
+  return RunProgramme(
     argc, argv, Usage, options, [](const std::string&, const std::string&) { return false; },
-    [&options](std::ostream& out) { return runAll(options, out); });
+    [&options](std::ostream& out) { return RunAll(options, out); });
 }

@@ -38,7 +38,7 @@ struct Options : ProgrammeOptions
 };
 
 //------------------------------------------------------------------------------
-std::vector<std::string> castersOf(const Options& options, std::ostream& out)
+std::vector<std::string> CastersOf(const Options& options, std::ostream& out)
 {
   std::vector<std::string> casters;
   std::istringstream list(options.Casters);
@@ -49,7 +49,7 @@ std::vector<std::string> castersOf(const Options& options, std::ostream& out)
       std::cerr << "no such caster: " << name << '\n';
       std::exit(EXIT_FAILURE);
     }
-    if (name != "kernel" && !hasDisplay())
+    if (name != "kernel" && !HasDisplay())
     {
       out << name << ": skipped, no display (run under xvfb-run)\n";
       continue;
@@ -60,7 +60,7 @@ std::vector<std::string> castersOf(const Options& options, std::ostream& out)
 }
 
 //------------------------------------------------------------------------------
-void printHead(std::ostream& out)
+void PrintHead(std::ostream& out)
 {
   out << "| caster | family | cases | rays | steps | lost | stuck | crashed | wrong | rounding | "
          "silhouettes | max error | RMS | s |\n"
@@ -68,7 +68,7 @@ void printHead(std::ostream& out)
 }
 
 //------------------------------------------------------------------------------
-void printRow(
+void PrintRow(
   std::ostream& out, const std::string& caster, const std::string& family, const FamilyResult& r)
 {
   std::ostringstream row;
@@ -94,32 +94,32 @@ void printRow(
 
 //------------------------------------------------------------------------------
 // The same cases under another name, so that they are counted and printed alike.
-StressFamily onlyCase(const StressFamily& family, int index)
+StressFamily OnlyCase(const StressFamily& family, int index)
 {
   return { family.Name, index < family.Cases ? 1 : 0, [=](int) { return family.Make(index); } };
 }
 
 //------------------------------------------------------------------------------
-bool runAll(const Options& options, std::ostream& out)
+bool RunAll(const Options& options, std::ostream& out)
 {
-  const std::vector<std::string> casters = castersOf(options, out);
+  const std::vector<std::string> casters = CastersOf(options, out);
   std::vector<std::string> notes;
   bool good = true;
-  printHead(out);
+  PrintHead(out);
   for (const std::string& caster : casters)
   {
-    for (const StressFamily& family : stressFamilies(options.Intensity, options.Seed))
+    for (const StressFamily& family : StressFamilies(options.Intensity, options.Seed))
     {
-      if (!options.has(family.Name))
+      if (!options.Has(family.Name))
       {
         continue;
       }
       const int stride = caster == "kernel" || options.Case >= 0 ? 1 : options.Every;
       const FamilyResult result =
-        runFamily(options.Case < 0 ? family : onlyCase(family, options.Case), caster, stride,
+        RunFamily(options.Case < 0 ? family : OnlyCase(family, options.Case), caster, stride,
           options.Seconds);
-      printRow(out, caster, family.Name, result);
-      good = good && result.isGood();
+      PrintRow(out, caster, family.Name, result);
+      good = good && result.IsGood();
       for (const std::string& note : result.Notes)
       {
         notes.push_back(caster + ", " + family.Name + ", " + note);
@@ -139,7 +139,7 @@ bool runAll(const Options& options, std::ostream& out)
 int main(int argc, char* argv[])
 {
   Options options;
-  return runProgramme(
+  return RunProgramme(
     argc, argv, Usage, options,
     [&options](const std::string& key, const std::string& value)
     {
@@ -148,7 +148,7 @@ int main(int argc, char* argv[])
         options.Casters = value;
         return true;
       }
-      return key == "--every" && readNumber(value, options.Every) && options.Every > 0;
+      return key == "--every" && ReadNumber(value, options.Every) && options.Every > 0;
     },
-    [&options](std::ostream& out) { return runAll(options, out); });
+    [&options](std::ostream& out) { return RunAll(options, out); });
 }

@@ -21,7 +21,7 @@ namespace test
 namespace
 {
 
-[[noreturn]] void runChild(int cases, int first, int stride, const CaseStart& start, int out)
+[[noreturn]] void RunChild(int cases, int first, int stride, const CaseStart& start, int out)
 {
   const CaseWork work = start();
   for (int i = first; i < cases; i += stride)
@@ -41,7 +41,7 @@ namespace
 
 // Reads lines until the child ends or is silent for too long; returns the last case that it
 // finished.
-int followChild(
+int FollowChild(
   int in, double secondsPerCase, const CaseTaker& take, ProcessResult& result, bool& silent)
 {
   int last = -1;
@@ -77,7 +77,7 @@ int followChild(
 
 // Runs cases from the first one on; returns the case after the last one that was finished or
 // abandoned.
-int runSome(int cases, int first, int stride, double secondsPerCase, const CaseStart& start,
+int RunSome(int cases, int first, int stride, double secondsPerCase, const CaseStart& start,
   const CaseTaker& take, ProcessResult& result, const CaseLoss& lose)
 {
   int ends[2];
@@ -95,11 +95,11 @@ int runSome(int cases, int first, int stride, double secondsPerCase, const CaseS
   if (child == 0)
   {
     close(ends[0]);
-    runChild(cases, first, stride, start, ends[1]);
+    RunChild(cases, first, stride, start, ends[1]);
   }
   close(ends[1]);
   bool silent = false;
-  const int last = followChild(ends[0], secondsPerCase, take, result, silent);
+  const int last = FollowChild(ends[0], secondsPerCase, take, result, silent);
   close(ends[0]);
   if (silent)
   {
@@ -114,7 +114,7 @@ int runSome(int cases, int first, int stride, double secondsPerCase, const CaseS
   }
   ++result.Cases;
   ++(silent ? result.Stuck : result.Crashed);
-  result.note("case " + std::to_string(next) +
+  result.Note("case " + std::to_string(next) +
     (silent ? ": no end after " + std::to_string(secondsPerCase) + " s"
             : ": ended by signal or exit, status " + std::to_string(status)));
   if (lose)
@@ -127,13 +127,13 @@ int runSome(int cases, int first, int stride, double secondsPerCase, const CaseS
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void runCases(int cases, int stride, double secondsPerCase, const CaseStart& start,
+void RunCases(int cases, int stride, double secondsPerCase, const CaseStart& start,
   const CaseTaker& take, ProcessResult& result, const CaseLoss& lose)
 {
   const auto begin = std::chrono::steady_clock::now();
   for (int first = 0; first < cases;)
   {
-    first = runSome(cases, first, stride, secondsPerCase, start, take, result, lose);
+    first = RunSome(cases, first, stride, secondsPerCase, start, take, result, lose);
   }
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
   result.Seconds = time.count();

@@ -26,7 +26,7 @@ struct ProcessResult
   std::vector<std::string> Notes;
 
   static constexpr std::size_t MostNotes = 10;
-  void note(const std::string& text)
+  void Note(const std::string& text)
   {
     if (this->Notes.size() < MostNotes)
     {
@@ -49,7 +49,7 @@ using CaseLoss = std::function<void(int index, bool stuck)>;
  * Runs every `stride`-th of `cases` cases in a separate process, so that a crash or an endless loop
  * costs one case only and is counted. `secondsPerCase` limits the time of a case.
  */
-void runCases(int cases, int stride, double secondsPerCase, const CaseStart& start,
+void RunCases(int cases, int stride, double secondsPerCase, const CaseStart& start,
   const CaseTaker& take, ProcessResult& result, const CaseLoss& lose = nullptr);
 
 } // namespace test

@@ -45,7 +45,7 @@ struct Arrays
     }
   }
 
-  Grid toGrid(const Field& field) const
+  Grid ToGrid(const Field& field) const
   {
     std::vector<double> points;
     for (const glm::dvec3& p : this->Points)
@@ -57,10 +57,10 @@ struct Arrays
     {
       cells.insert(cells.end(), cell.begin(), cell.end());
     }
-    return makeGrid(points, cells, field);
+    return MakeGrid(points, cells, field);
   }
 
-  double volume(const Tetrahedron& cell) const
+  double GetVolume(const Tetrahedron& cell) const
   {
     const glm::dvec3& o = this->Points[cell[0]];
     return glm::dot(
@@ -69,20 +69,20 @@ struct Arrays
 };
 
 template <typename Sequence>
-void shuffle(Sequence& sequence, RandomNumbers& random)
+void Shuffle(Sequence& sequence, RandomNumbers& random)
 {
   for (std::size_t i = sequence.size(); i > 1; --i)
   {
-    std::swap(sequence[i - 1], sequence[random.below(static_cast<int>(i))]);
+    std::swap(sequence[i - 1], sequence[random.Below(static_cast<int>(i))]);
   }
 }
 
 // Renumbers points and cells, and inverts cells.
-void scramble(Arrays& arrays, RandomNumbers& random)
+void Scramble(Arrays& arrays, RandomNumbers& random)
 {
   std::vector<vtkIdType> newId(arrays.Points.size());
   std::iota(newId.begin(), newId.end(), vtkIdType(0));
-  shuffle(newId, random);
+  Shuffle(newId, random);
   std::vector<glm::dvec3> points(arrays.Points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -95,26 +95,26 @@ void scramble(Arrays& arrays, RandomNumbers& random)
     {
       id = newId[id];
     }
-    shuffle(cell, random);
+    Shuffle(cell, random);
   }
-  shuffle(arrays.Cells, random);
+  Shuffle(arrays.Cells, random);
 }
 
 // A random part of a block whose points have been moved by less than inverts a cell.
-Arrays partOfBlock(RandomNumbers& random)
+Arrays PartOfBlock(RandomNumbers& random)
 {
-  const int n = 1 + random.below(4);
-  const Grid block = makeBlock(n, constantField(0.0));
+  const int n = 1 + random.Below(4);
+  const Grid block = MakeBlock(n, ConstantField(0.0));
   // The smallest width of the tetrahedra of a unit cube is 0.577, between opposite edges. Moves of
   // up to a along each axis from both sides close it for a >= 0.167.
-  jitter(block, 2.0 / n * 0.1 * random.uniform(), static_cast<unsigned int>(random.bits()));
+  Jitter(block, 2.0 / n * 0.1 * random.Uniform(), static_cast<unsigned int>(random.Bits()));
   Arrays all(block);
   Arrays arrays;
   arrays.Points = all.Points;
-  const double keep = random.below(2) ? 1.0 : random.uniform(0.3, 1.0);
+  const double keep = random.Below(2) ? 1.0 : random.Uniform(0.3, 1.0);
   for (const Tetrahedron& cell : all.Cells)
   {
-    if (random.uniform() <= keep)
+    if (random.Uniform() <= keep)
     {
       arrays.Cells.push_back(cell);
     }
@@ -127,21 +127,21 @@ Arrays partOfBlock(RandomNumbers& random)
 }
 
 // A tetrahedron with points inserted into random cells; cells become arbitrarily thin.
-Arrays dividedTetrahedron(RandomNumbers& random)
+Arrays DividedTetrahedron(RandomNumbers& random)
 {
   Arrays arrays;
   arrays.Points = { { -1, -1, -1 }, { 1, -1, -0.9 }, { -0.2, 1, -1 }, { 0.1, 0, 1 } };
   arrays.Cells = { { 0, 1, 2, 3 } };
-  const int divisions = 1 + random.below(30);
+  const int divisions = 1 + random.Below(30);
   for (int i = 0; i < divisions; ++i)
   {
-    const int at = random.below(static_cast<int>(arrays.Cells.size()));
+    const int at = random.Below(static_cast<int>(arrays.Cells.size()));
     const Tetrahedron old = arrays.Cells[at];
     double weights[4];
     double sum = 0.0;
     for (double& weight : weights)
     {
-      weight = random.uniform(0.05, 1.0);
+      weight = random.Uniform(0.05, 1.0);
       sum += weight;
     }
     glm::dvec3 inside(0.0);
@@ -171,7 +171,7 @@ Arrays dividedTetrahedron(RandomNumbers& random)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void mapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map)
+void MapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map)
 {
   for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
   {
@@ -183,25 +183,25 @@ void mapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dv
 }
 
 //------------------------------------------------------------------------------
-double invertedShare(vtkUnstructuredGrid* grid)
+double InvertedShare(vtkUnstructuredGrid* grid)
 {
   const Arrays arrays(grid);
   const auto negative = std::count_if(arrays.Cells.begin(), arrays.Cells.end(),
-    [&arrays](const Tetrahedron& cell) { return arrays.volume(cell) < 0.0; });
+    [&arrays](const Tetrahedron& cell) { return arrays.GetVolume(cell) < 0.0; });
   const double share = static_cast<double>(negative) / static_cast<double>(arrays.Cells.size());
   return std::min(share, 1.0 - share);
 }
 
 //------------------------------------------------------------------------------
-Grid makeTangledBlock(int n, double share, unsigned int seed)
+Grid MakeTangledBlock(int n, double share, unsigned int seed)
 {
   const double cube = 2.0 / n;
   for (double amount = 0.3;; amount += 0.02)
   {
-    const Grid grid = makeBlock(n, wavyField(3.0));
-    jitter(grid, amount * cube, seed);
+    const Grid grid = MakeBlock(n, WavyField(3.0));
+    Jitter(grid, amount * cube, seed);
     // Half of all cells are inverted once the moves are much larger than a cube.
-    if (invertedShare(grid) >= share || amount > 10.0)
+    if (InvertedShare(grid) >= share || amount > 10.0)
     {
       return grid;
     }
@@ -209,9 +209,9 @@ Grid makeTangledBlock(int n, double share, unsigned int seed)
 }
 
 //------------------------------------------------------------------------------
-Grid makeLayeredBlock(int n, double share)
+Grid MakeLayeredBlock(int n, double share)
 {
-  const Grid grid = makeBlock(n, wavyField(3.0));
+  const Grid grid = MakeBlock(n, WavyField(3.0));
   std::vector<double> at(1, 0.0);
   for (int i = 0; i < n; ++i)
   {
@@ -220,15 +220,15 @@ Grid makeLayeredBlock(int n, double share)
   const auto place = [&at, n](double x) {
     return 2.0 * at[static_cast<std::size_t>(std::lround(0.5 * n * (x + 1.0)))] / at.back() - 1.0;
   };
-  mapPoints(
+  MapPoints(
     grid, [&place](const glm::dvec3& p) { return glm::dvec3(place(p.x), place(p.y), place(p.z)); });
   return grid;
 }
 
 //------------------------------------------------------------------------------
-Grid makeSeam(int n)
+Grid MakeSeam(int n)
 {
-  Arrays both(makeBlock(n, constantField(0.0)));
+  Arrays both(MakeBlock(n, ConstantField(0.0)));
   const std::size_t points = both.Points.size();
   const std::size_t cells = both.Cells.size();
   for (std::size_t i = 0; i < points; ++i)
@@ -244,29 +244,29 @@ Grid makeSeam(int n)
     }
     both.Cells.push_back(cell);
   }
-  return both.toGrid(wavyField(2.0));
+  return both.ToGrid(WavyField(2.0));
 }
 
 //------------------------------------------------------------------------------
-Grid makeRandomMesh(RandomNumbers& random)
+Grid MakeRandomMesh(RandomNumbers& random)
 {
-  Arrays arrays = random.below(2) ? partOfBlock(random) : dividedTetrahedron(random);
+  Arrays arrays = random.Below(2) ? PartOfBlock(random) : DividedTetrahedron(random);
   // A random affine map, stretched by up to 10.
   glm::dmat3 map(1.0);
   for (int column = 0; column < 3; ++column)
   {
-    map[column] = random.direction() * std::pow(10.0, random.uniform(-0.5, 0.5));
+    map[column] = random.GetDirection() * std::pow(10.0, random.Uniform(-0.5, 0.5));
   }
   const bool flattens = std::fabs(glm::dot(map[0], glm::cross(map[1], map[2]))) < 0.01;
-  const glm::dvec3 offset = std::pow(10.0, random.uniform(-3.0, 3.0)) * random.direction();
+  const glm::dvec3 offset = std::pow(10.0, random.Uniform(-3.0, 3.0)) * random.GetDirection();
   for (glm::dvec3& point : arrays.Points)
   {
     point = (flattens ? point : map * point) + offset;
   }
-  scramble(arrays, random);
-  const glm::dvec3 slope = random.direction();
-  const double frequency = random.uniform(0.5, 4.0);
-  return arrays.toGrid(
+  Scramble(arrays, random);
+  const glm::dvec3 slope = random.GetDirection();
+  const double frequency = random.Uniform(0.5, 4.0);
+  return arrays.ToGrid(
     [=](double x, double y, double z)
     {
       const glm::dvec3 p = glm::dvec3(x, y, z) - offset;
@@ -275,28 +275,28 @@ Grid makeRandomMesh(RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-Grid makeSoup(RandomNumbers& random)
+Grid MakeSoup(RandomNumbers& random)
 {
   Arrays arrays;
-  const int points = 5 + random.below(20);
+  const int points = 5 + random.Below(20);
   for (int i = 0; i < points; ++i)
   {
     // Some points coincide, and some lie on a coarse lattice.
-    glm::dvec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    p = random.below(3) ? p : glm::dvec3(random.below(3), random.below(3), random.below(3)) - 1.0;
+    glm::dvec3 p(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
+    p = random.Below(3) ? p : glm::dvec3(random.Below(3), random.Below(3), random.Below(3)) - 1.0;
     arrays.Points.push_back(p);
   }
-  const int cells = 1 + random.below(60);
+  const int cells = 1 + random.Below(60);
   for (int i = 0; i < cells; ++i)
   {
     Tetrahedron cell;
     for (vtkIdType& id : cell)
     {
-      id = random.below(points);
+      id = random.Below(points);
     }
     arrays.Cells.push_back(cell);
   }
-  return arrays.toGrid(wavyField(2.0));
+  return arrays.ToGrid(WavyField(2.0));
 }
 
 } // namespace test

@@ -15,35 +15,35 @@ namespace test
 {
 
 /** Replaces every point by the function's value at it. */
-void mapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map);
+void MapPoints(vtkUnstructuredGrid* grid, const std::function<glm::dvec3(glm::dvec3)>& map);
 
 /** Fraction of cells whose volume has another sign than that of most cells. */
-double invertedShare(vtkUnstructuredGrid* grid);
+double InvertedShare(vtkUnstructuredGrid* grid);
 
 /** A block that is tangled until at least the given fraction of its cells is inverted. */
-Grid makeTangledBlock(int n, double share, unsigned int seed);
+Grid MakeTangledBlock(int n, double share, unsigned int seed);
 
 /**
  * A block in which every second layer of cubes, in all directions, is thinned to the given fraction
  * of the others' thickness; 0 gives runs of cells without volume.
  */
-Grid makeLayeredBlock(int n, double share);
+Grid MakeLayeredBlock(int n, double share);
 
 /** Two blocks that touch in a plane but share no point. */
-Grid makeSeam(int n);
+Grid MakeSeam(int n);
 
 /**
  * A small valid mesh: either a part of a jittered block under a random affine map, with random
  * cells left out, or a tetrahedron divided repeatedly at random points. Points, cells and the
  * vertices of each cell are in random order.
  */
-Grid makeRandomMesh(RandomNumbers& random);
+Grid MakeRandomMesh(RandomNumbers& random);
 
 /**
  * Disconnected and invalidly connected cells: random vertices, repeated vertices and cells, faces
  * of more than two cells.
  */
-Grid makeSoup(RandomNumbers& random);
+Grid MakeSoup(RandomNumbers& random);
 
 } // namespace test
 } // namespace meniscus

@@ -16,18 +16,18 @@ namespace test
 {
 
 //------------------------------------------------------------------------------
-TraceRay MembraneCase::bend(const TraceRay& trace) const
+TraceRay MembraneCase::BendMembrane(const TraceRay& trace) const
 {
   if (!this->Mesh)
   {
     return trace;
   }
   return [surface = this->Surface, trace](const reference::Ray& ray)
-  { return compose(refract(surface, ray, 0.0, false), trace); };
+  { return Compose(Refract(surface, ray, 0.0, false), trace); };
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkPolyData> makeHeightField(const std::function<double(double, double)>& height,
+vtkSmartPointer<vtkPolyData> MakeHeightField(const std::function<double(double, double)>& height,
   const reference::RefractingSurface& surface, double half, int cells)
 {
   vtkNew<vtkPoints> points;
@@ -66,29 +66,29 @@ vtkSmartPointer<vtkPolyData> makeHeightField(const std::function<double(double, 
 namespace
 {
 
-MembraneCase makeCase(reference::RefractingSurface surface,
+MembraneCase MakeCase(reference::RefractingSurface surface,
   const std::function<double(double, double)>& height, double half, int cells)
 {
   surface.Has = [half](const reference::Vector3& x)
   { return std::fabs(x[0]) <= half && std::fabs(x[2]) <= half; };
-  return { makeHeightField(height, surface, half, cells), surface };
+  return { MakeHeightField(height, surface, half, cells), surface };
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-MembraneCase makePlaneCase(double level, double half, int cells)
+MembraneCase MakePlaneCase(double level, double half, int cells)
 {
-  return makeCase(
-    reference::makePlane({ 0.0, level, 0.0 }, { 0.0, 1.0, 0.0 }),
+  return MakeCase(
+    reference::MakePlane({ 0.0, level, 0.0 }, { 0.0, 1.0, 0.0 }),
     [level](double, double) { return level; }, half, cells);
 }
 
 //------------------------------------------------------------------------------
-MembraneCase makeDomeCase(double apex, double radius, double half, int cells)
+MembraneCase MakeDomeCase(double apex, double radius, double half, int cells)
 {
-  reference::RefractingSurface sphere = reference::makeSphere({ 0.0, apex - radius, 0.0 }, radius);
-  MembraneCase result = makeCase(
+  reference::RefractingSurface sphere = reference::MakeSphere({ 0.0, apex - radius, 0.0 }, radius);
+  MembraneCase result = MakeCase(
     sphere,
     [=](double x, double z) { return apex - radius + std::sqrt(radius * radius - x * x - z * z); },
     half, cells);
@@ -98,10 +98,10 @@ MembraneCase makeDomeCase(double apex, double radius, double half, int cells)
 }
 
 //------------------------------------------------------------------------------
-MembraneCase makeWavesCase(double level, double amplitude, double k, double half, int cells)
+MembraneCase MakeWavesCase(double level, double amplitude, double k, double half, int cells)
 {
-  return makeCase(
-    reference::makeWaves(level, amplitude, k),
+  return MakeCase(
+    reference::MakeWaves(level, amplitude, k),
     [=](double x, double z) { return level + amplitude * std::sin(k * x) * std::sin(k * z); }, half,
     cells);
 }

@@ -26,21 +26,21 @@ struct MembraneCase
    * The colour function of refracted rays, where `trace` returns the colour of a straight part of a
    * ray, in front of the membrane or behind it. Without a mesh, it is `trace` itself.
    */
-  TraceRay bend(const TraceRay& trace) const;
+  TraceRay BendMembrane(const TraceRay& trace) const;
 };
 
 /** Triangles of a height field y(x, z) over the square of half side `half`, with exact normals. */
-vtkSmartPointer<vtkPolyData> makeHeightField(const std::function<double(double, double)>& height,
+vtkSmartPointer<vtkPolyData> MakeHeightField(const std::function<double(double, double)>& height,
   const reference::RefractingSurface& surface, double half, int cells);
 
 /** The plane y = level over a square. */
-MembraneCase makePlaneCase(double level, double half, int cells);
+MembraneCase MakePlaneCase(double level, double half, int cells);
 
 /** The top of a sphere, convex to the eye, over a square; the apex is at y = apex. */
-MembraneCase makeDomeCase(double apex, double radius, double half, int cells);
+MembraneCase MakeDomeCase(double apex, double radius, double half, int cells);
 
 /** y = level + amplitude sin(k x) sin(k z) over a square. */
-MembraneCase makeWavesCase(double level, double amplitude, double k, double half, int cells);
+MembraneCase MakeWavesCase(double level, double amplitude, double k, double half, int cells);
 
 } // namespace test
 } // namespace meniscus

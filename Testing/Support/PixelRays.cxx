@@ -41,7 +41,7 @@ PixelRays::PixelRays(vtkRenderer* renderer)
 }
 
 //------------------------------------------------------------------------------
-reference::Ray PixelRays::rayAt(double x, double y) const
+reference::Ray PixelRays::RayAt(double x, double y) const
 {
   const double right = this->HalfWidth * (2.0 * x / this->Size[0] - 1.0);
   const double up = this->HalfHeight * (2.0 * y / this->Size[1] - 1.0);

@@ -27,14 +27,14 @@ public:
   explicit PixelRays(vtkRenderer* renderer);
 
   /** Size of the renderer's viewport and its lower left corner in the window. */
-  int width() const { return this->Size[0]; }
-  int height() const { return this->Size[1]; }
-  int left() const { return this->Lower[0]; }
-  int bottom() const { return this->Lower[1]; }
+  int GetWidth() const { return this->Size[0]; }
+  int GetHeight() const { return this->Size[1]; }
+  int GetLeft() const { return this->Lower[0]; }
+  int GetBottom() const { return this->Lower[1]; }
 
   /** Ray through the centre of a pixel, counted from the viewport's lower left corner. */
-  reference::Ray ray(int x, int y) const { return this->rayAt(x + 0.5, y + 0.5); }
-  reference::Ray rayAt(double x, double y) const;
+  reference::Ray GetRay(int x, int y) const { return this->RayAt(x + 0.5, y + 0.5); }
+  reference::Ray RayAt(double x, double y) const;
 
 private:
   reference::Vector3 Position;

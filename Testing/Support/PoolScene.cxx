@@ -52,7 +52,7 @@ constexpr double Far = 1000.0;
 constexpr int TextureSize = 256;
 constexpr int SkySize = 128;
 
-reference::HeightField waves(double time)
+reference::HeightField MakeWaves(double time)
 {
   reference::HeightField field;
   field.Shape = reference::HeightField::Shape::Waves;
@@ -64,13 +64,13 @@ reference::HeightField waves(double time)
   return field;
 }
 
-unsigned char toByte(double value)
+unsigned char ToByte(double value)
 {
   return static_cast<unsigned char>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
 }
 
 /** Tiles with soft joints. */
-vtkSmartPointer<vtkImageData> makeTiles()
+vtkSmartPointer<vtkImageData> MakeTiles()
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(TextureSize, TextureSize, 1);
@@ -90,7 +90,7 @@ vtkSmartPointer<vtkImageData> makeTiles()
       auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
       for (int c = 0; c < 3; ++c)
       {
-        pixel[c] = toByte(0.5 + tile * (color[c] - 0.5));
+        pixel[c] = ToByte(0.5 + tile * (color[c] - 0.5));
       }
     }
   }
@@ -98,7 +98,7 @@ vtkSmartPointer<vtkImageData> makeTiles()
 }
 
 // Bilinear interpolation, as in OpenGL's samplers.
-glm::dvec3 sample(vtkImageData* image, double u, double v)
+glm::dvec3 GetSample(vtkImageData* image, double u, double v)
 {
   const auto fetch = [image](int i, int j)
   {
@@ -120,7 +120,7 @@ glm::dvec3 sample(vtkImageData* image, double u, double v)
 /**
  * Direction of a texel of a cube map: face, column and row in the order of OpenGL's table of faces.
  */
-glm::dvec3 cubeDirection(int face, int column, int row)
+glm::dvec3 CubeDirection(int face, int column, int row)
 {
   const double s = 2.0 * (column + 0.5) / SkySize - 1.0;
   const double t = 2.0 * (row + 0.5) / SkySize - 1.0;
@@ -129,7 +129,7 @@ glm::dvec3 cubeDirection(int face, int column, int row)
   return glm::normalize(directions[face]);
 }
 
-vtkSmartPointer<vtkTexture> makeSky()
+vtkSmartPointer<vtkTexture> MakeSky()
 {
   auto sky = vtkSmartPointer<vtkTexture>::New();
   sky->CubeMapOn();
@@ -143,11 +143,11 @@ vtkSmartPointer<vtkTexture> makeSky()
     {
       for (int i = 0; i < SkySize; ++i)
       {
-        const glm::dvec3 color = skyColor(cubeDirection(face, i, j));
+        const glm::dvec3 color = SkyColor(CubeDirection(face, i, j));
         auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(i, j, 0));
         for (int c = 0; c < 3; ++c)
         {
-          pixel[c] = toByte(color[c]);
+          pixel[c] = ToByte(color[c]);
         }
       }
     }
@@ -156,7 +156,7 @@ vtkSmartPointer<vtkTexture> makeSky()
   return sky;
 }
 
-vtkSmartPointer<vtkPolyData> makeWalls()
+vtkSmartPointer<vtkPolyData> MakeWalls()
 {
   vtkNew<vtkAppendPolyData> walls;
   walls->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
@@ -199,7 +199,8 @@ vtkSmartPointer<vtkPolyData> makeWalls()
   return triangles->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> place(vtkPolyDataAlgorithm* source, const glm::dvec3& at, double turn)
+vtkSmartPointer<vtkPolyData> MakePlace(
+  vtkPolyDataAlgorithm* source, const glm::dvec3& at, double turn)
 {
   vtkNew<vtkTransform> transform;
   transform->Translate(at.x, at.y, at.z);
@@ -231,7 +232,7 @@ public:
     }
   }
 
-  void find(const glm::dvec3& start, const glm::dvec3& direction, vtkGenericCell* cell,
+  void Find(const glm::dvec3& start, const glm::dvec3& direction, vtkGenericCell* cell,
     PoolSight& sight) const
   {
     sight.Distance = Far;
@@ -260,7 +261,7 @@ private:
   std::vector<vtkSmartPointer<vtkStaticCellLocator>> Locators;
 };
 
-double fresnel(double cosine)
+double MakeFresnel(double cosine)
 {
   // Both polarisations after Snell's law, independently of the kernel's formula.
   const double sine = std::sqrt(std::max(1.0 - cosine * cosine, 0.0)) / Index;
@@ -273,7 +274,7 @@ double fresnel(double cosine)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-glm::dvec3 skyColor(const glm::dvec3& d)
+glm::dvec3 SkyColor(const glm::dvec3& d)
 {
   return 0.5 +
     0.3 * glm::dvec3(std::sin(3.0 * d.x), std::sin(2.0 * d.y + 1.0), std::cos(3.0 * d.z));
@@ -281,35 +282,35 @@ glm::dvec3 skyColor(const glm::dvec3& d)
 
 //------------------------------------------------------------------------------
 PoolScene::PoolScene(int cells, double time)
-  : Field(waves(time))
+  : Field(MakeWaves(time))
   , Cells(cells)
   , Camera(Eye, Target, HalfTangent, Pixels)
   , Water(MakeMembrane(this->Field.MakeMesh(cells)))
-  , Sky(makeSky())
+  , Sky(MakeSky())
   , Window(Pixels, Pixels)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(this->Water);
   this->WaterActor = vtkSmartPointer<vtkActor>::New();
   this->WaterActor->SetMapper(mapper);
-  this->addPart(makeWalls(), makeTiles(), glm::dvec3(1.0));
+  this->AddPart(MakeWalls(), MakeTiles(), glm::dvec3(1.0));
   vtkNew<vtkSphereSource> ball;
   ball->SetRadius(16.0);
   ball->SetThetaResolution(48);
   ball->SetPhiResolution(32);
-  this->addPart(place(ball, { -22.0, -50.0, 10.0 }, 0.0), nullptr, { 0.85, 0.2, 0.15 });
+  this->AddPart(MakePlace(ball, { -22.0, -50.0, 10.0 }, 0.0), nullptr, { 0.85, 0.2, 0.15 });
   vtkNew<vtkCubeSource> box;
   box->SetXLength(24.0);
   box->SetYLength(24.0);
   box->SetZLength(24.0);
-  this->addPart(place(box, { 25.0, -55.0, 20.0 }, 40.0), nullptr, { 0.9, 0.7, 0.1 });
+  this->AddPart(MakePlace(box, { 25.0, -55.0, 20.0 }, 40.0), nullptr, { 0.9, 0.7, 0.1 });
   vtkNew<vtkConeSource> cone;
   cone->SetRadius(14.0);
   cone->SetHeight(34.0);
   cone->SetResolution(48);
-  this->addPart(place(cone, { 5.0, -40.0, -28.0 }, 70.0), nullptr, { 0.2, 0.7, 0.3 });
+  this->AddPart(MakePlace(cone, { 5.0, -40.0, -28.0 }, 70.0), nullptr, { 0.2, 0.7, 0.3 });
 
-  vtkRenderer* renderer = this->Window.renderer();
+  vtkRenderer* renderer = this->Window.GetRenderer();
   renderer->SetBackground(Background.x, Background.y, Background.z);
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->SetPosition(Eye.x, Eye.y, Eye.z);
@@ -318,14 +319,14 @@ PoolScene::PoolScene(int cells, double time)
   camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(std::atan(HalfTangent)));
   camera->SetClippingRange(50.0, 800.0);
   renderer->SetPass(this->Pass);
-  this->setOptics({});
+  this->SetOptics({});
 }
 
 //------------------------------------------------------------------------------
 PoolScene::~PoolScene() = default;
 
 //------------------------------------------------------------------------------
-void PoolScene::addPart(vtkPolyData* data, vtkImageData* image, const glm::dvec3& color)
+void PoolScene::AddPart(vtkPolyData* data, vtkImageData* image, const glm::dvec3& color)
 {
   Part part;
   part.Data = data;
@@ -334,7 +335,7 @@ void PoolScene::addPart(vtkPolyData* data, vtkImageData* image, const glm::dvec3
   part.Filter = vtkSmartPointer<vtkRefractedGeometryFilter>::New();
   part.Filter->SetInputData(0, data);
   part.Filter->SetMembraneData(this->Water);
-  part.Filter->SetCamera(this->Window.renderer()->GetActiveCamera());
+  part.Filter->SetCamera(this->Window.GetRenderer()->GetActiveCamera());
   part.Filter->SetInteriorIndexOfRefraction(Index);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(part.Filter->GetOutputPort());
@@ -369,7 +370,7 @@ void PoolScene::addPart(vtkPolyData* data, vtkImageData* image, const glm::dvec3
 }
 
 //------------------------------------------------------------------------------
-void PoolScene::setOptics(const PoolOptics& optics)
+void PoolScene::SetOptics(const PoolOptics& optics)
 {
   this->Optics = optics;
   this->Pass->SetReflectanceModel(
@@ -380,23 +381,23 @@ void PoolScene::setOptics(const PoolOptics& optics)
 }
 
 //------------------------------------------------------------------------------
-void PoolScene::moveWater(double time)
+void PoolScene::MoveWater(double time)
 {
-  this->Field = waves(time);
+  this->Field = MakeWaves(time);
   const auto mesh = MakeMembrane(this->Field.MakeMesh(this->Cells));
   this->Water->SetPoints(mesh->GetPoints());
   this->Water->GetPointData()->SetNormals(mesh->GetPointData()->GetNormals());
 }
 
 //------------------------------------------------------------------------------
-test::ByteImage PoolScene::draw()
+test::ByteImage PoolScene::Draw()
 {
-  this->Window.window()->Render();
-  return test::readBytes(this->Window.window());
+  this->Window.GetWindow()->Render();
+  return test::ReadBytes(this->Window.GetWindow());
 }
 
 //------------------------------------------------------------------------------
-void PoolScene::setAccuracy(bool allImages, double tolerance)
+void PoolScene::SetAccuracy(bool allImages, double tolerance)
 {
   for (const Part& part : this->Parts)
   {
@@ -407,7 +408,7 @@ void PoolScene::setAccuracy(bool allImages, double tolerance)
 }
 
 //------------------------------------------------------------------------------
-void PoolScene::showObjects(bool show)
+void PoolScene::ShowObjects(bool show)
 {
   for (std::size_t i = 1; i < this->Parts.size(); ++i)
   {
@@ -416,7 +417,7 @@ void PoolScene::showObjects(bool show)
 }
 
 //------------------------------------------------------------------------------
-glm::dvec3 PoolScene::shade(const PoolSight& sight) const
+glm::dvec3 PoolScene::Shade(const PoolSight& sight) const
 {
   glm::dvec3 color = Background;
   if (sight.Part >= 0)
@@ -428,19 +429,19 @@ glm::dvec3 PoolScene::shade(const PoolSight& sight) const
       const auto& corners = part.Coordinates[static_cast<std::size_t>(sight.Cell)];
       const glm::dvec2 uv = sight.Weights[0] * corners[0] + sight.Weights[1] * corners[1] +
         sight.Weights[2] * corners[2];
-      color = sample(part.Image, uv.x, uv.y);
+      color = GetSample(part.Image, uv.x, uv.y);
     }
     color *= glm::exp(-sight.Distance * this->Optics.Attenuation);
   }
   const double cosine = -glm::dot(sight.Ray, sight.Normal);
-  const double reflected = this->Optics.Fresnel ? fresnel(cosine) : 0.0;
+  const double reflected = this->Optics.Fresnel ? MakeFresnel(cosine) : 0.0;
   const glm::dvec3 mirrored =
-    this->Optics.Sky ? skyColor(sight.Ray + 2.0 * cosine * sight.Normal) : Background;
+    this->Optics.Sky ? SkyColor(sight.Ray + 2.0 * cosine * sight.Normal) : Background;
   return (1.0 - reflected) * color + reflected * mirrored;
 }
 
 //------------------------------------------------------------------------------
-PoolPicture PoolScene::trace() const
+PoolPicture PoolScene::Trace() const
 {
   std::vector<vtkSmartPointer<vtkPolyData>> data;
   for (const Part& part : this->Parts)
@@ -470,9 +471,9 @@ PoolPicture PoolScene::trace() const
         sight.Ray = ray;
         sight.Normal = this->Field.GetNormal(start.x, start.z);
         const glm::dvec3 behind = this->Field.Refract(Eye, start, 1.0).value_or(start) - start;
-        pool.find(start, glm::normalize(behind), cell, sight);
+        pool.Find(start, glm::normalize(behind), cell, sight);
         isWater[static_cast<std::size_t>(i)] = 1;
-        picture.Colors[static_cast<std::size_t>(i)] = this->shade(sight);
+        picture.Colors[static_cast<std::size_t>(i)] = this->Shade(sight);
       }
     });
   picture.IsWater.assign(isWater.begin(), isWater.end());

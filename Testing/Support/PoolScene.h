@@ -43,7 +43,7 @@ struct PoolOptics
 };
 
 /** Colour of the sky in a direction, smooth. */
-glm::dvec3 skyColor(const glm::dvec3& direction);
+glm::dvec3 SkyColor(const glm::dvec3& direction);
 
 /**
  * Colours from 0 to 1 of each pixel, in rows upwards; `IsWater` is set where the ray meets the
@@ -75,31 +75,31 @@ public:
   explicit PoolScene(int cells, double time = 0.0);
   ~PoolScene();
 
-  void setOptics(const PoolOptics& optics);
+  void SetOptics(const PoolOptics& optics);
   /**
    * Sets, for all filters, whether all images are computed or one, and the tolerance in degrees.
    */
-  void setAccuracy(bool allImages, double tolerance);
+  void SetAccuracy(bool allImages, double tolerance);
   /** Shows the walls alone, or the objects as well. */
-  void showObjects(bool show);
+  void ShowObjects(bool show);
   /** Sets other waves. */
-  void moveWater(double time);
+  void MoveWater(double time);
 
-  vtkRenderWindow* window() const { return this->Window.window(); }
-  vtkRefractionPass* pass() const { return this->Pass; }
-  const PixelCamera& camera() const { return this->Camera; }
+  vtkRenderWindow* GetWindow() const { return this->Window.GetWindow(); }
+  vtkRefractionPass* GetPass() const { return this->Pass; }
+  const PixelCamera& GetCamera() const { return this->Camera; }
 
-  test::ByteImage draw();
+  test::ByteImage Draw();
 
   /** Image of rays through the exact waves, refracted once. */
-  PoolPicture trace() const;
+  PoolPicture Trace() const;
 
   /** Colour of a pixel, for rays traced by the caller. */
-  glm::dvec3 shade(const PoolSight& sight) const;
-  int numberOfParts() const { return static_cast<int>(this->Parts.size()); }
+  glm::dvec3 Shade(const PoolSight& sight) const;
+  int NumberOfParts() const { return static_cast<int>(this->Parts.size()); }
   /** The part's triangles. */
-  vtkPolyData* partData(int part) const { return this->Parts[static_cast<std::size_t>(part)].Data; }
-  const reference::HeightField& field() const { return this->Field; }
+  vtkPolyData* PartData(int part) const { return this->Parts[static_cast<std::size_t>(part)].Data; }
+  const reference::HeightField& MakeField() const { return this->Field; }
 
 private:
   struct Part
@@ -113,7 +113,7 @@ private:
     vtkSmartPointer<vtkActor> Actor;
   };
 
-  void addPart(vtkPolyData* data, vtkImageData* image, const glm::dvec3& color);
+  void AddPart(vtkPolyData* data, vtkImageData* image, const glm::dvec3& color);
 
   reference::HeightField Field;
   int Cells;

@@ -20,16 +20,16 @@ const char* const ProgrammeUsage =
 namespace
 {
 
-bool readOption(const std::string& key, const std::string& value, ProgrammeOptions& options)
+bool ReadOption(const std::string& key, const std::string& value, ProgrammeOptions& options)
 {
   if (key == "--intensity")
-    return readNumber(value, options.Intensity) && options.Intensity > 0.0;
+    return ReadNumber(value, options.Intensity) && options.Intensity > 0.0;
   if (key == "--seed")
-    return readNumber(value, options.Seed);
+    return ReadNumber(value, options.Seed);
   if (key == "--case")
-    return readNumber(value, options.Case);
+    return ReadNumber(value, options.Case);
   if (key == "--seconds")
-    return readNumber(value, options.Seconds) && options.Seconds > 0.0;
+    return ReadNumber(value, options.Seconds) && options.Seconds > 0.0;
   std::string* const text = key == options.GroupOption ? &options.Group
     : key == "--report"                                ? &options.Report
                                                        : nullptr;
@@ -43,7 +43,7 @@ bool readOption(const std::string& key, const std::string& value, ProgrammeOptio
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-int runProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
+int RunProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
   const OptionReader& readMore, const ProgrammeRunner& run)
 {
   for (int i = 1; i < argc; i += 2)
@@ -55,7 +55,7 @@ int runProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& op
       return EXIT_SUCCESS;
     }
     const std::string value = i + 1 < argc ? argv[i + 1] : "";
-    if (i + 1 >= argc || !(readMore(key, value) || readOption(key, value, options)))
+    if (i + 1 >= argc || !(readMore(key, value) || ReadOption(key, value, options)))
     {
       std::cerr << "unknown option, or bad or missing value: " << key << ' ' << value << '\n'
                 << usage << ProgrammeUsage;

@@ -27,14 +27,14 @@ struct ProgrammeOptions
   double Seconds = 300.0;
   std::string Report;
 
-  bool has(const std::string& group) const { return group.find(this->Group) != std::string::npos; }
+  bool Has(const std::string& group) const { return group.find(this->Group) != std::string::npos; }
 };
 
 /** Usage of these options, one line each. */
 extern const char* const ProgrammeUsage;
 
 template <typename Number>
-bool readNumber(const std::string& text, Number& value)
+bool ReadNumber(const std::string& text, Number& value)
 {
   std::istringstream in(text);
   return in >> value && in.eof() && value >= Number(0);
@@ -53,7 +53,7 @@ using ProgrammeRunner = std::function<bool(std::ostream&)>;
  * main(): reads the options, calls `run` with a stream that goes to standard output and to the file
  * of --report, and returns the exit status: success if nothing failed.
  */
-int runProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
+int RunProgramme(int argc, char* argv[], const char* usage, ProgrammeOptions& options,
   const OptionReader& readMore, const ProgrammeRunner& run);
 
 } // namespace test

@@ -22,27 +22,27 @@ public:
   {
   }
   /** SplitMix64 (Steele, Lea and Flood 2014). */
-  std::uint64_t bits()
+  std::uint64_t Bits()
   {
     std::uint64_t z = (this->State += 0x9e3779b97f4a7c15u);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-  double uniform(double low = 0.0, double high = 1.0)
+  double Uniform(double low = 0.0, double high = 1.0)
   {
-    return low + (high - low) * static_cast<double>(this->bits() >> 11) * 0x1p-53;
+    return low + (high - low) * static_cast<double>(this->Bits() >> 11) * 0x1p-53;
   }
-  int below(int n) { return static_cast<int>(this->bits() % static_cast<std::uint64_t>(n)); }
+  int Below(int n) { return static_cast<int>(this->Bits() % static_cast<std::uint64_t>(n)); }
 
-  glm::dvec3 direction()
+  glm::dvec3 GetDirection()
   {
     // Rejection from the cube: avoids library functions whose last digit may differ.
     for (;;)
     {
-      const double x = this->uniform(-1.0, 1.0);
-      const double y = this->uniform(-1.0, 1.0);
-      const glm::dvec3 v(x, y, this->uniform(-1.0, 1.0));
+      const double x = this->Uniform(-1.0, 1.0);
+      const double y = this->Uniform(-1.0, 1.0);
+      const glm::dvec3 v(x, y, this->Uniform(-1.0, 1.0));
       const double length = glm::length(v);
       if (length > 0.1 && length <= 1.0)
       {

@@ -30,7 +30,7 @@ constexpr double GreyLevel = 1.0 / 255.0;
 // Wrong pixels beyond this number are counted without testing whether they are silhouettes.
 constexpr std::size_t MostClassified = 4000;
 
-std::vector<double> worldPoints(vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix)
+std::vector<double> WorldPoints(vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix)
 {
   std::vector<double> points;
   points.reserve(3 * static_cast<std::size_t>(grid->GetNumberOfPoints()));
@@ -50,7 +50,7 @@ std::vector<double> worldPoints(vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::unique_ptr<reference::ReferenceRayIntegrator> makeReference(
+std::unique_ptr<reference::ReferenceRayIntegrator> MakeReference(
   vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix)
 {
   std::vector<std::int64_t> cells;
@@ -71,11 +71,11 @@ std::unique_ptr<reference::ReferenceRayIntegrator> makeReference(
     scalars[i] = array->GetComponent(static_cast<vtkIdType>(i), 0);
   }
   return std::make_unique<reference::ReferenceRayIntegrator>(
-    worldPoints(grid, matrix), std::move(cells), std::move(scalars));
+    WorldPoints(grid, matrix), std::move(cells), std::move(scalars));
 }
 
 //------------------------------------------------------------------------------
-std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegrator& integrator,
+std::vector<ReferenceImage> RenderReference(const reference::ReferenceRayIntegrator& integrator,
   int width, int height, const RayOfPixel& rayOf,
   const std::vector<reference::ReferenceTransferFunction>& functions)
 {
@@ -97,7 +97,7 @@ std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegra
       for (int x = 0; x < width; ++x)
       {
         const reference::Ray ray = rayOf(x, y);
-        const reference::RayReport report = integrator.findSegments(ray, segments);
+        const reference::RayReport report = integrator.FindSegments(ray, segments);
         const bool overlap = report.Ordered || report.Overlaps > 0;
         const bool covered = !segments.empty();
         const std::size_t at = static_cast<std::size_t>(y) * width + x;
@@ -105,10 +105,10 @@ std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegra
         {
           if (overlap)
           {
-            integrator.findVisibleSegments(ray, functions[f], segments);
+            integrator.FindVisibleSegments(ray, functions[f], segments);
           }
           images[f].Covered[at] = covered;
-          images[f].Rgba[at] = integrator.integrate(ray, segments, functions[f]);
+          images[f].Rgba[at] = integrator.Integrate(ray, segments, functions[f]);
         }
       }
     }
@@ -137,7 +137,7 @@ struct PixelPair
   bool Drawn;
 };
 
-double difference(const PixelPair& pair)
+double Difference(const PixelPair& pair)
 {
   double largest = 0.0;
   for (int c = 0; c < 4; ++c)
@@ -161,20 +161,20 @@ public:
   {
   }
 
-  void add(int x, int y, const PixelPair& pair)
+  void Add(int x, int y, const PixelPair& pair)
   {
     Comparison& result = this->Result;
     result.Covered += pair.Covered;
-    const double d = difference(pair);
+    const double d = Difference(pair);
     result.OffByTwoLevels += !(d <= 2.0 * GreyLevel);
     const bool wrong = !(d <= this->Tolerance);
     const bool mismatch = pair.Drawn && !pair.Covered;
-    if ((wrong || mismatch) && this->isSilhouette(x, y))
+    if ((wrong || mismatch) && this->IsSilhouette(x, y))
     {
       ++result.Silhouettes;
       return;
     }
-    const double sensitivity = wrong ? this->sensitivity(x, y) : 0.0;
+    const double sensitivity = wrong ? this->Sensitivity(x, y) : 0.0;
     result.Wrong += wrong;
     result.BeyondRounding += wrong && d > sensitivity;
     result.CoverageMismatches += mismatch;
@@ -194,7 +194,7 @@ public:
     }
   }
 
-  Comparison result() const
+  Comparison GetResult() const
   {
     Comparison done = this->Result;
     done.Rms = this->Counted ? std::sqrt(this->SumOfSquares / this->Counted) : 0.0;
@@ -202,22 +202,22 @@ public:
   }
 
 private:
-  double sensitivity(int x, int y) const
+  double Sensitivity(int x, int y) const
   {
     return this->Classified >= MostClassified
       ? 0.0
-      : this->Integrator.sensitivity(
-          this->RayOf(x, y), RoundingDistance * this->Integrator.mesh().diagonal(), this->Function);
+      : this->Integrator.Sensitivity(this->RayOf(x, y),
+          RoundingDistance * this->Integrator.MakeMesh().GetDiagonal(), this->Function);
   }
 
-  bool isSilhouette(int x, int y)
+  bool IsSilhouette(int x, int y)
   {
     if (this->Classified >= MostClassified)
     {
       return false;
     }
     ++this->Classified;
-    return this->Integrator.classify(this->RayOf(x, y), this->Integrator.silhouetteDistance(),
+    return this->Integrator.Classify(this->RayOf(x, y), this->Integrator.SilhouetteDistance(),
              this->Function) == reference::RayClass::Silhouette;
   }
 
@@ -234,7 +234,7 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::string Comparison::text() const
+std::string Comparison::GetText() const
 {
   std::ostringstream out;
   out << "covered " << this->Covered << ", wrong " << this->Wrong << " (beyond rounding "
@@ -258,7 +258,7 @@ std::string Comparison::text() const
 }
 
 //------------------------------------------------------------------------------
-Comparison compareToReference(const FloatImage& image, const ReferenceImage& truth,
+Comparison CompareToReference(const FloatImage& image, const ReferenceImage& truth,
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf, double tolerance)
 {
   Comparer comparer(integrator, truth.Function, rayOf, tolerance);
@@ -266,20 +266,20 @@ Comparison compareToReference(const FloatImage& image, const ReferenceImage& tru
   {
     for (int x = 0; x < truth.Width; ++x)
     {
-      const float* drawn = image.pixel(x, y);
+      const float* drawn = image.GetPixel(x, y);
       PixelPair pair;
       std::copy(drawn, drawn + 4, pair.Image.begin());
-      pair.Reference = truth.pixel(x, y);
+      pair.Reference = truth.GetPixel(x, y);
       pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
       pair.Drawn = drawn[3] != 0.0f;
-      comparer.add(x, y, pair);
+      comparer.Add(x, y, pair);
     }
   }
-  return comparer.result();
+  return comparer.GetResult();
 }
 
 //------------------------------------------------------------------------------
-Comparison compareToReference(const ByteImage& image, const ReferenceImage& truth,
+Comparison CompareToReference(const ByteImage& image, const ReferenceImage& truth,
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
   const std::array<double, 3>& background, int left, int bottom)
 {
@@ -293,8 +293,8 @@ Comparison compareToReference(const ByteImage& image, const ReferenceImage& trut
   {
     for (int x = 0; x < truth.Width; ++x)
     {
-      const unsigned char* drawn = image.pixel(left + x, bottom + y);
-      const std::array<double, 4>& exact = truth.pixel(x, y);
+      const unsigned char* drawn = image.GetPixel(left + x, bottom + y);
+      const std::array<double, 4>& exact = truth.GetPixel(x, y);
       PixelPair pair;
       pair.Image[3] = pair.Reference[3] = exact[3];
       for (int c = 0; c < 3; ++c)
@@ -305,10 +305,10 @@ Comparison compareToReference(const ByteImage& image, const ReferenceImage& trut
       }
       pair.Covered = truth.Covered[static_cast<std::size_t>(y) * truth.Width + x] != 0;
       pair.Drawn = false; // indistinguishable from the background
-      comparer.add(x, y, pair);
+      comparer.Add(x, y, pair);
     }
   }
-  return comparer.result();
+  return comparer.GetResult();
 }
 
 } // namespace test

@@ -33,14 +33,14 @@ struct ReferenceImage
   std::vector<char> Covered;
   reference::ReferenceTransferFunction Function;
 
-  const std::array<double, 4>& pixel(int x, int y) const
+  const std::array<double, 4>& GetPixel(int x, int y) const
   {
     return this->Rgba[static_cast<std::size_t>(y) * this->Width + x];
   }
 };
 
 /** The reference for a grid's active point scalars, in world coordinates (`matrix` may be null). */
-std::unique_ptr<reference::ReferenceRayIntegrator> makeReference(
+std::unique_ptr<reference::ReferenceRayIntegrator> MakeReference(
   vtkUnstructuredGrid* grid, vtkMatrix4x4* matrix = nullptr);
 
 /** Ray of a pixel (counted from the viewport's lower left corner); a scene may shorten it. */
@@ -50,7 +50,7 @@ using RayOfPixel = std::function<reference::Ray(int, int)>;
  * Traces all pixels on all processors, for several transfer functions at once (cells are located
  * once). With a step, only pixels with x and y divisible by it are traced.
  */
-std::vector<ReferenceImage> renderReference(const reference::ReferenceRayIntegrator& integrator,
+std::vector<ReferenceImage> RenderReference(const reference::ReferenceRayIntegrator& integrator,
   int width, int height, const RayOfPixel& rayOf,
   const std::vector<reference::ReferenceTransferFunction>& functions);
 
@@ -83,11 +83,11 @@ struct Comparison
   // for a wrong pixel only.
   double WorstSensitivity = 0.0;
 
-  std::string text() const;
+  std::string GetText() const;
 };
 
 /** Compares a float image with the reference pixel by pixel. */
-Comparison compareToReference(const FloatImage& image, const ReferenceImage& truth,
+Comparison CompareToReference(const FloatImage& image, const ReferenceImage& truth,
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
   double tolerance = FloatTolerance);
 
@@ -96,7 +96,7 @@ Comparison compareToReference(const FloatImage& image, const ReferenceImage& tru
  * 1/255 plus the error of 8-bit blending over that background. A window may be larger than the
  * viewport, whose lower left corner is given.
  */
-Comparison compareToReference(const ByteImage& image, const ReferenceImage& truth,
+Comparison CompareToReference(const ByteImage& image, const ReferenceImage& truth,
   const reference::ReferenceRayIntegrator& integrator, const RayOfPixel& rayOf,
   const std::array<double, 3>& background, int left = 0, int bottom = 0);
 

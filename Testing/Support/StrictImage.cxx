@@ -18,7 +18,7 @@ namespace test
 {
 
 //------------------------------------------------------------------------------
-StrictDifference compareStrictly(const ByteImage& a, const ByteImage& b, int threshold)
+StrictDifference CompareStrictly(const ByteImage& a, const ByteImage& b, int threshold)
 {
   constexpr int visible = 32;
   StrictDifference result;
@@ -44,7 +44,7 @@ StrictDifference compareStrictly(const ByteImage& a, const ByteImage& b, int thr
 }
 
 //------------------------------------------------------------------------------
-ByteImage readPng(const std::string& path)
+ByteImage ReadPng(const std::string& path)
 {
   ByteImage image;
   if (!vtksys::SystemTools::FileExists(path))
@@ -68,7 +68,7 @@ ByteImage readPng(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
-void writePng(const ByteImage& image, const std::string& path)
+void WritePng(const ByteImage& image, const std::string& path)
 {
   vtkNew<vtkImageData> data;
   data->SetDimensions(image.Width, image.Height, 1);
@@ -82,10 +82,10 @@ void writePng(const ByteImage& image, const std::string& path)
 }
 
 //------------------------------------------------------------------------------
-BaselineResult compareToBaseline(const ByteImage& image, const std::string& name, int threshold)
+BaselineResult CompareToBaseline(const ByteImage& image, const std::string& name, int threshold)
 {
-  const ByteImage baseline = readPng(std::string(MENISCUS_BASELINE_DIR) + "/" + name + ".png");
-  const StrictDifference difference = compareStrictly(image, baseline, threshold);
+  const ByteImage baseline = ReadPng(std::string(MENISCUS_BASELINE_DIR) + "/" + name + ".png");
+  const StrictDifference difference = CompareStrictly(image, baseline, threshold);
   BaselineResult result;
   result.Passed = difference.SameSize && difference.PixelsBeyond == 0;
   if (result.Passed)
@@ -94,11 +94,11 @@ BaselineResult compareToBaseline(const ByteImage& image, const std::string& name
   }
   const std::string folder = MENISCUS_TEMPORARY_DIR;
   vtksys::SystemTools::MakeDirectory(folder);
-  writePng(image, folder + "/" + name + ".png");
+  WritePng(image, folder + "/" + name + ".png");
   std::ostringstream message;
   if (difference.SameSize)
   {
-    writePng(difference.Image, folder + "/" + name + "-difference.png");
+    WritePng(difference.Image, folder + "/" + name + "-difference.png");
     message << difference.PixelsBeyond << " pixels of " << name << " differ by more than "
             << threshold << " of 255 (largest " << difference.Largest << ")";
   }

@@ -26,10 +26,10 @@ struct StrictDifference
   ByteImage Image;              // absolute differences, times 32 to be seen
 };
 
-StrictDifference compareStrictly(const ByteImage& a, const ByteImage& b, int threshold);
+StrictDifference CompareStrictly(const ByteImage& a, const ByteImage& b, int threshold);
 
-ByteImage readPng(const std::string& path);
-void writePng(const ByteImage& image, const std::string& path);
+ByteImage ReadPng(const std::string& path);
+void WritePng(const ByteImage& image, const std::string& path);
 
 /**
  * Result of a comparison with a baseline (Testing/Data/Baseline/NAME.png). On a failure, or without
@@ -42,7 +42,7 @@ struct BaselineResult
   std::string Message;
 };
 
-BaselineResult compareToBaseline(const ByteImage& image, const std::string& name, int threshold);
+BaselineResult CompareToBaseline(const ByteImage& image, const std::string& name, int threshold);
 
 } // namespace test
 } // namespace meniscus

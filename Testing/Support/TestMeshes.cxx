@@ -26,32 +26,32 @@ namespace test
 const char* const ScalarName = "Scalar";
 
 //------------------------------------------------------------------------------
-Field constantField(double value)
+Field ConstantField(double value)
 {
   return [value](double, double, double) { return value; };
 }
 
 //------------------------------------------------------------------------------
-Field linearField(double x, double y, double z)
+Field LinearField(double x, double y, double z)
 {
   return [=](double px, double py, double pz) { return x * px + y * py + z * pz; };
 }
 
 //------------------------------------------------------------------------------
-Field radialField()
+Field RadialField()
 {
   return [](double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); };
 }
 
 //------------------------------------------------------------------------------
-Field wavyField(double frequency)
+Field WavyField(double frequency)
 {
   return [frequency](double x, double y, double z)
   { return std::sin(frequency * x) * std::cos(frequency * y) + 0.5 * std::sin(2 * z + x); };
 }
 
 //------------------------------------------------------------------------------
-Grid makeGrid(
+Grid MakeGrid(
   const std::vector<double>& points, const std::vector<vtkIdType>& cells, const Field& field)
 {
   const auto numberOfPoints = static_cast<vtkIdType>(points.size() / 3);
@@ -79,9 +79,9 @@ Grid makeGrid(
 }
 
 //------------------------------------------------------------------------------
-Grid makeSingleTetrahedron(const Field& field)
+Grid MakeSingleTetrahedron(const Field& field)
 {
-  return makeGrid({ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 1, 2, 3 }, field);
+  return MakeGrid({ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 }, { 0, 1, 2, 3 }, field);
 }
 
 namespace
@@ -96,7 +96,7 @@ constexpr int Paths[6][3] = { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 }, { 1, 2, 0 }
   { 2, 1, 0 } };
 
 template <typename CornerId>
-void appendCube(const CornerId& cornerId, std::vector<vtkIdType>& cells)
+void AppendCube(const CornerId& cornerId, std::vector<vtkIdType>& cells)
 {
   for (const auto& path : Paths)
   {
@@ -115,7 +115,7 @@ void appendCube(const CornerId& cornerId, std::vector<vtkIdType>& cells)
 }
 
 // Omits points that no cell uses, so that the bounds are those of the region.
-Grid makeCompactGrid(
+Grid MakeCompactGrid(
   const std::vector<double>& points, std::vector<vtkIdType> cells, const Field& field)
 {
   std::vector<vtkIdType> newId(points.size() / 3, -1);
@@ -129,28 +129,28 @@ Grid makeCompactGrid(
     }
     id = newId[id];
   }
-  return makeGrid(used, cells, field);
+  return MakeGrid(used, cells, field);
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-Grid makeCubeOfFive(const Field& field)
+Grid MakeCubeOfFive(const Field& field)
 {
-  return makeGrid(
+  return MakeGrid(
     CubeCorners, { 0, 1, 2, 4, 3, 2, 1, 7, 5, 4, 7, 1, 6, 7, 4, 2, 1, 2, 4, 7 }, field);
 }
 
 //------------------------------------------------------------------------------
-Grid makeCubeOfSix(const Field& field)
+Grid MakeCubeOfSix(const Field& field)
 {
   std::vector<vtkIdType> cells;
-  appendCube([](int x, int y, int z) { return vtkIdType(x + 2 * y + 4 * z); }, cells);
-  return makeGrid(CubeCorners, cells, field);
+  AppendCube([](int x, int y, int z) { return vtkIdType(x + 2 * y + 4 * z); }, cells);
+  return MakeGrid(CubeCorners, cells, field);
 }
 
 //------------------------------------------------------------------------------
-Grid makeBlock(int n, const Field& field, const Region& region)
+Grid MakeBlock(int n, const Field& field, const Region& region)
 {
   std::vector<double> points;
   points.reserve(3 * static_cast<std::size_t>(n + 1) * (n + 1) * (n + 1));
@@ -173,22 +173,22 @@ Grid makeBlock(int n, const Field& field, const Region& region)
     const int k = cube / (n * n);
     if (!region || region(at(i + 0.5), at(j + 0.5), at(k + 0.5)))
     {
-      appendCube([=](int x, int y, int z)
+      AppendCube([=](int x, int y, int z)
         { return vtkIdType(i + x) + vtkIdType(n + 1) * (j + y + vtkIdType(n + 1) * (k + z)); },
         cells);
     }
   }
-  return makeCompactGrid(points, cells, field);
+  return MakeCompactGrid(points, cells, field);
 }
 
 //------------------------------------------------------------------------------
-Region lShape()
+Region LShape()
 {
   return [](double x, double y, double) { return x < 0.0 || y < 0.0; };
 }
 
 //------------------------------------------------------------------------------
-Region shell(double inner, double outer)
+Region Shell(double inner, double outer)
 {
   return [=](double x, double y, double z)
   {
@@ -198,20 +198,20 @@ Region shell(double inner, double outer)
 }
 
 //------------------------------------------------------------------------------
-Region torus(double ringRadius, double tubeRadius)
+Region Torus(double ringRadius, double tubeRadius)
 {
   return [=](double x, double y, double z)
   { return std::hypot(std::hypot(x, y) - ringRadius, z) <= tubeRadius; };
 }
 
 //------------------------------------------------------------------------------
-Region twoBlocks(double gap)
+Region TwoBlocks(double gap)
 {
   return [gap](double x, double, double) { return std::fabs(x) > 0.5 * gap; };
 }
 
 //------------------------------------------------------------------------------
-void jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed)
+void Jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed)
 {
   // std::uniform_real_distribution is not used: its values may differ between libraries.
   std::mt19937 random(seed);
@@ -230,7 +230,7 @@ void jitter(vtkUnstructuredGrid* grid, double amount, unsigned int seed)
 }
 
 //------------------------------------------------------------------------------
-void transformPoints(vtkUnstructuredGrid* grid, const std::array<double, 3>& offset, double scale)
+void TransformPoints(vtkUnstructuredGrid* grid, const std::array<double, 3>& offset, double scale)
 {
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
@@ -246,7 +246,7 @@ void transformPoints(vtkUnstructuredGrid* grid, const std::array<double, 3>& off
 }
 
 //------------------------------------------------------------------------------
-Grid readMesh(const std::string& path)
+Grid ReadMesh(const std::string& path)
 {
   if (!std::ifstream(path).good())
   {
@@ -265,10 +265,10 @@ Grid readMesh(const std::string& path)
 }
 
 //------------------------------------------------------------------------------
-Grid readDataMesh(const std::string& name)
+Grid ReadDataMesh(const std::string& name)
 {
   const char* folder = std::getenv("MENISCUS_DATA_DIR");
-  return readMesh(std::string(folder ? folder : MENISCUS_DEFAULT_DATA_DIR) + "/" + name + ".vtu");
+  return ReadMesh(std::string(folder ? folder : MENISCUS_DEFAULT_DATA_DIR) + "/" + name + ".vtu");
 }
 
 } // namespace test

@@ -15,7 +15,7 @@ namespace
 constexpr int Threshold = 1;
 
 // A smooth image, in which a shift by one pixel changes little.
-ByteImage ramp()
+ByteImage Ramp()
 {
   ByteImage image;
   image.Width = 40;
@@ -33,9 +33,9 @@ ByteImage ramp()
   return image;
 }
 
-bool passes(const ByteImage& image)
+bool Passes(const ByteImage& image)
 {
-  const StrictDifference difference = compareStrictly(ramp(), image, Threshold);
+  const StrictDifference difference = CompareStrictly(Ramp(), image, Threshold);
   return difference.SameSize && difference.PixelsBeyond == 0;
 }
 
@@ -43,55 +43,55 @@ bool passes(const ByteImage& image)
 
 TEST(StrictImage, EqualImagesPass)
 {
-  EXPECT_TRUE(passes(ramp()));
-  EXPECT_EQ(compareStrictly(ramp(), ramp(), 0).Largest, 0);
+  EXPECT_TRUE(Passes(Ramp()));
+  EXPECT_EQ(CompareStrictly(Ramp(), Ramp(), 0).Largest, 0);
 }
 
 TEST(StrictImage, DifferenceWithinTheThresholdPasses)
 {
-  ByteImage image = ramp();
+  ByteImage image = Ramp();
   image.Rgb[777] = static_cast<unsigned char>(image.Rgb[777] + Threshold);
-  EXPECT_TRUE(passes(image));
-  EXPECT_EQ(compareStrictly(ramp(), image, Threshold).Largest, Threshold);
+  EXPECT_TRUE(Passes(image));
+  EXPECT_EQ(CompareStrictly(Ramp(), image, Threshold).Largest, Threshold);
 }
 
 TEST(StrictImage, OneLevelBeyondTheThresholdInOnePixelFails)
 {
-  ByteImage image = ramp();
+  ByteImage image = Ramp();
   image.Rgb[777] = static_cast<unsigned char>(image.Rgb[777] + Threshold + 1);
-  EXPECT_FALSE(passes(image));
-  EXPECT_EQ(compareStrictly(ramp(), image, Threshold).PixelsBeyond, 1u);
+  EXPECT_FALSE(Passes(image));
+  EXPECT_EQ(CompareStrictly(Ramp(), image, Threshold).PixelsBeyond, 1u);
 }
 
 TEST(StrictImage, ShiftByOnePixelFails)
 {
-  ByteImage image = ramp();
+  ByteImage image = Ramp();
   std::rotate(image.Rgb.begin(), image.Rgb.begin() + 3, image.Rgb.end());
-  EXPECT_FALSE(passes(image));
+  EXPECT_FALSE(Passes(image));
 }
 
 TEST(StrictImage, OffsetOfTheWholeImageFails)
 {
   // VTK's default comparison accepts an offset of 50.
-  ByteImage image = ramp();
+  ByteImage image = Ramp();
   for (unsigned char& value : image.Rgb)
   {
     value = static_cast<unsigned char>(std::min(255, value + 2));
   }
-  EXPECT_FALSE(passes(image));
+  EXPECT_FALSE(Passes(image));
 }
 
 TEST(StrictImage, OtherSizeFails)
 {
-  ByteImage image = ramp();
+  ByteImage image = Ramp();
   image.Height -= 1;
   image.Rgb.resize(image.Rgb.size() - 3 * static_cast<std::size_t>(image.Width));
-  EXPECT_FALSE(passes(image));
+  EXPECT_FALSE(Passes(image));
 }
 
 TEST(StrictImage, MissingBaselineFails)
 {
-  const BaselineResult result = compareToBaseline(ramp(), "NoSuchBaseline", Threshold);
+  const BaselineResult result = CompareToBaseline(Ramp(), "NoSuchBaseline", Threshold);
   EXPECT_FALSE(result.Passed);
   EXPECT_NE(result.Message.find("NoSuchBaseline"), std::string::npos);
 }

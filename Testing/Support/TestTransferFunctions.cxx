@@ -19,7 +19,7 @@ namespace test
 namespace
 {
 
-void addColors(vtkColorTransferFunction* color, const double range[2])
+void AddColors(vtkColorTransferFunction* color, const double range[2])
 {
   const auto at = [range](double u) { return range[0] + u * (range[1] - range[0]); };
   color->AddRGBPoint(at(0.0), 0.10, 0.15, 0.70);
@@ -37,7 +37,7 @@ struct OpacityShape
   double Unit;
 };
 
-OpacityShape shapeOf(FunctionKind kind)
+OpacityShape ShapeOf(FunctionKind kind)
 {
   switch (kind)
   {
@@ -71,7 +71,7 @@ struct OneSided
   double Above;
 };
 
-OneSided limitsOf(vtkPiecewiseFunction* function, double scalar)
+OneSided LimitsOf(vtkPiecewiseFunction* function, double scalar)
 {
   const double value = function->GetValue(scalar);
   OneSided limits{ value, value };
@@ -84,7 +84,7 @@ OneSided limitsOf(vtkPiecewiseFunction* function, double scalar)
   return limits;
 }
 
-double attenuationOf(double opacity, double unit, OpacityModel model)
+double AttenuationOf(double opacity, double unit, OpacityModel model)
 {
   if (model == OpacityModel::AttenuationCoefficient)
   {
@@ -94,7 +94,7 @@ double attenuationOf(double opacity, double unit, OpacityModel model)
   return -std::log1p(-std::min(opacity, 1.0 - 5.9604644775390625e-8)) / unit;
 }
 
-std::vector<double> sortedNodes(vtkVolumeProperty* property, OpacityModel model)
+std::vector<double> SortedNodes(vtkVolumeProperty* property, OpacityModel model)
 {
   std::vector<double> scalars;
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
@@ -135,17 +135,17 @@ std::vector<double> sortedNodes(vtkVolumeProperty* property, OpacityModel model)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkVolumeProperty> makeProperty(
+vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   FunctionKind kind, const double range[2], double diagonal)
 {
-  const OpacityShape shape = shapeOf(kind);
+  const OpacityShape shape = ShapeOf(kind);
   vtkNew<vtkPiecewiseFunction> opacity;
   for (const auto& node : shape.Nodes)
   {
     opacity->AddPoint(range[0] + node.first * (range[1] - range[0]), node.second);
   }
   vtkNew<vtkColorTransferFunction> color;
-  addColors(color, range);
+  AddColors(color, range);
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetScalarOpacity(opacity);
   property->SetColor(color);
@@ -155,7 +155,7 @@ vtkSmartPointer<vtkVolumeProperty> makeProperty(
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkVolumeProperty> makeConstantProperty(
+vtkSmartPointer<vtkVolumeProperty> MakeConstantProperty(
   double opacity, double red, double green, double blue, double unitDistance)
 {
   vtkNew<vtkPiecewiseFunction> opacityFunction;
@@ -174,13 +174,13 @@ vtkSmartPointer<vtkVolumeProperty> makeConstantProperty(
 }
 
 //------------------------------------------------------------------------------
-reference::ReferenceTransferFunction toReference(vtkVolumeProperty* property, OpacityModel model)
+reference::ReferenceTransferFunction ToReference(vtkVolumeProperty* property, OpacityModel model)
 {
   const double unit = property->GetScalarOpacityUnitDistance();
   std::vector<reference::TransferFunctionNode> nodes;
-  for (const double scalar : sortedNodes(property, model))
+  for (const double scalar : SortedNodes(property, model))
   {
-    const OneSided opacity = limitsOf(property->GetScalarOpacity(), scalar);
+    const OneSided opacity = LimitsOf(property->GetScalarOpacity(), scalar);
     reference::TransferFunctionNode node;
     node.Scalar = scalar;
     if (property->GetColorChannels() == 1)
@@ -191,11 +191,11 @@ reference::ReferenceTransferFunction toReference(vtkVolumeProperty* property, Op
     {
       property->GetRGBTransferFunction()->GetColor(scalar, node.Value.Color.data());
     }
-    node.Value.Attenuation = attenuationOf(opacity.Below, unit, model);
+    node.Value.Attenuation = AttenuationOf(opacity.Below, unit, model);
     nodes.push_back(node);
     if (opacity.Above != opacity.Below)
     {
-      node.Value.Attenuation = attenuationOf(opacity.Above, unit, model);
+      node.Value.Attenuation = AttenuationOf(opacity.Above, unit, model);
       nodes.push_back(node);
     }
   }

@@ -25,11 +25,11 @@ enum class FunctionKind
 /**
  * Transfer function over a scalar range; the unit distance is a fraction of the mesh's diagonal.
  */
-vtkSmartPointer<vtkVolumeProperty> makeProperty(
+vtkSmartPointer<vtkVolumeProperty> MakeProperty(
   FunctionKind kind, const double range[2], double diagonal);
 
 /** One colour and opacity everywhere. */
-vtkSmartPointer<vtkVolumeProperty> makeConstantProperty(
+vtkSmartPointer<vtkVolumeProperty> MakeConstantProperty(
   double opacity, double red, double green, double blue, double unitDistance);
 
 /** Conversion of opacity to attenuation per world length (see vtkTetrahedraRayCastMapper). */
@@ -43,7 +43,7 @@ enum class OpacityModel
  * The reference's nodes for the first component of a property with piecewise linear RGB colour and
  * opacity. Per unit distance, attenuation is not linear in opacity, so pieces are split finely.
  */
-reference::ReferenceTransferFunction toReference(
+reference::ReferenceTransferFunction ToReference(
   vtkVolumeProperty* property, OpacityModel model = OpacityModel::AttenuationCoefficient);
 
 } // namespace test

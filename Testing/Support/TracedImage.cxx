@@ -22,7 +22,7 @@ namespace
 
 using Color = std::array<double, 4>;
 
-double difference(const Color& a, const Color& b)
+double Difference(const Color& a, const Color& b)
 {
   double largest = 0.0;
   for (int c = 0; c < 4; ++c)
@@ -34,7 +34,7 @@ double difference(const Color& a, const Color& b)
 }
 
 // Largest change of the exact result when the ray moves sideways in 8 directions.
-double sensitivity(
+double Sensitivity(
   const reference::Ray& ray, const TraceRay& trace, const Color& truth, double distance)
 {
   double right[3];
@@ -49,7 +49,7 @@ double sensitivity(
     {
       moved.Origin[axis] += distance * (std::cos(angle) * right[axis] + std::sin(angle) * up[axis]);
     }
-    largest = std::max(largest, difference(trace(moved), truth));
+    largest = std::max(largest, Difference(trace(moved), truth));
   }
   return largest;
 }
@@ -66,17 +66,17 @@ public:
   {
   }
 
-  void add(int x, int y, const float* drawn)
+  void Add(int x, int y, const float* drawn)
   {
-    const reference::Ray ray = this->Rays.ray(x, y);
+    const reference::Ray ray = this->Rays.GetRay(x, y);
     const Color truth = this->Trace(ray);
     Color image;
     std::copy(drawn, drawn + 4, image.begin());
     const bool visible = truth[3] > 0.0;
-    const double d = difference(image, truth);
+    const double d = Difference(image, truth);
     const bool wrong = !(d <= this->Tolerance);
     this->Sum.Visible += visible;
-    if (wrong && d <= 2.0 * sensitivity(ray, this->Trace, truth, this->Rounding))
+    if (wrong && d <= 2.0 * Sensitivity(ray, this->Trace, truth, this->Rounding))
     {
       ++this->Sum.Excused;
       return;
@@ -103,7 +103,7 @@ private:
   double Rounding;
 };
 
-void merge(const RowComparer& row, TracedComparison& total)
+void Merge(const RowComparer& row, TracedComparison& total)
 {
   const TracedComparison& sum = row.Sum;
   if (!(sum.Largest <= total.Largest))
@@ -124,7 +124,7 @@ void merge(const RowComparer& row, TracedComparison& total)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::string TracedComparison::text() const
+std::string TracedComparison::GetText() const
 {
   std::ostringstream out;
   out << "visible " << this->Visible << ", wrong " << this->Wrong << ", excused " << this->Excused
@@ -143,7 +143,7 @@ std::string TracedComparison::text() const
 }
 
 //------------------------------------------------------------------------------
-TracedComparison compareToTrace(const FloatImage& image, const PixelRays& rays,
+TracedComparison CompareToTrace(const FloatImage& image, const PixelRays& rays,
   const TraceRay& trace, double tolerance, double rounding)
 {
   TracedComparison total;
@@ -156,10 +156,10 @@ TracedComparison compareToTrace(const FloatImage& image, const PixelRays& rays,
       RowComparer row(rays, trace, tolerance, rounding);
       for (int x = 0; x < image.Width; ++x)
       {
-        row.add(x, y, image.pixel(x, y));
+        row.Add(x, y, image.GetPixel(x, y));
       }
       const std::lock_guard<std::mutex> lock(mutex);
-      merge(row, total);
+      Merge(row, total);
     }
   };
   std::vector<std::thread> threads;

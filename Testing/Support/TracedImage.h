@@ -30,7 +30,7 @@ struct TracedComparison
   std::array<double, 4> WorstImage{};
   std::array<double, 4> WorstTruth{};
 
-  std::string text() const;
+  std::string GetText() const;
 };
 
 /**
@@ -38,7 +38,7 @@ struct TracedComparison
  * an error above the tolerance is excused if the exact result itself changes by at least half of
  * that when the ray moves sideways by `rounding`: at silhouettes, in front of steps.
  */
-TracedComparison compareToTrace(const FloatImage& image, const PixelRays& rays,
+TracedComparison CompareToTrace(const FloatImage& image, const PixelRays& rays,
   const TraceRay& trace, double tolerance, double rounding);
 
 } // namespace test

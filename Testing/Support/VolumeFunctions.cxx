@@ -37,7 +37,7 @@ public:
   {
   }
 
-  Builder& add(double u, double depth)
+  Builder& Add(double u, double depth)
   {
     // Colours depend on the place, so that those of neighbouring points differ.
     const double hue = 7.0 * u;
@@ -50,7 +50,7 @@ public:
     return *this;
   }
 
-  VolumeFunction done() { return std::move(this->Nodes); }
+  VolumeFunction Done() { return std::move(this->Nodes); }
 
 private:
   double Low;
@@ -59,95 +59,95 @@ private:
   VolumeFunction Nodes;
 };
 
-VolumeFunction manyPoints(Builder builder)
+VolumeFunction ManyPoints(Builder builder)
 {
   for (int i = 0; i < 1000; ++i)
   {
-    builder.add(i / 999.0, i % 3 ? 0.3 : 9.0);
+    builder.Add(i / 999.0, i % 3 ? 0.3 : 9.0);
   }
-  return builder.done();
+  return builder.Done();
 }
 
-VolumeFunction manySteps(Builder builder)
+VolumeFunction ManySteps(Builder builder)
 {
   for (int i = 0; i <= 20; ++i)
   {
-    builder.add(i / 20.0, i % 2 ? 0.0 : 8.0).add(i / 20.0, i % 2 ? 8.0 : 0.0);
+    builder.Add(i / 20.0, i % 2 ? 0.0 : 8.0).Add(i / 20.0, i % 2 ? 8.0 : 0.0);
   }
-  return builder.done();
+  return builder.Done();
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<NamedFunction> usualFunctions(vtkUnstructuredGrid* grid)
+std::vector<NamedFunction> UsualFunctions(vtkUnstructuredGrid* grid)
 {
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  const double diagonal = diagonalOf(grid->GetBounds());
+  const double diagonal = DiagonalOf(grid->GetBounds());
   const std::pair<const char*, FunctionKind> kinds[4] = { { "smooth", FunctionKind::Smooth },
     { "peaked", FunctionKind::Peaked }, { "opaque", FunctionKind::Opaque },
     { "sparse", FunctionKind::Sparse } };
   std::vector<NamedFunction> functions;
   for (const auto& kind : kinds)
   {
-    const auto property = makeProperty(kind.second, range, diagonal);
-    functions.push_back({ kind.first, toReference(property).nodes() });
+    const auto property = MakeProperty(kind.second, range, diagonal);
+    functions.push_back({ kind.first, ToReference(property).GetNodes() });
   }
   return functions;
 }
 
 //------------------------------------------------------------------------------
-std::vector<NamedFunction> degenerateFunctions(const double range[2], double length)
+std::vector<NamedFunction> DegenerateFunctions(const double range[2], double length)
 {
   const Builder b(range, length);
   const auto from = [&b]() { return Builder(b); };
   return {
     { "none", {} },
-    { "one point", from().add(0.4, 2.0).done() },
-    { "one point, below the range", from().add(-3.0, 2.0).done() },
-    { "one jump only", from().add(0.5, 0.0).add(0.5, 3.0).done() },
-    { "zero", from().add(0.0, 0.0).add(1.0, 0.0).done() },
-    { "20 steps", manySteps(b) },
+    { "one point", from().Add(0.4, 2.0).Done() },
+    { "one point, below the range", from().Add(-3.0, 2.0).Done() },
+    { "one jump only", from().Add(0.5, 0.0).Add(0.5, 3.0).Done() },
+    { "zero", from().Add(0.0, 0.0).Add(1.0, 0.0).Done() },
+    { "20 steps", ManySteps(b) },
     { "jump and ramp",
-      from().add(0.0, 0.5).add(0.3, 0.5).add(0.3, 6.0).add(0.7, 0.0).add(0.7, 4.0).done() },
-    { "step at the lowest scalar", from().add(0.0, 0.0).add(0.0, 2.0).add(1.0, 1.0).done() },
-    { "step at the highest scalar", from().add(0.0, 1.0).add(1.0, 2.0).add(1.0, 50.0).done() },
-    { "1000 points", manyPoints(b) },
-    { "all below the range", from().add(-9.0, 1.0).add(-5.0, 3.0).add(-2.0, 2.0).done() },
-    { "all above the range", from().add(2.0, 1.5).add(5.0, 3.0).add(9.0, 2.0).done() },
-    { "across the range", from().add(-1e3, 0.0).add(1e3, 4.0).done() },
-    { "a window of 1e-6", from().add(0.5, 0.0).add(0.5 + 5e-7, 1e4).add(0.5 + 1e-6, 0.0).done() },
-    { "nearly solid", from().add(0.0, 1e6).add(1.0, 2e6).done() },
-    { "solid in a shell", from().add(0.45, 0.0).add(0.5, 1e5).add(0.55, 0.0).done() },
-    { "faint", from().add(0.0, 1e-6).add(1.0, 1e-5).done() },
+      from().Add(0.0, 0.5).Add(0.3, 0.5).Add(0.3, 6.0).Add(0.7, 0.0).Add(0.7, 4.0).Done() },
+    { "step at the lowest scalar", from().Add(0.0, 0.0).Add(0.0, 2.0).Add(1.0, 1.0).Done() },
+    { "step at the highest scalar", from().Add(0.0, 1.0).Add(1.0, 2.0).Add(1.0, 50.0).Done() },
+    { "1000 points", ManyPoints(b) },
+    { "all below the range", from().Add(-9.0, 1.0).Add(-5.0, 3.0).Add(-2.0, 2.0).Done() },
+    { "all above the range", from().Add(2.0, 1.5).Add(5.0, 3.0).Add(9.0, 2.0).Done() },
+    { "across the range", from().Add(-1e3, 0.0).Add(1e3, 4.0).Done() },
+    { "a window of 1e-6", from().Add(0.5, 0.0).Add(0.5 + 5e-7, 1e4).Add(0.5 + 1e-6, 0.0).Done() },
+    { "nearly solid", from().Add(0.0, 1e6).Add(1.0, 2e6).Done() },
+    { "solid in a shell", from().Add(0.45, 0.0).Add(0.5, 1e5).Add(0.55, 0.0).Done() },
+    { "faint", from().Add(0.0, 1e-6).Add(1.0, 1e-5).Done() },
   };
 }
 
 //------------------------------------------------------------------------------
-VolumeFunction randomFunction(const double range[2], double length, RandomNumbers& random)
+VolumeFunction RandomFunction(const double range[2], double length, RandomNumbers& random)
 {
   Builder builder(range, length);
-  std::vector<double> places(1 + random.below(12));
+  std::vector<double> places(1 + random.Below(12));
   for (double& place : places)
   {
-    place = random.uniform(-0.2, 1.2);
+    place = random.Uniform(-0.2, 1.2);
   }
   std::sort(places.begin(), places.end());
-  const double depth = std::pow(10.0, random.uniform(-1.0, 1.5));
+  const double depth = std::pow(10.0, random.Uniform(-1.0, 1.5));
   for (const double place : places)
   {
-    builder.add(place, random.below(4) ? random.uniform(0.0, depth) : 0.0);
-    if (random.below(4) == 0)
+    builder.Add(place, random.Below(4) ? random.Uniform(0.0, depth) : 0.0);
+    if (random.Below(4) == 0)
     {
-      builder.add(place, random.uniform(0.0, depth));
+      builder.Add(place, random.Uniform(0.0, depth));
     }
   }
-  return builder.done();
+  return builder.Done();
 }
 
 //------------------------------------------------------------------------------
-double largestAttenuation(const VolumeFunction& function)
+double LargestAttenuation(const VolumeFunction& function)
 {
   double largest = 0.0;
   for (const Node& node : function)
@@ -158,7 +158,7 @@ double largestAttenuation(const VolumeFunction& function)
 }
 
 //------------------------------------------------------------------------------
-double brightestColor(const VolumeFunction& function)
+double BrightestColor(const VolumeFunction& function)
 {
   double brightest = 0.0;
   for (const Node& node : function)
@@ -170,10 +170,10 @@ double brightestColor(const VolumeFunction& function)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeFunction& function)
+vtkSmartPointer<vtkVolumeProperty> ToProperty(const VolumeFunction& function)
 {
   // Opacities up to 1, over a unit distance that gives the largest attenuation.
-  const double largest = largestAttenuation(function);
+  const double largest = LargestAttenuation(function);
   const double unit = largest > 0.0 ? 1.0 / largest : 1.0;
   vtkNew<vtkPiecewiseFunction> opacity;
   opacity->AllowDuplicateScalarsOn();

@@ -29,24 +29,24 @@ struct NamedFunction
 };
 
 /** Smooth, peaked, opaque and sparse functions of TestTransferFunctions.h for a mesh. */
-std::vector<NamedFunction> usualFunctions(vtkUnstructuredGrid* grid);
+std::vector<NamedFunction> UsualFunctions(vtkUnstructuredGrid* grid);
 
 /**
  * Extreme functions that a user can make, for scalars in a range: none, one point, zero, steps,
  * jumps, many points, all points outside the range, a window too narrow to see, nearly solid.
  * @param length approximate length of a ray in the mesh.
  */
-std::vector<NamedFunction> degenerateFunctions(const double range[2], double length);
+std::vector<NamedFunction> DegenerateFunctions(const double range[2], double length);
 
 /** Up to 12 points at random places, some jumps. */
-VolumeFunction randomFunction(const double range[2], double length, RandomNumbers& random);
+VolumeFunction RandomFunction(const double range[2], double length, RandomNumbers& random);
 
 /** Largest attenuation, and the largest value of a colour channel where there is attenuation. */
-double largestAttenuation(const VolumeFunction& function);
-double brightestColor(const VolumeFunction& function);
+double LargestAttenuation(const VolumeFunction& function);
+double BrightestColor(const VolumeFunction& function);
 
 /** A property with a function's attenuation and colour. */
-vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeFunction& function);
+vtkSmartPointer<vtkVolumeProperty> ToProperty(const VolumeFunction& function);
 
 } // namespace test
 } // namespace meniscus

@@ -27,7 +27,7 @@ namespace test
 {
 
 //------------------------------------------------------------------------------
-bool hasDisplay()
+bool HasDisplay()
 {
   const char* display = std::getenv("DISPLAY");
   return display && *display;
@@ -67,25 +67,25 @@ VolumeScene::~VolumeScene()
 }
 
 //------------------------------------------------------------------------------
-void VolumeScene::setMapper(vtkUnstructuredGridVolumeMapper* mapper)
+void VolumeScene::SetMapper(vtkUnstructuredGridVolumeMapper* mapper)
 {
   this->Volume->SetMapper(mapper);
 }
 
 //------------------------------------------------------------------------------
-vtkUnstructuredGridVolumeMapper* VolumeScene::mapper() const
+vtkUnstructuredGridVolumeMapper* VolumeScene::GetMapper() const
 {
   return vtkUnstructuredGridVolumeMapper::SafeDownCast(this->Volume->GetMapper());
 }
 
 //------------------------------------------------------------------------------
-void VolumeScene::setProperty(vtkVolumeProperty* property)
+void VolumeScene::SetProperty(vtkVolumeProperty* property)
 {
   this->Volume->SetProperty(property);
 }
 
 //------------------------------------------------------------------------------
-FloatImage VolumeScene::renderFloat()
+FloatImage VolumeScene::RenderFloat()
 {
   this->Renderer->SetPass(this->FloatPass);
   this->Window->Render();
@@ -103,15 +103,15 @@ FloatImage VolumeScene::renderFloat()
 }
 
 //------------------------------------------------------------------------------
-ByteImage VolumeScene::renderBytes()
+ByteImage VolumeScene::RenderBytes()
 {
   this->Renderer->SetPass(nullptr);
   this->Window->Render();
-  return readBytes(this->Window);
+  return ReadBytes(this->Window);
 }
 
 //------------------------------------------------------------------------------
-ByteImage readBytes(vtkRenderWindow* window)
+ByteImage ReadBytes(vtkRenderWindow* window)
 {
   const int* size = window->GetSize();
   ByteImage image;
@@ -125,7 +125,7 @@ ByteImage readBytes(vtkRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
-std::string deviceName(vtkRenderWindow* window)
+std::string DeviceName(vtkRenderWindow* window)
 {
   std::istringstream report(window->ReportCapabilities());
   std::string name;
@@ -145,7 +145,7 @@ std::string deviceName(vtkRenderWindow* window)
 }
 
 //------------------------------------------------------------------------------
-double diagonalOf(const double bounds[6])
+double DiagonalOf(const double bounds[6])
 {
   return std::hypot(
     std::hypot(bounds[1] - bounds[0], bounds[3] - bounds[2]), bounds[5] - bounds[4]);
@@ -156,10 +156,10 @@ namespace
 
 constexpr double ViewAngle = 30.0;
 
-void placeCamera(vtkRenderer* renderer, const double bounds[6], const double toCamera[3],
+void PlaceCamera(vtkRenderer* renderer, const double bounds[6], const double toCamera[3],
   const double viewUp[3], double zoom, bool parallel)
 {
-  const double radius = 0.5 * diagonalOf(bounds);
+  const double radius = 0.5 * DiagonalOf(bounds);
   const double distance = radius / std::sin(vtkMath::RadiansFromDegrees(0.5 * ViewAngle));
   vtkCamera* camera = renderer->GetActiveCamera();
   double center[3];
@@ -181,28 +181,28 @@ void placeCamera(vtkRenderer* renderer, const double bounds[6], const double toC
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void lookAt(vtkRenderer* renderer, const double bounds[6], double azimuth, double elevation,
+void LookAt(vtkRenderer* renderer, const double bounds[6], double azimuth, double elevation,
   double zoom, bool parallel)
 {
   const double a = vtkMath::RadiansFromDegrees(azimuth);
   const double e = vtkMath::RadiansFromDegrees(elevation);
   const double toCamera[3] = { std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a) };
   const double viewUp[3] = { 0.0, 1.0, 0.0 };
-  placeCamera(renderer, bounds, toCamera, viewUp, zoom, parallel);
+  PlaceCamera(renderer, bounds, toCamera, viewUp, zoom, parallel);
 }
 
 //------------------------------------------------------------------------------
-void lookAlongAxis(vtkRenderer* renderer, const double bounds[6], int axis, double zoom)
+void LookAlongAxis(vtkRenderer* renderer, const double bounds[6], int axis, double zoom)
 {
   double toCamera[3] = { 0.0, 0.0, 0.0 };
   double viewUp[3] = { 0.0, 0.0, 0.0 };
   toCamera[axis] = 1.0;
   viewUp[(axis + 1) % 3] = 1.0;
-  placeCamera(renderer, bounds, toCamera, viewUp, zoom, true);
+  PlaceCamera(renderer, bounds, toCamera, viewUp, zoom, true);
 }
 
 //------------------------------------------------------------------------------
-std::array<double, 2> viewAngles(int i)
+std::array<double, 2> ViewAngles(int i)
 {
   // Steps of the golden angle in azimuth, and elevations within 60 degrees.
   const double azimuth = 17.3 + 137.50776405 * i;

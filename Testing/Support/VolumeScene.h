@@ -31,7 +31,7 @@ struct FloatImage
   int Height = 0;
   std::vector<float> Rgba;
 
-  const float* pixel(int x, int y) const
+  const float* GetPixel(int x, int y) const
   {
     return &this->Rgba[4 * (static_cast<std::size_t>(y) * this->Width + x)];
   }
@@ -44,14 +44,14 @@ struct ByteImage
   int Height = 0;
   std::vector<unsigned char> Rgb;
 
-  const unsigned char* pixel(int x, int y) const
+  const unsigned char* GetPixel(int x, int y) const
   {
     return &this->Rgb[3 * (static_cast<std::size_t>(y) * this->Width + x)];
   }
 };
 
 /** True if a window can be opened (VTK 9.1 aborts without a display). */
-bool hasDisplay();
+bool HasDisplay();
 
 /**
  * Keeps a connection to the display. An X server resets when its last client leaves (as Xvfb does
@@ -77,19 +77,19 @@ public:
   VolumeScene(const VolumeScene&) = delete;
   VolumeScene& operator=(const VolumeScene&) = delete;
 
-  vtkRenderWindow* window() const { return this->Window; }
-  vtkRenderer* renderer() const { return this->Renderer; }
-  vtkVolume* volume() const { return this->Volume; }
-  vtkUnstructuredGridVolumeMapper* mapper() const;
+  vtkRenderWindow* GetWindow() const { return this->Window; }
+  vtkRenderer* GetRenderer() const { return this->Renderer; }
+  vtkVolume* GetVolume() const { return this->Volume; }
+  vtkUnstructuredGridVolumeMapper* GetMapper() const;
 
-  void setMapper(vtkUnstructuredGridVolumeMapper* mapper);
-  void setProperty(vtkVolumeProperty* property);
+  void SetMapper(vtkUnstructuredGridVolumeMapper* mapper);
+  void SetProperty(vtkVolumeProperty* property);
 
   /** Renders through a float framebuffer and reads it back (only the renderer's viewport). */
-  FloatImage renderFloat();
+  FloatImage RenderFloat();
 
   /** Renders the window as a user would and reads back all of it. */
-  ByteImage renderBytes();
+  ByteImage RenderBytes();
 
 private:
   vtkNew<vtkRenderWindow> Window;
@@ -99,25 +99,25 @@ private:
 };
 
 /** Reads the window's front buffer without rendering. */
-ByteImage readBytes(vtkRenderWindow* window);
+ByteImage ReadBytes(vtkRenderWindow* window);
 
 /**
  * Looks at the middle of a bounding box from a direction given by angles in degrees. The box fills
  * the view for zoom 1; the clipping range contains the whole box.
  */
-void lookAt(vtkRenderer* renderer, const double bounds[6], double azimuth, double elevation,
+void LookAt(vtkRenderer* renderer, const double bounds[6], double azimuth, double elevation,
   double zoom = 1.0, bool parallel = false);
 
 /** Looks along an axis (0, 1, 2), without perspective, so that rays are parallel to it. */
-void lookAlongAxis(vtkRenderer* renderer, const double bounds[6], int axis, double zoom = 1.0);
+void LookAlongAxis(vtkRenderer* renderer, const double bounds[6], int axis, double zoom = 1.0);
 
 /** Angles (azimuth, elevation) of the i-th of a set of views that avoid symmetry. */
-std::array<double, 2> viewAngles(int i);
+std::array<double, 2> ViewAngles(int i);
 
 /** OpenGL renderer and version of a window that has rendered. */
-std::string deviceName(vtkRenderWindow* window);
+std::string DeviceName(vtkRenderWindow* window);
 
-double diagonalOf(const double bounds[6]);
+double DiagonalOf(const double bounds[6]);
 
 } // namespace test
 } // namespace meniscus

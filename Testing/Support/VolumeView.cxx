@@ -17,7 +17,7 @@ namespace test
 {
 
 //------------------------------------------------------------------------------
-VolumeView VolumeView::towards(
+VolumeView VolumeView::Towards(
   const double bounds[6], const glm::dvec3& direction, bool parallel, double zoom)
 {
   const glm::dvec3 low(bounds[0], bounds[2], bounds[4]);
@@ -38,7 +38,7 @@ VolumeView VolumeView::towards(
 }
 
 //------------------------------------------------------------------------------
-VolumeView::Axes VolumeView::axes() const
+VolumeView::Axes VolumeView::GetAxes() const
 {
   Axes axes;
   axes.Forward = glm::normalize(this->Focus - this->Eye);
@@ -48,9 +48,9 @@ VolumeView::Axes VolumeView::axes() const
 }
 
 //------------------------------------------------------------------------------
-reference::Ray VolumeView::ray(int x, int y, int size) const
+reference::Ray VolumeView::GetRay(int x, int y, int size) const
 {
-  const Axes a = this->axes();
+  const Axes a = this->GetAxes();
   const double u = this->HalfHeight * (2.0 * (x + 0.5) / size - 1.0);
   const double v = this->HalfHeight * (2.0 * (y + 0.5) / size - 1.0);
   const glm::dvec3 sideways = u * a.Right + v * a.Up;
@@ -65,7 +65,7 @@ reference::Ray VolumeView::ray(int x, int y, int size) const
 }
 
 //------------------------------------------------------------------------------
-void VolumeView::applyTo(vtkRenderer* renderer) const
+void VolumeView::ApplyTo(vtkRenderer* renderer) const
 {
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->SetPosition(&this->Eye[0]);

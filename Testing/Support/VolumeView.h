@@ -35,13 +35,13 @@ struct VolumeView
   /**
    * Looks at the middle of bounds from a direction. The whole bounding sphere is visible at zoom 1.
    */
-  static VolumeView towards(
+  static VolumeView Towards(
     const double bounds[6], const glm::dvec3& direction, bool parallel, double zoom = 1.0);
 
   /** Ray of a pixel of size x size pixels; its parameter is the depth. */
-  reference::Ray ray(int x, int y, int size) const;
+  reference::Ray GetRay(int x, int y, int size) const;
 
-  void applyTo(vtkRenderer* renderer) const;
+  void ApplyTo(vtkRenderer* renderer) const;
 
 private:
   struct Axes
@@ -50,7 +50,7 @@ private:
     glm::dvec3 Up;
     glm::dvec3 Forward;
   };
-  Axes axes() const;
+  Axes GetAxes() const;
 };
 
 } // namespace test

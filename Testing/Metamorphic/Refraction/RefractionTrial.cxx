@@ -23,7 +23,7 @@ const double Pi = std::acos(-1.0);
 constexpr int PointsPerScene = 60;
 
 // z = sign r^2 / 2 up to a steepness in degrees, y upwards.
-MembraneMesh makeParaboloid(int rings, double steepest, double sign)
+MembraneMesh MakeParaboloid(int rings, double steepest, double sign)
 {
   MembraneMesh mesh;
   const double rim = std::tan(steepest * Pi / 180.0);
@@ -55,7 +55,7 @@ MembraneMesh makeParaboloid(int rings, double steepest, double sign)
 }
 
 // A closed unit sphere, with outward or inward normals.
-MembraneMesh makeSphere(int resolution, double side)
+MembraneMesh MakeSphere(int resolution, double side)
 {
   MembraneMesh mesh;
   mesh.AddPoint({ 0.0, 0.0, 1.0 }, { 0.0, 0.0, side });
@@ -90,33 +90,33 @@ MembraneMesh makeSphere(int resolution, double side)
   return mesh;
 }
 
-void setMembrane(RefractionScene& scene, RandomNumbers& random)
+void SetMembrane(RefractionScene& scene, RandomNumbers& random)
 {
-  switch (random.below(5))
+  switch (random.Below(5))
   {
     case 0:
     {
       scene.Family = "waves";
-      const int cells = 12 + random.below(20);
+      const int cells = 12 + random.Below(20);
       scene.Mesh =
-        reference::MakeWaves(4.0, cells, random.uniform(0.02, 0.15), random.uniform(1.0, 2.5));
+        reference::MakeWaves(4.0, cells, random.Uniform(0.02, 0.15), random.Uniform(1.0, 2.5));
       scene.FacetSize = 4.0 / cells;
       break;
     }
     case 1:
     {
       scene.Family = "paraboloid";
-      const double steepest = random.uniform(20.0, 80.0);
-      const int rings = 6 + random.below(14);
-      scene.Mesh = makeParaboloid(rings, steepest, random.below(2) ? 1.0 : -1.0);
+      const double steepest = random.Uniform(20.0, 80.0);
+      const int rings = 6 + random.Below(14);
+      scene.Mesh = MakeParaboloid(rings, steepest, random.Below(2) ? 1.0 : -1.0);
       scene.FacetSize = std::tan(steepest * Pi / 180.0) / rings;
       break;
     }
     case 2:
     {
       scene.Family = "sphere";
-      const int resolution = 12 + 2 * random.below(12);
-      scene.Mesh = makeSphere(resolution, random.below(3) ? 1.0 : -1.0);
+      const int resolution = 12 + 2 * random.Below(12);
+      scene.Mesh = MakeSphere(resolution, random.Below(3) ? 1.0 : -1.0);
       scene.FacetSize = 2.0 * Pi / resolution;
       scene.IsExact = true;
       break;
@@ -124,16 +124,16 @@ void setMembrane(RefractionScene& scene, RandomNumbers& random)
     case 3:
     {
       scene.Family = "noise";
-      const int cells = 4 + random.below(6);
+      const int cells = 4 + random.Below(6);
       scene.FacetSize = 4.0 / cells;
-      scene.Mesh = reference::MakeRandom(4.0, cells, scene.FacetSize * random.uniform(0.01, 0.4),
-        random.uniform(0.01, 0.8), static_cast<unsigned>(random.bits()));
+      scene.Mesh = reference::MakeRandom(4.0, cells, scene.FacetSize * random.Uniform(0.01, 0.4),
+        random.Uniform(0.01, 0.8), static_cast<unsigned>(random.Bits()));
       break;
     }
     default:
     {
       scene.Family = "plane";
-      const int cells = 2 + random.below(8);
+      const int cells = 2 + random.Below(8);
       scene.Mesh = reference::MakeSquare(4.0, cells, 0.0);
       scene.FacetSize = 4.0 / cells;
       scene.IsExact = true;
@@ -142,17 +142,17 @@ void setMembrane(RefractionScene& scene, RandomNumbers& random)
   }
 }
 
-glm::dvec3 pointOf(const MembraneMesh& mesh, std::size_t i)
+glm::dvec3 PointOf(const MembraneMesh& mesh, std::size_t i)
 {
   return { mesh.Points[3 * i], mesh.Points[3 * i + 1], mesh.Points[3 * i + 2] };
 }
 
-glm::dvec3 normalOf(const MembraneMesh& mesh, std::size_t i)
+glm::dvec3 NormalOf(const MembraneMesh& mesh, std::size_t i)
 {
   return { mesh.Normals[3 * i], mesh.Normals[3 * i + 1], mesh.Normals[3 * i + 2] };
 }
 
-double magnitudeOf(const RefractionScene& scene)
+double MagnitudeOf(const RefractionScene& scene)
 {
   double most = glm::length(scene.Eye);
   for (const double c : scene.Mesh.Points)
@@ -166,7 +166,7 @@ double magnitudeOf(const RefractionScene& scene)
   return most;
 }
 
-const VirtualVertex* nearestTo(const std::vector<VirtualVertex>& images, const glm::dvec3& sight)
+const VirtualVertex* NearestTo(const std::vector<VirtualVertex>& images, const glm::dvec3& sight)
 {
   const auto nearest = std::min_element(images.begin(), images.end(),
     [&sight](const VirtualVertex& a, const VirtualVertex& b)
@@ -175,7 +175,7 @@ const VirtualVertex* nearestTo(const std::vector<VirtualVertex>& images, const g
 }
 
 // Directions along the axes and against them.
-glm::dvec3 moveOf(int i)
+glm::dvec3 MoveOf(int i)
 {
   glm::dvec3 move(0.0);
   move[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
@@ -185,33 +185,33 @@ glm::dvec3 moveOf(int i)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-RefractionScene randomScene(RandomNumbers& random)
+RefractionScene RandomScene(RandomNumbers& random)
 {
   RefractionScene scene;
-  setMembrane(scene, random);
-  scene.Interior = random.uniform(1.1, 1.9);
-  if (random.below(4) == 0)
+  SetMembrane(scene, random);
+  scene.Interior = random.Uniform(1.1, 1.9);
+  if (random.Below(4) == 0)
   {
     std::swap(scene.Exterior, scene.Interior);
   }
-  const bool isBubble = scene.Family == "sphere" && normalOf(scene.Mesh, 0).z < 0.0;
+  const bool isBubble = scene.Family == "sphere" && NormalOf(scene.Mesh, 0).z < 0.0;
   scene.Eye = isBubble
-    ? 0.6 * random.uniform() * random.direction()
-    : glm::dvec3(random.uniform(-2.0, 2.0), random.uniform(1.5, 8.0), random.uniform(-2.0, 2.0));
+    ? 0.6 * random.Uniform() * random.GetDirection()
+    : glm::dvec3(random.Uniform(-2.0, 2.0), random.Uniform(1.5, 8.0), random.Uniform(-2.0, 2.0));
   const std::size_t vertices = scene.Mesh.Points.size() / 3;
   for (int i = 0; i < PointsPerScene; ++i)
   {
-    const auto at = static_cast<std::size_t>(random.below(static_cast<int>(vertices)));
-    const double depth = std::pow(10.0, random.uniform(-2.0, 0.5));
-    const double side = random.below(3) == 0 ? 1.0 : -1.0;
-    scene.Points.push_back(pointOf(scene.Mesh, at) + side * depth * normalOf(scene.Mesh, at) +
-      0.5 * scene.FacetSize * random.direction());
+    const auto at = static_cast<std::size_t>(random.Below(static_cast<int>(vertices)));
+    const double depth = std::pow(10.0, random.Uniform(-2.0, 0.5));
+    const double side = random.Below(3) == 0 ? 1.0 : -1.0;
+    scene.Points.push_back(PointOf(scene.Mesh, at) + side * depth * NormalOf(scene.Mesh, at) +
+      0.5 * scene.FacetSize * random.GetDirection());
   }
   return scene;
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<CurvedMembraneSolver> makeGeometry(const RefractionScene& scene)
+std::unique_ptr<CurvedMembraneSolver> MakeGeometry(const RefractionScene& scene)
 {
   auto geometry = std::make_unique<CurvedMembraneSolver>();
   if (geometry->SetMembrane(scene.Mesh.AsInput()) != MembraneStatus::Ready ||
@@ -224,20 +224,20 @@ std::unique_ptr<CurvedMembraneSolver> makeGeometry(const RefractionScene& scene)
 }
 
 //------------------------------------------------------------------------------
-RefractionScene Motion::apply(const RefractionScene& scene) const
+RefractionScene Motion::Apply(const RefractionScene& scene) const
 {
   RefractionScene moved = scene;
   moved.Mesh.Points.clear();
   moved.Mesh.Normals.clear();
   for (std::size_t i = 0; i < scene.Mesh.Points.size() / 3; ++i)
   {
-    moved.Mesh.AddPoint(this->apply(pointOf(scene.Mesh, i)), this->Turn * normalOf(scene.Mesh, i));
+    moved.Mesh.AddPoint(this->Apply(PointOf(scene.Mesh, i)), this->Turn * NormalOf(scene.Mesh, i));
   }
   moved.FacetSize *= this->Scale;
-  moved.Eye = this->apply(scene.Eye);
+  moved.Eye = this->Apply(scene.Eye);
   for (glm::dvec3& point : moved.Points)
   {
-    point = this->apply(point);
+    point = this->Apply(point);
   }
   return moved;
 }
@@ -245,13 +245,13 @@ RefractionScene Motion::apply(const RefractionScene& scene) const
 //------------------------------------------------------------------------------
 RefractionTrial::RefractionTrial(const RefractionScene& scene)
   : Scene(scene)
-  , Geometry(makeGeometry(scene))
+  , Geometry(MakeGeometry(scene))
 {
   this->Tally.Scenes = 1;
 }
 
 //------------------------------------------------------------------------------
-void RefractionTrial::fail(const std::string& words)
+void RefractionTrial::Fail(const std::string& words)
 {
   this->Tally.Failures = 1;
   if (this->Tally.FirstFailure.empty())
@@ -261,7 +261,7 @@ void RefractionTrial::fail(const std::string& words)
 }
 
 //------------------------------------------------------------------------------
-double RefractionTrial::errorOf(double magnitude, double depth, std::int32_t facet) const
+double RefractionTrial::ErrorOf(double magnitude, double depth, std::int32_t facet) const
 {
   double bend = 0.0;
   if (facet != CurvedPatches::NoFacet)
@@ -278,15 +278,15 @@ double RefractionTrial::errorOf(double magnitude, double depth, std::int32_t fac
 
 //------------------------------------------------------------------------------
 // True if the image of a point that is moved is near the previous one and has the same orientation.
-bool RefractionTrial::isSteady(
+bool RefractionTrial::IsSteady(
   const glm::dvec3& point, const VirtualVertex& image, double error, double& sensitivity) const
 {
   const double move = 1000.0 * error;
   std::vector<VirtualVertex> images;
   for (int i = 0; i < 6; ++i)
   {
-    this->Geometry->FindImages(point + move * moveOf(i), images);
-    const VirtualVertex* other = nearestTo(images, image.SightPoint);
+    this->Geometry->FindImages(point + move * MoveOf(i), images);
+    const VirtualVertex* other = NearestTo(images, image.SightPoint);
     if (!other || glm::length(other->SightPoint - image.SightPoint) > 0.1 * this->Scene.FacetSize ||
       other->Orientation != image.Orientation)
     {
@@ -298,13 +298,13 @@ bool RefractionTrial::isSteady(
 }
 
 //------------------------------------------------------------------------------
-bool RefractionTrial::isSideSteady(const glm::dvec3& point, double error) const
+bool RefractionTrial::IsSideSteady(const glm::dvec3& point, double error) const
 {
   const glm::dvec3 local = point - this->Geometry->GetMembrane().GetOrigin();
   const bool front = this->Geometry->IsInFront(local);
   for (int i = 0; i < 6; ++i)
   {
-    if (this->Geometry->IsInFront(local + 1000.0 * error * moveOf(i)) != front)
+    if (this->Geometry->IsInFront(local + 1000.0 * error * MoveOf(i)) != front)
     {
       return false;
     }
@@ -313,24 +313,24 @@ bool RefractionTrial::isSideSteady(const glm::dvec3& point, double error) const
 }
 
 //------------------------------------------------------------------------------
-void RefractionTrial::compare(const RefractionScene& changed, const Motion& motion,
+void RefractionTrial::Compare(const RefractionScene& changed, const Motion& motion,
   const std::function<bool(const VirtualVertex&)>& shows)
 {
-  const auto geometry = makeGeometry(changed);
+  const auto geometry = MakeGeometry(changed);
   if (!geometry || !this->Geometry)
   {
     // An eye on the membrane must be rejected by both, or by none.
     if (!geometry != !this->Geometry)
     {
-      this->fail("one of the scenes is refused");
+      this->Fail("one of the scenes is refused");
     }
     return;
   }
-  this->compare(*geometry, motion, magnitudeOf(changed) / motion.Scale, shows);
+  this->Compare(*geometry, motion, MagnitudeOf(changed) / motion.Scale, shows);
 }
 
 //------------------------------------------------------------------------------
-void RefractionTrial::compare(const CurvedMembraneSolver& changed, const Motion& motion,
+void RefractionTrial::Compare(const CurvedMembraneSolver& changed, const Motion& motion,
   double magnitude, const std::function<bool(const VirtualVertex&)>& shows)
 {
   ++this->Tally.Comparisons;
@@ -338,7 +338,7 @@ void RefractionTrial::compare(const CurvedMembraneSolver& changed, const Motion&
   std::vector<VirtualVertex> others;
   for (const glm::dvec3& point : this->Scene.Points)
   {
-    const glm::dvec3 moved = motion.apply(point);
+    const glm::dvec3 moved = motion.Apply(point);
     this->Geometry->FindImages(point, images);
     changed.FindImages(moved, others);
     for (const VirtualVertex& image : images)
@@ -347,19 +347,19 @@ void RefractionTrial::compare(const CurvedMembraneSolver& changed, const Motion&
       {
         continue;
       }
-      const double error = this->errorOf(magnitude, image.Depth, image.Facet);
+      const double error = this->ErrorOf(magnitude, image.Depth, image.Facet);
       double sensitivity = 1.0;
-      if (!this->isSteady(point, image, error, sensitivity))
+      if (!this->IsSteady(point, image, error, sensitivity))
       {
         ++this->Tally.Conditioned;
         continue;
       }
-      const VirtualVertex* other = nearestTo(others, motion.apply(image.SightPoint));
-      const double deviation = other ? glm::length(motion.undo(other->Position) - image.Position)
+      const VirtualVertex* other = NearestTo(others, motion.Apply(image.SightPoint));
+      const double deviation = other ? glm::length(motion.Undo(other->Position) - image.Position)
                                      : std::numeric_limits<double>::infinity();
-      if (!this->Tally.compare(deviation, sensitivity * error))
+      if (!this->Tally.Compare(deviation, sensitivity * error))
       {
-        this->fail("an image is off by " + std::to_string(deviation));
+        this->Fail("an image is off by " + std::to_string(deviation));
       }
     }
     if (shows)
@@ -368,19 +368,19 @@ void RefractionTrial::compare(const CurvedMembraneSolver& changed, const Motion&
     }
     const bool front = this->Geometry->IsInFront(point - this->Geometry->GetMembrane().GetOrigin());
     const bool same = front == changed.IsInFront(moved - changed.GetMembrane().GetOrigin());
-    if (!same && !this->isSideSteady(point, this->errorOf(magnitude, 0.0, CurvedPatches::NoFacet)))
+    if (!same && !this->IsSideSteady(point, this->ErrorOf(magnitude, 0.0, CurvedPatches::NoFacet)))
     {
       ++this->Tally.Conditioned;
     }
-    else if (!this->Tally.compare(same ? 0.0 : 1.0, 0.5))
+    else if (!this->Tally.Compare(same ? 0.0 : 1.0, 0.5))
     {
-      this->fail("a point is on another side");
+      this->Fail("a point is on another side");
     }
   }
 }
 
 //------------------------------------------------------------------------------
-void RefractionTrial::compareFirst(const std::vector<std::size_t>& order)
+void RefractionTrial::CompareFirst(const std::vector<std::size_t>& order)
 {
   if (!this->Geometry)
   {
@@ -395,25 +395,25 @@ void RefractionTrial::compareFirst(const std::vector<std::size_t>& order)
   std::vector<VirtualVertex> first(points.size());
   this->Geometry->Solve(&points[0].x, 0, points.size(), first.data());
   std::vector<VirtualVertex> images;
-  const double magnitude = magnitudeOf(this->Scene);
+  const double magnitude = MagnitudeOf(this->Scene);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     this->Geometry->FindImages(points[i], images);
     const bool isFound = first[i].State == ImageState::Found;
-    const VirtualVertex* same = isFound ? nearestTo(images, first[i].SightPoint) : nullptr;
+    const VirtualVertex* same = isFound ? NearestTo(images, first[i].SightPoint) : nullptr;
     const VirtualVertex& judged = isFound || images.empty() ? first[i] : images[0];
-    const double error = this->errorOf(magnitude, judged.Depth, judged.Facet);
+    const double error = this->ErrorOf(magnitude, judged.Depth, judged.Facet);
     double sensitivity = 1.0;
-    if ((isFound || !images.empty()) && !this->isSteady(points[i], judged, error, sensitivity))
+    if ((isFound || !images.empty()) && !this->IsSteady(points[i], judged, error, sensitivity))
     {
       ++this->Tally.Conditioned;
       continue;
     }
     const double deviation = same ? glm::length(same->Position - first[i].Position)
                                   : (isFound || !images.empty() ? 1e30 : 0.0);
-    if (!this->Tally.compare(deviation, sensitivity * error))
+    if (!this->Tally.Compare(deviation, sensitivity * error))
     {
-      this->fail("the first image is none of all");
+      this->Fail("the first image is none of all");
     }
   }
 }

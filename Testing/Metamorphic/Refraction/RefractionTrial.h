@@ -38,10 +38,10 @@ struct RefractionScene
 };
 
 /** A scene of any family: waves, paraboloids of up to 80 degrees, spheres, noise, planes. */
-RefractionScene randomScene(RandomNumbers& random);
+RefractionScene RandomScene(RandomNumbers& random);
 
 /** The scene's membrane and eye as the kernel's geometry; null if it rejects them. */
-std::unique_ptr<CurvedMembraneSolver> makeGeometry(const RefractionScene& scene);
+std::unique_ptr<CurvedMembraneSolver> MakeGeometry(const RefractionScene& scene);
 
 /** A change of coordinates: maps places and directions, and both back. */
 struct Motion
@@ -50,12 +50,12 @@ struct Motion
   glm::dmat3 Turn{ 1.0 }; ///< orthogonal
   glm::dvec3 Offset{ 0.0 };
 
-  glm::dvec3 apply(const glm::dvec3& p) const { return Scale * (Turn * p) + Offset; }
-  glm::dvec3 undo(const glm::dvec3& p) const
+  glm::dvec3 Apply(const glm::dvec3& p) const { return Scale * (Turn * p) + Offset; }
+  glm::dvec3 Undo(const glm::dvec3& p) const
   {
     return glm::transpose(Turn) * ((p - Offset) / Scale);
   }
-  RefractionScene apply(const RefractionScene& scene) const;
+  RefractionScene Apply(const RefractionScene& scene) const;
 };
 
 /**
@@ -77,25 +77,25 @@ public:
   explicit RefractionTrial(const RefractionScene& scene);
 
   /** Adds to the tally. `shows` returns true for images that the changed scene shows; null: all. */
-  void compare(const RefractionScene& changed, const Motion& motion,
+  void Compare(const RefractionScene& changed, const Motion& motion,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
   /** As above, for given geometry; `magnitude` is that of its coordinates. */
-  void compare(const CurvedMembraneSolver& changed, const Motion& motion, double magnitude,
+  void Compare(const CurvedMembraneSolver& changed, const Motion& motion, double magnitude,
     const std::function<bool(const VirtualVertex&)>& shows = nullptr);
   /**
    * Checks that the single image of each point, solved in a given order, is one of all its images.
    */
-  void compareFirst(const std::vector<std::size_t>& order);
+  void CompareFirst(const std::vector<std::size_t>& order);
 
-  void fail(const std::string& words);
-  const RefractionScene& scene() const { return this->Scene; }
-  RelationTally& tally() { return this->Tally; }
+  void Fail(const std::string& words);
+  const RefractionScene& MakeScene() const { return this->Scene; }
+  RelationTally& GetTally() { return this->Tally; }
 
 private:
-  double errorOf(double magnitude, double depth, std::int32_t facet) const;
-  bool isSteady(
+  double ErrorOf(double magnitude, double depth, std::int32_t facet) const;
+  bool IsSteady(
     const glm::dvec3& point, const VirtualVertex& image, double error, double& sensitivity) const;
-  bool isSideSteady(const glm::dvec3& point, double error) const;
+  bool IsSideSteady(const glm::dvec3& point, double error) const;
 
   RefractionScene Scene;
   std::unique_ptr<CurvedMembraneSolver> Geometry;

@@ -29,96 +29,96 @@ const char* const Usage =
 
 using Check = std::function<void(RefractionTrial&, RandomNumbers&)>;
 
-glm::dmat3 randomTurn(RandomNumbers& random)
+glm::dmat3 RandomTurn(RandomNumbers& random)
 {
-  const glm::dvec3 x = random.direction();
-  const glm::dvec3 y = glm::normalize(glm::cross(x, random.direction()));
+  const glm::dvec3 x = random.GetDirection();
+  const glm::dvec3 y = glm::normalize(glm::cross(x, random.GetDirection()));
   return { x, y, glm::cross(x, y) };
 }
 
 template <typename Item>
-void shuffle(std::vector<Item>& items, RandomNumbers& random)
+void Shuffle(std::vector<Item>& items, RandomNumbers& random)
 {
   for (std::size_t i = items.size(); i > 1; --i)
   {
-    std::swap(items[i - 1], items[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+    std::swap(items[i - 1], items[static_cast<std::size_t>(random.Below(static_cast<int>(i)))]);
   }
 }
 
-std::vector<std::size_t> randomOrder(std::size_t count, RandomNumbers& random)
+std::vector<std::size_t> RandomOrder(std::size_t count, RandomNumbers& random)
 {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t(0));
-  shuffle(order, random);
+  Shuffle(order, random);
   return order;
 }
 
 //------------------------------------------------------------------------------
-void move(RefractionTrial& trial, const Motion& motion)
+void Move(RefractionTrial& trial, const Motion& motion)
 {
-  trial.compare(motion.apply(trial.scene()), motion);
+  trial.Compare(motion.Apply(trial.MakeScene()), motion);
 }
 
-void rotate(RefractionTrial& trial, RandomNumbers& random)
+void Rotate(RefractionTrial& trial, RandomNumbers& random)
 {
   Motion motion;
-  motion.Turn = randomTurn(random);
-  move(trial, motion);
+  motion.Turn = RandomTurn(random);
+  Move(trial, motion);
 }
 
-void mirror(RefractionTrial& trial, RandomNumbers& random)
+void Mirror(RefractionTrial& trial, RandomNumbers& random)
 {
   Motion motion;
-  motion.Turn = -randomTurn(random);
-  move(trial, motion);
+  motion.Turn = -RandomTurn(random);
+  Move(trial, motion);
 }
 
-void translate(RefractionTrial& trial, RandomNumbers& random)
+void Translate(RefractionTrial& trial, RandomNumbers& random)
 {
   Motion motion;
-  motion.Offset = std::pow(10.0, random.uniform(0.0, 6.0)) * random.direction();
-  move(trial, motion);
+  motion.Offset = std::pow(10.0, random.Uniform(0.0, 6.0)) * random.GetDirection();
+  Move(trial, motion);
 }
 
-void scale(RefractionTrial& trial, RandomNumbers& random)
+void MakeScale(RefractionTrial& trial, RandomNumbers& random)
 {
   Motion motion;
-  motion.Scale = std::pow(10.0, random.uniform(-6.0, 6.0));
-  move(trial, motion);
+  motion.Scale = std::pow(10.0, random.Uniform(-6.0, 6.0));
+  Move(trial, motion);
 }
 
 //------------------------------------------------------------------------------
 // Facets in another order, each beginning with another corner.
-void reorderFacets(RefractionTrial& trial, RandomNumbers& random)
+void ReorderFacets(RefractionTrial& trial, RandomNumbers& random)
 {
-  RefractionScene changed = trial.scene();
-  const std::vector<std::int64_t>& from = trial.scene().Mesh.Triangles;
+  RefractionScene changed = trial.MakeScene();
+  const std::vector<std::int64_t>& from = trial.MakeScene().Mesh.Triangles;
   changed.Mesh.Triangles.clear();
-  for (const std::size_t i : randomOrder(from.size() / 3, random))
+  for (const std::size_t i : RandomOrder(from.size() / 3, random))
   {
-    const auto first = static_cast<std::size_t>(random.below(3));
+    const auto first = static_cast<std::size_t>(random.Below(3));
     changed.Mesh.AddTriangle(
       from[3 * i + first], from[3 * i + (first + 1) % 3], from[3 * i + (first + 2) % 3]);
   }
-  trial.compare(changed, Motion());
+  trial.Compare(changed, Motion());
 }
 
 // Normals define the eye's side; the winding of facets does not.
-void turnFacets(RefractionTrial& trial, RandomNumbers&)
+void TurnFacets(RefractionTrial& trial, RandomNumbers&)
 {
-  RefractionScene changed = trial.scene();
+  RefractionScene changed = trial.MakeScene();
   for (std::size_t i = 0; i < changed.Mesh.Triangles.size(); i += 3)
   {
     std::swap(changed.Mesh.Triangles[i + 1], changed.Mesh.Triangles[i + 2]);
   }
-  trial.compare(changed, Motion());
+  trial.Compare(changed, Motion());
 }
 
-void reorderVertices(RefractionTrial& trial, RandomNumbers& random)
+void ReorderVertices(RefractionTrial& trial, RandomNumbers& random)
 {
-  const MembraneMesh& from = trial.scene().Mesh;
-  RefractionScene changed = trial.scene();
-  const std::vector<std::size_t> order = randomOrder(from.Points.size() / 3, random);
+  const MembraneMesh& from = trial.MakeScene().Mesh;
+  RefractionScene changed = trial.MakeScene();
+  const std::vector<std::size_t> order = RandomOrder(from.Points.size() / 3, random);
   std::vector<std::int64_t> placeOf(order.size());
   for (std::size_t i = 0; i < order.size(); ++i)
   {
@@ -133,19 +133,19 @@ void reorderVertices(RefractionTrial& trial, RandomNumbers& random)
   {
     id = placeOf[static_cast<std::size_t>(id)];
   }
-  trial.compare(changed, Motion());
+  trial.Compare(changed, Motion());
 }
 
 //------------------------------------------------------------------------------
 // Splits each facet in four at the middles of its patch's edges.
-void divide(RefractionTrial& trial, RandomNumbers&)
+void Divide(RefractionTrial& trial, RandomNumbers&)
 {
-  const auto geometry = makeGeometry(trial.scene());
-  if (!trial.scene().IsExact || !geometry)
+  const auto geometry = MakeGeometry(trial.MakeScene());
+  if (!trial.MakeScene().IsExact || !geometry)
   {
     return; // patches of other surfaces change when they are divided
   }
-  RefractionScene changed = trial.scene();
+  RefractionScene changed = trial.MakeScene();
   changed.Mesh = MembraneMesh();
   for (std::size_t i = 0; i < geometry->GetMembrane().GetFacets().size(); ++i)
   {
@@ -165,30 +165,30 @@ void divide(RefractionTrial& trial, RandomNumbers&)
     changed.Mesh.AddTriangle(first + 3, first + 4, first + 5);
   }
   // Facets do not share points: a body is then open, and points on it are on borders.
-  trial.compare(changed, Motion(), [](const VirtualVertex&) { return true; });
+  trial.Compare(changed, Motion(), [](const VirtualVertex&) { return true; });
 }
 
 // A membrane replaced in place by one with the same facets, and an eye that was elsewhere before.
-void editInPlace(RefractionTrial& trial, RandomNumbers& random)
+void EditInPlace(RefractionTrial& trial, RandomNumbers& random)
 {
-  const RefractionScene& scene = trial.scene();
+  const RefractionScene& scene = trial.MakeScene();
   Motion motion;
-  motion.Scale = random.uniform(0.5, 2.0);
-  motion.Turn = randomTurn(random);
-  const auto geometry = makeGeometry(motion.apply(scene));
+  motion.Scale = random.Uniform(0.5, 2.0);
+  motion.Turn = RandomTurn(random);
+  const auto geometry = MakeGeometry(motion.Apply(scene));
   if (!geometry || geometry->SetMembrane(scene.Mesh.AsInput()) != MembraneStatus::Ready ||
     geometry->SetEye(scene.Eye, scene.Exterior, scene.Interior) != EyeStatus::Ready)
   {
     return; // an eye on the membrane
   }
   geometry->PrepareSides();
-  trial.compare(*geometry, Motion(), 0.0);
+  trial.Compare(*geometry, Motion(), 0.0);
 }
 
 // Keeps the part of a closed membrane that the eye sees, with a margin.
-void keepFacingPart(RefractionTrial& trial, RandomNumbers&)
+void KeepFacingPart(RefractionTrial& trial, RandomNumbers&)
 {
-  const RefractionScene& scene = trial.scene();
+  const RefractionScene& scene = trial.MakeScene();
   if (scene.Family != "sphere")
   {
     return;
@@ -213,13 +213,13 @@ void keepFacingPart(RefractionTrial& trial, RandomNumbers&)
   if (!changed.Mesh.Triangles.empty())
   {
     // Compares images on facets that are kept.
-    trial.compare(changed, Motion(), [](const VirtualVertex& image) { return image.Cosine > 0.0; });
+    trial.Compare(changed, Motion(), [](const VirtualVertex& image) { return image.Cosine > 0.0; });
   }
 }
 
-void takeFirst(RefractionTrial& trial, RandomNumbers& random)
+void TakeFirst(RefractionTrial& trial, RandomNumbers& random)
 {
-  trial.compareFirst(randomOrder(trial.scene().Points.size(), random));
+  trial.CompareFirst(RandomOrder(trial.MakeScene().Points.size(), random));
 }
 
 struct NamedCheck
@@ -229,14 +229,14 @@ struct NamedCheck
   Check Run;
 };
 
-std::vector<Relation> allRelations(const ProgrammeOptions& options)
+std::vector<Relation> AllRelations(const ProgrammeOptions& options)
 {
-  const NamedCheck checks[] = { { "rotation", 60, rotate }, { "mirroring", 60, mirror },
-    { "translation", 60, translate }, { "scaling", 60, scale },
-    { "facets-reordered", 60, reorderFacets }, { "facets-turned", 60, turnFacets },
-    { "vertices-reordered", 60, reorderVertices }, { "facets-divided", 90, divide },
-    { "edit-in-place", 60, editInPlace }, { "facing-part", 120, keepFacingPart },
-    { "first-of-all", 60, takeFirst } };
+  const NamedCheck checks[] = { { "rotation", 60, Rotate }, { "mirroring", 60, Mirror },
+    { "translation", 60, Translate }, { "scaling", 60, MakeScale },
+    { "facets-reordered", 60, ReorderFacets }, { "facets-turned", 60, TurnFacets },
+    { "vertices-reordered", 60, ReorderVertices }, { "facets-divided", 90, Divide },
+    { "edit-in-place", 60, EditInPlace }, { "facing-part", 120, KeepFacingPart },
+    { "first-of-all", 60, TakeFirst } };
   std::vector<Relation> result;
   for (const NamedCheck& check : checks)
   {
@@ -245,13 +245,13 @@ std::vector<Relation> allRelations(const ProgrammeOptions& options)
     {
       return [&options, name, run](int index)
       {
-        RandomNumbers random(seedOfCase(options.Seed, name, index));
-        RefractionTrial trial(randomScene(random));
+        RandomNumbers random(SeedOfCase(options.Seed, name, index));
+        RefractionTrial trial(RandomScene(random));
         run(trial, random);
-        return trial.tally();
+        return trial.GetTally();
       };
     };
-    result.push_back({ name, casesAt(options.Intensity, check.Cases), start });
+    result.push_back({ name, CasesAt(options.Intensity, check.Cases), start });
   }
   return result;
 }
@@ -262,7 +262,7 @@ std::vector<Relation> allRelations(const ProgrammeOptions& options)
 int main(int argc, char* argv[])
 {
   ProgrammeOptions options;
-  return runMetamorphicProgramme(
+  return RunMetamorphicProgramme(
     argc, argv, Usage, options, [](const std::string&, const std::string&) { return false; },
-    [&options]() { return allRelations(options); });
+    [&options]() { return AllRelations(options); });
 }

@@ -37,17 +37,17 @@ struct Rounding
 };
 
 // Rounding of two images; see the class.
-Rounding roundingOf(const VolumeCase& test)
+Rounding RoundingOf(const VolumeCase& test)
 {
   double b[6];
-  test.mesh().bounds(b);
-  const double radius = 0.5 * diagonalOf(b);
+  test.MakeMesh().GetBounds(b);
+  const double radius = 0.5 * DiagonalOf(b);
   const double slope = test.View.Parallel ? 0.0 : std::sqrt(2.0) * test.View.HalfHeight;
   const bool native = test.Backend == vtkTetrahedraRayCastMapper::NATIVE;
   const double unit = test.Membrane.Mesh ? 0x1p-22 : native ? 0x1p-29 : 0x1p-24;
   const bool divides = test.Look.Blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND;
   // A ray meets about 3 cells per layer of a cube of cells, and as many terms are added up.
-  const double terms = divides ? 3.0 * std::cbrt(double(test.mesh().Cells.size())) : 0.0;
+  const double terms = divides ? 3.0 * std::cbrt(double(test.MakeMesh().Cells.size())) : 0.0;
   return { 2.0 * 1.5 * unit * radius * (1.0 + slope), divides ? 2.0 * 3.0 * 0x1p-24 * radius : 0.0,
     2.0 * ((native ? 2.0 : 4.0) + 0.5 * terms) * 0x1p-24 };
 }
@@ -55,7 +55,7 @@ Rounding roundingOf(const VolumeCase& test)
 // One-sided limit of a piecewise linear function of control points: `next` is the first point at or
 // above a scalar (limit from below), or the first above it (limit from above).
 template <typename Point, typename Get>
-double limitAt(
+double LimitAt(
   const std::vector<Point>& points, std::size_t next, double scalar, const Get& valueOf)
 {
   if (next == 0 || next == points.size())
@@ -69,7 +69,7 @@ double limitAt(
 }
 
 template <typename Point>
-std::size_t nextOf(const std::vector<Point>& points, double scalar, bool above)
+std::size_t NextOf(const std::vector<Point>& points, double scalar, bool above)
 {
   const auto found = std::find_if(points.begin(), points.end(),
     [=](const Point& p) { return above ? p.Scalar > scalar : p.Scalar >= scalar; });
@@ -77,7 +77,7 @@ std::size_t nextOf(const std::vector<Point>& points, double scalar, bool above)
 }
 
 // Opacity and colour as one function. Two nodes at each control point, since it may be a jump.
-reference::ReferenceTransferFunction merged(const LookFunction& function, double factor)
+reference::ReferenceTransferFunction Merged(const LookFunction& function, double factor)
 {
   std::vector<double> scalars;
   for (const auto& point : function.Opacity)
@@ -98,11 +98,11 @@ reference::ReferenceTransferFunction merged(const LookFunction& function, double
       reference::TransferFunctionNode node;
       node.Scalar = scalar;
       node.Value.Attenuation = factor *
-        limitAt(function.Opacity, nextOf(function.Opacity, scalar, above), scalar,
+        LimitAt(function.Opacity, NextOf(function.Opacity, scalar, above), scalar,
           [](const LookFunction::OpacityPoint& p) { return p.Opacity; });
       for (std::size_t c = 0; c < 3; ++c)
       {
-        node.Value.Color[c] = limitAt(function.Color, nextOf(function.Color, scalar, above), scalar,
+        node.Value.Color[c] = LimitAt(function.Color, NextOf(function.Color, scalar, above), scalar,
           [c](const LookFunction::ColorPoint& p) { return p.Color[c]; });
       }
       nodes.push_back(node);
@@ -112,16 +112,16 @@ reference::ReferenceTransferFunction merged(const LookFunction& function, double
 }
 
 // Function of one component; opacity is taken unchanged where a mode does not measure lengths.
-reference::ReferenceTransferFunction functionOf(const VolumeLook& look, std::size_t component)
+reference::ReferenceTransferFunction FunctionOf(const VolumeLook& look, std::size_t component)
 {
   const LookFunction& function = look.Functions[std::min(component, look.Functions.size() - 1)];
   const bool measures =
     look.Blend == vtkVolumeMapper::COMPOSITE_BLEND || look.Blend == vtkVolumeMapper::ADDITIVE_BLEND;
   const double weight = look.Functions.size() > 1 ? function.Weight : 1.0;
-  return merged(function, weight / (measures ? look.Unit : 1.0));
+  return Merged(function, weight / (measures ? look.Unit : 1.0));
 }
 
-reference::Material materialOf(const VolumeCase& test)
+reference::Material MaterialOf(const VolumeCase& test)
 {
   reference::Material material;
   material.Ambient = test.Look.Ambient;
@@ -135,7 +135,7 @@ reference::Material materialOf(const VolumeCase& test)
   return material;
 }
 
-double gradientFactor(const VolumeLook& look, double size)
+double GradientFactor(const VolumeLook& look, double size)
 {
   const auto& points = look.GradientOpacity;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -162,42 +162,43 @@ class Conditioning::Truth
 public:
   Truth(const VolumeCase& test, const Rounding& rounding, RandomNumbers& random)
     : Case(test)
-    , Material(materialOf(test))
+    , Material(MaterialOf(test))
   {
-    const MeshArrays& mesh = test.mesh();
+    const MeshArrays& mesh = test.MakeMesh();
     std::vector<double> points;
     const glm::dvec3 forward = glm::normalize(test.View.Focus - test.View.Eye);
     for (const glm::dvec3& p : mesh.Points)
     {
-      const double depth = moved(rounding.Depth, random);
+      const double depth = Moved(rounding.Depth, random);
       for (int axis = 0; axis < 3; ++axis)
       {
-        points.push_back(p[axis] + depth * forward[axis] + moved(rounding.Point, random));
+        points.push_back(p[axis] + depth * forward[axis] + Moved(rounding.Point, random));
       }
     }
     std::vector<std::int64_t> ids;
-    for (const MeshTetrahedron& tetrahedron : tetrahedraOf(mesh))
+    for (const MeshTetrahedron& tetrahedron : TetrahedraOf(mesh))
     {
       ids.insert(ids.end(), tetrahedron.Ids.begin(), tetrahedron.Ids.end());
       this->Cells.push_back(tetrahedron.Cell);
     }
     for (int c = 0; c < mesh.Components; ++c)
     {
-      const auto range = mesh.range(c);
+      const auto range = mesh.MakeRange(c);
       std::vector<double> values;
-      for (std::size_t i = 0; i < mesh.tuples(); ++i)
+      for (std::size_t i = 0; i < mesh.Tuples(); ++i)
       {
-        values.push_back(mesh.value(i, c) + moved(rounding.Scalar * (range[1] - range[0]), random));
+        values.push_back(
+          mesh.GetValue(i, c) + Moved(rounding.Scalar * (range[1] - range[0]), random));
       }
       this->CellValues = mesh.OnCells ? values : std::vector<double>();
       values.resize(mesh.Points.size());
       this->Integrators.push_back(
         std::make_unique<reference::ReferenceRayIntegrator>(points, ids, values));
-      this->Functions.push_back(functionOf(test.Look, static_cast<std::size_t>(c)));
+      this->Functions.push_back(FunctionOf(test.Look, static_cast<std::size_t>(c)));
     }
     for (const double value : test.Look.IsoValues)
     {
-      const reference::OpticalSample sample = this->Functions[0].value(value);
+      const reference::OpticalSample sample = this->Functions[0].GetValue(value);
       this->Surfaces.push_back({ value, sample.Attenuation, sample.Color });
     }
   }
@@ -206,48 +207,48 @@ public:
    * @param exact the copy that is not moved: gradients are those of the input, not of its rounded
    *   copy.
    */
-  Color trace(int x, int y, const Truth& exact)
+  Color Trace(int x, int y, const Truth& exact)
   {
-    const Ray ray = this->Case.View.ray(x, y, this->Case.Size);
+    const Ray ray = this->Case.View.GetRay(x, y, this->Case.Size);
     if (!this->Case.Membrane.Mesh)
     {
-      return this->tracePart(ray, this->segments(ray), exact);
+      return this->TracePart(ray, this->Segments(ray), exact);
     }
-    const auto refracted = reference::refract(this->Case.Membrane.Surface, ray, 0.0, false);
-    if (this->isProjection())
+    const auto refracted = reference::Refract(this->Case.Membrane.Surface, ray, 0.0, false);
+    if (this->IsProjection())
     {
-      std::vector<RaySegment> both = reference::findSegments(*this->Integrators[0],
-        { this->clipped(refracted.Straight), this->clipped(refracted.Bent) });
-      this->takeCellValues(both);
-      return this->tracePart(refracted.Straight, both, exact);
+      std::vector<RaySegment> both = reference::FindSegments(*this->Integrators[0],
+        { this->Clipped(refracted.Straight), this->Clipped(refracted.Bent) });
+      this->TakeCellValues(both);
+      return this->TracePart(refracted.Straight, both, exact);
     }
-    return reference::compose(refracted,
-      [&](const Ray& part) { return this->tracePart(part, this->segments(part), exact); });
+    return reference::Compose(refracted,
+      [&](const Ray& part) { return this->TracePart(part, this->Segments(part), exact); });
   }
 
-  const reference::ReferenceGradients& gradients() const
+  const reference::ReferenceGradients& GetGradients() const
   {
     if (!this->Gradients)
     {
       this->Gradients = std::make_unique<reference::ReferenceGradients>(
-        this->Integrators[0]->mesh(), this->Case.Look.Gradients != 0);
+        this->Integrators[0]->MakeMesh(), this->Case.Look.Gradients != 0);
     }
     return *this->Gradients;
   }
 
 private:
-  static double moved(double amount, RandomNumbers& random)
+  static double Moved(double amount, RandomNumbers& random)
   {
-    return random.below(2) ? amount : -amount;
+    return random.Below(2) ? amount : -amount;
   }
 
-  bool isProjection() const
+  bool IsProjection() const
   {
     return this->Case.Look.Blend != vtkVolumeMapper::COMPOSITE_BLEND &&
       this->Case.Look.Blend != vtkVolumeMapper::ISOSURFACE_BLEND;
   }
 
-  Ray clipped(const Ray& ray) const
+  Ray Clipped(const Ray& ray) const
   {
     std::vector<reference::HalfSpace> halves;
     for (const auto& plane : this->Case.Planes)
@@ -255,18 +256,18 @@ private:
       halves.push_back(
         { { plane[1].x, plane[1].y, plane[1].z }, { plane[0].x, plane[0].y, plane[0].z } });
     }
-    return reference::clipRay(ray, halves);
+    return reference::ClipRay(ray, halves);
   }
 
-  std::vector<RaySegment> segments(const Ray& ray) const
+  std::vector<RaySegment> Segments(const Ray& ray) const
   {
     std::vector<RaySegment> segments;
-    this->Integrators[0]->findSegments(this->clipped(ray), segments);
-    this->takeCellValues(segments);
+    this->Integrators[0]->FindSegments(this->Clipped(ray), segments);
+    this->TakeCellValues(segments);
     return segments;
   }
 
-  void takeCellValues(std::vector<RaySegment>& segments) const
+  void TakeCellValues(std::vector<RaySegment>& segments) const
   {
     for (RaySegment& segment : segments)
     {
@@ -278,54 +279,54 @@ private:
     }
   }
 
-  Color project(const Ray& ray, const std::vector<RaySegment>& segments) const
+  Color Project(const Ray& ray, const std::vector<RaySegment>& segments) const
   {
     const int blend = this->Case.Look.Blend;
-    const auto range = this->Case.mesh().range(0);
+    const auto range = this->Case.MakeMesh().MakeRange(0);
     const auto projection = blend == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND
       ? reference::Projection::Maximum
       : blend == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND ? reference::Projection::Minimum
       : blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND ? reference::Projection::Average
                                                           : reference::Projection::Additive;
-    return reference::project(ray, segments, projection, this->Functions[0], range.data());
+    return reference::Project(ray, segments, projection, this->Functions[0], range.data());
   }
 
-  Color mix(const Ray& ray) const
+  Color Mix(const Ray& ray) const
   {
     std::vector<std::vector<RaySegment>> segments(this->Integrators.size());
     for (std::size_t c = 0; c < segments.size(); ++c)
     {
-      this->Integrators[c]->findSegments(this->clipped(ray), segments[c]);
+      this->Integrators[c]->FindSegments(this->Clipped(ray), segments[c]);
     }
     const auto mixture = this->Case.Look.Independent ? reference::Mixture::Independent
       : segments.size() == 2                         ? reference::Mixture::ColorAndOpacity
                                                      : reference::Mixture::RedGreenBlueOpacity;
-    return reference::integrateComponents(ray, segments, mixture, this->Functions);
+    return reference::IntegrateComponents(ray, segments, mixture, this->Functions);
   }
 
-  Color tracePart(const Ray& ray, const std::vector<RaySegment>& segments, const Truth& exact) const
+  Color TracePart(const Ray& ray, const std::vector<RaySegment>& segments, const Truth& exact) const
   {
     const VolumeLook& look = this->Case.Look;
-    if (this->isProjection())
+    if (this->IsProjection())
     {
-      return this->project(ray, segments);
+      return this->Project(ray, segments);
     }
     if (this->Integrators.size() > 1)
     {
-      return this->mix(ray);
+      return this->Mix(ray);
     }
     const reference::Material* const material = look.Shade ? &this->Material : nullptr;
     if (look.Blend == vtkVolumeMapper::ISOSURFACE_BLEND)
     {
-      return reference::blendSurfaces(
-        ray, segments, this->Surfaces, material ? &exact.gradients() : nullptr, this->Material);
+      return reference::BlendSurfaces(
+        ray, segments, this->Surfaces, material ? &exact.GetGradients() : nullptr, this->Material);
     }
-    if (!this->Case.hasGradients())
+    if (!this->Case.HasGradients())
     {
-      return reference::ReferenceRayIntegrator::integrate(ray, segments, this->Functions[0]);
+      return reference::ReferenceRayIntegrator::Integrate(ray, segments, this->Functions[0]);
     }
-    const auto factor = [&look](double size) { return gradientFactor(look, size); };
-    return reference::integrateShaded(ray, segments, this->Functions[0], exact.gradients(),
+    const auto factor = [&look](double size) { return GradientFactor(look, size); };
+    return reference::IntegrateShaded(ray, segments, this->Functions[0], exact.GetGradients(),
       material, look.GradientOpacity.empty() ? std::function<double(double)>() : factor, 8);
   }
 
@@ -349,7 +350,7 @@ Conditioning::Conditioning(const VolumeCase& test)
 Conditioning::~Conditioning() = default;
 
 //------------------------------------------------------------------------------
-void Conditioning::makeCopies()
+void Conditioning::MakeCopies()
 {
   if (!this->Copies.empty())
   {
@@ -359,28 +360,28 @@ void Conditioning::makeCopies()
   this->Copies.push_back(std::make_unique<Truth>(this->Case, Rounding(), random));
   for (int i = 0; i < NumberOfCopies; ++i)
   {
-    this->Copies.push_back(std::make_unique<Truth>(this->Case, roundingOf(this->Case), random));
+    this->Copies.push_back(std::make_unique<Truth>(this->Case, RoundingOf(this->Case), random));
   }
 }
 
 //------------------------------------------------------------------------------
-std::array<double, 4> Conditioning::exact(int x, int y)
+std::array<double, 4> Conditioning::GetExact(int x, int y)
 {
-  this->makeCopies();
-  return this->Copies.front()->trace(x, y, *this->Copies.front());
+  this->MakeCopies();
+  return this->Copies.front()->Trace(x, y, *this->Copies.front());
 }
 
 //------------------------------------------------------------------------------
-double Conditioning::spread(int x, int y)
+double Conditioning::GetSpread(int x, int y)
 {
-  this->makeCopies();
+  this->MakeCopies();
   Color low;
   Color high;
   low.fill(1e300);
   high.fill(-1e300);
   for (const auto& copy : this->Copies)
   {
-    const Color color = copy->trace(x, y, *this->Copies.front());
+    const Color color = copy->Trace(x, y, *this->Copies.front());
     for (std::size_t c = 0; c < 4; ++c)
     {
       low[c] = std::min(low[c], color[c]);
@@ -396,7 +397,7 @@ double Conditioning::spread(int x, int y)
 }
 
 //------------------------------------------------------------------------------
-double plainTolerance(int backend)
+double PlainTolerance(int backend)
 {
   return backend == vtkTetrahedraRayCastMapper::NATIVE ? 2e-5 : 1e-4;
 }

@@ -45,14 +45,14 @@ public:
   ~Conditioning();
 
   /** Range of the exact results of a pixel, the largest of the channels. */
-  double spread(int x, int y);
+  double GetSpread(int x, int y);
 
   /** Exact colour of a pixel, premultiplied. */
-  std::array<double, 4> exact(int x, int y);
+  std::array<double, 4> GetExact(int x, int y);
 
 private:
   class Truth;
-  void makeCopies();
+  void MakeCopies();
 
   const VolumeCase& Case;
   std::vector<std::unique_ptr<Truth>> Copies;
@@ -63,7 +63,7 @@ private:
  * error of each with respect to the exact image, as documented for the native backend and for
  * shaders.
  */
-double plainTolerance(int backend);
+double PlainTolerance(int backend);
 
 } // namespace test
 } // namespace meniscus

@@ -13,13 +13,13 @@ namespace meniscus
 namespace test
 {
 
-glm::dvec3 pointBy(const glm::dmat4& map, const glm::dvec3& p);
+glm::dvec3 PointBy(const glm::dmat4& map, const glm::dvec3& p);
 
 /**
  * Maps a whole scene by a similarity: mesh, camera, membrane, unit distance. The membrane's exact
  * surface, which only the conditioning of a scene uses, is not mapped.
  */
-void mapScene(VolumeCase& test, const glm::dmat4& map);
+void MapScene(VolumeCase& test, const glm::dmat4& map);
 
 } // namespace test
 } // namespace meniscus

@@ -51,7 +51,7 @@ struct Facets
     }
   }
 
-  vtkSmartPointer<vtkPolyData> toMesh() const
+  vtkSmartPointer<vtkPolyData> ToMesh() const
   {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
@@ -86,7 +86,7 @@ public:
   {
   }
 
-  vtkIdType of(vtkIdType a, vtkIdType b)
+  vtkIdType Of(vtkIdType a, vtkIdType b)
   {
     const auto key = std::minmax(a, b);
     const auto known = this->Known.find(key);
@@ -128,7 +128,7 @@ private:
 };
 
 // Patches over planes and spheres reproduce them exactly, and so do patches over their parts.
-void divideFacets(VolumeCase& test, RandomNumbers& random)
+void DivideFacets(VolumeCase& test, RandomNumbers& random)
 {
   Facets facets(test.Membrane.Mesh);
   EdgeMiddles middles(facets, test.Membrane.Surface);
@@ -137,29 +137,29 @@ void divideFacets(VolumeCase& test, RandomNumbers& random)
   // All facets are divided, so that no point lies on the edge of another facet.
   for (const auto& v : before)
   {
-    const vtkIdType a = middles.of(v[0], v[1]);
-    const vtkIdType b = middles.of(v[1], v[2]);
-    const vtkIdType c = middles.of(v[2], v[0]);
+    const vtkIdType a = middles.Of(v[0], v[1]);
+    const vtkIdType b = middles.Of(v[1], v[2]);
+    const vtkIdType c = middles.Of(v[2], v[0]);
     facets.Cells.insert(
       facets.Cells.end(), { { v[0], a, c }, { a, v[1], b }, { c, b, v[2] }, { a, b, c } });
   }
-  shuffle(facets.Cells, random);
-  test.Membrane.Mesh = facets.toMesh();
+  Shuffle(facets.Cells, random);
+  test.Membrane.Mesh = facets.ToMesh();
 }
 
 // A plane or a dome with its own indices.
-void makeExactMembrane(VolumeCase& test, RandomNumbers& random)
+void MakeExactMembrane(VolumeCase& test, RandomNumbers& random)
 {
   const auto before = test.Membrane.Surface;
-  const double level = random.uniform(-0.3, 1.1);
-  const int cells = 2 + random.below(6);
-  test.Membrane = random.below(2) ? makePlaneCase(level, 1.6, cells)
-                                  : makeDomeCase(level, random.uniform(3.0, 6.0), 1.6, cells);
+  const double level = random.Uniform(-0.3, 1.1);
+  const int cells = 2 + random.Below(6);
+  test.Membrane = random.Below(2) ? MakePlaneCase(level, 1.6, cells)
+                                  : MakeDomeCase(level, random.Uniform(3.0, 6.0), 1.6, cells);
   test.Membrane.Surface.Exterior = before.Exterior;
   test.Membrane.Surface.Interior = before.Interior;
 }
 
-void shuffleFacets(VolumeCase& test, RandomNumbers& random)
+void ShuffleFacets(VolumeCase& test, RandomNumbers& random)
 {
   Facets facets(test.Membrane.Mesh);
   std::vector<vtkIdType> order(facets.Points.size());
@@ -167,7 +167,7 @@ void shuffleFacets(VolumeCase& test, RandomNumbers& random)
   {
     order[i] = static_cast<vtkIdType>(i);
   }
-  shuffle(order, random);
+  Shuffle(order, random);
   const Facets before = facets;
   for (std::size_t i = 0; i < order.size(); ++i)
   {
@@ -181,13 +181,13 @@ void shuffleFacets(VolumeCase& test, RandomNumbers& random)
     {
       id = order[static_cast<std::size_t>(id)];
     }
-    std::rotate(cell.begin(), cell.begin() + random.below(3), cell.end());
+    std::rotate(cell.begin(), cell.begin() + random.Below(3), cell.end());
   }
-  shuffle(facets.Cells, random);
-  test.Membrane.Mesh = facets.toMesh();
+  Shuffle(facets.Cells, random);
+  test.Membrane.Mesh = facets.ToMesh();
 }
 
-void unshareFacets(VolumeCase& test, RandomNumbers&)
+void UnshareFacets(VolumeCase& test, RandomNumbers&)
 {
   const Facets before(test.Membrane.Mesh);
   Facets facets = before;
@@ -202,11 +202,11 @@ void unshareFacets(VolumeCase& test, RandomNumbers&)
       id = static_cast<vtkIdType>(facets.Points.size()) - 1;
     }
   }
-  test.Membrane.Mesh = facets.toMesh();
+  test.Membrane.Mesh = facets.ToMesh();
 }
 
 // The same surface from the other side, with the indices exchanged.
-void turnMembrane(VolumeCase& test, RandomNumbers&)
+void TurnMembrane(VolumeCase& test, RandomNumbers&)
 {
   Facets facets(test.Membrane.Mesh);
   for (reference::Vector3& normal : facets.Normals)
@@ -217,25 +217,25 @@ void turnMembrane(VolumeCase& test, RandomNumbers&)
   {
     std::reverse(cell.begin(), cell.end());
   }
-  test.Membrane.Mesh = facets.toMesh();
+  test.Membrane.Mesh = facets.ToMesh();
   std::swap(test.Membrane.Surface.Exterior, test.Membrane.Surface.Interior);
 }
 
 //------------------------------------------------------------------------------
-void removeMembrane(VolumeCase& test, RandomNumbers&)
+void RemoveMembrane(VolumeCase& test, RandomNumbers&)
 {
   test.Membrane.Mesh = nullptr;
 }
 
-void makeEqual(VolumeCase& test, RandomNumbers&)
+void MakeEqual(VolumeCase& test, RandomNumbers&)
 {
   test.Membrane.Surface.Interior = test.Membrane.Surface.Exterior;
 }
 
 // A membrane that no ray meets: behind the eye.
-void addIdleMembrane(VolumeCase& test, RandomNumbers& random)
+void AddIdleMembrane(VolumeCase& test, RandomNumbers& random)
 {
-  test.Membrane = makeDomeCase(0.0, 5.0, 1.0, 2 + random.below(5));
+  test.Membrane = MakeDomeCase(0.0, 5.0, 1.0, 2 + random.Below(5));
   Facets facets(test.Membrane.Mesh);
   const glm::dvec3 back = glm::normalize(test.View.Eye - test.View.Focus);
   const glm::dvec3 place = test.View.Eye + 5.0 * back;
@@ -243,10 +243,10 @@ void addIdleMembrane(VolumeCase& test, RandomNumbers& random)
   {
     point = { point[0] + place.x, point[1] + place.y, point[2] + place.z };
   }
-  test.Membrane.Mesh = facets.toMesh();
+  test.Membrane.Mesh = facets.ToMesh();
 }
 
-VolumeRelation prepared(
+VolumeRelation Prepared(
   VolumeRelation relation, const std::function<void(VolumeCase&, RandomNumbers&)>& prepare)
 {
   relation.Prepare = prepare;
@@ -256,21 +256,21 @@ VolumeRelation prepared(
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<VolumeRelation> membraneRelations()
+std::vector<VolumeRelation> MembraneRelations()
 {
   CaseNeeds membrane;
   membrane.Membrane = true;
   CaseNeeds none;
   none.NoMembrane = true;
   return {
-    prepared(relationOf("membrane divided", 4, membrane, divideFacets), makeExactMembrane),
-    relationOf("order of facets", 3, membrane, shuffleFacets),
+    Prepared(RelationOf("membrane divided", 4, membrane, DivideFacets), MakeExactMembrane),
+    RelationOf("order of facets", 3, membrane, ShuffleFacets),
     // Patches are fitted to the neighbours with which a point is shared: for surfaces other than
     // planes and spheres, a membrane without shared points gives another, coarser surface.
-    prepared(relationOf("points given per facet", 3, membrane, unshareFacets), makeExactMembrane),
-    relationOf("membrane turned over", 3, membrane, turnMembrane),
-    prepared(relationOf("equal indices", 3, membrane, removeMembrane), makeEqual),
-    relationOf("membrane behind the eye", 3, none, addIdleMembrane),
+    Prepared(RelationOf("points given per facet", 3, membrane, UnshareFacets), MakeExactMembrane),
+    RelationOf("membrane turned over", 3, membrane, TurnMembrane),
+    Prepared(RelationOf("equal indices", 3, membrane, RemoveMembrane), MakeEqual),
+    RelationOf("membrane behind the eye", 3, none, AddIdleMembrane),
   };
 }
 

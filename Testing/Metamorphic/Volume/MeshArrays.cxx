@@ -24,37 +24,37 @@ namespace test
 {
 
 //------------------------------------------------------------------------------
-void MeshArrays::addTuple(const MeshArrays& from, std::size_t tuple)
+void MeshArrays::AddTuple(const MeshArrays& from, std::size_t tuple)
 {
   for (int c = 0; c < from.Components; ++c)
   {
-    this->Values.push_back(from.value(tuple, c));
+    this->Values.push_back(from.GetValue(tuple, c));
   }
 }
 
 //------------------------------------------------------------------------------
-vtkIdType MeshArrays::addPoint(const MeshArrays& from, std::size_t point)
+vtkIdType MeshArrays::AddPoint(const MeshArrays& from, std::size_t point)
 {
   this->Points.push_back(from.Points[point]);
   if (!this->OnCells)
   {
-    this->addTuple(from, point);
+    this->AddTuple(from, point);
   }
   return static_cast<vtkIdType>(this->Points.size()) - 1;
 }
 
 //------------------------------------------------------------------------------
-void MeshArrays::addCell(const MeshArrays& from, std::size_t cell)
+void MeshArrays::AddCell(const MeshArrays& from, std::size_t cell)
 {
   this->Cells.push_back(from.Cells[cell]);
   if (this->OnCells)
   {
-    this->addTuple(from, cell);
+    this->AddTuple(from, cell);
   }
 }
 
 //------------------------------------------------------------------------------
-void MeshArrays::bounds(double result[6]) const
+void MeshArrays::GetBounds(double result[6]) const
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -72,13 +72,13 @@ void MeshArrays::bounds(double result[6]) const
 }
 
 //------------------------------------------------------------------------------
-std::array<double, 2> MeshArrays::range(int component) const
+std::array<double, 2> MeshArrays::MakeRange(int component) const
 {
   std::array<double, 2> range{ std::numeric_limits<double>::max(),
     std::numeric_limits<double>::lowest() };
-  for (std::size_t i = 0; i < this->tuples(); ++i)
+  for (std::size_t i = 0; i < this->Tuples(); ++i)
   {
-    const double value = this->value(i, component);
+    const double value = this->GetValue(i, component);
     if (std::isfinite(value))
     {
       range = { std::min(range[0], value), std::max(range[1], value) };
@@ -88,7 +88,7 @@ std::array<double, 2> MeshArrays::range(int component) const
 }
 
 //------------------------------------------------------------------------------
-bool MeshArrays::isTetrahedral() const
+bool MeshArrays::IsTetrahedral() const
 {
   return std::all_of(this->Cells.begin(), this->Cells.end(),
     [](const MeshCell& cell) { return cell.Type == VTK_TETRA; });
@@ -97,7 +97,7 @@ bool MeshArrays::isTetrahedral() const
 namespace
 {
 
-vtkSmartPointer<vtkDataArray> makeArray(
+vtkSmartPointer<vtkDataArray> MakeArray(
   int type, bool perComponent, int components, std::size_t tuples)
 {
   vtkSmartPointer<vtkDataArray> array;
@@ -120,7 +120,7 @@ vtkSmartPointer<vtkDataArray> makeArray(
 
 // A value that the array's type cannot represent would be an error of the relation: it ends the
 // case.
-void setTuple(vtkDataArray* array, std::size_t at, const double* tuple)
+void SetTuple(vtkDataArray* array, std::size_t at, const double* tuple)
 {
   const auto id = static_cast<vtkIdType>(at);
   array->SetTuple(id, tuple);
@@ -134,7 +134,7 @@ void setTuple(vtkDataArray* array, std::size_t at, const double* tuple)
   }
 }
 
-void setCells(const MeshArrays& mesh, bool smallIds, vtkUnstructuredGrid* grid)
+void SetCells(const MeshArrays& mesh, bool smallIds, vtkUnstructuredGrid* grid)
 {
   vtkNew<vtkCellArray> cells;
   if (smallIds)
@@ -157,26 +157,26 @@ void setCells(const MeshArrays& mesh, bool smallIds, vtkUnstructuredGrid* grid)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-Grid toGrid(const MeshArrays& mesh, const MeshStorage& storage)
+Grid ToGrid(const MeshArrays& mesh, const MeshStorage& storage)
 {
   const auto coordinates =
-    makeArray(storage.PointType, storage.PerComponent, 3, mesh.Points.size());
+    MakeArray(storage.PointType, storage.PerComponent, 3, mesh.Points.size());
   for (std::size_t i = 0; i < mesh.Points.size(); ++i)
   {
-    setTuple(coordinates, i, &mesh.Points[i][0]);
+    SetTuple(coordinates, i, &mesh.Points[i][0]);
   }
   const auto values =
-    makeArray(storage.ValueType, storage.PerComponent, mesh.Components, mesh.tuples());
+    MakeArray(storage.ValueType, storage.PerComponent, mesh.Components, mesh.Tuples());
   values->SetName(ScalarName);
-  for (std::size_t i = 0; i < mesh.tuples(); ++i)
+  for (std::size_t i = 0; i < mesh.Tuples(); ++i)
   {
-    setTuple(values, i, &mesh.Values[i * mesh.Components]);
+    SetTuple(values, i, &mesh.Values[i * mesh.Components]);
   }
   vtkNew<vtkPoints> points;
   points->SetData(coordinates);
   Grid grid = Grid::New();
   grid->SetPoints(points);
-  setCells(mesh, storage.SmallIds, grid);
+  SetCells(mesh, storage.SmallIds, grid);
   if (mesh.OnCells)
   {
     grid->GetCellData()->SetScalars(values);
@@ -189,7 +189,7 @@ Grid toGrid(const MeshArrays& mesh, const MeshStorage& storage)
 }
 
 //------------------------------------------------------------------------------
-MeshArrays toArrays(vtkUnstructuredGrid* grid, bool onCells)
+MeshArrays ToArrays(vtkUnstructuredGrid* grid, bool onCells)
 {
   MeshArrays mesh;
   mesh.OnCells = onCells;
@@ -221,7 +221,7 @@ namespace
 {
 
 // Faces of the cells with a volume and flat faces, as indices into the cell's list of points.
-const std::vector<std::vector<int>>& facesOf(int type)
+const std::vector<std::vector<int>>& FacesOf(int type)
 {
   static const std::vector<std::vector<int>> hexahedron{ { 0, 4, 7, 3 }, { 1, 2, 6, 5 },
     { 0, 1, 5, 4 }, { 3, 7, 6, 2 }, { 0, 3, 2, 1 }, { 4, 5, 6, 7 } };
@@ -247,10 +247,10 @@ const std::vector<std::vector<int>>& facesOf(int type)
   }
 }
 
-void pull(const MeshCell& cell, std::size_t number, std::vector<MeshTetrahedron>& result)
+void Pull(const MeshCell& cell, std::size_t number, std::vector<MeshTetrahedron>& result)
 {
   const vtkIdType apex = *std::min_element(cell.Ids.begin(), cell.Ids.end());
-  for (const std::vector<int>& places : facesOf(cell.Type))
+  for (const std::vector<int>& places : FacesOf(cell.Type))
   {
     std::vector<vtkIdType> face;
     for (const int place : places)
@@ -272,7 +272,7 @@ void pull(const MeshCell& cell, std::size_t number, std::vector<MeshTetrahedron>
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<MeshTetrahedron> tetrahedraOf(const MeshArrays& mesh)
+std::vector<MeshTetrahedron> TetrahedraOf(const MeshArrays& mesh)
 {
   std::vector<MeshTetrahedron> result;
   for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
@@ -284,7 +284,7 @@ std::vector<MeshTetrahedron> tetrahedraOf(const MeshArrays& mesh)
     }
     else
     {
-      pull(cell, c, result);
+      Pull(cell, c, result);
     }
   }
   return result;

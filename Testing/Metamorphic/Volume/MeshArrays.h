@@ -38,21 +38,21 @@ struct MeshArrays
   /** Components of the first tuple, of the second, ... */
   std::vector<double> Values;
 
-  std::size_t tuples() const { return this->OnCells ? this->Cells.size() : this->Points.size(); }
-  double value(std::size_t tuple, int component) const
+  std::size_t Tuples() const { return this->OnCells ? this->Cells.size() : this->Points.size(); }
+  double GetValue(std::size_t tuple, int component) const
   {
     return this->Values[tuple * static_cast<std::size_t>(this->Components) + component];
   }
   /** Appends a tuple of another mesh with the same number of components. */
-  void addTuple(const MeshArrays& from, std::size_t tuple);
+  void AddTuple(const MeshArrays& from, std::size_t tuple);
   /** Appends a point or a cell of another mesh with its value or tuple. */
-  vtkIdType addPoint(const MeshArrays& from, std::size_t point);
-  void addCell(const MeshArrays& from, std::size_t cell);
+  vtkIdType AddPoint(const MeshArrays& from, std::size_t point);
+  void AddCell(const MeshArrays& from, std::size_t cell);
 
-  void bounds(double result[6]) const;
+  void GetBounds(double result[6]) const;
   /** Smallest and largest finite value of a component. */
-  std::array<double, 2> range(int component) const;
-  bool isTetrahedral() const;
+  std::array<double, 2> MakeRange(int component) const;
+  bool IsTetrahedral() const;
 };
 
 /** Storage of a mesh in VTK. */
@@ -67,10 +67,10 @@ struct MeshStorage
 };
 
 /** Values must be representable in the types of the storage. */
-Grid toGrid(const MeshArrays& mesh, const MeshStorage& storage = MeshStorage());
+Grid ToGrid(const MeshArrays& mesh, const MeshStorage& storage = MeshStorage());
 
 /** The active point scalars of a grid, or its active cell scalars. */
-MeshArrays toArrays(vtkUnstructuredGrid* grid, bool onCells = false);
+MeshArrays ToArrays(vtkUnstructuredGrid* grid, bool onCells = false);
 
 /** A tetrahedron of a mesh: four points, and the cell to which it belongs. */
 struct MeshTetrahedron
@@ -83,7 +83,7 @@ struct MeshTetrahedron
  * Tetrahedra of all cells, by the rule that the mapper documents: a cell is split by pulling its
  * lowest-numbered point, and so is each face.
  */
-std::vector<MeshTetrahedron> tetrahedraOf(const MeshArrays& mesh);
+std::vector<MeshTetrahedron> TetrahedraOf(const MeshArrays& mesh);
 
 } // namespace test
 } // namespace meniscus

@@ -25,7 +25,7 @@ namespace
 {
 
 // The same mesh without points, cells and values.
-MeshArrays emptyLike(const MeshArrays& mesh)
+MeshArrays EmptyLike(const MeshArrays& mesh)
 {
   MeshArrays result;
   result.Components = mesh.Components;
@@ -42,7 +42,7 @@ public:
   {
   }
 
-  vtkIdType of(std::vector<vtkIdType> ids)
+  vtkIdType Of(std::vector<vtkIdType> ids)
   {
     std::sort(ids.begin(), ids.end());
     const auto known = this->Known.find(ids);
@@ -59,7 +59,7 @@ public:
       for (int c = 0; c < this->Mesh.Components && !this->Mesh.OnCells; ++c)
       {
         values[static_cast<std::size_t>(c)] +=
-          share * this->Mesh.value(static_cast<std::size_t>(id), c);
+          share * this->Mesh.GetValue(static_cast<std::size_t>(id), c);
       }
     }
     const auto added = static_cast<vtkIdType>(this->Mesh.Points.size());
@@ -79,45 +79,45 @@ private:
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void shuffleCells(MeshArrays& mesh, RandomNumbers& random)
+void ShuffleCells(MeshArrays& mesh, RandomNumbers& random)
 {
   std::vector<std::size_t> order(mesh.Cells.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
-  shuffle(order, random);
-  MeshArrays result = emptyLike(mesh);
+  Shuffle(order, random);
+  MeshArrays result = EmptyLike(mesh);
   result.Points = mesh.Points;
   result.Values = mesh.OnCells ? std::vector<double>() : mesh.Values;
   for (const std::size_t cell : order)
   {
-    result.addCell(mesh, cell);
+    result.AddCell(mesh, cell);
   }
   mesh = result;
 }
 
 //------------------------------------------------------------------------------
-void turnCells(MeshArrays& mesh, RandomNumbers& random)
+void TurnCells(MeshArrays& mesh, RandomNumbers& random)
 {
   for (MeshCell& cell : mesh.Cells)
   {
-    shuffle(cell.Ids, random);
+    Shuffle(cell.Ids, random);
   }
 }
 
 //------------------------------------------------------------------------------
-void shufflePoints(MeshArrays& mesh, RandomNumbers& random)
+void ShufflePoints(MeshArrays& mesh, RandomNumbers& random)
 {
   std::vector<std::size_t> order(mesh.Points.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
-  shuffle(order, random);
+  Shuffle(order, random);
   std::vector<vtkIdType> newId(order.size());
-  MeshArrays result = emptyLike(mesh);
+  MeshArrays result = EmptyLike(mesh);
   for (const std::size_t point : order)
   {
-    newId[point] = result.addPoint(mesh, point);
+    newId[point] = result.AddPoint(mesh, point);
   }
   for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
   {
-    result.addCell(mesh, c);
+    result.AddCell(mesh, c);
     for (vtkIdType& id : result.Cells.back().Ids)
     {
       id = newId[static_cast<std::size_t>(id)];
@@ -127,29 +127,29 @@ void shufflePoints(MeshArrays& mesh, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-void addIdlePoints(MeshArrays& mesh, RandomNumbers& random)
+void AddIdlePoints(MeshArrays& mesh, RandomNumbers& random)
 {
   const MeshArrays before = mesh;
   for (int i = 0; i < 20; ++i)
   {
-    mesh.addPoint(
-      before, static_cast<std::size_t>(random.below(static_cast<int>(before.Points.size()))));
+    mesh.AddPoint(
+      before, static_cast<std::size_t>(random.Below(static_cast<int>(before.Points.size()))));
   }
 }
 
 //------------------------------------------------------------------------------
-void unsharePoints(MeshArrays& mesh)
+void UnsharePoints(MeshArrays& mesh)
 {
-  MeshArrays result = emptyLike(mesh);
+  MeshArrays result = EmptyLike(mesh);
   for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
   {
-    result.addCell(mesh, c);
+    result.AddCell(mesh, c);
     std::vector<vtkIdType> sorted = mesh.Cells[c].Ids;
     std::sort(sorted.begin(), sorted.end());
     std::map<vtkIdType, vtkIdType> own;
     for (const vtkIdType id : sorted)
     {
-      own[id] = result.addPoint(mesh, static_cast<std::size_t>(id));
+      own[id] = result.AddPoint(mesh, static_cast<std::size_t>(id));
     }
     for (vtkIdType& id : result.Cells.back().Ids)
     {
@@ -160,18 +160,18 @@ void unsharePoints(MeshArrays& mesh)
 }
 
 //------------------------------------------------------------------------------
-std::vector<MeshArrays> splitMesh(const MeshArrays& mesh, int parts, RandomNumbers& random)
+std::vector<MeshArrays> SplitMesh(const MeshArrays& mesh, int parts, RandomNumbers& random)
 {
   // Half-spaces, or scattered cells.
-  const bool scattered = random.below(2) == 0;
-  const glm::dvec3 normal = random.direction();
+  const bool scattered = random.Below(2) == 0;
+  const glm::dvec3 normal = random.GetDirection();
   std::vector<std::vector<std::size_t>> cells(static_cast<std::size_t>(parts));
   for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
   {
     const glm::dvec3& p = mesh.Points[static_cast<std::size_t>(mesh.Cells[c].Ids[0])];
     const double height = 0.5 + 0.4 * glm::dot(normal, p);
     const int part =
-      scattered ? random.below(parts) : std::clamp(static_cast<int>(height * parts), 0, parts - 1);
+      scattered ? random.Below(parts) : std::clamp(static_cast<int>(height * parts), 0, parts - 1);
     cells[static_cast<std::size_t>(part)].push_back(c);
   }
   std::vector<MeshArrays> result;
@@ -189,14 +189,14 @@ std::vector<MeshArrays> splitMesh(const MeshArrays& mesh, int parts, RandomNumbe
         newId[static_cast<std::size_t>(id)] = 0;
       }
     }
-    MeshArrays block = emptyLike(mesh);
+    MeshArrays block = EmptyLike(mesh);
     for (std::size_t p = 0; p < newId.size(); ++p)
     {
-      newId[p] = newId[p] < 0 ? -1 : block.addPoint(mesh, p);
+      newId[p] = newId[p] < 0 ? -1 : block.AddPoint(mesh, p);
     }
     for (const std::size_t c : own)
     {
-      block.addCell(mesh, c);
+      block.AddCell(mesh, c);
       for (vtkIdType& id : block.Cells.back().Ids)
       {
         id = newId[static_cast<std::size_t>(id)];
@@ -208,19 +208,19 @@ std::vector<MeshArrays> splitMesh(const MeshArrays& mesh, int parts, RandomNumbe
 }
 
 //------------------------------------------------------------------------------
-MeshArrays appendMeshes(const std::vector<MeshArrays>& meshes)
+MeshArrays AppendMeshes(const std::vector<MeshArrays>& meshes)
 {
-  MeshArrays result = emptyLike(meshes.front());
+  MeshArrays result = EmptyLike(meshes.front());
   for (const MeshArrays& mesh : meshes)
   {
     const auto shift = static_cast<vtkIdType>(result.Points.size());
     for (std::size_t p = 0; p < mesh.Points.size(); ++p)
     {
-      result.addPoint(mesh, p);
+      result.AddPoint(mesh, p);
     }
     for (std::size_t c = 0; c < mesh.Cells.size(); ++c)
     {
-      result.addCell(mesh, c);
+      result.AddCell(mesh, c);
       for (vtkIdType& id : result.Cells.back().Ids)
       {
         id += shift;
@@ -231,7 +231,7 @@ MeshArrays appendMeshes(const std::vector<MeshArrays>& meshes)
 }
 
 //------------------------------------------------------------------------------
-void divideTetrahedra(MeshArrays& mesh, int parts)
+void DivideTetrahedra(MeshArrays& mesh, int parts)
 {
   const MeshArrays before = mesh;
   mesh.Cells.clear();
@@ -243,18 +243,18 @@ void divideTetrahedra(MeshArrays& mesh, int parts)
     std::vector<std::vector<vtkIdType>> pieces;
     if (parts == 4)
     {
-      const vtkIdType m = middles.of(v);
+      const vtkIdType m = middles.Of(v);
       pieces = { { m, v[1], v[2], v[3] }, { v[0], m, v[2], v[3] }, { v[0], v[1], m, v[3] },
         { v[0], v[1], v[2], m } };
     }
     else
     {
-      const vtkIdType a = middles.of({ v[0], v[1] });
-      const vtkIdType b = middles.of({ v[0], v[2] });
-      const vtkIdType d = middles.of({ v[0], v[3] });
-      const vtkIdType e = middles.of({ v[1], v[2] });
-      const vtkIdType f = middles.of({ v[1], v[3] });
-      const vtkIdType g = middles.of({ v[2], v[3] });
+      const vtkIdType a = middles.Of({ v[0], v[1] });
+      const vtkIdType b = middles.Of({ v[0], v[2] });
+      const vtkIdType d = middles.Of({ v[0], v[3] });
+      const vtkIdType e = middles.Of({ v[1], v[2] });
+      const vtkIdType f = middles.Of({ v[1], v[3] });
+      const vtkIdType g = middles.Of({ v[2], v[3] });
       // Corners, then the octahedron between them about its axis from a to g.
       pieces = { { v[0], a, b, d }, { a, v[1], e, f }, { b, e, v[2], g }, { d, f, g, v[3] },
         { a, g, b, d }, { a, g, d, f }, { a, g, f, e }, { a, g, e, b } };
@@ -264,7 +264,7 @@ void divideTetrahedra(MeshArrays& mesh, int parts)
       mesh.Cells.push_back({ VTK_TETRA, piece });
       if (mesh.OnCells)
       {
-        mesh.addTuple(before, c);
+        mesh.AddTuple(before, c);
       }
     }
   }
@@ -280,7 +280,7 @@ struct SecondOrder
   std::vector<std::vector<int>> Middles;
 };
 
-SecondOrder secondOrderOf(int type, RandomNumbers& random)
+SecondOrder SecondOrderOf(int type, RandomNumbers& random)
 {
   if (type == VTK_TETRA)
   {
@@ -296,7 +296,7 @@ SecondOrder secondOrderOf(int type, RandomNumbers& random)
     SecondOrder cell{ VTK_QUADRATIC_WEDGE,
       { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 3, 4 }, { 4, 5 }, { 5, 3 }, { 0, 3 }, { 1, 4 },
         { 2, 5 } } };
-    if (random.below(2))
+    if (random.Below(2))
     {
       cell.Type = VTK_BIQUADRATIC_QUADRATIC_WEDGE;
       cell.Middles.insert(cell.Middles.end(), { { 0, 1, 4, 3 }, { 1, 2, 5, 4 }, { 2, 0, 3, 5 } });
@@ -306,7 +306,7 @@ SecondOrder secondOrderOf(int type, RandomNumbers& random)
   SecondOrder cell{ VTK_QUADRATIC_HEXAHEDRON,
     { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 }, { 0, 4 },
       { 1, 5 }, { 2, 6 }, { 3, 7 } } };
-  const int points = random.below(3);
+  const int points = random.Below(3);
   if (points > 0)
   {
     cell.Type = VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON;
@@ -325,12 +325,12 @@ SecondOrder secondOrderOf(int type, RandomNumbers& random)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void makeQuadratic(MeshArrays& mesh, RandomNumbers& random)
+void MakeQuadratic(MeshArrays& mesh, RandomNumbers& random)
 {
   MiddlePoints middles(mesh);
   for (MeshCell& cell : mesh.Cells)
   {
-    const SecondOrder order = secondOrderOf(cell.Type, random);
+    const SecondOrder order = SecondOrderOf(cell.Type, random);
     cell.Type = order.Type;
     const std::vector<vtkIdType> corners = cell.Ids;
     for (const std::vector<int>& places : order.Middles)
@@ -340,21 +340,21 @@ void makeQuadratic(MeshArrays& mesh, RandomNumbers& random)
       {
         ids.push_back(corners[static_cast<std::size_t>(place)]);
       }
-      cell.Ids.push_back(middles.of(ids));
+      cell.Ids.push_back(middles.Of(ids));
     }
   }
 }
 
 //------------------------------------------------------------------------------
-MeshArrays makeRectilinearCells(RandomNumbers& random)
+MeshArrays MakeRectilinearCells(RandomNumbers& random)
 {
   std::array<std::vector<double>, 3> at;
   for (std::vector<double>& places : at)
   {
-    const int count = 2 + random.below(5);
+    const int count = 2 + random.Below(5);
     for (int i = 0; i < count; ++i)
     {
-      places.push_back(-1.0 + 2.0 * (i + 0.4 * random.uniform()) / count);
+      places.push_back(-1.0 + 2.0 * (i + 0.4 * random.Uniform()) / count);
     }
   }
   MeshArrays mesh;
@@ -370,7 +370,7 @@ MeshArrays makeRectilinearCells(RandomNumbers& random)
       }
     }
   }
-  const bool voxels = random.below(2) == 0;
+  const bool voxels = random.Below(2) == 0;
   for (vtkIdType k = 0; k + 1 < n[2]; ++k)
   {
     for (vtkIdType j = 0; j + 1 < n[1]; ++j)
@@ -391,7 +391,7 @@ MeshArrays makeRectilinearCells(RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkRectilinearGrid> toRectilinear(const MeshArrays& mesh)
+vtkSmartPointer<vtkRectilinearGrid> ToRectilinear(const MeshArrays& mesh)
 {
   auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
   int dimensions[3];
@@ -415,7 +415,7 @@ vtkSmartPointer<vtkRectilinearGrid> toRectilinear(const MeshArrays& mesh)
                   : grid->SetZCoordinates(coordinates);
   }
   grid->SetDimensions(dimensions);
-  const Grid cells = toGrid(mesh);
+  const Grid cells = ToGrid(mesh);
   if (mesh.OnCells)
   {
     grid->GetCellData()->SetScalars(cells->GetCellData()->GetScalars());
@@ -428,13 +428,13 @@ vtkSmartPointer<vtkRectilinearGrid> toRectilinear(const MeshArrays& mesh)
 }
 
 //------------------------------------------------------------------------------
-void setRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumbers& random)
+void SetRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumbers& random)
 {
-  setRandomFields(mesh, other.Components, false, random);
+  SetRandomFields(mesh, other.Components, false, random);
   for (int c = 0; c < other.Components; ++c)
   {
-    const auto from = mesh.range(c);
-    const auto to = other.range(c);
+    const auto from = mesh.MakeRange(c);
+    const auto to = other.MakeRange(c);
     const double width = from[1] > from[0] ? from[1] - from[0] : 1.0;
     for (std::size_t i = 0; i < mesh.Points.size(); ++i)
     {
@@ -444,7 +444,7 @@ void setRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumber
   }
   if (other.OnCells)
   {
-    moveToCells(mesh);
+    MoveToCells(mesh);
   }
 }
 

@@ -21,49 +21,49 @@ namespace test
 {
 
 template <typename Sequence>
-void shuffle(Sequence& sequence, RandomNumbers& random)
+void Shuffle(Sequence& sequence, RandomNumbers& random)
 {
   for (std::size_t i = sequence.size(); i > 1; --i)
   {
-    std::swap(sequence[i - 1], sequence[random.below(static_cast<int>(i))]);
+    std::swap(sequence[i - 1], sequence[random.Below(static_cast<int>(i))]);
   }
 }
 
-void shuffleCells(MeshArrays& mesh, RandomNumbers& random);
+void ShuffleCells(MeshArrays& mesh, RandomNumbers& random);
 /** Permutes the vertices of each tetrahedron, half of them to the other orientation. */
-void turnCells(MeshArrays& mesh, RandomNumbers& random);
-void shufflePoints(MeshArrays& mesh, RandomNumbers& random);
+void TurnCells(MeshArrays& mesh, RandomNumbers& random);
+void ShufflePoints(MeshArrays& mesh, RandomNumbers& random);
 
 /** Appends points that no cell uses, within the bounds. */
-void addIdlePoints(MeshArrays& mesh, RandomNumbers& random);
+void AddIdlePoints(MeshArrays& mesh, RandomNumbers& random);
 
 /** Gives every cell its own points, numbered in the order that they had within the cell. */
-void unsharePoints(MeshArrays& mesh);
+void UnsharePoints(MeshArrays& mesh);
 
 /** Random parts of the cells, each with its own points only, in the order that they had. */
-std::vector<MeshArrays> splitMesh(const MeshArrays& mesh, int parts, RandomNumbers& random);
+std::vector<MeshArrays> SplitMesh(const MeshArrays& mesh, int parts, RandomNumbers& random);
 
 /** Concatenates meshes and renumbers their points. */
-MeshArrays appendMeshes(const std::vector<MeshArrays>& meshes);
+MeshArrays AppendMeshes(const std::vector<MeshArrays>& meshes);
 
 /** Divides each tetrahedron in 4 at its middle, or in 8 at the middles of its edges. */
-void divideTetrahedra(MeshArrays& mesh, int parts);
+void DivideTetrahedra(MeshArrays& mesh, int parts);
 
 /**
  * Converts tetrahedra, hexahedra, wedges and pyramids to quadratic cells with straight edges;
  * hexahedra get 20 or 27 points at random, and so on.
  */
-void makeQuadratic(MeshArrays& mesh, RandomNumbers& random);
+void MakeQuadratic(MeshArrays& mesh, RandomNumbers& random);
 
 /** The cells of a rectilinear grid as hexahedra or voxels, without values. */
-MeshArrays makeRectilinearCells(RandomNumbers& random);
+MeshArrays MakeRectilinearCells(RandomNumbers& random);
 /** The grid to which these cells belong, with their values. */
-vtkSmartPointer<vtkRectilinearGrid> toRectilinear(const MeshArrays& mesh);
+vtkSmartPointer<vtkRectilinearGrid> ToRectilinear(const MeshArrays& mesh);
 
 /**
  * Sets random fields with the number of components and the association of those of another mesh.
  */
-void setRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumbers& random);
+void SetRandomFieldsLike(MeshArrays& mesh, const MeshArrays& other, RandomNumbers& random);
 
 } // namespace test
 } // namespace meniscus

@@ -29,13 +29,13 @@ namespace
 using PointField = std::function<double(const glm::dvec3&)>;
 
 // A field in about the box [-1, 1]^3: linear, waves, a peak, a radius, steps.
-PointField randomField(bool linear, RandomNumbers& random)
+PointField RandomField(bool linear, RandomNumbers& random)
 {
-  const glm::dvec3 slope = random.uniform(0.5, 2.0) * random.direction();
-  const glm::dvec3 place = 0.7 * random.direction();
-  const double frequency = random.uniform(1.0, 5.0);
-  const double base = random.uniform(-1.0, 1.0);
-  switch (linear ? 0 : random.below(6))
+  const glm::dvec3 slope = random.Uniform(0.5, 2.0) * random.GetDirection();
+  const glm::dvec3 place = 0.7 * random.GetDirection();
+  const double frequency = random.Uniform(1.0, 5.0);
+  const double base = random.Uniform(-1.0, 1.0);
+  switch (linear ? 0 : random.Below(6))
   {
     case 0:
       return [=](const glm::dvec3& p) { return base + glm::dot(slope, p); };
@@ -57,19 +57,19 @@ PointField randomField(bool linear, RandomNumbers& random)
   }
 }
 
-MeshArrays fromGrid(vtkUnstructuredGrid* grid)
+MeshArrays FromGrid(vtkUnstructuredGrid* grid)
 {
-  return toArrays(grid);
+  return ToArrays(grid);
 }
 
-MeshArrays randomPoints(RandomNumbers& random)
+MeshArrays RandomPoints(RandomNumbers& random)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  const int count = 12 + random.below(150);
+  const int count = 12 + random.Below(150);
   for (int i = 0; i < count; ++i)
   {
-    const double x[3] = { random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1) };
+    const double x[3] = { random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1) };
     points->InsertNextPoint(x);
   }
   vtkNew<vtkPolyData> cloud;
@@ -115,7 +115,7 @@ public:
     }
   }
 
-  std::array<vtkIdType, 8> corners(int cube) const
+  std::array<vtkIdType, 8> MakeCorners(int cube) const
   {
     const int i = cube % this->N;
     const int j = cube / this->N % this->N;
@@ -126,22 +126,22 @@ public:
       id(i + 1, j, k + 1), id(i + 1, j + 1, k + 1), id(i, j + 1, k + 1) };
   }
 
-  void addHexahedron(int cube)
+  void AddHexahedron(int cube)
   {
-    const auto c = this->corners(cube);
+    const auto c = this->MakeCorners(cube);
     this->Mesh.Cells.push_back({ VTK_HEXAHEDRON, { c.begin(), c.end() } });
   }
 
-  void addWedges(int cube)
+  void AddWedges(int cube)
   {
-    const auto c = this->corners(cube);
+    const auto c = this->MakeCorners(cube);
     this->Mesh.Cells.push_back({ VTK_WEDGE, { c[0], c[1], c[2], c[4], c[5], c[6] } });
     this->Mesh.Cells.push_back({ VTK_WEDGE, { c[0], c[2], c[3], c[4], c[6], c[7] } });
   }
 
-  void addPyramids(int cube)
+  void AddPyramids(int cube)
   {
-    const auto c = this->corners(cube);
+    const auto c = this->MakeCorners(cube);
     glm::dvec3 middle(0.0);
     for (const vtkIdType id : c)
     {
@@ -162,58 +162,58 @@ public:
 };
 
 // Wedges in whole columns, so that their triangles match.
-MeshArrays cubes(MeshFamily family, RandomNumbers& random)
+MeshArrays MakeCubes(MeshFamily family, RandomNumbers& random)
 {
-  const int n = 1 + random.below(5);
+  const int n = 1 + random.Below(5);
   CubeBlock block(n);
-  const bool holes = random.below(4) == 0;
+  const bool holes = random.Below(4) == 0;
   std::vector<int> column(static_cast<std::size_t>(n * n));
   for (int& kind : column)
   {
-    kind = random.below(3);
+    kind = random.Below(3);
   }
   for (int cube = 0; cube < n * n * n; ++cube)
   {
-    if (holes && cube > 0 && random.below(4) == 0)
+    if (holes && cube > 0 && random.Below(4) == 0)
     {
       continue;
     }
     const bool wedges = column[static_cast<std::size_t>(cube % (n * n))] == 0;
     if (family == MeshFamily::Wedges || (family == MeshFamily::Mixed && wedges))
     {
-      block.addWedges(cube);
+      block.AddWedges(cube);
     }
-    else if (family == MeshFamily::Pyramids || (family == MeshFamily::Mixed && random.below(2)))
+    else if (family == MeshFamily::Pyramids || (family == MeshFamily::Mixed && random.Below(2)))
     {
-      block.addPyramids(cube);
+      block.AddPyramids(cube);
     }
     else
     {
-      block.addHexahedron(cube);
+      block.AddHexahedron(cube);
     }
   }
   return block.Mesh;
 }
 
 // Moves points inside the box by up to a fraction of a cell.
-void shake(MeshArrays& mesh, double amount, RandomNumbers& random)
+void Shake(MeshArrays& mesh, double amount, RandomNumbers& random)
 {
   for (glm::dvec3& p : mesh.Points)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      p[axis] += random.uniform(-amount, amount);
+      p[axis] += random.Uniform(-amount, amount);
     }
   }
 }
 
 // A random affine map about the origin that changes lengths by at most a factor of 2.
-void shear(MeshArrays& mesh, RandomNumbers& random)
+void Shear(MeshArrays& mesh, RandomNumbers& random)
 {
   glm::dmat3 map(1.0);
   for (int column = 0; column < 3; ++column)
   {
-    map[column] += 0.25 * random.direction();
+    map[column] += 0.25 * random.GetDirection();
   }
   for (glm::dvec3& p : mesh.Points)
   {
@@ -221,14 +221,14 @@ void shear(MeshArrays& mesh, RandomNumbers& random)
   }
 }
 
-MeshArrays graded(RandomNumbers& random)
+MeshArrays Graded(RandomNumbers& random)
 {
-  const int n = 4 + random.below(5);
-  const Grid grid = makeBlock(n, constantField(0.0));
-  jitter(grid, 0.15 / n, static_cast<unsigned int>(random.bits()));
-  MeshArrays mesh = fromGrid(grid);
+  const int n = 4 + random.Below(5);
+  const Grid grid = MakeBlock(n, ConstantField(0.0));
+  Jitter(grid, 0.15 / n, static_cast<unsigned int>(random.Bits()));
+  MeshArrays mesh = FromGrid(grid);
   // The size of the first of n cells is n^-power of the domain: down to 1 / 30,000.
-  const double power = random.uniform(1.5, std::log(3e4) / std::log(n));
+  const double power = random.Uniform(1.5, std::log(3e4) / std::log(n));
   for (glm::dvec3& p : mesh.Points)
   {
     for (int axis = 0; axis < 3; ++axis)
@@ -240,18 +240,18 @@ MeshArrays graded(RandomNumbers& random)
   return mesh;
 }
 
-MeshArrays slivers(RandomNumbers& random)
+MeshArrays Slivers(RandomNumbers& random)
 {
-  const int n = 3 + random.below(4);
-  if (random.below(2))
+  const int n = 3 + random.Below(4);
+  if (random.Below(2))
   {
-    return fromGrid(makeLayeredBlock(n, std::pow(10.0, random.uniform(-4.0, -1.0))));
+    return FromGrid(MakeLayeredBlock(n, std::pow(10.0, random.Uniform(-4.0, -1.0))));
   }
-  const Grid grid = makeBlock(n, constantField(0.0));
-  jitter(grid, 0.2 / n, static_cast<unsigned int>(random.bits()));
-  const int axis = random.below(3);
-  const double factor = std::pow(10.0, random.uniform(-4.0, -1.0));
-  MeshArrays mesh = fromGrid(grid);
+  const Grid grid = MakeBlock(n, ConstantField(0.0));
+  Jitter(grid, 0.2 / n, static_cast<unsigned int>(random.Bits()));
+  const int axis = random.Below(3);
+  const double factor = std::pow(10.0, random.Uniform(-4.0, -1.0));
+  MeshArrays mesh = FromGrid(grid);
   for (glm::dvec3& p : mesh.Points)
   {
     p[axis] *= factor;
@@ -259,20 +259,20 @@ MeshArrays slivers(RandomNumbers& random)
   return mesh;
 }
 
-MeshArrays parts(RandomNumbers& random)
+MeshArrays GetParts(RandomNumbers& random)
 {
-  const Region regions[4] = { lShape(), shell(0.4, 1.2), torus(0.6, 0.35), twoBlocks(0.6) };
-  const int n = 5 + random.below(4);
-  const Grid grid = makeBlock(n, constantField(0.0), regions[random.below(4)]);
-  jitter(grid, 0.2 / n, static_cast<unsigned int>(random.bits()));
-  return fromGrid(grid);
+  const Region regions[4] = { LShape(), Shell(0.4, 1.2), Torus(0.6, 0.35), TwoBlocks(0.6) };
+  const int n = 5 + random.Below(4);
+  const Grid grid = MakeBlock(n, ConstantField(0.0), regions[random.Below(4)]);
+  Jitter(grid, 0.2 / n, static_cast<unsigned int>(random.Bits()));
+  return FromGrid(grid);
 }
 
 // Moves the centre of the bounds to the origin and scales the longest side to 2.
-void normalise(MeshArrays& mesh)
+void Normalise(MeshArrays& mesh)
 {
   double b[6];
-  mesh.bounds(b);
+  mesh.GetBounds(b);
   const glm::dvec3 center = 0.5 * glm::dvec3(b[0] + b[1], b[2] + b[3], b[4] + b[5]);
   const double side = std::max({ b[1] - b[0], b[3] - b[2], b[5] - b[4] });
   for (glm::dvec3& p : mesh.Points)
@@ -281,14 +281,14 @@ void normalise(MeshArrays& mesh)
   }
 }
 
-bool takeData(FamilyMesh& result, RandomNumbers& random)
+bool TakeData(FamilyMesh& result, RandomNumbers& random)
 {
   const char* const names[3] = { "blunt_fin", "combustor", "crushed_can" };
-  const char* const name = names[random.below(3)];
+  const char* const name = names[random.Below(3)];
   static std::map<std::string, Grid> read; // reading takes longer than drawing
   if (read.count(name) == 0)
   {
-    read[name] = readDataMesh(name);
+    read[name] = ReadDataMesh(name);
   }
   if (!read[name] || !read[name]->GetPointData()->GetScalars() ||
     read[name]->GetPointData()->GetScalars()->GetNumberOfComponents() != 1)
@@ -296,19 +296,19 @@ bool takeData(FamilyMesh& result, RandomNumbers& random)
     return false;
   }
   result.Name = name;
-  result.Mesh = toArrays(read[name]);
-  normalise(result.Mesh);
+  result.Mesh = ToArrays(read[name]);
+  Normalise(result.Mesh);
   return true;
 }
 
-const char* nameOf(MeshFamily family)
+const char* NameOf(MeshFamily family)
 {
   const char* const names[] = { "random points", "hexahedra", "wedges", "pyramids", "mixed cells",
     "slivers", "graded", "parts", "random", "data" };
   return names[static_cast<int>(family)];
 }
 
-void makeMesh(MeshFamily family, FamilyMesh& result, bool linear, RandomNumbers& random)
+void MakeMesh(MeshFamily family, FamilyMesh& result, bool linear, RandomNumbers& random)
 {
   switch (family)
   {
@@ -316,46 +316,46 @@ void makeMesh(MeshFamily family, FamilyMesh& result, bool linear, RandomNumbers&
     case MeshFamily::Wedges:
     case MeshFamily::Pyramids:
     case MeshFamily::Mixed:
-      result.Mesh = cubes(family, random);
-      if (linear || random.below(2))
+      result.Mesh = MakeCubes(family, random);
+      if (linear || random.Below(2))
       {
-        shear(result.Mesh, random);
+        Shear(result.Mesh, random);
       }
       else
       {
         // A cube split in five has 0.4; less than a sixth inverts no tetrahedron.
-        shake(result.Mesh, 0.06, random);
+        Shake(result.Mesh, 0.06, random);
       }
       return;
     case MeshFamily::Slivers:
-      result.Mesh = slivers(random);
+      result.Mesh = Slivers(random);
       return;
     case MeshFamily::Graded:
-      result.Mesh = graded(random);
+      result.Mesh = Graded(random);
       return;
     case MeshFamily::Parts:
-      result.Mesh = parts(random);
+      result.Mesh = GetParts(random);
       return;
     case MeshFamily::Random:
-      result.Mesh = toArrays(makeRandomMesh(random));
-      normalise(result.Mesh);
+      result.Mesh = ToArrays(MakeRandomMesh(random));
+      Normalise(result.Mesh);
       return;
     default:
-      result.Mesh = randomPoints(random);
+      result.Mesh = RandomPoints(random);
   }
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-void setRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumbers& random)
+void SetRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumbers& random)
 {
   std::vector<PointField> fields;
   for (int c = 0; c < components; ++c)
   {
-    fields.push_back(randomField(linear, random));
+    fields.push_back(RandomField(linear, random));
   }
-  const double noise = !linear && random.below(4) == 0 ? 0.5 : 0.0;
+  const double noise = !linear && random.Below(4) == 0 ? 0.5 : 0.0;
   mesh.Components = components;
   mesh.OnCells = false;
   mesh.Values.clear();
@@ -363,13 +363,13 @@ void setRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumber
   {
     for (const PointField& field : fields)
     {
-      mesh.Values.push_back(field(p) + noise * random.uniform(-1.0, 1.0));
+      mesh.Values.push_back(field(p) + noise * random.Uniform(-1.0, 1.0));
     }
   }
 }
 
 //------------------------------------------------------------------------------
-void moveToCells(MeshArrays& mesh)
+void MoveToCells(MeshArrays& mesh)
 {
   std::vector<double> values;
   for (const MeshCell& cell : mesh.Cells)
@@ -379,7 +379,7 @@ void moveToCells(MeshArrays& mesh)
       double sum = 0.0;
       for (const vtkIdType id : cell.Ids)
       {
-        sum += mesh.value(static_cast<std::size_t>(id), c);
+        sum += mesh.GetValue(static_cast<std::size_t>(id), c);
       }
       values.push_back(sum / static_cast<double>(cell.Ids.size()));
     }
@@ -389,23 +389,23 @@ void moveToCells(MeshArrays& mesh)
 }
 
 //------------------------------------------------------------------------------
-MeshFamily randomFamily(RandomNumbers& random)
+MeshFamily RandomFamily(RandomNumbers& random)
 {
-  return random.below(30) == 0 ? MeshFamily::Data : static_cast<MeshFamily>(random.below(9));
+  return random.Below(30) == 0 ? MeshFamily::Data : static_cast<MeshFamily>(random.Below(9));
 }
 
 //------------------------------------------------------------------------------
-FamilyMesh makeFamilyMesh(MeshFamily family, bool linear, RandomNumbers& random)
+FamilyMesh MakeFamilyMesh(MeshFamily family, bool linear, RandomNumbers& random)
 {
   FamilyMesh result;
-  result.Name = nameOf(family);
+  result.Name = NameOf(family);
   result.Linear = linear;
-  if (family == MeshFamily::Data && !linear && takeData(result, random))
+  if (family == MeshFamily::Data && !linear && TakeData(result, random))
   {
     return result;
   }
-  makeMesh(family, result, linear, random);
-  setRandomFields(result.Mesh, 1, linear, random);
+  MakeMesh(family, result, linear, random);
+  SetRandomFields(result.Mesh, 1, linear, random);
   return result;
 }
 

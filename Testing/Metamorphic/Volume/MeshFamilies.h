@@ -27,7 +27,7 @@ struct FamilyMesh
   bool UnitBox = true;
 };
 
-/** Kinds of meshes that randomMesh() chooses from. */
+/** Kinds of meshes that RandomMesh() chooses from. */
 enum class MeshFamily
 {
   RandomPoints, ///< Delaunay's tetrahedra of random points
@@ -46,16 +46,16 @@ enum class MeshFamily
  * A mesh of a family with a random field.
  * @param linear a linear field, and no moved points where faces would not stay planar.
  */
-FamilyMesh makeFamilyMesh(MeshFamily family, bool linear, RandomNumbers& random);
+FamilyMesh MakeFamilyMesh(MeshFamily family, bool linear, RandomNumbers& random);
 
 /** A random family: data meshes once in 30, the others equally often. */
-MeshFamily randomFamily(RandomNumbers& random);
+MeshFamily RandomFamily(RandomNumbers& random);
 
 /** Replaces the values by random fields, one per component, linear or not. */
-void setRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumbers& random);
+void SetRandomFields(MeshArrays& mesh, int components, bool linear, RandomNumbers& random);
 
 /** Moves the values of a mesh's points to its cells: the mean of each cell's points. */
-void moveToCells(MeshArrays& mesh);
+void MoveToCells(MeshArrays& mesh);
 
 } // namespace test
 } // namespace meniscus

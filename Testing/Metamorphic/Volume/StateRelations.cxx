@@ -52,45 +52,45 @@ struct Edit
   std::function<void(vtkUnstructuredGrid*, const VolumeCase&, Notice)> Apply;
 };
 
-void spoilValues(VolumeCase& test, RandomNumbers& random)
+void SpoilValues(VolumeCase& test, RandomNumbers& random)
 {
-  for (double& value : test.mesh().Values)
+  for (double& value : test.MakeMesh().Values)
   {
-    value += random.uniform(-0.5, 0.5);
+    value += random.Uniform(-0.5, 0.5);
   }
 }
 
 // Shrinks the mesh about its middle. It stays in view: if only the grid receives Modified(),
 // vtkPoints keeps its old bounds, and the renderer culls by them.
-void spoilPoints(VolumeCase& test, RandomNumbers&)
+void SpoilPoints(VolumeCase& test, RandomNumbers&)
 {
   double b[6];
-  test.mesh().bounds(b);
+  test.MakeMesh().GetBounds(b);
   const glm::dvec3 center = 0.5 * glm::dvec3(b[0] + b[1], b[2] + b[3], b[4] + b[5]);
-  for (glm::dvec3& p : test.mesh().Points)
+  for (glm::dvec3& p : test.MakeMesh().Points)
   {
     p = center + 0.8 * (p - center);
   }
 }
 
 // Makes every third cell one without a volume.
-void spoilCells(VolumeCase& test, RandomNumbers&)
+void SpoilCells(VolumeCase& test, RandomNumbers&)
 {
-  for (std::size_t c = 0; c < test.mesh().Cells.size(); c += 3)
+  for (std::size_t c = 0; c < test.MakeMesh().Cells.size(); c += 3)
   {
-    std::vector<vtkIdType>& ids = test.mesh().Cells[c].Ids;
+    std::vector<vtkIdType>& ids = test.MakeMesh().Cells[c].Ids;
     std::fill(ids.begin(), ids.end(), ids.front());
   }
 }
 
-void editValues(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice notice)
+void EditValues(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice notice)
 {
-  const MeshArrays& mesh = wanted.mesh();
+  const MeshArrays& mesh = wanted.MakeMesh();
   vtkDataSetAttributes* owner = mesh.OnCells
     ? static_cast<vtkDataSetAttributes*>(grid->GetCellData())
     : static_cast<vtkDataSetAttributes*>(grid->GetPointData());
   vtkDataArray* array = owner->GetScalars();
-  for (std::size_t i = 0; i < mesh.tuples(); ++i)
+  for (std::size_t i = 0; i < mesh.Tuples(); ++i)
   {
     array->SetTuple(static_cast<vtkIdType>(i), &mesh.Values[i * std::size_t(mesh.Components)]);
   }
@@ -98,22 +98,22 @@ void editValues(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice noti
   told[static_cast<int>(notice)]->Modified();
 }
 
-void editPoints(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice notice)
+void EditPoints(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice notice)
 {
   vtkPoints* points = grid->GetPoints();
-  for (std::size_t i = 0; i < wanted.mesh().Points.size(); ++i)
+  for (std::size_t i = 0; i < wanted.MakeMesh().Points.size(); ++i)
   {
-    points->GetData()->SetTuple(static_cast<vtkIdType>(i), &wanted.mesh().Points[i][0]);
+    points->GetData()->SetTuple(static_cast<vtkIdType>(i), &wanted.MakeMesh().Points[i][0]);
   }
   vtkObject* const told[3] = { points->GetData(), points, grid };
   told[static_cast<int>(notice)]->Modified();
 }
 
-void editCells(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice notice)
+void EditCells(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice notice)
 {
   vtkTypeInt64Array* ids = grid->GetCells()->GetConnectivityArray64();
   vtkIdType at = 0;
-  for (const MeshCell& cell : wanted.mesh().Cells)
+  for (const MeshCell& cell : wanted.MakeMesh().Cells)
   {
     for (const vtkIdType id : cell.Ids)
     {
@@ -126,7 +126,7 @@ void editCells(vtkUnstructuredGrid* grid, const VolumeCase& wanted, Notice notic
   told[static_cast<int>(notice)]->Modified();
 }
 
-VolumeRelation editRelation(const Edit& edit)
+VolumeRelation EditRelation(const Edit& edit)
 {
   CaseNeeds needs;
   needs.Small = true;
@@ -135,13 +135,13 @@ VolumeRelation editRelation(const Edit& edit)
     {
       for (int notice = 0; notice < 3; ++notice)
       {
-        trial.picture();
-        VolumeCase spoilt = trial.scene();
-        edit.Spoil(spoilt, trial.random());
-        trial.stage().draw(spoilt);
-        edit.Apply(trial.stage().grid(), trial.scene(), static_cast<Notice>(notice));
-        trial.expectSame(
-          trial.stage().render(), std::string(edit.Name) + " told by " + NoticeNames[notice]);
+        trial.MakePicture();
+        VolumeCase spoilt = trial.MakeScene();
+        edit.Spoil(spoilt, trial.MakeRandom());
+        trial.GetStage().Draw(spoilt);
+        edit.Apply(trial.GetStage().MakeGrid(), trial.MakeScene(), static_cast<Notice>(notice));
+        trial.ExpectSame(
+          trial.GetStage().Render(), std::string(edit.Name) + " told by " + NoticeNames[notice]);
       }
     },
     nullptr };
@@ -149,109 +149,110 @@ VolumeRelation editRelation(const Edit& edit)
 
 //------------------------------------------------------------------------------
 // Control points moved in the property's own objects.
-void checkEditedFunctions(VolumeTrial& trial)
+void CheckEditedFunctions(VolumeTrial& trial)
 {
-  trial.picture();
-  VolumeCase other = trial.scene();
+  trial.MakePicture();
+  VolumeCase other = trial.MakeScene();
   for (LookFunction& function : other.Look.Functions)
   {
     std::reverse(function.Color.begin(), function.Color.end());
     for (auto& point : function.Opacity)
     {
-      point.Opacity *= trial.random().uniform();
+      point.Opacity *= trial.MakeRandom().Uniform();
     }
   }
-  trial.stage().draw(other);
-  vtkVolumeProperty* property = trial.stage().scene().volume()->GetProperty();
-  const auto wanted = toProperty(trial.scene().Look);
-  for (int c = 0; c < static_cast<int>(trial.scene().Look.Functions.size()); ++c)
+  trial.GetStage().Draw(other);
+  vtkVolumeProperty* property = trial.GetStage().MakeScene().GetVolume()->GetProperty();
+  const auto wanted = ToProperty(trial.MakeScene().Look);
+  for (int c = 0; c < static_cast<int>(trial.MakeScene().Look.Functions.size()); ++c)
   {
     property->GetScalarOpacity(c)->DeepCopy(wanted->GetScalarOpacity(c));
     property->GetRGBTransferFunction(c)->DeepCopy(wanted->GetRGBTransferFunction(c));
   }
-  trial.expectSame(trial.stage().render(), "functions edited");
+  trial.ExpectSame(trial.GetStage().Render(), "functions edited");
 }
 
 //------------------------------------------------------------------------------
 // The mapper draws something else, and then the scene again.
-void checkLaterFrames(VolumeTrial& trial)
+void CheckLaterFrames(VolumeTrial& trial)
 {
-  trial.picture();
-  VolumeStage& stage = trial.stage();
-  const VolumeCase& scene = trial.scene();
-  stage.draw(scene);
-  vtkTetrahedraRayCastMapper* mapper = stage.mapper();
-  VolumeScene& window = stage.scene();
+  trial.MakePicture();
+  VolumeStage& stage = trial.GetStage();
+  const VolumeCase& scene = trial.MakeScene();
+  stage.Draw(scene);
+  vtkTetrahedraRayCastMapper* mapper = stage.GetMapper();
+  VolumeScene& window = stage.MakeScene();
   const auto again = [&](const char* words)
   {
-    stage.render();
-    scene.View.applyTo(window.renderer());
-    trial.expectSame(stage.render(), words);
+    stage.Render();
+    scene.View.ApplyTo(window.GetRenderer());
+    trial.ExpectSame(stage.Render(), words);
   };
-  trial.expectSame(stage.render(), "second frame");
+  trial.ExpectSame(stage.Render(), "second frame");
 
   VolumeView elsewhere = scene.View;
-  elsewhere.Eye += 0.2 * glm::distance(elsewhere.Eye, elsewhere.Focus) * trial.random().direction();
-  elsewhere.applyTo(window.renderer());
+  elsewhere.Eye +=
+    0.2 * glm::distance(elsewhere.Eye, elsewhere.Focus) * trial.MakeRandom().GetDirection();
+  elsewhere.ApplyTo(window.GetRenderer());
   again("camera moved and back");
 
   VolumeLook other = scene.Look;
-  mapScalars(other, 1.0, 0.2, 1.0);
-  const vtkSmartPointer<vtkVolumeProperty> property = window.volume()->GetProperty();
-  window.setProperty(toProperty(other));
-  stage.render();
-  window.setProperty(property);
+  MapScalars(other, 1.0, 0.2, 1.0);
+  const vtkSmartPointer<vtkVolumeProperty> property = window.GetVolume()->GetProperty();
+  window.SetProperty(ToProperty(other));
+  stage.Render();
+  window.SetProperty(property);
   again("another property and back");
 
-  window.window()->SetSize(31, 57);
-  stage.render();
-  window.window()->SetSize(scene.Size, scene.Size);
+  window.GetWindow()->SetSize(31, 57);
+  stage.Render();
+  window.GetWindow()->SetSize(scene.Size, scene.Size);
   again("another size and back");
 
-  if (scene.mesh().Components == 1)
+  if (scene.MakeMesh().Components == 1)
   {
     mapper->SetBlendMode(scene.Look.Blend == vtkVolumeMapper::AVERAGE_INTENSITY_BLEND
         ? vtkVolumeMapper::COMPOSITE_BLEND
         : vtkVolumeMapper::AVERAGE_INTENSITY_BLEND);
-    stage.render();
+    stage.Render();
     mapper->SetBlendMode(scene.Look.Blend);
     again("another mode and back");
   }
 
   VolumeCase half = scene;
-  half.mesh().Cells.resize(1 + half.mesh().Cells.size() / 2);
-  half.mesh().Values.resize(half.mesh().tuples() * std::size_t(half.mesh().Components));
-  stage.setInput(toGrid(half.mesh(), half.Storage));
-  stage.render();
-  stage.setInput(stage.grid());
+  half.MakeMesh().Cells.resize(1 + half.MakeMesh().Cells.size() / 2);
+  half.MakeMesh().Values.resize(half.MakeMesh().Tuples() * std::size_t(half.MakeMesh().Components));
+  stage.SetInput(ToGrid(half.MakeMesh(), half.Storage));
+  stage.Render();
+  stage.SetInput(stage.MakeGrid());
   again("another mesh and back");
 
   mapper->SetMembraneData(nullptr);
-  stage.render();
+  stage.Render();
   mapper->SetMembraneData(scene.Membrane.Mesh);
   again("no membrane and back");
 
   vtkNew<vtkMatrix4x4> matrix;
   matrix->SetElement(0, 3, 0.1);
   matrix->SetElement(1, 1, 1.2);
-  window.volume()->SetUserMatrix(matrix);
-  stage.render();
-  window.volume()->SetUserMatrix(nullptr);
+  window.GetVolume()->SetUserMatrix(matrix);
+  stage.Render();
+  window.GetVolume()->SetUserMatrix(nullptr);
   again("another matrix and back");
 
   const int usual = scene.Backend;
   mapper->SetBackend(usual == vtkTetrahedraRayCastMapper::NATIVE
       ? vtkTetrahedraRayCastMapper::OPENGL
       : vtkTetrahedraRayCastMapper::NATIVE);
-  stage.render();
+  stage.Render();
   mapper->SetBackend(usual);
   again("another backend and back");
 }
 
 //------------------------------------------------------------------------------
-void checkThreads(VolumeTrial& trial)
+void CheckThreads(VolumeTrial& trial)
 {
-  trial.picture();
+  trial.MakePicture();
   // VTK's own threads are used: TBB's number of threads cannot be raised again once it was lowered.
   const std::string usual = vtkSMPTools::GetBackend();
   vtkSMPTools::SetBackend("STDThread");
@@ -259,8 +260,8 @@ void checkThreads(VolumeTrial& trial)
   {
     vtkSMPTools::Initialize(threads);
     // The same operations on the same numbers: every digit must be equal.
-    trial.expectSame(
-      trial.stage().draw(trial.scene()),
+    trial.ExpectSame(
+      trial.GetStage().Draw(trial.MakeScene()),
       [](int x, int y) {
         return std::array<int, 2>{ x, y };
       },
@@ -271,44 +272,44 @@ void checkThreads(VolumeTrial& trial)
 }
 
 // Compares the image with the double-precision reference, which conditioning computes anyway.
-void checkExact(VolumeTrial& trial)
+void CheckExact(VolumeTrial& trial)
 {
-  FloatImage exact = trial.picture();
+  FloatImage exact = trial.MakePicture();
   for (int y = 0; y < exact.Height; ++y)
   {
     for (int x = 0; x < exact.Width; ++x)
     {
-      const std::array<double, 4> color = trial.exact(x, y);
+      const std::array<double, 4> color = trial.GetExact(x, y);
       std::copy(color.begin(), color.end(), &exact.Rgba[4 * (std::size_t(y) * exact.Width + x)]);
     }
   }
-  trial.expectSame(exact, "the exact picture");
+  trial.ExpectSame(exact, "the exact picture");
 }
 
 // Points on a coarse lattice: cells that are flat, inverted, or in the same place. There is no
 // reference, but the result must be the same.
-void coarsen(VolumeCase& test, RandomNumbers& random)
+void Coarsen(VolumeCase& test, RandomNumbers& random)
 {
-  if (random.below(2))
+  if (random.Below(2))
   {
     return;
   }
   double b[6];
-  test.mesh().bounds(b);
-  const double step = diagonalOf(b) / (8 + random.below(24));
-  for (glm::dvec3& p : test.mesh().Points)
+  test.MakeMesh().GetBounds(b);
+  const double step = DiagonalOf(b) / (8 + random.Below(24));
+  for (glm::dvec3& p : test.MakeMesh().Points)
   {
     p = step * glm::round(p / step);
   }
 }
 
-void checkAgain(VolumeTrial& trial)
+void CheckAgain(VolumeTrial& trial)
 {
-  trial.picture();
+  trial.MakePicture();
   for (int i = 0; i < 2; ++i)
   {
-    trial.expectSame(
-      trial.stage().draw(trial.scene()),
+    trial.ExpectSame(
+      trial.GetStage().Draw(trial.MakeScene()),
       [](int x, int y) {
         return std::array<int, 2>{ x, y };
       },
@@ -316,44 +317,44 @@ void checkAgain(VolumeTrial& trial)
   }
 }
 
-void useNative(VolumeCase& test, RandomNumbers&)
+void UseNative(VolumeCase& test, RandomNumbers&)
 {
   test.Backend = vtkTetrahedraRayCastMapper::NATIVE;
 }
 
-void useShader(VolumeCase& test, RandomNumbers& random)
+void UseShader(VolumeCase& test, RandomNumbers& random)
 {
   test.Backend =
-    random.below(2) ? vtkTetrahedraRayCastMapper::OPENGL : vtkTetrahedraRayCastMapper::COMPUTE;
+    random.Below(2) ? vtkTetrahedraRayCastMapper::OPENGL : vtkTetrahedraRayCastMapper::COMPUTE;
 }
 
-void checkBackends(VolumeTrial& trial)
+void CheckBackends(VolumeTrial& trial)
 {
   const int native = vtkTetrahedraRayCastMapper::NATIVE;
-  VolumeCase changed = trial.scene();
+  VolumeCase changed = trial.MakeScene();
   changed.Backend = native;
-  trial.picture();
+  trial.MakePicture();
   // Each image is within its own tolerance of the exact one.
-  trial.expectSame(
-    trial.stage().draw(changed),
+  trial.ExpectSame(
+    trial.GetStage().Draw(changed),
     [](int x, int y) {
       return std::array<int, 2>{ x, y };
     },
-    plainTolerance(native) + plainTolerance(trial.scene().Backend), "native");
+    PlainTolerance(native) + PlainTolerance(trial.MakeScene().Backend), "native");
 }
 
-void checkCompactTables(VolumeTrial& trial)
+void CheckCompactTables(VolumeTrial& trial)
 {
-  trial.picture();
-  trial.stage().place(trial.scene());
-  trial.stage().mapper()->SetCompactTables(true);
-  trial.expectSame(trial.stage().render(), "compact tables");
+  trial.MakePicture();
+  trial.GetStage().GetPlace(trial.MakeScene());
+  trial.GetStage().GetMapper()->SetCompactTables(true);
+  trial.ExpectSame(trial.GetStage().Render(), "compact tables");
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<VolumeRelation> stateRelations()
+std::vector<VolumeRelation> StateRelations()
 {
   const CaseNeeds any;
   // Lighting in the medium has no exact reference, and the patches of waves are not the waves
@@ -364,16 +365,16 @@ std::vector<VolumeRelation> stateRelations()
   CaseNeeds small;
   small.Small = true;
   return {
-    editRelation({ "values", spoilValues, editValues }),
-    editRelation({ "points", spoilPoints, editPoints }),
-    editRelation({ "cells", spoilCells, editCells }),
-    { "edits in place: functions", 3, any, checkEditedFunctions, nullptr },
-    { "later frames", 4, small, checkLaterFrames, nullptr },
-    { "exact picture", 6, exact, checkExact, nullptr },
-    { "drawn again", 4, any, checkAgain, coarsen },
-    { "threads", 2, any, checkThreads, useNative },
-    { "backends", 8, any, checkBackends, useShader },
-    { "compact tables", 2, any, checkCompactTables, useShader },
+    EditRelation({ "values", SpoilValues, EditValues }),
+    EditRelation({ "points", SpoilPoints, EditPoints }),
+    EditRelation({ "cells", SpoilCells, EditCells }),
+    { "edits in place: functions", 3, any, CheckEditedFunctions, nullptr },
+    { "later frames", 4, small, CheckLaterFrames, nullptr },
+    { "exact picture", 6, exact, CheckExact, nullptr },
+    { "drawn again", 4, any, CheckAgain, Coarsen },
+    { "threads", 2, any, CheckThreads, UseNative },
+    { "backends", 8, any, CheckBackends, UseShader },
+    { "compact tables", 2, any, CheckCompactTables, UseShader },
   };
 }
 

@@ -22,67 +22,67 @@ namespace
 
 // The nearest number in single precision. It goes through memory: GCC 12 drops the rounding of two
 // neighbouring doubles to single precision and back when it vectorises.
-double inSinglePrecision(double value)
+double InSinglePrecision(double value)
 {
   const volatile float rounded = static_cast<float>(value);
   return rounded;
 }
 
 // Rounds points and values to single precision.
-void roundToFloat(VolumeCase& test, RandomNumbers&)
+void RoundToFloat(VolumeCase& test, RandomNumbers&)
 {
-  for (glm::dvec3& p : test.mesh().Points)
+  for (glm::dvec3& p : test.MakeMesh().Points)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      p[axis] = inSinglePrecision(p[axis]);
+      p[axis] = InSinglePrecision(p[axis]);
     }
   }
-  for (double& value : test.mesh().Values)
+  for (double& value : test.MakeMesh().Values)
   {
-    value = inSinglePrecision(value);
+    value = InSinglePrecision(value);
   }
 }
 
 // Rounds values to integers from 0 to 200.
-void roundToWhole(VolumeCase& test, RandomNumbers&)
+void RoundToWhole(VolumeCase& test, RandomNumbers&)
 {
-  MeshArrays& mesh = test.mesh();
-  const auto range = mesh.range(0);
+  MeshArrays& mesh = test.MakeMesh();
+  const auto range = mesh.MakeRange(0);
   const double width = range[1] > range[0] ? range[1] - range[0] : 1.0;
   const double factor = 200.0 / width;
   for (double& value : mesh.Values)
   {
     value = std::round(factor * (value - range[0]));
   }
-  mapScalars(test.Look, factor, -factor * range[0], 1.0);
+  MapScalars(test.Look, factor, -factor * range[0], 1.0);
 }
 
-void storeAs(VolumeCase& test, RandomNumbers& random)
+void StoreAs(VolumeCase& test, RandomNumbers& random)
 {
   const int types[8] = { VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_UNSIGNED_SHORT, VTK_INT,
     VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_FLOAT, VTK_UNSIGNED_LONG_LONG };
-  test.Storage.ValueType = types[random.below(8)];
+  test.Storage.ValueType = types[random.Below(8)];
 }
 
 //------------------------------------------------------------------------------
-void scaleValues(VolumeCase& test, RandomNumbers& random)
+void ScaleValues(VolumeCase& test, RandomNumbers& random)
 {
-  const double factor = std::pow(10.0, random.uniform(-6.0, 6.0));
+  const double factor = std::pow(10.0, random.Uniform(-6.0, 6.0));
   // Rounding of an offset in double precision is far below that of single precision, relative to
   // the range.
-  const double offset = factor * random.uniform(-1e3, 1e3);
-  for (double& value : test.mesh().Values)
+  const double offset = factor * random.Uniform(-1e3, 1e3);
+  for (double& value : test.MakeMesh().Values)
   {
     value = factor * value + offset;
   }
-  mapScalars(test.Look, factor, offset, 1.0);
+  MapScalars(test.Look, factor, offset, 1.0);
 }
 
 //------------------------------------------------------------------------------
 // Adds control points on the straight lines between the existing ones, and beyond the outer ones.
 template <typename Point, typename Mix>
-void addBetween(std::vector<Point>& points, RandomNumbers& random, const Mix& mix)
+void AddBetween(std::vector<Point>& points, RandomNumbers& random, const Mix& mix)
 {
   std::vector<Point> more;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -90,7 +90,7 @@ void addBetween(std::vector<Point>& points, RandomNumbers& random, const Mix& mi
     more.push_back(points[i]);
     if (i + 1 < points.size() && points[i + 1].Scalar > points[i].Scalar)
     {
-      const int count = random.below(4);
+      const int count = random.Below(4);
       for (int k = 1; k <= count; ++k)
       {
         more.push_back(mix(points[i], points[i + 1], double(k) / (count + 1)));
@@ -106,17 +106,17 @@ void addBetween(std::vector<Point>& points, RandomNumbers& random, const Mix& mi
   points = more;
 }
 
-void addRedundantPoints(VolumeCase& test, RandomNumbers& random)
+void AddRedundantPoints(VolumeCase& test, RandomNumbers& random)
 {
   for (LookFunction& function : test.Look.Functions)
   {
-    addBetween(function.Opacity, random,
+    AddBetween(function.Opacity, random,
       [](const auto& a, const auto& b, double u)
       {
         return LookFunction::OpacityPoint{ a.Scalar + u * (b.Scalar - a.Scalar),
           a.Opacity + u * (b.Opacity - a.Opacity) };
       });
-    addBetween(function.Color, random,
+    AddBetween(function.Color, random,
       [](const auto& a, const auto& b, double u)
       {
         LookFunction::ColorPoint point{ a.Scalar + u * (b.Scalar - a.Scalar), a.Color };
@@ -130,9 +130,9 @@ void addRedundantPoints(VolumeCase& test, RandomNumbers& random)
 }
 
 // Scales opacities and the unit distance by one factor; opacities stay within [0, 1].
-void scaleUnit(VolumeCase& test, RandomNumbers& random)
+void ScaleUnit(VolumeCase& test, RandomNumbers& random)
 {
-  const double factor = random.uniform(0.1, 1.0);
+  const double factor = random.Uniform(0.1, 1.0);
   for (LookFunction& function : test.Look.Functions)
   {
     for (auto& point : function.Opacity)
@@ -144,117 +144,118 @@ void scaleUnit(VolumeCase& test, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-vtkColorTransferFunction* colorsOf(VolumeTrial& trial)
+vtkColorTransferFunction* ColorsOf(VolumeTrial& trial)
 {
-  return trial.stage().scene().volume()->GetProperty()->GetRGBTransferFunction();
+  return trial.GetStage().MakeScene().GetVolume()->GetProperty()->GetRGBTransferFunction();
 }
 
 // One component of several, selected by the mapper or by the colour function, compared with an
 // array of that component.
-void checkComponent(VolumeTrial& trial)
+void CheckComponent(VolumeTrial& trial)
 {
-  VolumeCase changed = trial.scene();
-  const MeshArrays before = changed.mesh();
-  MeshArrays& mesh = changed.mesh();
+  VolumeCase changed = trial.MakeScene();
+  const MeshArrays before = changed.MakeMesh();
+  MeshArrays& mesh = changed.MakeMesh();
   mesh.Components = 3;
   mesh.Values.clear();
-  const int chosen = trial.random().below(3);
-  for (std::size_t i = 0; i < before.tuples(); ++i)
+  const int chosen = trial.MakeRandom().Below(3);
+  for (std::size_t i = 0; i < before.Tuples(); ++i)
   {
     for (int c = 0; c < 3; ++c)
     {
-      const double other = trial.random().uniform(-1e3, 1e3);
-      mesh.Values.push_back(c == chosen ? before.value(i, 0) : other);
+      const double other = trial.MakeRandom().Uniform(-1e3, 1e3);
+      mesh.Values.push_back(c == chosen ? before.GetValue(i, 0) : other);
     }
   }
-  trial.picture();
-  trial.stage().place(changed);
-  trial.stage().mapper()->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
-  trial.stage().mapper()->SetVectorComponent(chosen);
-  trial.expectSame(trial.stage().render(), "component " + std::to_string(chosen) + " of 3");
-  trial.stage().place(changed);
-  vtkColorTransferFunction* colors = colorsOf(trial);
+  trial.MakePicture();
+  trial.GetStage().GetPlace(changed);
+  trial.GetStage().GetMapper()->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
+  trial.GetStage().GetMapper()->SetVectorComponent(chosen);
+  trial.ExpectSame(trial.GetStage().Render(), "component " + std::to_string(chosen) + " of 3");
+  trial.GetStage().GetPlace(changed);
+  vtkColorTransferFunction* colors = ColorsOf(trial);
   colors->SetVectorModeToComponent();
   colors->SetVectorComponent(chosen);
-  trial.expectSame(trial.stage().render(), "component " + std::to_string(chosen) + " by colours");
+  trial.ExpectSame(
+    trial.GetStage().Render(), "component " + std::to_string(chosen) + " by colours");
 }
 
 // The length of vectors compared with an array of it.
-void checkMagnitude(VolumeTrial& trial)
+void CheckMagnitude(VolumeTrial& trial)
 {
-  VolumeCase changed = trial.scene();
-  const MeshArrays before = changed.mesh();
-  MeshArrays& mesh = changed.mesh();
+  VolumeCase changed = trial.MakeScene();
+  const MeshArrays before = changed.MakeMesh();
+  MeshArrays& mesh = changed.MakeMesh();
   mesh.Components = 3;
   mesh.Values.clear();
-  for (std::size_t i = 0; i < before.tuples(); ++i)
+  for (std::size_t i = 0; i < before.Tuples(); ++i)
   {
-    const glm::dvec3 direction = trial.random().direction();
+    const glm::dvec3 direction = trial.MakeRandom().GetDirection();
     for (int c = 0; c < 3; ++c)
     {
-      mesh.Values.push_back(before.value(i, 0) * direction[c]);
+      mesh.Values.push_back(before.GetValue(i, 0) * direction[c]);
     }
   }
-  trial.picture();
-  trial.stage().place(changed);
-  trial.stage().mapper()->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE);
-  trial.expectSame(trial.stage().render(), "length of vectors");
-  trial.stage().place(changed);
-  colorsOf(trial)->SetVectorModeToMagnitude();
-  trial.expectSame(trial.stage().render(), "length of vectors by colours");
+  trial.MakePicture();
+  trial.GetStage().GetPlace(changed);
+  trial.GetStage().GetMapper()->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE);
+  trial.ExpectSame(trial.GetStage().Render(), "length of vectors");
+  trial.GetStage().GetPlace(changed);
+  ColorsOf(trial)->SetVectorModeToMagnitude();
+  trial.ExpectSame(trial.GetStage().Render(), "length of vectors by colours");
 }
 
 // Makes values positive, since lengths are not negative.
-void makePositive(VolumeCase& test, RandomNumbers&)
+void MakePositive(VolumeCase& test, RandomNumbers&)
 {
-  const double shift = 1.0 - test.mesh().range(0)[0];
-  for (double& value : test.mesh().Values)
+  const double shift = 1.0 - test.MakeMesh().MakeRange(0)[0];
+  for (double& value : test.MakeMesh().Values)
   {
     value += shift;
   }
-  mapScalars(test.Look, 1.0, shift, 1.0);
+  MapScalars(test.Look, 1.0, shift, 1.0);
 }
 
 // Independent components with their functions in another order, and one with a weight of 0.
-void permuteComponents(VolumeCase& test, RandomNumbers& random)
+void PermuteComponents(VolumeCase& test, RandomNumbers& random)
 {
-  const MeshArrays before = test.mesh();
-  MeshArrays& mesh = test.mesh();
-  const int first = random.below(before.Components);
+  const MeshArrays before = test.MakeMesh();
+  MeshArrays& mesh = test.MakeMesh();
+  const int first = random.Below(before.Components);
   mesh.Values.clear();
-  for (std::size_t i = 0; i < before.tuples(); ++i)
+  for (std::size_t i = 0; i < before.Tuples(); ++i)
   {
     for (int c = 0; c < before.Components; ++c)
     {
-      mesh.Values.push_back(before.value(i, (c + first) % before.Components));
+      mesh.Values.push_back(before.GetValue(i, (c + first) % before.Components));
     }
   }
   auto& functions = test.Look.Functions;
   std::rotate(functions.begin(), functions.begin() + first, functions.end());
 }
 
-void makeIndependent(VolumeCase& test, RandomNumbers& random)
+void MakeIndependent(VolumeCase& test, RandomNumbers& random)
 {
-  MeshArrays& mesh = test.mesh();
+  MeshArrays& mesh = test.MakeMesh();
   const MeshArrays before = mesh;
-  mesh.Components = 2 + random.below(3);
+  mesh.Components = 2 + random.Below(3);
   mesh.Values.clear();
-  const double width = before.range(0)[1] - before.range(0)[0];
-  for (std::size_t i = 0; i < before.tuples(); ++i)
+  const double width = before.MakeRange(0)[1] - before.MakeRange(0)[0];
+  for (std::size_t i = 0; i < before.Tuples(); ++i)
   {
     for (int c = 0; c < mesh.Components; ++c)
     {
-      mesh.Values.push_back(before.value(i, 0) + 0.2 * c * width * random.uniform());
+      mesh.Values.push_back(before.GetValue(i, 0) + 0.2 * c * width * random.Uniform());
     }
   }
   test.Look.Independent = true;
   while (int(test.Look.Functions.size()) < mesh.Components)
   {
     LookFunction function = test.Look.Functions.front();
-    function.Weight = random.uniform(0.2, 1.0);
+    function.Weight = random.Uniform(0.2, 1.0);
     for (auto& point : function.Opacity)
     {
-      point.Opacity *= random.uniform();
+      point.Opacity *= random.Uniform();
     }
     test.Look.Functions.push_back(function);
   }
@@ -262,37 +263,37 @@ void makeIndependent(VolumeCase& test, RandomNumbers& random)
 
 //------------------------------------------------------------------------------
 // A gradient opacity of 1 compared with none.
-void checkPlainGradientOpacity(VolumeTrial& trial)
+void CheckPlainGradientOpacity(VolumeTrial& trial)
 {
-  trial.picture();
-  trial.stage().place(trial.scene());
+  trial.MakePicture();
+  trial.GetStage().GetPlace(trial.MakeScene());
   vtkNew<vtkPiecewiseFunction> function;
   function->AddPoint(0.0, 1.0);
   function->AddPoint(3.0, 1.0);
-  trial.stage().scene().volume()->GetProperty()->SetGradientOpacity(function);
-  trial.expectSame(trial.stage().render(), "gradient opacity of 1");
+  trial.GetStage().MakeScene().GetVolume()->GetProperty()->SetGradientOpacity(function);
+  trial.ExpectSame(trial.GetStage().Render(), "gradient opacity of 1");
 }
 
 // A gradient opacity without points, which is 0 everywhere as VTK evaluates it.
-void checkEmptyGradientOpacity(VolumeTrial& trial)
+void CheckEmptyGradientOpacity(VolumeTrial& trial)
 {
-  trial.picture();
-  trial.stage().place(trial.scene());
-  vtkVolumeProperty* property = trial.stage().scene().volume()->GetProperty();
+  trial.MakePicture();
+  trial.GetStage().GetPlace(trial.MakeScene());
+  vtkVolumeProperty* property = trial.GetStage().MakeScene().GetVolume()->GetProperty();
   property->SetGradientOpacity(vtkSmartPointer<vtkPiecewiseFunction>::New());
-  const FloatImage empty = trial.stage().render();
+  const FloatImage empty = trial.GetStage().Render();
   if (std::any_of(empty.Rgba.begin(), empty.Rgba.end(), [](float v) { return v != 0.0f; }))
   {
-    trial.fail("a gradient opacity without points shows something");
+    trial.Fail("a gradient opacity without points shows something");
   }
   property->DisableGradientOpacityOn();
-  trial.expectSame(trial.stage().render(), "no gradient opacity again");
+  trial.ExpectSame(trial.GetStage().Render(), "no gradient opacity again");
 }
 
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::vector<VolumeRelation> valueRelations()
+std::vector<VolumeRelation> ValueRelations()
 {
   const CaseNeeds any;
   CaseNeeds single;
@@ -312,41 +313,41 @@ std::vector<VolumeRelation> valueRelations()
       {
         for (int i = 1; i < 4; ++i)
         {
-          VolumeCase changed = trial.scene();
+          VolumeCase changed = trial.MakeScene();
           changed.Storage.PointType = i & 1 ? VTK_FLOAT : VTK_DOUBLE;
           changed.Storage.ValueType = i & 2 ? VTK_FLOAT : VTK_DOUBLE;
-          trial.expectSame(changed,
+          trial.ExpectSame(changed,
             std::string(i & 1 ? "points" : "") + (i & 2 ? " values" : "") + " in single precision");
         }
       },
-      roundToFloat },
-    relationOf("ids of 32 bits", 2, any,
+      RoundToFloat },
+    RelationOf("ids of 32 bits", 2, any,
       [](VolumeCase& test, RandomNumbers&) { test.Storage.SmallIds = true; }),
-    relationOf("an array per component", 2, any,
+    RelationOf("an array per component", 2, any,
       [](VolumeCase& test, RandomNumbers&) { test.Storage.PerComponent = true; }),
     { "whole scalars", 4, single,
       [](VolumeTrial& trial)
       {
-        VolumeCase changed = trial.scene();
-        storeAs(changed, trial.random());
-        trial.expectSame(changed, "stored as type " + std::to_string(changed.Storage.ValueType));
+        VolumeCase changed = trial.MakeScene();
+        StoreAs(changed, trial.MakeRandom());
+        trial.ExpectSame(changed, "stored as type " + std::to_string(changed.Storage.ValueType));
       },
-      roundToWhole },
-    relationOf("scalars in other units", 4, single, scaleValues),
-    relationOf("redundant control points", 4, flat, addRedundantPoints),
-    relationOf("opacity in other units", 3, medium, scaleUnit),
-    { "component of a vector", 3, single, checkComponent, nullptr },
-    { "length of a vector", 3, single, checkMagnitude, makePositive },
+      RoundToWhole },
+    RelationOf("scalars in other units", 4, single, ScaleValues),
+    RelationOf("redundant control points", 4, flat, AddRedundantPoints),
+    RelationOf("opacity in other units", 3, medium, ScaleUnit),
+    { "component of a vector", 3, single, CheckComponent, nullptr },
+    { "length of a vector", 3, single, CheckMagnitude, MakePositive },
     { "order of components", 3, plain,
       [](VolumeTrial& trial)
       {
-        VolumeCase changed = trial.scene();
-        permuteComponents(changed, trial.random());
-        trial.expectSame(changed, "order of components");
+        VolumeCase changed = trial.MakeScene();
+        PermuteComponents(changed, trial.MakeRandom());
+        trial.ExpectSame(changed, "order of components");
       },
-      makeIndependent },
-    { "gradient opacity of 1", 3, plain, checkPlainGradientOpacity, nullptr },
-    { "gradient opacity without points", 3, plain, checkEmptyGradientOpacity, nullptr },
+      MakeIndependent },
+    { "gradient opacity of 1", 3, plain, CheckPlainGradientOpacity, nullptr },
+    { "gradient opacity without points", 3, plain, CheckEmptyGradientOpacity, nullptr },
   };
 }
 

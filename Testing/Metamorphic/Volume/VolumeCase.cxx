@@ -27,11 +27,11 @@ namespace test
 namespace
 {
 
-std::array<double, 3> randomColor(RandomNumbers& random)
+std::array<double, 3> RandomColor(RandomNumbers& random)
 {
-  const double r = random.uniform();
-  const double g = random.uniform();
-  return { r, g, random.uniform() };
+  const double r = random.Uniform();
+  const double g = random.Uniform();
+  return { r, g, random.Uniform() };
 }
 
 // Adds control points at fractions of a range.
@@ -45,14 +45,14 @@ public:
   {
   }
 
-  void opacity(double place, double value)
+  void GetOpacity(double place, double value)
   {
     this->Function.Opacity.push_back({ this->Low + place * this->Width, value });
   }
 
-  void color(double place)
+  void GetColor(double place)
   {
-    this->Function.Color.push_back({ this->Low + place * this->Width, randomColor(this->Random) });
+    this->Function.Color.push_back({ this->Low + place * this->Width, RandomColor(this->Random) });
   }
 
   LookFunction Function;
@@ -65,7 +65,7 @@ private:
 
 const char* const FunctionNames[] = { "ramps", "peaks", "steps", "opaque", "window" };
 
-LookFunction randomFunction(
+LookFunction RandomFunction(
   int kind, const std::array<double, 2>& range, bool lengthCounts, RandomNumbers& random)
 {
   FunctionMaker maker(range, random);
@@ -75,76 +75,76 @@ LookFunction randomFunction(
     case 1:
       for (const double place : { 0.2, 0.5, 0.8 })
       {
-        const double middle = place + random.uniform(-0.1, 0.1);
-        const double half = random.uniform(0.005, 0.05);
-        maker.opacity(middle - half, 0.0);
-        maker.opacity(middle, random.uniform(0.3, 1.0));
-        maker.opacity(middle + half, 0.0);
+        const double middle = place + random.Uniform(-0.1, 0.1);
+        const double half = random.Uniform(0.005, 0.05);
+        maker.GetOpacity(middle - half, 0.0);
+        maker.GetOpacity(middle, random.Uniform(0.3, 1.0));
+        maker.GetOpacity(middle + half, 0.0);
       }
       break;
     case 2: // an even number of points: a jump at each second
-      maker.opacity(0.0, random.uniform());
+      maker.GetOpacity(0.0, random.Uniform());
       for (const double place : { 0.3, 0.6, 0.85 })
       {
-        const double at = place + random.uniform(-0.1, 0.1);
-        maker.opacity(at, random.uniform());
-        maker.opacity(at, random.uniform());
+        const double at = place + random.Uniform(-0.1, 0.1);
+        maker.GetOpacity(at, random.Uniform());
+        maker.GetOpacity(at, random.Uniform());
       }
       break;
     case 4:
     {
-      const double low = random.uniform(0.1, 0.6);
-      maker.opacity(low, 0.0);
-      maker.opacity(low + 0.05, random.uniform(0.3, 1.0));
-      maker.opacity(low + 0.25, random.uniform(0.3, 1.0));
-      maker.opacity(low + 0.3, 0.0);
+      const double low = random.Uniform(0.1, 0.6);
+      maker.GetOpacity(low, 0.0);
+      maker.GetOpacity(low + 0.05, random.Uniform(0.3, 1.0));
+      maker.GetOpacity(low + 0.25, random.Uniform(0.3, 1.0));
+      maker.GetOpacity(low + 0.3, 0.0);
       break;
     }
     default:
       for (const double place : { 0.0, 0.3, 0.7, 1.0 })
       {
-        maker.opacity(place + random.uniform(-0.1, 0.1), strong * random.uniform(0.05, 0.9));
+        maker.GetOpacity(place + random.Uniform(-0.1, 0.1), strong * random.Uniform(0.05, 0.9));
       }
   }
   for (const double place : { 0.0, 0.4, 0.7, 1.0 })
   {
-    maker.color(place + random.uniform(-0.05, 0.05));
+    maker.GetColor(place + random.Uniform(-0.05, 0.05));
   }
   if (kind == 2)
   {
-    maker.color(1.0 + 0.06);
-    maker.color(1.0 + 0.06);
+    maker.GetColor(1.0 + 0.06);
+    maker.GetColor(1.0 + 0.06);
   }
   return maker.Function;
 }
 
 //------------------------------------------------------------------------------
-void setView(VolumeCase& test, RandomNumbers& random)
+void SetView(VolumeCase& test, RandomNumbers& random)
 {
   double b[6];
-  test.mesh().bounds(b);
-  const double radius = 0.5 * diagonalOf(b);
-  glm::dvec3 direction = random.direction();
+  test.MakeMesh().GetBounds(b);
+  const double radius = 0.5 * DiagonalOf(b);
+  glm::dvec3 direction = random.GetDirection();
   if (test.Membrane.Mesh)
   {
     // From above, at an angle steep enough to show more than the membrane's edge.
     direction.y = -std::fabs(direction.y) - 0.5;
   }
   const auto cell =
-    static_cast<std::size_t>(random.below(static_cast<int>(test.mesh().Cells.size())));
+    static_cast<std::size_t>(random.Below(static_cast<int>(test.MakeMesh().Cells.size())));
   glm::dvec3 place(0.0);
-  for (const vtkIdType id : test.mesh().Cells[cell].Ids)
+  for (const vtkIdType id : test.MakeMesh().Cells[cell].Ids)
   {
-    place += test.mesh().Points[static_cast<std::size_t>(id)] /
-      static_cast<double>(test.mesh().Cells[cell].Ids.size());
+    place += test.MakeMesh().Points[static_cast<std::size_t>(id)] /
+      static_cast<double>(test.MakeMesh().Cells[cell].Ids.size());
   }
-  const int kind = random.below(test.Membrane.Mesh ? 2 : 6);
-  test.View = VolumeView::towards(b, direction, kind == 1 || (kind == 4 && random.below(2)));
+  const int kind = random.Below(test.Membrane.Mesh ? 2 : 6);
+  test.View = VolumeView::Towards(b, direction, kind == 1 || (kind == 4 && random.Below(2)));
   VolumeView& view = test.View;
   if (kind == 2 || kind == 3)
   {
     test.Name += kind == 2 ? ", eye inside" : ", eye near";
-    view.Eye = kind == 2 ? place : view.Focus - random.uniform(1.02, 1.3) * radius * direction;
+    view.Eye = kind == 2 ? place : view.Focus - random.Uniform(1.02, 1.3) * radius * direction;
     view.Focus = kind == 2 ? view.Eye + direction : place;
     view.HalfHeight = 0.7;
     view.Near = 1e-3 * radius;
@@ -155,7 +155,7 @@ void setView(VolumeCase& test, RandomNumbers& random)
     test.Name += ", zoomed";
     view.Eye += place - view.Focus;
     view.Focus = place;
-    view.HalfHeight /= random.uniform(4.0, 30.0);
+    view.HalfHeight /= random.Uniform(4.0, 30.0);
     view.Near -= radius;
     view.Far += radius;
   }
@@ -163,16 +163,16 @@ void setView(VolumeCase& test, RandomNumbers& random)
 }
 
 //------------------------------------------------------------------------------
-void setMembrane(VolumeCase& test, RandomNumbers& random)
+void SetMembrane(VolumeCase& test, RandomNumbers& random)
 {
-  const int kind = random.below(3);
-  const double level = random.uniform(-0.3, 1.1);
-  const int cells = 2 + random.below(8);
-  test.Membrane = kind == 0 ? makePlaneCase(level, 1.6, cells)
-    : kind == 1             ? makeDomeCase(level, random.uniform(3.0, 6.0), 1.6, cells)
-                            : makeWavesCase(level, 0.05, 4.0, 1.6, 8 + cells);
-  test.Membrane.Surface.Exterior = random.below(4) ? 1.0 : 1.333;
-  test.Membrane.Surface.Interior = random.below(4) ? 1.333 : 1.0;
+  const int kind = random.Below(3);
+  const double level = random.Uniform(-0.3, 1.1);
+  const int cells = 2 + random.Below(8);
+  test.Membrane = kind == 0 ? MakePlaneCase(level, 1.6, cells)
+    : kind == 1             ? MakeDomeCase(level, random.Uniform(3.0, 6.0), 1.6, cells)
+                            : MakeWavesCase(level, 0.05, 4.0, 1.6, 8 + cells);
+  test.Membrane.Surface.Exterior = random.Below(4) ? 1.0 : 1.333;
+  test.Membrane.Surface.Interior = random.Below(4) ? 1.333 : 1.0;
   const char* const names[3] = { ", plane", ", dome", ", waves" };
   test.Name += names[kind];
 }
@@ -180,24 +180,24 @@ void setMembrane(VolumeCase& test, RandomNumbers& random)
 //------------------------------------------------------------------------------
 // Selects several components, gradients, or a mode other than compositing, as far as the needs
 // allow.
-void setMode(VolumeCase& test, const CaseNeeds& needs, RandomNumbers& random)
+void SetMode(VolumeCase& test, const CaseNeeds& needs, RandomNumbers& random)
 {
   VolumeLook& look = test.Look;
-  const int kind = random.below(needs.Composite ? 5 : 10);
+  const int kind = random.Below(needs.Composite ? 5 : 10);
   if (kind == 3 && !needs.OneComponent)
   {
-    const int components = 2 + random.below(3);
-    setRandomFields(test.mesh(), components, needs.Linear, random);
-    look.Independent = components == 3 || random.below(2) == 0;
+    const int components = 2 + random.Below(3);
+    SetRandomFields(test.MakeMesh(), components, needs.Linear, random);
+    look.Independent = components == 3 || random.Below(2) == 0;
     test.Name += ", components";
   }
   else if (kind == 4 && !needs.NoGradients)
   {
-    look.Shade = random.below(3) != 0;
-    look.Gradients = needs.NoVertexGradients ? 0 : random.below(2);
-    if (!look.Shade || random.below(2))
+    look.Shade = random.Below(3) != 0;
+    look.Gradients = needs.NoVertexGradients ? 0 : random.Below(2);
+    if (!look.Shade || random.Below(2))
     {
-      look.GradientOpacity = { { 0.0, random.uniform() }, { random.uniform(0.5, 4.0), 1.0 } };
+      look.GradientOpacity = { { 0.0, random.Uniform() }, { random.Uniform(0.5, 4.0), 1.0 } };
     }
     test.Name += look.Shade ? ", lit" : ", gradient opacity";
   }
@@ -210,53 +210,53 @@ void setMode(VolumeCase& test, const CaseNeeds& needs, RandomNumbers& random)
       ", isosurfaces" };
     look.Blend = modes[kind - 5];
     test.Name += names[kind - 5];
-    look.Gradients = needs.NoVertexGradients ? 0 : random.below(2);
-    look.Shade = kind == 9 && !needs.NoGradients && random.below(2) == 0;
+    look.Gradients = needs.NoVertexGradients ? 0 : random.Below(2);
+    look.Shade = kind == 9 && !needs.NoGradients && random.Below(2) == 0;
   }
 }
 
-void setFunctions(VolumeCase& test, RandomNumbers& random)
+void SetFunctions(VolumeCase& test, RandomNumbers& random)
 {
   VolumeLook& look = test.Look;
   double b[6];
-  test.mesh().bounds(b);
+  test.MakeMesh().GetBounds(b);
   // Usually some units deep; one scene in four is nearly opaque on the scale of small cells.
   const double unit =
-    random.below(4) ? random.uniform(0.05, 0.4) : std::pow(10.0, random.uniform(-4.0, -1.0));
-  look.Unit = unit * diagonalOf(b);
-  const int kind = random.below(5);
+    random.Below(4) ? random.Uniform(0.05, 0.4) : std::pow(10.0, random.Uniform(-4.0, -1.0));
+  look.Unit = unit * DiagonalOf(b);
+  const int kind = random.Below(5);
   test.Name += std::string(", ") + FunctionNames[kind];
   const bool lengthCounts =
-    look.Blend == vtkVolumeMapper::COMPOSITE_BLEND && test.mesh().Components == 1;
-  for (int c = 0; c < test.mesh().Components; ++c)
+    look.Blend == vtkVolumeMapper::COMPOSITE_BLEND && test.MakeMesh().Components == 1;
+  for (int c = 0; c < test.MakeMesh().Components; ++c)
   {
-    const std::array<double, 2> range = test.mesh().range(c);
-    look.Functions.push_back(randomFunction(kind, range, lengthCounts, random));
-    look.Functions.back().Weight = random.uniform(0.2, 1.0);
+    const std::array<double, 2> range = test.MakeMesh().MakeRange(c);
+    look.Functions.push_back(RandomFunction(kind, range, lengthCounts, random));
+    look.Functions.back().Weight = random.Uniform(0.2, 1.0);
   }
   if (!look.Independent)
   {
     look.Functions.front().Opacity = look.Functions.back().Opacity;
     look.Functions.resize(1);
   }
-  const std::array<double, 2> range = test.mesh().range(0);
+  const std::array<double, 2> range = test.MakeMesh().MakeRange(0);
   if (look.Blend == vtkVolumeMapper::ISOSURFACE_BLEND)
   {
-    for (int i = 1 + random.below(3); i > 0; --i)
+    for (int i = 1 + random.Below(3); i > 0; --i)
     {
-      look.IsoValues.push_back(range[0] + random.uniform(0.05, 0.95) * (range[1] - range[0]));
+      look.IsoValues.push_back(range[0] + random.Uniform(0.05, 0.95) * (range[1] - range[0]));
     }
   }
 }
 
 // Scales colours to [0, 1].
-void normaliseColors(MeshArrays& mesh)
+void NormaliseColors(MeshArrays& mesh)
 {
   for (int c = 0; c + 1 < mesh.Components; ++c)
   {
-    const std::array<double, 2> range = mesh.range(c);
+    const std::array<double, 2> range = mesh.MakeRange(c);
     const double width = range[1] > range[0] ? range[1] - range[0] : 1.0;
-    for (std::size_t i = 0; i < mesh.tuples(); ++i)
+    for (std::size_t i = 0; i < mesh.Tuples(); ++i)
     {
       double& value = mesh.Values[i * static_cast<std::size_t>(mesh.Components) + c];
       value = std::clamp((value - range[0]) / width, 0.0, 1.0);
@@ -265,9 +265,9 @@ void normaliseColors(MeshArrays& mesh)
 }
 
 // Offsets the scalars far from 0, relative to their range.
-void offsetValues(MeshArrays& mesh, RandomNumbers& random)
+void OffsetValues(MeshArrays& mesh, RandomNumbers& random)
 {
-  const double offset = std::pow(10.0, random.uniform(0.0, 5.0));
+  const double offset = std::pow(10.0, random.Uniform(0.0, 5.0));
   const bool colors = mesh.Components == 4;
   for (double& value : mesh.Values)
   {
@@ -275,17 +275,17 @@ void offsetValues(MeshArrays& mesh, RandomNumbers& random)
   }
 }
 
-FamilyMesh chooseMesh(const CaseNeeds& needs, RandomNumbers& random)
+FamilyMesh ChooseMesh(const CaseNeeds& needs, RandomNumbers& random)
 {
   for (;;)
   {
-    MeshFamily family = randomFamily(random);
+    MeshFamily family = RandomFamily(random);
     if (family == MeshFamily::Data && needs.Small)
     {
       family = MeshFamily::RandomPoints;
     }
-    FamilyMesh mesh = makeFamilyMesh(family, needs.Linear, random);
-    if ((!needs.Tetrahedra || mesh.Mesh.isTetrahedral()) && !mesh.Mesh.Cells.empty())
+    FamilyMesh mesh = MakeFamilyMesh(family, needs.Linear, random);
+    if ((!needs.Tetrahedra || mesh.Mesh.IsTetrahedral()) && !mesh.Mesh.Cells.empty())
     {
       return mesh;
     }
@@ -295,52 +295,53 @@ FamilyMesh chooseMesh(const CaseNeeds& needs, RandomNumbers& random)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-VolumeCase randomCase(const CaseNeeds& needs, RandomNumbers& random)
+VolumeCase RandomCase(const CaseNeeds& needs, RandomNumbers& random)
 {
-  const FamilyMesh family = chooseMesh(needs, random);
+  const FamilyMesh family = ChooseMesh(needs, random);
   VolumeCase test;
   test.Name = family.Name;
   test.Linear = family.Linear;
   test.Blocks = { family.Mesh };
-  if (needs.Membrane || (!needs.NoMembrane && random.below(4) == 0))
+  if (needs.Membrane || (!needs.NoMembrane && random.Below(4) == 0))
   {
-    setMembrane(test, random);
+    SetMembrane(test, random);
   }
-  setMode(test, needs, random);
-  if (!test.Look.Independent && test.mesh().Components == 4)
+  SetMode(test, needs, random);
+  if (!test.Look.Independent && test.MakeMesh().Components == 4)
   {
-    normaliseColors(test.mesh());
+    NormaliseColors(test.MakeMesh());
   }
-  const bool mayBeOnCells = !needs.NoCellData && !needs.Linear && test.mesh().Components == 1 &&
-    !test.hasGradients() && test.Look.Blend != vtkVolumeMapper::ISOSURFACE_BLEND;
-  if (mayBeOnCells && random.below(6) == 0)
+  const bool mayBeOnCells = !needs.NoCellData && !needs.Linear && test.MakeMesh().Components == 1 &&
+    !test.HasGradients() && test.Look.Blend != vtkVolumeMapper::ISOSURFACE_BLEND;
+  if (mayBeOnCells && random.Below(6) == 0)
   {
-    moveToCells(test.mesh());
+    MoveToCells(test.MakeMesh());
     test.Name += ", cell data";
   }
-  if (random.below(4) == 0)
+  if (random.Below(4) == 0)
   {
     test.Name += ", offset scalars";
-    offsetValues(test.mesh(), random);
+    OffsetValues(test.MakeMesh(), random);
   }
-  setFunctions(test, random);
-  setView(test, random);
-  if (!test.Membrane.Mesh && random.below(4) == 0)
+  SetFunctions(test, random);
+  SetView(test, random);
+  if (!test.Membrane.Mesh && random.Below(4) == 0)
   {
     test.Name += ", elsewhere";
-    const double scale = std::pow(10.0, random.uniform(-6.0, 6.0));
-    const glm::dvec3 offset = scale * std::pow(10.0, random.uniform(0.0, 6.0)) * random.direction();
-    mapScene(test, glm::scale(glm::translate(glm::dmat4(1.0), offset), glm::dvec3(scale)));
+    const double scale = std::pow(10.0, random.Uniform(-6.0, 6.0));
+    const glm::dvec3 offset =
+      scale * std::pow(10.0, random.Uniform(0.0, 6.0)) * random.GetDirection();
+    MapScene(test, glm::scale(glm::translate(glm::dmat4(1.0), offset), glm::dvec3(scale)));
   }
   // Shaders are far slower where OpenGL is software: they draw half of the cases.
   const int backends[4] = { vtkTetrahedraRayCastMapper::NATIVE, vtkTetrahedraRayCastMapper::NATIVE,
     vtkTetrahedraRayCastMapper::OPENGL, vtkTetrahedraRayCastMapper::COMPUTE };
-  test.Backend = backends[random.below(4)];
+  test.Backend = backends[random.Below(4)];
   return test;
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeLook& look)
+vtkSmartPointer<vtkVolumeProperty> ToProperty(const VolumeLook& look)
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetIndependentComponents(look.Independent);
@@ -387,7 +388,7 @@ vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeLook& look)
 }
 
 //------------------------------------------------------------------------------
-void mapScalars(VolumeLook& look, double factor, double offset, double lengthFactor)
+void MapScalars(VolumeLook& look, double factor, double offset, double lengthFactor)
 {
   for (LookFunction& function : look.Functions)
   {

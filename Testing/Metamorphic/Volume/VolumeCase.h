@@ -82,10 +82,10 @@ struct VolumeCase
   /** One of vtkTetrahedraRayCastMapper::Backends. */
   int Backend = 2;
 
-  const MeshArrays& mesh() const { return this->Blocks.front(); }
-  MeshArrays& mesh() { return this->Blocks.front(); }
-  bool isComposite() const { return this->Look.Blend == 0; }
-  bool hasGradients() const { return this->Look.Shade || !this->Look.GradientOpacity.empty(); }
+  const MeshArrays& MakeMesh() const { return this->Blocks.front(); }
+  MeshArrays& MakeMesh() { return this->Blocks.front(); }
+  bool IsComposite() const { return this->Look.Blend == 0; }
+  bool HasGradients() const { return this->Look.Shade || !this->Look.GradientOpacity.empty(); }
 };
 
 /** Requirements of a relation on its scenes; the rest is random. */
@@ -109,16 +109,16 @@ struct CaseNeeds
   bool Small = false;
 };
 
-VolumeCase randomCase(const CaseNeeds& needs, RandomNumbers& random);
+VolumeCase RandomCase(const CaseNeeds& needs, RandomNumbers& random);
 
 /** Volume property of a look. */
-vtkSmartPointer<vtkVolumeProperty> toProperty(const VolumeLook& look);
+vtkSmartPointer<vtkVolumeProperty> ToProperty(const VolumeLook& look);
 
 /**
  * Maps the functions and values of a look to scalars factor * s + offset, factor > 0. Lengths of
  * gradients are scaled by the factor over `lengthFactor`, the unit distance by the latter.
  */
-void mapScalars(VolumeLook& look, double factor, double offset, double lengthFactor);
+void MapScalars(VolumeLook& look, double factor, double offset, double lengthFactor);
 
 } // namespace test
 } // namespace meniscus

@@ -16,7 +16,7 @@ namespace test
 namespace
 {
 
-std::string backendName(int backend)
+std::string BackendName(int backend)
 {
   switch (backend)
   {
@@ -29,7 +29,7 @@ std::string backendName(int backend)
   }
 }
 
-double difference(const float* a, const float* b)
+double Difference(const float* a, const float* b)
 {
   double largest = 0.0;
   for (int c = 0; c < 4; ++c)
@@ -50,7 +50,7 @@ struct WorstPixel
   int Y = 0;
   std::string Text;
 
-  void take(int x, int y, double deviation, double tolerance, const float* a, const float* b)
+  void Take(int x, int y, double deviation, double tolerance, const float* a, const float* b)
   {
     if (++this->Count > 1 && deviation <= this->Deviation)
     {
@@ -88,43 +88,43 @@ VolumeTrial::VolumeTrial(const VolumeCase& test, RandomNumbers random, VolumeSta
 }
 
 //------------------------------------------------------------------------------
-const FloatImage& VolumeTrial::picture()
+const FloatImage& VolumeTrial::MakePicture()
 {
   if (this->Picture.Width == 0)
   {
-    this->Picture = this->Stage.draw(this->Scene);
+    this->Picture = this->Stage.Draw(this->Scene);
   }
   return this->Picture;
 }
 
 //------------------------------------------------------------------------------
-void VolumeTrial::expectSame(const VolumeCase& changed, const std::string& words)
+void VolumeTrial::ExpectSame(const VolumeCase& changed, const std::string& words)
 {
-  this->picture();
-  this->expectSame(this->Stage.draw(changed), words);
+  this->MakePicture();
+  this->ExpectSame(this->Stage.Draw(changed), words);
 }
 
 //------------------------------------------------------------------------------
-void VolumeTrial::expectSame(const FloatImage& changed, const std::string& words)
+void VolumeTrial::ExpectSame(const FloatImage& changed, const std::string& words)
 {
-  this->expectSame(
+  this->ExpectSame(
     changed,
     [](int x, int y) {
       return std::array<int, 2>{ x, y };
     },
-    plainTolerance(this->Scene.Backend), words);
+    PlainTolerance(this->Scene.Backend), words);
 }
 
 //------------------------------------------------------------------------------
-void VolumeTrial::expectSame(
+void VolumeTrial::ExpectSame(
   const FloatImage& changed, const PixelMap& map, double tolerance, const std::string& words)
 {
-  const FloatImage before = this->picture();
+  const FloatImage before = this->MakePicture();
   ++this->Tally.Comparisons;
-  const std::string complaint = this->Stage.complaints();
+  const std::string complaint = this->Stage.Complaints();
   if (!complaint.empty())
   {
-    this->fail(words + ": " + complaint);
+    this->Fail(words + ": " + complaint);
   }
   WorstPixel worst;
   for (int y = 0; y < before.Height; ++y)
@@ -132,18 +132,19 @@ void VolumeTrial::expectSame(
     for (int x = 0; x < before.Width; ++x)
     {
       const std::array<int, 2> at = map(x, y);
-      const float* a = before.pixel(x, y);
-      const float* b = changed.pixel(at[0], at[1]);
-      const double d = difference(a, b);
-      const double allowed = d <= tolerance ? tolerance : tolerance + this->Condition.spread(x, y);
+      const float* a = before.GetPixel(x, y);
+      const float* b = changed.GetPixel(at[0], at[1]);
+      const double d = Difference(a, b);
+      const double allowed =
+        d <= tolerance ? tolerance : tolerance + this->Condition.GetSpread(x, y);
       if (d > tolerance && d <= allowed)
       {
         ++this->Tally.Values;
         ++this->Tally.Conditioned;
       }
-      else if (!this->Tally.compare(d, allowed))
+      else if (!this->Tally.Compare(d, allowed))
       {
-        worst.take(x, y, d, allowed, a, b);
+        worst.Take(x, y, d, allowed, a, b);
       }
     }
   }
@@ -152,45 +153,45 @@ void VolumeTrial::expectSame(
     std::ostringstream text;
     text << words << ": " << worst.Count << " pixels, largest " << worst.Deviation << " of "
          << worst.Tolerance << ", " << worst.Text << ", exactly";
-    for (const double value : this->Condition.exact(worst.X, worst.Y))
+    for (const double value : this->Condition.GetExact(worst.X, worst.Y))
     {
       text << ' ' << value;
     }
-    this->fail(text.str());
+    this->Fail(text.str());
   }
 }
 
 //------------------------------------------------------------------------------
-void VolumeTrial::fail(const std::string& words)
+void VolumeTrial::Fail(const std::string& words)
 {
   this->Tally.Failures = 1;
   if (this->Tally.FirstFailure.empty())
   {
     this->Tally.FirstFailure =
-      this->Scene.Name + ", " + backendName(this->Scene.Backend) + ", " + words;
+      this->Scene.Name + ", " + BackendName(this->Scene.Backend) + ", " + words;
   }
 }
 
 //------------------------------------------------------------------------------
-RelationTally VolumeTrial::done()
+RelationTally VolumeTrial::Done()
 {
   if (this->Tally.Comparisons == 0)
   {
-    this->fail("nothing compared");
+    this->Fail("nothing compared");
   }
   return this->Tally;
 }
 
 //------------------------------------------------------------------------------
-VolumeRelation relationOf(const std::string& name, int cases, const CaseNeeds& needs,
+VolumeRelation RelationOf(const std::string& name, int cases, const CaseNeeds& needs,
   const std::function<void(VolumeCase&, RandomNumbers&)>& change)
 {
   return { name, cases, needs,
     [=](VolumeTrial& trial)
     {
-      VolumeCase changed = trial.scene();
-      change(changed, trial.random());
-      trial.expectSame(changed, name);
+      VolumeCase changed = trial.MakeScene();
+      change(changed, trial.MakeRandom());
+      trial.ExpectSame(changed, name);
     },
     nullptr };
 }

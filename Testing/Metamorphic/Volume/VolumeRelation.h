@@ -27,27 +27,27 @@ class VolumeTrial
 public:
   VolumeTrial(const VolumeCase& test, RandomNumbers random, VolumeStage& stage);
 
-  const VolumeCase& scene() const { return this->Scene; }
-  RandomNumbers& random() { return this->Random; }
-  VolumeStage& stage() { return this->Stage; }
+  const VolumeCase& MakeScene() const { return this->Scene; }
+  RandomNumbers& MakeRandom() { return this->Random; }
+  VolumeStage& GetStage() { return this->Stage; }
 
   /** Image of the unchanged scene, drawn once. */
-  const FloatImage& picture();
+  const FloatImage& MakePicture();
 
   /** Exact colour of a pixel of the scene. */
-  std::array<double, 4> exact(int x, int y) { return this->Condition.exact(x, y); }
+  std::array<double, 4> GetExact(int x, int y) { return this->Condition.GetExact(x, y); }
 
   /** Expects a changed scene to give the same image. */
-  void expectSame(const VolumeCase& changed, const std::string& words);
+  void ExpectSame(const VolumeCase& changed, const std::string& words);
   /** Expects an image to be that of the scene. */
-  void expectSame(const FloatImage& changed, const std::string& words);
-  void expectSame(
+  void ExpectSame(const FloatImage& changed, const std::string& words);
+  void ExpectSame(
     const FloatImage& changed, const PixelMap& map, double tolerance, const std::string& words);
 
   /** Counts a failure other than a deviation. */
-  void fail(const std::string& words);
+  void Fail(const std::string& words);
 
-  RelationTally done();
+  RelationTally Done();
 
 private:
   VolumeCase Scene;
@@ -71,19 +71,19 @@ struct VolumeRelation
 };
 
 /** A relation with one changed scene. */
-VolumeRelation relationOf(const std::string& name, int cases, const CaseNeeds& needs,
+VolumeRelation RelationOf(const std::string& name, int cases, const CaseNeeds& needs,
   const std::function<void(VolumeCase&, RandomNumbers&)>& change);
 
 /** Position of the scene: moves of the whole scene, cameras, windows. */
-std::vector<VolumeRelation> placeRelations();
+std::vector<VolumeRelation> PlaceRelations();
 /** Cells and points that describe the same field. */
-std::vector<VolumeRelation> meshRelations();
+std::vector<VolumeRelation> MeshRelations();
 /** Types of arrays, units of scalars, functions. */
-std::vector<VolumeRelation> valueRelations();
+std::vector<VolumeRelation> ValueRelations();
 /** The mapper's state: edits in place, frames, threads, backends. */
-std::vector<VolumeRelation> stateRelations();
+std::vector<VolumeRelation> StateRelations();
 /** Membranes. */
-std::vector<VolumeRelation> membraneRelations();
+std::vector<VolumeRelation> MembraneRelations();
 
 } // namespace test
 } // namespace meniscus

@@ -44,29 +44,29 @@ VolumeStage::VolumeStage()
 VolumeStage::~VolumeStage() = default;
 
 //------------------------------------------------------------------------------
-vtkTetrahedraRayCastMapper* VolumeStage::mapper() const
+vtkTetrahedraRayCastMapper* VolumeStage::GetMapper() const
 {
   return this->Mapper;
 }
 
 //------------------------------------------------------------------------------
-vtkUnstructuredGrid* VolumeStage::grid() const
+vtkUnstructuredGrid* VolumeStage::MakeGrid() const
 {
   return this->FirstGrid;
 }
 
 //------------------------------------------------------------------------------
-void VolumeStage::setInput(vtkDataObject* input)
+void VolumeStage::SetInput(vtkDataObject* input)
 {
   this->Mapper->SetInputDataObject(input);
 }
 
 //------------------------------------------------------------------------------
-void VolumeStage::place(const VolumeCase& test)
+void VolumeStage::GetPlace(const VolumeCase& test)
 {
   if (this->Mapper)
   {
-    this->Mapper->ReleaseGraphicsResources(this->Scene.window());
+    this->Mapper->ReleaseGraphicsResources(this->Scene.GetWindow());
   }
   this->Mapper = vtkSmartPointer<vtkTetrahedraRayCastMapper>::New();
   this->Mapper->AddObserver(vtkCommand::ErrorEvent, this->Errors);
@@ -77,7 +77,7 @@ void VolumeStage::place(const VolumeCase& test)
   this->Mapper->SetExteriorIndexOfRefraction(test.Membrane.Surface.Exterior);
   this->Mapper->SetInteriorIndexOfRefraction(test.Membrane.Surface.Interior);
   this->Mapper->SetMembraneData(test.Membrane.Mesh);
-  if (test.mesh().OnCells)
+  if (test.MakeMesh().OnCells)
   {
     this->Mapper->SetScalarModeToUseCellData();
   }
@@ -88,7 +88,7 @@ void VolumeStage::place(const VolumeCase& test)
     clipping->SetNormal(plane[1].x, plane[1].y, plane[1].z);
     this->Mapper->AddClippingPlane(clipping);
   }
-  this->FirstGrid = toGrid(test.mesh(), test.Storage);
+  this->FirstGrid = ToGrid(test.MakeMesh(), test.Storage);
   if (test.Blocks.size() == 1)
   {
     this->Mapper->SetInputDataObject(this->FirstGrid);
@@ -98,12 +98,12 @@ void VolumeStage::place(const VolumeCase& test)
     vtkNew<vtkMultiBlockDataSet> blocks;
     for (unsigned int i = 0; i < test.Blocks.size(); ++i)
     {
-      blocks->SetBlock(i, i == 0 ? this->FirstGrid : toGrid(test.Blocks[i], test.Storage));
+      blocks->SetBlock(i, i == 0 ? this->FirstGrid : ToGrid(test.Blocks[i], test.Storage));
     }
     this->Mapper->SetInputDataObject(blocks);
   }
-  this->Scene.setMapper(this->Mapper);
-  this->Scene.setProperty(toProperty(test.Look));
+  this->Scene.SetMapper(this->Mapper);
+  this->Scene.SetProperty(ToProperty(test.Look));
   vtkNew<vtkMatrix4x4> matrix;
   for (int row = 0; row < 4; ++row)
   {
@@ -112,28 +112,28 @@ void VolumeStage::place(const VolumeCase& test)
       matrix->SetElement(row, column, test.Matrix[column][row]);
     }
   }
-  this->Scene.volume()->SetUserMatrix(matrix);
-  this->Scene.window()->SetSize(test.Size, test.Size);
-  test.View.applyTo(this->Scene.renderer());
+  this->Scene.GetVolume()->SetUserMatrix(matrix);
+  this->Scene.GetWindow()->SetSize(test.Size, test.Size);
+  test.View.ApplyTo(this->Scene.GetRenderer());
 }
 
 //------------------------------------------------------------------------------
-FloatImage VolumeStage::render()
+FloatImage VolumeStage::Render()
 {
-  FloatImage image = this->Scene.renderFloat();
+  FloatImage image = this->Scene.RenderFloat();
   this->Lost += this->Mapper->GetNumberOfLostRays();
   return image;
 }
 
 //------------------------------------------------------------------------------
-FloatImage VolumeStage::draw(const VolumeCase& test)
+FloatImage VolumeStage::Draw(const VolumeCase& test)
 {
-  this->place(test);
-  return this->render();
+  this->GetPlace(test);
+  return this->Render();
 }
 
 //------------------------------------------------------------------------------
-std::string VolumeStage::complaints()
+std::string VolumeStage::Complaints()
 {
   std::string text = this->Errors->Text;
   if (this->Lost > 0)

@@ -32,21 +32,21 @@ public:
   ~VolumeStage();
 
   /** Sets up a case with new objects, which later calls may change. */
-  void place(const VolumeCase& test);
+  void GetPlace(const VolumeCase& test);
   /** Renders the case set up by place(). */
-  FloatImage render();
+  FloatImage Render();
   /** place() and render(). */
-  FloatImage draw(const VolumeCase& test);
+  FloatImage Draw(const VolumeCase& test);
 
-  vtkTetrahedraRayCastMapper* mapper() const;
-  VolumeScene& scene() { return this->Scene; }
+  vtkTetrahedraRayCastMapper* GetMapper() const;
+  VolumeScene& MakeScene() { return this->Scene; }
   /** Block 0 as passed to the mapper. */
-  vtkUnstructuredGrid* grid() const;
+  vtkUnstructuredGrid* MakeGrid() const;
   /** Uses another input instead of the case's own. */
-  void setInput(vtkDataObject* input);
+  void SetInput(vtkDataObject* input);
 
   /** Errors of the mapper and lost rays since the last call; empty if there are none. */
-  std::string complaints();
+  std::string Complaints();
 
 private:
   class Listener;

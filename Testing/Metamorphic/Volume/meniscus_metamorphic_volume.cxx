@@ -38,7 +38,7 @@ struct Options : ProgrammeOptions
   int Backend = vtkTetrahedraRayCastMapper::AUTOMATIC;
 };
 
-bool isBlank(const FloatImage& image)
+bool IsBlank(const FloatImage& image)
 {
   int drawn = 0;
   for (std::size_t i = 3; i < image.Rgba.size(); i += 4)
@@ -50,14 +50,14 @@ bool isBlank(const FloatImage& image)
 
 //------------------------------------------------------------------------------
 // A trial whose image is not blank: the first of the case's scenes that shows something.
-RelationTally runCase(
+RelationTally RunCase(
   const VolumeRelation& relation, const Options& options, int index, VolumeStage& stage)
 {
-  RandomNumbers random(seedOfCase(options.Seed, relation.Name, index));
+  RandomNumbers random(SeedOfCase(options.Seed, relation.Name, index));
   constexpr int mostScenes = 50;
   for (int i = 0; i < mostScenes; ++i)
   {
-    VolumeCase test = randomCase(relation.Needs, random);
+    VolumeCase test = RandomCase(relation.Needs, random);
     if (options.Backend != vtkTetrahedraRayCastMapper::AUTOMATIC)
     {
       test.Backend = options.Backend;
@@ -67,43 +67,43 @@ RelationTally runCase(
       relation.Prepare(test, random);
     }
     VolumeTrial trial(test, random, stage);
-    if (!isBlank(trial.picture()))
+    if (!IsBlank(trial.MakePicture()))
     {
       relation.Check(trial);
-      return trial.done();
+      return trial.Done();
     }
   }
   VolumeTrial none(VolumeCase(), random, stage);
-  none.fail("no scene that shows anything");
-  return none.done();
+  none.Fail("no scene that shows anything");
+  return none.Done();
 }
 
 // Window of a process, created when first requested: a process is forked without one.
-VolumeStage& stageOfProcess()
+VolumeStage& StageOfProcess()
 {
   static VolumeStage stage;
   return stage;
 }
 
-Relation toRelation(const VolumeRelation& relation, const Options& options)
+Relation ToRelation(const VolumeRelation& relation, const Options& options)
 {
   const auto start = [&options, relation]() -> RelationWork
   {
     return [&options, relation](int index)
-    { return runCase(relation, options, index, stageOfProcess()); };
+    { return RunCase(relation, options, index, StageOfProcess()); };
   };
-  return { relation.Name, casesAt(options.Intensity, relation.Cases), start };
+  return { relation.Name, CasesAt(options.Intensity, relation.Cases), start };
 }
 
-std::vector<Relation> allRelations(const Options& options)
+std::vector<Relation> AllRelations(const Options& options)
 {
   std::vector<Relation> result;
   for (const auto& group :
-    { placeRelations(), meshRelations(), valueRelations(), stateRelations(), membraneRelations() })
+    { PlaceRelations(), MeshRelations(), ValueRelations(), StateRelations(), MembraneRelations() })
   {
     for (const VolumeRelation& relation : group)
     {
-      result.push_back(toRelation(relation, options));
+      result.push_back(ToRelation(relation, options));
     }
   }
   return result;
@@ -114,13 +114,13 @@ std::vector<Relation> allRelations(const Options& options)
 //------------------------------------------------------------------------------
 int main(int argc, char* argv[])
 {
-  if (!hasDisplay())
+  if (!HasDisplay())
   {
     std::cerr << "no display (run under xvfb-run)\n";
     return Skipped;
   }
   Options options;
-  return runMetamorphicProgramme(
+  return RunMetamorphicProgramme(
     argc, argv, Usage, options,
     [&options](const std::string& key, const std::string& value)
     {
@@ -132,5 +132,5 @@ int main(int argc, char* argv[])
       options.Backend = known->second;
       return true;
     },
-    [&options]() { return allRelations(options); });
+    [&options]() { return AllRelations(options); });
 }

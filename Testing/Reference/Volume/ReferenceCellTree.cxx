@@ -30,7 +30,7 @@ struct RayFrame
   double End;
 };
 
-bool meetsBox(const RayFrame& ray, const std::array<double, 6>& box)
+bool MeetsBox(const RayFrame& ray, const std::array<double, 6>& box)
 {
   double begin = ray.Begin;
   double end = ray.End;
@@ -48,46 +48,46 @@ bool meetsBox(const RayFrame& ray, const std::array<double, 6>& box)
 
 //------------------------------------------------------------------------------
 ReferenceCellTree::ReferenceCellTree(const ReferenceMesh& mesh)
-  : Padding(BoxPadding * mesh.diagonal())
+  : Padding(BoxPadding * mesh.GetDiagonal())
 {
-  for (std::size_t id = 0; id < mesh.numberOfCells(); ++id)
+  for (std::size_t id = 0; id < mesh.GetNumberOfCells(); ++id)
   {
-    if (mesh.kind(id) == ReferenceMesh::CellKind::Contributing ||
-      mesh.kind(id) == ReferenceMesh::CellKind::Inverted)
+    if (mesh.GetKind(id) == ReferenceMesh::CellKind::Contributing ||
+      mesh.GetKind(id) == ReferenceMesh::CellKind::Inverted)
     {
       this->Order.push_back(static_cast<std::int64_t>(id));
     }
   }
-  std::vector<Vector3> centroids(mesh.numberOfCells());
+  std::vector<Vector3> centroids(mesh.GetNumberOfCells());
   for (const std::int64_t id : this->Order)
   {
-    const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(id));
+    const std::int64_t* ids = mesh.GetCell(static_cast<std::size_t>(id));
     for (int axis = 0; axis < 3; ++axis)
     {
       centroids[id][axis] = 0.25 *
-        (mesh.point(ids[0])[axis] + mesh.point(ids[1])[axis] + mesh.point(ids[2])[axis] +
-          mesh.point(ids[3])[axis]);
+        (mesh.GetPoint(ids[0])[axis] + mesh.GetPoint(ids[1])[axis] + mesh.GetPoint(ids[2])[axis] +
+          mesh.GetPoint(ids[3])[axis]);
     }
   }
   if (!this->Order.empty())
   {
     this->Nodes.reserve(this->Order.size());
-    this->build(mesh, centroids, 0, static_cast<std::int32_t>(this->Order.size()));
+    this->Build(mesh, centroids, 0, static_cast<std::int32_t>(this->Order.size()));
   }
 }
 
 //------------------------------------------------------------------------------
-std::array<double, 6> ReferenceCellTree::boxOf(
+std::array<double, 6> ReferenceCellTree::BoxOf(
   const ReferenceMesh& mesh, std::int32_t begin, std::int32_t end) const
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::array<double, 6> box{ infinity, infinity, infinity, -infinity, -infinity, -infinity };
   for (std::int32_t i = begin; i < end; ++i)
   {
-    const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(this->Order[i]));
+    const std::int64_t* ids = mesh.GetCell(static_cast<std::size_t>(this->Order[i]));
     for (int corner = 0; corner < 4; ++corner)
     {
-      const double* x = mesh.point(ids[corner]);
+      const double* x = mesh.GetPoint(ids[corner]);
       for (int axis = 0; axis < 3; ++axis)
       {
         box[axis] = std::min(box[axis], x[axis] - this->Padding);
@@ -100,11 +100,11 @@ std::array<double, 6> ReferenceCellTree::boxOf(
 
 //------------------------------------------------------------------------------
 // Median split along the longest axis: balanced, so the recursion is no deeper than log2(cells).
-void ReferenceCellTree::build(const ReferenceMesh& mesh, const std::vector<Vector3>& centroids,
+void ReferenceCellTree::Build(const ReferenceMesh& mesh, const std::vector<Vector3>& centroids,
   std::int32_t begin, std::int32_t end)
 {
   const std::size_t self = this->Nodes.size();
-  this->Nodes.push_back(Node{ this->boxOf(mesh, begin, end), begin, end - begin });
+  this->Nodes.push_back(Node{ this->BoxOf(mesh, begin, end), begin, end - begin });
   if (end - begin <= CellsPerLeaf)
   {
     return;
@@ -120,14 +120,14 @@ void ReferenceCellTree::build(const ReferenceMesh& mesh, const std::vector<Vecto
     this->Order.begin() + end,
     [&centroids, axis](std::int64_t a, std::int64_t b)
     { return centroids[a][axis] < centroids[b][axis]; });
-  this->build(mesh, centroids, begin, middle);
+  this->Build(mesh, centroids, begin, middle);
   this->Nodes[self].First = static_cast<std::int32_t>(this->Nodes.size());
   this->Nodes[self].Count = 0;
-  this->build(mesh, centroids, middle, end);
+  this->Build(mesh, centroids, middle, end);
 }
 
 //------------------------------------------------------------------------------
-void ReferenceCellTree::candidates(const Ray& ray, std::vector<std::int64_t>& cells) const
+void ReferenceCellTree::Candidates(const Ray& ray, std::vector<std::int64_t>& cells) const
 {
   if (this->Nodes.empty())
   {
@@ -147,7 +147,7 @@ void ReferenceCellTree::candidates(const Ray& ray, std::vector<std::int64_t>& ce
   {
     const std::int32_t index = stack[--top];
     const Node& node = this->Nodes[index];
-    if (!meetsBox(frame, node.Box))
+    if (!MeetsBox(frame, node.Box))
     {
       continue;
     }

@@ -31,7 +31,7 @@ public:
   /**
    * Appends every cell with a volume whose box the ray meets (a superset of the cells it crosses).
    */
-  void candidates(const Ray& ray, std::vector<std::int64_t>& cells) const;
+  void Candidates(const Ray& ray, std::vector<std::int64_t>& cells) const;
 
 private:
   struct Node
@@ -41,9 +41,9 @@ private:
     std::int32_t Count;        // leaf: cells; inner: 0, the left child follows the node
   };
 
-  void build(const ReferenceMesh& mesh, const std::vector<Vector3>& centroids, std::int32_t begin,
+  void Build(const ReferenceMesh& mesh, const std::vector<Vector3>& centroids, std::int32_t begin,
     std::int32_t end);
-  std::array<double, 6> boxOf(
+  std::array<double, 6> BoxOf(
     const ReferenceMesh& mesh, std::int32_t begin, std::int32_t end) const;
 
   std::vector<Node> Nodes;

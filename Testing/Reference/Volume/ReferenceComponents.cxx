@@ -16,19 +16,19 @@ namespace
 // Steps of a piece per optical depth: Gauss' rule of three points then errs by less than 1e-9.
 constexpr double StepsPerDepth = 4.0;
 
-double lengthOf(const Vector3& v)
+double LengthOf(const Vector3& v)
 {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
 // A scalar along a segment.
-double scalarAt(const RaySegment& segment, double part)
+double ScalarAt(const RaySegment& segment, double part)
 {
   return segment.ScalarBegin + part * (segment.ScalarEnd - segment.ScalarBegin);
 }
 
 // Attenuation, and emission of the three colours.
-std::array<double, 4> mediumAt(const std::vector<const RaySegment*>& segments, Mixture mixture,
+std::array<double, 4> MediumAt(const std::vector<const RaySegment*>& segments, Mixture mixture,
   const std::vector<ReferenceTransferFunction>& functions, double part)
 {
   std::array<double, 4> medium{ 0.0, 0.0, 0.0, 0.0 };
@@ -36,7 +36,7 @@ std::array<double, 4> mediumAt(const std::vector<const RaySegment*>& segments, M
   {
     for (std::size_t i = 0; i < segments.size(); ++i)
     {
-      const OpticalSample sample = functions[i].value(scalarAt(*segments[i], part));
+      const OpticalSample sample = functions[i].GetValue(ScalarAt(*segments[i], part));
       medium[0] += sample.Attenuation;
       for (int c = 0; c < 3; ++c)
       {
@@ -46,25 +46,25 @@ std::array<double, 4> mediumAt(const std::vector<const RaySegment*>& segments, M
     return medium;
   }
   const std::size_t last = segments.size() - 1;
-  medium[0] = functions[last].value(scalarAt(*segments[last], part)).Attenuation;
-  const OpticalSample byFirst = functions[0].value(scalarAt(*segments[0], part));
+  medium[0] = functions[last].GetValue(ScalarAt(*segments[last], part)).Attenuation;
+  const OpticalSample byFirst = functions[0].GetValue(ScalarAt(*segments[0], part));
   for (int c = 0; c < 3; ++c)
   {
     medium[c + 1] = medium[0] *
-      (mixture == Mixture::ColorAndOpacity ? byFirst.Color[c] : scalarAt(*segments[c], part));
+      (mixture == Mixture::ColorAndOpacity ? byFirst.Color[c] : ScalarAt(*segments[c], part));
   }
   return medium;
 }
 
 // Places in [0, 1] between which all functions are linear.
-std::vector<double> piecesOf(const std::vector<const RaySegment*>& segments,
+std::vector<double> PiecesOf(const std::vector<const RaySegment*>& segments,
   const std::vector<ReferenceTransferFunction>& functions)
 {
   std::vector<double> places{ 0.0, 1.0 };
   for (std::size_t i = 0; i < segments.size(); ++i)
   {
     const double change = segments[i]->ScalarEnd - segments[i]->ScalarBegin;
-    for (const TransferFunctionNode& node : functions[i].nodes())
+    for (const TransferFunctionNode& node : functions[i].GetNodes())
     {
       const double part = (node.Scalar - segments[i]->ScalarBegin) / change;
       if (part > 0.0 && part < 1.0)
@@ -80,13 +80,13 @@ std::vector<double> piecesOf(const std::vector<const RaySegment*>& segments,
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-std::array<double, 4> integrateComponents(const Ray& ray,
+std::array<double, 4> IntegrateComponents(const Ray& ray,
   const std::vector<std::vector<RaySegment>>& segments, Mixture mixture,
   const std::vector<ReferenceTransferFunction>& functions)
 {
   std::array<double, 4> result{ 0.0, 0.0, 0.0, 0.0 };
   double transmittance = 1.0;
-  const double unit = lengthOf(ray.Direction);
+  const double unit = LengthOf(ray.Direction);
   std::vector<const RaySegment*> here(segments.size());
   for (std::size_t s = 0; s < segments[0].size(); ++s)
   {
@@ -95,12 +95,12 @@ std::array<double, 4> integrateComponents(const Ray& ray,
       here[i] = &segments[i][s];
     }
     const double length = unit * (here[0]->End - here[0]->Begin);
-    const std::vector<double> places = piecesOf(here, functions);
+    const std::vector<double> places = PiecesOf(here, functions);
     for (std::size_t p = 0; p + 1 < places.size(); ++p)
     {
       const double span = places[p + 1] - places[p];
       const double depth =
-        span * length * mediumAt(here, mixture, functions, places[p] + 0.5 * span)[0];
+        span * length * MediumAt(here, mixture, functions, places[p] + 0.5 * span)[0];
       const int steps = 2 + static_cast<int>(StepsPerDepth * depth);
       const double step = span / steps;
       for (int k = 0; k < steps; ++k)
@@ -110,13 +110,13 @@ std::array<double, 4> integrateComponents(const Ray& ray,
         const double begin = places[p] + k * step;
         const auto depthTo = [&](double part) {
           return part * step * length *
-            mediumAt(here, mixture, functions, begin + 0.5 * part * step)[0];
+            MediumAt(here, mixture, functions, begin + 0.5 * part * step)[0];
         };
         for (const int side : { -1, 0, 1 })
         {
           const double part = 0.5 * (1.0 + side * std::sqrt(0.6));
           const double weight = (side == 0 ? 8.0 : 5.0) / 18.0;
-          const auto medium = mediumAt(here, mixture, functions, begin + part * step);
+          const auto medium = MediumAt(here, mixture, functions, begin + part * step);
           const double shown = weight * transmittance * std::exp(-depthTo(part)) * step * length;
           for (int c = 0; c < 3; ++c)
           {

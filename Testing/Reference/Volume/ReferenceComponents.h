@@ -31,7 +31,7 @@ enum class Mixture
  * @param functions function of each component, in the same order; ignored if the component is a
  *   colour. Weights are included in the attenuations.
  */
-std::array<double, 4> integrateComponents(const Ray& ray,
+std::array<double, 4> IntegrateComponents(const Ray& ray,
   const std::vector<std::vector<RaySegment>>& segments, Mixture mixture,
   const std::vector<ReferenceTransferFunction>& functions);
 

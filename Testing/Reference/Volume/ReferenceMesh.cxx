@@ -37,23 +37,23 @@ struct FaceKey
   int Parity;
 };
 
-ExactVector edge(const double* from, const double* to)
+ExactVector GetEdge(const double* from, const double* to)
 {
   return { Exact(to[0]) - from[0], Exact(to[1]) - from[1], Exact(to[2]) - from[2] };
 }
 
-ExactVector cross(const ExactVector& a, const ExactVector& b)
+ExactVector Cross(const ExactVector& a, const ExactVector& b)
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
-Exact dot(const ExactVector& a, const ExactVector& b)
+Exact Dot(const ExactVector& a, const ExactVector& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 // Sorts the ids of a face; the parity of the sorting distinguishes the face's two sides.
-FaceKey makeFaceKey(const std::int64_t* cell, std::int64_t cellId, int face)
+FaceKey MakeFaceKey(const std::int64_t* cell, std::int64_t cellId, int face)
 {
   const int* local = FaceVertices[face];
   FaceKey key{ { cell[local[0]], cell[local[1]], cell[local[2]] }, 4 * cellId + face, 1 };
@@ -78,7 +78,7 @@ struct Neighbor
 };
 
 // Pairs faces with the same ids. Of a face shared by more than two cells, only pairs are linked.
-std::vector<Neighbor> linkFaces(std::vector<FaceKey>& keys, std::size_t cells, std::size_t& single)
+std::vector<Neighbor> LinkFaces(std::vector<FaceKey>& keys, std::size_t cells, std::size_t& single)
 {
   std::sort(keys.begin(), keys.end(),
     [](const FaceKey& a, const FaceKey& b)
@@ -111,26 +111,26 @@ ReferenceMesh::ReferenceMesh(
   , Scalars(std::move(scalars))
   , Planes(Cells.size() / 4)
 {
-  std::vector<char> usable(this->numberOfCells());
+  std::vector<char> usable(this->GetNumberOfCells());
   for (std::size_t id = 0; id < usable.size(); ++id)
   {
-    usable[id] = this->isUsable(id);
+    usable[id] = this->IsUsable(id);
   }
-  this->findBounds(usable);
-  this->findKinds(this->volumeSigns(usable));
+  this->FindBounds(usable);
+  this->FindKinds(this->VolumeSigns(usable));
   for (std::size_t id = 0; id < this->Kinds.size(); ++id)
   {
     if (this->Kinds[id] == CellKind::Contributing || this->Kinds[id] == CellKind::Inverted)
     {
-      this->findPlanes(id);
+      this->FindPlanes(id);
     }
   }
 }
 
 //------------------------------------------------------------------------------
-bool ReferenceMesh::isUsable(std::size_t id) const
+bool ReferenceMesh::IsUsable(std::size_t id) const
 {
-  const std::int64_t* ids = this->cell(id);
+  const std::int64_t* ids = this->GetCell(id);
   const auto points = static_cast<std::int64_t>(this->Points.size() / 3);
   for (int i = 0; i < 4; ++i)
   {
@@ -138,7 +138,7 @@ bool ReferenceMesh::isUsable(std::size_t id) const
     {
       return false;
     }
-    const double* x = this->point(ids[i]);
+    const double* x = this->GetPoint(ids[i]);
     if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
     {
       return false;
@@ -149,22 +149,22 @@ bool ReferenceMesh::isUsable(std::size_t id) const
 
 //------------------------------------------------------------------------------
 // Sign of each cell's volume; 0 for a flat cell, 2 for an unusable one.
-std::vector<int> ReferenceMesh::volumeSigns(const std::vector<char>& usable) const
+std::vector<int> ReferenceMesh::VolumeSigns(const std::vector<char>& usable) const
 {
-  std::vector<int> signs(this->numberOfCells(), 2);
+  std::vector<int> signs(this->GetNumberOfCells(), 2);
   for (std::size_t id = 0; id < signs.size(); ++id)
   {
     if (!usable[id])
     {
       continue;
     }
-    const std::int64_t* ids = this->cell(id);
-    const double* origin = this->point(ids[0]);
-    const ExactVector a = edge(origin, this->point(ids[1]));
-    const ExactVector b = edge(origin, this->point(ids[2]));
-    const ExactVector c = edge(origin, this->point(ids[3]));
-    const Exact volume = dot(cross(a, b), c);
-    const Exact longestSquared = std::max({ dot(a, a), dot(b, b), dot(c, c) });
+    const std::int64_t* ids = this->GetCell(id);
+    const double* origin = this->GetPoint(ids[0]);
+    const ExactVector a = GetEdge(origin, this->GetPoint(ids[1]));
+    const ExactVector b = GetEdge(origin, this->GetPoint(ids[2]));
+    const ExactVector c = GetEdge(origin, this->GetPoint(ids[3]));
+    const Exact volume = Dot(Cross(a, b), c);
+    const Exact longestSquared = std::max({ Dot(a, a), Dot(b, b), Dot(c, c) });
     const Exact flat = FlatHeight * this->Diagonal * longestSquared;
     signs[id] = volume > flat ? 1 : (volume < -flat ? -1 : 0);
   }
@@ -173,7 +173,7 @@ std::vector<int> ReferenceMesh::volumeSigns(const std::vector<char>& usable) con
 
 //------------------------------------------------------------------------------
 // Orientation (+1 or -1) of the stored vertex order that makes all cells of a component agree.
-std::vector<int> ReferenceMesh::orient(const std::vector<int>& signs)
+std::vector<int> ReferenceMesh::Orient(const std::vector<int>& signs)
 {
   std::vector<FaceKey> keys;
   keys.reserve(4 * signs.size());
@@ -181,10 +181,10 @@ std::vector<int> ReferenceMesh::orient(const std::vector<int>& signs)
   {
     for (int face = 0; signs[id] != 2 && face < 4; ++face)
     {
-      keys.push_back(makeFaceKey(this->cell(id), static_cast<std::int64_t>(id), face));
+      keys.push_back(MakeFaceKey(this->GetCell(id), static_cast<std::int64_t>(id), face));
     }
   }
-  const std::vector<Neighbor> neighbors = linkFaces(keys, signs.size(), this->BoundaryFaces);
+  const std::vector<Neighbor> neighbors = LinkFaces(keys, signs.size(), this->BoundaryFaces);
   this->Neighbors.reserve(neighbors.size());
   for (const Neighbor& neighbor : neighbors)
   {
@@ -226,9 +226,9 @@ std::vector<int> ReferenceMesh::orient(const std::vector<int>& signs)
 }
 
 //------------------------------------------------------------------------------
-void ReferenceMesh::findKinds(const std::vector<int>& signs)
+void ReferenceMesh::FindKinds(const std::vector<int>& signs)
 {
-  const std::vector<int> orientation = this->orient(signs);
+  const std::vector<int> orientation = this->Orient(signs);
   this->Kinds.reserve(signs.size());
   for (std::size_t id = 0; id < signs.size(); ++id)
   {
@@ -249,7 +249,7 @@ void ReferenceMesh::findKinds(const std::vector<int>& signs)
 }
 
 //------------------------------------------------------------------------------
-void ReferenceMesh::findBounds(const std::vector<char>& usable)
+void ReferenceMesh::FindBounds(const std::vector<char>& usable)
 {
   if (std::find(usable.begin(), usable.end(), 1) == usable.end())
   {
@@ -262,7 +262,7 @@ void ReferenceMesh::findBounds(const std::vector<char>& usable)
   {
     for (int i = 0; usable[id] && i < 4; ++i)
     {
-      const double* x = this->point(this->cell(id)[i]);
+      const double* x = this->GetPoint(this->GetCell(id)[i]);
       for (int axis = 0; axis < 3; ++axis)
       {
         low[axis] = std::min(low[axis], x[axis]);
@@ -280,24 +280,24 @@ void ReferenceMesh::findBounds(const std::vector<char>& usable)
 }
 
 //------------------------------------------------------------------------------
-void ReferenceMesh::findPlanes(std::size_t id)
+void ReferenceMesh::FindPlanes(std::size_t id)
 {
-  const std::int64_t* ids = this->cell(id);
+  const std::int64_t* ids = this->GetCell(id);
   CellPlanes& planes = this->Planes[id];
   for (int i = 0; i < 4; ++i)
   {
-    const double* base = this->point(ids[FaceVertices[i][0]]);
-    const ExactVector normal = cross(edge(base, this->point(ids[FaceVertices[i][1]])),
-      edge(base, this->point(ids[FaceVertices[i][2]])));
-    const Exact height = dot(normal, edge(base, this->point(ids[i])));
+    const double* base = this->GetPoint(ids[FaceVertices[i][0]]);
+    const ExactVector normal = Cross(GetEdge(base, this->GetPoint(ids[FaceVertices[i][1]])),
+      GetEdge(base, this->GetPoint(ids[FaceVertices[i][2]])));
+    const Exact height = Dot(normal, GetEdge(base, this->GetPoint(ids[i])));
     const ExactVector toBase = { Exact(base[0]) - this->Center[0], Exact(base[1]) - this->Center[1],
       Exact(base[2]) - this->Center[2] };
     for (int axis = 0; axis < 3; ++axis)
     {
       planes.Gradient[i][axis] = static_cast<double>(normal[axis] / height);
     }
-    planes.Offset[i] = static_cast<double>(-dot(normal, toBase) / height);
-    planes.Slack[i] = static_cast<double>(std::sqrt(dot(normal, normal)) / std::fabs(height)) *
+    planes.Offset[i] = static_cast<double>(-Dot(normal, toBase) / height);
+    planes.Slack[i] = static_cast<double>(std::sqrt(Dot(normal, normal)) / std::fabs(height)) *
       WideningDistance * this->Diagonal;
   }
 }

@@ -42,11 +42,11 @@ public:
   ReferenceMesh(
     std::vector<double> points, std::vector<std::int64_t> cells, std::vector<double> scalars);
 
-  std::size_t numberOfCells() const { return this->Cells.size() / 4; }
-  const std::int64_t* cell(std::size_t id) const { return &this->Cells[4 * id]; }
-  const double* point(std::int64_t id) const { return &this->Points[3 * id]; }
-  double scalar(std::int64_t id) const { return this->Scalars[id]; }
-  const CellPlanes& planes(std::size_t id) const { return this->Planes[id]; }
+  std::size_t GetNumberOfCells() const { return this->Cells.size() / 4; }
+  const std::int64_t* GetCell(std::size_t id) const { return &this->Cells[4 * id]; }
+  const double* GetPoint(std::int64_t id) const { return &this->Points[3 * id]; }
+  double GetScalar(std::int64_t id) const { return this->Scalars[id]; }
+  const CellPlanes& GetPlanes(std::size_t id) const { return this->Planes[id]; }
 
   enum class CellKind : signed char
   {
@@ -55,29 +55,29 @@ public:
     Contributing = 1,
     Rejected = 2
   };
-  CellKind kind(std::size_t id) const { return this->Kinds[id]; }
+  CellKind GetKind(std::size_t id) const { return this->Kinds[id]; }
 
   /** Cell and face (4 * cell + face) on the other side of a face, -1 on the boundary. */
-  std::int64_t neighbor(std::int64_t cellFace) const { return this->Neighbors[cellFace]; }
+  std::int64_t GetNeighbor(std::int64_t cellFace) const { return this->Neighbors[cellFace]; }
 
   /** Ids of the cells that contribute, in increasing order. */
-  const std::vector<std::int64_t>& contributingCells() const { return this->Contributing; }
-  std::size_t numberOfInvertedCells() const { return this->InvertedCells; }
-  std::size_t numberOfZeroVolumeCells() const { return this->ZeroVolumeCells; }
-  std::size_t numberOfRejectedCells() const { return this->RejectedCells; }
-  std::size_t numberOfBoundaryFaces() const { return this->BoundaryFaces; }
+  const std::vector<std::int64_t>& ContributingCells() const { return this->Contributing; }
+  std::size_t NumberOfInvertedCells() const { return this->InvertedCells; }
+  std::size_t NumberOfZeroVolumeCells() const { return this->ZeroVolumeCells; }
+  std::size_t NumberOfRejectedCells() const { return this->RejectedCells; }
+  std::size_t NumberOfBoundaryFaces() const { return this->BoundaryFaces; }
 
-  const Vector3& center() const { return this->Center; }
+  const Vector3& GetCenter() const { return this->Center; }
   /** Diagonal of the bounding box of the usable cells, 0 without any. */
-  double diagonal() const { return this->Diagonal; }
+  double GetDiagonal() const { return this->Diagonal; }
 
 private:
-  void findBounds(const std::vector<char>& usable);
-  std::vector<int> volumeSigns(const std::vector<char>& usable) const;
-  bool isUsable(std::size_t id) const;
-  void findKinds(const std::vector<int>& signs);
-  std::vector<int> orient(const std::vector<int>& signs);
-  void findPlanes(std::size_t id);
+  void FindBounds(const std::vector<char>& usable);
+  std::vector<int> VolumeSigns(const std::vector<char>& usable) const;
+  bool IsUsable(std::size_t id) const;
+  void FindKinds(const std::vector<int>& signs);
+  std::vector<int> Orient(const std::vector<int>& signs);
+  void FindPlanes(std::size_t id);
 
   std::vector<double> Points;
   std::vector<std::int64_t> Cells;

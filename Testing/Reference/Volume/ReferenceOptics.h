@@ -30,7 +30,7 @@ enum class Projection
 };
 
 /** Premultiplied colour of a projection. The range, used by Additive, is that of the data. */
-std::array<double, 4> project(const Ray& ray, const std::vector<RaySegment>& segments,
+std::array<double, 4> Project(const Ray& ray, const std::vector<RaySegment>& segments,
   Projection projection, const ReferenceTransferFunction& function, const double range[2]);
 
 /** A half space, kept where Normal . (x - Origin) >= 0. */
@@ -41,7 +41,7 @@ struct HalfSpace
 };
 
 /** The part of a ray inside half spaces; Begin >= End if there is none. */
-Ray clipRay(const Ray& ray, const std::vector<HalfSpace>& halfSpaces);
+Ray ClipRay(const Ray& ray, const std::vector<HalfSpace>& halfSpaces);
 
 struct Light
 {
@@ -74,17 +74,17 @@ public:
   /** Gradients of the cells, or interpolated between the volume-weighted means about each point. */
   ReferenceGradients(const ReferenceMesh& mesh, bool smooth);
 
-  Vector3 at(std::int64_t cell, const Vector3& position) const;
+  Vector3 At(std::int64_t cell, const Vector3& position) const;
 
 private:
-  Vector3 ofCell(std::int64_t cell) const;
+  Vector3 OfCell(std::int64_t cell) const;
 
   const ReferenceMesh& Mesh;
   std::vector<Vector3> AtPoints;
 };
 
 /** Phong's model, two-sided: lit colour of a point with an emitted colour, as seen along a ray. */
-std::array<double, 3> shade(const Material& material, const Ray& ray, const Vector3& position,
+std::array<double, 3> Shade(const Material& material, const Ray& ray, const Vector3& position,
   const Vector3& gradient, const std::array<double, 3>& emitted);
 
 struct Surface
@@ -95,7 +95,7 @@ struct Surface
 };
 
 /** Surfaces in front-to-back order. Without gradients they have their own colour. */
-std::array<double, 4> blendSurfaces(const Ray& ray, const std::vector<RaySegment>& segments,
+std::array<double, 4> BlendSurfaces(const Ray& ray, const std::vector<RaySegment>& segments,
   const std::vector<Surface>& surfaces, const ReferenceGradients* gradients,
   const Material& material);
 
@@ -103,7 +103,7 @@ std::array<double, 4> blendSurfaces(const Ray& ray, const std::vector<RaySegment
  * The density-emitter integral with lighting, and a factor of the attenuation by the gradient's
  * length (null: 1), by midpoints of many equal steps per segment between the function's nodes.
  */
-std::array<double, 4> integrateShaded(const Ray& ray, const std::vector<RaySegment>& segments,
+std::array<double, 4> IntegrateShaded(const Ray& ray, const std::vector<RaySegment>& segments,
   const ReferenceTransferFunction& function, const ReferenceGradients& gradients,
   const Material* material, const std::function<double(double)>& gradientOpacity,
   int stepsPerPiece);

@@ -35,14 +35,14 @@ constexpr double Points8[4] = { 0.18343464249564980494, 0.52553240991632898582,
 constexpr double Weights8[4] = { 0.36268378337836198297, 0.31370664587788728734,
   0.22238103445337447054, 0.10122853629037625915 };
 
-double dot(const Vector3& a, const Vector3& b)
+double Dot(const Vector3& a, const Vector3& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-double length(const Vector3& a)
+double MakeLength(const Vector3& a)
 {
-  return std::sqrt(dot(a, a));
+  return std::sqrt(Dot(a, a));
 }
 
 struct Accumulator
@@ -52,7 +52,7 @@ struct Accumulator
 };
 
 // Adds the weighted emission at one abscissa, u in [0, 1] along a piece of the given length.
-void addSample(const OpticalSample& begin, const OpticalSample& end, double pieceLength, double u,
+void AddSample(const OpticalSample& begin, const OpticalSample& end, double pieceLength, double u,
   double weight, Accumulator& sum)
 {
   const double slope = end.Attenuation - begin.Attenuation;
@@ -67,14 +67,14 @@ void addSample(const OpticalSample& begin, const OpticalSample& end, double piec
 
 // One piece in which attenuation and colour are linear, of optical depth at most ThickDepth.
 template <int Half>
-void addPiece(const OpticalSample& begin, const OpticalSample& end, double pieceLength,
+void AddPiece(const OpticalSample& begin, const OpticalSample& end, double pieceLength,
   const double (&points)[Half], const double (&weights)[Half], Accumulator& total)
 {
   Accumulator sum;
   for (int i = 0; i < Half; ++i)
   {
-    addSample(begin, end, pieceLength, 0.5 * (1.0 - points[i]), 0.5 * weights[i], sum);
-    addSample(begin, end, pieceLength, 0.5 * (1.0 + points[i]), 0.5 * weights[i], sum);
+    AddSample(begin, end, pieceLength, 0.5 * (1.0 - points[i]), 0.5 * weights[i], sum);
+    AddSample(begin, end, pieceLength, 0.5 * (1.0 + points[i]), 0.5 * weights[i], sum);
   }
   const double depth = 0.5 * pieceLength * (begin.Attenuation + end.Attenuation);
   for (int c = 0; c < 3; ++c)
@@ -84,7 +84,7 @@ void addPiece(const OpticalSample& begin, const OpticalSample& end, double piece
   total.Transmittance *= std::exp(-depth);
 }
 
-OpticalSample mix(const OpticalSample& a, const OpticalSample& b, double u)
+OpticalSample Mix(const OpticalSample& a, const OpticalSample& b, double u)
 {
   OpticalSample sample;
   sample.Attenuation = a.Attenuation + u * (b.Attenuation - a.Attenuation);
@@ -96,7 +96,7 @@ OpticalSample mix(const OpticalSample& a, const OpticalSample& b, double u)
 }
 
 // Splits a piece of linear optics until Gauss-Legendre is exact to the target.
-void addLinearPiece(
+void AddLinearPiece(
   const OpticalSample& begin, const OpticalSample& end, double pieceLength, Accumulator& total)
 {
   const double depth = 0.5 * pieceLength * (begin.Attenuation + end.Attenuation);
@@ -106,20 +106,20 @@ void addLinearPiece(
   }
   if (depth <= ThinDepth)
   {
-    addPiece(begin, end, pieceLength, Points4, Weights4, total);
+    AddPiece(begin, end, pieceLength, Points4, Weights4, total);
     return;
   }
   const int parts = static_cast<int>(std::min(std::ceil(depth / ThickDepth), 1e6));
   for (int i = 0; i < parts && total.Transmittance > DarkTransmittance; ++i)
   {
-    addPiece(mix(begin, end, static_cast<double>(i) / parts),
-      mix(begin, end, static_cast<double>(i + 1) / parts), pieceLength / parts, Points8, Weights8,
+    AddPiece(Mix(begin, end, static_cast<double>(i) / parts),
+      Mix(begin, end, static_cast<double>(i + 1) / parts), pieceLength / parts, Points8, Weights8,
       total);
   }
 }
 
 // Splits one segment at the nodes of the transfer function inside its scalar range.
-void addSegment(const RaySegment& segment, double lengthPerUnit,
+void AddSegment(const RaySegment& segment, double lengthPerUnit,
   const ReferenceTransferFunction& function, Accumulator& total)
 {
   const double s0 = segment.ScalarBegin;
@@ -129,14 +129,14 @@ void addSegment(const RaySegment& segment, double lengthPerUnit,
   {
     const double a = s0 + from * (s1 - s0);
     const double b = s0 + to * (s1 - s0);
-    const std::size_t piece = function.pieceOf(0.5 * (a + b));
-    addLinearPiece(function.valueInPiece(piece, a), function.valueInPiece(piece, b),
+    const std::size_t piece = function.PieceOf(0.5 * (a + b));
+    AddLinearPiece(function.ValueInPiece(piece, a), function.ValueInPiece(piece, b),
       (to - from) * segmentLength, total);
   };
 
-  const auto& nodes = function.nodes();
-  const std::size_t first = function.pieceOf(std::min(s0, s1));
-  const std::size_t last = function.pieceOf(std::max(s0, s1));
+  const auto& nodes = function.GetNodes();
+  const std::size_t first = function.PieceOf(std::min(s0, s1));
+  const std::size_t last = function.PieceOf(std::max(s0, s1));
   double from = 0.0;
   for (std::size_t k = first; k < last && s0 != s1; ++k)
   {
@@ -177,18 +177,18 @@ struct Crossing
 };
 
 // Clips the ray against the four widened half-spaces of a cell.
-bool clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vector3& origin,
+bool Clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vector3& origin,
   Crossing& crossing)
 {
-  const CellPlanes& planes = mesh.planes(static_cast<std::size_t>(id));
+  const CellPlanes& planes = mesh.GetPlanes(static_cast<std::size_t>(id));
   double begin = ray.Begin;
   double end = ray.End;
   double offset[4];
   double slope[4];
   for (int i = 0; i < 4; ++i)
   {
-    offset[i] = dot(planes.Gradient[i], origin) + planes.Offset[i];
-    slope[i] = dot(planes.Gradient[i], ray.Direction);
+    offset[i] = Dot(planes.Gradient[i], origin) + planes.Offset[i];
+    slope[i] = Dot(planes.Gradient[i], ray.Direction);
     const double widened = offset[i] + planes.Slack[i];
     const double at = -widened / slope[i];
     if (slope[i] > 0.0 && at > begin)
@@ -206,14 +206,14 @@ bool clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vect
       return false;
     }
   }
-  const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(id));
+  const std::int64_t* ids = mesh.GetCell(static_cast<std::size_t>(id));
   RaySegment& segment = crossing.Segment;
   segment = RaySegment{ begin, end, 0.0, 0.0, id };
-  double low = mesh.scalar(ids[0]);
+  double low = mesh.GetScalar(ids[0]);
   double high = low;
   for (int i = 0; i < 4; ++i)
   {
-    const double scalar = mesh.scalar(ids[i]);
+    const double scalar = mesh.GetScalar(ids[i]);
     low = std::min(low, scalar);
     high = std::max(high, scalar);
     segment.ScalarBegin += scalar * (offset[i] + begin * slope[i]);
@@ -222,30 +222,31 @@ bool clip(const ReferenceMesh& mesh, std::int64_t id, const Ray& ray, const Vect
   // The widening extrapolates in very flat cells.
   segment.ScalarBegin = std::min(std::max(segment.ScalarBegin, low), high);
   segment.ScalarEnd = std::min(std::max(segment.ScalarEnd, low), high);
-  crossing.Inverted = mesh.kind(static_cast<std::size_t>(id)) == ReferenceMesh::CellKind::Inverted;
+  crossing.Inverted =
+    mesh.GetKind(static_cast<std::size_t>(id)) == ReferenceMesh::CellKind::Inverted;
   return true;
 }
 
 // True if a function attenuates anywhere in a cell's range of scalars.
-bool canBeSeen(
+bool CanBeSeen(
   const ReferenceMesh& mesh, std::int64_t id, const ReferenceTransferFunction& function)
 {
-  const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(id));
-  double low = mesh.scalar(ids[0]);
+  const std::int64_t* ids = mesh.GetCell(static_cast<std::size_t>(id));
+  double low = mesh.GetScalar(ids[0]);
   double high = low;
   for (int i = 1; i < 4; ++i)
   {
-    low = std::min(low, mesh.scalar(ids[i]));
-    high = std::max(high, mesh.scalar(ids[i]));
+    low = std::min(low, mesh.GetScalar(ids[i]));
+    high = std::max(high, mesh.GetScalar(ids[i]));
   }
-  const auto& nodes = function.nodes();
-  for (std::size_t piece = function.pieceOf(low); piece <= function.pieceOf(high); ++piece)
+  const auto& nodes = function.GetNodes();
+  for (std::size_t piece = function.PieceOf(low); piece <= function.PieceOf(high); ++piece)
   {
     const double from = piece > 0 ? std::max(low, nodes[piece - 1].Scalar) : low;
     const double to = piece < nodes.size() ? std::min(high, nodes[piece].Scalar) : high;
     if ((from < to || low == high) &&
-      (function.valueInPiece(piece, from).Attenuation > 0.0 ||
-        function.valueInPiece(piece, to).Attenuation > 0.0))
+      (function.ValueInPiece(piece, from).Attenuation > 0.0 ||
+        function.ValueInPiece(piece, to).Attenuation > 0.0))
     {
       return true;
     }
@@ -255,19 +256,19 @@ bool canBeSeen(
 
 // Cells crossed, each found independently, in the order of entry; with a function, only visible
 // cells.
-void findCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
+void FindCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
   const ReferenceTransferFunction* function, std::vector<Crossing>& crossings)
 {
   static thread_local std::vector<std::int64_t> candidates;
   candidates.clear();
-  tree.candidates(ray, candidates);
-  const Vector3 origin{ ray.Origin[0] - mesh.center()[0], ray.Origin[1] - mesh.center()[1],
-    ray.Origin[2] - mesh.center()[2] };
+  tree.Candidates(ray, candidates);
+  const Vector3 origin{ ray.Origin[0] - mesh.GetCenter()[0], ray.Origin[1] - mesh.GetCenter()[1],
+    ray.Origin[2] - mesh.GetCenter()[2] };
   crossings.clear();
   Crossing crossing;
   for (const std::int64_t id : candidates)
   {
-    if ((!function || canBeSeen(mesh, id, *function)) && clip(mesh, id, ray, origin, crossing))
+    if ((!function || CanBeSeen(mesh, id, *function)) && Clip(mesh, id, ray, origin, crossing))
     {
       crossings.push_back(crossing);
     }
@@ -282,19 +283,19 @@ void findCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, con
 }
 
 // True if two cells have a common edge: a ray in it is in both, without any real overlap.
-bool shareAnEdge(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
+bool ShareAnEdge(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
 {
   int shared = 0;
   for (int i = 0; i < 4; ++i)
   {
-    const std::int64_t* ids = mesh.cell(static_cast<std::size_t>(b));
-    shared += std::count(ids, ids + 4, mesh.cell(static_cast<std::size_t>(a))[i]) > 0;
+    const std::int64_t* ids = mesh.GetCell(static_cast<std::size_t>(b));
+    shared += std::count(ids, ids + 4, mesh.GetCell(static_cast<std::size_t>(a))[i]) > 0;
   }
   return shared >= 2;
 }
 
 // True if the depth of entry does not determine the order.
-bool needsOrder(
+bool NeedsOrder(
   const ReferenceMesh& mesh, const std::vector<Crossing>& crossings, double negligible)
 {
   const RaySegment* furthest = nullptr;
@@ -306,7 +307,7 @@ bool needsOrder(
       return true;
     }
     if (furthest && std::min(furthest->End, segment.End) - segment.Begin > negligible &&
-      !shareAnEdge(mesh, furthest->Cell, segment.Cell))
+      !ShareAnEdge(mesh, furthest->Cell, segment.Cell))
     {
       return true;
     }
@@ -331,13 +332,13 @@ public:
     std::sort(this->IndexOf.begin(), this->IndexOf.end());
   }
 
-  std::vector<std::size_t> order()
+  std::vector<std::size_t> GetOrder()
   {
     const std::size_t count = this->Crossings.size();
     std::vector<char> follows(count, 0);
     for (std::size_t i = 0; i < count; ++i)
     {
-      const std::size_t next = this->successor(i);
+      const std::size_t next = this->Successor(i);
       if (next < count)
       {
         follows[next] = 1;
@@ -352,11 +353,11 @@ public:
       }
     }
     std::stable_sort(starts.begin(), starts.end(),
-      [this](std::size_t a, std::size_t b) { return this->entryDepth(a) < this->entryDepth(b); });
+      [this](std::size_t a, std::size_t b) { return this->EntryDepth(a) < this->EntryDepth(b); });
     std::vector<std::size_t> sorted;
     for (const std::size_t start : starts)
     {
-      this->append(start, sorted);
+      this->Append(start, sorted);
     }
     // The remaining crossings are closed paths: they have no entry, and each of their inverted
     // cells cancels the part that another one covers.
@@ -364,15 +365,15 @@ public:
   }
 
 private:
-  double entryDepth(std::size_t i) const
+  double EntryDepth(std::size_t i) const
   {
     const Crossing& crossing = this->Crossings[i];
     return crossing.Inverted ? crossing.Segment.End : crossing.Segment.Begin;
   }
 
-  void append(std::size_t i, std::vector<std::size_t>& sorted)
+  void Append(std::size_t i, std::vector<std::size_t>& sorted)
   {
-    for (; i < this->Crossings.size() && !this->Visited[i]; i = this->successor(i))
+    for (; i < this->Crossings.size() && !this->Visited[i]; i = this->Successor(i))
     {
       this->Visited[i] = 1;
       sorted.push_back(i);
@@ -380,17 +381,17 @@ private:
   }
 
   // A path leaves an inverted cell at its near end.
-  std::size_t successor(std::size_t i) const
+  std::size_t Successor(std::size_t i) const
   {
     const Crossing& crossing = this->Crossings[i];
     const int face = crossing.Inverted ? crossing.NearFace : crossing.FarFace;
-    return this->across(4 * crossing.Segment.Cell + face, MostFlatCells);
+    return this->Across(4 * crossing.Segment.Cell + face, MostFlatCells);
   }
 
   // The crossing behind a face, through flat cells, which are never crossed themselves.
-  std::size_t across(std::int64_t cellFace, int flatCells) const
+  std::size_t Across(std::int64_t cellFace, int flatCells) const
   {
-    const std::int64_t other = this->Mesh.neighbor(cellFace);
+    const std::int64_t other = this->Mesh.GetNeighbor(cellFace);
     if (other < 0)
     {
       return this->Crossings.size();
@@ -403,12 +404,12 @@ private:
       return found->second;
     }
     const bool flat =
-      this->Mesh.kind(static_cast<std::size_t>(cell)) == ReferenceMesh::CellKind::Flat;
+      this->Mesh.GetKind(static_cast<std::size_t>(cell)) == ReferenceMesh::CellKind::Flat;
     for (int face = 0; flat && flatCells > 0 && face < 4; ++face)
     {
       const std::size_t behind = 4 * cell + face == other
         ? this->Crossings.size()
-        : this->across(4 * cell + face, flatCells - 1);
+        : this->Across(4 * cell + face, flatCells - 1);
       if (behind < this->Crossings.size())
       {
         return behind;
@@ -426,23 +427,23 @@ private:
 };
 
 // All crossings of the whole line, in face order.
-void findOrderedCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
+void FindOrderedCrossings(const ReferenceMesh& mesh, const ReferenceCellTree& tree, const Ray& ray,
   const ReferenceTransferFunction* function, std::vector<Crossing>& crossings)
 {
   Ray whole = ray;
   whole.Begin = -std::numeric_limits<double>::max();
   whole.End = std::numeric_limits<double>::max();
   std::vector<Crossing> found;
-  findCrossings(mesh, tree, whole, function, found);
+  FindCrossings(mesh, tree, whole, function, found);
   crossings.clear();
-  for (const std::size_t i : FaceOrder(mesh, found).order())
+  for (const std::size_t i : FaceOrder(mesh, found).GetOrder())
   {
     crossings.push_back(found[i]);
   }
 }
 
 // The part of a segment from a position on.
-RaySegment tail(RaySegment segment, double from)
+RaySegment Tail(RaySegment segment, double from)
 {
   if (from > segment.Begin)
   {
@@ -453,7 +454,7 @@ RaySegment tail(RaySegment segment, double from)
   return segment;
 }
 
-RaySegment head(RaySegment segment, double to)
+RaySegment Head(RaySegment segment, double to)
 {
   if (to < segment.End)
   {
@@ -467,35 +468,35 @@ RaySegment head(RaySegment segment, double to)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-RayReport ReferenceRayIntegrator::findSegments(
+RayReport ReferenceRayIntegrator::FindSegments(
   const Ray& ray, std::vector<RaySegment>& segments) const
 {
-  return this->findSegments(ray, nullptr, segments);
+  return this->FindSegments(ray, nullptr, segments);
 }
 
 //------------------------------------------------------------------------------
-RayReport ReferenceRayIntegrator::findVisibleSegments(const Ray& ray,
+RayReport ReferenceRayIntegrator::FindVisibleSegments(const Ray& ray,
   const ReferenceTransferFunction& function, std::vector<RaySegment>& segments) const
 {
-  const RayReport report = this->findSegments(ray, nullptr, segments);
+  const RayReport report = this->FindSegments(ray, nullptr, segments);
   // Without overlap, invisible segments are superfluous but harmless.
-  return report.Ordered || report.Overlaps > 0 ? this->findSegments(ray, &function, segments)
+  return report.Ordered || report.Overlaps > 0 ? this->FindSegments(ray, &function, segments)
                                                : report;
 }
 
 //------------------------------------------------------------------------------
-RayReport ReferenceRayIntegrator::findSegments(const Ray& ray,
+RayReport ReferenceRayIntegrator::FindSegments(const Ray& ray,
   const ReferenceTransferFunction* function, std::vector<RaySegment>& segments) const
 {
   static thread_local std::vector<Crossing> crossings;
-  findCrossings(this->Mesh, this->Tree, ray, function, crossings);
-  const double lengthPerUnit = length(ray.Direction);
-  const double negligible = NegligibleLength * this->Mesh.diagonal() / lengthPerUnit;
+  FindCrossings(this->Mesh, this->Tree, ray, function, crossings);
+  const double lengthPerUnit = MakeLength(ray.Direction);
+  const double negligible = NegligibleLength * this->Mesh.GetDiagonal() / lengthPerUnit;
   RayReport report;
-  report.Ordered = needsOrder(this->Mesh, crossings, negligible);
+  report.Ordered = NeedsOrder(this->Mesh, crossings, negligible);
   if (report.Ordered)
   {
-    findOrderedCrossings(this->Mesh, this->Tree, ray, function, crossings);
+    FindOrderedCrossings(this->Mesh, this->Tree, ray, function, crossings);
   }
   segments.clear();
   double cursor = -std::numeric_limits<double>::max();
@@ -520,7 +521,7 @@ RayReport ReferenceRayIntegrator::findSegments(const Ray& ray,
     cursor = std::max(cursor, whole.End);
     if (begin < end)
     {
-      segments.push_back(head(tail(whole, begin), end));
+      segments.push_back(Head(Tail(whole, begin), end));
     }
   }
   report.Cells = segments.size();
@@ -528,10 +529,10 @@ RayReport ReferenceRayIntegrator::findSegments(const Ray& ray,
 }
 
 //------------------------------------------------------------------------------
-std::array<double, 4> ReferenceRayIntegrator::integrate(const Ray& ray,
+std::array<double, 4> ReferenceRayIntegrator::Integrate(const Ray& ray,
   const std::vector<RaySegment>& segments, const ReferenceTransferFunction& function)
 {
-  const double lengthPerUnit = length(ray.Direction);
+  const double lengthPerUnit = MakeLength(ray.Direction);
   Accumulator total;
   for (const RaySegment& segment : segments)
   {
@@ -539,26 +540,26 @@ std::array<double, 4> ReferenceRayIntegrator::integrate(const Ray& ray,
     {
       break;
     }
-    addSegment(segment, lengthPerUnit, function, total);
+    AddSegment(segment, lengthPerUnit, function, total);
   }
   return { total.Color[0], total.Color[1], total.Color[2], 1.0 - total.Transmittance };
 }
 
 //------------------------------------------------------------------------------
-std::array<double, 4> ReferenceRayIntegrator::trace(
+std::array<double, 4> ReferenceRayIntegrator::Trace(
   const Ray& ray, const ReferenceTransferFunction& function) const
 {
   std::vector<RaySegment> segments;
-  this->findVisibleSegments(ray, function, segments);
-  return integrate(ray, segments, function);
+  this->FindVisibleSegments(ray, function, segments);
+  return Integrate(ray, segments, function);
 }
 
 //------------------------------------------------------------------------------
-std::vector<CoveredSpan> ReferenceRayIntegrator::coveredSpans(const Ray& ray) const
+std::vector<CoveredSpan> ReferenceRayIntegrator::CoveredSpans(const Ray& ray) const
 {
   std::vector<RaySegment> segments;
-  this->findSegments(ray, segments);
-  const double negligible = NegligibleLength * this->Mesh.diagonal() / length(ray.Direction);
+  this->FindSegments(ray, segments);
+  const double negligible = NegligibleLength * this->Mesh.GetDiagonal() / MakeLength(ray.Direction);
   std::vector<CoveredSpan> spans;
   for (const RaySegment& segment : segments)
   {
@@ -575,7 +576,7 @@ namespace
 {
 
 // Largest move of an end of a span; infinite if the numbers of spans differ.
-double spanChange(const std::vector<CoveredSpan>& a, const std::vector<CoveredSpan>& b)
+double SpanChange(const std::vector<CoveredSpan>& a, const std::vector<CoveredSpan>& b)
 {
   if (a.size() != b.size())
   {
@@ -590,7 +591,7 @@ double spanChange(const std::vector<CoveredSpan>& a, const std::vector<CoveredSp
   return change;
 }
 
-Ray moved(const Ray& ray, const Vector3& by, double distance)
+Ray Moved(const Ray& ray, const Vector3& by, double distance)
 {
   Ray result = ray;
   for (int axis = 0; axis < 3; ++axis)
@@ -600,7 +601,7 @@ Ray moved(const Ray& ray, const Vector3& by, double distance)
   return result;
 }
 
-double largestDifference(const std::array<double, 4>& a, const std::array<double, 4>& b)
+double LargestDifference(const std::array<double, 4>& a, const std::array<double, 4>& b)
 {
   double largest = 0.0;
   for (int c = 0; c < 4; ++c)
@@ -611,24 +612,24 @@ double largestDifference(const std::array<double, 4>& a, const std::array<double
 }
 
 // Two unit vectors across the ray.
-std::array<Vector3, 2> acrossRay(const Vector3& direction)
+std::array<Vector3, 2> AcrossRay(const Vector3& direction)
 {
-  const double size = length(direction);
+  const double size = MakeLength(direction);
   const Vector3 w{ direction[0] / size, direction[1] / size, direction[2] / size };
   const int least = std::fabs(w[0]) < std::fabs(w[1]) ? (std::fabs(w[0]) < std::fabs(w[2]) ? 0 : 2)
                                                       : (std::fabs(w[1]) < std::fabs(w[2]) ? 1 : 2);
   Vector3 u{ -w[least] * w[0], -w[least] * w[1], -w[least] * w[2] };
   u[least] += 1.0;
-  const double scale = 1.0 / length(u);
+  const double scale = 1.0 / MakeLength(u);
   u = { scale * u[0], scale * u[1], scale * u[2] };
   return { u,
     Vector3{ w[1] * u[2] - w[2] * u[1], w[2] * u[0] - w[0] * u[2], w[0] * u[1] - w[1] * u[0] } };
 }
 
 // Unit vectors across the ray in 8 directions.
-std::array<Vector3, 8> directionsAcross(const Vector3& direction)
+std::array<Vector3, 8> DirectionsAcross(const Vector3& direction)
 {
-  const std::array<Vector3, 2> across = acrossRay(direction);
+  const std::array<Vector3, 2> across = AcrossRay(direction);
   std::array<Vector3, 8> result;
   for (int i = 0; i < 8; ++i)
   {
@@ -645,7 +646,7 @@ std::array<Vector3, 8> directionsAcross(const Vector3& direction)
 constexpr double Fraction = 0.125;
 
 // True if a change above the threshold does not shrink with the distance.
-bool isJump(double near, double far, double threshold)
+bool IsJump(double near, double far, double threshold)
 {
   const bool proportional = near > 0.5 * Fraction * far && near < 2.0 * Fraction * far;
   return std::max(near, far) > threshold && !proportional;
@@ -654,7 +655,7 @@ bool isJump(double near, double far, double threshold)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-RayClass ReferenceRayIntegrator::classify(
+RayClass ReferenceRayIntegrator::Classify(
   const Ray& ray, double distance, const ReferenceTransferFunction& function) const
 {
   // A face met at a slope below this moves a span's end in proportion; a jump at a silhouette edge
@@ -662,24 +663,24 @@ RayClass ReferenceRayIntegrator::classify(
   constexpr double steepestSlope = 20.0;
   // A smaller jump of the result cannot be the cause of a wrong pixel.
   constexpr double smallestJump = 1e-5;
-  const double steep = steepestSlope * distance / length(ray.Direction);
-  const std::vector<CoveredSpan> here = this->coveredSpans(ray);
+  const double steep = steepestSlope * distance / MakeLength(ray.Direction);
+  const std::vector<CoveredSpan> here = this->CoveredSpans(ray);
   std::vector<RaySegment> segments;
-  const bool ordered = this->findSegments(ray, segments).Ordered;
-  this->findVisibleSegments(ray, function, segments);
-  const std::array<double, 4> result = integrate(ray, segments, function);
-  for (const Vector3& by : directionsAcross(ray.Direction))
+  const bool ordered = this->FindSegments(ray, segments).Ordered;
+  this->FindVisibleSegments(ray, function, segments);
+  const std::array<double, 4> result = Integrate(ray, segments, function);
+  for (const Vector3& by : DirectionsAcross(ray.Direction))
   {
-    const Ray farRay = moved(ray, by, distance);
-    const Ray nearRay = moved(ray, by, Fraction * distance);
-    if (isJump(spanChange(here, this->coveredSpans(nearRay)),
-          spanChange(here, this->coveredSpans(farRay)), steep))
+    const Ray farRay = Moved(ray, by, distance);
+    const Ray nearRay = Moved(ray, by, Fraction * distance);
+    if (IsJump(SpanChange(here, this->CoveredSpans(nearRay)),
+          SpanChange(here, this->CoveredSpans(farRay)), steep))
     {
       return RayClass::Silhouette;
     }
     if (ordered &&
-      isJump(largestDifference(result, this->trace(nearRay, function)),
-        largestDifference(result, this->trace(farRay, function)), smallestJump))
+      IsJump(LargestDifference(result, this->Trace(nearRay, function)),
+        LargestDifference(result, this->Trace(farRay, function)), smallestJump))
     {
       return RayClass::Silhouette;
     }
@@ -688,15 +689,15 @@ RayClass ReferenceRayIntegrator::classify(
 }
 
 //------------------------------------------------------------------------------
-double ReferenceRayIntegrator::sensitivity(
+double ReferenceRayIntegrator::Sensitivity(
   const Ray& ray, double distance, const ReferenceTransferFunction& function) const
 {
-  const std::array<double, 4> result = this->trace(ray, function);
+  const std::array<double, 4> result = this->Trace(ray, function);
   double largest = 0.0;
-  for (const Vector3& by : directionsAcross(ray.Direction))
+  for (const Vector3& by : DirectionsAcross(ray.Direction))
   {
     largest =
-      std::max(largest, largestDifference(result, this->trace(moved(ray, by, distance), function)));
+      std::max(largest, LargestDifference(result, this->Trace(Moved(ray, by, distance), function)));
   }
   return largest;
 }

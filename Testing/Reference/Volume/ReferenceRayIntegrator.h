@@ -72,22 +72,22 @@ public:
   ReferenceRayIntegrator(
     std::vector<double> points, std::vector<std::int64_t> cells, std::vector<double> scalars);
 
-  const ReferenceMesh& mesh() const { return this->Mesh; }
+  const ReferenceMesh& MakeMesh() const { return this->Mesh; }
 
   /** Segments in order along the ray, without overlap. The vector is reused by the caller. */
-  RayReport findSegments(const Ray& ray, std::vector<RaySegment>& segments) const;
+  RayReport FindSegments(const Ray& ray, std::vector<RaySegment>& segments) const;
 
   /** As above, without the cells that the function makes invisible, wherever cells overlap. */
-  RayReport findVisibleSegments(const Ray& ray, const ReferenceTransferFunction& function,
+  RayReport FindVisibleSegments(const Ray& ray, const ReferenceTransferFunction& function,
     std::vector<RaySegment>& segments) const;
 
   /**
    * Premultiplied RGBA along the segments that one of the two functions returned for the same ray.
    */
-  static std::array<double, 4> integrate(const Ray& ray, const std::vector<RaySegment>& segments,
+  static std::array<double, 4> Integrate(const Ray& ray, const std::vector<RaySegment>& segments,
     const ReferenceTransferFunction& function);
 
-  std::array<double, 4> trace(const Ray& ray, const ReferenceTransferFunction& function) const;
+  std::array<double, 4> Trace(const Ray& ray, const ReferenceTransferFunction& function) const;
 
   /**
    * Silhouette: the covered spans change by a jump (not in proportion) when the ray is moved
@@ -96,23 +96,23 @@ public:
    * overlapping parts a jump of the result itself counts too: there the order of cells changes at
    * edges inside the mesh.
    */
-  RayClass classify(
+  RayClass Classify(
     const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
 
   /** Largest change of the result when the ray is moved sideways by a distance, in 8 directions. */
-  double sensitivity(
+  double Sensitivity(
     const Ray& ray, double distance, const ReferenceTransferFunction& function) const;
 
   /**
    * Distance for classify: float rounding of positions and directions, at a distance of a few
    * diagonals, is 3e-7 of the diagonal; the margin is a factor of about 3.
    */
-  double silhouetteDistance() const { return 1e-6 * this->Mesh.diagonal(); }
+  double SilhouetteDistance() const { return 1e-6 * this->Mesh.GetDiagonal(); }
 
-  std::vector<CoveredSpan> coveredSpans(const Ray& ray) const;
+  std::vector<CoveredSpan> CoveredSpans(const Ray& ray) const;
 
 private:
-  RayReport findSegments(const Ray& ray, const ReferenceTransferFunction* function,
+  RayReport FindSegments(const Ray& ray, const ReferenceTransferFunction* function,
     std::vector<RaySegment>& segments) const;
 
   ReferenceMesh Mesh;

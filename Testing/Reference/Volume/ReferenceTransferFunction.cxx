@@ -23,7 +23,7 @@ ReferenceTransferFunction::ReferenceTransferFunction(
 }
 
 //------------------------------------------------------------------------------
-std::size_t ReferenceTransferFunction::pieceOf(double scalar) const
+std::size_t ReferenceTransferFunction::PieceOf(double scalar) const
 {
   if (this->Beyond == Outside::Zero && !this->Nodes.empty() && scalar == this->Nodes.back().Scalar)
   {
@@ -35,7 +35,7 @@ std::size_t ReferenceTransferFunction::pieceOf(double scalar) const
 }
 
 //------------------------------------------------------------------------------
-OpticalSample ReferenceTransferFunction::valueInPiece(std::size_t piece, double scalar) const
+OpticalSample ReferenceTransferFunction::ValueInPiece(std::size_t piece, double scalar) const
 {
   const std::size_t count = this->Nodes.size();
   if (count == 0)

@@ -44,20 +44,20 @@ public:
   ReferenceTransferFunction(
     std::vector<TransferFunctionNode> nodes, Outside outside = Outside::Clamped);
 
-  const std::vector<TransferFunctionNode>& nodes() const { return this->Nodes; }
+  const std::vector<TransferFunctionNode>& GetNodes() const { return this->Nodes; }
 
   /**
    * Index of the linear piece that holds a scalar: the number of nodes at or below it. The last
    * node belongs to the piece below it where the function ends.
    */
-  std::size_t pieceOf(double scalar) const;
+  std::size_t PieceOf(double scalar) const;
 
   /** Value of one linear piece, extended beyond its ends (so that a jump has two limits). */
-  OpticalSample valueInPiece(std::size_t piece, double scalar) const;
+  OpticalSample ValueInPiece(std::size_t piece, double scalar) const;
 
-  OpticalSample value(double scalar) const
+  OpticalSample GetValue(double scalar) const
   {
-    return this->valueInPiece(this->pieceOf(scalar), scalar);
+    return this->ValueInPiece(this->PieceOf(scalar), scalar);
   }
 
 private:

@@ -13,28 +13,28 @@ namespace reference
 namespace
 {
 
-double dot(const Vector3& a, const Vector3& b)
+double Dot(const Vector3& a, const Vector3& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-Vector3 sum(const Vector3& a, double factor, const Vector3& b)
+Vector3 MakeSum(const Vector3& a, double factor, const Vector3& b)
 {
   return { a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2] };
 }
 
-Vector3 unit(const Vector3& a)
+Vector3 MakeUnit(const Vector3& a)
 {
-  return sum({ 0.0, 0.0, 0.0 }, 1.0 / std::sqrt(dot(a, a)), a);
+  return MakeSum({ 0.0, 0.0, 0.0 }, 1.0 / std::sqrt(Dot(a, a)), a);
 }
 
-Ray withUnitDirection(const Ray& ray)
+Ray WithUnitDirection(const Ray& ray)
 {
-  const double length = std::sqrt(dot(ray.Direction, ray.Direction));
-  return { ray.Origin, unit(ray.Direction), ray.Begin * length, ray.End * length };
+  const double length = std::sqrt(Dot(ray.Direction, ray.Direction));
+  return { ray.Origin, MakeUnit(ray.Direction), ray.Begin * length, ray.End * length };
 }
 
-double bisect(const std::function<double(double)>& f, double low, double high)
+double Bisect(const std::function<double(double)>& f, double low, double high)
 {
   const bool rises = f(low) < 0.0;
   for (;;)
@@ -51,30 +51,31 @@ double bisect(const std::function<double(double)>& f, double low, double high)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
-RefractingSurface makePlane(const Vector3& origin, const Vector3& normal)
+RefractingSurface MakePlane(const Vector3& origin, const Vector3& normal)
 {
   RefractingSurface surface;
-  surface.Normal = [normal](const Vector3&) { return unit(normal); };
+  surface.Normal = [normal](const Vector3&) { return MakeUnit(normal); };
   surface.Meet = [origin, normal](const Ray& ray) -> std::vector<double>
   {
-    const double along = dot(normal, ray.Direction);
-    return along != 0.0 ? std::vector<double>{ dot(normal, sum(origin, -1.0, ray.Origin)) / along }
-                        : std::vector<double>{};
+    const double along = Dot(normal, ray.Direction);
+    return along != 0.0
+      ? std::vector<double>{ Dot(normal, MakeSum(origin, -1.0, ray.Origin)) / along }
+      : std::vector<double>{};
   };
   return surface;
 }
 
 //------------------------------------------------------------------------------
-RefractingSurface makeSphere(const Vector3& center, double radius)
+RefractingSurface MakeSphere(const Vector3& center, double radius)
 {
   RefractingSurface surface;
-  surface.Normal = [center](const Vector3& x) { return unit(sum(x, -1.0, center)); };
+  surface.Normal = [center](const Vector3& x) { return MakeUnit(MakeSum(x, -1.0, center)); };
   surface.Meet = [center, radius](const Ray& ray) -> std::vector<double>
   {
-    const Vector3 toCenter = sum(center, -1.0, ray.Origin);
-    const double along = dot(toCenter, ray.Direction);
-    const Vector3 across = sum(toCenter, -along, ray.Direction);
-    const double squared = radius * radius - dot(across, across);
+    const Vector3 toCenter = MakeSum(center, -1.0, ray.Origin);
+    const double along = Dot(toCenter, ray.Direction);
+    const Vector3 across = MakeSum(toCenter, -along, ray.Direction);
+    const double squared = radius * radius - Dot(across, across);
     if (squared < 0.0)
     {
       return {};
@@ -85,19 +86,19 @@ RefractingSurface makeSphere(const Vector3& center, double radius)
 }
 
 //------------------------------------------------------------------------------
-RefractingSurface makeWaves(double level, double amplitude, double k)
+RefractingSurface MakeWaves(double level, double amplitude, double k)
 {
   RefractingSurface surface;
   surface.Normal = [amplitude, k](const Vector3& x)
   {
-    return unit({ -amplitude * k * std::cos(k * x[0]) * std::sin(k * x[2]), 1.0,
+    return MakeUnit({ -amplitude * k * std::cos(k * x[0]) * std::sin(k * x[2]), 1.0,
       -amplitude * k * std::sin(k * x[0]) * std::cos(k * x[2]) });
   };
   surface.Meet = [level, amplitude, k](const Ray& ray) -> std::vector<double>
   {
     const auto above = [&](double t)
     {
-      const Vector3 x = sum(ray.Origin, t, ray.Direction);
+      const Vector3 x = MakeSum(ray.Origin, t, ray.Direction);
       return x[1] - level - amplitude * std::sin(k * x[0]) * std::sin(k * x[2]);
     };
     // Inside the slab of the waves, by steps of 1 / 128 of a wave.
@@ -113,7 +114,7 @@ RefractingSurface makeWaves(double level, double amplitude, double k)
       const double to = first + (last - first) * (i + 1) / steps;
       if ((above(from) < 0.0) != (above(to) < 0.0))
       {
-        found.push_back(bisect(above, from, to));
+        found.push_back(Bisect(above, from, to));
       }
     }
     return found;
@@ -122,16 +123,16 @@ RefractingSurface makeWaves(double level, double amplitude, double k)
 }
 
 //------------------------------------------------------------------------------
-RefractedRay refract(
+RefractedRay Refract(
   const RefractingSurface& surface, const Ray& given, double eye, bool endsOpaque)
 {
-  const Ray ray = withUnitDirection(given);
-  eye *= std::sqrt(dot(given.Direction, given.Direction));
+  const Ray ray = WithUnitDirection(given);
+  eye *= std::sqrt(Dot(given.Direction, given.Direction));
   RefractedRay result{ ray, Ray() };
   double sight = HUGE_VAL;
   for (const double at : surface.Meet(ray))
   {
-    if (at > eye && surface.Has(sum(ray.Origin, at, ray.Direction)))
+    if (at > eye && surface.Has(MakeSum(ray.Origin, at, ray.Direction)))
     {
       sight = std::min(sight, at);
     }
@@ -141,17 +142,17 @@ RefractedRay refract(
     return result;
   }
   result.Straight.End = std::min(ray.End, sight);
-  const Vector3 place = sum(ray.Origin, sight, ray.Direction);
+  const Vector3 place = MakeSum(ray.Origin, sight, ray.Direction);
   Vector3 normal = surface.Normal(place);
   double from = surface.Exterior;
   double to = surface.Interior;
-  if (dot(normal, ray.Direction) > 0.0)
+  if (Dot(normal, ray.Direction) > 0.0)
   {
-    normal = sum({ 0.0, 0.0, 0.0 }, -1.0, normal);
+    normal = MakeSum({ 0.0, 0.0, 0.0 }, -1.0, normal);
     std::swap(from, to);
   }
-  const Vector3 tangent = sum(ray.Direction, -dot(ray.Direction, normal), normal);
-  const double sineIn = std::sqrt(dot(tangent, tangent));
+  const Vector3 tangent = MakeSum(ray.Direction, -Dot(ray.Direction, normal), normal);
+  const double sineIn = std::sqrt(Dot(tangent, tangent));
   const double sineOut = sineIn * from / to;
   if (sineOut >= 1.0)
   {
@@ -160,25 +161,26 @@ RefractedRay refract(
   const double cosineOut = std::sqrt((1.0 - sineOut) * (1.0 + sineOut));
   const double part = sineIn > 0.0 ? sineOut / sineIn : 0.0;
   result.Bent.Origin = place;
-  result.Bent.Direction = unit(sum(sum({ 0.0, 0.0, 0.0 }, part, tangent), -cosineOut, normal));
+  result.Bent.Direction =
+    MakeUnit(MakeSum(MakeSum({ 0.0, 0.0, 0.0 }, part, tangent), -cosineOut, normal));
   result.Bent.Begin = std::max(0.0, ray.Begin - sight) * to / from;
   result.Bent.End = endsOpaque ? (ray.End - sight) * to / from : 1e6;
   return result;
 }
 
 //------------------------------------------------------------------------------
-std::vector<RaySegment> findSegments(
+std::vector<RaySegment> FindSegments(
   const ReferenceRayIntegrator& integrator, const RefractedRay& ray)
 {
   std::vector<RaySegment> all;
   std::vector<RaySegment> segments;
   if (ray.Straight.Begin < ray.Straight.End)
   {
-    integrator.findSegments(ray.Straight, all);
+    integrator.FindSegments(ray.Straight, all);
   }
   if (ray.Bent.Begin < ray.Bent.End)
   {
-    integrator.findSegments(ray.Bent, segments);
+    integrator.FindSegments(ray.Bent, segments);
     for (RaySegment& segment : segments)
     {
       segment.Begin += ray.Straight.End;
@@ -190,7 +192,7 @@ std::vector<RaySegment> findSegments(
 }
 
 //------------------------------------------------------------------------------
-std::array<double, 4> compose(
+std::array<double, 4> Compose(
   const RefractedRay& ray, const std::function<std::array<double, 4>(const Ray&)>& trace)
 {
   std::array<double, 4> total{ 0.0, 0.0, 0.0, 0.0 };

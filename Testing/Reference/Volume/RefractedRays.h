@@ -31,14 +31,14 @@ struct RefractingSurface
 };
 
 /** The plane through a point. */
-RefractingSurface makePlane(const Vector3& origin, const Vector3& normal);
+RefractingSurface MakePlane(const Vector3& origin, const Vector3& normal);
 /** The sphere, with outward normals. */
-RefractingSurface makeSphere(const Vector3& center, double radius);
+RefractingSurface MakeSphere(const Vector3& center, double radius);
 /**
  * The height field y = level + amplitude sin(k x) sin(k z), with upward normals. Pairs of
  * intersections closer to each other than 1 / 64 of a wave may be missed.
  */
-RefractingSurface makeWaves(double level, double amplitude, double k);
+RefractingSurface MakeWaves(double level, double amplitude, double k);
 
 /** A ray in front of the surface and behind it; directions have unit length. */
 struct RefractedRay
@@ -54,14 +54,14 @@ struct RefractedRay
  *   corresponds to the place given by Eq. 2.4. false: End is the far plane, which does not limit
  *   the refracted part.
  */
-RefractedRay refract(const RefractingSurface& surface, const Ray& ray, double eye, bool endsOpaque);
+RefractedRay Refract(const RefractingSurface& surface, const Ray& ray, double eye, bool endsOpaque);
 
 /** Segments along both parts, as those of one ray with a direction of unit length. */
-std::vector<RaySegment> findSegments(
+std::vector<RaySegment> FindSegments(
   const ReferenceRayIntegrator& integrator, const RefractedRay& ray);
 
 /** Colour of both parts, one behind the other; premultiplied. */
-std::array<double, 4> compose(
+std::array<double, 4> Compose(
   const RefractedRay& ray, const std::function<std::array<double, 4>(const Ray&)>& trace);
 
 } // namespace reference

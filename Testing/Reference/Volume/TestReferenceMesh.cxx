@@ -27,9 +27,9 @@ TEST(ReferenceMesh, StoredVertexOrderDoesNotMatter)
       std::vector<std::int64_t>{ 0, 1, 2, 3, 0, 2, 1, 4 } })
   {
     const ReferenceMesh mesh(TwoCellPoints, cells, std::vector<double>(5, 0.0));
-    EXPECT_EQ(mesh.contributingCells().size(), 2u);
-    EXPECT_EQ(mesh.numberOfInvertedCells(), 0u);
-    EXPECT_EQ(mesh.numberOfBoundaryFaces(), 6u);
+    EXPECT_EQ(mesh.ContributingCells().size(), 2u);
+    EXPECT_EQ(mesh.NumberOfInvertedCells(), 0u);
+    EXPECT_EQ(mesh.NumberOfBoundaryFaces(), 6u);
   }
 }
 
@@ -41,8 +41,8 @@ TEST(ReferenceMesh, CellFoldedOverItsNeighborIsInverted)
   points[3 * 4 + 2] = 0.5;
   const ReferenceMesh mesh(
     points, { 0, 1, 2, 3, 0, 1, 2, 4, 1, 2, 3, 5 }, std::vector<double>(6, 0.0));
-  EXPECT_EQ(mesh.numberOfInvertedCells(), 1u);
-  EXPECT_EQ(mesh.contributingCells(), (std::vector<std::int64_t>{ 0, 2 }));
+  EXPECT_EQ(mesh.NumberOfInvertedCells(), 1u);
+  EXPECT_EQ(mesh.ContributingCells(), (std::vector<std::int64_t>{ 0, 2 }));
 }
 
 TEST(ReferenceMesh, FlatAndUnusableCellsAreCountedApart)
@@ -53,23 +53,23 @@ TEST(ReferenceMesh, FlatAndUnusableCellsAreCountedApart)
   const ReferenceMesh mesh(points,
     { 0, 1, 2, 3, 0, 1, 2, 4, 0, 0, 1, 2, 0, 1, 2, 5, 0, 1, 2, 99, -1, 1, 2, 3 },
     std::vector<double>(6, 0.0));
-  EXPECT_EQ(mesh.contributingCells().size(), 1u);
-  EXPECT_EQ(mesh.numberOfZeroVolumeCells(), 2u);
-  EXPECT_EQ(mesh.numberOfRejectedCells(), 3u);
+  EXPECT_EQ(mesh.ContributingCells().size(), 1u);
+  EXPECT_EQ(mesh.NumberOfZeroVolumeCells(), 2u);
+  EXPECT_EQ(mesh.NumberOfRejectedCells(), 3u);
 }
 
 TEST(ReferenceMesh, CellsWithScalarsThatAreNotFiniteAreRejected)
 {
   const double infinity = std::numeric_limits<double>::infinity();
   const ReferenceMesh mesh(UnitCorners, { 0, 1, 2, 3 }, { 0, 1, infinity, 0 });
-  EXPECT_TRUE(mesh.contributingCells().empty());
-  EXPECT_EQ(mesh.numberOfRejectedCells(), 1u);
+  EXPECT_TRUE(mesh.ContributingCells().empty());
+  EXPECT_EQ(mesh.NumberOfRejectedCells(), 1u);
 }
 
 TEST(ReferenceMesh, PlanesAreBarycentricWeights)
 {
   const ReferenceMesh mesh(UnitCorners, { 0, 1, 2, 3 }, { 0, 0, 0, 0 });
-  const CellPlanes& planes = mesh.planes(0);
+  const CellPlanes& planes = mesh.GetPlanes(0);
   for (int vertex = 0; vertex < 4; ++vertex)
   {
     for (int i = 0; i < 4; ++i)
@@ -77,7 +77,7 @@ TEST(ReferenceMesh, PlanesAreBarycentricWeights)
       double weight = planes.Offset[i];
       for (int axis = 0; axis < 3; ++axis)
       {
-        weight += planes.Gradient[i][axis] * (mesh.point(vertex)[axis] - mesh.center()[axis]);
+        weight += planes.Gradient[i][axis] * (mesh.GetPoint(vertex)[axis] - mesh.GetCenter()[axis]);
       }
       EXPECT_NEAR(weight, vertex == i ? 1.0 : 0.0, 1e-15);
     }

@@ -25,14 +25,14 @@ struct Mesh
   std::vector<std::int64_t> Cells;
   std::vector<double> Scalars;
 
-  ReferenceRayIntegrator integrator() const
+  ReferenceRayIntegrator GetIntegrator() const
   {
     return ReferenceRayIntegrator(this->Points, this->Cells, this->Scalars);
   }
 };
 
 // Appends the box [low, high]^3 of n^3 cubes, each split in six tetrahedra around its diagonal.
-void appendBox(Mesh& mesh, double low, double high, int n, const Field& field)
+void AppendBox(Mesh& mesh, double low, double high, int n, const Field& field)
 {
   const auto base = static_cast<std::int64_t>(mesh.Points.size() / 3);
   const auto at = [&](int i) { return low + (high - low) * i / n; };
@@ -68,18 +68,18 @@ void appendBox(Mesh& mesh, double low, double high, int n, const Field& field)
   }
 }
 
-ReferenceTransferFunction constantOptics(double attenuation, double red = 1.0)
+ReferenceTransferFunction ConstantOptics(double attenuation, double red = 1.0)
 {
   return ReferenceTransferFunction(Nodes{ { 0.0, { attenuation, { red, 0.5, 0.0 } } } });
 }
 
-Ray alongZ(double x, double y, double begin = 0.0, double end = 100.0)
+Ray AlongZ(double x, double y, double begin = 0.0, double end = 100.0)
 {
   return Ray{ { x, y, -10.0 }, { 0.0, 0.0, 1.0 }, begin, end };
 }
 
 // Independent quadrature: fine Simpson steps in long double over a closed-form field along the ray.
-Rgba bruteForce(const std::function<OpticalSample(double)>& optics, double pathLength, int steps)
+Rgba BruteForce(const std::function<OpticalSample(double)>& optics, double pathLength, int steps)
 {
   long double color[3] = { 0, 0, 0 };
   long double depth = 0;
@@ -107,7 +107,7 @@ Rgba bruteForce(const std::function<OpticalSample(double)>& optics, double pathL
     static_cast<double>(color[2]), static_cast<double>(1 - std::exp(-depth)) };
 }
 
-void expectNear(const Rgba& a, const Rgba& b, double tolerance)
+void ExpectNear(const Rgba& a, const Rgba& b, double tolerance)
 {
   for (int c = 0; c < 4; ++c)
   {
@@ -127,12 +127,12 @@ constexpr double Widening = 5e-12;
 TEST(ReferenceRayIntegrator, ConstantFieldGivesBeerLambert)
 {
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 4, [](double, double, double) { return 0.0; });
-  const ReferenceRayIntegrator integrator = mesh.integrator();
+  AppendBox(mesh, -1.0, 1.0, 4, [](double, double, double) { return 0.0; });
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
   for (const double attenuation : { 1e-6, 0.1, 1.0, 7.0, 500.0 })
   {
     const double alpha = -std::expm1(-2.0 * attenuation);
-    expectNear(integrator.trace(alongZ(0.13, 0.21), constantOptics(attenuation, 0.8)),
+    ExpectNear(integrator.Trace(AlongZ(0.13, 0.21), ConstantOptics(attenuation, 0.8)),
       { 0.8 * alpha, 0.5 * alpha, 0.0, alpha }, 1e-13);
   }
 }
@@ -140,10 +140,10 @@ TEST(ReferenceRayIntegrator, ConstantFieldGivesBeerLambert)
 TEST(ReferenceRayIntegrator, LengthIsWorldLengthForAnyDirectionLength)
 {
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 3, [](double, double, double) { return 0.0; });
+  AppendBox(mesh, -1.0, 1.0, 3, [](double, double, double) { return 0.0; });
   const Ray ray{ { -4.0, 0.1, -4.0 }, { 0.25, 0.0, 0.25 }, 0.0, 1e3 };
   const double alpha = -std::expm1(-0.3 * 2.0 * std::sqrt(2.0));
-  EXPECT_NEAR(mesh.integrator().trace(ray, constantOptics(0.3))[3], alpha, Widening);
+  EXPECT_NEAR(mesh.GetIntegrator().Trace(ray, ConstantOptics(0.3))[3], alpha, Widening);
 }
 
 TEST(ReferenceRayIntegrator, LinearFieldMatchesErrorFunction)
@@ -151,8 +151,8 @@ TEST(ReferenceRayIntegrator, LinearFieldMatchesErrorFunction)
   // tau(z) = k (z + 1) on [-1, 1], colour linear from 0 to 1: C = integral of k u (u/2) exp(-k
   // u^2/2)
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 5, [](double, double, double z) { return z; });
-  const ReferenceRayIntegrator integrator = mesh.integrator();
+  AppendBox(mesh, -1.0, 1.0, 5, [](double, double, double z) { return z; });
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
   for (const double k : { 0.01, 0.5, 3.0, 40.0 })
   {
     const ReferenceTransferFunction function(
@@ -160,15 +160,15 @@ TEST(ReferenceRayIntegrator, LinearFieldMatchesErrorFunction)
     const double gauss = std::sqrt(Pi / (2.0 * k)) * std::erf(2.0 * std::sqrt(k / 2.0));
     const double red = 0.5 * (gauss - 2.0 * std::exp(-2.0 * k));
     const double alpha = -std::expm1(-2.0 * k);
-    expectNear(integrator.trace(alongZ(-0.3, 0.4), function), { red, alpha, 0.0, alpha }, Target);
+    ExpectNear(integrator.Trace(AlongZ(-0.3, 0.4), function), { red, alpha, 0.0, alpha }, Target);
   }
 }
 
 TEST(ReferenceRayIntegrator, SplitsAtTransferFunctionNodes)
 {
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 2, [](double x, double, double z) { return z + 0.5 * x; });
-  const ReferenceRayIntegrator integrator = mesh.integrator();
+  AppendBox(mesh, -1.0, 1.0, 2, [](double x, double, double z) { return z + 0.5 * x; });
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
   std::mt19937 random(20261121);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::vector<TransferFunctionNode> nodes;
@@ -181,41 +181,42 @@ TEST(ReferenceRayIntegrator, SplitsAtTransferFunctionNodes)
   const ReferenceTransferFunction function(nodes, ReferenceTransferFunction::Outside::Zero);
   // The field is linear along the ray: 65536 steps put the nodes on step ends for x = 0.5.
   const Rgba truth =
-    bruteForce([&](double u) { return function.value(std::min(u - 0.75, 1.25)); }, 2.0, 65536);
-  expectNear(integrator.trace(alongZ(0.5, 0.3), function), truth, 1e-9);
+    BruteForce([&](double u) { return function.GetValue(std::min(u - 0.75, 1.25)); }, 2.0, 65536);
+  ExpectNear(integrator.Trace(AlongZ(0.5, 0.3), function), truth, 1e-9);
   // On the reverse ray the nodes are met in the opposite order.
   const Ray backwards{ { 0.5, 0.3, 10.0 }, { 0.0, 0.0, -1.0 }, 0.0, 100.0 };
-  const Rgba mirrored = bruteForce([&](double u) { return function.value(1.25 - u); }, 2.0, 65536);
-  expectNear(integrator.trace(backwards, function), mirrored, 1e-9);
+  const Rgba mirrored =
+    BruteForce([&](double u) { return function.GetValue(1.25 - u); }, 2.0, 65536);
+  ExpectNear(integrator.Trace(backwards, function), mirrored, 1e-9);
 }
 
 TEST(ReferenceRayIntegrator, JumpOfTheTransferFunctionIsExact)
 {
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 3, [](double, double, double z) { return z; });
+  AppendBox(mesh, -1.0, 1.0, 3, [](double, double, double z) { return z; });
   const ReferenceTransferFunction function(
     Nodes{ { -1.0, { 0.0, { 0, 0, 0 } } }, { 0.25, { 0.0, { 0, 0, 0 } } },
       { 0.25, { 2.0, { 1, 1, 1 } } }, { 1.0, { 2.0, { 1, 1, 1 } } } });
   const double alpha = -std::expm1(-2.0 * 0.75);
-  expectNear(
-    mesh.integrator().trace(alongZ(0.1, 0.2), function), { alpha, alpha, alpha, alpha }, Widening);
+  ExpectNear(mesh.GetIntegrator().Trace(AlongZ(0.1, 0.2), function), { alpha, alpha, alpha, alpha },
+    Widening);
 }
 
 TEST(ReferenceRayIntegrator, RayThroughVerticesEdgesAndFaces)
 {
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 4, [](double, double, double z) { return z; });
-  const ReferenceRayIntegrator integrator = mesh.integrator();
+  AppendBox(mesh, -1.0, 1.0, 4, [](double, double, double z) { return z; });
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
   const ReferenceTransferFunction function(
     Nodes{ { -1.0, { 0.2, { 0.1, 0.2, 0.3 } } }, { 1.0, { 1.4, { 0.9, 0.3, 0.1 } } } });
-  const Rgba truth = integrator.trace(alongZ(0.0312, -0.0177), function);
+  const Rgba truth = integrator.Trace(AlongZ(0.0312, -0.0177), function);
   for (const auto& at : std::vector<std::array<double, 2>>{
          { 0.0, 0.0 }, { 0.5, 0.0 }, { 0.5, 0.1 }, { 0.1, 0.1 }, { 0.25, -0.25 }, { -0.5, 0.5 } })
   {
     std::vector<RaySegment> segments;
-    const RayReport report = integrator.findSegments(alongZ(at[0], at[1]), segments);
+    const RayReport report = integrator.FindSegments(AlongZ(at[0], at[1]), segments);
     EXPECT_EQ(report.Gaps, 0u);
-    expectNear(integrator.trace(alongZ(at[0], at[1]), function), truth, Widening);
+    ExpectNear(integrator.Trace(AlongZ(at[0], at[1]), function), truth, Widening);
   }
 }
 
@@ -223,14 +224,14 @@ TEST(ReferenceRayIntegrator, OverlappingCellsFollowTheRunningMaximum)
 {
   // Boxes [-1, 1] (scalar 0) and [0, 2] (scalar 1) along z: the first one is used up to its exit.
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 1, [](double, double, double) { return 0.0; });
-  appendBox(mesh, 0.0, 2.0, 1, [](double, double, double) { return 1.0; });
-  const ReferenceRayIntegrator integrator = mesh.integrator();
+  AppendBox(mesh, -1.0, 1.0, 1, [](double, double, double) { return 0.0; });
+  AppendBox(mesh, 0.0, 2.0, 1, [](double, double, double) { return 1.0; });
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
   const ReferenceTransferFunction function(
     Nodes{ { 0.0, { 0.4, { 1, 0, 0 } } }, { 1.0, { 0.8, { 0, 1, 0 } } } });
   std::vector<RaySegment> segments;
-  const Ray ray = alongZ(0.61, 0.37);
-  const RayReport report = integrator.findSegments(ray, segments);
+  const Ray ray = AlongZ(0.61, 0.37);
+  const RayReport report = integrator.FindSegments(ray, segments);
   EXPECT_GT(report.Overlaps, 0u);
   EXPECT_EQ(report.Gaps, 0u);
   // Each box has its own cells: the overlap [0, 1] belongs to the cell that was entered first at
@@ -244,7 +245,7 @@ TEST(ReferenceRayIntegrator, OverlappingCellsFollowTheRunningMaximum)
     lengths[segment.Cell >= 6] += segment.End - segment.Begin;
   }
   EXPECT_NEAR(lengths[0] + lengths[1], 3.0, Widening);
-  EXPECT_NEAR(integrator.trace(ray, function)[3], -std::expm1(-0.4 * lengths[0] - 0.8 * lengths[1]),
+  EXPECT_NEAR(integrator.Trace(ray, function)[3], -std::expm1(-0.4 * lengths[0] - 0.8 * lengths[1]),
     Widening);
 }
 
@@ -258,7 +259,7 @@ TEST(ReferenceRayIntegrator, TwoOverlappingCellsExactly)
     Nodes{ { 0.0, { 1.0, { 1, 0, 0 } } }, { 1.0, { 2.0, { 0, 1, 0 } } } });
   const double first = -std::expm1(-1.0);
   const double second = std::exp(-1.0) * -std::expm1(-2.0);
-  expectNear(mesh.integrator().trace(alongZ(0.0, 0.0), function),
+  ExpectNear(mesh.GetIntegrator().Trace(AlongZ(0.0, 0.0), function),
     { first, second, 0.0, first + second }, Widening);
 }
 
@@ -268,10 +269,10 @@ TEST(ReferenceRayIntegrator, FoldOutwardCountsNowhere)
   // far end, 0.5, so only the part of the other cell beyond that is used.
   const Mesh mesh{ { -1, -1, 0, 3, -1, 0, -1, 3, 0, 0, 0, 1, 0, 0, 0.5 },
     { 0, 1, 2, 3, 0, 1, 2, 4 }, { 1, 1, 1, 1, 1 } };
-  const ReferenceRayIntegrator integrator = mesh.integrator();
-  EXPECT_EQ(integrator.mesh().numberOfInvertedCells(), 1u);
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
+  EXPECT_EQ(integrator.MakeMesh().NumberOfInvertedCells(), 1u);
   EXPECT_NEAR(
-    integrator.trace(alongZ(0.0, 0.0), constantOptics(1.0))[3], -std::expm1(-0.5), Widening);
+    integrator.Trace(AlongZ(0.0, 0.0), ConstantOptics(1.0))[3], -std::expm1(-0.5), Widening);
 }
 
 TEST(ReferenceRayIntegrator, FoldInsideFollowsThePathAcrossFaces)
@@ -283,24 +284,24 @@ TEST(ReferenceRayIntegrator, FoldInsideFollowsThePathAcrossFaces)
     { 0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5, 3, 4, 5, 6, 4, 5, 6, 7, 5, 6, 7, 8, 6, 7, 8, 9, 7, 8, 9,
       10, 8, 9, 10, 11 },
     { 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1 } };
-  const ReferenceRayIntegrator integrator = mesh.integrator();
-  EXPECT_EQ(integrator.mesh().numberOfInvertedCells(), 3u);
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
+  EXPECT_EQ(integrator.MakeMesh().NumberOfInvertedCells(), 3u);
   // Attenuation 1 on [0, 2] where the scalar is 0, and 3 on [2, 4] where it is 1.
   const ReferenceTransferFunction function(
     Nodes{ { 0.0, { 1.0, { 1, 0, 0 } } }, { 1.0, { 3.0, { 0, 1, 0 } } } });
   const double first = -std::expm1(-2.0);
   const double second = std::exp(-2.0) * -std::expm1(-6.0);
   std::vector<RaySegment> segments;
-  EXPECT_TRUE(integrator.findSegments(alongZ(0.11, 0.07), segments).Ordered);
-  expectNear(integrator.trace(alongZ(0.11, 0.07), function), { first, second, 0.0, first + second },
+  EXPECT_TRUE(integrator.FindSegments(AlongZ(0.11, 0.07), segments).Ordered);
+  ExpectNear(integrator.Trace(AlongZ(0.11, 0.07), function), { first, second, 0.0, first + second },
     Widening);
 }
 
 TEST(ReferenceRayIntegrator, GapAndReentry)
 {
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 2, [](double, double, double) { return 0.0; });
-  appendBox(mesh, 1.0, 1.5, 2, [](double, double, double) { return 0.0; });
+  AppendBox(mesh, -1.0, 1.0, 2, [](double, double, double) { return 0.0; });
+  AppendBox(mesh, 1.0, 1.5, 2, [](double, double, double) { return 0.0; });
   mesh.Points[2] = -1.0;
   // Move the second box over the first, with air between them.
   for (std::size_t i = 3 * 27; i < mesh.Points.size(); i += 3)
@@ -309,68 +310,69 @@ TEST(ReferenceRayIntegrator, GapAndReentry)
     mesh.Points[i + 1] -= 1.25;
     mesh.Points[i + 2] += 3.0;
   }
-  const ReferenceRayIntegrator integrator = mesh.integrator();
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
   std::vector<RaySegment> segments;
-  const RayReport report = integrator.findSegments(alongZ(0.05, 0.1), segments);
+  const RayReport report = integrator.FindSegments(AlongZ(0.05, 0.1), segments);
   EXPECT_EQ(report.Gaps, 1u);
-  EXPECT_EQ(integrator.coveredSpans(alongZ(0.05, 0.1)).size(), 2u);
+  EXPECT_EQ(integrator.CoveredSpans(AlongZ(0.05, 0.1)).size(), 2u);
   EXPECT_NEAR(
-    integrator.trace(alongZ(0.05, 0.1), constantOptics(0.7))[3], -std::expm1(-0.7 * 2.5), Widening);
+    integrator.Trace(AlongZ(0.05, 0.1), ConstantOptics(0.7))[3], -std::expm1(-0.7 * 2.5), Widening);
   EXPECT_NEAR(
-    integrator.trace(alongZ(0.6, 0.7), constantOptics(0.7))[3], -std::expm1(-0.7 * 2.0), Widening);
+    integrator.Trace(AlongZ(0.6, 0.7), ConstantOptics(0.7))[3], -std::expm1(-0.7 * 2.0), Widening);
 }
 
 TEST(ReferenceRayIntegrator, RayEndsAreRespected)
 {
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 3, [](double, double, double z) { return z; });
-  const ReferenceRayIntegrator integrator = mesh.integrator();
+  AppendBox(mesh, -1.0, 1.0, 3, [](double, double, double z) { return z; });
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
   // Inside from z = -0.5 to z = 0.75 (origin at z = -10).
-  const Rgba inside = integrator.trace(alongZ(0.2, 0.3, 9.5, 10.75), constantOptics(0.9));
+  const Rgba inside = integrator.Trace(AlongZ(0.2, 0.3, 9.5, 10.75), ConstantOptics(0.9));
   EXPECT_NEAR(inside[3], -std::expm1(-0.9 * 1.25), Widening);
-  expectNear(integrator.trace(alongZ(0.2, 0.3, 0.0, 8.9), constantOptics(0.9)), Rgba{}, 0.0);
+  ExpectNear(integrator.Trace(AlongZ(0.2, 0.3, 0.0, 8.9), ConstantOptics(0.9)), Rgba{}, 0.0);
 }
 
 TEST(ReferenceRayIntegrator, EmptyMeshAndEmptyFunction)
 {
   const Mesh empty;
-  expectNear(empty.integrator().trace(alongZ(0.0, 0.0), constantOptics(1.0)), Rgba{}, 0.0);
+  ExpectNear(empty.GetIntegrator().Trace(AlongZ(0.0, 0.0), ConstantOptics(1.0)), Rgba{}, 0.0);
   EXPECT_EQ(
-    empty.integrator().classify(alongZ(0.0, 0.0), 1e-6, constantOptics(1.0)), RayClass::Missed);
+    empty.GetIntegrator().Classify(AlongZ(0.0, 0.0), 1e-6, ConstantOptics(1.0)), RayClass::Missed);
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 1, [](double, double, double) { return 0.0; });
-  expectNear(mesh.integrator().trace(alongZ(0.1, 0.2), ReferenceTransferFunction()), Rgba{}, 0.0);
+  AppendBox(mesh, -1.0, 1.0, 1, [](double, double, double) { return 0.0; });
+  ExpectNear(
+    mesh.GetIntegrator().Trace(AlongZ(0.1, 0.2), ReferenceTransferFunction()), Rgba{}, 0.0);
 }
 
 TEST(ReferenceRayIntegrator, FarFromTheOrigin)
 {
   Mesh mesh;
-  appendBox(mesh, 1e6, 1e6 + 2.0, 4, [](double, double, double z) { return z - 1e6; });
+  AppendBox(mesh, 1e6, 1e6 + 2.0, 4, [](double, double, double z) { return z - 1e6; });
   const Ray ray{ { 1e6 + 0.7, 1e6 + 1.1, 1e6 - 5.0 }, { 0, 0, 1 }, 0.0, 100.0 };
   const ReferenceTransferFunction function(
     Nodes{ { 0.0, { 0.0, { 1, 1, 1 } } }, { 2.0, { 1.0, { 1, 1, 1 } } } });
-  EXPECT_NEAR(mesh.integrator().trace(ray, function)[3], -std::expm1(-1.0), 1e-9);
+  EXPECT_NEAR(mesh.GetIntegrator().Trace(ray, function)[3], -std::expm1(-1.0), 1e-9);
 }
 
 TEST(ReferenceRayIntegrator, ClassifiesSilhouettes)
 {
   Mesh mesh;
-  appendBox(mesh, -1.0, 1.0, 4, [](double, double, double) { return 0.0; });
-  const ReferenceRayIntegrator integrator = mesh.integrator();
-  const double distance = integrator.silhouetteDistance();
+  AppendBox(mesh, -1.0, 1.0, 4, [](double, double, double) { return 0.0; });
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
+  const double distance = integrator.SilhouetteDistance();
   EXPECT_EQ(
-    integrator.classify(alongZ(0.1, 0.2), distance, constantOptics(1.0)), RayClass::Covered);
+    integrator.Classify(AlongZ(0.1, 0.2), distance, ConstantOptics(1.0)), RayClass::Covered);
   EXPECT_EQ(
-    integrator.classify(alongZ(0.5, 0.5), distance, constantOptics(1.0)), RayClass::Covered);
-  EXPECT_EQ(integrator.classify(alongZ(1.0 - 10.0 * distance, 0.2), distance, constantOptics(1.0)),
+    integrator.Classify(AlongZ(0.5, 0.5), distance, ConstantOptics(1.0)), RayClass::Covered);
+  EXPECT_EQ(integrator.Classify(AlongZ(1.0 - 10.0 * distance, 0.2), distance, ConstantOptics(1.0)),
     RayClass::Covered);
-  EXPECT_EQ(integrator.classify(alongZ(1.0 - 0.5 * distance, 0.2), distance, constantOptics(1.0)),
+  EXPECT_EQ(integrator.Classify(AlongZ(1.0 - 0.5 * distance, 0.2), distance, ConstantOptics(1.0)),
     RayClass::Silhouette);
-  EXPECT_EQ(integrator.classify(alongZ(1.0 + 0.5 * distance, 0.2), distance, constantOptics(1.0)),
+  EXPECT_EQ(integrator.Classify(AlongZ(1.0 + 0.5 * distance, 0.2), distance, ConstantOptics(1.0)),
     RayClass::Silhouette);
   EXPECT_EQ(
-    integrator.classify(alongZ(1.0, 1.0), distance, constantOptics(1.0)), RayClass::Silhouette);
-  EXPECT_EQ(integrator.classify(alongZ(1.0 + 10.0 * distance, 0.2), distance, constantOptics(1.0)),
+    integrator.Classify(AlongZ(1.0, 1.0), distance, ConstantOptics(1.0)), RayClass::Silhouette);
+  EXPECT_EQ(integrator.Classify(AlongZ(1.0 + 10.0 * distance, 0.2), distance, ConstantOptics(1.0)),
     RayClass::Missed);
 }
 
@@ -378,6 +380,6 @@ TEST(ReferenceRayIntegrator, SteepFaceIsNotASilhouette)
 {
   // A ray across a face tilted by 45 degrees, well inside it: the span moves in proportion.
   const Mesh mesh{ { 0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4 }, { 0, 1, 2, 3 }, { 0, 0, 0, 0 } };
-  const ReferenceRayIntegrator integrator = mesh.integrator();
-  EXPECT_EQ(integrator.classify(alongZ(1.0, 1.0), 1e-5, constantOptics(1.0)), RayClass::Covered);
+  const ReferenceRayIntegrator integrator = mesh.GetIntegrator();
+  EXPECT_EQ(integrator.Classify(AlongZ(1.0, 1.0), 1e-5, ConstantOptics(1.0)), RayClass::Covered);
 }

@@ -30,9 +30,9 @@ constexpr double Range[2] = { -1.0, 1.0 };
 // Largest difference in float between runs of the ray caster.
 constexpr double Agreement = 2e-5;
 
-vtkSmartPointer<vtkVolumeProperty> litProperty()
+vtkSmartPointer<vtkVolumeProperty> LitProperty()
 {
-  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   property->ShadeOn();
   property->SetSpecular(0.4);
   vtkNew<vtkPiecewiseFunction> factor;
@@ -45,7 +45,7 @@ vtkSmartPointer<vtkVolumeProperty> litProperty()
 }
 
 // Two lights that depend on the position, one of them a cone with a fractional exponent.
-void addLights(vtkRenderer* renderer)
+void AddLights(vtkRenderer* renderer)
 {
   vtkNew<vtkLight> head;
   head->SetLightTypeToHeadlight();
@@ -66,9 +66,9 @@ void addLights(vtkRenderer* renderer)
   }
 }
 
-bool hasCompute(vtkRenderWindow* window)
+bool HasCompute(vtkRenderWindow* window)
 {
-  const std::string device = deviceName(window);
+  const std::string device = DeviceName(window);
   const std::size_t at = device.rfind(", ");
   int version[2] = { 0, 0 };
   return at != std::string::npos &&
@@ -76,17 +76,17 @@ bool hasCompute(vtkRenderWindow* window)
     version[0] * 10 + version[1] >= 43;
 }
 
-void expectAgreement(RayCastScene& scene, int backend, const std::string& what)
+void ExpectAgreement(RayCastScene& scene, int backend, const std::string& what)
 {
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   // Inside the mesh, rays behind a membrane may begin in one cell or its neighbour.
   const bool sameSteps =
     backend != vtkTetrahedraRayCastMapper::NATIVE || mapper->GetMembrane() == nullptr;
   mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  const FloatImage fragment = scene.renderFloat();
+  const FloatImage fragment = scene.RenderFloat();
   const vtkTypeInt64 steps = mapper->GetNumberOfTraversalSteps();
   mapper->SetBackend(backend);
-  const FloatImage other = scene.renderFloat();
+  const FloatImage other = scene.RenderFloat();
   EXPECT_EQ(mapper->GetActiveBackend(), backend) << what;
   const double difference =
     std::fabs(static_cast<double>(mapper->GetNumberOfTraversalSteps() - steps));
@@ -104,90 +104,90 @@ void expectAgreement(RayCastScene& scene, int backend, const std::string& what)
   EXPECT_LE(largest, Agreement) << what;
 }
 
-void expectAgreementOfModes(RayCastScene& scene, int backend, const std::vector<int>& modes)
+void ExpectAgreementOfModes(RayCastScene& scene, int backend, const std::vector<int>& modes)
 {
   for (const int mode : modes)
   {
     for (const int gradients : { 0, 1 })
     {
-      scene.rayCaster()->SetBlendMode(mode);
-      scene.rayCaster()->SetGradients(gradients);
-      expectAgreement(scene, backend,
+      scene.GetRayCaster()->SetBlendMode(mode);
+      scene.GetRayCaster()->SetGradients(gradients);
+      ExpectAgreement(scene, backend,
         "mode " + std::to_string(mode) + ", gradients " + std::to_string(gradients));
     }
   }
   vtkNew<vtkPlane> plane;
   plane->SetNormal(0.3, 1.0, 0.2);
-  scene.rayCaster()->AddClippingPlane(plane);
-  scene.rayCaster()->SetBlendMode(modes.front());
-  expectAgreement(scene, backend, "clipped");
-  scene.rayCaster()->RemoveAllClippingPlanes();
+  scene.GetRayCaster()->AddClippingPlane(plane);
+  scene.GetRayCaster()->SetBlendMode(modes.front());
+  ExpectAgreement(scene, backend, "clipped");
+  scene.GetRayCaster()->RemoveAllClippingPlanes();
 }
 
 } // anonymous namespace
 
 TEST(TetrahedraRayCastBackends, ComputeAgreesWithFragmentsInEveryMode)
 {
-  const Grid grid = makeBlock(7, wavyField(3.0), torus(0.6, 0.35));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  scene.window()->Render();
-  if (!hasCompute(scene.window()))
+  const Grid grid = MakeBlock(7, WavyField(3.0), Torus(0.6, 0.35));
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  scene.GetWindow()->Render();
+  if (!HasCompute(scene.GetWindow()))
   {
     GTEST_SKIP() << "no OpenGL 4.3";
   }
   const int backend = vtkTetrahedraRayCastMapper::COMPUTE;
-  expectAgreement(scene, backend, "plain");
-  scene.volume()->SetProperty(litProperty());
-  expectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
+  ExpectAgreement(scene, backend, "plain");
+  scene.GetVolume()->SetProperty(LitProperty());
+  ExpectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
 }
 
 TEST(TetrahedraRayCastBackends, NativeAgreesWithFragmentsInEveryMode)
 {
   // A convex mesh, since rays next to a silhouette may count as inside or outside.
-  const Grid grid = makeBlock(7, wavyField(3.0));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  const Grid grid = MakeBlock(7, WavyField(3.0));
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const int backend = vtkTetrahedraRayCastMapper::NATIVE;
-  expectAgreement(scene, backend, "plain");
-  scene.volume()->SetProperty(litProperty());
-  expectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
-  addLights(scene.renderer());
-  expectAgreementOfModes(scene, backend, { 0, 5 });
+  ExpectAgreement(scene, backend, "plain");
+  scene.GetVolume()->SetProperty(LitProperty());
+  ExpectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
+  AddLights(scene.GetRenderer());
+  ExpectAgreementOfModes(scene, backend, { 0, 5 });
   // Fractional exponents; lighting alone, then gradient opacity alone.
-  scene.volume()->GetProperty()->SetSpecularPower(7.25);
-  scene.volume()->GetProperty()->SetDisableGradientOpacity(1);
-  expectAgreementOfModes(scene, backend, { 0 });
-  scene.volume()->GetProperty()->SetDisableGradientOpacity(0);
-  scene.volume()->GetProperty()->ShadeOff();
-  expectAgreementOfModes(scene, backend, { 0 });
+  scene.GetVolume()->GetProperty()->SetSpecularPower(7.25);
+  scene.GetVolume()->GetProperty()->SetDisableGradientOpacity(1);
+  ExpectAgreementOfModes(scene, backend, { 0 });
+  scene.GetVolume()->GetProperty()->SetDisableGradientOpacity(0);
+  scene.GetVolume()->GetProperty()->ShadeOff();
+  ExpectAgreementOfModes(scene, backend, { 0 });
 }
 
 TEST(TetrahedraRayCastBackends, AllAgreeThroughAMembraneInEveryMode)
 {
-  const Grid grid = makeBlock(7, wavyField(3.0));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 50.0);
-  scene.window()->Render();
-  const bool compute = hasCompute(scene.window());
-  addLights(scene.renderer());
+  const Grid grid = MakeBlock(7, WavyField(3.0));
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 50.0);
+  scene.GetWindow()->Render();
+  const bool compute = HasCompute(scene.GetWindow());
+  AddLights(scene.GetRenderer());
   for (const MembraneCase& membrane :
-    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+    { MakePlaneCase(0.1, 4.0, 2), MakeDomeCase(1.4, 4.0, 2.8, 16) })
   {
-    scene.rayCaster()->SetMembraneData(membrane.Mesh);
+    scene.GetRayCaster()->SetMembraneData(membrane.Mesh);
     for (const int backend :
       { vtkTetrahedraRayCastMapper::NATIVE, vtkTetrahedraRayCastMapper::COMPUTE })
     {
       if (compute || backend == vtkTetrahedraRayCastMapper::NATIVE)
       {
-        scene.volume()->SetProperty(makeProperty(FunctionKind::Smooth, Range, 3.4));
-        scene.rayCaster()->SetBlendMode(vtkVolumeMapper::COMPOSITE_BLEND);
-        expectAgreement(scene, backend, "plain");
-        scene.rayCaster()->CompactTablesOn();
-        expectAgreement(scene, backend, "compact tables");
-        scene.rayCaster()->CompactTablesOff();
-        scene.volume()->SetProperty(litProperty());
-        expectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
+        scene.GetVolume()->SetProperty(MakeProperty(FunctionKind::Smooth, Range, 3.4));
+        scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::COMPOSITE_BLEND);
+        ExpectAgreement(scene, backend, "plain");
+        scene.GetRayCaster()->CompactTablesOn();
+        ExpectAgreement(scene, backend, "compact tables");
+        scene.GetRayCaster()->CompactTablesOff();
+        scene.GetVolume()->SetProperty(LitProperty());
+        ExpectAgreementOfModes(scene, backend, { 0, 1, 2, 3, 4, 5 });
       }
     }
   }
@@ -195,21 +195,21 @@ TEST(TetrahedraRayCastBackends, AllAgreeThroughAMembraneInEveryMode)
 
 TEST(TetrahedraRayCastBackends, AutomaticIsNativeOnASoftwareRasteriser)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, litProperty(), Size, Size);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, LitProperty(), Size, Size);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   mapper->SetBackend(vtkTetrahedraRayCastMapper::AUTOMATIC);
-  scene.window()->Render();
-  const bool software = deviceName(scene.window()).find("llvmpipe") != std::string::npos;
+  scene.GetWindow()->Render();
+  const bool software = DeviceName(scene.GetWindow()).find("llvmpipe") != std::string::npos;
   const int expected =
     software ? vtkTetrahedraRayCastMapper::NATIVE : vtkTetrahedraRayCastMapper::OPENGL;
   EXPECT_EQ(mapper->GetActiveBackend(), expected) << "light and gradient opacity";
-  scene.volume()->SetProperty(makeProperty(FunctionKind::Smooth, Range, 3.4));
-  scene.window()->Render();
+  scene.GetVolume()->SetProperty(MakeProperty(FunctionKind::Smooth, Range, 3.4));
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetActiveBackend(), expected) << "plain";
   mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
-  scene.window()->Render();
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetActiveBackend(), expected) << "pre-integrated";
 }
 
@@ -217,10 +217,10 @@ TEST(TetrahedraRayCastBackends, NativeAgreesFromWithinAMeshOfManyParts)
 {
   // Visible cells are in front of the eye, next to it and behind it, and cross the plane of the
   // eye.
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0, 1.0);
-  vtkCamera* camera = scene.renderer()->GetActiveCamera();
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size + 3);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0, 1.0);
+  vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
   camera->SetPosition(0.31, 0.12, 0.43);
   camera->SetFocalPoint(-1.0, -0.2, -0.6);
   camera->SetViewAngle(70.0);
@@ -232,47 +232,47 @@ TEST(TetrahedraRayCastBackends, NativeAgreesFromWithinAMeshOfManyParts)
     opacity->AddPoint(center, 4.0);
     opacity->AddPoint(center + 0.1, 0.0);
   }
-  scene.volume()->GetProperty()->SetScalarOpacity(opacity);
-  expectAgreement(scene, vtkTetrahedraRayCastMapper::NATIVE, "from within");
-  EXPECT_LT(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
+  scene.GetVolume()->GetProperty()->SetScalarOpacity(opacity);
+  ExpectAgreement(scene, vtkTetrahedraRayCastMapper::NATIVE, "from within");
+  EXPECT_LT(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
 }
 
 TEST(TetrahedraRayCastBackends, ComputeOrFragmentsAsTheWindowAllows)
 {
   // This test runs a second time with OpenGL limited to 3.2.
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
   const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->observe(scene.rayCaster());
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  expectMatchesReference(scene, "compute asked for");
-  const bool compute = hasCompute(scene.window());
-  EXPECT_EQ(scene.rayCaster()->GetActiveBackend(),
+  warnings->Observe(scene.GetRayCaster());
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  ExpectMatchesReference(scene, "compute asked for");
+  const bool compute = HasCompute(scene.GetWindow());
+  EXPECT_EQ(scene.GetRayCaster()->GetActiveBackend(),
     compute ? vtkTetrahedraRayCastMapper::COMPUTE : vtkTetrahedraRayCastMapper::OPENGL);
   EXPECT_EQ(warnings->Warnings.size(), compute ? 0u : 1u);
-  EXPECT_TRUE(warnings->Errors.empty()) << warnings->text();
+  EXPECT_TRUE(warnings->Errors.empty()) << warnings->GetText();
 }
 
 TEST(TetrahedraRayCastBackends, SwitchingKeepsTheTables)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   const auto drawWithEach = [&]()
   {
     for (const int backend : { 3, 1, 2 })
     {
       mapper->SetBackend(backend);
-      scene.window()->Render();
+      scene.GetWindow()->Render();
     }
   };
   drawWithEach();
   const vtkTypeInt64 bytes = mapper->GetUploadedBytes();
   drawWithEach();
   EXPECT_EQ(mapper->GetUploadedBytes(), bytes);
-  mapper->ReleaseGraphicsResources(scene.window());
-  const ByteImage again = scene.renderBytes();
+  mapper->ReleaseGraphicsResources(scene.GetWindow());
+  const ByteImage again = scene.RenderBytes();
   EXPECT_GT(*std::max_element(again.Rgb.begin(), again.Rgb.end()), 50);
 }

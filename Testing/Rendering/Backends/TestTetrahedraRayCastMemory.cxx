@@ -32,13 +32,13 @@ class TetrahedraRayCastMemory : public testing::Test
 {
 protected:
   TetrahedraRayCastMemory()
-    : Mesh(makeBlock(6, wavyField(3.0)))
-    , Property(makeProperty(FunctionKind::Smooth, Range, 3.5))
+    : Mesh(MakeBlock(6, WavyField(3.0)))
+    , Property(MakeProperty(FunctionKind::Smooth, Range, 3.5))
     , Scene(this->Mesh, this->Property, Size, Size)
-    , Mapper(this->Scene.rayCaster())
+    , Mapper(this->Scene.GetRayCaster())
     , Observer(vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New()))
   {
-    jitter(this->Mesh, 0.05, 5);
+    Jitter(this->Mesh, 0.05, 5);
     vtkNew<vtkDoubleArray> values;
     for (vtkIdType c = 0; c < this->Mesh->GetNumberOfCells(); ++c)
     {
@@ -48,18 +48,18 @@ protected:
     this->Mesh->GetCellData()->SetScalars(values);
     this->Property->GetIsoSurfaceValues()->SetValue(0, 0.2);
     this->Property->GetIsoSurfaceValues()->SetValue(1, -0.4);
-    this->Observer->observe(this->Mapper);
-    lookAt(this->Scene.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
+    this->Observer->Observe(this->Mapper);
+    LookAt(this->Scene.GetRenderer(), this->Mesh->GetBounds(), 30.0, 20.0);
     this->Mapper->SetBackend(OpenGL);
   }
 
   /** Compares images with full and with compact tables. */
-  void expectSamePicture(const std::string& what)
+  void ExpectSamePicture(const std::string& what)
   {
     this->Mapper->CompactTablesOff();
-    const FloatImage full = this->Scene.renderFloat();
+    const FloatImage full = this->Scene.RenderFloat();
     this->Mapper->CompactTablesOn();
-    const FloatImage compact = this->Scene.renderFloat();
+    const FloatImage compact = this->Scene.RenderFloat();
     EXPECT_EQ(this->Mapper->GetNumberOfLostRays(), 0);
     float opacity = 0.0f;
     for (std::size_t i = 0; i < full.Rgba.size(); ++i)
@@ -70,7 +70,7 @@ protected:
     EXPECT_GT(opacity, 0.1f) << what;
   }
 
-  vtkTypeInt64 cells() const { return this->Mesh->GetNumberOfCells(); }
+  vtkTypeInt64 GetCells() const { return this->Mesh->GetNumberOfCells(); }
 
   Grid Mesh;
   vtkSmartPointer<vtkVolumeProperty> Property;
@@ -102,7 +102,7 @@ TEST_F(TetrahedraRayCastMemory, CompactTablesGiveTheSamePicture)
       for (const int scalars : { VTK_SCALAR_MODE_USE_POINT_DATA, VTK_SCALAR_MODE_USE_CELL_DATA })
       {
         this->Mapper->SetScalarMode(scalars);
-        this->expectSamePicture("backend " + std::to_string(c.Backend) + " lit " +
+        this->ExpectSamePicture("backend " + std::to_string(c.Backend) + " lit " +
           std::to_string(c.Lit) + " gradients " + std::to_string(c.Gradients) + " mode " +
           std::to_string(mode) + " scalars " + std::to_string(scalars));
       }
@@ -116,21 +116,21 @@ TEST_F(TetrahedraRayCastMemory, BytesAreThoseOfTheTables)
   const vtkTypeInt64 faces = 6 * 6 * 6 * 2;
   const vtkTypeInt64 points = this->Mesh->GetNumberOfPoints();
   const vtkTypeInt64 tree = (2 * faces - 1) * 32 + faces * 20;
-  this->Scene.window()->Render();
-  EXPECT_EQ(this->Mapper->GetHostBytes(), 33 * this->cells() + 20 * points + 20 * faces + tree);
+  this->Scene.GetWindow()->Render();
+  EXPECT_EQ(this->Mapper->GetHostBytes(), 33 * this->GetCells() + 20 * points + 20 * faces + tree);
   const vtkTypeInt64 full = this->Mapper->GetDeviceBytes();
-  const vtkTypeInt64 property = full - 32 * this->cells() - 32 * points - 80 * faces + 32;
+  const vtkTypeInt64 property = full - 32 * this->GetCells() - 32 * points - 80 * faces + 32;
   EXPECT_GT(property, 0);
   EXPECT_LT(property, 10000);
   const vtkTypeInt64 uploaded = this->Mapper->GetUploadedBytes();
   this->Mapper->CompactTablesOn();
-  this->Scene.window()->Render();
-  EXPECT_EQ(full - this->Mapper->GetDeviceBytes(), 12 * this->cells());
-  EXPECT_EQ(this->Mapper->GetUploadedBytes() - uploaded, 20 * this->cells());
-  this->Scene.window()->Render();
-  EXPECT_EQ(this->Mapper->GetUploadedBytes() - uploaded, 20 * this->cells());
+  this->Scene.GetWindow()->Render();
+  EXPECT_EQ(full - this->Mapper->GetDeviceBytes(), 12 * this->GetCells());
+  EXPECT_EQ(this->Mapper->GetUploadedBytes() - uploaded, 20 * this->GetCells());
+  this->Scene.GetWindow()->Render();
+  EXPECT_EQ(this->Mapper->GetUploadedBytes() - uploaded, 20 * this->GetCells());
   EXPECT_EQ(this->Mapper->GetNumberOfMeshBuilds(), 1);
-  this->Mapper->ReleaseGraphicsResources(this->Scene.window());
+  this->Mapper->ReleaseGraphicsResources(this->Scene.GetWindow());
   EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
 }
 
@@ -142,41 +142,42 @@ TEST_F(TetrahedraRayCastMemory, BytesOfWhatIsOnlySometimesNeeded)
     const vtkTypeInt64 sent = this->Mapper->GetUploadedBytes();
     const vtkTypeInt64 kept = this->Mapper->GetDeviceBytes();
     const vtkTypeInt64 host = this->Mapper->GetHostBytes();
-    this->Scene.window()->Render();
+    this->Scene.GetWindow()->Render();
     EXPECT_GT(this->Mapper->GetUploadedBytes(), sent) << what;
     EXPECT_EQ(this->Mapper->GetDeviceBytes() - kept, this->Mapper->GetUploadedBytes() - sent)
       << what;
     EXPECT_GT(this->Mapper->GetHostBytes(), host) << what;
   };
-  this->Scene.window()->Render();
+  this->Scene.GetWindow()->Render();
   this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
   expectSentAndKept("pre-integration");
   this->Mapper->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
   // A change of the property uploads its table again and frees the old one.
   this->Property->ShadeOn();
   this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
-  this->Scene.window()->Render();
+  this->Scene.GetWindow()->Render();
   this->Mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
   expectSentAndKept("gradients");
-  this->Mapper->ReleaseGraphicsResources(this->Scene.window());
+  this->Mapper->ReleaseGraphicsResources(this->Scene.GetWindow());
   EXPECT_EQ(this->Mapper->GetDeviceBytes(), 0);
 }
 
 TEST_F(TetrahedraRayCastMemory, MeshesBeyondTheDevicesTablesGoToTheNativeBackend)
 {
   this->Mapper->SetScalarModeToUsePointData();
-  this->Mapper->SetMaximumTableSize(8 * this->cells());
-  expectMatchesReference(this->Scene, "within the limit");
+  this->Mapper->SetMaximumTableSize(8 * this->GetCells());
+  ExpectMatchesReference(this->Scene, "within the limit");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
-  this->Mapper->SetMaximumTableSize(8 * this->cells() - 1);
-  expectMatchesReference(this->Scene, "beyond the limit");
+  this->Mapper->SetMaximumTableSize(8 * this->GetCells() - 1);
+  ExpectMatchesReference(this->Scene, "beyond the limit");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), Native);
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
-  EXPECT_NE(this->Observer->Warnings[0].find(std::to_string(8 * this->cells())), std::string::npos);
   EXPECT_NE(
-    this->Observer->Warnings[0].find(std::to_string(8 * this->cells() - 1)), std::string::npos);
+    this->Observer->Warnings[0].find(std::to_string(8 * this->GetCells())), std::string::npos);
+  EXPECT_NE(
+    this->Observer->Warnings[0].find(std::to_string(8 * this->GetCells() - 1)), std::string::npos);
   this->Mapper->CompactTablesOn();
-  expectMatchesReference(this->Scene, "compact, within the limit");
+  ExpectMatchesReference(this->Scene, "compact, within the limit");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
   EXPECT_TRUE(this->Observer->Errors.empty());
 }
@@ -190,11 +191,11 @@ TEST_F(TetrahedraRayCastMemory, SoDoTheirLightAndPreIntegration)
     this->Mapper->SetIntegration(
       shade ? vtkTetrahedraRayCastMapper::EXACT : vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
     this->Mapper->SetMaximumTableSize(VTK_TYPE_INT64_MAX);
-    const FloatImage expected = this->Scene.renderFloat();
+    const FloatImage expected = this->Scene.RenderFloat();
     EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
     this->Mapper->SetMaximumTableSize(100);
-    meniscus::test::expectSamePicture(
-      this->Scene.renderFloat(), expected, shade ? "light" : "pre-integrated");
+    meniscus::test::ExpectSamePicture(
+      this->Scene.RenderFloat(), expected, shade ? "light" : "pre-integrated");
     EXPECT_EQ(this->Mapper->GetActiveBackend(), Native);
   }
   EXPECT_TRUE(this->Observer->Errors.empty());

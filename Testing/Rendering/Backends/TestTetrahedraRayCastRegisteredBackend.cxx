@@ -40,17 +40,17 @@ Vector operator-(const Vector& a, const Vector& b)
   return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
 }
 
-double dot(const Vector& a, const Vector& b)
+double Dot(const Vector& a, const Vector& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-Vector cross(const Vector& a, const Vector& b)
+Vector Cross(const Vector& a, const Vector& b)
 {
   return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
 }
 
-Vector at(const meniscus::RayCastAffineMap& map, double i, double j)
+Vector At(const meniscus::RayCastAffineMap& map, double i, double j)
 {
   Vector result;
   for (int axis = 0; axis < 3; ++axis)
@@ -67,17 +67,17 @@ struct DepthRange
   double Last;
 };
 
-DepthRange clip(const std::array<Vector, 4>& corners, const Vector& origin, const Vector& direction,
+DepthRange Clip(const std::array<Vector, 4>& corners, const Vector& origin, const Vector& direction,
   DepthRange range)
 {
   for (int i = 0; i < 4; ++i)
   {
     const Vector& a = corners[(i + 1) % 4];
-    const Vector outside = cross(corners[(i + 2) % 4] - a, corners[(i + 3) % 4] - a);
+    const Vector outside = Cross(corners[(i + 2) % 4] - a, corners[(i + 3) % 4] - a);
     // The side of the face that corner i is on counts.
-    const double sign = dot(outside, corners[i] - a) < 0.0 ? -1.0 : 1.0;
-    const double start = sign * dot(outside, origin - a);
-    const double slope = sign * dot(outside, direction);
+    const double sign = Dot(outside, corners[i] - a) < 0.0 ? -1.0 : 1.0;
+    const double start = sign * Dot(outside, origin - a);
+    const double slope = sign * Dot(outside, direction);
     if (slope == 0.0)
     {
       range.Last = start < 0.0 ? range.First - 1.0 : range.Last;
@@ -157,8 +157,8 @@ public:
         const double end = (w * rays.DepthNumerator[0] + rays.DepthNumerator[1]) /
           (w * rays.DepthDenominator[0] + rays.DepthDenominator[1]);
         const auto length = static_cast<float>(
-          this->lengthOf(at(rays.Origin, i, j), at(rays.Direction, i, j), { rays.NearDepth, end }) *
-          worldLength(rays, at(rays.Direction, i, j)));
+          this->LengthOf(At(rays.Origin, i, j), At(rays.Direction, i, j), { rays.NearDepth, end }) *
+          GetWorldLength(rays, At(rays.Direction, i, j)));
         image.insert(image.end(), { length, length, length, length > 0.0f ? 1.0f : 0.0f });
       }
     }
@@ -175,24 +175,24 @@ public:
   }
 
 private:
-  static double worldLength(const meniscus::RayCastRays& rays, const Vector& direction)
+  static double GetWorldLength(const meniscus::RayCastRays& rays, const Vector& direction)
   {
     Vector world;
     for (int row = 0; row < 3; ++row)
     {
       const double* values = rays.ModelToWorld[row];
-      world[row] = dot({ values[0], values[1], values[2] }, direction);
+      world[row] = Dot({ values[0], values[1], values[2] }, direction);
     }
-    return std::sqrt(dot(world, world));
+    return std::sqrt(Dot(world, world));
   }
 
-  double lengthOf(const Vector& origin, const Vector& direction, const DepthRange& range)
+  double LengthOf(const Vector& origin, const Vector& direction, const DepthRange& range)
   {
     double length = 0.0;
     std::int64_t crossed = 0;
     for (const std::array<Vector, 4>& corners : this->Cells)
     {
-      const DepthRange inside = clip(corners, origin, direction, range);
+      const DepthRange inside = Clip(corners, origin, direction, range);
       crossed += inside.First < inside.Last ? 1 : 0;
       length += std::max(inside.Last - inside.First, 0.0);
     }
@@ -209,7 +209,7 @@ private:
 };
 
 /** Length of a ray within the box [-1, 1]^3 of a volume's model coordinates, in world units. */
-double lengthInBox(const meniscus::reference::Ray& ray, vtkMatrix4x4* modelToWorld)
+double LengthInBox(const meniscus::reference::Ray& ray, vtkMatrix4x4* modelToWorld)
 {
   vtkNew<vtkMatrix4x4> inverse;
   vtkMatrix4x4::Invert(modelToWorld, inverse);
@@ -229,7 +229,7 @@ double lengthInBox(const meniscus::reference::Ray& ray, vtkMatrix4x4* modelToWor
     last = std::min(last, std::max(a, b));
   }
   const Vector world{ ray.Direction[0], ray.Direction[1], ray.Direction[2] };
-  return std::max(last - first, 0.0) * std::sqrt(dot(world, world));
+  return std::max(last - first, 0.0) * std::sqrt(Dot(world, world));
 }
 
 /** A box of 6 * 3^3 tetrahedra, and the backend registered as long as the test runs. */
@@ -237,20 +237,20 @@ class TetrahedraRayCastRegisteredBackend : public testing::Test
 {
 protected:
   TetrahedraRayCastRegisteredBackend()
-    : Mesh(makeBlock(3, wavyField(3.0)))
-    , Scene(this->Mesh, makeProperty(FunctionKind::Smooth, Range, 3.4), Width, Height)
-    , Mapper(this->Scene.rayCaster())
+    : Mesh(MakeBlock(3, WavyField(3.0)))
+    , Scene(this->Mesh, MakeProperty(FunctionKind::Smooth, Range, 3.4), Width, Height)
+    , Mapper(this->Scene.GetRayCaster())
     , Observer(vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New()))
   {
     this->Registered =
       meniscus::RegisterRayCastBackend({ "Path length", [this](meniscus::RayCastSharing&) {
                                           return std::make_unique<PathLengthBackend>(this->Words);
                                         } });
-    this->Observer->observe(this->Mapper);
-    this->Scene.volume()->SetOrientation(20.0, 10.0, 5.0);
-    this->Scene.volume()->SetScale(1.5, 1.2, 0.9);
-    this->Scene.volume()->SetPosition(0.3, -0.2, 0.1);
-    lookAt(this->Scene.renderer(), this->Scene.volume()->GetBounds(), 30.0, 20.0, 1.5);
+    this->Observer->Observe(this->Mapper);
+    this->Scene.GetVolume()->SetOrientation(20.0, 10.0, 5.0);
+    this->Scene.GetVolume()->SetScale(1.5, 1.2, 0.9);
+    this->Scene.GetVolume()->SetPosition(0.3, -0.2, 0.1);
+    LookAt(this->Scene.GetRenderer(), this->Scene.GetVolume()->GetBounds(), 30.0, 20.0, 1.5);
     this->Mapper->SetBackend(vtkTetrahedraRayCastMapper::AUTOMATIC);
   }
   ~TetrahedraRayCastRegisteredBackend() override
@@ -258,16 +258,16 @@ protected:
     meniscus::UnregisterRayCastBackend("Path length");
   }
 
-  std::string drawnBy()
+  std::string DrawnBy()
   {
-    this->Scene.window()->Render();
+    this->Scene.GetWindow()->Render();
     return this->Mapper->GetActiveBackendName();
   }
 
   /** Name of the backend that AUTOMATIC chooses if none is registered. */
-  std::string ownBackend()
+  std::string OwnBackend()
   {
-    const bool software = deviceName(this->Scene.window()).find("llvmpipe") != std::string::npos;
+    const bool software = DeviceName(this->Scene.GetWindow()).find("llvmpipe") != std::string::npos;
     return software ? "Native" : "OpenGL";
   }
 
@@ -288,21 +288,21 @@ TEST_F(TetrahedraRayCastRegisteredBackend, DrawsTheLengthsOfRaysInABox)
   constexpr double tolerance = 1.0 / (1 << 22) + 5e-8;
   ASSERT_TRUE(this->Registered);
   this->Mapper->SetBackendName("Path length");
-  this->Scene.window()->Render();
-  const FloatImage image = this->Scene.renderFloat();
+  this->Scene.GetWindow()->Render();
+  const FloatImage image = this->Scene.RenderFloat();
   EXPECT_EQ(this->Mapper->GetActiveBackend(), int(vtkTetrahedraRayCastMapper::REGISTERED));
   EXPECT_STREQ(this->Mapper->GetActiveBackendName(), "Path length");
-  const PixelRays rays(this->Scene.renderer());
-  ASSERT_EQ(image.Width, rays.width());
-  ASSERT_EQ(image.Height, rays.height());
+  const PixelRays rays(this->Scene.GetRenderer());
+  ASSERT_EQ(image.Width, rays.GetWidth());
+  ASSERT_EQ(image.Height, rays.GetHeight());
   double longest = 0.0;
   std::int64_t hits = 0;
   for (int y = 0; y < image.Height; ++y)
   {
     for (int x = 0; x < image.Width; ++x)
     {
-      const double expected = lengthInBox(rays.ray(x, y), this->Scene.volume()->GetMatrix());
-      ASSERT_NEAR(image.pixel(x, y)[0], expected, tolerance) << x << ", " << y;
+      const double expected = LengthInBox(rays.GetRay(x, y), this->Scene.GetVolume()->GetMatrix());
+      ASSERT_NEAR(image.GetPixel(x, y)[0], expected, tolerance) << x << ", " << y;
       longest = std::max(longest, expected);
       hits += expected > tolerance ? 1 : 0;
     }
@@ -312,74 +312,74 @@ TEST_F(TetrahedraRayCastRegisteredBackend, DrawsTheLengthsOfRaysInABox)
   EXPECT_GT(hits, Width * Height / 4);
   EXPECT_NEAR(static_cast<double>(this->Mapper->GetNumberOfRays()), static_cast<double>(hits), 2.0);
   EXPECT_TRUE(this->Observer->Warnings.empty()) << this->Observer->Warnings[0];
-  EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->text();
+  EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->GetText();
 }
 
 TEST_F(TetrahedraRayCastRegisteredBackend, AutomaticAsksItFirstAndReportsItsReason)
 {
-  EXPECT_EQ(this->drawnBy(), "Path length");
+  EXPECT_EQ(this->DrawnBy(), "Path length");
   this->Words.Automatic = false;
-  EXPECT_EQ(this->drawnBy(), this->ownBackend());
+  EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   EXPECT_TRUE(this->Observer->Warnings.empty()) << "not asked";
   this->Words.Automatic = true;
   this->Words.Reason = "it is out of ink";
-  EXPECT_EQ(this->drawnBy(), this->ownBackend());
+  EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
   EXPECT_NE(this->Observer->Warnings[0].find("it is out of ink"), std::string::npos);
-  EXPECT_NE(this->Observer->Warnings[0].find(this->ownBackend()), std::string::npos);
-  const FloatImage other = this->Scene.renderFloat();
+  EXPECT_NE(this->Observer->Warnings[0].find(this->OwnBackend()), std::string::npos);
+  const FloatImage other = this->Scene.RenderFloat();
   EXPECT_EQ(this->Observer->Warnings.size(), 1u) << "said once";
   this->Words.Reason.clear();
-  EXPECT_EQ(this->drawnBy(), "Path length");
+  EXPECT_EQ(this->DrawnBy(), "Path length");
   // The picture of the fallback is that of the library's own backend.
   meniscus::UnregisterRayCastBackend("Path length");
-  EXPECT_EQ(this->drawnBy(), this->ownBackend());
-  EXPECT_EQ(this->Scene.renderFloat().Rgba, other.Rgba);
-  EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->text();
+  EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
+  EXPECT_EQ(this->Scene.RenderFloat().Rgba, other.Rgba);
+  EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->GetText();
 }
 
 TEST_F(TetrahedraRayCastRegisteredBackend, NamesTakePrecedenceAndFallBack)
 {
   this->Mapper->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
-  EXPECT_EQ(this->drawnBy(), "Native") << "asked for by number";
+  EXPECT_EQ(this->DrawnBy(), "Native") << "asked for by number";
   this->Mapper->SetBackendName("OpenGL");
-  EXPECT_EQ(this->drawnBy(), "OpenGL");
+  EXPECT_EQ(this->DrawnBy(), "OpenGL");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), int(vtkTetrahedraRayCastMapper::OPENGL));
   this->Mapper->SetBackendName("");
-  EXPECT_EQ(this->drawnBy(), "Native");
+  EXPECT_EQ(this->DrawnBy(), "Native");
   EXPECT_TRUE(this->Observer->Warnings.empty());
   this->Words.Automatic = false;
   this->Mapper->SetBackendName("No such");
-  EXPECT_EQ(this->drawnBy(), this->ownBackend());
+  EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
   EXPECT_NE(this->Observer->Warnings[0].find("No such"), std::string::npos);
   this->Words.Reason = "it is out of ink";
   this->Mapper->SetBackendName("Path length");
-  EXPECT_EQ(this->drawnBy(), this->ownBackend());
+  EXPECT_EQ(this->DrawnBy(), this->OwnBackend());
   ASSERT_EQ(this->Observer->Warnings.size(), 2u);
   EXPECT_NE(this->Observer->Warnings[1].find("it is out of ink"), std::string::npos);
-  EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->text();
+  EXPECT_TRUE(this->Observer->Errors.empty()) << this->Observer->GetText();
 }
 
 TEST_F(TetrahedraRayCastRegisteredBackend, TablesAreTakenOncePerVersion)
 {
   this->Mapper->SetBackendName("Path length");
   const vtkTypeInt64 before = this->Mapper->GetHostBytes();
-  this->Scene.window()->Render();
-  this->Scene.renderer()->GetActiveCamera()->Azimuth(10.0);
-  this->Scene.window()->Render();
+  this->Scene.GetWindow()->Render();
+  this->Scene.GetRenderer()->GetActiveCamera()->Azimuth(10.0);
+  this->Scene.GetWindow()->Render();
   EXPECT_EQ(this->Words.MeshCopies, 1);
   EXPECT_EQ(this->Words.ScalarCopies, 1);
   EXPECT_GE(this->Mapper->GetHostBytes() - before, 96 * this->Mesh->GetNumberOfCells());
   vtkDataArray* scalars = this->Mesh->GetPointData()->GetScalars();
   scalars->SetComponent(0, 0, 0.5 * scalars->GetComponent(0, 0) + 0.1);
   scalars->Modified();
-  this->Scene.window()->Render();
+  this->Scene.GetWindow()->Render();
   EXPECT_EQ(this->Words.MeshCopies, 1);
   EXPECT_EQ(this->Words.ScalarCopies, 2);
   this->Mesh->GetPoints()->SetPoint(0, -1.1, -1.1, -1.1);
   this->Mesh->GetPoints()->Modified();
-  this->Scene.window()->Render();
+  this->Scene.GetWindow()->Render();
   EXPECT_EQ(this->Words.MeshCopies, 2);
 }
 

@@ -39,7 +39,7 @@ constexpr double Range[2] = { -1.0, 1.0 };
 const char* const CellScalarName = "cell scalar";
 
 /** Gives every cell the field's value at the mean of its points. */
-vtkDoubleArray* addCellScalars(vtkUnstructuredGrid* grid, const Field& field)
+vtkDoubleArray* AddCellScalars(vtkUnstructuredGrid* grid, const Field& field)
 {
   vtkNew<vtkDoubleArray> values;
   values->SetName(CellScalarName);
@@ -62,25 +62,25 @@ vtkDoubleArray* addCellScalars(vtkUnstructuredGrid* grid, const Field& field)
   return values;
 }
 
-vtkDoubleArray* cellScalars(vtkUnstructuredGrid* grid)
+vtkDoubleArray* MakeCellScalars(vtkUnstructuredGrid* grid)
 {
   return vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetScalars());
 }
 
-Grid makeCellBlock(int n, const Region& region = nullptr)
+Grid MakeCellBlock(int n, const Region& region = nullptr)
 {
-  const Grid grid = makeBlock(n, constantField(0.0), region);
-  jitter(grid, 0.3 / n, 3);
-  addCellScalars(grid, wavyField(3.0));
+  const Grid grid = MakeBlock(n, ConstantField(0.0), region);
+  Jitter(grid, 0.3 / n, 3);
+  AddCellScalars(grid, WavyField(3.0));
   return grid;
 }
 
 /** Cells of a ray with their own scalars; cells without a scalar are left out. */
-std::vector<RaySegment> findCells(
+std::vector<RaySegment> FindCells(
   const ReferenceRayIntegrator& integrator, vtkDataArray* values, const Ray& ray)
 {
   std::vector<RaySegment> segments;
-  integrator.findSegments(ray, segments);
+  integrator.FindSegments(ray, segments);
   std::vector<RaySegment> known;
   for (RaySegment segment : segments)
   {
@@ -94,16 +94,16 @@ std::vector<RaySegment> findCells(
 }
 
 /** Normal of the face that two cells share. */
-Vector3 normalBetween(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
+Vector3 NormalBetween(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
 {
-  const std::int64_t* other = mesh.cell(static_cast<std::size_t>(b));
+  const std::int64_t* other = mesh.GetCell(static_cast<std::size_t>(b));
   std::vector<const double*> corners;
   for (int i = 0; i < 4; ++i)
   {
-    const std::int64_t id = mesh.cell(static_cast<std::size_t>(a))[i];
+    const std::int64_t id = mesh.GetCell(static_cast<std::size_t>(a))[i];
     if (std::find(other, other + 4, id) != other + 4)
     {
-      corners.push_back(mesh.point(id));
+      corners.push_back(mesh.GetPoint(id));
     }
   }
   Vector3 u;
@@ -120,7 +120,7 @@ Vector3 normalBetween(const ReferenceMesh& mesh, std::int64_t a, std::int64_t b)
  * Isosurfaces of cell scalars: the places where a ray passes from one cell to the next across
  * isovalues.
  */
-std::array<double, 4> blendJumps(const ReferenceMesh& mesh, const Ray& ray,
+std::array<double, 4> BlendJumps(const ReferenceMesh& mesh, const Ray& ray,
   const std::vector<RaySegment>& segments, std::vector<Surface> surfaces, const Material* material)
 {
   std::sort(surfaces.begin(), surfaces.end(),
@@ -156,7 +156,7 @@ std::array<double, 4> blendJumps(const ReferenceMesh& mesh, const Ray& ray,
         {
           x[axis] = ray.Origin[axis] + to.Begin * ray.Direction[axis];
         }
-        color = shade(*material, ray, x, normalBetween(mesh, from.Cell, to.Cell), color);
+        color = Shade(*material, ray, x, NormalBetween(mesh, from.Cell, to.Cell), color);
       }
       const double share = (1.0 - total[3]) * surface.Alpha;
       for (int c = 0; c < 3; ++c)
@@ -176,38 +176,38 @@ public:
   CellScene(vtkUnstructuredGrid* grid, vtkVolumeProperty* property)
     : RayCastScene(grid, property, Size, Size)
   {
-    this->rayCaster()->SetScalarModeToUseCellData();
-    lookAt(this->renderer(), grid->GetBounds(), 30.0, 20.0);
+    this->GetRayCaster()->SetScalarModeToUseCellData();
+    LookAt(this->GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   }
 
-  void refractionAt(const MembraneCase& membrane)
+  void RefractionAt(const MembraneCase& membrane)
   {
     this->Membrane = membrane;
-    this->rayCaster()->SetMembraneData(membrane.Mesh);
-    lookAt(this->renderer(), this->grid()->GetBounds(), 30.0, 50.0);
+    this->GetRayCaster()->SetMembraneData(membrane.Mesh);
+    LookAt(this->GetRenderer(), this->MakeGrid()->GetBounds(), 30.0, 50.0);
   }
 
   /** Compares with traces of the parts of the rays that the given clipping planes leave. */
-  TracedComparison expectComposite(
+  TracedComparison ExpectComposite(
     const std::string& what, const std::vector<HalfSpace>& halves = {})
   {
-    const auto function = toReference(this->volume()->GetProperty());
-    return this->expectOfCells(
+    const auto function = ToReference(this->GetVolume()->GetProperty());
+    return this->ExpectOfCells(
       [&](const ReferenceMesh&, const Ray& ray, const std::vector<RaySegment>& cells)
-      { return ReferenceRayIntegrator::integrate(ray, cells, function); },
+      { return ReferenceRayIntegrator::Integrate(ray, cells, function); },
       what, halves);
   }
 
-  TracedComparison expectSurfaces(
+  TracedComparison ExpectSurfaces(
     const std::string& what, const std::vector<HalfSpace>& halves = {})
   {
-    this->window()->Render();
-    vtkVolumeProperty* property = this->volume()->GetProperty();
-    const Material material = toMaterial(property, this->renderer());
-    const std::vector<Surface> surfaces = toSurfaces(property);
-    return this->expectOfCells(
+    this->GetWindow()->Render();
+    vtkVolumeProperty* property = this->GetVolume()->GetProperty();
+    const Material material = ToMaterial(property, this->GetRenderer());
+    const std::vector<Surface> surfaces = ToSurfaces(property);
+    return this->ExpectOfCells(
       [&](const ReferenceMesh& mesh, const Ray& ray, const std::vector<RaySegment>& cells) {
-        return blendJumps(mesh, ray, cells, surfaces, property->GetShade() ? &material : nullptr);
+        return BlendJumps(mesh, ray, cells, surfaces, property->GetShade() ? &material : nullptr);
       },
       what, halves);
   }
@@ -216,18 +216,19 @@ private:
   using ShowCells = std::function<std::array<double, 4>(
     const ReferenceMesh&, const Ray&, const std::vector<RaySegment>&)>;
 
-  TracedComparison expectOfCells(
+  TracedComparison ExpectOfCells(
     const ShowCells& show, const std::string& what, const std::vector<HalfSpace>& halves)
   {
-    this->window()->Render();
-    const auto integrator = makeReference(this->grid(), this->volume()->GetMatrix());
-    return expectTrace(*this,
-      this->Membrane.bend(
+    this->GetWindow()->Render();
+    const auto integrator = MakeReference(this->MakeGrid(), this->GetVolume()->GetMatrix());
+    return ExpectTrace(*this,
+      this->Membrane.BendMembrane(
         [&](const Ray& whole)
         {
-          const Ray ray = clipRay(whole, halves);
+          const Ray ray = ClipRay(whole, halves);
           return ray.Begin < ray.End
-            ? show(integrator->mesh(), ray, findCells(*integrator, cellScalars(this->grid()), ray))
+            ? show(integrator->MakeMesh(), ray,
+                FindCells(*integrator, MakeCellScalars(this->MakeGrid()), ray))
             : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
         }),
       what);
@@ -236,9 +237,9 @@ private:
   MembraneCase Membrane;
 };
 
-vtkSmartPointer<vtkVolumeProperty> surfaceProperty()
+vtkSmartPointer<vtkVolumeProperty> SurfaceProperty()
 {
-  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   const double values[3] = { 0.3, -0.2, 0.05 };
   for (int i = 0; i < 3; ++i)
   {
@@ -247,13 +248,13 @@ vtkSmartPointer<vtkVolumeProperty> surfaceProperty()
   return property;
 }
 
-std::vector<HalfSpace> addPlane(RayCastScene& scene)
+std::vector<HalfSpace> AddPlane(RayCastScene& scene)
 {
   const HalfSpace half{ Vector3{ 0.4, -0.3, -0.8 }, Vector3{ 0.05, 0.02, 0.11 } };
   vtkNew<vtkPlane> plane;
   plane->SetNormal(half.Normal.data());
   plane->SetOrigin(half.Origin.data());
-  scene.rayCaster()->AddClippingPlane(plane);
+  scene.GetRayCaster()->AddClippingPlane(plane);
   return { half };
 }
 
@@ -262,9 +263,9 @@ std::vector<HalfSpace> addPlane(RayCastScene& scene)
 TEST(TetrahedraRayCastCellData, TwoSlabs)
 {
   // x < 0: attenuation 0.5 and red; x > 0: attenuation 2 and blue.
-  const Grid grid = makeBlock(4, constantField(0.0));
-  addCellScalars(grid, [](double x, double, double) { return x < 0.0 ? -1.0 : 1.0; });
-  auto property = makeConstantProperty(0.0, 1, 1, 1, 1.0);
+  const Grid grid = MakeBlock(4, ConstantField(0.0));
+  AddCellScalars(grid, [](double x, double, double) { return x < 0.0 ? -1.0 : 1.0; });
+  auto property = MakeConstantProperty(0.0, 1, 1, 1, 1.0);
   property->GetScalarOpacity()->RemoveAllPoints();
   property->GetScalarOpacity()->AddPoint(-1.0, 0.5);
   property->GetScalarOpacity()->AddPoint(1.0, 2.0);
@@ -272,16 +273,16 @@ TEST(TetrahedraRayCastCellData, TwoSlabs)
   property->GetRGBTransferFunction()->AddRGBPoint(-1.0, 1.0, 0.0, 0.0);
   property->GetRGBTransferFunction()->AddRGBPoint(1.0, 0.0, 0.0, 1.0);
   CellScene scene(grid, property);
-  lookAlongAxis(scene.renderer(), grid->GetBounds(), 0, 1.3);
-  const FloatImage image = scene.renderFloat();
+  LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), 0, 1.3);
+  const FloatImage image = scene.RenderFloat();
   // Along x, in either direction: a length of 1 in each half.
-  const float* middle = image.pixel(Size / 2, Size / 2);
+  const float* middle = image.GetPixel(Size / 2, Size / 2);
   const bool redFirst = middle[0] > 0.3f;
   const double red = (1.0 - std::exp(-0.5)) * (redFirst ? 1.0 : std::exp(-2.0));
   const double blue = (1.0 - std::exp(-2.0)) * (redFirst ? std::exp(-0.5) : 1.0);
   for (const int x : { 30, 60, 77 })
   {
-    const float* pixel = image.pixel(x, 51);
+    const float* pixel = image.GetPixel(x, 51);
     EXPECT_NEAR(pixel[0], red, 2e-6);
     EXPECT_NEAR(pixel[1], 0.0, 2e-6);
     EXPECT_NEAR(pixel[2], blue, 2e-6);
@@ -293,41 +294,41 @@ TEST(TetrahedraRayCastCellData, CompositeIsThatOfTheReference)
 {
   for (const bool hollow : { false, true })
   {
-    const Grid grid = makeCellBlock(6, hollow ? shell(0.5, 0.95) : Region());
+    const Grid grid = MakeCellBlock(6, hollow ? Shell(0.5, 0.95) : Region());
     for (const FunctionKind kind :
       { FunctionKind::Smooth, FunctionKind::Peaked, FunctionKind::Sparse, FunctionKind::Opaque })
     {
-      CellScene scene(grid, makeProperty(kind, Range, 3.4));
-      scene.expectComposite(
+      CellScene scene(grid, MakeProperty(kind, Range, 3.4));
+      scene.ExpectComposite(
         "function " + std::to_string(int(kind)) + (hollow ? ", shell" : ", block"));
     }
-    CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
-    scene.expectComposite("clipped", addPlane(scene));
+    CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
+    scene.ExpectComposite("clipped", AddPlane(scene));
   }
 }
 
 TEST(TetrahedraRayCastCellData, ThroughAMembrane)
 {
-  const Grid grid = makeCellBlock(6);
+  const Grid grid = MakeCellBlock(6);
   for (const MembraneCase& membrane :
-    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+    { MakePlaneCase(0.1, 4.0, 2), MakeDomeCase(1.4, 4.0, 2.8, 16) })
   {
-    CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
-    scene.refractionAt(membrane);
-    scene.expectComposite("composite");
-    scene.expectComposite("clipped", addPlane(scene));
-    CellScene surfaces(grid, surfaceProperty());
-    surfaces.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-    surfaces.refractionAt(membrane);
-    surfaces.expectSurfaces("isosurfaces");
-    surfaces.volume()->GetProperty()->ShadeOn();
-    surfaces.expectSurfaces("lit isosurfaces");
+    CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
+    scene.RefractionAt(membrane);
+    scene.ExpectComposite("composite");
+    scene.ExpectComposite("clipped", AddPlane(scene));
+    CellScene surfaces(grid, SurfaceProperty());
+    surfaces.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+    surfaces.RefractionAt(membrane);
+    surfaces.ExpectSurfaces("isosurfaces");
+    surfaces.GetVolume()->GetProperty()->ShadeOn();
+    surfaces.ExpectSurfaces("lit isosurfaces");
   }
 }
 
 TEST(TetrahedraRayCastCellData, Projections)
 {
-  const Grid grid = makeCellBlock(6);
+  const Grid grid = MakeCellBlock(6);
   const std::pair<int, Projection> modes[] = { { vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
                                                  Projection::Maximum },
     { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
@@ -335,21 +336,21 @@ TEST(TetrahedraRayCastCellData, Projections)
     { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
   for (const auto& mode : modes)
   {
-    CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
-    scene.rayCaster()->SetBlendMode(mode.first);
-    scene.window()->Render();
-    const auto integrator = makeReference(grid);
-    vtkVolumeProperty* property = scene.volume()->GetProperty();
+    CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
+    scene.GetRayCaster()->SetBlendMode(mode.first);
+    scene.GetWindow()->Render();
+    const auto integrator = MakeReference(grid);
+    vtkVolumeProperty* property = scene.GetVolume()->GetProperty();
     const auto function =
-      mode.second == Projection::Additive ? toReference(property) : toAlphas(property);
+      mode.second == Projection::Additive ? ToReference(property) : ToAlphas(property);
     double range[2];
-    cellScalars(grid)->GetFiniteRange(range);
-    expectTrace(
+    MakeCellScalars(grid)->GetFiniteRange(range);
+    ExpectTrace(
       scene,
       [&](const Ray& ray)
       {
-        return project(
-          ray, findCells(*integrator, cellScalars(grid), ray), mode.second, function, range);
+        return Project(
+          ray, FindCells(*integrator, MakeCellScalars(grid), ray), mode.second, function, range);
       },
       "mode " + std::to_string(mode.first), FloatTolerance, 0.01);
   }
@@ -359,88 +360,88 @@ TEST(TetrahedraRayCastCellData, IsosurfacesAreFacesBetweenCells)
 {
   for (const bool hollow : { false, true })
   {
-    const Grid grid = makeCellBlock(6, hollow ? shell(0.5, 0.95) : Region());
+    const Grid grid = MakeCellBlock(6, hollow ? Shell(0.5, 0.95) : Region());
     for (const bool lit : { false, true })
     {
-      auto property = surfaceProperty();
+      auto property = SurfaceProperty();
       property->SetShade(lit);
       CellScene scene(grid, property);
-      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+      scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
       vtkNew<vtkLight> side;
       side->SetLightTypeToSceneLight();
       side->SetPosition(4.0, 2.0, 1.0);
-      scene.renderer()->AddLight(side);
+      scene.GetRenderer()->AddLight(side);
       const std::string what =
         std::string(lit ? "lit" : "unlit") + (hollow ? ", shell" : ", block");
-      scene.expectSurfaces(what);
-      scene.expectSurfaces(what + ", clipped", addPlane(scene));
+      scene.ExpectSurfaces(what);
+      scene.ExpectSurfaces(what + ", clipped", AddPlane(scene));
     }
   }
 }
 
 TEST(TetrahedraRayCastCellData, IsosurfacesVisitTheCellsOnBothSides)
 {
-  const Grid grid = makeBlock(8, constantField(0.0));
-  addCellScalars(grid, [](double x, double, double) { return x < 0.0 ? -1.0 : 1.0; });
-  auto property = surfaceProperty();
+  const Grid grid = MakeBlock(8, ConstantField(0.0));
+  AddCellScalars(grid, [](double x, double, double) { return x < 0.0 ? -1.0 : 1.0; });
+  auto property = SurfaceProperty();
   CellScene scene(grid, property);
-  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  scene.expectSurfaces("between two slabs");
+  scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  scene.ExpectSurfaces("between two slabs");
   // A side of a cube is two faces; each has a cell on both sides.
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 8 * 8 * 4);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), 8 * 8 * 4);
 }
 
 TEST(TetrahedraRayCastCellData, FromWithinTheMesh)
 {
-  const Grid grid = makeCellBlock(5);
+  const Grid grid = MakeCellBlock(5);
   for (const bool surfaces : { false, true })
   {
-    CellScene scene(grid, surfaceProperty());
-    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0, 1.0);
-    scene.renderer()->GetActiveCamera()->SetPosition(0.31, 0.12, 0.43);
-    scene.renderer()->GetActiveCamera()->SetFocalPoint(-1.0, -0.2, -0.6);
-    scene.renderer()->GetActiveCamera()->SetClippingRange(0.05, 5.0);
+    CellScene scene(grid, SurfaceProperty());
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0, 1.0);
+    scene.GetRenderer()->GetActiveCamera()->SetPosition(0.31, 0.12, 0.43);
+    scene.GetRenderer()->GetActiveCamera()->SetFocalPoint(-1.0, -0.2, -0.6);
+    scene.GetRenderer()->GetActiveCamera()->SetClippingRange(0.05, 5.0);
     if (surfaces)
     {
-      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-      scene.expectSurfaces("surfaces");
+      scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+      scene.ExpectSurfaces("surfaces");
     }
     else
     {
-      scene.expectComposite("composite");
+      scene.ExpectComposite("composite");
     }
   }
 }
 
 TEST(TetrahedraRayCastCellData, CellsWithoutValueAreTransparentAndCounted)
 {
-  const Grid grid = makeCellBlock(5);
+  const Grid grid = MakeCellBlock(5);
   const std::set<vtkIdType> unknown{ 17, 18, 100, 101, 102, 400, 555 };
   for (const vtkIdType cell : unknown)
   {
-    cellScalars(grid)->SetValue(cell,
+    MakeCellScalars(grid)->SetValue(cell,
       cell == 100 ? std::numeric_limits<double>::infinity()
                   : std::numeric_limits<double>::quiet_NaN());
   }
-  CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
+  CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
   const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->observe(scene.rayCaster());
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  scene.expectComposite("with holes");
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfTransparentCells(), 7);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() - 7);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfRejectedCells(), 0);
+  warnings->Observe(scene.GetRayCaster());
+  scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+  scene.ExpectComposite("with holes");
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfTransparentCells(), 7);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() - 7);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfRejectedCells(), 0);
   EXPECT_EQ(warnings->Warnings.size(), 1u);
 
-  CellScene surfaces(grid, surfaceProperty());
-  surfaces.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  surfaces.expectSurfaces("surfaces with holes");
+  CellScene surfaces(grid, SurfaceProperty());
+  surfaces.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  surfaces.ExpectSurfaces("surfaces with holes");
 }
 
 TEST(TetrahedraRayCastCellData, OnlyCellsThatCanBeSeenAreVisited)
 {
-  const Grid grid = makeCellBlock(6);
-  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  const Grid grid = MakeCellBlock(6);
+  auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   property->GetScalarOpacity()->RemoveAllPoints();
   property->GetScalarOpacity()->AddPoint(0.1, 0.0);
   property->GetScalarOpacity()->AddPoint(0.2, 0.9);
@@ -448,19 +449,19 @@ TEST(TetrahedraRayCastCellData, OnlyCellsThatCanBeSeenAreVisited)
   vtkTypeInt64 expected = 0;
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
   {
-    const double value = cellScalars(grid)->GetValue(c);
+    const double value = MakeCellScalars(grid)->GetValue(c);
     expected += value > 0.1 && value < 0.3;
   }
   CellScene scene(grid, property);
-  scene.expectComposite("a window of values");
+  scene.ExpectComposite("a window of values");
   EXPECT_GT(expected, 0);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), expected);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), expected);
 }
 
 TEST(TetrahedraRayCastCellData, TetrahedraInheritTheirCellsValue)
 {
-  const Grid tetrahedra = makeBlock(4, constantField(0.0));
-  addCellScalars(tetrahedra,
+  const Grid tetrahedra = MakeBlock(4, ConstantField(0.0));
+  AddCellScalars(tetrahedra,
     [](double x, double y, double z)
     {
       const auto cube = [](double a) { return std::floor(2.0 * a) + 2.0; }; // 0 to 3
@@ -488,17 +489,17 @@ TEST(TetrahedraRayCastCellData, TetrahedraInheritTheirCellsValue)
       }
     }
   }
-  addCellScalars(hexahedra,
+  AddCellScalars(hexahedra,
     [](double x, double y, double z)
     {
       const auto cube = [](double a) { return std::floor(2.0 * a) + 2.0; };
       return -1.0 + (cube(x) * 16.0 + cube(y) * 4.0 + cube(z)) / 32.0;
     });
-  CellScene expected(tetrahedra, makeProperty(FunctionKind::Smooth, Range, 3.4));
-  CellScene scene(hexahedra, makeProperty(FunctionKind::Smooth, Range, 3.4));
-  const FloatImage a = expected.renderFloat();
-  const FloatImage b = scene.renderFloat();
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 6 * 64);
+  CellScene expected(tetrahedra, MakeProperty(FunctionKind::Smooth, Range, 3.4));
+  CellScene scene(hexahedra, MakeProperty(FunctionKind::Smooth, Range, 3.4));
+  const FloatImage a = expected.RenderFloat();
+  const FloatImage b = scene.RenderFloat();
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), 6 * 64);
   for (std::size_t i = 0; i < a.Rgba.size(); ++i)
   {
     ASSERT_NEAR(a.Rgba[i], b.Rgba[i], 2e-5);
@@ -507,19 +508,19 @@ TEST(TetrahedraRayCastCellData, TetrahedraInheritTheirCellsValue)
 
 TEST(TetrahedraRayCastCellData, NewValuesUpdateOnlyThem)
 {
-  const Grid grid = makeCellBlock(5);
-  CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  scene.window()->Render();
-  const vtkTypeInt64 bytes = scene.rayCaster()->GetUploadedBytes();
-  vtkDoubleArray* values = cellScalars(grid);
+  const Grid grid = MakeCellBlock(5);
+  CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
+  scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+  scene.GetWindow()->Render();
+  const vtkTypeInt64 bytes = scene.GetRayCaster()->GetUploadedBytes();
+  vtkDoubleArray* values = MakeCellScalars(grid);
   for (vtkIdType c = 1; c < values->GetNumberOfTuples(); c += 2)
   {
     std::swap(*values->GetPointer(c), *values->GetPointer(c - 1)); // the range does not change
   }
   values->Modified();
-  scene.expectComposite("other values");
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  scene.ExpectComposite("other values");
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
   EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 2);
   EXPECT_EQ(mapper->GetNumberOfTransferFunctionBuilds(), 1);
@@ -528,54 +529,54 @@ TEST(TetrahedraRayCastCellData, NewValuesUpdateOnlyThem)
 
 TEST(TetrahedraRayCastCellData, PointDataAndBack)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  addCellScalars(grid, wavyField(2.0));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  AddCellScalars(grid, WavyField(2.0));
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   // By default point data is used, if there is any.
-  const FloatImage points = scene.renderFloat();
-  expectMatchesReference(scene, "point data");
+  const FloatImage points = scene.RenderFloat();
+  ExpectMatchesReference(scene, "point data");
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
   mapper->SetScalarModeToUseCellFieldData();
   mapper->SelectScalarArray(CellScalarName);
-  const FloatImage cells = scene.renderFloat();
+  const FloatImage cells = scene.RenderFloat();
   EXPECT_NE(cells.Rgba, points.Rgba);
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 2); // now with each tetrahedron's cell
   mapper->SetScalarModeToDefault();
-  EXPECT_EQ(scene.renderFloat().Rgba, points.Rgba);
+  EXPECT_EQ(scene.RenderFloat().Rgba, points.Rgba);
   mapper->SetScalarModeToUseCellData();
-  EXPECT_EQ(scene.renderFloat().Rgba, cells.Rgba);
+  EXPECT_EQ(scene.RenderFloat().Rgba, cells.Rgba);
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 2);
   grid->GetPointData()->Initialize();
   mapper->SetScalarModeToDefault();
-  EXPECT_EQ(scene.renderFloat().Rgba, cells.Rgba);
+  EXPECT_EQ(scene.RenderFloat().Rgba, cells.Rgba);
 }
 
 TEST(TetrahedraRayCastCellData, LightChangesNothingInTheMedium)
 {
-  const Grid grid = makeCellBlock(4);
-  CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
-  const FloatImage unlit = scene.renderFloat();
-  scene.volume()->GetProperty()->ShadeOn();
-  scene.volume()->GetProperty()->GetGradientOpacity()->AddPoint(0.0, 0.0);
-  scene.volume()->GetProperty()->GetGradientOpacity()->AddPoint(1.0, 1.0);
-  EXPECT_EQ(scene.renderFloat().Rgba, unlit.Rgba);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfGradientBuilds(), 0);
+  const Grid grid = MakeCellBlock(4);
+  CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
+  const FloatImage unlit = scene.RenderFloat();
+  scene.GetVolume()->GetProperty()->ShadeOn();
+  scene.GetVolume()->GetProperty()->GetGradientOpacity()->AddPoint(0.0, 0.0);
+  scene.GetVolume()->GetProperty()->GetGradientOpacity()->AddPoint(1.0, 1.0);
+  EXPECT_EQ(scene.RenderFloat().Rgba, unlit.Rgba);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfGradientBuilds(), 0);
 }
 
 TEST(TetrahedraRayCastCellData, ComputeIsTheFragmentShadersTwin)
 {
-  const Grid grid = makeCellBlock(5);
+  const Grid grid = MakeCellBlock(5);
   for (const bool surfaces : { false, true })
   {
-    CellScene scene(grid, surfaceProperty());
-    scene.rayCaster()->SetBlendMode(
+    CellScene scene(grid, SurfaceProperty());
+    scene.GetRayCaster()->SetBlendMode(
       surfaces ? vtkVolumeMapper::ISOSURFACE_BLEND : vtkVolumeMapper::COMPOSITE_BLEND);
-    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-    const FloatImage fragments = scene.renderFloat();
-    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
-    const FloatImage compute = scene.renderFloat();
+    scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+    const FloatImage fragments = scene.RenderFloat();
+    scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
+    const FloatImage compute = scene.RenderFloat();
     for (std::size_t i = 0; i < compute.Rgba.size(); ++i)
     {
       ASSERT_NEAR(compute.Rgba[i], fragments.Rgba[i], 2e-5);
@@ -585,22 +586,22 @@ TEST(TetrahedraRayCastCellData, ComputeIsTheFragmentShadersTwin)
 
 TEST(TetrahedraRayCastCellData, WrongArraysAreErrors)
 {
-  const Grid grid = makeCellBlock(3);
-  CellScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4));
+  const Grid grid = MakeCellBlock(3);
+  CellScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4));
   const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->observe(scene.rayCaster());
-  cellScalars(grid)->SetNumberOfTuples(5);
-  scene.window()->Render();
+  errors->Observe(scene.GetRayCaster());
+  MakeCellScalars(grid)->SetNumberOfTuples(5);
+  scene.GetWindow()->Render();
   ASSERT_EQ(errors->Errors.size(), 1u);
-  EXPECT_NE(errors->text().find(" cells"), std::string::npos) << errors->text();
+  EXPECT_NE(errors->GetText().find(" cells"), std::string::npos) << errors->GetText();
 
   vtkNew<vtkDoubleArray> field;
   field->SetName("field");
   field->SetNumberOfTuples(grid->GetNumberOfCells());
   grid->GetFieldData()->AddArray(field);
-  scene.rayCaster()->SetScalarMode(VTK_SCALAR_MODE_USE_FIELD_DATA);
-  scene.rayCaster()->SelectScalarArray("field");
-  scene.window()->Render();
+  scene.GetRayCaster()->SetScalarMode(VTK_SCALAR_MODE_USE_FIELD_DATA);
+  scene.GetRayCaster()->SelectScalarArray("field");
+  scene.GetWindow()->Render();
   ASSERT_EQ(errors->Errors.size(), 2u);
-  EXPECT_NE(errors->Errors[1].find("field data"), std::string::npos) << errors->text();
+  EXPECT_NE(errors->Errors[1].find("field data"), std::string::npos) << errors->GetText();
 }

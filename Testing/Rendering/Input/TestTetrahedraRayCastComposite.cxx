@@ -36,14 +36,14 @@ constexpr double Range[2] = { -2.0, 2.0 };
 constexpr double Bounds[6] = { -1, 1, -1, 1, -1, 1 };
 
 // A field that any tetrahedra represent equally; only the walk's rounding differs.
-Field linear()
+Field MakeLinear()
 {
-  return linearField(0.7, -0.4, 0.5);
+  return LinearField(0.7, -0.4, 0.5);
 }
 
-vtkSmartPointer<vtkVolumeProperty> smooth()
+vtkSmartPointer<vtkVolumeProperty> Smooth()
 {
-  return makeProperty(FunctionKind::Smooth, Range, 3.5);
+  return MakeProperty(FunctionKind::Smooth, Range, 3.5);
 }
 
 /** A scene of any data object. */
@@ -51,35 +51,35 @@ class AnyScene : public RayCastScene
 {
 public:
   explicit AnyScene(vtkDataObject* input)
-    : RayCastScene(nullptr, smooth(), Size, Size)
+    : RayCastScene(nullptr, Smooth(), Size, Size)
     , Observer(vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New()))
   {
-    this->Observer->observe(this->rayCaster());
-    this->rayCaster()->SetInputDataObject(input);
-    lookAt(this->renderer(), Bounds, 25.0, 15.0);
+    this->Observer->Observe(this->GetRayCaster());
+    this->GetRayCaster()->SetInputDataObject(input);
+    LookAt(this->GetRenderer(), Bounds, 25.0, 15.0);
   }
 
-  FloatImage picture()
+  FloatImage MakePicture()
   {
-    const FloatImage image = this->renderFloat();
-    EXPECT_EQ(this->rayCaster()->GetNumberOfLostRays(), 0);
+    const FloatImage image = this->RenderFloat();
+    EXPECT_EQ(this->GetRayCaster()->GetNumberOfLostRays(), 0);
     return image;
   }
 
   vtkSmartPointer<ErrorObserver> Observer;
 };
 
-FloatImage pictureOf(vtkDataObject* input, int scalarMode = VTK_SCALAR_MODE_DEFAULT)
+FloatImage PictureOf(vtkDataObject* input, int scalarMode = VTK_SCALAR_MODE_DEFAULT)
 {
   AnyScene scene(input);
-  scene.rayCaster()->SetScalarMode(scalarMode);
-  const FloatImage image = scene.picture();
-  EXPECT_TRUE(scene.Observer->Errors.empty()) << scene.Observer->text();
+  scene.GetRayCaster()->SetScalarMode(scalarMode);
+  const FloatImage image = scene.MakePicture();
+  EXPECT_TRUE(scene.Observer->Errors.empty()) << scene.Observer->GetText();
   return image;
 }
 
 /** Some cells of a grid, with their own points and all data. */
-Grid extract(vtkUnstructuredGrid* grid, const std::function<bool(vtkIdType)>& keep)
+Grid Extract(vtkUnstructuredGrid* grid, const std::function<bool(vtkIdType)>& keep)
 {
   const Grid part = Grid::New();
   vtkNew<vtkPoints> points;
@@ -113,18 +113,18 @@ Grid extract(vtkUnstructuredGrid* grid, const std::function<bool(vtkIdType)>& ke
 }
 
 /** Three grids whose cells interlock without gaps. */
-std::vector<Grid> interlocking(vtkUnstructuredGrid* grid)
+std::vector<Grid> Interlocking(vtkUnstructuredGrid* grid)
 {
   std::vector<Grid> parts;
   for (int k = 0; k < 3; ++k)
   {
     parts.push_back(
-      extract(grid, [k](vtkIdType c) { return (c / 6 + c / 30 + c / 150) % 3 == k; }));
+      Extract(grid, [k](vtkIdType c) { return (c / 6 + c / 30 + c / 150) % 3 == k; }));
   }
   return parts;
 }
 
-vtkSmartPointer<vtkMultiBlockDataSet> makeBlocks(const std::vector<Grid>& parts)
+vtkSmartPointer<vtkMultiBlockDataSet> MakeBlocks(const std::vector<Grid>& parts)
 {
   auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -135,7 +135,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> makeBlocks(const std::vector<Grid>& parts)
 }
 
 /** Cells of a structured kind over [-1, 1]^3 with n cubes along each axis. */
-void addScalars(vtkDataSet* grid, const Field& field)
+void AddScalars(vtkDataSet* grid, const Field& field)
 {
   vtkNew<vtkDoubleArray> scalars;
   scalars->SetName(ScalarName);
@@ -148,32 +148,32 @@ void addScalars(vtkDataSet* grid, const Field& field)
   grid->GetPointData()->SetScalars(scalars);
 }
 
-vtkSmartPointer<vtkImageData> makeImage(int n, const Field& field)
+vtkSmartPointer<vtkImageData> MakeImage(int n, const Field& field)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(n + 1, n + 1, n + 1);
   image->SetOrigin(-1.0, -1.0, -1.0);
   image->SetSpacing(2.0 / n, 2.0 / n, 2.0 / n);
-  addScalars(image, field);
+  AddScalars(image, field);
   return image;
 }
 
-vtkSmartPointer<vtkStructuredGrid> makeStructured(int n, const Field& field)
+vtkSmartPointer<vtkStructuredGrid> MakeStructured(int n, const Field& field)
 {
   auto grid = vtkSmartPointer<vtkStructuredGrid>::New();
   grid->SetDimensions(n + 1, n + 1, n + 1);
   vtkNew<vtkPoints> points;
-  const auto image = makeImage(n, field);
+  const auto image = MakeImage(n, field);
   for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
   {
     points->InsertNextPoint(image->GetPoint(i));
   }
   grid->SetPoints(points);
-  addScalars(grid, field);
+  AddScalars(grid, field);
   return grid;
 }
 
-vtkSmartPointer<vtkRectilinearGrid> makeRectilinear(int n, const Field& field)
+vtkSmartPointer<vtkRectilinearGrid> MakeRectilinear(int n, const Field& field)
 {
   auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
   grid->SetDimensions(n + 1, n + 1, n + 1);
@@ -186,7 +186,7 @@ vtkSmartPointer<vtkRectilinearGrid> makeRectilinear(int n, const Field& field)
   grid->SetXCoordinates(places);
   grid->SetYCoordinates(places);
   grid->SetZCoordinates(places);
-  addScalars(grid, field);
+  AddScalars(grid, field);
   return grid;
 }
 
@@ -194,16 +194,16 @@ vtkSmartPointer<vtkRectilinearGrid> makeRectilinear(int n, const Field& field)
 
 TEST(TetrahedraRayCastComposite, InterlockingLeavesGiveThePictureOfOneGrid)
 {
-  const Grid whole = makeBlock(5, wavyField(3.0));
-  jitter(whole, 0.05, 4);
-  const FloatImage expected = pictureOf(whole);
-  const std::vector<Grid> parts = interlocking(whole);
-  expectSamePicture(pictureOf(makeBlocks(parts)), expected, "multiple blocks");
+  const Grid whole = MakeBlock(5, WavyField(3.0));
+  Jitter(whole, 0.05, 4);
+  const FloatImage expected = PictureOf(whole);
+  const std::vector<Grid> parts = Interlocking(whole);
+  ExpectSamePicture(PictureOf(MakeBlocks(parts)), expected, "multiple blocks");
 
   vtkNew<vtkMultiBlockDataSet> nested;
-  nested->SetBlock(0, makeBlocks({ parts[0], parts[2] }));
+  nested->SetBlock(0, MakeBlocks({ parts[0], parts[2] }));
   nested->SetBlock(3, parts[1]); // blocks 1 and 2 are empty
-  expectSamePicture(pictureOf(nested), expected, "nested blocks");
+  ExpectSamePicture(PictureOf(nested), expected, "nested blocks");
 
   vtkNew<vtkPartitionedDataSet> partitions;
   vtkNew<vtkPartitionedDataSet> single;
@@ -213,57 +213,57 @@ TEST(TetrahedraRayCastComposite, InterlockingLeavesGiveThePictureOfOneGrid)
   vtkNew<vtkPartitionedDataSetCollection> collection;
   collection->SetPartitionedDataSet(0, partitions);
   collection->SetPartitionedDataSet(1, single);
-  expectSamePicture(pictureOf(collection), expected, "collection of partitions");
+  ExpectSamePicture(PictureOf(collection), expected, "collection of partitions");
 }
 
 TEST(TetrahedraRayCastComposite, EveryWayOfConnecting)
 {
-  const Grid whole = makeBlock(4, linear());
-  const FloatImage expected = pictureOf(whole);
-  const auto blocks = makeBlocks(interlocking(whole));
+  const Grid whole = MakeBlock(4, MakeLinear());
+  const FloatImage expected = PictureOf(whole);
+  const auto blocks = MakeBlocks(Interlocking(whole));
   vtkNew<vtkTrivialProducer> producer;
   producer->SetOutput(blocks);
   AnyScene scene(whole);
-  scene.rayCaster()->SetInputConnection(producer->GetOutputPort());
-  expectSamePicture(scene.picture(), expected, "connection");
-  scene.rayCaster()->SetInputData(blocks);
-  expectSamePicture(scene.picture(), expected, "SetInputData of blocks");
-  scene.rayCaster()->SetInputData(makeImage(4, linear()));
-  expectSamePicture(scene.picture(), expected, "SetInputData of an image");
-  scene.rayCaster()->SetInputData(whole);
-  expectSamePicture(scene.picture(), expected, "SetInputData of a grid");
-  EXPECT_TRUE(scene.Observer->Errors.empty()) << scene.Observer->text();
+  scene.GetRayCaster()->SetInputConnection(producer->GetOutputPort());
+  ExpectSamePicture(scene.MakePicture(), expected, "connection");
+  scene.GetRayCaster()->SetInputData(blocks);
+  ExpectSamePicture(scene.MakePicture(), expected, "SetInputData of blocks");
+  scene.GetRayCaster()->SetInputData(MakeImage(4, MakeLinear()));
+  ExpectSamePicture(scene.MakePicture(), expected, "SetInputData of an image");
+  scene.GetRayCaster()->SetInputData(whole);
+  ExpectSamePicture(scene.MakePicture(), expected, "SetInputData of a grid");
+  EXPECT_TRUE(scene.Observer->Errors.empty()) << scene.Observer->GetText();
 }
 
 TEST(TetrahedraRayCastComposite, BoundsAreThoseOfAllLeaves)
 {
-  const Grid whole = makeBlock(4, linear());
-  AnyScene scene(makeBlocks(interlocking(whole)));
+  const Grid whole = MakeBlock(4, MakeLinear());
+  AnyScene scene(MakeBlocks(Interlocking(whole)));
   double bounds[6];
-  scene.rayCaster()->GetBounds(bounds);
+  scene.GetRayCaster()->GetBounds(bounds);
   for (int i = 0; i < 6; ++i)
   {
     EXPECT_EQ(bounds[i], Bounds[i]);
-    EXPECT_EQ(scene.volume()->GetBounds()[i], Bounds[i]);
+    EXPECT_EQ(scene.GetVolume()->GetBounds()[i], Bounds[i]);
   }
 }
 
 TEST(TetrahedraRayCastComposite, LeavesWithoutTheArrayAreLeftOutWithOneWarning)
 {
-  const Grid whole = makeBlock(4, linear());
-  const std::vector<Grid> parts = interlocking(whole);
-  const FloatImage expected = pictureOf(makeBlocks({ parts[0], parts[2] }));
+  const Grid whole = MakeBlock(4, MakeLinear());
+  const std::vector<Grid> parts = Interlocking(whole);
+  const FloatImage expected = PictureOf(MakeBlocks({ parts[0], parts[2] }));
   parts[1]->GetPointData()->Initialize();
-  AnyScene scene(makeBlocks(parts));
-  expectSamePicture(scene.picture(), expected, "one of three left out");
-  expectSamePicture(scene.picture(), expected, "once more");
+  AnyScene scene(MakeBlocks(parts));
+  ExpectSamePicture(scene.MakePicture(), expected, "one of three left out");
+  ExpectSamePicture(scene.MakePicture(), expected, "once more");
   ASSERT_EQ(scene.Observer->Warnings.size(), 1u);
   EXPECT_NE(scene.Observer->Warnings[0].find("1 of 3"), std::string::npos);
   EXPECT_TRUE(scene.Observer->Errors.empty());
 
   parts[0]->GetPointData()->Initialize();
   parts[2]->GetPointData()->Initialize();
-  for (const float value : scene.renderFloat().Rgba)
+  for (const float value : scene.RenderFloat().Rgba)
   {
     ASSERT_EQ(value, 0.0f);
   }
@@ -272,18 +272,18 @@ TEST(TetrahedraRayCastComposite, LeavesWithoutTheArrayAreLeftOutWithOneWarning)
 
 TEST(TetrahedraRayCastComposite, SurfacesAndEmptyLeavesAreNoMistake)
 {
-  const Grid whole = makeBlock(4, linear());
+  const Grid whole = MakeBlock(4, MakeLinear());
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, vtkSmartPointer<vtkPolyData>::New());
   blocks->SetBlock(1, whole);
   blocks->SetBlock(2, Grid::New());
   AnyScene scene(blocks);
-  expectSamePicture(scene.picture(), pictureOf(whole), "beside a surface");
+  ExpectSamePicture(scene.MakePicture(), PictureOf(whole), "beside a surface");
   EXPECT_TRUE(scene.Observer->Errors.empty());
   EXPECT_TRUE(scene.Observer->Warnings.empty());
 
   AnyScene empty(vtkSmartPointer<vtkMultiBlockDataSet>::New());
-  for (const float value : empty.renderFloat().Rgba)
+  for (const float value : empty.RenderFloat().Rgba)
   {
     ASSERT_EQ(value, 0.0f);
   }
@@ -292,12 +292,12 @@ TEST(TetrahedraRayCastComposite, SurfacesAndEmptyLeavesAreNoMistake)
 
 TEST(TetrahedraRayCastComposite, ChangesOfALeaf)
 {
-  const Grid whole = makeBlock(4, wavyField(3.0));
-  const std::vector<Grid> parts = interlocking(whole);
-  AnyScene scene(makeBlocks(parts));
-  scene.window()->Render();
-  scene.window()->Render();
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  const Grid whole = MakeBlock(4, WavyField(3.0));
+  const std::vector<Grid> parts = Interlocking(whole);
+  AnyScene scene(MakeBlocks(parts));
+  scene.GetWindow()->Render();
+  scene.GetWindow()->Render();
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
   EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1);
   vtkDataArray* scalars = parts[1]->GetPointData()->GetScalars();
@@ -306,18 +306,18 @@ TEST(TetrahedraRayCastComposite, ChangesOfALeaf)
     scalars->SetComponent(i, 0, -0.5 * scalars->GetComponent(i, 0));
   }
   scalars->Modified();
-  expectSamePicture(scene.picture(), pictureOf(makeBlocks(parts)), "scalars of a leaf");
+  ExpectSamePicture(scene.MakePicture(), PictureOf(MakeBlocks(parts)), "scalars of a leaf");
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
   EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 2);
-  jitter(parts[2], 0.02, 9);
+  Jitter(parts[2], 0.02, 9);
   parts[2]->GetPoints()->Modified();
-  expectSamePicture(scene.picture(), pictureOf(makeBlocks(parts)), "points of a leaf");
+  ExpectSamePicture(scene.MakePicture(), PictureOf(MakeBlocks(parts)), "points of a leaf");
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 2);
 }
 
 TEST(TetrahedraRayCastComposite, CellDataOfLeaves)
 {
-  const Grid whole = makeBlock(4, linear());
+  const Grid whole = MakeBlock(4, MakeLinear());
   vtkNew<vtkDoubleArray> values;
   values->SetName("cells");
   for (vtkIdType c = 0; c < whole->GetNumberOfCells(); ++c)
@@ -325,44 +325,44 @@ TEST(TetrahedraRayCastComposite, CellDataOfLeaves)
     values->InsertNextValue(std::sin(0.01 * c));
   }
   whole->GetCellData()->SetScalars(values);
-  expectSamePicture(pictureOf(makeBlocks(interlocking(whole)), VTK_SCALAR_MODE_USE_CELL_DATA),
-    pictureOf(whole, VTK_SCALAR_MODE_USE_CELL_DATA), "cell data");
+  ExpectSamePicture(PictureOf(MakeBlocks(Interlocking(whole)), VTK_SCALAR_MODE_USE_CELL_DATA),
+    PictureOf(whole, VTK_SCALAR_MODE_USE_CELL_DATA), "cell data");
 }
 
 TEST(TetrahedraRayCastComposite, StructuredGrids)
 {
-  const FloatImage expected = pictureOf(makeBlock(4, linear()));
-  expectSamePicture(pictureOf(makeImage(4, linear())), expected, "image");
-  expectSamePicture(pictureOf(makeStructured(4, linear())), expected, "structured");
-  expectSamePicture(pictureOf(makeRectilinear(4, linear())), expected, "rectilinear");
+  const FloatImage expected = PictureOf(MakeBlock(4, MakeLinear()));
+  ExpectSamePicture(PictureOf(MakeImage(4, MakeLinear())), expected, "image");
+  ExpectSamePicture(PictureOf(MakeStructured(4, MakeLinear())), expected, "structured");
+  ExpectSamePicture(PictureOf(MakeRectilinear(4, MakeLinear())), expected, "rectilinear");
 }
 
 TEST(TetrahedraRayCastComposite, ChangedImagesAreOtherMeshes)
 {
-  const auto image = makeImage(4, linear());
+  const auto image = MakeImage(4, MakeLinear());
   AnyScene scene(image);
-  scene.window()->Render();
-  scene.window()->Render();
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfMeshBuilds(), 1);
+  scene.GetWindow()->Render();
+  scene.GetWindow()->Render();
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
   image->GetPointData()->GetScalars()->Modified();
-  scene.window()->Render();
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfMeshBuilds(), 1);
+  scene.GetWindow()->Render();
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
   image->SetSpacing(0.4, 0.5, 0.5);
-  scene.window()->Render();
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfMeshBuilds(), 2);
+  scene.GetWindow()->Render();
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 2);
 }
 
 TEST(TetrahedraRayCastComposite, BlankedAndGhostCellsAreLeftOut)
 {
-  const auto grid = makeStructured(4, linear());
+  const auto grid = MakeStructured(4, MakeLinear());
   grid->BlankCell(7);
   grid->BlankCell(20);
   AnyScene scene(grid);
-  scene.window()->Render();
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 6 * (64 - 2));
+  scene.GetWindow()->Render();
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), 6 * (64 - 2));
 
   // Two images that overlap by a layer of ghost cells.
-  const Field field = linear();
+  const Field field = MakeLinear();
   vtkNew<vtkMultiBlockDataSet> blocks;
   for (int side = 0; side < 2; ++side)
   {
@@ -370,7 +370,7 @@ TEST(TetrahedraRayCastComposite, BlankedAndGhostCellsAreLeftOut)
     half->SetDimensions(4, 5, 5);
     half->SetOrigin(side == 0 ? -1.0 : -0.5, -1.0, -1.0);
     half->SetSpacing(0.5, 0.5, 0.5);
-    addScalars(half, field);
+    AddScalars(half, field);
     vtkUnsignedCharArray* ghosts = half->AllocateCellGhostArray();
     for (vtkIdType c = 0; c < half->GetNumberOfCells(); ++c)
     {
@@ -382,8 +382,8 @@ TEST(TetrahedraRayCastComposite, BlankedAndGhostCellsAreLeftOut)
     blocks->SetBlock(static_cast<unsigned int>(side), half);
   }
   AnyScene ghosts(blocks);
-  expectSamePicture(ghosts.picture(), pictureOf(makeImage(4, field)), "ghost layers");
-  EXPECT_EQ(ghosts.rayCaster()->GetNumberOfActiveCells(), 6 * 64);
+  ExpectSamePicture(ghosts.MakePicture(), PictureOf(MakeImage(4, field)), "ghost layers");
+  EXPECT_EQ(ghosts.GetRayCaster()->GetNumberOfActiveCells(), 6 * 64);
 }
 
 TEST(TetrahedraRayCastComposite, MeshesBeyond32BitsAreRefusedWithNumbers)
@@ -395,14 +395,15 @@ TEST(TetrahedraRayCastComposite, MeshesBeyond32BitsAreRefusedWithNumbers)
   scalars->SetNumberOfTuples(image->GetNumberOfPoints());
   image->GetPointData()->SetScalars(scalars);
   AnyScene scene(image);
-  for (const float value : scene.renderFloat().Rgba)
+  for (const float value : scene.RenderFloat().Rgba)
   {
     ASSERT_EQ(value, 0.0f);
   }
   ASSERT_EQ(scene.Observer->Errors.size(), 1u);
-  EXPECT_NE(scene.Observer->text().find(std::to_string(6LL * 449 * 449 * 449)), std::string::npos);
-  EXPECT_NE(scene.Observer->text().find("536870911"), std::string::npos);
+  EXPECT_NE(
+    scene.Observer->GetText().find(std::to_string(6LL * 449 * 449 * 449)), std::string::npos);
+  EXPECT_NE(scene.Observer->GetText().find("536870911"), std::string::npos);
   // Input that fits is drawn after it.
-  scene.rayCaster()->SetInputData(makeImage(4, linear()));
-  expectSamePicture(scene.picture(), pictureOf(makeImage(4, linear())), "after the error");
+  scene.GetRayCaster()->SetInputData(MakeImage(4, MakeLinear()));
+  ExpectSamePicture(scene.MakePicture(), PictureOf(MakeImage(4, MakeLinear())), "after the error");
 }

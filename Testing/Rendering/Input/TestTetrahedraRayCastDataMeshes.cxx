@@ -29,9 +29,9 @@ constexpr double LargestRoundingShare = 1e-3;
 
 // For a function so sharp that the exact result changes by more than the tolerance when float
 // rounding moves a vertex, no pixel may have an error of more than that.
-void expectMatchesUpToRounding(const Comparison& comparison, const std::string& what)
+void ExpectMatchesUpToRounding(const Comparison& comparison, const std::string& what)
 {
-  SCOPED_TRACE(what + ": " + comparison.text());
+  SCOPED_TRACE(what + ": " + comparison.GetText());
   EXPECT_EQ(comparison.BeyondRounding, 0u);
   EXPECT_EQ(comparison.CoverageMismatches, 0u);
   EXPECT_LE(static_cast<double>(comparison.Wrong),
@@ -39,46 +39,46 @@ void expectMatchesUpToRounding(const Comparison& comparison, const std::string& 
 }
 
 // One view with all functions: the reference locates the cells of a ray once.
-void expectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& name)
+void ExpectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& name)
 {
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  const double diagonal = diagonalOf(grid->GetBounds());
+  const double diagonal = DiagonalOf(grid->GetBounds());
   const std::vector<vtkSmartPointer<vtkVolumeProperty>> properties{
-    makeProperty(FunctionKind::Smooth, range, diagonal),
-    makeProperty(FunctionKind::Peaked, range, diagonal),
-    makeProperty(FunctionKind::Sharp, range, diagonal)
+    MakeProperty(FunctionKind::Smooth, range, diagonal),
+    MakeProperty(FunctionKind::Peaked, range, diagonal),
+    MakeProperty(FunctionKind::Sharp, range, diagonal)
   };
   const char* const names[3] = { "smooth", "peaked", "sharp" };
   RayCastScene scene(grid, properties[0], Size, Size);
-  const auto angles = viewAngles(view);
-  lookAt(scene.renderer(), grid->GetBounds(), angles[0], angles[1], 1.0, view % 2 == 1);
-  scene.window()->Render();
+  const auto angles = ViewAngles(view);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), angles[0], angles[1], 1.0, view % 2 == 1);
+  scene.GetWindow()->Render();
 
-  const auto integrator = makeReference(grid);
-  const PixelRays rays(scene.renderer());
-  const RayOfPixel rayOf = [&rays](int x, int y) { return rays.ray(x, y); };
-  const auto truth = renderReference(*integrator, rays.width(), rays.height(), rayOf,
-    { toReference(properties[0]), toReference(properties[1]), toReference(properties[2]) });
+  const auto integrator = MakeReference(grid);
+  const PixelRays rays(scene.GetRenderer());
+  const RayOfPixel rayOf = [&rays](int x, int y) { return rays.GetRay(x, y); };
+  const auto truth = RenderReference(*integrator, rays.GetWidth(), rays.GetHeight(), rayOf,
+    { ToReference(properties[0]), ToReference(properties[1]), ToReference(properties[2]) });
   for (std::size_t f = 0; f < properties.size(); ++f)
   {
     const std::string what = name + ", view " + std::to_string(view) + ", " + names[f];
-    scene.setProperty(properties[f]);
-    const Comparison floats = compareToReference(scene.renderFloat(), truth[f], *integrator, rayOf);
-    EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << what;
+    scene.SetProperty(properties[f]);
+    const Comparison floats = CompareToReference(scene.RenderFloat(), truth[f], *integrator, rayOf);
+    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0) << what;
     const Comparison bytes =
-      compareToReference(scene.renderBytes(), truth[f], *integrator, rayOf, { 0.0, 0.0, 0.0 });
-    std::cout << what << ", float: " << floats.text() << '\n'
-              << what << ", 8 bits: " << bytes.text() << std::endl;
+      CompareToReference(scene.RenderBytes(), truth[f], *integrator, rayOf, { 0.0, 0.0, 0.0 });
+    std::cout << what << ", float: " << floats.GetText() << '\n'
+              << what << ", 8 bits: " << bytes.GetText() << std::endl;
     if (f == 2)
     {
-      expectMatchesUpToRounding(floats, what + " (float)");
+      ExpectMatchesUpToRounding(floats, what + " (float)");
     }
     else
     {
-      expectMatch(floats, what + " (float)");
+      ExpectMatch(floats, what + " (float)");
     }
-    expectMatch(bytes, what + " (8 bits)");
+    ExpectMatch(bytes, what + " (8 bits)");
   }
 }
 
@@ -86,14 +86,14 @@ void expectViewMatches(vtkUnstructuredGrid* grid, int view, const std::string& n
 
 TEST_P(TetrahedraRayCastDataMeshes, MatchReference)
 {
-  const Grid grid = readDataMesh(GetParam());
+  const Grid grid = ReadDataMesh(GetParam());
   if (!grid)
   {
     GTEST_SKIP() << GetParam() << ".vtu not found: set MENISCUS_DATA_DIR";
   }
   for (const int view : { 0, 1 })
   {
-    expectViewMatches(grid, view, GetParam());
+    ExpectViewMatches(grid, view, GetParam());
   }
 }
 

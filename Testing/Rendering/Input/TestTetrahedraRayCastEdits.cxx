@@ -54,45 +54,45 @@ class TetrahedraRayCastEdits : public testing::Test
 {
 protected:
   TetrahedraRayCastEdits()
-    : Mesh(makeBlock(4, wavyField(3.0)))
+    : Mesh(MakeBlock(4, WavyField(3.0)))
   {
     const double range[2] = { -1.5, 1.5 };
-    this->Property = makeProperty(FunctionKind::Smooth, range, 3.5);
+    this->Property = MakeProperty(FunctionKind::Smooth, range, 3.5);
   }
 
-  std::unique_ptr<RayCastScene> makeScene(vtkDataSet* data)
+  std::unique_ptr<RayCastScene> MakeScene(vtkDataSet* data)
   {
     auto scene = std::make_unique<RayCastScene>(nullptr, this->Property, Size, Size);
-    scene->rayCaster()->SetInputData(data);
+    scene->GetRayCaster()->SetInputData(data);
     // Bounds of all data sets here: an edit that changes bounds must not move the camera.
     const double bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
-    lookAt(scene->renderer(), bounds, 30.0, 20.0);
-    scene->window()->Render();
+    LookAt(scene->GetRenderer(), bounds, 30.0, 20.0);
+    scene->GetWindow()->Render();
     return scene;
   }
 
   // Makes an edit that is different each time, calls Modified() of one object after another, and
   // expects the work and the image of new objects.
-  void expectSeen(vtkDataSet* data, const NamedObjects& told, const std::function<void(int)>& edit,
+  void ExpectSeen(vtkDataSet* data, const NamedObjects& told, const std::function<void(int)>& edit,
     int meshBuilds)
   {
-    const auto scene = this->makeScene(data);
-    FloatImage last = scene->renderFloat();
+    const auto scene = this->MakeScene(data);
+    FloatImage last = scene->RenderFloat();
     for (std::size_t i = 0; i < told.size(); ++i)
     {
       SCOPED_TRACE(told[i].first);
-      const Work before(scene->rayCaster());
+      const Work before(scene->GetRayCaster());
       edit(static_cast<int>(i));
       told[i].second->Modified();
-      const FloatImage picture = scene->renderFloat();
-      const Work after(scene->rayCaster());
+      const FloatImage picture = scene->RenderFloat();
+      const Work after(scene->GetRayCaster());
       EXPECT_EQ(after.Mesh - before.Mesh, meshBuilds);
       EXPECT_EQ(after.Scalars - before.Scalars, 1);
       EXPECT_GT(after.Bytes, before.Bytes);
       EXPECT_NE(picture.Rgba, last.Rgba);
       const auto copy = vtkSmartPointer<vtkDataSet>::Take(data->NewInstance());
       copy->DeepCopy(data);
-      EXPECT_EQ(this->makeScene(copy)->renderFloat().Rgba, picture.Rgba);
+      EXPECT_EQ(this->MakeScene(copy)->RenderFloat().Rgba, picture.Rgba);
       last = picture;
     }
   }
@@ -101,7 +101,7 @@ protected:
   vtkSmartPointer<vtkVolumeProperty> Property;
 };
 
-vtkDoubleArray* addCellScalars(vtkUnstructuredGrid* grid)
+vtkDoubleArray* AddCellScalars(vtkUnstructuredGrid* grid)
 {
   vtkNew<vtkDoubleArray> values;
   values->SetName(ScalarName);
@@ -118,7 +118,7 @@ vtkDoubleArray* addCellScalars(vtkUnstructuredGrid* grid)
 TEST_F(TetrahedraRayCastEdits, ScalarsOfPoints)
 {
   vtkDataArray* scalars = this->Mesh->GetPointData()->GetScalars();
-  this->expectSeen(
+  this->ExpectSeen(
     this->Mesh,
     { { "array", scalars }, { "point data", this->Mesh->GetPointData() }, { "grid", this->Mesh } },
     [scalars](int i)
@@ -132,8 +132,8 @@ TEST_F(TetrahedraRayCastEdits, ScalarsOfPoints)
 TEST_F(TetrahedraRayCastEdits, ScalarsOfCells)
 {
   this->Mesh->GetPointData()->Initialize();
-  vtkDoubleArray* scalars = addCellScalars(this->Mesh);
-  this->expectSeen(
+  vtkDoubleArray* scalars = AddCellScalars(this->Mesh);
+  this->ExpectSeen(
     this->Mesh,
     { { "array", scalars }, { "cell data", this->Mesh->GetCellData() }, { "grid", this->Mesh } },
     [scalars](int i) { scalars->SetValue(scalars->GetNumberOfTuples() / 2, 0.3 + 0.3 * i); }, 0);
@@ -142,7 +142,7 @@ TEST_F(TetrahedraRayCastEdits, ScalarsOfCells)
 TEST_F(TetrahedraRayCastEdits, Points)
 {
   vtkPoints* points = this->Mesh->GetPoints();
-  this->expectSeen(
+  this->ExpectSeen(
     this->Mesh,
     { { "points", points }, { "array", points->GetData() }, { "grid", this->Mesh },
       { "point data", this->Mesh->GetPointData() } },
@@ -158,7 +158,7 @@ TEST_F(TetrahedraRayCastEdits, Points)
 TEST_F(TetrahedraRayCastEdits, Connectivity)
 {
   vtkCellArray* cells = this->Mesh->GetCells();
-  this->expectSeen(
+  this->ExpectSeen(
     this->Mesh,
     { { "cells", cells }, { "array", cells->GetConnectivityArray() }, { "grid", this->Mesh },
       { "cell data", this->Mesh->GetCellData() } },
@@ -175,7 +175,7 @@ TEST_F(TetrahedraRayCastEdits, HiddenCells)
 {
   this->Mesh->AllocateCellGhostArray();
   vtkUnsignedCharArray* ghosts = this->Mesh->GetCellGhostArray();
-  this->expectSeen(
+  this->ExpectSeen(
     this->Mesh,
     { { "array", ghosts }, { "cell data", this->Mesh->GetCellData() }, { "grid", this->Mesh } },
     [ghosts](int i) { ghosts->SetValue(100 + i, vtkDataSetAttributes::HIDDENCELL); }, 1);
@@ -202,7 +202,7 @@ TEST_F(TetrahedraRayCastEdits, CoordinatesOfARectilinearGrid)
     scalars->InsertNextValue(std::sin(static_cast<double>(p)));
   }
   grid->GetPointData()->SetScalars(scalars);
-  this->expectSeen(
+  this->ExpectSeen(
     grid, { { "array", axes[1] }, { "grid", grid } },
     [&axes](int i) { axes[1]->SetValue(3, 0.8 + 0.1 * i); }, 1);
 }
@@ -219,41 +219,41 @@ TEST_F(TetrahedraRayCastEdits, Membrane)
   membrane->GetPointData()->Initialize(); // normals are computed from the shape
   const auto draw = [this](vtkPolyData* surface)
   {
-    auto scene = this->makeScene(this->Mesh);
-    scene->rayCaster()->SetMembraneData(surface);
-    lookAt(scene->renderer(), this->Mesh->GetBounds(), 30.0, 60.0);
+    auto scene = this->MakeScene(this->Mesh);
+    scene->GetRayCaster()->SetMembraneData(surface);
+    LookAt(scene->GetRenderer(), this->Mesh->GetBounds(), 30.0, 60.0);
     return scene;
   };
   const auto scene = draw(membrane);
-  FloatImage last = scene->renderFloat();
+  FloatImage last = scene->RenderFloat();
   vtkCellArray* polys = membrane->GetPolys();
   const NamedObjects told{ { "points", membrane->GetPoints() },
     { "coordinates", membrane->GetPoints()->GetData() }, { "point data", membrane->GetPointData() },
     { "cells", polys }, { "connectivity", polys->GetConnectivityArray() },
     { "membrane", membrane } };
-  vtkTypeInt64 builds = scene->rayCaster()->GetNumberOfMembraneBuilds();
+  vtkTypeInt64 builds = scene->GetRayCaster()->GetNumberOfMembraneBuilds();
   for (std::size_t i = 0; i < told.size(); ++i)
   {
     SCOPED_TRACE(told[i].first);
     membrane->GetPoints()->SetPoint(12, 0.0, 0.0, 0.25 + 0.05 * static_cast<double>(i));
     told[i].second->Modified();
-    const FloatImage picture = scene->renderFloat();
-    EXPECT_EQ(scene->rayCaster()->GetNumberOfMembraneBuilds(), ++builds);
+    const FloatImage picture = scene->RenderFloat();
+    EXPECT_EQ(scene->GetRayCaster()->GetNumberOfMembraneBuilds(), ++builds);
     EXPECT_NE(picture.Rgba, last.Rgba);
     vtkNew<vtkPolyData> copy;
     copy->DeepCopy(membrane);
-    EXPECT_EQ(draw(copy)->renderFloat().Rgba, picture.Rgba);
+    EXPECT_EQ(draw(copy)->RenderFloat().Rgba, picture.Rgba);
     last = picture;
     told[i].second->Modified();
-    scene->window()->Render();
-    EXPECT_EQ(scene->rayCaster()->GetNumberOfMembraneBuilds(), builds);
+    scene->GetWindow()->Render();
+    EXPECT_EQ(scene->GetRayCaster()->GetNumberOfMembraneBuilds(), builds);
   }
 }
 
 TEST_F(TetrahedraRayCastEdits, ModifiedWithoutAnotherValueCostsNothing)
 {
-  addCellScalars(this->Mesh);
-  const auto scene = this->makeScene(this->Mesh);
+  AddCellScalars(this->Mesh);
+  const auto scene = this->MakeScene(this->Mesh);
   const NamedObjects objects{ { "scalars", this->Mesh->GetPointData()->GetScalars() },
     { "point data", this->Mesh->GetPointData() }, { "cell data", this->Mesh->GetCellData() },
     { "points", this->Mesh->GetPoints() }, { "coordinates", this->Mesh->GetPoints()->GetData() },
@@ -263,10 +263,10 @@ TEST_F(TetrahedraRayCastEdits, ModifiedWithoutAnotherValueCostsNothing)
     { "cell scalars", this->Mesh->GetCellData()->GetScalars() }, { "grid", this->Mesh } };
   for (const auto& object : objects)
   {
-    const Work before(scene->rayCaster());
+    const Work before(scene->GetRayCaster());
     object.second->Modified();
-    scene->window()->Render();
-    const Work after(scene->rayCaster());
+    scene->GetWindow()->Render();
+    const Work after(scene->GetRayCaster());
     EXPECT_EQ(after.Mesh, before.Mesh) << object.first;
     EXPECT_EQ(after.Scalars, before.Scalars) << object.first;
     EXPECT_EQ(after.Bytes, before.Bytes) << object.first;
@@ -275,25 +275,25 @@ TEST_F(TetrahedraRayCastEdits, ModifiedWithoutAnotherValueCostsNothing)
 
 TEST_F(TetrahedraRayCastEdits, EqualObjectsAreTheSameMesh)
 {
-  const auto scene = this->makeScene(this->Mesh);
+  const auto scene = this->MakeScene(this->Mesh);
   vtkNew<vtkUnstructuredGrid> copy;
   copy->DeepCopy(this->Mesh);
-  scene->rayCaster()->SetInputData(copy);
-  scene->window()->Render();
-  EXPECT_EQ(scene->rayCaster()->GetNumberOfMeshBuilds(), 1);
-  EXPECT_EQ(scene->rayCaster()->GetNumberOfScalarUpdates(), 1);
+  scene->GetRayCaster()->SetInputData(copy);
+  scene->GetWindow()->Render();
+  EXPECT_EQ(scene->GetRayCaster()->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(scene->GetRayCaster()->GetNumberOfScalarUpdates(), 1);
   // From now on the copy is watched.
   copy->GetPointData()->GetScalars()->SetComponent(62, 0, 0.4);
   copy->Modified();
-  scene->window()->Render();
-  EXPECT_EQ(scene->rayCaster()->GetNumberOfScalarUpdates(), 2);
+  scene->GetWindow()->Render();
+  EXPECT_EQ(scene->GetRayCaster()->GetNumberOfScalarUpdates(), 2);
 }
 
 TEST_F(TetrahedraRayCastEdits, UploadedBytesAreThoseOfTheTables)
 {
   // 32 bytes per cell, 16 per vertex, at least 20 per boundary face, and the transfer function.
-  const auto scene = this->makeScene(this->Mesh);
-  vtkTetrahedraRayCastMapper* mapper = scene->rayCaster();
+  const auto scene = this->MakeScene(this->Mesh);
+  vtkTetrahedraRayCastMapper* mapper = scene->GetRayCaster();
   const vtkTypeInt64 cells = 32 * this->Mesh->GetNumberOfCells();
   const vtkTypeInt64 vertices = 16 * this->Mesh->GetNumberOfPoints();
   const vtkTypeInt64 faces = 6 * 4 * 4 * 2;
@@ -302,15 +302,15 @@ TEST_F(TetrahedraRayCastEdits, UploadedBytesAreThoseOfTheTables)
   EXPECT_LE(all, cells + vertices + 80 * faces + 48 * 1000);
   // Another view uploads nothing, other scalars upload those of the vertices, another function its
   // points.
-  lookAt(scene->renderer(), this->Mesh->GetBounds(), 70.0, -20.0);
-  scene->window()->Render();
+  LookAt(scene->GetRenderer(), this->Mesh->GetBounds(), 70.0, -20.0);
+  scene->GetWindow()->Render();
   EXPECT_EQ(mapper->GetUploadedBytes(), all);
   this->Mesh->GetPointData()->GetScalars()->SetComponent(62, 0, 0.4);
   this->Mesh->GetPointData()->GetScalars()->Modified();
-  scene->window()->Render();
+  scene->GetWindow()->Render();
   EXPECT_EQ(mapper->GetUploadedBytes() - all, vertices);
   this->Property->SetScalarOpacityUnitDistance(0.7);
-  scene->window()->Render();
+  scene->GetWindow()->Render();
   EXPECT_GT(mapper->GetUploadedBytes() - all, vertices);
   EXPECT_LE(mapper->GetUploadedBytes() - all, vertices + 48 * 1000);
 }

@@ -48,16 +48,16 @@ const std::vector<Fill> Fills = { { 1.0e6, 0.0 }, { -1.0e6, 0.0 }, { 1.0e10, 0.0
 // Fill values for the reference, reduced to 1e8 in the same proportion: larger values do not affect
 // anything visible, and in double precision weights rounded to 1e-16 times 1e36 would also exceed
 // the scalars.
-Fill forTruth(const Fill& fill)
+Fill ForTruth(const Fill& fill)
 {
   const double largest = std::max(std::fabs(fill.First), std::fabs(fill.Second));
   const double factor = std::min(1.0, 1.0e8 / largest);
   return { factor * fill.First, factor * fill.Second };
 }
 
-Grid makeFilled(const Fill& fill)
+Grid MakeFilled(const Fill& fill)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   vtkNew<vtkDoubleArray> scalars;
   scalars->DeepCopy(grid->GetPointData()->GetScalars());
   scalars->SetName(ScalarName);
@@ -72,9 +72,9 @@ Grid makeFilled(const Fill& fill)
   return grid;
 }
 
-vtkSmartPointer<vtkVolumeProperty> makeFunction(bool shade)
+vtkSmartPointer<vtkVolumeProperty> MakeFunction(bool shade)
 {
-  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   property->SetShade(shade);
   property->SetAmbient(0.2);
   property->SetDiffuse(0.6);
@@ -90,53 +90,53 @@ using TraceMaker = std::function<TraceRay(RayCastScene& scene,
   const ReferenceRayIntegrator& integrator, const ReferenceGradients& gradients)>;
 
 // Compares the mapper's image for each fill value with the exact one.
-void expectFills(const std::string& mode, vtkVolumeProperty* property, const SceneMaker& prepare,
+void ExpectFills(const std::string& mode, vtkVolumeProperty* property, const SceneMaker& prepare,
   const TraceMaker& makeTrace, double tolerance = TwoLevels)
 {
   for (const Fill& fill : Fills)
   {
-    const Grid grid = makeFilled(fill);
+    const Grid grid = MakeFilled(fill);
     RayCastScene scene(grid, property, Size, Size);
     vtkNew<vtkLight> light;
     light->SetLightTypeToSceneLight();
     light->SetPosition(4.0, 2.0, 1.0);
-    scene.renderer()->AddLight(light);
-    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+    scene.GetRenderer()->AddLight(light);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
     prepare(scene);
-    scene.window()->Render();
-    const Grid trueGrid = makeFilled(forTruth(fill));
-    const auto integrator = makeReference(trueGrid);
-    const ReferenceGradients gradients(integrator->mesh(), false);
-    const FloatImage image = scene.renderFloat();
-    const TracedComparison comparison = compareToTrace(
-      image, PixelRays(scene.renderer()), makeTrace(scene, *integrator, gradients), tolerance, 0.0);
+    scene.GetWindow()->Render();
+    const Grid trueGrid = MakeFilled(ForTruth(fill));
+    const auto integrator = MakeReference(trueGrid);
+    const ReferenceGradients gradients(integrator->MakeMesh(), false);
+    const FloatImage image = scene.RenderFloat();
+    const TracedComparison comparison = CompareToTrace(image, PixelRays(scene.GetRenderer()),
+      makeTrace(scene, *integrator, gradients), tolerance, 0.0);
     std::ostringstream text;
-    text << mode << ", fill " << fill.First << ", " << fill.Second << ": " << comparison.text();
+    text << mode << ", fill " << fill.First << ", " << fill.Second << ": " << comparison.GetText();
     const std::string what = text.str();
     EXPECT_GT(comparison.Visible, 1000u) << what;
     EXPECT_LE(
       static_cast<double>(comparison.Wrong), LargestShare * static_cast<double>(comparison.Visible))
       << what;
-    EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << what;
+    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0) << what;
   }
 }
 
-TraceRay traceMedium(RayCastScene& scene, const ReferenceRayIntegrator& integrator,
+TraceRay TraceMedium(RayCastScene& scene, const ReferenceRayIntegrator& integrator,
   const ReferenceGradients& gradients, const std::function<double(double)>& factor)
 {
-  const auto function = toReference(scene.volume()->GetProperty());
-  const bool lit = scene.volume()->GetProperty()->GetShade() != 0;
-  const Material material = toMaterial(scene.volume()->GetProperty(), scene.renderer());
+  const auto function = ToReference(scene.GetVolume()->GetProperty());
+  const bool lit = scene.GetVolume()->GetProperty()->GetShade() != 0;
+  const Material material = ToMaterial(scene.GetVolume()->GetProperty(), scene.GetRenderer());
   return [=, &integrator, &gradients](const Ray& ray)
   {
     std::vector<RaySegment> segments;
-    integrator.findSegments(ray, segments);
-    return integrateShaded(
+    integrator.FindSegments(ray, segments);
+    return IntegrateShaded(
       ray, segments, function, gradients, lit ? &material : nullptr, factor, 16);
   };
 }
 
-double gradientFactor(double size)
+double GradientFactor(double size)
 {
   return std::min(std::max((size - 0.5) / 2.0, 0.0), 1.0) * 0.9 + 0.05;
 }
@@ -147,79 +147,79 @@ TEST(TetrahedraRayCastFillValues, Composite)
 {
   for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
   {
-    const auto property = makeProperty(kind, Range, 3.4);
-    expectFills(
+    const auto property = MakeProperty(kind, Range, 3.4);
+    ExpectFills(
       kind == FunctionKind::Smooth ? "smooth" : "peaked", property, [](RayCastScene&) {},
       [](RayCastScene& scene, const ReferenceRayIntegrator& integrator, const ReferenceGradients&)
       {
-        const auto function = toReference(scene.volume()->GetProperty());
-        return [function, &integrator](const Ray& ray) { return integrator.trace(ray, function); };
+        const auto function = ToReference(scene.GetVolume()->GetProperty());
+        return [function, &integrator](const Ray& ray) { return integrator.Trace(ray, function); };
       });
   }
 }
 
 TEST(TetrahedraRayCastFillValues, PreIntegrated)
 {
-  const auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
-  expectFills(
+  const auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
+  ExpectFills(
     "pre-integrated", property,
     [](RayCastScene& scene)
-    { scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED); },
+    { scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED); },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator, const ReferenceGradients&)
     {
-      const auto function = toReference(scene.volume()->GetProperty());
-      return [function, &integrator](const Ray& ray) { return integrator.trace(ray, function); };
+      const auto function = ToReference(scene.GetVolume()->GetProperty());
+      return [function, &integrator](const Ray& ray) { return integrator.Trace(ray, function); };
     });
 }
 
 TEST(TetrahedraRayCastFillValues, LightInTheMedium)
 {
-  const auto property = makeFunction(true);
-  expectFills(
+  const auto property = MakeFunction(true);
+  ExpectFills(
     "lit", property,
     [](RayCastScene& scene)
-    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
+    { scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
       const ReferenceGradients& gradients)
-    { return traceMedium(scene, integrator, gradients, nullptr); });
+    { return TraceMedium(scene, integrator, gradients, nullptr); });
 }
 
 TEST(TetrahedraRayCastFillValues, GradientOpacity)
 {
-  const auto property = makeFunction(false);
+  const auto property = MakeFunction(false);
   vtkNew<vtkPiecewiseFunction> function;
-  function->AddPoint(0.5, gradientFactor(0.5));
-  function->AddPoint(2.5, gradientFactor(2.5));
+  function->AddPoint(0.5, GradientFactor(0.5));
+  function->AddPoint(2.5, GradientFactor(2.5));
   property->SetGradientOpacity(function);
-  expectFills(
+  ExpectFills(
     "gradient opacity", property,
     [](RayCastScene& scene)
-    { scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
+    { scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS); },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
       const ReferenceGradients& gradients)
-    { return traceMedium(scene, integrator, gradients, gradientFactor); });
+    { return TraceMedium(scene, integrator, gradients, GradientFactor); });
 }
 
 TEST(TetrahedraRayCastFillValues, Isosurfaces)
 {
-  const auto property = makeFunction(true);
-  expectFills(
+  const auto property = MakeFunction(true);
+  ExpectFills(
     "isosurfaces", property,
     [](RayCastScene& scene)
     {
-      scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
-      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+      scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+      scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
     },
     [](RayCastScene& scene, const ReferenceRayIntegrator& integrator,
       const ReferenceGradients& gradients)
     {
-      const std::vector<Surface> surfaces = toSurfaces(scene.volume()->GetProperty());
-      const Material material = toMaterial(scene.volume()->GetProperty(), scene.renderer());
+      const std::vector<Surface> surfaces = ToSurfaces(scene.GetVolume()->GetProperty());
+      const Material material = ToMaterial(scene.GetVolume()->GetProperty(), scene.GetRenderer());
       return [=, &integrator, &gradients](const Ray& ray)
       {
         std::vector<RaySegment> segments;
-        integrator.findSegments(ray, segments);
-        return blendSurfaces(ray, segments, surfaces, &gradients, material);
+        integrator.FindSegments(ray, segments);
+        return BlendSurfaces(ray, segments, surfaces, &gradients, material);
       };
     });
 }
@@ -231,32 +231,33 @@ TEST(TetrahedraRayCastFillValues, Projections)
     { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
     { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
     { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
-  const auto property = makeFunction(false);
+  const auto property = MakeFunction(false);
   for (const auto& mode : modes)
   {
-    expectFills(
+    ExpectFills(
       "projection " + std::to_string(mode.first), property,
-      [&mode](RayCastScene& scene) { scene.rayCaster()->SetBlendMode(mode.first); },
+      [&mode](RayCastScene& scene) { scene.GetRayCaster()->SetBlendMode(mode.first); },
       [&mode](
         RayCastScene& scene, const ReferenceRayIntegrator& integrator, const ReferenceGradients&)
       {
         const bool additive = mode.second == Projection::Additive;
-        const auto function = additive ? toReference(scene.volume()->GetProperty())
-                                       : toAlphas(scene.volume()->GetProperty());
+        const auto function = additive ? ToReference(scene.GetVolume()->GetProperty())
+                                       : ToAlphas(scene.GetVolume()->GetProperty());
         std::array<double, 2> range{ 0.0, 0.0 };
-        for (std::size_t c = 0; c < integrator.mesh().numberOfCells(); ++c)
+        for (std::size_t c = 0; c < integrator.MakeMesh().GetNumberOfCells(); ++c)
         {
           for (int i = 0; i < 4; ++i)
           {
-            const double scalar = integrator.mesh().scalar(integrator.mesh().cell(c)[i]);
+            const double scalar =
+              integrator.MakeMesh().GetScalar(integrator.MakeMesh().GetCell(c)[i]);
             range = { std::min(range[0], scalar), std::max(range[1], scalar) };
           }
         }
         return [=, &mode, &integrator](const Ray& ray)
         {
           std::vector<RaySegment> segments;
-          integrator.findSegments(ray, segments);
-          return project(ray, segments, mode.second, function, range.data());
+          integrator.FindSegments(ray, segments);
+          return Project(ray, segments, mode.second, function, range.data());
         };
       });
   }
@@ -265,14 +266,14 @@ TEST(TetrahedraRayCastFillValues, Projections)
 TEST(TetrahedraRayCastFillValues, CellData)
 {
   // A cell has one value: all fill values outside the function's range give exactly the same image.
-  const auto property = makeFunction(true);
+  const auto property = MakeFunction(true);
   for (const int mode : { vtkVolumeMapper::COMPOSITE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
   {
     FloatImage images[3];
     const double fills[3] = { 3.0, 1.0e10, 1.0e36 };
     for (int i = 0; i < 3; ++i)
     {
-      const Grid grid = makeBlock(5, wavyField(3.0));
+      const Grid grid = MakeBlock(5, WavyField(3.0));
       vtkNew<vtkDoubleArray> values;
       values->SetNumberOfTuples(grid->GetNumberOfCells());
       for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
@@ -282,12 +283,12 @@ TEST(TetrahedraRayCastFillValues, CellData)
       grid->GetPointData()->Initialize();
       grid->GetCellData()->SetScalars(values);
       RayCastScene scene(grid, property, Size, Size);
-      scene.rayCaster()->SetBlendMode(mode);
-      lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-      images[i] = scene.renderFloat();
+      scene.GetRayCaster()->SetBlendMode(mode);
+      LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+      images[i] = scene.RenderFloat();
     }
-    expectSamePicture(images[0], images[1], "1e10");
-    expectSamePicture(images[0], images[2], "1e36");
+    ExpectSamePicture(images[0], images[1], "1e10");
+    ExpectSamePicture(images[0], images[2], "1e36");
   }
 }
 
@@ -295,8 +296,8 @@ TEST(TetrahedraRayCastFillValues, Components)
 {
   // Fill values in either component. In a cell with a fill value, the rest of the function covers
   // 1e-5 of the cell for the first and 1e-36 for the second.
-  const auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
-  const auto second = makeProperty(FunctionKind::Peaked, Range, 3.4);
+  const auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
+  const auto second = MakeProperty(FunctionKind::Peaked, Range, 3.4);
   property->SetColor(1, second->GetRGBTransferFunction());
   property->SetScalarOpacity(1, second->GetScalarOpacity());
   property->SetScalarOpacityUnitDistance(1, second->GetScalarOpacityUnitDistance());
@@ -304,7 +305,7 @@ TEST(TetrahedraRayCastFillValues, Components)
   const double fills[2] = { 1.0e5, 1.0e36 };
   for (int i = 0; i < 2; ++i)
   {
-    const Grid grid = makeBlock(6, wavyField(3.0));
+    const Grid grid = MakeBlock(6, WavyField(3.0));
     vtkDataArray* scalars = grid->GetPointData()->GetScalars();
     vtkNew<vtkDoubleArray> pairs;
     pairs->SetNumberOfComponents(2);
@@ -316,8 +317,8 @@ TEST(TetrahedraRayCastFillValues, Components)
     }
     grid->GetPointData()->SetScalars(pairs);
     RayCastScene scene(grid, property, Size, Size);
-    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-    images[i] = scene.renderFloat();
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    images[i] = scene.RenderFloat();
   }
   ASSERT_EQ(images[0].Rgba.size(), images[1].Rgba.size());
   float opacity = 0.0f;
@@ -331,12 +332,12 @@ TEST(TetrahedraRayCastFillValues, Components)
 
 TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
 {
-  const Grid grid = makeFilled({ 1.0e20, 0.0 });
-  const auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  const Grid grid = MakeFilled({ 1.0e20, 0.0 });
+  const auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   RayCastScene scene(grid, property, Size, Size);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  scene.window()->Render();
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1);
   // A node moved through the data, and out of it.
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
@@ -347,7 +348,7 @@ TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
     opacity->RemovePoint(last);
     opacity->AddPoint(at, 0.9);
     last = at;
-    scene.window()->Render();
+    scene.GetWindow()->Render();
     EXPECT_EQ(mapper->GetNumberOfScalarUpdates(), 1) << at;
   }
   // A function at the fill value causes one.
@@ -356,7 +357,7 @@ TEST(TetrahedraRayCastFillValues, EditsDoNotResendScalars)
   property->GetScalarOpacity()->AddPoint(1.0e20, 1.0);
   property->GetRGBTransferFunction()->RemoveAllPoints();
   property->GetRGBTransferFunction()->AddRGBPoint(0.0, 1.0, 1.0, 1.0);
-  scene.window()->Render();
-  scene.window()->Render();
+  scene.GetWindow()->Render();
+  scene.GetWindow()->Render();
   EXPECT_LE(mapper->GetNumberOfScalarUpdates(), 2);
 }

@@ -29,26 +29,26 @@ constexpr double Range[2] = { -2.0, 2.0 };
 
 // A linear field is represented equally by any tetrahedra; only the walk's rounding differs.
 
-Field linear()
+Field MakeLinear()
 {
-  return linearField(0.7, -0.4, 0.5);
+  return LinearField(0.7, -0.4, 0.5);
 }
 
-vtkSmartPointer<vtkVolumeProperty> smooth()
+vtkSmartPointer<vtkVolumeProperty> Smooth()
 {
-  return makeProperty(FunctionKind::Smooth, Range, 3.5);
+  return MakeProperty(FunctionKind::Smooth, Range, 3.5);
 }
 
-FloatImage pictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
+FloatImage PictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
 {
-  RayCastScene scene(grid, smooth(), Size, Size);
+  RayCastScene scene(grid, Smooth(), Size, Size);
   vtkNew<ErrorObserver> observer;
-  observer->observe(scene.rayCaster());
+  observer->Observe(scene.GetRayCaster());
   const double bounds[6] = { -1, 1, -1, 1, -1, 1 };
-  lookAt(scene.renderer(), bounds, 25.0, 15.0);
-  const FloatImage image = scene.renderFloat();
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
-  EXPECT_TRUE(observer->Errors.empty()) << observer->text();
+  LookAt(scene.GetRenderer(), bounds, 25.0, 15.0);
+  const FloatImage image = scene.RenderFloat();
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
+  EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
   if (warnings)
   {
     *warnings = static_cast<int>(observer->Warnings.size());
@@ -57,7 +57,7 @@ FloatImage pictureOf(vtkUnstructuredGrid* grid, int* warnings = nullptr)
 }
 
 /** The cube [-1, 1]^3 as n^3 cells of a type with the 8 corners of a cube in its own order. */
-Grid makeCubes(int n, int type, const Field& field)
+Grid MakeCubes(int n, int type, const Field& field)
 {
   std::vector<double> points;
   for (int k = 0; k <= n; ++k)
@@ -70,7 +70,7 @@ Grid makeCubes(int n, int type, const Field& field)
       }
     }
   }
-  const Grid result = makeGrid(points, {}, field);
+  const Grid result = MakeGrid(points, {}, field);
   const vtkIdType step[3] = { 1, n + 1, vtkIdType(n + 1) * (n + 1) };
   for (int k = 0; k < n; ++k)
   {
@@ -108,71 +108,71 @@ Grid makeCubes(int n, int type, const Field& field)
 
 TEST(TetrahedraRayCastInputs, OtherCellsGiveThePictureOfTetrahedra)
 {
-  const FloatImage expected = pictureOf(makeBlock(4, linear()));
+  const FloatImage expected = PictureOf(MakeBlock(4, MakeLinear()));
   for (const int type : { VTK_HEXAHEDRON, VTK_VOXEL, VTK_POLYHEDRON })
   {
-    expectSamePicture(
-      pictureOf(makeCubes(4, type, linear())), expected, "type " + std::to_string(type));
+    ExpectSamePicture(
+      PictureOf(MakeCubes(4, type, MakeLinear())), expected, "type " + std::to_string(type));
   }
 }
 
 TEST(TetrahedraRayCastInputs, HiddenHexahedraAreLeftOut)
 {
-  const Grid grid = makeCubes(4, VTK_HEXAHEDRON, linear());
+  const Grid grid = MakeCubes(4, VTK_HEXAHEDRON, MakeLinear());
   vtkUnsignedCharArray* ghosts = grid->AllocateCellGhostArray();
   ghosts->SetValue(3, vtkDataSetAttributes::HIDDENCELL);
   ghosts->SetValue(9, vtkDataSetAttributes::DUPLICATECELL);
-  RayCastScene scene(grid, smooth(), Size, Size);
-  scene.window()->Render();
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 6 * (4 * 4 * 4 - 2));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  scene.GetWindow()->Render();
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), 6 * (4 * 4 * 4 - 2));
 }
 
 TEST(TetrahedraRayCastInputs, CellsWithoutVolumeAreLeftOutWithAWarning)
 {
-  const Grid grid = makeBlock(4, linear());
-  const FloatImage expected = pictureOf(grid);
+  const Grid grid = MakeBlock(4, MakeLinear());
+  const FloatImage expected = PictureOf(grid);
   const vtkIdType ids[3] = { 0, 1, 2 };
   grid->InsertNextCell(VTK_TRIANGLE, 3, ids);
   grid->InsertNextCell(VTK_VERTEX, 1, ids);
   int warnings = 0;
-  expectSamePicture(pictureOf(grid, &warnings), expected, "with a triangle and a vertex");
+  ExpectSamePicture(PictureOf(grid, &warnings), expected, "with a triangle and a vertex");
   EXPECT_EQ(warnings, 1);
 }
 
 TEST(TetrahedraRayCastInputs, StorageDoesNotMatter)
 {
-  const Grid grid = makeBlock(4, linear());
-  const FloatImage expected = pictureOf(grid);
+  const Grid grid = MakeBlock(4, MakeLinear());
+  const FloatImage expected = PictureOf(grid);
   grid->GetCells()->ConvertTo32BitStorage();
-  expectSamePicture(pictureOf(grid), expected, "32-bit cells");
+  ExpectSamePicture(PictureOf(grid), expected, "32-bit cells");
   grid->GetCells()->ConvertTo64BitStorage();
-  expectSamePicture(pictureOf(grid), expected, "64-bit cells");
+  ExpectSamePicture(PictureOf(grid), expected, "64-bit cells");
   vtkNew<vtkPoints> floats;
   floats->SetDataTypeToFloat();
   floats->DeepCopy(grid->GetPoints());
   const auto single = Grid::New();
   single->ShallowCopy(grid);
   single->SetPoints(floats);
-  expectSamePicture(pictureOf(single), expected, "single precision points");
+  ExpectSamePicture(PictureOf(single), expected, "single precision points");
   vtkNew<vtkSOADataArrayTemplate<double>> axes;
   axes->DeepCopy(grid->GetPoints()->GetData());
   vtkNew<vtkPoints> perAxis;
   perAxis->SetData(axes);
   single->SetPoints(perAxis);
-  expectSamePicture(pictureOf(single), expected, "an array of points per axis");
+  ExpectSamePicture(PictureOf(single), expected, "an array of points per axis");
   vtkNew<vtkPoints> integers;
   integers->SetDataTypeToShort();
   integers->DeepCopy(grid->GetPoints()); // only the block's middle plane and its sides have integer
                                          // coordinates
   single->SetPoints(integers);
-  const FloatImage coarse = pictureOf(single);
+  const FloatImage coarse = PictureOf(single);
   EXPECT_EQ(coarse.Width, Size);
 }
 
 TEST(TetrahedraRayCastInputs, VectorMagnitudeAndComponent)
 {
-  const Grid grid = makeBlock(4, linear());
-  const FloatImage expected = pictureOf(grid);
+  const Grid grid = MakeBlock(4, MakeLinear());
+  const FloatImage expected = PictureOf(grid);
   vtkDataArray* scalars = grid->GetPointData()->GetScalars();
   vtkNew<vtkFloatArray> vectors;
   vectors->SetName("Vectors");
@@ -197,36 +197,36 @@ TEST(TetrahedraRayCastInputs, VectorMagnitudeAndComponent)
   grid->GetPointData()->AddArray(lengths);
   grid->GetPointData()->AddArray(single);
 
-  RayCastScene scene(grid, smooth(), Size, Size);
+  RayCastScene scene(grid, Smooth(), Size, Size);
   const double bounds[6] = { -1, 1, -1, 1, -1, 1 };
-  lookAt(scene.renderer(), bounds, 25.0, 15.0);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  LookAt(scene.GetRenderer(), bounds, 25.0, 15.0);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   mapper->SetScalarModeToUsePointFieldData();
   mapper->SelectScalarArray("Vectors");
   mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
   mapper->SetVectorComponent(1);
-  expectSamePicture(scene.renderFloat(), expected, "component 1");
+  ExpectSamePicture(scene.RenderFloat(), expected, "component 1");
   mapper->SetVectorMode(vtkTetrahedraRayCastMapper::MAGNITUDE);
-  const FloatImage magnitude = scene.renderFloat();
+  const FloatImage magnitude = scene.RenderFloat();
   mapper->SelectScalarArray("Lengths");
-  expectSamePicture(magnitude, scene.renderFloat(), "magnitude");
+  ExpectSamePicture(magnitude, scene.RenderFloat(), "magnitude");
   mapper->SelectScalarArray("Single");
-  expectSamePicture(scene.renderFloat(), expected, "a single component with its sign");
+  ExpectSamePicture(scene.RenderFloat(), expected, "a single component with its sign");
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
 
   vtkNew<ErrorObserver> observer;
-  observer->observe(mapper);
+  observer->Observe(mapper);
   mapper->SelectScalarArray("Vectors");
   mapper->SetVectorMode(vtkTetrahedraRayCastMapper::COMPONENT);
   mapper->SetVectorComponent(3);
-  scene.window()->Render();
+  scene.GetWindow()->Render();
   EXPECT_EQ(observer->Errors.size(), 1u);
 }
 
 TEST(TetrahedraRayCastInputs, QuadraticCellsGiveThePictureOfTetrahedra)
 {
-  const FloatImage expected = pictureOf(makeBlock(4, linear()));
-  const Grid cubes = makeCubes(4, VTK_HEXAHEDRON, linear());
+  const FloatImage expected = PictureOf(MakeBlock(4, MakeLinear()));
+  const Grid cubes = MakeCubes(4, VTK_HEXAHEDRON, MakeLinear());
   const auto wedges = Grid::New();
   const auto pyramids = Grid::New();
   wedges->SetPoints(cubes->GetPoints());
@@ -255,7 +255,7 @@ TEST(TetrahedraRayCastInputs, QuadraticCellsGiveThePictureOfTetrahedra)
       }
     }
     const vtkIdType apex = points->InsertNextPoint(middle);
-    scalars->InsertNextValue(linear()(middle[0], middle[1], middle[2]));
+    scalars->InsertNextValue(MakeLinear()(middle[0], middle[1], middle[2]));
     const int sides[6][4] = { { 0, 1, 2, 3 }, { 7, 6, 5, 4 }, { 0, 4, 5, 1 }, { 1, 5, 6, 2 },
       { 2, 6, 7, 3 }, { 3, 7, 4, 0 } };
     for (const auto& side : sides)
@@ -266,13 +266,13 @@ TEST(TetrahedraRayCastInputs, QuadraticCellsGiveThePictureOfTetrahedra)
   }
   pyramids->SetPoints(points);
   pyramids->GetPointData()->SetScalars(scalars);
-  const std::pair<Grid, int> kinds[] = { { makeBlock(4, linear()), VTK_QUADRATIC_TETRA },
+  const std::pair<Grid, int> kinds[] = { { MakeBlock(4, MakeLinear()), VTK_QUADRATIC_TETRA },
     { cubes, VTK_QUADRATIC_HEXAHEDRON }, { wedges, VTK_QUADRATIC_WEDGE },
     { pyramids, VTK_QUADRATIC_PYRAMID } };
   for (const auto& kind : kinds)
   {
-    expectSamePicture(
-      pictureOf(kind.first), expected, "linear twin of type " + std::to_string(kind.second));
+    ExpectSamePicture(
+      PictureOf(kind.first), expected, "linear twin of type " + std::to_string(kind.second));
     vtkNew<vtkLinearToQuadraticCellsFilter> filter;
     filter->SetInputData(kind.first);
     filter->Update();
@@ -280,8 +280,8 @@ TEST(TetrahedraRayCastInputs, QuadraticCellsGiveThePictureOfTetrahedra)
     ASSERT_EQ(quadratic->GetCellType(0), kind.second);
     ASSERT_EQ(quadratic->GetNumberOfCells(), kind.first->GetNumberOfCells());
     int warnings = 0;
-    expectSamePicture(
-      pictureOf(quadratic, &warnings), expected, "type " + std::to_string(kind.second));
+    ExpectSamePicture(
+      PictureOf(quadratic, &warnings), expected, "type " + std::to_string(kind.second));
     EXPECT_EQ(warnings, 0) << kind.second;
   }
 }

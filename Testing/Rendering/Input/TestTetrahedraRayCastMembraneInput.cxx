@@ -35,9 +35,9 @@ constexpr int Size = 100;
 constexpr double Range[2] = { -1.0, 1.0 };
 constexpr double Block[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
 
-vtkSmartPointer<vtkVolumeProperty> smooth()
+vtkSmartPointer<vtkVolumeProperty> Smooth()
 {
-  return makeProperty(FunctionKind::Smooth, Range, 3.4);
+  return MakeProperty(FunctionKind::Smooth, Range, 3.4);
 }
 
 struct Counters
@@ -63,7 +63,7 @@ struct Counters
   {
   }
 
-  std::vector<vtkTypeInt64> since(const Counters& before) const
+  std::vector<vtkTypeInt64> Since(const Counters& before) const
   {
     return { this->Mesh - before.Mesh, this->Scalars - before.Scalars,
       this->Functions - before.Functions, this->Active - before.Active,
@@ -74,17 +74,17 @@ struct Counters
 using Moves = std::vector<vtkTypeInt64>;
 
 // Counters that a change increments, and whether it changes the image and the active cells.
-void expectWork(RayCastScene& scene, const std::string& what, const std::function<void()>& change,
+void ExpectWork(RayCastScene& scene, const std::string& what, const std::function<void()>& change,
   const Moves& moves, bool changesPicture = true, bool changesActive = false)
 {
-  const FloatImage before = scene.renderFloat();
-  const Counters start(scene.rayCaster());
+  const FloatImage before = scene.RenderFloat();
+  const Counters start(scene.GetRayCaster());
   change();
-  const FloatImage after = scene.renderFloat();
-  const Counters end(scene.rayCaster());
-  EXPECT_EQ(end.since(start), moves) << what;
+  const FloatImage after = scene.RenderFloat();
+  const Counters end(scene.GetRayCaster());
+  EXPECT_EQ(end.Since(start), moves) << what;
   EXPECT_EQ(before.Rgba != after.Rgba, changesPicture) << what;
-  if (scene.rayCaster()->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE)
+  if (scene.GetRayCaster()->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE)
   {
     return;
   }
@@ -105,63 +105,63 @@ struct Outcome
   int Backend = vtkTetrahedraRayCastMapper::AUTOMATIC;
 };
 
-Outcome renderWith(
+Outcome RenderWith(
   vtkPolyData* membrane, const std::function<void(vtkTetrahedraRayCastMapper*)>& prepare = nullptr)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  scene.rayCaster()->SetMembraneData(membrane);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  scene.GetRayCaster()->SetMembraneData(membrane);
   if (prepare)
   {
-    prepare(scene.rayCaster());
+    prepare(scene.GetRayCaster());
   }
-  lookAt(scene.renderer(), Block, 30.0, 45.0);
+  LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
   Outcome outcome;
   outcome.Told = vtkSmartPointer<ErrorObserver>::New();
-  outcome.Told->observe(scene.rayCaster());
-  outcome.Picture = scene.renderFloat();
-  outcome.Backend = scene.rayCaster()->GetActiveBackend();
+  outcome.Told->Observe(scene.GetRayCaster());
+  outcome.Picture = scene.RenderFloat();
+  outcome.Backend = scene.GetRayCaster()->GetActiveBackend();
   return outcome;
 }
 
-bool isEmpty(const FloatImage& image)
+bool IsEmpty(const FloatImage& image)
 {
   return std::all_of(
     image.Rgba.begin(), image.Rgba.end(), [](float value) { return value == 0.0f; });
 }
 
-void expectError(const Outcome& outcome, const std::string& part)
+void ExpectError(const Outcome& outcome, const std::string& part)
 {
   ASSERT_FALSE(outcome.Told->Errors.empty()) << part;
   EXPECT_NE(outcome.Told->Errors.front().find(part), std::string::npos)
     << outcome.Told->Errors.front();
   EXPECT_NE(outcome.Told->Errors.front().find("nothing is rendered"), std::string::npos);
-  EXPECT_TRUE(isEmpty(outcome.Picture)) << part;
+  EXPECT_TRUE(IsEmpty(outcome.Picture)) << part;
 }
 
 } // anonymous namespace
 
 TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  const MembraneCase waves = makeWavesCase(1.2, 0.05, 3.0, 3.0, 24);
-  const MembraneCase others = makeWavesCase(1.2, 0.06, 3.0, 3.0, 24);
-  RayCastScene scene(grid, smooth(), Size, Size);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  const MembraneCase waves = MakeWavesCase(1.2, 0.05, 3.0, 3.0, 24);
+  const MembraneCase others = MakeWavesCase(1.2, 0.06, 3.0, 3.0, 24);
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   mapper->SetMembraneData(waves.Mesh);
-  lookAt(scene.renderer(), Block, 30.0, 45.0);
-  scene.renderFloat();
+  LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
+  scene.RenderFloat();
   EXPECT_EQ(mapper->GetNumberOfMembraneBuilds(), 1);
   EXPECT_EQ(mapper->GetNumberOfSightUpdates(), 1);
 
   // Mesh, scalars, functions, active cells, membranes, sights.
-  expectWork(
+  ExpectWork(
     scene, "nothing moves", [] {}, { 0, 0, 0, 0, 0, 0 }, false);
-  expectWork(scene, "camera", [&] { scene.renderer()->GetActiveCamera()->Azimuth(5.0); },
+  ExpectWork(scene, "camera", [&] { scene.GetRenderer()->GetActiveCamera()->Azimuth(5.0); },
     { 0, 0, 0, 0, 0, 1 });
-  expectWork(
+  ExpectWork(
     scene, "membrane touched", [&] { waves.Mesh->Modified(); }, { 0, 0, 0, 0, 0, 0 }, false);
-  expectWork(scene, "wave",
+  ExpectWork(scene, "wave",
     [&]
     {
       waves.Mesh->GetPoints()->DeepCopy(others.Mesh->GetPoints());
@@ -169,10 +169,11 @@ TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
       waves.Mesh->Modified();
     },
     { 0, 0, 0, 0, 1, 1 });
-  expectWork(
+  ExpectWork(
     scene, "index", [&] { mapper->SetInteriorIndexOfRefraction(1.5); }, { 0, 0, 0, 0, 0, 1 });
-  expectWork(scene, "volume's matrix", [&] { scene.volume()->RotateY(3.0); }, { 0, 0, 0, 0, 0, 1 });
-  expectWork(scene, "scalars",
+  ExpectWork(
+    scene, "volume's matrix", [&] { scene.GetVolume()->RotateY(3.0); }, { 0, 0, 0, 0, 0, 1 });
+  ExpectWork(scene, "scalars",
     [&]
     {
       vtkDataArray* scalars = grid->GetPointData()->GetScalars();
@@ -180,17 +181,17 @@ TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
       scalars->Modified();
     },
     { 0, 1, 0, 1, 0, 0 });
-  expectWork(scene, "function",
-    [&] { scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(2.0); },
+  ExpectWork(scene, "function",
+    [&] { scene.GetVolume()->GetProperty()->SetScalarOpacityUnitDistance(2.0); },
     { 0, 0, 1, 0, 0, 0 });
-  expectWork(
+  ExpectWork(
     scene, "other active cells",
     [&]
     {
       vtkNew<vtkPiecewiseFunction> opacity;
       opacity->AddPoint(0.2, 0.0);
       opacity->AddPoint(0.8, 2.0);
-      scene.volume()->GetProperty()->SetScalarOpacity(opacity);
+      scene.GetVolume()->GetProperty()->SetScalarOpacity(opacity);
     },
     { 0, 0, 1, 1, 0, 0 }, true, true);
 }
@@ -198,43 +199,43 @@ TEST(TetrahedraRayCastMembraneInput, OnlyWhatChangedIsDoneAgain)
 // Rays are traced only where they may reach visible geometry: more of them if that grows.
 TEST(TetrahedraRayCastMembraneInput, MoreOfTheMeshIsSeen)
 {
-  const Grid grid = makeBlock(4, [](double x, double, double) { return x; });
-  const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
+  const Grid grid = MakeBlock(4, [](double x, double, double) { return x; });
+  const MembraneCase plane = MakePlaneCase(1.2, 4.0, 2);
   const auto picture = [&](bool lessFirst)
   {
-    RayCastScene scene(grid, smooth(), Size, Size);
-    scene.rayCaster()->SetMembrane(plane.Mesh);
-    lookAt(scene.renderer(), Block, 30.0, 45.0);
+    RayCastScene scene(grid, Smooth(), Size, Size);
+    scene.GetRayCaster()->SetMembrane(plane.Mesh);
+    LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
     if (lessFirst)
     {
-      scene.volume()->GetProperty()->GetIsoSurfaceValues()->SetValue(0, 0.8);
-      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-      scene.renderFloat();
-      EXPECT_LT(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
-      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::COMPOSITE_BLEND);
+      scene.GetVolume()->GetProperty()->GetIsoSurfaceValues()->SetValue(0, 0.8);
+      scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+      scene.RenderFloat();
+      EXPECT_LT(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
+      scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::COMPOSITE_BLEND);
     }
-    return scene.renderFloat();
+    return scene.RenderFloat();
   };
   EXPECT_EQ(picture(true).Rgba, picture(false).Rgba);
 }
 
 TEST(TetrahedraRayCastMembraneInput, OutOfViewAndTakenAway)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
-  RayCastScene scene(grid, smooth(), Size, Size);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
-  lookAt(scene.renderer(), Block, 30.0, 45.0);
-  const FloatImage without = scene.renderFloat();
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  const MembraneCase plane = MakePlaneCase(1.2, 4.0, 2);
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
+  const FloatImage without = scene.RenderFloat();
   mapper->SetMembrane(plane.Mesh);
   EXPECT_EQ(mapper->GetMembrane(), plane.Mesh.Get());
-  EXPECT_NE(scene.renderFloat().Rgba, without.Rgba);
+  EXPECT_NE(scene.RenderFloat().Rgba, without.Rgba);
   mapper->SetMembrane(nullptr);
   EXPECT_EQ(mapper->GetMembrane(), nullptr);
-  EXPECT_EQ(scene.renderFloat().Rgba, without.Rgba);
+  EXPECT_EQ(scene.RenderFloat().Rgba, without.Rgba);
   // A membrane below the mesh is behind all visible geometry.
-  mapper->SetMembrane(makePlaneCase(-1.2, 0.01, 1).Mesh);
-  EXPECT_EQ(scene.renderFloat().Rgba, without.Rgba);
+  mapper->SetMembrane(MakePlaneCase(-1.2, 0.01, 1).Mesh);
+  EXPECT_EQ(scene.RenderFloat().Rgba, without.Rgba);
 }
 
 TEST(TetrahedraRayCastMembraneInput, ByAPipeline)
@@ -249,29 +250,29 @@ TEST(TetrahedraRayCastMembraneInput, ByAPipeline)
   vtkNew<vtkTransformPolyDataFilter> filter;
   filter->SetInputConnection(source->GetOutputPort());
   filter->SetTransform(turn);
-  const Outcome data = renderWith(makePlaneCase(1.2, 4.0, 2).Mesh);
-  const Outcome connected = renderWith(nullptr,
+  const Outcome data = RenderWith(MakePlaneCase(1.2, 4.0, 2).Mesh);
+  const Outcome connected = RenderWith(nullptr,
     [&](vtkTetrahedraRayCastMapper* mapper)
     { mapper->SetMembraneConnection(filter->GetOutputPort()); });
-  EXPECT_TRUE(data.Told->Errors.empty()) << data.Told->text();
-  EXPECT_TRUE(connected.Told->Errors.empty()) << connected.Told->text();
+  EXPECT_TRUE(data.Told->Errors.empty()) << data.Told->GetText();
+  EXPECT_TRUE(connected.Told->Errors.empty()) << connected.Told->GetText();
   // In this case points are in single precision, and polygons are quads.
-  expectSamePicture(data.Picture, connected.Picture, "connection");
+  ExpectSamePicture(data.Picture, connected.Picture, "connection");
 }
 
 TEST(TetrahedraRayCastMembraneInput, BackendAsAsked)
 {
-  const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
+  const MembraneCase plane = MakePlaneCase(1.2, 4.0, 2);
   FloatImage native;
   for (const int backend : { vtkTetrahedraRayCastMapper::NATIVE, vtkTetrahedraRayCastMapper::OPENGL,
          vtkTetrahedraRayCastMapper::COMPUTE, vtkTetrahedraRayCastMapper::AUTOMATIC })
   {
-    const Outcome outcome = renderWith(
+    const Outcome outcome = RenderWith(
       plane.Mesh, [backend](vtkTetrahedraRayCastMapper* mapper) { mapper->SetBackend(backend); });
-    EXPECT_TRUE(outcome.Told->Warnings.empty()) << outcome.Told->text();
-    EXPECT_TRUE(outcome.Told->Errors.empty()) << outcome.Told->text();
+    EXPECT_TRUE(outcome.Told->Warnings.empty()) << outcome.Told->GetText();
+    EXPECT_TRUE(outcome.Told->Errors.empty()) << outcome.Told->GetText();
     native = backend == vtkTetrahedraRayCastMapper::NATIVE ? outcome.Picture : native;
-    expectSamePicture(outcome.Picture, native, "backend " + std::to_string(backend));
+    ExpectSamePicture(outcome.Picture, native, "backend " + std::to_string(backend));
     EXPECT_TRUE(backend == outcome.Backend || backend == vtkTetrahedraRayCastMapper::AUTOMATIC);
   }
 }
@@ -279,7 +280,7 @@ TEST(TetrahedraRayCastMembraneInput, BackendAsAsked)
 TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
 {
   // 2 texels per pixel: more than the mesh has, which is drawn on the device as before.
-  const MembraneCase plane = makePlaneCase(1.2, 4.0, 2);
+  const MembraneCase plane = MakePlaneCase(1.2, 4.0, 2);
   for (const bool fits : { true, false })
   {
     const auto prepare = [fits](vtkTetrahedraRayCastMapper* mapper)
@@ -287,34 +288,34 @@ TEST(TetrahedraRayCastMembraneInput, NativeWhereTheDeviceHasNoRoom)
       mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
       mapper->SetMaximumTableSize(2 * Size * Size - (fits ? 0 : 1));
     };
-    const Outcome straight = renderWith(nullptr, prepare);
+    const Outcome straight = RenderWith(nullptr, prepare);
     EXPECT_EQ(straight.Backend, int(vtkTetrahedraRayCastMapper::OPENGL));
-    EXPECT_TRUE(straight.Told->Warnings.empty()) << straight.Told->text();
-    const Outcome refracted = renderWith(plane.Mesh, prepare);
+    EXPECT_TRUE(straight.Told->Warnings.empty()) << straight.Told->GetText();
+    const Outcome refracted = RenderWith(plane.Mesh, prepare);
     EXPECT_EQ(refracted.Backend,
       int(fits ? vtkTetrahedraRayCastMapper::OPENGL : vtkTetrahedraRayCastMapper::NATIVE));
     EXPECT_EQ(refracted.Told->Warnings.size(), fits ? 0u : 1u);
-    EXPECT_TRUE(refracted.Told->Errors.empty()) << refracted.Told->text();
-    EXPECT_FALSE(isEmpty(refracted.Picture));
+    EXPECT_TRUE(refracted.Told->Errors.empty()) << refracted.Told->GetText();
+    EXPECT_FALSE(IsEmpty(refracted.Picture));
   }
 }
 
 // Images of another size than the window: all backends draw them alike.
 TEST(TetrahedraRayCastMembraneInput, CoarserRaysAndPartOfTheWindow)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
-  mapper->SetMembraneData(makePlaneCase(0.1, 4.0, 2).Mesh);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  mapper->SetMembraneData(MakePlaneCase(0.1, 4.0, 2).Mesh);
   mapper->AutoAdjustSampleDistancesOff();
-  lookAt(scene.renderer(), Block, 30.0, 45.0);
+  LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
   const int backend = mapper->GetBackend();
   const auto expectAlike = [&](const std::string& what)
   {
     mapper->SetBackend(backend);
-    const FloatImage drawn = scene.renderFloat();
+    const FloatImage drawn = scene.RenderFloat();
     mapper->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
-    expectSamePicture(drawn, scene.renderFloat(), what);
+    ExpectSamePicture(drawn, scene.RenderFloat(), what);
   };
   for (const float distance : { 1.0f, 1.7f, 3.0f })
   {
@@ -322,61 +323,61 @@ TEST(TetrahedraRayCastMembraneInput, CoarserRaysAndPartOfTheWindow)
     expectAlike("distance " + std::to_string(distance));
   }
   mapper->SetImageSampleDistance(1.0f);
-  scene.renderer()->SetViewport(0.31, 0.12, 0.93, 0.78);
+  scene.GetRenderer()->SetViewport(0.31, 0.12, 0.93, 0.78);
   expectAlike("part of the window");
 }
 
 TEST(TetrahedraRayCastMembraneInput, ReleasedAndResized)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  scene.rayCaster()->SetMembraneData(makePlaneCase(0.1, 4.0, 2).Mesh);
-  lookAt(scene.renderer(), Block, 30.0, 45.0);
-  const FloatImage first = scene.renderFloat();
-  scene.rayCaster()->ReleaseGraphicsResources(scene.window());
-  EXPECT_EQ(scene.renderFloat().Rgba, first.Rgba);
-  scene.window()->SetSize(Size + 7, Size - 13);
-  EXPECT_FALSE(isEmpty(scene.renderFloat()));
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
-  scene.window()->SetSize(Size, Size);
-  EXPECT_EQ(scene.renderFloat().Rgba, first.Rgba);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  scene.GetRayCaster()->SetMembraneData(MakePlaneCase(0.1, 4.0, 2).Mesh);
+  LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
+  const FloatImage first = scene.RenderFloat();
+  scene.GetRayCaster()->ReleaseGraphicsResources(scene.GetWindow());
+  EXPECT_EQ(scene.RenderFloat().Rgba, first.Rgba);
+  scene.GetWindow()->SetSize(Size + 7, Size - 13);
+  EXPECT_FALSE(IsEmpty(scene.RenderFloat()));
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
+  scene.GetWindow()->SetSize(Size, Size);
+  EXPECT_EQ(scene.RenderFloat().Rgba, first.Rgba);
 }
 
 TEST(TetrahedraRayCastMembraneInput, BoundsHoldTheMembrane)
 {
-  const Grid grid = makeBlock(2, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  scene.rayCaster()->SetMembraneData(makePlaneCase(1.2, 4.0, 2).Mesh);
+  const Grid grid = MakeBlock(2, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  scene.GetRayCaster()->SetMembraneData(MakePlaneCase(1.2, 4.0, 2).Mesh);
   const double wanted[6] = { -4.0, 4.0, -1.0, 1.2, -4.0, 4.0 };
-  const double* bounds = scene.rayCaster()->GetBounds();
+  const double* bounds = scene.GetRayCaster()->GetBounds();
   for (int i = 0; i < 6; ++i)
   {
     EXPECT_DOUBLE_EQ(bounds[i], wanted[i]) << i;
   }
   // The membrane stays where it is when the volume moves.
-  scene.volume()->SetPosition(1.0, 0.0, 0.0);
-  lookAt(scene.renderer(), Block, 30.0, 45.0);
-  scene.renderFloat();
-  EXPECT_DOUBLE_EQ(scene.volume()->GetBounds()[0], -4.0);
-  EXPECT_DOUBLE_EQ(scene.volume()->GetBounds()[1], 4.0);
+  scene.GetVolume()->SetPosition(1.0, 0.0, 0.0);
+  LookAt(scene.GetRenderer(), Block, 30.0, 45.0);
+  scene.RenderFloat();
+  EXPECT_DOUBLE_EQ(scene.GetVolume()->GetBounds()[0], -4.0);
+  EXPECT_DOUBLE_EQ(scene.GetVolume()->GetBounds()[1], 4.0);
 }
 
 TEST(TetrahedraRayCastMembraneInput, UnusableMembranes)
 {
   vtkNew<vtkPolyData> empty;
-  expectError(renderWith(empty), "no usable triangle");
+  ExpectError(RenderWith(empty), "no usable triangle");
 
-  const auto nan = makePlaneCase(1.2, 4.0, 2).Mesh;
+  const auto nan = MakePlaneCase(1.2, 4.0, 2).Mesh;
   for (vtkIdType i = 0; i < nan->GetNumberOfPoints(); ++i)
   {
     nan->GetPoints()->SetPoint(i, 0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
   }
-  expectError(renderWith(nan), "no usable triangle");
+  ExpectError(RenderWith(nan), "no usable triangle");
 
-  const auto lines = makePlaneCase(1.2, 4.0, 2).Mesh;
+  const auto lines = MakePlaneCase(1.2, 4.0, 2).Mesh;
   lines->SetLines(lines->GetPolys());
   lines->SetPolys(vtkNew<vtkCellArray>());
-  expectError(renderWith(lines), "no usable triangle");
+  ExpectError(RenderWith(lines), "no usable triangle");
 
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double index : { 0.0, -1.3, infinity, std::nan("") })
@@ -388,27 +389,27 @@ TEST(TetrahedraRayCastMembraneInput, UnusableMembranes)
         interior ? mapper->SetInteriorIndexOfRefraction(index)
                  : mapper->SetExteriorIndexOfRefraction(index);
       };
-      expectError(renderWith(makePlaneCase(1.2, 4.0, 2).Mesh, set), "Indices of refraction");
+      ExpectError(RenderWith(MakePlaneCase(1.2, 4.0, 2).Mesh, set), "Indices of refraction");
       // Without a membrane the indices have no effect.
-      EXPECT_TRUE(renderWith(nullptr, set).Told->Errors.empty());
+      EXPECT_TRUE(RenderWith(nullptr, set).Told->Errors.empty());
     }
   }
 }
 
 TEST(TetrahedraRayCastMembraneInput, FacetsThatAreSkipped)
 {
-  const Outcome whole = renderWith(makePlaneCase(1.2, 4.0, 2).Mesh);
-  ASSERT_FALSE(isEmpty(whole.Picture));
-  const auto bad = makePlaneCase(1.2, 4.0, 2).Mesh;
+  const Outcome whole = RenderWith(MakePlaneCase(1.2, 4.0, 2).Mesh);
+  ASSERT_FALSE(IsEmpty(whole.Picture));
+  const auto bad = MakePlaneCase(1.2, 4.0, 2).Mesh;
   const vtkIdType stray = bad->GetPoints()->InsertNextPoint(0.0, std::nan(""), 0.0);
   bad->GetPointData()->GetNormals()->InsertNextTuple3(0.0, 1.0, 0.0);
   bad->GetPolys()->InsertNextCell({ 0, 1, stray });
   bad->GetPolys()->InsertNextCell({ 0, 0, 1 });
   bad->GetPolys()->InsertNextCell({ 0, 1, 99 });
   bad->GetPolys()->InsertNextCell({ 0, -1, 1 });
-  const Outcome skipped = renderWith(bad);
-  EXPECT_TRUE(skipped.Told->Errors.empty()) << skipped.Told->text();
-  ASSERT_EQ(skipped.Told->Warnings.size(), 1u) << skipped.Told->text();
+  const Outcome skipped = RenderWith(bad);
+  EXPECT_TRUE(skipped.Told->Errors.empty()) << skipped.Told->GetText();
+  ASSERT_EQ(skipped.Told->Warnings.size(), 1u) << skipped.Told->GetText();
   EXPECT_NE(
     skipped.Told->Warnings.front().find("4 of 12 membrane triangles skipped"), std::string::npos)
     << skipped.Told->Warnings.front();
@@ -418,13 +419,13 @@ TEST(TetrahedraRayCastMembraneInput, FacetsThatAreSkipped)
 TEST(TetrahedraRayCastMembraneInput, EyeOnTheMembrane)
 {
   // Rounding decides on which side it is; something must be drawn, and nothing may fail.
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  scene.rayCaster()->SetMembraneData(makePlaneCase(2.0, 4.0, 2).Mesh);
-  vtkCamera* camera = scene.renderer()->GetActiveCamera();
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  scene.GetRayCaster()->SetMembraneData(MakePlaneCase(2.0, 4.0, 2).Mesh);
+  vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
   camera->SetPosition(0.5, 2.0, 2.5);
   camera->SetFocalPoint(0.0, 0.0, 0.0);
   camera->SetClippingRange(0.01, 10.0);
-  EXPECT_FALSE(isEmpty(scene.renderFloat()));
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
+  EXPECT_FALSE(IsEmpty(scene.RenderFloat()));
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
 }

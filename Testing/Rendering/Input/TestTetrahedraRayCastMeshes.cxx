@@ -22,24 +22,24 @@ constexpr int Size = 160;
 const std::vector<FunctionKind> AllKinds{ FunctionKind::Smooth, FunctionKind::Peaked,
   FunctionKind::Opaque, FunctionKind::Sparse };
 
-vtkSmartPointer<vtkVolumeProperty> propertyFor(vtkUnstructuredGrid* grid, FunctionKind kind)
+vtkSmartPointer<vtkVolumeProperty> PropertyFor(vtkUnstructuredGrid* grid, FunctionKind kind)
 {
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  return makeProperty(kind, range, diagonalOf(grid->GetBounds()));
+  return MakeProperty(kind, range, DiagonalOf(grid->GetBounds()));
 }
 
 // All kinds of functions in one perspective and one parallel view.
-void expectMeshMatches(const Grid& grid, const std::string& name)
+void ExpectMeshMatches(const Grid& grid, const std::string& name)
 {
   for (const FunctionKind kind : AllKinds)
   {
     for (const bool parallel : { false, true })
     {
-      RayCastScene scene(grid, propertyFor(grid, kind), Size, Size);
-      const auto angles = viewAngles(parallel ? 3 : 1);
-      lookAt(scene.renderer(), grid->GetBounds(), angles[0], angles[1], 1.1, parallel);
-      expectMatchesReference(scene,
+      RayCastScene scene(grid, PropertyFor(grid, kind), Size, Size);
+      const auto angles = ViewAngles(parallel ? 3 : 1);
+      LookAt(scene.GetRenderer(), grid->GetBounds(), angles[0], angles[1], 1.1, parallel);
+      ExpectMatchesReference(scene,
         name + (parallel ? ", parallel" : ", perspective") + ", function " +
           std::to_string(static_cast<int>(kind)));
     }
@@ -50,26 +50,26 @@ void expectMeshMatches(const Grid& grid, const std::string& name)
 
 TEST(TetrahedraRayCastMeshes, SingleTetrahedron)
 {
-  expectMeshMatches(makeSingleTetrahedron(linearField(1, 2, 3)), "tetrahedron");
+  ExpectMeshMatches(MakeSingleTetrahedron(LinearField(1, 2, 3)), "tetrahedron");
 }
 
 TEST(TetrahedraRayCastMeshes, CubesOfFiveAndSix)
 {
-  expectMeshMatches(makeCubeOfFive(radialField()), "cube of five");
-  expectMeshMatches(makeCubeOfSix(radialField()), "cube of six");
+  ExpectMeshMatches(MakeCubeOfFive(RadialField()), "cube of five");
+  ExpectMeshMatches(MakeCubeOfSix(RadialField()), "cube of six");
 }
 
 TEST(TetrahedraRayCastMeshes, StructuredBlock)
 {
-  expectMeshMatches(makeBlock(10, wavyField(3.0)), "block");
+  ExpectMeshMatches(MakeBlock(10, WavyField(3.0)), "block");
 }
 
 TEST(TetrahedraRayCastMeshes, JitteredBlock)
 {
   // Moves of a tenth of a cube's side move no vertex through a face.
-  const Grid grid = makeBlock(10, wavyField(3.0));
-  jitter(grid, 0.02, 4711);
-  expectMeshMatches(grid, "jittered block, seed 4711");
+  const Grid grid = MakeBlock(10, WavyField(3.0));
+  Jitter(grid, 0.02, 4711);
+  ExpectMeshMatches(grid, "jittered block, seed 4711");
 }
 
 TEST(TetrahedraRayCastMeshes, NeedlesSeenAslant)
@@ -77,7 +77,7 @@ TEST(TetrahedraRayCastMeshes, NeedlesSeenAslant)
   // Needles with an aspect ratio of 1e4, whose edges are long in u and in v: most of the products
   // cancels in the areas by which depth is interpolated. The function is as narrow as the depth's
   // last digit allows.
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
   {
     double x[3];
@@ -87,20 +87,20 @@ TEST(TetrahedraRayCastMeshes, NeedlesSeenAslant)
   }
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, range, 300.0), Size, Size);
-  vtkCamera* camera = scene.renderer()->GetActiveCamera();
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 300.0), Size, Size);
+  vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetParallelScale(2.0);
   camera->SetFocalPoint(700.0, 0.0, 0.0);
   camera->SetPosition(700.0 + 2e4, 1.7e4, 0.9e4);
   camera->SetViewUp(0.3, 0.2, 1.0);
-  scene.renderer()->ResetCameraClippingRange();
-  scene.window()->Render();
-  const SceneTruth truth = makeTruth(scene);
+  scene.GetRenderer()->ResetCameraClippingRange();
+  scene.GetWindow()->Render();
+  const SceneTruth truth = MakeTruth(scene);
   const Comparison comparison =
-    compareToReference(scene.renderFloat(), truth.Image, *truth.Integrator, truth.RayOf);
-  SCOPED_TRACE(comparison.text());
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
+    CompareToReference(scene.RenderFloat(), truth.Image, *truth.Integrator, truth.RayOf);
+  SCOPED_TRACE(comparison.GetText());
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
   EXPECT_GT(comparison.Covered, 10000u);
   EXPECT_EQ(comparison.CoverageMismatches, 0u);
   // Where a face is nearly edge-on, either side of its position in single precision may be drawn.
@@ -112,38 +112,38 @@ TEST(TetrahedraRayCastMeshes, NeedlesSeenAslant)
 
 TEST(TetrahedraRayCastMeshes, LShape)
 {
-  expectMeshMatches(makeBlock(8, radialField(), lShape()), "L shape");
+  ExpectMeshMatches(MakeBlock(8, RadialField(), LShape()), "L shape");
 }
 
 TEST(TetrahedraRayCastMeshes, Shell)
 {
-  expectMeshMatches(makeBlock(14, wavyField(2.0), shell(0.5, 1.0)), "shell");
+  ExpectMeshMatches(MakeBlock(14, WavyField(2.0), Shell(0.5, 1.0)), "shell");
 }
 
 TEST(TetrahedraRayCastMeshes, Torus)
 {
-  expectMeshMatches(makeBlock(16, wavyField(2.0), torus(0.65, 0.3)), "torus");
+  ExpectMeshMatches(MakeBlock(16, WavyField(2.0), Torus(0.65, 0.3)), "torus");
 }
 
 TEST(TetrahedraRayCastMeshes, TwoBlocks)
 {
-  expectMeshMatches(makeBlock(9, wavyField(3.0), twoBlocks(0.5)), "two blocks");
+  ExpectMeshMatches(MakeBlock(9, WavyField(3.0), TwoBlocks(0.5)), "two blocks");
 }
 
 TEST(TetrahedraRayCastMeshes, FarFromTheOrigin)
 {
-  const Grid grid = makeBlock(8, wavyField(3.0));
-  transformPoints(grid, { 1e6, -2e6, 1.5e6 }, 1.0);
-  expectMeshMatches(grid, "offset by 1e6");
+  const Grid grid = MakeBlock(8, WavyField(3.0));
+  TransformPoints(grid, { 1e6, -2e6, 1.5e6 }, 1.0);
+  ExpectMeshMatches(grid, "offset by 1e6");
 }
 
 TEST(TetrahedraRayCastMeshes, VerySmallAndVeryLarge)
 {
   for (const double scale : { 1e-6, 1e6 })
   {
-    const Grid grid = makeBlock(6, wavyField(3.0));
-    transformPoints(grid, { 0.0, 0.0, 0.0 }, scale);
-    expectMeshMatches(grid, "scaled by " + std::to_string(scale));
+    const Grid grid = MakeBlock(6, WavyField(3.0));
+    TransformPoints(grid, { 0.0, 0.0, 0.0 }, scale);
+    ExpectMeshMatches(grid, "scaled by " + std::to_string(scale));
   }
 }
 
@@ -153,15 +153,15 @@ TEST(TetrahedraRayCastMeshes, RaysThroughVerticesAndEdges)
   // rays run along edges and faces. The outermost lie on the boundary: up to 4 * 33 silhouettes.
   constexpr int odd = 65;
   constexpr double pitch = 0.0625;
-  const Grid grid = makeBlock(8, wavyField(3.0));
+  const Grid grid = MakeBlock(8, WavyField(3.0));
   for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      RayCastScene scene(grid, propertyFor(grid, kind), odd, odd);
-      lookAlongAxis(scene.renderer(), grid->GetBounds(), axis);
-      scene.renderer()->GetActiveCamera()->SetParallelScale(0.5 * odd * pitch);
-      expectMatchesReference(
+      RayCastScene scene(grid, PropertyFor(grid, kind), odd, odd);
+      LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), axis);
+      scene.GetRenderer()->GetActiveCamera()->SetParallelScale(0.5 * odd * pitch);
+      ExpectMatchesReference(
         scene, "along axis " + std::to_string(axis), SilhouetteAllowance{ 0.0, 4 * 33 });
     }
   }
@@ -170,7 +170,7 @@ TEST(TetrahedraRayCastMeshes, RaysThroughVerticesAndEdges)
 TEST(TetrahedraRayCastMeshes, OverlappingParts)
 {
   // Two blocks that interpenetrate: the cell entered first is used up to its exit.
-  const Grid grid = makeBlock(1, constantField(0.0));
+  const Grid grid = MakeBlock(1, ConstantField(0.0));
   std::vector<double> points;
   std::vector<vtkIdType> cells;
   for (int part = 0; part < 2; ++part)
@@ -190,31 +190,31 @@ TEST(TetrahedraRayCastMeshes, OverlappingParts)
       }
     }
   }
-  expectMeshMatches(makeGrid(points, cells, wavyField(2.0)), "overlapping blocks");
+  ExpectMeshMatches(MakeGrid(points, cells, WavyField(2.0)), "overlapping blocks");
 }
 
 TEST(TetrahedraRayCastMeshes, FoldedMesh)
 {
   // Vertices move through faces: some cells are inverted.
-  const Grid grid = makeBlock(6, wavyField(2.0));
-  jitter(grid, 0.22, 99);
-  expectMeshMatches(grid, "folded block, seed 99");
+  const Grid grid = MakeBlock(6, WavyField(2.0));
+  Jitter(grid, 0.22, 99);
+  ExpectMeshMatches(grid, "folded block, seed 99");
 }
 
 TEST(TetrahedraRayCastMeshes, OpacityPerUnitDistance)
 {
   // The mapper samples the logarithm between nodes to 1/32768 of alpha over the unit distance (see
   // its header); a ray is up to a diagonal long.
-  const Grid grid = makeBlock(8, wavyField(3.0));
-  RayCastScene scene(grid, propertyFor(grid, FunctionKind::Smooth), Size, Size);
+  const Grid grid = MakeBlock(8, WavyField(3.0));
+  RayCastScene scene(grid, PropertyFor(grid, FunctionKind::Smooth), Size, Size);
   constexpr double unit = 0.8;
-  const double tolerance = diagonalOf(grid->GetBounds()) / unit / 32768.0;
-  scene.volume()->GetProperty()->SetScalarOpacityUnitDistance(unit);
-  scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
-  lookAt(scene.renderer(), grid->GetBounds(), 25.0, 30.0);
-  scene.window()->Render();
-  const SceneTruth truth = makeTruth(scene);
-  expectMatch(
-    compareToReference(scene.renderFloat(), truth.Image, *truth.Integrator, truth.RayOf, tolerance),
+  const double tolerance = DiagonalOf(grid->GetBounds()) / unit / 32768.0;
+  scene.GetVolume()->GetProperty()->SetScalarOpacityUnitDistance(unit);
+  scene.GetRayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 25.0, 30.0);
+  scene.GetWindow()->Render();
+  const SceneTruth truth = MakeTruth(scene);
+  ExpectMatch(
+    CompareToReference(scene.RenderFloat(), truth.Image, *truth.Integrator, truth.RayOf, tolerance),
     "opacity per unit distance");
 }

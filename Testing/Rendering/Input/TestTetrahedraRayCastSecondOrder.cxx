@@ -37,7 +37,7 @@ constexpr int Size = 80;
 using Corners = std::vector<int>;
 
 // Corners whose mean is each further point of a type, in VTK's order.
-std::vector<Corners> furtherPoints(int type)
+std::vector<Corners> FurtherPoints(int type)
 {
   const std::vector<Corners> hexahedron{ { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 4, 5 }, { 5, 6 },
     { 6, 7 }, { 7, 4 }, { 0, 4 }, { 1, 5 }, { 2, 6 }, { 3, 7 }, { 0, 4, 7, 3 }, { 1, 2, 6, 5 },
@@ -91,14 +91,14 @@ struct LinearMesh
   std::vector<LinearCell> Cells;
 };
 
-double fieldAt(const double* x)
+double FieldAt(const double* x)
 {
   return 0.7 * x[0] - 0.4 * x[1] + 0.5 * x[2];
 }
 
 // The mesh with quadratic or with linear cells; cell data counts 0, 1, 0, 1. Points are numbered at
 // random, since the splitting depends on the numbers.
-Grid makeMesh(const LinearMesh& mesh, bool secondOrder, unsigned int seed)
+Grid MakeMesh(const LinearMesh& mesh, bool secondOrder, unsigned int seed)
 {
   std::map<Corners, int> places;
   std::vector<std::vector<int>> cells;
@@ -109,7 +109,7 @@ Grid makeMesh(const LinearMesh& mesh, bool secondOrder, unsigned int seed)
     {
       sets.push_back({ point });
     }
-    for (const Corners& further : secondOrder ? furtherPoints(cell.Type) : std::vector<Corners>())
+    for (const Corners& further : secondOrder ? FurtherPoints(cell.Type) : std::vector<Corners>())
     {
       Corners set;
       for (const int corner : further)
@@ -147,7 +147,7 @@ Grid makeMesh(const LinearMesh& mesh, bool secondOrder, unsigned int seed)
       }
     }
     points->SetPoint(numbers[place.second], mean);
-    scalars->SetValue(numbers[place.second], fieldAt(mean));
+    scalars->SetValue(numbers[place.second], FieldAt(mean));
   }
   grid->SetPoints(points);
   grid->GetPointData()->SetScalars(scalars);
@@ -176,7 +176,7 @@ enum Shape
 };
 
 // A box of n[0] x n[1] x n[2] cubes in [-1, 1], each of a shape and a type.
-LinearMesh makeBox(
+LinearMesh MakeBox(
   const int (&n)[3], const std::function<std::pair<Shape, int>(int i, int j, int k)>& typeOf)
 {
   LinearMesh mesh;
@@ -227,45 +227,45 @@ LinearMesh makeBox(
   return mesh;
 }
 
-std::unique_ptr<RayCastScene> makeScene(vtkUnstructuredGrid* grid, vtkVolumeProperty* property)
+std::unique_ptr<RayCastScene> MakeScene(vtkUnstructuredGrid* grid, vtkVolumeProperty* property)
 {
   auto scene = std::make_unique<RayCastScene>(grid, property, Size, Size);
   const double bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
-  lookAt(scene->renderer(), bounds, 25.0, 15.0);
+  LookAt(scene->GetRenderer(), bounds, 25.0, 15.0);
   return scene;
 }
 
-void expectLinearTwin(const LinearMesh& mesh, const std::string& what)
+void ExpectLinearTwin(const LinearMesh& mesh, const std::string& what)
 {
   const double range[2] = { -2.0, 2.0 };
-  const auto property = makeProperty(FunctionKind::Smooth, range, 3.5);
+  const auto property = MakeProperty(FunctionKind::Smooth, range, 3.5);
   property->GetIsoSurfaceValues()->SetValue(0, 0.5);
   for (const unsigned int seed : { 1u, 2u })
   {
-    const Grid linear = makeMesh(mesh, false, seed);
-    const Grid quadratic = makeMesh(mesh, true, seed + 10);
-    const auto expected = makeScene(linear, property);
-    const auto scene = makeScene(quadratic, property);
+    const Grid linear = MakeMesh(mesh, false, seed);
+    const Grid quadratic = MakeMesh(mesh, true, seed + 10);
+    const auto expected = MakeScene(linear, property);
+    const auto scene = MakeScene(quadratic, property);
     const auto told = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    told->observe(scene->rayCaster());
-    expectSamePicture(scene->renderFloat(), expected->renderFloat(), what);
+    told->Observe(scene->GetRayCaster());
+    ExpectSamePicture(scene->RenderFloat(), expected->RenderFloat(), what);
     EXPECT_TRUE(told->Warnings.empty()) << what << ": " << told->Warnings.front();
-    EXPECT_TRUE(told->Errors.empty()) << what << ": " << told->text();
-    EXPECT_EQ(scene->rayCaster()->GetNumberOfLostRays(), 0) << what;
+    EXPECT_TRUE(told->Errors.empty()) << what << ": " << told->GetText();
+    EXPECT_EQ(scene->GetRayCaster()->GetNumberOfLostRays(), 0) << what;
     // Isosurfaces of cell data are the faces between cells of value 0 and 1: those that are linked.
     for (RayCastScene* both : { scene.get(), expected.get() })
     {
-      both->rayCaster()->SetScalarModeToUseCellFieldData();
-      both->rayCaster()->SelectScalarArray("cells");
-      both->rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+      both->GetRayCaster()->SetScalarModeToUseCellFieldData();
+      both->GetRayCaster()->SelectScalarArray("cells");
+      both->GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
     }
-    expectSamePicture(scene->renderFloat(), expected->renderFloat(), what + ", shared faces");
+    ExpectSamePicture(scene->RenderFloat(), expected->RenderFloat(), what + ", shared faces");
   }
 }
 
 // Alpha of the pixel in the middle, whose ray goes through the centre of the box along an axis,
 // with an attenuation equal to the scalar.
-double alphaAlong(vtkUnstructuredGrid* grid, int axis)
+double AlphaAlong(vtkUnstructuredGrid* grid, int axis)
 {
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   vtkNew<vtkPiecewiseFunction> opacity;
@@ -273,8 +273,8 @@ double alphaAlong(vtkUnstructuredGrid* grid, int axis)
   opacity->AddPoint(1.0, 1.0);
   property->SetScalarOpacity(opacity);
   RayCastScene scene(grid, property, 33, 33);
-  lookAlongAxis(scene.renderer(), grid->GetBounds(), axis);
-  return scene.renderFloat().pixel(16, 16)[3];
+  LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), axis);
+  return scene.RenderFloat().GetPixel(16, 16)[3];
 }
 
 } // anonymous namespace
@@ -288,15 +288,15 @@ TEST(TetrahedraRayCastSecondOrder, EachTypeAlone)
     { Pyramids, VTK_QUADRATIC_PYRAMID }, { Pyramids, VTK_TRIQUADRATIC_PYRAMID } };
   for (const auto& type : types)
   {
-    expectLinearTwin(
-      makeBox({ 2, 2, 2 }, [&type](int, int, int) { return type; }), std::to_string(type.second));
+    ExpectLinearTwin(
+      MakeBox({ 2, 2, 2 }, [&type](int, int, int) { return type; }), std::to_string(type.second));
   }
 }
 
 TEST(TetrahedraRayCastSecondOrder, NeighboursThatShareBiquadraticFaces)
 {
-  expectLinearTwin(
-    makeBox({ 3, 3, 1 },
+  ExpectLinearTwin(
+    MakeBox({ 3, 3, 1 },
       [](int i, int j, int)
       {
         const std::pair<Shape, int> types[] = { { Hexahedron, VTK_TRIQUADRATIC_HEXAHEDRON },
@@ -309,7 +309,7 @@ TEST(TetrahedraRayCastSecondOrder, NeighboursThatShareBiquadraticFaces)
 
 TEST(TetrahedraRayCastSecondOrder, NeighboursThatShareQuadraticFaces)
 {
-  expectLinearTwin(makeBox({ 2, 2, 4 },
+  ExpectLinearTwin(MakeBox({ 2, 2, 4 },
                      [](int, int, int k)
                      {
                        return std::make_pair(Hexahedron,
@@ -319,8 +319,8 @@ TEST(TetrahedraRayCastSecondOrder, NeighboursThatShareQuadraticFaces)
     "quadratic quadrilaterals");
   const int wedges[] = { VTK_BIQUADRATIC_QUADRATIC_WEDGE, VTK_QUADRATIC_WEDGE,
     VTK_QUADRATIC_LINEAR_WEDGE };
-  expectLinearTwin(
-    makeBox({ 2, 2, 3 }, [&wedges](int, int, int k) { return std::make_pair(Wedges, wedges[k]); }),
+  ExpectLinearTwin(
+    MakeBox({ 2, 2, 3 }, [&wedges](int, int, int k) { return std::make_pair(Wedges, wedges[k]); }),
     "quadratic triangles");
   // A wedge of each type with a tetrahedron on top.
   for (const int wedge : wedges)
@@ -330,7 +330,7 @@ TEST(TetrahedraRayCastSecondOrder, NeighboursThatShareQuadraticFaces)
       { -0.8, -0.8, 0.1 }, { 0.9, -0.7, 0.1 }, { 0.0, 0.9, 0.1 }, { 0.0, 0.0, 0.9 } };
     mesh.Cells = { { VTK_WEDGE, wedge, { 0, 1, 2, 3, 4, 5 } },
       { VTK_TETRA, VTK_QUADRATIC_TETRA, { 3, 4, 5, 6 } } };
-    expectLinearTwin(mesh, "a tetrahedron on a wedge of type " + std::to_string(wedge));
+    ExpectLinearTwin(mesh, "a tetrahedron on a wedge of type " + std::to_string(wedge));
   }
 }
 
@@ -343,17 +343,17 @@ TEST(TetrahedraRayCastSecondOrder, CurvedFacesFitWithoutGapsOrOverlaps)
     { Hexahedron, VTK_BIQUADRATIC_QUADRATIC_HEXAHEDRON }, { Hexahedron, VTK_QUADRATIC_HEXAHEDRON },
     { Wedges, VTK_QUADRATIC_WEDGE }, { Pyramids, VTK_QUADRATIC_PYRAMID },
     { Wedges, VTK_QUADRATIC_LINEAR_WEDGE } };
-  std::vector<LinearMesh> meshes{ makeBox(
+  std::vector<LinearMesh> meshes{ MakeBox(
     { 3, 3, 1 }, [&types](int i, int j, int) { return types[(i + j) % 3]; }) };
   for (const auto& type : types)
   {
-    meshes.push_back(makeBox({ 2, 2, 2 }, [&type](int, int, int) { return type; }));
+    meshes.push_back(MakeBox({ 2, 2, 2 }, [&type](int, int, int) { return type; }));
   }
-  const auto property = makeConstantProperty(0.5, 1.0, 0.2, 0.1, 1.0);
+  const auto property = MakeConstantProperty(0.5, 1.0, 0.2, 0.1, 1.0);
   for (std::size_t m = 0; m < meshes.size(); ++m)
   {
-    const Grid grid = makeMesh(meshes[m], true, 3);
-    const FloatImage expected = makeScene(grid, property)->renderFloat();
+    const Grid grid = MakeMesh(meshes[m], true, 3);
+    const FloatImage expected = MakeScene(grid, property)->RenderFloat();
     std::mt19937 random(4);
     std::uniform_real_distribution<double> move(-0.04, 0.04);
     for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
@@ -369,9 +369,9 @@ TEST(TetrahedraRayCastSecondOrder, CurvedFacesFitWithoutGapsOrOverlaps)
         grid->GetPoints()->SetPoint(p, x);
       }
     }
-    const auto scene = makeScene(grid, property);
-    expectSamePicture(scene->renderFloat(), expected, "moved, mesh " + std::to_string(m));
-    EXPECT_EQ(scene->rayCaster()->GetNumberOfLostRays(), 0);
+    const auto scene = MakeScene(grid, property);
+    ExpectSamePicture(scene->RenderFloat(), expected, "moved, mesh " + std::to_string(m));
+    EXPECT_EQ(scene->GetRayCaster()->GetNumberOfLostRays(), 0);
   }
 }
 
@@ -382,8 +382,8 @@ TEST(TetrahedraRayCastSecondOrder, PointsInsideFacesAndCellsCount)
   const double expected = 1.0 - std::exp(-1.0);
   const auto withOne = [](int type, const double(&at)[3])
   {
-    const Grid grid = makeMesh(
-      makeBox({ 1, 1, 1 }, [type](int, int, int) { return std::make_pair(Hexahedron, type); }),
+    const Grid grid = MakeMesh(
+      MakeBox({ 1, 1, 1 }, [type](int, int, int) { return std::make_pair(Hexahedron, type); }),
       true, 5);
     auto* scalars = vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetScalars());
     scalars->Fill(0.0);
@@ -402,13 +402,13 @@ TEST(TetrahedraRayCastSecondOrder, PointsInsideFacesAndCellsCount)
   };
   for (const int axis : { 0, 1, 2 })
   {
-    EXPECT_NEAR(alphaAlong(withOne(VTK_TRIQUADRATIC_HEXAHEDRON, { 0.0, 0.0, 0.0 }), axis), expected,
+    EXPECT_NEAR(AlphaAlong(withOne(VTK_TRIQUADRATIC_HEXAHEDRON, { 0.0, 0.0, 0.0 }), axis), expected,
       FloatTolerance);
     // Through the centres of two faces: if the cell has an inner point, the scalar is back at 0
     // there.
     double face[3] = { 0.0, 0.0, 0.0 };
     face[axis] = 1.0;
-    EXPECT_NEAR(alphaAlong(withOne(VTK_TRIQUADRATIC_HEXAHEDRON, face), axis), 1.0 - std::exp(-0.5),
+    EXPECT_NEAR(AlphaAlong(withOne(VTK_TRIQUADRATIC_HEXAHEDRON, face), axis), 1.0 - std::exp(-0.5),
       FloatTolerance);
   }
 }

@@ -45,23 +45,23 @@ const double Radius = std::sqrt(3.0);
 // cells are as large as the image. The native backend also has depths in single precision. A pixel
 // may be excused if the exact result itself changes by half of the pixel's error when the ray moves
 // by this distance: where a ray only touches an isosurface, or passes a silhouette.
-double roundingOf(double part)
+double RoundingOf(double part)
 {
-  const bool native = backendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE;
+  const bool native = BackendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE;
   return Radius * (native ? std::pow(2.0, -24) : std::pow(2.0, -28) + part * std::pow(2.0, -24));
 }
 
 // For the native backend the last digit of a depth, 2^-25 of the radius, is 8e-4 of the width of
 // the smallest cells, over which the functions change colours by up to 1.
-double toleranceOf()
+double ToleranceOf()
 {
-  return backendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 8e-4 : FloatTolerance;
+  return BackendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 8e-4 : FloatTolerance;
 }
 
 // The cube [-1, 1]^3, with cubes that become smaller towards the corner (1, 1, 1): their sides grow
 // by a constant factor. The scalar is a wave in the cubes' numbers, so that it varies in cells of
 // every size.
-Grid makeGradedBlock()
+Grid MakeGradedBlock()
 {
   // (q - 1) / (q^n - 1) is the smallest side over that of the domain.
   double low = 1.5;
@@ -74,7 +74,7 @@ Grid makeGradedBlock()
     high = larger ? high : q;
   }
   const double factor = low;
-  const Grid grid = makeBlock(Cubes, wavyField(3.0));
+  const Grid grid = MakeBlock(Cubes, WavyField(3.0));
   for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
   {
     double x[3];
@@ -96,17 +96,17 @@ struct CornerScene
   double Part;
 
   CornerScene(vtkUnstructuredGrid* grid, double part, FunctionKind kind, bool parallel = false)
-    : Scene(grid, makeProperty(kind, Range, 3.4 * part), Size, Size)
+    : Scene(grid, MakeProperty(kind, Range, 3.4 * part), Size, Size)
     , Part(part)
   {
     const double near = 1.0 - 2.0 * part;
     const double bounds[6] = { near, 1.0, near, 1.0, near, 1.0 };
-    lookAt(this->Scene.renderer(), bounds, 30.0, 35.0, 1.2, parallel);
-    vtkCamera* camera = this->Scene.renderer()->GetActiveCamera();
+    LookAt(this->Scene.GetRenderer(), bounds, 30.0, 35.0, 1.2, parallel);
+    vtkCamera* camera = this->Scene.GetRenderer()->GetActiveCamera();
     camera->SetClippingRange(0.3 * camera->GetDistance(), camera->GetDistance() + 8.0);
     for (const double value : { -0.31, 0.12, 0.43 })
     {
-      vtkContourValues* values = this->Scene.volume()->GetProperty()->GetIsoSurfaceValues();
+      vtkContourValues* values = this->Scene.GetVolume()->GetProperty()->GetIsoSurfaceValues();
       values->SetValue(values->GetNumberOfContours(), value);
     }
   }
@@ -116,7 +116,7 @@ using TraceSegments =
   std::function<std::array<double, 4>(const Ray&, const std::vector<RaySegment>&)>;
 
 // Renders and expects all pixels except `wrong` of them to be within the tolerance of the backend.
-void expectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrator& integrator,
+void ExpectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrator& integrator,
   const RefractingSurface* membrane, const TraceSegments& show, const std::string& what,
   std::size_t wrong)
 {
@@ -124,58 +124,58 @@ void expectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrat
   {
     if (membrane)
     {
-      const RefractedRay refracted = refract(*membrane, ray, 0.0, false);
-      return show(refracted.Straight, findSegments(integrator, refracted));
+      const RefractedRay refracted = Refract(*membrane, ray, 0.0, false);
+      return show(refracted.Straight, FindSegments(integrator, refracted));
     }
     std::vector<RaySegment> segments;
-    integrator.findSegments(ray, segments);
+    integrator.FindSegments(ray, segments);
     return show(ray, segments);
   };
-  const FloatImage image = scene.renderFloat();
+  const FloatImage image = scene.RenderFloat();
   const TracedComparison comparison =
-    compareToTrace(image, PixelRays(scene.renderer()), trace, toleranceOf(), roundingOf(part));
-  SCOPED_TRACE(what + ": " + comparison.text());
+    CompareToTrace(image, PixelRays(scene.GetRenderer()), trace, ToleranceOf(), RoundingOf(part));
+  SCOPED_TRACE(what + ": " + comparison.GetText());
   EXPECT_GT(comparison.Visible, static_cast<std::size_t>(Size * Size / 4));
   EXPECT_LE(comparison.Wrong, wrong);
   EXPECT_LE(comparison.Excused, 1u);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
-  testing::Test::RecordProperty(what, comparison.text());
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
+  testing::Test::RecordProperty(what, comparison.GetText());
 }
 
-void expectMode(CornerScene& corner, const ReferenceRayIntegrator& integrator,
+void ExpectMode(CornerScene& corner, const ReferenceRayIntegrator& integrator,
   const RefractingSurface* membrane, int mode, const std::string& what)
 {
   RayCastScene& scene = corner.Scene;
-  scene.rayCaster()->SetBlendMode(mode);
-  scene.window()->Render();
+  scene.GetRayCaster()->SetBlendMode(mode);
+  scene.GetWindow()->Render();
   // One pixel of the whole domain shows the maximum in the far end of a needle, with an error of
   // 3.4e-4.
   const std::size_t wrong = mode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ? 1 : 0;
-  vtkVolumeProperty* property = scene.volume()->GetProperty();
-  const std::vector<Surface> surfaces = toSurfaces(property);
+  vtkVolumeProperty* property = scene.GetVolume()->GetProperty();
+  const std::vector<Surface> surfaces = ToSurfaces(property);
   const bool lengths =
     mode == vtkVolumeMapper::COMPOSITE_BLEND || mode == vtkVolumeMapper::ADDITIVE_BLEND;
-  const ReferenceTransferFunction function = lengths ? toReference(property) : toAlphas(property);
+  const ReferenceTransferFunction function = lengths ? ToReference(property) : ToAlphas(property);
   double range[2];
-  scene.grid()->GetPointData()->GetScalars()->GetFiniteRange(range);
-  expectSegments(
+  scene.MakeGrid()->GetPointData()->GetScalars()->GetFiniteRange(range);
+  ExpectSegments(
     scene, corner.Part, integrator, membrane,
     [&](const Ray& ray, const std::vector<RaySegment>& segments) -> std::array<double, 4>
     {
       switch (mode)
       {
         case vtkVolumeMapper::COMPOSITE_BLEND:
-          return ReferenceRayIntegrator::integrate(ray, segments, function);
+          return ReferenceRayIntegrator::Integrate(ray, segments, function);
         case vtkVolumeMapper::ISOSURFACE_BLEND:
-          return blendSurfaces(ray, segments, surfaces, nullptr, Material());
+          return BlendSurfaces(ray, segments, surfaces, nullptr, Material());
         case vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND:
-          return project(ray, segments, Projection::Maximum, function, range);
+          return Project(ray, segments, Projection::Maximum, function, range);
         case vtkVolumeMapper::MINIMUM_INTENSITY_BLEND:
-          return project(ray, segments, Projection::Minimum, function, range);
+          return Project(ray, segments, Projection::Minimum, function, range);
         case vtkVolumeMapper::AVERAGE_INTENSITY_BLEND:
-          return project(ray, segments, Projection::Average, function, range);
+          return Project(ray, segments, Projection::Average, function, range);
         default:
-          return project(ray, segments, Projection::Additive, function, range);
+          return Project(ray, segments, Projection::Additive, function, range);
       }
     },
     what + ", mode " + std::to_string(mode), wrong);
@@ -185,8 +185,8 @@ void expectMode(CornerScene& corner, const ReferenceRayIntegrator& integrator,
 
 TEST(TetrahedraRayCastSmallCells, CompositeInEveryView)
 {
-  const Grid grid = makeGradedBlock();
-  const auto integrator = makeReference(grid);
+  const Grid grid = MakeGradedBlock();
+  const auto integrator = MakeReference(grid);
   for (const double part : Views)
   {
     for (const FunctionKind kind :
@@ -200,7 +200,7 @@ TEST(TetrahedraRayCastSmallCells, CompositeInEveryView)
       for (const bool parallel : { false, true })
       {
         CornerScene corner(grid, part, kind, parallel);
-        expectMode(corner, *integrator, nullptr, vtkVolumeMapper::COMPOSITE_BLEND,
+        ExpectMode(corner, *integrator, nullptr, vtkVolumeMapper::COMPOSITE_BLEND,
           "part " + std::to_string(part) + ", function " + std::to_string(static_cast<int>(kind)) +
             (parallel ? ", parallel" : ""));
       }
@@ -210,8 +210,8 @@ TEST(TetrahedraRayCastSmallCells, CompositeInEveryView)
 
 TEST(TetrahedraRayCastSmallCells, OtherModes)
 {
-  const Grid grid = makeGradedBlock();
-  const auto integrator = makeReference(grid);
+  const Grid grid = MakeGradedBlock();
+  const auto integrator = MakeReference(grid);
   for (const double part : Views)
   {
     CornerScene corner(grid, part, FunctionKind::Smooth);
@@ -219,7 +219,7 @@ TEST(TetrahedraRayCastSmallCells, OtherModes)
            vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
            vtkVolumeMapper::ADDITIVE_BLEND, vtkVolumeMapper::ISOSURFACE_BLEND })
     {
-      expectMode(corner, *integrator, nullptr, mode, "part " + std::to_string(part));
+      ExpectMode(corner, *integrator, nullptr, mode, "part " + std::to_string(part));
     }
   }
 }
@@ -227,13 +227,13 @@ TEST(TetrahedraRayCastSmallCells, OtherModes)
 TEST(TetrahedraRayCastSmallCells, RefractedRays)
 {
   // Above the corner, and through the visible cells.
-  const Grid grid = makeGradedBlock();
-  const auto integrator = makeReference(grid);
+  const Grid grid = MakeGradedBlock();
+  const auto integrator = MakeReference(grid);
   for (const double part : Views)
   {
     for (const double above : { 0.1, -0.7 })
     {
-      const MembraneCase membrane = makePlaneCase(1.0 + above * part, 8.0, 2);
+      const MembraneCase membrane = MakePlaneCase(1.0 + above * part, 8.0, 2);
       for (const int mode :
         { vtkVolumeMapper::COMPOSITE_BLEND, vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND,
           vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND,
@@ -241,14 +241,14 @@ TEST(TetrahedraRayCastSmallCells, RefractedRays)
       {
         // For the native backend the depth of a sight point, in single precision, may be on either
         // side of a surface.
-        if (toleranceOf() > FloatTolerance && mode == vtkVolumeMapper::ISOSURFACE_BLEND)
+        if (ToleranceOf() > FloatTolerance && mode == vtkVolumeMapper::ISOSURFACE_BLEND)
         {
           continue;
         }
         CornerScene corner(grid, part,
           mode == vtkVolumeMapper::COMPOSITE_BLEND ? FunctionKind::Opaque : FunctionKind::Smooth);
-        corner.Scene.rayCaster()->SetMembraneData(membrane.Mesh);
-        expectMode(corner, *integrator, &membrane.Surface, mode,
+        corner.Scene.GetRayCaster()->SetMembraneData(membrane.Mesh);
+        ExpectMode(corner, *integrator, &membrane.Surface, mode,
           "membrane at " + std::to_string(above) + ", part " + std::to_string(part));
       }
     }

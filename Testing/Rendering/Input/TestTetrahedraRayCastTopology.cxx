@@ -29,9 +29,9 @@ constexpr double Bounds[6] = { -1, 1, -1, 1, -1, 1 };
 constexpr int Backends[3] = { vtkTetrahedraRayCastMapper::OPENGL,
   vtkTetrahedraRayCastMapper::COMPUTE, vtkTetrahedraRayCastMapper::NATIVE };
 
-vtkSmartPointer<vtkVolumeProperty> smooth()
+vtkSmartPointer<vtkVolumeProperty> Smooth()
 {
-  return makeProperty(FunctionKind::Smooth, Range, 3.4);
+  return MakeProperty(FunctionKind::Smooth, Range, 3.4);
 }
 
 struct Drawn
@@ -45,22 +45,22 @@ struct Drawn
  * Image of any input by one backend; no ray may be lost, and no message but a warning may be
  * issued.
  */
-Drawn draw(vtkDataObject* input, int backend, vtkVolumeProperty* property = nullptr,
+Drawn Draw(vtkDataObject* input, int backend, vtkVolumeProperty* property = nullptr,
   int blendMode = vtkVolumeMapper::COMPOSITE_BLEND)
 {
-  RayCastScene scene(nullptr, property ? property : smooth().Get(), Size, Size);
+  RayCastScene scene(nullptr, property ? property : Smooth().Get(), Size, Size);
   const auto observer = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  observer->observe(scene.rayCaster());
-  scene.rayCaster()->SetBackend(backend);
-  scene.rayCaster()->SetBlendMode(blendMode);
-  scene.rayCaster()->SetInputDataObject(input);
-  lookAt(scene.renderer(), Bounds, 25.0, 15.0);
+  observer->Observe(scene.GetRayCaster());
+  scene.GetRayCaster()->SetBackend(backend);
+  scene.GetRayCaster()->SetBlendMode(blendMode);
+  scene.GetRayCaster()->SetInputDataObject(input);
+  LookAt(scene.GetRenderer(), Bounds, 25.0, 15.0);
   Drawn drawn;
-  drawn.Image = scene.renderFloat();
-  drawn.Rejected = scene.rayCaster()->GetNumberOfRejectedCells();
-  drawn.Steps = scene.rayCaster()->GetNumberOfTraversalSteps();
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
-  EXPECT_TRUE(observer->Errors.empty()) << observer->text();
+  drawn.Image = scene.RenderFloat();
+  drawn.Rejected = scene.GetRayCaster()->GetNumberOfRejectedCells();
+  drawn.Steps = scene.GetRayCaster()->GetNumberOfTraversalSteps();
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
+  EXPECT_TRUE(observer->Errors.empty()) << observer->GetText();
   return drawn;
 }
 
@@ -68,7 +68,7 @@ Drawn draw(vtkDataObject* input, int backend, vtkVolumeProperty* property = null
  * The cells of a grid in random order, each one to three times. Cell data is copied, and a
  * repetition has another value than the first occurrence.
  */
-Grid doubled(vtkUnstructuredGrid* grid, unsigned int seed, vtkTypeInt64& copies)
+Grid Doubled(vtkUnstructuredGrid* grid, unsigned int seed, vtkTypeInt64& copies)
 {
   std::mt19937 random(seed);
   std::vector<vtkIdType> order;
@@ -105,7 +105,7 @@ Grid doubled(vtkUnstructuredGrid* grid, unsigned int seed, vtkTypeInt64& copies)
 }
 
 /** n^3 hexahedra that fill the bounds. */
-Grid hexahedra(int n)
+Grid Hexahedra(int n)
 {
   const Grid grid = Grid::New();
   vtkNew<vtkPoints> points;
@@ -144,7 +144,7 @@ Grid hexahedra(int n)
 }
 
 /** Each tetrahedron with its own points, shrunk about their mean; the field is that of the mesh. */
-Grid apart(vtkUnstructuredGrid* grid, double factor, const Field& field)
+Grid Apart(vtkUnstructuredGrid* grid, double factor, const Field& field)
 {
   std::vector<double> points;
   std::vector<vtkIdType> cells;
@@ -171,23 +171,23 @@ Grid apart(vtkUnstructuredGrid* grid, double factor, const Field& field)
       cells.push_back(static_cast<vtkIdType>(cells.size()));
     }
   }
-  return makeGrid(points, cells, field);
+  return MakeGrid(points, cells, field);
 }
 
 } // anonymous namespace
 
 TEST(TetrahedraRayCastTopology, CellsGivenRepeatedlyCountOnce)
 {
-  for (const Grid& grid : { makeCubeOfSix(radialField()), makeBlock(4, wavyField(3.0)) })
+  for (const Grid& grid : { MakeCubeOfSix(RadialField()), MakeBlock(4, WavyField(3.0)) })
   {
     for (const int backend : Backends)
     {
-      const FloatImage once = draw(grid, backend).Image;
+      const FloatImage once = Draw(grid, backend).Image;
       for (unsigned int seed = 0; seed < 2; ++seed)
       {
         vtkTypeInt64 copies = 0;
-        const Drawn drawn = draw(doubled(grid, seed, copies), backend);
-        expectSamePicture(drawn.Image, once, "seed " + std::to_string(seed));
+        const Drawn drawn = Draw(Doubled(grid, seed, copies), backend);
+        ExpectSamePicture(drawn.Image, once, "seed " + std::to_string(seed));
         EXPECT_EQ(drawn.Rejected, copies);
       }
     }
@@ -196,40 +196,40 @@ TEST(TetrahedraRayCastTopology, CellsGivenRepeatedlyCountOnce)
 
 TEST(TetrahedraRayCastTopology, DoubledMeshMatchesTheReferenceOfTheMesh)
 {
-  const Grid grid = makeBlock(5, wavyField(3.0));
+  const Grid grid = MakeBlock(5, WavyField(3.0));
   vtkTypeInt64 copies = 0;
-  const Grid given = doubled(grid, 17, copies);
+  const Grid given = Doubled(grid, 17, copies);
   for (const int backend : Backends)
   {
-    RayCastScene single(grid, smooth(), Size, Size);
-    lookAt(single.renderer(), Bounds, 40.0, 20.0);
-    single.window()->Render();
-    const SceneTruth truth = makeTruth(single);
-    RayCastScene scene(given, smooth(), Size, Size);
-    scene.rayCaster()->SetBackend(backend);
-    lookAt(scene.renderer(), Bounds, 40.0, 20.0);
-    expectMatch(
-      compareToReference(scene.renderFloat(), truth.Image, *truth.Integrator, truth.RayOf),
+    RayCastScene single(grid, Smooth(), Size, Size);
+    LookAt(single.GetRenderer(), Bounds, 40.0, 20.0);
+    single.GetWindow()->Render();
+    const SceneTruth truth = MakeTruth(single);
+    RayCastScene scene(given, Smooth(), Size, Size);
+    scene.GetRayCaster()->SetBackend(backend);
+    LookAt(scene.GetRenderer(), Bounds, 40.0, 20.0);
+    ExpectMatch(
+      CompareToReference(scene.RenderFloat(), truth.Image, *truth.Integrator, truth.RayOf),
       "doubled");
   }
 }
 
 TEST(TetrahedraRayCastTopology, HexahedraGivenRepeatedly)
 {
-  const Grid grid = hexahedra(4);
+  const Grid grid = Hexahedra(4);
   for (const int backend : Backends)
   {
-    const FloatImage once = draw(grid, backend).Image;
+    const FloatImage once = Draw(grid, backend).Image;
     vtkTypeInt64 copies = 0;
-    const Drawn drawn = draw(doubled(grid, 3, copies), backend);
-    expectSamePicture(drawn.Image, once, "hexahedra");
+    const Drawn drawn = Draw(Doubled(grid, 3, copies), backend);
+    ExpectSamePicture(drawn.Image, once, "hexahedra");
     EXPECT_EQ(drawn.Rejected, 6 * copies);
   }
 }
 
 TEST(TetrahedraRayCastTopology, FirstOfRepeatedCellsGivesTheValue)
 {
-  const Grid grid = makeBlock(4, constantField(0.0));
+  const Grid grid = MakeBlock(4, ConstantField(0.0));
   vtkNew<vtkDoubleArray> values;
   values->SetName("PerCell");
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c)
@@ -241,24 +241,24 @@ TEST(TetrahedraRayCastTopology, FirstOfRepeatedCellsGivesTheValue)
   for (const int backend : Backends)
   {
     vtkTypeInt64 copies = 0;
-    expectSamePicture(
-      draw(doubled(grid, 8, copies), backend).Image, draw(grid, backend).Image, "cell data");
+    ExpectSamePicture(
+      Draw(Doubled(grid, 8, copies), backend).Image, Draw(grid, backend).Image, "cell data");
   }
 }
 
 TEST(TetrahedraRayCastTopology, CellsOfSeveralBlocksCountOnce)
 {
   // The second block repeats the first one, partly in another order, with copied points.
-  const Grid grid = makeBlock(4, wavyField(3.0));
+  const Grid grid = MakeBlock(4, WavyField(3.0));
   vtkTypeInt64 copies = 0;
-  const Grid again = doubled(grid, 2, copies);
+  const Grid again = Doubled(grid, 2, copies);
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, grid);
   blocks->SetBlock(1, again);
   for (const int backend : Backends)
   {
-    const Drawn drawn = draw(blocks, backend);
-    expectSamePicture(drawn.Image, draw(grid, backend).Image, "blocks");
+    const Drawn drawn = Draw(blocks, backend);
+    ExpectSamePicture(drawn.Image, Draw(grid, backend).Image, "blocks");
     EXPECT_EQ(drawn.Rejected, grid->GetNumberOfCells() + copies);
   }
 }
@@ -272,14 +272,14 @@ TEST(TetrahedraRayCastTopology, FaceOfThreeAndFourCellsHidesNone)
   const std::vector<vtkIdType> all{ 0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5, 0, 1, 2, 6 };
   for (const std::size_t count : { 3, 4 })
   {
-    const Grid grid = makeGrid(points,
+    const Grid grid = MakeGrid(points,
       std::vector<vtkIdType>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(4 * count)),
-      constantField(0.5));
+      ConstantField(0.5));
     // Each with its own points: no face is shared.
-    const Grid separate = apart(grid, 1.0, constantField(0.5));
+    const Grid separate = Apart(grid, 1.0, ConstantField(0.5));
     for (const int backend : Backends)
     {
-      expectSamePicture(draw(grid, backend).Image, draw(separate, backend).Image,
+      ExpectSamePicture(Draw(grid, backend).Image, Draw(separate, backend).Image,
         std::to_string(count) + " cells at a face");
     }
   }
@@ -287,17 +287,17 @@ TEST(TetrahedraRayCastTopology, FaceOfThreeAndFourCellsHidesNone)
 
 TEST(TetrahedraRayCastTopology, CellsWithPointsOfTheirOwnLookLikeTheMesh)
 {
-  const Field field = wavyField(2.0);
-  const Grid grid = makeBlock(7, field);
-  const Grid separate = apart(grid, 1.0, field);
+  const Field field = WavyField(2.0);
+  const Grid grid = MakeBlock(7, field);
+  const Grid separate = Apart(grid, 1.0, field);
   for (const int backend : Backends)
   {
     for (const int mode : { vtkVolumeMapper::COMPOSITE_BLEND,
            vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND, vtkVolumeMapper::AVERAGE_INTENSITY_BLEND })
     {
-      const Drawn mesh = draw(grid, backend, nullptr, mode);
-      const Drawn cells = draw(separate, backend, nullptr, mode);
-      expectSamePicture(cells.Image, mesh.Image, "mode " + std::to_string(mode));
+      const Drawn mesh = Draw(grid, backend, nullptr, mode);
+      const Drawn cells = Draw(separate, backend, nullptr, mode);
+      ExpectSamePicture(cells.Image, mesh.Image, "mode " + std::to_string(mode));
       // The same cells are crossed, except for cells that rays touch in an edge only.
       EXPECT_NEAR(static_cast<double>(cells.Steps) / static_cast<double>(mesh.Steps), 1.0, 0.01);
     }
@@ -306,16 +306,16 @@ TEST(TetrahedraRayCastTopology, CellsWithPointsOfTheirOwnLookLikeTheMesh)
 
 TEST(TetrahedraRayCastTopology, ShrunkCellsMatchTheReference)
 {
-  const Field field = wavyField(2.0);
+  const Field field = WavyField(2.0);
   for (const double factor : { 0.999, 0.6 })
   {
-    const Grid separate = apart(makeBlock(6, field), factor, field);
+    const Grid separate = Apart(MakeBlock(6, field), factor, field);
     for (const int backend : Backends)
     {
-      RayCastScene scene(separate, smooth(), Size, Size);
-      scene.rayCaster()->SetBackend(backend);
-      lookAt(scene.renderer(), Bounds, 40.0, 20.0);
-      expectMatchesReference(
+      RayCastScene scene(separate, Smooth(), Size, Size);
+      scene.GetRayCaster()->SetBackend(backend);
+      LookAt(scene.GetRenderer(), Bounds, 40.0, 20.0);
+      ExpectMatchesReference(
         scene, "shrunk to " + std::to_string(factor), SilhouetteAllowance{ 0.02, 1 });
     }
   }
@@ -323,24 +323,24 @@ TEST(TetrahedraRayCastTopology, ShrunkCellsMatchTheReference)
 
 TEST(TetrahedraRayCastTopology, ListsOfEntriesAreMadeWhereRaysOrBoundaryChange)
 {
-  const Field field = wavyField(2.0);
-  RayCastScene scene(apart(makeBlock(6, field), 0.9, field), smooth(), Size, Size);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  const Field field = WavyField(2.0);
+  RayCastScene scene(Apart(MakeBlock(6, field), 0.9, field), Smooth(), Size, Size);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   mapper->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  lookAt(scene.renderer(), Bounds, 40.0, 20.0);
-  scene.window()->Render();
+  LookAt(scene.GetRenderer(), Bounds, 40.0, 20.0);
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfEntryListBuilds(), 1);
-  scene.window()->Render();
-  scene.volume()->SetProperty(smooth());
-  scene.window()->Render();
+  scene.GetWindow()->Render();
+  scene.GetVolume()->SetProperty(Smooth());
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfEntryListBuilds(), 1) << "the same rays and cells";
-  lookAt(scene.renderer(), Bounds, 41.0, 20.0);
-  scene.window()->Render();
+  LookAt(scene.GetRenderer(), Bounds, 41.0, 20.0);
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfEntryListBuilds(), 2);
   // A connected mesh has few entries: the graphics device lists them.
-  RayCastScene connected(makeBlock(6, field), smooth(), Size, Size);
-  connected.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  lookAt(connected.renderer(), Bounds, 40.0, 20.0);
-  connected.window()->Render();
-  EXPECT_EQ(connected.rayCaster()->GetNumberOfEntryListBuilds(), 0);
+  RayCastScene connected(MakeBlock(6, field), Smooth(), Size, Size);
+  connected.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+  LookAt(connected.GetRenderer(), Bounds, 40.0, 20.0);
+  connected.GetWindow()->Render();
+  EXPECT_EQ(connected.GetRayCaster()->GetNumberOfEntryListBuilds(), 0);
 }

@@ -45,7 +45,7 @@ public:
     this->Image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   }
 
-  void set(int row, int column, int x, int y, int channel, double value)
+  void Set(int row, int column, int x, int y, int channel, double value)
   {
     auto* pixel = static_cast<unsigned char*>(
       this->Image->GetScalarPointer(column * Size + x, (1 - row) * Size + y, 0));
@@ -53,7 +53,7 @@ public:
       static_cast<unsigned char>(std::lround(255.0 * std::min(std::max(value, 0.0), 1.0)));
   }
 
-  void write(const std::string& name)
+  void Write(const std::string& name)
   {
     vtkNew<vtkPNGWriter> writer;
     writer->SetFileName((std::string(MENISCUS_TEMPORARY_DIR) + "/" + name).c_str());
@@ -66,34 +66,34 @@ private:
 };
 
 /** Returns the largest difference; every pixel counts. */
-double drawRow(Sheet& sheet, int row, const MembraneCase& membrane)
+double DrawRow(Sheet& sheet, int row, const MembraneCase& membrane)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
-  scene.rayCaster()->SetMembraneData(membrane.Mesh);
-  lookAt(scene.renderer(), Block, 30.0, 50.0);
-  scene.window()->Render();
-  const FloatImage image = scene.renderFloat();
-  const PixelRays rays(scene.renderer());
-  const auto integrator = makeReference(grid);
-  const auto function = toReference(scene.volume()->GetProperty());
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  scene.GetRayCaster()->SetMembraneData(membrane.Mesh);
+  LookAt(scene.GetRenderer(), Block, 30.0, 50.0);
+  scene.GetWindow()->Render();
+  const FloatImage image = scene.RenderFloat();
+  const PixelRays rays(scene.GetRenderer());
+  const auto integrator = MakeReference(grid);
+  const auto function = ToReference(scene.GetVolume()->GetProperty());
   double largest = 0.0;
   for (int y = 0; y < Size; ++y)
   {
     for (int x = 0; x < Size; ++x)
     {
-      const auto truth = compose(refract(membrane.Surface, rays.ray(x, y), 0.0, false),
-        [&](const Ray& part) { return integrator->trace(part, function); });
+      const auto truth = Compose(Refract(membrane.Surface, rays.GetRay(x, y), 0.0, false),
+        [&](const Ray& part) { return integrator->Trace(part, function); });
       for (int c = 0; c < 3; ++c)
       {
-        const double ours = image.pixel(x, y)[c];
+        const double ours = image.GetPixel(x, y)[c];
         const double difference = std::fabs(ours - truth[static_cast<std::size_t>(c)]);
         largest = std::max(largest, difference);
-        const double behind[2] = { Background * (1.0 - image.pixel(x, y)[3]),
+        const double behind[2] = { Background * (1.0 - image.GetPixel(x, y)[3]),
           Background * (1.0 - truth[3]) };
-        sheet.set(row, 0, x, y, c, ours + behind[0]);
-        sheet.set(row, 1, x, y, c, truth[static_cast<std::size_t>(c)] + behind[1]);
-        sheet.set(row, 2, x, y, c, 1.0 - difference / LargestShown);
+        sheet.Set(row, 0, x, y, c, ours + behind[0]);
+        sheet.Set(row, 1, x, y, c, truth[static_cast<std::size_t>(c)] + behind[1]);
+        sheet.Set(row, 2, x, y, c, 1.0 - difference / LargestShown);
       }
     }
   }
@@ -105,9 +105,9 @@ double drawRow(Sheet& sheet, int row, const MembraneCase& membrane)
 TEST(MembraneComparison, PlaneAndDomeBesideRefractedRays)
 {
   Sheet sheet;
-  const double plane = drawRow(sheet, 0, makePlaneCase(1.3, 3.0, 3));
-  const double dome = drawRow(sheet, 1, makeDomeCase(1.6, 3.0, 2.0, 40));
-  sheet.write("membrane-comparison.png");
+  const double plane = DrawRow(sheet, 0, MakePlaneCase(1.3, 3.0, 3));
+  const double dome = DrawRow(sheet, 1, MakeDomeCase(1.6, 3.0, 2.0, 40));
+  sheet.Write("membrane-comparison.png");
   EXPECT_LE(plane, Tolerance);
   EXPECT_LE(dome, Tolerance);
   RecordProperty("plane", std::to_string(plane));

@@ -41,7 +41,7 @@ constexpr int Samples = 20;
 constexpr double Spacing = 20.0;
 constexpr double Radius = 141.5;
 
-void colourOf(double error, unsigned char* rgb)
+void ColourOf(double error, unsigned char* rgb)
 {
   const double limits[3] = { 1.0, 10.0, 100.0 };
   const int channels[3] = { 1, 2, 0 }; // green, blue, red
@@ -57,7 +57,7 @@ void colourOf(double error, unsigned char* rgb)
 }
 
 /** The blocks behind the plane z = 0 that were measured. */
-vtkSmartPointer<vtkPolyData> makeBlocks(vtkImageData* volume)
+vtkSmartPointer<vtkPolyData> MakeBlocks(vtkImageData* volume)
 {
   vtkNew<vtkPoints> points;
   vtkNew<vtkUnsignedCharArray> colours;
@@ -70,7 +70,7 @@ vtkSmartPointer<vtkPolyData> makeBlocks(vtkImageData* volume)
     if (p[2] <= 0.0 && std::isfinite(errors->GetTuple1(i)))
     {
       unsigned char rgb[3];
-      colourOf(errors->GetTuple1(i), rgb);
+      ColourOf(errors->GetTuple1(i), rgb);
       points->InsertNextPoint(p);
       colours->InsertNextTypedTuple(rgb);
     }
@@ -91,7 +91,7 @@ vtkSmartPointer<vtkPolyData> makeBlocks(vtkImageData* volume)
   return glyphs->GetOutput();
 }
 
-void addActor(vtkRenderer* renderer, vtkPolyData* data, bool isMembrane)
+void AddActor(vtkRenderer* renderer, vtkPolyData* data, bool isMembrane)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
@@ -135,8 +135,8 @@ TEST(RefractionErrorVolumeImage, LooksLikeTheThesis)
   window->SetSize(Size, Size);
   vtkNew<vtkRenderer> renderer;
   window->AddRenderer(renderer);
-  addActor(renderer, makeBlocks(volume->GetOutput()), false);
-  addActor(renderer, membrane, true);
+  AddActor(renderer, MakeBlocks(volume->GetOutput()), false);
+  AddActor(renderer, membrane, true);
   vtkCamera* camera = renderer->GetActiveCamera();
   camera->SetPosition(250.0, 250.0, 900.0);
   camera->SetFocalPoint(0.0, -30.0, 0.0);
@@ -144,7 +144,7 @@ TEST(RefractionErrorVolumeImage, LooksLikeTheThesis)
   camera->Zoom(1.3);
   window->Render();
 
-  const ByteImage image = readBytes(window);
-  const BaselineResult result = compareToBaseline(image, "RefractionErrorVolume", Threshold);
+  const ByteImage image = ReadBytes(window);
+  const BaselineResult result = CompareToBaseline(image, "RefractionErrorVolume", Threshold);
   EXPECT_TRUE(result.Passed) << result.Message;
 }

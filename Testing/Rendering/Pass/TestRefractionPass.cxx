@@ -48,38 +48,38 @@ class Pool
 {
 public:
   explicit Pool(int samples = 0)
-    : Bottom(makePlane(6.0, -Depth, 60))
-    , Surface(makePlane(3.0, 0.0, 4))
+    : Bottom(MakePlane(6.0, -Depth, 60))
+    , Surface(MakePlane(3.0, 0.0, 4))
     , Scene(Size, Size, samples)
   {
     this->Filter->SetInputConnection(this->Bottom->GetOutputPort());
     this->Filter->SetMembraneConnection(this->Surface->GetOutputPort());
     this->Filter->SetInteriorIndexOfRefraction(Water);
-    this->Filter->SetCamera(this->camera());
-    this->Membrane = makeActor(this->Surface->GetOutputPort());
-    this->Floor = makeActor(this->Filter->GetOutputPort());
-    setFlatColor(this->Floor, 1.0, 1.0, 1.0);
+    this->Filter->SetCamera(this->GetCamera());
+    this->Membrane = MakeActor(this->Surface->GetOutputPort());
+    this->Floor = MakeActor(this->Filter->GetOutputPort());
+    SetFlatColor(this->Floor, 1.0, 1.0, 1.0);
     this->Pass->AddRefraction(this->Membrane, this->Floor, this->Filter);
-    this->renderer()->SetPass(this->Pass);
-    this->renderer()->SetBackground(Background[0], Background[1], Background[2]);
-    this->lookFrom(0.0, 0.0);
+    this->GetRenderer()->SetPass(this->Pass);
+    this->GetRenderer()->SetBackground(Background[0], Background[1], Background[2]);
+    this->LookFrom(0.0, 0.0);
   }
 
-  void lookFrom(double x, double y)
+  void LookFrom(double x, double y)
   {
-    this->camera()->SetPosition(x, y, EyeHeight);
-    this->camera()->SetFocalPoint(0.0, 0.0, 0.0);
-    this->camera()->SetViewUp(0.0, 1.0, 0.0);
-    this->camera()->SetViewAngle(60.0);
-    this->camera()->SetClippingRange(0.1, 20.0);
+    this->GetCamera()->SetPosition(x, y, EyeHeight);
+    this->GetCamera()->SetFocalPoint(0.0, 0.0, 0.0);
+    this->GetCamera()->SetViewUp(0.0, 1.0, 0.0);
+    this->GetCamera()->SetViewAngle(60.0);
+    this->GetCamera()->SetClippingRange(0.1, 20.0);
   }
 
-  vtkRenderer* renderer() { return this->Scene.renderer(); }
-  vtkCamera* camera() { return this->renderer()->GetActiveCamera(); }
-  ByteImage render()
+  vtkRenderer* GetRenderer() { return this->Scene.GetRenderer(); }
+  vtkCamera* GetCamera() { return this->GetRenderer()->GetActiveCamera(); }
+  ByteImage Render()
   {
-    this->Scene.window()->Render();
-    return readBytes(this->Scene.window());
+    this->Scene.GetWindow()->Render();
+    return ReadBytes(this->Scene.GetWindow());
   }
 
   vtkSmartPointer<vtkPlaneSource> Bottom;
@@ -102,7 +102,7 @@ struct Sight
 };
 
 /** Place in a plane that a pixel's ray meets, by Snell's law. */
-Sight sightOf(vtkCamera* camera, int x, int y)
+Sight SightOf(vtkCamera* camera, int x, int y)
 {
   double eye[3];
   double forward[3];
@@ -136,14 +136,14 @@ Sight sightOf(vtkCamera* camera, int x, int y)
 }
 
 /** True for pixels at the border of the membrane, which may count as inside or outside. */
-bool isBorder(const Sight& sight)
+bool IsBorder(const Sight& sight)
 {
   const double reach = std::max(std::fabs(sight.Point[0]), std::fabs(sight.Point[1]));
   return std::fabs(reach - 3.0) < 0.15;
 }
 
 /** Reflectance of unpolarised light, from the amplitudes (the pass uses the form of Eq. 2.6). */
-double fresnel(const Sight& sight)
+double MakeFresnel(const Sight& sight)
 {
   const double c = sight.Cosine;
   const double d = sight.RefractedCosine;
@@ -152,31 +152,31 @@ double fresnel(const Sight& sight)
   return 0.5 * (s * s + p * p);
 }
 
-double schlick(const Sight& sight)
+double Schlick(const Sight& sight)
 {
   const double r = std::pow((Water - 1.0) / (Water + 1.0), 2.0);
   return r + (1.0 - r) * std::pow(1.0 - sight.Cosine, 5.0);
 }
 
 template <typename ColorOf>
-void expectColors(
+void ExpectColors(
   Pool& pool, const std::string& what, ColorOf&& colorOf, double slack = Rounding, int blur = 0)
 {
   SCOPED_TRACE(what);
-  const ByteImage image = pool.render();
+  const ByteImage image = pool.Render();
   int seen = 0;
   // A filter of that radius wraps around at the border of the image.
   for (int y = blur; y < Size - blur; ++y)
   {
     for (int x = blur; x < Size - blur; ++x)
     {
-      const Sight sight = sightOf(pool.camera(), x, y);
+      const Sight sight = SightOf(pool.GetCamera(), x, y);
       bool border = false;
       for (int k = 0; k < (2 * blur + 1) * (2 * blur + 1); ++k)
       {
         const int dx = k % (2 * blur + 1) - blur;
         const int dy = k / (2 * blur + 1) - blur;
-        border = border || isBorder(sightOf(pool.camera(), x + dx, y + dy));
+        border = border || IsBorder(SightOf(pool.GetCamera(), x + dx, y + dy));
       }
       if (border)
       {
@@ -186,7 +186,7 @@ void expectColors(
       for (int channel = 0; channel < 3; ++channel)
       {
         const double expected = sight.OnMembrane ? colorOf(sight, channel) : Background[channel];
-        ASSERT_NEAR(image.pixel(x, y)[channel] / 255.0, expected, slack) << x << " " << y;
+        ASSERT_NEAR(image.GetPixel(x, y)[channel] / 255.0, expected, slack) << x << " " << y;
       }
     }
   }
@@ -194,7 +194,7 @@ void expectColors(
 }
 
 /** A cube map of one colour. */
-vtkSmartPointer<vtkTexture> makeSky(unsigned char red, unsigned char green, unsigned char blue)
+vtkSmartPointer<vtkTexture> MakeSky(unsigned char red, unsigned char green, unsigned char blue)
 {
   auto sky = vtkSmartPointer<vtkTexture>::New();
   sky->CubeMapOn();
@@ -221,9 +221,9 @@ TEST(RefractionPass, ClearWaterShowsTheFloor)
 {
   Pool pool;
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
-  expectColors(pool, "from above", [](const Sight&, int) { return 1.0; });
-  pool.lookFrom(2.5, -1.5);
-  expectColors(pool, "aside", [](const Sight&, int) { return 1.0; });
+  ExpectColors(pool, "from above", [](const Sight&, int) { return 1.0; });
+  pool.LookFrom(2.5, -1.5);
+  ExpectColors(pool, "aside", [](const Sight&, int) { return 1.0; });
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 2);
 }
 
@@ -231,24 +231,24 @@ TEST(RefractionPass, ReflectanceIsFresnels)
 {
   Pool pool;
   const double sky[3] = { 1.0, 0.0, 51.0 / 255.0 };
-  pool.Pass->SetReflectionTexture(makeSky(255, 0, 51));
-  setFlatColor(pool.Floor, 0.0, 1.0, 0.0);
+  pool.Pass->SetReflectionTexture(MakeSky(255, 0, 51));
+  SetFlatColor(pool.Floor, 0.0, 1.0, 0.0);
   const double floor[3] = { 0.0, 1.0, 0.0 };
   for (const double x : { 0.0, 4.0 })
   {
-    pool.lookFrom(x, 0.3);
+    pool.LookFrom(x, 0.3);
     pool.Pass->SetReflectanceModel(vtkRefractionPass::FRESNEL);
-    expectColors(pool, "Fresnel",
+    ExpectColors(pool, "Fresnel",
       [&](const Sight& sight, int channel)
       {
-        const double f = fresnel(sight);
+        const double f = MakeFresnel(sight);
         return (1.0 - f) * floor[channel] + f * sky[channel];
       });
     pool.Pass->SetReflectanceModel(vtkRefractionPass::SCHLICK);
-    expectColors(pool, "Schlick",
+    ExpectColors(pool, "Schlick",
       [&](const Sight& sight, int channel)
       {
-        const double f = schlick(sight);
+        const double f = Schlick(sight);
         return (1.0 - f) * floor[channel] + f * sky[channel];
       });
   }
@@ -300,17 +300,17 @@ TEST(RefractionPass, CubeMapFacesLieAsDocumented)
     double axis[3] = { 0.0, 0.0, 0.0 };
     axis[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
     Pool pool;
-    pool.renderer()->SetBackground(0.0, 0.0, 0.0);
-    setFlatColor(pool.Floor, 0.0, 0.0, 0.0);
+    pool.GetRenderer()->SetBackground(0.0, 0.0, 0.0);
+    SetFlatColor(pool.Floor, 0.0, 0.0, 0.0);
     pool.Filter->SetInteriorIndexOfRefraction(index);
     pool.Pass->SetReflectionTexture(sky);
     pool.Surface->SetNormal(axis);
     pool.Bottom->SetCenter(-axis[0], -axis[1], -axis[2]);
     pool.Bottom->SetNormal(axis);
-    vtkCamera* camera = pool.camera();
+    vtkCamera* camera = pool.GetCamera();
     camera->SetPosition(EyeHeight * axis[0], EyeHeight * axis[1], EyeHeight * axis[2]);
     camera->SetViewUp(axis[1], axis[2], axis[0]);
-    const ByteImage image = pool.render();
+    const ByteImage image = pool.Render();
     double up[3];
     double forward[3];
     camera->GetViewUp(up);
@@ -336,8 +336,8 @@ TEST(RefractionPass, CubeMapFacesLieAsDocumented)
         for (int channel = 0; channel < 3; ++channel)
         {
           // The texture's bytes are also rounded.
-          ASSERT_NEAR(image.pixel(x, y)[channel] / 255.0, reflectance * colorOf(mirrored, channel),
-            Rounding + 0.5 / 255.0)
+          ASSERT_NEAR(image.GetPixel(x, y)[channel] / 255.0,
+            reflectance * colorOf(mirrored, channel), Rounding + 0.5 / 255.0)
             << x << " " << y << " " << channel;
         }
       }
@@ -348,9 +348,9 @@ TEST(RefractionPass, CubeMapFacesLieAsDocumented)
 TEST(RefractionPass, WithoutACubeMapTheBackgroundIsReflected)
 {
   Pool pool;
-  expectColors(pool, "Fresnel",
+  ExpectColors(pool, "Fresnel",
     [](const Sight& sight, int channel)
-    { return 1.0 - fresnel(sight) * (1.0 - Background[channel]); });
+    { return 1.0 - MakeFresnel(sight) * (1.0 - Background[channel]); });
 }
 
 TEST(RefractionPass, AttenuationGoesWithTheTruePath)
@@ -361,8 +361,8 @@ TEST(RefractionPass, AttenuationGoesWithTheTruePath)
   pool.Pass->SetAttenuationCoefficients(coefficients);
   for (const double x : { 0.0, 3.0 })
   {
-    pool.lookFrom(x, 0.0);
-    expectColors(pool, "attenuated",
+    pool.LookFrom(x, 0.0);
+    ExpectColors(pool, "attenuated",
       [&](const Sight& sight, int channel)
       { return std::exp(-coefficients[channel] * Depth / sight.RefractedCosine); });
   }
@@ -377,17 +377,17 @@ TEST(RefractionPass, WhatIsInFrontHidesTheMembrane)
   cube->SetXLength(0.6);
   cube->SetYLength(0.6);
   cube->SetZLength(0.2);
-  const auto actor = makeActor(cube->GetOutputPort());
-  setFlatColor(actor, 1.0, 0.0, 0.0);
-  pool.renderer()->AddActor(actor);
-  const ByteImage above = pool.render();
-  const unsigned char* middle = above.pixel(Size / 2, Size / 2);
+  const auto actor = MakeActor(cube->GetOutputPort());
+  SetFlatColor(actor, 1.0, 0.0, 0.0);
+  pool.GetRenderer()->AddActor(actor);
+  const ByteImage above = pool.Render();
+  const unsigned char* middle = above.GetPixel(Size / 2, Size / 2);
   EXPECT_EQ(middle[0], 255);
   EXPECT_EQ(middle[1], 0);
   // Below the membrane it is occluded: only the filter's output is visible behind the water.
   cube->SetCenter(0.0, 0.0, -0.5);
-  const ByteImage below = pool.render();
-  EXPECT_EQ(below.pixel(Size / 2, Size / 2)[1], 255);
+  const ByteImage below = pool.Render();
+  EXPECT_EQ(below.GetPixel(Size / 2, Size / 2)[1], 255);
 }
 
 TEST(RefractionPass, APiercingObjectIsSeenAboveAndBelow)
@@ -398,26 +398,26 @@ TEST(RefractionPass, APiercingObjectIsSeenAboveAndBelow)
   vtkNew<vtkCubeSource> post;
   post->SetXLength(0.6);
   post->SetYLength(0.6);
-  const auto above = makeActor(post->GetOutputPort());
-  setFlatColor(above, 1.0, 0.0, 0.0);
-  pool.renderer()->AddActor(above);
+  const auto above = MakeActor(post->GetOutputPort());
+  SetFlatColor(above, 1.0, 0.0, 0.0);
+  pool.GetRenderer()->AddActor(above);
   vtkNew<vtkRefractedGeometryFilter> filter;
   filter->SetInputConnection(post->GetOutputPort());
   filter->SetMembraneConnection(pool.Surface->GetOutputPort());
   filter->SetInteriorIndexOfRefraction(Water);
-  filter->SetCamera(pool.camera());
-  const auto below = makeActor(filter->GetOutputPort());
-  setFlatColor(below, 0.0, 1.0, 0.0);
+  filter->SetCamera(pool.GetCamera());
+  const auto below = MakeActor(filter->GetOutputPort());
+  SetFlatColor(below, 0.0, 1.0, 0.0);
   pool.Pass->AddRefraction(pool.Membrane, below, filter);
-  pool.lookFrom(4.0, 0.0);
-  const ByteImage image = pool.render();
+  pool.LookFrom(4.0, 0.0);
+  const ByteImage image = pool.Render();
   int red = 0;
   int green = 0;
   for (int y = 0; y < Size; ++y)
   {
     for (int x = 0; x < Size; ++x)
     {
-      const unsigned char* pixel = image.pixel(x, y);
+      const unsigned char* pixel = image.GetPixel(x, y);
       red += pixel[0] > 250 && pixel[1] < 5 ? 1 : 0;
       green += pixel[0] < 5 && pixel[1] > 250 ? 1 : 0;
     }
@@ -425,9 +425,9 @@ TEST(RefractionPass, APiercingObjectIsSeenAboveAndBelow)
   EXPECT_GT(red, 50);
   EXPECT_GT(green, 20);
   // The side facing the eye: red just above the water, green just below.
-  const Sight foot = sightOf(pool.camera(), Size / 2, Size / 2);
+  const Sight foot = SightOf(pool.GetCamera(), Size / 2, Size / 2);
   EXPECT_NEAR(foot.Point[0], 0.0, 0.1); // the middle of the image is the water inside the post
-  EXPECT_EQ(image.pixel(Size / 2, Size / 2)[0], 255);
+  EXPECT_EQ(image.GetPixel(Size / 2, Size / 2)[0], 255);
 }
 
 TEST(RefractionPass, OtherActorsAreNotChanged)
@@ -435,24 +435,25 @@ TEST(RefractionPass, OtherActorsAreNotChanged)
   // The image is the same to the bit at pixels without the membrane: with the pass, without it, and
   // after it.
   Pool pool;
-  const auto ball = makePlane(20.0, -3.0, 1);
-  const auto actor = makeActor(ball->GetOutputPort());
+  const auto ball = MakePlane(20.0, -3.0, 1);
+  const auto actor = MakeActor(ball->GetOutputPort());
   actor->GetProperty()->SetColor(0.9, 0.6, 0.2);
-  pool.renderer()->AddActor(actor);
-  pool.renderer()->SetPass(nullptr);
-  const ByteImage plain = pool.render();
-  pool.renderer()->SetPass(pool.Pass);
-  const ByteImage with = pool.render();
-  pool.renderer()->SetPass(nullptr);
-  EXPECT_EQ(pool.render().Rgb, plain.Rgb);
+  pool.GetRenderer()->AddActor(actor);
+  pool.GetRenderer()->SetPass(nullptr);
+  const ByteImage plain = pool.Render();
+  pool.GetRenderer()->SetPass(pool.Pass);
+  const ByteImage with = pool.Render();
+  pool.GetRenderer()->SetPass(nullptr);
+  EXPECT_EQ(pool.Render().Rgb, plain.Rgb);
   int changed = 0;
   for (int y = 0; y < Size; ++y)
   {
     for (int x = 0; x < Size; ++x)
     {
-      const Sight sight = sightOf(pool.camera(), x, y);
-      const bool same = std::equal(with.pixel(x, y), with.pixel(x, y) + 3, plain.pixel(x, y));
-      ASSERT_TRUE(same || sight.OnMembrane || isBorder(sight)) << x << " " << y;
+      const Sight sight = SightOf(pool.GetCamera(), x, y);
+      const bool same =
+        std::equal(with.GetPixel(x, y), with.GetPixel(x, y) + 3, plain.GetPixel(x, y));
+      ASSERT_TRUE(same || sight.OnMembrane || IsBorder(sight)) << x << " " << y;
       changed += same ? 0 : 1;
     }
   }
@@ -462,15 +463,15 @@ TEST(RefractionPass, OtherActorsAreNotChanged)
 TEST(RefractionPass, AMembraneOutOfViewCostsNothing)
 {
   Pool pool;
-  pool.camera()->SetPosition(0.0, 0.0, EyeHeight);
-  pool.camera()->SetFocalPoint(0.0, 0.0, 2.0 * EyeHeight);
-  pool.render();
+  pool.GetCamera()->SetPosition(0.0, 0.0, EyeHeight);
+  pool.GetCamera()->SetFocalPoint(0.0, 0.0, 2.0 * EyeHeight);
+  pool.Render();
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 0);
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesSkipped(), 1);
   EXPECT_EQ(pool.Filter->GetNumberOfSolvedVertices(), 0);
-  pool.lookFrom(0.0, 0.0);
+  pool.LookFrom(0.0, 0.0);
   pool.Membrane->VisibilityOff();
-  pool.render();
+  pool.Render();
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 0);
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesSkipped(), 2);
 }
@@ -479,48 +480,48 @@ TEST(RefractionPass, TheClippingRangeHoldsWhatTheRendererDoesNotKnow)
 {
   Pool pool;
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
-  const ByteImage whole = pool.render();
+  const ByteImage whole = pool.Render();
   double range[2];
-  pool.camera()->GetClippingRange(range);
+  pool.GetCamera()->GetClippingRange(range);
   EXPECT_EQ(range[0], 0.1); // wide enough: untouched
   EXPECT_EQ(range[1], 20.0);
   // As the renderer would set it for a small actor in front.
-  pool.camera()->SetClippingRange(0.5, 1.0);
-  EXPECT_EQ(pool.render().Rgb, whole.Rgb);
-  pool.camera()->GetClippingRange(range);
+  pool.GetCamera()->SetClippingRange(0.5, 1.0);
+  EXPECT_EQ(pool.Render().Rgb, whole.Rgb);
+  pool.GetCamera()->GetClippingRange(range);
   EXPECT_EQ(range[0], 0.5);
   EXPECT_GT(range[1], EyeHeight + 0.5);
   const vtkTypeInt64 eyes = pool.Filter->GetNumberOfEyeUpdates();
-  const vtkMTimeType time = pool.camera()->GetMTime();
-  pool.render();
+  const vtkMTimeType time = pool.GetCamera()->GetMTime();
+  pool.Render();
   EXPECT_EQ(pool.Filter->GetNumberOfEyeUpdates(), eyes);
-  EXPECT_EQ(pool.camera()->GetMTime(), time);
+  EXPECT_EQ(pool.GetCamera()->GetMTime(), time);
 
   pool.Pass->AdjustClippingRangeOff();
-  pool.camera()->SetClippingRange(0.5, 1.0);
-  pool.render();
-  pool.camera()->GetClippingRange(range);
+  pool.GetCamera()->SetClippingRange(0.5, 1.0);
+  pool.Render();
+  pool.GetCamera()->GetClippingRange(range);
   EXPECT_EQ(range[1], 1.0);
 }
 
 TEST(RefractionPass, CountersOfWhatMoves)
 {
   Pool pool;
-  pool.render();
+  pool.Render();
   const vtkTypeInt64 patches = pool.Filter->GetNumberOfPatchBuilds();
   const vtkTypeInt64 eyes = pool.Filter->GetNumberOfEyeUpdates();
   const vtkTypeInt64 solved = pool.Filter->GetNumberOfSolvedVertices();
   EXPECT_EQ(patches, 1);
   EXPECT_EQ(eyes, 1);
-  pool.render();
+  pool.Render();
   EXPECT_EQ(pool.Filter->GetNumberOfSolvedVertices(), solved);
-  pool.lookFrom(1.0, 0.0);
-  pool.render();
+  pool.LookFrom(1.0, 0.0);
+  pool.Render();
   EXPECT_EQ(pool.Filter->GetNumberOfPatchBuilds(), patches);
   EXPECT_EQ(pool.Filter->GetNumberOfEyeUpdates(), eyes + 1);
   pool.Pass->SetAttenuationCoefficients(0.1, 0.1, 0.1);
   const vtkTypeInt64 now = pool.Filter->GetNumberOfSolvedVertices();
-  pool.render();
+  pool.Render();
   EXPECT_EQ(pool.Filter->GetNumberOfSolvedVertices(), now);
 }
 
@@ -530,26 +531,26 @@ TEST(RefractionPass, TwoMembranes)
   Pool pool;
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
   pool.Surface->SetPoint1(-0.2, -3.0, 0.0); // x from -3 to -0.2
-  const auto surface = makePlane(3.0, 0.0, 4);
+  const auto surface = MakePlane(3.0, 0.0, 4);
   surface->SetOrigin(0.2, -3.0, 0.0);
   surface->SetPoint2(0.2, 3.0, 0.0);
   vtkNew<vtkRefractedGeometryFilter> filter;
   filter->SetInputConnection(pool.Bottom->GetOutputPort());
   filter->SetMembraneConnection(surface->GetOutputPort());
-  filter->SetCamera(pool.camera());
-  const auto membrane = makeActor(surface->GetOutputPort());
-  const auto floor = makeActor(filter->GetOutputPort());
-  setFlatColor(floor, 1.0, 1.0, 0.0);
+  filter->SetCamera(pool.GetCamera());
+  const auto membrane = MakeActor(surface->GetOutputPort());
+  const auto floor = MakeActor(filter->GetOutputPort());
+  SetFlatColor(floor, 1.0, 1.0, 0.0);
   pool.Pass->AddRefraction(membrane, floor, filter);
-  const ByteImage image = pool.render();
+  const ByteImage image = pool.Render();
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 2);
-  EXPECT_EQ(image.pixel(Size / 4, Size / 2)[2], 255);
-  EXPECT_EQ(image.pixel(3 * Size / 4, Size / 2)[2], 0);
-  EXPECT_EQ(image.pixel(3 * Size / 4, Size / 2)[1], 255);
-  EXPECT_NEAR(image.pixel(Size / 2, Size / 2)[2], 255.0 * Background[2], 1.0);
+  EXPECT_EQ(image.GetPixel(Size / 4, Size / 2)[2], 255);
+  EXPECT_EQ(image.GetPixel(3 * Size / 4, Size / 2)[2], 0);
+  EXPECT_EQ(image.GetPixel(3 * Size / 4, Size / 2)[1], 255);
+  EXPECT_NEAR(image.GetPixel(Size / 2, Size / 2)[2], 255.0 * Background[2], 1.0);
   pool.Pass->RemoveRefraction(floor);
   EXPECT_EQ(pool.Pass->GetNumberOfRefractions(), 1);
-  EXPECT_NEAR(pool.render().pixel(3 * Size / 4, Size / 2)[1], 255.0 * Background[1], 1.0);
+  EXPECT_NEAR(pool.Render().GetPixel(3 * Size / 4, Size / 2)[1], 255.0 * Background[1], 1.0);
 }
 
 TEST(RefractionPass, WindowsOfAllKinds)
@@ -559,16 +560,16 @@ TEST(RefractionPass, WindowsOfAllKinds)
     for (const int stencil : { 0, 1 })
     {
       Pool pool(samples);
-      pool.Scene.window()->SetStencilCapable(stencil);
+      pool.Scene.GetWindow()->SetStencilCapable(stencil);
       pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
-      expectColors(
+      ExpectColors(
         pool, "samples " + std::to_string(samples), [](const Sight&, int) { return 1.0; });
-      pool.Scene.window()->SetSize(Size + 37, Size - 20);
-      pool.render();
-      pool.Scene.window()->SetSize(Size, Size);
-      expectColors(pool, "resized", [](const Sight&, int) { return 1.0; });
-      pool.Pass->ReleaseGraphicsResources(pool.Scene.window());
-      expectColors(pool, "released", [](const Sight&, int) { return 1.0; });
+      pool.Scene.GetWindow()->SetSize(Size + 37, Size - 20);
+      pool.Render();
+      pool.Scene.GetWindow()->SetSize(Size, Size);
+      ExpectColors(pool, "resized", [](const Sight&, int) { return 1.0; });
+      pool.Pass->ReleaseGraphicsResources(pool.Scene.GetWindow());
+      ExpectColors(pool, "released", [](const Sight&, int) { return 1.0; });
     }
   }
 }
@@ -577,14 +578,14 @@ TEST(RefractionPass, SeveralViewports)
 {
   Pool pool;
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
-  pool.renderer()->SetViewport(0.5, 0.25, 1.0, 0.75);
+  pool.GetRenderer()->SetViewport(0.5, 0.25, 1.0, 0.75);
   vtkNew<vtkRenderer> other;
   other->SetViewport(0.0, 0.0, 0.5, 1.0);
   other->SetBackground(0.0, 0.0, 0.0);
-  pool.Scene.window()->AddRenderer(other);
-  const ByteImage image = pool.render();
-  EXPECT_EQ(image.pixel(Size / 4, Size / 2)[0], 0);
-  EXPECT_EQ(image.pixel(3 * Size / 4, Size / 2)[0], 255);
+  pool.Scene.GetWindow()->AddRenderer(other);
+  const ByteImage image = pool.Render();
+  EXPECT_EQ(image.GetPixel(Size / 4, Size / 2)[0], 0);
+  EXPECT_EQ(image.GetPixel(3 * Size / 4, Size / 2)[0], 255);
 }
 
 // The pass inside other passes, and with other passes inside it.
@@ -593,34 +594,34 @@ TEST(RefractionPass, ComposesWithOtherPasses)
   const auto expectFloor =
     [](Pool& pool, const std::string& name, double slack = Rounding, int blur = 0)
   {
-    expectColors(
+    ExpectColors(
       pool, name, [](const Sight&, int) { return 1.0; }, slack, blur);
   };
   Pool pool;
   pool.Pass->SetReflectanceModel(vtkRefractionPass::NONE);
-  pool.lookFrom(2.5, -1.5);
+  pool.LookFrom(2.5, -1.5);
   expectFloor(pool, "alone");
   vtkNew<vtkOpenGLFXAAPass> fxaa;
   fxaa->SetDelegatePass(pool.Pass);
-  pool.renderer()->SetPass(fxaa);
+  pool.GetRenderer()->SetPass(fxaa);
   expectFloor(pool, "FXAA");
   vtkNew<vtkSSAAPass> ssaa;
   ssaa->SetDelegatePass(pool.Pass);
-  pool.renderer()->SetPass(ssaa);
+  pool.GetRenderer()->SetPass(ssaa);
   // Filtered across and down, rounded each time.
   expectFloor(pool, "SSAA", Rounding + 1.0 / 255.0, 3);
 
   // A translucent actor in front of the water, blended with it by peeling: half red, half white.
-  pool.renderer()->SetPass(pool.Pass);
-  const auto plane = makePlane(0.5, 1.0, 1);
-  const auto glass = makeActor(plane->GetOutputPort());
-  setFlatColor(glass, 1.0, 0.0, 0.0);
+  pool.GetRenderer()->SetPass(pool.Pass);
+  const auto plane = MakePlane(0.5, 1.0, 1);
+  const auto glass = MakeActor(plane->GetOutputPort());
+  SetFlatColor(glass, 1.0, 0.0, 0.0);
   glass->GetProperty()->SetOpacity(0.5);
-  pool.renderer()->AddActor(glass);
-  pool.renderer()->UseDepthPeelingOn();
-  pool.render(); // must not fail; where the water is nearer, it occludes geometry drawn before
-  pool.renderer()->RemoveActor(glass);
-  pool.renderer()->UseDepthPeelingOff();
+  pool.GetRenderer()->AddActor(glass);
+  pool.GetRenderer()->UseDepthPeelingOn();
+  pool.Render(); // must not fail; where the water is nearer, it occludes geometry drawn before
+  pool.GetRenderer()->RemoveActor(glass);
+  pool.GetRenderer()->UseDepthPeelingOff();
   expectFloor(pool, "after peeling");
 }
 
@@ -628,8 +629,8 @@ TEST(RefractionPass, NothingToDraw)
 {
   Pool pool;
   pool.Pass->RemoveAllRefractions();
-  const ByteImage image = pool.render();
-  EXPECT_NEAR(image.pixel(Size / 2, Size / 2)[2], 255.0 * Background[2], 1.0);
+  const ByteImage image = pool.Render();
+  EXPECT_NEAR(image.GetPixel(Size / 2, Size / 2)[2], 255.0 * Background[2], 1.0);
   EXPECT_EQ(pool.Pass->GetNumberOfMembranesDrawn(), 0);
 }
 
@@ -637,7 +638,7 @@ TEST(RefractionPass, NullPartsAreAnError)
 {
   Pool pool;
   const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->observe(pool.Pass);
+  errors->Observe(pool.Pass);
   pool.Pass->AddRefraction(nullptr, pool.Floor, pool.Filter);
   pool.Pass->AddRefraction(pool.Membrane, nullptr, pool.Filter);
   pool.Pass->AddRefraction(pool.Membrane, pool.Floor, nullptr);

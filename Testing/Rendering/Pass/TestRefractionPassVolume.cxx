@@ -43,58 +43,58 @@ class Basin
 {
 public:
   explicit Basin(double level, double halfWidth = 6.0)
-    : Mesh(makeBlock(6, wavyField(3.0)))
-    , Surface(makePlane(halfWidth, level, 4))
-    , Bottom(makePlane(2.0, -1.5, 40))
+    : Mesh(MakeBlock(6, WavyField(3.0)))
+    , Surface(MakePlane(halfWidth, level, 4))
+    , Bottom(MakePlane(2.0, -1.5, 40))
     , Scene(Size, Size)
   {
-    this->Mapper->SetBackend(backendUnderTest());
+    this->Mapper->SetBackend(BackendUnderTest());
     this->Mapper->SetInputData(this->Mesh);
     this->Mapper->SetMembraneConnection(this->Surface->GetOutputPort());
     this->Mapper->SetInteriorIndexOfRefraction(Water);
     this->Volume->SetMapper(this->Mapper);
-    this->Volume->SetProperty(makeProperty(FunctionKind::Smooth, Range, 3.4));
+    this->Volume->SetProperty(MakeProperty(FunctionKind::Smooth, Range, 3.4));
     this->Filter->SetInputConnection(this->Bottom->GetOutputPort());
     this->Filter->SetMembraneConnection(this->Surface->GetOutputPort());
     this->Filter->SetInteriorIndexOfRefraction(Water);
-    this->Filter->SetCamera(this->camera());
-    this->Floor = makeActor(this->Filter->GetOutputPort());
-    setFlatColor(this->Floor, 0.9, 0.7, 0.2);
-    this->Membrane = makeActor(this->Surface->GetOutputPort());
+    this->Filter->SetCamera(this->GetCamera());
+    this->Floor = MakeActor(this->Filter->GetOutputPort());
+    SetFlatColor(this->Floor, 0.9, 0.7, 0.2);
+    this->Membrane = MakeActor(this->Surface->GetOutputPort());
     this->Pass->SetReflectanceModel(vtkRefractionPass::NONE);
-    this->renderer()->SetBackground(0.2, 0.3, 0.5);
-    this->camera()->SetPosition(1.5, 2.5, 5.0);
-    this->camera()->SetFocalPoint(0.0, 0.0, 0.0);
-    this->camera()->SetViewUp(0.0, 1.0, 0.0);
-    this->camera()->SetViewAngle(40.0);
-    this->camera()->SetClippingRange(0.5, 20.0);
+    this->GetRenderer()->SetBackground(0.2, 0.3, 0.5);
+    this->GetCamera()->SetPosition(1.5, 2.5, 5.0);
+    this->GetCamera()->SetFocalPoint(0.0, 0.0, 0.0);
+    this->GetCamera()->SetViewUp(0.0, 1.0, 0.0);
+    this->GetCamera()->SetViewAngle(40.0);
+    this->GetCamera()->SetClippingRange(0.5, 20.0);
   }
 
-  vtkRenderer* renderer() { return this->Scene.renderer(); }
-  vtkCamera* camera() { return this->renderer()->GetActiveCamera(); }
+  vtkRenderer* GetRenderer() { return this->Scene.GetRenderer(); }
+  vtkCamera* GetCamera() { return this->GetRenderer()->GetActiveCamera(); }
 
   /** Image by the mapper alone, with the virtual floor as an actor. */
-  ByteImage renderPlain()
+  ByteImage RenderPlain()
   {
     this->Pass->RemoveAllRefractions();
-    this->renderer()->SetPass(nullptr);
-    this->renderer()->AddActor(this->Floor);
-    this->renderer()->AddVolume(this->Volume);
-    this->Scene.window()->Render();
-    const ByteImage image = readBytes(this->Scene.window());
-    this->renderer()->RemoveActor(this->Floor);
-    this->renderer()->RemoveVolume(this->Volume);
+    this->GetRenderer()->SetPass(nullptr);
+    this->GetRenderer()->AddActor(this->Floor);
+    this->GetRenderer()->AddVolume(this->Volume);
+    this->Scene.GetWindow()->Render();
+    const ByteImage image = ReadBytes(this->Scene.GetWindow());
+    this->GetRenderer()->RemoveActor(this->Floor);
+    this->GetRenderer()->RemoveVolume(this->Volume);
     return image;
   }
 
-  ByteImage renderPass()
+  ByteImage RenderPass()
   {
     this->Pass->RemoveAllRefractions();
     this->Pass->AddRefraction(this->Membrane, this->Floor, this->Filter);
     this->Pass->AddVolume(this->Membrane, this->Volume);
-    this->renderer()->SetPass(this->Pass);
-    this->Scene.window()->Render();
-    return readBytes(this->Scene.window());
+    this->GetRenderer()->SetPass(this->Pass);
+    this->Scene.GetWindow()->Render();
+    return ReadBytes(this->Scene.GetWindow());
   }
 
   Grid Mesh;
@@ -115,7 +115,7 @@ struct Differences
   int Pixels = 0; // number of pixels with a difference of more than 2
 };
 
-Differences compare(const ByteImage& a, const ByteImage& b)
+Differences Compare(const ByteImage& a, const ByteImage& b)
 {
   Differences result;
   for (std::size_t pixel = 0; pixel < a.Rgb.size(); pixel += 3)
@@ -139,8 +139,8 @@ TEST(RefractionPassVolume, IsThePictureOfTheMapperAlone)
   for (const double level : { 1.3, 0.2, -1.2 })
   {
     Basin basin(level);
-    const ByteImage plain = basin.renderPlain();
-    const Differences off = compare(basin.renderPass(), plain);
+    const ByteImage plain = basin.RenderPlain();
+    const Differences off = Compare(basin.RenderPass(), plain);
     EXPECT_LE(off.Largest, 2) << level;
     EXPECT_EQ(basin.Mapper->GetNumberOfLostRays(), 0);
   }
@@ -154,8 +154,8 @@ TEST(RefractionPassVolume, EveryBlendModeBehindWater)
     Basin basin(1.3);
     basin.Volume->GetProperty()->GetIsoSurfaceValues()->SetValue(0, 0.12);
     basin.Mapper->SetBlendMode(mode);
-    const ByteImage plain = basin.renderPlain();
-    EXPECT_LE(compare(basin.renderPass(), plain).Largest, 2) << mode;
+    const ByteImage plain = basin.RenderPlain();
+    EXPECT_LE(Compare(basin.RenderPass(), plain).Largest, 2) << mode;
   }
 }
 
@@ -163,8 +163,8 @@ TEST(RefractionPassVolume, BesideTheMembraneItIsSeenAsItIs)
 {
   Basin basin(0.2, 0.7);
   basin.Floor->VisibilityOff(); // without a membrane, the pass would draw it where there is none
-  const ByteImage plain = basin.renderPlain();
-  const Differences off = compare(basin.renderPass(), plain);
+  const ByteImage plain = basin.RenderPlain();
+  const Differences off = Compare(basin.RenderPass(), plain);
   // At the membrane's border the pass decides by the pixel's centre, as rays do, up to rounding.
   EXPECT_LE(off.Pixels, 8) << off.Largest;
 }
@@ -172,18 +172,18 @@ TEST(RefractionPassVolume, BesideTheMembraneItIsSeenAsItIs)
 TEST(RefractionPassVolume, FresnelTakesItsShare)
 {
   Basin basin(1.3);
-  basin.camera()->SetPosition(0.0, 0.0, 5.0);
-  const ByteImage through = basin.renderPass();
+  basin.GetCamera()->SetPosition(0.0, 0.0, 5.0);
+  const ByteImage through = basin.RenderPass();
   basin.Pass->SetReflectanceModel(vtkRefractionPass::FRESNEL);
-  const ByteImage with = basin.renderPass();
+  const ByteImage with = basin.RenderPass();
   const double share = std::pow((Water - 1.0) / (Water + 1.0), 2.0);
   double background[3];
-  basin.renderer()->GetBackground(background);
+  basin.GetRenderer()->GetBackground(background);
   for (int c = 0; c < 3; ++c)
   {
     const double expected =
-      (1.0 - share) * through.pixel(Size / 2, Size / 2)[c] + share * 255.0 * background[c];
-    EXPECT_NEAR(with.pixel(Size / 2, Size / 2)[c], expected, 1.5);
+      (1.0 - share) * through.GetPixel(Size / 2, Size / 2)[c] + share * 255.0 * background[c];
+    EXPECT_NEAR(with.GetPixel(Size / 2, Size / 2)[c], expected, 1.5);
   }
 }
 
@@ -193,16 +193,16 @@ TEST(RefractionPassVolume, BehindAMembraneThatIsNotVisibleNothingIsSeen)
   Basin above(-1.2);
   above.Membrane->VisibilityOff();
   above.Floor->VisibilityOff();
-  const ByteImage plain = above.renderPlain();
-  EXPECT_LE(compare(above.renderPass(), plain).Largest, 1);
+  const ByteImage plain = above.RenderPlain();
+  EXPECT_LE(Compare(above.RenderPass(), plain).Largest, 1);
   EXPECT_EQ(above.Pass->GetNumberOfMembranesDrawn(), 0);
   EXPECT_EQ(above.Pass->GetNumberOfMembranesSkipped(), 1);
 
   Basin below(1.3);
   below.Membrane->VisibilityOff();
-  const ByteImage hidden = below.renderPass();
+  const ByteImage hidden = below.RenderPass();
   double background[3];
-  below.renderer()->GetBackground(background);
+  below.GetRenderer()->GetBackground(background);
   for (std::size_t i = 0; i < hidden.Rgb.size(); ++i)
   {
     ASSERT_NEAR(hidden.Rgb[i], 255.0 * background[i % 3], 1.0);
@@ -215,21 +215,21 @@ TEST(RefractionPassVolume, EqualIndicesAreNoMembrane)
   basin.Floor->VisibilityOff();
   basin.Mapper->SetInteriorIndexOfRefraction(1.0);
   basin.Filter->SetInteriorIndexOfRefraction(1.0);
-  const ByteImage plain = basin.renderPlain();
-  EXPECT_LE(compare(basin.renderPass(), plain).Largest, 2);
+  const ByteImage plain = basin.RenderPlain();
+  EXPECT_LE(Compare(basin.RenderPass(), plain).Largest, 2);
 }
 
 TEST(RefractionPassVolume, RaysAreTracedOnceForBothParts)
 {
   Basin basin(0.2);
-  basin.renderPass();
+  basin.RenderPass();
   EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 1);
   EXPECT_EQ(basin.Mapper->GetUsedImageSampleDistance(), 1.0);
-  basin.Scene.window()->Render();
+  basin.Scene.GetWindow()->Render();
   EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 1);
   EXPECT_EQ(basin.Mapper->GetNumberOfMeshBuilds(), 1);
-  basin.camera()->Azimuth(5.0);
-  basin.Scene.window()->Render();
+  basin.GetCamera()->Azimuth(5.0);
+  basin.Scene.GetWindow()->Render();
   EXPECT_EQ(basin.Mapper->GetNumberOfSightUpdates(), 2);
 }
 
@@ -238,12 +238,12 @@ TEST(RefractionPassVolume, WithinSSAA)
   // Its images are larger than the window. The result is smoother, and covers the same pixels.
   Basin basin(0.2);
   basin.Floor->VisibilityOff();
-  const ByteImage plain = basin.renderPass();
+  const ByteImage plain = basin.RenderPass();
   vtkNew<vtkSSAAPass> ssaa;
   ssaa->SetDelegatePass(basin.Pass);
-  basin.renderer()->SetPass(ssaa);
-  basin.Scene.window()->Render();
-  const ByteImage smooth = readBytes(basin.Scene.window());
+  basin.GetRenderer()->SetPass(ssaa);
+  basin.Scene.GetWindow()->Render();
+  const ByteImage smooth = ReadBytes(basin.Scene.GetWindow());
   double sum = 0.0;
   for (std::size_t i = 0; i < plain.Rgb.size(); ++i)
   {
@@ -256,7 +256,7 @@ TEST(RefractionPassVolume, BadInputIsAnError)
 {
   Basin basin(0.2);
   const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->observe(basin.Pass);
+  errors->Observe(basin.Pass);
   vtkNew<vtkVolume> empty;
   basin.Pass->AddVolume(nullptr, basin.Volume);
   basin.Pass->AddVolume(basin.Membrane, nullptr);

@@ -27,14 +27,14 @@ struct PoolDifference
 {
   int Water = 0;
   int Differing = 0; ///< number of pixels that differ by more than Accepted in any channel
-  double percent() const { return 100.0 * this->Differing / this->Water; }
+  double Percent() const { return 100.0 * this->Differing / this->Water; }
 };
 
 /**
  * Drawn image, traced image and their difference side by side, for inspection and for the
  * documentation.
  */
-void save(const std::string& name, const meniscus::test::ByteImage& drawn, const PoolPicture& truth)
+void Save(const std::string& name, const meniscus::test::ByteImage& drawn, const PoolPicture& truth)
 {
   constexpr int size = PoolScene::Pixels;
   vtkNew<vtkImageData> image;
@@ -47,7 +47,7 @@ void save(const std::string& name, const meniscus::test::ByteImage& drawn, const
       for (int c = 0; c < 3; ++c)
       {
         const double exact = truth.Colors[static_cast<std::size_t>(y) * size + x][c];
-        const double ours = drawn.pixel(x, y)[c] / 255.0;
+        const double ours = drawn.GetPixel(x, y)[c] / 255.0;
         const double values[3] = { ours, exact,
           1.0 - std::min(8.0 * std::fabs(ours - exact), 1.0) };
         for (int k = 0; k < 3; ++k)
@@ -64,7 +64,7 @@ void save(const std::string& name, const meniscus::test::ByteImage& drawn, const
   writer->Write();
 }
 
-PoolDifference compare(const meniscus::test::ByteImage& drawn, const PoolPicture& truth)
+PoolDifference Compare(const meniscus::test::ByteImage& drawn, const PoolPicture& truth)
 {
   PoolDifference result;
   for (std::size_t i = 0; i < truth.Colors.size(); ++i)
@@ -84,14 +84,14 @@ PoolDifference compare(const meniscus::test::ByteImage& drawn, const PoolPicture
   return result;
 }
 
-PoolDifference measure(PoolScene& scene, const std::string& name, const PoolOptics& optics)
+PoolDifference MeasureCase(PoolScene& scene, const std::string& name, const PoolOptics& optics)
 {
-  scene.setOptics(optics);
-  const auto drawn = scene.draw();
-  const PoolPicture truth = scene.trace();
-  save(name, drawn, truth);
-  const PoolDifference difference = compare(drawn, truth);
-  ::testing::Test::RecordProperty(name + " percent", std::to_string(difference.percent()));
+  scene.SetOptics(optics);
+  const auto drawn = scene.Draw();
+  const PoolPicture truth = scene.Trace();
+  Save(name, drawn, truth);
+  const PoolDifference difference = Compare(drawn, truth);
+  ::testing::Test::RecordProperty(name + " percent", std::to_string(difference.Percent()));
   EXPECT_GT(difference.Water, 60000);
   return difference;
 }
@@ -102,16 +102,17 @@ TEST(RefractionPool, LooksLikeRaysThroughTheExactWaves)
 {
   PoolScene scene(Cells);
   const glm::dvec3 attenuation(0.02, 0.008, 0.004);
-  EXPECT_LT(measure(scene, "clear", {}).percent(), 0.1);
-  EXPECT_LT(measure(scene, "attenuated", { false, false, attenuation }).percent(), 0.5);
-  EXPECT_LT(measure(scene, "reflecting", { true, true, glm::dvec3(0.0) }).percent(), 0.5);
-  EXPECT_LT(measure(scene, "all", { true, true, attenuation }).percent(), 0.5);
+  EXPECT_LT(MeasureCase(scene, "clear", {}).Percent(), 0.1);
+  EXPECT_LT(MeasureCase(scene, "attenuated", { false, false, attenuation }).Percent(), 0.5);
+  EXPECT_LT(MeasureCase(scene, "reflecting", { true, true, glm::dvec3(0.0) }).Percent(), 0.5);
+  EXPECT_LT(MeasureCase(scene, "all", { true, true, attenuation }).Percent(), 0.5);
 }
 
 TEST(RefractionPool, WavesThatMoveAreFollowed)
 {
   PoolScene scene(Cells);
-  scene.draw();
-  scene.moveWater(1.0);
-  EXPECT_LT(measure(scene, "moved", { true, true, glm::dvec3(0.02, 0.008, 0.004) }).percent(), 0.5);
+  scene.Draw();
+  scene.MoveWater(1.0);
+  EXPECT_LT(
+    MeasureCase(scene, "moved", { true, true, glm::dvec3(0.02, 0.008, 0.004) }).Percent(), 0.5);
 }

@@ -32,9 +32,9 @@ constexpr int Size = 100;
 constexpr double Bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
 constexpr double Range[2] = { -1.5, 1.5 };
 
-vtkSmartPointer<vtkVolumeProperty> smooth()
+vtkSmartPointer<vtkVolumeProperty> Smooth()
 {
-  return makeProperty(FunctionKind::Smooth, Range, 3.5);
+  return MakeProperty(FunctionKind::Smooth, Range, 3.5);
 }
 
 // Two frames of a scene with an opaque cube, and the errors that they caused.
@@ -44,58 +44,58 @@ struct Outcome
   vtkSmartPointer<ErrorObserver> Errors;
 };
 
-Outcome render(RayCastScene& scene)
+Outcome Render(RayCastScene& scene)
 {
   vtkNew<vtkCubeSource> cube;
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(cube->GetOutputPort());
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
-  scene.renderer()->AddActor(actor);
-  scene.renderer()->SetBackground(0.2, 0.3, 0.4);
-  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
+  scene.GetRenderer()->AddActor(actor);
+  scene.GetRenderer()->SetBackground(0.2, 0.3, 0.4);
+  LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
 
-  scene.volume()->SetVisibility(false);
-  const ByteImage without = scene.renderBytes();
-  scene.volume()->SetVisibility(true);
+  scene.GetVolume()->SetVisibility(false);
+  const ByteImage without = scene.RenderBytes();
+  scene.GetVolume()->SetVisibility(true);
   Outcome outcome;
   outcome.Errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  outcome.Errors->observe(scene.rayCaster());
-  outcome.Errors->observe(scene.rayCaster()->GetExecutive());
-  const ByteImage first = scene.renderBytes();
-  const ByteImage second = scene.renderBytes();
+  outcome.Errors->Observe(scene.GetRayCaster());
+  outcome.Errors->Observe(scene.GetRayCaster()->GetExecutive());
+  const ByteImage first = scene.RenderBytes();
+  const ByteImage second = scene.RenderBytes();
   outcome.PictureIsTheCube = first.Rgb == without.Rgb && second.Rgb == without.Rgb;
   return outcome;
 }
 
-void expectError(RayCastScene& scene, const std::vector<std::string>& words)
+void ExpectError(RayCastScene& scene, const std::vector<std::string>& words)
 {
-  const Outcome outcome = render(scene);
+  const Outcome outcome = Render(scene);
   EXPECT_TRUE(outcome.PictureIsTheCube);
   EXPECT_FALSE(outcome.Errors->Errors.empty());
   for (const std::string& word : words)
   {
-    EXPECT_NE(outcome.Errors->text().find(word), std::string::npos)
-      << "no \"" << word << "\" in: " << outcome.Errors->text();
+    EXPECT_NE(outcome.Errors->GetText().find(word), std::string::npos)
+      << "no \"" << word << "\" in: " << outcome.Errors->GetText();
   }
 }
 
 // Expects the rejected cells to be counted and the rest of the image to be right.
-void expectRest(const Grid& grid, vtkTypeInt64 rejected, const std::string& what)
+void ExpectRest(const Grid& grid, vtkTypeInt64 rejected, const std::string& what)
 {
-  RayCastScene scene(grid, smooth(), Size, Size);
-  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
-  expectMatchesReference(scene, what);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfRejectedCells(), rejected) << what;
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
+  ExpectMatchesReference(scene, what);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfRejectedCells(), rejected) << what;
 }
 
-vtkIdType middlePoint(const Grid& grid)
+vtkIdType MiddlePoint(const Grid& grid)
 {
   double middle[3] = { 0.0, 0.0, 0.0 };
   return grid->FindPoint(middle);
 }
 
-vtkIdType cellsAt(const Grid& grid, vtkIdType point)
+vtkIdType CellsAt(const Grid& grid, vtkIdType point)
 {
   vtkNew<vtkIdList> cells;
   grid->BuildLinks();
@@ -107,8 +107,8 @@ vtkIdType cellsAt(const Grid& grid, vtkIdType point)
 
 TEST(TetrahedraRayCastBadInput, NoInput)
 {
-  RayCastScene scene(nullptr, smooth(), Size, Size);
-  const Outcome outcome = render(scene);
+  RayCastScene scene(nullptr, Smooth(), Size, Size);
+  const Outcome outcome = Render(scene);
   EXPECT_TRUE(outcome.PictureIsTheCube);
   EXPECT_FALSE(outcome.Errors->Errors.empty());
 }
@@ -117,52 +117,52 @@ TEST(TetrahedraRayCastBadInput, EmptyGrid)
 {
   // A rank without cells is not an error: nothing is drawn, and no error may be reported.
   const Grid grid = Grid::New();
-  RayCastScene scene(grid, smooth(), Size, Size);
-  EXPECT_TRUE(render(scene).PictureIsTheCube);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 0);
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  EXPECT_TRUE(Render(scene).PictureIsTheCube);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), 0);
 }
 
 TEST(TetrahedraRayCastBadInput, PointsWithoutCells)
 {
-  const Grid grid = makeGrid({ 0, 0, 0, 1, 0, 0 }, {}, constantField(1.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  EXPECT_TRUE(render(scene).PictureIsTheCube);
+  const Grid grid = MakeGrid({ 0, 0, 0, 1, 0, 0 }, {}, ConstantField(1.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  EXPECT_TRUE(Render(scene).PictureIsTheCube);
 }
 
 TEST(TetrahedraRayCastBadInput, NoScalars)
 {
-  const Grid grid = makeBlock(2, wavyField(1.0));
+  const Grid grid = MakeBlock(2, WavyField(1.0));
   grid->GetPointData()->Initialize();
-  RayCastScene scene(grid, smooth(), Size, Size);
-  expectError(scene, {});
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  ExpectError(scene, {});
 }
 
 TEST(TetrahedraRayCastBadInput, WrongArrayName)
 {
-  const Grid grid = makeBlock(2, wavyField(1.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  scene.rayCaster()->SetScalarModeToUsePointFieldData();
-  scene.rayCaster()->SelectScalarArray("NoSuchArray");
-  expectError(scene, { "NoSuchArray" });
+  const Grid grid = MakeBlock(2, WavyField(1.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  scene.GetRayCaster()->SetScalarModeToUsePointFieldData();
+  scene.GetRayCaster()->SelectScalarArray("NoSuchArray");
+  ExpectError(scene, { "NoSuchArray" });
 }
 
 TEST(TetrahedraRayCastBadInput, TooFewScalars)
 {
-  const Grid grid = makeBlock(2, wavyField(1.0));
+  const Grid grid = MakeBlock(2, WavyField(1.0));
   grid->GetPointData()->GetScalars()->SetNumberOfTuples(3);
-  RayCastScene scene(grid, smooth(), Size, Size);
-  expectError(scene, {});
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  ExpectError(scene, {});
 }
 
 TEST(TetrahedraRayCastBadInput, OnlyCellsWithoutVolume)
 {
   const vtkIdType triangle[3] = { 0, 1, 2 };
-  const Grid grid = makeGrid({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }, {}, constantField(1.0));
+  const Grid grid = MakeGrid({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }, {}, ConstantField(1.0));
   grid->InsertNextCell(VTK_TRIANGLE, 3, triangle);
-  RayCastScene scene(grid, smooth(), Size, Size);
-  const Outcome outcome = render(scene);
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  const Outcome outcome = Render(scene);
   EXPECT_TRUE(outcome.PictureIsTheCube);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), 0);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), 0);
 }
 
 TEST(TetrahedraRayCastBadInput, ScalarsThatAreNotFinite)
@@ -170,19 +170,19 @@ TEST(TetrahedraRayCastBadInput, ScalarsThatAreNotFinite)
   for (const double bad : { std::numeric_limits<double>::quiet_NaN(),
          std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() })
   {
-    const Grid grid = makeBlock(4, wavyField(2.0));
+    const Grid grid = MakeBlock(4, WavyField(2.0));
     vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetScalars())
-      ->SetValue(middlePoint(grid), bad);
+      ->SetValue(MiddlePoint(grid), bad);
     // Transparent, not left out of the mesh.
-    expectRest(grid, 0, "scalar " + std::to_string(bad));
+    ExpectRest(grid, 0, "scalar " + std::to_string(bad));
   }
 }
 
 TEST(TetrahedraRayCastBadInput, ScalarsAllNan)
 {
-  const Grid grid = makeBlock(2, constantField(std::numeric_limits<double>::quiet_NaN()));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  EXPECT_TRUE(render(scene).PictureIsTheCube);
+  const Grid grid = MakeBlock(2, ConstantField(std::numeric_limits<double>::quiet_NaN()));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  EXPECT_TRUE(Render(scene).PictureIsTheCube);
 }
 
 TEST(TetrahedraRayCastBadInput, PointsThatAreNotFinite)
@@ -190,18 +190,18 @@ TEST(TetrahedraRayCastBadInput, PointsThatAreNotFinite)
   for (const double bad :
     { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
-    const Grid grid = makeBlock(4, wavyField(2.0));
-    const vtkIdType middle = middlePoint(grid);
+    const Grid grid = MakeBlock(4, WavyField(2.0));
+    const vtkIdType middle = MiddlePoint(grid);
     const double x[3] = { 0.0, bad, 0.0 };
-    const vtkIdType cells = cellsAt(grid, middle);
+    const vtkIdType cells = CellsAt(grid, middle);
     grid->GetPoints()->SetPoint(middle, x);
-    expectRest(grid, cells, "coordinate " + std::to_string(bad));
+    ExpectRest(grid, cells, "coordinate " + std::to_string(bad));
   }
 }
 
 TEST(TetrahedraRayCastBadInput, PointIndexOutOfRange)
 {
-  const Grid grid = makeBlock(3, wavyField(2.0));
+  const Grid grid = MakeBlock(3, WavyField(2.0));
   // One value has more than 32 bits, and its lower 32 bits would be a valid point.
   for (const vtkIdType bad :
     { vtkIdType(1000000), vtkIdType(-1), grid->GetNumberOfPoints(), (vtkIdType(1) << 32) + 2 })
@@ -209,30 +209,30 @@ TEST(TetrahedraRayCastBadInput, PointIndexOutOfRange)
     const vtkIdType ids[4] = { 0, 1, 5, bad };
     grid->InsertNextCell(VTK_TETRA, 4, ids);
   }
-  expectRest(grid, 4, "index out of range");
+  ExpectRest(grid, 4, "index out of range");
 }
 
 TEST(TetrahedraRayCastBadInput, RepeatedPointsInACell)
 {
-  const Grid grid = makeBlock(3, wavyField(2.0));
+  const Grid grid = MakeBlock(3, WavyField(2.0));
   const vtkIdType ids[2][4] = { { 0, 1, 1, 5 }, { 2, 2, 2, 2 } };
   grid->InsertNextCell(VTK_TETRA, 4, ids[0]);
   grid->InsertNextCell(VTK_TETRA, 4, ids[1]);
-  expectRest(grid, 2, "repeated points");
+  ExpectRest(grid, 2, "repeated points");
 }
 
 TEST(TetrahedraRayCastBadInput, ZeroVolumeCells)
 {
   // Four points of a face of the block's boundary make a flat cell that shares no face.
-  const Grid grid = makeBlock(3, wavyField(2.0));
+  const Grid grid = MakeBlock(3, WavyField(2.0));
   const vtkIdType flat[4] = { 0, 1, 4, 5 };
   grid->InsertNextCell(VTK_TETRA, 4, flat);
-  expectRest(grid, 0, "flat cell");
+  ExpectRest(grid, 0, "flat cell");
 }
 
 TEST(TetrahedraRayCastBadInput, FlattenedMesh)
 {
-  const Grid grid = makeBlock(4, wavyField(2.0));
+  const Grid grid = MakeBlock(4, WavyField(2.0));
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
     double x[3];
@@ -240,43 +240,43 @@ TEST(TetrahedraRayCastBadInput, FlattenedMesh)
     x[2] = 0.0;
     grid->GetPoints()->SetPoint(i, x);
   }
-  RayCastScene scene(grid, smooth(), Size, Size);
-  EXPECT_TRUE(render(scene).PictureIsTheCube);
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  EXPECT_TRUE(Render(scene).PictureIsTheCube);
 }
 
 TEST(TetrahedraRayCastBadInput, CellGivenTwice)
 {
   // The same cell twice covers the same space: it counts once, and the repetition is reported.
-  const Grid grid = makeBlock(3, wavyField(2.0));
+  const Grid grid = MakeBlock(3, WavyField(2.0));
   vtkNew<vtkIdList> ids;
   grid->GetCellPoints(17, ids);
   grid->InsertNextCell(VTK_TETRA, ids);
-  expectRest(grid, 1, "cell given twice");
+  ExpectRest(grid, 1, "cell given twice");
 }
 
 TEST(TetrahedraRayCastBadInput, TransferFunctionWithoutNodes)
 {
-  const Grid grid = makeBlock(2, wavyField(1.0));
+  const Grid grid = MakeBlock(2, WavyField(1.0));
   vtkNew<vtkVolumeProperty> property;
   vtkNew<vtkPiecewiseFunction> opacity;
   vtkNew<vtkColorTransferFunction> color;
   property->SetScalarOpacity(opacity);
   property->SetColor(color);
   RayCastScene scene(grid, property, Size, Size);
-  EXPECT_TRUE(render(scene).PictureIsTheCube);
+  EXPECT_TRUE(Render(scene).PictureIsTheCube);
 }
 
 TEST(TetrahedraRayCastBadInput, RecoversFromAnError)
 {
-  const Grid grid = makeBlock(3, wavyField(2.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  scene.rayCaster()->SetScalarModeToUsePointFieldData();
-  scene.rayCaster()->SelectScalarArray("NoSuchArray");
-  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
+  const Grid grid = MakeBlock(3, WavyField(2.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  scene.GetRayCaster()->SetScalarModeToUsePointFieldData();
+  scene.GetRayCaster()->SelectScalarArray("NoSuchArray");
+  LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
   vtkNew<ErrorObserver> errors;
-  errors->observe(scene.rayCaster());
-  scene.window()->Render();
+  errors->Observe(scene.GetRayCaster());
+  scene.GetWindow()->Render();
   EXPECT_FALSE(errors->Errors.empty());
-  scene.rayCaster()->SelectScalarArray(ScalarName);
-  expectMatchesReference(scene, "after an error");
+  scene.GetRayCaster()->SelectScalarArray(ScalarName);
+  ExpectMatchesReference(scene, "after an error");
 }

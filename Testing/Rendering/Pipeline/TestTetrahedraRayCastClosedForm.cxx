@@ -34,7 +34,7 @@ struct BoxHit
   double WorldLength;
 };
 
-BoxHit hitBox(const Ray& ray, vtkMatrix4x4* toData)
+BoxHit HitBox(const Ray& ray, vtkMatrix4x4* toData)
 {
   double origin[4] = { ray.Origin[0], ray.Origin[1], ray.Origin[2], 1.0 };
   double direction[4] = { ray.Direction[0], ray.Direction[1], ray.Direction[2], 0.0 };
@@ -55,31 +55,31 @@ BoxHit hitBox(const Ray& ray, vtkMatrix4x4* toData)
 }
 
 // Renders the box and compares alpha and colour (white emission) with a closed form of alpha.
-void expectClosedForm(
+void ExpectClosedForm(
   RayCastScene& scene, const std::string& what, const std::function<double(const BoxHit&)>& alphaOf)
 {
-  scene.volume()->ComputeMatrix();
+  scene.GetVolume()->ComputeMatrix();
   vtkNew<vtkMatrix4x4> toData;
-  vtkMatrix4x4::Invert(scene.volume()->GetMatrix(), toData);
-  const FloatImage image = scene.renderFloat();
-  const PixelRays rays(scene.renderer());
+  vtkMatrix4x4::Invert(scene.GetVolume()->GetMatrix(), toData);
+  const FloatImage image = scene.RenderFloat();
+  const PixelRays rays(scene.GetRenderer());
   double largest = 0.0;
   std::size_t covered = 0;
   for (int y = 0; y < image.Height; ++y)
   {
     for (int x = 0; x < image.Width; ++x)
     {
-      const double alpha = alphaOf(hitBox(rays.ray(x, y), toData));
+      const double alpha = alphaOf(HitBox(rays.GetRay(x, y), toData));
       covered += alpha > 0.0;
       for (int c = 0; c < 4; ++c)
       {
-        largest = std::max(largest, std::fabs(image.pixel(x, y)[c] - alpha));
+        largest = std::max(largest, std::fabs(image.GetPixel(x, y)[c] - alpha));
       }
     }
   }
   EXPECT_GT(covered, 1000u) << what;
   EXPECT_LE(largest, FloatTolerance) << what;
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << what;
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0) << what;
 }
 
 struct Placement
@@ -93,26 +93,26 @@ const std::vector<Placement> Placements{ { "identity", { 1, 1, 1 }, 0 },
   { "rotated", { 1, 1, 1 }, 37 }, { "scaled", { 2.5, 2.5, 2.5 }, 0 },
   { "mirrored", { -1, 1, 1 }, 20 }, { "anisotropic", { 0.3, 2.0, 1.0 }, 15 } };
 
-void place(RayCastScene& scene, const Placement& placement, bool parallel = false)
+void MakePlace(RayCastScene& scene, const Placement& placement, bool parallel = false)
 {
-  scene.volume()->SetScale(placement.Scale[0], placement.Scale[1], placement.Scale[2]);
-  scene.volume()->RotateWXYZ(placement.Angle, 0.3, 1.0, 0.2);
-  scene.volume()->SetPosition(0.4, -0.2, 0.1);
-  lookAt(scene.renderer(), scene.volume()->GetBounds(), 33.0, 21.0, 1.2, parallel);
+  scene.GetVolume()->SetScale(placement.Scale[0], placement.Scale[1], placement.Scale[2]);
+  scene.GetVolume()->RotateWXYZ(placement.Angle, 0.3, 1.0, 0.2);
+  scene.GetVolume()->SetPosition(0.4, -0.2, 0.1);
+  LookAt(scene.GetRenderer(), scene.GetVolume()->GetBounds(), 33.0, 21.0, 1.2, parallel);
 }
 
 } // anonymous namespace
 
 TEST(TetrahedraRayCastClosedForm, ConstantFieldAsAttenuationCoefficient)
 {
-  const Grid grid = makeBlock(4, constantField(0.5));
+  const Grid grid = MakeBlock(4, ConstantField(0.5));
   for (const double opacity : { 0.05, 0.6, 1.0 })
   {
     for (const double unit : { 0.25, 1.0, 4.0 })
     {
-      RayCastScene scene(grid, makeConstantProperty(opacity, 1, 1, 1, unit), Size, Size);
-      place(scene, Placements[0]);
-      expectClosedForm(scene,
+      RayCastScene scene(grid, MakeConstantProperty(opacity, 1, 1, 1, unit), Size, Size);
+      MakePlace(scene, Placements[0]);
+      ExpectClosedForm(scene,
         "opacity " + std::to_string(opacity) + " unit " + std::to_string(unit),
         [=](const BoxHit& hit) { return -std::expm1(-hit.WorldLength * opacity / unit); });
     }
@@ -121,27 +121,27 @@ TEST(TetrahedraRayCastClosedForm, ConstantFieldAsAttenuationCoefficient)
 
 TEST(TetrahedraRayCastClosedForm, ConstantFieldAsOpacityPerUnitDistance)
 {
-  const Grid grid = makeBlock(4, constantField(0.5));
+  const Grid grid = MakeBlock(4, ConstantField(0.5));
   for (const double opacity : { 0.05, 0.6, 0.95 })
   {
-    RayCastScene scene(grid, makeConstantProperty(opacity, 1, 1, 1, 0.7), Size, Size);
-    scene.rayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
-    place(scene, Placements[0]);
-    expectClosedForm(scene, "opacity " + std::to_string(opacity),
+    RayCastScene scene(grid, MakeConstantProperty(opacity, 1, 1, 1, 0.7), Size, Size);
+    scene.GetRayCaster()->SetOpacityModel(vtkTetrahedraRayCastMapper::OPACITY_PER_UNIT_DISTANCE);
+    MakePlace(scene, Placements[0]);
+    ExpectClosedForm(scene, "opacity " + std::to_string(opacity),
       [=](const BoxHit& hit) { return 1.0 - std::pow(1.0 - opacity, hit.WorldLength / 0.7); });
   }
 }
 
 TEST(TetrahedraRayCastClosedForm, LengthIsMeasuredInWorldCoordinates)
 {
-  const Grid grid = makeBlock(3, constantField(0.5));
+  const Grid grid = MakeBlock(3, ConstantField(0.5));
   for (const Placement& placement : Placements)
   {
     for (const bool parallel : { false, true })
     {
-      RayCastScene scene(grid, makeConstantProperty(0.4, 1, 1, 1, 0.8), Size, Size);
-      place(scene, placement, parallel);
-      expectClosedForm(scene, placement.Name,
+      RayCastScene scene(grid, MakeConstantProperty(0.4, 1, 1, 1, 0.8), Size, Size);
+      MakePlace(scene, placement, parallel);
+      ExpectClosedForm(scene, placement.Name,
         [](const BoxHit& hit) { return -std::expm1(-hit.WorldLength * 0.4 / 0.8); });
     }
   }
@@ -151,8 +151,8 @@ TEST(TetrahedraRayCastClosedForm, LinearField)
 {
   // Attenuation k (s + 2) with s linear: the optical depth is the mean of both ends times the
   // length.
-  const Grid grid = makeBlock(5, linearField(0.5, 1.0, -0.5));
-  auto property = makeConstantProperty(0.0, 1, 1, 1, 1.5);
+  const Grid grid = MakeBlock(5, LinearField(0.5, 1.0, -0.5));
+  auto property = MakeConstantProperty(0.0, 1, 1, 1, 1.5);
   vtkNew<vtkPiecewiseFunction> opacity;
   opacity->AddPoint(-2.0, 0.0);
   opacity->AddPoint(2.0, 1.0);
@@ -160,8 +160,8 @@ TEST(TetrahedraRayCastClosedForm, LinearField)
   for (const Placement& placement : Placements)
   {
     RayCastScene scene(grid, property, Size, Size);
-    place(scene, placement);
-    expectClosedForm(scene, placement.Name,
+    MakePlace(scene, placement);
+    ExpectClosedForm(scene, placement.Name,
       [](const BoxHit& hit)
       {
         const double middle = 0.5 * (hit.Begin + hit.End);
@@ -178,10 +178,10 @@ TEST(TetrahedraRayCastClosedForm, LinearField)
 
 TEST(TetrahedraRayCastClosedForm, TransparentFunctionLeavesTheBackground)
 {
-  const Grid grid = makeBlock(3, radialField());
-  RayCastScene scene(grid, makeConstantProperty(0.0, 1, 1, 1, 1.0), Size, Size);
-  place(scene, Placements[0]);
-  for (const float value : scene.renderFloat().Rgba)
+  const Grid grid = MakeBlock(3, RadialField());
+  RayCastScene scene(grid, MakeConstantProperty(0.0, 1, 1, 1, 1.0), Size, Size);
+  MakePlace(scene, Placements[0]);
+  for (const float value : scene.RenderFloat().Rgba)
   {
     ASSERT_EQ(value, 0.0f);
   }

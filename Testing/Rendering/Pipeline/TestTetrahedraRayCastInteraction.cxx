@@ -34,12 +34,12 @@ constexpr int Size = 120;
 constexpr double Range[2] = { -1.0, 1.0 };
 constexpr double Bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
 
-vtkSmartPointer<vtkVolumeProperty> smooth()
+vtkSmartPointer<vtkVolumeProperty> Smooth()
 {
-  return makeProperty(FunctionKind::Smooth, Range, 3.4);
+  return MakeProperty(FunctionKind::Smooth, Range, 3.4);
 }
 
-vtkSmartPointer<vtkActor> addPlane(vtkRenderer* renderer, double z, double opacity)
+vtkSmartPointer<vtkActor> AddPlane(vtkRenderer* renderer, double z, double opacity)
 {
   vtkNew<vtkPlaneSource> source;
   source->SetOrigin(-4.0, -4.0, z);
@@ -57,7 +57,7 @@ vtkSmartPointer<vtkActor> addPlane(vtkRenderer* renderer, double z, double opaci
 }
 
 // The prop that a hardware selection finds at a pixel.
-vtkProp* propAt(vtkHardwareSelector* selector, int x, int y)
+vtkProp* PropAt(vtkHardwareSelector* selector, int x, int y)
 {
   const unsigned int pixel[2] = { static_cast<unsigned int>(x), static_cast<unsigned int>(y) };
   return selector->GetPixelInformation(pixel).Prop;
@@ -70,13 +70,13 @@ struct PickCounts
 };
 
 // Expects every pixel of the volume to select the volume, and all others `behind` (null: nothing).
-PickCounts expectPicks(RayCastScene& scene, vtkProp* behind, int association)
+PickCounts ExpectPicks(RayCastScene& scene, vtkProp* behind, int association)
 {
-  scene.volume()->SetVisibility(true);
-  const FloatImage image = scene.renderFloat();
-  scene.window()->Render();
+  scene.GetVolume()->SetVisibility(true);
+  const FloatImage image = scene.RenderFloat();
+  scene.GetWindow()->Render();
   vtkNew<vtkHardwareSelector> selector;
-  selector->SetRenderer(scene.renderer());
+  selector->SetRenderer(scene.GetRenderer());
   selector->SetArea(0, 0, Size - 1, Size - 1);
   selector->SetFieldAssociation(association);
   EXPECT_TRUE(selector->CaptureBuffers());
@@ -85,13 +85,13 @@ PickCounts expectPicks(RayCastScene& scene, vtkProp* behind, int association)
   {
     for (int x = 0; x < Size; ++x)
     {
-      vtkProp* found = propAt(selector, x, y);
-      const bool isVolume = found == scene.volume();
+      vtkProp* found = PropAt(selector, x, y);
+      const bool isVolume = found == scene.GetVolume();
       counts.Volume += isVolume;
       counts.Other += found == behind;
       if (!behind)
       {
-        EXPECT_EQ(isVolume, image.pixel(x, y)[3] > 0.0f) << x << ", " << y;
+        EXPECT_EQ(isVolume, image.GetPixel(x, y)[3] > 0.0f) << x << ", " << y;
       }
     }
   }
@@ -102,17 +102,17 @@ PickCounts expectPicks(RayCastScene& scene, vtkProp* behind, int association)
 
 TEST(TetrahedraRayCastPicking, TheVolumeIsFoundWhereItIsVisible)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0), torus(0.6, 0.3));
+  const Grid grid = MakeBlock(6, WavyField(3.0), Torus(0.6, 0.3));
   for (const int association :
     { int(vtkDataObject::FIELD_ASSOCIATION_CELLS), int(vtkDataObject::FIELD_ASSOCIATION_POINTS) })
   {
     for (const int backend :
       { int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE) })
     {
-      RayCastScene scene(grid, smooth(), Size, Size);
-      scene.rayCaster()->SetBackend(backend);
-      lookAt(scene.renderer(), Bounds, 30.0, 40.0);
-      const PickCounts counts = expectPicks(scene, nullptr, association);
+      RayCastScene scene(grid, Smooth(), Size, Size);
+      scene.GetRayCaster()->SetBackend(backend);
+      LookAt(scene.GetRenderer(), Bounds, 30.0, 40.0);
+      const PickCounts counts = ExpectPicks(scene, nullptr, association);
       EXPECT_GT(counts.Volume, 1000u);
       EXPECT_GT(counts.Other, 1000u);
     }
@@ -121,52 +121,52 @@ TEST(TetrahedraRayCastPicking, TheVolumeIsFoundWhereItIsVisible)
 
 TEST(TetrahedraRayCastPicking, OpaqueGeometryHidesIt)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  lookAt(scene.renderer(), Bounds, 0.0, 0.0);
-  const auto plane = addPlane(scene.renderer(), 1.5, 1.0);
-  EXPECT_EQ(expectPicks(scene, plane, vtkDataObject::FIELD_ASSOCIATION_CELLS).Volume, 0u);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  LookAt(scene.GetRenderer(), Bounds, 0.0, 0.0);
+  const auto plane = AddPlane(scene.GetRenderer(), 1.5, 1.0);
+  EXPECT_EQ(ExpectPicks(scene, plane, vtkDataObject::FIELD_ASSOCIATION_CELLS).Volume, 0u);
   plane->SetPosition(0.0, 0.0, -3.0);
-  const PickCounts behind = expectPicks(scene, plane, vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  const PickCounts behind = ExpectPicks(scene, plane, vtkDataObject::FIELD_ASSOCIATION_CELLS);
   EXPECT_GT(behind.Volume, 1000u);
   EXPECT_GT(behind.Other, 1000u);
 }
 
 TEST(TetrahedraRayCastPicking, TransparentPartsAreNotFound)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, makeConstantProperty(0.0, 1, 1, 1, 1.0), Size, Size);
-  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
-  EXPECT_EQ(expectPicks(scene, nullptr, vtkDataObject::FIELD_ASSOCIATION_CELLS).Volume, 0u);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, MakeConstantProperty(0.0, 1, 1, 1, 1.0), Size, Size);
+  LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
+  EXPECT_EQ(ExpectPicks(scene, nullptr, vtkDataObject::FIELD_ASSOCIATION_CELLS).Volume, 0u);
 }
 
 TEST(TetrahedraRayCastPicking, PictureAfterwardsIsTheSame)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
-  const ByteImage before = scene.renderBytes();
-  expectPicks(scene, nullptr, vtkDataObject::FIELD_ASSOCIATION_CELLS);
-  EXPECT_EQ(scene.renderBytes().Rgb, before.Rgb);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
+  const ByteImage before = scene.RenderBytes();
+  ExpectPicks(scene, nullptr, vtkDataObject::FIELD_ASSOCIATION_CELLS);
+  EXPECT_EQ(scene.RenderBytes().Rgb, before.Rgb);
 }
 
 TEST(TetrahedraRayCastDetail, FewerRaysDuringInteractionAllOfThemWhenStill)
 {
-  const Grid grid = makeBlock(8, wavyField(3.0));
+  const Grid grid = MakeBlock(8, WavyField(3.0));
   for (const int backend :
     { int(vtkTetrahedraRayCastMapper::OPENGL), int(vtkTetrahedraRayCastMapper::NATIVE) })
   {
-    RayCastScene scene(grid, smooth(), Size, Size);
-    vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+    RayCastScene scene(grid, Smooth(), Size, Size);
+    vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
     mapper->SetBackend(backend);
-    lookAt(scene.renderer(), Bounds, 30.0, 20.0);
-    const FloatImage still = scene.renderFloat();
+    LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
+    const FloatImage still = scene.RenderFloat();
     const vtkTypeInt64 rays = mapper->GetNumberOfRays();
     EXPECT_EQ(mapper->GetUsedImageSampleDistance(), 1.0);
 
     // A higher frame rate than can be reached.
-    scene.window()->SetDesiredUpdateRate(1e6);
-    const FloatImage moving = scene.renderFloat();
+    scene.GetWindow()->SetDesiredUpdateRate(1e6);
+    const FloatImage moving = scene.RenderFloat();
     EXPECT_EQ(mapper->GetUsedImageSampleDistance(), mapper->GetMaximumImageSampleDistance());
     EXPECT_NEAR(static_cast<double>(mapper->GetNumberOfRays()), static_cast<double>(rays) / 64.0,
       0.15 * static_cast<double>(rays) / 64.0);
@@ -178,88 +178,89 @@ TEST(TetrahedraRayCastDetail, FewerRaysDuringInteractionAllOfThemWhenStill)
     }
     EXPECT_LT(sum / static_cast<double>(still.Rgba.size()), 0.02);
 
-    scene.window()->SetDesiredUpdateRate(1e-4);
-    EXPECT_EQ(scene.renderFloat().Rgba, still.Rgba);
+    scene.GetWindow()->SetDesiredUpdateRate(1e-4);
+    EXPECT_EQ(scene.RenderFloat().Rgba, still.Rgba);
     EXPECT_EQ(mapper->GetUsedImageSampleDistance(), 1.0);
 
-    scene.window()->SetDesiredUpdateRate(1e6);
+    scene.GetWindow()->SetDesiredUpdateRate(1e6);
     mapper->AutoAdjustSampleDistancesOff();
-    EXPECT_EQ(scene.renderFloat().Rgba, still.Rgba);
+    EXPECT_EQ(scene.RenderFloat().Rgba, still.Rgba);
   }
 }
 
 TEST(TetrahedraRayCastDetail, RaysOfACoarseImageAreExact)
 {
   // An image of half the size has the rays of a window of that size.
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  RayCastScene coarse(grid, smooth(), 2 * Size, 2 * Size);
-  coarse.rayCaster()->AutoAdjustSampleDistancesOff();
-  coarse.rayCaster()->SetImageSampleDistance(2.0f);
-  lookAt(coarse.renderer(), Bounds, 30.0, 20.0);
-  RayCastScene small(grid, smooth(), Size, Size);
-  lookAt(small.renderer(), Bounds, 30.0, 20.0);
-  coarse.window()->Render();
-  small.window()->Render();
-  EXPECT_EQ(coarse.rayCaster()->GetNumberOfTraversalSteps(),
-    small.rayCaster()->GetNumberOfTraversalSteps());
-  const FloatImage large = coarse.renderFloat();
-  const FloatImage truth = small.renderFloat();
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  RayCastScene coarse(grid, Smooth(), 2 * Size, 2 * Size);
+  coarse.GetRayCaster()->AutoAdjustSampleDistancesOff();
+  coarse.GetRayCaster()->SetImageSampleDistance(2.0f);
+  LookAt(coarse.GetRenderer(), Bounds, 30.0, 20.0);
+  RayCastScene small(grid, Smooth(), Size, Size);
+  LookAt(small.GetRenderer(), Bounds, 30.0, 20.0);
+  coarse.GetWindow()->Render();
+  small.GetWindow()->Render();
+  EXPECT_EQ(coarse.GetRayCaster()->GetNumberOfTraversalSteps(),
+    small.GetRayCaster()->GetNumberOfTraversalSteps());
+  const FloatImage large = coarse.RenderFloat();
+  const FloatImage truth = small.RenderFloat();
   for (int y = 1; y < Size - 1; ++y)
   {
     for (int x = 1; x < Size - 1; ++x)
     {
       // Interpolation weights of a pixel at a quarter of the distance between rays: 9, 3, 3, 1 of
       // 16.
-      const float expected = (9.0f * truth.pixel(x, y)[3] + 3.0f * truth.pixel(x + 1, y)[3] +
-                               3.0f * truth.pixel(x, y + 1)[3] + truth.pixel(x + 1, y + 1)[3]) /
+      const float expected =
+        (9.0f * truth.GetPixel(x, y)[3] + 3.0f * truth.GetPixel(x + 1, y)[3] +
+          3.0f * truth.GetPixel(x, y + 1)[3] + truth.GetPixel(x + 1, y + 1)[3]) /
         16.0f;
       // Texture filters have positions of 8 bits.
-      ASSERT_NEAR(large.pixel(2 * x + 1, 2 * y + 1)[3], expected, 0.01f) << x << ", " << y;
+      ASSERT_NEAR(large.GetPixel(2 * x + 1, 2 * y + 1)[3], expected, 0.01f) << x << ", " << y;
     }
   }
 }
 
 TEST(TetrahedraRayCastDetail, LevelsOfDetailProp)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  lookAt(scene.renderer(), Bounds, 30.0, 20.0);
-  const ByteImage truth = scene.renderBytes();
-  EXPECT_GT(scene.rayCaster()->GetTimeToDraw(), 0.0);
-  scene.renderer()->RemoveVolume(scene.volume());
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  LookAt(scene.GetRenderer(), Bounds, 30.0, 20.0);
+  const ByteImage truth = scene.RenderBytes();
+  EXPECT_GT(scene.GetRayCaster()->GetTimeToDraw(), 0.0);
+  scene.GetRenderer()->RemoveVolume(scene.GetVolume());
   vtkNew<vtkLODProp3D> prop;
-  prop->AddLOD(scene.rayCaster(), scene.volume()->GetProperty(), 0.0);
-  scene.renderer()->AddViewProp(prop);
-  EXPECT_EQ(scene.renderBytes().Rgb, truth.Rgb);
+  prop->AddLOD(scene.GetRayCaster(), scene.GetVolume()->GetProperty(), 0.0);
+  scene.GetRenderer()->AddViewProp(prop);
+  EXPECT_EQ(scene.RenderBytes().Rgb, truth.Rgb);
 }
 
 TEST(TetrahedraRayCastNeighbors, TranslucentGeometry)
 {
   // The volume is blended over translucent geometry, behind it or in front, as VTK's volumes are.
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (const bool peeling : { false, true })
   {
     for (const double z : { -1.5, 1.5 })
     {
-      RayCastScene scene(grid, smooth(), Size, Size);
-      lookAt(scene.renderer(), Bounds, 0.0, 0.0);
-      const ByteImage alone = scene.renderBytes();
-      const FloatImage volume = scene.renderFloat();
-      const auto plane = addPlane(scene.renderer(), z, 0.5);
-      scene.renderer()->SetUseDepthPeeling(peeling);
-      scene.renderer()->SetMaximumNumberOfPeels(4);
-      scene.renderer()->SetOcclusionRatio(0.0);
-      const ByteImage image = scene.renderBytes();
+      RayCastScene scene(grid, Smooth(), Size, Size);
+      LookAt(scene.GetRenderer(), Bounds, 0.0, 0.0);
+      const ByteImage alone = scene.RenderBytes();
+      const FloatImage volume = scene.RenderFloat();
+      const auto plane = AddPlane(scene.GetRenderer(), z, 0.5);
+      scene.GetRenderer()->SetUseDepthPeeling(peeling);
+      scene.GetRenderer()->SetMaximumNumberOfPeels(4);
+      scene.GetRenderer()->SetOcclusionRatio(0.0);
+      const ByteImage image = scene.RenderBytes();
       const double color[3] = { 0.2, 0.8, 0.4 };
       for (int y = 0; y < Size; ++y)
       {
         for (int x = 0; x < Size; ++x)
         {
-          const float* rgba = volume.pixel(x, y);
+          const float* rgba = volume.GetPixel(x, y);
           for (int c = 0; c < 3; ++c)
           {
             const double expected = rgba[c] + (1.0 - rgba[3]) * 0.5 * color[c];
-            ASSERT_NEAR(image.pixel(x, y)[c], 255.0 * expected, 1.51)
+            ASSERT_NEAR(image.GetPixel(x, y)[c], 255.0 * expected, 1.51)
               << x << ", " << y << (peeling ? ", peeling" : "") << " z " << z;
           }
         }
@@ -270,47 +271,47 @@ TEST(TetrahedraRayCastNeighbors, TranslucentGeometry)
 
 TEST(TetrahedraRayCastNeighbors, PeeledVolumesAreLeftOutWithAWarning)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
-  lookAt(scene.renderer(), Bounds, 0.0, 0.0);
-  scene.renderer()->SetUseDepthPeeling(true);
-  scene.renderer()->SetUseDepthPeelingForVolumes(true);
-  const ByteImage alone = scene.renderBytes();
-  scene.volume()->VisibilityOff();
-  const auto plane = addPlane(scene.renderer(), 1.5, 0.5);
-  const ByteImage translucent = scene.renderBytes();
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
+  LookAt(scene.GetRenderer(), Bounds, 0.0, 0.0);
+  scene.GetRenderer()->SetUseDepthPeeling(true);
+  scene.GetRenderer()->SetUseDepthPeelingForVolumes(true);
+  const ByteImage alone = scene.RenderBytes();
+  scene.GetVolume()->VisibilityOff();
+  const auto plane = AddPlane(scene.GetRenderer(), 1.5, 0.5);
+  const ByteImage translucent = scene.RenderBytes();
   EXPECT_NE(translucent.Rgb, alone.Rgb);
-  scene.volume()->VisibilityOn();
+  scene.GetVolume()->VisibilityOn();
   vtkNew<ErrorObserver> told;
-  told->observe(scene.rayCaster());
-  EXPECT_EQ(scene.renderBytes().Rgb, translucent.Rgb);
+  told->Observe(scene.GetRayCaster());
+  EXPECT_EQ(scene.RenderBytes().Rgb, translucent.Rgb);
   ASSERT_EQ(told->Warnings.size(), 1u);
   EXPECT_NE(told->Warnings.front().find("UseDepthPeelingForVolumes"), std::string::npos);
   plane->VisibilityOff();
-  EXPECT_EQ(scene.renderBytes().Rgb, alone.Rgb);
+  EXPECT_EQ(scene.RenderBytes().Rgb, alone.Rgb);
 }
 
 TEST(TetrahedraRayCastNeighbors, SeveralVolumes)
 {
   // Two volumes apart in depth: the front one is drawn over the back one, each as if alone.
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, smooth(), Size, Size);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, Smooth(), Size, Size);
   vtkNew<vtkTetrahedraRayCastMapper> mapper;
   mapper->SetInputData(grid);
   vtkNew<vtkVolume> second;
   second->SetMapper(mapper);
-  second->SetProperty(scene.volume()->GetProperty());
+  second->SetProperty(scene.GetVolume()->GetProperty());
   second->SetPosition(0.3, 0.2, 3.0);
   const double bounds[6] = { -1.0, 1.3, -1.0, 1.2, -1.0, 4.0 };
-  lookAt(scene.renderer(), bounds, 20.0, 10.0);
-  const FloatImage back = scene.renderFloat();
-  scene.renderer()->RemoveVolume(scene.volume());
-  scene.renderer()->AddVolume(second);
-  const FloatImage front = scene.renderFloat();
-  scene.renderer()->RemoveVolume(second);
-  scene.renderer()->AddVolume(scene.volume());
-  scene.renderer()->AddVolume(second);
-  const FloatImage both = scene.renderFloat();
+  LookAt(scene.GetRenderer(), bounds, 20.0, 10.0);
+  const FloatImage back = scene.RenderFloat();
+  scene.GetRenderer()->RemoveVolume(scene.GetVolume());
+  scene.GetRenderer()->AddVolume(second);
+  const FloatImage front = scene.RenderFloat();
+  scene.GetRenderer()->RemoveVolume(second);
+  scene.GetRenderer()->AddVolume(scene.GetVolume());
+  scene.GetRenderer()->AddVolume(second);
+  const FloatImage both = scene.RenderFloat();
   for (std::size_t i = 0; i < both.Rgba.size(); ++i)
   {
     const float transmitted = 1.0f - front.Rgba[i / 4 * 4 + 3];

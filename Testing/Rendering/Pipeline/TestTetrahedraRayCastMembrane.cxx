@@ -45,70 +45,73 @@ struct MembraneTest
   MembraneTest(const MembraneCase& membrane, vtkUnstructuredGrid* grid,
     FunctionKind kind = FunctionKind::Smooth)
     : Membrane(membrane)
-    , Scene(grid, makeProperty(kind, Range, 3.4), Size, Size)
+    , Scene(grid, MakeProperty(kind, Range, 3.4), Size, Size)
   {
-    this->Scene.rayCaster()->SetMembraneData(membrane.Mesh);
+    this->Scene.GetRayCaster()->SetMembraneData(membrane.Mesh);
   }
 
-  void setIndices(double exterior, double interior)
+  void SetIndices(double exterior, double interior)
   {
-    this->Scene.rayCaster()->SetExteriorIndexOfRefraction(exterior);
-    this->Scene.rayCaster()->SetInteriorIndexOfRefraction(interior);
+    this->Scene.GetRayCaster()->SetExteriorIndexOfRefraction(exterior);
+    this->Scene.GetRayCaster()->SetInteriorIndexOfRefraction(interior);
     this->Membrane.Surface.Exterior = exterior;
     this->Membrane.Surface.Interior = interior;
   }
 
-  void lookAtBlock(double azimuth, double elevation, double zoom = 1.0, bool parallel = false)
+  void LookAtBlock(double azimuth, double elevation, double zoom = 1.0, bool parallel = false)
   {
-    lookAt(this->Scene.renderer(), Block, azimuth, elevation, zoom, parallel);
+    LookAt(this->Scene.GetRenderer(), Block, azimuth, elevation, zoom, parallel);
   }
 
   // Compares with the exact result of composite blending.
-  TracedComparison expectComposite(const std::string& what, double tolerance = FloatTolerance)
+  TracedComparison ExpectComposite(const std::string& what, double tolerance = FloatTolerance)
   {
-    this->Scene.window()->Render();
-    const auto integrator = makeReference(this->Scene.grid(), this->Scene.volume()->GetMatrix());
-    const auto function = toReference(this->Scene.volume()->GetProperty());
-    const TracedComparison result = expectTrace(this->Scene,
-      this->Membrane.bend([&](const Ray& part) { return integrator->trace(part, function); }), what,
-      tolerance);
+    this->Scene.GetWindow()->Render();
+    const auto integrator =
+      MakeReference(this->Scene.MakeGrid(), this->Scene.GetVolume()->GetMatrix());
+    const auto function = ToReference(this->Scene.GetVolume()->GetProperty());
+    const TracedComparison result = ExpectTrace(this->Scene,
+      this->Membrane.BendMembrane(
+        [&](const Ray& part) { return integrator->Trace(part, function); }),
+      what, tolerance);
     // Measured: 1.6e-6 through waves, because of the patches' error; otherwise 1.3e-7 natively and
     // 8.7e-7 with shaders.
-    EXPECT_LT(result.Rms, 2e-6) << what << ": " << result.text();
+    EXPECT_LT(result.Rms, 2e-6) << what << ": " << result.GetText();
     return result;
   }
 };
 
 // Compares isosurfaces, with or without lighting.
-void expectSurfaces(MembraneTest& test, const std::string& what)
+void ExpectSurfaces(MembraneTest& test, const std::string& what)
 {
   RayCastScene& scene = test.Scene;
-  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  scene.window()->Render();
-  vtkVolumeProperty* property = scene.volume()->GetProperty();
-  const auto integrator = makeReference(scene.grid(), scene.volume()->GetMatrix());
-  const std::vector<Surface> surfaces = toSurfaces(property);
-  const Material material = toMaterial(property, scene.renderer());
-  const ReferenceGradients gradients(integrator->mesh(), scene.rayCaster()->GetGradients() != 0);
-  expectTrace(
+  scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  scene.GetWindow()->Render();
+  vtkVolumeProperty* property = scene.GetVolume()->GetProperty();
+  const auto integrator = MakeReference(scene.MakeGrid(), scene.GetVolume()->GetMatrix());
+  const std::vector<Surface> surfaces = ToSurfaces(property);
+  const Material material = ToMaterial(property, scene.GetRenderer());
+  const ReferenceGradients gradients(
+    integrator->MakeMesh(), scene.GetRayCaster()->GetGradients() != 0);
+  ExpectTrace(
     scene,
     [&](const Ray& ray)
     {
-      return compose(refract(test.Membrane.Surface, ray, 0.0, false),
+      return Compose(Refract(test.Membrane.Surface, ray, 0.0, false),
         [&](const Ray& part)
         {
           std::vector<RaySegment> segments;
-          integrator->findSegments(part, segments);
-          return blendSurfaces(
+          integrator->FindSegments(part, segments);
+          return BlendSurfaces(
             part, segments, surfaces, property->GetShade() ? &gradients : nullptr, material);
         });
     },
     what);
 }
 
-vtkSmartPointer<vtkVolumeProperty> surfaceProperty(bool shade)
+vtkSmartPointer<vtkVolumeProperty> SurfaceProperty(bool shade)
 {
-  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   property->GetIsoSurfaceValues()->SetValue(0, -0.31);
   property->GetIsoSurfaceValues()->SetValue(1, 0.12);
   property->GetIsoSurfaceValues()->SetValue(2, 0.43);
@@ -121,29 +124,29 @@ vtkSmartPointer<vtkVolumeProperty> surfaceProperty(bool shade)
 
 TEST(TetrahedraRayCastMembrane, ThroughAPlane)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
   {
     for (const double elevation : { 25.0, 60.0, 90.0 })
     {
-      MembraneTest test(makePlaneCase(1.3, 3.0, 3), grid, kind);
-      test.lookAtBlock(30.0, elevation);
-      test.expectComposite("plane from " + std::to_string(elevation));
-      EXPECT_EQ(test.Scene.rayCaster()->GetActiveBackend(), backendUnderTest());
+      MembraneTest test(MakePlaneCase(1.3, 3.0, 3), grid, kind);
+      test.LookAtBlock(30.0, elevation);
+      test.ExpectComposite("plane from " + std::to_string(elevation));
+      EXPECT_EQ(test.Scene.GetRayCaster()->GetActiveBackend(), BackendUnderTest());
     }
   }
 }
 
 TEST(TetrahedraRayCastMembrane, ThroughADome)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
   {
     for (const bool parallel : { false, true })
     {
-      MembraneTest test(makeDomeCase(1.4, 4.0, 2.8, 16), grid, kind);
-      test.lookAtBlock(30.0, 55.0, 1.0, parallel);
-      test.expectComposite(parallel ? "dome, parallel" : "dome, perspective");
+      MembraneTest test(MakeDomeCase(1.4, 4.0, 2.8, 16), grid, kind);
+      test.LookAtBlock(30.0, 55.0, 1.0, parallel);
+      test.ExpectComposite(parallel ? "dome, parallel" : "dome, perspective");
     }
   }
 }
@@ -151,21 +154,21 @@ TEST(TetrahedraRayCastMembrane, ThroughADome)
 TEST(TetrahedraRayCastMembrane, ThroughWaves)
 {
   // Patches interpolate waves, so the error is theirs: of third order in the size of a facet.
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  MembraneTest test(makeWavesCase(1.3, 0.08, 3.0, 3.0, 192), grid);
-  test.lookAtBlock(30.0, 50.0);
-  test.expectComposite("waves");
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  MembraneTest test(MakeWavesCase(1.3, 0.08, 3.0, 3.0, 192), grid);
+  test.LookAtBlock(30.0, 50.0);
+  test.ExpectComposite("waves");
 }
 
 TEST(TetrahedraRayCastMembrane, ConstantMediumUnderAPlane)
 {
   // Closed form: 1 - exp(-tau l), with the length l of the refracted ray in the box.
-  const Grid grid = makeBlock(4, constantField(0.5));
-  RayCastScene scene(grid, makeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
-  const MembraneCase plane = makePlaneCase(1.5, 4.0, 2);
-  scene.rayCaster()->SetMembraneData(plane.Mesh);
-  lookAt(scene.renderer(), Block, 20.0, 40.0);
-  expectTrace(
+  const Grid grid = MakeBlock(4, ConstantField(0.5));
+  RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
+  const MembraneCase plane = MakePlaneCase(1.5, 4.0, 2);
+  scene.GetRayCaster()->SetMembraneData(plane.Mesh);
+  LookAt(scene.GetRenderer(), Block, 20.0, 40.0);
+  ExpectTrace(
     scene,
     [](const Ray& ray)
     {
@@ -194,19 +197,19 @@ TEST(TetrahedraRayCastMembrane, ConstantMediumUnderAPlane)
 
 TEST(TetrahedraRayCastMembrane, MeshPartlyAbove)
 {
-  for (const Region& region : { Region(), torus(0.6, 0.3), twoBlocks(0.4), lShape() })
+  for (const Region& region : { Region(), Torus(0.6, 0.3), TwoBlocks(0.4), LShape() })
   {
-    const Grid grid = makeBlock(6, wavyField(3.0), region);
+    const Grid grid = MakeBlock(6, WavyField(3.0), region);
     // Through cells, along their faces, along the mesh's own top.
     for (const double level : { -0.55, 0.0, 0.1, 1.0 })
     {
-      MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
-      test.lookAtBlock(30.0, 35.0);
-      test.expectComposite("plane at " + std::to_string(level));
+      MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
+      test.LookAtBlock(30.0, 35.0);
+      test.ExpectComposite("plane at " + std::to_string(level));
     }
-    MembraneTest test(makeDomeCase(0.3, 4.0, 2.8, 16), grid);
-    test.lookAtBlock(30.0, 35.0);
-    test.expectComposite("dome in the mesh");
+    MembraneTest test(MakeDomeCase(0.3, 4.0, 2.8, 16), grid);
+    test.LookAtBlock(30.0, 35.0);
+    test.ExpectComposite("dome in the mesh");
   }
 }
 
@@ -214,19 +217,19 @@ TEST(TetrahedraRayCastMembrane, CellsInDisorder)
 {
   // Inverted and overlapping cells around the membrane: no walk may get lost. The image of such a
   // mesh depends on the order of its cells, so only statistics are compared.
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  jitter(grid, 0.3, 5);
-  MembraneTest test(makePlaneCase(0.1, 4.0, 2), grid);
-  test.lookAtBlock(30.0, 35.0);
-  test.Scene.renderFloat();
-  EXPECT_GT(test.Scene.rayCaster()->GetNumberOfRays(), 1000);
-  EXPECT_EQ(test.Scene.rayCaster()->GetNumberOfLostRays(), 0);
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  Jitter(grid, 0.3, 5);
+  MembraneTest test(MakePlaneCase(0.1, 4.0, 2), grid);
+  test.LookAtBlock(30.0, 35.0);
+  test.Scene.RenderFloat();
+  EXPECT_GT(test.Scene.GetRayCaster()->GetNumberOfRays(), 1000);
+  EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfLostRays(), 0);
 }
 
 TEST(TetrahedraRayCastMembrane, CellsFlatterThanRounding)
 {
   // Two layers of cells, which rounding may invert, around the membrane: rays begin in them.
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
   {
     double x[3];
@@ -236,120 +239,120 @@ TEST(TetrahedraRayCastMembrane, CellsFlatterThanRounding)
   }
   for (const double level : { 0.0, 5e-9, -2e-8 })
   {
-    MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
-    test.lookAtBlock(30.0, 35.0);
-    test.expectComposite("flat cells, plane at " + std::to_string(1e9 * level) + "e-9");
+    MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
+    test.LookAtBlock(30.0, 35.0);
+    test.ExpectComposite("flat cells, plane at " + std::to_string(1e9 * level) + "e-9");
   }
 }
 
 TEST(TetrahedraRayCastMembrane, RaysOfSeveralFrames)
 {
   // At the corners of this dome rays turn by more than 50 degrees, and come from all sides.
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  MembraneTest test(makeDomeCase(2.3, 1.3, 0.9, 96), grid);
-  test.setIndices(1.0, 3.0);
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  MembraneTest test(MakeDomeCase(2.3, 1.3, 0.9, 96), grid);
+  test.SetIndices(1.0, 3.0);
   for (const double elevation : { 90.0, 70.0 })
   {
-    test.lookAtBlock(30.0, elevation);
-    test.expectComposite("steep dome from " + std::to_string(elevation));
+    test.LookAtBlock(30.0, elevation);
+    test.ExpectComposite("steep dome from " + std::to_string(elevation));
   }
 }
 
 TEST(TetrahedraRayCastMembrane, PartOfTheScreen)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (const double level : { 0.2, 1.2 })
   {
-    MembraneTest test(makePlaneCase(level, 0.7, 3), grid);
-    test.lookAtBlock(30.0, 40.0);
-    test.expectComposite("small plane at " + std::to_string(level));
+    MembraneTest test(MakePlaneCase(level, 0.7, 3), grid);
+    test.LookAtBlock(30.0, 40.0);
+    test.ExpectComposite("small plane at " + std::to_string(level));
   }
 }
 
 TEST(TetrahedraRayCastMembrane, TotalReflection)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (const double elevation : { 20.0, 45.0 })
   {
     // The critical angle is 41.8 degrees.
-    MembraneTest test(makePlaneCase(0.1, 4.0, 2), grid);
-    test.setIndices(1.5, 1.0);
-    test.lookAtBlock(30.0, elevation);
-    test.expectComposite("from " + std::to_string(elevation));
+    MembraneTest test(MakePlaneCase(0.1, 4.0, 2), grid);
+    test.SetIndices(1.5, 1.0);
+    test.LookAtBlock(30.0, elevation);
+    test.ExpectComposite("from " + std::to_string(elevation));
   }
 }
 
 TEST(TetrahedraRayCastMembrane, FromTheOtherSide)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (const double level : { -1.3, 0.1 })
   {
-    MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
-    test.lookAtBlock(30.0, -65.0);
-    test.expectComposite("from below, at " + std::to_string(level));
+    MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
+    test.LookAtBlock(30.0, -65.0);
+    test.ExpectComposite("from below, at " + std::to_string(level));
   }
 }
 
 TEST(TetrahedraRayCastMembrane, BehindTheEyeAndBeforeTheNearPlane)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  MembraneTest behind(makePlaneCase(9.0, 30.0, 2), grid);
-  behind.lookAtBlock(30.0, 35.0);
-  behind.expectComposite("behind the eye");
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  MembraneTest behind(MakePlaneCase(9.0, 30.0, 2), grid);
+  behind.LookAtBlock(30.0, 35.0);
+  behind.ExpectComposite("behind the eye");
 
   for (const double level : { 0.4, 1.5 })
   {
-    MembraneTest near(makePlaneCase(level, 9.0, 2), grid);
-    vtkCamera* camera = near.Scene.renderer()->GetActiveCamera();
+    MembraneTest near(MakePlaneCase(level, 9.0, 2), grid);
+    vtkCamera* camera = near.Scene.GetRenderer()->GetActiveCamera();
     camera->SetPosition(0.1, level + 0.4, 0.9);
     camera->SetFocalPoint(0.0, level - 1.0, -0.2);
     camera->SetViewUp(0.0, 0.0, -1.0);
     camera->SetViewAngle(70.0);
     camera->SetClippingRange(0.8, 10.0);
-    near.expectComposite("before the near plane, at " + std::to_string(level));
+    near.ExpectComposite("before the near plane, at " + std::to_string(level));
   }
 }
 
 TEST(TetrahedraRayCastMembrane, TransformedVolume)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  MembraneTest test(makeDomeCase(0.9, 4.0, 2.7, 16), grid);
-  vtkVolume* volume = test.Scene.volume();
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  MembraneTest test(MakeDomeCase(0.9, 4.0, 2.7, 16), grid);
+  vtkVolume* volume = test.Scene.GetVolume();
   volume->SetScale(-0.7, 1.5, 1.0);
   volume->RotateWXYZ(37.0, 0.3, 1.0, 0.2);
   volume->SetPosition(0.1, -0.2, 0.1);
-  test.lookAtBlock(30.0, 60.0, 0.8);
-  test.expectComposite("mirrored and stretched");
+  test.LookAtBlock(30.0, 60.0, 0.8);
+  test.ExpectComposite("mirrored and stretched");
 }
 
 TEST(TetrahedraRayCastMembrane, ClippingPlanesAreWhereTheMeshIs)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   const std::vector<HalfSpace> planes{ { { 0.3, -1.0, 0.2 }, { 0.1, 0.4, 0.0 } },
     { { -2.0, 0.1, 0.7 }, { 0.5, 0.0, 0.1 } } };
   for (const double level : { 0.1, 1.2 })
   {
-    MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
+    MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
     for (const HalfSpace& half : planes)
     {
       vtkNew<vtkPlane> plane;
       plane->SetNormal(half.Normal.data());
       plane->SetOrigin(half.Origin.data());
-      test.Scene.rayCaster()->AddClippingPlane(plane);
+      test.Scene.GetRayCaster()->AddClippingPlane(plane);
     }
-    test.lookAtBlock(30.0, 40.0);
-    test.Scene.window()->Render();
-    const auto integrator = makeReference(grid);
-    const auto function = toReference(test.Scene.volume()->GetProperty());
-    expectTrace(
+    test.LookAtBlock(30.0, 40.0);
+    test.Scene.GetWindow()->Render();
+    const auto integrator = MakeReference(grid);
+    const auto function = ToReference(test.Scene.GetVolume()->GetProperty());
+    ExpectTrace(
       test.Scene,
       [&](const Ray& ray)
       {
-        return compose(refract(test.Membrane.Surface, ray, 0.0, false),
+        return Compose(Refract(test.Membrane.Surface, ray, 0.0, false),
           [&](const Ray& part)
           {
-            const Ray clipped = clipRay(part, planes);
-            return clipped.Begin < clipped.End ? integrator->trace(clipped, function)
+            const Ray clipped = ClipRay(part, planes);
+            return clipped.Begin < clipped.End ? integrator->Trace(clipped, function)
                                                : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
           });
       },
@@ -364,30 +367,30 @@ TEST(TetrahedraRayCastMembrane, Projections)
     { vtkVolumeMapper::MINIMUM_INTENSITY_BLEND, Projection::Minimum },
     { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
     { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  const std::vector<MembraneCase> membranes{ makePlaneCase(1.3, 3.0, 3), makePlaneCase(0.1, 4.0, 2),
-    makeDomeCase(1.4, 4.0, 2.8, 16) };
+  const std::vector<MembraneCase> membranes{ MakePlaneCase(1.3, 3.0, 3), MakePlaneCase(0.1, 4.0, 2),
+    MakeDomeCase(1.4, 4.0, 2.8, 16) };
   for (const auto& mode : modes)
   {
     for (const MembraneCase& membrane : membranes)
     {
       MembraneTest test(membrane, grid);
       RayCastScene& scene = test.Scene;
-      scene.rayCaster()->SetBlendMode(mode.first);
-      test.lookAtBlock(30.0, 55.0);
-      const auto integrator = makeReference(grid);
-      vtkVolumeProperty* property = scene.volume()->GetProperty();
+      scene.GetRayCaster()->SetBlendMode(mode.first);
+      test.LookAtBlock(30.0, 55.0);
+      const auto integrator = MakeReference(grid);
+      vtkVolumeProperty* property = scene.GetVolume()->GetProperty();
       const auto function =
-        mode.second == Projection::Additive ? toReference(property) : toAlphas(property);
-      expectTrace(
+        mode.second == Projection::Additive ? ToReference(property) : ToAlphas(property);
+      ExpectTrace(
         scene,
         [&](const Ray& ray)
         {
-          const RefractedRay refracted = refract(membrane.Surface, ray, 0.0, false);
-          return project(
-            refracted.Straight, findSegments(*integrator, refracted), mode.second, function, range);
+          const RefractedRay refracted = Refract(membrane.Surface, ray, 0.0, false);
+          return Project(
+            refracted.Straight, FindSegments(*integrator, refracted), mode.second, function, range);
         },
         "mode " + std::to_string(mode.first));
     }
@@ -396,9 +399,9 @@ TEST(TetrahedraRayCastMembrane, Projections)
 
 TEST(TetrahedraRayCastMembrane, Isosurfaces)
 {
-  const Grid grid = makeBlock(8, wavyField(3.0));
-  const std::vector<MembraneCase> membranes{ makePlaneCase(0.1, 4.0, 2),
-    makeDomeCase(1.4, 4.0, 2.8, 16) };
+  const Grid grid = MakeBlock(8, WavyField(3.0));
+  const std::vector<MembraneCase> membranes{ MakePlaneCase(0.1, 4.0, 2),
+    MakeDomeCase(1.4, 4.0, 2.8, 16) };
   for (const bool shade : { false, true })
   {
     for (const MembraneCase& membrane : membranes)
@@ -406,21 +409,21 @@ TEST(TetrahedraRayCastMembrane, Isosurfaces)
       for (const int gradients : { 0, 1 })
       {
         MembraneTest test(membrane, grid);
-        test.Scene.setProperty(surfaceProperty(shade));
-        test.Scene.rayCaster()->SetGradients(gradients);
+        test.Scene.SetProperty(SurfaceProperty(shade));
+        test.Scene.GetRayCaster()->SetGradients(gradients);
         vtkNew<vtkLight> lamp;
         lamp->SetPositional(true);
         lamp->SetPosition(1.5, 2.5, 1.0);
         lamp->SetFocalPoint(0.0, 0.0, 0.0);
         lamp->SetConeAngle(40.0);
         lamp->SetAttenuationValues(0.4, 0.2, 0.05);
-        test.Scene.renderer()->AddLight(lamp);
+        test.Scene.GetRenderer()->AddLight(lamp);
         vtkNew<vtkLight> sun;
         sun->SetPosition(-1.0, 2.0, 0.5);
         sun->SetFocalPoint(0.0, 0.0, 0.0);
-        test.Scene.renderer()->AddLight(sun);
-        test.lookAtBlock(30.0, 50.0);
-        expectSurfaces(test, shade ? "lit" : "unlit");
+        test.Scene.GetRenderer()->AddLight(sun);
+        test.LookAtBlock(30.0, 50.0);
+        ExpectSurfaces(test, shade ? "lit" : "unlit");
       }
     }
   }
@@ -430,15 +433,15 @@ TEST(TetrahedraRayCastMembrane, VirtualGeometryHides)
 {
   // A rectangle across the view. Behind the sight point its depth corresponds to a true length
   // n2/n1 times as large (Eq. 2.4), in front of it to itself.
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (const double level : { 0.1, 1.2 })
   {
     for (const double offset : { -0.7, -0.1, 0.5 })
     {
-      MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
-      test.lookAtBlock(30.0, 50.0);
-      test.Scene.window()->Render();
-      vtkCamera* camera = test.Scene.renderer()->GetActiveCamera();
+      MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
+      test.LookAtBlock(30.0, 50.0);
+      test.Scene.GetWindow()->Render();
+      vtkCamera* camera = test.Scene.GetRenderer()->GetActiveCamera();
       const double depth = camera->GetDistance() + offset;
       double center[3];
       double forward[3];
@@ -459,17 +462,17 @@ TEST(TetrahedraRayCastMembrane, VirtualGeometryHides)
       actor->SetMapper(mapper);
       actor->GetProperty()->SetLighting(false);
       actor->GetProperty()->SetColor(0.0, 0.0, 0.0);
-      test.Scene.renderer()->AddActor(actor);
-      const auto integrator = makeReference(grid);
-      const auto function = toReference(test.Scene.volume()->GetProperty());
-      expectTrace(
+      test.Scene.GetRenderer()->AddActor(actor);
+      const auto integrator = MakeReference(grid);
+      const auto function = ToReference(test.Scene.GetVolume()->GetProperty());
+      ExpectTrace(
         test.Scene,
         [&](const Ray& ray)
         {
           Ray ended = ray;
           ended.End = depth;
-          std::array<double, 4> color = compose(refract(test.Membrane.Surface, ended, 0.0, true),
-            [&](const Ray& part) { return integrator->trace(part, function); });
+          std::array<double, 4> color = Compose(Refract(test.Membrane.Surface, ended, 0.0, true),
+            [&](const Ray& part) { return integrator->Trace(part, function); });
           color[3] = 1.0;
           return color;
         },
@@ -480,61 +483,61 @@ TEST(TetrahedraRayCastMembrane, VirtualGeometryHides)
 
 TEST(TetrahedraRayCastMembrane, EqualIndicesChangeNothing)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0), torus(0.6, 0.3));
+  const Grid grid = MakeBlock(6, WavyField(3.0), Torus(0.6, 0.3));
   for (const double level : { 0.1, 1.3 })
   {
-    MembraneTest test(makePlaneCase(level, 4.0, 2), grid);
-    test.lookAtBlock(30.0, 40.0);
-    test.Scene.rayCaster()->SetMembraneData(nullptr);
-    const FloatImage straight = test.Scene.renderFloat();
-    test.Scene.rayCaster()->SetMembraneData(test.Membrane.Mesh);
-    test.setIndices(1.333, 1.333);
-    EXPECT_EQ(test.Scene.renderFloat().Rgba, straight.Rgba);
-    EXPECT_EQ(test.Scene.rayCaster()->GetNumberOfSightUpdates(), 0);
+    MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
+    test.LookAtBlock(30.0, 40.0);
+    test.Scene.GetRayCaster()->SetMembraneData(nullptr);
+    const FloatImage straight = test.Scene.RenderFloat();
+    test.Scene.GetRayCaster()->SetMembraneData(test.Membrane.Mesh);
+    test.SetIndices(1.333, 1.333);
+    EXPECT_EQ(test.Scene.RenderFloat().Rgba, straight.Rgba);
+    EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfSightUpdates(), 0);
 
     // Nearly equal indices: the code for refraction runs, but rays keep their direction.
-    test.setIndices(1.333, 1.333 * (1.0 + 1e-15));
-    expectSamePicture(test.Scene.renderFloat(), straight, "nearly equal indices");
-    EXPECT_EQ(test.Scene.rayCaster()->GetNumberOfSightUpdates(), 1);
+    test.SetIndices(1.333, 1.333 * (1.0 + 1e-15));
+    ExpectSamePicture(test.Scene.RenderFloat(), straight, "nearly equal indices");
+    EXPECT_EQ(test.Scene.GetRayCaster()->GetNumberOfSightUpdates(), 1);
   }
 }
 
 TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
 {
   // Gradients of cells and directional light, for which the lighting of the medium is exact.
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (const MembraneCase& membrane :
-    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+    { MakePlaneCase(0.1, 4.0, 2), MakeDomeCase(1.4, 4.0, 2.8, 16) })
   {
     MembraneTest test(membrane, grid);
-    vtkVolumeProperty* property = test.Scene.volume()->GetProperty();
+    vtkVolumeProperty* property = test.Scene.GetVolume()->GetProperty();
     property->ShadeOn();
     property->SetSpecular(0.0);
     vtkNew<vtkPiecewiseFunction> opacity;
     opacity->AddPoint(0.0, 0.2);
     opacity->AddPoint(4.0, 1.0);
     property->SetGradientOpacity(opacity);
-    test.Scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+    test.Scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
     vtkNew<vtkLight> sun;
     sun->SetPosition(-1.0, 2.0, 0.5);
     sun->SetFocalPoint(0.0, 0.0, 0.0);
-    test.Scene.renderer()->AddLight(sun);
-    test.lookAtBlock(30.0, 50.0);
-    test.Scene.window()->Render();
-    const auto integrator = makeReference(grid);
-    const auto function = toReference(property);
-    const Material material = toMaterial(property, test.Scene.renderer());
-    const ReferenceGradients gradients(integrator->mesh(), false);
-    expectTrace(
+    test.Scene.GetRenderer()->AddLight(sun);
+    test.LookAtBlock(30.0, 50.0);
+    test.Scene.GetWindow()->Render();
+    const auto integrator = MakeReference(grid);
+    const auto function = ToReference(property);
+    const Material material = ToMaterial(property, test.Scene.GetRenderer());
+    const ReferenceGradients gradients(integrator->MakeMesh(), false);
+    ExpectTrace(
       test.Scene,
       [&](const Ray& ray)
       {
-        return compose(refract(membrane.Surface, ray, 0.0, false),
+        return Compose(Refract(membrane.Surface, ray, 0.0, false),
           [&](const Ray& part)
           {
             std::vector<RaySegment> segments;
-            integrator->findSegments(part, segments);
-            return integrateShaded(
+            integrator->FindSegments(part, segments);
+            return IntegrateShaded(
               part, segments, function, gradients, &material,
               [](double length) { return std::min(0.2 + 0.2 * length, 1.0); }, 40);
           });
@@ -545,15 +548,15 @@ TEST(TetrahedraRayCastMembrane, LightAndGradientOpacityInTheMedium)
 
 TEST(TetrahedraRayCastMembrane, TheNumberOfThreadsDoesNotMatter)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  MembraneTest test(makeWavesCase(0.3, 0.08, 3.0, 3.0, 48), grid);
-  test.lookAtBlock(30.0, 50.0);
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  MembraneTest test(MakeWavesCase(0.3, 0.08, 3.0, 3.0, 48), grid);
+  test.LookAtBlock(30.0, 50.0);
   FloatImage several;
-  vtkSMPTools::LocalScope(vtkSMPTools::Config(4), [&] { several = test.Scene.renderFloat(); });
-  test.Scene.rayCaster()->SetInteriorIndexOfRefraction(1.5);
-  test.Scene.renderFloat(); // the state from the first frame must not be used
-  test.Scene.rayCaster()->SetInteriorIndexOfRefraction(1.333);
+  vtkSMPTools::LocalScope(vtkSMPTools::Config(4), [&] { several = test.Scene.RenderFloat(); });
+  test.Scene.GetRayCaster()->SetInteriorIndexOfRefraction(1.5);
+  test.Scene.RenderFloat(); // the state from the first frame must not be used
+  test.Scene.GetRayCaster()->SetInteriorIndexOfRefraction(1.333);
   FloatImage one;
-  vtkSMPTools::LocalScope(vtkSMPTools::Config(1), [&] { one = test.Scene.renderFloat(); });
+  vtkSMPTools::LocalScope(vtkSMPTools::Config(1), [&] { one = test.Scene.RenderFloat(); });
   EXPECT_EQ(one.Rgba, several.Rgba);
 }

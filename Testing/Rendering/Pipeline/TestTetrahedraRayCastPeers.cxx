@@ -61,7 +61,7 @@ class PeerMapper : public vtkUnstructuredGridVolumeRayCastMapper
 public:
   static PeerMapper* New() { return new PeerMapper; }
 
-  FloatImage picture() const
+  FloatImage MakePicture() const
   {
     FloatImage image;
     image.Width = image.Height = Size;
@@ -92,29 +92,29 @@ struct PeerScene
   bool Cells = false;
 };
 
-void place(VolumeScene& view, const PeerScene& scene, vtkUnstructuredGridVolumeMapper* mapper)
+void MakePlace(VolumeScene& view, const PeerScene& scene, vtkUnstructuredGridVolumeMapper* mapper)
 {
-  view.setMapper(mapper);
-  view.setProperty(scene.Property);
+  view.SetMapper(mapper);
+  view.SetProperty(scene.Property);
   if (scene.Transform)
   {
-    view.volume()->SetUserTransform(scene.Transform);
+    view.GetVolume()->SetUserTransform(scene.Transform);
   }
-  lookAt(
-    view.renderer(), view.volume()->GetBounds(), scene.Azimuth, scene.Elevation, scene.Zoom, true);
+  LookAt(view.GetRenderer(), view.GetVolume()->GetBounds(), scene.Azimuth, scene.Elevation,
+    scene.Zoom, true);
 }
 
-FloatImage drawOurs(const PeerScene& scene)
+FloatImage DrawOurs(const PeerScene& scene)
 {
   VolumeScene view(Size, Size);
   vtkNew<vtkTetrahedraRayCastMapper> mapper;
-  mapper->SetBackend(backendUnderTest());
+  mapper->SetBackend(BackendUnderTest());
   mapper->SetInputData(scene.Mesh);
-  place(view, scene, mapper);
-  return view.renderFloat();
+  MakePlace(view, scene, mapper);
+  return view.RenderFloat();
 }
 
-FloatImage drawPeer(const PeerScene& scene)
+FloatImage DrawPeer(const PeerScene& scene)
 {
   VolumeScene view(Size, Size);
   const auto mapper = vtkSmartPointer<PeerMapper>::Take(PeerMapper::New());
@@ -131,16 +131,16 @@ FloatImage drawPeer(const PeerScene& scene)
     mapper->SetRayIntegrator(homogeneous);
   }
   mapper->SetInputData(scene.PeerMesh ? scene.PeerMesh : scene.Mesh);
-  place(view, scene, mapper);
-  view.renderer()->GetActiveCamera()->SetWindowCenter(1.0 / Size, 1.0 / Size);
-  view.window()->Render();
-  return mapper->picture();
+  MakePlace(view, scene, mapper);
+  view.GetRenderer()->GetActiveCamera()->SetWindowCenter(1.0 / Size, 1.0 / Size);
+  view.GetWindow()->Render();
+  return mapper->MakePicture();
 }
 
-void expectPicturesMatch(const PeerScene& scene, const std::string& what)
+void ExpectPicturesMatch(const PeerScene& scene, const std::string& what)
 {
-  const FloatImage ours = drawOurs(scene);
-  const FloatImage peer = drawPeer(scene);
+  const FloatImage ours = DrawOurs(scene);
+  const FloatImage peer = DrawPeer(scene);
   std::size_t covered = 0;
   std::size_t outside = 0;
   double least = 0.0;
@@ -162,7 +162,7 @@ void expectPicturesMatch(const PeerScene& scene, const std::string& what)
                          << covered << " pixels covered";
 }
 
-vtkSmartPointer<vtkColorTransferFunction> rainbow()
+vtkSmartPointer<vtkColorTransferFunction> Rainbow()
 {
   auto colors = vtkSmartPointer<vtkColorTransferFunction>::New();
   colors->AddRGBPoint(-2.0, 0.0, 0.0, 0.0);
@@ -174,7 +174,7 @@ vtkSmartPointer<vtkColorTransferFunction> rainbow()
 }
 
 // Nodes at the places of the colours' nodes: the peer ignores others.
-vtkSmartPointer<vtkPiecewiseFunction> ramp(double factor)
+vtkSmartPointer<vtkPiecewiseFunction> Ramp(double factor)
 {
   auto opacities = vtkSmartPointer<vtkPiecewiseFunction>::New();
   opacities->AddPoint(-2.0, 0.0);
@@ -184,25 +184,25 @@ vtkSmartPointer<vtkPiecewiseFunction> ramp(double factor)
   return opacities;
 }
 
-PeerScene makeScene(const Grid& mesh, double factor = 1.0)
+PeerScene MakeScene(const Grid& mesh, double factor = 1.0)
 {
   PeerScene scene;
   scene.Mesh = mesh;
   scene.Property = vtkSmartPointer<vtkVolumeProperty>::New();
-  scene.Property->SetColor(rainbow());
-  scene.Property->SetScalarOpacity(ramp(factor));
+  scene.Property->SetColor(Rainbow());
+  scene.Property->SetScalarOpacity(Ramp(factor));
   scene.Property->SetScalarOpacityUnitDistance(0.8);
   scene.Property->SetInterpolationTypeToLinear();
   return scene;
 }
 
-Grid block(const Region& region = nullptr)
+Grid MakeWavyBlock(const Region& region = nullptr)
 {
-  return makeBlock(4, wavyField(3.0), region);
+  return MakeBlock(4, WavyField(3.0), region);
 }
 
 // Sets a point array of several fields: the mesh's own, a linear one and so on.
-void setComponents(const Grid& mesh, const std::vector<Field>& fields)
+void SetComponents(const Grid& mesh, const std::vector<Field>& fields)
 {
   vtkNew<vtkDoubleArray> array;
   array->SetName(ScalarName);
@@ -223,17 +223,17 @@ void setComponents(const Grid& mesh, const std::vector<Field>& fields)
 
 TEST(TetrahedraRayCastPeers, MeshesWithCavities)
 {
-  for (const Region& region : { Region(nullptr), shell(0.4, 1.2), lShape() })
+  for (const Region& region : { Region(nullptr), Shell(0.4, 1.2), LShape() })
   {
-    expectPicturesMatch(makeScene(block(region)), "region");
+    ExpectPicturesMatch(MakeScene(MakeWavyBlock(region)), "region");
   }
 }
 
 TEST(TetrahedraRayCastPeers, CloseCamera)
 {
-  PeerScene scene = makeScene(block());
+  PeerScene scene = MakeScene(MakeWavyBlock());
   scene.Zoom = 5.0;
-  expectPicturesMatch(scene, "close");
+  ExpectPicturesMatch(scene, "close");
 }
 
 // Opacities are attenuation per unit distance and may exceed 1; rays end early.
@@ -241,54 +241,54 @@ TEST(TetrahedraRayCastPeers, AttenuationGreaterThanOne)
 {
   for (const double factor : { 5.0, 60.0 })
   {
-    expectPicturesMatch(makeScene(block(), factor), "factor " + std::to_string(factor));
+    ExpectPicturesMatch(MakeScene(MakeWavyBlock(), factor), "factor " + std::to_string(factor));
   }
 }
 
 TEST(TetrahedraRayCastPeers, MovedVolume)
 {
-  PeerScene scene = makeScene(block(lShape()));
+  PeerScene scene = MakeScene(MakeWavyBlock(LShape()));
   scene.Transform = vtkSmartPointer<vtkTransform>::New();
   scene.Transform->Translate(2.0, -3.0, 1.0);
   scene.Transform->RotateWXYZ(35.0, 1.0, 2.0, 0.5);
-  expectPicturesMatch(scene, "moved");
+  ExpectPicturesMatch(scene, "moved");
 }
 
 TEST(TetrahedraRayCastPeers, GreyLevels)
 {
-  PeerScene scene = makeScene(block());
+  PeerScene scene = MakeScene(MakeWavyBlock());
   vtkNew<vtkPiecewiseFunction> grey;
   grey->AddPoint(-2.0, 0.0);
   grey->AddPoint(-0.2, 0.7);
   grey->AddPoint(0.5, 0.2);
   grey->AddPoint(2.0, 1.0);
   scene.Property->SetColor(grey);
-  expectPicturesMatch(scene, "grey");
+  ExpectPicturesMatch(scene, "grey");
 }
 
 // Four dependent components: colour and attenuation of each point. The peer uses no functions for
 // these, so the opacity function is the identity here.
 TEST(TetrahedraRayCastPeers, ColorsAsTheyAre)
 {
-  PeerScene scene = makeScene(block());
-  const Field wavy = wavyField(2.0);
+  PeerScene scene = MakeScene(MakeWavyBlock());
+  const Field wavy = WavyField(2.0);
   const auto share = [wavy](double shift)
   {
     return [=](double x, double y, double z)
     { return std::clamp(0.5 + 0.5 * wavy(x + shift, y, z), 0.0, 1.0); };
   };
-  setComponents(scene.Mesh, { share(0.0), share(0.7), share(1.6), share(2.9) });
+  SetComponents(scene.Mesh, { share(0.0), share(0.7), share(1.6), share(2.9) });
   vtkNew<vtkPiecewiseFunction> identity;
   identity->AddPoint(0.0, 0.0);
   identity->AddPoint(1.0, 1.0);
   scene.Property->SetScalarOpacity(identity);
   scene.Property->IndependentComponentsOff();
-  expectPicturesMatch(scene, "colours");
+  ExpectPicturesMatch(scene, "colours");
 }
 
 TEST(TetrahedraRayCastPeers, CellsOfOneValue)
 {
-  PeerScene scene = makeScene(block());
+  PeerScene scene = MakeScene(MakeWavyBlock());
   vtkNew<vtkPointDataToCellData> average;
   average->SetInputData(scene.Mesh);
   average->PassPointDataOff();
@@ -296,22 +296,22 @@ TEST(TetrahedraRayCastPeers, CellsOfOneValue)
   scene.Mesh = vtkUnstructuredGrid::SafeDownCast(average->GetOutput());
   scene.Mesh->GetCellData()->SetActiveScalars(ScalarName);
   scene.Cells = true;
-  expectPicturesMatch(scene, "cells");
+  ExpectPicturesMatch(scene, "cells");
 }
 
 // The component that the colour function selects is drawn; the peer gets that component alone.
 TEST(TetrahedraRayCastPeers, ComponentOfTheColorFunction)
 {
-  PeerScene scene = makeScene(block());
-  scene.PeerMesh = block();
-  const std::vector<Field> fields{ linearField(0.5, 0.2, 0.1), wavyField(3.0), radialField() };
-  setComponents(scene.Mesh, fields);
+  PeerScene scene = MakeScene(MakeWavyBlock());
+  scene.PeerMesh = MakeWavyBlock();
+  const std::vector<Field> fields{ LinearField(0.5, 0.2, 0.1), WavyField(3.0), RadialField() };
+  SetComponents(scene.Mesh, fields);
   for (int component = 0; component < 3; ++component)
   {
-    setComponents(scene.PeerMesh, { fields[component] });
+    SetComponents(scene.PeerMesh, { fields[component] });
     vtkColorTransferFunction* colors = scene.Property->GetRGBTransferFunction();
     colors->SetVectorModeToComponent();
     colors->SetVectorComponent(component);
-    expectPicturesMatch(scene, "component " + std::to_string(component));
+    ExpectPicturesMatch(scene, "component " + std::to_string(component));
   }
 }

@@ -48,11 +48,11 @@ struct Expected
   bool Uploads;
 };
 
-void expectChange(RayCastScene& scene, const Expected& expected, const std::string& what)
+void ExpectChange(RayCastScene& scene, const Expected& expected, const std::string& what)
 {
-  const Counters before(scene.rayCaster());
-  scene.window()->Render();
-  const Counters after(scene.rayCaster());
+  const Counters before(scene.GetRayCaster());
+  scene.GetWindow()->Render();
+  const Counters after(scene.GetRayCaster());
   EXPECT_EQ(after.MeshBuilds - before.MeshBuilds, expected.MeshBuilds) << what;
   EXPECT_EQ(after.ScalarUpdates - before.ScalarUpdates, expected.ScalarUpdates) << what;
   EXPECT_EQ(after.FunctionBuilds - before.FunctionBuilds, expected.FunctionBuilds) << what;
@@ -63,13 +63,13 @@ class TetrahedraRayCastPipeline : public testing::Test
 {
 protected:
   TetrahedraRayCastPipeline()
-    : Mesh(makeBlock(6, wavyField(3.0)))
+    : Mesh(MakeBlock(6, WavyField(3.0)))
   {
     const double range[2] = { -1.5, 1.5 };
-    this->Property = makeProperty(FunctionKind::Smooth, range, 3.5);
+    this->Property = MakeProperty(FunctionKind::Smooth, range, 3.5);
     this->Scene = std::make_unique<RayCastScene>(this->Mesh, this->Property, Size, Size);
-    lookAt(this->Scene->renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
-    this->Scene->window()->Render();
+    LookAt(this->Scene->GetRenderer(), this->Mesh->GetBounds(), 30.0, 20.0);
+    this->Scene->GetWindow()->Render();
   }
 
   Grid Mesh;
@@ -81,26 +81,26 @@ protected:
 
 TEST_F(TetrahedraRayCastPipeline, FirstFrameBuildsEverythingOnce)
 {
-  const Counters counters(this->Scene->rayCaster());
+  const Counters counters(this->Scene->GetRayCaster());
   EXPECT_EQ(counters.MeshBuilds, 1);
   EXPECT_EQ(counters.ScalarUpdates, 1);
   EXPECT_EQ(counters.FunctionBuilds, 1);
   EXPECT_GT(counters.Bytes, 0);
-  EXPECT_EQ(this->Scene->rayCaster()->GetNumberOfActiveCells(), this->Mesh->GetNumberOfCells());
-  EXPECT_EQ(this->Scene->rayCaster()->GetNumberOfRejectedCells(), 0);
-  EXPECT_GT(this->Scene->rayCaster()->GetNumberOfRays(), 0);
-  EXPECT_GT(this->Scene->rayCaster()->GetNumberOfTraversalSteps(),
-    this->Scene->rayCaster()->GetNumberOfRays());
-  EXPECT_EQ(this->Scene->rayCaster()->GetNumberOfLostRays(), 0);
+  EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfActiveCells(), this->Mesh->GetNumberOfCells());
+  EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfRejectedCells(), 0);
+  EXPECT_GT(this->Scene->GetRayCaster()->GetNumberOfRays(), 0);
+  EXPECT_GT(this->Scene->GetRayCaster()->GetNumberOfTraversalSteps(),
+    this->Scene->GetRayCaster()->GetNumberOfRays());
+  EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfLostRays(), 0);
   EXPECT_NE(
-    this->Scene->rayCaster()->GetActiveBackend(), int(vtkTetrahedraRayCastMapper::AUTOMATIC));
+    this->Scene->GetRayCaster()->GetActiveBackend(), int(vtkTetrahedraRayCastMapper::AUTOMATIC));
 }
 
 TEST_F(TetrahedraRayCastPipeline, NothingChangedRebuildsNothing)
 {
   for (int i = 0; i < 3; ++i)
   {
-    expectChange(*this->Scene, { 0, 0, 0, false }, "nothing changed");
+    ExpectChange(*this->Scene, { 0, 0, 0, false }, "nothing changed");
   }
 }
 
@@ -108,35 +108,35 @@ TEST_F(TetrahedraRayCastPipeline, CameraMoveUploadsNothing)
 {
   for (int i = 0; i < 3; ++i)
   {
-    this->Scene->renderer()->GetActiveCamera()->Azimuth(15.0);
-    expectChange(*this->Scene, { 0, 0, 0, false }, "camera moved");
+    this->Scene->GetRenderer()->GetActiveCamera()->Azimuth(15.0);
+    ExpectChange(*this->Scene, { 0, 0, 0, false }, "camera moved");
   }
-  this->Scene->renderer()->GetActiveCamera()->SetParallelProjection(true);
-  expectChange(*this->Scene, { 0, 0, 0, false }, "projection changed");
+  this->Scene->GetRenderer()->GetActiveCamera()->SetParallelProjection(true);
+  ExpectChange(*this->Scene, { 0, 0, 0, false }, "projection changed");
 }
 
 TEST_F(TetrahedraRayCastPipeline, VolumeMoveUploadsNothing)
 {
-  this->Scene->volume()->RotateX(20.0);
-  expectChange(*this->Scene, { 0, 0, 0, false }, "volume moved");
+  this->Scene->GetVolume()->RotateX(20.0);
+  ExpectChange(*this->Scene, { 0, 0, 0, false }, "volume moved");
 }
 
 TEST_F(TetrahedraRayCastPipeline, TransferFunctionEditRebuildsOnlyIt)
 {
   this->Property->GetScalarOpacity()->AddPoint(0.4, 0.6);
-  expectChange(*this->Scene, { 0, 0, 1, true }, "opacity node added");
+  ExpectChange(*this->Scene, { 0, 0, 1, true }, "opacity node added");
   this->Property->GetRGBTransferFunction()->AddRGBPoint(0.1, 1.0, 0.0, 1.0);
-  expectChange(*this->Scene, { 0, 0, 1, true }, "colour node added");
+  ExpectChange(*this->Scene, { 0, 0, 1, true }, "colour node added");
   this->Property->SetScalarOpacityUnitDistance(0.2);
-  expectChange(*this->Scene, { 0, 0, 1, true }, "unit distance changed");
-  expectMatchesReference(*this->Scene, "after the edits");
+  ExpectChange(*this->Scene, { 0, 0, 1, true }, "unit distance changed");
+  ExpectMatchesReference(*this->Scene, "after the edits");
 }
 
 TEST_F(TetrahedraRayCastPipeline, NewPropertyIsSeen)
 {
-  this->Scene->setProperty(makeConstantProperty(0.5, 1.0, 0.2, 0.1, 1.0));
-  expectChange(*this->Scene, { 0, 0, 1, true }, "another property");
-  expectMatchesReference(*this->Scene, "another property");
+  this->Scene->SetProperty(MakeConstantProperty(0.5, 1.0, 0.2, 0.1, 1.0));
+  ExpectChange(*this->Scene, { 0, 0, 1, true }, "another property");
+  ExpectMatchesReference(*this->Scene, "another property");
 }
 
 TEST_F(TetrahedraRayCastPipeline, ScalarChangeUpdatesOnlyScalars)
@@ -147,8 +147,8 @@ TEST_F(TetrahedraRayCastPipeline, ScalarChangeUpdatesOnlyScalars)
     scalars->SetValue(i, -0.7 * scalars->GetValue(i));
   }
   scalars->Modified();
-  expectChange(*this->Scene, { 0, 1, 0, true }, "scalars changed");
-  expectMatchesReference(*this->Scene, "scalars changed");
+  ExpectChange(*this->Scene, { 0, 1, 0, true }, "scalars changed");
+  ExpectMatchesReference(*this->Scene, "scalars changed");
 }
 
 TEST_F(TetrahedraRayCastPipeline, OtherArrayUpdatesOnlyScalars)
@@ -161,22 +161,22 @@ TEST_F(TetrahedraRayCastPipeline, OtherArrayUpdatesOnlyScalars)
     other->SetValue(i, this->Mesh->GetPoint(i)[0]);
   }
   this->Mesh->GetPointData()->AddArray(other);
-  this->Scene->window()->Render();
-  this->Scene->rayCaster()->SetScalarModeToUsePointFieldData();
-  this->Scene->rayCaster()->SelectScalarArray("Other");
-  expectChange(*this->Scene, { 0, 1, 0, true }, "another array selected");
+  this->Scene->GetWindow()->Render();
+  this->Scene->GetRayCaster()->SetScalarModeToUsePointFieldData();
+  this->Scene->GetRayCaster()->SelectScalarArray("Other");
+  ExpectChange(*this->Scene, { 0, 1, 0, true }, "another array selected");
   this->Mesh->GetPointData()->SetActiveScalars("Other");
-  expectMatchesReference(*this->Scene, "another array selected");
+  ExpectMatchesReference(*this->Scene, "another array selected");
 }
 
 TEST_F(TetrahedraRayCastPipeline, PointChangeRebuildsTheMesh)
 {
-  jitter(this->Mesh, 0.02, 7);
+  Jitter(this->Mesh, 0.02, 7);
   this->Mesh->Modified();
-  const Counters before(this->Scene->rayCaster());
-  this->Scene->window()->Render();
-  EXPECT_EQ(this->Scene->rayCaster()->GetNumberOfMeshBuilds(), before.MeshBuilds + 1);
-  expectMatchesReference(*this->Scene, "points moved");
+  const Counters before(this->Scene->GetRayCaster());
+  this->Scene->GetWindow()->Render();
+  EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfMeshBuilds(), before.MeshBuilds + 1);
+  ExpectMatchesReference(*this->Scene, "points moved");
 }
 
 TEST_F(TetrahedraRayCastPipeline, SetUpTellsProgressAndCanBeAborted)
@@ -197,87 +197,87 @@ TEST_F(TetrahedraRayCastPipeline, SetUpTellsProgressAndCanBeAborted)
     double AbortAt = 0.4;
   };
   vtkNew<Observer> observer;
-  vtkTetrahedraRayCastMapper* mapper = this->Scene->rayCaster();
+  vtkTetrahedraRayCastMapper* mapper = this->Scene->GetRayCaster();
   mapper->AddObserver(vtkCommand::ProgressEvent, observer);
-  this->Scene->window()->Render();
+  this->Scene->GetWindow()->Render();
   EXPECT_EQ(observer->Events, 0); // nothing to build
 
-  jitter(this->Mesh, 0.02, 7);
+  Jitter(this->Mesh, 0.02, 7);
   this->Mesh->Modified();
-  for (const float value : this->Scene->renderFloat().Rgba)
+  for (const float value : this->Scene->RenderFloat().Rgba)
   {
     ASSERT_EQ(value, 0.0f);
   }
   EXPECT_GT(observer->Events, 0);
   EXPECT_EQ(mapper->GetNumberOfActiveCells(), 0);
   observer->AbortAt = 2.0;
-  expectMatchesReference(*this->Scene, "set up after an abort");
+  ExpectMatchesReference(*this->Scene, "set up after an abort");
 }
 
 TEST_F(TetrahedraRayCastPipeline, NewInputRebuildsTheMesh)
 {
-  const Grid other = makeBlock(5, wavyField(2.0), lShape());
-  this->Scene->rayCaster()->SetInputData(other);
-  this->Scene->window()->Render();
-  EXPECT_EQ(this->Scene->rayCaster()->GetNumberOfMeshBuilds(), 2);
-  EXPECT_EQ(this->Scene->rayCaster()->GetNumberOfActiveCells(), other->GetNumberOfCells());
+  const Grid other = MakeBlock(5, WavyField(2.0), LShape());
+  this->Scene->GetRayCaster()->SetInputData(other);
+  this->Scene->GetWindow()->Render();
+  EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfMeshBuilds(), 2);
+  EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfActiveCells(), other->GetNumberOfCells());
 }
 
 TEST_F(TetrahedraRayCastPipeline, ReleasedResourcesGiveTheSamePicture)
 {
-  const FloatImage before = this->Scene->renderFloat();
-  this->Scene->rayCaster()->ReleaseGraphicsResources(this->Scene->window());
-  this->Scene->rayCaster()->ReleaseGraphicsResources(this->Scene->window());
-  const FloatImage after = this->Scene->renderFloat();
+  const FloatImage before = this->Scene->RenderFloat();
+  this->Scene->GetRayCaster()->ReleaseGraphicsResources(this->Scene->GetWindow());
+  this->Scene->GetRayCaster()->ReleaseGraphicsResources(this->Scene->GetWindow());
+  const FloatImage after = this->Scene->RenderFloat();
   EXPECT_EQ(before.Rgba, after.Rgba);
-  this->Scene->rayCaster()->ReleaseGraphicsResources(nullptr);
-  EXPECT_EQ(before.Rgba, this->Scene->renderFloat().Rgba);
-  EXPECT_EQ(this->Scene->rayCaster()->GetNumberOfMeshBuilds(), 1);
+  this->Scene->GetRayCaster()->ReleaseGraphicsResources(nullptr);
+  EXPECT_EQ(before.Rgba, this->Scene->RenderFloat().Rgba);
+  EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfMeshBuilds(), 1);
 }
 
 TEST_F(TetrahedraRayCastPipeline, SameFrameTwiceIsTheSameBitForBit)
 {
-  EXPECT_EQ(this->Scene->renderFloat().Rgba, this->Scene->renderFloat().Rgba);
+  EXPECT_EQ(this->Scene->RenderFloat().Rgba, this->Scene->RenderFloat().Rgba);
 }
 
 TEST_F(TetrahedraRayCastPipeline, TwoWindowsShareAMapper)
 {
-  const ByteImage first = this->Scene->renderBytes();
+  const ByteImage first = this->Scene->RenderBytes();
   VolumeScene other(Size, Size);
-  other.setMapper(this->Scene->rayCaster());
-  other.setProperty(this->Property);
-  lookAt(other.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
-  EXPECT_EQ(other.renderBytes().Rgb, first.Rgb);
-  EXPECT_EQ(this->Scene->renderBytes().Rgb, first.Rgb);
-  EXPECT_EQ(this->Scene->rayCaster()->GetNumberOfMeshBuilds(), 1);
+  other.SetMapper(this->Scene->GetRayCaster());
+  other.SetProperty(this->Property);
+  LookAt(other.GetRenderer(), this->Mesh->GetBounds(), 30.0, 20.0);
+  EXPECT_EQ(other.RenderBytes().Rgb, first.Rgb);
+  EXPECT_EQ(this->Scene->RenderBytes().Rgb, first.Rgb);
+  EXPECT_EQ(this->Scene->GetRayCaster()->GetNumberOfMeshBuilds(), 1);
 }
 
 TEST_F(TetrahedraRayCastPipeline, MapperOutlivesItsWindow)
 {
-  const ByteImage first = this->Scene->renderBytes();
-  vtkSmartPointer<vtkTetrahedraRayCastMapper> mapper = this->Scene->rayCaster();
+  const ByteImage first = this->Scene->RenderBytes();
+  vtkSmartPointer<vtkTetrahedraRayCastMapper> mapper = this->Scene->GetRayCaster();
   this->Scene.reset();
   VolumeScene other(Size, Size);
-  other.setMapper(mapper);
-  other.setProperty(this->Property);
-  lookAt(other.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
-  EXPECT_EQ(other.renderBytes().Rgb, first.Rgb);
+  other.SetMapper(mapper);
+  other.SetProperty(this->Property);
+  LookAt(other.GetRenderer(), this->Mesh->GetBounds(), 30.0, 20.0);
+  EXPECT_EQ(other.RenderBytes().Rgb, first.Rgb);
 }
 
 TEST_F(TetrahedraRayCastPipeline, LostContext)
 {
   // The window releases its context and creates a new one.
-  const ByteImage first = this->Scene->renderBytes();
-  this->Scene->window()->Finalize();
-  EXPECT_EQ(this->Scene->renderBytes().Rgb, first.Rgb);
+  const ByteImage first = this->Scene->RenderBytes();
+  this->Scene->GetWindow()->Finalize();
+  EXPECT_EQ(this->Scene->RenderBytes().Rgb, first.Rgb);
 }
 
 TEST_F(TetrahedraRayCastPipeline, TransferFunctionEditedDuringARenderOfAnotherWindow)
 {
   RayCastScene other(this->Mesh, this->Property, Size, Size);
-  lookAt(other.renderer(), this->Mesh->GetBounds(), 30.0, 20.0);
-  this->Scene->window()->Render();
-  other.window()->Render();
+  LookAt(other.GetRenderer(), this->Mesh->GetBounds(), 30.0, 20.0);
+  this->Scene->GetWindow()->Render();
+  other.GetWindow()->Render();
   // After the other renderer has drawn its volume, and before its window shows it.
   vtkNew<vtkCallbackCommand> edit;
   edit->SetClientData(this->Property.Get());
@@ -287,13 +287,13 @@ TEST_F(TetrahedraRayCastPipeline, TransferFunctionEditedDuringARenderOfAnotherWi
       static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity()->RemoveAllPoints();
       static_cast<vtkVolumeProperty*>(property)->GetScalarOpacity()->AddPoint(0.0, 0.0);
     });
-  const unsigned long tag = other.renderer()->AddObserver(vtkCommand::EndEvent, edit);
-  other.window()->Render();
-  other.renderer()->RemoveObserver(tag);
+  const unsigned long tag = other.GetRenderer()->AddObserver(vtkCommand::EndEvent, edit);
+  other.GetWindow()->Render();
+  other.GetRenderer()->RemoveObserver(tag);
   // Now nothing is visible in either window.
   for (RayCastScene* scene : { this->Scene.get(), &other })
   {
-    for (const float value : scene->renderFloat().Rgba)
+    for (const float value : scene->RenderFloat().Rgba)
     {
       ASSERT_EQ(value, 0.0f);
     }

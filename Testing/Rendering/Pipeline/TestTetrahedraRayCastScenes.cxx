@@ -32,14 +32,14 @@ constexpr int Size = 160;
 
 struct Block
 {
-  Grid Mesh = makeBlock(8, wavyField(3.0));
+  Grid Mesh = MakeBlock(8, WavyField(3.0));
   vtkSmartPointer<vtkVolumeProperty> Property;
 
   Block()
   {
     double range[2];
     this->Mesh->GetPointData()->GetScalars()->GetFiniteRange(range);
-    this->Property = makeProperty(FunctionKind::Smooth, range, diagonalOf(this->Mesh->GetBounds()));
+    this->Property = MakeProperty(FunctionKind::Smooth, range, DiagonalOf(this->Mesh->GetBounds()));
   }
 };
 
@@ -61,9 +61,9 @@ public:
     vtkMath::Normalize(this->Right.data());
     vtkMath::Cross(this->Right.data(), this->Forward.data(), this->Up.data());
     vtkNew<vtkPlaneSource> source;
-    source->SetOrigin(this->corner(-1, -1).data());
-    source->SetPoint1(this->corner(1, -1).data());
-    source->SetPoint2(this->corner(-1, 1).data());
+    source->SetOrigin(this->GetCorner(-1, -1).data());
+    source->SetPoint1(this->GetCorner(1, -1).data());
+    source->SetPoint2(this->GetCorner(-1, 1).data());
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputConnection(source->GetOutputPort());
     this->Actor->SetMapper(mapper);
@@ -73,7 +73,7 @@ public:
   }
 
   // Returns true if a ray hits it, and ends the ray there.
-  bool shorten(Ray& ray) const
+  bool Shorten(Ray& ray) const
   {
     Vector3 fromEye;
     for (int axis = 0; axis < 3; ++axis)
@@ -98,7 +98,7 @@ public:
   static constexpr double Color[3] = { 0.2, 0.8, 0.4 };
 
 private:
-  Vector3 corner(int right, int up) const
+  Vector3 GetCorner(int right, int up) const
   {
     Vector3 x;
     for (int axis = 0; axis < 3; ++axis)
@@ -122,33 +122,33 @@ private:
 // than this (in pixels, with a factor of 4) may or may not be covered.
 constexpr double EdgeUncertainty = 4.0 / 256.0;
 
-bool nearEdge(const OpaqueRectangle& rectangle, const PixelRays& rays, int x, int y)
+bool NearEdge(const OpaqueRectangle& rectangle, const PixelRays& rays, int x, int y)
 {
   int hits = 0;
   for (int i = 0; i < 4; ++i)
   {
-    Ray ray = rays.rayAt(
+    Ray ray = rays.RayAt(
       x + 0.5 + (i % 2 ? 1 : -1) * EdgeUncertainty, y + 0.5 + (i / 2 ? 1 : -1) * EdgeUncertainty);
-    hits += rectangle.shorten(ray);
+    hits += rectangle.Shorten(ray);
   }
   return hits != 0 && hits != 4;
 }
 
-void expectMatchesWithRectangle(RayCastScene& scene, double depth, const std::string& what)
+void ExpectMatchesWithRectangle(RayCastScene& scene, double depth, const std::string& what)
 {
-  const OpaqueRectangle rectangle(scene.renderer(), depth, 0.55, 0.4);
-  scene.window()->Render();
-  const auto integrator = makeReference(scene.grid());
-  const PixelRays rays(scene.renderer());
+  const OpaqueRectangle rectangle(scene.GetRenderer(), depth, 0.55, 0.4);
+  scene.GetWindow()->Render();
+  const auto integrator = MakeReference(scene.MakeGrid());
+  const PixelRays rays(scene.GetRenderer());
   const RayOfPixel rayOf = [&](int x, int y)
   {
-    Ray ray = rays.ray(x, y);
-    rectangle.shorten(ray);
+    Ray ray = rays.GetRay(x, y);
+    rectangle.Shorten(ray);
     return ray;
   };
-  ReferenceImage truth = renderReference(*integrator, rays.width(), rays.height(), rayOf,
-    { toReference(scene.volume()->GetProperty()) })[0];
-  FloatImage image = scene.renderFloat();
+  ReferenceImage truth = RenderReference(*integrator, rays.GetWidth(), rays.GetHeight(), rayOf,
+    { ToReference(scene.GetVolume()->GetProperty()) })[0];
+  FloatImage image = scene.RenderFloat();
   std::size_t uncertain = 0;
   for (int y = 0; y < truth.Height; ++y)
   {
@@ -156,8 +156,8 @@ void expectMatchesWithRectangle(RayCastScene& scene, double depth, const std::st
     {
       const std::size_t at = static_cast<std::size_t>(y) * truth.Width + x;
       std::array<double, 4>& rgba = truth.Rgba[at];
-      Ray ray = rays.ray(x, y);
-      if (rectangle.shorten(ray))
+      Ray ray = rays.GetRay(x, y);
+      if (rectangle.Shorten(ray))
       {
         for (int c = 0; c < 3; ++c)
         {
@@ -166,7 +166,7 @@ void expectMatchesWithRectangle(RayCastScene& scene, double depth, const std::st
         rgba[3] = 1.0;
         truth.Covered[at] = 1;
       }
-      if (nearEdge(rectangle, rays, x, y))
+      if (NearEdge(rectangle, rays, x, y))
       {
         ++uncertain;
         std::copy(rgba.begin(), rgba.end(), image.Rgba.begin() + 4 * static_cast<long>(at));
@@ -174,22 +174,22 @@ void expectMatchesWithRectangle(RayCastScene& scene, double depth, const std::st
     }
   }
   EXPECT_LT(uncertain, 200u) << what;
-  expectMatch(compareToReference(image, truth, *integrator, rayOf), what);
+  ExpectMatch(CompareToReference(image, truth, *integrator, rayOf), what);
 }
 
 // Compares the part of a window that a renderer draws, in 8 bits, with the reference.
-void expectViewportMatches(const RayCastScene& scene, vtkRenderer* renderer,
+void ExpectViewportMatches(const RayCastScene& scene, vtkRenderer* renderer,
   const ByteImage& window, const std::string& what)
 {
   const PixelRays rays(renderer);
-  const auto integrator = makeReference(scene.grid());
-  const RayOfPixel rayOf = [&rays](int x, int y) { return rays.ray(x, y); };
-  const ReferenceImage truth = renderReference(*integrator, rays.width(), rays.height(), rayOf,
-    { toReference(scene.volume()->GetProperty()) })[0];
+  const auto integrator = MakeReference(scene.MakeGrid());
+  const RayOfPixel rayOf = [&rays](int x, int y) { return rays.GetRay(x, y); };
+  const ReferenceImage truth = RenderReference(*integrator, rays.GetWidth(), rays.GetHeight(),
+    rayOf, { ToReference(scene.GetVolume()->GetProperty()) })[0];
   double background[3];
   renderer->GetBackground(background);
-  expectMatch(compareToReference(window, truth, *integrator, rayOf,
-                { background[0], background[1], background[2] }, rays.left(), rays.bottom()),
+  ExpectMatch(CompareToReference(window, truth, *integrator, rayOf,
+                { background[0], background[1], background[2] }, rays.GetLeft(), rays.GetBottom()),
     what);
 }
 
@@ -199,14 +199,14 @@ TEST(TetrahedraRayCastScenes, ColoredBackground)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  scene.renderer()->SetBackground(0.2, 0.4, 0.8);
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  scene.GetRenderer()->SetBackground(0.2, 0.4, 0.8);
   const SceneTruth truth = [&]
   {
-    scene.window()->Render();
-    return makeTruth(scene);
+    scene.GetWindow()->Render();
+    return MakeTruth(scene);
   }();
-  expectMatch(compareToReference(scene.renderBytes(), truth.Image, *truth.Integrator, truth.RayOf,
+  ExpectMatch(CompareToReference(scene.RenderBytes(), truth.Image, *truth.Integrator, truth.RayOf,
                 { 0.2, 0.4, 0.8 }),
     "coloured background");
 }
@@ -217,26 +217,26 @@ TEST(TetrahedraRayCastScenes, RoundedOnceToEightBits)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0, 0.7);
-  const FloatImage volume = scene.renderFloat();
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0, 0.7);
+  const FloatImage volume = scene.RenderFloat();
   constexpr std::array<double, 3> background{ 51.0, 102.0, 204.0 };
-  scene.renderer()->SetBackground(0.2, 0.4, 0.8);
-  scene.renderer()->SetBackgroundAlpha(1.0);
+  scene.GetRenderer()->SetBackground(0.2, 0.4, 0.8);
+  scene.GetRenderer()->SetBackgroundAlpha(1.0);
   for (const double bias : { 0.0, 0.25, 0.5 })
   {
-    scene.rayCaster()->SetColorBias(bias);
-    const ByteImage picture = scene.renderBytes();
+    scene.GetRayCaster()->SetColorBias(bias);
+    const ByteImage picture = scene.RenderBytes();
     double worst = 0.0;
     std::size_t empty = 0;
     for (int i = 0; i < Size * Size; ++i)
     {
-      const float* rgba = volume.pixel(i % Size, i / Size);
+      const float* rgba = volume.GetPixel(i % Size, i / Size);
       empty += rgba[3] == 0.0f;
       for (int c = 0; c < 3; ++c)
       {
         const double exact = 255.0 * rgba[c] + (1.0 - rgba[3]) * background[c];
         const double expected = std::min(255.0, exact + (rgba[3] > 0.0f ? bias : 0.0));
-        worst = std::max(worst, std::fabs(picture.pixel(i % Size, i / Size)[c] - expected));
+        worst = std::max(worst, std::fabs(picture.GetPixel(i % Size, i / Size)[c] - expected));
       }
     }
     EXPECT_GT(empty, 100u);
@@ -251,13 +251,13 @@ TEST(TetrahedraRayCastScenes, CameraInsideTheMesh)
   for (const double x : { 0.0, 0.31 })
   {
     RayCastScene scene(block.Mesh, block.Property, Size, Size);
-    vtkCamera* camera = scene.renderer()->GetActiveCamera();
+    vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
     camera->SetPosition(x, 0.12 * (x > 0.0), 0.07 * (x > 0.0));
     camera->SetFocalPoint(1.0, 0.4, -0.3);
     camera->SetViewUp(0.0, 0.0, 1.0);
     camera->SetViewAngle(70.0);
     camera->SetClippingRange(0.001, 10.0);
-    expectMatchesReference(scene, "camera inside at " + std::to_string(x));
+    ExpectMatchesReference(scene, "camera inside at " + std::to_string(x));
   }
 }
 
@@ -267,11 +267,11 @@ TEST(TetrahedraRayCastScenes, ClippingRangeThroughTheMesh)
   for (const bool parallel : { false, true })
   {
     RayCastScene scene(block.Mesh, block.Property, Size, Size);
-    lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0, 1.0, parallel);
-    vtkCamera* camera = scene.renderer()->GetActiveCamera();
+    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0, 1.0, parallel);
+    vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
     const double distance = camera->GetDistance();
     camera->SetClippingRange(distance - 0.4, distance + 0.3);
-    expectMatchesReference(scene, parallel ? "cut, parallel" : "cut, perspective");
+    ExpectMatchesReference(scene, parallel ? "cut, parallel" : "cut, perspective");
   }
 }
 
@@ -283,9 +283,9 @@ TEST(TetrahedraRayCastScenes, OpaqueGeometryInFrontInsideAndBehind)
     for (const double offset : { -1.75, -0.6, 0.1, 0.7, 1.75 })
     {
       RayCastScene scene(block.Mesh, block.Property, Size, Size);
-      lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0, 1.0, parallel);
-      const double depth = scene.renderer()->GetActiveCamera()->GetDistance() + offset;
-      expectMatchesWithRectangle(scene, depth,
+      LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0, 1.0, parallel);
+      const double depth = scene.GetRenderer()->GetActiveCamera()->GetDistance() + offset;
+      ExpectMatchesWithRectangle(scene, depth,
         "rectangle at " + std::to_string(offset) + (parallel ? ", parallel" : ", perspective"));
     }
   }
@@ -295,19 +295,19 @@ TEST(TetrahedraRayCastScenes, ViewportInPartOfTheWindow)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, 300, 240);
-  scene.renderer()->SetViewport(0.35, 0.2, 0.9, 0.85);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  const ByteImage window = scene.renderBytes();
-  expectViewportMatches(scene, scene.renderer(), window, "offset viewport");
-  const PixelRays rays(scene.renderer());
+  scene.GetRenderer()->SetViewport(0.35, 0.2, 0.9, 0.85);
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  const ByteImage window = scene.RenderBytes();
+  ExpectViewportMatches(scene, scene.GetRenderer(), window, "offset viewport");
+  const PixelRays rays(scene.GetRenderer());
   for (int y = 0; y < window.Height; ++y)
   {
     for (int x = 0; x < window.Width; ++x)
     {
-      const bool inside = x >= rays.left() && x < rays.left() + rays.width() &&
-        y >= rays.bottom() && y < rays.bottom() + rays.height();
-      ASSERT_TRUE(
-        inside || (window.pixel(x, y)[0] | window.pixel(x, y)[1] | window.pixel(x, y)[2]) == 0)
+      const bool inside = x >= rays.GetLeft() && x < rays.GetLeft() + rays.GetWidth() &&
+        y >= rays.GetBottom() && y < rays.GetBottom() + rays.GetHeight();
+      ASSERT_TRUE(inside ||
+        (window.GetPixel(x, y)[0] | window.GetPixel(x, y)[1] | window.GetPixel(x, y)[2]) == 0)
         << "drawn outside the viewport at " << x << ", " << y;
     }
   }
@@ -317,39 +317,39 @@ TEST(TetrahedraRayCastScenes, SeveralRenderersShareAMapper)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, 320, 200);
-  scene.renderer()->SetViewport(0.0, 0.0, 0.45, 1.0);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  scene.GetRenderer()->SetViewport(0.0, 0.0, 0.45, 1.0);
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   vtkNew<vtkRenderer> second;
   second->SetViewport(0.5, 0.1, 1.0, 0.7);
   second->SetBackground(0.2, 0.4, 0.6);
-  second->AddVolume(scene.volume());
-  scene.window()->AddRenderer(second);
-  lookAt(second, block.Mesh->GetBounds(), 110.0, -35.0, 1.3, true);
-  const ByteImage window = scene.renderBytes();
-  expectViewportMatches(scene, scene.renderer(), window, "first renderer");
-  expectViewportMatches(scene, second, window, "second renderer");
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfMeshBuilds(), 1);
+  second->AddVolume(scene.GetVolume());
+  scene.GetWindow()->AddRenderer(second);
+  LookAt(second, block.Mesh->GetBounds(), 110.0, -35.0, 1.3, true);
+  const ByteImage window = scene.RenderBytes();
+  ExpectViewportMatches(scene, scene.GetRenderer(), window, "first renderer");
+  ExpectViewportMatches(scene, second, window, "second renderer");
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
 }
 
 TEST(TetrahedraRayCastScenes, ResizedWindow)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   const int sizes[4][2] = { { 160, 160 }, { 160, 230 }, { 240, 100 }, { 33, 57 } };
   for (const auto& size : sizes)
   {
-    scene.window()->SetSize(size[0], size[1]);
-    expectMatchesReference(
+    scene.GetWindow()->SetSize(size[0], size[1]);
+    ExpectMatchesReference(
       scene, "resized to " + std::to_string(size[0]) + " x " + std::to_string(size[1]));
   }
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
 }
 
 TEST(TetrahedraRayCastScenes, MultisampledWindow)
 {
   const Block block;
   RayCastScene scene(block.Mesh, block.Property, Size, Size, 4);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  expectMatchesReference(scene, "four samples");
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  ExpectMatchesReference(scene, "four samples");
 }

@@ -38,31 +38,31 @@ constexpr double Frequency = 3.0;
 using Pixel = std::array<int, 4>;
 using Picture = std::vector<Pixel>;
 
-int intensity()
+int MakeIntensity()
 {
   const char* text = std::getenv("MENISCUS_TEST_INTENSITY");
   return text ? std::max(1, std::atoi(text)) : 1;
 }
 
-double share(std::mt19937& random)
+double MakeShare(std::mt19937& random)
 {
   return random() / (random.max() + 1.0);
 }
 
 // A random colour; most are saturated, so that premultiplied colours equal the opacity.
-std::array<double, 3> randomColor(std::mt19937& random)
+std::array<double, 3> RandomColor(std::mt19937& random)
 {
   std::array<double, 3> color;
   for (double& value : color)
   {
-    const double kind = share(random);
-    value = kind < 0.5 ? 1.0 : kind < 0.75 ? 0.0 : share(random);
+    const double kind = MakeShare(random);
+    value = kind < 0.5 ? 1.0 : kind < 0.75 ? 0.0 : MakeShare(random);
   }
   return color;
 }
 
 // A random transfer function: thin, medium or nearly opaque, depending on the unit distance.
-vtkSmartPointer<vtkVolumeProperty> randomProperty(
+vtkSmartPointer<vtkVolumeProperty> RandomProperty(
   std::mt19937& random, const double range[2], double diagonal)
 {
   vtkNew<vtkColorTransferFunction> colors;
@@ -71,26 +71,26 @@ vtkSmartPointer<vtkVolumeProperty> randomProperty(
   for (int i = 0; i < points; ++i)
   {
     const double scalar = range[0] + (range[1] - range[0]) * i / (points - 1.0);
-    const std::array<double, 3> color = randomColor(random);
+    const std::array<double, 3> color = RandomColor(random);
     colors->AddRGBPoint(scalar, color[0], color[1], color[2]);
-    const double opacity = share(random);
+    const double opacity = MakeShare(random);
     opacities->AddPoint(scalar, opacity < 0.3 ? 0.0 : opacity);
   }
   auto property = vtkSmartPointer<vtkVolumeProperty>::New();
   property->SetColor(colors);
   property->SetScalarOpacity(opacities);
-  property->SetScalarOpacityUnitDistance(diagonal * std::pow(10.0, -2.0 + 2.0 * share(random)));
+  property->SetScalarOpacityUnitDistance(diagonal * std::pow(10.0, -2.0 + 2.0 * MakeShare(random)));
   property->SetInterpolationTypeToLinear();
   return property;
 }
 
-Picture renderPixels(RayCastScene& scene)
+Picture RenderPixels(RayCastScene& scene)
 {
-  scene.renderer()->SetPass(nullptr);
-  scene.window()->Render();
-  const int* size = scene.window()->GetSize();
+  scene.GetRenderer()->SetPass(nullptr);
+  scene.GetWindow()->Render();
+  const int* size = scene.GetWindow()->GetSize();
   vtkNew<vtkUnsignedCharArray> values;
-  scene.window()->GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, values);
+  scene.GetWindow()->GetRGBACharPixelData(0, 0, size[0] - 1, size[1] - 1, 0, values);
   Picture picture(static_cast<std::size_t>(size[0]) * size[1]);
   for (std::size_t i = 0; i < picture.size(); ++i)
   {
@@ -102,7 +102,7 @@ Picture renderPixels(RayCastScene& scene)
   return picture;
 }
 
-void addBall(vtkRenderer* renderer)
+void AddBall(vtkRenderer* renderer)
 {
   vtkNew<vtkSphereSource> ball;
   ball->SetRadius(0.6);
@@ -123,7 +123,7 @@ struct Excess
   std::size_t Translucent = 0;
 };
 
-Excess countExcess(const Picture& picture)
+Excess CountExcess(const Picture& picture)
 {
   Excess excess;
   for (const Pixel& pixel : picture)
@@ -136,7 +136,7 @@ Excess countExcess(const Picture& picture)
 }
 
 // IceT's blending of two pixels (ICET_BLEND_UBYTE): integers truncated to 8 bits.
-Pixel composite(const Pixel& front, const Pixel& back)
+Pixel MakeComposite(const Pixel& front, const Pixel& back)
 {
   Pixel result;
   for (int c = 0; c < 4; ++c)
@@ -146,11 +146,11 @@ Pixel composite(const Pixel& front, const Pixel& back)
   return result;
 }
 
-Picture composite(const Picture& front, const Picture& back)
+Picture MakeComposite(const Picture& front, const Picture& back)
 {
   Picture result(front.size());
   std::transform(front.begin(), front.end(), back.begin(), result.begin(),
-    [](const Pixel& a, const Pixel& b) { return composite(a, b); });
+    [](const Pixel& a, const Pixel& b) { return MakeComposite(a, b); });
   return result;
 }
 
@@ -160,38 +160,38 @@ class PartScene : public RayCastScene
 public:
   PartScene(const Region& region, vtkVolumeProperty* property, const std::array<double, 2>& view,
     double bias)
-    : RayCastScene(makeBlock(CubesPerSide, wavyField(Frequency), region), property, Size, Size)
+    : RayCastScene(MakeBlock(CubesPerSide, WavyField(Frequency), region), property, Size, Size)
   {
     const double bounds[6] = { -1.0, 1.0, -1.0, 1.0, -1.0, 1.0 };
-    lookAt(this->renderer(), bounds, view[0], view[1]);
-    this->rayCaster()->SetColorBias(bias);
+    LookAt(this->GetRenderer(), bounds, view[0], view[1]);
+    this->GetRayCaster()->SetColorBias(bias);
   }
 };
 
 // Images of the parts between planes across x and then y, composited in the order of depth: first
 // the two on each side of the plane across x, as IceT does.
-Picture compositeParts(
+Picture CompositeParts(
   int parts, vtkVolumeProperty* property, const std::array<double, 2>& view, double bias)
 {
   double eye[3];
   {
     const PartScene scene(nullptr, property, view, bias);
-    scene.renderer()->GetActiveCamera()->GetPosition(eye);
+    scene.GetRenderer()->GetActiveCamera()->GetPosition(eye);
   }
   const auto draw = [&](bool frontX, int sideY)
   {
     const Region region = [&](double x, double y, double)
     { return (x * eye[0] > 0.0) == frontX && (sideY == 0 || y * eye[1] * sideY > 0.0); };
     PartScene scene(region, property, view, bias);
-    return renderPixels(scene);
+    return RenderPixels(scene);
   };
   const auto drawSide = [&](bool frontX)
-  { return parts == 2 ? draw(frontX, 0) : composite(draw(frontX, 1), draw(frontX, -1)); };
-  return composite(drawSide(true), drawSide(false));
+  { return parts == 2 ? draw(frontX, 0) : MakeComposite(draw(frontX, 1), draw(frontX, -1)); };
+  return MakeComposite(drawSide(true), drawSide(false));
 }
 
 // Number of pixels whose largest difference is 0, 1, 2 ... of 255.
-std::vector<std::size_t> countDifferences(const Picture& one, const Picture& other)
+std::vector<std::size_t> CountDifferences(const Picture& one, const Picture& other)
 {
   std::vector<std::size_t> counts(256, 0);
   for (std::size_t i = 0; i < one.size(); ++i)
@@ -206,7 +206,7 @@ std::vector<std::size_t> countDifferences(const Picture& one, const Picture& oth
   return counts;
 }
 
-std::string describe(const std::vector<std::size_t>& counts)
+std::string Describe(const std::vector<std::size_t>& counts)
 {
   std::string text;
   for (std::size_t i = 0; i < counts.size(); ++i)
@@ -223,22 +223,22 @@ TEST(TetrahedraRayCastCompositing, ColorsNeverExceedOpacity)
   std::mt19937 random(20);
   const double range[2] = { -1.0, 1.0 };
   std::size_t translucent = 0;
-  for (int i = 0; i < 6 * intensity(); ++i)
+  for (int i = 0; i < 6 * MakeIntensity(); ++i)
   {
-    const Grid mesh = makeBlock(CubesPerSide, wavyField(Frequency));
-    const double diagonal = diagonalOf(mesh->GetBounds());
+    const Grid mesh = MakeBlock(CubesPerSide, WavyField(Frequency));
+    const double diagonal = DiagonalOf(mesh->GetBounds());
     RayCastScene scene(
-      mesh, randomProperty(random, range, diagonal), Size, Size, i % 3 == 2 ? 4 : 0);
-    const std::array<double, 2> view = viewAngles(i);
-    lookAt(scene.renderer(), mesh->GetBounds(), view[0], view[1]);
+      mesh, RandomProperty(random, range, diagonal), Size, Size, i % 3 == 2 ? 4 : 0);
+    const std::array<double, 2> view = ViewAngles(i);
+    LookAt(scene.GetRenderer(), mesh->GetBounds(), view[0], view[1]);
     if (i % 2 == 1)
     {
-      addBall(scene.renderer());
+      AddBall(scene.GetRenderer());
     }
     for (const double bias : { 0.25, 0.375, 0.4375, 0.5 })
     {
-      scene.rayCaster()->SetColorBias(bias);
-      const Excess excess = countExcess(renderPixels(scene));
+      scene.GetRayCaster()->SetColorBias(bias);
+      const Excess excess = CountExcess(RenderPixels(scene));
       EXPECT_EQ(excess.Pixels, 0u) << "scene " << i << ", bias " << bias;
       EXPECT_GT(excess.Covered, 1000u);
       translucent += excess.Translucent;
@@ -253,13 +253,13 @@ TEST(TetrahedraRayCastCompositing, ColorsNeverExceedOpacityInFloat)
 {
   std::mt19937 random(21);
   const double range[2] = { -1.0, 1.0 };
-  for (int i = 0; i < 3 * intensity(); ++i)
+  for (int i = 0; i < 3 * MakeIntensity(); ++i)
   {
-    const Grid mesh = makeBlock(CubesPerSide, wavyField(Frequency));
+    const Grid mesh = MakeBlock(CubesPerSide, WavyField(Frequency));
     RayCastScene scene(
-      mesh, randomProperty(random, range, diagonalOf(mesh->GetBounds())), Size, Size);
-    scene.rayCaster()->SetColorBias(0.375);
-    const FloatImage image = scene.renderFloat();
+      mesh, RandomProperty(random, range, DiagonalOf(mesh->GetBounds())), Size, Size);
+    scene.GetRayCaster()->SetColorBias(0.375);
+    const FloatImage image = scene.RenderFloat();
     std::size_t exceeding = 0;
     for (std::size_t p = 0; p < image.Rgba.size(); p += 4)
     {
@@ -277,20 +277,20 @@ TEST(TetrahedraRayCastCompositing, PartsMakeThePictureOfTheWhole)
   std::mt19937 random(22);
   const double range[2] = { -1.0, 1.0 };
   const double diagonal = 2.0 * std::sqrt(3.0);
-  for (int i = 0; i < 6 * intensity(); ++i)
+  for (int i = 0; i < 6 * MakeIntensity(); ++i)
   {
-    const auto property = randomProperty(random, range, diagonal);
-    const std::array<double, 2> view = viewAngles(i);
+    const auto property = RandomProperty(random, range, diagonal);
+    const std::array<double, 2> view = ViewAngles(i);
     PartScene whole(nullptr, property, view, 0.0);
-    const Picture expected = renderPixels(whole);
-    EXPECT_GT(countExcess(expected).Covered, 1000u);
+    const Picture expected = RenderPixels(whole);
+    EXPECT_GT(CountExcess(expected).Covered, 1000u);
     for (const int parts : { 2, 4 })
     {
-      const Picture found = compositeParts(parts, property, view, 0.5 * (parts - 1) / parts);
-      const std::vector<std::size_t> counts = countDifferences(expected, found);
+      const Picture found = CompositeParts(parts, property, view, 0.5 * (parts - 1) / parts);
+      const std::vector<std::size_t> counts = CountDifferences(expected, found);
       const auto above = counts.begin() + (parts == 2 ? 3 : 4);
       EXPECT_EQ(std::count_if(above, counts.end(), [](std::size_t n) { return n > 0; }), 0)
-        << "scene " << i << ", parts " << parts << ":" << describe(counts);
+        << "scene " << i << ", parts " << parts << ":" << Describe(counts);
     }
   }
 }

@@ -16,7 +16,7 @@
 #include <cmath>
 
 using namespace meniscus::test;
-using meniscus::reference::clipRay;
+using meniscus::reference::ClipRay;
 using meniscus::reference::HalfSpace;
 using meniscus::reference::Ray;
 using meniscus::reference::RaySegment;
@@ -29,19 +29,19 @@ constexpr int Size = 160;
 const std::vector<HalfSpace> Planes{ { { 0.3, -1.0, 0.2 }, { 0.1, 0.4, 0.0 } },
   { { -2.0, 0.1, 0.7 }, { 0.5, 0.0, 0.1 } }, { { 0.0, 0.0, 0.01 }, { 0.0, 0.0, -0.6 } } };
 
-void clip(RayCastScene& scene, const std::vector<HalfSpace>& halfSpaces)
+void Clip(RayCastScene& scene, const std::vector<HalfSpace>& halfSpaces)
 {
   for (const HalfSpace& half : halfSpaces)
   {
     vtkNew<vtkPlane> plane;
     plane->SetNormal(half.Normal.data());
     plane->SetOrigin(half.Origin.data());
-    scene.rayCaster()->AddClippingPlane(plane);
+    scene.GetRayCaster()->AddClippingPlane(plane);
   }
 }
 
 // Length of a ray in the box [-1, 1]^3.
-double lengthInBox(const Ray& ray)
+double LengthInBox(const Ray& ray)
 {
   double begin = ray.Begin;
   double end = ray.End;
@@ -55,18 +55,18 @@ double lengthInBox(const Ray& ray)
   return std::max(0.0, end - begin) * vtkMath::Norm(ray.Direction.data());
 }
 
-void expectReference(
+void ExpectReference(
   RayCastScene& scene, const std::vector<HalfSpace>& halfSpaces, const std::string& what)
 {
-  scene.window()->Render();
-  const auto integrator = makeReference(scene.grid(), scene.volume()->GetMatrix());
-  const auto function = toReference(scene.volume()->GetProperty());
-  expectTrace(
+  scene.GetWindow()->Render();
+  const auto integrator = MakeReference(scene.MakeGrid(), scene.GetVolume()->GetMatrix());
+  const auto function = ToReference(scene.GetVolume()->GetProperty());
+  ExpectTrace(
     scene,
     [&](const Ray& ray)
     {
-      const Ray clipped = clipRay(ray, halfSpaces);
-      return clipped.Begin < clipped.End ? integrator->trace(clipped, function)
+      const Ray clipped = ClipRay(ray, halfSpaces);
+      return clipped.Begin < clipped.End ? integrator->Trace(clipped, function)
                                          : std::array<double, 4>{ 0.0, 0.0, 0.0, 0.0 };
     },
     what);
@@ -76,21 +76,21 @@ void expectReference(
 
 TEST(TetrahedraRayCastClipping, ConstantMediumInACutBox)
 {
-  const Grid grid = makeBlock(4, constantField(0.5));
+  const Grid grid = MakeBlock(4, ConstantField(0.5));
   for (const bool parallel : { false, true })
   {
     for (std::size_t count = 1; count <= Planes.size(); ++count)
     {
       const std::vector<HalfSpace> planes(
         Planes.begin(), Planes.begin() + static_cast<long>(count));
-      RayCastScene scene(grid, makeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
-      clip(scene, planes);
-      lookAt(scene.renderer(), grid->GetBounds(), 33.0, 21.0, 1.2, parallel);
-      expectTrace(
+      RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
+      Clip(scene, planes);
+      LookAt(scene.GetRenderer(), grid->GetBounds(), 33.0, 21.0, 1.2, parallel);
+      ExpectTrace(
         scene,
         [&planes](const Ray& ray)
         {
-          const double alpha = -std::expm1(-lengthInBox(clipRay(ray, planes)) * 0.7 / 0.8);
+          const double alpha = -std::expm1(-LengthInBox(ClipRay(ray, planes)) * 0.7 / 0.8);
           return std::array<double, 4>{ alpha, alpha, alpha, alpha };
         },
         std::to_string(count) + (parallel ? " planes, parallel" : " planes, perspective"));
@@ -100,72 +100,72 @@ TEST(TetrahedraRayCastClipping, ConstantMediumInACutBox)
 
 TEST(TetrahedraRayCastClipping, CellsAreCutExactly)
 {
-  const Grid grid = makeBlock(8, wavyField(3.0), torus(0.6, 0.3));
+  const Grid grid = MakeBlock(8, WavyField(3.0), Torus(0.6, 0.3));
   const double range[2] = { -1.0, 1.0 };
   for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
   {
-    RayCastScene scene(grid, makeProperty(kind, range, 3.4), Size, Size);
-    clip(scene, Planes);
-    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-    expectReference(scene, Planes, "torus");
+    RayCastScene scene(grid, MakeProperty(kind, range, 3.4), Size, Size);
+    Clip(scene, Planes);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    ExpectReference(scene, Planes, "torus");
   }
 }
 
 TEST(TetrahedraRayCastClipping, PlanesAreInWorldCoordinates)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   const double range[2] = { -1.0, 1.0 };
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
-  scene.volume()->SetScale(-0.8, 1.4, 1.0);
-  scene.volume()->RotateWXYZ(31.0, 0.3, 1.0, 0.2);
-  scene.volume()->SetPosition(0.2, -0.1, 0.3);
-  clip(scene, Planes);
-  lookAt(scene.renderer(), scene.volume()->GetBounds(), 30.0, 20.0);
-  expectReference(scene, Planes, "transformed volume");
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
+  scene.GetVolume()->SetScale(-0.8, 1.4, 1.0);
+  scene.GetVolume()->RotateWXYZ(31.0, 0.3, 1.0, 0.2);
+  scene.GetVolume()->SetPosition(0.2, -0.1, 0.3);
+  Clip(scene, Planes);
+  LookAt(scene.GetRenderer(), scene.GetVolume()->GetBounds(), 30.0, 20.0);
+  ExpectReference(scene, Planes, "transformed volume");
 }
 
 TEST(TetrahedraRayCastClipping, CameraInsideAndPlanesThroughIt)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   const double range[2] = { -1.0, 1.0 };
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
   const std::vector<HalfSpace> planes{ { { 0.0, 1.0, 0.3 }, { 0.1, 0.1, 0.0 } },
     { { 1.0, 0.0, 0.0 }, { 0.4, 0.0, 0.0 } } };
-  clip(scene, planes);
-  vtkCamera* camera = scene.renderer()->GetActiveCamera();
+  Clip(scene, planes);
+  vtkCamera* camera = scene.GetRenderer()->GetActiveCamera();
   camera->SetPosition(0.1, 0.1, 0.0);
   camera->SetFocalPoint(1.0, 0.5, -0.3);
   camera->SetViewUp(0.0, 0.0, 1.0);
   camera->SetViewAngle(70.0);
   camera->SetClippingRange(0.001, 10.0);
-  expectReference(scene, planes, "camera inside");
+  ExpectReference(scene, planes, "camera inside");
 }
 
 TEST(TetrahedraRayCastClipping, RaysInThePlanes)
 {
   // Half of an aligned block, seen along the plane that halves it, through faces and edges.
-  const Grid grid = makeBlock(4, constantField(0.5));
+  const Grid grid = MakeBlock(4, ConstantField(0.5));
   const std::vector<HalfSpace> planes{ { { 1.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 } } };
-  RayCastScene scene(grid, makeConstantProperty(0.7, 1, 1, 1, 0.8), Size + 1, Size + 1);
-  clip(scene, planes);
-  lookAlongAxis(scene.renderer(), grid->GetBounds(), 2);
-  const FloatImage image = scene.renderFloat();
-  const PixelRays rays(scene.renderer());
+  RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size + 1, Size + 1);
+  Clip(scene, planes);
+  LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), 2);
+  const FloatImage image = scene.RenderFloat();
+  const PixelRays rays(scene.GetRenderer());
   const double inside = -std::expm1(-2.0 * 0.7 / 0.8);
   for (int y = 0; y < image.Height; ++y)
   {
     for (int x = 0; x < image.Width; ++x)
     {
-      const Ray ray = rays.ray(x, y);
+      const Ray ray = rays.GetRay(x, y);
       const bool met = std::fabs(ray.Origin[0]) < 0.999 && std::fabs(ray.Origin[1]) < 0.999;
       if (met && std::fabs(ray.Origin[0]) > 1e-6)
       {
-        ASSERT_NEAR(image.pixel(x, y)[3], ray.Origin[0] > 0.0 ? inside : 0.0, FloatTolerance);
+        ASSERT_NEAR(image.GetPixel(x, y)[3], ray.Origin[0] > 0.0 ? inside : 0.0, FloatTolerance);
       }
       else if (met)
       {
         // In the plane: either one side or the other.
-        const double alpha = image.pixel(x, y)[3];
+        const double alpha = image.GetPixel(x, y)[3];
         ASSERT_TRUE(std::fabs(alpha - inside) < FloatTolerance || alpha == 0.0) << alpha;
       }
     }
@@ -174,28 +174,28 @@ TEST(TetrahedraRayCastClipping, RaysInThePlanes)
 
 TEST(TetrahedraRayCastClipping, NothingIsLeft)
 {
-  const Grid grid = makeBlock(4, constantField(0.5));
-  RayCastScene scene(grid, makeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
-  clip(
+  const Grid grid = MakeBlock(4, ConstantField(0.5));
+  RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
+  Clip(
     scene, { { { 1.0, 0.0, 0.0 }, { 0.2, 0.0, 0.0 } }, { { -1.0, 0.0, 0.0 }, { 0.1, 0.0, 0.0 } } });
-  lookAt(scene.renderer(), grid->GetBounds(), 33.0, 21.0);
-  for (const float value : scene.renderFloat().Rgba)
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 33.0, 21.0);
+  for (const float value : scene.RenderFloat().Rgba)
   {
     ASSERT_EQ(value, 0.0f);
   }
   // Rays without a visible part take no step.
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfTraversalSteps(), 0);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfTraversalSteps(), 0);
 }
 
 TEST(TetrahedraRayCastClipping, TooManyPlanesAreAnError)
 {
-  const Grid grid = makeBlock(2, constantField(0.5));
-  RayCastScene scene(grid, makeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
-  clip(scene, std::vector<HalfSpace>(33, Planes[0]));
-  lookAt(scene.renderer(), grid->GetBounds(), 33.0, 21.0);
+  const Grid grid = MakeBlock(2, ConstantField(0.5));
+  RayCastScene scene(grid, MakeConstantProperty(0.7, 1, 1, 1, 0.8), Size, Size);
+  Clip(scene, std::vector<HalfSpace>(33, Planes[0]));
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 33.0, 21.0);
   const auto errors = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  errors->observe(scene.rayCaster());
-  const ByteImage image = scene.renderBytes();
-  EXPECT_NE(errors->text().find("33 clipping planes"), std::string::npos) << errors->text();
+  errors->Observe(scene.GetRayCaster());
+  const ByteImage image = scene.RenderBytes();
+  EXPECT_NE(errors->GetText().find("33 clipping planes"), std::string::npos) << errors->GetText();
   EXPECT_EQ(*std::max_element(image.Rgb.begin(), image.Rgb.end()), 0);
 }

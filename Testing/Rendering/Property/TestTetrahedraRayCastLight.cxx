@@ -30,11 +30,11 @@ constexpr int Size = 128;
 constexpr int Steps = 6;
 
 // Cells from 0.44 to 1/32,768 of the domain.
-Grid makeGradedBlock()
+Grid MakeGradedBlock()
 {
-  Grid grid = makeBlock(8, constantField(0.0));
+  Grid grid = MakeBlock(8, ConstantField(0.0));
   vtkDataArray* scalars = grid->GetPointData()->GetScalars();
-  const Field field = wavyField(3.0);
+  const Field field = WavyField(3.0);
   for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i)
   {
     double p[3];
@@ -51,11 +51,11 @@ Grid makeGradedBlock()
 
 // All terms of lighting that are constant in a cell. The denser the medium, the more visible a
 // single cell is.
-TracedComparison compareLit(vtkUnstructuredGrid* grid, int view, double density)
+TracedComparison CompareLit(vtkUnstructuredGrid* grid, int view, double density)
 {
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  const auto property = makeProperty(FunctionKind::Smooth, range, diagonalOf(grid->GetBounds()));
+  const auto property = MakeProperty(FunctionKind::Smooth, range, DiagonalOf(grid->GetBounds()));
   property->SetScalarOpacityUnitDistance(property->GetScalarOpacityUnitDistance() / density);
   property->ShadeOn();
   property->SetAmbient(0.2);
@@ -63,29 +63,29 @@ TracedComparison compareLit(vtkUnstructuredGrid* grid, int view, double density)
   property->SetSpecular(0.4);
   property->SetSpecularPower(12.0);
   RayCastScene scene(grid, property, Size, Size);
-  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+  scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
   vtkNew<vtkLight> light;
   light->SetLightTypeToSceneLight();
   light->SetPosition(4.0, 2.0, 1.0);
   light->SetDiffuseColor(1.0, 0.6, 0.2);
-  scene.renderer()->AddLight(light);
-  const auto angles = viewAngles(view);
-  lookAt(scene.renderer(), grid->GetBounds(), angles[0], angles[1]);
-  scene.window()->Render();
-  const auto integrator = makeReference(grid);
-  const ReferenceGradients gradients(integrator->mesh(), false);
-  const Material material = toMaterial(property, scene.renderer());
-  const auto function = toReference(property);
-  const FloatImage image = scene.renderFloat();
-  return compareToTrace(
-    image, PixelRays(scene.renderer()),
+  scene.GetRenderer()->AddLight(light);
+  const auto angles = ViewAngles(view);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), angles[0], angles[1]);
+  scene.GetWindow()->Render();
+  const auto integrator = MakeReference(grid);
+  const ReferenceGradients gradients(integrator->MakeMesh(), false);
+  const Material material = ToMaterial(property, scene.GetRenderer());
+  const auto function = ToReference(property);
+  const FloatImage image = scene.RenderFloat();
+  return CompareToTrace(
+    image, PixelRays(scene.GetRenderer()),
     [&](const Ray& ray)
     {
       std::vector<RaySegment> segments;
-      integrator->findSegments(ray, segments);
+      integrator->FindSegments(ray, segments);
       const auto traced = [&](int steps)
       {
-        return integrateShaded(
+        return IntegrateShaded(
           ray, segments, function, gradients, &material, std::function<double(double)>(), steps);
       };
       // The error of the midpoint rule is a series in the square of the step.
@@ -98,26 +98,26 @@ TracedComparison compareLit(vtkUnstructuredGrid* grid, int view, double density)
       return result;
     },
     // Silhouettes move with the rounding of rays and vertices.
-    1e-4, RoundingDistance * diagonalOf(grid->GetBounds()));
+    1e-4, RoundingDistance * DiagonalOf(grid->GetBounds()));
 }
 
-double largestError()
+double LargestError()
 {
-  return backendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 2e-5 : 1e-4;
+  return BackendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 2e-5 : 1e-4;
 }
 
-void expectLit(vtkUnstructuredGrid* grid, const std::string& name)
+void ExpectLit(vtkUnstructuredGrid* grid, const std::string& name)
 {
   for (const double density : { 1.0, 8.0 })
   {
     for (const int view : { 0, 1 })
     {
-      const TracedComparison comparison = compareLit(grid, view, density);
+      const TracedComparison comparison = CompareLit(grid, view, density);
       std::ostringstream text;
-      text << name << ", density " << density << ", view " << view << ": " << comparison.text();
+      text << name << ", density " << density << ", view " << view << ": " << comparison.GetText();
       std::cout << text.str() << std::endl;
       EXPECT_GT(comparison.Visible, 1000u) << text.str();
-      EXPECT_LE(comparison.Largest, largestError()) << text.str();
+      EXPECT_LE(comparison.Largest, LargestError()) << text.str();
       EXPECT_LE(static_cast<double>(comparison.Excused),
         LargestSilhouetteShare * static_cast<double>(comparison.Visible))
         << text.str();
@@ -133,12 +133,12 @@ class TetrahedraRayCastLightOnData : public testing::TestWithParam<const char*>
 
 TEST_P(TetrahedraRayCastLightOnData, MatchesReference)
 {
-  const Grid grid = readDataMesh(GetParam());
+  const Grid grid = ReadDataMesh(GetParam());
   if (!grid)
   {
     GTEST_SKIP() << GetParam() << ".vtu not found: set MENISCUS_DATA_DIR";
   }
-  expectLit(grid, GetParam());
+  ExpectLit(grid, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(, TetrahedraRayCastLightOnData,
@@ -147,5 +147,5 @@ INSTANTIATE_TEST_SUITE_P(, TetrahedraRayCastLightOnData,
 
 TEST(TetrahedraRayCastLight, CellsOfAllSizes)
 {
-  expectLit(makeGradedBlock(), "graded block");
+  ExpectLit(MakeGradedBlock(), "graded block");
 }

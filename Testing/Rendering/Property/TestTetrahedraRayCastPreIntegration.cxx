@@ -27,36 +27,36 @@ constexpr int Size = 160;
 
 struct Block
 {
-  Grid Mesh = makeBlock(8, wavyField(3.0));
+  Grid Mesh = MakeBlock(8, WavyField(3.0));
   double Range[2];
 
   Block() { this->Mesh->GetPointData()->GetScalars()->GetFiniteRange(this->Range); }
 
-  vtkSmartPointer<vtkVolumeProperty> property(FunctionKind kind) const
+  vtkSmartPointer<vtkVolumeProperty> GetProperty(FunctionKind kind) const
   {
-    return makeProperty(kind, this->Range, diagonalOf(this->Mesh->GetBounds()));
+    return MakeProperty(kind, this->Range, DiagonalOf(this->Mesh->GetBounds()));
   }
 };
 
-void usePreIntegration(RayCastScene& scene, int scalars, int lengths)
+void UsePreIntegration(RayCastScene& scene, int scalars, int lengths)
 {
-  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
-  scene.rayCaster()->SetPreIntegrationScalarSize(scalars);
-  scene.rayCaster()->SetPreIntegrationLengthSize(lengths);
+  scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+  scene.GetRayCaster()->SetPreIntegrationScalarSize(scalars);
+  scene.GetRayCaster()->SetPreIntegrationLengthSize(lengths);
 }
 
-Comparison compare(RayCastScene& scene, const SceneTruth& truth)
+Comparison Compare(RayCastScene& scene, const SceneTruth& truth)
 {
   const Comparison result =
-    compareToReference(scene.renderFloat(), truth.Image, *truth.Integrator, truth.RayOf, 1.0);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0);
+    CompareToReference(scene.RenderFloat(), truth.Image, *truth.Integrator, truth.RayOf, 1.0);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0);
   return result;
 }
 
-SceneTruth truthOf(RayCastScene& scene)
+SceneTruth TruthOf(RayCastScene& scene)
 {
-  scene.window()->Render();
-  return makeTruth(scene);
+  scene.GetWindow()->Render();
+  return MakeTruth(scene);
 }
 
 } // anonymous namespace
@@ -66,17 +66,17 @@ TEST(TetrahedraRayCastPreIntegration, ConvergesWithTheSizeOfTheTable)
   const Block block;
   for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Opaque })
   {
-    RayCastScene scene(block.Mesh, block.property(kind), Size, Size);
-    lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-    const SceneTruth truth = truthOf(scene);
+    RayCastScene scene(block.Mesh, block.GetProperty(kind), Size, Size);
+    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+    const SceneTruth truth = TruthOf(scene);
     double coarse = 0.0;
     double fine = 0.0;
     for (const int size : { 16, 32, 64, 128, 256, 512 })
     {
-      usePreIntegration(scene, size, size / 8);
-      const Comparison result = compare(scene, truth);
+      UsePreIntegration(scene, size, size / 8);
+      const Comparison result = Compare(scene, truth);
       RecordProperty((kind == FunctionKind::Smooth ? "smooth " : "opaque ") + std::to_string(size),
-        result.text());
+        result.GetText());
       coarse = size == 16 ? result.Rms : coarse;
       fine = result.Rms;
     }
@@ -95,13 +95,13 @@ TEST(TetrahedraRayCastPreIntegration, DefaultSizesAreCloseToTheReference)
   for (const FunctionKind kind :
     { FunctionKind::Smooth, FunctionKind::Opaque, FunctionKind::Sparse, FunctionKind::Peaked })
   {
-    RayCastScene scene(block.Mesh, block.property(kind), Size, Size);
-    lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-    const SceneTruth truth = truthOf(scene);
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
-    const Comparison result = compare(scene, truth);
-    SCOPED_TRACE(result.text());
-    RecordProperty("function " + std::to_string(static_cast<int>(kind)), result.text());
+    RayCastScene scene(block.Mesh, block.GetProperty(kind), Size, Size);
+    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+    const SceneTruth truth = TruthOf(scene);
+    scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+    const Comparison result = Compare(scene, truth);
+    SCOPED_TRACE(result.GetText());
+    RecordProperty("function " + std::to_string(static_cast<int>(kind)), result.GetText());
     const bool narrow = kind == FunctionKind::Sparse || kind == FunctionKind::Peaked;
     EXPECT_LT(result.Largest, narrow ? 10.0 / 255.0 : 1.0 / 255.0);
     EXPECT_LT(result.Rms, narrow ? 0.5 / 255.0 : 0.05 / 255.0);
@@ -112,84 +112,84 @@ TEST(TetrahedraRayCastPreIntegration, ThroughAMembrane)
 {
   const Block block;
   for (const MembraneCase& membrane :
-    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+    { MakePlaneCase(0.1, 4.0, 2), MakeDomeCase(1.4, 4.0, 2.8, 16) })
   {
-    RayCastScene scene(block.Mesh, block.property(FunctionKind::Smooth), Size, Size);
-    scene.rayCaster()->SetMembraneData(membrane.Mesh);
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
-    lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 50.0);
-    scene.window()->Render();
-    const auto integrator = makeReference(block.Mesh);
-    const auto function = toReference(scene.volume()->GetProperty());
-    const TracedComparison result = expectTrace(scene,
-      membrane.bend(
-        [&](const meniscus::reference::Ray& ray) { return integrator->trace(ray, function); }),
+    RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
+    scene.GetRayCaster()->SetMembraneData(membrane.Mesh);
+    scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+    LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 50.0);
+    scene.GetWindow()->Render();
+    const auto integrator = MakeReference(block.Mesh);
+    const auto function = ToReference(scene.GetVolume()->GetProperty());
+    const TracedComparison result = ExpectTrace(scene,
+      membrane.BendMembrane(
+        [&](const meniscus::reference::Ray& ray) { return integrator->Trace(ray, function); }),
       "through a membrane", 1.0 / 255.0);
-    EXPECT_LT(result.Rms, 0.05 / 255.0) << result.text();
+    EXPECT_LT(result.Rms, 0.05 / 255.0) << result.GetText();
   }
 }
 
 TEST(TetrahedraRayCastPreIntegration, CutSegmentsAndScaledVolumes)
 {
   const Block block;
-  RayCastScene scene(block.Mesh, block.property(FunctionKind::Smooth), Size, Size);
-  scene.volume()->SetScale(-3.0, 0.4, 1.0);
-  scene.volume()->RotateWXYZ(30.0, 1.0, 2.0, 3.0);
-  lookAt(scene.renderer(), scene.volume()->GetBounds(), 30.0, 20.0);
-  const double distance = scene.renderer()->GetActiveCamera()->GetDistance();
-  scene.renderer()->GetActiveCamera()->SetClippingRange(distance - 0.5, distance + 0.8);
-  const SceneTruth truth = truthOf(scene);
-  scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
-  const Comparison result = compare(scene, truth);
+  RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
+  scene.GetVolume()->SetScale(-3.0, 0.4, 1.0);
+  scene.GetVolume()->RotateWXYZ(30.0, 1.0, 2.0, 3.0);
+  LookAt(scene.GetRenderer(), scene.GetVolume()->GetBounds(), 30.0, 20.0);
+  const double distance = scene.GetRenderer()->GetActiveCamera()->GetDistance();
+  scene.GetRenderer()->GetActiveCamera()->SetClippingRange(distance - 0.5, distance + 0.8);
+  const SceneTruth truth = TruthOf(scene);
+  scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+  const Comparison result = Compare(scene, truth);
   EXPECT_GT(result.Covered, 1000u);
-  EXPECT_LT(result.Largest, 1.0 / 255.0) << result.text();
+  EXPECT_LT(result.Largest, 1.0 / 255.0) << result.GetText();
 }
 
 TEST(TetrahedraRayCastPreIntegration, TableIsMadeWhenWhatItDependsOnChanges)
 {
   const Block block;
-  RayCastScene scene(block.Mesh, block.property(FunctionKind::Smooth), Size, Size);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
+  RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
   int builds = 0;
   vtkTypeInt64 bytes = mapper->GetUploadedBytes();
   const auto renderAndExpect = [&](int newBuilds, const char* what)
   {
-    scene.window()->Render();
+    scene.GetWindow()->Render();
     builds += newBuilds;
     EXPECT_EQ(mapper->GetNumberOfPreIntegrationBuilds(), builds) << what;
     EXPECT_TRUE(newBuilds > 0 || mapper->GetUploadedBytes() == bytes) << what;
     bytes = mapper->GetUploadedBytes();
   };
-  scene.window()->Render();
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfPreIntegrationBuilds(), 0) << "exact";
   bytes = mapper->GetUploadedBytes();
-  usePreIntegration(scene, 64, 8);
+  UsePreIntegration(scene, 64, 8);
   renderAndExpect(1, "first use");
   // The native backend reads the table in place.
   EXPECT_TRUE(mapper->GetActiveBackend() == vtkTetrahedraRayCastMapper::NATIVE ||
     mapper->GetUploadedBytes() >= 64 * 64 * 8 * 16);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 77.0, -20.0);
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 77.0, -20.0);
   renderAndExpect(0, "camera");
-  scene.volume()->RotateX(33.0);
+  scene.GetVolume()->RotateX(33.0);
   renderAndExpect(0, "turned volume");
-  scene.volume()->SetScale(0.5);
+  scene.GetVolume()->SetScale(0.5);
   renderAndExpect(0, "smaller volume");
-  scene.volume()->SetScale(0.1);
+  scene.GetVolume()->SetScale(0.1);
   renderAndExpect(1, "much smaller volume");
-  scene.volume()->SetScale(1.0);
+  scene.GetVolume()->SetScale(1.0);
   renderAndExpect(1, "larger volume");
   mapper->SetPreIntegrationScalarSize(32);
   renderAndExpect(1, "scalar size");
   mapper->SetPreIntegrationLengthSize(4);
   renderAndExpect(1, "length size");
-  scene.volume()->GetProperty()->GetRGBTransferFunction()->AddRGBPoint(block.Range[0], 1, 1, 0);
+  scene.GetVolume()->GetProperty()->GetRGBTransferFunction()->AddRGBPoint(block.Range[0], 1, 1, 0);
   renderAndExpect(1, "colour");
-  scene.volume()->GetProperty()->GetScalarOpacity()->AddPoint(block.Range[1], 0.9);
+  scene.GetVolume()->GetProperty()->GetScalarOpacity()->AddPoint(block.Range[1], 0.9);
   renderAndExpect(1, "opacity");
   block.Mesh->GetPointData()->GetScalars()->SetComponent(5, 0, 2.0 * block.Range[1]);
   block.Mesh->GetPointData()->GetScalars()->Modified();
-  scene.window()->Render();
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfPreIntegrationBuilds(), ++builds) << "range of the scalars";
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
 }
@@ -197,46 +197,46 @@ TEST(TetrahedraRayCastPreIntegration, TableIsMadeWhenWhatItDependsOnChanges)
 TEST(TetrahedraRayCastPreIntegration, ExactWhereThereIsNoTable)
 {
   const Block block;
-  RayCastScene scene(block.Mesh, block.property(FunctionKind::Smooth), Size, Size);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+  RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
   const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->observe(scene.rayCaster());
+  warnings->Observe(scene.GetRayCaster());
   const auto expectSame = [&](const char* what, std::size_t expectedWarnings)
   {
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
-    const FloatImage exact = scene.renderFloat();
-    scene.rayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
-    EXPECT_EQ(scene.renderFloat().Rgba, exact.Rgba) << what;
+    scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::EXACT);
+    const FloatImage exact = scene.RenderFloat();
+    scene.GetRayCaster()->SetIntegration(vtkTetrahedraRayCastMapper::PRE_INTEGRATED);
+    EXPECT_EQ(scene.RenderFloat().Rgba, exact.Rgba) << what;
     EXPECT_EQ(warnings->Warnings.size(), expectedWarnings) << what;
   };
-  scene.rayCaster()->SetBlendModeToMaximumIntensity();
+  scene.GetRayCaster()->SetBlendModeToMaximumIntensity();
   expectSame("maximum, which does not integrate", 0);
-  scene.rayCaster()->SetBlendModeToComposite();
-  scene.volume()->GetProperty()->ShadeOn();
+  scene.GetRayCaster()->SetBlendModeToComposite();
+  scene.GetVolume()->GetProperty()->ShadeOn();
   expectSame("light", 1);
   expectSame("light again", 1);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfPreIntegrationBuilds(), 0);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfPreIntegrationBuilds(), 0);
 }
 
 TEST(TetrahedraRayCastPreIntegration, NativeLooksUpTheSame)
 {
   const Block block;
-  RayCastScene scene(block.Mesh, block.property(FunctionKind::Opaque), Size, Size);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Opaque), Size, Size);
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
   const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-  warnings->observe(scene.rayCaster());
+  warnings->Observe(scene.GetRayCaster());
   // Two and three dimensions, and a coarse table, whose errors the other backend must have, too.
   const int sizes[3][2] = { { 64, 1 }, { 64, 16 }, { 8, 4 } };
   for (const auto& size : sizes)
   {
-    usePreIntegration(scene, size[0], size[1]);
-    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-    const FloatImage fragments = scene.renderFloat();
-    scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
-    expectSamePicture(scene.renderFloat(), fragments,
+    UsePreIntegration(scene, size[0], size[1]);
+    scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+    const FloatImage fragments = scene.RenderFloat();
+    scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::NATIVE);
+    ExpectSamePicture(scene.RenderFloat(), fragments,
       std::to_string(size[0]) + " scalars, " + std::to_string(size[1]) + " lengths");
-    EXPECT_EQ(scene.rayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::NATIVE);
+    EXPECT_EQ(scene.GetRayCaster()->GetActiveBackend(), vtkTetrahedraRayCastMapper::NATIVE);
   }
   EXPECT_TRUE(warnings->Warnings.empty());
 }
@@ -244,13 +244,13 @@ TEST(TetrahedraRayCastPreIntegration, NativeLooksUpTheSame)
 TEST(TetrahedraRayCastPreIntegration, ComputeShadersDrawTheSame)
 {
   const Block block;
-  RayCastScene scene(block.Mesh, block.property(FunctionKind::Smooth), Size, Size);
-  lookAt(scene.renderer(), block.Mesh->GetBounds(), 30.0, 20.0);
-  usePreIntegration(scene, 64, 16);
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
-  const FloatImage fragments = scene.renderFloat();
-  scene.rayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
-  const FloatImage compute = scene.renderFloat();
+  RayCastScene scene(block.Mesh, block.GetProperty(FunctionKind::Smooth), Size, Size);
+  LookAt(scene.GetRenderer(), block.Mesh->GetBounds(), 30.0, 20.0);
+  UsePreIntegration(scene, 64, 16);
+  scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::OPENGL);
+  const FloatImage fragments = scene.RenderFloat();
+  scene.GetRayCaster()->SetBackend(vtkTetrahedraRayCastMapper::COMPUTE);
+  const FloatImage compute = scene.RenderFloat();
   double largest = 0.0;
   for (std::size_t i = 0; i < compute.Rgba.size(); ++i)
   {

@@ -34,31 +34,31 @@ const std::vector<std::pair<int, Projection>> Modes{ { vtkVolumeMapper::MAXIMUM_
   { vtkVolumeMapper::AVERAGE_INTENSITY_BLEND, Projection::Average },
   { vtkVolumeMapper::ADDITIVE_BLEND, Projection::Additive } };
 
-TracedComparison expectReference(RayCastScene& scene, Projection projection,
+TracedComparison ExpectReference(RayCastScene& scene, Projection projection,
   const std::string& what, double tolerance = FloatTolerance)
 {
-  scene.window()->Render();
-  const auto integrator = makeReference(scene.grid(), scene.volume()->GetMatrix());
-  vtkVolumeProperty* property = scene.volume()->GetProperty();
+  scene.GetWindow()->Render();
+  const auto integrator = MakeReference(scene.MakeGrid(), scene.GetVolume()->GetMatrix());
+  vtkVolumeProperty* property = scene.GetVolume()->GetProperty();
   const auto function =
-    projection == Projection::Additive ? toReference(property) : toAlphas(property);
+    projection == Projection::Additive ? ToReference(property) : ToAlphas(property);
   double range[2];
-  scene.grid()->GetPointData()->GetScalars()->GetFiniteRange(range);
-  return expectTrace(
+  scene.MakeGrid()->GetPointData()->GetScalars()->GetFiniteRange(range);
+  return ExpectTrace(
     scene,
     [&](const Ray& ray)
     {
       std::vector<RaySegment> segments;
-      integrator->findSegments(ray, segments);
-      return meniscus::reference::project(ray, segments, projection, function, range);
+      integrator->FindSegments(ray, segments);
+      return meniscus::reference::Project(ray, segments, projection, function, range);
     },
     what, tolerance);
 }
 
 // Attenuation (alpha) equal to s over the range [0, 1] of s.
-vtkSmartPointer<vtkVolumeProperty> identityProperty(double unit)
+vtkSmartPointer<vtkVolumeProperty> IdentityProperty(double unit)
 {
-  auto property = makeConstantProperty(0.0, 1, 1, 1, unit);
+  auto property = MakeConstantProperty(0.0, 1, 1, 1, unit);
   vtkNew<vtkPiecewiseFunction> opacity;
   opacity->AddPoint(0.0, 0.0);
   opacity->AddPoint(1.0, 1.0);
@@ -72,13 +72,13 @@ TEST(TetrahedraRayCastProjections, LinearFieldInABox)
 {
   // s from 0 to 1 along x + y; white with alpha s.
   const auto field = [](double x, double y, double) { return 0.5 + 0.25 * (x + y); };
-  const Grid grid = makeBlock(5, field);
+  const Grid grid = MakeBlock(5, field);
   for (const auto& mode : Modes)
   {
-    RayCastScene scene(grid, identityProperty(3.0), Size, Size);
-    scene.rayCaster()->SetBlendMode(mode.first);
-    lookAt(scene.renderer(), grid->GetBounds(), 33.0, 21.0, 1.2);
-    expectTrace(
+    RayCastScene scene(grid, IdentityProperty(3.0), Size, Size);
+    scene.GetRayCaster()->SetBlendMode(mode.first);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 33.0, 21.0, 1.2);
+    ExpectTrace(
       scene,
       [&](const Ray& ray)
       {
@@ -122,17 +122,17 @@ TEST(TetrahedraRayCastProjections, CurvedFieldsAndHoles)
 {
   for (const bool hollow : { false, true })
   {
-    const Grid grid = makeBlock(9, wavyField(3.0), hollow ? shell(0.5, 0.95) : Region());
+    const Grid grid = MakeBlock(9, WavyField(3.0), hollow ? Shell(0.5, 0.95) : Region());
     double range[2];
     grid->GetPointData()->GetScalars()->GetFiniteRange(range);
     for (const auto& mode : Modes)
     {
       for (const FunctionKind kind : { FunctionKind::Smooth, FunctionKind::Peaked })
       {
-        RayCastScene scene(grid, makeProperty(kind, range, 3.4), Size, Size);
-        scene.rayCaster()->SetBlendMode(mode.first);
-        lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0, 1.0, hollow);
-        expectReference(scene, mode.second,
+        RayCastScene scene(grid, MakeProperty(kind, range, 3.4), Size, Size);
+        scene.GetRayCaster()->SetBlendMode(mode.first);
+        LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0, 1.0, hollow);
+        ExpectReference(scene, mode.second,
           "mode " + std::to_string(mode.first) + (hollow ? ", shell" : ", block") +
             (kind == FunctionKind::Smooth ? ", smooth" : ", peaked"));
       }
@@ -142,31 +142,31 @@ TEST(TetrahedraRayCastProjections, CurvedFieldsAndHoles)
 
 TEST(TetrahedraRayCastProjections, ScaledAndMirroredVolume)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
   for (const auto& mode : Modes)
   {
-    RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
-    scene.rayCaster()->SetBlendMode(mode.first);
-    scene.volume()->SetScale(-0.8, 1.4, 1.0);
-    lookAt(scene.renderer(), scene.volume()->GetBounds(), 30.0, 20.0);
-    expectReference(scene, mode.second, "mode " + std::to_string(mode.first));
+    RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
+    scene.GetRayCaster()->SetBlendMode(mode.first);
+    scene.GetVolume()->SetScale(-0.8, 1.4, 1.0);
+    LookAt(scene.GetRenderer(), scene.GetVolume()->GetBounds(), 30.0, 20.0);
+    ExpectReference(scene, mode.second, "mode " + std::to_string(mode.first));
   }
 }
 
 TEST(TetrahedraRayCastProjections, UnknownModeWarnsAndComposites)
 {
-  const Grid grid = makeBlock(3, wavyField(3.0));
+  const Grid grid = MakeBlock(3, WavyField(3.0));
   const double range[2] = { -1.0, 1.0 };
   for (const int mode : { -1, int(vtkVolumeMapper::SLICE_BLEND), 77 })
   {
-    RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
-    scene.rayCaster()->SetBlendMode(mode);
+    RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
+    scene.GetRayCaster()->SetBlendMode(mode);
     const auto warnings = vtkSmartPointer<ErrorObserver>::Take(ErrorObserver::New());
-    warnings->observe(scene.rayCaster());
-    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-    expectMatchesReference(scene, "mode " + std::to_string(mode));
+    warnings->Observe(scene.GetRayCaster());
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    ExpectMatchesReference(scene, "mode " + std::to_string(mode));
     EXPECT_EQ(warnings->Warnings.size(), 1u);
   }
 }
@@ -174,63 +174,63 @@ TEST(TetrahedraRayCastProjections, UnknownModeWarnsAndComposites)
 TEST(TetrahedraRayCastProjections, ModesCanBeSwitched)
 {
   // With composite blending again, opacity is an attenuation.
-  const Grid grid = makeBlock(4, wavyField(3.0));
+  const Grid grid = MakeBlock(4, WavyField(3.0));
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  const FloatImage first = scene.renderFloat();
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  const FloatImage first = scene.RenderFloat();
   for (const auto& mode : Modes)
   {
-    scene.rayCaster()->SetBlendMode(mode.first);
-    expectReference(scene, mode.second, "mode " + std::to_string(mode.first));
+    scene.GetRayCaster()->SetBlendMode(mode.first);
+    ExpectReference(scene, mode.second, "mode " + std::to_string(mode.first));
   }
-  scene.rayCaster()->SetBlendModeToComposite();
-  EXPECT_EQ(scene.renderFloat().Rgba, first.Rgba);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfMeshBuilds(), 1);
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfScalarUpdates(), 1);
+  scene.GetRayCaster()->SetBlendModeToComposite();
+  EXPECT_EQ(scene.RenderFloat().Rgba, first.Rgba);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfMeshBuilds(), 1);
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfScalarUpdates(), 1);
 }
 
 TEST(TetrahedraRayCastProjections, EveryModeWalksTheSameCells)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0), torus(0.6, 0.3));
+  const Grid grid = MakeBlock(6, WavyField(3.0), Torus(0.6, 0.3));
   const double range[2] = { -1.0, 1.0 };
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
-  scene.rayCaster()->SetEarlyTerminationOpacity(1.0);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  scene.window()->Render();
-  const vtkTypeInt64 steps = scene.rayCaster()->GetNumberOfTraversalSteps();
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, range, 3.4), Size, Size);
+  scene.GetRayCaster()->SetEarlyTerminationOpacity(1.0);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  scene.GetWindow()->Render();
+  const vtkTypeInt64 steps = scene.GetRayCaster()->GetNumberOfTraversalSteps();
   EXPECT_GT(steps, 0);
   // All scalars are visible with this function, so no cell is skipped.
-  EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
+  EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells());
   for (const int mode : { 1, 2, 3, 4 })
   {
-    scene.rayCaster()->SetBlendMode(mode);
-    scene.window()->Render();
-    EXPECT_EQ(scene.rayCaster()->GetNumberOfTraversalSteps(), steps) << mode;
-    EXPECT_EQ(scene.rayCaster()->GetNumberOfLostRays(), 0) << mode;
+    scene.GetRayCaster()->SetBlendMode(mode);
+    scene.GetWindow()->Render();
+    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfTraversalSteps(), steps) << mode;
+    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfLostRays(), 0) << mode;
   }
 }
 
 TEST(TetrahedraRayCastProjections, SkipOnlyWhatTheModeCannotShow)
 {
-  const Grid grid = makeBlock(8, linearField(1.0, 0.0, 0.0));
+  const Grid grid = MakeBlock(8, LinearField(1.0, 0.0, 0.0));
   const double range[2] = { -1.0, 1.0 };
-  auto property = makeProperty(FunctionKind::Sparse, range, 3.4);
+  auto property = MakeProperty(FunctionKind::Sparse, range, 3.4);
   property->GetIsoSurfaceValues()->SetValue(0, 0.1);
   RayCastScene scene(grid, property, Size, Size);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  scene.window()->Render();
-  EXPECT_LT(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 2);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  scene.GetWindow()->Render();
+  EXPECT_LT(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 2);
   for (const int mode : { 1, 2, 3, 4 })
   {
-    scene.rayCaster()->SetBlendMode(mode);
-    scene.window()->Render();
-    EXPECT_EQ(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells()) << mode;
+    scene.GetRayCaster()->SetBlendMode(mode);
+    scene.GetWindow()->Render();
+    EXPECT_EQ(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells()) << mode;
   }
   // x = 0.1 runs through one of 8 layers.
-  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  scene.window()->Render();
-  EXPECT_LE(scene.rayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 8);
-  EXPECT_GT(scene.rayCaster()->GetNumberOfActiveCells(), 0);
+  scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  scene.GetWindow()->Render();
+  EXPECT_LE(scene.GetRayCaster()->GetNumberOfActiveCells(), grid->GetNumberOfCells() / 8);
+  EXPECT_GT(scene.GetRayCaster()->GetNumberOfActiveCells(), 0);
 }

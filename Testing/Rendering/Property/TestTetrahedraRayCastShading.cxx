@@ -30,7 +30,7 @@ constexpr double Range[2] = { -1.0, 1.0 };
 constexpr int Steps = 40;
 
 // A headlight, a coloured directional light and a spot light near the mesh.
-void addLights(vtkRenderer* renderer)
+void AddLights(vtkRenderer* renderer)
 {
   vtkNew<vtkLight> head;
   head->SetLightTypeToHeadlight();
@@ -57,9 +57,9 @@ void addLights(vtkRenderer* renderer)
   renderer->AddLight(off);
 }
 
-vtkSmartPointer<vtkVolumeProperty> surfaceProperty(bool shade)
+vtkSmartPointer<vtkVolumeProperty> SurfaceProperty(bool shade)
 {
-  auto property = makeProperty(FunctionKind::Smooth, Range, 3.4);
+  auto property = MakeProperty(FunctionKind::Smooth, Range, 3.4);
   property->SetShade(shade);
   property->SetAmbient(0.2);
   property->SetDiffuse(0.6);
@@ -81,88 +81,88 @@ struct ShadingTruth
 
   explicit ShadingTruth(RayCastScene& scene)
   {
-    scene.window()->Render();
-    this->Integrator = makeReference(scene.grid(), scene.volume()->GetMatrix());
+    scene.GetWindow()->Render();
+    this->Integrator = MakeReference(scene.MakeGrid(), scene.GetVolume()->GetMatrix());
     const bool smooth =
-      scene.rayCaster()->GetGradients() == vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS;
-    this->Gradients = std::make_unique<ReferenceGradients>(this->Integrator->mesh(), smooth);
-    this->Light = toMaterial(scene.volume()->GetProperty(), scene.renderer());
+      scene.GetRayCaster()->GetGradients() == vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS;
+    this->Gradients = std::make_unique<ReferenceGradients>(this->Integrator->MakeMesh(), smooth);
+    this->Light = ToMaterial(scene.GetVolume()->GetProperty(), scene.GetRenderer());
   }
 };
 
-void expectSurfaces(RayCastScene& scene, const std::string& what)
+void ExpectSurfaces(RayCastScene& scene, const std::string& what)
 {
   const ShadingTruth truth(scene);
-  std::vector<Surface> surfaces = toSurfaces(scene.volume()->GetProperty());
+  std::vector<Surface> surfaces = ToSurfaces(scene.GetVolume()->GetProperty());
   // Two equal values are blended as one.
   const auto same = [](const Surface& a, const Surface& b) { return a.Scalar == b.Scalar; };
   std::sort(surfaces.begin(), surfaces.end(),
     [](const Surface& a, const Surface& b) { return a.Scalar < b.Scalar; });
   surfaces.erase(std::unique(surfaces.begin(), surfaces.end(), same), surfaces.end());
-  const bool lit = scene.volume()->GetProperty()->GetShade() != 0;
-  expectTrace(
+  const bool lit = scene.GetVolume()->GetProperty()->GetShade() != 0;
+  ExpectTrace(
     scene,
     [&](const Ray& ray)
     {
       std::vector<RaySegment> segments;
-      truth.Integrator->findSegments(ray, segments);
-      return blendSurfaces(
+      truth.Integrator->FindSegments(ray, segments);
+      return BlendSurfaces(
         ray, segments, surfaces, lit ? truth.Gradients.get() : nullptr, truth.Light);
     },
     what);
 }
 
-double gradientFactor(double size)
+double GradientFactor(double size)
 {
   return std::min(std::max((size - 0.5) / 2.0, 0.0), 1.0) * 0.9 + 0.05;
 }
 
-void expectShadedMedium(RayCastScene& scene, bool factor, double tolerance, const std::string& what)
+void ExpectShadedMedium(RayCastScene& scene, bool factor, double tolerance, const std::string& what)
 {
   const ShadingTruth truth(scene);
-  const auto function = toReference(scene.volume()->GetProperty());
-  const bool lit = scene.volume()->GetProperty()->GetShade() != 0;
-  expectTrace(
+  const auto function = ToReference(scene.GetVolume()->GetProperty());
+  const bool lit = scene.GetVolume()->GetProperty()->GetShade() != 0;
+  ExpectTrace(
     scene,
     [&](const Ray& ray)
     {
       std::vector<RaySegment> segments;
-      truth.Integrator->findSegments(ray, segments);
-      return integrateShaded(ray, segments, function, *truth.Gradients,
-        lit ? &truth.Light : nullptr, factor ? gradientFactor : std::function<double(double)>(),
+      truth.Integrator->FindSegments(ray, segments);
+      return IntegrateShaded(ray, segments, function, *truth.Gradients,
+        lit ? &truth.Light : nullptr, factor ? GradientFactor : std::function<double(double)>(),
         Steps);
     },
     what, tolerance);
 }
 
 // Comparison where the medium's lighting is not exact.
-TracedComparison compareShadedMedium(RayCastScene& scene, const MembraneCase& membrane)
+TracedComparison CompareShadedMedium(RayCastScene& scene, const MembraneCase& membrane)
 {
-  scene.rayCaster()->SetMembraneData(membrane.Mesh);
+  scene.GetRayCaster()->SetMembraneData(membrane.Mesh);
   const ShadingTruth truth(scene);
-  const auto function = toReference(scene.volume()->GetProperty());
-  const FloatImage image = scene.renderFloat();
-  const PixelRays rays(scene.renderer());
-  return compareToTrace(image, rays,
-    membrane.bend(
+  const auto function = ToReference(scene.GetVolume()->GetProperty());
+  const FloatImage image = scene.RenderFloat();
+  const PixelRays rays(scene.GetRenderer());
+  return CompareToTrace(image, rays,
+    membrane.BendMembrane(
       [&](const Ray& ray)
       {
         std::vector<RaySegment> segments;
-        truth.Integrator->findSegments(ray, segments);
-        return integrateShaded(
-          ray, segments, function, *truth.Gradients, &truth.Light, gradientFactor, 8);
+        truth.Integrator->FindSegments(ray, segments);
+        return IntegrateShaded(
+          ray, segments, function, *truth.Gradients, &truth.Light, GradientFactor, 8);
       }),
     1.0, 0.0);
 }
 
-vtkSmartPointer<vtkVolumeProperty> mediumProperty(bool shade, bool factor)
+vtkSmartPointer<vtkVolumeProperty> MediumProperty(bool shade, bool factor)
 {
-  auto property = surfaceProperty(shade);
+  auto property = SurfaceProperty(shade);
   if (factor)
   {
     vtkNew<vtkPiecewiseFunction> function;
-    function->AddPoint(0.5, gradientFactor(0.5));
-    function->AddPoint(2.5, gradientFactor(2.5));
+    function->AddPoint(0.5, GradientFactor(0.5));
+    function->AddPoint(2.5, GradientFactor(2.5));
     property->SetGradientOpacity(function);
   }
   return property;
@@ -174,15 +174,15 @@ TEST(TetrahedraRayCastIsosurfaces, PlanesOfALinearField)
 {
   // Isosurfaces of x in the box are squares that face the viewer, who looks along x: the headlight
   // gives ambient + diffuse of the colour plus specular, at the angle of the ray.
-  const Grid grid = makeBlock(5, linearField(1.0, 0.0, 0.0));
+  const Grid grid = MakeBlock(5, LinearField(1.0, 0.0, 0.0));
   for (const int gradients : { 0, 1 })
   {
-    RayCastScene scene(grid, surfaceProperty(true), Size, Size);
-    scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-    scene.rayCaster()->SetGradients(gradients);
-    lookAlongAxis(scene.renderer(), grid->GetBounds(), 0);
-    const std::vector<Surface> surfaces = toSurfaces(scene.volume()->GetProperty());
-    expectTrace(
+    RayCastScene scene(grid, SurfaceProperty(true), Size, Size);
+    scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+    scene.GetRayCaster()->SetGradients(gradients);
+    LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), 0);
+    const std::vector<Surface> surfaces = ToSurfaces(scene.GetVolume()->GetProperty());
+    ExpectTrace(
       scene,
       [&surfaces](const Ray& ray)
       {
@@ -212,13 +212,13 @@ TEST(TetrahedraRayCastIsosurfaces, SeveralTransparentSurfaces)
   {
     for (const int gradients : { 0, 1 })
     {
-      const Grid grid = makeBlock(8, wavyField(3.0), gradients ? Region() : torus(0.6, 0.35));
-      RayCastScene scene(grid, surfaceProperty(shade), Size, Size);
-      scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-      scene.rayCaster()->SetGradients(gradients);
-      addLights(scene.renderer());
-      lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-      expectSurfaces(scene,
+      const Grid grid = MakeBlock(8, WavyField(3.0), gradients ? Region() : Torus(0.6, 0.35));
+      RayCastScene scene(grid, SurfaceProperty(shade), Size, Size);
+      scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+      scene.GetRayCaster()->SetGradients(gradients);
+      AddLights(scene.GetRenderer());
+      LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+      ExpectSurfaces(scene,
         std::string(shade ? "lit, " : "unlit, ") + (gradients ? "vertex" : "cell") + " gradients");
     }
   }
@@ -226,44 +226,44 @@ TEST(TetrahedraRayCastIsosurfaces, SeveralTransparentSurfaces)
 
 TEST(TetrahedraRayCastIsosurfaces, TransformedVolumeAndClippedRange)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  RayCastScene scene(grid, surfaceProperty(true), Size, Size);
-  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  scene.volume()->SetScale(-0.7, 1.5, 1.0);
-  scene.volume()->RotateWXYZ(37.0, 0.3, 1.0, 0.2);
-  addLights(scene.renderer());
-  lookAt(scene.renderer(), scene.volume()->GetBounds(), 30.0, 20.0);
-  expectSurfaces(scene, "mirrored and stretched");
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  RayCastScene scene(grid, SurfaceProperty(true), Size, Size);
+  scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  scene.GetVolume()->SetScale(-0.7, 1.5, 1.0);
+  scene.GetVolume()->RotateWXYZ(37.0, 0.3, 1.0, 0.2);
+  AddLights(scene.GetRenderer());
+  LookAt(scene.GetRenderer(), scene.GetVolume()->GetBounds(), 30.0, 20.0);
+  ExpectSurfaces(scene, "mirrored and stretched");
 }
 
 TEST(TetrahedraRayCastIsosurfaces, ValueOfVerticesIsMetOnce)
 {
   // Isovalue 0 runs through vertices and along faces: a ray meets it once, whatever it passes.
-  const Grid grid = makeBlock(4, linearField(1.0, 0.0, 0.0));
-  auto property = makeConstantProperty(0.25, 1, 1, 1, 1.0);
+  const Grid grid = MakeBlock(4, LinearField(1.0, 0.0, 0.0));
+  auto property = MakeConstantProperty(0.25, 1, 1, 1, 1.0);
   property->GetIsoSurfaceValues()->SetValue(0, 0.0);
   for (const int axis : { 0, 1 })
   {
     RayCastScene scene(grid, property, Size + 1, Size + 1);
-    scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-    lookAlongAxis(scene.renderer(), grid->GetBounds(), axis);
-    const FloatImage image = scene.renderFloat();
-    const PixelRays rays(scene.renderer());
+    scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+    LookAlongAxis(scene.GetRenderer(), grid->GetBounds(), axis);
+    const FloatImage image = scene.RenderFloat();
+    const PixelRays rays(scene.GetRenderer());
     for (int y = 0; y < image.Height; ++y)
     {
       for (int x = 0; x < image.Width; ++x)
       {
-        const Ray ray = rays.ray(x, y);
+        const Ray ray = rays.GetRay(x, y);
         const bool met =
           axis == 0 && std::fabs(ray.Origin[1]) < 0.999 && std::fabs(ray.Origin[2]) < 0.999;
         if (met)
         {
-          ASSERT_FLOAT_EQ(image.pixel(x, y)[3], 0.25f) << x << ", " << y;
+          ASSERT_FLOAT_EQ(image.GetPixel(x, y)[3], 0.25f) << x << ", " << y;
         }
         else if (axis == 1)
         {
           // Rays inside the surface do not meet it, nor do rays next to it.
-          ASSERT_EQ(image.pixel(x, y)[3], 0.0f) << x << ", " << y;
+          ASSERT_EQ(image.GetPixel(x, y)[3], 0.0f) << x << ", " << y;
         }
       }
     }
@@ -272,12 +272,12 @@ TEST(TetrahedraRayCastIsosurfaces, ValueOfVerticesIsMetOnce)
 
 TEST(TetrahedraRayCastIsosurfaces, NoValues)
 {
-  const Grid grid = makeBlock(3, wavyField(3.0));
-  RayCastScene scene(grid, makeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
-  scene.volume()->GetProperty()->GetIsoSurfaceValues()->SetNumberOfContours(0);
-  scene.rayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-  for (const float value : scene.renderFloat().Rgba)
+  const Grid grid = MakeBlock(3, WavyField(3.0));
+  RayCastScene scene(grid, MakeProperty(FunctionKind::Smooth, Range, 3.4), Size, Size);
+  scene.GetVolume()->GetProperty()->GetIsoSurfaceValues()->SetNumberOfContours(0);
+  scene.GetRayCaster()->SetBlendMode(vtkVolumeMapper::ISOSURFACE_BLEND);
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+  for (const float value : scene.RenderFloat().Rgba)
   {
     ASSERT_EQ(value, 0.0f);
   }
@@ -285,55 +285,55 @@ TEST(TetrahedraRayCastIsosurfaces, NoValues)
 
 TEST(TetrahedraRayCastShading, CellGradientsAreExact)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
+  const Grid grid = MakeBlock(6, WavyField(3.0));
   for (const bool factor : { false, true })
   {
-    RayCastScene scene(grid, mediumProperty(true, factor), 72, 72);
-    scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+    RayCastScene scene(grid, MediumProperty(true, factor), 72, 72);
+    scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
     vtkNew<vtkLight> light;
     light->SetLightTypeToSceneLight();
     light->SetPosition(4.0, 2.0, 1.0);
     light->SetDiffuseColor(1.0, 0.6, 0.2);
-    scene.renderer()->AddLight(light);
-    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-    expectShadedMedium(scene, factor, FloatTolerance, factor ? "with factor" : "shading");
+    scene.GetRenderer()->AddLight(light);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    ExpectShadedMedium(scene, factor, FloatTolerance, factor ? "with factor" : "shading");
   }
 }
 
 TEST(TetrahedraRayCastShading, GradientOpacityAlone)
 {
-  const Grid grid = makeBlock(6, wavyField(3.0));
-  RayCastScene scene(grid, mediumProperty(false, true), 72, 72);
-  scene.rayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
-  scene.volume()->SetScale(0.5, 1.0, 2.0);
-  lookAt(scene.renderer(), scene.volume()->GetBounds(), 30.0, 20.0);
-  expectShadedMedium(scene, true, FloatTolerance, "scaled volume");
+  const Grid grid = MakeBlock(6, WavyField(3.0));
+  RayCastScene scene(grid, MediumProperty(false, true), 72, 72);
+  scene.GetRayCaster()->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
+  scene.GetVolume()->SetScale(0.5, 1.0, 2.0);
+  LookAt(scene.GetRenderer(), scene.GetVolume()->GetBounds(), 30.0, 20.0);
+  ExpectShadedMedium(scene, true, FloatTolerance, "scaled volume");
 }
 
 TEST(TetrahedraRayCastShading, GradientOpacityWithoutPointsHidesAll)
 {
   // A function without points evaluates to 0, for gradient opacity as for scalar opacity.
-  const Grid grid = makeBlock(4, wavyField(3.0));
+  const Grid grid = MakeBlock(4, WavyField(3.0));
   for (const int gradients : { 0, 1 })
   {
     for (const bool shade : { false, true })
     {
-      RayCastScene scene(grid, mediumProperty(shade, false), 64, 64);
-      scene.rayCaster()->SetGradients(gradients);
-      lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-      const FloatImage without = scene.renderFloat();
+      RayCastScene scene(grid, MediumProperty(shade, false), 64, 64);
+      scene.GetRayCaster()->SetGradients(gradients);
+      LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+      const FloatImage without = scene.RenderFloat();
       vtkNew<vtkPiecewiseFunction> empty;
-      scene.volume()->GetProperty()->SetGradientOpacity(empty);
-      const FloatImage hidden = scene.renderFloat();
+      scene.GetVolume()->GetProperty()->SetGradientOpacity(empty);
+      const FloatImage hidden = scene.RenderFloat();
       EXPECT_EQ(std::count(hidden.Rgba.begin(), hidden.Rgba.end(), 0.0f),
         static_cast<std::ptrdiff_t>(hidden.Rgba.size()));
       vtkNew<vtkPiecewiseFunction> one;
       one->AddPoint(0.0, 1.0);
-      scene.volume()->GetProperty()->SetGradientOpacity(one);
-      expectSamePicture(scene.renderFloat(), without, "a factor of 1");
-      scene.volume()->GetProperty()->SetGradientOpacity(empty);
-      scene.volume()->GetProperty()->SetDisableGradientOpacity(1);
-      expectSamePicture(scene.renderFloat(), without, "switched off");
+      scene.GetVolume()->GetProperty()->SetGradientOpacity(one);
+      ExpectSamePicture(scene.RenderFloat(), without, "a factor of 1");
+      scene.GetVolume()->GetProperty()->SetGradientOpacity(empty);
+      scene.GetVolume()->GetProperty()->SetDisableGradientOpacity(1);
+      ExpectSamePicture(scene.RenderFloat(), without, "switched off");
     }
   }
 }
@@ -345,15 +345,15 @@ TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
   double last = 0.0;
   for (const int cubes : { 4, 8, 16 })
   {
-    const Grid grid = makeBlock(cubes, wavyField(2.0));
-    RayCastScene scene(grid, mediumProperty(true, true), 64, 64);
+    const Grid grid = MakeBlock(cubes, WavyField(2.0));
+    RayCastScene scene(grid, MediumProperty(true, true), 64, 64);
     vtkNew<vtkLight> light;
     light->SetLightTypeToSceneLight();
     light->SetPosition(4.0, 2.0, 1.0);
-    scene.renderer()->AddLight(light);
-    lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
-    const TracedComparison comparison = compareShadedMedium(scene, MembraneCase());
-    RecordProperty("cubes" + std::to_string(cubes), comparison.text());
+    scene.GetRenderer()->AddLight(light);
+    LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
+    const TracedComparison comparison = CompareShadedMedium(scene, MembraneCase());
+    RecordProperty("cubes" + std::to_string(cubes), comparison.GetText());
     EXPECT_TRUE(last == 0.0 || comparison.Rms < 0.75 * last) << comparison.Rms << " after " << last;
     last = comparison.Rms;
   }
@@ -363,47 +363,47 @@ TEST(TetrahedraRayCastShading, VertexGradientsComeCloserOnFinerMeshes)
 TEST(TetrahedraRayCastShading, ThroughAMembrane)
 {
   // Lights near and far with gradients of vertices: the error is as without a membrane.
-  const Grid grid = makeBlock(16, wavyField(2.0));
-  RayCastScene scene(grid, mediumProperty(true, true), 64, 64);
-  addLights(scene.renderer());
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 50.0);
-  const TracedComparison straight = compareShadedMedium(scene, MembraneCase());
+  const Grid grid = MakeBlock(16, WavyField(2.0));
+  RayCastScene scene(grid, MediumProperty(true, true), 64, 64);
+  AddLights(scene.GetRenderer());
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 50.0);
+  const TracedComparison straight = CompareShadedMedium(scene, MembraneCase());
   for (const MembraneCase& membrane :
-    { makePlaneCase(0.1, 4.0, 2), makeDomeCase(1.4, 4.0, 2.8, 16) })
+    { MakePlaneCase(0.1, 4.0, 2), MakeDomeCase(1.4, 4.0, 2.8, 16) })
   {
-    const TracedComparison refracted = compareShadedMedium(scene, membrane);
-    RecordProperty("lit", refracted.text());
+    const TracedComparison refracted = CompareShadedMedium(scene, membrane);
+    RecordProperty("lit", refracted.GetText());
     EXPECT_GT(refracted.Visible, 1000u);
     EXPECT_LT(refracted.Rms, 1.5 * straight.Rms)
-      << refracted.text() << "; straight " << straight.text();
-    EXPECT_LT(refracted.Rms, 0.002) << refracted.text();
+      << refracted.GetText() << "; straight " << straight.GetText();
+    EXPECT_LT(refracted.Rms, 0.002) << refracted.GetText();
   }
 }
 
 TEST(TetrahedraRayCastShading, GradientsAreComputedOnlyForLight)
 {
-  const Grid grid = makeBlock(4, wavyField(3.0));
-  RayCastScene scene(grid, mediumProperty(false, false), 64, 64);
-  vtkTetrahedraRayCastMapper* mapper = scene.rayCaster();
-  lookAt(scene.renderer(), grid->GetBounds(), 30.0, 20.0);
+  const Grid grid = MakeBlock(4, WavyField(3.0));
+  RayCastScene scene(grid, MediumProperty(false, false), 64, 64);
+  vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+  LookAt(scene.GetRenderer(), grid->GetBounds(), 30.0, 20.0);
   for (const int mode : { 0, 1, 2, 3, 4, 5 })
   {
     mapper->SetBlendMode(mode);
-    scene.window()->Render();
+    scene.GetWindow()->Render();
   }
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 0);
   mapper->SetBlendModeToComposite();
-  scene.volume()->GetProperty()->ShadeOn();
+  scene.GetVolume()->GetProperty()->ShadeOn();
   mapper->SetGradients(vtkTetrahedraRayCastMapper::CELL_GRADIENTS);
-  scene.window()->Render();
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 0);
   mapper->SetGradients(vtkTetrahedraRayCastMapper::VERTEX_GRADIENTS);
-  scene.window()->Render();
-  scene.window()->Render();
+  scene.GetWindow()->Render();
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 1);
   grid->GetPointData()->GetScalars()->SetComponent(0, 0, 0.5);
   grid->GetPointData()->GetScalars()->Modified();
-  scene.window()->Render();
+  scene.GetWindow()->Render();
   EXPECT_EQ(mapper->GetNumberOfGradientBuilds(), 2);
   EXPECT_EQ(mapper->GetNumberOfMeshBuilds(), 1);
 }
