@@ -63,6 +63,26 @@ def check_picture(name):
         sys.exit("%s shows nothing" % name)
 
 
+def save_window(window, name):
+    from vtkmodules.vtkIOImage import vtkPNGWriter
+    from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+
+    window.Render()
+    picture = vtkWindowToImageFilter()
+    picture.SetInput(window)
+    writer = vtkPNGWriter()
+    writer.SetInputConnection(picture.GetOutputPort())
+    writer.SetFileName(name)
+    writer.Write()
+
+
+def save_instead_of_waiting(program, pictures):
+    """Lines that would hand the window to the user save it as the first picture instead."""
+    return re.sub(r"^(\w+)\.MakeRenderWindowInteractor\(\)\.Start\(\).*$",
+                  lambda line: "save_window(%s, %r)" % (line.group(1), pictures[0]),
+                  program, flags=re.MULTILINE)
+
+
 def main():
     page, language, folder, pictures = sys.argv[1], sys.argv[2], sys.argv[3], sys.argv[4:]
     extract = language.startswith("extract:")
@@ -80,7 +100,8 @@ def main():
         return
     os.chdir(folder)
     write_files()
-    exec(compile(program, path, "exec"), {"__name__": "__main__"})
+    program = save_instead_of_waiting(program, pictures)
+    exec(compile(program, path, "exec"), {"__name__": "__main__", "save_window": save_window})
     for picture in pictures:
         check_picture(picture)
     print("FINISHED")
