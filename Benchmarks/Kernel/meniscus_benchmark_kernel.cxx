@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Times of single parts of the kernel on one thread, by Google Benchmark: for changes of the code.
+// The other programs compare whole frames with their peers.
+#include "KernelMeshes.h"
+#include "KernelPicture.h"
+#include "MembraneMeshes.h"
+#include "RefractionTestRandom.h"
+
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Simd/InstructionSets.h"
+#include "Volume/Packet/Data/PacketJob.h"
+
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+using namespace meniscus;
+using namespace meniscus::test;
+
+namespace
+{
+
+/** Cubes along an edge of the mesh: 82,944 cells. */
+constexpr int Cubes = 24;
+constexpr int Pixels = 256;
+
+MeshArrays MakeArrays()
+{
+  MeshArrays arrays = KuhnGrid(Cubes);
+  Jitter(arrays, 0.2 / Cubes, 1);
+  return arrays;
+}
+
+/** Builds all tables of the mesh. */
+void BuildMesh(benchmark::State& state)
+{
+  const MeshArrays arrays = MakeArrays();
+  for (auto step : state)
+  {
+    TetrahedralMesh mesh;
+    benchmark::DoNotOptimize(mesh.Build(arrays.View()));
+  }
+  const auto cells = static_cast<std::int64_t>(arrays.Cells.size() / 4);
+  state.SetItemsProcessed(state.iterations() * cells);
+}
+
+/** A frame: places the vertices, finds the entries and casts the rays. Items are cells crossed. */
+void CastFrame(benchmark::State& state, InstructionSet set, BlendMode mode, double attenuation)
+{
+  const MeshArrays arrays = MakeArrays();
+  PictureScene scene;
+  scene.Mesh.Build(arrays.View());
+  scene.Intervals = ConstantFunction(attenuation);
+  for (const std::int64_t point : scene.Mesh.GetSourcePoints())
+  {
+    scene.Scalars.push_back(static_cast<float>(arrays.PointAt(point).z));
+  }
+  scene.Frame = FrameAlongZ(scene.Mesh, 0.55, Pixels);
+  scene.Optics.Blending = mode;
+  scene.Optics.TerminationTransmittance = 1.0f / 131072.0f; // the mapper's default
+  std::int64_t cells = 0;
+  for (auto step : state)
+  {
+    cells += CastPicture(scene, Pixels, set).Statistics.Steps;
+  }
+  state.SetItemsProcessed(cells);
+}
+
+/** A membrane of waves with `cells` x `cells` x 2 facets, and an eye above it. */
+void SetWaves(CurvedMembraneSolver& solver, int cells)
+{
+  solver.SetMembrane(reference::MakeWaves(200.0, cells, 2.0, 3.0).AsInput());
+  solver.SetEye(glm::dvec3(20.0, 10.0, 300.0), 1.0, 1.333);
+}
+
+/** Points in random order below the waves, as x, y and z in turn. */
+std::vector<double> MakePoints()
+{
+  constexpr std::size_t number = 16 * CurvedMembraneSolver::Chain;
+  meniscus::testing::Random random(5);
+  std::vector<double> points;
+  for (std::size_t i = 0; i < number; ++i)
+  {
+    const glm::dvec3 point = random.Point(glm::dvec3(-60.0), glm::dvec3(60.0, 60.0, -10.0));
+    points.insert(points.end(), { point.x, point.y, point.z });
+  }
+  return points;
+}
+
+/** One image of each point. */
+void SolvePoints(benchmark::State& state)
+{
+  CurvedMembraneSolver solver;
+  SetWaves(solver, static_cast<int>(state.range(0)));
+  const std::vector<double> points = MakePoints();
+  std::vector<VirtualVertex> vertices(points.size() / 3);
+  for (auto step : state)
+  {
+    solver.Solve(points.data(), 0, vertices.size(), vertices.data());
+    benchmark::ClobberMemory();
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(vertices.size()));
+}
+
+/** All images of each point. */
+void FindAllImages(benchmark::State& state)
+{
+  CurvedMembraneSolver solver;
+  SetWaves(solver, static_cast<int>(state.range(0)));
+  const std::vector<double> points = MakePoints();
+  std::vector<VirtualVertex> images;
+  for (auto step : state)
+  {
+    for (std::size_t i = 0; i < points.size(); i += 3)
+    {
+      const glm::dvec3 point(points[i], points[i + 1], points[i + 2]);
+      benchmark::DoNotOptimize(solver.FindImages(point, images));
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(points.size() / 3));
+}
+
+void RegisterFrames()
+{
+  for (const InstructionSet set : GetInstructionSets())
+  {
+    const std::string name = std::string("CastFrame/") + NameOf(set);
+    const auto add = [&](const char* what, BlendMode mode, double attenuation)
+    {
+      benchmark::RegisterBenchmark((name + what).c_str(), CastFrame, set, mode, attenuation)
+        ->Unit(benchmark::kMillisecond);
+    };
+    add("/Translucent", BlendMode::Composite, 1.0);
+    add("/Opaque", BlendMode::Composite, 1000.0);
+    add("/Maximum", BlendMode::MaximumIntensity, 1.0);
+  }
+}
+
+BENCHMARK(BuildMesh)->Unit(benchmark::kMillisecond);
+BENCHMARK(SolvePoints)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
+BENCHMARK(FindAllImages)->Arg(40)->Arg(160)->Unit(benchmark::kMillisecond);
+
+}
+
+int main(int argc, char** argv)
+{
+  RegisterFrames();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv))
+  {
+    return 1;
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
