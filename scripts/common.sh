@@ -15,6 +15,8 @@ PACKAGES_DISPLAY=(xvfb xauth libgl1-mesa-dri)
 PACKAGES_LINT=(clang-format-14 codespell git)
 PACKAGES_DOCS=(doxygen python3)
 PACKAGES_TIDY=(clang-tidy-14)
+# The second compiler.
+PACKAGES_CLANG=(clang-14)
 # Pictures to compare with; its include files are not needed.
 PACKAGES_POVRAY=(povray)
 # paraview-dev does not declare all packages that its CMake files look for; python3-paraview
