@@ -453,6 +453,7 @@ std::string vtkTetrahedraRayCastMapper::PrepareFrame(
   }
   frame.Output.ColorBias = static_cast<float>(this->ColorBias);
   frame.MaximumTableSize = this->MaximumTableSize;
+  frame.SettingsTime = this->vtkObject::GetMTime();
   this->UsedImageSampleDistance = sampleDistance;
   if (selector)
   {
@@ -572,7 +573,9 @@ void vtkTetrahedraRayCastMapper::Render(vtkRenderer* renderer, vtkVolume* volume
     return;
   }
   const double start = vtkTimerLog::GetUniversalTime();
-  if (this->Draw(renderer, volume, parts))
+  const std::int64_t casts = this->Internals->GetNumberOfCasts();
+  // The time of a frame that shows the last image again says nothing about the next one.
+  if (this->Draw(renderer, volume, parts) && this->Internals->GetNumberOfCasts() != casts)
   {
     // Drawing is over when the device says so, not when the commands are sent.
     this->Internals->GetPresenter().Finish();

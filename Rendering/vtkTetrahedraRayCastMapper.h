@@ -487,10 +487,23 @@ public:
 
   /** @{ */
   /**
-   * Numbers of the last frame, or of a part of one (RenderPart()): cells crossed, rays that entered
-   * the mesh, and rays whose walk did not end on the boundary (0 unless the graphics driver
-   * deviates from the shader's arithmetic). They are read back from the graphics device when first
-   * requested after a frame; 0 before the first frame.
+   * Counters since construction: images whose rays were cast, and their pixels. A frame that
+   * differs from the last one neither in camera, mesh, scalars, property, lights, clipping planes,
+   * membrane, settings nor in the depths of opaque geometry shows the last image again. If only
+   * depths differ, the native backend casts the tiles of 32 x 32 pixels in which they do, the
+   * others the whole image. The OpenGL backends recognise the second repetition of a frame, because
+   * the first reads the depths. Modified() makes the next frame be cast.
+   */
+  vtkTypeInt64 GetNumberOfCastImages();
+  vtkTypeInt64 GetNumberOfCastPixels();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Numbers of the image of the last frame, or of a part of one (RenderPart()): cells crossed, rays
+   * that entered the mesh, and rays whose walk did not end on the boundary (0 unless the graphics
+   * driver deviates from the shader's arithmetic). They are read back from the graphics device when
+   * first requested after a frame; 0 before the first frame.
    */
   vtkTypeInt64 GetNumberOfTraversalSteps();
   vtkTypeInt64 GetNumberOfRays();

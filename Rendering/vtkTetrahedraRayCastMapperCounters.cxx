@@ -126,6 +126,18 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfLostRays()
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfCastImages()
+{
+  return this->Internals->GetNumberOfCasts();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfCastPixels()
+{
+  return this->Internals->GetCounters().CastPixels;
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfUndecidedRays()
 {
   return this->Internals->Membrane.GetSight().GetNumberOfUndecidedRays();
@@ -174,5 +186,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfActiveCells: " << this->GetNumberOfActiveCells() << "\n";
   os << indent << "NumberOfTransparentCells: " << this->GetNumberOfTransparentCells() << "\n";
   os << indent << "NumberOfRejectedCells: " << this->GetNumberOfRejectedCells() << "\n";
+  os << indent << "NumberOfCastImages: " << this->GetNumberOfCastImages() << "\n";
+  os << indent << "NumberOfCastPixels: " << this->GetNumberOfCastPixels() << "\n";
   os << indent << "NumberOfUndecidedRays: " << this->GetNumberOfUndecidedRays() << "\n";
 }

@@ -4,6 +4,7 @@
 
 #include "PixelRays.h"
 
+#include <vtkCamera.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPiecewiseFunction.h>
@@ -130,11 +131,14 @@ FrameTime VolumeComparison::TimeFrame(Arena& arena) const
 }
 
 //------------------------------------------------------------------------------
-// A new camera time makes every mapper do the work for a moving camera.
+// Every frame differs slightly from the last one, so that every mapper does the work for a moving
+// camera and none can show its last image again.
 FrameTime VolumeComparison::TimeSteady(Arena& arena, int view) const
 {
-  this->LookFrom(*arena.Scene, view + 1);
+  constexpr double degrees = 1.0e-3;
   this->LookFrom(*arena.Scene, view);
+  arena.Turned = !arena.Turned;
+  arena.Scene->GetRenderer()->GetActiveCamera()->Azimuth(arena.Turned ? degrees : -degrees);
   return this->TimeFrame(arena);
 }
 
@@ -321,6 +325,8 @@ VolumeComparison::Moves VolumeComparison::MeasureMoves()
           }
         };
         frame(moves.Moving[i].Frames);
+        // Otherwise the resting camera would show the last image again.
+        arena.Mapper->Modified();
         frame(moves.Resting[i].Frames);
       }
     }

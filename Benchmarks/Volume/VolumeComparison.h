@@ -119,6 +119,8 @@ private:
     Contestant Player;
     MapperPointer Mapper;
     std::unique_ptr<test::VolumeScene> Scene;
+    /** Side to which the camera was turned last. */
+    bool Turned = false;
   };
 
   /** A new property each time, since some measurements change it. */

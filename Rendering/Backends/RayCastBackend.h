@@ -53,6 +53,8 @@ struct RayCastCounters
   std::int64_t EntryListBuilds = 0;
   /** Times that the entries of refracted rays were listed. */
   std::int64_t RefractedEntryLists = 0;
+  /** Pixels whose rays were cast, since construction. */
+  std::int64_t CastPixels = 0;
 };
 
 /** Mesh and scalars as arrays, which stay the mapper's and are valid during a call. */
@@ -175,6 +177,13 @@ public:
   /** Takes premultiplied RGBA, four numbers per pixel, rows from below. Returns an error or "". */
   virtual std::string WriteImage(const std::vector<float>& rgba) = 0;
 
+  /**
+   * Depths for which the image was made that the target still holds, if the frame at hand differs
+   * from that one in the depths only; else null. A backend may leave pixels as they are whose
+   * depths are the same.
+   */
+  virtual const std::vector<float>* GetDepthsOfImage() { return nullptr; }
+
   /** The same on the device: depths of the viewport's size, an image of 4 floats per pixel. */
   virtual vtkTextureObject* GetDepthTexture() = 0;
   virtual vtkTextureObject* GetImageTexture() = 0;
@@ -208,6 +217,11 @@ public:
     static_cast<void>(request);
     return true;
   }
+  /**
+   * Returns true if the image of a frame depends on the request and the depths alone, so that an
+   * equal frame needs no Cast(): the image of the last one is shown again.
+   */
+  virtual bool IsRepeatable() const { return false; }
   /** Makes what it needs of tables that changed. Called before Cast(). */
   virtual std::string Update(const RayCastRequest& request)
   {

@@ -61,7 +61,15 @@ struct RayCastFrame
   RayCastOutput Output;
   /** Texels that a table on the graphics device may have. */
   std::int64_t MaximumTableSize = std::numeric_limits<std::int64_t>::max();
+  /** Modification time of the mapper; a new one makes the frame another one. */
+  std::uint64_t SettingsTime = 0;
 };
+
+/**
+ * True if two frames have the same image, given the same tables and depths of opaque geometry. The
+ * way of the image to the framebuffer may differ.
+ */
+bool HaveSameImage(const RayCastFrame& a, const RayCastFrame& b);
 
 }
 

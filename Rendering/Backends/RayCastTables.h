@@ -40,6 +40,11 @@ struct RayCastTableState
 {
   RayCastTable Table;
   TableVersions Versions;
+
+  bool operator==(const RayCastTableState& other) const
+  {
+    return this->Table == other.Table && this->Versions == other.Versions;
+  }
 };
 
 /** A mapper's input as tables, which every backend draws from. Each is kept by its owner. */

@@ -123,6 +123,7 @@ RayCastCounters RayCastBackendSet::GetCounters() const
       sum.DeviceBytes += counters.DeviceBytes;
       sum.EntryListBuilds += counters.EntryListBuilds;
       sum.RefractedEntryLists += counters.RefractedEntryLists;
+      sum.CastPixels += counters.CastPixels;
     });
   return sum;
 }

@@ -10,6 +10,8 @@
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
 
+#include <utility>
+
 namespace meniscus
 {
 
@@ -71,11 +73,27 @@ std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
   std::string error = backend.Update(request);
   if (error.empty())
   {
-    error = this->Presenter.Present(frame.Output,
-      [&backend, &request](RayCastTarget& target) { return backend.Cast(request, target); });
+    ImageSource source{ &backend, frame, this->ListWanted(frame) };
+    const bool repeated = this->IsRepeated(source);
+    this->Shown = ImageSource();
+    error = this->Presenter.Present(frame.Output, repeated,
+      [this, &backend, &request](RayCastTarget& target)
+      {
+        ++this->Casts;
+        return backend.Cast(request, target);
+      });
+    this->Shown = error.empty() ? std::move(source) : ImageSource();
   }
   this->Active = error.empty() ? &backend : this->Active;
   return error;
+}
+
+//------------------------------------------------------------------------------
+/** True if the image that the presenter holds was made of the same things, but for the depths. */
+bool RayCastPipeline::IsRepeated(const ImageSource& source) const
+{
+  return source.Backend == this->Shown.Backend && source.Backend->IsRepeatable() &&
+    source.Tables == this->Shown.Tables && HaveSameImage(source.Frame, this->Shown.Frame);
 }
 
 //------------------------------------------------------------------------------
@@ -98,6 +116,7 @@ RayCastStatistics RayCastPipeline::GetStatistics() const
 //------------------------------------------------------------------------------
 void RayCastPipeline::ReleaseGraphicsResources(vtkWindow* window)
 {
+  this->Shown = ImageSource();
   this->Backends.ReleaseGraphicsResources(window);
   this->Presenter.Release(window);
 }

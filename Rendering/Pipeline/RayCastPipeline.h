@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 class vtkMatrix4x4;
 class vtkOpenGLRenderWindow;
@@ -60,6 +61,9 @@ public:
   /** Notes a frame without rays. */
   void ClearStatistics() { this->Active = nullptr; }
 
+  /** Images cast since construction. A frame equal to the last one shows its image again. */
+  std::int64_t GetNumberOfCasts() const { return this->Casts; }
+
   RayCastCounters GetCounters() const { return this->Backends.GetCounters(); }
   RayCastPresenter& GetPresenter() { return this->Presenter; }
 
@@ -67,12 +71,24 @@ public:
   void ReleaseGraphicsResources(vtkWindow* window);
 
 private:
+  /** Everything but depths that the presenter's image was made of. */
+  struct ImageSource
+  {
+    const RayCastBackend* Backend = nullptr;
+    RayCastFrame Frame;
+    std::vector<RayCastTableState> Tables;
+  };
+
   bool Trace(const RayCastFrame& frame);
+  bool IsRepeated(const ImageSource& source) const;
 
   RayCastPresenter Presenter;
   RayCastBackendSet Backends;
   /** Backend of the last frame; null after one without rays. */
   RayCastBackend* Active = nullptr;
+  /** Source of the image that the presenter holds; without a backend if it holds none. */
+  ImageSource Shown;
+  std::int64_t Casts = 0;
 };
 
 }

@@ -16,9 +16,31 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <cstddef>
+#include <utility>
 
 namespace meniscus
 {
+namespace
+{
+
+/** Depths of a viewport at the pixels of an image of another size. */
+std::vector<float> SampleDepths(
+  const std::vector<float>& all, int width, int height, const int (&size)[2])
+{
+  std::vector<float> depths;
+  depths.reserve(static_cast<std::size_t>(size[0]) * size[1]);
+  for (int y = 0; y < size[1]; ++y)
+  {
+    const std::size_t row = static_cast<std::size_t>((y + 0.5) * height / size[1]) * width;
+    for (int x = 0; x < size[0]; ++x)
+    {
+      depths.push_back(all[row + static_cast<std::size_t>((x + 0.5) * width / size[0])]);
+    }
+  }
+  return depths;
+}
+
+}
 
 //------------------------------------------------------------------------------
 RayCastPresenter::RayCastPresenter() = default;
@@ -62,8 +84,8 @@ void RayCastPresenter::GetViewport(int viewport[4]) const
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastPresenter::Present(
-  const RayCastOutput& output, const std::function<std::string(RayCastTarget&)>& makeImage)
+std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFrame,
+  const std::function<std::string(RayCastTarget&)>& makeImage)
 {
   vtkOpenGLState* state = this->Window->GetState();
   vtkOpenGLState::ScopedglViewport viewportScope(state);
@@ -80,6 +102,7 @@ std::string RayCastPresenter::Present(
   int viewport[4];
   this->GetViewport(viewport);
   this->Depth.Update(this->Window, viewport);
+  this->Depths.reset();
   std::string error = this->Resize(output.ImageSize[0], output.ImageSize[1]);
   if (!error.empty())
   {
@@ -94,7 +117,12 @@ std::string RayCastPresenter::Present(
     state->vtkglDisable(GL_SCISSOR_TEST);
     state->vtkglDisable(GL_BLEND);
     state->PushFramebufferBindings();
-    error = makeImage(*this);
+    if (!this->HoldsImageOfDepths(sameFrame))
+    {
+      error = makeImage(*this);
+      this->DepthsOfImage = std::move(this->Depths);
+      this->Depths.reset();
+    }
     state->PopFramebufferBindings();
   }
   return error.empty() ? this->Blend(output, viewport) : error;
@@ -118,24 +146,38 @@ bool RayCastPresenter::IsSoftware()
 //------------------------------------------------------------------------------
 std::vector<float> RayCastPresenter::ReadDepths()
 {
-  const std::vector<float> all = this->Depth.Read(this->Window);
-  const int width = static_cast<int>(this->Depth.GetTexture()->GetWidth());
-  const int height = static_cast<int>(this->Depth.GetTexture()->GetHeight());
-  if (width == this->Size[0] && height == this->Size[1])
+  if (!this->Depths)
   {
-    return all;
+    const std::vector<float> all = this->Depth.Read(this->Window);
+    const int width = static_cast<int>(this->Depth.GetTexture()->GetWidth());
+    const int height = static_cast<int>(this->Depth.GetTexture()->GetHeight());
+    const bool whole = width == this->Size[0] && height == this->Size[1];
+    this->Depths = whole ? all : SampleDepths(all, width, height, this->Size);
   }
-  std::vector<float> depths;
-  depths.reserve(static_cast<std::size_t>(this->Size[0]) * this->Size[1]);
-  for (int y = 0; y < this->Size[1]; ++y)
+  return *this->Depths;
+}
+
+//------------------------------------------------------------------------------
+const std::vector<float>* RayCastPresenter::GetDepthsOfImage()
+{
+  return this->DepthsOfImage ? &*this->DepthsOfImage : nullptr;
+}
+
+//------------------------------------------------------------------------------
+/**
+ * True if the image held is that of the frame at hand. Depths are read only where the frame may be
+ * the same, so that the first repetition of a frame may not be recognised, but a moving camera
+ * costs nothing.
+ */
+bool RayCastPresenter::HoldsImageOfDepths(bool sameFrame)
+{
+  if (!sameFrame)
   {
-    const std::size_t row = static_cast<std::size_t>((y + 0.5) * height / this->Size[1]) * width;
-    for (int x = 0; x < this->Size[0]; ++x)
-    {
-      depths.push_back(all[row + static_cast<std::size_t>((x + 0.5) * width / this->Size[0])]);
-    }
+    this->DepthsOfImage.reset();
+    return false;
   }
-  return depths;
+  const std::vector<float> depths = this->ReadDepths();
+  return this->DepthsOfImage && *this->DepthsOfImage == depths;
 }
 
 //------------------------------------------------------------------------------
@@ -261,6 +303,7 @@ void RayCastPresenter::Release(vtkWindow* window)
   this->Selector.reset();
   this->Image = nullptr;
   this->Size[0] = this->Size[1] = 0;
+  this->DepthsOfImage.reset();
   this->Window = nullptr;
   if (owner)
   {

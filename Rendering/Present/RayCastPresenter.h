@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,13 @@ public:
   /** Viewport of the current framebuffer: x, y, width, height. */
   void GetViewport(int viewport[4]) const;
 
-  /** Has an image of the current viewport made and blends it into the current framebuffer. */
-  std::string Present(
-    const RayCastOutput& output, const std::function<std::string(RayCastTarget&)>& makeImage);
+  /**
+   * Has an image of the current viewport made and blends it into the current framebuffer.
+   * @param sameFrame true if the frame differs from that of the image held in the depths of opaque
+   *   geometry at most: `makeImage` is not called if these are equal, too.
+   */
+  std::string Present(const RayCastOutput& output, bool sameFrame,
+    const std::function<std::string(RayCastTarget&)>& makeImage);
 
   /** Waits until the device has drawn what it was told to. */
   void Finish();
@@ -57,6 +62,7 @@ public:
   int GetHeight() const override { return this->Size[1]; }
   std::vector<float> ReadDepths() override;
   std::string WriteImage(const std::vector<float>& rgba) override;
+  const std::vector<float>* GetDepthsOfImage() override;
   vtkTextureObject* GetDepthTexture() override { return this->Depth.GetTexture(); }
   vtkTextureObject* GetImageTexture() override { return this->Image; }
 
@@ -67,6 +73,7 @@ public:
   void Release(vtkWindow* window);
 
 private:
+  bool HoldsImageOfDepths(bool sameFrame);
   std::string Resize(int width, int height);
   std::string ReadyDrawer(bool selecting);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
@@ -78,6 +85,10 @@ private:
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
   std::unique_ptr<vtkOpenGLQuadHelper> Selector;
   int Size[2] = { 0, 0 };
+  /** Depths of the frame at hand, as soon as they are read. */
+  std::optional<std::vector<float>> Depths;
+  /** Depths that the rays of the image end at, if they were read. */
+  std::optional<std::vector<float>> DepthsOfImage;
 };
 
 }

@@ -17,6 +17,7 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
+#include <tuple>
 
 namespace meniscus
 {
@@ -93,6 +94,20 @@ bool UsesGradientOpacity(vtkVolumeProperty* property)
     one = node[1] == 1.0;
   }
   return !one;
+}
+
+//------------------------------------------------------------------------------
+bool operator==(const RayCastOptics& a, const RayCastOptics& b)
+{
+  const auto members = [](const RayCastOptics& optics)
+  {
+    return std::tie(optics.Blending, optics.CellScalars, optics.Components,
+      optics.NumberOfFunctions, optics.DataRange, optics.PreIntegrated, optics.CompactCells,
+      optics.Refracting, optics.LongLists, optics.Shading, optics.GradientOpacity,
+      optics.VertexGradients, optics.GradientToFrame, optics.GradientMagnitude, optics.Lighting,
+      optics.ClippingPlanes);
+  };
+  return members(a) == members(b);
 }
 
 //------------------------------------------------------------------------------

@@ -77,6 +77,9 @@ struct RayCastOptics
   }
 };
 
+/** True if both have the same effect on rays. */
+bool operator==(const RayCastOptics& a, const RayCastOptics& b);
+
 /**
  * Place of the mesh for optics: its centre in world and view coordinates, and the view
  * transformation.

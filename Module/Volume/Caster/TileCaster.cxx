@@ -6,7 +6,6 @@
 #include "Volume/Packet/Kernels/PacketKernels.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace meniscus
 {
@@ -105,10 +104,7 @@ void TileCaster::SetOptics(PacketJob& job) const
   job.GradientToFrame = &this->Input.GradientToFrame;
   job.Intervals = tables.Intervals.data();
   job.NumberOfIntervals = sizeOf(tables.Intervals);
-  // Less than the smallest normal number adds nothing to a pixel in single precision, and the
-  // subnormal numbers below it are slow.
-  job.TerminationTransmittance =
-    std::max(this->Input.TerminationTransmittance, std::numeric_limits<float>::min());
+  job.TerminationTransmittance = this->Input.TerminationTransmittance;
   const ScalarRange& range = this->Input.DataRange;
   job.SharePerScalar = static_cast<float>(1.0 / (range.Highest - range.Lowest));
   job.ShareAtZero = static_cast<float>(-range.Lowest / (range.Highest - range.Lowest));

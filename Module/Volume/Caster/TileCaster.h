@@ -81,6 +81,7 @@ public:
   TileCaster& operator=(const TileCaster&) = delete;
 
   int GetNumberOfTiles() const { return this->Raster.GetNumberOfTiles(); }
+  BoundaryRaster::PixelBox GetBox(int tile) const { return this->Raster.BoxOfTile(tile); }
 
   /** Buffers of one thread. */
   struct Workspace

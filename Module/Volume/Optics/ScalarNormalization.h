@@ -63,6 +63,11 @@ struct ScalarRange
   double Highest = 1.0;
 };
 
+inline bool operator==(const ScalarRange& a, const ScalarRange& b)
+{
+  return a.Lowest == b.Lowest && a.Highest == b.Highest;
+}
+
 /** Range of the finite scalars, and their distribution in it. */
 class ScalarDistribution
 {

@@ -14,6 +14,20 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
+bool operator==(const RayCastLight& a, const RayCastLight& b)
+{
+  return a.Position == b.Position && a.Diffuse == b.Diffuse && a.Specular == b.Specular &&
+    a.Cone == b.Cone && a.Falloff == b.Falloff;
+}
+
+//------------------------------------------------------------------------------
+bool operator==(const SurfaceLighting& a, const SurfaceLighting& b)
+{
+  return a.Ambient == b.Ambient && a.Diffuse == b.Diffuse && a.Specular == b.Specular &&
+    a.SpecularPower == b.SpecularPower && a.Lights == b.Lights;
+}
+
+//------------------------------------------------------------------------------
 ReflectedLight Light(const SurfaceLighting& lighting, const glm::dvec3& normal,
   const glm::dvec3& place, const glm::dvec2& raySlope)
 {

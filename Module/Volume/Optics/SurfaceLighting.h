@@ -36,6 +36,9 @@ struct SurfaceLighting
   std::vector<RayCastLight> Lights;
 };
 
+bool operator==(const RayCastLight& a, const RayCastLight& b);
+bool operator==(const SurfaceLighting& a, const SurfaceLighting& b);
+
 /** Effect of light on an emitted colour: it is multiplied by Reflected, then Highlight is added. */
 struct ReflectedLight
 {

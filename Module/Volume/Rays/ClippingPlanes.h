@@ -26,6 +26,11 @@ struct RayClippingPlane
   glm::dvec4 InFrame{ 0.0 };
 };
 
+inline bool operator==(const RayClippingPlane& a, const RayClippingPlane& b)
+{
+  return a.Constant == b.Constant && a.PerDepth == b.PerDepth && a.InFrame == b.InFrame;
+}
+
 /**
  * @param normal points to the kept side; world coordinates, any length. 0 keeps everything.
  * @param height dot(normal, mesh's centre - a point of the plane), world coordinates.

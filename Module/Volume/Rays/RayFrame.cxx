@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace meniscus
 {
@@ -63,6 +64,20 @@ bool IsFinite(const AffinePixelMap& map)
   return std::isfinite(sum.x) && std::isfinite(sum.y);
 }
 
+}
+
+//------------------------------------------------------------------------------
+bool operator==(const RayFrame& a, const RayFrame& b)
+{
+  const auto mapOf = [](const AffinePixelMap& map)
+  { return std::tie(map.Base, map.PerColumn, map.PerRow); };
+  const auto rest = [](const RayFrame& frame)
+  {
+    return std::tie(frame.RowX, frame.RowY, frame.RowDepth, frame.ViewToWorld, frame.Handedness,
+      frame.NearDepth, frame.DepthNumerator, frame.DepthDenominator);
+  };
+  return mapOf(a.Origin) == mapOf(b.Origin) && mapOf(a.Slope) == mapOf(b.Slope) &&
+    rest(a) == rest(b);
 }
 
 //------------------------------------------------------------------------------

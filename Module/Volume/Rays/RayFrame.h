@@ -78,6 +78,9 @@ struct RayFrame
   }
 };
 
+/** True if all numbers are equal, so that images have the same rays. */
+bool operator==(const RayFrame& a, const RayFrame& b);
+
 enum class RayFrameStatus
 {
   Ok,

@@ -11,10 +11,42 @@
 #include "vtkSMPTools.h"
 #include "vtkType.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cstddef>
 
 namespace meniscus
 {
+namespace
+{
+
+/** True if two images of one number per pixel are equal in the box. */
+bool HaveEqualRows(const BoundaryRaster::PixelBox& box, int width, const std::vector<float>& a,
+  const std::vector<float>& b)
+{
+  for (int row = box.Bottom; row < box.Top; ++row)
+  {
+    const std::ptrdiff_t start = std::ptrdiff_t{ row } * width;
+    if (!std::equal(a.begin() + start + box.Left, a.begin() + start + box.Right,
+          b.begin() + start + box.Left))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/** Sets the box of an image of four numbers per pixel to zero. */
+void ClearRows(const BoundaryRaster::PixelBox& box, int width, std::vector<float>& image)
+{
+  for (int row = box.Bottom; row < box.Top; ++row)
+  {
+    const std::ptrdiff_t start = std::ptrdiff_t{ row } * width + box.Left;
+    std::fill_n(image.begin() + 4 * start, 4 * (box.Right - box.Left), 0.0f);
+  }
+}
+
+}
 
 //------------------------------------------------------------------------------
 RayCastNative::RayCastNative()
@@ -152,19 +184,23 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
     this->PlacedBy = scene.Rays;
     this->PlacedVersions = versions;
   }
-  std::vector<float> image;
-  this->Statistics = this->CastTiles(scene, target.ReadDepths(), image);
-  return target.WriteImage(image);
+  this->CastTiles(scene, target.ReadDepths(), target.GetDepthsOfImage());
+  return target.WriteImage(this->Image);
 }
 
 //------------------------------------------------------------------------------
-RayStatistics RayCastNative::CastTiles(
-  const TileCaster::Scene& scene, const std::vector<float>& opaqueDepth, std::vector<float>& image)
+void RayCastNative::CastTiles(const TileCaster::Scene& scene, const std::vector<float>& depths,
+  const std::vector<float>* before)
 {
-  image.assign(std::size_t{ 4 } * scene.Rays.GetWidth() * scene.Rays.GetHeight(), 0.0f);
   const TileCaster caster(scene);
-  std::vector<RayStatistics> ofTile(caster.GetNumberOfTiles());
+  const int width = scene.Rays.GetWidth();
+  if (!before)
+  {
+    this->Image.assign(4 * depths.size(), 0.0f);
+    this->OfTile.assign(caster.GetNumberOfTiles(), RayStatistics());
+  }
   vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
+  std::atomic<std::int64_t> pixels{ 0 };
   // Tiles differ in cost: small grains let threads share it.
   vtkSMPTools::For(0, caster.GetNumberOfTiles(), 1,
     [&](vtkIdType first, vtkIdType last)
@@ -172,12 +208,28 @@ RayStatistics RayCastNative::CastTiles(
       TileCaster::Workspace& workspace = workspaces.Local();
       for (vtkIdType tile = first; tile < last; ++tile)
       {
-        ofTile[tile] =
-          caster.Cast(static_cast<int>(tile), opaqueDepth.data(), image.data(), workspace);
+        const BoundaryRaster::PixelBox box = caster.GetBox(static_cast<int>(tile));
+        if (before)
+        {
+          if (HaveEqualRows(box, width, *before, depths))
+          {
+            continue;
+          }
+          ClearRows(box, width, this->Image);
+        }
+        this->OfTile[tile] =
+          caster.Cast(static_cast<int>(tile), depths.data(), this->Image.data(), workspace);
+        pixels += std::int64_t{ box.Right - box.Left } * (box.Top - box.Bottom);
       }
     });
-  RayStatistics total;
-  for (const RayStatistics& tile : ofTile)
+  this->CastPixels += pixels;
+}
+
+//------------------------------------------------------------------------------
+RayCastStatistics RayCastNative::GetStatistics()
+{
+  RayCastStatistics total;
+  for (const RayStatistics& tile : this->OfTile)
   {
     total.Steps += tile.Steps;
     total.Rays += tile.Rays;
@@ -187,17 +239,13 @@ RayStatistics RayCastNative::CastTiles(
 }
 
 //------------------------------------------------------------------------------
-RayCastStatistics RayCastNative::GetStatistics()
-{
-  return { this->Statistics.Steps, this->Statistics.Rays, this->Statistics.Lost };
-}
-
-//------------------------------------------------------------------------------
 RayCastCounters RayCastNative::GetCounters()
 {
   RayCastCounters counters;
   counters.UploadedBytes = this->Counter.GetBytes();
-  counters.HostBytes = BytesOf(this->Tables.Vertices) + this->GetPropertyBytes();
+  counters.HostBytes =
+    BytesOf(this->Tables.Vertices) + BytesOf(this->Image) + this->GetPropertyBytes();
+  counters.CastPixels = this->CastPixels;
   return counters;
 }
 

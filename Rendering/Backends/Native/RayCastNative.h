@@ -31,6 +31,7 @@ public:
   RayCastNative();
 
   std::string CanDraw(const RayCastRequest&) override { return std::string(); }
+  bool IsRepeatable() const override { return true; }
   std::string Update(const RayCastRequest& request) override;
   std::string Cast(const RayCastRequest& request, RayCastTarget& target) override;
   RayCastStatistics GetStatistics() override;
@@ -42,16 +43,23 @@ private:
   /** Bytes of the tables of the transfer function. */
   std::int64_t GetPropertyBytes() const;
   TileCaster::Scene MakeScene(const RayCastRequest& request);
-  /** @param opaqueDepth  window depths in [0, 1], one per pixel, rows from below. */
-  RayStatistics CastTiles(const TileCaster::Scene& scene, const std::vector<float>& opaqueDepth,
-    std::vector<float>& image);
+  /**
+   * Casts the image, or the tiles of it in which a depth has changed.
+   * @param depths  window depths in [0, 1], one per pixel, rows from below.
+   * @param before  depths that the image was cast for, if the frame is the same otherwise, or null.
+   */
+  void CastTiles(const TileCaster::Scene& scene, const std::vector<float>& depths,
+    const std::vector<float>* before);
 
   PacketTables Tables;
   FixedPointRays PlacedBy;
   TableVersions PlacedVersions;
   TableVersion PropertyVersion;
   TableCounter Counter;
-  RayStatistics Statistics;
+  /** Image of the last frame, and the statistics of its tiles. */
+  std::vector<float> Image;
+  std::vector<RayStatistics> OfTile;
+  std::int64_t CastPixels = 0;
   InstructionSet Set;
 };
 

@@ -37,6 +37,8 @@ public:
     return this->Program == RayProgram::Fragment && !RayCastPresenter::IsSoftware();
   }
 
+  bool IsRepeatable() const override { return true; }
+
   std::string Update(const RayCastRequest& request) override
   {
     return this->Caster->Update(request);

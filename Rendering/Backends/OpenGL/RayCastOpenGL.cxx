@@ -143,6 +143,7 @@ std::string RayCastOpenGL::Cast(RayCastTarget& target, RayProgram program)
   {
     return error;
   }
+  this->CastPixels += std::int64_t{ this->Size[0] } * this->Size[1];
   return program == RayProgram::Compute ? this->DispatchRays(this->Frame)
                                         : this->CastRays(this->Frame);
 }
@@ -477,6 +478,7 @@ RayCastCounters RayCastOpenGL::GetCounters()
   counters.HostBytes = this->LongLists.GetBytes();
   counters.EntryListBuilds = this->LongLists.GetBuilds();
   counters.RefractedEntryLists = this->RefractedEntryLists;
+  counters.CastPixels = this->CastPixels;
   return counters;
 }
 

@@ -101,6 +101,7 @@ private:
   TableVersions RefractedVersions;
   bool BeginsInside = false;
   std::int64_t RefractedEntryLists = 0;
+  std::int64_t CastPixels = 0;
   vtkSmartPointer<vtkTextureObject> StatisticsImage;
   int Size[2] = { 0, 0 };
   int Tiles[2] = { 0, 0 };

@@ -259,6 +259,7 @@ void CheckThreads(VolumeTrial& trial)
   for (const int threads : { 1, 2, 3, 7 })
   {
     vtkSMPTools::Initialize(threads);
+    trial.GetStage().GetMapper()->Modified(); // or the last image would be shown again
     // The same operations on the same numbers: every digit must be equal.
     trial.ExpectSame(
       trial.GetStage().Draw(trial.MakeScene()),

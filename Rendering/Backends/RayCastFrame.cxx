@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Backends/RayCastFrame.h"
+
+#include <tuple>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+bool HaveSameImage(const RayCastFrame& a, const RayCastFrame& b)
+{
+  const auto members = [](const RayCastFrame& frame)
+  {
+    const RayCastRefraction& refracting = frame.Refracting;
+    return std::tie(frame.EarlyTerminationOpacity, frame.MaximumTableSize, frame.SettingsTime,
+      frame.Output.ImageSize[0], frame.Output.ImageSize[1], refracting.Part, refracting.Wanted,
+      refracting.Met, refracting.Exterior, refracting.Interior, refracting.Center,
+      refracting.EyeDepth);
+  };
+  return members(a) == members(b) && a.Rays == b.Rays && a.Optics == b.Optics;
+}
+
+}
