@@ -35,10 +35,10 @@ const double Pi = vtkMath::Pi();
 
 using Color = std::array<unsigned char, 3>;
 
-/// A point of a surface for parameters from 0 to 1.
+/** A point of a surface for parameters from 0 to 1. */
 using Surface = std::function<glm::dvec3(double u, double v)>;
 
-/// Divisions of a parametric surface: tiles and triangle pairs per tile, along u and along v.
+/** Divisions of a parametric surface: tiles and triangle pairs per tile, along u and along v. */
 struct Tiling
 {
   int Tiles[2];
@@ -46,8 +46,10 @@ struct Tiling
 };
 
 //------------------------------------------------------------------------------
-/// Triangles of a grid of points, but for those that two equal corners leave without area; `take`
-/// gets the row and the column of each.
+/**
+ * Triangles of a grid of points, but for those that two equal corners leave without area; `take`
+ * gets the row and the column of each.
+ */
 void AddTriangles(
   vtkPolyData* data, int columns, int rows, const std::function<void(int column, int row)>& take)
 {
@@ -81,7 +83,7 @@ void AddTriangles(
 }
 
 //------------------------------------------------------------------------------
-/// A checkered surface in two colours.
+/** A checkered surface in two colours. */
 vtkSmartPointer<vtkPolyData> MakeTiles(
   const Surface& surface, const Tiling& tiling, const Color& even, const Color& odd)
 {
@@ -113,13 +115,13 @@ vtkSmartPointer<vtkPolyData> MakeTiles(
 }
 
 //------------------------------------------------------------------------------
-/// The parallelogram from `origin` along two edges.
+/** The parallelogram from `origin` along two edges. */
 Surface Parallelogram(const glm::dvec3& origin, const glm::dvec3& along, const glm::dvec3& across)
 {
   return [=](double u, double v) { return origin + u * along + v * across; };
 }
 
-/// A direction about the y axis, exactly the same for 0 and 1.
+/** A direction about the y axis, exactly the same for 0 and 1. */
 glm::dvec3 Around(double u)
 {
   const double angle = u < 1.0 ? 2.0 * Pi * u : 0.0;
@@ -139,14 +141,14 @@ Surface MakeBall(const glm::dvec3& center, double radius)
   };
 }
 
-/// The side of a cone stump from a circle about `foot` to one about `top`; both are horizontal.
+/** The side of a cone stump from a circle about `foot` to one about `top`; both are horizontal. */
 Surface Stump(const glm::dvec3& foot, double footRadius, const glm::dvec3& top, double topRadius)
 {
   return [=](double u, double v)
   { return (1.0 - v) * foot + v * top + ((1.0 - v) * footRadius + v * topRadius) * Around(u); };
 }
 
-/// A torus about the y axis.
+/** A torus about the y axis. */
 Surface Torus(const glm::dvec3& center, double radius, double thickness)
 {
   return [=](double u, double v)
@@ -169,8 +171,10 @@ constexpr Color Sand{ 210, 180, 140 };
 constexpr Color Brown{ 100, 70, 50 };
 
 //------------------------------------------------------------------------------
-/// Triangles with normals, joined where the parameters end. The normal is on the side of the cross
-/// product of the derivatives by u and by v, so that facets and normals agree.
+/**
+ * Triangles with normals, joined where the parameters end. The normal is on the side of the cross
+ * product of the derivatives by u and by v, so that facets and normals agree.
+ */
 vtkSmartPointer<vtkPolyData> MakeMembrane(
   const Surface& surface, const Surface& normal, int columns, int rows)
 {
@@ -208,8 +212,10 @@ RefractingSurface MakePlane(double half)
 }
 
 //------------------------------------------------------------------------------
-/// Glass; the part of the surface that faces away from the eye shows nothing in Meniscus, and
-/// nothing but the background in POV-Ray.
+/**
+ * Glass; the part of the surface that faces away from the eye shows nothing in Meniscus, and
+ * nothing but the background in POV-Ray.
+ */
 RefractingSurface MakeSphere(double radius)
 {
   RefractingSurface result;
@@ -219,18 +225,18 @@ RefractingSurface MakeSphere(double radius)
     const Surface inwards = MakeBall(glm::dvec3(0.0), size);
     return [inwards](double u, double v) { return inwards(1.0 - u, v); };
   };
-  constexpr int Meridians = 256;
-  result.Membrane = MakeMembrane(outwards(radius), outwards(1.0), Meridians, Meridians / 2);
+  constexpr int meridians = 256;
+  result.Membrane = MakeMembrane(outwards(radius), outwards(1.0), meridians, meridians / 2);
   // At most the circle's length times the sagitta of a triangle's longest edge, the diagonal of a
-  // square of 2 pi / Meridians.
+  // square of 2 pi / meridians.
   result.OutlineArea =
-    2.0 * Pi * radius * radius * (1.0 - std::cos(std::sqrt(2.0) * Pi / Meridians));
+    2.0 * Pi * radius * radius * (1.0 - std::cos(std::sqrt(2.0) * Pi / meridians));
   result.Primitive = "sphere { <0, 0, 0>, " + PovrayNumber(radius);
   return result;
 }
 
 //------------------------------------------------------------------------------
-/// y = amplitude sin(k x) sin(k z).
+/** y = amplitude sin(k x) sin(k z). */
 RefractingSurface MakeWaves(double amplitude, double k, double half, int cells)
 {
   RefractingSurface result;
@@ -264,7 +270,7 @@ RefractingSurface MakeWaves(double amplitude, double k, double half, int cells)
 }
 
 //------------------------------------------------------------------------------
-/// The paraboloid x^2 + z^2 = 2 p y, the eye within, up to where it is `steepest` degrees steep.
+/** The paraboloid x^2 + z^2 = 2 p y, the eye within, up to where it is `steepest` degrees steep. */
 RefractingSurface MakeBowl(double p, double steepest, int rings)
 {
   RefractingSurface result;

@@ -24,7 +24,7 @@ bool IsDifferent(const unsigned char* a, const unsigned char* b)
   return largest > PictureComparison::Threshold;
 }
 
-/// True if one of the eight neighbours differs.
+/** True if one of the eight neighbours differs. */
 bool IsEdge(const ByteImage& reference, int x, int y)
 {
   for (int j = std::max(y - 1, 0); j <= std::min(y + 1, reference.Height - 1); ++j)
@@ -40,7 +40,7 @@ bool IsEdge(const ByteImage& reference, int x, int y)
   return false;
 }
 
-/// Number of pairs that the pixel differs in: with its neighbours to the right and above.
+/** Number of pairs that the pixel differs in: with its neighbours to the right and above. */
 int CountEdges(const ByteImage& reference, int x, int y)
 {
   const unsigned char* const color = reference.GetPixel(x, y);

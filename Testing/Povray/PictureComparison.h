@@ -13,36 +13,38 @@ namespace meniscus
 namespace test
 {
 
-/// Place of a pixel in a picture.
+/** Place of a pixel in a picture. */
 struct PixelPlace
 {
   int X = 0;
   int Y = 0;
 };
 
-/// Difference of a picture of flat colours from its reference.
+/** Difference of a picture of flat colours from its reference. */
 struct PictureComparison
 {
-  /// Pixels that are off by more than this in a channel are counted.
+  /** Pixels that are off by more than this in a channel are counted. */
   static constexpr int Threshold = 8;
 
   int Pixels = 0;
-  /// Places of the different pixels.
+  /** Places of the different pixels. */
   std::vector<PixelPlace> Different;
-  /// Pixels that differ from one of their eight neighbours in the reference.
+  /** Pixels that differ from one of their eight neighbours in the reference. */
   int EdgePixels = 0;
-  /// Different pixels that are no edge pixels.
+  /** Different pixels that are no edge pixels. */
   int DifferentOffEdges = 0;
-  /// Pairs of neighbours in a row or a column that differ in the reference. At least the length of
-  /// all edges in pixels: an edge that leans by an angle a crosses |cos a| + |sin a| >= 1 of them
-  /// per pixel of length.
+  /**
+   * Pairs of neighbours in a row or a column that differ in the reference. At least the length of
+   * all edges in pixels: an edge that leans by an angle a crosses |cos a| + |sin a| >= 1 of them
+   * per pixel of length.
+   */
   int EdgeLength = 0;
 
   double GetFraction() const;
   double FractionOffEdges() const;
 };
 
-/// Compares pixel against the same pixel; both pictures have the same size.
+/** Compares pixel against the same pixel; both pictures have the same size. */
 PictureComparison ComparePictures(const ByteImage& picture, const ByteImage& reference);
 
 /**

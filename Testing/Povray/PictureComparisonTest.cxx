@@ -37,7 +37,7 @@ ByteImage MakePicture(const std::function<Color(int x, int y)>& colorOf)
   return image;
 }
 
-/// Black left of a column, white from there.
+/** Black left of a column, white from there. */
 ByteImage MakeEdge(int column)
 {
   return MakePicture([column](int x, int) { return x < column ? Black : White; });

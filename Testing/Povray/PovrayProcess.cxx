@@ -25,22 +25,22 @@ bool WriteText(const std::string& path, const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-/// The child's part: POV-Ray in a folder, with all its messages in a file. Never returns.
+/** The child's part: POV-Ray in a folder, with all its messages in a file. Never returns. */
 [[noreturn]] void BecomeProgram(const std::string& program, const std::string& argument,
   const std::string& folder, const std::string& log)
 {
-  constexpr int NotFound = 127; // as a shell says it
+  constexpr int notFound = 127; // as a shell says it
   const int output = open((folder + "/" + log).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   if (output >= 0 && dup2(output, STDOUT_FILENO) >= 0 && dup2(output, STDERR_FILENO) >= 0 &&
     chdir(folder.c_str()) == 0)
   {
     execlp(program.c_str(), program.c_str(), argument.c_str(), nullptr);
   }
-  _exit(NotFound);
+  _exit(notFound);
 }
 
 //------------------------------------------------------------------------------
-/// True if the program ran and ended with status 0.
+/** True if the program ran and ended with status 0. */
 bool RunProgram(const std::string& program, const std::string& argument, const std::string& folder,
   const std::string& log)
 {

@@ -13,7 +13,7 @@ namespace meniscus
 namespace test
 {
 
-/// How POV-Ray is started, and where.
+/** How POV-Ray is started, and where. */
 struct PovrayProcess
 {
   std::string Program = "povray";

@@ -12,13 +12,13 @@ namespace meniscus
 namespace test
 {
 
-/// A number as POV-Ray reads it, with all its digits.
+/** A number as POV-Ray reads it, with all its digits. */
 std::string PovrayNumber(double value);
 
-/// A vector, "<x, y, z>".
+/** A vector, "<x, y, z>". */
 std::string PovrayVector(const glm::dvec3& value);
 
-/// A square of a camera's picture, which goes from -1/2 to 1/2 to the right and up.
+/** A square of a camera's picture, which goes from -1/2 to 1/2 to the right and up. */
 struct PictureWindow
 {
   double Right = 0.0; ///< of its middle
@@ -34,17 +34,19 @@ struct PictureWindow
  */
 std::string PovrayCamera(const SceneCamera& camera, const PictureWindow& window = {});
 
-/// Mesh of the triangles, each in its flat colour.
+/** Mesh of the triangles, each in its flat colour. */
 std::string PovrayMesh(vtkPolyData* object);
 
-/// Clear body of the interior medium, without reflection; nothing without a membrane.
+/** Clear body of the interior medium, without reflection; nothing without a membrane. */
 std::string PovraySurface(const RefractingSurface& surface);
 
-/// The whole scene.
+/** The whole scene. */
 std::string PovrayScene(const ComparisonScene& scene, const PictureWindow& window = {});
 
-/// Options of a picture of NAME.pov to NAME-povray.png: no antialiasing, no gamma, nothing on a
-/// display.
+/**
+ * Options of a picture of NAME.pov to NAME-povray.png: no antialiasing, no gamma, nothing on a
+ * display.
+ */
 std::string PovrayOptions(const std::string& name, int pixels);
 
 } // namespace test

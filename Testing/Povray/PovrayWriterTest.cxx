@@ -25,7 +25,7 @@ using namespace meniscus::test;
 namespace
 {
 
-/// The numbers of a text in their order; digits of a name are none.
+/** The numbers of a text in their order; digits of a name are none. */
 std::vector<double> NumbersIn(const std::string& text)
 {
   std::vector<double> numbers;
@@ -47,7 +47,7 @@ std::vector<double> NumbersIn(const std::string& text)
   return numbers;
 }
 
-/// The text between the first `open` after `name` and the next `close`.
+/** The text between the first `open` after `name` and the next `close`. */
 std::string BlockOf(const std::string& text, const std::string& name, const std::string& close)
 {
   const std::size_t begin = text.find(name);
@@ -76,9 +76,11 @@ ComparisonScene SceneOf(const std::string& name)
   return {};
 }
 
-/// Every point of the membrane is a zero of the function, its normal is the gradient times `side`,
-/// and triangles are wound to the side of their normals. The tolerances are roundings of a few
-/// operations on coordinates of up to 100: 1e-16 of their squares.
+/**
+ * Every point of the membrane is a zero of the function, its normal is the gradient times `side`,
+ * and triangles are wound to the side of their normals. The tolerances are roundings of a few
+ * operations on coordinates of up to 100: 1e-16 of their squares.
+ */
 void ExpectMembrane(const RefractingSurface& surface, double side,
   const std::function<double(const glm::dvec3&)>& function,
   const std::function<glm::dvec3(const glm::dvec3&)>& gradient)
@@ -121,7 +123,7 @@ TEST(PovrayWriter, NumbersKeepAllDigits)
   EXPECT_EQ(NumbersIn(PovrayVector({ 1.0, -2.5, 1e-3 })), (std::vector<double>{ 1.0, -2.5, 1e-3 }));
 }
 
-/// The ray through a place of the picture meets the same place of VTK's picture.
+/** The ray through a place of the picture meets the same place of VTK's picture. */
 TEST(PovrayWriter, CameraIsVtks)
 {
   const SceneCamera camera{ { 3.0, -4.0, 7.0 }, { -1.0, 2.0, 0.5 }, { 0.1, 0.2, 1.0 }, 37.0 };
@@ -236,7 +238,7 @@ TEST(PovrayWriter, MembranesLieOnThePrimitives)
     [&q](const glm::dvec3& p) { return glm::dvec3(2.0 * q[0] * p.x, q[7], 2.0 * q[2] * p.z); });
 }
 
-/// The bound on the gradient that POV-Ray's search for roots relies on.
+/** The bound on the gradient that POV-Ray's search for roots relies on. */
 TEST(PovrayWriter, WavesAreNoSteeperThanStated)
 {
   const std::string primitive = SceneOf("waves").Surface.Primitive;
@@ -277,7 +279,7 @@ TEST(PovrayWriter, SceneHasAllParts)
   EXPECT_NE(options.find("File_Gamma=1.0"), std::string::npos);
 }
 
-/// A colour says which object a pixel shows.
+/** A colour says which object a pixel shows. */
 TEST(PovrayWriter, ColorsAreOfOneObject)
 {
   for (const ComparisonScene& scene : MakeComparisonScenes())

@@ -32,7 +32,7 @@ void PlaceCamera(vtkRenderer* renderer, const ComparisonScene& scene)
   camera->SetClippingRange(5.0, 200.0);
 }
 
-/// An actor of flat triangles in the colours of their cells.
+/** An actor of flat triangles in the colours of their cells. */
 vtkSmartPointer<vtkActor> MakeFlatActor(vtkPolyDataMapper* mapper)
 {
   mapper->SetScalarModeToUseCellFieldData();

@@ -11,8 +11,10 @@ namespace meniscus
 namespace test
 {
 
-/// Draws a scene by vtkRefractedGeometryFilter and vtkRefractionPass; `tolerance` is the filter's
-/// AngularTolerance in degrees.
+/**
+ * Draws a scene by vtkRefractedGeometryFilter and vtkRefractionPass; `tolerance` is the filter's
+ * AngularTolerance in degrees.
+ */
 ByteImage DrawRefractedScene(const ComparisonScene& scene, int pixels, double tolerance);
 
 } // namespace test

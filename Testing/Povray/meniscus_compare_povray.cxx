@@ -97,7 +97,7 @@ bool ReadOption(const std::string& key, const std::string& value, Options& optio
 }
 
 //------------------------------------------------------------------------------
-/// Runs the work and returns its seconds by the clock.
+/** Runs the work and returns its seconds by the clock. */
 template <typename Work>
 double SecondsOf(Work&& work)
 {
@@ -125,16 +125,16 @@ double LargestOffset(const ComparisonScene& scene, const Options& options)
 /**
  * Different pixels that no displaced edge explains, after POV-Ray's close-ups of the pixels'
  * middles. An edge is off by much less than the quarter of a pixel that they reach, a fold, where
- * two images meet, by the root of a number of that size. A picture with more than `MostCloseUps`
+ * two images meet, by the root of a number of that size. A picture with more than `mostCloseUps`
  * different pixels is wrong as it is.
  */
 int CountUnexplained(const ComparisonScene& scene, const ByteImage& drawn,
   const std::vector<PixelPlace>& places, const PovrayProcess& povray)
 {
-  constexpr std::size_t MostCloseUps = 200;
-  constexpr double Width = 0.5; // pixels
-  constexpr int Samples = 64;
-  if (places.size() > MostCloseUps)
+  constexpr std::size_t mostCloseUps = 200;
+  constexpr double width = 0.5; // pixels
+  constexpr int samples = 64;
+  if (places.size() > mostCloseUps)
   {
     return static_cast<int>(places.size());
   }
@@ -142,8 +142,8 @@ int CountUnexplained(const ComparisonScene& scene, const ByteImage& drawn,
   for (const PixelPlace& place : places)
   {
     const PictureWindow window{ (place.X + 0.5) / drawn.Width - 0.5,
-      (place.Y + 0.5) / drawn.Height - 0.5, Width / drawn.Width };
-    const ByteImage closeUp = povray.Draw(scene, "close-up", Samples, window);
+      (place.Y + 0.5) / drawn.Height - 0.5, width / drawn.Width };
+    const ByteImage closeUp = povray.Draw(scene, "close-up", samples, window);
     const unsigned char* const color = drawn.GetPixel(place.X, place.Y);
     if (!IsExplained(color, closeUp, FindObjectColors(scene, color)))
     {
@@ -155,7 +155,7 @@ int CountUnexplained(const ComparisonScene& scene, const ByteImage& drawn,
 }
 
 //------------------------------------------------------------------------------
-/// Pixels that the wrong outline of the membrane may change.
+/** Pixels that the wrong outline of the membrane may change. */
 double OutlinePixels(const ComparisonScene& scene, const Options& options)
 {
   const double width = 2.0 * std::tan(scene.Camera.ViewAngle * std::acos(-1.0) / 360.0);

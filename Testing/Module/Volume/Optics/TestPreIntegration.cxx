@@ -159,7 +159,6 @@ TEST(PreIntegration, OneLengthWhereTheModelAllowsIt)
   // Segments so short that their self-absorption is negligible.
   table.Build(Ramps(), 0.003, 33, 16);
   EXPECT_EQ(table.GetNumberOfLengths(), 1);
-  const glm::dvec3 color(0.2, 0.4, 0.6);
   table.Build(oneColor, 4.0, 33, 16);
   for (const double length : { 0.01, 1.0, 4.0 })
   {
