@@ -43,11 +43,18 @@ bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
   {
     const CurvedMembraneSolver& surface = this->Surface.GetCurved();
     this->Sight.Build(surface.GetMembrane(), surface.GetPatches(), view, ThreadedLoop);
-    this->Frames.Turn(this->Sight, view.Frame, ThreadedLoop);
+    this->Frames.Turn(this->GetLegs(), this->Sight.GetMeanDirection(), ThreadedLoop);
     this->SightOf = this->GetShapeVersion();
     this->SightVersion.Bump();
   }
   return this->Sight.IsSeen();
+}
+
+//------------------------------------------------------------------------------
+RayLegs RayCastMembrane::GetLegs() const
+{
+  const RefractedRayField::View& view = this->Sight.GetView();
+  return RayLegs(view.Frame, view.Width, view.Height, { &this->Sight.GetRays() });
 }
 
 //------------------------------------------------------------------------------
@@ -73,7 +80,7 @@ RefractedScene RayCastMembrane::See(VolumeInput& input)
   }
   RefractedScene scene;
   scene.BeginsInside = this->BeginsInside(input);
-  scene.Sight = &this->Sight;
+  scene.Legs = { &this->Sight.GetRays() };
   scene.Frames = &this->Frames;
   scene.Tree = &input.GetBoundaryTree();
   return scene;

@@ -7,7 +7,8 @@
 #include "Filters/Membrane/RefractionScene.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Rendering/Input/VolumeInput.h"
-#include "Volume/Caster/RefractedRayCaster.h"
+#include "Volume/Caster/RefractedLegEntries.h"
+#include "Volume/Refracted/RayLegs.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
@@ -43,6 +44,8 @@ public:
   /** Result of Trace(), and the frames of the refracted rays. */
   const RefractedRayField& GetSight() const { return this->Sight; }
   const RefractionFrames& GetFrames() const { return this->Frames; }
+  /** Legs of the image's rays: the sight rays, and the rays behind the membrane. */
+  RayLegs GetLegs() const;
   /** True if a refracted ray may begin inside the mesh. */
   bool BeginsInside(VolumeInput& input);
   /**

@@ -333,7 +333,7 @@ std::string OpenGLTables::UploadRefractedRays(
   const RayCastMembrane& membrane, const int (&imageSize)[2])
 {
   std::vector<RefractedRayLine> lines;
-  LayOutRefractedRays(membrane.GetSight(), membrane.GetFrames(), ThreadedLoop, lines);
+  LayOutRefractedRays(membrane.GetLegs(), membrane.GetFrames(), ThreadedLoop, lines);
   const std::string error = this->RefractedRayTexels.Upload(
     this->Window, lines, imageSize[0], imageSize[1], membrane.GetFrames());
   this->UploadedBytes += this->RefractedRayTexels.GetBytes();
