@@ -51,10 +51,16 @@ bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
 }
 
 //------------------------------------------------------------------------------
+std::vector<const RefractedRayTiles*> RayCastMembrane::ListRefracted() const
+{
+  return { &this->Sight.GetRays() };
+}
+
+//------------------------------------------------------------------------------
 RayLegs RayCastMembrane::GetLegs() const
 {
   const RefractedRayField::View& view = this->Sight.GetView();
-  return RayLegs(view.Frame, view.Width, view.Height, { &this->Sight.GetRays() });
+  return RayLegs(view.Frame, view.Width, view.Height, this->ListRefracted());
 }
 
 //------------------------------------------------------------------------------
@@ -80,7 +86,7 @@ RefractedScene RayCastMembrane::See(VolumeInput& input)
   }
   RefractedScene scene;
   scene.BeginsInside = this->BeginsInside(input);
-  scene.Legs = { &this->Sight.GetRays() };
+  scene.Legs = this->ListRefracted();
   scene.Frames = &this->Frames;
   scene.Tree = &input.GetBoundaryTree();
   return scene;

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -65,6 +66,9 @@ public:
   std::int64_t GetBytes() const { return this->Sight.GetBytes() + this->Frames.GetBytes(); }
 
 private:
+  /** Rays behind each interface in the order in which rays meet them: legs 1 and following. */
+  std::vector<const RefractedRayTiles*> ListRefracted() const;
+
   RefractionScene Surface;
   /**
    * Last warning, so that it is not repeated when the same triangles are left out of the next wave.

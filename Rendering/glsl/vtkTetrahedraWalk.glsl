@@ -413,7 +413,7 @@ float lengthPerGridDepth()
   return viewToWorldUnit * length(viewToWorld * rayAlong) * DEPTH_UNIT;
 }
 
-// Depth on the straight ray of a window depth.
+// Depth on the sight ray of a window depth.
 float depthOf(float opaque)
 {
   vec2 fraction = (2.0 * opaque - 1.0) * vec2(depthNumerator.x, depthDenominator.x) +
@@ -609,7 +609,9 @@ void castLeg(int lastDepth, inout int steps, inout int lost)
 // from which entries are used. Returns false if no part of the leg is drawn.
 bool setUpNextLeg(float opaque, out int lastDepth)
 {
-  // True if the leg before was drawn up to the interface, and no clipping plane has ended it.
+  // True if the leg before was drawn up to the interface, and no clipping plane has ended it. Where
+  // that leg began inside the mesh, no further entries have been searched for; the next one then
+  // begins on the boundary.
   bool arrived =
     rayLeg >= firstLeg && endDepth == legEndAt && entryFaces.x < 0 && !moreEntries;
   bool inside = depthNow >= endDepth;

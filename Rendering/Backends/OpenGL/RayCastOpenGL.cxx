@@ -241,6 +241,8 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, int leg)
     this->TileTarget->SetContext(this->Window);
   }
   this->TileTarget->Bind();
+  // VTK 9.1 ignores a new layer of a texture that is attached already.
+  this->TileTarget->RemoveColorAttachments(TileLayers);
   for (unsigned int layer = 0; layer < TileLayers; ++layer)
   {
     this->TileTarget->AddColorAttachment(layer, refracted ? this->RefractedTiles : this->EntryTiles,
