@@ -5,7 +5,7 @@
 
 #include "Rendering/Property/RayCastOptics.h"
 #include "Volume/Rays/RayFrame.h"
-#include "Volume/Refracted/RefractedRayField.h"
+#include "Volume/Refracted/RayLegs.h"
 
 #include <glm/vec3.hpp>
 

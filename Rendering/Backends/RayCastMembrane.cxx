@@ -43,11 +43,24 @@ bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
   {
     const CurvedMembraneSolver& surface = this->Surface.GetCurved();
     this->Sight.Build(surface.GetMembrane(), surface.GetPatches(), view, ThreadedLoop);
-    this->Frames.Turn(this->Sight, view.Frame, ThreadedLoop);
+    this->Frames.Turn(this->GetLegs(), this->Sight.GetMeanDirection(), ThreadedLoop);
     this->SightOf = this->GetShapeVersion();
     this->SightVersion.Bump();
   }
   return this->Sight.IsSeen();
+}
+
+//------------------------------------------------------------------------------
+std::vector<const RefractedRayTiles*> RayCastMembrane::ListRefracted() const
+{
+  return { &this->Sight.GetRays() };
+}
+
+//------------------------------------------------------------------------------
+RayLegs RayCastMembrane::GetLegs() const
+{
+  const RefractedRayField::View& view = this->Sight.GetView();
+  return RayLegs(view.Frame, view.Width, view.Height, this->ListRefracted());
 }
 
 //------------------------------------------------------------------------------
@@ -73,7 +86,7 @@ RefractedScene RayCastMembrane::See(VolumeInput& input)
   }
   RefractedScene scene;
   scene.BeginsInside = this->BeginsInside(input);
-  scene.Sight = &this->Sight;
+  scene.Legs = this->ListRefracted();
   scene.Frames = &this->Frames;
   scene.Tree = &input.GetBoundaryTree();
   return scene;

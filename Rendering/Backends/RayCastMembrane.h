@@ -7,12 +7,14 @@
 #include "Filters/Membrane/RefractionScene.h"
 #include "Rendering/Input/InputBlocks.h"
 #include "Rendering/Input/VolumeInput.h"
-#include "Volume/Caster/RefractedRayCaster.h"
+#include "Volume/Caster/RefractedLegEntries.h"
+#include "Volume/Refracted/RayLegs.h"
 #include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 class vtkPolyData;
 
@@ -43,6 +45,8 @@ public:
   /** Result of Trace(), and the frames of the refracted rays. */
   const RefractedRayField& GetSight() const { return this->Sight; }
   const RefractionFrames& GetFrames() const { return this->Frames; }
+  /** Legs of the image's rays: the sight rays, and the rays behind the membrane. */
+  RayLegs GetLegs() const;
   /** True if a refracted ray may begin inside the mesh. */
   bool BeginsInside(VolumeInput& input);
   /**
@@ -62,6 +66,9 @@ public:
   std::int64_t GetBytes() const { return this->Sight.GetBytes() + this->Frames.GetBytes(); }
 
 private:
+  /** Rays behind each interface in the order in which rays meet them: legs 1 and following. */
+  std::vector<const RefractedRayTiles*> ListRefracted() const;
+
   RefractionScene Surface;
   /**
    * Last warning, so that it is not repeated when the same triangles are left out of the next wave.

@@ -39,9 +39,9 @@ struct RayCastOptics
   bool PreIntegrated = false;
   /** Layout of the table of cells: see OpenGLTables::UploadCells(). */
   bool CompactCells = false;
-  /** True if rays are refracted at a membrane, for shaders: see OpenGLRefractedRays. */
-  bool Refracting = false;
-  /** True if lists of entries per tile of any length have been uploaded; not with Refracting. */
+  /** Number of legs of the rays (RayLegs) for shaders: see OpenGLRefractedRays. */
+  int NumberOfLegs = 1;
+  /** True if lists of entries per tile of any length have been uploaded; for one leg only. */
   bool LongLists = false;
   bool Shading = false;
   bool GradientOpacity = false;
@@ -57,6 +57,7 @@ struct RayCastOptics
   SurfaceLighting Lighting;
   std::vector<RayClippingPlane> ClippingPlanes;
 
+  bool IsRefracting() const { return this->NumberOfLegs > 1; }
   bool HasComponents() const { return this->Components != ComponentMixture::None; }
   bool UsesGradients() const { return this->Shading || this->GradientOpacity; }
   /**

@@ -38,7 +38,7 @@ void fetchListed()
   listDepth = within ? gridDepthOf(texelFetch(nearestDepths, listFace).r) : AFTER_EVERYTHING;
 }
 
-// Sets up the search for the straight ray.
+// Sets up the search for the sight ray.
 void startEntries(bool meetsMesh)
 {
   ivec2 tile = ivec2(rayTilePixel / longListTileSize);
@@ -114,7 +114,7 @@ void findEntries(int lastDepth, int lastFace)
 #else
 uniform sampler3D entryTiles;        // per tile: faces to enter by (vtkTetrahedraEntryTilesFS)
 #if REFRACTED
-uniform sampler3D refractedTiles;         // the same for the refracted rays
+uniform sampler3D refractedTiles;    // the same for the refracted legs, one behind the other
 #endif
 
 // Bound of the depths of the mesh, which are within 2^30 - 2048 plus rounding (GRID_PER_DEPTH); the
@@ -170,9 +170,9 @@ void insertEntry(int depth, int number)
 vec4 fetchTile(ivec2 tile, int layer)
 {
 #if REFRACTED
-  if (rayIsRefracted)
+  if (rayLeg > 0)
   {
-    return texelFetch(refractedTiles, ivec3(tile, layer), 0);
+    return texelFetch(refractedTiles, ivec3(tile, (rayLeg - 1) * (TILE_CAPACITY / 4) + layer), 0);
   }
 #endif
   return texelFetch(entryTiles, ivec3(tile, layer), 0);

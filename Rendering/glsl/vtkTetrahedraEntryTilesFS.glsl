@@ -11,8 +11,8 @@
 // -2. The computation uses the tile's central ray, in its grid units, and bounds the difference to
 // the others.
 //
-// With REFRACTED, straight rays end at the membrane. With BEHIND the rays are the refracted ones;
-// if those of a tile are in several frames, its list also begins with -2.
+// With REFRACTED, sight rays end at the first interface. With BEHIND the rays are those of a
+// refracted leg; if those of a tile are in several frames, its list also begins with -2.
 
 in vec2 texCoord;
 
@@ -26,6 +26,9 @@ in vec2 texCoord;
 
 uniform float tileSize;
 uniform vec2 tileCount;
+#if BEHIND
+uniform int listedLeg;               // number of the leg
+#endif
 
 // Bound, relative to the products of which areas consist, of the effect of rounding u and v to
 // floats (2^-24) for the central ray and for another, and of the sums here: 4 * 2^-24 and a few
@@ -102,14 +105,13 @@ bool mayEnter(int index)
 }
 
 #if REFRACTED
-// A texel of the tile's pixel number i; the nearest pixel of the image if that is outside.
-ivec4 fetchLine(int i, int texel)
+// A texel of a leg of the tile's pixel number i; the nearest pixel of the image if that is outside.
+ivec4 fetchLine(int i, int leg, int texel)
 {
   int columns = int(tileSize);
-  ivec2 size = ivec2(textureSize(refractedRays, 0).x / 2, textureSize(refractedRays, 0).y);
   ivec2 corner = ivec2(floor(texCoord * tileCount) * tileSize);
-  ivec2 pixel = min(corner + ivec2(i % columns, i / columns), size - 1);
-  return texelFetch(refractedRays, ivec2(2 * pixel.x + texel, pixel.y), 0);
+  ivec2 pixel = min(corner + ivec2(i % columns, i / columns), legImageSize() - 1);
+  return fetchLegTexel(pixel, leg, texel);
 }
 #endif
 
@@ -126,10 +128,10 @@ bool setUpTile(out int end, out bool alike)
   alike = true;
   for (int i = 0; i < int(tileSize * tileSize); ++i)
   {
-    ivec4 place = fetchLine(i, 1);
+    ivec4 place = fetchLine(i, listedLeg, 1);
     if (intBitsToFloat(place.z) > 0.0)
     {
-      ivec4 line = fetchLine(i, 0);
+      ivec4 line = fetchLine(i, listedLeg, 0);
       least = min(least, line);
       most = max(most, line);
       alike = alike && (frame < 0 || frame == (place.w & 255));
@@ -164,7 +166,7 @@ bool setUpTile(out int end, out bool alike)
   end = BEFORE_EVERYTHING;
   for (int i = 0; i < int(tileSize * tileSize); ++i)
   {
-    end = max(end, gridDepthOf(intBitsToFloat(fetchLine(i, 1).x)) + DEPTH_SLACK);
+    end = max(end, gridDepthOf(intBitsToFloat(fetchLine(i, 1, 1).x)) + DEPTH_SLACK);
   }
 #else
   end = AFTER_EVERYTHING;

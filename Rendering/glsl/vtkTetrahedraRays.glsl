@@ -44,9 +44,10 @@ uniform int gridOffset[12];
 uniform int gridSlope[12];
 uniform int enteringSign;            // outward * enteringSign > 0: counter-clockwise is entering
 #if REFRACTED
-// Rays continue behind a membrane as refracted rays: two adjacent texels per pixel, see
-// Module/Volume/Refracted/RefractedRayTexels.h, in one of several frames, given by their rows and
-// by their axes in the frame of the view.
+// A ray has several legs, one more behind each refracting interface. Leg 0 is the sight ray; of the
+// others there are two adjacent texels per pixel, see Module/Volume/Refracted/RefractedRayTexels.h,
+// those of leg k in image number k - 1, one above the other. They are in one of several frames,
+// given by their rows and by their axes in the frame of the view.
 uniform isampler2D refractedRays;
 uniform vec3 frameRowX[NUMBER_OF_FRAMES];
 uniform vec3 frameRowY[NUMBER_OF_FRAMES];
@@ -159,6 +160,19 @@ bool setUpRay(vec2 pixel, vec2 reach)
 }
 
 #if REFRACTED
+// Size of the image in pixels.
+ivec2 legImageSize()
+{
+  return textureSize(refractedRays, 0) / ivec2(2, NUMBER_OF_LEGS - 1);
+}
+
+// First or second texel of a pixel's refracted leg.
+ivec4 fetchLegTexel(ivec2 pixel, int leg, int texel)
+{
+  ivec2 place = ivec2(2 * pixel.x + texel, (leg - 1) * legImageSize().y + pixel.y);
+  return texelFetch(refractedRays, place, 0);
+}
+
 // Sets up a line of a frame from its offset and slope in the grid.
 bool setUpRefractedRay(int frame, ivec4 line, vec2 reach)
 {

@@ -16,8 +16,9 @@
 #endif
 uniform isamplerBuffer cells;
 #if REFRACTED
-uniform bool beginsInside;           // true if a refracted ray may begin inside the mesh
-uniform int membranePart;            // MembranePart: all of the ray, PART_IN_FRONT or PART_BEHIND
+uniform bool beginsInside;           // true if a refracted leg may begin inside the mesh
+uniform int firstLeg;                // legs [firstLeg, endLeg) are drawn
+uniform int endLeg;
 #endif
 uniform int numberOfCells;
 uniform float tileSize;
@@ -53,9 +54,12 @@ float rayLengthPerDepth; // per grid unit of depth
 int startDepth;
 int endDepth;
 #if REFRACTED
-bool rayIsRefracted;      // true for the refracted part of the ray
-float membraneDepth; // depth of the membrane on the straight ray, in the frame
-int membraneAt;      // the same in grid units
+int rayLeg;          // number of the leg that is cast
+float legDepth;      // drawn depth at which it begins
+float legStart;      // depth of that point in the frame of the leg
+float legPerDepth;   // depth in that frame per drawn depth
+float legEnd;        // depth there at which the leg meets the next interface, or NOWHERE
+int legEndAt;        // the same in grid units
 int cycleStart;      // link to the face inside the mesh by which the walk began; otherwise -1
 ivec4 nearFace;      // that face: vertices, counter-clockwise, and link
 const int NEAR_FACE = -2;
@@ -409,7 +413,7 @@ float lengthPerGridDepth()
   return viewToWorldUnit * length(viewToWorld * rayAlong) * DEPTH_UNIT;
 }
 
-// Depth on the straight ray of a window depth.
+// Depth on the sight ray of a window depth.
 float depthOf(float opaque)
 {
   vec2 fraction = (2.0 * opaque - 1.0) * vec2(depthNumerator.x, depthDenominator.x) +
@@ -428,9 +432,9 @@ void clip(float height, float perDepth)
 }
 
 #if REFRACTED
-//--- Behind the membrane -------------------------------------------------------------------------
+//--- Refracted legs ------------------------------------------------------------------------------
 
-// Distance by which an entry may lie in front of the sight point if the straight ray reports that
+// Distance by which an entry may lie in front of the sight point if the leg before reports that
 // point outside of the mesh: 2^-10 of the frame's unit. The errors of vertices are less than 2^-24,
 // with u and v rounded to floats; along a ray that leaves the boundary at an angle of 2^-14 this is
 // 2^-10. A superfluous entry costs a few steps and does not change the result.
@@ -448,8 +452,8 @@ int oppositeVertex(int index, ivec3 numbers)
   return all ^ numbers.x ^ numbers.y ^ numbers.z;
 }
 
-// Finds the face by which the refracted ray enters one of the two cells at the face that the
-// straight ray reached last, if that entry is not behind the sight point: a walk from there reaches
+// Finds the face by which the leg enters one of the two cells at the face that the leg before
+// reached last, if that entry is not behind the sight point: a walk from there reaches
 // the sight point. Returns false if the ray misses these cells.
 bool findNearFace(int sightDepth)
 {
@@ -478,16 +482,14 @@ bool findNearFace(int sightDepth)
   return found;
 }
 
-// A pixel's texels of refractedRays.
+// A leg's texels of refractedRays.
 struct RefractedRayLine
 {
   ivec4 line;       // offset and slope in the grid
-  float depth;      // depth of the sight point on the straight ray
   float start;      // depth of the sight point in the line's frame
-  float perDepth;   // depth there per depth on the straight ray; 0 without a refracted ray
+  float perDepth;   // depth there per drawn depth; 0 if the ray has no such leg
   int frame;
-  int depthAt;      // the depths in grid units
-  int startAt;
+  int startAt;      // the start in grid units
 };
 
 // Depth of a float in grid units, with its correction in grid units.
@@ -496,32 +498,50 @@ int refinedDepth(float depth, int rest)
   return gridDepthOf(depth) + (rest & 255) - 128;
 }
 
-RefractedRayLine fetchRefractedRayLine(ivec2 pixel)
+RefractedRayLine fetchRefractedRayLine(ivec2 pixel, int leg)
 {
   RefractedRayLine line;
-  line.line = texelFetch(refractedRays, ivec2(2, 1) * pixel, 0);
-  ivec4 place = texelFetch(refractedRays, ivec2(2, 1) * pixel + ivec2(1, 0), 0);
-  line.depth = intBitsToFloat(place.x);
+  line.line = fetchLegTexel(pixel, leg, 0);
+  ivec4 place = fetchLegTexel(pixel, leg, 1);
   line.start = intBitsToFloat(place.y);
   line.perDepth = intBitsToFloat(place.z);
   line.frame = place.w & 255;
-  line.depthAt = refinedDepth(line.depth, place.w >> 8);
   line.startAt = refinedDepth(line.start, place.w >> 16);
   return line;
 }
 
-// Limits of the refracted ray. Geometry in the depth buffer behind the membrane is drawn at the
-// depths of straight rays (Eq. 2.4); where nothing is drawn, the far plane is no limit.
-void limitRefractedRay(float opaque, RefractedRayLine line)
+// Finds the end of the leg: the beginning of the next one.
+void findLegEnd(ivec2 pixel)
+{
+  legEnd = NOWHERE;
+  legEndAt = AFTER_EVERYTHING;
+  if (rayLeg + 1 < NUMBER_OF_LEGS)
+  {
+    ivec4 place = fetchLegTexel(pixel, rayLeg + 1, 1);
+    legEnd = intBitsToFloat(place.x);
+    legEndAt = refinedDepth(legEnd, place.w >> 8);
+  }
+}
+
+// True if the ray goes on to an interface, and the leg behind it is drawn.
+bool meetsDrawnLeg()
+{
+  return legEnd < NOWHERE && rayLeg + 1 < endLeg;
+}
+
+// Limits of a refracted leg. Geometry in the depth buffer behind the first interface is drawn at
+// the depths of sight rays (Eq. 2.4); where nothing is drawn, the far plane is no limit.
+void limitRefractedLeg(float opaque, RefractedRayLine line)
 {
   startDepth = line.startAt;
-  if (nearDepth > membraneDepth)
+  if (nearDepth > legDepth)
   {
-    startDepth = gridDepthOf(line.start + (nearDepth - membraneDepth) * line.perDepth);
+    startDepth = gridDepthOf(line.start + (nearDepth - legDepth) * line.perDepth);
   }
   endDepth = opaque < 1.0
-    ? gridDepthOf(line.start + (depthOf(opaque) - membraneDepth) * line.perDepth)
+    ? gridDepthOf(line.start + (depthOf(opaque) - legDepth) * line.perDepth)
     : AFTER_EVERYTHING;
+  endDepth = min(endDepth, legEndAt);
 #if NUMBER_OF_CLIPPING_PLANES > 0
   for (int i = 0; i < NUMBER_OF_CLIPPING_PLANES; ++i)
   {
@@ -534,13 +554,13 @@ void limitRefractedRay(float opaque, RefractedRayLine line)
 
 //--- Ray -----------------------------------------------------------------------------------------
 
-// The visible part of the ray: from the near plane to opaque geometry, within the clipping planes.
+// The visible part of leg 0: from the near plane to opaque geometry, within the clipping planes.
 void limitRay(float opaque)
 {
   startDepth = gridDepthOf(nearDepth);
   endDepth = gridDepthOf(depthOf(opaque));
 #if REFRACTED
-  endDepth = min(endDepth, membraneAt);
+  endDepth = min(endDepth, legEndAt);
 #endif
 #if NUMBER_OF_CLIPPING_PLANES > 0
   vec3 place = vec3(1.0, rayPixel);
@@ -552,10 +572,10 @@ void limitRay(float opaque)
 #endif
 }
 
-// Casts the part of the ray that is set up: from nearFace on, if that is its first entry, then from
+// Casts the leg that is set up: from nearFace on, if that is its first entry, then from
 // the entries after `lastDepth`, if there are more. Adds the cells crossed and the walks that did
 // not end on the boundary.
-void castPart(int lastDepth, inout int steps, inout int lost)
+void castLeg(int lastDepth, inout int steps, inout int lost)
 {
   int lastFace = -1;
   while (!isRayDone() && depthNow < endDepth)
@@ -585,30 +605,37 @@ void castPart(int lastDepth, inout int steps, inout int lost)
 }
 
 #if REFRACTED
-// Sets up the refracted ray, after the straight ray has reached the membrane. Returns in
-// `lastDepth` the depth from which entries are used. Returns false if no part of it is drawn.
-bool goOnBehind(float opaque, out int lastDepth)
+// Sets up the next leg, after the one before has reached its end. Returns in `lastDepth` the depth
+// from which entries are used. Returns false if no part of the leg is drawn.
+bool setUpNextLeg(float opaque, out int lastDepth)
 {
-  RefractedRayLine line = fetchRefractedRayLine(ivec2(rayTilePixel));
-  // True if the straight ray has reached the membrane, and no clipping plane has ended it before.
-  bool arrived = membranePart != PART_BEHIND && endDepth == membraneAt && entryFaces.x < 0 &&
-    !moreEntries;
+  // True if the leg before was drawn up to the interface, and no clipping plane has ended it. Where
+  // that leg began inside the mesh, no further entries have been searched for; the next one then
+  // begins on the boundary.
+  bool arrived =
+    rayLeg >= firstLeg && endDepth == legEndAt && entryFaces.x < 0 && !moreEntries;
   bool inside = depthNow >= endDepth;
-  lastDepth = BEFORE_EVERYTHING;
-  if (!(line.perDepth > 0.0) || !setUpRefractedRay(line.frame, line.line, vec2(0.0)))
-  {
-    return false;
-  }
-  rayIsRefracted = true;
+  ++rayLeg;
+  ivec2 pixel = ivec2(rayTilePixel);
+  RefractedRayLine line = fetchRefractedRayLine(pixel, rayLeg);
+  legDepth += (legEnd - legStart) / legPerDepth;
+  legStart = line.start;
+  legPerDepth = line.perDepth;
+  findLegEnd(pixel);
+  bool casts = line.perDepth > 0.0 && setUpRefractedRay(line.frame, line.line, vec2(0.0)) &&
+    rayLeg >= firstLeg;
   rayLengthPerDepth = lengthPerGridDepth();
-  limitRefractedRay(opaque, line);
+  limitRefractedLeg(opaque, line);
+  casts = casts && startDepth < endDepth;
   depthNow = BEFORE_EVERYTHING;
-  bool within = arrived && inside && beginsInside && cell >= 0 && findNearFace(line.startAt);
+  bool within =
+    casts && arrived && inside && beginsInside && cell >= 0 && findNearFace(line.startAt);
   entryFaces = ivec4(within ? NEAR_FACE : -1, -1, -1, -1);
   cycleStart = within ? nearFace.w : -1;
-  moreEntries = true;
-  lastDepth = within || (arrived && !inside) ? line.startAt - START_MARGIN : lastDepth;
-  return startDepth < endDepth;
+  moreEntries = casts;
+  lastDepth =
+    within || (arrived && !inside) ? line.startAt - START_MARGIN : BEFORE_EVERYTHING;
+  return casts;
 }
 #endif
 
@@ -627,32 +654,32 @@ vec4 castRay(vec2 pixel, float opaque, out int steps, out int lost)
   int lastDepth = BEFORE_EVERYTHING;
   startEntries(meetsMesh);
 #if REFRACTED
-  rayIsRefracted = false;
+  rayLeg = 0;
+  legDepth = 0.0;
+  legStart = 0.0;
+  legPerDepth = 1.0;
   cycleStart = -1;
-  RefractedRayLine behind = fetchRefractedRayLine(ivec2(pixel));
-  membraneDepth = behind.depth;
-  membraneAt = behind.depthAt;
-  bool bends = membraneDepth < NOWHERE && membranePart != PART_IN_FRONT;
+  findLegEnd(ivec2(pixel));
   limitRay(opaque);
-  // The straight part comes first, if a ray of the tile enters the mesh there, then the refracted
-  // part: both in one loop, in which adjacent rays take the turns that they need.
-  moreEntries = meetsMesh && membranePart != PART_BEHIND &&
-    fetchTile(ivec2(pixel / tileSize), 0).x != -1.0;
-  bool straight = moreEntries;
-  bool goesOn = straight || bends;
+  // Leg 0 comes first, if a ray of the tile enters the mesh there, then the others: all in one
+  // loop, in which adjacent rays take the turns that they need.
+  moreEntries =
+    meetsMesh && firstLeg == 0 && fetchTile(ivec2(pixel / tileSize), 0).x != -1.0;
+  bool casts = moreEntries;
+  bool goesOn = casts || meetsDrawnLeg();
   while (goesOn)
   {
-    goesOn = straight || goOnBehind(opaque, lastDepth);
-    if (goesOn)
+    casts = casts || setUpNextLeg(opaque, lastDepth);
+    if (casts)
     {
-      castPart(lastDepth, steps, lost);
+      castLeg(lastDepth, steps, lost);
     }
-    goesOn = goesOn && bends && !rayIsRefracted && !isRayDone();
-    straight = false;
+    goesOn = meetsDrawnLeg() && !isRayDone();
+    casts = false;
   }
 #else
   limitRay(opaque);
-  castPart(lastDepth, steps, lost);
+  castLeg(lastDepth, steps, lost);
 #endif
   return finishRay();
 }

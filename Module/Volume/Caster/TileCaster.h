@@ -5,10 +5,12 @@
 
 #include "Common/RangeLoop.h"
 #include "Simd/InstructionSets.h"
-#include "Volume/Caster/GradientShadingTable.h"
+#include "Volume/Caster/JoinedRays.h"
+#include "Volume/Caster/LegBatch.h"
+#include "Volume/Caster/LegFrame.h"
 #include "Volume/Caster/PacketTables.h"
-#include "Volume/Caster/RefractedRayCaster.h"
-#include "Volume/Entries/BoundaryRaster.h"
+#include "Volume/Caster/RefractedLegEntries.h"
+#include "Volume/Caster/SightLegEntries.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Optics/PreIntegration.h"
 #include "Volume/Optics/TransferFunction.h"
@@ -16,6 +18,7 @@
 #include "Volume/Rays/ClippingPlanes.h"
 #include "Volume/Rays/FixedPointRays.h"
 #include "Volume/Rays/RayStatistics.h"
+#include "Volume/Refracted/RayLegs.h"
 
 #include <memory>
 #include <vector>
@@ -23,7 +26,11 @@
 namespace meniscus
 {
 
-/** Casts the rays of an image by tiles, which are independent of each other. */
+/**
+ * Casts the rays of an image by tiles, which are independent of each other. A ray is a list of
+ * legs, which are cast one after the other: the lines of a leg are collected, with the faces by
+ * which they enter the mesh, cast in packets and joined to the legs in front of them.
+ */
 class TileCaster
 {
 public:
@@ -71,7 +78,7 @@ public:
     /** Transmittance at or below which a ray ends. */
     float TerminationTransmittance = 0.0f;
     InstructionSet Set = InstructionSet::Portable;
-    /** Refraction at a membrane; none without a Sight. */
+    /** Refraction of the rays; none without further legs. */
     RefractedScene Refracted;
   };
 
@@ -80,17 +87,19 @@ public:
   TileCaster(const TileCaster&) = delete;
   TileCaster& operator=(const TileCaster&) = delete;
 
-  int GetNumberOfTiles() const { return this->Raster.GetNumberOfTiles(); }
-  BoundaryRaster::PixelBox GetBox(int tile) const { return this->Raster.BoxOfTile(tile); }
+  int GetNumberOfTiles() const { return this->Legs.GetNumberOfTiles(); }
+  BoundaryRaster::PixelBox GetBox(int tile) const
+  {
+    return this->Sight.GetRaster().BoxOfTile(tile);
+  }
 
   /** Buffers of one thread. */
   struct Workspace
   {
-    BoundaryRaster::Workspace Entries;
-    std::vector<PacketRay> Rays;
+    SightLegEntries::Workspace Sight;
+    RefractedLegEntries::Workspace Refracted;
     std::vector<PacketResult> Results;
-    std::vector<std::int64_t> Pixels;
-    RefractedRayCaster::Workspace Refracted;
+    JoinedRays Joined;
   };
 
   /**
@@ -101,20 +110,20 @@ public:
   RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
 
 private:
-  PacketRay RayOf(int column, int row, const float* opaqueDepth, double farthest) const;
-  void TakeRays(
-    int tile, const float* opaqueDepth, const RefractedRay* refracted, Workspace& workspace) const;
+  FrameOptics SightOptics() const;
   void SetOptics(PacketJob& job) const;
-  bool IsMeshInFront(int tile, const RefractedRay* refracted) const;
-  void CastStraight(PacketJob& job, Workspace& workspace) const;
-  RayStatistics ShowStraight(const Workspace& workspace, float* image) const;
-  void KeepStraight(int tile, const RefractedRay* refracted, Workspace& workspace) const;
+  template <class Entries>
+  void CastLeg(const Entries& entries, typename Entries::Workspace& found, const TileLeg& leg,
+    PacketJob& job, Workspace& workspace, float* image, RayStatistics& sums) const;
+  void CastBatch(const LegBatch& batch, PacketJob& job, std::vector<PacketResult>& results) const;
+  void Show(const LegBatch& batch, const TileLeg& leg, const std::vector<PacketResult>& results,
+    float* image, RayStatistics& sums) const;
 
   Scene Input;
-  BoundaryRaster Raster;
-  GradientShadingTable Medium;
+  RayLegs Legs;
   PacketSegmentTable SegmentTable{};
-  std::unique_ptr<RefractedRayCaster> Refracted;
+  SightLegEntries Sight;
+  std::unique_ptr<RefractedLegEntries> Refracted;
 };
 
 }

@@ -7,6 +7,7 @@
 #include "Volume/Mesh/BoundaryTree.h"
 #include "Volume/Mesh/TetrahedralMesh.h"
 #include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
 #include <cstdint>

@@ -125,18 +125,14 @@ void RefractedRayField::Clear()
 {
   this->Seen = false;
   this->UndecidedRays = 0;
-  this->Tiles.clear();
+  this->Refracted.Clear();
 }
 
 //------------------------------------------------------------------------------
 std::int64_t RefractedRayField::GetBytes() const
 {
-  std::size_t bytes = (this->TileBegin.capacity() + this->FacetOfSlot.capacity()) * 4;
-  for (const std::vector<RefractedRay>& tile : this->Tiles)
-  {
-    bytes += tile.capacity() * sizeof(RefractedRay);
-  }
-  return static_cast<std::int64_t>(bytes);
+  const std::size_t bytes = (this->TileBegin.capacity() + this->FacetOfSlot.capacity()) * 4;
+  return static_cast<std::int64_t>(bytes) + this->Refracted.GetBytes();
 }
 
 //------------------------------------------------------------------------------
@@ -328,7 +324,7 @@ void RefractedRayField::Build(
 
   const std::size_t tiles = this->TileBegin.size() - 1;
   std::vector<TileSum> sums(tiles);
-  this->Tiles.resize(tiles);
+  this->Refracted.Resize(tiles);
   loop(tiles,
     [&](std::size_t begin, std::size_t end)
     {
@@ -337,8 +333,7 @@ void RefractedRayField::Build(
         sums[tile] = this->TraceTile(patches, facets, static_cast<int>(tile));
       }
     });
-  this->Seen = std::any_of(this->Tiles.begin(), this->Tiles.end(),
-    [](const std::vector<RefractedRay>& tile) { return !tile.empty(); });
+  this->Seen = this->Refracted.HasRays();
   glm::dvec3 sum(0.0);
   this->UndecidedRays = 0;
   for (const TileSum& tile : sums)
@@ -455,7 +450,7 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(
   const TileRays tileRays(*this, tile);
   if (this->HidesTile(patches, facets, tile, tileRays))
   {
-    this->Tiles[static_cast<std::size_t>(tile)].assign(
+    this->Refracted.ChangeTile(tile).assign(
       RaysOfTile, RefractedRay{ this->Of.EyeDepth, glm::dvec3(0.0) });
     return sum;
   }
@@ -471,7 +466,7 @@ RefractedRayField::TileSum RefractedRayField::TraceTile(
       sum.Undecided += this->TraceFacet(patches.GetPatch(facet), seen, tileRays, hits);
     }
   }
-  this->RefractTile(tileRays, hits, this->Tiles[static_cast<std::size_t>(tile)], sum.Directions);
+  this->RefractTile(tileRays, hits, this->Refracted.ChangeTile(tile), sum.Directions);
   return sum;
 }
 

@@ -9,44 +9,17 @@
 #include "Simd/InstructionSets.h"
 #include "Volume/Rays/RayFrame.h"
 #include "Volume/Refracted/PatchIntersector.h"
+#include "Volume/Refracted/RefractedRayTiles.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace meniscus
 {
-
-/**
- * Part of a ray that is drawn: the whole ray, the part in front of the membrane (and rays that miss
- * it), or the part behind it.
- */
-enum class MembranePart
-{
-  Whole,
-  InFront,
-  Behind
-};
-
-/** Refraction of one pixel's ray at the membrane, in the frame of the view. */
-struct RefractedRay
-{
-  /** Depth of the sight point; infinite if the ray does not meet the membrane. */
-  double Depth = std::numeric_limits<double>::infinity();
-  /**
-   * Step along the refracted ray per unit of depth along the sight ray: the point drawn at the
-   * depth Depth + s is the sight point + s * Step (the inverse of the thesis's Eq. 2.4). It is 0 if
-   * the ray is totally reflected.
-   */
-  glm::dvec3 Step{ 0.0 };
-
-  bool MeetsMembrane() const { return this->Depth < std::numeric_limits<double>::infinity(); }
-  bool GoesOn() const { return this->Step != glm::dvec3(0.0); }
-};
 
 /** Bounding box of the visible geometry, in the frame of the view. */
 struct BoundsInFrame
@@ -89,8 +62,8 @@ public:
     bool operator==(const View& other) const;
   };
 
-  static constexpr int TileSize = 32;
-  static constexpr int RaysOfTile = TileSize * TileSize;
+  static constexpr int TileSize = RefractedRayTiles::TileSize;
+  static constexpr int RaysOfTile = RefractedRayTiles::RaysOfTile;
 
   /** Traces all rays to the membrane. */
   void Build(const Membrane& surface, const CurvedPatches& patches, const View& view,
@@ -98,16 +71,10 @@ public:
   /** Removes all rays. */
   void Clear();
 
-  /**
-   * Rays of a tile in rows of TileSize, starting at the tile's lower left pixel; null if no ray of
-   * the tile meets the membrane. Tiles are numbered as in BoundaryRaster.
-   */
-  const RefractedRay* GetTile(int tile) const
-  {
-    const auto& rays = this->Tiles[static_cast<std::size_t>(tile)];
-    return rays.empty() ? nullptr : rays.data();
-  }
-  int GetNumberOfTiles() const { return static_cast<int>(this->Tiles.size()); }
+  /** The refracted rays: leg 1 of the rays of the image (RayLegs). */
+  const RefractedRayTiles& GetRays() const { return this->Refracted; }
+  const RefractedRay* GetTile(int tile) const { return this->Refracted.GetTile(tile); }
+  int GetNumberOfTiles() const { return this->Refracted.GetNumberOfTiles(); }
   /** True if any ray meets the membrane. */
   bool IsSeen() const { return this->Seen; }
   /**
@@ -185,7 +152,7 @@ private:
   InstructionSet Set = BestInstructionSet();
   std::vector<std::int32_t> TileBegin;
   std::vector<std::int32_t> FacetOfSlot;
-  std::vector<std::vector<RefractedRay>> Tiles;
+  RefractedRayTiles Refracted;
 };
 
 }

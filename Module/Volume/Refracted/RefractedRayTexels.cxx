@@ -6,13 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace meniscus
 {
 namespace
 {
 
-constexpr int TileSize = RefractedRayField::TileSize;
+constexpr int TileSize = RefractedRayTiles::TileSize;
+
+/** Line of a leg that a ray does not have. */
+constexpr RefractedRayLine NoLine{ {}, {}, RefractedRayLine::Nowhere, 0.0f, 0.0f,
+  128 << 8 | 128 << 16 };
 
 /** Grid depth of a float, computed as in vtkTetrahedraRays.glsl. */
 std::int32_t GridDepthOf(float depth)
@@ -33,19 +38,28 @@ std::int32_t RestOf(double depth)
     (atMesh ? static_cast<std::int32_t>(std::lrint(depth * PacketVertex::GridPerDepth)) - grid : 0);
 }
 
-RefractedRayLine LineOf(const RefractedRay& ray, const glm::dvec2& pixel,
-  const RefractedRayField::View& view, const RefractionFrames& frames)
+/** Line of leg number `number` of a ray. */
+RefractedRayLine LineOf(
+  const RayLegs& legs, const RefractionFrames& frames, int tile, int pixel, int number)
 {
-  RefractedRayLine line{ {}, {}, static_cast<float>(ray.Depth), 0.0f, 0.0f,
-    RestOf(ray.Depth) << 8 };
-  if (ray.GoesOn())
+  RayLeg before;
+  if (!legs.Find(tile, pixel, number - 1, before) ||
+    !(before.End < std::numeric_limits<double>::infinity()))
   {
-    const int index = frames.IndexOf(ray.Step);
+    return NoLine;
+  }
+  const glm::dvec3 sightPoint = before.Begin + (before.End - before.Depth) * before.Step;
+  // The frame of the sight ray is that of the view.
+  const double end =
+    number == 1 ? sightPoint.z : (frames.Get(frames.IndexOf(before.Step)).FromView * sightPoint).z;
+  RefractedRayLine line{ {}, {}, static_cast<float>(end), 0.0f, 0.0f, RestOf(end) << 8 };
+  RayLeg leg;
+  if (legs.Find(tile, pixel, number, leg))
+  {
+    const int index = frames.IndexOf(leg.Step);
     const glm::dmat3& turn = frames.Get(index).FromView;
-    const glm::dvec2 across =
-      view.Frame.Origin.At(pixel.x, pixel.y) + ray.Depth * view.Frame.Slope.At(pixel.x, pixel.y);
-    const glm::dvec3 place = turn * glm::dvec3(across, ray.Depth);
-    const glm::dvec3 step = turn * ray.Step;
+    const glm::dvec3 place = turn * leg.Begin;
+    const glm::dvec3 step = turn * leg.Step;
     const FrameLine of = FrameLine::Through(place, step);
     const PacketRay packet = frames.Get(index).Rays.RayAlong(of.Origin, of.Slope);
     for (int axis = 0; axis < 2; ++axis)
@@ -61,12 +75,31 @@ RefractedRayLine LineOf(const RefractedRay& ray, const glm::dvec2& pixel,
   return line;
 }
 
+/** Lays out the lines of one leg in a tile; `lines` are those of all pixels. */
+void LayOutTile(const RayLegs& legs, const RefractionFrames& frames, int tile, int number,
+  RefractedRayLine* lines)
+{
+  const bool any = number < legs.GetNumberOfLegs(tile);
+  const int left = legs.GetLeft(tile);
+  const int bottom = legs.GetBottom(tile);
+  const int right = std::min(left + TileSize, legs.GetWidth());
+  for (int row = bottom; row < std::min(bottom + TileSize, legs.GetHeight()); ++row)
+  {
+    RefractedRayLine* line = lines + std::int64_t{ row } * legs.GetWidth();
+    for (int column = left; column < right; ++column)
+    {
+      const int pixel = (row - bottom) * TileSize + column - left;
+      line[column] = any ? LineOf(legs, frames, tile, pixel, number) : NoLine;
+    }
+  }
+}
+
 }
 
 //------------------------------------------------------------------------------
-std::int32_t RefractedRayLine::GetGridMembraneDepth() const
+std::int32_t RefractedRayLine::GetGridEndBefore() const
 {
-  return GridDepthOf(this->MembraneDepth) + (this->FrameAndRests >> 8 & 255) - 128;
+  return GridDepthOf(this->EndBefore) + (this->FrameAndRests >> 8 & 255) - 128;
 }
 
 //------------------------------------------------------------------------------
@@ -76,38 +109,21 @@ std::int32_t RefractedRayLine::GetGridStart() const
 }
 
 //------------------------------------------------------------------------------
-void LayOutRefractedRays(const RefractedRayField& sight, const RefractionFrames& frames,
-  const RangeLoop& loop, std::vector<RefractedRayLine>& lines)
+void LayOutRefractedRays(const RayLegs& legs, const RefractionFrames& frames, const RangeLoop& loop,
+  std::vector<RefractedRayLine>& lines)
 {
-  const RefractedRayField::View& view = sight.GetView();
-  const auto width = static_cast<std::size_t>(view.Width);
-  lines.resize(width * static_cast<std::size_t>(view.Height));
-  const int columns = (view.Width + TileSize - 1) / TileSize;
-  constexpr RefractedRayLine straight{ {}, {}, RefractedRayLine::Nowhere, 0.0f, 0.0f,
-    128 << 8 | 128 << 16 };
-  const auto layOutTile = [&](int tile)
-  {
-    const RefractedRay* rays = sight.GetTile(tile);
-    const int left = tile % columns * TileSize;
-    const int bottom = tile / columns * TileSize;
-    const int right = std::min(left + TileSize, view.Width);
-    for (int row = bottom; row < std::min(bottom + TileSize, view.Height); ++row)
-    {
-      RefractedRayLine* line = &lines[static_cast<std::size_t>(row) * width];
-      for (int column = left; column < right; ++column)
-      {
-        const RefractedRay* ray = rays ? rays + (row - bottom) * TileSize + column - left : nullptr;
-        const glm::dvec2 pixel(column + 0.5 - 0.5 * view.Width, row + 0.5 - 0.5 * view.Height);
-        line[column] = ray && ray->MeetsMembrane() ? LineOf(*ray, pixel, view, frames) : straight;
-      }
-    }
-  };
-  loop(static_cast<std::size_t>(sight.GetNumberOfTiles()),
-    [&layOutTile](std::size_t begin, std::size_t end)
+  const std::size_t pixels = static_cast<std::size_t>(legs.GetWidth()) * legs.GetHeight();
+  lines.resize(pixels * static_cast<std::size_t>(legs.GetNumberOfLegs() - 1));
+  loop(static_cast<std::size_t>(legs.GetNumberOfTiles()),
+    [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t tile = begin; tile < end; ++tile)
       {
-        layOutTile(static_cast<int>(tile));
+        for (int number = 1; number < legs.GetNumberOfLegs(); ++number)
+        {
+          LayOutTile(legs, frames, static_cast<int>(tile), number,
+            lines.data() + pixels * static_cast<std::size_t>(number - 1));
+        }
       }
     });
 }

@@ -78,26 +78,34 @@ int RefractionFrames::IndexOf(const glm::dvec3& step) const
 }
 
 //------------------------------------------------------------------------------
-void RefractionFrames::Turn(
-  const RefractedRayField& sight, const RayFrame& view, const RangeLoop& loop)
+/** Returns a bit per frame that a ray of the tile needs. */
+unsigned int RefractionFrames::FindNeeded(const RayLegs& legs, int tile) const
 {
-  glm::dvec3 depth = sight.GetMeanDirection();
-  depth = depth == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : depth;
-  const HeightFrame along(depth);
+  unsigned int needed = 0;
+  for (int leg = 1; leg < legs.GetNumberOfLegs(tile); ++leg)
+  {
+    const RefractedRay* rays = legs.GetTile(leg, tile);
+    for (int i = 0; i < RefractedRayTiles::RaysOfTile; ++i)
+    {
+      needed |= rays[i].GoesOn() ? 1u << this->IndexOf(rays[i].Step) : 0u;
+    }
+  }
+  return needed;
+}
+
+//------------------------------------------------------------------------------
+void RefractionFrames::Turn(const RayLegs& legs, const glm::dvec3& mean, const RangeLoop& loop)
+{
+  const HeightFrame along(mean == glm::dvec3(0.0) ? glm::dvec3(0.0, 0.0, 1.0) : mean);
   this->Axes = glm::dmat3(along.First, along.Second, along.Axis);
 
-  const int tiles = sight.GetNumberOfTiles();
-  std::vector<unsigned int> needed(static_cast<std::size_t>(tiles), 0);
+  std::vector<unsigned int> needed(static_cast<std::size_t>(legs.GetNumberOfTiles()), 0);
   loop(needed.size(),
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t tile = begin; tile < end; ++tile)
       {
-        const RefractedRay* rays = sight.GetTile(static_cast<int>(tile));
-        for (int i = 0; rays && i < RefractedRayField::RaysOfTile; ++i)
-        {
-          needed[tile] |= rays[i].GoesOn() ? 1u << this->IndexOf(rays[i].Step) : 0u;
-        }
+        needed[tile] = this->FindNeeded(legs, static_cast<int>(tile));
       }
     });
   this->Needed = 0;
@@ -111,7 +119,7 @@ void RefractionFrames::Turn(
     this->Frames[index] = RefractionFrame();
     if (this->Needed >> index & 1u)
     {
-      this->Frames[index] = MakeFrame(view, RotationTo(this->Axes, index));
+      this->Frames[index] = MakeFrame(legs.GetSight(), RotationTo(this->Axes, index));
       this->Frames[index].Vertices = std::move(room);
     }
   }

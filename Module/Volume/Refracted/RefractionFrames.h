@@ -8,7 +8,7 @@
 #include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/FixedPointRays.h"
-#include "Volume/Refracted/RefractedRayField.h"
+#include "Volume/Refracted/RayLegs.h"
 
 #include <array>
 #include <cstdint>
@@ -48,17 +48,20 @@ struct RefractionFrame
 };
 
 /**
- * Frames for rays of any direction. One frame handles all slopes within 1; there are six, with
- * depth along and against the axes of a cube. The depth of the first one is the mean direction of
- * the refracted rays, so that in most cases no other is needed.
+ * Frames for the refracted legs of an image's rays, of any direction. One frame handles all slopes
+ * within 1; there are six, with depth along and against the axes of a cube. The depth of the first
+ * one is the mean direction of the refracted rays, so that in most cases no other is needed.
  */
 class RefractionFrames
 {
 public:
   static constexpr int Number = 6;
 
-  /** Rotates the frames to the refracted rays, and determines which frames are needed. */
-  void Turn(const RefractedRayField& sight, const RayFrame& view, const RangeLoop& loop);
+  /**
+   * Rotates the frames to the refracted legs, and determines which frames are needed.
+   * @param mean their mean direction in the frame of the view; 0 if there is none.
+   */
+  void Turn(const RayLegs& legs, const glm::dvec3& mean, const RangeLoop& loop);
 
   /**
    * Places the vertices of a mesh in the frames that are needed. For the scalars see
@@ -75,6 +78,8 @@ public:
   std::int64_t GetBytes() const;
 
 private:
+  unsigned int FindNeeded(const RayLegs& legs, int tile) const;
+
   /** Columns: the axes of the cube, the mean direction last. */
   glm::dmat3 Axes{ 1.0 };
   unsigned int Needed = 0;

@@ -166,7 +166,7 @@ TileCaster::Scene RayCastNative::MakeScene(const RayCastRequest& request)
   {
     scene.Refracted = tables.Membrane.See(tables.Input);
   }
-  scene.Refracted.Part = frame.Refracting.Part;
+  scene.Refracted.Drawn = LegsOf(frame.Refracting.Part);
   return scene;
 }
 

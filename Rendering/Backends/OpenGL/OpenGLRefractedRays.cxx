@@ -15,12 +15,15 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-std::string OpenGLRefractedRays::DescribeExcess(const int (&imageSize)[2], std::int64_t limit)
+std::string OpenGLRefractedRays::DescribeExcess(
+  const int (&imageSize)[2], int legs, std::int64_t limit)
 {
   GLint side = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
-  const std::int64_t texels = std::int64_t{ 2 } * imageSize[0] * imageSize[1];
-  if (texels <= limit && 2 * imageSize[0] <= side && imageSize[1] <= side)
+  const std::int64_t columns = std::int64_t{ 2 } * imageSize[0];
+  const std::int64_t rows = std::int64_t{ legs - 1 } * imageSize[1];
+  const std::int64_t texels = columns * rows;
+  if (texels <= limit && columns <= side && rows <= side)
   {
     return std::string();
   }
@@ -32,7 +35,7 @@ std::string OpenGLRefractedRays::DescribeExcess(const int (&imageSize)[2], std::
 
 //------------------------------------------------------------------------------
 std::string OpenGLRefractedRays::Upload(vtkOpenGLRenderWindow* window,
-  const std::vector<RefractedRayLine>& lines, int width, int height, const RefractionFrames& frames)
+  const std::vector<RefractedRayLine>& lines, int width, const RefractionFrames& frames)
 {
   static_assert(sizeof(RefractedRayLine) == 8 * sizeof(std::int32_t), "two texels of four numbers");
   this->Release(window);
@@ -46,6 +49,7 @@ std::string OpenGLRefractedRays::Upload(vtkOpenGLRenderWindow* window,
   texture->SetDataType(GL_INT);
   // VTK only reads the values, but requires a pointer to non-const data.
   auto* values = const_cast<RefractedRayLine*>(lines.data());
+  const auto height = static_cast<unsigned int>(lines.size() / static_cast<std::size_t>(width));
   if (!texture->Create2DFromRaw(2 * width, height, 4, VTK_INT, values))
   {
     return "a table of " + std::to_string(lines.size() * sizeof(RefractedRayLine)) +

@@ -25,7 +25,10 @@ class vtkWindow;
 namespace meniscus
 {
 
-/** The refracted rays of an image for shaders: a line per pixel, and the frames of the lines. */
+/**
+ * The refracted legs of an image's rays for shaders: a line per pixel and leg, and the frames of
+ * the lines.
+ */
 class OpenGLRefractedRays
 {
 public:
@@ -33,14 +36,17 @@ public:
   std::int64_t GetBytes() const { return this->Bytes; }
 
   /**
-   * Description of the limit, in texels or of the device, that an image of the given size exceeds;
-   * empty if none.
+   * Description of the limit, in texels or of the device, that an image of the given size exceeds
+   * whose rays have that many legs; empty if none.
    */
-  static std::string DescribeExcess(const int (&imageSize)[2], std::int64_t limit);
+  static std::string DescribeExcess(const int (&imageSize)[2], int legs, std::int64_t limit);
 
-  /** Replaces the contents. Returns an error or an empty string. */
+  /**
+   * Replaces the contents. Returns an error or an empty string.
+   * @param lines result of LayOutRefractedRays() for an image of the given width.
+   */
   std::string Upload(vtkOpenGLRenderWindow* window, const std::vector<RefractedRayLine>& lines,
-    int width, int height, const RefractionFrames& frames);
+    int width, const RefractionFrames& frames);
 
   /**
    * Rows of the frames with lines, in the order in which their vertices follow those of the view.

@@ -133,7 +133,7 @@ std::string OpenGLTables::Upload(
     case RayCastTable::PreIntegration:
       return this->UploadPreIntegration(tables.PreIntegration.GetTable());
     case RayCastTable::RefractedRays:
-      return this->UploadRefractedRays(tables.Membrane, frame.Output.ImageSize);
+      return this->UploadRefractedRays(tables.Membrane);
     default:
       return "a table is unknown";
   }
@@ -329,13 +329,13 @@ std::string OpenGLTables::UploadPreIntegration(const PreIntegrationTable& table)
 }
 
 //------------------------------------------------------------------------------
-std::string OpenGLTables::UploadRefractedRays(
-  const RayCastMembrane& membrane, const int (&imageSize)[2])
+std::string OpenGLTables::UploadRefractedRays(const RayCastMembrane& membrane)
 {
+  const RayLegs legs = membrane.GetLegs();
   std::vector<RefractedRayLine> lines;
-  LayOutRefractedRays(membrane.GetSight(), membrane.GetFrames(), ThreadedLoop, lines);
-  const std::string error = this->RefractedRayTexels.Upload(
-    this->Window, lines, imageSize[0], imageSize[1], membrane.GetFrames());
+  LayOutRefractedRays(legs, membrane.GetFrames(), ThreadedLoop, lines);
+  const std::string error =
+    this->RefractedRayTexels.Upload(this->Window, lines, legs.GetWidth(), membrane.GetFrames());
   this->UploadedBytes += this->RefractedRayTexels.GetBytes();
   return error;
 }

@@ -63,7 +63,7 @@ public:
     const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit);
 
   /**
-   * Places the vertices in the grid of the rays and, for optics with Refracting, in the grids of
+   * Places the vertices in the grid of the rays and, for rays of several legs, in the grids of
    * their frames.
    */
   std::string PlaceVertices(const FixedPointRays& rays, bool refracting);
@@ -102,8 +102,8 @@ private:
   std::string UploadCellScalars(const std::vector<float>& scalars);
   std::string UploadPreIntegration(const PreIntegrationTable& table);
   std::string UploadProperty(const VolumePropertyTables& tables);
-  /** A line per pixel. */
-  std::string UploadRefractedRays(const RayCastMembrane& membrane, const int (&imageSize)[2]);
+  /** A line per pixel and refracted leg. */
+  std::string UploadRefractedRays(const RayCastMembrane& membrane);
   /** All tables but those of pre-integration and of refracted lines. */
   std::vector<OpenGLTable*> List();
   std::string Count(OpenGLTable& table, const std::string& error);

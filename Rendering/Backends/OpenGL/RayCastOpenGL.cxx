@@ -90,7 +90,8 @@ std::string RayCastOpenGL::DescribeExcess(const RayCastRequest& request)
   const std::string error = OpenGLTables::DescribeExcess(request.Tables.Input.GetMesh(),
     frame.Optics.CompactCells, refracts ? 1 + RefractionFrames::Number : 1, frame.MaximumTableSize);
   return error.empty() && refracts
-    ? OpenGLRefractedRays::DescribeExcess(frame.Output.ImageSize, frame.MaximumTableSize)
+    ? OpenGLRefractedRays::DescribeExcess(frame.Output.ImageSize,
+        request.Tables.Membrane.GetLegs().GetNumberOfLegs(), frame.MaximumTableSize)
     : error;
 }
 
@@ -100,13 +101,14 @@ std::string RayCastOpenGL::Update(const RayCastRequest& request)
   this->SetWindow(request.GetWindow());
   RayCastTables& tables = request.Tables;
   this->Frame = request.Frame;
-  this->Frame.Optics.Refracting = request.Frame.Refracting.Met;
+  this->Frame.Optics.NumberOfLegs =
+    request.Frame.Refracting.Met ? tables.Membrane.GetLegs().GetNumberOfLegs() : 1;
   const std::string error = this->Tables.Update(tables, request.Frame);
   if (!error.empty())
   {
     return error;
   }
-  if (this->Frame.Optics.Refracting)
+  if (this->Frame.Optics.IsRefracting())
   {
     this->BeginsInside = tables.Membrane.BeginsInside(tables.Input);
     this->RefractedVersions = { tables.Membrane.GetSightVersion(), tables.Input.GetLinkVersion() };
@@ -123,17 +125,17 @@ std::string RayCastOpenGL::Cast(RayCastTarget& target, RayProgram program)
 {
   this->Image = target.GetImageTexture();
   this->Depth = target.GetDepthTexture();
-  const bool refracting = this->Frame.Optics.Refracting;
-  const bool straight = this->Frame.Refracting.Part != MembranePart::Behind;
+  const bool refracting = this->Frame.Optics.IsRefracting();
+  const bool drawsSight = LegsOf(this->Frame.Refracting.Part).First == 0;
   std::string error = this->Resize(target.GetWidth(), target.GetHeight());
   if (error.empty())
   {
     error = this->Tables.PlaceVertices(
       FixedPointRays(this->Frame.Rays, this->Size[0], this->Size[1]), refracting);
   }
-  if (error.empty() && straight && !this->Frame.Optics.LongLists)
+  if (error.empty() && drawsSight && !this->Frame.Optics.LongLists)
   {
-    error = this->ListEntries(this->Frame, false);
+    error = this->ListEntries(this->Frame, 0);
   }
   if (error.empty() && refracting)
   {
@@ -163,7 +165,7 @@ std::string RayCastOpenGL::Resize(int width, int height)
   this->Tiles[0] = (width + OpenGLEntryLists::TileSize - 1) / OpenGLEntryLists::TileSize;
   this->Tiles[1] = (height + OpenGLEntryLists::TileSize - 1) / OpenGLEntryLists::TileSize;
   if (!this->StatisticsImage->Allocate2D(width, height, 2, VTK_FLOAT) ||
-    !this->AllocateTiles(this->EntryTiles).empty())
+    !this->AllocateTiles(this->EntryTiles, 1).empty())
   {
     this->Size[0] = this->Size[1] = 0;
     return "no statistics and lists for " + std::to_string(width) + " x " + std::to_string(height) +
@@ -193,13 +195,14 @@ std::string RayCastOpenGL::ReadyQuad(
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastOpenGL::AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles)
+/** Makes room for a number of lists per tile. */
+std::string RayCastOpenGL::AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles, int lists)
 {
   tiles = vtkSmartPointer<vtkTextureObject>::New();
   tiles->SetContext(this->Window);
   tiles->SetMinificationFilter(vtkTextureObject::Nearest);
   tiles->SetMagnificationFilter(vtkTextureObject::Nearest);
-  return tiles->Allocate3D(this->Tiles[0], this->Tiles[1], TileLayers, 4, VTK_FLOAT)
+  return tiles->Allocate3D(this->Tiles[0], this->Tiles[1], lists * TileLayers, 4, VTK_FLOAT)
     ? std::string()
     : "no lists of entries can be made on the graphics device";
 }
@@ -211,15 +214,17 @@ std::string RayCastOpenGL::AllocateTiles(vtkSmartPointer<vtkTextureObject>& tile
  */
 std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame)
 {
-  if (this->RefractedTiles && this->RefractedTilesVersions == this->RefractedVersions)
+  const int legs = frame.Optics.NumberOfLegs;
+  const bool hasRoom = this->RefractedTiles && this->RefractedTilesLegs == legs;
+  if (hasRoom && this->RefractedTilesVersions == this->RefractedVersions)
   {
     return std::string();
   }
-  std::string error =
-    this->RefractedTiles ? std::string() : this->AllocateTiles(this->RefractedTiles);
-  if (error.empty())
+  std::string error = hasRoom ? std::string() : this->AllocateTiles(this->RefractedTiles, legs - 1);
+  this->RefractedTilesLegs = legs;
+  for (int leg = 1; leg < legs && error.empty(); ++leg)
   {
-    error = this->ListEntries(frame, true);
+    error = this->ListEntries(frame, leg);
     ++this->RefractedEntryLists;
   }
   this->RefractedTilesVersions = error.empty() ? this->RefractedVersions : TableVersions();
@@ -227,30 +232,33 @@ std::string RayCastOpenGL::ListRefractedEntries(const RayCastFrame& frame)
 }
 
 //------------------------------------------------------------------------------
-/** @param refracted true: the entries of the refracted rays. */
-std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, bool refracted)
+/** Lists the entries of a leg of the rays. */
+std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, int leg)
 {
+  const bool refracted = leg > 0;
   if (!this->TileTarget)
   {
     this->TileTarget = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
     this->TileTarget->SetContext(this->Window);
   }
   this->TileTarget->Bind();
+  // VTK 9.1 ignores a new layer of a texture that is attached already.
+  this->TileTarget->RemoveColorAttachments(TileLayers);
   for (unsigned int layer = 0; layer < TileLayers; ++layer)
   {
-    this->TileTarget->AddColorAttachment(
-      layer, refracted ? this->RefractedTiles : this->EntryTiles, layer);
+    this->TileTarget->AddColorAttachment(layer, refracted ? this->RefractedTiles : this->EntryTiles,
+      layer + (refracted ? (leg - 1) * TileLayers : 0));
   }
   DrawToAttachments(this->TileTarget, TileLayers);
   this->Window->GetState()->vtkglViewport(0, 0, this->Tiles[0], this->Tiles[1]);
 
-  const bool refracting = frame.Optics.Refracting;
-  std::unique_ptr<vtkOpenGLQuadHelper>& lister = this->TileListers[refracting ? 1 + refracted : 0];
+  const int legs = frame.Optics.NumberOfLegs;
+  std::unique_ptr<vtkOpenGLQuadHelper>& lister = this->TileListers[{ legs, refracted }];
   const std::string error = this->ReadyQuad(lister,
-    [refracting, refracted]()
+    [legs, refracted]()
     {
       RayCastOptics optics;
-      optics.Refracting = refracting;
+      optics.NumberOfLegs = legs;
       std::string source = RayCastShaderSource(vtkTetrahedraEntryTilesFS, optics);
       vtkShaderProgram::Substitute(source, "//VTK::TetrahedraBehind::Dec",
         refracted ? "#define BEHIND 1" : "#define BEHIND 0");
@@ -264,12 +272,16 @@ std::string RayCastOpenGL::ListEntries(const RayCastFrame& frame, bool refracted
   const std::vector<OpenGLTable*> tables = this->ActivateRays(program, frame.Rays);
   const float tiles[2] = { static_cast<float>(this->Tiles[0]), static_cast<float>(this->Tiles[1]) };
   program->SetUniform2f("tileCount", tiles);
-  if (refracting)
+  if (refracted)
+  {
+    program->SetUniformi("listedLeg", leg);
+  }
+  if (legs > 1)
   {
     this->Tables.ActivateRefractedRays(program);
   }
   lister->Render();
-  if (refracting)
+  if (legs > 1)
   {
     this->Tables.GetRefractedRays().Deactivate();
   }
@@ -350,16 +362,18 @@ void RayCastOpenGL::RunCaster(vtkShaderProgram* program, const RayCastFrame& fra
   {
     this->Tables.GetPreIntegration().Activate(program);
   }
-  if (frame.Optics.Refracting)
+  if (frame.Optics.IsRefracting())
   {
     this->Tables.ActivateRefractedRays(program);
     this->RefractedTiles->Activate();
     program->SetUniformi("refractedTiles", this->RefractedTiles->GetTextureUnit());
     program->SetUniformi("beginsInside", this->BeginsInside ? 1 : 0);
-    program->SetUniformi("membranePart", static_cast<int>(frame.Refracting.Part));
+    const LegRange drawn = LegsOf(frame.Refracting.Part);
+    program->SetUniformi("firstLeg", drawn.First);
+    program->SetUniformi("endLeg", drawn.End);
   }
   run();
-  if (frame.Optics.Refracting)
+  if (frame.Optics.IsRefracting())
   {
     this->RefractedTiles->Deactivate();
     this->Tables.GetRefractedRays().Deactivate();
@@ -493,10 +507,7 @@ void RayCastOpenGL::ReleaseGraphicsResources(vtkWindow* window)
   }
   this->GetStatistics();
   this->Tables.Release(owner);
-  for (std::unique_ptr<vtkOpenGLQuadHelper>& lister : this->TileListers)
-  {
-    lister.reset();
-  }
+  this->TileListers.clear();
   this->RayCasters.clear();
   for (auto& caster : this->ComputeCasters)
   {

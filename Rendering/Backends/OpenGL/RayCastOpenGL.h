@@ -68,8 +68,8 @@ private:
   std::string Resize(int width, int height);
   template <typename Function>
   std::string ReadyQuad(std::unique_ptr<vtkOpenGLQuadHelper>& quad, Function&& makeFragmentShader);
-  std::string AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles);
-  std::string ListEntries(const RayCastFrame& frame, bool refracted);
+  std::string AllocateTiles(vtkSmartPointer<vtkTextureObject>& tiles, int lists);
+  std::string ListEntries(const RayCastFrame& frame, int leg);
   std::string ListRefractedEntries(const RayCastFrame& frame);
   std::string CastRays(const RayCastFrame& frame);
   std::string DispatchRays(const RayCastFrame& frame);
@@ -86,16 +86,20 @@ private:
   /** Image and depths of the frame at hand; the target's. */
   vtkTextureObject* Image = nullptr;
   vtkTextureObject* Depth = nullptr;
-  /** Without a membrane; before one, behind it. */
-  std::unique_ptr<vtkOpenGLQuadHelper> TileListers[3];
+  /** By the number of legs of a ray, and whether the leg is refracted. */
+  std::map<std::pair<int, bool>, std::unique_ptr<vtkOpenGLQuadHelper>> TileListers;
   /** Casters by RayCastShaderOptions(). */
   std::map<std::string, std::unique_ptr<vtkOpenGLQuadHelper>> RayCasters;
   std::map<std::string, vtkSmartPointer<OpenGLComputeProgram>> ComputeCasters;
   vtkSmartPointer<vtkOpenGLFramebufferObject> TileTarget;
   vtkSmartPointer<vtkOpenGLFramebufferObject> ImageTarget;
   vtkSmartPointer<vtkTextureObject> EntryTiles;
-  /** The same for the rays behind a membrane, and the versions of the rays and links listed. */
+  /**
+   * The same for the refracted legs, one list behind the other; the number of them, and the
+   * versions of the rays and links listed.
+   */
   vtkSmartPointer<vtkTextureObject> RefractedTiles;
+  int RefractedTilesLegs = 0;
   TableVersions RefractedTilesVersions;
   /** The same of the frame at hand, and whether its refracted rays may begin within the mesh. */
   TableVersions RefractedVersions;

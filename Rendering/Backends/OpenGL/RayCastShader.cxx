@@ -95,7 +95,8 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("GRADIENT_OPACITY", optics.GradientOpacity ? 1 : 0);
   define("VERTEX_GRADIENTS", optics.VertexGradients ? 1 : 0);
   define("CELL_GRADIENTS", optics.UsesCellGradients() ? 1 : 0);
-  define("REFRACTED", optics.Refracting ? 1 : 0);
+  define("NUMBER_OF_LEGS", optics.NumberOfLegs);
+  define("REFRACTED", optics.IsRefracting() ? 1 : 0);
   define("LONG_LISTS", optics.LongLists ? 1 : 0);
   define("COMPACT_CELLS", optics.CompactCells ? 1 : 0);
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);

@@ -8,7 +8,6 @@
 #include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Rays/FixedPointRays.h"
-#include "Volume/Refracted/RefractedRayField.h"
 #include "Volume/Refracted/RefractedRayTexels.h"
 #include "Volume/Refracted/RefractionFrames.h"
 
@@ -102,9 +101,7 @@ std::string Enumerators()
   MENISCUS_BLEND_MODES(MENISCUS_DEFINE)
 #undef MENISCUS_DEFINE
   return text + DefineNumber("INDEPENDENT", ComponentMixture::Independent) +
-    DefineNumber("COLOR_AND_OPACITY", ComponentMixture::ColorAndOpacity) +
-    DefineNumber("PART_IN_FRONT", MembranePart::InFront) +
-    DefineNumber("PART_BEHIND", MembranePart::Behind);
+    DefineNumber("COLOR_AND_OPACITY", ComponentMixture::ColorAndOpacity);
 }
 
 }

@@ -21,6 +21,7 @@ Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, flo
   PlaceVertices(scene.Mesh, scene.Scalars, rays, SerialLoop, tables.Vertices);
   tables.Intervals = PackIntervals(scene.Intervals);
   tables.GradientIntervals = PackIntervals(scene.GradientIntervals);
+  tables.Surfaces = scene.Surfaces;
   for (const std::vector<TransferFunctionInterval>& intervals : scene.OtherIntervals)
   {
     tables.OtherIntervals.push_back(PackIntervals(intervals));

@@ -27,6 +27,7 @@ struct PictureScene
   RayFrame Frame;
   std::vector<std::vector<TransferFunctionInterval>> OtherIntervals{};
   std::vector<TransferFunctionInterval> GradientIntervals{};
+  std::vector<PacketSurface> Surfaces{};
   /** Everything but mesh, tables and rays. */
   TileCaster::Scene Optics{};
 };

@@ -68,8 +68,8 @@ struct PacketJob
   std::int32_t NumberOfRays;
   const PacketEntry* Entries;
   /**
-   * True if results are the model's values, to be joined with those of the refracted part of the
-   * ray (JoinValues()) and converted by FinishValues(): see KeptResult.
+   * True if results are the model's values, to be joined with those of the other legs of the ray
+   * (JoinValues()) and converted by FinishValues(): see KeptResult.
    */
   bool KeepsValues;
   /** One result per ray. */

@@ -53,12 +53,12 @@ public:
     const RefractedRayField::View view{ frame, Size, Size, this->Mesh.GetCenter(), -50.0, 1.0, 1.5,
       BoxOf(this->Tree, frame) };
     this->Sight.Build(this->Surface, this->Patches, view);
-    this->Frames.Turn(this->Sight, frame, SerialLoop);
+    this->Frames.Turn(this->GetLegs(), this->Sight.GetMeanDirection(), SerialLoop);
     this->Frames.Place(this->Mesh, this->Scalars, SerialLoop);
     this->Scene.Mesh = &this->Mesh;
     this->Scene.Boundary = &this->Mesh.GetBoundary();
     this->Scene.Tables = &this->Tables;
-    this->Scene.Refracted = { &this->Sight, &this->Frames, &this->Tree, false };
+    this->Scene.Refracted = { { &this->Sight.GetRays() }, &this->Frames, &this->Tree, false };
   }
 
   std::vector<float> Cast(bool beginsInside, InstructionSet set, RayStatistics& sums)
@@ -77,6 +77,11 @@ public:
       sums.Lost += ofTile.Lost;
     }
     return image;
+  }
+
+  RayLegs GetLegs() const
+  {
+    return RayLegs(this->Sight.GetView().Frame, Size, Size, { &this->Sight.GetRays() });
   }
 
   TetrahedralMesh Mesh;
@@ -143,7 +148,7 @@ TEST(RefractedRays, LinesForShadersAreTheRays)
 {
   const RefractedPicture picture(KuhnGrid(6));
   std::vector<RefractedRayLine> lines;
-  LayOutRefractedRays(picture.Sight, picture.Frames, SerialLoop, lines);
+  LayOutRefractedRays(picture.GetLegs(), picture.Frames, SerialLoop, lines);
   ASSERT_EQ(lines.size(), std::size_t{ Size } * Size);
   const RayFrame& frame = picture.Sight.GetView().Frame;
   constexpr int tileSize = RefractedRayField::TileSize;
@@ -157,14 +162,14 @@ TEST(RefractedRays, LinesForShadersAreTheRays)
       picture.Sight.GetTile(row / tileSize * (Size / tileSize) + column / tileSize);
     const RefractedRay ray =
       tile ? tile[row % tileSize * tileSize + column % tileSize] : RefractedRay();
-    if (!ray.MeetsMembrane() || !ray.GoesOn())
+    if (!ray.MeetsInterface() || !ray.GoesOn())
     {
       EXPECT_EQ(line.PerDepth, 0.0f);
-      EXPECT_EQ(line.MembraneDepth == RefractedRayLine::Nowhere, !ray.MeetsMembrane());
+      EXPECT_EQ(line.EndBefore == RefractedRayLine::Nowhere, !ray.MeetsInterface());
       continue;
     }
     ++refracted;
-    EXPECT_EQ(line.MembraneDepth, static_cast<float>(ray.Depth));
+    EXPECT_EQ(line.EndBefore, static_cast<float>(ray.Depth));
     // Offsets are rounded to grid units, and so are depths within the unit of the frame.
     const auto depthOf = [](std::int32_t grid, float depth)
     { return std::abs(depth) < 1.0f ? FixedPointRays::DepthOf(grid) : double{ depth }; };
@@ -178,7 +183,7 @@ TEST(RefractedRays, LinesForShadersAreTheRays)
       toView * glm::dvec3(unit * line.Offset[0], unit * line.Offset[1], 0.0) +
       depthOf(line.GetGridStart(), line.Start) * along;
     const double precision = std::abs(ray.Depth) < 1.0 ? 1e-9 : 1e-7;
-    EXPECT_NEAR(depthOf(line.GetGridMembraneDepth(), line.MembraneDepth), ray.Depth, precision);
+    EXPECT_NEAR(depthOf(line.GetGridEndBefore(), line.EndBefore), ray.Depth, precision);
     const glm::dvec2 across = frame.Origin.At(column + 0.5 - 0.5 * Size, row + 0.5 - 0.5 * Size) +
       ray.Depth * frame.Slope.At(column + 0.5 - 0.5 * Size, row + 0.5 - 0.5 * Size);
     EXPECT_LE(glm::length(place - glm::dvec3(across, ray.Depth)), 5.0 * precision) << pixel;

@@ -144,14 +144,14 @@ void Compare(
       const glm::dvec3 along = toWorld * glm::dvec3(view.Frame.Slope.At(i, j), 1.0);
       const glm::dvec3 eye = start + view.EyeDepth * along;
       const glm::dvec3 sightPoint = start + exact.Depth * along;
-      const bool comes = exact.MeetsMembrane() &&
+      const bool comes = exact.MeetsInterface() &&
         (box.Meets(eye, along, exact.Depth - view.EyeDepth) ||
           (exact.GoesOn() && box.Meets(sightPoint, toWorld * exact.Step, 1e30)));
-      const bool isHidden = ray.MeetsMembrane() && !ray.GoesOn();
+      const bool isHidden = ray.MeetsInterface() && !ray.GoesOn();
       counts.Shown += comes ? 1 : 0;
       counts.Hidden += exact.GoesOn() && isHidden ? 1 : 0;
       // Rays that do not reach the box may be skipped; rays that miss the membrane are straight.
-      const bool right = same || (!comes && exact.MeetsMembrane() && isHidden);
+      const bool right = same || (!comes && exact.MeetsInterface() && isHidden);
       counts.Wrong += right ? 0 : 1;
     }
   }
@@ -278,7 +278,7 @@ TEST(RefractedRayField, MeetsSpheresAtTheirOutlines)
         const bool meets = squared > 0.0 && first > looking.EyeDepth;
         met += meets;
         // The error of Newton's method is 1e-8 of a facet, more where the ray touches the sphere.
-        wrong += ray.MeetsMembrane() != meets || (meets && std::fabs(ray.Depth - first) > 1e-6);
+        wrong += ray.MeetsInterface() != meets || (meets && std::fabs(ray.Depth - first) > 1e-6);
       }
     }
   }

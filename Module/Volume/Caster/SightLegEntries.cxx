@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Caster/SightLegEntries.h"
+
+#include <algorithm>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr int TileSize = RefractedRayTiles::TileSize;
+static_assert(TileSize == BoundaryRaster::TileSize, "the same tiles");
+
+}
+
+//------------------------------------------------------------------------------
+SightLegEntries::SightLegEntries(const FixedPointRays& rays,
+  const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& boundary,
+  const std::vector<RayClippingPlane>& clippingPlanes, const RayLegs& legs,
+  const FrameOptics& optics)
+  : Rays(rays)
+  , ClippingPlanes(clippingPlanes)
+  , Legs(legs)
+{
+  this->Raster.Build(vertices, boundary, rays);
+  this->Frame.Set(rays, vertices, optics);
+}
+
+//------------------------------------------------------------------------------
+/** @param farthest largest depth at which the ray may end. */
+PacketRay SightLegEntries::RayOf(
+  int column, int row, const float* opaqueDepth, double farthest) const
+{
+  const RayFrame& frame = this->Rays.GetFrame();
+  const std::int64_t pixel = std::int64_t{ row } * this->Rays.GetWidth() + column;
+  double start = frame.NearDepth;
+  double end = opaqueDepth ? frame.DepthAt(2.0 * opaqueDepth[pixel] - 1.0) : 1.0e+30;
+  end = std::min(end, farthest);
+  for (const RayClippingPlane& plane : this->ClippingPlanes)
+  {
+    ClipRay(plane, this->Rays.FromCenter(column, row), start, end);
+  }
+  PacketRay ray = this->Rays.RayOf(column, row);
+  ray.StartDepth = static_cast<float>(start);
+  ray.EndDepth = static_cast<float>(end);
+  return ray;
+}
+
+//------------------------------------------------------------------------------
+/** True if a ray of the tile may enter the mesh in front of the interface. */
+bool SightLegEntries::IsMeshInFront(const TileLeg& leg, const RefractedRay* next) const
+{
+  const double nearest = this->Raster.NearestDepth(leg.Tile);
+  for (int row = 0; row < leg.Box.Top - leg.Box.Bottom; ++row)
+  {
+    for (int column = 0; column < leg.Box.Right - leg.Box.Left; ++column)
+    {
+      // An entry is used if it is before the end, both in single precision.
+      const double depth = next[row * TileSize + column].Depth;
+      if (static_cast<float>(nearest) < static_cast<float>(depth))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+/** Sets up a ray for each pixel with an entry and a non-empty depth range. */
+void SightLegEntries::TakeRays(
+  const TileLeg& leg, const RefractedRay* next, JoinedRays& joined, Workspace& workspace) const
+{
+  const EntryLists& entries = workspace.Raster.Lists;
+  LegBatch& batch = workspace.Batch;
+  for (std::int32_t pixel = 0; pixel < TileSize * TileSize; ++pixel)
+  {
+    const auto inTile = static_cast<std::size_t>(pixel);
+    if (entries.GetBegin(inTile) == entries.GetBegin(inTile + 1))
+    {
+      continue;
+    }
+    PacketRay ray = this->RayOf(leg.Box.Left + pixel % TileSize, leg.Box.Bottom + pixel / TileSize,
+      leg.OpaqueDepth, next ? next[pixel].Depth : 1.0e+30);
+    if (ray.StartDepth < ray.EndDepth)
+    {
+      ray.FirstEntry = entries.GetBegin(inTile);
+      ray.EndEntry = entries.GetBegin(inTile + 1);
+      batch.Rays.push_back(ray);
+      batch.Origins.push_back(
+        { pixel, next && ray.EndDepth == static_cast<float>(next[pixel].Depth) });
+    }
+    else
+    {
+      // The sight point may be inside the mesh all the same.
+      joined.SetEnd(pixel, PacketResult::Somewhere);
+    }
+  }
+  batch.Entries = entries.GetEntries().data();
+}
+
+//------------------------------------------------------------------------------
+void SightLegEntries::Collect(
+  const TileLeg& leg, const PacketJob&, JoinedRays& joined, Workspace& workspace) const
+{
+  workspace.Batch.Clear();
+  workspace.IsTaken = false;
+  const RefractedRay* next =
+    this->Legs.GetNumberOfLegs() > 1 ? this->Legs.GetTile(1, leg.Tile) : nullptr;
+  if (!next || this->IsMeshInFront(leg, next))
+  {
+    this->Raster.CollectEntries(leg.Tile, workspace.Raster);
+    this->TakeRays(leg, next, joined, workspace);
+  }
+}
+
+//------------------------------------------------------------------------------
+const LegBatch* SightLegEntries::NextBatch(int, Workspace& workspace) const
+{
+  const bool isTaken = workspace.IsTaken;
+  workspace.IsTaken = true;
+  return isTaken || workspace.Batch.Rays.empty() ? nullptr : &workspace.Batch;
+}
+
+}

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Caster_SightLegEntries_h
+#define meniscus_Volume_Caster_SightLegEntries_h
+
+#include "Volume/Caster/JoinedRays.h"
+#include "Volume/Caster/LegBatch.h"
+#include "Volume/Caster/LegFrame.h"
+#include "Volume/Entries/BoundaryRaster.h"
+#include "Volume/Rays/ClippingPlanes.h"
+#include "Volume/Rays/FixedPointRays.h"
+#include "Volume/Refracted/RayLegs.h"
+
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * Leg 0 of the rays of an image: the sight rays, up to the first interface. They are in the image's
+ * own frame, and their entries come from the raster of the boundary.
+ */
+class SightLegEntries
+{
+public:
+  static constexpr int NumberOfFrames = 1;
+
+  /** All objects that the arguments refer to must outlive this object. */
+  SightLegEntries(const FixedPointRays& rays, const std::vector<PacketVertex>& vertices,
+    const std::vector<BoundaryFace>& boundary, const std::vector<RayClippingPlane>& clippingPlanes,
+    const RayLegs& legs, const FrameOptics& optics);
+
+  const BoundaryRaster& GetRaster() const { return this->Raster; }
+  const LegFrame& GetFrame(int) const { return this->Frame; }
+
+  /** Buffers of one thread. */
+  struct Workspace
+  {
+    BoundaryRaster::Workspace Raster;
+    LegBatch Batch;
+    bool IsTaken = false;
+  };
+
+  /** Finds the lines of a leg of a tile. @param joined gets the ends of lines that are not cast. */
+  void Collect(
+    const TileLeg& leg, const PacketJob& job, JoinedRays& joined, Workspace& workspace) const;
+  /** Lines in a frame that remain to be cast; null if there are none. */
+  const LegBatch* NextBatch(int frame, Workspace& workspace) const;
+  /** True if a lost line of the last batch is to be cast again. */
+  bool TakeBack(int, std::size_t, Workspace&) const { return false; }
+
+private:
+  PacketRay RayOf(int column, int row, const float* opaqueDepth, double farthest) const;
+  bool IsMeshInFront(const TileLeg& leg, const RefractedRay* next) const;
+  void TakeRays(
+    const TileLeg& leg, const RefractedRay* next, JoinedRays& joined, Workspace& workspace) const;
+
+  const FixedPointRays& Rays;
+  const std::vector<RayClippingPlane>& ClippingPlanes;
+  const RayLegs& Legs;
+  BoundaryRaster Raster;
+  LegFrame Frame;
+};
+
+}
+
+#endif

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Volume/Refracted/RayLegs.h"
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr int TileSize = RefractedRayTiles::TileSize;
+
+}
+
+//------------------------------------------------------------------------------
+LegRange LegsOf(MembranePart part)
+{
+  LegRange legs;
+  legs.First = part == MembranePart::Behind ? 1 : legs.First;
+  legs.End = part == MembranePart::InFront ? 1 : legs.End;
+  return legs;
+}
+
+//------------------------------------------------------------------------------
+RayLegs::RayLegs(const RayFrame& sight, int width, int height,
+  const std::vector<const RefractedRayTiles*>& refracted)
+  : Sight(sight)
+  , Width(width)
+  , Height(height)
+  , Columns((width + TileSize - 1) / TileSize)
+  , Rows((height + TileSize - 1) / TileSize)
+  , Refracted(refracted)
+{
+}
+
+//------------------------------------------------------------------------------
+int RayLegs::GetNumberOfLegs(int tile) const
+{
+  int number = 1;
+  while (number < this->GetNumberOfLegs() && this->GetTile(number, tile))
+  {
+    ++number;
+  }
+  return number;
+}
+
+//------------------------------------------------------------------------------
+bool RayLegs::Find(int tile, int pixel, int number, RayLeg& leg) const
+{
+  const double column = this->GetLeft(tile) + pixel % TileSize + 0.5 - 0.5 * this->Width;
+  const double row = this->GetBottom(tile) + pixel / TileSize + 0.5 - 0.5 * this->Height;
+  leg.Begin = glm::dvec3(this->Sight.Origin.At(column, row), 0.0);
+  leg.Step = glm::dvec3(this->Sight.Slope.At(column, row), 1.0);
+  leg.Depth = 0.0;
+  for (int k = 1; k <= number; ++k)
+  {
+    const RefractedRay* rays = this->GetTile(k, tile);
+    if (!rays || !rays[pixel].GoesOn())
+    {
+      return false;
+    }
+    leg.Begin += (rays[pixel].Depth - leg.Depth) * leg.Step;
+    leg.Step = rays[pixel].Step;
+    leg.Depth = rays[pixel].Depth;
+  }
+  const RefractedRay* next =
+    number + 1 < this->GetNumberOfLegs() ? this->GetTile(number + 1, tile) : nullptr;
+  leg.End = next ? next[pixel].Depth : std::numeric_limits<double>::infinity();
+  return true;
+}
+
+}

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Refracted_RefractedRayTiles_h
+#define meniscus_Volume_Refracted_RefractedRayTiles_h
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * Refraction of one pixel's ray at an interface, in the frame of the view. Points of a ray are
+ * given by the depths at which they are drawn: their own depths in front of the first interface,
+ * and behind an interface the depth of the sight point there plus the distance in units of Step.
+ */
+struct RefractedRay
+{
+  /** Drawn depth of the sight point; infinite if the ray does not meet the interface. */
+  double Depth = std::numeric_limits<double>::infinity();
+  /**
+   * Step along the refracted ray per unit of drawn depth: the point drawn at the depth Depth + s is
+   * the sight point + s * Step (the inverse of the thesis's Eq. 2.4). It is 0 if the ray is totally
+   * reflected.
+   */
+  glm::dvec3 Step{ 0.0 };
+
+  bool MeetsInterface() const { return this->Depth < std::numeric_limits<double>::infinity(); }
+  bool GoesOn() const { return this->Step != glm::dvec3(0.0); }
+};
+
+/** The rays of an image behind one refracting interface, by tiles. */
+class RefractedRayTiles
+{
+public:
+  static constexpr int TileSize = 32;
+  static constexpr int RaysOfTile = TileSize * TileSize;
+
+  /** Sets the number of tiles, and keeps the rays of those that there were. */
+  void Resize(std::size_t tiles) { this->Tiles.resize(tiles); }
+  /** Removes all tiles. */
+  void Clear() { this->Tiles.clear(); }
+
+  int GetNumberOfTiles() const { return static_cast<int>(this->Tiles.size()); }
+  /**
+   * Rays of a tile in rows of TileSize, starting at the tile's lower left pixel; null if no ray of
+   * the tile meets the interface. Tiles are numbered as in BoundaryRaster.
+   */
+  const RefractedRay* GetTile(int tile) const
+  {
+    const auto& rays = this->Tiles[static_cast<std::size_t>(tile)];
+    return rays.empty() ? nullptr : rays.data();
+  }
+  /** Rays of a tile, to be changed: RaysOfTile, or none. */
+  std::vector<RefractedRay>& ChangeTile(int tile)
+  {
+    return this->Tiles[static_cast<std::size_t>(tile)];
+  }
+  /** True if any ray meets the interface. */
+  bool HasRays() const
+  {
+    return std::any_of(this->Tiles.begin(), this->Tiles.end(),
+      [](const std::vector<RefractedRay>& tile) { return !tile.empty(); });
+  }
+  std::int64_t GetBytes() const
+  {
+    std::size_t rays = 0;
+    for (const std::vector<RefractedRay>& tile : this->Tiles)
+    {
+      rays += tile.capacity();
+    }
+    return static_cast<std::int64_t>(rays * sizeof(RefractedRay));
+  }
+
+private:
+  std::vector<std::vector<RefractedRay>> Tiles;
+};
+
+}
+
+#endif
