@@ -14,7 +14,7 @@ namespace meniscus
 TileCaster::TileCaster(const Scene& scene)
   : Input(scene)
 {
-  this->Raster.Build(scene.Tables->Vertices, *scene.Boundary, scene.Rays);
+  this->Raster.Build(scene.Tables->Vertices, *scene.Boundary, scene.Rays, scene.Set);
   this->Medium.Pack(scene.Lighting, scene.GradientToFrame, scene.GradientMagnitude,
     scene.GradientOpacity ? &scene.Tables->GradientIntervals : nullptr);
   if (scene.PreIntegration)
@@ -50,8 +50,8 @@ PacketRay TileCaster::RayOf(int column, int row, const float* opaqueDepth, doubl
     ClipRay(plane, rays.FromCenter(column, row), start, end);
   }
   PacketRay ray = rays.RayOf(column, row);
-  ray.StartDepth = static_cast<float>(start);
-  ray.EndDepth = static_cast<float>(end);
+  ray.StartDepth = rays.FromPivot(start);
+  ray.EndDepth = rays.FromPivot(end);
   return ray;
 }
 
@@ -166,7 +166,8 @@ void TileCaster::KeepStraight(int tile, const RefractedRay* refracted, Workspace
     std::copy_n(result.Color, 4, straight.Values[pixel].data());
     straight.Steps[pixel] = result.Steps;
     // A ray that ended at a clipping plane gives no information about the sight point.
-    const bool arrived = workspace.Rays[i].EndDepth == static_cast<float>(refracted[pixel].Depth);
+    const bool arrived =
+      workspace.Rays[i].EndDepth == this->Input.Rays.FromPivot(refracted[pixel].Depth);
     straight.Ends[pixel] = arrived ? result.End : PacketResult::Somewhere;
   }
 }
@@ -176,14 +177,15 @@ void TileCaster::KeepStraight(int tile, const RefractedRay* refracted, Workspace
 bool TileCaster::IsMeshInFront(int tile, const RefractedRay* refracted) const
 {
   const BoundaryRaster::PixelBox box = this->Raster.BoxOfTile(tile);
-  const double nearest = this->Raster.NearestDepth(tile);
+  const FixedPointRays& rays = this->Input.Rays;
+  const float nearest = rays.FromPivot(this->Raster.NearestDepth(tile));
   for (int row = 0; row < box.Top - box.Bottom; ++row)
   {
     for (int column = 0; column < box.Right - box.Left; ++column)
     {
       // An entry is used if it is before the end, both in single precision.
       const double depth = refracted[row * BoundaryRaster::TileSize + column].Depth;
-      if (static_cast<float>(nearest) < static_cast<float>(depth))
+      if (nearest < rays.FromPivot(depth))
       {
         return true;
       }
@@ -225,6 +227,7 @@ RayStatistics TileCaster::Cast(
   PacketJob job{};
   this->SetOptics(job);
   job.GridUnit = this->Input.Rays.GetGridUnit();
+  job.Pivot = this->Input.Rays.GetPivot();
   job.Vertices = this->Input.Tables->Vertices.data();
   job.Cells = mesh.GetCells().front().Vertices.data();
   job.NumberOfCells = mesh.GetNumberOfCells();
