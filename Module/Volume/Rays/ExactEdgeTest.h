@@ -38,7 +38,7 @@ struct ExactEdgeTest
     float U;
     float V;
     /** Grid units from the pivot of the rays. */
-    std::int32_t Depth;
+    float Depth;
     std::int32_t Vertex;
   };
 
@@ -46,12 +46,11 @@ struct ExactEdgeTest
     const PacketVertex& vertex, std::int32_t number, const PacketRay& ray, std::int32_t pivot)
   {
     Corner corner;
-    corner.Depth = vertex.Place[2] - pivot;
-    const auto depth = static_cast<float>(corner.Depth);
+    corner.Depth = static_cast<float>(vertex.Place[2] - pivot);
     const auto coordinate = [&](int axis)
     {
       const auto place = static_cast<float>(vertex.Place[axis] - ray.Offset[axis]);
-      return std::fma(-ray.Slope[axis], depth, place);
+      return std::fma(-ray.Slope[axis], corner.Depth, place);
     };
     corner.U = coordinate(0);
     corner.V = coordinate(1);
@@ -108,14 +107,8 @@ struct ExactEntry
       return { false, 0.0f };
     }
     const float total = areas[0] + areas[1] + areas[2];
-    const auto depth = static_cast<float>(a.Depth);
-    if (!(total > 0.0f))
-    {
-      return { true, depth };
-    }
-    const auto toB = static_cast<float>(b.Depth - a.Depth);
-    const auto toC = static_cast<float>(c.Depth - a.Depth);
-    return { true, depth + (areas[2] * toB + areas[0] * toC) / total };
+    const float across = areas[2] * (b.Depth - a.Depth) + areas[0] * (c.Depth - a.Depth);
+    return { true, total > 0.0f ? a.Depth + across / total : a.Depth };
   }
 };
 

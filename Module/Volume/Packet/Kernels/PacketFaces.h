@@ -40,7 +40,7 @@ public:
     {
       this->Ids[k] = face.Vertices[k];
       this->Seen[k] = this->Vertices + face.Vertices[k];
-      this->Depths[k] = this->Seen[k]->Place[2] - this->Pivot;
+      this->Depths[k] = static_cast<float>(this->Seen[k]->Place[2] - this->Pivot);
     }
   }
 
@@ -54,9 +54,9 @@ public:
   Float EntryDepths() const
   {
     const Float total = this->Areas[0] + this->Areas[1] + this->Areas[2];
-    const Float toB = Simd::ToFloat(Simd::Splat(this->Depths[1] - this->Depths[0]));
-    const Float toC = Simd::ToFloat(Simd::Splat(this->Depths[2] - this->Depths[0]));
-    const Float first = Simd::ToFloat(Simd::Splat(this->Depths[0]));
+    const Float first = Simd::Splat(this->Depths[0]);
+    const Float toB = Simd::Splat(this->Depths[1] - this->Depths[0]);
+    const Float toC = Simd::Splat(this->Depths[2] - this->Depths[0]);
     const Float met = first + (this->Areas[2] * toB + this->Areas[0] * toC) / total;
     return Simd::Select(total > Simd::Splat(0.0f), met, first);
   }
@@ -72,7 +72,7 @@ private:
   std::int32_t Pivot;
   std::int32_t Ids[3] = {};
   const PacketVertex* Seen[3] = {};
-  std::int32_t Depths[3] = {};
+  float Depths[3] = {};
   /** Twice the areas that the edges 01, 12, 20 span with the rays. */
   Float Areas[3];
 };
@@ -84,7 +84,7 @@ inline auto PacketFaceTest<Simd>::Test(const Rays& rays) -> Mask
   Corner corners[3];
   for (int k = 0; k < 3; ++k)
   {
-    const Float depth = Simd::ToFloat(Simd::Splat(this->Depths[k]));
+    const Float depth = Simd::Splat(this->Depths[k]);
     const auto aboutRay = [&](int axis)
     {
       const Float place =
