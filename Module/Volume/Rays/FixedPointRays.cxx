@@ -35,6 +35,14 @@ AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
   return { map.Base * scale, map.PerColumn * scale, map.PerRow * scale };
 }
 
+/** Depth of the pivot: see the constructor. */
+double PivotOf(const RayFrame& frame)
+{
+  const glm::dvec2 zero(0.0);
+  const bool isParallel = frame.Slope.PerColumn == zero && frame.Slope.PerRow == zero;
+  return isParallel && frame.NearDepth <= -1.0 ? 0.0 : std::clamp(frame.NearDepth, -1.0, 1.0);
+}
+
 /** Converts a map to integers and fractions of 2^-15, with `more` added to its base. */
 FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::dvec2& more)
 {
@@ -60,7 +68,7 @@ FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::d
 
 //------------------------------------------------------------------------------
 FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height)
-  : FixedPointRays(frame, width, height, std::clamp(frame.NearDepth, -1.0, 1.0))
+  : FixedPointRays(frame, width, height, PivotOf(frame))
 {
 }
 

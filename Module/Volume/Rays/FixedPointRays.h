@@ -34,7 +34,11 @@ class FixedPointRays
 {
 public:
   FixedPointRays() = default;
-  /** The pivot is at the near clipping plane, or at the end of the mesh that is next to it. */
+  /**
+   * The pivot is at the near clipping plane, or at the end of the mesh that is next to it. For
+   * parallel rays that begin before the mesh, whose coordinates do not depend on the pivot, it is
+   * at the mesh's centre.
+   */
   FixedPointRays(const RayFrame& frame, int width, int height);
   /** @param pivot depth of the pivot in units of the frame. */
   FixedPointRays(const RayFrame& frame, int width, int height, double pivot);
