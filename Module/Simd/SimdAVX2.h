@@ -62,9 +62,12 @@ struct SimdAVX2
   static Int Splat(std::int32_t value) { return { _mm256_set1_epi32(value) }; }
 
   static Float Fma(Float a, Float b, Float c) { return { _mm256_fmadd_ps(a.V, b.V, c.V) }; }
+  static Float SubtractProduct(Float a, Float b, Float c)
+  {
+    return { _mm256_fnmadd_ps(b.V, c.V, a.V) };
+  }
   static Float CrossProduct(Float a, Float b, Float c, Float d)
   {
-    // Kahan's difference of products, within 1.5 units in the last place of the result.
     const __m256 bc = _mm256_mul_ps(b.V, c.V);
     const __m256 roundOff = _mm256_fnmadd_ps(b.V, c.V, bc);
     return { _mm256_add_ps(_mm256_fmsub_ps(a.V, d.V, bc), roundOff) };
@@ -111,23 +114,25 @@ struct SimdAVX2
   }
   static Int And(Int a, Int b) { return { _mm256_and_si256(a.V, b.V) }; }
   static Float ToFloat(Int a) { return { _mm256_cvtepi32_ps(a.V) }; }
-  static Int MultiplyHigh(
-    Int a, const std::int32_t* b, const std::int64_t* evenAddend, const std::int64_t* oddAddend)
+  static Int ShiftRight(Int a, Int b) { return { _mm256_srlv_epi32(a.V, b.V) }; }
+  static Int LookupOf24(const std::int32_t (&table)[32], Int index)
   {
-    const auto load = [](const void* from)
-    { return _mm256_loadu_si256(static_cast<const __m256i*>(from)); };
-    const __m256i factor = load(b);
-    const __m256i even = _mm256_add_epi64(_mm256_mul_epi32(a.V, factor), load(evenAddend));
-    const __m256i odd = _mm256_add_epi64(
-      _mm256_mul_epi32(_mm256_srli_epi64(a.V, 32), _mm256_srli_epi64(factor, 32)), load(oddAddend));
-    return { _mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xaa) };
+    const auto part = [&](int first)
+    { return Int{ _mm256_permutevar8x32_epi32(Load(table + first).V, index.V) }; };
+    // Bits 3 and 4 of the index, shifted to the sign bit, which the blend tests.
+    const Mask second{ _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 28)) };
+    const Mask third{ _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 27)) };
+    return Select(third, part(16), Select(second, part(8), part(0)));
   }
-  static Int Pick(Int index, const Int (&of)[4])
+  static Int LoadFrom(const std::int32_t* from, Int index)
   {
-    // Bits 0 and 1 of the index, shifted to the sign bit, which the blend tests.
-    const Mask odd{ _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 31)) };
-    const Mask high{ _mm256_castsi256_ps(_mm256_slli_epi32(index.V, 30)) };
-    return Select(high, Select(odd, of[3], of[2]), Select(odd, of[1], of[0]));
+    std::int32_t at[Width];
+    Store(at, index);
+    for (std::int32_t& value : at)
+    {
+      value = from[static_cast<std::uint32_t>(value)];
+    }
+    return Load(at);
   }
 
   template <int Stride>
@@ -157,30 +162,17 @@ struct SimdAVX2
     TransposeAs(
       [three](const float* row) { return _mm_maskload_ps(row, three); }, rows, x, y, z, none);
   }
-  static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
-    Int (&links)[4], Float (&vertex)[4])
+  static void GatherVertices(
+    const std::int32_t* ids, const float* vertices, Int index, Float (&vertex)[4])
   {
-    const __m256i face = _mm256_and_si256(cellFace.V, _mm256_set1_epi32(3));
-    const __m256i cell = _mm256_slli_epi32(_mm256_sub_epi32(cellFace.V, face), 1);
-    // Offsets into the cells are up to 8 * 2^29 - 1, so they are unsigned.
-    std::uint32_t cellAt[Width];
-    std::uint32_t oppositeAt[Width];
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(cellAt), cell);
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(oppositeAt), _mm256_or_si256(cell, face));
-    const float* linkRows[Width];
-    const float* vertexRows[Width];
+    std::int32_t at[Width];
+    Store(at, index);
+    const float* rows[Width];
     for (int i = 0; i < Width; ++i)
     {
-      vertexRows[i] = vertices + 4 * std::int64_t{ cells[oppositeAt[i]] };
-      linkRows[i] = reinterpret_cast<const float*>(cells + 4 + cellAt[i]);
+      rows[i] = vertices + 4 * std::int64_t{ ids[static_cast<std::uint32_t>(at[i])] };
     }
-    Transpose(vertexRows, vertex[0], vertex[1], vertex[2], vertex[3]);
-    Float bits[4];
-    Transpose(linkRows, bits[0], bits[1], bits[2], bits[3]);
-    for (int k = 0; k < 4; ++k)
-    {
-      links[k] = AsInt(bits[k]);
-    }
+    Transpose(rows, vertex[0], vertex[1], vertex[2], vertex[3]);
   }
   /** Loads four floats from each of the rows and transposes them. */
   static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)

@@ -53,9 +53,12 @@ struct SimdAVX512
   static Int Splat(std::int32_t value) { return { _mm512_set1_epi32(value) }; }
 
   static Float Fma(Float a, Float b, Float c) { return { _mm512_fmadd_ps(a.V, b.V, c.V) }; }
+  static Float SubtractProduct(Float a, Float b, Float c)
+  {
+    return { _mm512_fnmadd_ps(b.V, c.V, a.V) };
+  }
   static Float CrossProduct(Float a, Float b, Float c, Float d)
   {
-    // Kahan's difference of products, within 1.5 units in the last place of the result.
     const __m512 bc = _mm512_mul_ps(b.V, c.V);
     const __m512 roundOff = _mm512_fnmadd_ps(b.V, c.V, bc);
     return { _mm512_add_ps(_mm512_fmsub_ps(a.V, d.V, bc), roundOff) };
@@ -89,22 +92,21 @@ struct SimdAVX512
   }
   static Int And(Int a, Int b) { return { _mm512_and_si512(a.V, b.V) }; }
   static Float ToFloat(Int a) { return { _mm512_cvtepi32_ps(a.V) }; }
-  static Int MultiplyHigh(
-    Int a, const std::int32_t* b, const std::int64_t* evenAddend, const std::int64_t* oddAddend)
+  static Int ShiftRight(Int a, Int b) { return { _mm512_srlv_epi32(a.V, b.V) }; }
+  static Int LookupOf24(const std::int32_t (&table)[32], Int index)
   {
-    const __m512i factor = _mm512_loadu_si512(b);
-    const __m512i even =
-      _mm512_add_epi64(_mm512_mul_epi32(a.V, factor), _mm512_loadu_si512(evenAddend));
-    const __m512i odd =
-      _mm512_add_epi64(_mm512_mul_epi32(_mm512_srli_epi64(a.V, 32), _mm512_srli_epi64(factor, 32)),
-        _mm512_loadu_si512(oddAddend));
-    return { _mm512_mask_blend_epi32(0xaaaa, _mm512_srli_epi64(even, 32), odd) };
+    return { _mm512_permutex2var_epi32(
+      _mm512_loadu_si512(table), index.V, _mm512_loadu_si512(table + 16)) };
   }
-  static Int Pick(Int index, const Int (&of)[4])
+  static Int LoadFrom(const std::int32_t* from, Int index)
   {
-    const Mask odd{ _mm512_test_epi32_mask(index.V, _mm512_set1_epi32(1)) };
-    const Mask high{ _mm512_test_epi32_mask(index.V, _mm512_set1_epi32(2)) };
-    return Select(high, Select(odd, of[3], of[2]), Select(odd, of[1], of[0]));
+    std::int32_t at[Width];
+    Store(at, index);
+    for (std::int32_t& value : at)
+    {
+      value = from[static_cast<std::uint32_t>(value)];
+    }
+    return Load(at);
   }
 
   template <int Stride>
@@ -134,30 +136,17 @@ struct SimdAVX512
     TransposeAs(
       [three](const float* row) { return _mm_maskload_ps(row, three); }, rows, x, y, z, none);
   }
-  static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
-    Int (&links)[4], Float (&vertex)[4])
+  static void GatherVertices(
+    const std::int32_t* ids, const float* vertices, Int index, Float (&vertex)[4])
   {
-    const __m512i face = _mm512_and_si512(cellFace.V, _mm512_set1_epi32(3));
-    const __m512i cell = _mm512_slli_epi32(_mm512_sub_epi32(cellFace.V, face), 1);
-    // Offsets into the cells are up to 8 * 2^29 - 1, so they are unsigned.
-    std::uint32_t cellAt[Width];
-    std::uint32_t oppositeAt[Width];
-    _mm512_storeu_si512(cellAt, cell);
-    _mm512_storeu_si512(oppositeAt, _mm512_or_si512(cell, face));
-    const float* linkRows[Width];
-    const float* vertexRows[Width];
+    std::int32_t at[Width];
+    Store(at, index);
+    const float* rows[Width];
     for (int i = 0; i < Width; ++i)
     {
-      vertexRows[i] = vertices + 4 * std::int64_t{ cells[oppositeAt[i]] };
-      linkRows[i] = reinterpret_cast<const float*>(cells + 4 + cellAt[i]);
+      rows[i] = vertices + 4 * std::int64_t{ ids[static_cast<std::uint32_t>(at[i])] };
     }
-    Transpose(vertexRows, vertex[0], vertex[1], vertex[2], vertex[3]);
-    Float bits[4];
-    Transpose(linkRows, bits[0], bits[1], bits[2], bits[3]);
-    for (int k = 0; k < 4; ++k)
-    {
-      links[k] = AsInt(bits[k]);
-    }
+    Transpose(rows, vertex[0], vertex[1], vertex[2], vertex[3]);
   }
   /** Loads four floats from each of the rows and transposes them. */
   static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)

@@ -51,9 +51,9 @@ struct SimdNEON
   static Int Splat(std::int32_t value) { return { vdupq_n_s32(value) }; }
 
   static Float Fma(Float a, Float b, Float c) { return { vfmaq_f32(c.V, a.V, b.V) }; }
+  static Float SubtractProduct(Float a, Float b, Float c) { return { vfmsq_f32(a.V, b.V, c.V) }; }
   static Float CrossProduct(Float a, Float b, Float c, Float d)
   {
-    // Kahan's difference of products, within 1.5 units in the last place of the result.
     const float32x4_t bc = vmulq_f32(b.V, c.V);
     const float32x4_t roundOff = vfmsq_f32(bc, b.V, c.V);
     return { vaddq_f32(vfmaq_f32(vnegq_f32(bc), a.V, d.V), roundOff) };
@@ -85,23 +85,23 @@ struct SimdNEON
   }
   static Int And(Int a, Int b) { return { vandq_s32(a.V, b.V) }; }
   static Float ToFloat(Int a) { return { vcvtq_f32_s32(a.V) }; }
-  static Int MultiplyHigh(
-    Int a, const std::int32_t* b, const std::int64_t* evenAddend, const std::int64_t* oddAddend)
+  static Int ShiftRight(Int a, Int b)
   {
-    const int32x4_t factor = vld1q_s32(b);
-    const int32x4_t evenFirst = vuzp1q_s32(a.V, factor); // a0 a2 b0 b2
-    const int32x4_t oddFirst = vuzp2q_s32(a.V, factor);  // a1 a3 b1 b3
-    const int64x2_t even = vaddq_s64(
-      vmull_s32(vget_low_s32(evenFirst), vget_high_s32(evenFirst)), vld1q_s64(evenAddend));
-    const int64x2_t odd =
-      vaddq_s64(vmull_s32(vget_low_s32(oddFirst), vget_high_s32(oddFirst)), vld1q_s64(oddAddend));
-    return { vtrn2q_s32(vreinterpretq_s32_s64(even), vreinterpretq_s32_s64(odd)) };
+    return { vreinterpretq_s32_u32(vshlq_u32(vreinterpretq_u32_s32(a.V), vnegq_s32(b.V))) };
   }
-  static Int Pick(Int index, const Int (&of)[4])
+  static Int LookupOf24(const std::int32_t (&table)[32], Int index)
   {
-    const Mask odd{ vtstq_s32(index.V, vdupq_n_s32(1)) };
-    const Mask high{ vtstq_s32(index.V, vdupq_n_s32(2)) };
-    return Select(high, Select(odd, of[3], of[2]), Select(odd, of[1], of[0]));
+    return LoadFrom(table, index);
+  }
+  static Int LoadFrom(const std::int32_t* from, Int index)
+  {
+    std::int32_t at[Width];
+    Store(at, index);
+    for (std::int32_t& value : at)
+    {
+      value = from[static_cast<std::uint32_t>(value)];
+    }
+    return Load(at);
   }
 
   template <int Stride>
@@ -125,29 +125,14 @@ struct SimdNEON
     Float none;
     Transpose(row(0), row(1), row(2), row(3), x, y, z, none);
   }
-  static void GatherCells(const std::int32_t* cells, const float* vertices, Int cellFace,
-    Int (&links)[4], Float (&vertex)[4])
+  static void GatherVertices(
+    const std::int32_t* ids, const float* vertices, Int index, Float (&vertex)[4])
   {
-    // Offsets into the cells are up to 8 * 2^29 - 1, so they are unsigned.
-    const uint32x4_t number = vreinterpretq_u32_s32(cellFace.V);
-    const uint32x4_t face = vandq_u32(number, vdupq_n_u32(3));
-    const uint32x4_t cell = vshlq_n_u32(vsubq_u32(number, face), 1);
-    std::uint32_t cellAt[Width];
-    std::uint32_t oppositeAt[Width];
-    vst1q_u32(cellAt, cell);
-    vst1q_u32(oppositeAt, vorrq_u32(cell, face));
-    const auto vertexRow = [&](int i)
-    { return vld1q_f32(vertices + 4 * std::int64_t{ cells[oppositeAt[i]] }); };
-    Transpose(vertexRow(0), vertexRow(1), vertexRow(2), vertexRow(3), vertex[0], vertex[1],
-      vertex[2], vertex[3]);
-    const auto linkRow = [&](int i)
-    { return vreinterpretq_f32_s32(vld1q_s32(cells + 4 + cellAt[i])); };
-    Float bits[4];
-    Transpose(linkRow(0), linkRow(1), linkRow(2), linkRow(3), bits[0], bits[1], bits[2], bits[3]);
-    for (int k = 0; k < 4; ++k)
-    {
-      links[k] = AsInt(bits[k]);
-    }
+    std::int32_t at[Width];
+    Store(at, index);
+    const auto row = [&](int i)
+    { return vld1q_f32(vertices + 4 * std::int64_t{ ids[static_cast<std::uint32_t>(at[i])] }); };
+    Transpose(row(0), row(1), row(2), row(3), vertex[0], vertex[1], vertex[2], vertex[3]);
   }
   static Float GatherCellScalars(const float* scalars, Int cellFace)
   {

@@ -108,13 +108,24 @@ struct SimdPortable
   {
     return a * b + c;
   }
+  /** a - b * c, with one rounding. */
+  static Float SubtractProduct(const Float& a, const Float& b, const Float& c)
+  {
+    return EachLane<float>([](float x, float y, float z) { return std::fma(-y, z, x); }, a, b, c);
+  }
   /**
-   * a * d - b * c, for exact factors. The error is at most 2^-22 of |b c|, which may change the
-   * sign of the result.
+   * a * d - b * c by Kahan's method. Unless a product under- or overflows, the error is at most 2
+   * units in the last place (C.-P. Jeannerod, N. Louvet and J.-M. Muller, "Further analysis of
+   * Kahan's algorithm for the accurate computation of 2x2 determinants", 2013), so the sign is
+   * exact, and the result is 0 only if the two products are equal.
    */
   static Float CrossProduct(const Float& a, const Float& b, const Float& c, const Float& d)
   {
-    return a * d - b * c;
+    const Float bc = b * c;
+    const Float roundOff = SubtractProduct(bc, b, c);
+    return EachLane<float>(
+      [](float x, float y, float product, float rest) { return std::fma(x, y, -product) + rest; },
+      a, d, bc, roundOff);
   }
   static Float Min(const Float& a, const Float& b)
   {
@@ -184,30 +195,21 @@ struct SimdPortable
   {
     return EachLane<float>([](std::int32_t x) { return static_cast<float>(x); }, a);
   }
-  /**
-   * The upper half of the 64-bit value a * b + addend, rounded down. The addends of even and odd
-   * lanes are in separate arrays.
-   */
-  static Int MultiplyHigh(const Int& a, const std::int32_t* b, const std::int64_t* evenAddend,
-    const std::int64_t* oddAddend)
+  /** The bits of a, which must not be negative, shifted right by b, 0 to 31. */
+  static Int ShiftRight(const Int& a, const Int& b)
   {
-    Int result;
-    for (int i = 0; i < Width; ++i)
-    {
-      const std::int64_t addend = (i % 2 == 0 ? evenAddend : oddAddend)[i / 2];
-      result.Of[i] = static_cast<std::int32_t>((std::int64_t{ a.Of[i] } * b[i] + addend) >> 32);
-    }
-    return result;
+    return EachLane<std::int32_t>([](std::int32_t x, std::int32_t y) { return x >> y; }, a, b);
   }
-  /** of[index] for each lane. */
-  static Int Pick(const Int& index, const Int (&of)[4])
+  /** table[index], for a table of 32 entries and an index below 24. */
+  static Int LookupOf24(const std::int32_t (&table)[32], const Int& index)
   {
-    Int result;
-    for (int i = 0; i < Width; ++i)
-    {
-      result.Of[i] = of[index.Of[i]].Of[i];
-    }
-    return result;
+    return EachLane<std::int32_t>([&table](std::int32_t i) { return table[i]; }, index);
+  }
+  /** from[index], for an index in the 32 bits of an unsigned integer. */
+  static Int LoadFrom(const std::int32_t* from, const Int& index)
+  {
+    return EachLane<std::int32_t>(
+      [from](std::int32_t i) { return from[static_cast<std::uint32_t>(i)]; }, index);
   }
 
   /** Loads, for each lane, the four floats at `from + Stride * index`. */
@@ -236,21 +238,19 @@ struct SimdPortable
     }
   }
   /**
-   * For the cell cellFace / 4 and its face cellFace % 4: loads the links of the cell, the last four
-   * of the eight integers at `cells + 8 cell`, and the four floats of its vertex opposite the face.
+   * Loads the four floats of the vertex ids[index], for an index in the 32 bits of an unsigned
+   * integer.
    */
-  static void GatherCells(const std::int32_t* cells, const float* vertices, const Int& cellFace,
-    Int (&links)[4], Float (&vertex)[4])
+  static void GatherVertices(
+    const std::int32_t* ids, const float* vertices, const Int& index, Float (&vertex)[4])
   {
     for (int i = 0; i < Width; ++i)
     {
-      const std::int64_t face = cellFace.Of[i] % 4;
-      const std::int32_t* cell = cells + 2 * (cellFace.Of[i] - face);
-      const float* opposite = vertices + 4 * std::int64_t{ cell[face] };
+      const float* quad =
+        vertices + 4 * std::int64_t{ ids[static_cast<std::uint32_t>(index.Of[i])] };
       for (int k = 0; k < 4; ++k)
       {
-        links[k].Of[i] = cell[4 + k];
-        vertex[k].Of[i] = opposite[k];
+        vertex[k].Of[i] = quad[k];
       }
     }
   }

@@ -10,6 +10,7 @@ void LegFrame::Set(
   const FixedPointRays& grid, const std::vector<PacketVertex>& vertices, const FrameOptics& optics)
 {
   this->GridUnit = grid.GetGridUnit();
+  this->Pivot = grid.GetPivot();
   this->Vertices = &vertices;
   this->Lit = optics.Lighting != nullptr;
   this->Lighting = this->Lit ? *optics.Lighting : SurfaceLighting();
@@ -22,6 +23,7 @@ void LegFrame::Set(
 void LegFrame::Describe(PacketJob& job) const
 {
   job.GridUnit = this->GridUnit;
+  job.Pivot = this->Pivot;
   job.Vertices = this->Vertices->data();
   job.Lighting = this->Lit ? &this->Lighting : nullptr;
   job.GradientToFrame = &this->GradientToFrame;

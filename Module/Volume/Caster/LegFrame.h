@@ -10,6 +10,7 @@
 
 #include <glm/mat3x3.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace meniscus
@@ -45,6 +46,7 @@ public:
 
 private:
   double GridUnit = 1.0;
+  std::int32_t Pivot = 0;
   const std::vector<PacketVertex>* Vertices = nullptr;
   bool Lit = false;
   SurfaceLighting Lighting;

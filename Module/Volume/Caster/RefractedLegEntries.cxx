@@ -151,8 +151,8 @@ void RefractedLegEntries::AddLine(const RayLeg& leg, const Part& part, std::int3
   RayBundleEntries::Line line;
   line.Of = FrameLine::Through(place, step);
   line.Ray = frame.Rays.RayAlong(line.Of.Origin, line.Of.Slope);
-  line.Ray.StartDepth = static_cast<float>(sight + part.Start * step.z);
-  line.Ray.EndDepth = static_cast<float>(std::min(sight + part.End * step.z, 1.0e30));
+  line.Ray.StartDepth = frame.Rays.FromPivot(sight + part.Start * step.z);
+  line.Ray.EndDepth = frame.Rays.FromPivot(sight + part.End * step.z);
   PacketEntry entry;
   line.EntersInside = end >= 0 && this->Scene.BeginsInside &&
     this->Entries[static_cast<std::size_t>(index)].FindEntryNear(end, line.Ray, sight, entry);

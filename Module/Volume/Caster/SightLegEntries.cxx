@@ -18,12 +18,12 @@ static_assert(TileSize == BoundaryRaster::TileSize, "the same tiles");
 SightLegEntries::SightLegEntries(const FixedPointRays& rays,
   const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& boundary,
   const std::vector<RayClippingPlane>& clippingPlanes, const RayLegs& legs,
-  const FrameOptics& optics)
+  const FrameOptics& optics, InstructionSet set)
   : Rays(rays)
   , ClippingPlanes(clippingPlanes)
   , Legs(legs)
 {
-  this->Raster.Build(vertices, boundary, rays);
+  this->Raster.Build(vertices, boundary, rays, set);
   this->Frame.Set(rays, vertices, optics);
 }
 
@@ -42,8 +42,8 @@ PacketRay SightLegEntries::RayOf(
     ClipRay(plane, this->Rays.FromCenter(column, row), start, end);
   }
   PacketRay ray = this->Rays.RayOf(column, row);
-  ray.StartDepth = static_cast<float>(start);
-  ray.EndDepth = static_cast<float>(end);
+  ray.StartDepth = this->Rays.FromPivot(start);
+  ray.EndDepth = this->Rays.FromPivot(end);
   return ray;
 }
 
@@ -51,14 +51,14 @@ PacketRay SightLegEntries::RayOf(
 /** True if a ray of the tile may enter the mesh in front of the interface. */
 bool SightLegEntries::IsMeshInFront(const TileLeg& leg, const RefractedRay* next) const
 {
-  const double nearest = this->Raster.NearestDepth(leg.Tile);
+  const float nearest = this->Rays.FromPivot(this->Raster.NearestDepth(leg.Tile));
   for (int row = 0; row < leg.Box.Top - leg.Box.Bottom; ++row)
   {
     for (int column = 0; column < leg.Box.Right - leg.Box.Left; ++column)
     {
       // An entry is used if it is before the end, both in single precision.
       const double depth = next[row * TileSize + column].Depth;
-      if (static_cast<float>(nearest) < static_cast<float>(depth))
+      if (nearest < this->Rays.FromPivot(depth))
       {
         return true;
       }
@@ -89,7 +89,7 @@ void SightLegEntries::TakeRays(
       ray.EndEntry = entries.GetBegin(inTile + 1);
       batch.Rays.push_back(ray);
       batch.Origins.push_back(
-        { pixel, next && ray.EndDepth == static_cast<float>(next[pixel].Depth) });
+        { pixel, next && ray.EndDepth == this->Rays.FromPivot(next[pixel].Depth) });
     }
     else
     {

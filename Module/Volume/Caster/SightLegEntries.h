@@ -4,6 +4,7 @@
 #define meniscus_Volume_Caster_SightLegEntries_h
 
 #include "Volume/Caster/JoinedRays.h"
+#include "Simd/InstructionSets.h"
 #include "Volume/Caster/LegBatch.h"
 #include "Volume/Caster/LegFrame.h"
 #include "Volume/Entries/BoundaryRaster.h"
@@ -28,7 +29,7 @@ public:
   /** All objects that the arguments refer to must outlive this object. */
   SightLegEntries(const FixedPointRays& rays, const std::vector<PacketVertex>& vertices,
     const std::vector<BoundaryFace>& boundary, const std::vector<RayClippingPlane>& clippingPlanes,
-    const RayLegs& legs, const FrameOptics& optics);
+    const RayLegs& legs, const FrameOptics& optics, InstructionSet set);
 
   const BoundaryRaster& GetRaster() const { return this->Raster; }
   const LegFrame& GetFrame(int) const { return this->Frame; }

@@ -15,7 +15,7 @@ TileCaster::TileCaster(const Scene& scene)
   : Input(scene)
   , Legs(scene.Rays.GetFrame(), scene.Rays.GetWidth(), scene.Rays.GetHeight(), scene.Refracted.Legs)
   , Sight(this->Input.Rays, scene.Tables->Vertices, *scene.Boundary, this->Input.ClippingPlanes,
-      this->Legs, this->SightOptics())
+      this->Legs, this->SightOptics(), scene.Set)
 {
   if (scene.PreIntegration)
   {

@@ -3,7 +3,7 @@
 #include "Volume/Entries/BoundaryRaster.h"
 
 #include "Volume/Packet/Data/PacketRays.h"
-#include "Volume/Rays/ExactEdgeTest.h"
+#include "Volume/Packet/Kernels/PacketKernels.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -59,8 +59,9 @@ PixelSpan SpanOf(
 
 //------------------------------------------------------------------------------
 void BoundaryRaster::Build(const std::vector<PacketVertex>& vertices,
-  const std::vector<BoundaryFace>& faces, const FixedPointRays& rays)
+  const std::vector<BoundaryFace>& faces, const FixedPointRays& rays, InstructionSet set)
 {
+  this->Set = set;
   this->Faces.Set(vertices, faces, rays);
   this->Columns = (rays.GetWidth() + TileSize - 1) / TileSize;
   this->Rows = (rays.GetHeight() + TileSize - 1) / TileSize;
@@ -121,54 +122,24 @@ double BoundaryRaster::NearestDepth(int tile) const
 }
 
 //------------------------------------------------------------------------------
-bool BoundaryRaster::EntersExactly(
-  const ProjectedFaces::Face& face, const glm::ivec2& pixel, double (&areas)[3]) const
+void BoundaryRaster::FillRays(const PixelBox& tile, Workspace& workspace) const
 {
-  const glm::dvec2 center = this->GetRays().FromCenter(pixel.x, pixel.y);
-  const glm::dvec2 offset = glm::abs(this->GetRays().GetOffset().At(center.x, center.y));
-  if (!(offset.x <= FixedPointRays::LargestOffset) || !(offset.y <= FixedPointRays::LargestOffset))
+  workspace.Offsets.resize(2 * SizeOfRays);
+  workspace.Slopes.resize(2 * SizeOfRays);
+  for (int row = tile.Bottom; row < tile.Top; ++row)
   {
-    return false; // too far away to meet the mesh
+    const int first = (row - tile.Bottom) * TileSize;
+    std::int32_t* const offsets = workspace.Offsets.data() + first;
+    float* const slopes = workspace.Slopes.data() + first;
+    this->GetRays().FillRow(tile.Left, row, tile.Right - tile.Left,
+      { { offsets, offsets + SizeOfRays }, { slopes, slopes + SizeOfRays } });
   }
-  const PacketRay ray = this->GetRays().RayOf(pixel.x, pixel.y);
-  using Grid = ExactEdgeTest<BoundaryRaster>;
-  std::int32_t grid[3][3];
-  for (int k = 0; k < 3; ++k)
-  {
-    const std::int32_t(&place)[3] = this->Faces.GetVertex(face.Ids[k]).Place;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      grid[k][axis] = Grid::AboutRay(place[axis], place[2], ray.Slope[axis], ray.Offset[axis]);
-    }
-    grid[k][2] = face.Ids[k];
-  }
-  for (int k = 0; k < 3; ++k)
-  {
-    std::int64_t area;
-    if (!Grid::TurnsLeft(grid[k], grid[(k + 1) % 3], area))
-    {
-      return false;
-    }
-    areas[k] = static_cast<double>(area);
-  }
-  return true;
 }
 
 //------------------------------------------------------------------------------
-/**
- * Depth at which the ray meets the face; a face without projected area is met at its first vertex.
- */
-double BoundaryRaster::DepthAt(const ProjectedFaces::Face& face, const double (&areas)[3])
-{
-  const double total = areas[0] + areas[1] + areas[2];
-  return total > 0.0 ? (areas[1] * face.Vertices[0].Depth + areas[2] * face.Vertices[1].Depth +
-                         areas[0] * face.Vertices[2].Depth) /
-      total
-                     : face.Vertices[0].Depth;
-}
-
-//------------------------------------------------------------------------------
-void BoundaryRaster::CollectFace(std::int32_t index, const PixelBox& tile, EntryLists& lists) const
+/** Adds a face and the pixels of the tile that it may cover. */
+void BoundaryRaster::AddSpans(
+  std::int32_t index, const PixelBox& tile, Workspace& workspace) const
 {
   const ProjectedFaces::Face face = this->Faces.Project(index);
   double reciprocals[3];
@@ -176,30 +147,21 @@ void BoundaryRaster::CollectFace(std::int32_t index, const PixelBox& tile, Entry
   {
     reciprocals[k] = face.Edges[k][1] != 0.0 ? 1.0 / face.Edges[k][1] : 0.0;
   }
+  const auto number = static_cast<std::int32_t>(workspace.Faces.size());
+  workspace.Faces.push_back(
+    { { face.Ids[0], face.Ids[1], face.Ids[2] }, this->Faces.GetFace(index).CellFace });
   const PixelBox& box = this->Boxes[index];
+  const int left = std::max(box.Left, tile.Left);
+  const int right = std::min(box.Right, tile.Right);
   for (int row = std::max(box.Bottom, tile.Bottom); row < std::min(box.Top, tile.Top); ++row)
   {
-    const int left = std::max(box.Left, tile.Left);
-    const int right = std::min(box.Right, tile.Right);
     const PixelSpan span =
       SpanOf(face.Edges, reciprocals, this->GetRays().FromCenter(left, row), right - left);
-    for (int column = left + span.First; column < left + span.Last; ++column)
+    if (span.First < span.Last)
     {
-      const glm::dvec2 pixel = this->GetRays().FromCenter(column, row);
-      double areas[3];
-      for (int k = 0; k < 3; ++k)
-      {
-        areas[k] = face.Edges[k][0] + pixel.x * face.Edges[k][1] + pixel.y * face.Edges[k][2];
-      }
-      const double least = std::min(areas[0], std::min(areas[1], areas[2]));
-      if (!(least > Margin) &&
-        (least < -Margin || !this->EntersExactly(face, { column, row }, areas)))
-      {
-        continue;
-      }
-      lists.Add((row - tile.Bottom) * TileSize + column - tile.Left,
-        { { face.Ids[0], face.Ids[1], face.Ids[2] }, this->Faces.GetFace(index).CellFace,
-          static_cast<float>(DepthAt(face, areas)) });
+      const int first = (row - tile.Bottom) * TileSize + left - tile.Left;
+      workspace.Spans.push_back({ number, first + span.First, first + span.Last });
+      workspace.SpannedPixels += static_cast<std::size_t>(span.Last - span.First);
     }
   }
 }
@@ -207,20 +169,50 @@ void BoundaryRaster::CollectFace(std::int32_t index, const PixelBox& tile, Entry
 //------------------------------------------------------------------------------
 void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
 {
+  workspace.Lists.Start(TileSize * TileSize);
+  if (this->TileBegin[tile] == this->TileBegin[tile + 1])
+  {
+    workspace.Lists.Sort();
+    return;
+  }
   // In a mesh whose cells share no faces, each pixel has many faces: taking them from near to far
   // leaves little to sort.
-  workspace.Faces.clear();
+  workspace.Order.clear();
   for (std::int32_t slot = this->TileBegin[tile]; slot < this->TileBegin[tile + 1]; ++slot)
   {
     const std::int32_t face = this->FaceOfSlot[slot];
-    workspace.Faces.emplace_back(static_cast<float>(this->Faces.GetNearestDepth(face)), face);
+    workspace.Order.emplace_back(static_cast<float>(this->Faces.GetNearestDepth(face)), face);
   }
-  std::sort(workspace.Faces.begin(), workspace.Faces.end());
-  workspace.Lists.Start(TileSize * TileSize);
+  std::sort(workspace.Order.begin(), workspace.Order.end());
   const PixelBox box = this->BoxOfTile(tile);
-  for (const auto& face : workspace.Faces)
+  workspace.Faces.clear();
+  workspace.Spans.clear();
+  workspace.SpannedPixels = 0;
+  for (const auto& face : workspace.Order)
   {
-    this->CollectFace(face.second, box, workspace.Lists);
+    this->AddSpans(face.second, box, workspace);
+  }
+  this->FillRays(box, workspace);
+  workspace.Hits.resize(std::max(workspace.Hits.size(), workspace.SpannedPixels));
+  PacketSpanJob job;
+  job.Vertices = this->Faces.GetVertices().data();
+  job.Faces = workspace.Faces.data();
+  job.Spans = workspace.Spans.data();
+  job.NumberOfSpans = static_cast<std::int32_t>(workspace.Spans.size());
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    job.Offsets[axis] = workspace.Offsets.data() + axis * SizeOfRays;
+    job.Slopes[axis] = workspace.Slopes.data() + axis * SizeOfRays;
+  }
+  job.Pivot = this->GetRays().GetPivot();
+  job.Hits = workspace.Hits.data();
+  FindEntries(job, this->Set);
+  for (std::int32_t i = 0; i < job.NumberOfHits; ++i)
+  {
+    const PacketHit& hit = workspace.Hits[static_cast<std::size_t>(i)];
+    const PacketFace& face = workspace.Faces[static_cast<std::size_t>(hit.Face)];
+    workspace.Lists.Add(hit.Ray,
+      { { face.Vertices[0], face.Vertices[1], face.Vertices[2] }, face.CellFace, hit.Depth });
   }
   workspace.Lists.Sort();
 }

@@ -3,6 +3,7 @@
 #ifndef meniscus_Volume_Entries_BoundaryRaster_h
 #define meniscus_Volume_Entries_BoundaryRaster_h
 
+#include "Simd/InstructionSets.h"
 #include "Volume/Entries/EntryLists.h"
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/ProjectedFaces.h"
@@ -17,10 +18,9 @@ namespace meniscus
 /**
  * Boundary faces by which the rays of an image enter the mesh, tile by tile.
  *
- * The edges of a face are affine functions of the pixel. If one is negative, or all are positive,
- * by more than the rounding to the grid of (u, v) can change, the answer follows from their signs.
- * Otherwise the exact signs of the walk decide, with its rule for ties, so that each ray has as
- * many entries as exits.
+ * The edges of a face are affine functions of the pixel. Pixels for which one is negative by more
+ * than the rounding of coordinates about rays can change are left out; for the others, the exact
+ * signs of the walk decide, with its rule for ties, so that each ray has as many entries as exits.
  */
 class BoundaryRaster
 {
@@ -33,7 +33,7 @@ public:
    * @param faces boundary by which rays may enter; must outlive this object.
    */
   void Build(const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& faces,
-    const FixedPointRays& rays);
+    const FixedPointRays& rays, InstructionSet set = BestInstructionSet());
 
   int GetNumberOfTiles() const { return this->Columns * this->Rows; }
   const FixedPointRays& GetRays() const { return this->Faces.GetRays(); }
@@ -49,19 +49,29 @@ public:
   {
     /** Entries of the tile's rays, which are numbered (row - Bottom) * TileSize + column - Left. */
     EntryLists Lists;
-    /** The tile's faces with their nearest depths. */
-    std::vector<std::pair<float, std::int32_t>> Faces;
+    /** The tile's faces with their nearest depths, from near to far. */
+    std::vector<std::pair<float, std::int32_t>> Order;
+    std::vector<PacketFace> Faces;
+    /** Pixels that each face may cover, row by row, and the number of these pixels. */
+    std::vector<PacketSpan> Spans;
+    std::size_t SpannedPixels = 0;
+    std::vector<PacketHit> Hits;
+    /** Rays of the tile: SizeOfRays offsets and slopes in x, then in y. */
+    std::vector<std::int32_t> Offsets;
+    std::vector<float> Slopes;
   };
   /** Replaces the lists of the workspace by the entries of a tile's rays. */
   void CollectEntries(int tile, Workspace& workspace) const;
 
 private:
-  bool EntersExactly(
-    const ProjectedFaces::Face& face, const glm::ivec2& pixel, double (&areas)[3]) const;
-  static double DepthAt(const ProjectedFaces::Face& face, const double (&areas)[3]);
-  void CollectFace(std::int32_t index, const PixelBox& tile, EntryLists& lists) const;
+  void FillRays(const PixelBox& tile, Workspace& workspace) const;
+  void AddSpans(std::int32_t index, const PixelBox& tile, Workspace& workspace) const;
+
+  /** Readable length of each row of Workspace::Offsets and Slopes (PacketSpanJob). */
+  static constexpr int SizeOfRays = TileSize * TileSize + 16;
 
   ProjectedFaces Faces;
+  InstructionSet Set = InstructionSet::Portable;
   int Columns = 0;
   int Rows = 0;
   /** Pixels whose rays may enter by each face. */

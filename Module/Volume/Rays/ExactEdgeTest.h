@@ -4,49 +4,111 @@
 #ifndef meniscus_Volume_Rays_ExactEdgeTest_h
 #define meniscus_Volume_Rays_ExactEdgeTest_h
 
+#include "Volume/Packet/Data/PacketRays.h"
+
+#include <cmath>
 #include <cstdint>
 
 namespace meniscus
 {
 
 /**
- * Integer arithmetic about a ray, shared by all code that has to decide alike. It is a template so
- * that each instruction set gets its own code (see Packet.h).
+ * Coordinates about a ray and signs of edges for one ray: the same numbers, to the last bit, as
+ * those of the packets. It is a template so that each instruction set gets its own code (see
+ * PacketJob.h).
+ *
+ * The coordinates u and v of a vertex about a ray are floats by definition (PacketRay): one rounding
+ * of a fused multiply-add whose arguments are rounded integers and the ray's slope. Whoever needs
+ * them computes the same floats, so that all decisions about a ray are those of one plane drawing,
+ * however the numbers were rounded.
+ *
+ * The sign of an edge is that of the determinant p.u q.v - p.v q.u of these floats, which is exact
+ * by Kahan's method with fused multiply-adds: its error is at most 2 units in the last place of the
+ * result (C.-P. Jeannerod, N. Louvet and J.-M. Muller, "Further analysis of Kahan's algorithm for
+ * the accurate computation of 2x2 determinants", 2013), unless a product under- or overflows.
+ * Coordinates are below 2^32. Slopes are 0 or at least 2^-40 (FixedPointRays), so they are multiples
+ * of 2^-63, and so are coordinates; products and their rounding errors are multiples of 2^-126, the
+ * smallest normal float.
  */
 template <class User>
 struct ExactEdgeTest
 {
-  /**
-   * A cross product in float has the right sign for certain if its magnitude exceeds this fraction
-   * of its second product (PacketWalk::EdgeArea()).
-   */
-  static constexpr float RoundingOfArea = 9.5367431640625e-7f; // 2^-20
-
-  /** u or v of a vertex: its x or y minus that of the ray at the vertex's depth (PacketRay). */
-  static std::int32_t AboutRay(
-    std::int32_t place, std::int32_t depth, std::int32_t slope, std::int64_t offset)
+  struct Corner
   {
-    return place - static_cast<std::int32_t>((std::int64_t{ depth } * slope + offset) >> 32);
+    float U;
+    float V;
+    /** Grid units from the pivot of the rays. */
+    float Depth;
+    std::int32_t Vertex;
+  };
+
+  static Corner AboutRay(
+    const PacketVertex& vertex, std::int32_t number, const PacketRay& ray, std::int32_t pivot)
+  {
+    Corner corner;
+    corner.Depth = static_cast<float>(vertex.Place[2] - pivot);
+    const auto coordinate = [&](int axis)
+    {
+      const auto place = static_cast<float>(vertex.Place[axis] - ray.Offset[axis]);
+      return std::fma(-ray.Slope[axis], corner.Depth, place);
+    };
+    corner.U = coordinate(0);
+    corner.V = coordinate(1);
+    corner.Vertex = number;
+    return corner;
+  }
+
+  /** Twice the signed area that the edge from p to q spans with the ray. */
+  static float AreaOf(const Corner& p, const Corner& q)
+  {
+    const float product = p.V * q.U;
+    const float rest = std::fma(-p.V, q.U, product);
+    return std::fma(p.U, q.V, -product) + rest;
   }
 
   /**
-   * True if the ray is left of the edge from p to q, each { u, v, vertex }. A ray through the edge
-   * is treated as displaced by (e, e^2), with e arbitrarily small; ends that coincide are ordered
-   * by vertex.
-   * @param area twice the signed area that the edge spans with the ray.
+   * True if the ray is left of the edge from p to q. A ray through the edge is treated as displaced
+   * by (e, e^2), with e arbitrarily small, which changes the area by e (p.v - q.v) + e^2 (q.u - p.u);
+   * ends that coincide are ordered by vertex.
    */
-  static bool TurnsLeft(const std::int32_t (&p)[3], const std::int32_t (&q)[3], std::int64_t& area)
+  static bool TurnsLeft(const Corner& p, const Corner& q, float area)
   {
-    area = std::int64_t{ p[0] } * q[1] - std::int64_t{ p[1] } * q[0];
-    if (area != 0)
+    if (area != 0.0f)
     {
-      return area > 0;
+      return area > 0.0f;
     }
-    if (p[1] != q[1])
+    if (p.V != q.V)
     {
-      return q[1] < p[1];
+      return q.V < p.V;
     }
-    return p[0] != q[0] ? q[0] > p[0] : p[2] < q[2];
+    return p.U != q.U ? q.U > p.U : p.Vertex < q.Vertex;
+  }
+};
+
+/** A face by which a ray enters, and the depth at which they meet, in grid units from the pivot. */
+template <class User>
+struct ExactEntry
+{
+  bool Entered;
+  float Depth;
+
+  /**
+   * Tests the face with the corners a, b, c. A face without projected area is met at its first
+   * vertex.
+   */
+  template <class Corner>
+  static ExactEntry Of(const Corner& a, const Corner& b, const Corner& c)
+  {
+    using Test = ExactEdgeTest<User>;
+    const float areas[3] = { Test::AreaOf(a, b), Test::AreaOf(b, c), Test::AreaOf(c, a) };
+    if (!Test::TurnsLeft(a, b, areas[0]) || !Test::TurnsLeft(b, c, areas[1]) ||
+      !Test::TurnsLeft(c, a, areas[2]))
+    {
+      return { false, 0.0f };
+    }
+    const float total = areas[0] + areas[1] + areas[2];
+    const float across = areas[2] * (b.Depth - a.Depth) + areas[0] * (c.Depth - a.Depth);
+    return { true, total > 0.0f ? a.Depth + across / total : a.Depth };
   }
 };
 

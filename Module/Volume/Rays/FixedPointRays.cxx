@@ -19,12 +19,28 @@ namespace
 
 // 2^29 - 2^12: slopes per grid unit of depth stay below 1/2, up to views of nearly 180 degrees.
 constexpr double GridRadius = 536866816.0;
-constexpr double FractionOfGrid = 4294967296.0; // 2^32, the factor that PacketRay shifts out
+constexpr double FractionOfGrid = 4294967296.0; // 2^32, of slopes for shaders
 constexpr double LargestSlope = 2147483647.0;
+/**
+ * Bound of the offset of a ray that may meet the mesh. Places are within r = GridRadius / (1 + s) of
+ * the centre, for the steepest slope s, and the pivot within twice the unit of depth from any part
+ * of the mesh: the offset is within r (1 + 2 s), less than 2 GridRadius.
+ */
+constexpr double LargestOffset = 1073741824.0; // 2^30
+/** Slopes below are 0: coordinates are multiples of 2^-63 (ExactEdgeTest). */
+constexpr double SmallestSlope = 9.094947017729282e-13; // 2^-40
 
 AffinePixelMap Scaled(const AffinePixelMap& map, double scale)
 {
   return { map.Base * scale, map.PerColumn * scale, map.PerRow * scale };
+}
+
+/** Depth of the pivot: see the constructor. */
+double PivotOf(const RayFrame& frame)
+{
+  const glm::dvec2 zero(0.0);
+  const bool isParallel = frame.Slope.PerColumn == zero && frame.Slope.PerRow == zero;
+  return isParallel && frame.NearDepth <= -1.0 ? 0.0 : std::clamp(frame.NearDepth, -1.0, 1.0);
 }
 
 /** Converts a map to integers and fractions of 2^-15, with `more` added to its base. */
@@ -52,9 +68,16 @@ FixedPointRays::FixedPointMap FixedPoint(const AffinePixelMap& map, const glm::d
 
 //------------------------------------------------------------------------------
 FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height)
+  : FixedPointRays(frame, width, height, PivotOf(frame))
+{
+}
+
+//------------------------------------------------------------------------------
+FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height, double pivot)
   : Frame(frame)
   , Width(width)
   , Height(height)
+  , Pivot(static_cast<std::int32_t>(std::lrint(pivot * GridPerDepth)))
 {
   // The magnitude of an affine function is largest at a corner.
   double steepest = 0.0;
@@ -91,6 +114,7 @@ bool FixedPointRays::SeesAs(const FixedPointRays& other) const
   { return a.Base == b.Base && a.PerColumn == b.PerColumn && a.PerRow == b.PerRow; };
   return this->PlacesAs(other) && this->Width == other.Width && this->Height == other.Height &&
     same(this->Offset, other.Offset) && same(this->Slope, other.Slope) &&
+    this->Pivot == other.Pivot &&
     this->Frame.Handedness == other.Frame.Handedness;
 }
 
@@ -122,6 +146,38 @@ FixedPointRays::FixedPointMap FixedPointRays::GetFixedPointSlope() const
 }
 
 //------------------------------------------------------------------------------
+void FixedPointRays::GetFixedPointLine(const glm::dvec2& origin, const glm::dvec2& slope,
+  std::int32_t (&gridOffset)[2], std::int32_t (&gridSlope)[2]) const
+{
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    gridOffset[axis] = static_cast<std::int32_t>(
+      std::lrint(std::clamp(origin[axis] / this->GridUnit, -LargestOffset, LargestOffset)));
+    const double perDepth = slope[axis] / (this->GridUnit * GridPerDepth);
+    gridSlope[axis] = static_cast<std::int32_t>(
+      std::clamp(std::rint(perDepth * FractionOfGrid), -LargestSlope, LargestSlope));
+  }
+}
+
+//------------------------------------------------------------------------------
+/**
+ * One axis of a ray.
+ * @param offset,slope in grid units; the offset is at depth 0.
+ */
+inline void FixedPointRays::SetAxis(
+  double offset, double slope, std::int32_t& rayOffset, float& raySlope) const
+{
+  const double atPivot = offset + slope * this->Pivot;
+  const double limited = std::min(std::max(atPivot, -LargestOffset), LargestOffset);
+  // A ray that is too far away to meet the mesh is replaced by one that is parallel to the depth
+  // axis, and as far away.
+  const bool isNear = atPivot == limited;
+  const bool isSteep = std::fabs(slope) >= SmallestSlope;
+  rayOffset = static_cast<std::int32_t>(limited + (limited < 0.0 ? -0.5 : 0.5));
+  raySlope = isNear && isSteep ? static_cast<float>(slope) : 0.0f;
+}
+
+//------------------------------------------------------------------------------
 /** @param perDepth slope in units of the frame; the other arguments are in grid units. */
 PacketRay FixedPointRays::MakeRay(
   const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const
@@ -129,14 +185,10 @@ PacketRay FixedPointRays::MakeRay(
   PacketRay ray;
   for (int axis = 0; axis < 2; ++axis)
   {
-    // Half a unit is added because shifting out the fraction rounds down.
-    ray.Offset[axis] =
-      std::llrint((std::clamp(offset[axis], -LargestOffset, LargestOffset) + 0.5) * FractionOfGrid);
-    ray.Slope[axis] = static_cast<std::int32_t>(
-      std::clamp(std::rint(slope[axis] * FractionOfGrid), -LargestSlope, LargestSlope));
+    this->SetAxis(offset[axis], slope[axis], ray.Offset[axis], ray.Slope[axis]);
   }
-  ray.LengthPerDepth = static_cast<float>(
-    glm::length(this->Frame.ViewToWorld * glm::dvec3(perDepth.x, perDepth.y, 1.0)));
+  const double length = glm::length(this->Frame.ViewToWorld * glm::dvec3(perDepth, 1.0));
+  ray.LengthPerDepth = static_cast<float>(length / GridPerDepth);
   ray.StartDepth = -1.0e+30f;
   ray.EndDepth = 1.0e+30f;
   ray.FirstEntry = 0;
@@ -150,8 +202,21 @@ PacketRay FixedPointRays::RayOf(int column, int row) const
   const glm::dvec2 pixel = this->FromCenter(column, row);
   PacketRay ray = this->MakeRay(this->Offset.At(pixel.x, pixel.y), this->Slope.At(pixel.x, pixel.y),
     this->Frame.Slope.At(pixel.x, pixel.y));
-  ray.StartDepth = static_cast<float>(this->Frame.NearDepth);
+  ray.StartDepth = this->FromPivot(this->Frame.NearDepth);
   return ray;
+}
+
+//------------------------------------------------------------------------------
+void FixedPointRays::FillRow(int column, int row, int count, const RowOfRays& rays) const
+{
+  for (int i = 0; i < count; ++i)
+  {
+    const glm::dvec2 pixel = this->FromCenter(column + i, row);
+    const glm::dvec2 offset = this->Offset.At(pixel.x, pixel.y);
+    const glm::dvec2 slope = this->Slope.At(pixel.x, pixel.y);
+    this->SetAxis(offset.x, slope.x, rays.Offset[0][i], rays.Slope[0][i]);
+    this->SetAxis(offset.y, slope.y, rays.Offset[1][i], rays.Slope[1][i]);
+  }
 }
 
 //------------------------------------------------------------------------------

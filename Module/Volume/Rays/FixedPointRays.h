@@ -22,14 +22,26 @@ namespace meniscus
  *
  * Vertices are rounded once, to (x, y, depth) of the frame: depth in units of about 2^-30 of the
  * frame's, x and y in units of about 2^-29 times 1 + the steepest slope, so that |u| and |v| stay
- * below 2^30 where a ray meets the mesh. All further arithmetic is in integers (PacketRay), the
- * same on every processor and for every user of a ray.
+ * below 2^30 where a ray meets the mesh. Coordinates relative to a ray are floats that are defined
+ * to the last bit (PacketRay), the same on every processor and for every user of a ray.
+ *
+ * Rays pass through their offsets at a depth called pivot, and depths about a ray count from it.
+ * The pivot is where the rays begin to be seen: floats near it are small and precise. Their
+ * rounding errors are at most 2^-24 of the distance from the pivot, which is at most that from the
+ * eye: a fixed small share of a pixel's width, wherever the eye is.
  */
 class FixedPointRays
 {
 public:
   FixedPointRays() = default;
+  /**
+   * The pivot is at the near clipping plane, or at the end of the mesh that is next to it. For
+   * parallel rays that begin before the mesh, whose coordinates do not depend on the pivot, it is
+   * at the mesh's centre.
+   */
   FixedPointRays(const RayFrame& frame, int width, int height);
+  /** @param pivot depth of the pivot in units of the frame. */
+  FixedPointRays(const RayFrame& frame, int width, int height, double pivot);
 
   /**
    * Vector from the image's centre to the centre of pixel (column, row), in pixels, as RayFrame
@@ -42,6 +54,13 @@ public:
 
   /** Ray of a pixel from the near plane on, without a far end and without entries. */
   PacketRay RayOf(int column, int row) const;
+  /** Offsets and slopes of the rays of consecutive pixels of a row, as in RayOf(). */
+  struct RowOfRays
+  {
+    std::int32_t* Offset[2];
+    float* Slope[2];
+  };
+  void FillRow(int column, int row, int count, const RowOfRays& rays) const;
   /**
    * The ray (x, y) = origin + depth * slope of the frame, without ends and without entries.
    * @param slope no steeper than the steepest ray of a pixel.
@@ -78,26 +97,38 @@ public:
    */
   using FixedPointMap = std::array<std::int32_t, 12>;
   /**
-   * Offset and slope of pixels' rays as in PacketRay, the slope in units of 2^-32. Their error is
+   * Offset at depth 0 and slope of pixels' rays, the slope in units of 2^-32. Their error is
    * 2^-15 of the image's width in pixels. The slope is half a unit larger, so that rounding down
    * gives the nearest value.
    */
   FixedPointMap GetFixedPointOffset() const;
   FixedPointMap GetFixedPointSlope() const;
+  /** Offset at depth 0 and slope of a line of the frame for shaders, as integers in these units. */
+  void GetFixedPointLine(const glm::dvec2& origin, const glm::dvec2& slope,
+    std::int32_t (&gridOffset)[2], std::int32_t (&gridSlope)[2]) const;
 
   /** Grid unit of x and y, in units of the frame. */
   double GetGridUnit() const { return this->GridUnit; }
+  /** Pivot in grid units of depth. */
+  std::int32_t GetPivot() const { return this->Pivot; }
+  /** A depth of the frame as PacketRay and PacketEntry count, and the other way round. */
+  float FromPivot(double depth) const
+  {
+    return static_cast<float>(depth * GridPerDepth - this->Pivot);
+  }
+  double ToFrame(double fromPivot) const { return (fromPivot + this->Pivot) / GridPerDepth; }
   int GetWidth() const { return this->Width; }
   int GetHeight() const { return this->Height; }
   const RayFrame& GetFrame() const { return this->Frame; }
 
   /**
-   * Largest deviation of u or v of a ray from the affine function: rounding of the value and of its
-   * slope.
+   * Largest deviation of u or v of a ray that may meet the mesh from the affine function, in grid
+   * units. The offset is rounded by 1/2. The integer x - offset, below 2^31, is rounded to float by
+   * up to 64, and u, below 2^31, likewise. The slope is below 1/2 and depth below 2^31: rounding the
+   * depth to float changes their product by up to 32, and rounding the slope by up to 2^31 * 2^-26 =
+   * 32. The sum is 192.5.
    */
-  static constexpr double RoundingOfRay = 0.625 + 0.0625;
-  /** Largest magnitude of the offset of a ray that may meet the mesh. */
-  static constexpr double LargestOffset = 536870912.0 + 2.0;
+  static constexpr double RoundingOfRay = 193.0;
   /** Depth of a vertex in the grid, in units of the frame. */
   static double DepthOf(std::int32_t gridDepth) { return gridDepth / GridPerDepth; }
   /** Grid units of depth per unit of the frame. */
@@ -106,11 +137,13 @@ public:
 private:
   PacketRay MakeRay(
     const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const;
+  void SetAxis(double offset, double slope, std::int32_t& rayOffset, float& raySlope) const;
 
   RayFrame Frame;
   int Width = 0;
   int Height = 0;
   double GridUnit = 1.0;
+  std::int32_t Pivot = 0;
   /** Matrix from fixed-point positions to the grid. */
   glm::dmat3 ToGrid{ 0.0 };
   AffinePixelMap Offset;

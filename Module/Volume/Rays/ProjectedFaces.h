@@ -28,6 +28,7 @@ public:
 
   std::size_t GetNumberOfFaces() const { return this->Faces->size(); }
   const FixedPointRays& GetRays() const { return this->Rays; }
+  const std::vector<PacketVertex>& GetVertices() const { return *this->Vertices; }
   const PacketVertex& GetVertex(std::int32_t index) const
   {
     return (*this->Vertices)[static_cast<std::size_t>(index)];
@@ -85,7 +86,7 @@ public:
    * each of four numbers, each multiplied by another of at most 2^30 + 2, plus the much smaller
    * error of double arithmetic.
    */
-  static constexpr double Margin = 4294967296.0; // 2^32
+  static constexpr double Margin = 1099511627776.0; // 2^40
 
 private:
   Vertex ProjectVertex(std::int32_t vertex) const;

@@ -26,7 +26,7 @@ namespace
  * unit of rounding of a vertex across the ray and half along it, and FixedPointRays::RoundingOfRay
  * for the ray.
  */
-constexpr double GridMargin = 2.0;
+constexpr double GridMargin = 200.0;
 static_assert(
   0.5 + 0.5 + FixedPointRays::RoundingOfRay < GridMargin, "rounding of vertices and rays");
 
@@ -236,6 +236,7 @@ void RayBundleEntries::Collect(const std::vector<Line>& lines,
   job.NumberOfFaces = static_cast<std::int32_t>(workspace.Faces.size());
   job.Rays = workspace.Rays.data();
   job.NumberOfRays = static_cast<std::int32_t>(numbers.size());
+  job.Pivot = this->Frame.Rays.GetPivot();
   job.Entered = workspace.Entered.data();
   FindEntered(job, this->Set);
 
@@ -244,53 +245,31 @@ void RayBundleEntries::Collect(const std::vector<Line>& lines,
     const PacketFace& face = workspace.Faces[f];
     for (std::size_t i = 0; i < numbers.size() && workspace.Entered[f] >> i != 0; ++i)
     {
-      double depth = 0.0;
-      if ((workspace.Entered[f] >> i & 1u) != 0 && this->Enters(face, workspace.Rays[i], depth) &&
-        depth >= lines[static_cast<std::size_t>(numbers[i])].From)
+      PacketEntry entry;
+      if ((workspace.Entered[f] >> i & 1u) != 0 && this->Enters(face, workspace.Rays[i], entry) &&
+        this->Frame.Rays.ToFrame(entry.Depth) >= lines[static_cast<std::size_t>(numbers[i])].From)
       {
-        hits.push_back({ numbers[i],
-          { { face.Vertices[0], face.Vertices[1], face.Vertices[2] }, face.CellFace,
-            static_cast<float>(depth) } });
+        hits.push_back({ numbers[i], entry });
       }
     }
   }
 }
 
 //------------------------------------------------------------------------------
-/**
- * Tests whether the ray enters by the face and computes the depth; a face without projected area is
- * met at its first vertex.
- */
-bool RayBundleEntries::Enters(const PacketFace& face, const PacketRay& ray, double& depth) const
+/** Tests whether the ray enters by the face and computes the entry. */
+bool RayBundleEntries::Enters(
+  const PacketFace& face, const PacketRay& ray, PacketEntry& entry) const
 {
-  using Grid = ExactEdgeTest<RayBundleEntries>;
-  std::int32_t grid[3][3];
-  double depths[3];
-  for (int k = 0; k < 3; ++k)
+  using Test = ExactEdgeTest<RayBundleEntries>;
+  const auto cornerOf = [&](int k)
   {
-    const std::int32_t(&place)[3] =
-      this->Frame.Vertices[static_cast<std::size_t>(face.Vertices[k])].Place;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      grid[k][axis] = Grid::AboutRay(place[axis], place[2], ray.Slope[axis], ray.Offset[axis]);
-    }
-    grid[k][2] = face.Vertices[k];
-    depths[k] = FixedPointRays::DepthOf(place[2]);
-  }
-  double areas[3];
-  for (int k = 0; k < 3; ++k)
-  {
-    std::int64_t area;
-    if (!Grid::TurnsLeft(grid[k], grid[(k + 1) % 3], area))
-    {
-      return false;
-    }
-    areas[k] = static_cast<double>(area);
-  }
-  const double total = areas[0] + areas[1] + areas[2];
-  depth = total > 0.0 ? (areas[1] * depths[0] + areas[2] * depths[1] + areas[0] * depths[2]) / total
-                      : depths[0];
-  return true;
+    const std::int32_t vertex = face.Vertices[k];
+    return Test::AboutRay(this->Frame.Vertices[static_cast<std::size_t>(vertex)], vertex, ray,
+      this->Frame.Rays.GetPivot());
+  };
+  const auto found = ExactEntry<RayBundleEntries>::Of(cornerOf(0), cornerOf(1), cornerOf(2));
+  entry = { { face.Vertices[0], face.Vertices[1], face.Vertices[2] }, face.CellFace, found.Depth };
+  return found.Entered;
 }
 
 //------------------------------------------------------------------------------
@@ -300,11 +279,8 @@ bool RayBundleEntries::EntersCell(
   for (int k = 0; k < 4; ++k)
   {
     const PacketFace face = this->SeenBy(this->Mesh.GetFace(cell, k));
-    double depth;
-    if (this->Enters(face, ray, depth) && depth <= before)
+    if (this->Enters(face, ray, entry) && this->Frame.Rays.ToFrame(entry.Depth) <= before)
     {
-      entry = { { face.Vertices[0], face.Vertices[1], face.Vertices[2] }, face.CellFace,
-        static_cast<float>(depth) };
       return true;
     }
   }

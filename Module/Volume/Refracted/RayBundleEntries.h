@@ -88,7 +88,7 @@ private:
   void CollectFaces(const Bundle& bundle, std::vector<PacketFace>& faces) const;
   bool MayFace(const PacketFace& face, const Bundle& bundle) const;
   PacketFace SeenBy(const BoundaryFace& face) const;
-  bool Enters(const PacketFace& face, const PacketRay& ray, double& depth) const;
+  bool Enters(const PacketFace& face, const PacketRay& ray, PacketEntry& entry) const;
   bool EntersCell(std::int64_t cell, const PacketRay& ray, double before, PacketEntry& entry) const;
 
   const TetrahedralMesh& Mesh;

@@ -61,13 +61,7 @@ RefractedRayLine LineOf(
     const glm::dvec3 place = turn * leg.Begin;
     const glm::dvec3 step = turn * leg.Step;
     const FrameLine of = FrameLine::Through(place, step);
-    const PacketRay packet = frames.Get(index).Rays.RayAlong(of.Origin, of.Slope);
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      // The nearest integer is stored: the packet's offset is half a unit larger.
-      line.Offset[axis] = static_cast<std::int32_t>(packet.Offset[axis] >> 32);
-      line.Slope[axis] = packet.Slope[axis];
-    }
+    frames.Get(index).Rays.GetFixedPointLine(of.Origin, of.Slope, line.Offset, line.Slope);
     line.Start = static_cast<float>(place.z);
     line.PerDepth = static_cast<float>(step.z);
     line.FrameAndRests |= index | RestOf(place.z) << 16;

@@ -30,8 +30,12 @@ glm::dmat3 RotationTo(const glm::dmat3& axes, int index)
     glm::dmat3(sign * axes[(axis + 1) % 3], axes[(axis + 2) % 3], sign * axes[axis]));
 }
 
-/** The frame `view` after a rotation, with a grid for slopes within 1. */
-RefractionFrame MakeFrame(const RayFrame& view, const glm::dmat3& rotation)
+/**
+ * The frame `view` after a rotation, with a grid for slopes within 1.
+ * @param sightPoint a point where refracted rays begin, in the view; they have their pivot there.
+ */
+RefractionFrame MakeFrame(
+  const RayFrame& view, const glm::dmat3& rotation, const glm::dvec3& sightPoint)
 {
   RefractionFrame frame;
   frame.FromView = rotation;
@@ -47,8 +51,31 @@ RefractionFrame MakeFrame(const RayFrame& view, const glm::dmat3& rotation)
   // FixedPointRays reserves range for 1 + the steepest slope; a ray of slope 1 that meets the mesh
   // passes the origin within 2 extents.
   turned.Slope.Base = glm::dvec2(2.0 * frame.Extent - 1.0);
-  frame.Rays = FixedPointRays(turned, 1, 1);
+  const double pivot = std::clamp((rotation * sightPoint).z, -frame.Extent, frame.Extent);
+  frame.Rays = FixedPointRays(turned, 1, 1, pivot);
   return frame;
+}
+
+/** Mean of the points where rays of the tiles' middles are refracted, in the view. */
+glm::dvec3 MeanSightPoint(const RayLegs& legs)
+{
+  constexpr int size = RefractedRayTiles::TileSize;
+  constexpr int middle = (size / 2) * size + size / 2;
+  glm::dvec3 sum(0.0);
+  int count = 0;
+  for (int tile = 0; tile < legs.GetNumberOfTiles(); ++tile)
+  {
+    for (int number = 1; number < legs.GetNumberOfLegs(tile); ++number)
+    {
+      RayLeg leg;
+      if (legs.Find(tile, middle, number, leg))
+      {
+        sum += leg.Begin;
+        ++count;
+      }
+    }
+  }
+  return count > 0 ? sum / static_cast<double>(count) : sum;
 }
 
 }
@@ -108,6 +135,7 @@ void RefractionFrames::Turn(const RayLegs& legs, const glm::dvec3& mean, const R
         needed[tile] = this->FindNeeded(legs, static_cast<int>(tile));
       }
     });
+  const glm::dvec3 sightPoint = MeanSightPoint(legs);
   this->Needed = 0;
   for (const unsigned int ofTile : needed)
   {
@@ -119,7 +147,8 @@ void RefractionFrames::Turn(const RayLegs& legs, const glm::dvec3& mean, const R
     this->Frames[index] = RefractionFrame();
     if (this->Needed >> index & 1u)
     {
-      this->Frames[index] = MakeFrame(legs.GetSight(), RotationTo(this->Axes, index));
+      this->Frames[index] =
+        MakeFrame(legs.GetSight(), RotationTo(this->Axes, index), sightPoint);
       this->Frames[index].Vertices = std::move(room);
     }
   }

@@ -230,33 +230,77 @@ TYPED_TEST(SimdOperations, IntegersAndMasks)
   }
 }
 
-TYPED_TEST(SimdOperations, MultiplyHighRoundsDown)
+TYPED_TEST(SimdOperations, ShiftsAndTablesOfWords)
 {
   using Simd = TypeParam;
   constexpr int width = Simd::Width;
+  std::int32_t table[32];
+  for (std::int32_t& word : table)
+  {
+    word = this->AnyInt() & 0x7fffffff;
+  }
   for (int round = 0; round < Rounds; ++round)
   {
     std::int32_t a[width];
-    std::int32_t b[width];
-    std::int64_t even[width / 2];
-    std::int64_t odd[width / 2];
+    std::int32_t by[width];
     std::int32_t expected[width];
-    this->Fill(a, [&](int) { return this->AnyInt(); });
-    // Slopes of rays are within 31 bits, so that no sum leaves 64.
-    this->Fill(b, [&](int) { return this->AnyInt() / 2; });
-    for (int i = 0; i < width / 2; ++i)
-    {
-      even[i] = static_cast<std::int64_t>(this->AnyInt()) << 30;
-      odd[i] = static_cast<std::int64_t>(this->AnyInt()) << 30;
-    }
-    this->Fill(expected,
-      [&](int i)
-      {
-        const std::int64_t addend = (i % 2 == 0 ? even : odd)[i / 2];
-        return static_cast<std::int32_t>((std::int64_t{ a[i] } * b[i] + addend) >> 32);
-      });
-    this->ExpectSame(Simd::MultiplyHigh(Simd::Load(a), b, even, odd), expected, "upper half");
+    this->Fill(a, [&](int) { return this->AnyInt() & 0x7fffffff; });
+    this->Fill(by, [&](int) { return static_cast<std::int32_t>(this->Random() % 32); });
+    this->Fill(expected, [&](int i) { return a[i] >> by[i]; });
+    this->ExpectSame(Simd::ShiftRight(Simd::Load(a), Simd::Load(by)), expected, "shift");
+    this->Fill(by, [&](int) { return static_cast<std::int32_t>(this->Random() % 24); });
+    this->Fill(expected, [&](int i) { return table[by[i]]; });
+    this->ExpectSame(Simd::LookupOf24(table, Simd::Load(by)), expected, "word");
+    this->ExpectSame(Simd::LoadFrom(table, Simd::Load(by)), expected, "load");
   }
+}
+
+// Coordinates about rays and signs of edges are the same to the last bit in every set. Factors are
+// chosen so that their products nearly cancel.
+TYPED_TEST(SimdOperations, ProductsAreSubtractedWithOneRounding)
+{
+  using Simd = TypeParam;
+  constexpr int width = Simd::Width;
+  int cancelled = 0;
+  for (int round = 0; round < Rounds; ++round)
+  {
+    float a[width];
+    float b[width];
+    float c[width];
+    float d[width];
+    float expected[width];
+    const auto anyFactor = [&](int)
+    {
+      // Coordinates are multiples of 2^-63 (ExactEdgeTest), and so are the neighbours of these.
+      const auto digits = static_cast<float>(this->AnyInt() | 1);
+      return std::ldexp(digits, static_cast<int>(this->Random() % 39) - 38);
+    };
+    this->Fill(b, anyFactor);
+    this->Fill(c, anyFactor);
+    this->Fill(a, [&](int i) { return b[i] * c[i]; });
+    this->Fill(expected, [&](int i) { return std::fma(-b[i], c[i], a[i]); });
+    this->ExpectSame(
+      Simd::SubtractProduct(Simd::Load(a), Simd::Load(b), Simd::Load(c)), expected, "rest");
+    // a d - b c for a = b (1 + x), d = c (1 - x), to the nearest floats.
+    this->Fill(a, [&](int i) { return std::nextafter(b[i], 0.0f); });
+    this->Fill(d, [&](int i) { return std::nextafter(c[i], i % 2 == 0 ? 1e30f : -1e30f); });
+    const auto result =
+      Simd::CrossProduct(Simd::Load(a), Simd::Load(b), Simd::Load(c), Simd::Load(d));
+    float determinants[width];
+    Simd::Store(determinants, result);
+    for (int i = 0; i < width; ++i)
+    {
+      // Products of floats are exact in long double, and so is the sign of their difference.
+      const long double exact = static_cast<long double>(a[i]) * d[i] -
+        static_cast<long double>(b[i]) * c[i];
+      const long double error = std::fabs(static_cast<long double>(determinants[i]) - exact);
+      EXPECT_LE(error, std::fabs(exact) * std::ldexp(1.0L, -22)) << a[i] << " " << d[i];
+      EXPECT_EQ(determinants[i] > 0.0f, exact > 0.0L);
+      EXPECT_EQ(determinants[i] < 0.0f, exact < 0.0L);
+      cancelled += a[i] * d[i] == b[i] * c[i] && exact != 0.0L;
+    }
+  }
+  EXPECT_GT(cancelled, 10);
 }
 
 TYPED_TEST(SimdOperations, GathersAndLookUps)
@@ -294,16 +338,11 @@ TYPED_TEST(SimdOperations, GathersAndLookUps)
     }
     std::int32_t face[width];
     this->Fill(face, [&](int) { return static_cast<std::int32_t>(this->Random() % 256); });
-    typename Simd::Int links[4];
-    Simd::GatherCells(cells.data(), table.data(), Simd::Load(face), links, q);
+    Simd::GatherVertices(cells.data(), table.data(), Simd::Load(face), q);
     for (int k = 0; k < 4; ++k)
     {
-      std::int32_t link[width];
-      this->Fill(link, [&](int i) { return cells[8 * (face[i] / 4) + 4 + k]; });
-      this->ExpectSame(links[k], link, "link");
-      this->Fill(
-        expected, [&](int i) { return table[4 * cells[8 * (face[i] / 4) + face[i] % 4] + k]; });
-      this->ExpectSame(q[k], expected, "opposite vertex");
+      this->Fill(expected, [&](int i) { return table[4 * cells[face[i]] + k]; });
+      this->ExpectSame(q[k], expected, "vertex");
     }
     this->Fill(expected, [&](int i) { return table[face[i] / 4]; });
     this->ExpectSame(
@@ -312,12 +351,5 @@ TYPED_TEST(SimdOperations, GathersAndLookUps)
     this->Fill(expected, [&](int i) { return table[face[i]]; });
     this->ExpectSame(
       (Simd::template Lookup<2>(table.data(), Simd::Load(face))), expected, "table entry");
-    std::int32_t pick[width];
-    this->Fill(pick, [&](int) { return static_cast<std::int32_t>(this->Random() % 4); });
-    const typename Simd::Int of[4] = { Simd::Splat(10), Simd::Splat(11), Simd::Splat(12),
-      Simd::Splat(13) };
-    std::int32_t picked[width];
-    this->Fill(picked, [&](int i) { return 10 + pick[i]; });
-    this->ExpectSame(Simd::Pick(Simd::Load(pick), of), picked, "picked");
   }
 }

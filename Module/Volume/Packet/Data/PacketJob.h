@@ -62,6 +62,8 @@ struct PacketJob
   const glm::dmat3* GradientToFrame;
   /** Grid unit of x and y, in units of the frame. */
   double GridUnit;
+  /** Pivot of the rays in grid units of depth. */
+  std::int32_t Pivot;
   /** Transmittance at or below which a ray ends. */
   float TerminationTransmittance;
   const PacketRay* Rays;

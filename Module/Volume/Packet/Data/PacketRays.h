@@ -15,7 +15,10 @@ namespace meniscus
 /** A vertex in the grid of an image's rays: 16 bytes. */
 struct PacketVertex
 {
-  /** Grid coordinates x, y and depth (FixedPointRays); depth in units of DepthUnit. */
+  /**
+   * Grid coordinates x, y and depth (FixedPointRays); depth in units of DepthUnit, from the centre
+   * of the mesh.
+   */
   std::int32_t Place[3];
   /** Normalised scalar; NaN makes the vertex's cells transparent. */
   float Scalar;
@@ -29,17 +32,20 @@ struct PacketVertex
 };
 
 /**
- * A ray and its frame of reference. Relative to the ray, a vertex has the coordinates (u, v) = (x,
- * y) - floor((depth * Slope + Offset) / 2^32), in grid units.
+ * A ray and its frame of reference. Relative to the ray, a vertex has the coordinates u, v =
+ * fma(-Slope, float(depth), float(place - Offset)), in grid units, for its x and y; depths count
+ * from the pivot of the rays (FixedPointRays). Differences of integers are exact, each conversion
+ * to float rounds once, and fma rounds once.
  */
 struct PacketRay
 {
-  /** Such that |u|, |v| < 2^31 for all vertices of the mesh. */
-  std::int32_t Slope[2];
-  std::int64_t Offset[2];
-  /** World length of a unit of depth. */
+  /** Such that differences from places of the mesh are within 32 bits. */
+  std::int32_t Offset[2];
+  /** Grid units across per grid unit of depth; 0 or at least 2^-40 in magnitude. */
+  float Slope[2];
+  /** World length of a grid unit of depth. */
   float LengthPerDepth;
-  /** Depths between which the ray is integrated. */
+  /** Depths between which the ray is integrated, in grid units from the pivot. */
   float StartDepth;
   float EndDepth;
   /**
@@ -56,6 +62,7 @@ struct PacketEntry
   std::int32_t Vertices[3];
   /** Cell * 4 + index of the cell's vertex opposite the face. */
   std::int32_t CellFace;
+  /** Grid units from the pivot. */
   float Depth;
 };
 
@@ -94,8 +101,44 @@ struct PacketFaceJob
   std::int32_t NumberOfFaces;
   const PacketRay* Rays;
   std::int32_t NumberOfRays;
+  /** Pivot of the rays in grid units of depth. */
+  std::int32_t Pivot;
   /** One entry per face; bit i is set if ray i enters by it. */
   std::uint64_t* Entered;
+};
+
+/** Consecutive rays [First, End) that may enter by a face. */
+struct PacketSpan
+{
+  std::int32_t Face;
+  std::int32_t First;
+  std::int32_t End;
+};
+
+/** A ray that enters by a face. */
+struct PacketHit
+{
+  std::int32_t Ray;
+  std::int32_t Face;
+  /** As in PacketEntry. */
+  float Depth;
+};
+
+/** Tests of faces with spans of rays. */
+struct PacketSpanJob
+{
+  const PacketVertex* Vertices;
+  const PacketFace* Faces;
+  const PacketSpan* Spans;
+  std::int32_t NumberOfSpans;
+  /** Offsets and slopes of all rays as in PacketRay; readable up to 16 entries behind the last. */
+  const std::int32_t* Offsets[2];
+  const float* Slopes[2];
+  /** Pivot of the rays in grid units of depth. */
+  std::int32_t Pivot;
+  /** In the order of the spans; room for one hit per ray of each span. */
+  PacketHit* Hits;
+  std::int32_t NumberOfHits;
 };
 
 }

@@ -4,136 +4,199 @@
 #define meniscus_Volume_Packet_Kernels_PacketFaces_h
 
 #include "Volume/Packet/Data/PacketRays.h"
-#include "Volume/Rays/ExactEdgeTest.h"
+#include "Volume/Packet/Walk/PacketCorners.h"
 
 #include <cstdint>
 
 namespace meniscus
 {
 
-/** Tests which rays enter by which faces, with the signs and the tie rule of PacketWalk. */
+/** One face and one ray per lane: the signs and the tie rule of PacketWalk. */
 template <class Simd>
 class PacketFaceTest
 {
 public:
-  explicit PacketFaceTest(const PacketFaceJob& job)
-    : Job(job)
-  {
-  }
-
-  void Run()
-  {
-    for (std::int32_t face = 0; face < this->Job.NumberOfFaces; ++face)
-    {
-      this->Job.Entered[face] = 0;
-    }
-    for (std::int32_t first = 0; first < this->Job.NumberOfRays; first += Width)
-    {
-      this->TakeRays(first);
-      for (std::int32_t face = 0; face < this->Job.NumberOfFaces; ++face)
-      {
-        const std::uint64_t bits = this->FindEntering(this->Job.Faces[face]) & this->Valid;
-        this->Job.Entered[face] |= bits << first;
-      }
-    }
-  }
-
-private:
   using Float = typename Simd::Float;
   using Int = typename Simd::Int;
   using Mask = typename Simd::Mask;
-  using Grid = ExactEdgeTest<Simd>;
-  static constexpr int Width = Simd::Width;
 
-  void TakeRays(std::int32_t first)
+  /** Offsets and slopes of rays in x and y. */
+  struct Rays
   {
-    this->Valid = 0;
-    for (int lane = 0; lane < Width; ++lane)
+    Int Offset[2];
+    Float Slope[2];
+  };
+
+  PacketFaceTest(const PacketVertex* vertices, std::int32_t pivot)
+    : Vertices(vertices)
+    , Pivot(pivot)
+  {
+  }
+
+  /** Takes the face for the calls that follow. */
+  void Take(const PacketFace& face)
+  {
+    for (int k = 0; k < 3; ++k)
     {
-      const bool valid = first + lane < this->Job.NumberOfRays;
-      this->Valid |= valid ? 1u << lane : 0u;
-      const PacketRay& ray = this->Job.Rays[valid ? first + lane : first];
+      this->Ids[k] = face.Vertices[k];
+      this->Seen[k] = this->Vertices + face.Vertices[k];
+      this->Depths[k] = static_cast<float>(this->Seen[k]->Place[2] - this->Pivot);
+    }
+  }
+
+  /** Lanes whose ray enters by the face. */
+  Mask Test(const Rays& rays);
+
+  /**
+   * Depths at which the rays of the last test that enter do so, in grid units from the pivot. A
+   * face without projected area is met at its first vertex.
+   */
+  Float EntryDepths() const
+  {
+    const Float total = this->Areas[0] + this->Areas[1] + this->Areas[2];
+    const Float first = Simd::Splat(this->Depths[0]);
+    const Float toB = Simd::Splat(this->Depths[1] - this->Depths[0]);
+    const Float toC = Simd::Splat(this->Depths[2] - this->Depths[0]);
+    const Float met = first + (this->Areas[2] * toB + this->Areas[0] * toC) / total;
+    return Simd::Select(total > Simd::Splat(0.0f), met, first);
+  }
+
+private:
+  struct Corner
+  {
+    Float U;
+    Float V;
+  };
+
+  const PacketVertex* Vertices;
+  std::int32_t Pivot;
+  std::int32_t Ids[3] = {};
+  const PacketVertex* Seen[3] = {};
+  float Depths[3] = {};
+  /** Twice the areas that the edges 01, 12, 20 span with the rays. */
+  Float Areas[3];
+};
+
+//------------------------------------------------------------------------------
+template <class Simd>
+inline auto PacketFaceTest<Simd>::Test(const Rays& rays) -> Mask
+{
+  Corner corners[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    const Float depth = Simd::Splat(this->Depths[k]);
+    const auto aboutRay = [&](int axis)
+    {
+      const Float place =
+        Simd::ToFloat(Simd::Splat(this->Seen[k]->Place[axis]) - rays.Offset[axis]);
+      return Simd::SubtractProduct(place, rays.Slope[axis], depth);
+    };
+    corners[k] = { aboutRay(0), aboutRay(1) };
+  }
+  const Float zero = Simd::Splat(0.0f);
+  for (int k = 0; k < 3; ++k)
+  {
+    const Corner& p = corners[k];
+    const Corner& q = corners[(k + 1) % 3];
+    this->Areas[k] = Simd::CrossProduct(p.U, p.V, q.U, q.V);
+  }
+  const Float least = Simd::Min(this->Areas[0], Simd::Min(this->Areas[1], this->Areas[2]));
+  const Mask inside = least > zero;
+  const Mask outside = least < zero;
+  if (Simd::Bits(inside | outside) == (1u << Simd::Width) - 1u)
+  {
+    return inside;
+  }
+  Mask entered = Simd::Not(outside);
+  for (int k = 0; k < 3; ++k)
+  {
+    const int next = (k + 1) % 3;
+    const Mask before = Simd::FromBits(this->Ids[k] < this->Ids[next] ? (1u << Simd::Width) - 1u : 0u);
+    entered = entered &
+      ((this->Areas[k] > zero) | PassesLeft<Simd>(corners[k], corners[next], before));
+  }
+  return entered;
+}
+
+//------------------------------------------------------------------------------
+/** Tests which rays enter by which faces. */
+template <class Simd>
+void FindEnteredWith(const PacketFaceJob& job)
+{
+  constexpr int width = Simd::Width;
+  PacketFaceTest<Simd> test(job.Vertices, job.Pivot);
+  for (std::int32_t face = 0; face < job.NumberOfFaces; ++face)
+  {
+    job.Entered[face] = 0;
+  }
+  for (std::int32_t first = 0; first < job.NumberOfRays; first += width)
+  {
+    std::int32_t offsets[2][width];
+    float slopes[2][width];
+    std::uint64_t valid = 0;
+    for (int lane = 0; lane < width; ++lane)
+    {
+      const bool isRay = first + lane < job.NumberOfRays;
+      valid |= isRay ? 1u << lane : 0u;
+      const PacketRay& ray = job.Rays[isRay ? first + lane : first];
       for (int axis = 0; axis < 2; ++axis)
       {
-        this->Slope[axis][lane] = ray.Slope[axis];
-        this->Offset[axis][lane % 2][lane / 2] = ray.Offset[axis];
+        offsets[axis][lane] = ray.Offset[axis];
+        slopes[axis][lane] = ray.Slope[axis];
       }
     }
-  }
-
-  unsigned int FindEntering(const PacketFace& face) const
-  {
-    Float u[3];
-    Float v[3];
-    for (int k = 0; k < 3; ++k)
+    const typename PacketFaceTest<Simd>::Rays rays{
+      { Simd::Load(offsets[0]), Simd::Load(offsets[1]) },
+      { Simd::Load(slopes[0]), Simd::Load(slopes[1]) }
+    };
+    for (std::int32_t face = 0; face < job.NumberOfFaces; ++face)
     {
-      const std::int32_t(&place)[3] = this->Job.Vertices[face.Vertices[k]].Place;
-      const Int depth = Simd::Splat(place[2]);
-      const auto aboutRay = [&](int axis)
-      {
-        const auto& offset = this->Offset[axis];
-        return Simd::ToFloat(Simd::Splat(place[axis]) -
-          Simd::MultiplyHigh(depth, this->Slope[axis], offset[0], offset[1]));
+      test.Take(job.Faces[face]);
+      job.Entered[face] |= (Simd::Bits(test.Test(rays)) & valid) << first;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/** Finds the entries of a tile's rays. */
+template <class Simd>
+void FindEntriesWith(PacketSpanJob& job)
+{
+  constexpr int width = Simd::Width;
+  PacketFaceTest<Simd> test(job.Vertices, job.Pivot);
+  PacketHit* hit = job.Hits;
+  std::int32_t taken = -1;
+  for (const PacketSpan* span = job.Spans; span != job.Spans + job.NumberOfSpans; ++span)
+  {
+    if (span->Face != taken)
+    {
+      taken = span->Face;
+      test.Take(job.Faces[taken]);
+    }
+    for (std::int32_t first = span->First; first < span->End; first += width)
+    {
+      const typename PacketFaceTest<Simd>::Rays rays{
+        { Simd::Load(job.Offsets[0] + first), Simd::Load(job.Offsets[1] + first) },
+        { Simd::Load(job.Slopes[0] + first), Simd::Load(job.Slopes[1] + first) }
       };
-      u[k] = aboutRay(0);
-      v[k] = aboutRay(1);
-    }
-    // As in PacketWalk::EdgeArea().
-    const Float zero = Simd::Splat(0.0f);
-    Float excess = Simd::Splat(1.0f);
-    Mask left = Simd::FromBits((1u << Width) - 1u);
-    Mask surelyOut = Simd::FromBits(0);
-    for (int k = 0; k < 3; ++k)
-    {
-      const int next = (k + 1) % 3;
-      const Float area = Simd::CrossProduct(u[k], v[k], u[next], v[next]);
-      const Float sure =
-        Simd::Abs(area) - Simd::Abs(v[k] * u[next]) * Simd::Splat(Grid::RoundingOfArea);
-      excess = Simd::Min(excess, sure);
-      surelyOut = surelyOut | ((area < zero) & (sure > zero));
-      left = left & (area > zero);
-    }
-    const unsigned int unsure = ~Simd::Bits(surelyOut) & ~Simd::Bits(excess > zero) & this->Valid;
-    return unsure == 0 ? Simd::Bits(left) : this->MakeSure(face, unsure, Simd::Bits(left));
-  }
-
-  unsigned int MakeSure(const PacketFace& face, unsigned int lanes, unsigned int bits) const
-  {
-    for (int lane = 0; lane < Width; ++lane)
-    {
-      const unsigned int bit = 1u << lane;
-      if ((lanes & bit) == 0)
+      const std::int32_t left = span->End - first;
+      const unsigned int valid = left < width ? (1u << left) - 1u : (1u << width) - 1u;
+      unsigned int bits = Simd::Bits(test.Test(rays)) & valid;
+      if (bits == 0)
       {
         continue;
       }
-      std::int32_t grid[3][3];
-      for (int k = 0; k < 3; ++k)
+      float depths[width];
+      Simd::Store(depths, test.EntryDepths());
+      for (; bits != 0; bits &= bits - 1)
       {
-        const std::int32_t(&place)[3] = this->Job.Vertices[face.Vertices[k]].Place;
-        for (int axis = 0; axis < 2; ++axis)
-        {
-          grid[k][axis] = Grid::AboutRay(
-            place[axis], place[2], this->Slope[axis][lane], this->Offset[axis][lane % 2][lane / 2]);
-        }
-        grid[k][2] = face.Vertices[k];
+        const int lane = __builtin_ctz(bits);
+        *hit++ = { first + lane, taken, depths[lane] };
       }
-      bool enters = true;
-      for (int k = 0; k < 3; ++k)
-      {
-        std::int64_t area;
-        enters = enters && Grid::TurnsLeft(grid[k], grid[(k + 1) % 3], area);
-      }
-      bits = enters ? bits | bit : bits & ~bit;
     }
-    return bits;
   }
-
-  const PacketFaceJob& Job;
-  unsigned int Valid = 0;
-  std::int32_t Slope[2][Width];
-  /** Offsets of even and of odd lanes. */
-  std::int64_t Offset[2][2][Width / 2];
-};
+  job.NumberOfHits = static_cast<std::int32_t>(hit - job.Hits);
+}
 
 }
 

@@ -8,7 +8,8 @@ namespace meniscus
 // Defined once per set, by PacketKernelsOfSet.cxx.in.
 #define MENISCUS_DECLARE_KERNELS(name, label, isSupported, target)                                 \
   void CastPackets##name(const PacketJob& job);                                                    \
-  void FindEntered##name(const PacketFaceJob& job);
+  void FindEntered##name(const PacketFaceJob& job);                                               \
+  void FindEntries##name(PacketSpanJob& job);
 MENISCUS_INSTRUCTION_SETS(MENISCUS_DECLARE_KERNELS)
 #undef MENISCUS_DECLARE_KERNELS
 
@@ -27,6 +28,15 @@ void FindEntered(const PacketFaceJob& job, InstructionSet set)
 #define MENISCUS_KERNEL(name, label, isSupported, target) FindEntered##name,
   constexpr void (*kernels[])(
     const PacketFaceJob&) = { MENISCUS_INSTRUCTION_SETS(MENISCUS_KERNEL) };
+#undef MENISCUS_KERNEL
+  kernels[static_cast<int>(set)](job);
+}
+
+//------------------------------------------------------------------------------
+void FindEntries(PacketSpanJob& job, InstructionSet set)
+{
+#define MENISCUS_KERNEL(name, label, isSupported, target) FindEntries##name,
+  constexpr void (*kernels[])(PacketSpanJob&) = { MENISCUS_INSTRUCTION_SETS(MENISCUS_KERNEL) };
 #undef MENISCUS_KERNEL
   kernels[static_cast<int>(set)](job);
 }

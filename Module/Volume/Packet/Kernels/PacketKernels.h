@@ -22,6 +22,12 @@ void CastPackets(const PacketJob& job, InstructionSet set);
  */
 void FindEntered(const PacketFaceJob& job, InstructionSet set);
 
+/**
+ * Tests all spans of faces and sets the hits of the job.
+ * @pre GetInstructionSets() has the set
+ */
+void FindEntries(PacketSpanJob& job, InstructionSet set);
+
 }
 
 #endif

@@ -67,12 +67,13 @@ struct PacketLit
   std::array<typename Simd::Float, 3> Highlight;
 };
 
-/** A ray per lane in its frame: (X + depth SlopeX, Y + depth SlopeY, depth). */
+/** A ray per lane in its frame: (X, Y, Depth) at the pivot, and the change of X and Y per depth. */
 template <class Simd>
 struct PacketLine
 {
   typename Simd::Float X;
   typename Simd::Float Y;
+  typename Simd::Float Depth;
   typename Simd::Float SlopeX;
   typename Simd::Float SlopeY;
 };
@@ -195,8 +196,9 @@ PacketLit<Simd> PacketLights<Simd>::Light(
     zero - perDepth };
   const Mask away = Dot(facing, toEye) < zero;
   facing = Scaled(facing, Simd::Select(away, zero - one, one));
-  const Vector place = { Simd::Fma(depth, ray.SlopeX, ray.X), Simd::Fma(depth, ray.SlopeY, ray.Y),
-    depth };
+  const Float fromPivot = depth * Simd::Splat(PacketVertex::DepthUnit);
+  const Vector place = { Simd::Fma(fromPivot, ray.SlopeX, ray.X),
+    Simd::Fma(fromPivot, ray.SlopeY, ray.Y), fromPivot + ray.Depth };
   PacketLit<Simd> sum = lit;
   for (std::int32_t i = 0; i < this->Medium.NumberOfLights; ++i)
   {

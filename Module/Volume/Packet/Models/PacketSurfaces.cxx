@@ -83,13 +83,14 @@ glm::dvec3 LitColor(
     return emitted;
   }
   const PacketRay& ray = job.Rays[segment.Ray];
-  constexpr double fraction = 1.0 / 4294967296.0; // 2^-32
-  const glm::dvec2 slope = glm::dvec2(ray.Slope[0], ray.Slope[1]) * fraction * job.GridUnit /
-    double{ PacketVertex::DepthUnit };
-  const glm::dvec2 origin =
-    (glm::dvec2(ray.Offset[0], ray.Offset[1]) * fraction - 0.5) * job.GridUnit;
-  const double depth = segment.StartDepth + at * (double{ segment.EndDepth } - segment.StartDepth);
-  const glm::dvec3 place(origin.x + depth * slope.x, origin.y + depth * slope.y, depth);
+  const glm::dvec2 slope =
+    glm::dvec2(ray.Slope[0], ray.Slope[1]) * (job.GridUnit * PacketVertex::GridPerDepth);
+  const double fromPivot =
+    segment.StartDepth + at * (double{ segment.EndDepth } - segment.StartDepth);
+  const glm::dvec2 across = job.GridUnit *
+    (glm::dvec2(ray.Offset[0], ray.Offset[1]) +
+      fromPivot * glm::dvec2(ray.Slope[0], ray.Slope[1]));
+  const glm::dvec3 place(across, (fromPivot + job.Pivot) / PacketVertex::GridPerDepth);
 
   const SeenCell cell = SeeCell(job, segment.CellFace / 4);
   glm::dvec3 normal;

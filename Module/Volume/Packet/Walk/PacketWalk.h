@@ -7,9 +7,7 @@
 #include "Volume/Packet/Data/PacketJob.h"
 #include "Volume/Packet/Models/PacketLights.h"
 #include "Volume/Packet/Models/VertexAttributes.h"
-#include "Volume/Rays/ExactEdgeTest.h"
-
-#include <array>
+#include "Volume/Packet/Walk/PacketCorners.h"
 
 namespace meniscus
 {
@@ -18,14 +16,23 @@ namespace meniscus
  * Walks rays from cell to cell by edge signs in the ray-aligned projection, one ray per lane. A
  * lane whose ray has ended takes the next ray of the job.
  *
- * A vertex has coordinates (u, v) relative to a ray: the same function of vertex and ray wherever
- * it is needed, rounded to integer grid units. The sign of an edge, which tells the side on which
- * the ray passes, is that of a cross product; it is computed in float where the rounding error
- * cannot change it, otherwise in 64-bit integers. A ray through an edge or a vertex is treated as
- * displaced by (e, e^2) for an arbitrarily small e, and edges whose ends coincide are ordered by
- * vertex. Therefore every cell that is entered has exactly one face by which to leave, every face
- * and side can be reached in one way only, and a walk that begins on the boundary ends on the
- * boundary.
+ * A vertex has coordinates (u, v) relative to a ray: floats that are the same function of vertex
+ * and ray wherever they are needed (PacketRay). The sign of an edge, which tells the side on which
+ * the ray passes, is that of a cross product of these floats, which is exact (ExactEdgeTest). A ray
+ * through an edge or a vertex is treated as displaced by (e, e^2) for an arbitrarily small e, and
+ * edges whose ends coincide are ordered by vertex. Therefore every cell that is entered has exactly
+ * one face by which to leave, every face and side can be reached in one way only, and a walk that
+ * begins on the boundary ends on the boundary.
+ *
+ * The order of the face's corners A, B, C, which tells where they are in their cell, is one number
+ * of six. Together with the face's number in the cell it indexes a table (FaceTurns) of the link to
+ * follow and the next order, for each corner that the next face may lack.
+ *
+ * Depths are floats that count from the pivot of the rays, where these begin to be seen: their
+ * rounding errors, and those of segments' lengths, are at most 2^-24 of the distance from there.
+ * Differences of integer depths would be exact in small cells anywhere, but each is rounded on its
+ * own in long ones: in needles with an aspect ratio of 1e4 the errors of lengths were three times
+ * those of corners that are rounded once for all faces.
  */
 template <class Simd, class Model>
 class PacketWalk
@@ -38,7 +45,6 @@ private:
   using Float = typename Simd::Float;
   using Int = typename Simd::Int;
   using Mask = typename Simd::Mask;
-  using Grid = ExactEdgeTest<Simd>;
   using VertexValues = VertexAttributes<Simd, Model::NumberOfTriples>;
   using CellValues = VertexAttributes<Simd, Model::UsesCellGradients ? 1 : 0>;
   static constexpr int Width = Simd::Width;
@@ -48,34 +54,35 @@ private:
   {
     Float U;
     Float V;
+    /** Grid units from the pivot. */
     Float Depth;
     Float Scalar;
-    /**
-     * Rank of the vertex among those of its face: 0, 1 or 2. Cells and faces order vertices in the
-     * same way.
-     */
-    Int Rank;
     /** Further values that models need. */
     VertexValues Others{};
   };
-  /** Offset of one axis of PacketRay, by lane; even and odd lanes are multiplied separately. */
-  struct Shift
+  /** Point in which a ray meets a face. */
+  struct FacePoint
   {
-    std::int32_t Slope[Width];
-    std::int64_t Offset[2][Width / 2];
+    /** Grid units from the pivot. */
+    Float Depth;
+    Float Scalar;
+    VertexValues Values;
 
-    void Set(int lane, std::int32_t slope, std::int64_t offset)
+    /** Takes over all members in some lanes. */
+    void Replace(Mask lanes, const FacePoint& other)
     {
-      this->Slope[lane] = slope;
-      this->Offset[lane % 2][lane / 2] = offset;
+      this->Depth = Simd::Select(lanes, other.Depth, this->Depth);
+      this->Scalar = Simd::Select(lanes, other.Scalar, this->Scalar);
+      this->Values.Replace(lanes, other.Values);
     }
   };
 
   void Place(const Float (&vertex)[4], Corner& corner) const;
   void Project(Int id, Corner& corner) const;
-  static Float EdgeArea(const Corner& p, const Corner& q, Float& excess);
-  void MakeSure(
-    unsigned int lanes, const Int (&corners)[4], Float (&areas)[3], Mask (&left)[3]) const;
+  static Float EdgeArea(const Corner& p, const Corner& q)
+  {
+    return Simd::CrossProduct(p.U, p.V, q.U, q.V);
+  }
   /**
    * The cell to be entered next: the face by which it is entered, its links, and the vertex
    * opposite that face.
@@ -83,16 +90,18 @@ private:
   struct Ahead
   {
     Int Face;
-    Int Links[4];
+    /** Index of the cell's first vertex in the job's cells; unsigned. */
+    Int Row;
     Corner X;
     /** Used with scalars of cells only. */
     Float CellScalar;
     CellValues Gradient;
   };
+  void BreakTies(const Ahead& ahead, const Float (&areas)[3], Mask (&left)[3]) const;
   void Fetch(Ahead& ahead) const;
   void Step(Mask lanes, const Ahead& ahead);
   static void ReplaceCorner(Mask lanes, const Corner& x, Corner& corner);
-  void Interpolate(Float& depth, Float& scalar, VertexValues& others) const;
+  void Interpolate(FacePoint& point) const;
   Int OppositeVertices(Int cellFace) const;
   CellValues GradientsOf(Int cellFace) const;
   void LoadLines();
@@ -135,7 +144,10 @@ private:
   std::int32_t StepLimit;
 
   Model Integral;
-  Shift Axes[2];
+  /** Offsets and slopes of the rays in x and y, and their pivot. */
+  Int Offset[2];
+  Float Slope[2];
+  Int Pivot;
   // Vertices of the face just entered by, counter-clockwise about the ray, and twice the areas that
   // its edges AB, BC, CA span with the ray.
   Corner A;
@@ -144,11 +156,11 @@ private:
   Float AreaAB;
   Float AreaBC;
   Float AreaCA;
+  /** 4 * the order of A, B, C (FaceTurns). */
+  Int Order;
   /** 4 * cell + face just entered by; negative outside of the mesh. */
   Int CellFace;
-  Float FaceDepth;
-  Float FaceScalar;
-  VertexValues FaceValues;
+  FacePoint Face;
   /** Line of each lane's ray, for models that need it. */
   PacketLine<Simd> Line;
   /** Largest depth reached. */
@@ -162,6 +174,8 @@ private:
   Mask Pending;
 
   // By lane, for the scalar code that replaces rays.
+  std::int32_t Offsets[2][Width];
+  float Slopes[2][Width];
   std::int32_t Ray[Width];
   std::int32_t Entry[Width];
   std::int32_t Ids[3][Width];
@@ -187,13 +201,14 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   this->StepLimit = static_cast<std::int32_t>(limit < 0x7fffffff ? limit : 0x7fffffff);
   const Int none = Simd::Splat(0);
   const Float zero = Simd::Splat(0.0f);
-  this->A = Corner{ zero, zero, zero, zero, none };
+  this->Pivot = Simd::Splat(job.Pivot);
+  this->A = Corner{ zero, zero, zero, zero };
   this->A.Others.Clear();
   this->B = this->C = this->A;
   this->AreaAB = this->AreaBC = this->AreaCA = zero;
-  this->FaceDepth = this->FaceScalar = zero;
-  this->FaceValues.Clear();
-  this->Line = { zero, zero, zero, zero };
+  this->Order = none;
+  this->Face = FacePoint{ zero, zero, this->A.Others };
+  this->Line = { zero, zero, zero, zero, zero };
   // Gradients come first.
   const bool gradients = job.Medium && job.VertexGradients;
   this->ValueTables[0] = gradients ? job.VertexGradients : job.Components;
@@ -207,8 +222,8 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
     this->CellFaces[lane] = this->StepsOf[lane] = 0;
     this->DepthsNow[lane] = this->StartDepths[lane] = this->EndDepths[lane] = 0.0f;
     this->LengthsPerDepth[lane] = 0.0f;
-    this->Axes[0].Set(lane, 0, 0);
-    this->Axes[1].Set(lane, 0, 0);
+    this->Offsets[0][lane] = this->Offsets[1][lane] = 0;
+    this->Slopes[0][lane] = this->Slopes[1][lane] = 0.0f;
   }
   this->LoadLanes();
 }
@@ -251,19 +266,18 @@ void PacketWalk<Simd, Model>::Run()
 }
 
 //------------------------------------------------------------------------------
-/** Loads a vertex relative to the rays, except for its Rank. */
+/** Places a vertex relative to the rays. */
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Place(const Float (&vertex)[4], Corner& corner) const
 {
-  const Int depth = Simd::AsInt(vertex[2]);
-  const auto aboutRay = [&](const Shift& axis, Float place)
+  corner.Depth = Simd::ToFloat(Simd::AsInt(vertex[2]) - this->Pivot);
+  const auto aboutRay = [&](int axis)
   {
-    const Int shift = Simd::MultiplyHigh(depth, axis.Slope, axis.Offset[0], axis.Offset[1]);
-    return Simd::ToFloat(Simd::AsInt(place) - shift);
+    const Float place = Simd::ToFloat(Simd::AsInt(vertex[axis]) - this->Offset[axis]);
+    return Simd::SubtractProduct(place, this->Slope[axis], corner.Depth);
   };
-  corner.U = aboutRay(this->Axes[0], vertex[0]);
-  corner.V = aboutRay(this->Axes[1], vertex[1]);
-  corner.Depth = Simd::ToFloat(depth) * Simd::Splat(PacketVertex::DepthUnit);
+  corner.U = aboutRay(0);
+  corner.V = aboutRay(1);
   corner.Scalar = vertex[3];
 }
 
@@ -278,23 +292,6 @@ void PacketWalk<Simd, Model>::Project(Int id, Corner& corner) const
 }
 
 //------------------------------------------------------------------------------
-/**
- * Twice the area that the edge pq spans with the ray. Each factor has a relative error of 2^-24,
- * and so have their products and difference: the error is less than 2^-22 (|area| + 2 |pv qu|) in
- * all. The sign is therefore certain if |area| - 2^-20 |pv qu| is positive; `excess` is lowered to
- * that value.
- */
-template <class Simd, class Model>
-inline auto PacketWalk<Simd, Model>::EdgeArea(const Corner& p, const Corner& q, Float& excess)
-  -> Float
-{
-  const Float area = Simd::CrossProduct(p.U, p.V, q.U, q.V);
-  const Float bound = Simd::Abs(p.V * q.U) * Simd::Splat(Grid::RoundingOfArea);
-  excess = Simd::Min(excess, Simd::Abs(area) - bound);
-  return area;
-}
-
-//------------------------------------------------------------------------------
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
 {
@@ -303,7 +300,8 @@ inline void PacketWalk<Simd, Model>::Fetch(Ahead& ahead) const
   const Int cellFace = Simd::Select(this->CellFace < zero, zero, this->CellFace);
   Float vertex[4];
   ahead.Face = Simd::And(cellFace, Simd::Splat(3));
-  Simd::GatherCells(this->Job.Cells, this->VertexTable, cellFace, ahead.Links, vertex);
+  ahead.Row = (cellFace - ahead.Face) + (cellFace - ahead.Face);
+  Simd::GatherVertices(this->Job.Cells, this->VertexTable, ahead.Row + ahead.Face, vertex);
   this->Place(vertex, ahead.X);
   if constexpr (Model::NumberOfTriples > 0)
   {
@@ -325,54 +323,42 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
 {
   const Corner& x = ahead.X;
   const Float zero = Simd::Splat(0.0f);
-  Float excess = Simd::Splat(1.0f);
-  Float areas[3] = { EdgeArea(x, this->A, excess), EdgeArea(x, this->B, excess),
-    EdgeArea(x, this->C, excess) };
+  Float areas[3] = { EdgeArea(x, this->A), EdgeArea(x, this->B), EdgeArea(x, this->C) };
   Mask left[3] = { areas[0] > zero, areas[1] > zero, areas[2] > zero };
-
-  // Positions of the vertices in the cell: the ranks in a face skip the vertex opposite it. In
-  // lanes without a step the last position is used for that vertex, which has no effect.
-  const Int last = Simd::Splat(3);
-  const Int face = Simd::Select(lanes, ahead.Face, last);
-  const Int before = face - Simd::Splat(1);
-  const auto placeOf = [&](const Corner& corner)
-  { return Simd::Increment(corner.Rank > before, corner.Rank); };
-  const Int places[4] = { face, placeOf(this->A), placeOf(this->B), placeOf(this->C) };
-  const unsigned int unsureBits = Simd::Bits(Simd::AndNot(lanes, excess > zero));
-  if (unsureBits != 0)
+  for (Float& area : areas)
   {
-    this->MakeSure(unsureBits, places, areas, left);
+    area = Simd::Abs(area);
+  }
+  const Float least = Simd::Min(areas[0], Simd::Min(areas[1], areas[2]));
+  if (Simd::Bits(Simd::AndNot(lanes, least > zero)) != 0)
+  {
+    this->BreakTies(ahead, areas, left);
   }
 
   // The ray leaves between two consecutive edges from x: left of one and right of the next. The
   // third vertex is dropped; the link to follow is across the face opposite it.
   const Mask dropC = Simd::AndNot(left[0], left[1]);
-  const Mask dropA = Simd::AndNot(Simd::AndNot(left[1], left[2]), dropC);
-  const Mask keepB = dropC | dropA;
-  const Int opposite = Simd::Select(dropA, places[1], Simd::Select(dropC, places[3], places[2]));
-  const Int link = Simd::Pick(opposite, ahead.Links);
-  const Int dropped = Simd::Select(lanes, opposite, last);
+  const Mask dropA = Simd::AndNot(left[1], left[2]);
+  const Int shift = Simd::Select(dropA, Simd::Splat(FaceTurns<Simd>::ShiftOfA),
+    Simd::Select(dropC, Simd::Splat(FaceTurns<Simd>::ShiftOfC),
+      Simd::Splat(FaceTurns<Simd>::ShiftOfB)));
+  const Int turn = Simd::ShiftRight(
+    Simd::LookupOf24(FaceTurns<Simd>::Table.Words, this->Order + ahead.Face), shift);
+  const Int link =
+    Simd::LoadFrom(this->Job.Cells + 4, ahead.Row + Simd::And(turn, Simd::Splat(3)));
 
   // Exit face: x replaces the dropped vertex, which keeps the sense of rotation.
   const Mask replaceA = dropA & lanes;
   const Mask replaceC = dropC & lanes;
-  const Mask replaceB = Simd::AndNot(lanes, keepB);
-  for (Float& area : areas)
-  {
-    area = Simd::Abs(area);
-  }
+  const Mask replaceB = Simd::AndNot(lanes, dropA | dropC);
   this->AreaAB = Simd::Select(replaceA, areas[1], Simd::Select(replaceB, areas[0], this->AreaAB));
   this->AreaBC = Simd::Select(replaceB, areas[2], Simd::Select(replaceC, areas[1], this->AreaBC));
   this->AreaCA = Simd::Select(replaceA, areas[2], Simd::Select(replaceC, areas[0], this->AreaCA));
-  const auto replace = [&](Mask replaced, Int place, Corner& corner)
-  {
-    ReplaceCorner(replaced, x, corner);
-    const Int kept = Simd::Select(replaced, face, place);
-    corner.Rank = Simd::Decrement(kept > dropped, kept);
-  };
-  replace(replaceA, places[1], this->A);
-  replace(replaceB, places[2], this->B);
-  replace(replaceC, places[3], this->C);
+  ReplaceCorner(replaceA, x, this->A);
+  ReplaceCorner(replaceB, x, this->B);
+  ReplaceCorner(replaceC, x, this->C);
+  this->Order = Simd::Select(
+    lanes, Simd::And(turn, Simd::Splat(FaceTurns<Simd>::MaskOfOrder)), this->Order);
   const Int crossed = this->CellFace;
   this->CellFace = Simd::Select(lanes, link, this->CellFace);
   this->Steps = this->Steps + Simd::One(lanes);
@@ -380,7 +366,6 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
 }
 
 //------------------------------------------------------------------------------
-/** Replaces all members but Rank. */
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, Corner& corner)
 {
@@ -393,24 +378,24 @@ inline void PacketWalk<Simd, Model>::ReplaceCorner(Mask lanes, const Corner& x, 
 
 //------------------------------------------------------------------------------
 /**
- * Values at the ray's intersection with ABC; a face without projected area keeps the given values.
+ * Finds the point in which the rays meet ABC. A face without projected area keeps the given point.
  */
 template <class Simd, class Model>
-inline void PacketWalk<Simd, Model>::Interpolate(
-  Float& depth, Float& scalar, VertexValues& others) const
+inline void PacketWalk<Simd, Model>::Interpolate(FacePoint& point) const
 {
   const Float total = this->AreaAB + this->AreaBC + this->AreaCA;
   const Mask real = total > Simd::Splat(0.0f);
   const Float inverse = Simd::Splat(1.0f) / total;
   const auto mean = [&](Float a, Float b, Float c)
   { return Simd::Fma(Simd::Fma(this->AreaCA, b - a, this->AreaAB * (c - a)), inverse, a); };
-  depth = Simd::Select(real, mean(this->A.Depth, this->B.Depth, this->C.Depth), depth);
-  scalar = Simd::Select(real, mean(this->A.Scalar, this->B.Scalar, this->C.Scalar), scalar);
+  FacePoint met;
+  met.Depth = mean(this->A.Depth, this->B.Depth, this->C.Depth);
+  met.Scalar = mean(this->A.Scalar, this->B.Scalar, this->C.Scalar);
   for (int i = 0; i < VertexValues::Size; ++i)
   {
-    const Float value = mean(this->A.Others.Of[i], this->B.Others.Of[i], this->C.Others.Of[i]);
-    others.Of[i] = Simd::Select(real, value, others.Of[i]);
+    met.Values.Of[i] = mean(this->A.Others.Of[i], this->B.Others.Of[i], this->C.Others.Of[i]);
   }
+  point.Replace(real, met);
 }
 
 //------------------------------------------------------------------------------
@@ -418,59 +403,60 @@ inline void PacketWalk<Simd, Model>::Interpolate(
 template <class Simd, class Model>
 inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead& crossed)
 {
-  Float depth = this->FaceDepth;
-  Float scalar = this->FaceScalar;
-  VertexValues exitValues = this->FaceValues;
-  this->Interpolate(depth, scalar, exitValues);
+  FacePoint exit = this->Face;
+  this->Interpolate(exit);
+  const Float faceDepth = this->Face.Depth;
+  const Float depth = exit.Depth;
+  const Float faceScalar = this->Face.Scalar;
 
   // The part before the largest depth reached has been passed already and is not passed again.
   const Float start = Simd::Max(this->DepthNow, this->StartDepth);
   const Float end = Simd::Min(depth, this->EndDepth);
-  Float from = this->FaceScalar;
-  Float to = scalar;
-  VertexValues fromValues = this->FaceValues;
-  VertexValues toValues = exitValues;
-  const Mask late = start > this->FaceDepth;
+  const Float length = end - start;
+  Float from = faceScalar;
+  Float to = exit.Scalar;
+  VertexValues fromValues = this->Face.Values;
+  VertexValues toValues = exit.Values;
+  const Mask late = start > faceDepth;
   const Mask early = depth > end;
   if (this->Job.CellScalars)
   {
     // A jump between cells is integrated where the cell is entered, unless the ray begins behind
     // that face.
     to = crossed.CellScalar;
-    from = Simd::Select(this->StartDepth > this->FaceDepth, to, this->FaceScalar);
+    from = Simd::Select(this->StartDepth > faceDepth, to, faceScalar);
     from = Model::SeesJumps ? from : to;
   }
   else if (Simd::Bits(lanes & (late | early)) != 0)
   {
-    const Float perDepth = (scalar - this->FaceScalar) / (depth - this->FaceDepth);
-    from = Simd::Select(late, Simd::Fma(start - this->FaceDepth, perDepth, this->FaceScalar), from);
-    to = Simd::Select(early, Simd::Fma(end - this->FaceDepth, perDepth, this->FaceScalar), to);
+    const Float whole = depth - faceDepth;
+    const Float perDepth = (exit.Scalar - faceScalar) / whole;
+    from = Simd::Select(late, Simd::Fma(start - faceDepth, perDepth, faceScalar), from);
+    to = Simd::Select(early, Simd::Fma(end - faceDepth, perDepth, faceScalar), to);
     if constexpr (Model::NumberOfTriples > 0)
     {
-      const Float whole = depth - this->FaceDepth;
       const auto at = [&](Float place)
-      { return this->FaceValues.Between((place - this->FaceDepth) / whole, exitValues); };
+      { return this->Face.Values.Between((place - faceDepth) / whole, exit.Values); };
       fromValues.Replace(late, at(start));
       toValues.Replace(early, at(end));
     }
   }
-  const Mask segment = lanes & (end > start);
+  const Mask segment = lanes & (length > Simd::Splat(0.0f));
   const SegmentPlace place{ start, end, cellFace, this->Ray, lanes, late, fromValues, toValues,
     crossed.Gradient, this->Line };
   this->Pending = this->Pending |
-    this->Integral.Begin(segment, from, to, (end - start) * this->LengthPerDepth, place);
+    this->Integral.Begin(segment, from, to, length * this->LengthPerDepth, place);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
-  this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
-  this->FaceValues.Replace(lanes, exitValues);
   Mask known = lanes;
   if (this->Job.CellScalars)
   {
     // The scalar is that of the last integrated cell.
-    known = SegmentsOf<Simd>(segment, from, to, end - start) |
+    known = SegmentsOf<Simd>(segment, from, to, length) |
       Simd::AndNot(lanes, depth > this->StartDepth);
-    scalar = crossed.CellScalar;
+    exit.Scalar = crossed.CellScalar;
   }
-  this->FaceScalar = Simd::Select(known, scalar, this->FaceScalar);
+  exit.Scalar = Simd::Select(known, exit.Scalar, faceScalar);
+  this->Face.Replace(lanes, exit);
 }
 
 //------------------------------------------------------------------------------
@@ -546,7 +532,8 @@ bool PacketWalk<Simd, Model>::TakeRay(int lane)
     const PacketRay& ray = this->Job.Rays[number];
     for (int axis = 0; axis < 2; ++axis)
     {
-      this->Axes[axis].Set(lane, ray.Slope[axis], ray.Offset[axis]);
+      this->Offsets[axis][lane] = ray.Offset[axis];
+      this->Slopes[axis][lane] = ray.Slope[axis];
     }
     for (int k = 0; k < Model::NumberOfValues; ++k)
     {
@@ -635,6 +622,11 @@ void PacketWalk<Simd, Model>::LoadLanes()
   this->StartDepth = Simd::Load(this->StartDepths);
   this->EndDepth = Simd::Load(this->EndDepths);
   this->LengthPerDepth = Simd::Load(this->LengthsPerDepth);
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    this->Offset[axis] = Simd::Load(this->Offsets[axis]);
+    this->Slope[axis] = Simd::Load(this->Slopes[axis]);
+  }
   if constexpr (Model::UsesLines)
   {
     this->LoadLines();
@@ -653,37 +645,31 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
     Corner x;
     this->Project(ids[i], x);
     ReplaceCorner(lanes, x, *corners[i]);
-    Int rank = Simd::Splat(0);
-    rank = Simd::Increment(ids[i] > ids[(i + 1) % 3], rank);
-    rank = Simd::Increment(ids[i] > ids[(i + 2) % 3], rank);
-    corners[i]->Rank = Simd::Select(lanes, rank, corners[i]->Rank);
   }
+  const Int order = FaceTurns<Simd>::OrderOf(ids[0], ids[1], ids[2]);
+  this->Order = Simd::Select(lanes, order, this->Order);
   const auto area = [lanes](const Corner& p, const Corner& q, Float& kept)
-  { kept = Simd::Select(lanes, Simd::Abs(Simd::CrossProduct(p.U, p.V, q.U, q.V)), kept); };
+  { kept = Simd::Select(lanes, Simd::Abs(EdgeArea(p, q)), kept); };
   area(this->A, this->B, this->AreaAB);
   area(this->B, this->C, this->AreaBC);
   area(this->C, this->A, this->AreaCA);
   // A face without projected area is met at its first vertex.
-  Float depth = this->A.Depth;
-  Float scalar = this->A.Scalar;
-  VertexValues others = this->A.Others;
-  this->Interpolate(depth, scalar, others);
+  FacePoint entry{ this->A.Depth, this->A.Scalar, this->A.Others };
+  this->Interpolate(entry);
   if (this->Job.CellScalars)
   {
     const Int zero = Simd::Splat(0);
-    scalar = Simd::GatherCellScalars(
+    entry.Scalar = Simd::GatherCellScalars(
       this->Job.CellScalars, Simd::Select(this->CellFace < zero, zero, this->CellFace));
   }
-  this->FaceDepth = Simd::Select(lanes, depth, this->FaceDepth);
-  this->FaceScalar = Simd::Select(lanes, scalar, this->FaceScalar);
-  this->FaceValues.Replace(lanes, others);
-  this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
+  this->Face.Replace(lanes, entry);
+  this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, entry.Depth), this->DepthNow);
   this->Integral.Enter(lanes);
 }
 
 }
 
-#include "Volume/Packet/Walk/PacketWalkExact.h"
+#include "Volume/Packet/Walk/PacketWalkTies.h"
 #include "Volume/Packet/Walk/PacketWalkOptics.h"
 
 #endif

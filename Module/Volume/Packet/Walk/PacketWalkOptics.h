@@ -43,24 +43,12 @@ inline auto PacketWalk<Simd, Model>::GradientsOf(Int cellFace) const -> CellValu
 template <class Simd, class Model>
 void PacketWalk<Simd, Model>::LoadLines()
 {
-  float places[2][Width];
-  float slopes[2][Width];
-  constexpr double fraction = 1.0 / 4294967296.0; // 2^-32
-  const double unit = this->Job.GridUnit;
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    for (int lane = 0; lane < Width; ++lane)
-    {
-      const double slope = fraction * this->Axes[axis].Slope[lane];
-      const double offset =
-        fraction * static_cast<double>(this->Axes[axis].Offset[lane % 2][lane / 2]);
-      slopes[axis][lane] = static_cast<float>(unit / PacketVertex::DepthUnit * slope);
-      // Offsets are half a unit larger because shifting out the fraction rounds down.
-      places[axis][lane] = static_cast<float>(unit * (offset - 0.5));
-    }
-  }
-  this->Line = { Simd::Load(places[0]), Simd::Load(places[1]), Simd::Load(slopes[0]),
-    Simd::Load(slopes[1]) };
+  const auto unit = static_cast<float>(this->Job.GridUnit);
+  const auto slope = static_cast<float>(this->Job.GridUnit * PacketVertex::GridPerDepth);
+  this->Line = { Simd::ToFloat(this->Offset[0]) * Simd::Splat(unit),
+    Simd::ToFloat(this->Offset[1]) * Simd::Splat(unit),
+    Simd::ToFloat(this->Pivot) * Simd::Splat(PacketVertex::DepthUnit),
+    this->Slope[0] * Simd::Splat(slope), this->Slope[1] * Simd::Splat(slope) };
 }
 
 }
