@@ -3,8 +3,8 @@
 #ifndef meniscus_Volume_Caster_SightLegEntries_h
 #define meniscus_Volume_Caster_SightLegEntries_h
 
-#include "Volume/Caster/JoinedRays.h"
 #include "Simd/InstructionSets.h"
+#include "Volume/Caster/JoinedRays.h"
 #include "Volume/Caster/LegBatch.h"
 #include "Volume/Caster/LegFrame.h"
 #include "Volume/Entries/BoundaryRaster.h"

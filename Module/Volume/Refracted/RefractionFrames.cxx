@@ -147,8 +147,7 @@ void RefractionFrames::Turn(const RayLegs& legs, const glm::dvec3& mean, const R
     this->Frames[index] = RefractionFrame();
     if (this->Needed >> index & 1u)
     {
-      this->Frames[index] =
-        MakeFrame(legs.GetSight(), RotationTo(this->Axes, index), sightPoint);
+      this->Frames[index] = MakeFrame(legs.GetSight(), RotationTo(this->Axes, index), sightPoint);
       this->Frames[index].Vertices = std::move(room);
     }
   }
