@@ -123,8 +123,8 @@ struct SimdPortable
   {
     const Float bc = b * c;
     const Float roundOff = SubtractProduct(bc, b, c);
-    return EachLane<float>(
-      [](float x, float y, float product, float rest) { return std::fma(x, y, -product) + rest; },
+    return EachLane<float>([](float x, float y, float product, float rest)
+      { return std::fma(x, y, -product) + rest; },
       a, d, bc, roundOff);
   }
   static Float Min(const Float& a, const Float& b)

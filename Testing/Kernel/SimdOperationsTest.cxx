@@ -291,8 +291,8 @@ TYPED_TEST(SimdOperations, ProductsAreSubtractedWithOneRounding)
     for (int i = 0; i < width; ++i)
     {
       // Products of floats are exact in long double, and so is the sign of their difference.
-      const long double exact = static_cast<long double>(a[i]) * d[i] -
-        static_cast<long double>(b[i]) * c[i];
+      const long double exact =
+        static_cast<long double>(a[i]) * d[i] - static_cast<long double>(b[i]) * c[i];
       const long double error = std::fabs(static_cast<long double>(determinants[i]) - exact);
       EXPECT_LE(error, std::fabs(exact) * std::ldexp(1.0L, -22)) << a[i] << " " << d[i];
       EXPECT_EQ(determinants[i] > 0.0f, exact > 0.0L);

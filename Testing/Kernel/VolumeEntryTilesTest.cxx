@@ -103,7 +103,8 @@ ListCheck CheckLists(
           [&](std::int32_t f) { return mesh.GetBoundary()[f].CellFace == entry.CellFace; });
         ++check.Entries;
         check.Missing += found == last;
-        check.TooNear += found != last && rays.ToFrame(entry.Depth) < tiles.GetNearestDepths()[*found];
+        check.TooNear +=
+          found != last && rays.ToFrame(entry.Depth) < tiles.GetNearestDepths()[*found];
       }
     }
   }

@@ -138,8 +138,7 @@ void BoundaryRaster::FillRays(const PixelBox& tile, Workspace& workspace) const
 
 //------------------------------------------------------------------------------
 /** Adds a face and the pixels of the tile that it may cover. */
-void BoundaryRaster::AddSpans(
-  std::int32_t index, const PixelBox& tile, Workspace& workspace) const
+void BoundaryRaster::AddSpans(std::int32_t index, const PixelBox& tile, Workspace& workspace) const
 {
   const ProjectedFaces::Face face = this->Faces.Project(index);
   double reciprocals[3];

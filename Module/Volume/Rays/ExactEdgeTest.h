@@ -17,18 +17,18 @@ namespace meniscus
  * those of the packets. It is a template so that each instruction set gets its own code (see
  * PacketJob.h).
  *
- * The coordinates u and v of a vertex about a ray are floats by definition (PacketRay): one rounding
- * of a fused multiply-add whose arguments are rounded integers and the ray's slope. Whoever needs
- * them computes the same floats, so that all decisions about a ray are those of one plane drawing,
- * however the numbers were rounded.
+ * The coordinates u and v of a vertex about a ray are floats by definition (PacketRay): one
+ * rounding of a fused multiply-add whose arguments are rounded integers and the ray's slope.
+ * Whoever needs them computes the same floats, so that all decisions about a ray are those of one
+ * plane drawing, however the numbers were rounded.
  *
  * The sign of an edge is that of the determinant p.u q.v - p.v q.u of these floats, which is exact
  * by Kahan's method with fused multiply-adds: its error is at most 2 units in the last place of the
  * result (C.-P. Jeannerod, N. Louvet and J.-M. Muller, "Further analysis of Kahan's algorithm for
  * the accurate computation of 2x2 determinants", 2013), unless a product under- or overflows.
- * Coordinates are below 2^32. Slopes are 0 or at least 2^-40 (FixedPointRays), so they are multiples
- * of 2^-63, and so are coordinates; products and their rounding errors are multiples of 2^-126, the
- * smallest normal float.
+ * Coordinates are below 2^32. Slopes are 0 or at least 2^-40 (FixedPointRays), so they are
+ * multiples of 2^-63, and so are coordinates; products and their rounding errors are multiples of
+ * 2^-126, the smallest normal float.
  */
 template <class User>
 struct ExactEdgeTest
@@ -68,8 +68,8 @@ struct ExactEdgeTest
 
   /**
    * True if the ray is left of the edge from p to q. A ray through the edge is treated as displaced
-   * by (e, e^2), with e arbitrarily small, which changes the area by e (p.v - q.v) + e^2 (q.u - p.u);
-   * ends that coincide are ordered by vertex.
+   * by (e, e^2), with e arbitrarily small, which changes the area by
+   * e (p.v - q.v) + e^2 (q.u - p.u); ends that coincide are ordered by vertex.
    */
   static bool TurnsLeft(const Corner& p, const Corner& q, float area)
   {

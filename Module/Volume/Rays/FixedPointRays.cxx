@@ -22,9 +22,9 @@ constexpr double GridRadius = 536866816.0;
 constexpr double FractionOfGrid = 4294967296.0; // 2^32, of slopes for shaders
 constexpr double LargestSlope = 2147483647.0;
 /**
- * Bound of the offset of a ray that may meet the mesh. Places are within r = GridRadius / (1 + s) of
- * the centre, for the steepest slope s, and the pivot within twice the unit of depth from any part
- * of the mesh: the offset is within r (1 + 2 s), less than 2 GridRadius.
+ * Bound of the offset of a ray that may meet the mesh. Places are within r = GridRadius / (1 + s)
+ * of the centre, for the steepest slope s, and the pivot within twice the unit of depth from any
+ * part of the mesh: the offset is within r (1 + 2 s), less than 2 GridRadius.
  */
 constexpr double LargestOffset = 1073741824.0; // 2^30
 /** Slopes below are 0: coordinates are multiples of 2^-63 (ExactEdgeTest). */
@@ -114,8 +114,7 @@ bool FixedPointRays::SeesAs(const FixedPointRays& other) const
   { return a.Base == b.Base && a.PerColumn == b.PerColumn && a.PerRow == b.PerRow; };
   return this->PlacesAs(other) && this->Width == other.Width && this->Height == other.Height &&
     same(this->Offset, other.Offset) && same(this->Slope, other.Slope) &&
-    this->Pivot == other.Pivot &&
-    this->Frame.Handedness == other.Frame.Handedness;
+    this->Pivot == other.Pivot && this->Frame.Handedness == other.Frame.Handedness;
 }
 
 //------------------------------------------------------------------------------

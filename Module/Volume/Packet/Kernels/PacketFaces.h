@@ -111,9 +111,10 @@ inline auto PacketFaceTest<Simd>::Test(const Rays& rays) -> Mask
   for (int k = 0; k < 3; ++k)
   {
     const int next = (k + 1) % 3;
-    const Mask before = Simd::FromBits(this->Ids[k] < this->Ids[next] ? (1u << Simd::Width) - 1u : 0u);
-    entered = entered &
-      ((this->Areas[k] > zero) | PassesLeft<Simd>(corners[k], corners[next], before));
+    const Mask before =
+      Simd::FromBits(this->Ids[k] < this->Ids[next] ? (1u << Simd::Width) - 1u : 0u);
+    entered =
+      entered & ((this->Areas[k] > zero) | PassesLeft<Simd>(corners[k], corners[next], before));
   }
   return entered;
 }
@@ -145,10 +146,9 @@ void FindEnteredWith(const PacketFaceJob& job)
         slopes[axis][lane] = ray.Slope[axis];
       }
     }
-    const typename PacketFaceTest<Simd>::Rays rays{
-      { Simd::Load(offsets[0]), Simd::Load(offsets[1]) },
-      { Simd::Load(slopes[0]), Simd::Load(slopes[1]) }
-    };
+    const typename PacketFaceTest<Simd>::Rays rays{ { Simd::Load(offsets[0]),
+                                                      Simd::Load(offsets[1]) },
+      { Simd::Load(slopes[0]), Simd::Load(slopes[1]) } };
     for (std::int32_t face = 0; face < job.NumberOfFaces; ++face)
     {
       test.Take(job.Faces[face]);
@@ -175,10 +175,9 @@ void FindEntriesWith(PacketSpanJob& job)
     }
     for (std::int32_t first = span->First; first < span->End; first += width)
     {
-      const typename PacketFaceTest<Simd>::Rays rays{
-        { Simd::Load(job.Offsets[0] + first), Simd::Load(job.Offsets[1] + first) },
-        { Simd::Load(job.Slopes[0] + first), Simd::Load(job.Slopes[1] + first) }
-      };
+      const typename PacketFaceTest<Simd>::Rays rays{ { Simd::Load(job.Offsets[0] + first),
+                                                        Simd::Load(job.Offsets[1] + first) },
+        { Simd::Load(job.Slopes[0] + first), Simd::Load(job.Slopes[1] + first) } };
       const std::int32_t left = span->End - first;
       const unsigned int valid = left < width ? (1u << left) - 1u : (1u << width) - 1u;
       unsigned int bits = Simd::Bits(test.Test(rays)) & valid;

@@ -8,7 +8,7 @@ namespace meniscus
 // Defined once per set, by PacketKernelsOfSet.cxx.in.
 #define MENISCUS_DECLARE_KERNELS(name, label, isSupported, target)                                 \
   void CastPackets##name(const PacketJob& job);                                                    \
-  void FindEntered##name(const PacketFaceJob& job);                                               \
+  void FindEntered##name(const PacketFaceJob& job);                                                \
   void FindEntries##name(PacketSpanJob& job);
 MENISCUS_INSTRUCTION_SETS(MENISCUS_DECLARE_KERNELS)
 #undef MENISCUS_DECLARE_KERNELS

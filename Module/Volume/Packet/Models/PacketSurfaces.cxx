@@ -88,8 +88,7 @@ glm::dvec3 LitColor(
   const double fromPivot =
     segment.StartDepth + at * (double{ segment.EndDepth } - segment.StartDepth);
   const glm::dvec2 across = job.GridUnit *
-    (glm::dvec2(ray.Offset[0], ray.Offset[1]) +
-      fromPivot * glm::dvec2(ray.Slope[0], ray.Slope[1]));
+    (glm::dvec2(ray.Offset[0], ray.Offset[1]) + fromPivot * glm::dvec2(ray.Slope[0], ray.Slope[1]));
   const glm::dvec3 place(across, (fromPivot + job.Pivot) / PacketVertex::GridPerDepth);
 
   const SeenCell cell = SeeCell(job, segment.CellFace / 4);

@@ -14,8 +14,7 @@ namespace meniscus
  * @param before lanes in which the vertex p is before q.
  */
 template <class Simd, class Corner>
-inline typename Simd::Mask PassesLeft(
-  const Corner& p, const Corner& q, typename Simd::Mask before)
+inline typename Simd::Mask PassesLeft(const Corner& p, const Corner& q, typename Simd::Mask before)
 {
   using Mask = typename Simd::Mask;
   const Mask differ = (p.U < q.U) | (p.U > q.U);

@@ -340,12 +340,11 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
   const Mask dropC = Simd::AndNot(left[0], left[1]);
   const Mask dropA = Simd::AndNot(left[1], left[2]);
   const Int shift = Simd::Select(dropA, Simd::Splat(FaceTurns<Simd>::ShiftOfA),
-    Simd::Select(dropC, Simd::Splat(FaceTurns<Simd>::ShiftOfC),
-      Simd::Splat(FaceTurns<Simd>::ShiftOfB)));
+    Simd::Select(
+      dropC, Simd::Splat(FaceTurns<Simd>::ShiftOfC), Simd::Splat(FaceTurns<Simd>::ShiftOfB)));
   const Int turn = Simd::ShiftRight(
     Simd::LookupOf24(FaceTurns<Simd>::Table.Words, this->Order + ahead.Face), shift);
-  const Int link =
-    Simd::LoadFrom(this->Job.Cells + 4, ahead.Row + Simd::And(turn, Simd::Splat(3)));
+  const Int link = Simd::LoadFrom(this->Job.Cells + 4, ahead.Row + Simd::And(turn, Simd::Splat(3)));
 
   // Exit face: x replaces the dropped vertex, which keeps the sense of rotation.
   const Mask replaceA = dropA & lanes;
@@ -357,8 +356,8 @@ inline void PacketWalk<Simd, Model>::Step(Mask lanes, const Ahead& ahead)
   ReplaceCorner(replaceA, x, this->A);
   ReplaceCorner(replaceB, x, this->B);
   ReplaceCorner(replaceC, x, this->C);
-  this->Order = Simd::Select(
-    lanes, Simd::And(turn, Simd::Splat(FaceTurns<Simd>::MaskOfOrder)), this->Order);
+  this->Order =
+    Simd::Select(lanes, Simd::And(turn, Simd::Splat(FaceTurns<Simd>::MaskOfOrder)), this->Order);
   const Int crossed = this->CellFace;
   this->CellFace = Simd::Select(lanes, link, this->CellFace);
   this->Steps = this->Steps + Simd::One(lanes);
@@ -386,8 +385,12 @@ inline void PacketWalk<Simd, Model>::Interpolate(FacePoint& point) const
   const Float total = this->AreaAB + this->AreaBC + this->AreaCA;
   const Mask real = total > Simd::Splat(0.0f);
   const Float inverse = Simd::Splat(1.0f) / total;
+  // Products are fused in every instruction set: in needles most of the sum cancels.
   const auto mean = [&](Float a, Float b, Float c)
-  { return Simd::Fma(Simd::Fma(this->AreaCA, b - a, this->AreaAB * (c - a)), inverse, a); };
+  {
+    const Float sum = Simd::SubtractProduct(this->AreaAB * (a - c), this->AreaCA, b - a);
+    return Simd::SubtractProduct(a, sum, inverse);
+  };
   FacePoint met;
   met.Depth = mean(this->A.Depth, this->B.Depth, this->C.Depth);
   met.Scalar = mean(this->A.Scalar, this->B.Scalar, this->C.Scalar);
@@ -444,15 +447,15 @@ inline void PacketWalk<Simd, Model>::Pass(Mask lanes, Int cellFace, const Ahead&
   const Mask segment = lanes & (length > Simd::Splat(0.0f));
   const SegmentPlace place{ start, end, cellFace, this->Ray, lanes, late, fromValues, toValues,
     crossed.Gradient, this->Line };
-  this->Pending = this->Pending |
-    this->Integral.Begin(segment, from, to, length * this->LengthPerDepth, place);
+  this->Pending =
+    this->Pending | this->Integral.Begin(segment, from, to, length * this->LengthPerDepth, place);
   this->DepthNow = Simd::Select(lanes, Simd::Max(this->DepthNow, depth), this->DepthNow);
   Mask known = lanes;
   if (this->Job.CellScalars)
   {
     // The scalar is that of the last integrated cell.
-    known = SegmentsOf<Simd>(segment, from, to, length) |
-      Simd::AndNot(lanes, depth > this->StartDepth);
+    known =
+      SegmentsOf<Simd>(segment, from, to, length) | Simd::AndNot(lanes, depth > this->StartDepth);
     exit.Scalar = crossed.CellScalar;
   }
   exit.Scalar = Simd::Select(known, exit.Scalar, faceScalar);
@@ -669,7 +672,7 @@ void PacketWalk<Simd, Model>::Enter(Mask lanes)
 
 }
 
-#include "Volume/Packet/Walk/PacketWalkTies.h"
 #include "Volume/Packet/Walk/PacketWalkOptics.h"
+#include "Volume/Packet/Walk/PacketWalkTies.h"
 
 #endif

@@ -27,8 +27,7 @@ void PacketWalk<Simd, Model>::BreakTies(
     // place.
     const Mask before = Simd::Not(ahead.Face > ranks[k]);
     left[k] = left[k] |
-      Simd::AndNot(
-        PassesLeft<Simd>(ahead.X, *corners[k], before), areas[k] > Simd::Splat(0.0f));
+      Simd::AndNot(PassesLeft<Simd>(ahead.X, *corners[k], before), areas[k] > Simd::Splat(0.0f));
   }
 }
 
