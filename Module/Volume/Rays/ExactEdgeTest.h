@@ -68,8 +68,8 @@ struct ExactEdgeTest
 
   /**
    * True if the ray is left of the edge from p to q. A ray through the edge is treated as displaced
-   * by (e, e^2), with e arbitrarily small, which changes the area by e (p.v - q.v) + e^2 (q.u -
-   * p.u); ends that coincide are ordered by vertex.
+   * by (e, e^2), with e arbitrarily small, which changes the area by
+   * e (p.v - q.v) + e^2 (q.u - p.u); ends that coincide are ordered by vertex.
    */
   static bool TurnsLeft(const Corner& p, const Corner& q, float area)
   {

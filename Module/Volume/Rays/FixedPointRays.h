@@ -125,9 +125,8 @@ public:
    * Largest deviation of u or v of a ray that may meet the mesh from the affine function, in grid
    * units. The offset is rounded by 1/2. The integer x - offset, below 2^31, is rounded to float by
    * up to 64, and u, below 2^31, likewise. The slope is below 1/2 and depth below 2^31: rounding
-   * the depth to float changes their product by up to 32, and rounding the slope by up to 2^31 *
-   * 2^-26 =
-   * 32. The sum is 192.5.
+   * the depth to float changes their product by up to 32, and rounding the slope by up to
+   * 2^31 * 2^-26 = 32. The sum is 192.5.
    */
   static constexpr double RoundingOfRay = 193.0;
   /** Depth of a vertex in the grid, in units of the frame. */

@@ -385,8 +385,12 @@ inline void PacketWalk<Simd, Model>::Interpolate(FacePoint& point) const
   const Float total = this->AreaAB + this->AreaBC + this->AreaCA;
   const Mask real = total > Simd::Splat(0.0f);
   const Float inverse = Simd::Splat(1.0f) / total;
+  // Products are fused in every instruction set: in needles most of the sum cancels.
   const auto mean = [&](Float a, Float b, Float c)
-  { return Simd::Fma(Simd::Fma(this->AreaCA, b - a, this->AreaAB * (c - a)), inverse, a); };
+  {
+    const Float sum = Simd::SubtractProduct(this->AreaAB * (a - c), this->AreaCA, b - a);
+    return Simd::SubtractProduct(a, sum, inverse);
+  };
   FacePoint met;
   met.Depth = mean(this->A.Depth, this->B.Depth, this->C.Depth);
   met.Scalar = mean(this->A.Scalar, this->B.Scalar, this->C.Scalar);
