@@ -288,12 +288,7 @@ TEST_P(RefractionSeams, CornersAreImagesOfPlacesInTheirCells)
   EXPECT_LE(wrong, searched / 50);
 }
 
-// The following scenes are left out, because some sides stay open there: 11, where an image ends at
-// a caustic within triangles larger than the waves; 18, where two of several images of an end are
-// in different sub-cells; and 22, where triangles almost touch the membrane.
-INSTANTIATE_TEST_SUITE_P(Scenes, RefractionSeams, ::testing::Range(0, 11));
-INSTANTIATE_TEST_SUITE_P(
-  MoreScenes, RefractionSeams, ::testing::Values(12, 13, 14, 15, 16, 17, 19, 20, 21));
+INSTANTIATE_TEST_SUITE_P(Scenes, RefractionSeams, ::testing::Range(0, 24));
 
 //------------------------------------------------------------------------------
 // The part of a triangle in front of a membrane that it intersects is no finer than the pieces
