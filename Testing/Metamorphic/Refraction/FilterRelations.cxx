@@ -176,18 +176,11 @@ void ChangeMembraneCells(FilterTrial& trial, RandomNumbers& random)
   }
 }
 
-// An object inside a body, behind the body and behind the part of it that faces the eye.
+// An object in a body, seen through the body and through the part of it that faces the eye.
 void KeepFacingPart(FilterTrial& trial, RandomNumbers& random)
 {
   const FilterScene& scene = trial.GetScene();
   const reference::MembraneMesh& mesh = scene.Base.Mesh;
-  const bool isInside = std::all_of(scene.Points.begin(), scene.Points.end(),
-    [](const glm::dvec3& point) { return glm::length(point) < 0.9; });
-  if (scene.Base.Family != "sphere" || mesh.Normals[2] < 0.0 || !isInside ||
-    scene.Mode == FilterMode::FlatFacets)
-  {
-    return; // flat facets show extrapolated images through facets that face away
-  }
   FilterScene changed = scene;
   changed.Base.Mesh.Triangles.clear();
   const auto isFacing = [&mesh, &scene](std::int64_t id)
@@ -243,6 +236,31 @@ void EditInPlace(FilterTrial& trial, RandomNumbers& random)
   trial.CompareBits(trial.GetBase(), GetResult(filter));
 }
 
+// An object inside a body that the eye sees from outside. Flat facets show extrapolated images
+// through facets that face away.
+FilterScene MakeSceneInBody(RandomNumbers& random)
+{
+  for (;;)
+  {
+    FilterScene scene = MakeFilterScene(random);
+    if (scene.Base.Family != "sphere" || scene.Base.Mesh.Normals[2] < 0.0 ||
+      scene.Mode == FilterMode::FlatFacets)
+    {
+      continue;
+    }
+    double farthest = 0.0;
+    for (const glm::dvec3& point : scene.Points)
+    {
+      farthest = std::max(farthest, glm::length(point));
+    }
+    for (glm::dvec3& point : scene.Points)
+    {
+      point *= 0.9 / std::max(0.9, farthest);
+    }
+    return scene;
+  }
+}
+
 struct NamedChange
 {
   const char* Name;
@@ -259,13 +277,14 @@ std::vector<FilterRelation> GetFilterRelations()
     { "arrays at new points", 30, CheckArrays }, { "types of values", 20, ChangeTypes },
     { "object reordered", 30, ReorderObject }, { "view culling", 30, Cull },
     { "moved together", 30, MoveAll }, { "membrane's cells", 30, ChangeMembraneCells },
-    { "facing part of a body", 120, KeepFacingPart }, { "edits in place", 20, EditInPlace } };
+    { "facing part of a body", 30, KeepFacingPart }, { "edits in place", 20, EditInPlace } };
   std::vector<FilterRelation> result;
   for (const NamedChange& change : changes)
   {
     const auto run = [change = change.Run](RandomNumbers& random)
     {
-      FilterTrial trial(MakeFilterScene(random));
+      FilterTrial trial(
+        change == &KeepFacingPart ? MakeSceneInBody(random) : MakeFilterScene(random));
       if (trial.IsReady()) // otherwise the eye is on the membrane
       {
         change(trial, random);

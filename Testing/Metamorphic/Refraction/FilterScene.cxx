@@ -213,7 +213,8 @@ vtkSmartPointer<vtkPolyData> MakeMembraneData(const reference::MembraneMesh& mes
       i += 3;
       continue;
     }
-    polys->InsertNextCell({ ids[0], ids[1], ids[2] });
+    // Flat facets show a point in the first facet: the order of the facets stays the same.
+    (form == CellForm::Strips ? strips : polys)->InsertNextCell({ ids[0], ids[1], ids[2] });
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);

@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+class vtkDataSetAttributes;
+
 namespace meniscus
 {
 namespace test
@@ -55,6 +57,12 @@ public:
     const std::function<bool(const glm::dvec3& direction)>& isInView = nullptr);
   /** Every point, cell and array must be equal bit by bit. */
   void CompareBits(vtkPolyData* first, vtkPolyData* second);
+  /** Every array must be equal bit by bit. */
+  void CompareArrays(vtkDataSetAttributes* first, vtkDataSetAttributes* second);
+  /** Number of images of a place; the largest number stands for a place in front. */
+  std::size_t CountImages(const glm::dvec3& place) const;
+  /** Largest error of a point of the scene. */
+  double GetLargestError() const;
   /** Arrays of ones and positions at all points of the base, and images of these positions. */
   void CheckArrays();
 
@@ -72,7 +80,9 @@ private:
   void ComparePictures(const Sheet& shown, const Sheet& other, RandomNumbers& random,
     const std::function<bool(const glm::dvec3& direction)>& isInView);
   double FindNearest(const Sheet& other, const glm::dvec3& direction, const Hit& hit) const;
-  std::size_t CountImages(const glm::dvec3& place) const;
+  void CheckImage(const glm::dvec3& place, const glm::dvec3& sight, const glm::dvec3& drawn,
+    double tolerance, double error);
+  double GetAngle(const glm::dvec3& a, const glm::dvec3& b) const;
   bool IsWellConditioned(const glm::dvec3& place, double error) const;
   std::vector<double> MeasureSensitivity(const std::vector<double>& moves) const;
   std::vector<glm::dvec3> FindFirst(vtkPolyData* output, const Motion& motion) const;
