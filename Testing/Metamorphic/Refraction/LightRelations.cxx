@@ -366,7 +366,9 @@ void CompareErrors(FilterTrial& trial, vtkImageData* first, vtkImageData* second
     }
     else if (!tally.compare(deviation, sensitivity * error))
     {
-      trial.Fail("an error is off by " + std::to_string(deviation));
+      trial.Fail("an error is off by " + std::to_string(deviation) + ", states " +
+        std::to_string(static_cast<int>(state)) + " and " +
+        std::to_string(static_cast<int>(stateAt(second, i))));
     }
   }
 }
