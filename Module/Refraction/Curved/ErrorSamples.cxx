@@ -3,7 +3,6 @@
 #include "Refraction/Curved/ErrorSamples.h"
 
 #include "Refraction/Curved/CurveCrossings.h"
-
 #include "Refraction/Membrane/Optics.h"
 
 #include <glm/geometric.hpp>

@@ -617,38 +617,6 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context, co
 }
 
 //------------------------------------------------------------------------------
-double PrimitiveMapper::GetSize(const SubCell& nodes)
-{
-  const auto length = [&nodes](std::size_t i, std::size_t j)
-  { return glm::length(nodes[i].From.At.Position - nodes[j].From.At.Position); };
-  return std::max({ length(0, 1), length(1, 2), length(2, 0) });
-}
-
-//------------------------------------------------------------------------------
-// Place where the sub-cell's rays pass a point most closely, if their moments about the point are
-// linear.
-glm::dvec2 PrimitiveMapper::GuessSight(const SubCell& nodes, const glm::dvec3& point)
-{
-  const auto moment = [&nodes, &point](std::size_t k)
-  { return glm::cross(nodes[k].From.At.Position - point, nodes[k].From.Ray); };
-  const glm::dvec3 first = moment(0);
-  const glm::dvec3 u = moment(1) - first;
-  const glm::dvec3 v = moment(2) - first;
-  const glm::dvec3 normal = glm::cross(u, v);
-  const double squared = glm::dot(normal, normal);
-  glm::dvec2 place(1.0 / 3.0);
-  if (squared > 0.0)
-  {
-    // Foot of the perpendicular from 0 to the plane of the moments.
-    place = { glm::dot(glm::cross(v, first), normal) / squared,
-      glm::dot(glm::cross(first, u), normal) / squared };
-    place = glm::clamp(place, 0.0, 1.0);
-    place /= std::max(1.0, place.x + place.y);
-  }
-  return nodes[0].B + place.x * (nodes[1].B - nodes[0].B) + place.y * (nodes[2].B - nodes[0].B);
-}
-
-//------------------------------------------------------------------------------
 // Point where the primitive meets the membrane: a side of the sub-cell meets the primitive's plane,
 // or a side of the primitive meets the patch. If the first point lies beyond a side of the
 // primitive, it is replaced by the second.

@@ -113,8 +113,6 @@ private:
   MappedPoint MakePoint(const Context& context, const SubCell& nodes, const Corner& corner) const;
   MappedPoint MakeEnd(const Context& context, const SubCell& nodes, glm::length_t end,
     const glm::dvec2& interpolated) const;
-  static double GetSize(const SubCell& nodes);
-  static glm::dvec2 GuessSight(const SubCell& nodes, const glm::dvec3& point);
   MappedPoint MakeOnSide(const Context& context, const SubCell& nodes, std::size_t side,
     const RefractedPoint& from, const glm::dvec2& interpolated) const;
   MappedPoint MakeCrossing(

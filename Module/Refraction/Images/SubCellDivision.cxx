@@ -4,6 +4,7 @@
 
 #include "Refraction/Membrane/Optics.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -165,6 +166,36 @@ bool SubCellDivision::IsOffLimit(
   const double atEye = glm::length(a.From.At.Position - b.From.At.Position) /
     glm::length(middle.From.At.Position - this->Geometry.GetMedia().Eye);
   return std::fabs(this->GetIncidence(middle) - this->Limit) * atEye > this->Tolerance * change;
+}
+
+//------------------------------------------------------------------------------
+double GetSize(const SubCell& nodes)
+{
+  const auto length = [&nodes](std::size_t i, std::size_t j)
+  { return glm::length(nodes[i].From.At.Position - nodes[j].From.At.Position); };
+  return std::max({ length(0, 1), length(1, 2), length(2, 0) });
+}
+
+//------------------------------------------------------------------------------
+glm::dvec2 GuessSight(const SubCell& nodes, const glm::dvec3& point)
+{
+  const auto moment = [&nodes, &point](std::size_t k)
+  { return glm::cross(nodes[k].From.At.Position - point, nodes[k].From.Ray); };
+  const glm::dvec3 first = moment(0);
+  const glm::dvec3 u = moment(1) - first;
+  const glm::dvec3 v = moment(2) - first;
+  const glm::dvec3 normal = glm::cross(u, v);
+  const double squared = glm::dot(normal, normal);
+  glm::dvec2 place(1.0 / 3.0);
+  if (squared > 0.0)
+  {
+    // Foot of the perpendicular from 0 to the plane of the moments.
+    place = { glm::dot(glm::cross(v, first), normal) / squared,
+      glm::dot(glm::cross(first, u), normal) / squared };
+    place = glm::clamp(place, 0.0, 1.0);
+    place /= std::max(1.0, place.x + place.y);
+  }
+  return nodes[0].B + place.x * (nodes[1].B - nodes[0].B) + place.y * (nodes[2].B - nodes[0].B);
 }
 
 }

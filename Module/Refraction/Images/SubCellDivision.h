@@ -29,6 +29,15 @@ struct SubCellNode
 
 using SubCell = std::array<SubCellNode, 3>;
 
+/** Length of the longest side. */
+double GetSize(const SubCell& nodes);
+
+/**
+ * Place where the sub-cell's rays pass a point most closely, if their moments about the point are
+ * linear.
+ */
+glm::dvec2 GuessSight(const SubCell& nodes, const glm::dvec3& point);
+
 class SubCellDivision
 {
 public:
