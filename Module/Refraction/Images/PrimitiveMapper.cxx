@@ -17,27 +17,11 @@ namespace meniscus
 namespace
 {
 
-// An edge is divided into at most 32 parts. Finer details lie within 1/32 of a facet of total
-// reflection or of a focus.
-constexpr int DeepestLevel = 5;
-
 // Number of linear constraints that limit a primitive. A corner has one bit for each constraint
 // that it lies on; the membrane is the first.
 constexpr int NumberOfConstraints = 4;
 
-double GetSpread(double a, double b, double c)
-{
-  return std::max({ a, b, c }) - std::min({ a, b, c });
 }
-
-}
-
-/** A corner of a sub-cell. */
-struct PrimitiveMapper::Node
-{
-  glm::dvec2 B;
-  RefractedPoint From;
-};
 
 /**
  * Corner of a clipped polygon. The values are linear in the sub-cell, and none is negative inside
@@ -122,6 +106,33 @@ struct PrimitiveMapper::Context
     value[2] = this->GetSide(2, from);
   }
 
+  // True if the sub-cell is outside by more than its own extent, so that curvature cannot bring it
+  // back.
+  bool IsOutside(const SubCell& nodes) const
+  {
+    double value[3][NumberOfConstraints];
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      this->Measure(nodes[i].From, value[i]);
+    }
+    const double cosine[3] = { glm::dot(this->Normal, nodes[0].From.Ray),
+      glm::dot(this->Normal, nodes[1].From.Ray), glm::dot(this->Normal, nodes[2].From.Ray) };
+    const bool front = cosine[0] > 0.0 && cosine[1] > 0.0 && cosine[2] > 0.0;
+    const bool back = cosine[0] < 0.0 && cosine[1] < 0.0 && cosine[2] < 0.0;
+    for (int k = 0; k < NumberOfConstraints; ++k)
+    {
+      const bool beside = this->IsLine && k == 3;
+      const double most = std::max({ value[0][k], value[1][k], value[2][k] });
+      const double least = std::min({ value[0][k], value[1][k], value[2][k] });
+      const double spread = most - least;
+      if (((front || beside) && most < -spread) || ((back || beside) && least > spread))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
   glm::dvec3 GetPoint(const glm::dvec3& weight) const
   {
     return weight.x * this->Corners[0] + weight.y * this->Corners[1] + weight.z * this->Corners[2];
@@ -189,7 +200,7 @@ PrimitiveMapper::PrimitiveMapper(
   const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest)
   : Geometry(geometry)
   , Tolerance(tolerance)
-  , Distance{ nearest, farthest }
+  , Division(geometry, tolerance, nearest, farthest)
 {
 }
 
@@ -320,125 +331,17 @@ void PrimitiveMapper::Map(const Context& context, const glm::dvec3& middle, doub
     Context inPatch = context;
     inPatch.Patch = &patch;
     inPatch.Facet = facet;
-    this->Divide(inPatch,
-      { this->MakeNode(patch, { 0.0, 0.0 }), this->MakeNode(patch, { 1.0, 0.0 }),
-        this->MakeNode(patch, { 0.0, 1.0 }) },
-      0);
+    this->Division.Visit(
+      patch, [&inPatch](const SubCell& nodes) { return inPatch.IsOutside(nodes); },
+      [this, &inPatch](const SubCell& nodes) { this->MapSubCell(inPatch, nodes); });
   }
-}
-
-//------------------------------------------------------------------------------
-PrimitiveMapper::Node PrimitiveMapper::MakeNode(const CurvedPatch& patch, const glm::dvec2& b) const
-{
-  return { b, RefractAt(patch.Evaluate(b), this->Geometry.GetMedia()) };
-}
-
-//------------------------------------------------------------------------------
-// True if linear interpolation between a and b has an error above the tolerance at the middle. The
-// error is measured where the refracted rays are at the object's nearest and farthest distance, and
-// converted to an angle at the eye by the angle of the edge over the distance between the hits of
-// its ends. The result does not depend on the primitive, so its neighbours divide the edge alike.
-bool PrimitiveMapper::IsSplit(const Node& a, const Node& middle, const Node& b) const
-{
-  if (!a.From.IsValid || !middle.From.IsValid || !b.From.IsValid)
-  {
-    return a.From.IsValid || middle.From.IsValid || b.From.IsValid;
-  }
-  const double angle = glm::length(a.From.At.Position - b.From.At.Position) /
-    glm::length(middle.From.At.Position - this->Geometry.GetMedia().Eye);
-  const auto isFar = [this, &a, &middle, &b, angle](double distance)
-  {
-    const auto hit = [distance](const Node& node)
-    { return node.From.At.Position + distance * node.From.Ray; };
-    const double error = glm::length(hit(middle) - 0.5 * (hit(a) + hit(b)));
-    const double width = glm::length(hit(a) - hit(b));
-    return angle * std::min(error, width) > this->Tolerance * width;
-  };
-  return isFar(this->Distance[0]) || isFar(this->Distance[1]);
-}
-
-//------------------------------------------------------------------------------
-void PrimitiveMapper::Divide(
-  const Context& context, const std::array<Node, 3>& nodes, int depth) const
-{
-  double value[3][NumberOfConstraints];
-  bool allValid = true;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    allValid = allValid && nodes[i].From.IsValid;
-    context.Measure(nodes[i].From, value[i]);
-  }
-  // The sub-cell is outside by more than its own extent, so curvature cannot bring it back.
-  for (int k = 0; allValid && k < NumberOfConstraints; ++k)
-  {
-    const double spread = GetSpread(value[0][k], value[1][k], value[2][k]);
-    const bool beside = context.IsLine && k == 3;
-    const double most = std::max({ value[0][k], value[1][k], value[2][k] });
-    const double least = std::min({ value[0][k], value[1][k], value[2][k] });
-    const double cosine[3] = { glm::dot(context.Normal, nodes[0].From.Ray),
-      glm::dot(context.Normal, nodes[1].From.Ray), glm::dot(context.Normal, nodes[2].From.Ray) };
-    const bool front = cosine[0] > 0.0 && cosine[1] > 0.0 && cosine[2] > 0.0;
-    const bool back = cosine[0] < 0.0 && cosine[1] < 0.0 && cosine[2] < 0.0;
-    if (((front || beside) && most < -spread) || ((back || beside) && least > spread))
-    {
-      return;
-    }
-  }
-  std::array<Node, 3> middle; // opposite the corners
-  bool split[3] = { false, false, false };
-  if (depth < DeepestLevel)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const Node& a = nodes[(k + 1) % 3];
-      const Node& b = nodes[(k + 2) % 3];
-      middle[k] = this->MakeNode(*context.Patch, 0.5 * (a.B + b.B));
-      split[k] = this->IsSplit(a, middle[k], b);
-    }
-  }
-  const int count = split[0] + split[1] + split[2];
-  if (count == 0)
-  {
-    if (allValid)
-    {
-      this->MapSubCell(context, nodes);
-    }
-    return;
-  }
-  if (count == 3)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      this->Divide(context, { nodes[k], middle[(k + 2) % 3], middle[(k + 1) % 3] }, depth + 1);
-    }
-    this->Divide(context, middle, depth + 1);
-    return;
-  }
-  // One divided edge: two halves. Two divided edges: the corner between them is cut off and the
-  // rest is halved.
-  std::size_t k = 0;
-  while (split[k] != (count == 1))
-  {
-    ++k;
-  }
-  const std::size_t i = (k + 1) % 3;
-  const std::size_t j = (k + 2) % 3;
-  if (count == 1)
-  {
-    this->Divide(context, { nodes[k], nodes[i], middle[k] }, depth + 1);
-    this->Divide(context, { nodes[k], middle[k], nodes[j] }, depth + 1);
-    return;
-  }
-  this->Divide(context, { nodes[k], middle[j], middle[i] }, depth + 1);
-  this->Divide(context, { middle[j], nodes[i], nodes[j] }, depth + 1);
-  this->Divide(context, { middle[j], nodes[j], middle[i] }, depth + 1);
 }
 
 //------------------------------------------------------------------------------
 // Clipping by Sutherland and Hodgman in homogeneous coordinates: rays that point away from the
 // plane count as the other side of it, and a sub-cell with rays of both kinds is clipped on both
 // sides.
-void PrimitiveMapper::MapSubCell(const Context& context, const std::array<Node, 3>& nodes) const
+void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) const
 {
   Polygon whole(3);
   for (std::size_t i = 0; i < 3; ++i)
@@ -505,8 +408,8 @@ void PrimitiveMapper::MapSubCell(const Context& context, const std::array<Node, 
 }
 
 //------------------------------------------------------------------------------
-void PrimitiveMapper::Emit(const Context& context, const std::array<Node, 3>& nodes,
-  const Polygon& polygon, double sign) const
+void PrimitiveMapper::Emit(
+  const Context& context, const SubCell& nodes, const Polygon& polygon, double sign) const
 {
   // Twice the signed area in the primitive's second and third barycentric coordinates.
   double area = 0.0;
@@ -576,7 +479,7 @@ bool PrimitiveMapper::IsSeen(const std::vector<MappedPoint>& points)
 
 //------------------------------------------------------------------------------
 void PrimitiveMapper::EmitLine(
-  const Context& context, const std::array<Node, 3>& nodes, const Polygon& polygon) const
+  const Context& context, const SubCell& nodes, const Polygon& polygon) const
 {
   const auto along = [](const Corner& c) { return c.Value[1] / (c.Value[1] + c.Value[2]); };
   const bool turned = along(polygon[0]) > along(polygon[1]);
@@ -597,7 +500,7 @@ void PrimitiveMapper::EmitLine(
 // Image at a clipped corner: interpolation gives the initial guess, and the features that the
 // corner lies on decide which equation is solved. Corners of sub-cells are exact already.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
-  const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const
+  const Context& context, const SubCell& nodes, const Corner& corner) const
 {
   const Boundary on = context.FindBoundary(corner);
   if (on.Membrane)
@@ -623,8 +526,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
     return this->MakeOnSide(
       context, nodes, side, nodes[static_cast<std::size_t>(on.Node)].From, corner.B);
   }
-  const Node& a = nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];
-  const Node& b = nodes[static_cast<std::size_t>((on.Edge + 2) % 3)];
+  const SubCellNode& a = nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];
+  const SubCellNode& b = nodes[static_cast<std::size_t>((on.Edge + 2) % 3)];
   return this->MakeOnSide(context, nodes, side,
     MeetLine(SubCellSide(*context.Patch, a.B, b.B), this->Geometry.GetMedia(),
       context.Sides[side].Line, a.From, b.From),
@@ -635,7 +538,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
 // Image of the point in which a ray meets a side of the primitive. Beyond the end of the side, the
 // result is the image of that end.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
-  const std::array<Node, 3>& nodes, std::size_t side, const RefractedPoint& from,
+  const SubCell& nodes, std::size_t side, const RefractedPoint& from,
   const glm::dvec2& interpolated) const
 {
   const Context::Side& on = context.Sides[side];
@@ -668,8 +571,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
 // reflection the interpolated rays of the sub-cell meet the primitive and the refracted rays do
 // not. Near a caustic there may be no image at all; then the end is drawn at the interpolated
 // place. The result does not depend on the primitive's plane.
-PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
-  const std::array<Node, 3>& nodes, glm::length_t end, const glm::dvec2& interpolated) const
+PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context, const SubCell& nodes,
+  glm::length_t end, const glm::dvec2& interpolated) const
 {
   const auto index = static_cast<std::size_t>(end);
   const glm::dvec3 middle =
@@ -714,43 +617,11 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context,
 }
 
 //------------------------------------------------------------------------------
-double PrimitiveMapper::GetSize(const std::array<Node, 3>& nodes)
-{
-  const auto length = [&nodes](std::size_t i, std::size_t j)
-  { return glm::length(nodes[i].From.At.Position - nodes[j].From.At.Position); };
-  return std::max({ length(0, 1), length(1, 2), length(2, 0) });
-}
-
-//------------------------------------------------------------------------------
-// Place where the sub-cell's rays pass a point most closely, if their moments about the point are
-// linear.
-glm::dvec2 PrimitiveMapper::GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point)
-{
-  const auto moment = [&nodes, &point](std::size_t k)
-  { return glm::cross(nodes[k].From.At.Position - point, nodes[k].From.Ray); };
-  const glm::dvec3 first = moment(0);
-  const glm::dvec3 u = moment(1) - first;
-  const glm::dvec3 v = moment(2) - first;
-  const glm::dvec3 normal = glm::cross(u, v);
-  const double squared = glm::dot(normal, normal);
-  glm::dvec2 place(1.0 / 3.0);
-  if (squared > 0.0)
-  {
-    // Foot of the perpendicular from 0 to the plane of the moments.
-    place = { glm::dot(glm::cross(v, first), normal) / squared,
-      glm::dot(glm::cross(first, u), normal) / squared };
-    place = glm::clamp(place, 0.0, 1.0);
-    place /= std::max(1.0, place.x + place.y);
-  }
-  return nodes[0].B + place.x * (nodes[1].B - nodes[0].B) + place.y * (nodes[2].B - nodes[0].B);
-}
-
-//------------------------------------------------------------------------------
 // Point where the primitive meets the membrane: a side of the sub-cell meets the primitive's plane,
 // or a side of the primitive meets the patch. If the first point lies beyond a side of the
 // primitive, it is replaced by the second.
-PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(const Context& context,
-  const std::array<Node, 3>& nodes, const Corner& corner, const Boundary& on) const
+PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(
+  const Context& context, const SubCell& nodes, const Corner& corner, const Boundary& on) const
 {
   glm::dvec3 weight = context.IsLine
     ? glm::dvec3(corner.Value[2], corner.Value[1], 0.0)
@@ -759,8 +630,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(const Context& contex
   int side = on.Side;
   if (on.Edge >= 0 && side < 0)
   {
-    const Node& a = nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];
-    const Node& b = nodes[static_cast<std::size_t>((on.Edge + 2) % 3)];
+    const SubCellNode& a = nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];
+    const SubCellNode& b = nodes[static_cast<std::size_t>((on.Edge + 2) % 3)];
     const RefractedPoint from = MeetPlane(SubCellSide(*context.Patch, a.B, b.B),
       this->Geometry.GetMedia(), context.Corners[0], context.Normal, a.From, b.From);
     weight = context.GetWeight(from.At.Position);
@@ -779,8 +650,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(const Context& contex
 // The crossing is found from a guess, and then solved again from a start that is the same for all
 // guesses in the patch: every primitive with this side gets the same point.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& context,
-  const std::array<Node, 3>& nodes, std::size_t side, const glm::dvec2& guess,
-  const glm::dvec3& weight) const
+  const SubCell& nodes, std::size_t side, const glm::dvec2& guess, const glm::dvec3& weight) const
 {
   const Context::Side& on = context.Sides[side];
   const auto first = static_cast<glm::length_t>((side + (on.Turned ? 1 : 0)) % 3);

@@ -22,6 +22,7 @@
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ImageMesh.h"
+#include "Refraction/Images/SubCellDivision.h"
 
 #include <array>
 #include <cstdint>
@@ -84,7 +85,6 @@ public:
     const MappedTriangle& line, std::int64_t sourceCell, bool mayCross, ImageMesh& images) const;
 
 private:
-  struct Node;
   struct Corner;
   struct Context;
   struct Boundary;
@@ -106,33 +106,26 @@ private:
   void Map(const Context& context, const glm::dvec3& middle, double padding) const;
   std::vector<WaterlinePiece> DropInFront(
     const Context& context, const ImageMesh& from, ImageMesh& images) const;
-  Node MakeNode(const CurvedPatch& patch, const glm::dvec2& b) const;
-  bool IsSplit(const Node& a, const Node& middle, const Node& b) const;
-  void Divide(const Context& context, const std::array<Node, 3>& nodes, int depth) const;
-  void MapSubCell(const Context& context, const std::array<Node, 3>& nodes) const;
-  void Emit(const Context& context, const std::array<Node, 3>& nodes, const Polygon& polygon,
-    double sign) const;
-  void EmitLine(
-    const Context& context, const std::array<Node, 3>& nodes, const Polygon& polygon) const;
-  MappedPoint MakePoint(
-    const Context& context, const std::array<Node, 3>& nodes, const Corner& corner) const;
-  MappedPoint MakeEnd(const Context& context, const std::array<Node, 3>& nodes, glm::length_t end,
+  void MapSubCell(const Context& context, const SubCell& nodes) const;
+  void Emit(
+    const Context& context, const SubCell& nodes, const Polygon& polygon, double sign) const;
+  void EmitLine(const Context& context, const SubCell& nodes, const Polygon& polygon) const;
+  MappedPoint MakePoint(const Context& context, const SubCell& nodes, const Corner& corner) const;
+  MappedPoint MakeEnd(const Context& context, const SubCell& nodes, glm::length_t end,
     const glm::dvec2& interpolated) const;
-  static double GetSize(const std::array<Node, 3>& nodes);
-  static glm::dvec2 GuessSight(const std::array<Node, 3>& nodes, const glm::dvec3& point);
-  MappedPoint MakeOnSide(const Context& context, const std::array<Node, 3>& nodes, std::size_t side,
+  MappedPoint MakeOnSide(const Context& context, const SubCell& nodes, std::size_t side,
     const RefractedPoint& from, const glm::dvec2& interpolated) const;
-  MappedPoint MakeCrossing(const Context& context, const std::array<Node, 3>& nodes,
-    const Corner& corner, const Boundary& on) const;
-  MappedPoint MakeSideCrossing(const Context& context, const std::array<Node, 3>& nodes,
-    std::size_t side, const glm::dvec2& guess, const glm::dvec3& weight) const;
+  MappedPoint MakeCrossing(
+    const Context& context, const SubCell& nodes, const Corner& corner, const Boundary& on) const;
+  MappedPoint MakeSideCrossing(const Context& context, const SubCell& nodes, std::size_t side,
+    const glm::dvec2& guess, const glm::dvec3& weight) const;
   static bool IsSeen(const std::vector<MappedPoint>& points);
   ImagePoint Finish(const Context& context, const PatchPoint& at, const glm::dvec3& point,
     const glm::dvec3& weight) const;
 
   const CurvedMembraneSolver& Geometry;
   double Tolerance;
-  double Distance[2];
+  SubCellDivision Division;
 };
 
 }

@@ -75,9 +75,9 @@ public:
       {
         const bool isTurned = (turned >> k & 1u) != 0;
         isFront[k] = corner[k].IsInFront != isTurned;
-        if (isTurned && isFront[k] && this->Primitive.Images[k].Count > 0)
+        if (isTurned && isFront[k])
         {
-          place[k] = this->Primitive.Images[k].First->Vertex.Position;
+          place[k] = this->FindSeenPlace(k);
         }
       }
       if (FrontOutline(waterline, place, isFront).Find(polygons))
@@ -160,6 +160,30 @@ private:
   glm::dvec3 GetLocal(const glm::dvec3& w) const
   {
     return w.x * this->Corner[0] + w.y * this->Corner[1] + w.z * this->Corner[2];
+  }
+
+  // Position of a corner behind the membrane that counts as in front of it: that of its image,
+  // which the pieces behind the membrane use. Near the critical angle even a corner next to the
+  // membrane has its image elsewhere; such a corner keeps its own position.
+  glm::dvec3 FindSeenPlace(std::size_t k) const
+  {
+    const glm::dvec3& eye = this->Geometry.GetMedia().Eye;
+    const glm::dvec3 own = this->Primitive.Corners[k];
+    const glm::dvec3 way = this->Corner[k] - eye;
+    const KnownImages& images = this->Primitive.Images[k];
+    const auto getAngle = [&own, &way](const ImagePoint& image)
+    {
+      const glm::dvec3 seen = way + (image.Vertex.Position - own);
+      return glm::length(glm::cross(way, seen)) / (glm::length(way) * glm::length(seen));
+    };
+    const ImagePoint* nearest = std::min_element(images.First, images.First + images.Count,
+      [&getAngle](const ImagePoint& a, const ImagePoint& b) { return getAngle(a) < getAngle(b); });
+    // The corner is within one tolerance of the membrane, where image and place coincide.
+    // Refraction at oblique incidence moves the image by a few times that.
+    constexpr double most = 4.0;
+    return images.Count > 0 && getAngle(*nearest) <= most * this->Tolerance
+      ? nearest->Vertex.Position
+      : own;
   }
 
   // Bit mask of the corners that change sides after a step of the tolerance into the triangle.

@@ -87,14 +87,20 @@ public:
    */
   void CompareFirst(const std::vector<std::size_t>& order);
 
+  /** Error of a point with coordinates of a magnitude, for an image in a facet. */
+  double ErrorOf(double magnitude, double depth, std::int32_t facet) const;
+  /**
+   * True if the image of a point stays near and keeps its orientation under moves of 1000 errors.
+   * Raises `sensitivity` to the largest ratio of the image's move to the point's.
+   */
+  bool IsSteady(
+    const glm::dvec3& point, const VirtualVertex& image, double error, double& sensitivity) const;
+
   void Fail(const std::string& words);
   const RefractionScene& MakeScene() const { return this->Scene; }
   RelationTally& GetTally() { return this->Tally; }
 
 private:
-  double ErrorOf(double magnitude, double depth, std::int32_t facet) const;
-  bool IsSteady(
-    const glm::dvec3& point, const VirtualVertex& image, double error, double& sensitivity) const;
   bool IsSideSteady(const glm::dvec3& point, double error) const;
 
   RefractionScene Scene;

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Division of a patch into triangular sub-cells whose refracted rays exist and are nearly linear.
+ *
+ * Whether and where a side of a sub-cell is divided depends on that side alone, so that neighbours,
+ * of the same patch or of two, have the same nodes. Rays exist up to a limit of the angle of
+ * incidence: the critical angle, or a right angle at a silhouette of the membrane. A side that
+ * crosses the limit is divided there, and sub-cells end there, too.
+ */
+#ifndef meniscus_Refraction_Images_SubCellDivision_h
+#define meniscus_Refraction_Images_SubCellDivision_h
+
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+
+#include <array>
+#include <cstddef>
+
+namespace meniscus
+{
+
+/** A corner of a sub-cell. */
+struct SubCellNode
+{
+  glm::dvec2 B;
+  RefractedPoint From;
+  bool IsAtLimit = false; ///< the last place with a ray on a side that crosses the limit
+};
+
+using SubCell = std::array<SubCellNode, 3>;
+
+/** Length of the longest side. */
+double GetSize(const SubCell& nodes);
+
+/**
+ * Place where the sub-cell's rays pass a point most closely, if their moments about the point are
+ * linear.
+ */
+glm::dvec2 GuessSight(const SubCell& nodes, const glm::dvec3& point);
+
+class SubCellDivision
+{
+public:
+  /**
+   * `tolerance` is the largest error of linear interpolation in a sub-cell, as an angle in radians
+   * at the eye, at the distances `nearest` and `farthest` behind the membrane.
+   */
+  SubCellDivision(
+    const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest);
+
+  /**
+   * Calls `map(nodes)` for each sub-cell of the patch. Those with rays for which `isOutside(nodes)`
+   * is true are left out before they are divided further.
+   */
+  template <typename IsOutside, typename Map>
+  void Visit(const CurvedPatch& patch, const IsOutside& isOutside, const Map& map) const
+  {
+    this->Divide(patch,
+      { this->MakeNode(patch, { 0.0, 0.0 }), this->MakeNode(patch, { 1.0, 0.0 }),
+        this->MakeNode(patch, { 0.0, 1.0 }) },
+      0, isOutside, map);
+  }
+
+private:
+  template <typename IsOutside, typename Map>
+  void Divide(const CurvedPatch& patch, const SubCell& nodes, int depth, const IsOutside& isOutside,
+    const Map& map) const
+  {
+    const bool allValid = nodes[0].From.IsValid && nodes[1].From.IsValid && nodes[2].From.IsValid;
+    if (allValid && isOutside(nodes))
+    {
+      return;
+    }
+    SubCell middle; // opposite the corners
+    bool split[3];
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      split[k] = this->FindSplit(patch, nodes[(k + 1) % 3], nodes[(k + 2) % 3], depth, middle[k]);
+    }
+    const int count = split[0] + split[1] + split[2];
+    const auto divide = [this, &patch, depth, &isOutside, &map](const SubCell& part)
+    { this->Divide(patch, part, depth + 1, isOutside, map); };
+    if (count == 0)
+    {
+      if (allValid)
+      {
+        map(nodes);
+      }
+      return;
+    }
+    if (count == 3)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        divide({ nodes[k], middle[(k + 2) % 3], middle[(k + 1) % 3] });
+      }
+      divide(middle);
+      return;
+    }
+    // One divided edge: two halves. Two divided edges: the corner between them is cut off and the
+    // rest is halved.
+    std::size_t k = 0;
+    while (split[k] != (count == 1))
+    {
+      ++k;
+    }
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    if (count == 1)
+    {
+      divide({ nodes[k], nodes[i], middle[k] });
+      divide({ nodes[k], middle[k], nodes[j] });
+      return;
+    }
+    divide({ nodes[k], middle[j], middle[i] });
+    divide({ middle[j], nodes[i], nodes[j] });
+    divide({ middle[j], nodes[j], middle[i] });
+  }
+
+  SubCellNode MakeNode(const CurvedPatch& patch, const glm::dvec2& b) const;
+  bool FindSplit(const CurvedPatch& patch, const SubCellNode& a, const SubCellNode& b, int depth,
+    SubCellNode& split) const;
+  SubCellNode FindLimit(
+    const CurvedPatch& patch, const SubCellNode& valid, const SubCellNode& invalid) const;
+  bool IsBent(const SubCellNode& a, const SubCellNode& middle, const SubCellNode& b) const;
+  bool MayReachLimit(const SubCellNode& a, const SubCellNode& middle, const SubCellNode& b) const;
+  bool IsOffLimit(const SubCellNode& a, const SubCellNode& middle, const SubCellNode& b) const;
+  double GetIncidence(const SubCellNode& node) const;
+  double GetAngle(const SubCellNode& a, const SubCellNode& b) const;
+
+  const CurvedMembraneSolver& Geometry;
+  double Tolerance;
+  double Distance[2];
+  double Limit; ///< angle of incidence up to which rays exist
+};
+
+}
+
+#endif

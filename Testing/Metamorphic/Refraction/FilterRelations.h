@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_FilterRelations_h
+#define meniscus_FilterRelations_h
+
+#include "RandomNumbers.h"
+#include "Relation.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace meniscus
+{
+namespace test
+{
+
+struct FilterRelation
+{
+  std::string Name;
+  int Cases; ///< at intensity 1
+  std::function<RelationTally(RandomNumbers&)> Run;
+};
+
+/** Relations of vtkRefractedGeometryFilter, vtkRefractedLightFilter, vtkRefractionErrorVolume. */
+std::vector<FilterRelation> GetFilterRelations();
+
+/** Those of the light filter and of the error volume. */
+std::vector<FilterRelation> GetLightRelations();
+
+} // namespace test
+} // namespace meniscus
+
+#endif
