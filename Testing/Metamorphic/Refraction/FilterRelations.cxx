@@ -57,7 +57,7 @@ void CheckArrays(FilterTrial& trial, RandomNumbers&)
 void ChangeTypes(FilterTrial& trial, RandomNumbers& random)
 {
   const FilterScene& scene = trial.GetScene();
-  const CellForm form = random.below(2) ? CellForm::Strips : CellForm::Quads;
+  const CellForm form = random.Below(2) ? CellForm::Strips : CellForm::Quads;
   const auto object = Convert(MakeObject(scene, form), false, true);
   const auto membrane = Convert(MakeMembraneData(scene.Base.Mesh), false, true);
   const auto first = Run(scene, object, membrane);
@@ -78,7 +78,7 @@ void ReorderObject(FilterTrial& trial, RandomNumbers& random)
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = count; i > 1; --i)
   {
-    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.Below(static_cast<int>(i)))]);
   }
   const auto from = MakeObject(scene);
   vtkNew<vtkPolyData> object;
@@ -97,7 +97,7 @@ void ReorderObject(FilterTrial& trial, RandomNumbers& random)
   for (std::size_t i = scene.Quads.size(); i > 0; --i)
   {
     const auto& quad = scene.Quads[i - 1];
-    const auto first = static_cast<std::size_t>(random.below(4));
+    const auto first = static_cast<std::size_t>(random.Below(4));
     std::array<vtkIdType, 4> ids;
     for (std::size_t k = 0; k < 4; ++k)
     {
@@ -115,13 +115,13 @@ void Cull(FilterTrial& trial, RandomNumbers& random)
 {
   const FilterScene& scene = trial.GetScene();
   const glm::dvec3 target =
-    scene.Points[static_cast<std::size_t>(random.below(static_cast<int>(scene.Points.size())))];
+    scene.Points[static_cast<std::size_t>(random.Below(static_cast<int>(scene.Points.size())))];
   const glm::dvec3 eye = scene.Base.Eye;
-  const double angle = random.uniform(5.0, 60.0);
+  const double angle = random.Uniform(5.0, 60.0);
   vtkNew<vtkCamera> camera;
   camera->SetPosition(eye.x, eye.y, eye.z);
   camera->SetFocalPoint(target.x, target.y, target.z);
-  const glm::dvec3 up = random.direction();
+  const glm::dvec3 up = random.GetDirection();
   camera->SetViewUp(up.x, up.y, up.z);
   camera->SetViewAngle(angle);
   // Culling is for the pixels in view, whatever their depth.
@@ -146,17 +146,17 @@ void Cull(FilterTrial& trial, RandomNumbers& random)
 void MoveAll(FilterTrial& trial, RandomNumbers& random)
 {
   Motion motion;
-  const glm::dvec3 x = random.direction();
-  const glm::dvec3 y = glm::normalize(glm::cross(x, random.direction()));
+  const glm::dvec3 x = random.GetDirection();
+  const glm::dvec3 y = glm::normalize(glm::cross(x, random.GetDirection()));
   motion.Turn = glm::dmat3(x, y, glm::cross(x, y));
-  motion.Scale = std::pow(10.0, random.uniform(-3.0, 3.0));
-  motion.Offset = motion.Scale * 100.0 * random.uniform() * random.direction();
+  motion.Scale = std::pow(10.0, random.Uniform(-3.0, 3.0));
+  motion.Offset = motion.Scale * 100.0 * random.Uniform() * random.GetDirection();
   FilterScene moved = trial.GetScene();
-  moved.Base = motion.apply(moved.Base);
+  moved.Base = motion.Apply(moved.Base);
   std::vector<glm::dvec3> places;
   for (const glm::dvec3& point : trial.GetScene().Points)
   {
-    places.push_back(motion.apply(point));
+    places.push_back(motion.Apply(point));
   }
   trial.Compare(
     Run(moved, MakeObject(moved, CellForm::Quads, &places), MakeMembraneData(moved.Base.Mesh)),
@@ -209,9 +209,9 @@ void EditInPlace(FilterTrial& trial, RandomNumbers& random)
   FilterScene before = scene;
   Motion motion;
   motion.Turn = glm::dmat3(0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
-  motion.Scale = random.uniform(0.5, 2.0);
-  before.Base = motion.apply(before.Base);
-  before.Base.Interior = 1.0 + random.uniform();
+  motion.Scale = random.Uniform(0.5, 2.0);
+  before.Base = motion.Apply(before.Base);
+  before.Base.Interior = 1.0 + random.Uniform();
   std::vector<glm::dvec3> places = scene.Points;
   std::reverse(places.begin(), places.end());
   const auto object = MakeObject(before, CellForm::Quads, &places);

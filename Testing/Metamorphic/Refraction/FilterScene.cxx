@@ -42,9 +42,9 @@ void AddRows(FilterScene& scene, int rows, int columns, bool isClosed)
 
 void AddSheet(FilterScene& scene, const glm::dvec3& center, double size, RandomNumbers& random)
 {
-  const glm::dvec3 x = random.direction();
-  const glm::dvec3 y = glm::normalize(glm::cross(x, random.direction()));
-  const int count = 3 + random.below(6);
+  const glm::dvec3 x = random.GetDirection();
+  const glm::dvec3 y = glm::normalize(glm::cross(x, random.GetDirection()));
+  const int count = 3 + random.Below(6);
   for (int j = 0; j <= count; ++j)
   {
     for (int i = 0; i <= count; ++i)
@@ -59,10 +59,10 @@ void AddSheet(FilterScene& scene, const glm::dvec3& center, double size, RandomN
 // A ball without its poles: its quads are symmetric trapezoids, which are plane.
 void AddBall(FilterScene& scene, const glm::dvec3& center, double radius, RandomNumbers& random)
 {
-  const glm::dvec3 x = random.direction();
-  const glm::dvec3 y = glm::normalize(glm::cross(x, random.direction()));
+  const glm::dvec3 x = random.GetDirection();
+  const glm::dvec3 y = glm::normalize(glm::cross(x, random.GetDirection()));
   const glm::dvec3 z = glm::cross(x, y);
-  const int rows = 3 + random.below(5);
+  const int rows = 3 + random.Below(5);
   const int columns = 2 * rows;
   for (int j = 0; j <= rows; ++j)
   {
@@ -101,20 +101,20 @@ bool JoinTriangles(const std::int64_t* a, const std::int64_t* b, std::array<vtkI
 FilterScene MakeFilterScene(RandomNumbers& random)
 {
   FilterScene scene;
-  scene.Base = randomScene(random);
+  scene.Base = RandomScene(random);
   const FilterMode modes[] = { FilterMode::FlatFacets, FilterMode::FirstImage,
     FilterMode::AllImages, FilterMode::AllImages };
-  scene.Mode = modes[random.below(4)];
+  scene.Mode = modes[random.Below(4)];
   const reference::MembraneMesh& mesh = scene.Base.Mesh;
-  const auto at = static_cast<std::size_t>(random.below(static_cast<int>(mesh.Points.size() / 3)));
+  const auto at = static_cast<std::size_t>(random.Below(static_cast<int>(mesh.Points.size() / 3)));
   const glm::dvec3 point(mesh.Points[3 * at], mesh.Points[3 * at + 1], mesh.Points[3 * at + 2]);
   const glm::dvec3 normal(mesh.Normals[3 * at], mesh.Normals[3 * at + 1], mesh.Normals[3 * at + 2]);
-  const double size = random.uniform(0.1, 0.8);
+  const double size = random.Uniform(0.1, 0.8);
   // One object in four crosses the membrane.
   const double depth =
-    random.below(4) == 0 ? random.uniform(-0.5, 0.8) * size : size * random.uniform(1.1, 4.0);
+    random.Below(4) == 0 ? random.Uniform(-0.5, 0.8) * size : size * random.Uniform(1.1, 4.0);
   const glm::dvec3 center = point - depth * normal;
-  if (random.below(2))
+  if (random.Below(2))
   {
     AddSheet(scene, center, size, random);
   }

@@ -41,7 +41,7 @@ struct FilterScene
   int QuadsPerRow = 1;
 };
 
-/** A scene of any family of randomScene() and of any mode. */
+/** A scene of any family of RandomScene() and of any mode. */
 FilterScene MakeFilterScene(RandomNumbers& random);
 
 /** How cells are given. */

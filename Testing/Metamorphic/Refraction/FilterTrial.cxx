@@ -133,7 +133,7 @@ struct FilterTrial::Sheet
     {
       glm::dvec3 p;
       data->GetPoint(id, &p.x);
-      return motion.undo(p) - eye;
+      return motion.Undo(p) - eye;
     };
     vtkNew<vtkIdList> ids;
     vtkCellArray* polys = data->GetPolys();
@@ -180,7 +180,7 @@ struct FilterTrial::Sheet
 //------------------------------------------------------------------------------
 FilterTrial::FilterTrial(const FilterScene& scene)
   : Scene(scene)
-  , Solver(makeGeometry(scene.Base))
+  , Solver(MakeGeometry(scene.Base))
   , Errors(scene.Base)
 {
   this->Tally.Scenes = 1;
@@ -200,7 +200,7 @@ FilterTrial::FilterTrial(const FilterScene& scene)
 //------------------------------------------------------------------------------
 double FilterTrial::GetError(double magnitude, double depth, std::int32_t facet) const
 {
-  return this->Errors.errorOf(magnitude, depth, facet);
+  return this->Errors.ErrorOf(magnitude, depth, facet);
 }
 
 //------------------------------------------------------------------------------
@@ -257,7 +257,7 @@ void FilterTrial::CompareBits(vtkPolyData* first, vtkPolyData* second)
     cells(first->GetStrips(), second->GetStrips()) &&
     HaveEqualArrays(first->GetPointData(), second->GetPointData()) &&
     HaveEqualArrays(first->GetCellData(), second->GetCellData());
-  if (!this->Tally.compare(same ? 0.0 : 1.0, 0.5))
+  if (!this->Tally.Compare(same ? 0.0 : 1.0, 0.5))
   {
     this->Fail("the outputs differ");
   }
@@ -267,7 +267,7 @@ void FilterTrial::CompareBits(vtkPolyData* first, vtkPolyData* second)
 void FilterTrial::CompareArrays(vtkDataSetAttributes* first, vtkDataSetAttributes* second)
 {
   ++this->Tally.Comparisons;
-  if (!this->Tally.compare(HaveEqualArrays(first, second) ? 0.0 : 1.0, 0.5))
+  if (!this->Tally.Compare(HaveEqualArrays(first, second) ? 0.0 : 1.0, 0.5))
   {
     this->Fail("the arrays differ");
   }
@@ -359,9 +359,9 @@ void FilterTrial::ComparePictures(const Sheet& shown, const Sheet& other, Random
   for (int i = 0; i < SamplesPerPicture && !shown.Pieces.empty(); ++i)
   {
     const Sheet::Piece& piece =
-      shown.Pieces[static_cast<std::size_t>(random.below(static_cast<int>(shown.Pieces.size())))];
-    const double u = std::sqrt(random.uniform());
-    const double v = random.uniform();
+      shown.Pieces[static_cast<std::size_t>(random.Below(static_cast<int>(shown.Pieces.size())))];
+    const double u = std::sqrt(random.Uniform());
+    const double v = random.Uniform();
     const glm::dvec3 seen =
       (1.0 - u) * piece.Seen[0] + u * (1.0 - v) * piece.Seen[1] + u * v * piece.Seen[2];
     const glm::dvec3 direction = glm::normalize(seen);
@@ -378,7 +378,7 @@ void FilterTrial::ComparePictures(const Sheet& shown, const Sheet& other, Random
     {
       ++this->Tally.Conditioned;
     }
-    else if (!this->Tally.compare(nearest, hit.Reach))
+    else if (!this->Tally.Compare(nearest, hit.Reach))
     {
       this->Fail(
         "a place is shown by one output only, the nearest is " + std::to_string(nearest) + " away");
@@ -396,7 +396,7 @@ std::vector<glm::dvec3> FilterTrial::FindFirst(vtkPolyData* output, const Motion
   {
     glm::dvec3 p;
     output->GetPoint(i, &p.x);
-    result[static_cast<std::size_t>(index->GetTuple1(i))] = motion.undo(p);
+    result[static_cast<std::size_t>(index->GetTuple1(i))] = motion.Undo(p);
   }
   return result;
 }
@@ -462,7 +462,7 @@ void FilterTrial::ComparePoints(vtkPolyData* changed, const Motion& motion)
     const double deviation = areBoth
       ? glm::length(first[i] - second[i])
       : (std::isinf(first[i].x) == std::isinf(second[i].x) ? 0.0 : Nowhere);
-    if (!this->Tally.compare(deviation, sensitivity[i] * errors[i]))
+    if (!this->Tally.Compare(deviation, sensitivity[i] * errors[i]))
     {
       this->Fail("a point is off by " + std::to_string(deviation));
     }
@@ -484,7 +484,7 @@ void FilterTrial::CheckArrays()
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
     // Three products and their sum.
-    if (!this->Tally.compare(
+    if (!this->Tally.Compare(
           std::fabs(arrays->GetArray("Ones")->GetTuple1(i) - 1.0), 4.0 * epsilon))
     {
       this->Fail("an array of ones does not stay one");
@@ -499,13 +499,13 @@ void FilterTrial::CheckArrays()
     {
       // A corner next to the membrane may be drawn where its image is.
       const double away = glm::length(drawn - this->Scene.Base.Eye);
-      if (!this->Tally.compare(this->GetAngle(drawn, place), 4.0 * tolerance + error / away))
+      if (!this->Tally.Compare(this->GetAngle(drawn, place), 4.0 * tolerance + error / away))
       {
         this->Fail("a place in front of the membrane is drawn elsewhere");
       }
       continue;
     }
-    if (!this->Tally.compare(std::fabs(glm::length(place - sight) - depth), error))
+    if (!this->Tally.Compare(std::fabs(glm::length(place - sight) - depth), error))
     {
       this->Fail("a position is not the end of its path");
     }
@@ -531,13 +531,13 @@ void FilterTrial::CheckImage(const glm::dvec3& place, const glm::dvec3& sight,
   const double away = glm::length(drawn - this->Scene.Base.Eye);
   double sensitivity = 1.0;
   const bool isSteady = nearest != images.end() &&
-    this->Errors.isSteady(place, *nearest, error, sensitivity) &&
+    this->Errors.IsSteady(place, *nearest, error, sensitivity) &&
     this->IsWellConditioned(place, 1000.0 * error + 4.0 * tolerance * away);
   if (!isSteady)
   {
     ++this->Tally.Conditioned;
   }
-  else if (!this->Tally.compare(this->GetAngle(nearest->Position, drawn),
+  else if (!this->Tally.Compare(this->GetAngle(nearest->Position, drawn),
              2.0 * tolerance + sensitivity * error / away))
   {
     this->Fail("a position's image is elsewhere");

@@ -166,7 +166,7 @@ public:
       {
         ++tally.Conditioned;
       }
-      else if (!tally.compare(deviation, error))
+      else if (!tally.Compare(deviation, error))
       {
         this->Trial.Fail("a row's light is off by " + std::to_string(deviation));
       }
@@ -228,17 +228,17 @@ RelationTally LightMoved(LightTrial& trial, RandomNumbers& random)
 {
   const FilterScene& scene = trial.Trial.GetScene();
   Motion motion;
-  const glm::dvec3 x = random.direction();
-  const glm::dvec3 y = glm::normalize(glm::cross(x, random.direction()));
+  const glm::dvec3 x = random.GetDirection();
+  const glm::dvec3 y = glm::normalize(glm::cross(x, random.GetDirection()));
   motion.Turn = glm::dmat3(x, y, glm::cross(x, y));
-  motion.Scale = random.uniform(0.1, 10.0);
-  motion.Offset = 10.0 * random.direction();
+  motion.Scale = random.Uniform(0.1, 10.0);
+  motion.Offset = 10.0 * random.GetDirection();
   FilterScene moved = scene;
-  moved.Base = motion.apply(moved.Base);
+  moved.Base = motion.Apply(moved.Base);
   std::vector<glm::dvec3> places;
   for (const glm::dvec3& point : scene.Points)
   {
-    places.push_back(motion.apply(point));
+    places.push_back(motion.Apply(point));
   }
   trial.Compare(RunLight(scene, CellForm::Quads, scene.Points, MakeMembraneData(scene.Base.Mesh)),
     RunLight(moved, CellForm::Quads, places, MakeMembraneData(moved.Base.Mesh)), motion.Scale);
@@ -255,7 +255,7 @@ RelationTally LightEdited(LightTrial& trial, RandomNumbers& random)
   // Another scene first, then the same values in other types.
   const auto edited = Convert(object, true, false);
   const auto light = MakeLight(scene, edited, Convert(membrane, true, false));
-  light->SetInteriorIndexOfRefraction(1.0 + random.uniform());
+  light->SetInteriorIndexOfRefraction(1.0 + random.Uniform());
   edited->GetPoints()->SetPoint(0, scene.Base.Eye.x, scene.Base.Eye.y, scene.Base.Eye.z);
   edited->GetPoints()->Modified();
   light->Update();
@@ -318,7 +318,7 @@ RefractionScene MakeReference(const RefractionScene& scene)
   Motion motion;
   motion.Scale = 1.01;
   RefractionScene reference = scene;
-  reference.Mesh = motion.apply(scene).Mesh;
+  reference.Mesh = motion.Apply(scene).Mesh;
   return reference;
 }
 
@@ -364,7 +364,7 @@ void CompareErrors(FilterTrial& trial, vtkImageData* first, vtkImageData* second
     {
       ++tally.Conditioned;
     }
-    else if (!tally.compare(deviation, sensitivity * error))
+    else if (!tally.Compare(deviation, sensitivity * error))
     {
       trial.Fail("an error is off by " + std::to_string(deviation) + ", states " +
         std::to_string(static_cast<int>(state)) + " and " +
@@ -391,12 +391,12 @@ RelationTally ErrorsMoved(LightTrial& light, RandomNumbers& random)
       RunErrors(scene, { box.Low + way, box.High + way }, reference, CellForm::Triangles));
   }
   Motion motion;
-  motion.Scale = std::pow(2.0, random.below(9) - 4);
-  motion.Offset = random.direction();
+  motion.Scale = std::pow(2.0, random.Below(9) - 4);
+  motion.Offset = random.GetDirection();
   FilterScene moved = scene;
-  moved.Base = motion.apply(scene.Base);
-  const auto second = RunErrors(moved, { motion.apply(box.Low), motion.apply(box.High) },
-    motion.apply(reference), CellForm::Triangles);
+  moved.Base = motion.Apply(scene.Base);
+  const auto second = RunErrors(moved, { motion.Apply(box.Low), motion.Apply(box.High) },
+    motion.Apply(reference), CellForm::Triangles);
   CompareErrors(trial, base, second, motion.Scale, neighbours, move, error);
   CompareErrors(
     trial, base, RunErrors(scene, box, reference, CellForm::Strips), 1.0, neighbours, move, error);
@@ -414,7 +414,7 @@ RelationTally ErrorsEdited(LightTrial& light, RandomNumbers& random)
   fresh->Update();
   const auto edited = Convert(membrane, true, false);
   const auto errors = MakeErrors(scene, box, edited, Convert(reference, true, false));
-  errors->SetInteriorIndexOfRefraction(1.0 + random.uniform());
+  errors->SetInteriorIndexOfRefraction(1.0 + random.Uniform());
   double first[3];
   membrane->GetPoint(0, first);
   edited->GetPoints()->SetPoint(0, first[0] + 0.1 * scene.Base.FacetSize, first[1], first[2]);

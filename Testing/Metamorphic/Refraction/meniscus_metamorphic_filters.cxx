@@ -27,11 +27,11 @@ std::vector<Relation> MakeRelations(const ProgrammeOptions& options)
     {
       return [&options, relation](int index)
       {
-        RandomNumbers random(seedOfCase(options.Seed, relation.Name, index));
+        RandomNumbers random(SeedOfCase(options.Seed, relation.Name, index));
         return relation.Run(random);
       };
     };
-    result.push_back({ relation.Name, casesAt(options.Intensity, relation.Cases), start });
+    result.push_back({ relation.Name, CasesAt(options.Intensity, relation.Cases), start });
   }
   return result;
 }
@@ -42,7 +42,7 @@ std::vector<Relation> MakeRelations(const ProgrammeOptions& options)
 int main(int argc, char* argv[])
 {
   ProgrammeOptions options;
-  return runMetamorphicProgramme(
+  return RunMetamorphicProgramme(
     argc, argv, Usage, options, [](const std::string&, const std::string&) { return false; },
     [&options]() { return MakeRelations(options); });
 }
