@@ -51,13 +51,6 @@ double RoundingOf(double part)
   return Radius * (native ? std::pow(2.0, -24) : std::pow(2.0, -28) + part * std::pow(2.0, -24));
 }
 
-// For the native backend the last digit of a depth, 2^-25 of the radius, is 8e-4 of the width of
-// the smallest cells, over which the functions change colours by up to 1.
-double ToleranceOf()
-{
-  return BackendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE ? 8e-4 : FloatTolerance;
-}
-
 // The cube [-1, 1]^3, with cubes that become smaller towards the corner (1, 1, 1): their sides grow
 // by a constant factor. The scalar is a wave in the cubes' numbers, so that it varies in cells of
 // every size.
@@ -133,7 +126,7 @@ void ExpectSegments(RayCastScene& scene, double part, const ReferenceRayIntegrat
   };
   const FloatImage image = scene.RenderFloat();
   const TracedComparison comparison =
-    CompareToTrace(image, PixelRays(scene.GetRenderer()), trace, ToleranceOf(), RoundingOf(part));
+    CompareToTrace(image, PixelRays(scene.GetRenderer()), trace, FloatTolerance, RoundingOf(part));
   SCOPED_TRACE(what + ": " + comparison.GetText());
   EXPECT_GT(comparison.Visible, static_cast<std::size_t>(Size * Size / 4));
   EXPECT_LE(comparison.Wrong, wrong);
@@ -241,7 +234,8 @@ TEST(TetrahedraRayCastSmallCells, RefractedRays)
       {
         // For the native backend the depth of a sight point, in single precision, may be on either
         // side of a surface.
-        if (ToleranceOf() > FloatTolerance && mode == vtkVolumeMapper::ISOSURFACE_BLEND)
+        if (BackendUnderTest() == vtkTetrahedraRayCastMapper::NATIVE &&
+          mode == vtkVolumeMapper::ISOSURFACE_BLEND)
         {
           continue;
         }

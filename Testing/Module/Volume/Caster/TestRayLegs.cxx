@@ -192,7 +192,7 @@ private:
   {
     const double i = column + 0.5 - 0.5 * Size;
     const double j = row + 0.5 - 0.5 * Size;
-    glm::dvec3 GetPlace(this->Picture.Frame.Origin.At(i, j), 0.0);
+    glm::dvec3 place(this->Picture.Frame.Origin.At(i, j), 0.0);
     glm::dvec3 step(this->Picture.Frame.Slope.At(i, j), 1.0);
     const double sight = glm::length(step);
     const glm::dvec3& normal = this->Glass.Normal;
