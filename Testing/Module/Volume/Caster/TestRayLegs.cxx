@@ -61,7 +61,7 @@ struct Pane
 {
   /** Against the rays. */
   glm::dvec3 Normal = glm::normalize(glm::dvec3(0.3, -0.2, -1.0));
-  /** Dot(Normal, place) on the planes, the first one nearer to the viewer. */
+  /** dot(Normal, place) on the planes, the first one nearer to the viewer. */
   double Heights[2] = { 0.15, -0.25 };
   double Indices[3] = { 1.0, 1.5, 1.0 };
 };
@@ -289,7 +289,7 @@ TEST(RayLegs, PaneDisplacesRaysAndKeepsTheirDirection)
       ASSERT_TRUE(legs.Find(tile, pixel, 2, behind));
       EXPECT_EQ(behind.End, Infinity);
       EXPECT_LE(glm::length(behind.Step - sight.Step), 1e-15 * 8.0);
-      // d Sin(t1 - t2) / cos(t2)
+      // d sin(t1 - t2) / cos(t2)
       const glm::dvec3 direction = glm::normalize(sight.Step);
       const double outside = std::acos(-glm::dot(direction, scene.Glass.Normal));
       const double inside = std::asin(std::sin(outside) / 1.5);
