@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/ErrorSamples.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Membrane/Optics.h"
 
 #include <glm/geometric.hpp>
@@ -21,62 +20,10 @@ namespace
 // tolerance reproduces the thesis's numbers of points (Documentation/refraction-measurements.md).
 constexpr double Wall = 1e-7;
 
-// Barycentric coordinates of a place on an edge are this far below 0 at most: the rounding of the
-// intersection.
-constexpr double Border = 1e-9;
-
-// Intersection of a ray from the eye with the patch that it meets nearest to a place, all patches
-// considered. `near` is in local coordinates.
-bool MeetAnyPatch(const CurvedMembraneSolver& geometry, const glm::dvec3& direction,
-  const glm::dvec3& near, PatchPoint& at)
-{
-  const glm::dvec3& eye = geometry.GetMedia().Eye;
-  const auto count = static_cast<std::int32_t>(geometry.GetMembrane().GetFacets().size());
-  double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t facet = 0; facet < count; ++facet)
-  {
-    const CurvedPatch patch = geometry.GetPatches().GetPatch(facet);
-    const glm::dvec3 center = (patch.Corner[0] + patch.Corner[1] + patch.Corner[2]) / 3.0;
-    const glm::dvec3 away = center - eye;
-    const glm::dvec3 across = glm::cross(away, direction);
-    double radius = 0.0;
-    for (const glm::dvec3& corner : patch.Corner)
-    {
-      radius = std::max(radius, glm::length(corner - center));
-    }
-    // Edges bulge by less than half of their length.
-    radius *= 2.0;
-    const double distance = glm::dot(away, direction);
-    if (glm::dot(across, across) > radius * radius || distance <= 0.0)
-    {
-      continue;
-    }
-    glm::dvec2 b(1.0 / 3.0);
-    double l = 1.0;
-    if (!MeetPatch(patch, { eye, distance * direction }, b, l) ||
-      std::min({ b.x, b.y, 1.0 - b.x - b.y }) < -Border)
-    {
-      continue;
-    }
-    const PatchPoint place = patch.Evaluate(b);
-    const glm::dvec3 way = place.Position - near;
-    if (glm::dot(place.Normal, direction) < 0.0 && glm::dot(way, way) < least)
-    {
-      least = glm::dot(way, way);
-      at = place;
-    }
-  }
-  at.Normal = glm::normalize(at.Normal);
-  at.Position += geometry.GetMembrane().GetOrigin();
-  return std::isfinite(least);
-}
-
 }
 
 //------------------------------------------------------------------------------
-// The patch that shows the point is the patch that the ray meets, or near it. The walk from one to
-// the other may end at a fan of thin facets, depending on their first corners; then all patches are
-// tested.
+// The patch that shows the point is the patch that the ray meets, or a neighbour of it.
 bool PatchesAsSurface::Meet(const glm::dvec3& point, const VirtualVertex& vertex,
   const glm::dvec3& direction, PatchPoint& at) const
 {
@@ -92,9 +39,7 @@ bool PatchesAsSurface::Meet(const glm::dvec3& point, const VirtualVertex& vertex
       const glm::dvec3 second = b.SightPoint - vertex.SightPoint;
       return glm::dot(first, first) < glm::dot(second, second);
     });
-  return this->Geometry.MeetRay(direction, *nearest, at) ||
-    MeetAnyPatch(this->Geometry, direction,
-      nearest->SightPoint - this->Geometry.GetMembrane().GetOrigin(), at);
+  return this->Geometry.MeetRay(direction, *nearest, at);
 }
 
 //------------------------------------------------------------------------------
