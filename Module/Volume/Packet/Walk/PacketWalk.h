@@ -30,8 +30,8 @@ namespace meniscus
  *
  * Depths are floats that count from the pivot of the rays, where these begin to be seen: their
  * rounding errors, and those of segments' lengths, are at most 2^-24 of the distance from there.
- * Differences of integer depths from a cell's own corner would be exact in small cells anywhere, but
- * each is rounded on its own in long cells, and lengths of needles came out less precise.
+ * Differences of integer depths from a cell's own corner would be exact in small cells anywhere,
+ * but each is rounded on its own in long cells, and lengths of needles came out less precise.
  */
 template <class Simd, class Model>
 class PacketWalk
