@@ -570,9 +570,11 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeOnSide(const Context& context,
 // all images of the end are elsewhere, the piece is not seen here: near a silhouette or near total
 // reflection the interpolated rays of the sub-cell meet the primitive and the refracted rays do
 // not. Near a caustic there may be no image at all; then the end is drawn at the interpolated
-// place. The result does not depend on the primitive's plane.
+// place. An end in front has the position that all other primitives use, unless it is away from the
+// membrane and seen elsewhere: the ray has left the interior before it meets the end, and the piece
+// goes on to the image of the end. The result does not depend on the primitive's plane.
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context, const SubCell& nodes,
-  glm::length_t end, const glm::dvec2& interpolated) const
+  glm::length_t end, const glm::dvec2& interpolated, bool isOnMembrane) const
 {
   const auto index = static_cast<std::size_t>(end);
   const glm::dvec3 middle =
@@ -585,8 +587,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context, co
     [&middle](const ImagePoint& a, const ImagePoint& b) {
       return glm::length(a.Vertex.SightPoint - middle) < glm::length(b.Vertex.SightPoint - middle);
     });
-  if (known.Count > 0 && nearest->Vertex.Facet != CurvedPatches::NoFacet &&
-    glm::length(nearest->Vertex.SightPoint - middle) <= size)
+  const bool hasImage = known.Count > 0 && nearest->Vertex.Facet != CurvedPatches::NoFacet;
+  if (hasImage && glm::length(nearest->Vertex.SightPoint - middle) <= size)
   {
     ImagePoint point;
     point.Vertex = nearest->Vertex;
@@ -606,13 +608,13 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context, co
     at = root.At;
   }
   ImagePoint point = this->Finish(context, at, context.Corners[index], weight);
-  if (known.Count == 1 && known.First->Vertex.Facet == CurvedPatches::NoFacet)
+  const glm::dvec3& own = context.Primitive.Corners[index];
+  const double sine = GetSineAtEye(this->Geometry, own, point.Vertex.Position);
+  if (known.Count > 0 && !hasImage && (!isFound || isOnMembrane || sine <= this->Tolerance))
   {
-    point.Vertex.Position = known.First->Vertex.Position; // in front of the membrane: the position
-                                                          // that all other primitives use
+    point.Vertex.Position = own;
   }
-  const bool isElsewhere = known.Count > 0 && nearest->Vertex.Facet != CurvedPatches::NoFacet;
-  const Finding without = isElsewhere ? Finding::Elsewhere : Finding::EndWithoutImage;
+  const Finding without = hasImage ? Finding::Elsewhere : Finding::EndWithoutImage;
   return { point, isFound ? Finding::Found : without };
 }
 
@@ -673,7 +675,7 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeSideCrossing(const Context& co
   }
   if (!(l > 0.0 && l < 1.0))
   {
-    return this->MakeEnd(context, nodes, l < 0.5 ? first : last, guess);
+    return this->MakeEnd(context, nodes, l < 0.5 ? first : last, guess, true);
   }
   glm::dvec3 place(0.0);
   place[first] = 1.0 - l;

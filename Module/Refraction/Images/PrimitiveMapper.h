@@ -112,7 +112,7 @@ private:
   void EmitLine(const Context& context, const SubCell& nodes, const Polygon& polygon) const;
   MappedPoint MakePoint(const Context& context, const SubCell& nodes, const Corner& corner) const;
   MappedPoint MakeEnd(const Context& context, const SubCell& nodes, glm::length_t end,
-    const glm::dvec2& interpolated) const;
+    const glm::dvec2& interpolated, bool isOnMembrane = false) const;
   MappedPoint MakeOnSide(const Context& context, const SubCell& nodes, std::size_t side,
     const RefractedPoint& from, const glm::dvec2& interpolated) const;
   MappedPoint MakeCrossing(

@@ -167,15 +167,10 @@ private:
   // membrane has its image elsewhere; such a corner keeps its own position.
   glm::dvec3 FindSeenPlace(std::size_t k) const
   {
-    const glm::dvec3& eye = this->Geometry.GetMedia().Eye;
-    const glm::dvec3 own = this->Primitive.Corners[k];
-    const glm::dvec3 way = this->Corner[k] - eye;
+    const glm::dvec3& own = this->Primitive.Corners[k];
     const KnownImages& images = this->Primitive.Images[k];
-    const auto getAngle = [&own, &way](const ImagePoint& image)
-    {
-      const glm::dvec3 seen = way + (image.Vertex.Position - own);
-      return glm::length(glm::cross(way, seen)) / (glm::length(way) * glm::length(seen));
-    };
+    const auto getAngle = [this, &own](const ImagePoint& image)
+    { return GetSineAtEye(this->Geometry, own, image.Vertex.Position); };
     const ImagePoint* nearest = std::min_element(images.First, images.First + images.Count,
       [&getAngle](const ImagePoint& a, const ImagePoint& b) { return getAngle(a) < getAngle(b); });
     // The corner is within one tolerance of the membrane, where image and place coincide.
@@ -306,6 +301,15 @@ void AddFrontOfLine(const CurvedMembraneSolver& geometry, const MappedTriangle& 
 {
   const Cutter cutter(geometry, 0.0, line, sourceCell, images);
   cutter.CutLine(cutter.MakePlace({ 1.0, 0.0, 0.0 }), cutter.MakePlace({ 0.0, 1.0, 0.0 }), 0);
+}
+
+//------------------------------------------------------------------------------
+double GetSineAtEye(
+  const CurvedMembraneSolver& geometry, const glm::dvec3& first, const glm::dvec3& second)
+{
+  const glm::dvec3 way = (first - geometry.GetMembrane().GetOrigin()) - geometry.GetMedia().Eye;
+  const glm::dvec3 seen = way + (second - first);
+  return glm::length(glm::cross(way, seen)) / (glm::length(way) * glm::length(seen));
 }
 
 }

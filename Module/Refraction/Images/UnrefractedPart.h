@@ -27,6 +27,10 @@ void AddFrontOfTriangle(const CurvedMembraneSolver& geometry, double tolerance,
 void AddFrontOfLine(const CurvedMembraneSolver& geometry, const MappedTriangle& line,
   std::int64_t sourceCell, ImageMesh& images);
 
+/** Sine of the angle at the eye between two places in world coordinates. */
+double GetSineAtEye(
+  const CurvedMembraneSolver& geometry, const glm::dvec3& first, const glm::dvec3& second);
+
 }
 
 #endif

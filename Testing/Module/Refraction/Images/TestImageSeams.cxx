@@ -361,6 +361,49 @@ TEST(RefractionSeamsCriticalAngle, SnellsWindowShowsWholeTriangles)
 }
 
 //------------------------------------------------------------------------------
+// Rays into the thinner medium below a dome leave it through the far flank and meet corners of the
+// ball that are in front of the flank. A place that Snell's law shows at a sight point is drawn in
+// the direction of this sight point.
+TEST(RefractionSeamsExit, CornersBeyondTheFarFlankAreDrawnAtTheirSightPoints)
+{
+  const HeightField field{ HeightField::Shape::Dome, 200.0, 40.0, 1.0 / 30.0, 1.74, 1.0 };
+  const double tolerance = 0.02 * Pi / 180.0;
+  CurvedMembraneSolver geometry;
+  geometry.SetMembrane(field.MakeMesh(64).AsInput());
+  const glm::dvec3 eye(-60.0, 150.0, 5.0);
+  geometry.SetEye(eye, field.Exterior, field.Interior);
+  std::size_t beyond = 0;
+  for (const double x : { 36.0, 38.0, 40.0, 42.0, 44.0, 46.0 })
+  {
+    const Object ball = MakeBall({ x, field.GetHeight(x, 1.0) - 2.0, 1.0 }, 8.0, 6);
+    const Drawn drawn = Draw(geometry, ball, tolerance);
+    for (const ImagePoint& point : drawn.Pieces.Points)
+    {
+      if (point.Vertex.Facet < 0 || !(point.Vertex.Depth > 1.0))
+      {
+        continue;
+      }
+      glm::dvec3 place(0.0);
+      for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
+      {
+        place += point.Weight[k] * ball.Points[static_cast<std::size_t>(point.Source[k])];
+      }
+      const auto shown = field.Refract(eye, point.Vertex.SightPoint, point.Vertex.Depth);
+      // The patches' normals deviate from the dome's by some 1e-4.
+      if (!shown || glm::length(*shown - place) > 1e-2 * point.Vertex.Depth)
+      {
+        continue;
+      }
+      beyond += place.y > field.GetHeight(place.x, place.z);
+      const glm::dvec3 sight = glm::normalize(point.Vertex.SightPoint - eye);
+      const glm::dvec3 seen = glm::normalize(point.Vertex.Position - eye);
+      EXPECT_LT(glm::length(glm::cross(sight, seen)), 2.0 * tolerance) << x;
+    }
+  }
+  EXPECT_GT(beyond, 0u);
+}
+
+//------------------------------------------------------------------------------
 // The part of a triangle in front of a membrane that it intersects is no finer than the pieces
 // behind.
 TEST(RefractionSeamsCost, TrianglesThatPierceTheMembraneAreNotShredded)
