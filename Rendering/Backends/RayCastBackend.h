@@ -163,6 +163,15 @@ private:
   vtkOpenGLRenderWindow* Window;
 };
 
+/** Box of pixels of an image: columns [Left, Right) and rows [Bottom, Top), counted from below. */
+struct RayCastImageBox
+{
+  int Left;
+  int Right;
+  int Bottom;
+  int Top;
+};
+
 /** Image to fill and opaque geometry to end rays at, in the memory or on the graphics device. */
 class VTKMENISCUS_EXPORT RayCastTarget
 {
@@ -172,10 +181,17 @@ public:
   /** Pixels of the image; one ray each. */
   virtual int GetWidth() const = 0;
   virtual int GetHeight() const = 0;
-  /** Window depths in [0, 1], one per pixel, rows from below. */
-  virtual std::vector<float> ReadDepths() = 0;
-  /** Takes premultiplied RGBA, four numbers per pixel, rows from below. Returns an error or "". */
-  virtual std::string WriteImage(const std::vector<float>& rgba) = 0;
+  /** Window depths in [0, 1], one per pixel, rows from below. Valid while the image is made. */
+  virtual const std::vector<float>& ReadDepths() = 0;
+  /**
+   * Takes premultiplied RGBA, four numbers per pixel, rows from below. Returns an error or "".
+   * @param filled pixels outside this box must be zero, and are neither sent nor drawn.
+   */
+  virtual std::string WriteImage(const std::vector<float>& rgba, const RayCastImageBox& filled) = 0;
+  std::string WriteImage(const std::vector<float>& rgba)
+  {
+    return this->WriteImage(rgba, { 0, this->GetWidth(), 0, this->GetHeight() });
+  }
 
   /**
    * Depths for which the image was made that the target still holds, if the frame at hand differs

@@ -95,9 +95,9 @@ void OpenGLDepthCopy::Resolve(vtkOpenGLRenderWindow* window, const int viewport[
 }
 
 //------------------------------------------------------------------------------
-std::vector<float> OpenGLDepthCopy::Read(vtkOpenGLRenderWindow* window)
+void OpenGLDepthCopy::Read(vtkOpenGLRenderWindow* window, std::vector<float>& depths)
 {
-  std::vector<float> depths(static_cast<std::size_t>(this->Width) * this->Height);
+  depths.resize(static_cast<std::size_t>(this->Width) * this->Height);
   vtkOpenGLState* state = window->GetState();
   state->PushFramebufferBindings();
   this->Target->SetContext(window);
@@ -105,7 +105,6 @@ std::vector<float> OpenGLDepthCopy::Read(vtkOpenGLRenderWindow* window)
   this->Target->AddDepthAttachment(this->Texture);
   glReadPixels(0, 0, this->Width, this->Height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
   state->PopFramebufferBindings();
-  return depths;
 }
 
 //------------------------------------------------------------------------------

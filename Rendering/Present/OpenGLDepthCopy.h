@@ -28,8 +28,8 @@ public:
    */
   void Update(vtkOpenGLRenderWindow* window, const int viewport[4]);
 
-  /** Window depths of the last copy, in rows from the bottom. */
-  std::vector<float> Read(vtkOpenGLRenderWindow* window);
+  /** Replaces `depths` by the window depths of the last copy, in rows from the bottom. */
+  void Read(vtkOpenGLRenderWindow* window, std::vector<float>& depths);
 
   void Release(vtkWindow* window);
 

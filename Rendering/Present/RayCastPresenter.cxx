@@ -14,20 +14,22 @@
 #include "vtkTextureObject.h"
 
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/vec2.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace meniscus
 {
 namespace
 {
 
-/** Depths of a viewport at the pixels of an image of another size. */
-std::vector<float> SampleDepths(
-  const std::vector<float>& all, int width, int height, const int (&size)[2])
+/** Replaces the depths of a viewport by those at the pixels of an image of another size. */
+void SampleDepths(std::vector<float>& depths, int width, int height, const int (&size)[2])
 {
-  std::vector<float> depths;
+  std::vector<float> all;
+  all.swap(depths);
   depths.reserve(static_cast<std::size_t>(size[0]) * size[1]);
   for (int y = 0; y < size[1]; ++y)
   {
@@ -37,7 +39,29 @@ std::vector<float> SampleDepths(
       depths.push_back(all[row + static_cast<std::size_t>((x + 0.5) * width / size[0])]);
     }
   }
-  return depths;
+}
+
+/** The box with `margin` more pixels on each side, as far as the image reaches. */
+RayCastImageBox Grown(const RayCastImageBox& box, int margin, const int (&size)[2])
+{
+  return { std::max(box.Left - margin, 0), std::min(box.Right + margin, size[0]),
+    std::max(box.Bottom - margin, 0), std::min(box.Top + margin, size[1]) };
+}
+
+bool IsEmpty(const RayCastImageBox& box)
+{
+  return box.Left >= box.Right || box.Bottom >= box.Top;
+}
+
+/**
+ * Range of a viewport's pixels in which those of an image appear.
+ * @param origin,length of the viewport; `size` pixels of the image appear in it.
+ */
+glm::ivec2 Shown(int first, int last, int origin, int length, int size)
+{
+  const double scale = static_cast<double>(length) / size;
+  return { origin + static_cast<int>(std::floor(first * scale)),
+    origin + static_cast<int>(std::ceil(last * scale)) };
 }
 
 }
@@ -102,7 +126,7 @@ std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFram
   int viewport[4];
   this->GetViewport(viewport);
   this->Depth.Update(this->Window, viewport);
-  this->Depths.reset();
+  this->HasDepths = false;
   std::string error = this->Resize(output.ImageSize[0], output.ImageSize[1]);
   if (!error.empty())
   {
@@ -119,9 +143,11 @@ std::string RayCastPresenter::Present(const RayCastOutput& output, bool sameFram
     state->PushFramebufferBindings();
     if (!this->HoldsImageOfDepths(sameFrame))
     {
+      this->Filled = { 0, this->Size[0], 0, this->Size[1] };
       error = makeImage(*this);
-      this->DepthsOfImage = std::move(this->Depths);
-      this->Depths.reset();
+      this->DepthsOfImage.swap(this->Depths);
+      this->HasDepthsOfImage = this->HasDepths;
+      this->HasDepths = false;
     }
     state->PopFramebufferBindings();
   }
@@ -144,23 +170,20 @@ bool RayCastPresenter::IsSoftware()
 }
 
 //------------------------------------------------------------------------------
-std::vector<float> RayCastPresenter::ReadDepths()
+const std::vector<float>& RayCastPresenter::ReadDepths()
 {
-  if (!this->Depths)
+  if (!this->HasDepths)
   {
-    const std::vector<float> all = this->Depth.Read(this->Window);
+    this->Depth.Read(this->Window, this->Depths);
     const int width = static_cast<int>(this->Depth.GetTexture()->GetWidth());
     const int height = static_cast<int>(this->Depth.GetTexture()->GetHeight());
-    const bool whole = width == this->Size[0] && height == this->Size[1];
-    this->Depths = whole ? all : SampleDepths(all, width, height, this->Size);
+    if (width != this->Size[0] || height != this->Size[1])
+    {
+      SampleDepths(this->Depths, width, height, this->Size);
+    }
+    this->HasDepths = true;
   }
-  return *this->Depths;
-}
-
-//------------------------------------------------------------------------------
-const std::vector<float>* RayCastPresenter::GetDepthsOfImage()
-{
-  return this->DepthsOfImage ? &*this->DepthsOfImage : nullptr;
+  return this->Depths;
 }
 
 //------------------------------------------------------------------------------
@@ -173,15 +196,16 @@ bool RayCastPresenter::HoldsImageOfDepths(bool sameFrame)
 {
   if (!sameFrame)
   {
-    this->DepthsOfImage.reset();
+    this->HasDepthsOfImage = false;
     return false;
   }
-  const std::vector<float> depths = this->ReadDepths();
-  return this->DepthsOfImage && *this->DepthsOfImage == depths;
+  const std::vector<float>& depths = this->ReadDepths();
+  return this->HasDepthsOfImage && this->DepthsOfImage == depths;
 }
 
 //------------------------------------------------------------------------------
-std::string RayCastPresenter::WriteImage(const std::vector<float>& rgba)
+std::string RayCastPresenter::WriteImage(
+  const std::vector<float>& rgba, const RayCastImageBox& filled)
 {
   const std::size_t values = std::size_t{ 4 } * this->Size[0] * this->Size[1];
   if (rgba.size() != values)
@@ -189,11 +213,22 @@ std::string RayCastPresenter::WriteImage(const std::vector<float>& rgba)
     return "an image of " + std::to_string(rgba.size()) + " numbers was made, not of " +
       std::to_string(values);
   }
-  // Copied into the texture, not changed.
-  void* pixels = const_cast<float*>(rgba.data());
-  const bool made =
-    this->Image->Create2DFromRaw(this->Size[0], this->Size[1], 4, VTK_FLOAT, pixels);
-  return made ? std::string() : "the image could not be sent to the graphics device";
+  this->Filled = filled;
+  if (IsEmpty(filled))
+  {
+    return std::string();
+  }
+  // Linear filtering reads one pixel beyond those drawn, which are one more than those filled.
+  const RayCastImageBox sent = Grown(filled, 2, this->Size);
+  const std::size_t first = static_cast<std::size_t>(sent.Bottom) * this->Size[0] + sent.Left;
+  this->Image->Activate();
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, this->Size[0]);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, sent.Left, sent.Bottom, sent.Right - sent.Left,
+    sent.Top - sent.Bottom, GL_RGBA, GL_FLOAT, rgba.data() + 4 * first);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  this->Image->Deactivate();
+  return glGetError() == GL_NO_ERROR ? std::string()
+                                     : "the image could not be sent to the graphics device";
 }
 
 //------------------------------------------------------------------------------
@@ -243,10 +278,34 @@ std::string RayCastPresenter::ReadyDrawer(bool selecting)
 }
 
 //------------------------------------------------------------------------------
+/** Limits drawing to the part of the viewport in which the image is not empty. */
+void RayCastPresenter::LimitToFilled(const int viewport[4])
+{
+  const RayCastImageBox drawn = Grown(this->Filled, 1, this->Size);
+  glm::ivec2 x = Shown(drawn.Left, drawn.Right, viewport[0], viewport[2], this->Size[0]);
+  glm::ivec2 y = Shown(drawn.Bottom, drawn.Top, viewport[1], viewport[3], this->Size[1]);
+  vtkOpenGLState* state = this->Window->GetState();
+  if (state->GetEnumState(GL_SCISSOR_TEST))
+  {
+    int set[4];
+    state->vtkglGetIntegerv(GL_SCISSOR_BOX, set);
+    x = { std::max(x[0], set[0]), std::min(x[1], set[0] + set[2]) };
+    y = { std::max(y[0], set[1]), std::min(y[1], set[1] + set[3]) };
+  }
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(x[0], y[0], std::max(x[1] - x[0], 0), std::max(y[1] - y[0], 0));
+}
+
+//------------------------------------------------------------------------------
 std::string RayCastPresenter::Blend(const RayCastOutput& output, const int viewport[4])
 {
+  if (IsEmpty(this->Filled))
+  {
+    return std::string();
+  }
   vtkOpenGLState* state = this->Window->GetState();
   state->vtkglViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+  this->LimitToFilled(viewport);
   const std::string error = this->ReadyDrawer(output.Selecting);
   if (!error.empty())
   {
@@ -303,7 +362,7 @@ void RayCastPresenter::Release(vtkWindow* window)
   this->Selector.reset();
   this->Image = nullptr;
   this->Size[0] = this->Size[1] = 0;
-  this->DepthsOfImage.reset();
+  this->HasDepthsOfImage = false;
   this->Window = nullptr;
   if (owner)
   {

@@ -12,7 +12,6 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,9 +59,13 @@ public:
 
   int GetWidth() const override { return this->Size[0]; }
   int GetHeight() const override { return this->Size[1]; }
-  std::vector<float> ReadDepths() override;
-  std::string WriteImage(const std::vector<float>& rgba) override;
-  const std::vector<float>* GetDepthsOfImage() override;
+  const std::vector<float>& ReadDepths() override;
+  using RayCastTarget::WriteImage;
+  std::string WriteImage(const std::vector<float>& rgba, const RayCastImageBox& filled) override;
+  const std::vector<float>* GetDepthsOfImage() override
+  {
+    return this->HasDepthsOfImage ? &this->DepthsOfImage : nullptr;
+  }
   vtkTextureObject* GetDepthTexture() override { return this->Depth.GetTexture(); }
   vtkTextureObject* GetImageTexture() override { return this->Image; }
 
@@ -77,6 +80,7 @@ private:
   std::string Resize(int width, int height);
   std::string ReadyDrawer(bool selecting);
   std::string Blend(const RayCastOutput& output, const int viewport[4]);
+  void LimitToFilled(const int viewport[4]);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
   OpenGLDepthCopy Depth;
@@ -85,10 +89,14 @@ private:
   std::unique_ptr<vtkOpenGLQuadHelper> Composer;
   std::unique_ptr<vtkOpenGLQuadHelper> Selector;
   int Size[2] = { 0, 0 };
+  /** Box outside of which the image is zero. */
+  RayCastImageBox Filled{ 0, 0, 0, 0 };
   /** Depths of the frame at hand, as soon as they are read. */
-  std::optional<std::vector<float>> Depths;
+  std::vector<float> Depths;
+  bool HasDepths = false;
   /** Depths that the rays of the image end at, if they were read. */
-  std::optional<std::vector<float>> DepthsOfImage;
+  std::vector<float> DepthsOfImage;
+  bool HasDepthsOfImage = false;
 };
 
 }

@@ -18,12 +18,12 @@ static_assert(TileSize == BoundaryRaster::TileSize, "the same tiles");
 SightLegEntries::SightLegEntries(const FixedPointRays& rays,
   const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& boundary,
   const std::vector<RayClippingPlane>& clippingPlanes, const RayLegs& legs,
-  const FrameOptics& optics, InstructionSet set)
+  const FrameOptics& optics, InstructionSet set, const RangeLoop& loop)
   : Rays(rays)
   , ClippingPlanes(clippingPlanes)
   , Legs(legs)
 {
-  this->Raster.Build(vertices, boundary, rays, set);
+  this->Raster.Build(vertices, boundary, rays, loop, set);
   this->Frame.Set(rays, vertices, optics);
 }
 
@@ -108,7 +108,7 @@ void SightLegEntries::Collect(
   workspace.IsTaken = false;
   const RefractedRay* next =
     this->Legs.GetNumberOfLegs() > 1 ? this->Legs.GetTile(1, leg.Tile) : nullptr;
-  if (!next || this->IsMeshInFront(leg, next))
+  if (!this->Raster.IsEmpty(leg.Tile) && (!next || this->IsMeshInFront(leg, next)))
   {
     this->Raster.CollectEntries(leg.Tile, workspace.Raster);
     this->TakeRays(leg, next, joined, workspace);

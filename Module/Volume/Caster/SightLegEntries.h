@@ -29,7 +29,7 @@ public:
   /** All objects that the arguments refer to must outlive this object. */
   SightLegEntries(const FixedPointRays& rays, const std::vector<PacketVertex>& vertices,
     const std::vector<BoundaryFace>& boundary, const std::vector<RayClippingPlane>& clippingPlanes,
-    const RayLegs& legs, const FrameOptics& optics, InstructionSet set);
+    const RayLegs& legs, const FrameOptics& optics, InstructionSet set, const RangeLoop& loop);
 
   const BoundaryRaster& GetRaster() const { return this->Raster; }
   const LegFrame& GetFrame(int) const { return this->Frame; }

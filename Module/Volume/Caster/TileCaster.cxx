@@ -11,11 +11,11 @@ namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-TileCaster::TileCaster(const Scene& scene)
+TileCaster::TileCaster(const Scene& scene, const RangeLoop& loop)
   : Input(scene)
   , Legs(scene.Rays.GetFrame(), scene.Rays.GetWidth(), scene.Rays.GetHeight(), scene.Refracted.Legs)
   , Sight(this->Input.Rays, scene.Tables->Vertices, *scene.Boundary, this->Input.ClippingPlanes,
-      this->Legs, this->SightOptics(), scene.Set)
+      this->Legs, this->SightOptics(), scene.Set, loop)
 {
   if (scene.PreIntegration)
   {
@@ -91,13 +91,17 @@ void TileCaster::Show(const LegBatch& batch, const TileLeg& leg,
   for (std::size_t i = 0; i < results.size(); ++i)
   {
     const PacketResult& result = results[i];
+    sums.Lost += result.Lost;
+    if (result.Steps == 0)
+    {
+      continue;
+    }
+    sums.Steps += result.Steps;
+    ++sums.Rays;
     const std::int32_t pixel = batch.Origins[i].Pixel;
     const std::int64_t row = leg.Box.Bottom + pixel / RefractedRayTiles::TileSize;
     const std::int64_t column = leg.Box.Left + pixel % RefractedRayTiles::TileSize;
     std::copy_n(result.Color, 4, image + 4 * (row * this->Legs.GetWidth() + column));
-    sums.Steps += result.Steps;
-    sums.Rays += result.Steps > 0 ? 1 : 0;
-    sums.Lost += result.Lost;
   }
 }
 

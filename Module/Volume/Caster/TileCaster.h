@@ -82,12 +82,17 @@ public:
     RefractedScene Refracted;
   };
 
-  /** All objects that `scene` refers to must outlive this object. */
-  explicit TileCaster(const Scene& scene);
+  /**
+   * All objects that `scene` refers to must outlive this object.
+   * @param loop runs over the faces of the boundary.
+   */
+  explicit TileCaster(const Scene& scene, const RangeLoop& loop = SerialLoop);
   TileCaster(const TileCaster&) = delete;
   TileCaster& operator=(const TileCaster&) = delete;
 
   int GetNumberOfTiles() const { return this->Legs.GetNumberOfTiles(); }
+  int GetWidth() const { return this->Legs.GetWidth(); }
+  int GetHeight() const { return this->Legs.GetHeight(); }
   BoundaryRaster::PixelBox GetBox(int tile) const
   {
     return this->Sight.GetRaster().BoxOfTile(tile);

@@ -59,7 +59,8 @@ PixelSpan SpanOf(
 
 //------------------------------------------------------------------------------
 void BoundaryRaster::Build(const std::vector<PacketVertex>& vertices,
-  const std::vector<BoundaryFace>& faces, const FixedPointRays& rays, InstructionSet set)
+  const std::vector<BoundaryFace>& faces, const FixedPointRays& rays, const RangeLoop& loop,
+  InstructionSet set)
 {
   this->Set = set;
   this->Faces.Set(vertices, faces, rays);
@@ -82,11 +83,18 @@ void BoundaryRaster::Build(const std::vector<PacketVertex>& vertices,
       }
     }
   };
-  for (std::size_t f = 0; f < faces.size(); ++f)
+  loop(faces.size(),
+    [this](std::size_t first, std::size_t last)
+    {
+      for (std::size_t f = first; f < last; ++f)
+      {
+        const auto index = static_cast<std::int32_t>(f);
+        this->Boxes[f] = this->Faces.BoundPixels(this->Faces.Project(index)).Box;
+      }
+    });
+  for (const PixelBox& box : this->Boxes)
   {
-    const auto index = static_cast<std::int32_t>(f);
-    this->Boxes[f] = this->Faces.BoundPixels(this->Faces.Project(index)).Box;
-    forTilesOf(this->Boxes[f], [this](int tile) { ++this->TileBegin[tile + 1]; });
+    forTilesOf(box, [this](int tile) { ++this->TileBegin[tile + 1]; });
   }
   for (int tile = 0; tile < this->GetNumberOfTiles(); ++tile)
   {
@@ -168,10 +176,9 @@ void BoundaryRaster::AddSpans(std::int32_t index, const PixelBox& tile, Workspac
 //------------------------------------------------------------------------------
 void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
 {
-  workspace.Lists.Start(TileSize * TileSize);
-  if (this->TileBegin[tile] == this->TileBegin[tile + 1])
+  if (this->IsEmpty(tile))
   {
-    workspace.Lists.Sort();
+    workspace.Lists.Set(TileSize * TileSize, nullptr, 0, nullptr);
     return;
   }
   // In a mesh whose cells share no faces, each pixel has many faces: taking them from near to far
@@ -206,14 +213,8 @@ void BoundaryRaster::CollectEntries(int tile, Workspace& workspace) const
   job.Pivot = this->GetRays().GetPivot();
   job.Hits = workspace.Hits.data();
   FindEntries(job, this->Set);
-  for (std::int32_t i = 0; i < job.NumberOfHits; ++i)
-  {
-    const PacketHit& hit = workspace.Hits[static_cast<std::size_t>(i)];
-    const PacketFace& face = workspace.Faces[static_cast<std::size_t>(hit.Face)];
-    workspace.Lists.Add(hit.Ray,
-      { { face.Vertices[0], face.Vertices[1], face.Vertices[2] }, face.CellFace, hit.Depth });
-  }
-  workspace.Lists.Sort();
+  workspace.Lists.Set(TileSize * TileSize, job.Hits, static_cast<std::size_t>(job.NumberOfHits),
+    workspace.Faces.data());
 }
 
 }

@@ -3,6 +3,7 @@
 #ifndef meniscus_Volume_Entries_BoundaryRaster_h
 #define meniscus_Volume_Entries_BoundaryRaster_h
 
+#include "Common/RangeLoop.h"
 #include "Simd/InstructionSets.h"
 #include "Volume/Entries/EntryLists.h"
 #include "Volume/Packet/Data/PacketRays.h"
@@ -31,9 +32,11 @@ public:
    * Sorts faces into tiles.
    * @param vertices vertices of the mesh in the grid of the rays; must outlive this object.
    * @param faces boundary by which rays may enter; must outlive this object.
+   * @param loop runs over the faces, as the caller wants to.
    */
   void Build(const std::vector<PacketVertex>& vertices, const std::vector<BoundaryFace>& faces,
-    const FixedPointRays& rays, InstructionSet set = BestInstructionSet());
+    const FixedPointRays& rays, const RangeLoop& loop = SerialLoop,
+    InstructionSet set = BestInstructionSet());
 
   int GetNumberOfTiles() const { return this->Columns * this->Rows; }
   const FixedPointRays& GetRays() const { return this->Faces.GetRays(); }
@@ -41,6 +44,8 @@ public:
   using PixelBox = ProjectedFaces::PixelBox;
   PixelBox BoxOfTile(int tile) const;
 
+  /** True if no ray of the tile enters the mesh. */
+  bool IsEmpty(int tile) const { return this->TileBegin[tile] == this->TileBegin[tile + 1]; }
   /** Smallest depth of the faces by which rays of a tile may enter; infinite if there is none. */
   double NearestDepth(int tile) const;
 

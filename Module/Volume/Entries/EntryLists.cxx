@@ -49,19 +49,13 @@ void SortEntries(PacketEntry* first, PacketEntry* last)
 }
 
 //------------------------------------------------------------------------------
-void EntryLists::Start(std::size_t numberOfRays)
+void EntryLists::Set(
+  std::size_t numberOfRays, const PacketHit* hits, std::size_t count, const PacketFace* faces)
 {
-  this->Hits.clear();
-  this->Entries.clear();
   this->Begins.assign(numberOfRays + 1, 0);
-}
-
-//------------------------------------------------------------------------------
-void EntryLists::Sort()
-{
-  for (const Hit& hit : this->Hits)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    ++this->Begins[hit.Ray];
+    ++this->Begins[static_cast<std::size_t>(hits[i].Ray)];
   }
   // End of each ray's list. It moves to the beginning of the list while the list is filled
   // backwards.
@@ -71,16 +65,24 @@ void EntryLists::Sort()
     end += begin;
     begin = end;
   }
-  this->Entries.resize(this->Hits.size());
-  for (std::size_t i = this->Hits.size(); i > 0; --i)
+  this->Entries.resize(count);
+  for (std::size_t i = count; i > 0; --i)
   {
-    const Hit& hit = this->Hits[i - 1];
-    this->Entries[--this->Begins[hit.Ray]] = hit.Entry;
+    const PacketHit& hit = hits[i - 1];
+    const PacketFace& face = faces[hit.Face];
+    this->Entries[static_cast<std::size_t>(--this->Begins[static_cast<std::size_t>(hit.Ray)])] = {
+      { face.Vertices[0], face.Vertices[1], face.Vertices[2] }, face.CellFace, hit.Depth
+    };
   }
-  for (std::size_t ray = 0; ray + 1 < this->Begins.size(); ++ray)
+  PacketEntry* const entries = this->Entries.data();
+  for (std::size_t ray = 0; ray < numberOfRays; ++ray)
   {
-    SortEntries(
-      this->Entries.data() + this->Begins[ray], this->Entries.data() + this->Begins[ray + 1]);
+    const std::int32_t first = this->Begins[ray];
+    const std::int32_t last = this->Begins[ray + 1];
+    if (last - first > 1)
+    {
+      SortEntries(entries + first, entries + last);
+    }
   }
 }
 

@@ -13,32 +13,24 @@ namespace meniscus
 {
 
 /**
- * Entries of many rays, collected in any order and then sorted by ray, depth and face. The cost is
- * linear in the number of entries if they are added approximately in the order of depth.
+ * Entries of many rays, sorted by ray, depth and face. The cost is linear in the number of entries
+ * if they come approximately in the order of depth.
  */
 class EntryLists
 {
 public:
-  /** Removes all entries and expects rays numbered from 0. */
-  void Start(std::size_t numberOfRays);
-
-  void Add(std::int32_t ray, const PacketEntry& entry) { this->Hits.push_back({ ray, entry }); }
-
-  /** Sorts the entries; the lists can be read afterwards. */
-  void Sort();
+  /**
+   * Replaces the entries by those of `count` hits, in any order, of rays numbered from 0.
+   * @param faces faces that the hits refer to.
+   */
+  void Set(
+    std::size_t numberOfRays, const PacketHit* hits, std::size_t count, const PacketFace* faces);
 
   /** Entries of all rays; those of a ray are [GetBegin(ray), GetBegin(ray + 1)). */
   const std::vector<PacketEntry>& GetEntries() const { return this->Entries; }
   std::int32_t GetBegin(std::size_t ray) const { return this->Begins[ray]; }
 
 private:
-  struct Hit
-  {
-    std::int32_t Ray;
-    PacketEntry Entry;
-  };
-
-  std::vector<Hit> Hits;
   std::vector<PacketEntry> Entries;
   std::vector<std::int32_t> Begins;
 };

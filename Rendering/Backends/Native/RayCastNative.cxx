@@ -36,6 +36,12 @@ bool HaveEqualRows(const BoundaryRaster::PixelBox& box, int width, const std::ve
   return true;
 }
 
+/** True if a ray of the tile was drawn. */
+bool IsFilled(const RayStatistics& tile)
+{
+  return tile.Rays > 0;
+}
+
 /** Sets the box of an image of four numbers per pixel to zero. */
 void ClearRows(const BoundaryRaster::PixelBox& box, int width, std::vector<float>& image)
 {
@@ -185,19 +191,20 @@ std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& ta
     this->PlacedVersions = versions;
   }
   this->CastTiles(scene, target.ReadDepths(), target.GetDepthsOfImage());
-  return target.WriteImage(this->Image);
+  return target.WriteImage(this->Image, this->Filled);
 }
 
 //------------------------------------------------------------------------------
 void RayCastNative::CastTiles(const TileCaster::Scene& scene, const std::vector<float>& depths,
   const std::vector<float>* before)
 {
-  const TileCaster caster(scene);
+  const TileCaster caster(scene, ThreadedLoop);
   const int width = scene.Rays.GetWidth();
-  if (!before)
+  if (this->Image.size() != 4 * depths.size() || this->ImageWidth != width)
   {
     this->Image.assign(4 * depths.size(), 0.0f);
-    this->OfTile.assign(caster.GetNumberOfTiles(), RayStatistics());
+    this->ImageWidth = width;
+    this->OfTile.assign(static_cast<std::size_t>(caster.GetNumberOfTiles()), RayStatistics());
   }
   vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
   std::atomic<std::int64_t> pixels{ 0 };
@@ -209,20 +216,38 @@ void RayCastNative::CastTiles(const TileCaster::Scene& scene, const std::vector<
       for (vtkIdType tile = first; tile < last; ++tile)
       {
         const BoundaryRaster::PixelBox box = caster.GetBox(static_cast<int>(tile));
-        if (before)
+        if (before && HaveEqualRows(box, width, *before, depths))
         {
-          if (HaveEqualRows(box, width, *before, depths))
-          {
-            continue;
-          }
+          continue;
+        }
+        RayStatistics& sums = this->OfTile[static_cast<std::size_t>(tile)];
+        if (IsFilled(sums))
+        {
           ClearRows(box, width, this->Image);
         }
-        this->OfTile[tile] =
-          caster.Cast(static_cast<int>(tile), depths.data(), this->Image.data(), workspace);
+        sums = caster.Cast(static_cast<int>(tile), depths.data(), this->Image.data(), workspace);
         pixels += std::int64_t{ box.Right - box.Left } * (box.Top - box.Bottom);
       }
     });
   this->CastPixels += pixels;
+  this->BoundFilled(caster);
+}
+
+//------------------------------------------------------------------------------
+/** Sets the box around all tiles with rays that met the mesh. */
+void RayCastNative::BoundFilled(const TileCaster& caster)
+{
+  this->Filled = { caster.GetWidth(), 0, caster.GetHeight(), 0 };
+  for (int tile = 0; tile < caster.GetNumberOfTiles(); ++tile)
+  {
+    if (IsFilled(this->OfTile[static_cast<std::size_t>(tile)]))
+    {
+      const BoundaryRaster::PixelBox box = caster.GetBox(tile);
+      this->Filled = { std::min(this->Filled.Left, box.Left),
+        std::max(this->Filled.Right, box.Right), std::min(this->Filled.Bottom, box.Bottom),
+        std::max(this->Filled.Top, box.Top) };
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -48,6 +48,7 @@ private:
    * @param depths  window depths in [0, 1], one per pixel, rows from below.
    * @param before  depths that the image was cast for, if the frame is the same otherwise, or null.
    */
+  void BoundFilled(const TileCaster& caster);
   void CastTiles(const TileCaster::Scene& scene, const std::vector<float>& depths,
     const std::vector<float>* before);
 
@@ -58,6 +59,9 @@ private:
   TableCounter Counter;
   /** Image of the last frame, and the statistics of its tiles. */
   std::vector<float> Image;
+  int ImageWidth = 0;
+  /** Box around the pixels that are not zero. */
+  RayCastImageBox Filled{ 0, 0, 0, 0 };
   std::vector<RayStatistics> OfTile;
   std::int64_t CastPixels = 0;
   InstructionSet Set;

@@ -144,7 +144,7 @@ public:
     const meniscus::RayCastRequest& request, meniscus::RayCastTarget& target) override
   {
     const meniscus::RayCastRays rays = request.GetRays();
-    const std::vector<float> depths = target.ReadDepths();
+    const std::vector<float>& depths = target.ReadDepths();
     std::vector<float> image;
     this->Statistics = meniscus::RayCastStatistics();
     for (int row = 0; row < rays.Height; ++row)

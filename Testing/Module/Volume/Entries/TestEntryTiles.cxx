@@ -218,18 +218,20 @@ TEST(EntryLists, OrderEntriesHoweverTheyCome)
   std::mt19937 random(11);
   for (const int count : { 1, 2, 17, 400 })
   {
-    EntryLists lists;
-    lists.Start(3);
+    std::vector<PacketFace> faces;
+    std::vector<PacketHit> hits;
     std::map<std::pair<float, std::int32_t>, int> expected[3];
     for (int i = 0; i < count; ++i)
     {
       const auto ray = static_cast<std::int32_t>(random() % 3);
       // Depths that are often equal, in random order.
       const float depth = static_cast<float>(random() % 20);
-      lists.Add(ray, { { 0, 1, 2 }, i, depth });
+      faces.push_back({ { 0, 1, 2 }, i });
+      hits.push_back({ ray, i, depth });
       expected[ray][{ depth, i }] = 1;
     }
-    lists.Sort();
+    EntryLists lists;
+    lists.Set(3, hits.data(), hits.size(), faces.data());
     for (int ray = 0; ray < 3; ++ray)
     {
       std::int32_t at = lists.GetBegin(ray);
