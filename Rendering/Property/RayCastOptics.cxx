@@ -103,9 +103,9 @@ bool operator==(const RayCastOptics& a, const RayCastOptics& b)
   {
     return std::tie(optics.Blending, optics.CellScalars, optics.Components,
       optics.NumberOfFunctions, optics.DataRange, optics.PreIntegrated, optics.CompactCells,
-      optics.NumberOfLegs, optics.LongLists, optics.Shading, optics.GradientOpacity,
-      optics.VertexGradients, optics.GradientToFrame, optics.GradientMagnitude, optics.Lighting,
-      optics.ClippingPlanes);
+      optics.WideCells, optics.NumberOfLegs, optics.LongLists, optics.Shading,
+      optics.GradientOpacity, optics.VertexGradients, optics.GradientToFrame,
+      optics.GradientMagnitude, optics.Lighting, optics.ClippingPlanes);
   };
   return members(a) == members(b);
 }

@@ -39,6 +39,7 @@ struct RayCastOptics
   bool PreIntegrated = false;
   /** Layout of the table of cells: see OpenGLTables::UploadCells(). */
   bool CompactCells = false;
+  bool WideCells = false;
   /** Number of legs of the rays (RayLegs) for shaders: see OpenGLRefractedRays. */
   int NumberOfLegs = 1;
   /** True if lists of entries per tile of any length have been uploaded; for one leg only. */

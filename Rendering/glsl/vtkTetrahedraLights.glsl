@@ -40,12 +40,12 @@ vec3 cellGradient(int index)
 ivec4 cellVertices(int index)
 {
 #if COMPACT_CELLS
-  int last = texelFetch(cells, CELL_SIZE * index).r ^ corners.x ^ corners.y ^ corners.z;
+  int last = cellValue(CELL_SIZE * index) ^ corners.x ^ corners.y ^ corners.z;
   return ivec4(corners, last);
 #else
-  ivec4 v = ivec4(texelFetch(cells, CELL_SIZE * index).r,
-    texelFetch(cells, CELL_SIZE * index + 1).r, texelFetch(cells, CELL_SIZE * index + 2).r,
-    texelFetch(cells, CELL_SIZE * index + 3).r);
+  ivec4 v = ivec4(cellValue(CELL_SIZE * index),
+    cellValue(CELL_SIZE * index + 1), cellValue(CELL_SIZE * index + 2),
+    cellValue(CELL_SIZE * index + 3));
   return ivec4(corners, v.x ^ v.y ^ v.z ^ v.w ^ corners.x ^ corners.y ^ corners.z);
 #endif
 }

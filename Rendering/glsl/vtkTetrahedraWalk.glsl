@@ -15,6 +15,17 @@
 #define FIRST_LINK 4
 #endif
 uniform isamplerBuffer cells;
+
+// Number `index` of the table of cells.
+int cellValue(int index)
+{
+#if WIDE_CELLS
+  return texelFetch(cells, index >> 2)[index & 3];
+#else
+  return texelFetch(cells, index).r;
+#endif
+}
+
 #if REFRACTED
 uniform bool beginsInside;           // true if a refracted leg may begin inside the mesh
 uniform int firstLeg;                // legs [firstLeg, endLeg) are drawn
@@ -218,9 +229,9 @@ float meetFace(
 bool stepThroughCell(out int link)
 {
 #if COMPACT_CELLS
-  int number = texelFetch(cells, CELL_SIZE * cell).r ^ corners.x ^ corners.y ^ corners.z;
+  int number = cellValue(CELL_SIZE * cell) ^ corners.x ^ corners.y ^ corners.z;
 #else
-  int number = texelFetch(cells, CELL_SIZE * cell + face).r;
+  int number = cellValue(CELL_SIZE * cell + face);
 #endif
   apex = number;
   RayVertex x = fetchVertex(number);
@@ -238,7 +249,7 @@ bool stepThroughCell(out int link)
   int dropped = dropA ? corners.x : (dropB ? corners.y : corners.z);
   int rank = int(number < dropped) + int(corners.x < dropped) + int(corners.y < dropped) +
     int(corners.z < dropped);
-  link = texelFetch(cells, CELL_SIZE * cell + FIRST_LINK + rank).r;
+  link = cellValue(CELL_SIZE * cell + FIRST_LINK + rank);
 
   // Exit face: x replaces the dropped vertex, which keeps the sense of rotation.
   edges = vec3(dropC ? edges.x : (dropA ? areas.y : areas.x),
@@ -444,10 +455,10 @@ const int START_MARGIN = 1048576;
 int oppositeVertex(int index, ivec3 numbers)
 {
 #if COMPACT_CELLS
-  int all = texelFetch(cells, CELL_SIZE * index).r;
+  int all = cellValue(CELL_SIZE * index);
 #else
-  int all = texelFetch(cells, CELL_SIZE * index).r ^ texelFetch(cells, CELL_SIZE * index + 1).r ^
-    texelFetch(cells, CELL_SIZE * index + 2).r ^ texelFetch(cells, CELL_SIZE * index + 3).r;
+  int all = cellValue(CELL_SIZE * index) ^ cellValue(CELL_SIZE * index + 1) ^
+    cellValue(CELL_SIZE * index + 2) ^ cellValue(CELL_SIZE * index + 3);
 #endif
   return all ^ numbers.x ^ numbers.y ^ numbers.z;
 }
@@ -457,7 +468,7 @@ int oppositeVertex(int index, ivec3 numbers)
 // the sight point. Returns false if the ray misses these cells.
 bool findNearFace(int sightDepth)
 {
-  int front = texelFetch(cells, CELL_SIZE * cell + FIRST_LINK + face).r >> 2;
+  int front = cellValue(CELL_SIZE * cell + FIRST_LINK + face) >> 2;
   int number = front < 0 ? 4 : 0;
   bool found = false;
   nearFace = ivec4(0); // goes around the loop, see walk()

@@ -22,25 +22,43 @@ namespace meniscus
 namespace
 {
 
-constexpr int FullCellTexels = 8;
-constexpr int CompactCellTexels = 5;
+// Numbers of the table of cells per cell, and per texel of the wide table.
+constexpr int FullCellSize = 8;
+constexpr int CompactCellSize = 5;
+constexpr int WideTexelSize = 4;
 
 std::vector<std::int32_t> CompactCells(const TetrahedralMesh& mesh)
 {
   const auto& cells = mesh.GetCells();
-  std::vector<std::int32_t> values(CompactCellTexels * cells.size());
+  // Rounded up to whole texels.
+  const std::size_t size = CompactCellSize * cells.size();
+  std::vector<std::int32_t> values((size + WideTexelSize - 1) / WideTexelSize * WideTexelSize);
   ForEachBlock(cells.size(), ThreadedLoop,
     [&cells, &values](std::size_t, std::size_t first, std::size_t last)
     {
       for (std::size_t c = first; c < last; ++c)
       {
         const auto& v = cells[c].Vertices;
-        std::int32_t* value = &values[CompactCellTexels * c];
+        std::int32_t* value = &values[CompactCellSize * c];
         *value = v[0] ^ v[1] ^ v[2] ^ v[3];
         std::copy(cells[c].Links.begin(), cells[c].Links.end(), value + 1);
       }
     });
   return values;
+}
+
+/** Size of the table of cells in numbers. */
+std::int64_t SizeOfCells(const TetrahedralMesh& mesh, bool compact)
+{
+  return (compact ? CompactCellSize : FullCellSize) * mesh.GetNumberOfCells();
+}
+
+/** Largest number of texels of a table: `limit`, or the device's limit if that is smaller. */
+std::int64_t LimitOfDevice(std::int64_t limit)
+{
+  GLint ofDevice = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &ofDevice);
+  return std::min(limit, static_cast<std::int64_t>(ofDevice));
 }
 
 }
@@ -63,7 +81,7 @@ std::string OpenGLTables::Update(RayCastTables& tables, const RayCastFrame& fram
   for (const RayCastTableState& wanted : tables.ListWanted(frame))
   {
     TableVersions& held = this->Held[static_cast<std::size_t>(wanted.Table)];
-    if (held == wanted.Versions && this->IsFilled(wanted.Table, frame.Optics.CompactCells))
+    if (held == wanted.Versions && this->IsFilled(wanted.Table, frame.Optics))
     {
       continue;
     }
@@ -78,12 +96,13 @@ std::string OpenGLTables::Update(RayCastTables& tables, const RayCastFrame& fram
 }
 
 //------------------------------------------------------------------------------
-bool OpenGLTables::IsFilled(RayCastTable table, bool compact) const
+bool OpenGLTables::IsFilled(RayCastTable table, const RayCastOptics& optics) const
 {
   switch (table)
   {
     case RayCastTable::Cells:
-      return this->Cells.IsFilled() && compact == this->CellsAreCompact;
+      return this->Cells.IsFilled() && optics.CompactCells == this->CellsAreCompact &&
+        optics.WideCells == this->CellsAreWide;
     case RayCastTable::Boundary:
       return this->TreeNodes.IsFilled() && this->TreeFaces.IsFilled();
     case RayCastTable::Vertices:
@@ -115,7 +134,7 @@ std::string OpenGLTables::Upload(
   switch (table)
   {
     case RayCastTable::Cells:
-      return this->UploadCells(input.GetMesh(), frame.Optics.CompactCells);
+      return this->UploadCells(input.GetMesh(), frame.Optics);
     case RayCastTable::Boundary:
       return this->UploadBoundary(input.GetBoundaryTree());
     case RayCastTable::Vertices:
@@ -147,23 +166,26 @@ std::string OpenGLTables::Count(OpenGLTable& table, const std::string& error)
 }
 
 //------------------------------------------------------------------------------
-std::string OpenGLTables::UploadCells(const TetrahedralMesh& mesh, bool compact)
+std::string OpenGLTables::UploadCells(const TetrahedralMesh& mesh, const RayCastOptics& optics)
 {
-  static_assert(sizeof(TetrahedralMesh::Cell) == FullCellTexels * sizeof(std::int32_t),
+  static_assert(sizeof(TetrahedralMesh::Cell) == FullCellSize * sizeof(std::int32_t),
     "a full cell as it is on the host");
-  const auto cells = static_cast<std::size_t>(mesh.GetNumberOfCells());
+  const int perTexel = optics.WideCells ? WideTexelSize : 1;
   std::string error;
-  if (compact)
+  if (optics.CompactCells)
   {
     const std::vector<std::int32_t> values = CompactCells(mesh);
-    error = this->Cells.Upload(this->Window, values.data(), values.size(), 1, CompactCellTexels);
+    error = this->Cells.Upload(this->Window, values.data(), values.size(), perTexel, 1);
   }
   else
   {
     const auto* values = reinterpret_cast<const std::int32_t*>(mesh.GetCells().data());
-    error = this->Cells.Upload(this->Window, values, FullCellTexels * cells, 1, FullCellTexels);
+    const auto size = static_cast<std::size_t>(SizeOfCells(mesh, false));
+    error = this->Cells.Upload(this->Window, values, size, perTexel, 1);
   }
-  this->CellsAreCompact = compact;
+  this->NumberOfCells = mesh.GetNumberOfCells();
+  this->CellsAreCompact = optics.CompactCells;
+  this->CellsAreWide = optics.WideCells;
   return this->Count(this->Cells, error);
 }
 
@@ -171,16 +193,20 @@ std::string OpenGLTables::UploadCells(const TetrahedralMesh& mesh, bool compact)
 std::string OpenGLTables::DescribeExcess(
   const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit)
 {
-  GLint ofDevice = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &ofDevice);
-  const std::int64_t largest = std::min(limit, static_cast<std::int64_t>(ofDevice));
+  const std::int64_t largest = LimitOfDevice(limit);
   const std::int64_t texels =
-    std::max((compact ? CompactCellTexels : FullCellTexels) * mesh.GetNumberOfCells(),
+    std::max((SizeOfCells(mesh, compact) + WideTexelSize - 1) / WideTexelSize,
       frames * mesh.GetNumberOfVertices());
   return texels <= largest ? std::string()
                            : "a table of " + std::to_string(texels) + " texels for " +
       std::to_string(mesh.GetNumberOfCells()) +
       " tetrahedra exceeds the graphics device's limit of " + std::to_string(largest);
+}
+
+//------------------------------------------------------------------------------
+bool OpenGLTables::NeedsWideCells(const TetrahedralMesh& mesh, bool compact, std::int64_t limit)
+{
+  return SizeOfCells(mesh, compact) > LimitOfDevice(limit);
 }
 
 //------------------------------------------------------------------------------
@@ -435,7 +461,7 @@ std::vector<OpenGLTable*> OpenGLTables::Activate(
 //------------------------------------------------------------------------------
 void OpenGLTables::SetUniforms(vtkShaderProgram* program, const RayCastOptics& optics) const
 {
-  program->SetUniformi("numberOfCells", static_cast<int>(this->Cells.GetNumberOfRows()));
+  program->SetUniformi("numberOfCells", static_cast<int>(this->NumberOfCells));
   program->SetUniformi("tileColumns", this->TileColumns);
   program->SetUniformi("numberOfSurfaces", static_cast<int>(this->Isosurfaces.GetNumberOfRows()));
   const std::vector<int>& starts = this->FunctionStarts;

@@ -61,6 +61,8 @@ public:
    */
   static std::string DescribeExcess(
     const TetrahedralMesh& mesh, bool compact, int frames, std::int64_t limit);
+  /** True if the table of cells is within the same limits only with four numbers per texel. */
+  static bool NeedsWideCells(const TetrahedralMesh& mesh, bool compact, std::int64_t limit);
 
   /**
    * Places the vertices in the grid of the rays and, for rays of several legs, in the grids of
@@ -89,13 +91,14 @@ public:
   void Release(vtkOpenGLRenderWindow* owner);
 
 private:
-  bool IsFilled(RayCastTable table, bool compact) const;
+  bool IsFilled(RayCastTable table, const RayCastOptics& optics) const;
   std::string Upload(RayCastTable table, RayCastTables& tables, const RayCastFrame& frame);
   /**
    * The cells in 32 bytes each or, compact, in 20: the exclusive or of a cell's vertices in place
-   * of those. A ray that comes by a face knows the three others.
+   * of those. A ray that comes by a face knows the three others. A texel holds one of these numbers
+   * or, wide, four: devices limit the number of texels, but one number is fetched faster.
    */
-  std::string UploadCells(const TetrahedralMesh& mesh, bool compact);
+  std::string UploadCells(const TetrahedralMesh& mesh, const RayCastOptics& optics);
   std::string UploadBoundary(const BoundaryTree& tree);
   /** @param scalars  one normalised scalar per vertex; none if they belong to cells. */
   std::string UploadVertices(const TetrahedralMesh& mesh, const std::vector<float>& scalars);
@@ -116,6 +119,8 @@ private:
   OpenGLPlacedVertices PlacedVertices;
   OpenGLTable Cells;
   bool CellsAreCompact = false;
+  bool CellsAreWide = false;
+  std::int64_t NumberOfCells = 0;
   OpenGLTable CellScalars;
   OpenGLTable TreeNodes;
   OpenGLTable TreeFaces;

@@ -103,7 +103,9 @@ std::string RayCastOpenGL::Update(const RayCastRequest& request)
   this->Frame = request.Frame;
   this->Frame.Optics.NumberOfLegs =
     request.Frame.Refracting.Met ? tables.Membrane.GetLegs().GetNumberOfLegs() : 1;
-  const std::string error = this->Tables.Update(tables, request.Frame);
+  this->Frame.Optics.WideCells = OpenGLTables::NeedsWideCells(
+    tables.Input.GetMesh(), this->Frame.Optics.CompactCells, this->Frame.MaximumTableSize);
+  const std::string error = this->Tables.Update(tables, this->Frame);
   if (!error.empty())
   {
     return error;

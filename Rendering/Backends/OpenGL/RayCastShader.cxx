@@ -99,6 +99,7 @@ std::string RayCastShaderOptions(const RayCastOptics& optics)
   define("REFRACTED", optics.IsRefracting() ? 1 : 0);
   define("LONG_LISTS", optics.LongLists ? 1 : 0);
   define("COMPACT_CELLS", optics.CompactCells ? 1 : 0);
+  define("WIDE_CELLS", optics.WideCells ? 1 : 0);
   define("CELL_SCALARS", optics.CellScalars ? 1 : 0);
   define("VERTEX_COMPONENTS", optics.HasComponents() ? 1 : 0);
   define("VERTEX_VALUES", optics.VertexGradients || optics.HasComponents() ? 1 : 0);

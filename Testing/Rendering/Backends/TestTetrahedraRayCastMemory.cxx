@@ -166,18 +166,21 @@ TEST_F(TetrahedraRayCastMemory, MeshesBeyondTheDevicesTablesGoToTheNativeBackend
 {
   this->Mapper->SetScalarModeToUsePointData();
   this->Mapper->SetMaximumTableSize(8 * this->GetCells());
-  ExpectMatchesReference(this->Scene, "within the limit");
+  ExpectMatchesReference(this->Scene, "one number per texel");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
-  this->Mapper->SetMaximumTableSize(8 * this->GetCells() - 1);
+  this->Mapper->SetMaximumTableSize(2 * this->GetCells());
+  ExpectMatchesReference(this->Scene, "four numbers per texel");
+  EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
+  this->Mapper->SetMaximumTableSize(2 * this->GetCells() - 1);
   ExpectMatchesReference(this->Scene, "beyond the limit");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), Native);
   ASSERT_EQ(this->Observer->Warnings.size(), 1u);
   EXPECT_NE(
-    this->Observer->Warnings[0].find(std::to_string(8 * this->GetCells())), std::string::npos);
+    this->Observer->Warnings[0].find(std::to_string(2 * this->GetCells())), std::string::npos);
   EXPECT_NE(
-    this->Observer->Warnings[0].find(std::to_string(8 * this->GetCells() - 1)), std::string::npos);
+    this->Observer->Warnings[0].find(std::to_string(2 * this->GetCells() - 1)), std::string::npos);
   this->Mapper->CompactTablesOn();
-  ExpectMatchesReference(this->Scene, "compact, within the limit");
+  ExpectMatchesReference(this->Scene, "compact, four numbers per texel");
   EXPECT_EQ(this->Mapper->GetActiveBackend(), OpenGL);
   EXPECT_TRUE(this->Observer->Errors.empty());
 }
