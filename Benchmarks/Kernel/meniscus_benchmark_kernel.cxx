@@ -9,6 +9,8 @@
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Simd/InstructionSets.h"
+#include "Volume/Mesh/ScalarGradients.h"
+#include "Volume/Optics/SurfaceLighting.h"
 #include "Volume/Packet/Data/PacketJob.h"
 
 #include <benchmark/benchmark.h>
@@ -47,20 +49,41 @@ void BuildMesh(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * cells);
 }
 
+/** Optics of a frame. */
+struct FrameKind
+{
+  const char* Name;
+  BlendMode Mode;
+  double Attenuation;
+  bool IsLit;
+};
+
 /** A frame: places the vertices, finds the entries and casts the rays. Items are cells crossed. */
-void CastFrame(benchmark::State& state, InstructionSet set, BlendMode mode, double attenuation)
+void CastFrame(benchmark::State& state, InstructionSet set, const FrameKind& kind)
 {
   const MeshArrays arrays = MakeArrays();
   PictureScene scene;
   scene.Mesh.Build(arrays.View());
-  scene.Intervals = ConstantFunction(attenuation);
+  scene.Intervals = ConstantFunction(kind.Attenuation);
   for (const std::int64_t point : scene.Mesh.GetSourcePoints())
   {
     scene.Scalars.push_back(static_cast<float>(arrays.PointAt(point).z));
   }
   scene.Frame = FrameAlongZ(scene.Mesh, 0.55, Pixels);
-  scene.Optics.Blending = mode;
+  scene.Optics.Blending = kind.Mode;
   scene.Optics.TerminationTransmittance = 1.0f / 131072.0f; // the mapper's default
+  const std::vector<double> scalars(scene.Scalars.begin(), scene.Scalars.end());
+  const std::vector<glm::vec3> ofCells = ComputeCellGradients(scene.Mesh, scalars, 1.0);
+  const std::vector<glm::vec3> ofVertices = ComputeVertexGradients(scene.Mesh, scalars, 1.0);
+  scene.Optics.CellGradients = ofCells.data();
+  SurfaceLighting lighting{ 0.1, 0.6, 0.3, 10.0, std::vector<RayCastLight>(1) };
+  lighting.Lights[0].Position = glm::dvec4(0.6, 0.0, -0.8, 0.0);
+  lighting.Lights[0].Diffuse = lighting.Lights[0].Specular = glm::dvec3(1.0);
+  if (kind.IsLit)
+  {
+    scene.Optics.Lighting = &lighting;
+    scene.Optics.VertexGradients = ofVertices.data();
+  }
   std::int64_t cells = 0;
   for (auto step : state)
   {
@@ -128,14 +151,14 @@ void RegisterFrames()
   for (const InstructionSet set : GetInstructionSets())
   {
     const std::string name = std::string("CastFrame/") + NameOf(set);
-    const auto add = [&](const char* what, BlendMode mode, double attenuation)
+    for (const FrameKind& kind : { FrameKind{ "/Translucent", BlendMode::Composite, 1.0, false },
+           FrameKind{ "/Lit", BlendMode::Composite, 1.0, true },
+           FrameKind{ "/Opaque", BlendMode::Composite, 1000.0, false },
+           FrameKind{ "/Maximum", BlendMode::MaximumIntensity, 1.0, false } })
     {
-      benchmark::RegisterBenchmark((name + what).c_str(), CastFrame, set, mode, attenuation)
+      benchmark::RegisterBenchmark((name + kind.Name).c_str(), CastFrame, set, kind)
         ->Unit(benchmark::kMillisecond);
-    };
-    add("/Translucent", BlendMode::Composite, 1.0);
-    add("/Opaque", BlendMode::Composite, 1000.0);
-    add("/Maximum", BlendMode::MaximumIntensity, 1.0);
+    }
   }
 }
 

@@ -29,7 +29,7 @@ Picture CastPicture(const PictureScene& scene, int size, InstructionSet set, flo
   TileCaster::Scene cast = scene.Optics;
   const std::vector<double> scalars(scene.Scalars.begin(), scene.Scalars.end());
   std::vector<glm::vec3> gradients;
-  if (!cast.CellScalars)
+  if (!cast.CellScalars && !cast.CellGradients)
   {
     gradients = ComputeCellGradients(scene.Mesh, scalars, 1.0);
     cast.CellGradients = gradients.data();

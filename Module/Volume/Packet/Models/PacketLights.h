@@ -67,7 +67,10 @@ struct PacketLit
   std::array<typename Simd::Float, 3> Highlight;
 };
 
-/** A ray per lane in its frame: (X, Y, Depth) at the pivot, and the change of X and Y per depth. */
+/**
+ * A ray per lane in its frame: (X, Y, Depth) at the pivot, the change of X and Y per depth, and the
+ * unit vector towards the eye.
+ */
 template <class Simd>
 struct PacketLine
 {
@@ -76,6 +79,7 @@ struct PacketLine
   typename Simd::Float Depth;
   typename Simd::Float SlopeX;
   typename Simd::Float SlopeY;
+  std::array<typename Simd::Float, 3> ToEye;
 };
 
 /** Single-precision version of Light() of SurfaceLighting.h, for one place per lane. */
@@ -115,6 +119,7 @@ private:
   {
     return { Simd::Splat(of[0]), Simd::Splat(of[1]), Simd::Splat(of[2]) };
   }
+  static Vector Normalized(const Vector& a, Mask any, Float largest);
   static Float Reciprocal(Float x) { return Simd::Splat(1.0f) / x; }
 
   void Add(const PacketLight& light, const Vector& place, const Vector& normal, const Vector& toEye,
@@ -175,6 +180,28 @@ inline void PacketLights<Simd>::Add(const PacketLight& light, const Vector& plac
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Vectors of length 1; those that are not `any`, which are 0, have no meaning.
+ * @param largest magnitude of the largest component.
+ */
+template <class Simd>
+inline auto PacketLights<Simd>::Normalized(const Vector& a, Mask any, Float largest) -> Vector
+{
+  // Between these bounds the square of the length neither overflows nor loses digits; other vectors
+  // are scaled first.
+  const Float one = Simd::Splat(1.0f);
+  const Mask tiny = largest < Simd::Splat(9.094947017729282e-13f); // 2^-40
+  const Mask huge = largest > Simd::Splat(1.099511627776e+12f);    // 2^40
+  const Mask extreme = any & (tiny | huge);
+  Vector safe = a;
+  if (Simd::Bits(extreme) != 0)
+  {
+    safe = Scaled(a, Simd::Select(extreme, Reciprocal(Simd::Select(any, largest, one)), one));
+  }
+  return Scaled(safe, Reciprocal(Simd::Sqrt(Simd::Select(any, Dot(safe, safe), one))));
+}
+
+//------------------------------------------------------------------------------
 template <class Simd>
 PacketLit<Simd> PacketLights<Simd>::Light(
   const Vector& normal, Float depth, const PacketLine<Simd>& ray) const
@@ -188,13 +215,8 @@ PacketLit<Simd> PacketLights<Simd>::Light(
   const Float largest =
     Simd::Max(Simd::Abs(normal[0]), Simd::Max(Simd::Abs(normal[1]), Simd::Abs(normal[2])));
   const Mask any = largest > zero;
-  Vector facing = Scaled(normal, Reciprocal(Simd::Select(any, largest, one)));
-  facing = Scaled(facing, Reciprocal(Simd::Sqrt(Simd::Select(any, Dot(facing, facing), one))));
-  const Float perDepth = Reciprocal(
-    Simd::Sqrt(Simd::Fma(ray.SlopeX, ray.SlopeX, Simd::Fma(ray.SlopeY, ray.SlopeY, one))));
-  const Vector toEye = { zero - ray.SlopeX * perDepth, zero - ray.SlopeY * perDepth,
-    zero - perDepth };
-  const Mask away = Dot(facing, toEye) < zero;
+  Vector facing = Normalized(normal, any, largest);
+  const Mask away = Dot(facing, ray.ToEye) < zero;
   facing = Scaled(facing, Simd::Select(away, zero - one, one));
   const Float fromPivot = depth * Simd::Splat(PacketVertex::DepthUnit);
   const Vector place = { Simd::Fma(fromPivot, ray.SlopeX, ray.X),
@@ -202,7 +224,7 @@ PacketLit<Simd> PacketLights<Simd>::Light(
   PacketLit<Simd> sum = lit;
   for (std::int32_t i = 0; i < this->Medium.NumberOfLights; ++i)
   {
-    this->Add(this->Medium.Lights[i], place, facing, toEye, sum);
+    this->Add(this->Medium.Lights[i], place, facing, ray.ToEye, sum);
   }
   for (int c = 0; c < 3; ++c)
   {

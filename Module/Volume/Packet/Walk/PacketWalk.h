@@ -207,7 +207,7 @@ PacketWalk<Simd, Model>::PacketWalk(const PacketJob& job)
   this->AreaAB = this->AreaBC = this->AreaCA = zero;
   this->Order = none;
   this->Face = FacePoint{ zero, zero, this->A.Others };
-  this->Line = { zero, zero, zero, zero, zero };
+  this->Line = { zero, zero, zero, zero, zero, { zero, zero, zero } };
   // Gradients come first.
   const bool gradients = job.Medium && job.VertexGradients;
   this->ValueTables[0] = gradients ? job.VertexGradients : job.Components;
