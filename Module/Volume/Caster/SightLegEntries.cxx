@@ -28,10 +28,14 @@ SightLegEntries::SightLegEntries(const FixedPointRays& rays,
 }
 
 //------------------------------------------------------------------------------
-/** @param farthest largest depth at which the ray may end. */
-PacketRay SightLegEntries::RayOf(
-  int column, int row, const float* opaqueDepth, double farthest) const
+/**
+ * Sets the depths between which a pixel's ray is cast, and its length per depth.
+ * @param farthest largest depth at which the ray may end.
+ */
+void SightLegEntries::Limit(
+  int column, int row, const float* opaqueDepth, double farthest, PacketRay& ray) const
 {
+  const glm::dvec2 fromCenter = this->Rays.FromCenter(column, row);
   const RayFrame& frame = this->Rays.GetFrame();
   const std::int64_t pixel = std::int64_t{ row } * this->Rays.GetWidth() + column;
   double start = frame.NearDepth;
@@ -39,12 +43,11 @@ PacketRay SightLegEntries::RayOf(
   end = std::min(end, farthest);
   for (const RayClippingPlane& plane : this->ClippingPlanes)
   {
-    ClipRay(plane, this->Rays.FromCenter(column, row), start, end);
+    ClipRay(plane, fromCenter, start, end);
   }
-  PacketRay ray = this->Rays.RayOf(column, row);
   ray.StartDepth = this->Rays.FromPivot(start);
   ray.EndDepth = this->Rays.FromPivot(end);
-  return ray;
+  ray.LengthPerDepth = this->Rays.GetLengthPerDepth(fromCenter);
 }
 
 //------------------------------------------------------------------------------
@@ -81,10 +84,12 @@ void SightLegEntries::TakeRays(
     {
       continue;
     }
-    PacketRay ray = this->RayOf(leg.Box.Left + pixel % TileSize, leg.Box.Bottom + pixel / TileSize,
-      leg.OpaqueDepth, next ? next[pixel].Depth : 1.0e+30);
+    PacketRay ray;
+    this->Limit(leg.Box.Left + pixel % TileSize, leg.Box.Bottom + pixel / TileSize, leg.OpaqueDepth,
+      next ? next[pixel].Depth : 1.0e+30, ray);
     if (ray.StartDepth < ray.EndDepth)
     {
+      BoundaryRaster::SetLine(workspace.Raster, inTile, ray);
       ray.FirstEntry = entries.GetBegin(inTile);
       ray.EndEntry = entries.GetBegin(inTile + 1);
       batch.Rays.push_back(ray);

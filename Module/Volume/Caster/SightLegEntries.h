@@ -51,7 +51,7 @@ public:
   bool TakeBack(int, std::size_t, Workspace&) const { return false; }
 
 private:
-  PacketRay RayOf(int column, int row, const float* opaqueDepth, double farthest) const;
+  void Limit(int column, int row, const float* opaqueDepth, double farthest, PacketRay& ray) const;
   bool IsMeshInFront(const TileLeg& leg, const RefractedRay* next) const;
   void TakeRays(
     const TileLeg& leg, const RefractedRay* next, JoinedRays& joined, Workspace& workspace) const;

@@ -19,6 +19,12 @@ namespace
 
 constexpr double Margin = ProjectedFaces::Margin;
 
+/**
+ * Width of boxes whose rows are tested whole, in pixels: that is one packet of the widest
+ * instruction set, and cheaper than to find the pixels that a face covers.
+ */
+constexpr int NarrowBox = 16;
+
 /** A range of pixels in a row. */
 struct PixelSpan
 {
@@ -148,28 +154,38 @@ void BoundaryRaster::FillRays(const PixelBox& tile, Workspace& workspace) const
 /** Adds a face and the pixels of the tile that it may cover. */
 void BoundaryRaster::AddSpans(std::int32_t index, const PixelBox& tile, Workspace& workspace) const
 {
+  const PixelBox& box = this->Boxes[index];
+  const PixelBox covered{ std::max(box.Left, tile.Left), std::min(box.Right, tile.Right),
+    std::max(box.Bottom, tile.Bottom), std::min(box.Top, tile.Top) };
+  const int width = covered.Right - covered.Left;
+  const auto number = static_cast<std::int32_t>(workspace.Faces.size());
+  const auto add = [&](int row, const PixelSpan& span)
+  {
+    if (span.First < span.Last)
+    {
+      const int first = (row - tile.Bottom) * TileSize + covered.Left - tile.Left;
+      workspace.Spans.push_back({ number, first + span.First, first + span.Last });
+      workspace.SpannedPixels += static_cast<std::size_t>(span.Last - span.First);
+    }
+  };
+  workspace.Faces.push_back(this->Faces.GetEntered(index));
+  if (width <= NarrowBox)
+  {
+    for (int row = covered.Bottom; row < covered.Top; ++row)
+    {
+      add(row, { 0, width });
+    }
+    return;
+  }
   const ProjectedFaces::Face face = this->Faces.Project(index);
   double reciprocals[3];
   for (int k = 0; k < 3; ++k)
   {
     reciprocals[k] = face.Edges[k][1] != 0.0 ? 1.0 / face.Edges[k][1] : 0.0;
   }
-  const auto number = static_cast<std::int32_t>(workspace.Faces.size());
-  workspace.Faces.push_back(
-    { { face.Ids[0], face.Ids[1], face.Ids[2] }, this->Faces.GetFace(index).CellFace });
-  const PixelBox& box = this->Boxes[index];
-  const int left = std::max(box.Left, tile.Left);
-  const int right = std::min(box.Right, tile.Right);
-  for (int row = std::max(box.Bottom, tile.Bottom); row < std::min(box.Top, tile.Top); ++row)
+  for (int row = covered.Bottom; row < covered.Top; ++row)
   {
-    const PixelSpan span =
-      SpanOf(face.Edges, reciprocals, this->GetRays().FromCenter(left, row), right - left);
-    if (span.First < span.Last)
-    {
-      const int first = (row - tile.Bottom) * TileSize + left - tile.Left;
-      workspace.Spans.push_back({ number, first + span.First, first + span.Last });
-      workspace.SpannedPixels += static_cast<std::size_t>(span.Last - span.First);
-    }
+    add(row, SpanOf(face.Edges, reciprocals, this->GetRays().FromCenter(covered.Left, row), width));
   }
 }
 

@@ -65,6 +65,15 @@ public:
     std::vector<std::int32_t> Offsets;
     std::vector<float> Slopes;
   };
+  /** Sets offset and slope of a ray to those of the tile whose entries were collected last. */
+  static void SetLine(const Workspace& workspace, std::size_t pixel, PacketRay& ray)
+  {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      ray.Offset[axis] = workspace.Offsets[axis * SizeOfRays + pixel];
+      ray.Slope[axis] = workspace.Slopes[axis * SizeOfRays + pixel];
+    }
+  }
   /** Replaces the lists of the workspace by the entries of a tile's rays. */
   void CollectEntries(int tile, Workspace& workspace) const;
 

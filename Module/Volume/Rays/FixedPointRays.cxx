@@ -94,6 +94,10 @@ FixedPointRays::FixedPointRays(const RayFrame& frame, int width, int height, dou
   this->GridUnit = 1.0 / perUnit;
   this->Offset = Scaled(frame.Origin, perUnit);
   this->Slope = Scaled(frame.Slope, perUnit / GridPerDepth);
+  const glm::dmat3 perDepth = frame.ViewToWorld * (1.0 / GridPerDepth);
+  this->Along = perDepth * glm::dvec3(frame.Slope.Base, 1.0);
+  this->AlongPerColumn = perDepth * glm::dvec3(frame.Slope.PerColumn, 0.0);
+  this->AlongPerRow = perDepth * glm::dvec3(frame.Slope.PerRow, 0.0);
   const double unit = TetrahedralMesh::PositionUnit;
   this->ToGrid = glm::transpose(glm::dmat3(perUnit * unit * frame.RowX, perUnit * unit * frame.RowY,
     GridPerDepth * unit * frame.RowDepth));
@@ -177,35 +181,6 @@ inline void FixedPointRays::SetAxis(
 }
 
 //------------------------------------------------------------------------------
-/** @param perDepth slope in units of the frame; the other arguments are in grid units. */
-PacketRay FixedPointRays::MakeRay(
-  const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const
-{
-  PacketRay ray;
-  for (int axis = 0; axis < 2; ++axis)
-  {
-    this->SetAxis(offset[axis], slope[axis], ray.Offset[axis], ray.Slope[axis]);
-  }
-  const double length = glm::length(this->Frame.ViewToWorld * glm::dvec3(perDepth, 1.0));
-  ray.LengthPerDepth = static_cast<float>(length / GridPerDepth);
-  ray.StartDepth = -1.0e+30f;
-  ray.EndDepth = 1.0e+30f;
-  ray.FirstEntry = 0;
-  ray.EndEntry = 0;
-  return ray;
-}
-
-//------------------------------------------------------------------------------
-PacketRay FixedPointRays::RayOf(int column, int row) const
-{
-  const glm::dvec2 pixel = this->FromCenter(column, row);
-  PacketRay ray = this->MakeRay(this->Offset.At(pixel.x, pixel.y), this->Slope.At(pixel.x, pixel.y),
-    this->Frame.Slope.At(pixel.x, pixel.y));
-  ray.StartDepth = this->FromPivot(this->Frame.NearDepth);
-  return ray;
-}
-
-//------------------------------------------------------------------------------
 void FixedPointRays::FillRow(int column, int row, int count, const RowOfRays& rays) const
 {
   for (int i = 0; i < count; ++i)
@@ -221,8 +196,19 @@ void FixedPointRays::FillRow(int column, int row, int count, const RowOfRays& ra
 //------------------------------------------------------------------------------
 PacketRay FixedPointRays::RayAlong(const glm::dvec2& origin, const glm::dvec2& slope) const
 {
-  return this->MakeRay(
-    origin / this->GridUnit, slope * (1.0 / (this->GridUnit * GridPerDepth)), slope);
+  PacketRay ray;
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    this->SetAxis(origin[axis] / this->GridUnit, slope[axis] / (this->GridUnit * GridPerDepth),
+      ray.Offset[axis], ray.Slope[axis]);
+  }
+  ray.LengthPerDepth = static_cast<float>(
+    glm::length(this->Frame.ViewToWorld * glm::dvec3(slope, 1.0)) / GridPerDepth);
+  ray.StartDepth = -1.0e+30f;
+  ray.EndDepth = 1.0e+30f;
+  ray.FirstEntry = 0;
+  ray.EndEntry = 0;
+  return ray;
 }
 
 }

@@ -6,6 +6,7 @@
 #include "Volume/Packet/Data/PacketRays.h"
 #include "Volume/Rays/RayFrame.h"
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -52,15 +53,23 @@ public:
     return { column + 0.5 - 0.5 * this->Width, row + 0.5 - 0.5 * this->Height };
   }
 
-  /** Ray of a pixel from the near plane on, without a far end and without entries. */
-  PacketRay RayOf(int column, int row) const;
-  /** Offsets and slopes of the rays of consecutive pixels of a row, as in RayOf(). */
+  /** Offsets and slopes of rays, as in PacketRay. */
   struct RowOfRays
   {
     std::int32_t* Offset[2];
     float* Slope[2];
   };
+  /** Sets the rays of consecutive pixels of a row. */
   void FillRow(int column, int row, int count, const RowOfRays& rays) const;
+  /**
+   * PacketRay::LengthPerDepth of a pixel's ray.
+   * @param fromCenter the pixel, see FromCenter().
+   */
+  float GetLengthPerDepth(const glm::dvec2& fromCenter) const
+  {
+    return static_cast<float>(glm::length(
+      this->Along + fromCenter.x * this->AlongPerColumn + fromCenter.y * this->AlongPerRow));
+  }
   /**
    * The ray (x, y) = origin + depth * slope of the frame, without ends and without entries.
    * @param slope no steeper than the steepest ray of a pixel.
@@ -135,8 +144,6 @@ public:
   static constexpr double GridPerDepth = PacketVertex::GridPerDepth;
 
 private:
-  PacketRay MakeRay(
-    const glm::dvec2& offset, const glm::dvec2& slope, const glm::dvec2& perDepth) const;
   void SetAxis(double offset, double slope, std::int32_t& rayOffset, float& raySlope) const;
 
   RayFrame Frame;
@@ -148,6 +155,10 @@ private:
   glm::dmat3 ToGrid{ 0.0 };
   AffinePixelMap Offset;
   AffinePixelMap Slope;
+  /** World vector along a ray per grid unit of depth, an affine function of the pixel. */
+  glm::dvec3 Along{ 0.0 };
+  glm::dvec3 AlongPerColumn{ 0.0 };
+  glm::dvec3 AlongPerRow{ 0.0 };
 };
 
 }

@@ -79,17 +79,23 @@ ProjectedFaces::Vertex ProjectedFaces::ProjectVertex(std::int32_t vertex) const
 }
 
 //------------------------------------------------------------------------------
-ProjectedFaces::Face ProjectedFaces::Project(std::int32_t index) const
+PacketFace ProjectedFaces::GetEntered(std::int32_t index) const
 {
   const BoundaryFace& face = this->GetFace(index);
   const bool counterClockwise = face.Outward * this->Rays.GetFrame().Handedness > 0;
+  return { { face.Vertices[counterClockwise ? 0 : 1], face.Vertices[counterClockwise ? 1 : 0],
+             face.Vertices[2] },
+    face.CellFace };
+}
+
+//------------------------------------------------------------------------------
+ProjectedFaces::Face ProjectedFaces::Project(std::int32_t index) const
+{
+  const PacketFace entered = this->GetEntered(index);
   Face seen;
-  seen.Ids[0] = face.Vertices[counterClockwise ? 0 : 1];
-  seen.Ids[1] = face.Vertices[counterClockwise ? 1 : 0];
-  seen.Ids[2] = face.Vertices[2];
   for (int i = 0; i < 3; ++i)
   {
-    seen.Vertices[i] = this->ProjectVertex(seen.Ids[i]);
+    seen.Vertices[i] = this->ProjectVertex(entered.Vertices[i]);
   }
   for (int i = 0; i < 3; ++i)
   {

@@ -38,6 +38,9 @@ public:
     return (*this->Faces)[static_cast<std::size_t>(index)];
   }
 
+  /** A face for packets: its vertices are counter-clockwise about the rays that enter by it. */
+  PacketFace GetEntered(std::int32_t index) const;
+
   /** u and v of a vertex as functions of the pixel: constant, per column, per row. */
   struct Vertex
   {
@@ -48,7 +51,6 @@ public:
   /** A face; its vertices are counter-clockwise about the rays that enter by it. */
   struct Face
   {
-    std::int32_t Ids[3];
     Vertex Vertices[3];
     /**
      * Doubled areas that the edges 01, 12, 20 span with a ray, as affine functions of the pixel.
