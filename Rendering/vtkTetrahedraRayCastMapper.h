@@ -358,8 +358,8 @@ public:
    * the device reports (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that report more than they
    * support. A mesh with a larger table, at 2 texels per tetrahedron or 1.25 if compact, is
    * drawn by the native backend, after a warning with the numbers; so is an image through a
-   * membrane, which takes 2 texels per pixel. Up to 8 texels per tetrahedron (5 if compact) are used
-   * within the limit, which is faster. Default is no limit.
+   * membrane, which takes 2 texels per pixel. Up to 8 texels per tetrahedron (5 if compact) are
+   * used within the limit, which is faster. Default is no limit.
    */
   vtkSetClampMacro(MaximumTableSize, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MaximumTableSize, vtkTypeInt64);
