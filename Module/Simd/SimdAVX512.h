@@ -7,6 +7,8 @@
 #ifndef meniscus_Simd_SimdAVX512_h
 #define meniscus_Simd_SimdAVX512_h
 
+#include "Simd/SimdRowLoads.h"
+
 #include <immintrin.h>
 
 #include <cstdint>
@@ -14,7 +16,7 @@
 namespace meniscus
 {
 
-struct SimdAVX512
+struct SimdAVX512 : SimdRowLoads<SimdAVX512, 16>
 {
   static constexpr int Width = 16;
 
@@ -98,61 +100,7 @@ struct SimdAVX512
     return { _mm512_permutex2var_epi32(
       _mm512_loadu_si512(table), index.V, _mm512_loadu_si512(table + 16)) };
   }
-  static Int LoadFrom(const std::int32_t* from, Int index)
-  {
-    std::int32_t at[Width];
-    Store(at, index);
-    for (std::int32_t& value : at)
-    {
-      value = from[static_cast<std::uint32_t>(value)];
-    }
-    return Load(at);
-  }
-
-  template <int Stride>
-  static void GatherQuads(const float* from, Int index, Float& x, Float& y, Float& z, Float& w)
-  {
-    std::int32_t at[Width];
-    Store(at, index);
-    const float* rows[Width];
-    for (int i = 0; i < Width; ++i)
-    {
-      rows[i] = from + std::int64_t{ Stride } * at[i];
-    }
-    Transpose(rows, x, y, z, w);
-  }
-  static void GatherTriples(const float* from, Int index, Float& x, Float& y, Float& z)
-  {
-    std::int32_t at[Width];
-    Store(at, index);
-    const float* rows[Width];
-    for (int i = 0; i < Width; ++i)
-    {
-      rows[i] = from + std::int64_t{ 3 } * at[i];
-    }
-    // The mask prevents reads beyond the third value.
-    const __m128i three = _mm_setr_epi32(-1, -1, -1, 0);
-    Float none;
-    TransposeAs(
-      [three](const float* row) { return _mm_maskload_ps(row, three); }, rows, x, y, z, none);
-  }
-  static void GatherVertices(
-    const std::int32_t* ids, const float* vertices, Int index, Float (&vertex)[4])
-  {
-    std::int32_t at[Width];
-    Store(at, index);
-    const float* rows[Width];
-    for (int i = 0; i < Width; ++i)
-    {
-      rows[i] = vertices + 4 * std::int64_t{ ids[static_cast<std::uint32_t>(at[i])] };
-    }
-    Transpose(rows, vertex[0], vertex[1], vertex[2], vertex[3]);
-  }
-  /** Loads four floats from each of the rows and transposes them. */
-  static void Transpose(const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)
-  {
-    TransposeAs([](const float* row) { return _mm_loadu_ps(row); }, rows, x, y, z, w);
-  }
+  /** Loads four floats from each of the rows, by `load`, and transposes them. */
   template <typename LoadRow>
   static void TransposeAs(
     const LoadRow& load, const float* const (&rows)[Width], Float& x, Float& y, Float& z, Float& w)

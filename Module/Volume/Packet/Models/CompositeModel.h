@@ -6,6 +6,7 @@
 
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/BlendedColor.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
 
@@ -27,7 +28,7 @@ namespace meniscus
  * Medium defines the effect of gradients: PacketNoGradientShading or PacketGradientShading.
  */
 template <class Simd, class Medium = PacketNoGradientShading<Simd>>
-class CompositeModel
+class CompositeModel : public BlendedColor<Simd>
 {
 public:
   using Float = typename Simd::Float;
@@ -35,16 +36,6 @@ public:
   using Mask = typename Simd::Mask;
 
   explicit CompositeModel(const PacketJob& job);
-
-  /** Resets lanes to the start of a ray. */
-  void Reset(Mask lanes)
-  {
-    for (Float& channel : this->Color)
-    {
-      channel = Simd::Select(lanes, Simd::Splat(0.0f), channel);
-    }
-    this->Transmittance = Simd::Select(lanes, Simd::Splat(1.0f), this->Transmittance);
-  }
 
   /**
    * Gives a segment to each of `lanes`; returns the lanes with a segment to integrate. Segments
@@ -73,31 +64,10 @@ public:
    */
   [[gnu::always_inline]] Mask Advance(Mask lanes);
 
-  /** Lanes whose ray has not been terminated. */
-  Mask IsOn() const { return this->Transmittance > this->Termination; }
-
-  /** False: jumps of the scalar between cells, for scalars of cells, are not used. */
-  static constexpr bool SeesJumps = false;
   /** Requirements of Begin() on its place (PacketWalk::SegmentPlace). */
   static constexpr int NumberOfTriples = Medium::NumberOfTriples;
   static constexpr bool UsesCellGradients = Medium::UsesCellGradients;
   static constexpr bool UsesLines = Medium::UsesGradients;
-  static constexpr int NumberOfValues = 4;
-  /** Values of a ray that meets nothing. */
-  static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
-  /** Premultiplied colour and transmittance of each lane. */
-  void Store(float (&values)[NumberOfValues][Simd::Width]) const
-  {
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      Simd::Store(values[channel], this->Color[channel]);
-    }
-    Simd::Store(values[3], this->Transmittance);
-  }
-  static void Finish(const PacketJob&, const float (&values)[NumberOfValues], float (&color)[4])
-  {
-    FinishBlended<Simd>(values, color);
-  }
 
 private:
   /** AbsorptionFit in all lanes. */
@@ -115,15 +85,12 @@ private:
   void SetCoefficients();
 
   PacketIntervals<Simd> Intervals;
-  Float Termination;
   Float From;
   Float To;
   /** Length still to be integrated; 0 if there is none. */
   Float Remaining;
   /** The same as a fraction of the segment; used with gradients only. */
   Float Ahead;
-  Float Color[3];
-  Float Transmittance;
   Coefficients Fit;
   Medium Optics;
 };
@@ -131,19 +98,14 @@ private:
 //------------------------------------------------------------------------------
 template <class Simd, class Medium>
 CompositeModel<Simd, Medium>::CompositeModel(const PacketJob& job)
-  : Intervals(job.Intervals, job.NumberOfIntervals)
-  , Termination(Simd::Splat(job.TerminationTransmittance))
+  : BlendedColor<Simd>(Simd::Splat(job.TerminationTransmittance))
+  , Intervals(job.Intervals, job.NumberOfIntervals)
   , From(Simd::Splat(0.0f))
   , To(Simd::Splat(0.0f))
   , Remaining(Simd::Splat(0.0f))
   , Ahead(Simd::Splat(0.0f))
-  , Transmittance(Simd::Splat(1.0f))
   , Optics(job)
 {
-  for (Float& channel : this->Color)
-  {
-    channel = Simd::Splat(0.0f);
-  }
   this->SetCoefficients();
 }
 

@@ -6,6 +6,7 @@
 
 #include "Volume/Optics/MediumConstants.h"
 #include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/BlendedColor.h"
 #include "Volume/Packet/Models/PacketExponential.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
@@ -26,7 +27,7 @@ namespace meniscus
  * Functions: number of scalars that have their own function.
  */
 template <class Simd, ComponentMixture Mixture, int Functions, class Medium>
-class MultiComponentModel
+class MultiComponentModel : public BlendedColor<Simd>
 {
 public:
   using Float = typename Simd::Float;
@@ -37,49 +38,25 @@ public:
   {
   }
 
-  void Reset(Mask lanes)
-  {
-    for (Float& channel : this->Color)
-    {
-      channel = Simd::Select(lanes, Simd::Splat(0.0f), channel);
-    }
-    this->Transmittance = Simd::Select(lanes, Simd::Splat(1.0f), this->Transmittance);
-  }
   void Enter(Mask lanes) { this->Optics.Enter(lanes); }
 
   template <class Place>
   Mask Begin(Mask lanes, Float from, Float to, Float length, const Place& place);
   Mask Advance(Mask lanes);
-  Mask IsOn() const { return this->Transmittance > this->Termination; }
 
-  static constexpr bool SeesJumps = false;
   static constexpr int NumberOfTriples = Medium::NumberOfTriples + 1;
   static constexpr bool UsesCellGradients = Medium::UsesCellGradients;
   static constexpr bool UsesLines = Medium::UsesGradients;
-  static constexpr int NumberOfValues = 4;
-  static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
-  void Store(float (&values)[NumberOfValues][Simd::Width]) const
-  {
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      Simd::Store(values[channel], this->Color[channel]);
-    }
-    Simd::Store(values[3], this->Transmittance);
-  }
-  static void Finish(const PacketJob&, const float (&values)[NumberOfValues], float (&color)[4])
-  {
-    FinishBlended<Simd>(values, color);
-  }
 
 private:
   using Fields = typename PacketIntervals<Simd>::Fields;
 
   template <std::size_t... Number>
   MultiComponentModel(const PacketJob& job, std::index_sequence<Number...>)
-    : Intervals{ IntervalsOf(job, static_cast<int>(Number))... }
     // Lower transmittances have too few digits left to decrease further.
-    , Termination(Simd::Max(Simd::Splat(job.TerminationTransmittance), Simd::Splat(1.0e-30f)))
-    , Transmittance(Simd::Splat(1.0f))
+    : BlendedColor<Simd>(
+        Simd::Max(Simd::Splat(job.TerminationTransmittance), Simd::Splat(1.0e-30f)))
+    , Intervals{ IntervalsOf(job, static_cast<int>(Number))... }
     , Done(Simd::Splat(0.0f))
     , Length(Simd::Splat(0.0f))
     , Optics(job)
@@ -94,7 +71,7 @@ private:
     }
     for (int channel = 0; channel < 3; ++channel)
     {
-      this->Color[channel] = this->StartColor[channel] = this->EndColor[channel] = zero;
+      this->StartColor[channel] = this->EndColor[channel] = zero;
     }
   }
   static PacketIntervals<Simd> IntervalsOf(const PacketJob& job, int function)
@@ -148,9 +125,6 @@ private:
   }
 
   PacketIntervals<Simd> Intervals[Functions];
-  Float Termination;
-  Float Color[3];
-  Float Transmittance;
   // The pending segment: scalars at its ends, and the place up to which it has been integrated.
   Float Start[Functions];
   Float End[Functions];

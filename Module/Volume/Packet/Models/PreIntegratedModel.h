@@ -5,6 +5,7 @@
 #define meniscus_Volume_Packet_Models_PreIntegratedModel_h
 
 #include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/BlendedColor.h"
 #include "Volume/Packet/Models/PacketExponential.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
 #include "Volume/Packet/Models/PacketSegmentTable.h"
@@ -17,31 +18,18 @@ namespace meniscus
  * comparison with CompositeModel, which has the same interface.
  */
 template <class Simd>
-class PreIntegratedModel
+class PreIntegratedModel : public BlendedColor<Simd>
 {
 public:
   using Float = typename Simd::Float;
   using Mask = typename Simd::Mask;
 
   explicit PreIntegratedModel(const PacketJob& job)
-    : Table(*job.SegmentTable)
-    , Termination(Simd::Splat(job.TerminationTransmittance))
-    , Transmittance(Simd::Splat(1.0f))
+    : BlendedColor<Simd>(Simd::Splat(job.TerminationTransmittance))
+    , Table(*job.SegmentTable)
   {
-    for (Float& channel : this->Color)
-    {
-      channel = Simd::Splat(0.0f);
-    }
   }
 
-  void Reset(Mask lanes)
-  {
-    for (Float& channel : this->Color)
-    {
-      channel = Simd::Select(lanes, Simd::Splat(0.0f), channel);
-    }
-    this->Transmittance = Simd::Select(lanes, Simd::Splat(1.0f), this->Transmittance);
-  }
   void Enter(Mask) {}
 
   /** Processes whole segments: none is left pending. */
@@ -52,35 +40,16 @@ public:
     return Simd::FromBits(0);
   }
   Mask Advance(Mask lanes) { return lanes; }
-  Mask IsOn() const { return this->Transmittance > this->Termination; }
 
-  static constexpr bool SeesJumps = false;
   static constexpr int NumberOfTriples = 0;
   static constexpr bool UsesCellGradients = false;
   static constexpr bool UsesLines = false;
-  static constexpr int NumberOfValues = 4;
-  static constexpr float Empty[NumberOfValues] = { 0.0f, 0.0f, 0.0f, 1.0f };
-  void Store(float (&values)[NumberOfValues][Simd::Width]) const
-  {
-    for (int channel = 0; channel < 3; ++channel)
-    {
-      Simd::Store(values[channel], this->Color[channel]);
-    }
-    Simd::Store(values[3], this->Transmittance);
-  }
-  static void Finish(const PacketJob&, const float (&values)[NumberOfValues], float (&color)[4])
-  {
-    FinishBlended<Simd>(values, color);
-  }
 
 private:
   void Add(Mask lanes, Float from, Float to, Float length);
   void AddWithin(Mask lanes, Float from, Float to, Float length);
 
   const PacketSegmentTable& Table;
-  Float Termination;
-  Float Color[3];
-  Float Transmittance;
 };
 
 //------------------------------------------------------------------------------
