@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractionPass.h"
 
+#include "Rendering/Pass/RefractionMedium.h"
 #include "Rendering/Pass/RefractionTarget.h"
 #include "Rendering/Pass/ViewBounds.h"
 
@@ -42,6 +43,7 @@
 #include "vtkVolume.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -121,6 +123,7 @@ public:
   vtkNew<vtkActor> Surface;
   Stages Stage = Stages::Objects;
 
+  meniscus::RefractionMedium Medium;
   meniscus::RefractionTarget Objects;
   meniscus::RefractionTarget Membrane;
   std::unique_ptr<vtkOpenGLQuadHelper> Composers[2]; // without and with a cube map
@@ -326,9 +329,10 @@ bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
   Append(
     geometryShader, "//VTK::Normal::Impl", "refractionDepthGSOutput = refractionDepthVSOutput[i];");
   Append(fragmentShader, declarations,
-    "in float refractionDepthVSOutput;\nuniform vec3 attenuationCoefficients;");
+    "in float refractionDepthVSOutput;\n" + meniscus::RefractionMedium::DeclareInShader());
   Append(fragmentShader, light,
-    "  gl_FragData[0].rgb *= exp(-attenuationCoefficients * max(refractionDepthVSOutput, 0.0));");
+    "  gl_FragData[0].rgb =\n"
+    "    inMedium(gl_FragData[0].rgb, max(refractionDepthVSOutput, 0.0));");
   return true;
 }
 
@@ -336,13 +340,28 @@ bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
 bool vtkRefractionPass::SetShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper*, vtkProp*, vtkOpenGLVertexArrayObject*)
 {
-  if (program->IsUniformUsed("attenuationCoefficients"))
-  {
-    float coefficients[3];
-    std::copy_n(this->AttenuationCoefficients, 3, coefficients);
-    program->SetUniform3f("attenuationCoefficients", coefficients);
-  }
+  this->Internals->Medium.SetUniforms(program);
   return true;
+}
+
+//------------------------------------------------------------------------------
+/** Takes the properties of the medium over; reports those that have no meaning. */
+void vtkRefractionPass::UpdateMedium()
+{
+  meniscus::RefractionMedium medium;
+  medium.Kind = this->MediumModel == LINEAR ? meniscus::RefractionMedium::Model::Linear
+                                            : meniscus::RefractionMedium::Model::Exponential;
+  std::copy_n(this->AttenuationCoefficients, 3, medium.Attenuation.begin());
+  std::copy_n(this->MediumRange, 2, medium.Range.begin());
+  std::copy_n(this->MediumColor, 3, medium.Color.begin());
+  medium.IsInfinite = this->InfiniteMedium;
+  const std::string fault = medium.DescribeFault();
+  if (!fault.empty())
+  {
+    vtkErrorMacro(<< fault << "; the medium is drawn clear.");
+    medium = meniscus::RefractionMedium();
+  }
+  this->Internals->Medium = medium;
 }
 
 //------------------------------------------------------------------------------
@@ -354,6 +373,7 @@ void vtkRefractionPass::Render(const vtkRenderState* state)
   {
     internals.AdjustClippingRange(renderer);
   }
+  this->UpdateMedium();
   this->NumberOfRenderedProps = 0;
   if (internals.ScenePass)
   {
@@ -591,9 +611,15 @@ void vtkRefractionPass::SetOptics(
   {
     program->SetUniformMatrix("viewToWorld", viewToWorld);
   }
+  double behind[3];
   float background[3];
-  std::copy_n(renderer->GetBackground(), 3, background);
+  float backdrop[3];
+  renderer->GetBackground(behind);
+  const std::array<double, 3> seen = this->Internals->Medium.BackdropOf(behind);
+  std::copy_n(behind, 3, background);
+  std::copy_n(seen.begin(), 3, backdrop);
   program->SetUniform3f("background", background);
+  program->SetUniform3f("backdrop", backdrop);
   program->SetUniformi("parallelView", camera->GetParallelProjection());
   program->SetUniformi("reflectanceModel", this->ReflectanceModel);
   program->SetUniformf("relativeIndex", static_cast<float>(ofMembrane->GetRelativeIndex()));
@@ -635,6 +661,11 @@ void vtkRefractionPass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ReflectanceModel: " << this->ReflectanceModel << "\n";
   os << indent << "AttenuationCoefficients: " << this->AttenuationCoefficients[0] << " "
      << this->AttenuationCoefficients[1] << " " << this->AttenuationCoefficients[2] << "\n";
+  os << indent << "MediumModel: " << this->MediumModel << "\n";
+  os << indent << "MediumRange: " << this->MediumRange[0] << " " << this->MediumRange[1] << "\n";
+  os << indent << "MediumColor: " << this->MediumColor[0] << " " << this->MediumColor[1] << " "
+     << this->MediumColor[2] << "\n";
+  os << indent << "InfiniteMedium: " << (this->InfiniteMedium ? "on" : "off") << "\n";
   os << indent << "AdjustClippingRange: " << (this->AdjustClippingRange ? "on" : "off") << "\n";
   os << indent << "NumberOfMembranesDrawn: " << this->GetNumberOfMembranesDrawn() << "\n";
   os << indent << "NumberOfMembranesSkipped: " << this->GetNumberOfMembranesSkipped() << "\n";

@@ -25,9 +25,12 @@
  *
  *     (1 - F) T + F R.
  *
- * T is the colour of the virtual geometry, lit by the renderer's lights and attenuated by exp(-k d)
- * per channel (Beer-Lambert), where d is the array RefractionDepth, the true path from sight point
- * to object; where there is no virtual geometry, it is the renderer's background. F is the Fresnel
+ * T is the colour of the virtual geometry, lit by the renderer's lights and seen through the medium
+ * behind the membrane: L s + M (1 - s) with the object's light L, the colour M that the medium
+ * scatters towards the eye (MediumColor), and the share s. That is exp(-k d) per channel
+ * (Beer-Lambert) or linear in d (MediumModel), where d is the array RefractionDepth, the true path
+ * from sight point to object. Where there is no virtual geometry, T is the renderer's background,
+ * or that behind an infinite medium (InfiniteMedium). F is the Fresnel
  * reflectance of unpolarised light at the membrane's interpolated normal, exact or by Schlick's
  * approximation. R is the colour of a cube map in the direction of the reflected ray, or the
  * background.
@@ -146,10 +149,53 @@ public:
   /** @{ */
   /**
    * Set/Get the attenuation coefficients of the medium behind the membranes for red, green and
-   * blue, per world length, >= 0. Default is (0, 0, 0), a clear medium.
+   * blue, per world length, >= 0, for the model EXPONENTIAL. Default is (0, 0, 0), a clear medium.
+   * Numbers without a meaning are an error of Render(), which then draws a clear medium; so for
+   * MediumColor and MediumRange.
    */
   vtkSetVector3Macro(AttenuationCoefficients, double);
   vtkGetVector3Macro(AttenuationCoefficients, double);
+  /** @} */
+
+  /** Share of an object's light that the medium transmits over a distance d. */
+  enum MediumModels
+  {
+    EXPONENTIAL = 0, ///< exp(-k d), with k of AttenuationCoefficients
+    LINEAR = 1       ///< 1 up to MediumRange[0], 0 from MediumRange[1] on, linear in between
+  };
+
+  /** @{ */
+  /** Set/Get the model of the medium behind the membranes. Default is EXPONENTIAL. */
+  vtkSetClampMacro(MediumModel, int, EXPONENTIAL, LINEAR);
+  vtkGetMacro(MediumModel, int);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the distances between which the LINEAR medium hides objects, in world lengths along the
+   * true path: 0 <= MediumRange[0] <= MediumRange[1]. Default is (0, 1).
+   */
+  vtkSetVector2Macro(MediumRange, double);
+  vtkGetVector2Macro(MediumRange, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the colour that the medium scatters towards the eye, in red, green and blue: that of an
+   * object at a large distance. Default is (0, 0, 0): objects fade to black.
+   */
+  vtkSetVector3Macro(MediumColor, double);
+  vtkGetVector3Macro(MediumColor, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get whether the medium has no end where no object lies behind the membrane: it then hides
+   * the background, in the channels in which it attenuates light at all. Default is off.
+   */
+  vtkSetMacro(InfiniteMedium, bool);
+  vtkGetMacro(InfiniteMedium, bool);
+  vtkBooleanMacro(InfiniteMedium, bool);
   /** @} */
 
   /** @{ */
@@ -200,11 +246,16 @@ private:
   void DrawVolumes(vtkRenderer* renderer, vtkActor* membrane, int part);
   void DrawSurface(vtkRenderer* renderer, vtkOpenGLState* state, vtkActor* membrane);
   void Compose(vtkRenderer* renderer, vtkOpenGLRenderWindow* window, vtkActor* membrane);
+  void UpdateMedium();
   void SetOptics(vtkRenderer* renderer, vtkActor* membrane, vtkShaderProgram* program);
 
   bool AdjustClippingRange = true;
   int ReflectanceModel = FRESNEL;
   double AttenuationCoefficients[3] = { 0.0, 0.0, 0.0 };
+  int MediumModel = EXPONENTIAL;
+  double MediumRange[2] = { 0.0, 1.0 };
+  double MediumColor[3] = { 0.0, 0.0, 0.0 };
+  bool InfiniteMedium = false;
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -22,6 +22,7 @@ uniform mat3 viewToWorld;
 uniform mat4 clipToView;
 uniform bool parallelView;
 uniform vec3 background;
+uniform vec3 backdrop;             // background, seen through the medium behind the membrane
 uniform int reflectanceModel;      // NO_REFLECTANCE, SCHLICK or FRESNEL
 uniform float relativeIndex;       // index of the interior relative to the exterior
 
@@ -64,7 +65,7 @@ void main()
   float cosine = clamp(-dot(n, sight), 0.0, 1.0);
 
   vec4 behind = texture(refracted, texCoord);
-  vec3 transmitted = behind.rgb + (1.0 - behind.a) * background;
+  vec3 transmitted = behind.rgb + (1.0 - behind.a) * backdrop;
 #if HAS_ENVIRONMENT
   vec3 mirrored = texture(environment, viewToWorld * reflect(sight, n)).rgb;
 #else
