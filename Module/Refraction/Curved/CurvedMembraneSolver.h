@@ -60,6 +60,8 @@ public:
 
   const Membrane& GetMembrane() const { return this->Surface; }
   const CurvedPatches& GetPatches() const { return this->Patches; }
+  /** Tree over the refracted rays of all facets. */
+  const RayTubeTree& GetTree() const { return this->Tree; }
 
   /**
    * Fits the tree to an eye in world coordinates. Solving is allowed only if the result is `Ready`.

@@ -23,7 +23,17 @@ constexpr double Wall = 1e-7;
 }
 
 //------------------------------------------------------------------------------
-// The patch that shows the point is the patch that the ray meets, or a neighbour of it.
+const SightRaySearch& PatchesAsSurface::GetSearch() const
+{
+  std::call_once(
+    this->HasSearch, [this]() { this->Search = std::make_unique<SightRaySearch>(this->Geometry); });
+  return *this->Search;
+}
+
+//------------------------------------------------------------------------------
+// The patch that shows the point is the patch that the ray meets, or a neighbour of it. Where the
+// ray is nearly tangential, Newton's method from the sight point may diverge or end at a place that
+// the ray meets from behind; then all patches are searched.
 bool PatchesAsSurface::Meet(const glm::dvec3& point, const VirtualVertex& vertex,
   const glm::dvec3& direction, PatchPoint& at) const
 {
@@ -39,7 +49,9 @@ bool PatchesAsSurface::Meet(const glm::dvec3& point, const VirtualVertex& vertex
       const glm::dvec3 second = b.SightPoint - vertex.SightPoint;
       return glm::dot(first, first) < glm::dot(second, second);
     });
-  return this->Geometry.MeetRay(direction, *nearest, at);
+  return (this->Geometry.MeetRay(direction, *nearest, at) &&
+           glm::dot(at.Normal, direction) < 0.0) ||
+    this->GetSearch().Find(direction, nearest->SightPoint, at);
 }
 
 //------------------------------------------------------------------------------

@@ -10,11 +10,14 @@
 #define meniscus_Refraction_Curved_ErrorSamples_h
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Curved/SightRaySearch.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <memory>
+#include <mutex>
 
 namespace meniscus
 {
@@ -50,7 +53,11 @@ public:
     PatchPoint& at) const override;
 
 private:
+  const SightRaySearch& GetSearch() const;
+
   const CurvedMembraneSolver& Geometry;
+  mutable std::once_flag HasSearch; ///< the search is prepared for the first ray that needs it
+  mutable std::unique_ptr<SightRaySearch> Search;
 };
 
 /** Outcome of one sample. */

@@ -70,6 +70,21 @@ void MembraneMesh::AddTriangle(std::int64_t a, std::int64_t b, std::int64_t c)
 }
 
 //------------------------------------------------------------------------------
+void MembraneMesh::AddRings(std::int64_t first, int rings, int around)
+{
+  for (int ring = 0; ring + 1 < rings; ++ring)
+  {
+    for (int i = 0; i < around; ++i)
+    {
+      const std::int64_t a = first + ring * around + i;
+      const std::int64_t b = first + ring * around + (i + 1) % around;
+      this->AddTriangle(a, b, b + around);
+      this->AddTriangle(a, b + around, a + around);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 MembraneInput MembraneMesh::AsInput(bool withNormals) const
 {
   MembraneInput input;
@@ -165,6 +180,34 @@ MembraneMesh MakeRandom(double side, int cells, double roughness, double tilt, u
       const double nz = tilt * random();
       mesh.AddPoint({ x, y, z }, glm::normalize(glm::dvec3(nx, 1.0, nz)));
     });
+}
+
+//------------------------------------------------------------------------------
+MembraneMesh MakeSphere(int resolution, double side)
+{
+  MembraneMesh mesh;
+  const auto add = [&mesh, side](const glm::dvec3& p) { mesh.AddPoint(p, side * p); };
+  add({ 0.0, 0.0, 1.0 });
+  add({ 0.0, 0.0, -1.0 });
+  for (int ring = 1; ring < resolution - 1; ++ring)
+  {
+    const double polar = Pi * ring / (resolution - 1);
+    for (int i = 0; i < resolution; ++i)
+    {
+      const double azimuth = 2.0 * Pi * i / resolution;
+      add({ std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+        std::cos(polar) });
+    }
+  }
+  mesh.AddRings(2, resolution - 2, resolution);
+  const std::int64_t last = 2 + (resolution - 3) * resolution;
+  for (int i = 0; i < resolution; ++i)
+  {
+    const int next = (i + 1) % resolution;
+    mesh.AddTriangle(0, 2 + next, 2 + i);
+    mesh.AddTriangle(1, last + i, last + next);
+  }
+  return mesh;
 }
 
 }

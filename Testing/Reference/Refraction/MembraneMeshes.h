@@ -25,6 +25,11 @@ struct MembraneMesh
 
   void AddPoint(const glm::dvec3& point, const glm::dvec3& normal);
   void AddTriangle(std::int64_t a, std::int64_t b, std::int64_t c);
+  /**
+   * Adds two triangles per cell of a grid of `rings` rows of `around` vertices around an axis,
+   * which start at the vertex `first`.
+   */
+  void AddRings(std::int64_t first, int rings, int around);
   std::size_t GetNumberOfFacets() const { return this->Triangles.size() / 3; }
   /** Views of the arrays, with or without the normals. */
   MembraneInput AsInput(bool withNormals = true) const;
@@ -49,6 +54,12 @@ MembraneMesh MakeWaves(double side, int cells, double amplitude, double waves);
  * of the axis. The same seed gives the same mesh.
  */
 MembraneMesh MakeRandom(double side, int cells, double roughness, double tilt, unsigned seed);
+
+/**
+ * A closed unit sphere as vtkSphereSource creates it, with poles on the z axis and thin facets
+ * around them. `side` is 1 for outward normals and -1 for inward ones.
+ */
+MembraneMesh MakeSphere(int resolution, double side);
 
 }
 

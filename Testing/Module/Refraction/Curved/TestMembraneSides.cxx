@@ -22,55 +22,13 @@ using meniscus::HeightFrame;
 using meniscus::MembraneStatus;
 using meniscus::PatchCrossing;
 using meniscus::PatchCrossings;
+using meniscus::reference::MakeSphere;
 using meniscus::reference::MembraneMesh;
 using meniscus::testing::Random;
 
 const double Pi = std::acos(-1.0);
 
 constexpr int Points = 20000;
-
-// A grid of rows of vertices around an axis, joined by two triangles a cell.
-void AddRings(MembraneMesh& mesh, std::int64_t first, int rings, int around)
-{
-  for (int ring = 0; ring + 1 < rings; ++ring)
-  {
-    for (int i = 0; i < around; ++i)
-    {
-      const std::int64_t a = first + ring * around + i;
-      const std::int64_t b = first + ring * around + (i + 1) % around;
-      mesh.AddTriangle(a, b, b + around);
-      mesh.AddTriangle(a, b + around, a + around);
-    }
-  }
-}
-
-// As vtkSphereSource creates it: poles on the z axis; `side` is 1 for outward normals.
-MembraneMesh MakeSphere(int resolution, double side)
-{
-  MembraneMesh mesh;
-  const auto add = [&mesh, side](const glm::dvec3& p) { mesh.AddPoint(p, side * p); };
-  add({ 0.0, 0.0, 1.0 });
-  add({ 0.0, 0.0, -1.0 });
-  for (int ring = 1; ring < resolution - 1; ++ring)
-  {
-    const double polar = Pi * ring / (resolution - 1);
-    for (int i = 0; i < resolution; ++i)
-    {
-      const double azimuth = 2.0 * Pi * i / resolution;
-      add({ std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
-        std::cos(polar) });
-    }
-  }
-  AddRings(mesh, 2, resolution - 2, resolution);
-  const std::int64_t last = 2 + (resolution - 3) * resolution;
-  for (int i = 0; i < resolution; ++i)
-  {
-    const int next = (i + 1) % resolution;
-    mesh.AddTriangle(0, 2 + next, 2 + i);
-    mesh.AddTriangle(1, last + i, last + next);
-  }
-  return mesh;
-}
 
 // z = r^2 / 2 up to a slope of `steepest` degrees, with the front above; `sign` -1 flips it.
 MembraneMesh MakeParaboloid(int rings, double steepest, double sign)
@@ -94,7 +52,7 @@ MembraneMesh MakeParaboloid(int rings, double steepest, double sign)
   {
     mesh.AddTriangle(0, 1 + i, 1 + (i + 1) % around);
   }
-  AddRings(mesh, 1, rings, around);
+  mesh.AddRings(1, rings, around);
   return mesh;
 }
 
@@ -114,7 +72,7 @@ MembraneMesh MakeCylinder(int rings, int around, double side, bool isCup)
       mesh.AddPoint(out + glm::dvec3(0.0, 0.0, z), side * (out + glm::dvec3(0.0, 0.0, lean)));
     }
   }
-  AddRings(mesh, 0, rings, around);
+  mesh.AddRings(0, rings, around);
   const std::int64_t middle = rings * around;
   mesh.AddPoint({ 0.0, 0.0, -1.0 }, { 0.0, 0.0, -side });
   mesh.AddPoint({ 0.0, 0.0, 1.0 }, { 0.0, 0.0, side });

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Curved/SightRaySearch.h"
+
+#include "Refraction/Curved/PatchCrossings.h"
+#include "Refraction/Membrane/HeightField.h"
+#include "Refraction/Tubes/RefractedRayBounds.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+/** Cone of the sight rays to a patch: a tube that starts at the eye. */
+TubeBounds BoundSightRays(const CurvedPatch& patch, const glm::dvec3& eye)
+{
+  const glm::dvec3 sights[3] = { patch.Corner[0] - eye, patch.Corner[1] - eye,
+    patch.Corner[2] - eye };
+  const DirectionBox sight =
+    BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, BoundBulge(patch));
+  return BoundRays(sight.Middle - sight.Half, sight.Middle + sight.Half, &eye, 1, 0.0);
+}
+
+}
+
+//------------------------------------------------------------------------------
+// A cone contains a sight ray entirely or not at all, so one place of the ray is tested. The
+// farther the place is from the eye, the less the tree's rounding of coordinates turns the ray.
+SightRaySearch::SightRaySearch(const CurvedMembraneSolver& geometry)
+  : Geometry(geometry)
+  , Tree(geometry.GetTree())
+  , Distance(std::max(geometry.GetMembrane().GetRadius(), glm::length(geometry.GetMedia().Eye)))
+{
+  const glm::dvec3& eye = geometry.GetMedia().Eye;
+  this->Tree.Refit([&geometry, &eye](std::int32_t facet)
+    { return BoundSightRays(geometry.GetPatches().GetPatch(facet), eye); },
+    SerialLoop);
+}
+
+//------------------------------------------------------------------------------
+bool SightRaySearch::Find(const glm::dvec3& direction, const glm::dvec3& near, PatchPoint& at) const
+{
+  const glm::dvec3& eye = this->Geometry.GetMedia().Eye;
+  const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
+  const HeightFrame frame(direction);
+  const glm::dvec2 place = frame.Project(eye);
+  const double height = frame.GetHeight(eye);
+  double least = std::numeric_limits<double>::infinity();
+  this->Tree.Visit(eye + this->Distance * direction, 0.0,
+    [&](std::int32_t facet)
+    {
+      const CurvedPatch patch = this->Geometry.GetPatches().GetPatch(facet);
+      PatchCrossings crossings(patch, frame);
+      crossings.Find(place, height, std::numeric_limits<double>::max());
+      for (const PatchCrossing& crossing : crossings)
+      {
+        const glm::dvec3 position = eye + (crossing.Height - height) * direction + origin;
+        const glm::dvec3 way = position - near;
+        if (crossing.Height > height && glm::dot(crossing.Normal, direction) < 0.0 &&
+          glm::dot(way, way) < least)
+        {
+          least = glm::dot(way, way);
+          at = { position, glm::normalize(crossing.Normal) };
+        }
+      }
+      return std::numeric_limits<std::int32_t>::max();
+    });
+  return least < std::numeric_limits<double>::infinity();
+}
+
+}
