@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Refraction_Curved_TruePositions_h
+#define meniscus_Refraction_Curved_TruePositions_h
+
+#include "Refraction/Curved/CurvedMembraneSolver.h"
+#include "Refraction/Curved/SightRaySearch.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+
+namespace meniscus
+{
+
+/** Outcome for a point that is seen. */
+enum class SeenState : unsigned char
+{
+  Unrefracted = 0,      ///< in front of the membrane or beside it: the point is where it is seen
+  Refracted = 1,        ///< behind the membrane
+  TotallyReflected = 2, ///< beyond the critical angle nothing is seen through the membrane
+  NotFinite = 3         ///< the coordinates are not finite, or they are those of the eye
+};
+
+struct TruePosition
+{
+  glm::dvec3 Position;
+  /** Place where the sight ray meets the membrane; NaN if the point is not refracted. */
+  glm::dvec3 SightPoint;
+  SeenState State;
+};
+
+/**
+ * True positions of points that the eye sees through a membrane: the inverse of the virtual
+ * vertices (Eq. 2.4). The sight ray to the point is refracted where it meets the membrane first
+ * from the front, and the point lies on the refracted ray, at n2 / n1 times the distance at which
+ * it is seen behind the sight point.
+ */
+class TruePositions
+{
+public:
+  /** `geometry` must be ready to solve, and must outlive this object. */
+  explicit TruePositions(const CurvedMembraneSolver& geometry);
+
+  /** @param seen  position in world coordinates. Points without a true position keep it. */
+  TruePosition Find(const glm::dvec3& seen) const;
+
+private:
+  const CurvedMembraneSolver& Geometry;
+  SightRaySearch Search;
+  glm::dvec3 Eye;
+};
+
+}
+
+#endif

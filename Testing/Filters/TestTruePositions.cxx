@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// True positions of points that are seen through a membrane: closed forms for flat water, and the
+// way there and back through waves.
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
+#include "vtkTruePositionFilter.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace meniscus::testing;
+
+constexpr double Water = 1.333;
+const glm::dvec3 Eye(20.0, 300.0, 10.0);
+
+vtkSmartPointer<vtkTruePositionFilter> MakeInverse(vtkPointSet* points, vtkPolyData* membrane)
+{
+  auto filter = vtkSmartPointer<vtkTruePositionFilter>::New();
+  filter->SetInputData(points);
+  filter->SetMembraneData(membrane);
+  filter->SetEyePosition(Eye.x, Eye.y, Eye.z);
+  filter->SetInteriorIndexOfRefraction(Water);
+  return filter;
+}
+
+glm::dvec3 PointOf(vtkPointSet* data, vtkIdType i)
+{
+  glm::dvec3 point;
+  data->GetPoint(i, &point.x);
+  return point;
+}
+
+int StateOf(vtkPointSet* data, vtkIdType i)
+{
+  return static_cast<int>(data->GetPointData()->GetArray("SeenState")->GetTuple1(i));
+}
+
+/** Points below the membrane, in the middle of it. */
+std::vector<Point> MakeDeepPoints(int count)
+{
+  std::mt19937 engine(7);
+  const auto between = [&engine](double low, double high)
+  { return low + (high - low) * (engine() / 4294967296.0); };
+  std::vector<Point> points;
+  for (int i = 0; i < count; ++i)
+  {
+    const double x = between(-50.0, 50.0);
+    const double y = between(-60.0, -10.0);
+    points.push_back({ x, y, between(-50.0, 50.0) });
+  }
+  return points;
+}
+
+/** Largest distance between points and their images, moved back. */
+double MeasureWayBack(vtkPolyData* membrane, int count, vtkTypeInt64& refracted)
+{
+  const auto truth = MakePoints(MakeDeepPoints(count));
+  const auto forward = MakeFilter(truth, membrane);
+  forward->SetMembraneModelToCurved();
+  forward->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  forward->SetInteriorIndexOfRefraction(Water);
+  forward->Update();
+  const auto back = MakeInverse(forward->GetOutput(), membrane);
+  back->Update();
+  vtkPointSet* found = back->GetOutput();
+  double largest = 0.0;
+  refracted = 0;
+  for (vtkIdType i = 0; i < found->GetNumberOfPoints(); ++i)
+  {
+    if (StateOf(found, i) == vtkTruePositionFilter::REFRACTED)
+    {
+      ++refracted;
+      largest = std::max(largest, glm::length(PointOf(found, i) - PointOf(truth, i)));
+    }
+  }
+  return largest;
+}
+
+} // anonymous namespace
+
+TEST(TruePositions, AreThoseOfSnellsLawUnderFlatWater)
+{
+  const auto membrane = MakeFlatMembrane();
+  const auto seen = MakePoints(MakeDeepPoints(200));
+  const auto filter = MakeInverse(seen, membrane);
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  vtkPointSet* found = filter->GetOutput();
+  ASSERT_EQ(found->GetNumberOfPoints(), 200);
+  vtkDataArray* sights = found->GetPointData()->GetArray("SightPoint");
+  vtkDataArray* paths = found->GetPointData()->GetArray("OpticalPath");
+  for (vtkIdType i = 0; i < found->GetNumberOfPoints(); ++i)
+  {
+    ASSERT_EQ(StateOf(found, i), vtkTruePositionFilter::REFRACTED);
+    const glm::dvec3 at = PointOf(seen, i);
+    const glm::dvec3 direction = glm::normalize(at - Eye);
+    const glm::dvec3 sight = Eye - Eye.y / direction.y * direction;
+    const double cosine = std::sqrt(1.0 - (1.0 - direction.y * direction.y) / (Water * Water));
+    const glm::dvec3 refracted(direction.x / Water, -cosine, direction.z / Water);
+    const double depth = Water * glm::length(at - sight);
+    EXPECT_LT(glm::length(PointOf(found, i) - (sight + depth * refracted)), 1e-11);
+    glm::dvec3 met;
+    sights->GetTuple(i, &met.x);
+    EXPECT_LT(glm::length(met - sight), 1e-11);
+    EXPECT_NEAR(paths->GetTuple1(i), glm::length(sight - Eye) + Water * depth, 1e-10);
+  }
+}
+
+TEST(TruePositions, UndoTheRefractionOfWaves)
+{
+  const auto membrane = MakeMembrane(meniscus::reference::MakeWaves(200.0, 40, 2.0, 3.0));
+  vtkTypeInt64 refracted = 0;
+  // Newton's method ends 1e-12 of the membrane's size from the sight point.
+  EXPECT_LT(MeasureWayBack(membrane, 2000, refracted), 1e-9);
+  EXPECT_EQ(refracted, 2000);
+}
+
+TEST(TruePositions, KeepPointsInFrontAndBeside)
+{
+  const double inf = std::numeric_limits<double>::infinity();
+  const auto seen = MakePoints({ { 5.0, 10.0, 3.0 }, { 400.0, -20.0, 0.0 }, { inf, 0.0, 0.0 },
+    { Eye.x, Eye.y, Eye.z }, { 5.0, -10.0, 3.0 } });
+  const auto filter = MakeInverse(seen, MakeFlatMembrane());
+  filter->Update();
+  const int states[5] = { vtkTruePositionFilter::UNREFRACTED, vtkTruePositionFilter::UNREFRACTED,
+    vtkTruePositionFilter::NOT_FINITE, vtkTruePositionFilter::NOT_FINITE,
+    vtkTruePositionFilter::REFRACTED };
+  for (vtkIdType i = 0; i < 5; ++i)
+  {
+    EXPECT_EQ(StateOf(filter->GetOutput(), i), states[i]) << i;
+    if (i < 4)
+    {
+      EXPECT_EQ(PointOf(filter->GetOutput(), i), PointOf(seen, i)) << i;
+    }
+  }
+}
+
+TEST(TruePositions, CountPointsBeyondTheCriticalAngle)
+{
+  // From the water into air: sines above 1 / 1.333 are totally reflected.
+  const auto seen = MakePoints({ { 20.0, -5.0, 10.0 }, { 90.0, -0.5, 10.0 } });
+  const auto filter = MakeInverse(seen, MakeFlatMembrane());
+  filter->SetEyePosition(20.0, 20.0, 10.0);
+  filter->SetExteriorIndexOfRefraction(Water);
+  filter->SetInteriorIndexOfRefraction(1.0);
+  filter->Update();
+  EXPECT_EQ(StateOf(filter->GetOutput(), 0), vtkTruePositionFilter::REFRACTED);
+  EXPECT_EQ(StateOf(filter->GetOutput(), 1), vtkTruePositionFilter::TOTALLY_REFLECTED);
+  EXPECT_EQ(PointOf(filter->GetOutput(), 1), PointOf(seen, 1));
+  EXPECT_EQ(filter->GetNumberOfTotallyReflectedPoints(), 1);
+}
+
+TEST(TruePositions, EqualIndicesChangeNoBit)
+{
+  const auto seen = MakePoints(MakeDeepPoints(50));
+  const auto filter =
+    MakeInverse(seen, MakeMembrane(meniscus::reference::MakeWaves(200.0, 10, 2.0, 3.0)));
+  filter->SetInteriorIndexOfRefraction(1.0);
+  filter->Update();
+  for (vtkIdType i = 0; i < 50; ++i)
+  {
+    EXPECT_EQ(PointOf(filter->GetOutput(), i), PointOf(seen, i));
+  }
+}
+
+TEST(TruePositions, TakeAnyPointSetAndKeepItsArrays)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  const auto points = MakePoints(MakeDeepPoints(4));
+  grid->SetPoints(points->GetPoints());
+  const vtkIdType corners[4] = { 0, 1, 2, 3 };
+  grid->InsertNextCell(VTK_TETRA, 4, corners);
+  const auto filter = MakeInverse(grid, MakeFlatMembrane());
+  filter->Update();
+  auto* output = vtkUnstructuredGrid::SafeDownCast(filter->GetOutput());
+  ASSERT_NE(output, nullptr);
+  EXPECT_EQ(output->GetNumberOfCells(), 1);
+  EXPECT_EQ(StateOf(output, 0), vtkTruePositionFilter::REFRACTED);
+}
+
+TEST(TruePositions, PatchesAreBuiltOncePerMembrane)
+{
+  const auto filter = MakeInverse(MakePoints(MakeDeepPoints(4)), MakeFlatMembrane());
+  filter->Update();
+  filter->SetEyePosition(0.0, 200.0, 0.0);
+  filter->Update();
+  filter->SetInteriorIndexOfRefraction(1.5);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
+}
+
+TEST(TruePositions, BadInputIsAnError)
+{
+  const auto points = MakePoints(MakeDeepPoints(4));
+  const auto expectError = [&](vtkTruePositionFilter* filter, const char* what)
+  {
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_NE(messages->Text.find("the output is empty"), std::string::npos)
+      << what << ": " << messages->Text;
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0) << what;
+  };
+  auto filter = MakeInverse(points, MakeFlatMembrane());
+  filter->SetInteriorIndexOfRefraction(0.0);
+  expectError(filter, "index 0");
+  filter = MakeInverse(points, MakeFlatMembrane());
+  filter->SetEyePosition(0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
+  expectError(filter, "eye");
+  filter = MakeInverse(points, MakePoints({ { 0.0, 0.0, 0.0 } }));
+  expectError(filter, "membrane without triangles");
+  filter = MakeInverse(points, MakeFlatMembrane());
+  vtkNew<vtkRefractingInterface> second;
+  filter->GetInterfaces()->AddItem(second);
+  expectError(filter, "two interfaces");
+}
