@@ -79,6 +79,27 @@ private:
     Float ThickMean[6][5];
   };
 
+  /** Part of the segments that is integrated at once. */
+  struct Part
+  {
+    /** Scalar at the end. */
+    Float To;
+    /** Fraction of the remaining segment, and length. */
+    Float Share;
+    Float Length;
+    /** Attenuation at both ends times the length, and the mean of these: the optical depth. */
+    Float Density;
+    Float DensityTo;
+    Float Depth;
+    /** Lanes whose segment goes on above or below the interval; lanes with a depth above 1. */
+    Mask Upward;
+    Mask Downward;
+    Mask Thick;
+  };
+  [[gnu::always_inline]] Part FindPart() const;
+  [[gnu::always_inline]] void ShortenThick(Part& part) const;
+  [[gnu::always_inline]] void AddPart(const Part& part);
+
   template <std::size_t Size>
   static Float Polynomial(Float x, const Float (&coefficients)[Size], int terms = Size);
   void Absorb(Float depth, Float density, Float& gone, Float& mean) const;
@@ -166,62 +187,72 @@ inline void CompositeModel<Simd, Medium>::Absorb(
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Part of the segments inside the interval. If the scalar does not change, the share is 0 / 0,
+ * which Min() replaces by 1; lanes without a segment get a finite value.
+ */
 template <class Simd, class Medium>
-inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
+inline auto CompositeModel<Simd, Medium>::FindPart() const -> Part
 {
   const Float zero = Simd::Splat(0.0f);
   const Float one = Simd::Splat(1.0f);
   const auto& fields = this->Intervals.GetFields();
-  const Mask outside = lanes & ((this->From < fields.Lower) | (this->From > fields.Upper));
-  if (Simd::Bits(outside) != 0)
-  {
-    this->Intervals.Find(outside, this->From);
-  }
-
-  // Part of the segment inside the interval. If the scalar does not change, the share is 0 / 0,
-  // which Min() replaces by 1; lanes without a segment get a finite value.
-  Mask upward = this->To > fields.Upper;
-  Mask downward = this->To < fields.Lower;
-  Float to = Simd::Min(Simd::Max(this->To, fields.Lower), fields.Upper);
-  Float share = (to - this->From) / (this->To - this->From);
-  share = Simd::Max(Simd::Min(share, one), zero);
-  Float length = share * this->Remaining;
-  const Float offset = this->From - fields.Lower;
+  Part part;
+  part.Upward = this->To > fields.Upper;
+  part.Downward = this->To < fields.Lower;
+  part.To = Simd::Min(Simd::Max(this->To, fields.Lower), fields.Upper);
+  part.Share = (part.To - this->From) / (this->To - this->From);
+  part.Share = Simd::Max(Simd::Min(part.Share, one), zero);
+  part.Length = part.Share * this->Remaining;
   const auto densityAt = [&](Float fromLower)
   {
-    return length *
+    return part.Length *
       Simd::Max(Simd::Fma(fromLower, fields.AttenuationSlope, fields.Attenuation), zero);
   };
   const Float done = one - this->Ahead;
-  Float density = this->Optics.ApplyGradientOpacity(densityAt(offset), done);
-  Float densityTo = this->Optics.ApplyGradientOpacity(
-    densityAt(to - fields.Lower), Simd::Fma(share, this->Ahead, done));
-  Float depth = Simd::Splat(0.5f) * (density + densityTo);
-  Mask thick = depth > one;
-  if (Simd::Bits(thick) != 0)
-  {
-    // part (density + part (densityTo - density) / 2) = 1, the root without cancellation.
-    const Float largest = Simd::Splat(LargestDepth);
-    density = Simd::Min(density, largest);
-    densityTo = Simd::Min(densityTo, largest);
-    const Float root = Simd::Sqrt(
-      Simd::Max(Simd::Fma(density, density, (densityTo - density) + (densityTo - density)), zero));
-    const Float part =
-      Simd::Select(thick, Simd::Min(Simd::Splat(2.0f) / (density + root), one), one);
-    to = Simd::Select(thick, Simd::Fma(part, to - this->From, this->From), to);
-    length = length * part;
-    share = share * part;
-    density = density * part;
-    depth = Simd::Min(depth, one);
-    upward = Simd::AndNot(upward, thick);
-    downward = Simd::AndNot(downward, thick);
-  }
+  part.Density = this->Optics.ApplyGradientOpacity(densityAt(this->From - fields.Lower), done);
+  part.DensityTo = this->Optics.ApplyGradientOpacity(
+    densityAt(part.To - fields.Lower), Simd::Fma(part.Share, this->Ahead, done));
+  part.Depth = Simd::Splat(0.5f) * (part.Density + part.DensityTo);
+  part.Thick = part.Depth > one;
+  return part;
+}
 
+//------------------------------------------------------------------------------
+/** Shortens the thick parts to an optical depth of 1. */
+template <class Simd, class Medium>
+inline void CompositeModel<Simd, Medium>::ShortenThick(Part& part) const
+{
+  // share (density + share (densityTo - density) / 2) = 1, the root without cancellation.
+  const Float zero = Simd::Splat(0.0f);
+  const Float one = Simd::Splat(1.0f);
+  const Float largest = Simd::Splat(LargestDepth);
+  const Float density = Simd::Min(part.Density, largest);
+  const Float change = Simd::Min(part.DensityTo, largest) - density;
+  const Float root = Simd::Sqrt(Simd::Max(Simd::Fma(density, density, change + change), zero));
+  const Float share =
+    Simd::Select(part.Thick, Simd::Min(Simd::Splat(2.0f) / (density + root), one), one);
+  part.To = Simd::Select(part.Thick, Simd::Fma(share, part.To - this->From, this->From), part.To);
+  part.Length = part.Length * share;
+  part.Share = part.Share * share;
+  part.Density = density * share;
+  part.Depth = Simd::Min(part.Depth, one);
+  part.Upward = Simd::AndNot(part.Upward, part.Thick);
+  part.Downward = Simd::AndNot(part.Downward, part.Thick);
+}
+
+//------------------------------------------------------------------------------
+/** Adds the light of a part to the colour, and its absorption to the transmittance. */
+template <class Simd, class Medium>
+inline void CompositeModel<Simd, Medium>::AddPart(const Part& part)
+{
+  const auto& fields = this->Intervals.GetFields();
   Float gone;
   Float mean;
-  this->Absorb(depth, density, gone, mean);
+  this->Absorb(part.Depth, part.Density, gone, mean);
   const Float weight = this->Transmittance * gone;
-  Float weightOfChange = this->Transmittance * Simd::Max(gone - mean, zero);
+  Float weightOfChange = this->Transmittance * Simd::Max(gone - mean, Simd::Splat(0.0f));
+  const Float offset = this->From - fields.Lower;
   Float color[3];
   Float change[3];
   for (int channel = 0; channel < 3; ++channel)
@@ -231,22 +262,23 @@ inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
   }
   if constexpr (Medium::UsesGradients)
   {
+    const Float done = Simd::Splat(1.0f) - this->Ahead;
     Float colorTo[3];
     for (int channel = 0; channel < 3; ++channel)
     {
-      colorTo[channel] = Simd::Fma(to - this->From, change[channel], color[channel]);
+      colorTo[channel] = Simd::Fma(part.To - this->From, change[channel], color[channel]);
     }
     this->Optics.Shade(color, done);
-    this->Optics.Shade(colorTo, Simd::Fma(share, this->Ahead, done));
+    this->Optics.Shade(colorTo, Simd::Fma(part.Share, this->Ahead, done));
     for (int channel = 0; channel < 3; ++channel)
     {
       change[channel] = colorTo[channel] - color[channel];
     }
-    this->Ahead = this->Ahead - share * this->Ahead;
+    this->Ahead = this->Ahead - part.Share * this->Ahead;
   }
   else
   {
-    weightOfChange = weightOfChange * (to - this->From);
+    weightOfChange = weightOfChange * (part.To - this->From);
   }
   for (int channel = 0; channel < 3; ++channel)
   {
@@ -254,10 +286,29 @@ inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
       weightOfChange, change[channel], Simd::Fma(weight, color[channel], this->Color[channel]));
   }
   this->Transmittance = this->Transmittance - weight;
-  const Mask more = lanes & (upward | downward | thick) & (this->Transmittance > this->Termination);
-  this->Remaining = Simd::Select(more, this->Remaining - length, zero);
-  this->From = to;
-  this->Intervals.Move(upward, downward);
+}
+
+//------------------------------------------------------------------------------
+template <class Simd, class Medium>
+inline auto CompositeModel<Simd, Medium>::Advance(Mask lanes) -> Mask
+{
+  const auto& fields = this->Intervals.GetFields();
+  const Mask outside = lanes & ((this->From < fields.Lower) | (this->From > fields.Upper));
+  if (Simd::Bits(outside) != 0)
+  {
+    this->Intervals.Find(outside, this->From);
+  }
+  Part part = this->FindPart();
+  if (Simd::Bits(part.Thick) != 0)
+  {
+    this->ShortenThick(part);
+  }
+  this->AddPart(part);
+  const Mask more =
+    lanes & (part.Upward | part.Downward | part.Thick) & (this->Transmittance > this->Termination);
+  this->Remaining = Simd::Select(more, this->Remaining - part.Length, Simd::Splat(0.0f));
+  this->From = part.To;
+  this->Intervals.Move(part.Upward, part.Downward);
   return more;
 }
 
