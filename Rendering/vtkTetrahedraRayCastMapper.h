@@ -194,6 +194,7 @@ public:
    * side; intersections from the other side do not count. So a closed surface, such as a glass
    * ball, is connected and listed twice, with the same indices: it is entered and left. The medium
    * behind each interface must be one of those of the next one, otherwise the list is an error.
+   * Rays may come from the interior of the first interface if the media match in that order.
    *
    * A ray that is totally reflected at an interface ends there. One that misses an interface ends
    * at the last one that it met, and shows nothing of what lies behind. Both are counted:

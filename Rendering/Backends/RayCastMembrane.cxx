@@ -4,7 +4,10 @@
 
 #include "Filters/Common/ThreadedLoop.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace meniscus
 {
@@ -34,6 +37,20 @@ bool FitsFrom(double medium, const std::vector<MembraneInterface>& interfaces)
   return true;
 }
 
+/** Same for rays from the exterior of the first interface; those that do not refract are left out.
+ */
+bool FitsWithoutEqual(const std::vector<MembraneInterface>& interfaces)
+{
+  std::vector<MembraneInterface> refracting;
+  std::copy_if(interfaces.begin(), interfaces.end(), std::back_inserter(refracting),
+    [](const MembraneInterface& one) { return one.Exterior != one.Interior; });
+  return refracting.empty() || FitsFrom(refracting.front().Exterior, refracting);
+}
+
+const char* const MismatchText =
+  "The indices of refraction do not match along the list of interfaces: the medium behind each "
+  "interface must be that of a side of the next one";
+
 /** Error in a list that is found without reading the surfaces; empty if there is none. */
 std::string DescribeFault(const std::vector<MembraneInterface>& interfaces)
 {
@@ -49,11 +66,15 @@ std::string DescribeFault(const std::vector<MembraneInterface>& interfaces)
       return NameOf(i, interfaces.size()) + "Indices of refraction must be positive and finite";
     }
   }
-  return interfaces.empty() || FitsFrom(interfaces.front().Exterior, interfaces) ||
-      FitsFrom(interfaces.front().Interior, interfaces)
+  if (interfaces.empty() || FitsFrom(interfaces.front().Exterior, interfaces))
+  {
+    return std::string();
+  }
+  // The rays show whether they come from the interior, unless the interface that does not match is
+  // not traced.
+  return FitsFrom(interfaces.front().Interior, interfaces) && !FitsWithoutEqual(interfaces)
     ? std::string()
-    : "The indices of refraction do not match along the list of interfaces: a ray must find the "
-      "medium behind each interface on a side of the next one";
+    : MismatchText;
 }
 
 }
@@ -97,6 +118,7 @@ InputReport RayCastMembrane::Update(const std::vector<MembraneInterface>& interf
     report.Warning += read.Warning;
   }
   this->Used = std::move(used);
+  this->FitsFromExterior = FitsWithoutEqual(interfaces);
   return report;
 }
 
@@ -164,6 +186,12 @@ bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
     this->SightVersion.Bump();
   }
   return isStack ? this->Stack.IsSeen() : this->Sight.IsSeen();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastMembrane::DescribeMismatch() const
+{
+  return !this->FitsFromExterior && this->GetCounts().Mismatched > 0 ? MismatchText : std::string();
 }
 
 //------------------------------------------------------------------------------

@@ -60,6 +60,11 @@ public:
    * @param input mesh through which the rays pass.
    */
   bool Trace(RefractedRayField::View view, VolumeInput& input);
+  /**
+   * Error in the order of the media that Trace() has found, by the side of the first interface from
+   * which rays come; empty if there is none.
+   */
+  std::string DescribeMismatch() const;
   /** Frames of the refracted rays, after Trace(). */
   const RefractionFrames& GetFrames() const { return this->Frames; }
   /** Legs of the image's rays: the sight rays, and the rays behind each interface. */
@@ -120,6 +125,8 @@ private:
   /** Surfaces by the number of the first interface that has them. */
   std::vector<std::unique_ptr<SurfaceShape>> Shapes;
   std::vector<UsedInterface> Used;
+  /** True if the media match along the list for rays from the exterior of the first interface. */
+  bool FitsFromExterior = true;
   /** Rays behind one interface. */
   RefractedRayField Sight;
   /** Rays behind several interfaces. */

@@ -64,6 +64,11 @@ RayCastBackendChoice RayCastPipeline::ChooseBackend(
 std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
 {
   frame.Refracting.Met = frame.Refracting.Wanted && this->Trace(frame);
+  const std::string mismatch = this->Membrane.DescribeMismatch();
+  if (!mismatch.empty())
+  {
+    return mismatch;
+  }
   if (!frame.Refracting.Met && frame.Refracting.Part == MembranePart::Behind)
   {
     this->ClearStatistics();

@@ -146,6 +146,7 @@ void RefractedRayStack::Build(
   {
     sum += tile.Directions;
     this->Sums.Missing += tile.Rays.Missing;
+    this->Sums.Mismatched += tile.Rays.Mismatched;
     this->Sums.Reflected += tile.Rays.Reflected;
     this->Sums.Undecided += tile.Rays.Undecided;
   }
@@ -276,6 +277,7 @@ void RefractedRayStack::MeetInterface(std::size_t number, Block& block, Counts& 
       const auto ray = static_cast<std::size_t>(block.Numbers[static_cast<std::size_t>(lane)]);
       block.Legs[number][ray].Step = glm::dvec3(0.0);
       ++sums.Missing;
+      sums.Mismatched += block.Sides[static_cast<std::size_t>(lane)] == Side::Neither ? 1 : 0;
     }
   }
 }

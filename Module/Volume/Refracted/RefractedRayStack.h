@@ -60,6 +60,8 @@ public:
   {
     /** Rays that were refracted at an interface and miss the next one. */
     std::int64_t Missing = 0;
+    /** Those of them that are in a medium which the next interface does not have. */
+    std::int64_t Mismatched = 0;
     /** Rays that are totally reflected at the second interface or a later one. */
     std::int64_t Reflected = 0;
     /** As RefractedRayField::GetNumberOfUndecidedRays(). */

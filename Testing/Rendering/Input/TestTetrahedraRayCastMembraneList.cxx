@@ -77,7 +77,7 @@ void ExpectError(const std::string& part,
   const FloatImage picture = scene.RenderFloat();
   ASSERT_EQ(told->Errors.size(), 1u) << part << told->GetText();
   EXPECT_NE(told->Errors.front().find(part), std::string::npos) << told->Errors.front();
-  EXPECT_NE(told->Errors.front().find("nothing is rendered"), std::string::npos);
+  EXPECT_NE(told->Errors.front().find("othing is rendered"), std::string::npos);
   EXPECT_TRUE(std::all_of(
     picture.Rgba.begin(), picture.Rgba.end(), [](float value) { return value == 0.0f; }))
     << part;
@@ -92,7 +92,7 @@ TEST(TetrahedraRayCastMembraneList, OnlyWhatChangedIsDoneAgain)
   const bool onDevice = BackendUnderTest() != vtkTetrahedraRayCastMapper::NATIVE;
   scene.RenderFloat();
   const auto expectWork = [&](const std::string& what, const std::function<void()>& change,
-                            int builds, int sights, bool changesPicture)
+                            int builds, int sights, bool changesPicture, int interfaces = 2)
   {
     const FloatImage before = scene.RenderFloat();
     const vtkTypeInt64 meshes = mapper->GetNumberOfMeshBuilds();
@@ -109,8 +109,10 @@ TEST(TetrahedraRayCastMembraneList, OnlyWhatChangedIsDoneAgain)
     if (onDevice)
     {
       // A line of 32 bytes per pixel and a list per interface.
-      EXPECT_EQ(mapper->GetUploadedBytes() - bytes, vtkTypeInt64{ 64 } * Size * Size * sights);
-      EXPECT_EQ(mapper->GetNumberOfRefractedEntryLists() - lists, 2 * sights) << what;
+      EXPECT_EQ(
+        mapper->GetUploadedBytes() - bytes, vtkTypeInt64{ 32 } * Size * Size * interfaces * sights)
+        << what;
+      EXPECT_EQ(mapper->GetNumberOfRefractedEntryLists() - lists, interfaces * sights) << what;
     }
   };
   EXPECT_EQ(mapper->GetNumberOfMembraneBuilds(), 2);
@@ -139,7 +141,7 @@ TEST(TetrahedraRayCastMembraneList, OnlyWhatChangedIsDoneAgain)
       list->GetInterface(0)->SetExteriorIndexOfRefraction(1.5);
       list->GetInterface(0)->SetInteriorIndexOfRefraction(1.5);
     },
-    0, 1, true);
+    0, 1, true, 1);
 }
 
 TEST(TetrahedraRayCastMembraneList, OneSurfaceListedTwiceIsReadOnce)
@@ -202,8 +204,8 @@ TEST(TetrahedraRayCastMembraneList, ListsThatCannotBeUsed)
         SetIndices(mapper, { { index, 1.5 }, { 1.5, 1.0 } });
       });
   }
-  for (const Indices& indices :
-    { Indices{ { 1.0, 1.5 }, { 1.6, 1.0 } }, Indices{ { 1.0, 1.5 }, { 1.333, 1.333 } } })
+  for (const Indices& indices : { Indices{ { 1.0, 1.5 }, { 1.6, 1.0 } },
+         Indices{ { 1.0, 1.5 }, { 1.333, 1.333 } }, Indices{ { 1.0, 1.5 }, { 1.0, 1.0 } } })
   {
     ExpectError("do not match along the list",
       [&](PaneScene&, Mapper* mapper) { SetIndices(mapper, indices); });

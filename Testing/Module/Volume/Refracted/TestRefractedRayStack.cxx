@@ -435,6 +435,8 @@ TEST(RefractedRayStack, RaysComeFromTheSideOfTheirMedium)
   {
     RefractedRayStack stack;
     stack.Build({ front.Between(1.0, 1.5), back.Between(exterior, interior) }, view);
+    const bool hasMedium = exterior == 1.5 || interior == 1.5;
+    EXPECT_EQ(stack.GetCounts().Mismatched, hasMedium ? 0 : Size * Size);
     return stack.GetCounts().Missing;
   };
   EXPECT_EQ(countMissing(1.5, 1.333), 0);
