@@ -54,6 +54,7 @@ int vtkTetrahedraRayCastMapper::FillInputPortInformation(int port, vtkInformatio
   {
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
     return 1;
   }
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
@@ -83,15 +84,29 @@ void vtkTetrahedraRayCastMapper::SetMembraneData(vtkPolyData* membrane)
 }
 
 //------------------------------------------------------------------------------
-vtkPolyData* vtkTetrahedraRayCastMapper::GetMembrane()
+void vtkTetrahedraRayCastMapper::AddMembraneData(vtkPolyData* membrane)
 {
-  return this->HasMembrane() ? vtkPolyData::SafeDownCast(this->GetInputDataObject(1, 0)) : nullptr;
+  this->AddInputDataInternal(1, membrane);
 }
 
 //------------------------------------------------------------------------------
-bool vtkTetrahedraRayCastMapper::HasMembrane()
+vtkPolyData* vtkTetrahedraRayCastMapper::GetMembrane()
 {
-  return this->GetNumberOfInputConnections(1) > 0;
+  return this->GetMembrane(0);
+}
+
+//------------------------------------------------------------------------------
+vtkPolyData* vtkTetrahedraRayCastMapper::GetMembrane(int i)
+{
+  return i >= 0 && i < this->GetNumberOfMembranes()
+    ? vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i))
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayCastMapper::GetNumberOfMembranes()
+{
+  return this->GetNumberOfInputConnections(1);
 }
 
 //------------------------------------------------------------------------------
@@ -104,16 +119,20 @@ double* vtkTetrahedraRayCastMapper::GetBounds()
     vtkCompositeDataSet::SafeDownCast(this->GetDataObjectInput())->GetBounds(this->Bounds);
     bounds = this->Bounds;
   }
-  if (!this->HasMembrane() || !vtkMath::AreBoundsInitialized(bounds))
+  if (this->GetNumberOfMembranes() == 0 || !vtkMath::AreBoundsInitialized(bounds))
   {
     return bounds;
   }
-  this->GetInputAlgorithm(1, 0)->Update();
-  vtkPolyData* membrane = this->GetMembrane();
-  if (membrane && membrane->GetNumberOfPoints() > 0)
+  vtkBoundingBox box(bounds);
+  for (int i = 0; i < this->GetNumberOfMembranes(); ++i)
   {
+    this->GetInputAlgorithm(1, i)->Update();
+    vtkPolyData* membrane = this->GetMembrane(i);
+    if (!membrane || membrane->GetNumberOfPoints() == 0)
+    {
+      continue;
+    }
     // The volume's matrix transforms these to world coordinates, in which the membrane is given.
-    vtkBoundingBox box(bounds);
     double corners[6];
     membrane->GetBounds(corners);
     for (int c = 0; c < 8; ++c)
@@ -122,8 +141,8 @@ double* vtkTetrahedraRayCastMapper::GetBounds()
         glm::dvec4(corners[c & 1], corners[2 + (c >> 1 & 1)], corners[4 + (c >> 2 & 1)], 1.0);
       box.AddPoint(corner.x, corner.y, corner.z);
     }
-    box.GetBounds(this->Bounds);
   }
+  box.GetBounds(this->Bounds);
   return this->Bounds;
 }
 
@@ -297,19 +316,25 @@ bool vtkTetrahedraRayCastMapper::UpdateInput(
 //------------------------------------------------------------------------------
 bool vtkTetrahedraRayCastMapper::UpdateMembrane()
 {
-  if (!this->HasMembrane())
+  const int membranes = this->GetNumberOfMembranes();
+  // The list is never shorter than one; the interface of a mapper without a membrane is not used.
+  this->Interfaces->GetFirstInterface();
+  const int items = this->Interfaces->GetNumberOfItems();
+  if (membranes != items && (membranes > 0 || items > 1))
   {
-    return true;
-  }
-  if (const char* fault = meniscus::FindFault(this->Interfaces))
-  {
-    vtkErrorMacro(<< fault << "; nothing is rendered.");
+    vtkErrorMacro("The list has " << items << " refracting interfaces, and port 1 has " << membranes
+                                  << " surfaces; one for each is needed; nothing is rendered.");
     return false;
   }
-  this->GetInputAlgorithm(1, 0)->Update();
-  return this->Tell(
-    this->Internals->Membrane.Update(this->GetMembrane(), this->GetExteriorIndexOfRefraction(),
-      this->GetInteriorIndexOfRefraction(), this->MembranePart != WHOLE));
+  std::vector<meniscus::MembraneInterface> interfaces;
+  for (int i = 0; i < membranes; ++i)
+  {
+    this->GetInputAlgorithm(1, i)->Update();
+    vtkRefractingInterface* item = this->Interfaces->GetInterface(i);
+    interfaces.push_back({ this->GetMembrane(i), item->GetExteriorIndexOfRefraction(),
+      item->GetInteriorIndexOfRefraction() });
+  }
+  return this->Tell(this->Internals->Membrane.Update(interfaces, this->MembranePart != WHOLE));
 }
 
 //------------------------------------------------------------------------------
@@ -319,11 +344,7 @@ void vtkTetrahedraRayCastMapper::PrepareRefraction(
   meniscus::RayCastRefraction& refracting = frame.Refracting;
   refracting.Part =
     static_cast<meniscus::MembranePart>(this->MembranePart); // both enums have the same values
-  refracting.Wanted = this->HasMembrane() &&
-    (this->GetExteriorIndexOfRefraction() != this->GetInteriorIndexOfRefraction() ||
-      this->MembranePart != WHOLE);
-  refracting.Exterior = this->GetExteriorIndexOfRefraction();
-  refracting.Interior = this->GetInteriorIndexOfRefraction();
+  refracting.Wanted = this->Internals->Membrane.GetNumberOfInterfaces() > 0;
   refracting.Center = place.CenterInWorld;
   const glm::dvec3 eye(glm::inverse(place.WorldToView) * glm::dvec4(0.0, 0.0, 0.0, 1.0));
   refracting.EyeDepth = (glm::inverse(frame.Rays.ViewToWorld) * (eye - refracting.Center)).z;

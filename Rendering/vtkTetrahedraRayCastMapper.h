@@ -140,11 +140,12 @@ public:
    * Set a surface at which rays are refracted (the membrane, port 1), by connection or as data:
    * triangles, or polygons and strips, which are split into triangles, in world coordinates. Its
    * point normals are used if present, otherwise they are computed; it is curved between its
-   * points, as in vtkRefractedGeometryFilter::CURVED. Default is null: no membrane.
+   * points, as in vtkRefractedGeometryFilter::CURVED. Default is null: no membrane. The port is
+   * repeatable; see SetInterfaces() for several surfaces.
    *
    * A pixel's ray is straight up to its first intersection with the membrane, so the part of the
-   * mesh in front of it is drawn as without a membrane. There it is refracted once by Snell's law
-   * and continues through the mesh. Where it is totally reflected, nothing behind the membrane is
+   * mesh in front of it is drawn as without a membrane. There it is refracted by Snell's law and
+   * continues through the mesh. Where it is totally reflected, nothing behind the membrane is
    * drawn; rays that miss the membrane are straight. Geometry in the framebuffer behind the
    * membrane is taken as virtual geometry, such as the output of vtkRefractedGeometryFilter: at a
    * distance l behind the sight point it occludes the refracted ray from the distance n2 / n1 * l
@@ -159,7 +160,12 @@ public:
   void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetMembraneData(vtkPolyData* membrane);
   void SetMembrane(vtkPolyData* membrane) { this->SetMembraneData(membrane); }
+  void AddMembraneConnection(vtkAlgorithmOutput* output) { this->AddInputConnection(1, output); }
+  void AddMembraneData(vtkPolyData* membrane);
+  void RemoveAllMembranes() { this->RemoveAllInputConnections(1); }
   vtkPolyData* GetMembrane();
+  vtkPolyData* GetMembrane(int i);
+  int GetNumberOfMembranes();
   /** @} */
 
   /** @{ */
@@ -168,7 +174,7 @@ public:
    * default 1.0; and interior, on the other side, default 1.333. Must be positive and finite; other
    * values are an error if there is a membrane. A ray that meets the membrane from behind passes
    * from the interior to the exterior. If the indices are equal, the membrane changes nothing and
-   * costs nothing.
+   * costs nothing. With several interfaces these are the indices of the first.
    */
   virtual void SetExteriorIndexOfRefraction(double index);
   virtual double GetExteriorIndexOfRefraction();
@@ -178,9 +184,25 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
-   * first interface has the indices of refraction. Drawing through a membrane with more than one
-   * interface is an error. Null, the default, stands for a list of one with default values.
+   * Set/Get the refracting interfaces, such as the two faces of a pane, in the order in which rays
+   * meet them. The interface of number i has the surface of connection i of port 1, and the list
+   * must be as long as there are connections. It may be shared with other filters and mappers.
+   * Null, the default, stands for a list of one with default values.
+   *
+   * A ray meets the first interface from either side. It meets a further one at the first
+   * intersection behind the last point of refraction at which it arrives in the medium of that
+   * side; intersections from the other side do not count. So a closed surface, such as a glass
+   * ball, is connected and listed twice, with the same indices: it is entered and left. The medium
+   * behind each interface must be one of those of the next one, otherwise the list is an error.
+   * Rays may come from the interior of the first interface if the media match in that order.
+   *
+   * A ray that is totally reflected at an interface ends there. One that misses an interface ends
+   * at the last one that it met, and shows nothing of what lies behind. Both are counted:
+   * GetNumberOfRaysMissingAnInterface(), GetNumberOfTotallyReflectedRays(). Rays that miss the
+   * first interface are straight. Interfaces with equal indices are left out. Geometry in the
+   * framebuffer behind the first interface is virtual geometry: a point in the medium of index n
+   * is drawn n0 / n times its way behind the interface (n0: the eye's medium), and these lengths
+   * add up.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
@@ -192,7 +214,7 @@ public:
   vtkMTimeType GetMTime() override;
 
   /** @{ */
-  /** Bounds of the input (of all leaves of a composite data set) and of the membrane. */
+  /** Bounds of the input (of all leaves of a composite data set) and of all membranes. */
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetBounds(double bounds[6]) override { this->Superclass::GetBounds(bounds); }
   /** @} */
@@ -356,9 +378,9 @@ public:
   /**
    * Set/Get the largest number of texels of a table on the graphics device, besides the limit that
    * the device reports (GL_MAX_TEXTURE_BUFFER_SIZE): for drivers that report more than they
-   * support. A mesh with a larger table, at 2 texels per tetrahedron or 1.25 if compact, is
-   * drawn by the native backend, after a warning with the numbers; so is an image through a
-   * membrane, which takes 2 texels per pixel. Up to 8 texels per tetrahedron (5 if compact) are
+   * support. A mesh with a larger table, at 2 texels per tetrahedron or 1.25 if compact, is drawn
+   * by the native backend, after a warning with the numbers; so is an image through a membrane,
+   * which takes 2 texels per pixel and interface. Up to 8 texels per tetrahedron (5 if compact) are
    * used within the limit, which is faster. Default is no limit.
    */
   vtkSetClampMacro(MaximumTableSize, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
@@ -431,8 +453,8 @@ public:
    *   become visible;
    * - computations of vertex gradients;
    * - builds of the pre-integration table;
-   * - builds of the membrane's patches, when its shape has changed;
-   * - intersections of the rays with the membrane, when its shape, the view or the indices have
+   * - builds of the membranes' patches, each when its shape has changed;
+   * - intersections of the rays with all membranes, when a shape, the view or the indices have
    *   changed;
    * - lists, made on the graphics device, of the entries of refracted rays into the mesh (in the
    *   same cases, and for other active cells);
@@ -458,9 +480,9 @@ public:
    * mesh, scalars, gradients, components, transfer function, pre-integration table. OPENGL and
    * COMPUTE count them when they are sent to the graphics device. NATIVE reads the same tables in
    * main memory and counts each once when it first draws with it. A camera move adds nothing,
-   * except for the refracted rays if a membrane is in view: 32 bytes per pixel of the image on the
-   * graphics device, per pixel that the membrane covers (by tiles) natively. Images, and the
-   * vertices that NATIVE transforms for a view, are not counted.
+   * except for the refracted rays if a membrane is in view, for each interface: 32 bytes per pixel
+   * of the image on the graphics device, per pixel that the membrane covers (by tiles) natively.
+   * Images, and the vertices that NATIVE transforms for a view, are not counted.
    */
   vtkTypeInt64 GetUploadedBytes();
 
@@ -517,6 +539,16 @@ public:
    */
   vtkTypeInt64 GetNumberOfUndecidedRays();
 
+  /** @{ */
+  /**
+   * Numbers of rays that end in a list of several interfaces, as it was last found in the view:
+   * those that were refracted at an interface and miss the next one, and those that are totally
+   * reflected at the second interface or a later one. 0 with one interface or none.
+   */
+  vtkTypeInt64 GetNumberOfRaysMissingAnInterface();
+  vtkTypeInt64 GetNumberOfTotallyReflectedRays();
+  /** @} */
+
   /**
    * Draws the volume into the current framebuffer and viewport; in a hardware selection pass, draws
    * the prop's id wherever the volume is visible. Input that cannot be drawn causes an error and
@@ -560,7 +592,6 @@ private:
   void WarnOnce(bool condition, bool& warned, const char* text);
   void WarnAboutUnavailable();
   void ChooseIntegration(vtkVolume* volume, meniscus::RayCastOptics& optics);
-  bool HasMembrane();
   bool UpdateMembrane();
   void PrepareRefraction(const meniscus::ViewContext& place, meniscus::RayCastFrame& frame);
   bool UpdateInput(vtkRenderWindow* window, vtkVolume* volume, const meniscus::InputBlocks& parts);

@@ -3,6 +3,7 @@
 // Counters and properties of vtkTetrahedraRayCastMapper as it reports them.
 #include "Rendering/RayCastMapperInternals.h"
 
+#include "vtkRefractingInterfaceCollection.h"
 #include "vtkTetrahedraRayCastMapper.h"
 
 //------------------------------------------------------------------------------
@@ -140,7 +141,19 @@ vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfCastPixels()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfUndecidedRays()
 {
-  return this->Internals->Membrane.GetSight().GetNumberOfUndecidedRays();
+  return this->Internals->Membrane.GetCounts().Undecided;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfRaysMissingAnInterface()
+{
+  return this->Internals->Membrane.GetCounts().Missing;
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTetrahedraRayCastMapper::GetNumberOfTotallyReflectedRays()
+{
+  return this->Internals->Membrane.GetCounts().Reflected;
 }
 
 //------------------------------------------------------------------------------
@@ -158,6 +171,7 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PreIntegrationScalarSize: " << this->PreIntegrationScalarSize << "\n";
   os << indent << "PreIntegrationLengthSize: " << this->PreIntegrationLengthSize << "\n";
   os << indent << "Gradients: " << this->Gradients << "\n";
+  os << indent << "NumberOfInterfaces: " << this->Interfaces->GetNumberOfItems() << "\n";
   os << indent << "ExteriorIndexOfRefraction: " << this->GetExteriorIndexOfRefraction() << "\n";
   os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
   os << indent << "ImageSampleDistance: " << this->ImageSampleDistance << "\n";
@@ -189,4 +203,8 @@ void vtkTetrahedraRayCastMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfCastImages: " << this->GetNumberOfCastImages() << "\n";
   os << indent << "NumberOfCastPixels: " << this->GetNumberOfCastPixels() << "\n";
   os << indent << "NumberOfUndecidedRays: " << this->GetNumberOfUndecidedRays() << "\n";
+  os << indent << "NumberOfRaysMissingAnInterface: " << this->GetNumberOfRaysMissingAnInterface()
+     << "\n";
+  os << indent << "NumberOfTotallyReflectedRays: " << this->GetNumberOfTotallyReflectedRays()
+     << "\n";
 }

@@ -36,8 +36,6 @@ struct RayCastRefraction
   bool Wanted = false;
   /** Whether rays of this frame meet it; known when the frame is cast. */
   bool Met = false;
-  double Exterior = 1.0;
-  double Interior = 1.0;
   /** Origin of the frame in world coordinates, and depth of the eye in the frame. */
   glm::dvec3 Center{ 0.0 };
   double EyeDepth = 0.0;

@@ -4,63 +4,246 @@
 
 #include "Filters/Common/ThreadedLoop.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace meniscus
 {
+namespace
+{
 
-//------------------------------------------------------------------------------
-InputReport RayCastMembrane::Update(
-  vtkPolyData* membrane, double exterior, double interior, bool wanted)
+/** Name of an interface in a message; without a number if there is one only. */
+std::string NameOf(std::size_t number, std::size_t count)
+{
+  return count > 1 ? "Interface " + std::to_string(number) + ": " : std::string();
+}
+
+/**
+ * True if a ray that starts in the given medium finds at each interface, on one of the sides, the
+ * medium that it is in.
+ */
+bool FitsFrom(double medium, const std::vector<MembraneInterface>& interfaces)
+{
+  for (const MembraneInterface& interface : interfaces)
+  {
+    if (medium != interface.Exterior && medium != interface.Interior)
+    {
+      return false;
+    }
+    medium = medium == interface.Exterior ? interface.Interior : interface.Exterior;
+  }
+  return true;
+}
+
+/** Same for rays from the exterior of the first interface; those that do not refract are left out.
+ */
+bool FitsWithoutEqual(const std::vector<MembraneInterface>& interfaces)
+{
+  std::vector<MembraneInterface> refracting;
+  std::copy_if(interfaces.begin(), interfaces.end(), std::back_inserter(refracting),
+    [](const MembraneInterface& one) { return one.Exterior != one.Interior; });
+  return refracting.empty() || FitsFrom(refracting.front().Exterior, refracting);
+}
+
+const char* const MismatchText =
+  "The indices of refraction do not match along the list of interfaces: the medium behind each "
+  "interface must be that of a side of the next one";
+
+/** Error in a list that is found without reading the surfaces; empty if there is none. */
+std::string DescribeFault(const std::vector<MembraneInterface>& interfaces)
 {
   const auto isIndex = [](double index) { return index > 0.0 && std::isfinite(index); };
-  if (!membrane)
+  for (std::size_t i = 0; i < interfaces.size(); ++i)
   {
-    return { "The membrane is not a vtkPolyData", std::string() };
+    if (!interfaces[i].Surface)
+    {
+      return NameOf(i, interfaces.size()) + "The membrane is not a vtkPolyData";
+    }
+    if (!isIndex(interfaces[i].Exterior) || !isIndex(interfaces[i].Interior))
+    {
+      return NameOf(i, interfaces.size()) + "Indices of refraction must be positive and finite";
+    }
   }
-  if (!isIndex(exterior) || !isIndex(interior))
+  if (interfaces.empty() || FitsFrom(interfaces.front().Exterior, interfaces))
   {
-    return { "Indices of refraction must be positive and finite", std::string() };
+    return std::string();
   }
+  // The rays show whether they come from the interior, unless the interface that does not match is
+  // not traced.
+  return FitsFrom(interfaces.front().Interior, interfaces) && !FitsWithoutEqual(interfaces)
+    ? std::string()
+    : MismatchText;
+}
+
+}
+
+//------------------------------------------------------------------------------
+InputReport RayCastMembrane::Update(const std::vector<MembraneInterface>& interfaces, bool wanted)
+{
+  this->Used.clear();
+  const std::string fault = DescribeFault(interfaces);
+  if (!fault.empty())
+  {
+    return { fault, std::string() };
+  }
+  std::vector<UsedInterface> used;
+  for (std::size_t i = 0; i < interfaces.size(); ++i)
+  {
+    std::size_t shape = 0;
+    while (interfaces[shape].Surface != interfaces[i].Surface)
+    {
+      ++shape;
+    }
+    if (interfaces[i].Exterior != interfaces[i].Interior)
+    {
+      used.push_back({ shape, interfaces[i].Exterior, interfaces[i].Interior });
+    }
+  }
+  if (used.empty() && wanted && !interfaces.empty())
+  {
+    used.push_back({ 0, interfaces[0].Exterior, interfaces[0].Interior });
+  }
+  InputReport report;
+  for (const UsedInterface& interface : used)
+  {
+    const std::size_t number = interface.Shape;
+    InputReport read =
+      this->ReadShape(interfaces[number].Surface, number, NameOf(number, interfaces.size()));
+    if (!read.Error.empty())
+    {
+      return read;
+    }
+    report.Warning += read.Warning;
+  }
+  this->Used = std::move(used);
+  this->FitsFromExterior = FitsWithoutEqual(interfaces);
+  return report;
+}
+
+//------------------------------------------------------------------------------
+/** @param name beginning of its messages. */
+InputReport RayCastMembrane::ReadShape(
+  vtkPolyData* surface, std::size_t number, const std::string& name)
+{
+  while (this->Shapes.size() <= number)
+  {
+    this->Shapes.push_back(std::make_unique<SurfaceShape>());
+  }
+  SurfaceShape& shape = *this->Shapes[number];
   SceneMessages messages;
-  if ((exterior != interior || wanted) && !this->Surface.SetMembrane(membrane, true, messages))
+  if (!shape.Scene.SetMembrane(surface, true, messages))
   {
-    return { messages.Error, std::string() };
+    return { name + messages.Error, std::string() };
   }
-  if (messages.Warning.empty() || messages.Warning == this->Told)
+  if (messages.Warning.empty() || messages.Warning == shape.Told)
   {
     return {};
   }
-  this->Told = messages.Warning;
-  return { std::string(), messages.Warning };
+  shape.Told = messages.Warning;
+  return { std::string(), name + messages.Warning };
+}
+
+//------------------------------------------------------------------------------
+TableVersion RayCastMembrane::GetShapeVersion() const
+{
+  std::int64_t builds = 0;
+  for (const std::unique_ptr<SurfaceShape>& shape : this->Shapes)
+  {
+    builds += shape->Scene.GetNumberOfPatchBuilds();
+  }
+  return TableVersion(builds);
 }
 
 //------------------------------------------------------------------------------
 bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
 {
   view.Mesh = BoxOf(input.GetBoundaryTree(), view.Frame);
-  if (this->SightOf != this->GetShapeVersion() || !(this->Sight.GetView() == view))
+  const bool isStack = this->Used.size() > 1;
+  if (this->SightShapes != this->GetShapeVersion() || this->SightOf != this->Used ||
+    !(this->View == view))
   {
-    const CurvedMembraneSolver& surface = this->Surface.GetCurved();
-    this->Sight.Build(surface.GetMembrane(), surface.GetPatches(), view, ThreadedLoop);
-    this->Frames.Turn(this->GetLegs(), this->Sight.GetMeanDirection(), ThreadedLoop);
-    this->SightOf = this->GetShapeVersion();
+    this->View = view;
+    if (isStack)
+    {
+      this->Sight.Clear();
+      this->TraceStack(view);
+    }
+    else
+    {
+      this->Stack.Clear();
+      view.Exterior = this->Used.front().Exterior;
+      view.Interior = this->Used.front().Interior;
+      const CurvedMembraneSolver& surface =
+        this->Shapes[this->Used.front().Shape]->Scene.GetCurved();
+      this->Sight.Build(surface.GetMembrane(), surface.GetPatches(), view, ThreadedLoop);
+    }
+    this->SightOf = this->Used;
+    this->SightShapes = this->GetShapeVersion();
+    this->Frames.Turn(this->GetLegs(),
+      isStack ? this->Stack.GetMeanDirection() : this->Sight.GetMeanDirection(), ThreadedLoop);
     this->SightVersion.Bump();
   }
-  return this->Sight.IsSeen();
+  return isStack ? this->Stack.IsSeen() : this->Sight.IsSeen();
+}
+
+//------------------------------------------------------------------------------
+std::string RayCastMembrane::DescribeMismatch() const
+{
+  return !this->FitsFromExterior && this->GetCounts().Mismatched > 0 ? MismatchText : std::string();
+}
+
+//------------------------------------------------------------------------------
+void RayCastMembrane::TraceStack(const RefractedRayField::View& view)
+{
+  std::vector<StackedInterface> interfaces;
+  for (const UsedInterface& used : this->Used)
+  {
+    SurfaceShape& shape = *this->Shapes[used.Shape];
+    const CurvedMembraneSolver& surface = shape.Scene.GetCurved();
+    if (shape.TreeOf != shape.Scene.GetNumberOfPatchBuilds())
+    {
+      shape.Tree.Build(surface.GetMembrane(), surface.GetPatches(), ThreadedLoop);
+      shape.TreeOf = shape.Scene.GetNumberOfPatchBuilds();
+    }
+    interfaces.push_back(
+      { &surface.GetMembrane(), &surface.GetPatches(), &shape.Tree, used.Exterior, used.Interior });
+  }
+  this->Stack.Build(interfaces, view, ThreadedLoop);
+}
+
+//------------------------------------------------------------------------------
+RefractedRayStack::Counts RayCastMembrane::GetCounts() const
+{
+  if (this->Used.empty())
+  {
+    return {};
+  }
+  RefractedRayStack::Counts counts = this->Stack.GetCounts();
+  counts.Undecided += this->Sight.GetNumberOfUndecidedRays();
+  return counts;
 }
 
 //------------------------------------------------------------------------------
 std::vector<const RefractedRayTiles*> RayCastMembrane::ListRefracted() const
 {
-  return { &this->Sight.GetRays() };
+  if (this->SightOf.size() < 2)
+  {
+    return { &this->Sight.GetRays() };
+  }
+  std::vector<const RefractedRayTiles*> list;
+  for (const RefractedRayTiles& rays : this->Stack.GetRays())
+  {
+    list.push_back(&rays);
+  }
+  return list;
 }
 
 //------------------------------------------------------------------------------
 RayLegs RayCastMembrane::GetLegs() const
 {
-  const RefractedRayField::View& view = this->Sight.GetView();
-  return RayLegs(view.Frame, view.Width, view.Height, this->ListRefracted());
+  return RayLegs(this->View.Frame, this->View.Width, this->View.Height, this->ListRefracted());
 }
 
 //------------------------------------------------------------------------------

@@ -64,6 +64,11 @@ RayCastBackendChoice RayCastPipeline::ChooseBackend(
 std::string RayCastPipeline::Draw(RayCastFrame frame, RayCastBackend& backend)
 {
   frame.Refracting.Met = frame.Refracting.Wanted && this->Trace(frame);
+  const std::string mismatch = this->Membrane.DescribeMismatch();
+  if (!mismatch.empty())
+  {
+    return mismatch;
+  }
   if (!frame.Refracting.Met && frame.Refracting.Part == MembranePart::Behind)
   {
     this->ClearStatistics();
@@ -102,9 +107,13 @@ bool RayCastPipeline::Trace(const RayCastFrame& frame)
 {
   const RayCastRefraction& refracting = frame.Refracting;
   const int(&size)[2] = frame.Output.ImageSize;
-  return this->Membrane.Trace({ frame.Rays, size[0], size[1], refracting.Center,
-                                refracting.EyeDepth, refracting.Exterior, refracting.Interior, {} },
-    this->Input);
+  RefractedRayField::View view;
+  view.Frame = frame.Rays;
+  view.Width = size[0];
+  view.Height = size[1];
+  view.Center = refracting.Center;
+  view.EyeDepth = refracting.EyeDepth;
+  return this->Membrane.Trace(view, this->Input);
 }
 
 //------------------------------------------------------------------------------

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Mesh/BoundaryTree.h"
 
+#include "Common/MedianSplit.h"
+
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -15,9 +17,8 @@ struct BoundaryTree::Item
 {
   glm::vec3 Lower;
   glm::vec3 Upper;
-  std::int32_t Face;
-
-  glm::vec3 Twice() const { return this->Lower + this->Upper; }
+  /** Number of the face in the mesh's boundary. */
+  std::int32_t Index;
 };
 
 namespace
@@ -69,14 +70,10 @@ void BoundaryTree::BuildSubtree(
 {
   glm::vec3 lower(Infinity);
   glm::vec3 upper(-Infinity);
-  glm::vec3 lowerTwice(Infinity);
-  glm::vec3 upperTwice(-Infinity);
   for (std::size_t i = first; i < last; ++i)
   {
     lower = glm::min(lower, items[i].Lower);
     upper = glm::max(upper, items[i].Upper);
-    lowerTwice = glm::min(lowerTwice, items[i].Twice());
-    upperTwice = glm::max(upperTwice, items[i].Twice());
   }
   const std::size_t node = this->Nodes.size();
   const glm::vec3 center = 0.5f * (lower + upper);
@@ -90,22 +87,11 @@ void BoundaryTree::BuildSubtree(
   if (last - first == 1)
   {
     this->Nodes[node].Face = static_cast<std::int32_t>(this->Faces.size());
-    this->Faces.push_back(mesh.GetBoundary()[items[first].Face]);
+    this->Faces.push_back(mesh.GetBoundary()[items[first].Index]);
   }
   else
   {
-    const glm::vec3 extent = upperTwice - lowerTwice;
-    const int axis =
-      extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-    const std::size_t middle = first + (last - first) / 2;
-    // Ties are broken by index, so that the tree is the same on every machine.
-    std::nth_element(items.begin() + first, items.begin() + middle, items.begin() + last,
-      [axis](const Item& a, const Item& b)
-      {
-        const float da = a.Lower[axis] + a.Upper[axis];
-        const float db = b.Lower[axis] + b.Upper[axis];
-        return da != db ? da < db : a.Face < b.Face;
-      });
+    const std::size_t middle = SplitAtMedian(items, first, last);
     this->BuildSubtree(mesh, items, first, middle);
     this->BuildSubtree(mesh, items, middle, last);
   }

@@ -17,17 +17,17 @@ namespace
 {
 
 /** Loop bodies, for one lane each. */
+template <class RayType>
 struct PlaneKernel
 {
   FacetPlane Plane;
-  SightRays Rays;
+  RayType Rays;
   double NormalLength;
 
-  void operator()(PatchIntersectionBatch& lanes, int i) const
+  void operator()(typename RayType::Batch& lanes, int i) const
   {
-    const glm::dvec3 direction = this->Rays.DirectionOf(lanes.Column[i], lanes.Row[i]);
-    const glm::dvec3 toCorner =
-      this->Plane.Corner - this->Rays.StartOf(lanes.Column[i], lanes.Row[i]);
+    const glm::dvec3 direction = this->Rays.DirectionOf(lanes, i);
+    const glm::dvec3 toCorner = this->Plane.Corner - this->Rays.StartOf(lanes, i);
     const double along = glm::dot(this->Plane.Normal, direction);
     const double depth = glm::dot(this->Plane.Normal, toCorner) / along;
     const glm::dvec3 inPlane = depth * direction - toCorner;
@@ -41,16 +41,17 @@ struct PlaneKernel
   }
 };
 
+template <class RayType>
 struct PatchKernel
 {
   CurvedPatch Patch;
-  SightRays Rays;
+  RayType Rays;
   double Scale;
 
-  void operator()(PatchIntersectionBatch& lanes, int i) const
+  void operator()(typename RayType::Batch& lanes, int i) const
   {
-    const glm::dvec3 direction = this->Rays.DirectionOf(lanes.Column[i], lanes.Row[i]);
-    const glm::dvec3 start = this->Rays.StartOf(lanes.Column[i], lanes.Row[i]);
+    const glm::dvec3 direction = this->Rays.DirectionOf(lanes, i);
+    const glm::dvec3 start = this->Rays.StartOf(lanes, i);
     PatchJet jet;
     this->Patch.Evaluate(glm::dvec2(lanes.PatchX[i], lanes.PatchY[i]), jet);
     // Cramer's rule for by0 x + by1 y - direction l = rest.
@@ -73,14 +74,15 @@ struct PatchKernel
   }
 };
 
+template <class RayType>
 struct RefractKernel
 {
-  SightRays Rays;
+  RayType Rays;
   double Ratio;
 
-  void operator()(PatchIntersectionBatch& lanes, int i) const
+  void operator()(typename RayType::Batch& lanes, int i) const
   {
-    const glm::dvec3 direction = this->Rays.DirectionOf(lanes.Column[i], lanes.Row[i]);
+    const glm::dvec3 direction = this->Rays.DirectionOf(lanes, i);
     const double length = glm::length(direction);
     const glm::dvec3 sight = direction / length;
     const glm::dvec3 normal =
@@ -98,7 +100,7 @@ struct RefractKernel
     lanes.Normal[0][i] = step.x;
     lanes.Normal[1][i] = step.y;
     lanes.Normal[2][i] = step.z;
-    lanes.Refracted[i] = radicand < 0.0 ? 0.0 : 1.0;
+    lanes.Refracted[i] = radicand < 0.0 ? 0.0 : sign;
   }
 };
 
@@ -129,23 +131,58 @@ void PatchIntersectionBatch::Keep(int to, int from)
 }
 
 //------------------------------------------------------------------------------
+void FreeRayBatch::Add(std::int32_t index, const glm::dvec3& start, const glm::dvec3& direction)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Start[axis][this->Count] = start[axis];
+    this->Direction[axis][this->Count] = direction[axis];
+  }
+  this->PatchIntersectionBatch::Add(index, 0.0, 0.0);
+}
+
+//------------------------------------------------------------------------------
+void FreeRayBatch::Keep(int to, int from)
+{
+  this->PatchIntersectionBatch::Keep(to, from);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->Start[axis][to] = this->Start[axis][from];
+    this->Direction[axis][to] = this->Direction[axis][from];
+  }
+}
+
+//------------------------------------------------------------------------------
+template <class Rays>
 void MeetPlane(
-  const FacetPlane& plane, const SightRays& rays, InstructionSet set, PatchIntersectionBatch& lanes)
+  const FacetPlane& plane, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes)
 {
-  RunLanes(PlaneKernel{ plane, rays, glm::length(plane.Normal) }, set, lanes);
+  RunLanes(PlaneKernel<Rays>{ plane, rays, glm::length(plane.Normal) }, set, lanes);
 }
 
 //------------------------------------------------------------------------------
-void StepToPatch(const CurvedPatch& patch, const SightRays& rays, double scale, InstructionSet set,
-  PatchIntersectionBatch& lanes)
+template <class Rays>
+void StepToPatch(const CurvedPatch& patch, const Rays& rays, double scale, InstructionSet set,
+  typename Rays::Batch& lanes)
 {
-  RunLanes(PatchKernel{ patch, rays, scale }, set, lanes);
+  RunLanes(PatchKernel<Rays>{ patch, rays, scale }, set, lanes);
 }
 
 //------------------------------------------------------------------------------
-void Refract(const SightRays& rays, double ratio, InstructionSet set, PatchIntersectionBatch& lanes)
+template <class Rays>
+void Refract(const Rays& rays, double ratio, InstructionSet set, typename Rays::Batch& lanes)
 {
-  RunLanes(RefractKernel{ rays, ratio }, set, lanes);
+  RunLanes(RefractKernel<Rays>{ rays, ratio }, set, lanes);
 }
+
+template void MeetPlane(
+  const FacetPlane&, const SightRays&, InstructionSet, PatchIntersectionBatch&);
+template void MeetPlane(const FacetPlane&, const FreeRays&, InstructionSet, FreeRayBatch&);
+template void StepToPatch(
+  const CurvedPatch&, const SightRays&, double, InstructionSet, PatchIntersectionBatch&);
+template void StepToPatch(
+  const CurvedPatch&, const FreeRays&, double, InstructionSet, FreeRayBatch&);
+template void Refract(const SightRays&, double, InstructionSet, PatchIntersectionBatch&);
+template void Refract(const FreeRays&, double, InstructionSet, FreeRayBatch&);
 
 }

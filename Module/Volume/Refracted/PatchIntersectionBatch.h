@@ -18,9 +18,14 @@
 namespace meniscus
 {
 
+struct PatchIntersectionBatch;
+struct FreeRayBatch;
+
 /** Origins and directions (per unit of depth) of pixels' rays: constant, per column, per row. */
 struct SightRays
 {
+  using Batch = PatchIntersectionBatch;
+
   glm::dvec3 Start[3];
   glm::dvec3 Direction[3];
 
@@ -32,6 +37,34 @@ struct SightRays
   glm::dvec3 DirectionOf(double column, double row) const
   {
     return this->Direction[0] + column * this->Direction[1] + row * this->Direction[2];
+  }
+  /** Ray of a lane. */
+  template <class Lanes>
+  glm::dvec3 StartOf(const Lanes& lanes, int i) const
+  {
+    return this->StartOf(lanes.Column[i], lanes.Row[i]);
+  }
+  template <class Lanes>
+  glm::dvec3 DirectionOf(const Lanes& lanes, int i) const
+  {
+    return this->DirectionOf(lanes.Column[i], lanes.Row[i]);
+  }
+};
+
+/** Rays in any directions, which the lanes hold themselves. */
+struct FreeRays
+{
+  using Batch = FreeRayBatch;
+
+  template <class Lanes>
+  glm::dvec3 StartOf(const Lanes& lanes, int i) const
+  {
+    return { lanes.Start[0][i], lanes.Start[1][i], lanes.Start[2][i] };
+  }
+  template <class Lanes>
+  glm::dvec3 DirectionOf(const Lanes& lanes, int i) const
+  {
+    return { lanes.Direction[0][i], lanes.Direction[1][i], lanes.Direction[2][i] };
   }
 };
 
@@ -78,7 +111,7 @@ struct PatchIntersectionBatch
    * of depth.
    */
   double Normal[3][Size];
-  /** 0 if the ray is totally reflected, otherwise 1. */
+  /** 0 if the ray is totally reflected, otherwise 1 against the normal and -1 along it. */
   double Refracted[Size];
 
   void Add(std::int32_t index, double column, double row);
@@ -86,28 +119,41 @@ struct PatchIntersectionBatch
   void Keep(int to, int from);
 };
 
+/** Lanes of rays in any directions; a direction is per unit of depth. */
+struct FreeRayBatch : PatchIntersectionBatch
+{
+  double Start[3][Size];
+  double Direction[3][Size];
+
+  void Add(std::int32_t index, const glm::dvec3& start, const glm::dvec3& direction);
+  /** As for the base, with the ray. */
+  void Keep(int to, int from);
+};
+
 /**
- * Computes Depth, X, Y, Least and Slant.
+ * Computes Depth, X, Y, Least and Slant. Rays is SightRays or FreeRays.
  * @pre GetInstructionSets() has the set
  */
-void MeetPlane(const FacetPlane& plane, const SightRays& rays, InstructionSet set,
-  PatchIntersectionBatch& lanes);
+template <class Rays>
+void MeetPlane(
+  const FacetPlane& plane, const Rays& rays, InstructionSet set, typename Rays::Batch& lanes);
 
 /**
  * One step of Newton's method for PatchX, PatchY and Behind towards the intersection of the ray and
  * the patch; also computes Move and Normal.
  * @param scale a depth of about the size of the facet.
  */
-void StepToPatch(const CurvedPatch& patch, const SightRays& rays, double scale, InstructionSet set,
-  PatchIntersectionBatch& lanes);
+template <class Rays>
+void StepToPatch(const CurvedPatch& patch, const Rays& rays, double scale, InstructionSet set,
+  typename Rays::Batch& lanes);
 
 /**
  * Applies Snell's law with Normal, from either side. The step is the way along the refracted ray
- * per unit of depth along the sight ray (the inverse of the thesis's Eq. 2.4), in the rays' space.
+ * per unit of depth along the ray (the inverse of the thesis's Eq. 2.4), in the rays' space.
  * @param ratio n1 / n2, for rays against the normals.
  */
-void Refract(
-  const SightRays& rays, double ratio, InstructionSet set, PatchIntersectionBatch& lanes);
+template <class Rays>
+void Refract(const Rays& rays, double ratio, InstructionSet set, typename Rays::Batch& lanes);
 
 }
 

@@ -61,10 +61,8 @@ bool VisibilityBounds::MayBeSeen(const DirectionBox& sight, DirectionBox normal,
 }
 
 //------------------------------------------------------------------------------
-PatchIntersector::PatchIntersector(
-  const CurvedPatch& patch, const SightRays& rays, InstructionSet set)
+PatchIntersector::PatchIntersector(const CurvedPatch& patch, double rayLength, InstructionSet set)
   : Patch(patch)
-  , Rays(rays)
   , Set(set)
 {
   const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
@@ -76,7 +74,7 @@ PatchIntersector::PatchIntersector(
     glm::cross(normal, u) / squared };
   const double size =
     std::sqrt(std::max({ glm::dot(u, u), glm::dot(v, v), glm::dot(u - v, u - v) }));
-  this->Scale = size / glm::length(rays.Direction[0]);
+  this->Scale = size / rayLength;
   // Barycentric coordinates change by 1 over an altitude of the facet.
   const double steepest = std::max({ glm::length(this->Plane.ByX), glm::length(this->Plane.ByY),
     glm::length(this->Plane.ByX + this->Plane.ByY) });
@@ -191,21 +189,6 @@ bool PatchIntersector::MayMeetTwice(double slant) const
     this->IsSlantBest = true;
   }
   return !(slant <= this->LargestSlant);
-}
-
-//------------------------------------------------------------------------------
-/** Keeps only rays that may meet the patch, including those within the facet's plane (0 / 0). */
-void PatchIntersector::SiftNear(PatchIntersectionBatch& lanes) const
-{
-  const int count = lanes.Count;
-  lanes.Count = 0;
-  for (int i = 0; i < count; ++i)
-  {
-    if (!(lanes.Least[i] < -this->MarginOf(lanes.Slant[i])))
-    {
-      lanes.Keep(lanes.Count++, i);
-    }
-  }
 }
 
 //------------------------------------------------------------------------------

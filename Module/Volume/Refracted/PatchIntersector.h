@@ -66,8 +66,8 @@ struct MembraneHit
 class PatchIntersector
 {
 public:
-  /** The object that `rays` refers to must outlive this one. */
-  PatchIntersector(const CurvedPatch& patch, const SightRays& rays, InstructionSet set);
+  /** @param rayLength length of the direction of a typical ray. */
+  PatchIntersector(const CurvedPatch& patch, double rayLength, InstructionSet set);
 
   /** Intersections of the rays of a rectangle of pixels with the plane of the facet. */
   struct FlatHits
@@ -103,34 +103,37 @@ public:
 
   /**
    * Intersects rays with the patch; overwrites the lanes.
+   * @param rays SightRays or FreeRays.
    * @param matters false: these rays show no part of the mesh, so hits get no normal, and the depth
    *   of the facet's plane unless they are near its edges.
    * @param visit called with the index of each ray that meets the patch, and the hit.
    */
-  template <typename Visit>
-  void Meet(bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const;
+  template <class Rays, typename Visit>
+  void Meet(const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const;
   /** Rays that touch the patch, or run along it, within rounding; they pass it there. */
   std::int64_t GetNumberOfUndecidedRays() const { return this->UndecidedRays; }
 
 private:
   DirectionBox BoundNormalsOver(const glm::dvec2 (&b)[4], double margin) const;
-  void SiftNear(PatchIntersectionBatch& lanes) const;
+  template <class Lanes>
+  void SiftNear(Lanes& lanes) const;
   /**
    * Bound of the distance, in barycentric coordinates, between a ray's intersection with the plane
    * and its intersection with the patch. A point of the patch lies within the bulge of a point of
    * the facet; the ray through it meets the plane within bulge (1 + slant) of that.
    */
   double MarginOf(double slant) const { return this->Overhang * (1.0 + slant) + Border; }
-  template <typename Visit>
-  void MeetCurved(bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const;
+  template <class Rays, typename Visit>
+  void MeetCurved(
+    const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const;
   bool MayMeetTwice(double slant) const;
   /**
    * Finds all intersections of one ray with the patch: for rays that may meet it twice, and those
    * for which Newton's method fails.
    */
-  template <typename Visit>
-  void MeetExactly(
-    bool matters, const PatchIntersectionBatch& lanes, int lane, const Visit& visit) const;
+  template <class Rays, typename Visit>
+  void MeetExactly(const Rays& rays, bool matters, const typename Rays::Batch& lanes, int lane,
+    const Visit& visit) const;
 
   /** A ray through an edge meets both of its patches, within the accuracy of Newton's method. */
   static constexpr double Border = 1e-8;
@@ -146,7 +149,6 @@ private:
   static constexpr int Steps = 12;
 
   CurvedPatch Patch;
-  const SightRays& Rays;
   InstructionSet Set;
   FacetPlane Plane;
   double NormalLength;
@@ -165,10 +167,11 @@ private:
 };
 
 //------------------------------------------------------------------------------
-template <typename Visit>
-void PatchIntersector::Meet(bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const
+template <class Rays, typename Visit>
+void PatchIntersector::Meet(
+  const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
 {
-  meniscus::MeetPlane(this->Plane, this->Rays, this->Set, lanes);
+  meniscus::MeetPlane(this->Plane, rays, this->Set, lanes);
   this->SiftNear(lanes);
   const int count = lanes.Count;
   lanes.Count = 0;
@@ -183,13 +186,13 @@ void PatchIntersector::Meet(bool matters, PatchIntersectionBatch& lanes, const V
     visit(lanes.Index[i],
       MembraneHit{ lanes.Depth[i], matters ? this->Patch.GetNormal(b) : glm::dvec3(0.0) });
   }
-  this->MeetCurved(matters, lanes, visit);
+  this->MeetCurved(rays, matters, lanes, visit);
 }
 
 //------------------------------------------------------------------------------
-template <typename Visit>
+template <class Rays, typename Visit>
 void PatchIntersector::MeetCurved(
-  bool matters, PatchIntersectionBatch& lanes, const Visit& visit) const
+  const Rays& rays, bool matters, typename Rays::Batch& lanes, const Visit& visit) const
 {
   const int all = lanes.Count;
   lanes.Count = 0;
@@ -197,7 +200,7 @@ void PatchIntersector::MeetCurved(
   {
     if (!(lanes.Slant[i] <= this->LargestSlant) && this->MayMeetTwice(lanes.Slant[i]))
     {
-      this->MeetExactly(matters, lanes, i, visit);
+      this->MeetExactly(rays, matters, lanes, i, visit);
       continue;
     }
     lanes.PatchX[i] = lanes.X[i];
@@ -207,7 +210,7 @@ void PatchIntersector::MeetCurved(
   }
   for (int step = 0; step < Steps && lanes.Count > 0; ++step)
   {
-    StepToPatch(this->Patch, this->Rays, this->Scale, this->Set, lanes);
+    StepToPatch(this->Patch, rays, this->Scale, this->Set, lanes);
     const int count = lanes.Count;
     lanes.Count = 0;
     for (int i = 0; i < count; ++i)
@@ -231,25 +234,41 @@ void PatchIntersector::MeetCurved(
       }
       else
       {
-        this->MeetExactly(matters, lanes, i, visit);
+        this->MeetExactly(rays, matters, lanes, i, visit);
       }
     }
   }
   for (int i = 0; i < lanes.Count; ++i)
   {
-    this->MeetExactly(matters, lanes, i, visit);
+    this->MeetExactly(rays, matters, lanes, i, visit);
   }
   lanes.Count = 0;
 }
 
 //------------------------------------------------------------------------------
-/** A ray that touches the patch within rounding, undecided by PatchCrossings, counts as a miss. */
-template <typename Visit>
-void PatchIntersector::MeetExactly(
-  bool matters, const PatchIntersectionBatch& lanes, int lane, const Visit& visit) const
+/** Keeps only rays that may meet the patch, including those within the facet's plane (0 / 0). */
+template <class Lanes>
+void PatchIntersector::SiftNear(Lanes& lanes) const
 {
-  const glm::dvec3 start = this->Rays.StartOf(lanes.Column[lane], lanes.Row[lane]);
-  const glm::dvec3 direction = this->Rays.DirectionOf(lanes.Column[lane], lanes.Row[lane]);
+  const int count = lanes.Count;
+  lanes.Count = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    if (!(lanes.Least[i] < -this->MarginOf(lanes.Slant[i])))
+    {
+      lanes.Keep(lanes.Count++, i);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+/** A ray that touches the patch within rounding, undecided by PatchCrossings, counts as a miss. */
+template <class Rays, typename Visit>
+void PatchIntersector::MeetExactly(const Rays& rays, bool matters,
+  const typename Rays::Batch& lanes, int lane, const Visit& visit) const
+{
+  const glm::dvec3 start = rays.StartOf(lanes, lane);
+  const glm::dvec3 direction = rays.DirectionOf(lanes, lane);
   const double length = glm::length(direction);
   const HeightFrame frame(direction / length);
   PatchCrossings crossings(this->Patch, frame);

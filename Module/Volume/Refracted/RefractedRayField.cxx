@@ -357,7 +357,7 @@ std::int64_t RefractedRayField::TraceFacet(const CurvedPatch& patch, const SeenF
   const Box box{ std::max(rays.Left, seen.Pixels.Left),
     std::min(rays.Left + TileSize, seen.Pixels.Right), std::max(rays.Bottom, seen.Pixels.Bottom),
     std::min(rays.Bottom + TileSize, seen.Pixels.Top) };
-  const PatchIntersector tracer(patch, this->Rays, this->Set);
+  const PatchIntersector tracer(patch, glm::length(this->Rays.Direction[0]), this->Set);
   const bool isSmall = box.Right - box.Left <= BlockSize && box.Top - box.Bottom <= BlockSize;
   const int step = seen.Matters && !isSmall ? BlockSize : TileSize;
   for (int bottom = box.Bottom; bottom < box.Top; bottom += step)
@@ -385,7 +385,7 @@ void RefractedRayField::TraceBox(const PatchIntersector& tracer,
 {
   const auto meet = [&](PatchIntersectionBatch& lanes)
   {
-    tracer.Meet(matters, lanes,
+    tracer.Meet(this->Rays, matters, lanes,
       [&](std::int32_t index, const MembraneHit& hit)
       {
         hits.resize(RaysOfTile);

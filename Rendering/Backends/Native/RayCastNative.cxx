@@ -135,7 +135,7 @@ std::int64_t RayCastNative::SizeOf(RayCastTable table, const RayCastTables& tabl
     case RayCastTable::PreIntegration:
       return TableCounter::SizeOf(tables.PreIntegration.GetTable().GetValues());
     case RayCastTable::RefractedRays:
-      return tables.Membrane.GetSight().GetBytes();
+      return tables.Membrane.GetSightBytes();
     default:
       return 0;
   }

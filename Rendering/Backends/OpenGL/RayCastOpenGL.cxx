@@ -87,12 +87,23 @@ std::string RayCastOpenGL::DescribeExcess(const RayCastRequest& request)
 {
   const RayCastFrame& frame = request.Frame;
   const bool refracts = frame.Refracting.Wanted;
+  const int interfaces = request.Tables.Membrane.GetNumberOfInterfaces();
   const std::string error = OpenGLTables::DescribeExcess(request.Tables.Input.GetMesh(),
     frame.Optics.CompactCells, refracts ? 1 + RefractionFrames::Number : 1, frame.MaximumTableSize);
-  return error.empty() && refracts
-    ? OpenGLRefractedRays::DescribeExcess(frame.Output.ImageSize,
-        request.Tables.Membrane.GetLegs().GetNumberOfLegs(), frame.MaximumTableSize)
-    : error;
+  if (!error.empty() || !refracts)
+  {
+    return error;
+  }
+  GLint layers = 0;
+  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &layers);
+  if (std::int64_t{ interfaces } * TileLayers > layers)
+  {
+    return "the lists of entries behind " + std::to_string(interfaces) +
+      " refracting interfaces exceed the graphics device's limit of " + std::to_string(layers) +
+      " layers";
+  }
+  return OpenGLRefractedRays::DescribeExcess(
+    frame.Output.ImageSize, 1 + interfaces, frame.MaximumTableSize);
 }
 
 //------------------------------------------------------------------------------
@@ -102,7 +113,7 @@ std::string RayCastOpenGL::Update(const RayCastRequest& request)
   RayCastTables& tables = request.Tables;
   this->Frame = request.Frame;
   this->Frame.Optics.NumberOfLegs =
-    request.Frame.Refracting.Met ? tables.Membrane.GetLegs().GetNumberOfLegs() : 1;
+    request.Frame.Refracting.Met ? 1 + tables.Membrane.GetNumberOfInterfaces() : 1;
   this->Frame.Optics.WideCells = OpenGLTables::NeedsWideCells(
     tables.Input.GetMesh(), this->Frame.Optics.CompactCells, this->Frame.MaximumTableSize);
   const std::string error = this->Tables.Update(tables, this->Frame);

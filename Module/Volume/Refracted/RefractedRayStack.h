@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Refracted_RefractedRayStack_h
+#define meniscus_Volume_Refracted_RefractedRayStack_h
+
+#include "Common/RangeLoop.h"
+#include "Refraction/Membrane/CurvedPatches.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Simd/InstructionSets.h"
+#include "Volume/Refracted/PatchIntersector.h"
+#include "Volume/Refracted/PatchTree.h"
+#include "Volume/Refracted/RefractedRayField.h"
+#include "Volume/Refracted/RefractedRayTiles.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/** A refracting surface in a list of them. All objects must outlive the users of the list. */
+struct StackedInterface
+{
+  const Membrane* Surface = nullptr;
+  const CurvedPatches* Patches = nullptr;
+  const PatchTree* Tree = nullptr;
+  /**
+   * Indices of refraction on the side that the surface's normals point to, and on the other side;
+   * they differ.
+   */
+  double Exterior = 1.0;
+  double Interior = 1.0;
+};
+
+/**
+ * Rays of an image behind several refracting interfaces, in the order of a list. A ray meets the
+ * first interface where it first intersects that surface, from either side. It meets each further
+ * one at the first intersection behind the point where it was refracted last, at which it arrives
+ * in the medium of that side of the surface; intersections from the other side do not count. A
+ * closed surface that is listed twice is thus entered and left.
+ *
+ * A ray that is totally reflected at an interface ends there. A ray that misses an interface ends
+ * at the one before, where nothing is known about its further way; rays that miss the first
+ * interface are straight. A ray also ends at an interface behind which it does not reach the mesh.
+ *
+ * RefractedRayField does the same for one interface, faster: rays from one eye are sorted by the
+ * projections of the patches. Here rays have any directions, and blocks of them descend a tree of
+ * the patches.
+ */
+class RefractedRayStack
+{
+public:
+  using View = RefractedRayField::View;
+
+  /** Numbers of rays of an image. */
+  struct Counts
+  {
+    /** Rays that were refracted at an interface and miss the next one. */
+    std::int64_t Missing = 0;
+    /** Those of them that are in a medium which the next interface does not have. */
+    std::int64_t Mismatched = 0;
+    /** Rays that are totally reflected at the second interface or a later one. */
+    std::int64_t Reflected = 0;
+    /** As RefractedRayField::GetNumberOfUndecidedRays(). */
+    std::int64_t Undecided = 0;
+  };
+
+  /** Traces all rays. The indices of `view` are not used. */
+  void Build(const std::vector<StackedInterface>& interfaces, const View& view,
+    const RangeLoop& loop = SerialLoop);
+  /** Removes all rays. */
+  void Clear();
+
+  /** Rays behind each interface: legs 1 and following (RayLegs). */
+  const std::vector<RefractedRayTiles>& GetRays() const { return this->Rays; }
+  /** True if any ray meets the first interface. */
+  bool IsSeen() const { return !this->Rays.empty() && this->Rays.front().HasRays(); }
+  /** Mean direction of all legs in the frame of the view; a unit vector, or 0 without any. */
+  const glm::dvec3& GetMeanDirection() const { return this->MeanDirection; }
+  const Counts& GetCounts() const { return this->Sums; }
+  std::int64_t GetBytes() const;
+
+private:
+  struct Block;
+  /** Contributions of a tile to the results. */
+  struct TileSum
+  {
+    glm::dvec3 Directions{ 0.0 };
+    Counts Rays;
+  };
+
+  TileSum TraceTile(int tile);
+  void StartBlock(int left, int bottom, Block& block) const;
+  void MeetInterface(std::size_t number, Block& block, Counts& sums) const;
+  void RefractBlock(std::size_t number, Block& block, Counts& sums) const;
+  void EndRaysBesideMesh(Block& block) const;
+  void StoreBlock(
+    const Block& block, std::vector<std::vector<RefractedRay>>& rays, glm::dvec3& directions) const;
+  bool MeetsMesh(const glm::dvec3& place, const glm::dvec3& step, double end) const;
+
+  std::vector<StackedInterface> Interfaces;
+  View Of;
+  int Columns = 0;
+  InstructionSet Set = BestInstructionSet();
+  glm::dmat3 WorldToFrame{ 1.0 };
+  /** Bounds of the mesh along the world's axes, relative to the view's origin. */
+  glm::dvec3 MeshCenter{ 0.0 };
+  glm::dvec3 MeshHalf{ 0.0 };
+  std::vector<RefractedRayTiles> Rays;
+  glm::dvec3 MeanDirection{ 0.0 };
+  Counts Sums;
+};
+
+}
+
+#endif

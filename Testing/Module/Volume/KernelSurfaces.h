@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Testing_Module_Volume_KernelSurfaces_h
+#define meniscus_Testing_Module_Volume_KernelSurfaces_h
+
+#include "Refraction/Membrane/CurvedPatches.h"
+#include "Refraction/Membrane/Membrane.h"
+#include "Volume/Refracted/RefractedRayField.h"
+
+#include <glm/vec3.hpp>
+
+#include <functional>
+
+namespace meniscus
+{
+namespace test
+{
+
+/** The sheet z = height(x, y) over [-1, 1] squared. */
+struct Sheet
+{
+  Membrane Surface;
+  CurvedPatches Patches;
+
+  Sheet(const std::function<double(double, double)>& height, int cells);
+};
+
+/** A closed unit sphere with its own normals; patches reproduce it. Returns false if it fails. */
+bool BuildSphere(int resolution, Membrane& surface, CurvedPatches& patches);
+
+/** A box along the world's axes. */
+struct WorldBox
+{
+  glm::dvec3 Center;
+  glm::dvec3 Half;
+
+  /** True if the box contains a point start + t along, 0 <= t <= end. */
+  bool Meets(const glm::dvec3& start, const glm::dvec3& along, double end) const;
+};
+
+/** A view of size x size pixels from an eye, or along parallel rays. */
+RefractedRayField::View LookAt(
+  const glm::dvec3& eye, const glm::dvec3& target, double width, bool parallel, int size);
+
+/** Sets the bounds of the mesh. */
+void SetMesh(RefractedRayField::View& view, const WorldBox& box);
+
+}
+}
+
+#endif
