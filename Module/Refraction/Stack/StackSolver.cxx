@@ -56,7 +56,7 @@ bool StackSolver::IsInReach(const glm::dvec3& local) const
 
 //------------------------------------------------------------------------------
 void StackSolver::Solve(const double* points, std::size_t begin, std::size_t end,
-  StackVertex* vertices, double* legs) const
+  VirtualVertex* vertices, StackDetail* details, double* legs) const
 {
   Memory memory;
   StackPath path;
@@ -68,14 +68,12 @@ void StackSolver::Solve(const double* points, std::size_t begin, std::size_t end
       memory = Memory();
     }
     const glm::dvec3 point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
-    vertices[i] = this->SolvePoint(point, memory, path);
-    if (!legs)
-    {
-      continue;
-    }
+    const StackVertex vertex = this->SolvePoint(point, memory, path);
+    vertices[i] = vertex;
+    details[i] = vertex;
     double* own = legs + components * i;
     std::fill(own, own + components, 0.0);
-    const auto passed = static_cast<std::size_t>(vertices[i].Passed);
+    const auto passed = static_cast<std::size_t>(vertex.Passed);
     // Interfaces behind the eye come first in the list.
     double* leg = own + (components - this->Stack.GetLinks().size());
     for (std::size_t k = 0; k < passed; ++k)

@@ -37,12 +37,19 @@
 namespace meniscus
 {
 
-/** Image of a point through a stack; SightPoint and Facet are those on the first interface. */
-struct StackVertex : VirtualVertex
+/** Properties of an image that only several interfaces have. */
+struct StackDetail
 {
   glm::dvec3 LastSightPoint{ 0.0 }; ///< on the last interface in front of the point
   double Transmittance = 1.0;       ///< product of 1 - Fresnel reflectance over the interfaces
   std::int32_t Passed = 0;          ///< number of interfaces in front of the point
+};
+
+/** Image of a point through a stack; SightPoint and Facet are those on the first interface. */
+struct StackVertex
+  : VirtualVertex
+  , StackDetail
+{
 };
 
 class StackSolver
@@ -61,12 +68,13 @@ public:
 
   /**
    * Finds one image of each of `points` (x, y, z each) in [begin, end), and writes it to the same
-   * places of `vertices`. `legs` gets the lengths of the legs behind each interface of the list
-   * that refracts, GetStack().GetNumberOfInterfaces() per point, 0 for those not passed; null if
-   * not wanted. Of several images the result is the one that continues that of the point before.
+   * places of `vertices` and `details`. `legs` gets the lengths of the legs behind each interface
+   * of the list that refracts, GetStack().GetNumberOfInterfaces() per point, 0 for those not
+   * passed. If there are several images the result is the one that continues that of the point
+   * before.
    */
-  void Solve(const double* points, std::size_t begin, std::size_t end, StackVertex* vertices,
-    double* legs) const;
+  void Solve(const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices,
+    StackDetail* details, double* legs) const;
 
   /** State of a chain of points: the path of the last answer. */
   struct Memory

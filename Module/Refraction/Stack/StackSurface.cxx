@@ -127,7 +127,7 @@ bool StackSurface::FindCrossing(const glm::dvec3& origin, const glm::dvec3& dire
         const double distance = crossing.Height - start;
         if (distance >= least && distance <= most && (side == 0 || crossing.Side == side))
         {
-          // Of two crossings at one distance, on a common edge, the smaller facet counts.
+          // If two are at one distance, on a common edge, the smaller facet counts.
           if (nearest.Facet == CurvedPatches::NoFacet || distance < nearest.Distance ||
             facet < nearest.Facet)
           {

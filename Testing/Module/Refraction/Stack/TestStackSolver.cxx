@@ -459,15 +459,18 @@ TEST(RefractionStack, RangesDoNotChangeResults)
     const double t = static_cast<double>(i) / count;
     points.insert(points.end(), { 30.0 * std::sin(7.0 * t), -60.0 - 20.0 * t, 30.0 * t - 15.0 });
   }
-  std::vector<StackVertex> whole(count);
+  std::vector<meniscus::VirtualVertex> whole(count);
+  std::vector<meniscus::StackDetail> details(count);
   std::vector<double> legs(2 * count);
-  solver.Solve(points.data(), 0, count, whole.data(), legs.data());
-  std::vector<StackVertex> parts(count);
+  solver.Solve(points.data(), 0, count, whole.data(), details.data(), legs.data());
+  const std::vector<double> wholeLegs = legs;
+  std::vector<meniscus::VirtualVertex> parts(count);
   for (const std::size_t k : { 3u, 0u, 4u, 1u, 2u })
   {
-    solver.Solve(
-      points.data(), k * StackSolver::Chain, (k + 1) * StackSolver::Chain, parts.data(), nullptr);
+    solver.Solve(points.data(), k * StackSolver::Chain, (k + 1) * StackSolver::Chain, parts.data(),
+      details.data(), legs.data());
   }
+  EXPECT_EQ(legs, wholeLegs);
   for (std::size_t i = 0; i < count; ++i)
   {
     EXPECT_EQ(whole[i].State, ImageState::Found);
