@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkRefractedGeometryFilter.h"
+#include "Filters/vtkRefractedGeometryFilterInternals.h"
 
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceProperties.h"
-#include "Filters/Membrane/RefractionScene.h"
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/VirtualPolyData.h"
-#include "Filters/Solver/SolvedBlock.h"
 
 #include "vtkCamera.h"
 #include "vtkDataObject.h"
@@ -23,7 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <list>
 #include <vector>
 
 namespace
@@ -41,42 +38,6 @@ static_assert(
   "Ranges are made of whole chains and chunks");
 
 }
-
-//------------------------------------------------------------------------------
-class vtkRefractedGeometryFilter::vtkInternals
-{
-public:
-  meniscus::SolvedBlock& GetBlock(vtkPolyData* input);
-  void UpdateView(vtkRefractedGeometryFilter* self);
-  void Select(vtkPolyData* input, meniscus::SolvedBlock& block);
-  bool Solve(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
-  bool SolveAll(vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block);
-  bool SolveAllPoints(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady);
-  bool Run(vtkRefractedGeometryFilter* self, double from, double to, vtkIdType count,
-    vtkIdType grain, const meniscus::RangeBody& body);
-  void Count(meniscus::ImageState state);
-  meniscus::OutputOptions GetOptions(vtkRefractedGeometryFilter* self) const;
-
-  meniscus::RefractionScene Scene;
-  std::list<meniscus::SolvedBlock> Blocks;
-
-  vtkTypeInt64 SolvedVertices = 0;
-  vtkTypeInt64 FailedSolves = 0;
-  vtkTypeInt64 VerticesWithoutImage = 0;
-  vtkTypeInt64 SkippedCells = 0;
-  vtkTypeInt64 CulledVertices = 0;
-  vtkTypeInt64 CulledCells = 0;
-  bool IsViewActive = false; ///< at least one facet is out of view
-  vtkMTimeType ViewTime = 0;
-  vtkTypeInt64 ViewEye = -1;
-  vtkTypeInt64 FailedInRun = 0;
-  // Numbers of the membrane's builds at the last warning of each kind.
-  vtkTypeInt64 WarnedOfNoImage = -1;
-  vtkTypeInt64 WarnedOfUndecided = -1;
-  bool WarnedOfModes = false;
-  bool WarnedOfNoNormals = false;
-  bool WarnedOfParallelProjection = false;
-};
 
 //------------------------------------------------------------------------------
 // The cache of a block lives as long as its data object, so that composite data with any number of
@@ -395,13 +356,15 @@ vtkMTimeType vtkRefractedGeometryFilter::GetMTime()
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfPatchBuilds() const
 {
-  return this->Internals->Scene.GetNumberOfPatchBuilds();
+  const vtkInternals& internals = *this->Internals;
+  return internals.Scene.GetNumberOfPatchBuilds() + internals.Stack.GetNumberOfPatchBuilds();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfEyeUpdates() const
 {
-  return this->Internals->Scene.GetNumberOfEyeUpdates();
+  const vtkInternals& internals = *this->Internals;
+  return internals.Scene.GetNumberOfEyeUpdates() + internals.Stack.GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -432,7 +395,8 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfFailedSolves() const
 vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfUndecidedSearches() const
 {
   const meniscus::CurvedMembraneSolver& curved = this->Internals->Scene.GetCurved();
-  return curved.GetNumberOfUndecidedSearches() + curved.GetNumberOfUndecidedSides();
+  return curved.GetNumberOfUndecidedSearches() + curved.GetNumberOfUndecidedSides() +
+    this->Internals->Stack.GetSolver().GetNumberOfUndecidedSearches();
 }
 
 //------------------------------------------------------------------------------
@@ -466,14 +430,18 @@ vtkTypeInt64 vtkRefractedGeometryFilter::GetNumberOfSkippedFacets() const
 }
 
 //------------------------------------------------------------------------------
-int vtkRefractedGeometryFilter::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+int vtkRefractedGeometryFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
   return 1;
 }
 
 //------------------------------------------------------------------------------
-// The geometry is requested in pieces as the output is, the membrane always whole.
+// The geometry is requested in pieces as the output is, the membranes always whole.
 int vtkRefractedGeometryFilter::RequestUpdateExtent(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -486,8 +454,9 @@ int vtkRefractedGeometryFilter::RequestUpdateExtent(
     geometry->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
     geometry->Set(Pipeline::EXACT_EXTENT(), 1);
   }
-  if (vtkInformation* membrane = inputs[1]->GetInformationObject(0))
+  for (int i = 0; i < inputs[1]->GetNumberOfInformationObjects(); ++i)
   {
+    vtkInformation* membrane = inputs[1]->GetInformationObject(i);
     membrane->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
     membrane->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
@@ -510,6 +479,10 @@ int vtkRefractedGeometryFilter::RequestData(
     vtkErrorMacro("Geometry or membrane is missing or is not a vtkPolyData; the output is empty.");
     return 0;
   }
+  if (this->HasStack(inputs[1]))
+  {
+    return this->RequestStack(input, inputs[1], output);
+  }
   this->WarnOfModes();
   if (!this->UpdateMembrane(membrane))
   {
@@ -523,6 +496,7 @@ int vtkRefractedGeometryFilter::RequestData(
   const vtkTypeInt64 undecided = this->GetNumberOfUndecidedSearches();
   this->Internals->UpdateView(this);
   meniscus::SolvedBlock& block = this->Internals->GetBlock(input);
+  block.StackUpdate = -1; // the vertices become those of one interface
   this->Internals->Select(input, block);
   const bool all = this->Images == ALL_IMAGES && this->MembraneModel == CURVED;
   if (!(all ? this->Internals->SolveAll(this, input, block) : this->Internals->Solve(this, block)))
@@ -544,18 +518,7 @@ int vtkRefractedGeometryFilter::RequestData(
   // With a view, the solved part does not tell whether the rest has images.
   this->ReportPoints(this->Internals->FailedInRun,
     block.Selection.IsActive || output->GetNumberOfPoints() > 0, input);
-  this->Internals->SkippedCells += report.SkippedCells + report.BrokenCells;
-  if (report.BrokenCells > 0)
-  {
-    vtkErrorMacro(<< report.BrokenCells << " of " << input->GetNumberOfCells()
-                  << " cells refer to points that do not exist; they are left out.");
-  }
-  if (report.ArraysOfWrongSize > 0)
-  {
-    vtkWarningMacro(
-      << report.ArraysOfWrongSize
-      << " point or cell arrays do not have one tuple per point or cell; they are left out.");
-  }
+  this->ReportCells(report, input);
   return 1;
 }
 
@@ -584,10 +547,9 @@ void vtkRefractedGeometryFilter::ReportPoints(
     vtkWarningMacro(<< failed << " of " << points
                     << " points are not finite, or too far away to be solved; they have no image.");
   }
-  if (points > failed && !hasImage &&
-    internals.WarnedOfNoImage != internals.Scene.GetNumberOfPatchBuilds())
+  if (points > failed && !hasImage && internals.WarnedOfNoImage != this->GetNumberOfPatchBuilds())
   {
-    internals.WarnedOfNoImage = internals.Scene.GetNumberOfPatchBuilds();
+    internals.WarnedOfNoImage = this->GetNumberOfPatchBuilds();
     vtkWarningMacro("None of the "
       << points << " points has an image. Is the eye on the side that the membrane's normals point "
       << "to, and are geometry (port 0) and membrane (port 1) at the right ports?");
@@ -601,12 +563,30 @@ void vtkRefractedGeometryFilter::ReportPoints(
 }
 
 //------------------------------------------------------------------------------
+void vtkRefractedGeometryFilter::ReportCells(
+  const meniscus::VirtualPolyDataReport& report, vtkPolyData* input)
+{
+  this->Internals->SkippedCells += report.SkippedCells + report.BrokenCells;
+  if (report.BrokenCells > 0)
+  {
+    vtkErrorMacro(<< report.BrokenCells << " of " << input->GetNumberOfCells()
+                  << " cells refer to points that do not exist; they are left out.");
+  }
+  if (report.ArraysOfWrongSize > 0)
+  {
+    vtkWarningMacro(
+      << report.ArraysOfWrongSize
+      << " point or cell arrays do not have one tuple per point or cell; they are left out.");
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkRefractedGeometryFilter::ReportUndecided(vtkTypeInt64 searches)
 {
   vtkTypeInt64& warned = this->Internals->WarnedOfUndecided;
-  if (searches > 0 && warned != this->Internals->Scene.GetNumberOfPatchBuilds())
+  if (searches > 0 && warned != this->GetNumberOfPatchBuilds())
   {
-    warned = this->Internals->Scene.GetNumberOfPatchBuilds();
+    warned = this->GetNumberOfPatchBuilds();
     vtkWarningMacro(<< searches << " searches for images, or for the side of a point, ended "
                     << "undecided: at a focus, or within rounding of the membrane. Images may be "
                     << "missing there.");
@@ -635,11 +615,6 @@ void vtkRefractedGeometryFilter::WarnOfModes()
 //------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
 {
-  if (const char* fault = meniscus::FindFault(this->Interfaces))
-  {
-    vtkErrorMacro(<< fault << "; the output is empty.");
-    return false;
-  }
   meniscus::SceneMessages messages;
   const bool ready = this->Internals->Scene.SetMembrane(
     membrane, this->MembraneModel == CURVED, messages, this->GetExactMembrane());
@@ -655,14 +630,20 @@ bool vtkRefractedGeometryFilter::UpdateMembrane(vtkPolyData* membrane)
 }
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::UpdateEye()
+void vtkRefractedGeometryFilter::GetEye(double position[3])
 {
-  double position[3];
   std::copy(this->EyePosition, this->EyePosition + 3, position);
   if (this->Camera)
   {
     this->Camera->GetPosition(position);
   }
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::UpdateEye()
+{
+  double position[3];
+  this->GetEye(position);
   meniscus::SceneMessages messages;
   const bool ready = this->Internals->Scene.SetEye(
     { position[0], position[1], position[2], this->GetExteriorIndexOfRefraction(),

@@ -104,6 +104,11 @@ class vtkRefractingInterfaceCollection;
 class vtkCamera;
 class vtkImplicitFunction;
 
+namespace meniscus
+{
+struct VirtualPolyDataReport;
+}
+
 class VTKMENISCUS_EXPORT vtkRefractedGeometryFilter : public vtkPolyDataAlgorithm
 {
 public:
@@ -394,6 +399,12 @@ private:
   bool HasValidLight();
   bool UpdateMembrane(vtkPolyData* membrane);
   bool UpdateEye();
+  void GetEye(double position[3]);
+  void ReportCells(const meniscus::VirtualPolyDataReport& report, vtkPolyData* input);
+  bool HasStack(vtkInformationVector* membranes);
+  const char* FindUnsupported();
+  bool UpdateStack(vtkInformationVector* membranes);
+  int RequestStack(vtkPolyData* input, vtkInformationVector* membranes, vtkPolyData* output);
 
   double EyePosition[3] = { 0.0, 0.0, 1.0 };
   bool ViewCulling = true;

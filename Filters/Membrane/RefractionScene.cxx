@@ -5,8 +5,6 @@
 #include "Filters/Common/ThreadedLoop.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
-#include "vtkCellArray.h"
-#include "vtkDataArray.h"
 #include "vtkImplicitFunction.h"
 #include "vtkPolyData.h"
 
@@ -19,46 +17,12 @@
 
 namespace meniscus
 {
-namespace
-{
-
-const char* NameFault(MembraneStatus status)
-{
-  switch (status)
-  {
-    case MembraneStatus::TooLarge:
-      return "The membrane has more points or triangles than 32-bit indices can address";
-    case MembraneStatus::OneSided:
-      return "The membrane is one-sided, like a Moebius band, so it has no side for the eye";
-    case MembraneStatus::Empty:
-    case MembraneStatus::Ready:
-      break;
-  }
-  return "The membrane has no usable triangle";
-}
-
-/**
- * Latest modification time of a membrane and of the objects that hold its values. The time of a
- * vtkPolyData itself does not cover the arrays of its cells.
- */
-vtkMTimeType TimeOf(vtkPolyData* membrane)
-{
-  vtkMTimeType time = membrane->GetMTime();
-  for (vtkCellArray* cells : { membrane->GetPolys(), membrane->GetStrips() })
-  {
-    time = std::max(
-      { time, cells->GetConnectivityArray()->GetMTime(), cells->GetOffsetsArray()->GetMTime() });
-  }
-  return time;
-}
-
-}
 
 //------------------------------------------------------------------------------
 bool RefractionScene::SetMembrane(
   vtkPolyData* membrane, bool curved, SceneMessages& messages, vtkImplicitFunction* function)
 {
-  const vtkMTimeType membraneTime = TimeOf(membrane);
+  const vtkMTimeType membraneTime = GetMembraneTime(membrane);
   const vtkMTimeType functionTime = function ? function->GetMTime() : 0;
   const bool known = this->MembraneReady && this->Curves == curved;
   if (known && this->MembraneSource == membrane && this->MembraneTime == membraneTime &&
@@ -80,7 +44,7 @@ bool RefractionScene::SetMembrane(
   const MembraneStatus status = this->BuildMembrane(curved);
   this->MembraneReady = status == MembraneStatus::Ready;
   ++this->PatchBuilds;
-  return this->ReportMembrane(status, lost, messages);
+  return ReportMembrane(status, this->GetMembrane().GetReport(), this->Arrays, lost, messages);
 }
 
 //------------------------------------------------------------------------------
@@ -97,66 +61,6 @@ MembraneStatus RefractionScene::BuildMembrane(bool curved)
 }
 
 //------------------------------------------------------------------------------
-bool RefractionScene::ReportMembrane(
-  MembraneStatus status, std::size_t lost, SceneMessages& messages) const
-{
-  const MembraneReport& report = this->GetMembrane().GetReport();
-  const std::size_t triangles = this->Arrays.Triangles.size() / 3;
-  const std::size_t points = this->Arrays.Points.size() / 3;
-  std::ostringstream text;
-  if (status != MembraneStatus::Ready)
-  {
-    text << NameFault(status) << " (" << report.Skipped() << " of " << triangles
-         << " triangles skipped)";
-    messages.Error = text.str();
-    return false;
-  }
-  if (report.Skipped() > 0)
-  {
-    text << report.Skipped() << " of " << triangles
-         << " membrane triangles skipped: " << report.ZeroArea << " without area, "
-         << report.NotFinite << " with coordinates that are not finite, " << report.OutOfRange
-         << " with points that do not exist, " << report.Duplicated << " repeated. ";
-  }
-  if (lost > 0)
-  {
-    text << lost << " of " << points
-         << " membrane points cannot be moved onto the exact membrane's zero set; they keep their "
-            "positions. ";
-  }
-  if (this->Arrays.NormalsRejected)
-  {
-    text << "The membrane's normals do not have 3 components for each of its " << points
-         << " points; normals are computed. ";
-  }
-  else if (report.ComputedNormals > lost && !this->Arrays.Normals.empty())
-  {
-    text << report.ComputedNormals << " of " << points
-         << " membrane normals are zero or not finite; these are computed. ";
-  }
-  if (report.TurnedFacets > 0)
-  {
-    text << report.TurnedFacets << " of " << triangles
-         << " membrane triangles have another winding than their neighbours; it is reversed. ";
-  }
-  if (report.TurnedNormals > 0)
-  {
-    text << report.TurnedNormals << " of " << points
-         << " membrane normals point to another side than their neighbours; they are reversed. ";
-  }
-  if (report.Normals.AreMost())
-  {
-    text
-      << report.Normals.Foreign << " of " << report.Normals.Examined
-      << " membrane normals do not fit the triangles around them, as if points had been moved and "
-         "normals had not; they are used nevertheless. To refract by the triangles themselves, "
-         "remove the normals or compute them by vtkPolyDataNormals. ";
-  }
-  messages.Warning = text.str();
-  return true;
-}
-
-//------------------------------------------------------------------------------
 bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
 {
   if (eye == this->Key.Values && this->PatchBuilds == this->Key.MembraneBuild)
@@ -167,26 +71,15 @@ bool RefractionScene::SetEye(const Eye& eye, SceneMessages& messages)
   const glm::dvec3 position(eye[0], eye[1], eye[2]);
   const EyeStatus status = this->Curves ? this->Curved.SetEye(position, eye[3], eye[4], FacetLoop)
                                         : this->Flat.SetEye(position, eye[3], eye[4], FacetLoop);
-  std::ostringstream text;
-  switch (status)
+  if (status == EyeStatus::Ready)
   {
-    case EyeStatus::Ready:
-      this->Key = { eye, this->PatchBuilds };
-      ++this->EyeUpdates;
-      this->ReportEye(messages);
-      return true;
-    case EyeStatus::BadIndex:
-      text << "Indices of refraction must be positive and finite, not " << eye[3] << " and "
-           << eye[4];
-      break;
-    case EyeStatus::NotFinite:
-      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2] << ") is not finite";
-      break;
-    case EyeStatus::OnTheMembrane:
-      text << "The eye (" << eye[0] << ", " << eye[1] << ", " << eye[2] << ") lies on the membrane";
-      break;
+    this->Key = { eye, this->PatchBuilds };
+    ++this->EyeUpdates;
+    this->ReportEye(messages);
+    return true;
   }
-  messages.Error = text.str();
+  messages.Error = status == EyeStatus::BadIndex ? DescribeBadIndices(eye[3], eye[4])
+                                                 : DescribeBadEye(status, position);
   return false;
 }
 

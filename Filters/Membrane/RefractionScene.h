@@ -3,7 +3,7 @@
 #ifndef meniscus_Filters_Membrane_RefractionScene_h
 #define meniscus_Filters_Membrane_RefractionScene_h
 
-#include "Filters/Membrane/MembraneExtraction.h"
+#include "Filters/Membrane/MembraneMessages.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Flat/FlatMembraneSolver.h"
 
@@ -12,7 +12,6 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 class vtkImplicitFunction;
@@ -20,13 +19,6 @@ class vtkPolyData;
 
 namespace meniscus
 {
-
-/** Messages for the owner of a scene to report; empty if there are none. */
-struct SceneMessages
-{
-  std::string Error;
-  std::string Warning;
-};
 
 /** The half space normal.p + offset >= 0, in world coordinates; the normal is a unit vector. */
 struct ViewPlane
@@ -104,7 +96,6 @@ private:
 
   MembraneStatus BuildMembrane(bool curved);
   void ReportEye(SceneMessages& messages);
-  bool ReportMembrane(MembraneStatus status, std::size_t lost, SceneMessages& messages) const;
 
   FlatMembraneSolver Flat;
   CurvedMembraneSolver Curved;

@@ -23,16 +23,6 @@ namespace meniscus
 namespace
 {
 
-template <typename Array>
-vtkSmartPointer<Array> MakeArray(const char* name, int components, std::size_t tuples)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
-  return array;
-}
-
 int GetPointType(vtkPolyData* input, int precision)
 {
   if (precision == vtkAlgorithm::DEFAULT_PRECISION)

@@ -6,8 +6,10 @@
 
 #include "Refraction/Flat/FlatMembraneSolver.h"
 
+#include "vtkSmartPointer.h"
 #include "vtkType.h"
 
+#include <cstddef>
 #include <vector>
 
 class vtkDataSetAttributes;
@@ -15,6 +17,17 @@ class vtkPolyData;
 
 namespace meniscus
 {
+
+/** Array with a name and a size; its values are not set. */
+template <typename Array>
+vtkSmartPointer<Array> MakeArray(const char* name, int components, std::size_t tuples)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples));
+  return array;
+}
 
 /** The user's options for the output, and the scene that it refers to. */
 struct OutputOptions

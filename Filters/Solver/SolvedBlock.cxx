@@ -42,8 +42,19 @@ void SolvedBlock::UpdatePoints()
   {
     this->Points = std::move(values);
     this->EyeUpdate = -1;
+    this->StackUpdate = -1;
   }
   this->SourceTime = this->Source->GetMTime();
+}
+
+//------------------------------------------------------------------------------
+void SolvedBlock::ForgetImages()
+{
+  this->EyeUpdate = -1;
+  this->StackUpdate = -1;
+  this->All = false;
+  this->Images.reset();
+  this->Selection = ViewSelection();
 }
 
 //------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/ImagePolyData.h"
+#include "Filters/Output/StackArrays.h"
 #include "Refraction/Images/ObjectImages.h"
 
 #include "vtkPolyData.h"
@@ -25,6 +26,9 @@ struct SolvedBlock
   void UpdatePoints();
   /** Reads the cells again if the source has been modified. */
   void UpdateTopology();
+
+  /** Discards images of all kinds. */
+  void ForgetImages();
 
   vtkWeakPointer<vtkPolyData> Source;
   vtkMTimeType SourceTime = 0;
@@ -49,6 +53,10 @@ struct SolvedBlock
   ObjectTopology Selected; ///< the cells in view
   std::unique_ptr<ObjectImages> Images;
   AllImages Cells;
+
+  /** Used with several interfaces only; `Vertices` has the images. */
+  vtkTypeInt64 StackUpdate = -1; ///< number of the eye update for which the points are solved
+  StackDetails Stack;
 };
 
 }

@@ -234,9 +234,18 @@ bool MeetPatchAgain(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2
 bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
   double& l, glm::dvec3& normal)
 {
+  PatchJet jet;
+  const bool isMet = MeetPatch(patch, line, lastStep, b, l, jet);
+  normal = isMet ? jet.Normal : normal;
+  return isMet;
+}
+
+//------------------------------------------------------------------------------
+bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
+  double& l, PatchJet& jet)
+{
   glm::dvec2 atB = b;
   double atL = l;
-  PatchJet jet;
   for (int i = 0; i < Steps; ++i)
   {
     patch.Evaluate(atB, jet);
@@ -258,8 +267,9 @@ bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep
     {
       b = atB;
       l = atL;
-      // The step is so short that the normal is linear within rounding.
-      normal = jet.Normal + moveB.x * jet.NormalBy[0] + moveB.y * jet.NormalBy[1];
+      // The step is so short that the patch is linear within rounding.
+      jet.Position += moveB.x * jet.PositionBy[0] + moveB.y * jet.PositionBy[1];
+      jet.Normal = jet.Normal + moveB.x * jet.NormalBy[0] + moveB.y * jet.NormalBy[1];
       return true;
     }
   }

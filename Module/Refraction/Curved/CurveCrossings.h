@@ -121,6 +121,12 @@ bool MeetPatchAgain(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2
  */
 bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
   double& l, glm::dvec3& normal);
+/**
+ * As the one above, and returns the patch at the intersection with derivatives. These are taken one
+ * step before the last, so their error is of the order of `lastStep`.
+ */
+bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, double lastStep, glm::dvec2& b,
+  double& l, PatchJet& jet);
 
 }
 

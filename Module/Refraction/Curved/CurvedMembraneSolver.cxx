@@ -42,28 +42,6 @@ constexpr double SamePlace = 1e-6;
 
 constexpr std::int32_t AllFacets = std::numeric_limits<std::int32_t>::max();
 
-double GetSize(const CurvedPatch& patch)
-{
-  const auto squared = [&patch](int i, int j)
-  {
-    const glm::dvec3 edge = patch.Corner[j] - patch.Corner[i];
-    return glm::dot(edge, edge);
-  };
-  return std::sqrt(std::max({ squared(0, 1), squared(1, 2), squared(2, 0) }));
-}
-
-// Barycentric coordinates of the foot of `point` in the facet's plane.
-glm::dvec2 Project(const CurvedPatch& patch, const glm::dvec3& point)
-{
-  const glm::dvec3 u = patch.Corner[1] - patch.Corner[0];
-  const glm::dvec3 v = patch.Corner[2] - patch.Corner[0];
-  const glm::dvec3 w = point - patch.Corner[0];
-  const glm::dvec3 normal = glm::cross(u, v);
-  const double squared = glm::dot(normal, normal);
-  return { glm::dot(glm::cross(w, v), normal) / squared,
-    glm::dot(glm::cross(u, w), normal) / squared };
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -254,27 +232,10 @@ EyeStatus CurvedMembraneSolver::SetEye(
 //------------------------------------------------------------------------------
 bool CurvedMembraneSolver::IsEyeOnPatch(const CurvedPatch& patch) const
 {
-  const glm::dvec3 away = this->Optics.Eye - patch.Corner[0];
-  const glm::dvec3 first = patch.Corner[1] - patch.Corner[0];
-  const glm::dvec3 second = patch.Corner[2] - patch.Corner[0];
-  // The patch bulges by less than half of its longest edge, which is below the sum of two.
-  if (glm::dot(away, away) > 8.0 * (glm::dot(first, first) + glm::dot(second, second)))
-  {
-    return false;
-  }
-  // The patch is intersected with the line through the eye at right angles to the facet.
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   const double slack =
     rounding * std::max(this->Surface.GetRadius(), glm::length(this->Optics.Eye));
-  const HeightFrame frame(glm::normalize(glm::cross(first, second)));
-  const double height = frame.GetHeight(this->Optics.Eye);
-  PatchCrossings crossings(patch, frame);
-  crossings.Find(frame.Project(this->Optics.Eye), height - slack, height + slack);
-  // An eye within rounding of the patch counts as on it.
-  return !crossings.IsComplete() ||
-    std::any_of(crossings.begin(), crossings.end(),
-      [height, slack](const PatchCrossing& crossing)
-      { return std::fabs(crossing.Height - height) <= slack; });
+  return IsOnPatch(patch, this->Optics.Eye, slack);
 }
 
 //------------------------------------------------------------------------------
@@ -419,7 +380,7 @@ bool CurvedMembraneSolver::MeetRay(
     std::max(glm::dot(target - eye, direction), std::numeric_limits<double>::min());
   const ObjectLine ray{ eye, distance * direction };
   std::int32_t facet = near.Facet;
-  glm::dvec2 b = Project(this->Patches.GetPatch(facet), target);
+  glm::dvec2 b = this->Patches.GetPatch(facet).ProjectToFacet(target);
   double l = 1.0;
   if (!this->MeetLine(ray, -direction, facet, b, l))
   {
@@ -453,7 +414,7 @@ bool CurvedMembraneSolver::MeetLine(const ObjectLine& line, const glm::dvec3& se
       return false; // beyond the border
     }
     facet = next;
-    b = Project(this->Patches.GetPatch(facet), target);
+    b = this->Patches.GetPatch(facet).ProjectToFacet(target);
   }
   return false;
 }
@@ -479,7 +440,7 @@ bool CurvedMembraneSolver::Follow(const SightEquation& equation, const glm::dvec
   {
     place.Facet = this->Patches.Walk(place.Facet, target, place.Root.At.Normal, LongestWalk);
     const CurvedPatch patch = this->Patches.GetPatch(place.Facet);
-    const glm::dvec2 start = Project(patch, target);
+    const glm::dvec2 start = patch.ProjectToFacet(target);
     if (FindOutside(start).Least < -FollowReach)
     {
       return false;
@@ -583,7 +544,7 @@ ImageState CurvedMembraneSolver::FindImages(
   {
     const CurvedPatch patch = this->Patches.GetPatch(place.Facet);
     const VirtualVertex vertex = this->MakeVertex(local, patch, place);
-    const double same = SamePlace * GetSize(patch);
+    const double same = SamePlace * patch.GetSize();
     const bool known = std::any_of(images.begin(), images.end(),
       [&vertex, same](const VirtualVertex& other)
       { return glm::length(other.SightPoint - vertex.SightPoint) < same; });

@@ -31,13 +31,6 @@ glm::dvec3 GetWinding(const CurvedPatch& patch)
   return glm::cross(patch.Corner[1] - patch.Corner[0], patch.Corner[2] - patch.Corner[0]);
 }
 
-double GetSize(const CurvedPatch& patch)
-{
-  return std::max({ glm::length(patch.Corner[1] - patch.Corner[0]),
-    glm::length(patch.Corner[2] - patch.Corner[1]),
-    glm::length(patch.Corner[0] - patch.Corner[2]) });
-}
-
 /** Highest of the crossings, and the agreement of others at the same height. */
 struct NearestCrossing
 {
@@ -147,7 +140,7 @@ MembraneSides::Look MembraneSides::MakeLook(int side)
 //------------------------------------------------------------------------------
 MembraneSides::Side MembraneSides::FindAround(const glm::dvec3& local, std::int32_t openFacet) const
 {
-  const double size = GetSize(this->Patches->GetPatch(openFacet));
+  const double size = this->Patches->GetPatch(openFacet).GetSize();
   for (int i = 0; i < Ways; ++i)
   {
     // About half of a facet: far enough to leave the patch that the line runs along, and not far
@@ -299,7 +292,7 @@ MembraneSides::Look MembraneSides::LookExactly(const std::vector<Candidate>& can
       {
         return MakeLook(1);
       }
-      nearest.Add(crossing, candidate.Facet, SameHeight * GetSize(patch));
+      nearest.Add(crossing, candidate.Facet, SameHeight * patch.GetSize());
     }
   }
   if (openFacet != CurvedPatches::NoFacet && open >= nearest.GetLowest())

@@ -528,7 +528,7 @@ bool PatchCrossings::TakeRoot(const Part& part)
       jet.Position + move.x * jet.PositionBy[0] + move.y * jet.PositionBy[1];
     const glm::dvec3 normal = jet.Normal + move.x * jet.NormalBy[0] + move.y * jet.NormalBy[1];
     this->Crossings[this->Count++] = { this->Frame.GetHeight(position),
-      area < 0.0 ? -this->Front : this->Front, outside, normal };
+      area < 0.0 ? -this->Front : this->Front, outside, normal, b };
     return true;
   }
   return false;
@@ -542,6 +542,27 @@ void PatchCrossings::MarkOpen(const Part& part)
   {
     this->HighestOpen = std::max(this->HighestOpen, corner.Height + along);
   }
+}
+
+//------------------------------------------------------------------------------
+bool IsOnPatch(const CurvedPatch& patch, const glm::dvec3& local, double slack)
+{
+  const glm::dvec3 away = local - patch.Corner[0];
+  const glm::dvec3 first = patch.Corner[1] - patch.Corner[0];
+  const glm::dvec3 second = patch.Corner[2] - patch.Corner[0];
+  // The patch bulges by less than half of its longest edge, which is below the sum of two.
+  if (glm::dot(away, away) > 8.0 * (glm::dot(first, first) + glm::dot(second, second)))
+  {
+    return false;
+  }
+  const HeightFrame frame(glm::normalize(glm::cross(first, second)));
+  const double height = frame.GetHeight(local);
+  PatchCrossings crossings(patch, frame);
+  crossings.Find(frame.Project(local), height - slack, height + slack);
+  return !crossings.IsComplete() ||
+    std::any_of(crossings.begin(), crossings.end(),
+      [height, slack](const PatchCrossing& crossing)
+      { return std::fabs(crossing.Height - height) <= slack; });
 }
 
 }

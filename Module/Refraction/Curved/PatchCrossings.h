@@ -20,6 +20,7 @@ struct PatchCrossing
   int Side;          ///< +1 if the patch's front faces along the axis there, -1 if its back does
   double Outside;    ///< smallest barycentric coordinate, not below -Border
   glm::dvec3 Normal; ///< of the patch, not normalised
+  glm::dvec2 B;      ///< barycentric coordinates in the facet
 };
 
 /**
@@ -137,6 +138,12 @@ private:
   std::size_t Count = 0;
   double HighestOpen = std::numeric_limits<double>::lowest();
 };
+
+/**
+ * True if a point is on a patch within `slack`, measured at right angles to the facet, or if that
+ * cannot be decided.
+ */
+bool IsOnPatch(const CurvedPatch& patch, const glm::dvec3& local, double slack);
 
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/PatchRoots.h"
 
+#include "Refraction/Curved/TriangleMap.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -57,52 +59,21 @@ constexpr double ConeDeviation = 0.22;
 // injective.
 constexpr double SmallestDeterminant = 0.05;
 
-double Cross(const glm::dvec2& a, const glm::dvec2& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
-
-using Control = std::array<glm::dvec2, 6>;
-
-// True if, for one of the lines along the sides of the linear part, all control points, each a disc
-// of radius `margin`, are on the side away from zero.
-bool IsSeparated(const Control& control, double margin)
-{
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const glm::dvec2 side = control[(k + 2) % 3] - control[(k + 1) % 3];
-    double low = std::numeric_limits<double>::max();
-    double high = std::numeric_limits<double>::lowest();
-    for (const glm::dvec2& point : control)
-    {
-      const double distance = Cross(side, point);
-      low = std::min(low, distance);
-      high = std::max(high, distance);
-    }
-    const double slack = margin * glm::length(side);
-    if (low > slack || high < -slack)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 // True if the corners alone keep the map away from zero, provided that its part of second degree is
 // within LargestDeflection: control points of edges are then within twice that distance of the
 // midpoints of the edges.
-bool IsFarFromZero(const Control& f)
+bool IsFarFromZero(const TriangleMap& f)
 {
   const double size =
     std::max({ glm::length(f[1] - f[0]), glm::length(f[2] - f[1]), glm::length(f[0] - f[2]) });
-  Control corners = f;
+  TriangleMap corners = f;
   std::copy(f.begin(), f.begin() + 3, corners.begin() + 3);
   return IsSeparated(corners, (2.0 * LargestDeflection + HigherDegree) * size);
 }
 
 // Each control point has an error of up to `margin`, so each column of a determinant has twice
 // that.
-bool IsInjective(const Control& c, double margin)
+bool IsInjective(const TriangleMap& c, double margin)
 {
   const glm::dvec2 first[3] = { c[5] - c[0], c[1] - c[5], c[3] - c[4] };
   const glm::dvec2 second[3] = { c[4] - c[0], c[3] - c[5], c[2] - c[4] };
@@ -203,7 +174,7 @@ double PatchRoots::BoundCone(const Triangle& triangle, int depth) const
 //------------------------------------------------------------------------------
 PatchRoots::Verdict PatchRoots::Judge(const Triangle& triangle, double cone)
 {
-  Control control = triangle.F;
+  TriangleMap control = triangle.F;
   double bend = 0.0;
   double size = 0.0;
   double reach = 0.0;

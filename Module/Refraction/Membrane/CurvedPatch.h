@@ -74,6 +74,29 @@ struct CurvedPatch
     return (1.0 - b.x - b.y) * this->Corner[0] + b.x * this->Corner[1] + b.y * this->Corner[2];
   }
 
+  /** Barycentric coordinates of the foot of `point` in the facet's plane. */
+  glm::dvec2 ProjectToFacet(const glm::dvec3& point) const
+  {
+    const glm::dvec3 u = this->Corner[1] - this->Corner[0];
+    const glm::dvec3 v = this->Corner[2] - this->Corner[0];
+    const glm::dvec3 w = point - this->Corner[0];
+    const glm::dvec3 normal = glm::cross(u, v);
+    const double squared = glm::dot(normal, normal);
+    return { glm::dot(glm::cross(w, v), normal) / squared,
+      glm::dot(glm::cross(u, w), normal) / squared };
+  }
+
+  /** Length of the facet's longest edge. */
+  double GetSize() const
+  {
+    const auto squared = [this](int i, int j)
+    {
+      const glm::dvec3 edge = this->Corner[j] - this->Corner[i];
+      return glm::dot(edge, edge);
+    };
+    return std::sqrt(std::max({ squared(0, 1), squared(1, 2), squared(2, 0) }));
+  }
+
   /** Normal at `b`, not normalised. */
   glm::dvec3 GetNormal(const glm::dvec2& b) const
   {

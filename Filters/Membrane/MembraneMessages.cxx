@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Membrane/MembraneMessages.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace meniscus
+{
+namespace
+{
+
+const char* NameFault(MembraneStatus status)
+{
+  switch (status)
+  {
+    case MembraneStatus::TooLarge:
+      return "The membrane has more points or triangles than 32-bit indices can address";
+    case MembraneStatus::OneSided:
+      return "The membrane is one-sided, like a Moebius band, so it has no side for the eye";
+    case MembraneStatus::Empty:
+    case MembraneStatus::Ready:
+      break;
+  }
+  return "The membrane has no usable triangle";
+}
+
+}
+
+//------------------------------------------------------------------------------
+vtkMTimeType GetMembraneTime(vtkPolyData* membrane)
+{
+  vtkMTimeType time = membrane->GetMTime();
+  for (vtkCellArray* cells : { membrane->GetPolys(), membrane->GetStrips() })
+  {
+    time = std::max(
+      { time, cells->GetConnectivityArray()->GetMTime(), cells->GetOffsetsArray()->GetMTime() });
+  }
+  return time;
+}
+
+//------------------------------------------------------------------------------
+bool ReportMembrane(MembraneStatus status, const MembraneReport& report,
+  const MembraneArrays& arrays, std::size_t lost, SceneMessages& messages)
+{
+  const std::size_t triangles = arrays.Triangles.size() / 3;
+  const std::size_t points = arrays.Points.size() / 3;
+  std::ostringstream text;
+  if (status != MembraneStatus::Ready)
+  {
+    text << NameFault(status) << " (" << report.Skipped() << " of " << triangles
+         << " triangles skipped)";
+    messages.Error = text.str();
+    return false;
+  }
+  if (report.Skipped() > 0)
+  {
+    text << report.Skipped() << " of " << triangles
+         << " membrane triangles skipped: " << report.ZeroArea << " without area, "
+         << report.NotFinite << " with coordinates that are not finite, " << report.OutOfRange
+         << " with points that do not exist, " << report.Duplicated << " repeated. ";
+  }
+  if (lost > 0)
+  {
+    text << lost << " of " << points
+         << " membrane points cannot be moved onto the exact membrane's zero set; they keep their "
+            "positions. ";
+  }
+  if (arrays.NormalsRejected)
+  {
+    text << "The membrane's normals do not have 3 components for each of its " << points
+         << " points; normals are computed. ";
+  }
+  else if (report.ComputedNormals > lost && !arrays.Normals.empty())
+  {
+    text << report.ComputedNormals << " of " << points
+         << " membrane normals are zero or not finite; these are computed. ";
+  }
+  if (report.TurnedFacets > 0)
+  {
+    text << report.TurnedFacets << " of " << triangles
+         << " membrane triangles have another winding than their neighbours; it is reversed. ";
+  }
+  if (report.TurnedNormals > 0)
+  {
+    text << report.TurnedNormals << " of " << points
+         << " membrane normals point to another side than their neighbours; they are reversed. ";
+  }
+  if (report.Normals.AreMost())
+  {
+    text
+      << report.Normals.Foreign << " of " << report.Normals.Examined
+      << " membrane normals do not fit the triangles around them, as if points had been moved and "
+         "normals had not; they are used nevertheless. To refract by the triangles themselves, "
+         "remove the normals or compute them by vtkPolyDataNormals. ";
+  }
+  messages.Warning = text.str();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeBadIndices(double exterior, double interior)
+{
+  std::ostringstream text;
+  text << "Indices of refraction must be positive and finite, not " << exterior << " and "
+       << interior;
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeBadEye(EyeStatus status, const glm::dvec3& eye)
+{
+  std::ostringstream text;
+  text << "The eye (" << eye.x << ", " << eye.y << ", " << eye.z << ") "
+       << (status == EyeStatus::OnTheMembrane ? "lies on the membrane" : "is not finite");
+  return text.str();
+}
+
+}

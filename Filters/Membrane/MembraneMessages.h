@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Messages about membranes and eyes, and the time of a membrane. */
+#ifndef meniscus_Filters_Membrane_MembraneMessages_h
+#define meniscus_Filters_Membrane_MembraneMessages_h
+
+#include "Filters/Membrane/MembraneExtraction.h"
+#include "Refraction/Flat/RefractionCells.h"
+
+#include "vtkType.h"
+
+#include <cstddef>
+#include <string>
+
+class vtkPolyData;
+
+namespace meniscus
+{
+
+/** Messages for the owner of a scene to report; empty if there are none. */
+struct SceneMessages
+{
+  std::string Error;
+  std::string Warning;
+};
+
+/**
+ * Latest modification time of a membrane and of the objects that hold its values. The time of a
+ * vtkPolyData itself does not cover the arrays of its cells.
+ */
+vtkMTimeType GetMembraneTime(vtkPolyData* membrane);
+
+/**
+ * Describes how a membrane was read. `lost` is the number of its points that could not be moved to
+ * the exact surface. Returns false, with an error, if the membrane cannot be used.
+ */
+bool ReportMembrane(MembraneStatus status, const MembraneReport& report,
+  const MembraneArrays& arrays, std::size_t lost, SceneMessages& messages);
+
+/** @{ */
+/** Texts of the errors for indices of refraction, and for an eye that is not `Ready`. */
+std::string DescribeBadIndices(double exterior, double interior);
+std::string DescribeBadEye(EyeStatus status, const glm::dvec3& eye);
+/** @} */
+
+}
+
+#endif

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Filters_Membrane_StackScene_h
+#define meniscus_Filters_Membrane_StackScene_h
+
+#include "Filters/Membrane/MembraneMessages.h"
+#include "Refraction/Stack/StackSolver.h"
+
+#include "vtkType.h"
+#include "vtkWeakPointer.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+class vtkImplicitFunction;
+class vtkPolyData;
+class vtkRefractingInterfaceCollection;
+
+namespace meniscus
+{
+
+/**
+ * Several surfaces between media, and an eye: as RefractionScene, but for a list of interfaces. A
+ * surface that is listed twice is built once.
+ */
+class StackScene
+{
+public:
+  /**
+   * Sets the surfaces and their interfaces, which FindStackFault accepts. Returns false, with an
+   * error, if a surface cannot be used.
+   */
+  bool SetInterfaces(const std::vector<vtkPolyData*>& surfaces,
+    vtkRefractingInterfaceCollection* interfaces, SceneMessages& messages);
+
+  /**
+   * Sets the eye. Returns false, with an error, if it cannot be used. Warns, once per change, if no
+   * ray from the eye passes the surfaces in the order of the list.
+   */
+  bool SetEye(const std::array<double, 3>& eye, SceneMessages& messages);
+
+  const StackSolver& GetSolver() const { return this->Solver; }
+  /** The first surface in front of the eye that refracts; that of the list if there is none. */
+  const Membrane& GetFirstMembrane() const;
+
+  vtkTypeInt64 GetNumberOfPatchBuilds() const { return this->PatchBuilds; }
+  vtkTypeInt64 GetNumberOfEyeUpdates() const { return this->EyeUpdates; }
+
+private:
+  /** A surface and the values that it was built from. */
+  struct Entry
+  {
+    vtkWeakPointer<vtkPolyData> Source;
+    vtkMTimeType SourceTime = 0;
+    vtkImplicitFunction* Function = nullptr; ///< used for comparison only
+    vtkMTimeType FunctionTime = 0;
+    MembraneArrays Arrays;
+    std::shared_ptr<const StackSurface> Surface; ///< null if it cannot be used
+  };
+
+  bool UpdateEntry(std::size_t index, vtkPolyData* source, vtkImplicitFunction* function,
+    bool& isNew, SceneMessages& messages);
+
+  std::vector<Entry> Entries;
+  std::vector<InterfaceMedia> Media;
+  StackSolver Solver;
+  std::array<double, 3> Eye{};
+  bool IsEyeReady = false;
+  vtkTypeInt64 PatchBuilds = 0;
+  vtkTypeInt64 EyeUpdates = 0;
+};
+
+}
+
+#endif

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Filters_Output_StackArrays_h
+#define meniscus_Filters_Output_StackArrays_h
+
+#include "Filters/Output/OutputArrays.h"
+#include "Refraction/Stack/StackSolver.h"
+
+#include <cstddef>
+#include <vector>
+
+class vtkPolyData;
+
+namespace meniscus
+{
+
+/** Results of all points of an input with several interfaces, beside their virtual vertices. */
+struct StackDetails
+{
+  std::vector<StackDetail> Points;
+  std::vector<double> Legs; ///< `Interfaces` lengths per point
+  std::size_t Interfaces = 0;
+};
+
+/**
+ * Adds the point arrays of several interfaces to an output whose array SourcePointId tells the
+ * points of `input`. With the option, replaces normals as MakeVirtualNormals does, for a light at
+ * the eye.
+ */
+void AddStackArrays(vtkPolyData* input, const std::vector<VirtualVertex>& vertices,
+  const StackDetails& details, const OutputOptions& options, vtkPolyData* output);
+
+}
+
+#endif

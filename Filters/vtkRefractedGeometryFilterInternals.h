@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Filters_vtkRefractedGeometryFilterInternals_h
+#define meniscus_Filters_vtkRefractedGeometryFilterInternals_h
+
+#include "vtkRefractedGeometryFilter.h"
+
+#include "Common/RangeLoop.h"
+#include "Filters/Membrane/RefractionScene.h"
+#include "Filters/Membrane/StackScene.h"
+#include "Filters/Output/OutputArrays.h"
+#include "Filters/Solver/SolvedBlock.h"
+
+#include <list>
+
+/** Scenes, solved blocks and counters of a filter. */
+class vtkRefractedGeometryFilter::vtkInternals
+{
+public:
+  meniscus::SolvedBlock& GetBlock(vtkPolyData* input);
+  void UpdateView(vtkRefractedGeometryFilter* self);
+  void Select(vtkPolyData* input, meniscus::SolvedBlock& block);
+  bool Solve(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
+  bool SolveAll(vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block);
+  bool SolveAllPoints(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block, bool isReady);
+  bool Run(vtkRefractedGeometryFilter* self, double from, double to, vtkIdType count,
+    vtkIdType grain, const meniscus::RangeBody& body);
+  void Count(meniscus::ImageState state);
+  meniscus::OutputOptions GetOptions(vtkRefractedGeometryFilter* self) const;
+  bool SolveStack(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
+  meniscus::OutputOptions GetStackOptions(vtkRefractedGeometryFilter* self) const;
+
+  meniscus::RefractionScene Scene; ///< of one interface
+  meniscus::StackScene Stack;      ///< of several ones
+  std::list<meniscus::SolvedBlock> Blocks;
+
+  vtkTypeInt64 SolvedVertices = 0;
+  vtkTypeInt64 FailedSolves = 0;
+  vtkTypeInt64 VerticesWithoutImage = 0;
+  vtkTypeInt64 SkippedCells = 0;
+  vtkTypeInt64 CulledVertices = 0;
+  vtkTypeInt64 CulledCells = 0;
+  bool IsViewActive = false; ///< at least one facet is out of view
+  vtkMTimeType ViewTime = 0;
+  vtkTypeInt64 ViewEye = -1;
+  vtkTypeInt64 FailedInRun = 0;
+  // Numbers of the membrane's builds at the last warning of each kind.
+  vtkTypeInt64 WarnedOfNoImage = -1;
+  vtkTypeInt64 WarnedOfUndecided = -1;
+  bool WarnedOfModes = false;
+  bool WarnedOfNoNormals = false;
+  bool WarnedOfParallelProjection = false;
+};
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** A map of second degree from a triangle to the plane, by control points, and its distance from 0.
+ */
+#ifndef meniscus_Refraction_Curved_TriangleMap_h
+#define meniscus_Refraction_Curved_TriangleMap_h
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace meniscus
+{
+
+inline double Cross(const glm::dvec2& a, const glm::dvec2& b)
+{
+  return a.x * b.y - a.y * b.x;
+}
+
+/** Values, or control points, at the corners and then at the middles of the opposite edges. */
+using TriangleMap = std::array<glm::dvec2, 6>;
+
+/**
+ * True if, for one of the lines along the sides of the linear part, all control points, each a disc
+ * of radius `margin`, are on the side away from zero.
+ */
+inline bool IsSeparated(const TriangleMap& control, double margin)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec2 side = control[(k + 2) % 3] - control[(k + 1) % 3];
+    double low = std::numeric_limits<double>::max();
+    double high = std::numeric_limits<double>::lowest();
+    for (const glm::dvec2& point : control)
+    {
+      const double distance = Cross(side, point);
+      low = std::min(low, distance);
+      high = std::max(high, distance);
+    }
+    const double slack = margin * glm::length(side);
+    if (low > slack || high < -slack)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+}
+
+#endif

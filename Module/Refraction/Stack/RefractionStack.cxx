@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Stack/RefractionStack.h"
+
+#include "Refraction/Curved/CurveCrossings.h"
+#include "Refraction/Curved/PatchCrossings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr double Border = PatchCrossings::Border;
+
+// Patches to go through from the crossing of an earlier path, and facets on the straight way to
+// the next one. For longer ways the tree is faster.
+constexpr int LongestChase = 4;
+constexpr int LongestWalk = 16;
+
+// Newton's method converges quadratically: the remaining error is of the order of the square of
+// the last step, below rounding.
+constexpr double LastStep = 1e-8;
+
+// Two crossings are the same if they are closer than this fraction of the patch's size. Crossings
+// at a common edge of two patches may differ by the effect of Border in both.
+constexpr double SamePlace = 4.0 * Border;
+
+}
+
+//------------------------------------------------------------------------------
+MediaChain RefractionStack::SetInterfaces(const std::vector<StackInterface>& list)
+{
+  std::vector<InterfaceMedia> media;
+  media.reserve(list.size());
+  for (const StackInterface& interface : list)
+  {
+    media.push_back(interface.Media);
+  }
+  const MediaChain chain(media);
+  this->List = list;
+  this->Ways = chain.Ways;
+  this->Links.clear();
+  // Interfaces that do not refract must not change a bit, so they do not give the origin.
+  const auto refracts = [](const StackInterface& interface)
+  { return interface.Media.Exterior != interface.Media.Interior; };
+  const auto first = std::find_if(list.begin(), list.end(), refracts);
+  this->Origin = first == list.end() ? glm::dvec3(0.0) : first->Surface->GetMembrane().GetOrigin();
+  this->NumberOfInterfaces =
+    static_cast<std::size_t>(std::count_if(list.begin(), list.end(), refracts));
+  if (chain.Fault != MediaFault::None)
+  {
+    this->List.clear();
+    this->NumberOfInterfaces = 0;
+  }
+  return chain;
+}
+
+//------------------------------------------------------------------------------
+void RefractionStack::ListLinks(
+  const MediaChain::Way& way, std::size_t first, std::vector<Link>& links) const
+{
+  links.clear();
+  std::size_t refracting = 0;
+  for (std::size_t i = 0; i < way.size(); ++i)
+  {
+    if (way[i].Before != way[i].Behind && refracting++ >= first)
+    {
+      const std::shared_ptr<const StackSurface>& surface = this->List[i].Surface;
+      links.push_back({ surface, way[i], surface->GetMembrane().GetOrigin() - this->Origin, i });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+EyeStatus RefractionStack::SetEye(const glm::dvec3& eye)
+{
+  const EyeStatus status = CheckEye(eye, 1.0, 1.0);
+  if (status != EyeStatus::Ready)
+  {
+    return status;
+  }
+  this->Eye = eye - this->Origin;
+  if (std::any_of(this->List.begin(), this->List.end(),
+        [&eye](const StackInterface& interface)
+        {
+          const StackSurface& surface = *interface.Surface;
+          return interface.Media.Exterior != interface.Media.Interior &&
+            surface.IsOnSurface(eye - surface.GetMembrane().GetOrigin());
+        }))
+  {
+    return EyeStatus::OnTheMembrane;
+  }
+  this->Passes = false;
+  this->Links.clear();
+  for (std::size_t first = 0; first < this->NumberOfInterfaces && !this->Passes; ++first)
+  {
+    for (const MediaChain::Way& way : this->Ways)
+    {
+      this->ListLinks(way, first, this->Links);
+      this->Passes = this->IsPassed();
+      if (this->Passes)
+      {
+        break;
+      }
+    }
+  }
+  if (!this->Passes && !this->Ways.empty())
+  {
+    this->ListLinks(this->Ways.front(), 0, this->Links);
+  }
+  return EyeStatus::Ready;
+}
+
+//------------------------------------------------------------------------------
+// True if a ray from the eye meets the first surface from the right side and goes on through all
+// others; at the last one it may be reflected, since it is there on the right side too. Patches are
+// tried with strides that get smaller, so that the first few are far apart.
+bool RefractionStack::IsPassed() const
+{
+  const std::size_t count = this->Links.front().Surface->GetMembrane().GetFacets().size();
+  std::size_t top = 1;
+  while (top < count)
+  {
+    top *= 2;
+  }
+  // The middle of a patch, then those of its corners' parts.
+  for (const glm::dvec2& b : { glm::dvec2(1.0 / 3.0), glm::dvec2(2.0 / 3.0, 1.0 / 6.0),
+         glm::dvec2(1.0 / 6.0, 2.0 / 3.0), glm::dvec2(1.0 / 6.0) })
+  {
+    std::size_t begin = 0;
+    for (std::size_t stride = top; stride > 0; stride /= 2)
+    {
+      for (std::size_t i = begin; i < count; i += 2 * stride)
+      {
+        if (this->IsPassedAt({ static_cast<std::int32_t>(i), b }))
+        {
+          return true;
+        }
+      }
+      begin = stride / 2; // odd multiples of the next stride are new
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionStack::IsPassedAt(const StackPlace& aim) const
+{
+  const Link& link = this->Links.front();
+  const glm::dvec3 target = link.Surface->GetPatches().GetPatch(aim.Facet).Evaluate(aim.B).Position;
+  const glm::dvec3 eye = this->Eye - link.Shift;
+  const double distance = glm::length(target - eye);
+  SurfaceCrossing crossing;
+  if (!(distance > 0.0) ||
+    !link.Surface->FindCrossing(
+      eye, (target - eye) / distance, 0, 0.0, std::numeric_limits<double>::max(), crossing) ||
+    crossing.Side != (link.Passage.FromFront ? -1 : 1))
+  {
+    return false;
+  }
+  StackPath path;
+  const PathEnd end = this->Trace({ crossing.Facet, crossing.B }, this->Links.size(), false, path);
+  return end == PathEnd::Passed ||
+    (end == PathEnd::Reflected && path.Count + 1 == this->Links.size());
+}
+
+//------------------------------------------------------------------------------
+// The crossing near an earlier one, by Newton's method across patches.
+bool RefractionStack::MeetNear(
+  const Link& link, const RayJet& ray, PathPoint& point, CurvedPatch& patch, PatchJet& jet) const
+{
+  StackPlace& place = point.Place;
+  const CurvedPatches& patches = link.Surface->GetPatches();
+  const glm::dvec3 origin = ray.Origin - link.Shift;
+  for (int i = 0; i < LongestChase; ++i)
+  {
+    patch = link.Surface->GetPatch(place.Facet, !link.Passage.FromFront);
+    // The direction is scaled to the distance of the patch, so that the parameter is about 1.
+    const double distance = glm::dot(patch.GetFlatPoint(place.B) - origin, ray.Direction);
+    if (!(distance > 0.0))
+    {
+      return false;
+    }
+    double l = 1.0;
+    if (!MeetPatch(patch, { origin, distance * ray.Direction }, LastStep, place.B, l, jet))
+    {
+      return false;
+    }
+    if (FindOutside(place.B).Least >= -Border)
+    {
+      return l > 0.0 && glm::dot(ray.Direction, jet.Normal) < 0.0;
+    }
+    const glm::dvec3 target = patch.GetFlatPoint(place.B);
+    const std::int32_t next = patches.Walk(place.Facet, target, ray.Direction, LongestWalk);
+    if (next == place.Facet)
+    {
+      return false;
+    }
+    place.Facet = next;
+    place.B = patches.GetPatch(next).ProjectToFacet(target);
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionStack::FindNext(std::size_t link, const glm::dvec3& origin,
+  const glm::dvec3& direction, SurfaceCrossing& crossing) const
+{
+  const Link& next = this->Links[link];
+  const glm::dvec3 local = origin - next.Shift;
+  // Surfaces that touch may have the crossing before the origin, within rounding of both.
+  return next.Surface->FindCrossing(local, direction, next.Passage.FromFront ? -1 : 1,
+    -next.Surface->GetSlack(glm::length(local)), std::numeric_limits<double>::max(), crossing);
+}
+
+//------------------------------------------------------------------------------
+bool RefractionStack::Meet(
+  std::size_t index, const RayJet& ray, bool follows, PathPoint& point, PatchJet& jet) const
+{
+  const Link& link = this->Links[index];
+  CurvedPatch patch;
+  if (follows && point.Place.Facet != CurvedPatches::NoFacet &&
+    this->MeetNear(link, ray, point, patch, jet))
+  {
+    return true;
+  }
+  SurfaceCrossing crossing;
+  if (!this->FindNext(index, ray.Origin, ray.Direction, crossing))
+  {
+    return false;
+  }
+  point.Place = { crossing.Facet, crossing.B };
+  patch = link.Surface->GetPatch(crossing.Facet, !link.Passage.FromFront);
+  const double scale = std::max(patch.GetSize(), crossing.Distance);
+  double l = crossing.Distance / scale;
+  return MeetPatch(
+    patch, { ray.Origin - link.Shift, scale * ray.Direction }, LastStep, point.Place.B, l, jet);
+}
+
+//------------------------------------------------------------------------------
+PathEnd RefractionStack::Trace(
+  const StackPlace& first, std::size_t count, bool follows, StackPath& path) const
+{
+  path.Points.resize(this->Links.size());
+  path.Count = 0;
+  PatchJet jet;
+  RayJet ray;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Link& link = this->Links[i];
+    PathPoint& point = path.Points[i];
+    glm::dvec3 normalBy[2];
+    if (i == 0)
+    {
+      link.Surface->GetPatch(first.Facet, !link.Passage.FromFront).Evaluate(first.B, jet);
+      jet.Position += link.Shift;
+      ray = MakeSightRay(this->Eye, jet);
+      path.Sight = ray.Direction;
+      point.Place = first;
+      for (int k = 0; k < 2; ++k)
+      {
+        path.SightBy[k] = ray.DirectionBy[k];
+        point.PlaceBy[k] = glm::dvec2(k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0);
+        normalBy[k] = jet.NormalBy[k];
+      }
+    }
+    else if (this->Meet(i, ray, follows, point, jet))
+    {
+      jet.Position += link.Shift;
+      Transfer(ray, jet, point.PlaceBy, normalBy);
+    }
+    else
+    {
+      return PathEnd::Missed;
+    }
+    const double ratio = link.Passage.Before / link.Passage.Behind;
+    if (Refract(ray, jet.Normal, normalBy, ratio, point.Cosine) != RayKind::Refracted)
+    {
+      return PathEnd::Reflected;
+    }
+    point.Ray = ray;
+    path.Count = i + 1;
+  }
+  return PathEnd::Passed;
+}
+
+//------------------------------------------------------------------------------
+bool RefractionStack::IsFirstCrossing(const StackPath& path) const
+{
+  for (std::size_t i = 1; i < path.Count; ++i)
+  {
+    const Link& link = this->Links[i];
+    const PathPoint& point = path.Points[i];
+    const glm::dvec3 origin = path.Points[i - 1].Ray.Origin - link.Shift;
+    const glm::dvec3 leg = point.Ray.Origin - link.Shift - origin;
+    const double length = glm::length(leg);
+    const double same =
+      SamePlace * link.Surface->GetPatches().GetPatch(point.Place.Facet).GetSize();
+    SurfaceCrossing crossing;
+    if (length > same &&
+      link.Surface->FindCrossing(
+        origin, leg / length, link.Passage.FromFront ? -1 : 1, 0.0, length - same, crossing))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+}

@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Stack/StackBeams.h"
+
+#include "Refraction/Tubes/RefractedRayBounds.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// As in PatchRoots: size of the part of second degree, relative to the linear part, above which
+// the interpolant is only a guess, and the assumed part of higher degree relative to it.
+constexpr double LargestDeflection = 0.5;
+constexpr double HigherDegree = 0.5;
+
+// Deflection of unit directions below which their linear part does not matter: beams may be
+// parallel. The margin is then as large as for a guess.
+constexpr double SmallDeflection = 1e-3;
+constexpr double HigherDegreeOfGuess = 2.0;
+
+// Places of the six rays: corners, then the middles of the opposite edges.
+const glm::dvec2 Places[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 }, { 0.0, 0.5 },
+  { 0.5, 0.0 } };
+
+DirectionBox MakeDirectionBox(const TubeBounds& tube)
+{
+  return { 0.5 * (tube.DirectionLow + tube.DirectionHigh),
+    0.5 * (tube.DirectionHigh - tube.DirectionLow) };
+}
+
+void Merge(TubeBounds& bounds, const TubeBounds& other)
+{
+  bounds.StartLow = glm::min(bounds.StartLow, other.StartLow);
+  bounds.StartHigh = glm::max(bounds.StartHigh, other.StartHigh);
+  bounds.DirectionLow = glm::min(bounds.DirectionLow, other.DirectionLow);
+  bounds.DirectionHigh = glm::max(bounds.DirectionHigh, other.DirectionHigh);
+}
+
+// Box of the rays of `tube` between the two ends of `range`.
+AxisBox BoundPart(const TubeBounds& tube, const TubeRange& range)
+{
+  AxisBox box;
+  for (const double t : { range.From, range.To })
+  {
+    box.Add({ tube.StartLow + t * tube.DirectionLow, tube.StartHigh + t * tube.DirectionHigh });
+  }
+  return box;
+}
+
+// Box of the control points of a map of second degree with the given values, widened for its part
+// of higher degree. Returns false if that is not known.
+bool BoundMap(const std::array<glm::dvec3, 6>& f, double least, AxisBox& box)
+{
+  double bend = 0.0;
+  double size = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec3& a = f[(k + 1) % 3];
+    const glm::dvec3& b = f[(k + 2) % 3];
+    const glm::dvec3 control = 2.0 * f[k + 3] - 0.5 * (a + b);
+    box.Add({ f[k], f[k] });
+    box.Add({ control, control });
+    bend = std::max(bend, glm::length(f[k + 3] - 0.5 * (a + b)));
+    size = std::max(size, glm::length(b - a));
+  }
+  const bool isGuess = !(bend <= LargestDeflection * size);
+  const double margin = (isGuess ? HigherDegreeOfGuess : HigherDegree) * bend;
+  box.Low -= margin;
+  box.High += margin;
+  return !isGuess || bend < least;
+}
+
+}
+
+//------------------------------------------------------------------------------
+void StackBeams::Update(const RefractionStack& stack, const RangeLoop& loop)
+{
+  this->Stack = &stack;
+  const std::vector<RefractionStack::Link>& links = stack.GetLinks();
+  const StackSurface* first = links.front().Surface.get();
+  if (this->TreesOver != first || this->Trees.size() != links.size())
+  {
+    this->BuildTrees();
+  }
+  const std::size_t facets = first->GetMembrane().GetFacets().size();
+  this->Bounds.assign(links.size(), std::vector<TubeBounds>(facets));
+  this->Middles.assign(links.size(), std::vector<RayJet>(facets));
+  this->PassedByMiddle.assign(facets, 0);
+  loop(facets,
+    [this](std::size_t begin, std::size_t end)
+    {
+      Samples samples;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        this->Bound(static_cast<std::int32_t>(i), samples);
+      }
+    });
+  for (std::size_t k = 0; k < links.size(); ++k)
+  {
+    this->Trees[k].Refit([this, k](std::int32_t facet)
+      { return this->Bounds[k][static_cast<std::size_t>(facet)]; },
+      loop);
+  }
+}
+
+//------------------------------------------------------------------------------
+void StackBeams::BuildTrees()
+{
+  const RefractionStack::Link& first = this->Stack->GetLinks().front();
+  const Membrane& membrane = first.Surface->GetMembrane();
+  std::vector<glm::dvec3> centroids;
+  centroids.reserve(membrane.GetFacets().size());
+  for (const Membrane::Facet& facet : membrane.GetFacets())
+  {
+    glm::dvec3 sum(0.0);
+    for (const std::int32_t vertex : facet)
+    {
+      sum += membrane.GetPositions()[static_cast<std::size_t>(vertex)];
+    }
+    centroids.push_back(sum / 3.0 + first.Shift);
+  }
+  RayTubeTree tree;
+  tree.Build(centroids, membrane.GetRadius());
+  this->Trees.assign(this->Stack->GetLinks().size(), tree);
+  this->TreesOver = first.Surface.get();
+}
+
+//------------------------------------------------------------------------------
+void StackBeams::Bound(std::int32_t facet, Samples& samples)
+{
+  const auto i = static_cast<std::size_t>(facet);
+  const std::size_t count = this->Stack->GetLinks().size();
+  TubeBounds leg = this->BoundFirstLeg(facet);
+  this->Bounds[0][i] = leg;
+  if (!leg.IsValid())
+  {
+    return;
+  }
+  StackPath& path = samples[0];
+  this->Stack->Trace({ facet, glm::dvec2(1.0 / 3.0) }, count, false, path);
+  this->PassedByMiddle[i] = static_cast<std::uint32_t>(path.Count);
+  for (std::size_t k = 0; k < path.Count; ++k)
+  {
+    this->Middles[k][i] = path.Points[k].Ray;
+  }
+  if (count == 1)
+  {
+    return;
+  }
+  for (std::size_t k = 0; k < 6; ++k)
+  {
+    this->Stack->Trace({ facet, Places[k] }, count, false, samples[k]);
+  }
+  for (std::size_t k = 1; k < count && leg.IsValid(); ++k)
+  {
+    TubeBounds bySamples;
+    leg = this->BoundBySamples(samples, k, bySamples)
+      ? bySamples
+      : this->BoundLeg(this->Stack->GetLinks()[k], leg);
+    this->Bounds[k][i] = leg;
+  }
+}
+
+//------------------------------------------------------------------------------
+bool StackBeams::BoundBySamples(const Samples& samples, std::size_t leg, TubeBounds& bounds) const
+{
+  std::array<glm::dvec3, 6> origins;
+  std::array<glm::dvec3, 6> directions;
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    if (samples[i].Count <= leg || GetFootprint(samples[i], leg + 1) > LargestFootprint)
+    {
+      return false;
+    }
+    origins[i] = samples[i].Points[leg].Ray.Origin;
+    directions[i] = samples[i].Points[leg].Ray.Direction;
+  }
+  AxisBox start;
+  AxisBox direction;
+  if (!BoundMap(origins, 0.0, start) || !BoundMap(directions, SmallDeflection, direction))
+  {
+    return false;
+  }
+  bounds = { start.Low, start.High, direction.Low, direction.High };
+  return true;
+}
+
+//------------------------------------------------------------------------------
+TubeBounds StackBeams::BoundFirstLeg(std::int32_t facet) const
+{
+  const RefractionStack::Link& first = this->Stack->GetLinks().front();
+  TubeBounds leg = BoundRefractedRays(first.Surface->GetPatch(facet, !first.Passage.FromFront),
+    this->Stack->GetEye() - first.Shift, first.Passage.Before / first.Passage.Behind);
+  if (leg.IsValid())
+  {
+    leg.StartLow += first.Shift;
+    leg.StartHigh += first.Shift;
+  }
+  return leg;
+}
+
+//------------------------------------------------------------------------------
+// Every ray of `before` that meets the next surface does so in one of the patches that the tube
+// meets, inside the tube.
+TubeBounds StackBeams::BoundLeg(const RefractionStack::Link& link, const TubeBounds& before) const
+{
+  TubeBounds local = before;
+  local.StartLow -= link.Shift;
+  local.StartHigh -= link.Shift;
+  const DirectionBox sight = MakeDirectionBox(before);
+  const double ratio = link.Passage.Before / link.Passage.Behind;
+  TubeBounds bounds;
+  link.Surface->VisitFacets(local,
+    [&](std::int32_t facet, const TubeRange& range)
+    {
+      const StackSurface::PatchBounds& patch = link.Surface->GetBounds(facet);
+      DirectionBox normals = patch.Normals;
+      normals.Middle *= link.Passage.FromFront ? 1.0 : -1.0;
+      const AxisBox part = BoundPart(local, range);
+      const glm::dvec3 corners[2] = { glm::max(part.Low, patch.Box.Low),
+        glm::min(part.High, patch.Box.High) };
+      const TubeBounds refracted = BoundRefractedRays(sight, normals, ratio, corners, 2, 0.0);
+      if (refracted.IsValid())
+      {
+        Merge(bounds, refracted);
+      }
+    });
+  if (bounds.IsValid())
+  {
+    bounds.StartLow += link.Shift;
+    bounds.StartHigh += link.Shift;
+  }
+  return bounds;
+}
+
+//------------------------------------------------------------------------------
+void StackBeams::FindCandidates(const StackTarget& target, std::vector<Candidate>& candidates) const
+{
+  candidates.clear();
+  const std::size_t leg = target.Count - 1;
+  this->Trees[leg].Visit(target.Point, 0.0,
+    [this, &target, &candidates, leg](std::int32_t facet)
+    {
+      Candidate candidate{ facet, glm::dvec2(0.0), std::numeric_limits<double>::infinity() };
+      const auto i = static_cast<std::size_t>(facet);
+      if (this->PassedByMiddle[i] > leg)
+      {
+        const RayJet& ray = this->Middles[leg][i];
+        const glm::dvec3 nearest = GetNearest(ray, target.Point);
+        candidate.Move = GetMove(ray, nearest, target.Point - nearest);
+        const double size = std::max(std::fabs(candidate.Move.x), std::fabs(candidate.Move.y));
+        candidate.Size = std::isfinite(size) ? size : candidate.Size;
+      }
+      candidates.push_back(candidate);
+      return std::numeric_limits<std::int32_t>::max();
+    });
+  std::sort(candidates.begin(), candidates.end(),
+    [](const Candidate& a, const Candidate& b)
+    { return a.Size != b.Size ? a.Size < b.Size : a.Facet < b.Facet; });
+}
+
+}

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Refraction_Stack_StackBeams_h
+#define meniscus_Refraction_Stack_StackBeams_h
+
+#include "Common/RangeLoop.h"
+#include "Refraction/Stack/StackShot.h"
+#include "Refraction/Tubes/RayTubeTree.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * The beams that the patches of the first surface send through a stack: behind each interface,
+ * bounds of the rays of each patch, in a tree, and the ray from the patch's middle.
+ *
+ * Bounds come from six rays, interpolated by second degree with the margin of PatchRoots, where all
+ * of them pass, the beam meets few patches at each surface, and the part of second degree is small.
+ * Elsewhere they come from interval arithmetic on Snell's law, surface by surface, which is wider.
+ */
+class StackBeams
+{
+public:
+  /** Fits the beams to the stack's eye. `stack` must outlive this. */
+  void Update(const RefractionStack& stack, const RangeLoop& loop);
+
+  /** Discards the trees: a surface has changed. */
+  void Clear() { this->TreesOver = nullptr; }
+
+  /** A patch that may show a target, and the expected place of the sight point in it. */
+  struct Candidate
+  {
+    std::int32_t Facet;
+    glm::dvec2 Move; ///< from the patch's middle, to first order
+    double Size;     ///< of the move; infinite if the ray from the middle does not pass
+  };
+
+  /** Replaces `candidates` by all patches that may show the target, the best guess first. */
+  void FindCandidates(const StackTarget& target, std::vector<Candidate>& candidates) const;
+
+private:
+  using Samples = std::array<StackPath, 6>;
+
+  void BuildTrees();
+  TubeBounds BoundLeg(const RefractionStack::Link& link, const TubeBounds& before) const;
+  TubeBounds BoundFirstLeg(std::int32_t facet) const;
+  bool BoundBySamples(const Samples& samples, std::size_t leg, TubeBounds& bounds) const;
+  void Bound(std::int32_t facet, Samples& samples);
+
+  const RefractionStack* Stack = nullptr;
+  std::vector<RayTubeTree> Trees;              ///< per interface
+  std::vector<std::vector<TubeBounds>> Bounds; ///< per interface and facet
+  std::vector<std::vector<RayJet>> Middles;    ///< per interface and facet
+  std::vector<std::uint32_t> PassedByMiddle;   ///< per facet: interfaces that its middle ray passes
+  const StackSurface* TreesOver = nullptr;     ///< used for comparison only
+};
+
+}
+
+#endif

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Stack/StackSearch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// Newton's method starts near the root of a nearly linear map.
+constexpr int ShotSteps = 16;
+
+// Parts have at least 2^-6 of the facet's size. Along a border or a critical angle the number of
+// parts doubles with each level.
+constexpr int DeepestLevel = 6;
+constexpr int MostDivisions = 2000;
+
+// A part whose rays all fail is divided down to this level.
+constexpr int DeepestBlind = 2;
+
+// As in PatchRoots: size of the part of second degree above which the interpolant is only a guess,
+// and the assumed part of higher degree relative to it.
+constexpr double LargestDeflection = 0.5;
+constexpr double HigherDegree = 0.5;
+constexpr double HigherDegreeOfGuess = 2.0;
+
+// Newton's step from a place in a smallest part, in units of that part, beyond which there is no
+// root in the part: rays are nearly linear there.
+constexpr double FarthestRoot = 4.0;
+
+// Cosine between a ray and the plane's normal below which its place in the plane is not used.
+constexpr double SmallestCosine = 0.1;
+
+double GetLargest(const glm::dvec2& v)
+{
+  return std::max(std::fabs(v.x), std::fabs(v.y));
+}
+
+}
+
+//------------------------------------------------------------------------------
+bool StackSearch::Find(std::int32_t facet, StackPath& path)
+{
+  this->Facet = facet;
+  this->HasFrame = false;
+  this->Divisions = 0;
+  const glm::dvec2 places[6] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 }, { 0.5, 0.5 },
+    { 0.0, 0.5 }, { 0.5, 0.0 } };
+  // The first ray that passes gives the plane.
+  Part whole;
+  for (const int i : { 3, 4, 5, 0, 1, 2 })
+  {
+    whole[static_cast<std::size_t>(i)] = this->Evaluate(places[i], path);
+  }
+  return this->SearchPart(whole, 0, path);
+}
+
+//------------------------------------------------------------------------------
+StackSearch::Sample StackSearch::Evaluate(const glm::dvec2& b, StackPath& path)
+{
+  Sample sample;
+  sample.B = b;
+  if (this->Stack.Trace({ this->Facet, b }, this->Target.Count, false, path) != PathEnd::Passed)
+  {
+    return sample;
+  }
+  const RayJet& ray = path.GetLast();
+  if (!this->HasFrame)
+  {
+    this->Frame = HeightFrame(ray.Direction);
+    this->HasFrame = true;
+  }
+  const glm::dvec3 away = this->Target.Point - ray.Origin;
+  const double cosine = this->Frame.GetHeight(ray.Direction);
+  if (!(cosine > SmallestCosine))
+  {
+    return sample;
+  }
+  sample.X = this->Frame.Project((this->Frame.GetHeight(away) / cosine) * ray.Direction - away);
+  const glm::dvec3 nearest = GetNearest(ray, this->Target.Point);
+  sample.Move = GetMove(ray, nearest, this->Target.Point - nearest);
+  sample.Footprint = GetFootprint(path, path.Count);
+  sample.IsValid = true;
+  return sample;
+}
+
+//------------------------------------------------------------------------------
+bool StackSearch::TakeShot(const glm::dvec2& b, StackPath& path, Shot& shot)
+{
+  // The nearest crossings first: Shoot follows them.
+  const StackPlace place{ this->Facet, b };
+  const bool converged =
+    this->Stack.Trace(place, this->Target.Count, false, path) == PathEnd::Passed &&
+    Shoot(this->Stack, this->Target, place, ShotSteps, path);
+  const bool isHere = converged && path.Points[0].Place.Facet == this->Facet;
+  shot = isHere ? Shot::Here : (converged ? Shot::Elsewhere : Shot::Failed);
+  return converged && IsImage(this->Stack, this->Target, path);
+}
+
+//------------------------------------------------------------------------------
+bool StackSearch::SearchPart(const Part& part, int depth, StackPath& path)
+{
+  const auto valid =
+    std::count_if(part.begin(), part.end(), [](const Sample& s) { return s.IsValid; });
+  if (valid == 6)
+  {
+    return this->SearchWhole(part, depth, path);
+  }
+  if (valid == 0 && depth >= DeepestBlind)
+  {
+    return false;
+  }
+  return this->SearchBroken(part, depth, path);
+}
+
+//------------------------------------------------------------------------------
+bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
+{
+  TriangleMap control;
+  double bend = 0.0;
+  double size = 0.0;
+  double reach = 0.0;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec2& a = part[(k + 1) % 3].X;
+    const glm::dvec2& b = part[(k + 2) % 3].X;
+    control[k] = part[k].X;
+    control[k + 3] = 2.0 * part[k + 3].X - 0.5 * (a + b);
+    bend = std::max(bend, glm::length(part[k + 3].X - 0.5 * (a + b)));
+    size = std::max(size, glm::length(b - a));
+    reach = std::max(reach, glm::length(a));
+  }
+  // Six rays do not tell what happens between them if the beam meets many patches.
+  const double footprint =
+    std::ldexp(std::max_element(part.begin(), part.end(),
+                 [](const Sample& a, const Sample& b) { return a.Footprint < b.Footprint; })
+                 ->Footprint,
+      -depth);
+  if (footprint > LargestFootprint && depth < DeepestLevel && this->Divisions < MostDivisions)
+  {
+    return this->Divide(part, depth, path);
+  }
+  const bool isGuess = !(bend <= LargestDeflection * size);
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  const double margin =
+    (isGuess ? HigherDegreeOfGuess : HigherDegree) * bend + rounding * (reach + size);
+  if (IsSeparated(control, margin))
+  {
+    return false;
+  }
+  const bool isDeepest = depth == DeepestLevel || this->Divisions >= MostDivisions;
+  if (isGuess && !isDeepest)
+  {
+    return this->Divide(part, depth, path);
+  }
+  const Sample& nearest = *std::min_element(part.begin(), part.end(),
+    [](const Sample& a, const Sample& b) { return glm::dot(a.X, a.X) < glm::dot(b.X, b.X); });
+  Shot shot;
+  if (this->TakeShot(nearest.B, path, shot))
+  {
+    return true;
+  }
+  // A path from here to the target that is no image excludes the part: the map, which is nearly
+  // linear, has no other root.
+  if (shot != Shot::Here && !isDeepest)
+  {
+    return this->Divide(part, depth, path);
+  }
+  this->Complete = this->Complete && shot != Shot::Failed;
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
+{
+  if (depth < DeepestLevel && this->Divisions < MostDivisions)
+  {
+    return this->Divide(part, depth, path);
+  }
+  const double size = std::ldexp(1.0, -depth);
+  for (const Sample& sample : part)
+  {
+    if (sample.IsValid && GetLargest(sample.Move) < FarthestRoot * size)
+    {
+      Shot shot;
+      if (this->TakeShot(sample.B, path, shot))
+      {
+        return true;
+      }
+      this->Complete = this->Complete && shot != Shot::Failed;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool StackSearch::Divide(const Part& part, int depth, StackPath& path)
+{
+  ++this->Divisions;
+  // Three children at the corners, and one in the middle, whose corners are the middles of edges.
+  Part middle;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    middle[k] = part[k + 3];
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    middle[k + 3] = this->Evaluate(0.5 * (middle[(k + 1) % 3].B + middle[(k + 2) % 3].B), path);
+  }
+  if (this->SearchPart(middle, depth + 1, path))
+  {
+    return true;
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    const Part child{ part[k], part[j + 3], part[i + 3], middle[k + 3],
+      this->Evaluate(0.5 * (part[k].B + part[i + 3].B), path),
+      this->Evaluate(0.5 * (part[k].B + part[j + 3].B), path) };
+    if (this->SearchPart(child, depth + 1, path))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+}

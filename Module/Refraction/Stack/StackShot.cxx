@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Stack/StackShot.h"
+
+#include "Refraction/Curved/PatchCrossings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr double Border = PatchCrossings::Border;
+
+// The error after a step is of the order of the step's square, in units of a facet of each surface
+// that the path meets: the remaining error is at most about 1e-12 of a facet, except near a
+// caustic. Where the eye is closer to the surface than a facet is wide, that distance takes the
+// place of the facet's size.
+constexpr double LastStep = 1e-6;
+
+// A place may leave its patch by this part of the facet before the next patch takes over.
+constexpr double FollowReach = 0.3;
+
+// Facets to cross at one step. A longer step has no meaning: the rays between are not like these.
+constexpr int LongestWalk = 64;
+
+// Halvings of a step that leads to a ray which does not pass the stack.
+constexpr int Halvings = 6;
+
+double GetLargest(const glm::dvec2& v)
+{
+  return std::max(std::fabs(v.x), std::fabs(v.y));
+}
+
+// Largest change of a place on any surface, in facets.
+double GetLargestMove(const StackPath& path, const glm::dvec2& move)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < path.Count; ++i)
+  {
+    const PathPoint& point = path.Points[i];
+    // Written so that a NaN is kept.
+    const double size = GetLargest(point.PlaceBy[0] * move.x + point.PlaceBy[1] * move.y);
+    largest = size <= largest ? largest : size;
+  }
+  return largest;
+}
+
+// Moves the path along its derivatives. They are exact within rounding for the last, short step.
+void Correct(StackPath& path, const glm::dvec2& move)
+{
+  for (std::size_t i = 0; i < path.Count; ++i)
+  {
+    PathPoint& point = path.Points[i];
+    RayJet& ray = point.Ray;
+    point.Place.B += move.x * point.PlaceBy[0] + move.y * point.PlaceBy[1];
+    ray.Origin += move.x * ray.OriginBy[0] + move.y * ray.OriginBy[1];
+    ray.Direction =
+      glm::normalize(ray.Direction + move.x * ray.DirectionBy[0] + move.y * ray.DirectionBy[1]);
+  }
+  path.Sight = glm::normalize(path.Sight + move.x * path.SightBy[0] + move.y * path.SightBy[1]);
+}
+
+// Sets first guesses of the crossings behind the first one for the next trace.
+void Predict(StackPath& path, const glm::dvec2& move)
+{
+  for (std::size_t i = 1; i < path.Count; ++i)
+  {
+    PathPoint& point = path.Points[i];
+    point.Place.B += move.x * point.PlaceBy[0] + move.y * point.PlaceBy[1];
+  }
+}
+
+bool IsLast(
+  const RefractionStack& stack, const StackPath& path, const glm::dvec2& move, double size)
+{
+  const RayJet& first = path.Points[0].Ray;
+  const glm::dvec3 shift = move.x * first.OriginBy[0] + move.y * first.OriginBy[1];
+  return size < LastStep &&
+    glm::length(shift) <= LastStep * glm::length(first.Origin - stack.GetEye());
+}
+
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 GetNearest(const RayJet& ray, const glm::dvec3& point)
+{
+  return ray.Origin + glm::dot(point - ray.Origin, ray.Direction) * ray.Direction;
+}
+
+//------------------------------------------------------------------------------
+// Cramer's rule for x c0 + y c1 + z direction = shift, where c is the change of the ray's point.
+glm::dvec2 GetMove(const RayJet& ray, const glm::dvec3& at, const glm::dvec3& shift)
+{
+  const double distance = glm::dot(at - ray.Origin, ray.Direction);
+  const glm::dvec3 first = ray.OriginBy[0] + distance * ray.DirectionBy[0];
+  const glm::dvec3 second = ray.OriginBy[1] + distance * ray.DirectionBy[1];
+  const glm::dvec3 across = glm::cross(second, ray.Direction);
+  const double inverse = 1.0 / glm::dot(first, across);
+  return { inverse * glm::dot(shift, across),
+    inverse * glm::dot(first, glm::cross(shift, ray.Direction)) };
+}
+
+//------------------------------------------------------------------------------
+double GetFootprint(const StackPath& path, std::size_t count)
+{
+  double largest = 0.0;
+  for (std::size_t i = 1; i < count; ++i)
+  {
+    for (const glm::dvec2& by : path.Points[i].PlaceBy)
+    {
+      largest = std::max(largest, GetLargest(by));
+    }
+  }
+  return largest;
+}
+
+//------------------------------------------------------------------------------
+bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& place)
+{
+  place.B += move;
+  // Written so that a NaN fails.
+  if (!(GetLargest(place.B) <= LongestWalk))
+  {
+    return false;
+  }
+  if (FindOutside(place.B).Least >= -FollowReach)
+  {
+    return true;
+  }
+  const CurvedPatches& patches = stack.GetLinks()[0].Surface->GetPatches();
+  const CurvedPatch patch = patches.GetPatch(place.Facet);
+  const glm::dvec3 target = patch.GetFlatPoint(place.B);
+  const std::int32_t next =
+    patches.Walk(place.Facet, target, patch.GetNormal(glm::dvec2(1.0 / 3.0)), LongestWalk);
+  place = { next, patches.GetPatch(next).ProjectToFacet(target) };
+  return FindOutside(place.B).Least >= -FollowReach;
+}
+
+//------------------------------------------------------------------------------
+bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
+  StackPath& path)
+{
+  StackPlace known = place;
+  glm::dvec2 move(0.0);
+  int halvings = 0;
+  bool isTraced = false;
+  for (int i = 0; i < steps; ++i)
+  {
+    if (stack.Trace(place, target.Count, true, path) != PathEnd::Passed)
+    {
+      // Back towards the last place whose ray passes.
+      if (!isTraced || ++halvings > Halvings)
+      {
+        return false;
+      }
+      move *= 0.5;
+      place = known;
+      if (!Advance(stack, move, place))
+      {
+        return false;
+      }
+      continue;
+    }
+    isTraced = true;
+    known = place;
+    const glm::dvec3 nearest = GetNearest(path.GetLast(), target.Point);
+    move = GetMove(path.GetLast(), nearest, target.Point - nearest);
+    const double size = GetLargestMove(path, move);
+    if (!(size <= std::numeric_limits<double>::max()))
+    {
+      return false;
+    }
+    if (IsLast(stack, path, move, size) && FindOutside(place.B + move).Least >= -Border)
+    {
+      Correct(path, move);
+      return true;
+    }
+    if (IsLast(stack, path, move, size))
+    {
+      // Just outside of the patch: its neighbour takes over.
+      const CurvedPatches& patches = stack.GetLinks()[0].Surface->GetPatches();
+      const int corner = FindOutside(place.B + move).Corner;
+      const glm::dvec3 flat = patches.GetPatch(place.Facet).GetFlatPoint(place.B + move);
+      const std::int32_t next = patches.GetNeighbour(place.Facet, corner);
+      if (next == CurvedPatches::NoFacet)
+      {
+        return false;
+      }
+      place = { next, patches.GetPatch(next).ProjectToFacet(flat) };
+      continue;
+    }
+    Predict(path, move);
+    if (!Advance(stack, move, place))
+    {
+      return false;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+bool IsImage(const RefractionStack& stack, const StackTarget& target, const StackPath& path)
+{
+  const RayJet& ray = path.GetLast();
+  const double distance = glm::dot(target.Point - ray.Origin, ray.Direction);
+  if (!(distance > 0.0) || !stack.IsFirstCrossing(path))
+  {
+    return false;
+  }
+  if (target.Count == stack.GetLinks().size())
+  {
+    return true;
+  }
+  SurfaceCrossing next;
+  const double slack = stack.GetLinks()[target.Count].Surface->GetSlack(glm::length(target.Point));
+  return stack.FindNext(target.Count, ray.Origin, ray.Direction, next) &&
+    next.Distance >= distance - slack;
+}
+
+//------------------------------------------------------------------------------
+bool IsBeforeAll(const RefractionStack& stack, const glm::dvec3& point)
+{
+  const glm::dvec3 away = point - stack.GetEye();
+  const double distance = glm::length(away);
+  if (!(distance > 0.0))
+  {
+    return false; // the eye itself
+  }
+  SurfaceCrossing next;
+  const double slack = stack.GetLinks()[0].Surface->GetSlack(glm::length(point));
+  return stack.FindNext(0, stack.GetEye(), away / distance, next) &&
+    next.Distance >= distance - slack;
+}
+
+}

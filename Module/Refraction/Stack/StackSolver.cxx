@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Stack/StackSolver.h"
+
+#include "Refraction/Membrane/Optics.h"
+#include "Refraction/Stack/StackSearch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+// Newton steps from the prediction by the previous path. More are a sign of another branch.
+constexpr int FollowSteps = 10;
+
+// Patches whose middle ray passes the point most closely: they are tried first, from the place that
+// the ray's derivatives predict, if that is within some patches.
+constexpr std::size_t QuickTries = 3;
+constexpr int QuickSteps = 12;
+constexpr double FarthestGuess = 4.0;
+
+}
+
+//------------------------------------------------------------------------------
+MediaChain StackSolver::SetInterfaces(const std::vector<StackInterface>& list)
+{
+  this->Beams.Clear();
+  return this->Stack.SetInterfaces(list);
+}
+
+//------------------------------------------------------------------------------
+EyeStatus StackSolver::SetEye(const glm::dvec3& eye, const RangeLoop& loop)
+{
+  const EyeStatus status = this->Stack.SetEye(eye);
+  if (status == EyeStatus::Ready && !this->Stack.GetLinks().empty())
+  {
+    this->Beams.Update(this->Stack, loop);
+  }
+  return status;
+}
+
+//------------------------------------------------------------------------------
+bool StackSolver::IsInReach(const glm::dvec3& local) const
+{
+  const double reach = std::max({ std::fabs(local.x), std::fabs(local.y), std::fabs(local.z) });
+  // The sum is tested so that a NaN fails.
+  return std::isfinite(local.x + local.y + local.z) &&
+    (this->Stack.GetLinks().empty() ||
+      reach / this->Stack.GetLinks().front().Surface->GetMembrane().GetRadius() <
+        RayTubeTree::FarthestRadii);
+}
+
+//------------------------------------------------------------------------------
+void StackSolver::Solve(const double* points, std::size_t begin, std::size_t end,
+  VirtualVertex* vertices, StackDetail* details, double* legs) const
+{
+  Memory memory;
+  StackPath path;
+  const std::size_t components = this->Stack.GetNumberOfInterfaces();
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    if (i % Chain == 0)
+    {
+      memory = Memory();
+    }
+    const glm::dvec3 point(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+    const StackVertex vertex = this->SolvePoint(point, memory, path);
+    vertices[i] = vertex;
+    details[i] = vertex;
+    double* own = legs + components * i;
+    std::fill(own, own + components, 0.0);
+    const auto passed = static_cast<std::size_t>(vertex.Passed);
+    // Interfaces behind the eye come first in the list.
+    double* leg = own + (components - this->Stack.GetLinks().size());
+    for (std::size_t k = 0; k < passed; ++k)
+    {
+      const glm::dvec3 next =
+        k + 1 < passed ? path.Points[k + 1].Ray.Origin : point - this->Stack.GetOrigin();
+      leg[k] = glm::length(next - path.Points[k].Ray.Origin);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory, StackPath& path) const
+{
+  const glm::dvec3 local = point - this->Stack.GetOrigin();
+  StackVertex vertex;
+  vertex.Position = point;
+  if (!this->IsInReach(local))
+  {
+    vertex.State = ImageState::NotFinite;
+    return vertex;
+  }
+  if (this->Stack.GetLinks().empty())
+  {
+    return this->PassThrough(point);
+  }
+  bool isFound = this->Follow(local, memory, path);
+  for (std::size_t count = this->Stack.GetLinks().size(); count > 0 && !isFound; --count)
+  {
+    isFound = this->FindFirst({ local, count }, path);
+  }
+  if (!isFound)
+  {
+    return IsBeforeAll(this->Stack, local) ? this->PassThrough(point) : vertex;
+  }
+  memory.Path = path;
+  memory.Point = local;
+  return this->MakeVertex(local, path);
+}
+
+//------------------------------------------------------------------------------
+bool StackSolver::Follow(const glm::dvec3& local, const Memory& memory, StackPath& path) const
+{
+  if (memory.Path.Count == 0)
+  {
+    return false;
+  }
+  path = memory.Path;
+  const StackTarget target{ local, path.Count };
+  const glm::dvec2 move = GetMove(path.GetLast(), memory.Point, local - memory.Point);
+  StackPlace place = path.Points[0].Place;
+  for (std::size_t i = 1; i < path.Count; ++i)
+  {
+    PathPoint& point = path.Points[i];
+    point.Place.B += move.x * point.PlaceBy[0] + move.y * point.PlaceBy[1];
+  }
+  return Advance(this->Stack, move, place) &&
+    Shoot(this->Stack, target, place, FollowSteps, path) && IsImage(this->Stack, target, path);
+}
+
+//------------------------------------------------------------------------------
+bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
+{
+  thread_local std::vector<StackBeams::Candidate> candidates; // kept so that its memory is reused
+  this->Beams.FindCandidates(target, candidates);
+  const std::size_t tries = std::min(candidates.size(), QuickTries);
+  for (std::size_t i = 0; i < tries && candidates[i].Size < FarthestGuess; ++i)
+  {
+    StackPlace place{ candidates[i].Facet, glm::dvec2(1.0 / 3.0) };
+    if (Advance(this->Stack, candidates[i].Move, place) &&
+      this->Stack.Trace(place, target.Count, false, path) == PathEnd::Passed &&
+      Shoot(this->Stack, target, place, QuickSteps, path) && IsImage(this->Stack, target, path))
+    {
+      return true;
+    }
+  }
+  StackSearch search(this->Stack, target);
+  for (const StackBeams::Candidate& candidate : candidates)
+  {
+    if (search.Find(candidate.Facet, path))
+    {
+      return true;
+    }
+  }
+  this->Undecided += search.IsComplete() ? 0 : 1;
+  return false;
+}
+
+//------------------------------------------------------------------------------
+StackVertex StackSolver::MakeVertex(const glm::dvec3& local, const StackPath& path) const
+{
+  const std::vector<RefractionStack::Link>& links = this->Stack.GetLinks();
+  const glm::dvec3& origin = this->Stack.GetOrigin();
+  const PathPoint& first = path.Points[0];
+  StackVertex vertex;
+  vertex.State = ImageState::Found;
+  vertex.Passed = static_cast<std::int32_t>(path.Count);
+  double optical = 0.0;
+  for (std::size_t k = 0; k < path.Count; ++k)
+  {
+    const PathPoint& point = path.Points[k];
+    const InterfacePassage& passage = links[k].Passage;
+    const glm::dvec3& next = k + 1 < path.Count ? path.Points[k + 1].Ray.Origin : local;
+    const double length = glm::length(next - point.Ray.Origin);
+    vertex.Depth += length;
+    optical += length / passage.Behind;
+    const double reflectance = FresnelReflectance(point.Cosine, passage.Before, passage.Behind);
+    vertex.Transmittance *= 1.0 - reflectance;
+    vertex.Reflectance = k == 0 ? reflectance : vertex.Reflectance;
+    vertex.LastSightPoint = point.Ray.Origin + origin;
+  }
+  vertex.SightPoint = first.Ray.Origin + origin;
+  vertex.Position = first.Ray.Origin + path.Sight * (links[0].Passage.Before * optical) + origin;
+  vertex.Cosine = first.Cosine;
+  vertex.Facet = first.Place.Facet;
+  // The image is mirrored if the rays turn around the last ray the other way than around the sight
+  // ray.
+  const RayJet& last = path.GetLast();
+  const double distance = glm::dot(local - last.Origin, last.Direction);
+  const double atPoint = glm::dot(last.Direction,
+    glm::cross(last.OriginBy[0] + distance * last.DirectionBy[0],
+      last.OriginBy[1] + distance * last.DirectionBy[1]));
+  const double atEye = glm::dot(path.Sight, glm::cross(path.SightBy[0], path.SightBy[1]));
+  vertex.Orientation = static_cast<signed char>((atPoint < 0.0) == (atEye < 0.0) ? 1 : -1);
+  return vertex;
+}
+
+//------------------------------------------------------------------------------
+StackVertex StackSolver::PassThrough(const glm::dvec3& point) const
+{
+  StackVertex vertex;
+  vertex.Position = point;
+  vertex.SightPoint = point;
+  vertex.LastSightPoint = point;
+  vertex.State = ImageState::Found;
+  return vertex;
+}
+
+}

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * Virtual vertices behind several refracting surfaces: for an eye and a point, the sight points on
+ * all interfaces between them. The interface takes world coordinates.
+ *
+ * Method: shooting. The unknowns are the two coordinates of the first sight point, however many
+ * interfaces follow; the ray is traced through all of them, and Newton's method drives the distance
+ * between the point and the last ray to zero, with the derivatives of the traced ray. In contrast
+ * to a joint iteration for all sight points, every iterate is a physical path: it obeys Snell's law
+ * at each interface, takes the nearest crossing with each surface, and cannot converge to points in
+ * the wrong order. The next answer along a chain of points is predicted by the same derivatives.
+ * First guesses come from trees of ray tubes, one per number of interfaces passed: bounds of the
+ * rays that a patch of the first surface sends behind that interface.
+ *
+ * The virtual vertex is on the sight ray, behind the first sight point by n0 times the sum of the
+ * lengths of the legs behind it, each over the index of its medium. This is Eq. 2.4 for every leg.
+ *
+ * A point may lie behind all interfaces, or between two of them. It is seen through the first k if
+ * the last ray reaches it before the next interface, and goes on to that interface: what is beside
+ * a later interface is not seen through the stack. A point in front of all of them is its own image
+ * if the straight ray through it goes on to the first one.
+ */
+#ifndef meniscus_Refraction_Stack_StackSolver_h
+#define meniscus_Refraction_Stack_StackSolver_h
+
+#include "Common/RangeLoop.h"
+#include "Refraction/Flat/FlatMembraneSolver.h"
+#include "Refraction/Stack/StackBeams.h"
+#include "Refraction/Tubes/RayTubeTree.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+/** Properties of an image that only several interfaces have. */
+struct StackDetail
+{
+  glm::dvec3 LastSightPoint{ 0.0 }; ///< on the last interface in front of the point
+  double Transmittance = 1.0;       ///< product of 1 - Fresnel reflectance over the interfaces
+  std::int32_t Passed = 0;          ///< number of interfaces in front of the point
+};
+
+/** Image of a point through a stack; SightPoint and Facet are those on the first interface. */
+struct StackVertex
+  : VirtualVertex
+  , StackDetail
+{
+};
+
+class StackSolver
+{
+public:
+  /** Number of points that share a chain of warm starts, as CurvedMembraneSolver::Chain. */
+  static constexpr std::size_t Chain = 128;
+
+  /** Sets the interfaces. The eye must be set again afterwards. */
+  MediaChain SetInterfaces(const std::vector<StackInterface>& list);
+
+  /** Fits the trees to an eye. Solving is allowed only if the result is `Ready`. */
+  EyeStatus SetEye(const glm::dvec3& eye, const RangeLoop& loop = SerialLoop);
+
+  const RefractionStack& GetStack() const { return this->Stack; }
+
+  /**
+   * Finds one image of each of `points` (x, y, z each) in [begin, end), and writes it to the same
+   * places of `vertices` and `details`. `legs` gets the lengths of the legs behind each interface
+   * of the list that refracts, GetStack().GetNumberOfInterfaces() per point, 0 for those not
+   * passed. If there are several images the result is the one that continues that of the point
+   * before.
+   */
+  void Solve(const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices,
+    StackDetail* details, double* legs) const;
+
+  /** State of a chain of points: the path of the last answer. */
+  struct Memory
+  {
+    StackPath Path; ///< without points if there is none
+    glm::dvec3 Point{ 0.0 };
+  };
+
+  /**
+   * One image of a point, as Solve finds it after the points recorded in `memory`. `path` is set
+   * to its path.
+   */
+  StackVertex SolvePoint(const glm::dvec3& point, Memory& memory, StackPath& path) const;
+
+  /**
+   * Number of searches since construction that found no image, although some part of a patch could
+   * be neither excluded nor traced far enough: at caustics, critical angles and borders.
+   */
+  std::int64_t GetNumberOfUndecidedSearches() const { return this->Undecided; }
+
+private:
+  bool IsInReach(const glm::dvec3& local) const;
+  bool Follow(const glm::dvec3& local, const Memory& memory, StackPath& path) const;
+  bool FindFirst(const StackTarget& target, StackPath& path) const;
+  StackVertex MakeVertex(const glm::dvec3& local, const StackPath& path) const;
+  StackVertex PassThrough(const glm::dvec3& point) const;
+
+  RefractionStack Stack;
+  StackBeams Beams;
+  mutable std::atomic<std::int64_t> Undecided{ 0 };
+};
+
+}
+
+#endif

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/Stack/StackSurface.h"
+
+#include "Refraction/Curved/PatchCrossings.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+MembraneStatus StackSurface::SetMembrane(const MembraneInput& input, const RangeLoop& loop)
+{
+  const MembraneStatus status = this->Surface.Build(input);
+  this->Patches.Build(this->Surface, loop);
+  const std::size_t count = this->Surface.GetFacets().size();
+  this->Bounds.resize(count);
+  const double slack = this->GetSlack(0.0);
+  loop(count,
+    [this, slack](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const CurvedPatch patch = this->Patches.GetPatch(static_cast<std::int32_t>(i));
+        PatchBounds& bounds = this->Bounds[i];
+        bounds.Bulge = BoundBulge(patch) + slack;
+        bounds.Normals = BoundNormals(patch);
+        bounds.Box = AxisBox();
+        for (const glm::dvec3& corner : patch.Corner)
+        {
+          bounds.Box.Add({ corner - bounds.Bulge, corner + bounds.Bulge });
+        }
+      }
+    });
+  std::vector<AxisBox> boxes;
+  boxes.reserve(count);
+  for (const PatchBounds& bounds : this->Bounds)
+  {
+    boxes.push_back(bounds.Box);
+  }
+  this->Tree.Build(boxes);
+  return status;
+}
+
+//------------------------------------------------------------------------------
+// With the normals, q changes its sign too, so that its product with the normal does not.
+CurvedPatch StackSurface::GetPatch(std::int32_t facet, bool flipped) const
+{
+  CurvedPatch patch = this->Patches.GetPatch(facet);
+  for (int k = 0; flipped && k < 3; ++k)
+  {
+    patch.Normal[k] = -patch.Normal[k];
+    patch.Bend[k] = -patch.Bend[k];
+    patch.Symmetric[k] = -patch.Symmetric[k];
+    patch.Asymmetric[k] = -patch.Asymmetric[k];
+  }
+  return patch;
+}
+
+//------------------------------------------------------------------------------
+// A position is a sum of a few products of coordinates; Newton's method adds a few more roundings.
+double StackSurface::GetSlack(double distance) const
+{
+  return 256.0 * std::numeric_limits<double>::epsilon() *
+    std::max(this->Surface.GetRadius(), distance);
+}
+
+//------------------------------------------------------------------------------
+// False if the line passes the facet's border at more than the patch's bulge.
+bool StackSurface::MayCross(
+  std::int32_t facet, const HeightFrame& frame, const glm::dvec2& place) const
+{
+  const auto i = static_cast<std::size_t>(facet);
+  const auto cross = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; };
+  glm::dvec2 corner[3];
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto vertex = static_cast<std::size_t>(this->Surface.GetFacets()[i][k]);
+    corner[k] = frame.Project(this->Surface.GetPositions()[vertex]) - place;
+  }
+  const double area = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  for (int k = 0; k < 3; ++k)
+  {
+    const glm::dvec2& from = corner[(k + 1) % 3];
+    const glm::dvec2 side = corner[(k + 2) % 3] - from;
+    // Positive inside: distance times the side's length.
+    const double distance = std::copysign(1.0, area) * cross(from, side);
+    if (distance < -this->Bounds[i].Bulge * glm::length(side))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool StackSurface::FindCrossing(const glm::dvec3& origin, const glm::dvec3& direction, int side,
+  double least, double most, SurfaceCrossing& nearest) const
+{
+  const HeightFrame frame(direction);
+  const glm::dvec2 place = frame.Project(origin);
+  const double start = frame.GetHeight(origin);
+  const double pad = this->GetSlack(glm::length(origin));
+  const TubeBounds ray{ origin - pad, origin + pad, direction, direction };
+  nearest.Facet = CurvedPatches::NoFacet;
+  this->Tree.Visit(ray, most,
+    [&](std::int32_t facet, const TubeRange&)
+    {
+      if (!this->MayCross(facet, frame, place))
+      {
+        return most;
+      }
+      const CurvedPatch patch = this->Patches.GetPatch(facet);
+      PatchCrossings crossings(patch, frame);
+      crossings.Find(place, start + least, start + most);
+      if (!crossings.IsComplete())
+      {
+        ++this->Undecided;
+      }
+      for (const PatchCrossing& crossing : crossings)
+      {
+        const double distance = crossing.Height - start;
+        if (distance >= least && distance <= most && (side == 0 || crossing.Side == side))
+        {
+          // If two are at one distance, on a common edge, the smaller facet counts.
+          if (nearest.Facet == CurvedPatches::NoFacet || distance < nearest.Distance ||
+            facet < nearest.Facet)
+          {
+            nearest = { facet, crossing.B, distance, crossing.Side };
+          }
+          most = distance;
+        }
+      }
+      return most;
+    });
+  return nearest.Facet != CurvedPatches::NoFacet;
+}
+
+//------------------------------------------------------------------------------
+bool StackSurface::IsOnSurface(const glm::dvec3& local) const
+{
+  const double slack = this->GetSlack(glm::length(local));
+  bool touched = false;
+  const TubeBounds place{ local - slack, local + slack, glm::dvec3(0.0), glm::dvec3(0.0) };
+  this->VisitFacets(place,
+    [this, &local, slack, &touched](std::int32_t facet, const TubeRange&)
+    { touched = touched || IsOnPatch(this->Patches.GetPatch(facet), local, slack); });
+  return touched;
+}
+
+}

@@ -1,0 +1,412 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkRefractedGeometryFilter with several interfaces: output, caches, and input that cannot be
+// used.
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPlane.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
+#include "vtkSphere.h"
+#include "vtkSphereSource.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace
+{
+
+using namespace meniscus::testing;
+
+const double Eye[3] = { 20.0, 300.0, 10.0 };
+
+// The flat membrane of side 200, moved to height y.
+vtkSmartPointer<vtkPolyData> MakePlaneAt(double y)
+{
+  const auto plane = MakeFlatMembrane();
+  vtkNew<vtkPoints> points;
+  points->DeepCopy(plane->GetPoints());
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    points->GetPoint(i, p);
+    points->SetPoint(i, p[0], p[1] + y, p[2]);
+  }
+  plane->SetPoints(points);
+  return plane;
+}
+
+void AddInterface(
+  vtkRefractedGeometryFilter* filter, vtkPolyData* surface, double exterior, double interior)
+{
+  vtkNew<vtkRefractingInterface> interface;
+  interface->SetExteriorIndexOfRefraction(exterior);
+  interface->SetInteriorIndexOfRefraction(interior);
+  filter->GetInterfaces()->AddItem(interface);
+  filter->AddInputData(1, surface);
+}
+
+// A filter without surfaces, and an empty list.
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeStackFilter(vtkPolyData* geometry)
+{
+  auto filter = vtkSmartPointer<vtkRefractedGeometryFilter>::New();
+  vtkNew<vtkRefractingInterfaceCollection> list;
+  filter->SetInputData(0, geometry);
+  filter->SetInterfaces(list);
+  filter->SetEyePosition(Eye[0], Eye[1], Eye[2]);
+  filter->SetImagesToFirstImage();
+  filter->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  return filter;
+}
+
+// Air, glass from 0 to -10, and water.
+vtkSmartPointer<vtkRefractedGeometryFilter> MakeAquarium(vtkPolyData* geometry)
+{
+  auto filter = MakeStackFilter(geometry);
+  AddInterface(filter, MakePlaneAt(0.0), 1.0, 1.5);
+  AddInterface(filter, MakePlaneAt(-10.0), 1.5, 1.333);
+  return filter;
+}
+
+double GetValue(vtkPolyData* data, const char* name, vtkIdType point, int component = 0)
+{
+  return data->GetPointData()->GetArray(name)->GetComponent(point, component);
+}
+
+void ExpectError(vtkRefractedGeometryFilter* filter, const std::string& text)
+{
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Errors, 1) << messages->Text;
+  EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryStack, PointBelowTheEyeAppearsAtTheSumOfItsLayers)
+{
+  const auto filter = MakeAquarium(MakePoints({ { Eye[0], -30.0, Eye[2] } }));
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_EQ(messages->Errors + messages->Warnings, 0) << messages->Text;
+  vtkPolyData* output = filter->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), 1);
+  // Rounding of sums of numbers up to 300.
+  EXPECT_NEAR(output->GetPoint(0)[1], -(10.0 / 1.5 + 20.0 / 1.333), 1e-11);
+  EXPECT_NEAR(GetValue(output, "RefractionDepth", 0), 30.0, 1e-11);
+  EXPECT_NEAR(GetValue(output, "LegLengths", 0, 0), 10.0, 1e-11);
+  EXPECT_NEAR(GetValue(output, "LegLengths", 0, 1), 20.0, 1e-11);
+  EXPECT_NEAR(GetValue(output, "SightPoint", 0, 1), 0.0, 1e-11);
+  EXPECT_NEAR(GetValue(output, "LastSightPoint", 0, 1), -10.0, 1e-11);
+  // Fresnel at vertical incidence: ((n1 - n2) / (n1 + n2))^2.
+  const double first = std::pow(0.5 / 2.5, 2.0);
+  const double second = std::pow((1.5 - 1.333) / (1.5 + 1.333), 2.0);
+  EXPECT_NEAR(GetValue(output, "Reflectance", 0), first, 1e-14);
+  EXPECT_NEAR(GetValue(output, "Transmittance", 0), (1.0 - first) * (1.0 - second), 1e-14);
+}
+
+//------------------------------------------------------------------------------
+// n sin t is the same on both sides of each interface, at slanted sight too.
+TEST(RefractedGeometryStack, EveryPointObeysSnellsLawTwice)
+{
+  const auto filter = MakeAquarium(MakeGrid(9, 60.0, -40.0));
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), 81);
+  EXPECT_EQ(output->GetNumberOfPolys(), 64);
+  EXPECT_EQ(GetValue(output, "Rank", 80), 80.0);
+  EXPECT_EQ(output->GetCellData()->GetArray("Label")->GetComponent(63, 0), 630.0);
+  vtkPolyData* input = vtkPolyData::SafeDownCast(filter->GetInput(0));
+  for (vtkIdType i = 0; i < 81; ++i)
+  {
+    double p[3];
+    double sight[3];
+    double last[3];
+    double seen[3];
+    input->GetPoint(i, p);
+    output->GetPoint(i, seen);
+    output->GetPointData()->GetArray("SightPoint")->GetTuple(i, sight);
+    output->GetPointData()->GetArray("LastSightPoint")->GetTuple(i, last);
+    const auto sine = [](const double a[3], const double b[3])
+    {
+      const double across = std::hypot(b[0] - a[0], b[2] - a[2]);
+      return across / std::hypot(across, b[1] - a[1]);
+    };
+    EXPECT_NEAR(sine(Eye, sight), 1.5 * sine(sight, last), 1e-12);
+    EXPECT_NEAR(1.5 * sine(sight, last), 1.333 * sine(last, p), 1e-12);
+    EXPECT_NEAR(sine(Eye, seen), sine(Eye, sight), 1e-12);
+  }
+}
+
+//------------------------------------------------------------------------------
+// A coarse sphere as data, made exact by its implicit function and listed twice: rays through its
+// centre go straight on.
+TEST(RefractedGeometryStack, ClosedBodyIsListedTwice)
+{
+  vtkNew<vtkSphereSource> source;
+  source->SetRadius(40.0);
+  source->SetThetaResolution(48);
+  source->SetPhiResolution(24);
+  source->Update();
+  vtkNew<vtkSphere> sphere;
+  sphere->SetRadius(40.0);
+  const auto filter =
+    MakeStackFilter(MakePoints({ { -10.0, -150.0, -5.0 }, { 5.0, 75.0, 2.5 }, { 0.0, 0.0, 0.0 } }));
+  AddInterface(filter, source->GetOutput(), 1.0, 1.5);
+  AddInterface(filter, source->GetOutput(), 1.0, 1.5);
+  filter->GetInterfaces()->GetInterface(0)->SetExactSurface(sphere);
+  filter->GetInterfaces()->GetInterface(1)->SetExactSurface(sphere);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
+  vtkPolyData* output = filter->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), 3);
+  const double toEye = std::sqrt(20.0 * 20.0 + 300.0 * 300.0 + 10.0 * 10.0);
+  const auto alongAxis = [output, toEye](vtkIdType i)
+  {
+    double p[3];
+    output->GetPoint(i, p);
+    EXPECT_NEAR(p[0] * 300.0 - p[1] * 20.0, 0.0, 1e-6);
+    EXPECT_NEAR(p[2] * 300.0 - p[1] * 10.0, 0.0, 1e-6);
+    return (p[0] * 20.0 + p[1] * 300.0 + p[2] * 10.0) / toEye;
+  };
+  const double behind = std::sqrt(10.0 * 10.0 + 150.0 * 150.0 + 5.0 * 5.0) - 40.0;
+  EXPECT_NEAR(alongAxis(0), 40.0 - 80.0 / 1.5 - behind, 1e-8);
+  EXPECT_EQ(output->GetPoint(1)[1], 75.0);            // in front of the ball
+  EXPECT_NEAR(alongAxis(2), 40.0 - 40.0 / 1.5, 1e-8); // in it
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryStack, EqualIndicesAreTheIdentityWithoutWork)
+{
+  const auto points = MakePoints({ { 0.1, -30.7, 10.3 }, { 1e3, 7.7, 0.3 }, { 5.0, -5.0, 6.0 } });
+  const auto filter = MakeStackFilter(points);
+  for (const double y : { 0.0, -10.0, -20.0 })
+  {
+    AddInterface(filter, MakePlaneAt(y), 1.333, 1.333);
+  }
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), 3);
+  for (vtkIdType i = 0; i < 3; ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_EQ(output->GetPoint(i)[k], points->GetPoint(i)[k]);
+    }
+    EXPECT_EQ(GetValue(output, "SightFacet", i), -1.0);
+    EXPECT_EQ(GetValue(output, "Transmittance", i), 1.0);
+  }
+
+  // Between others they change no bit.
+  const auto plain = MakeAquarium(MakeGrid(5, 60.0, -40.0));
+  const auto padded = MakeStackFilter(MakeGrid(5, 60.0, -40.0));
+  AddInterface(padded, MakePlaneAt(0.0), 1.0, 1.5);
+  AddInterface(padded, MakePlaneAt(-3.0), 1.5, 1.5);
+  AddInterface(padded, MakePlaneAt(-10.0), 1.5, 1.333);
+  plain->Update();
+  padded->Update();
+  ASSERT_EQ(padded->GetOutput()->GetNumberOfPoints(), 25);
+  for (vtkIdType i = 0; i < 25; ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_EQ(padded->GetOutput()->GetPoint(i)[k], plain->GetOutput()->GetPoint(i)[k]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryStack, WorkIsDoneWhereItsInputChanges)
+{
+  const auto filter = MakeAquarium(MakeGrid(5, 60.0, -40.0));
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 2);
+  EXPECT_EQ(filter->GetNumberOfEyeUpdates(), 1);
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 25);
+  filter->SetReflectanceModelToSchlick(); // solves nothing
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 25);
+  filter->SetEyePosition(0.0, 250.0, 0.0);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 2);
+  EXPECT_EQ(filter->GetNumberOfEyeUpdates(), 2);
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 50);
+  // The same values in other objects are no change.
+  filter->GetInterfaces()->GetInterface(1)->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 50);
+  filter->GetInterfaces()->GetInterface(1)->SetInteriorIndexOfRefraction(1.4);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 2);
+  EXPECT_EQ(filter->GetNumberOfSolvedVertices(), 75);
+}
+
+//------------------------------------------------------------------------------
+// From one interface to two and back: nothing of the other kind is kept.
+TEST(RefractedGeometryStack, ListMayChangeItsLength)
+{
+  const auto filter = MakeStackFilter(MakePoints({ { Eye[0], -30.0, Eye[2] } }));
+  AddInterface(filter, MakePlaneAt(0.0), 1.0, 1.5);
+  filter->Update();
+  EXPECT_NEAR(filter->GetOutput()->GetPoint(0)[1], -20.0, 1e-11);
+  AddInterface(filter, MakePlaneAt(-10.0), 1.5, 1.333);
+  filter->Update();
+  EXPECT_NEAR(filter->GetOutput()->GetPoint(0)[1], -(10.0 / 1.5 + 20.0 / 1.333), 1e-11);
+  filter->GetInterfaces()->RemoveItem(1);
+  filter->RemoveInputConnection(1, 1);
+  filter->Update();
+  EXPECT_NEAR(filter->GetOutput()->GetPoint(0)[1], -20.0, 1e-11);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryStack, NormalsForALightAtTheEyeKeepTheirAngleToTheRay)
+{
+  const auto grid = MakeGrid(5, 60.0, -40.0);
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  for (int i = 0; i < 25; ++i)
+  {
+    normals->InsertNextTuple3(0.6, 0.8, 0.0);
+  }
+  grid->GetPointData()->SetNormals(normals);
+  const auto filter = MakeAquarium(grid);
+  filter->VirtualNormalsOn();
+  filter->Update();
+  vtkPolyData* output = filter->GetOutput();
+  vtkDataArray* seen = output->GetPointData()->GetNormals();
+  ASSERT_NE(seen, nullptr);
+  EXPECT_STREQ(seen->GetName(), "VirtualNormals");
+  for (vtkIdType i = 0; i < 25; ++i)
+  {
+    double p[3];
+    double at[3];
+    double last[3];
+    double n[3];
+    grid->GetPoint(i, p);
+    output->GetPoint(i, at);
+    output->GetPointData()->GetArray("LastSightPoint")->GetTuple(i, last);
+    seen->GetTuple(i, n);
+    const auto cosine = [](const double a[3], const double from[3], const double to[3])
+    {
+      const double d[3] = { to[0] - from[0], to[1] - from[1], to[2] - from[2] };
+      return (a[0] * d[0] + a[1] * d[1] + a[2] * d[2]) / std::hypot(d[0], d[1], d[2]);
+    };
+    const double own[3] = { 0.6, 0.8, 0.0 };
+    EXPECT_NEAR(cosine(n, at, Eye), cosine(own, p, last), 1e-12);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryStack, IndicesThatDoNotMatchAreAnError)
+{
+  const auto filter = MakeStackFilter(MakeGrid(3, 10.0, -40.0));
+  AddInterface(filter, MakePlaneAt(0.0), 1.0, 1.5);
+  AddInterface(filter, MakePlaneAt(-10.0), 1.4, 1.333);
+  ExpectError(filter, "neither is that of the medium behind interface 0");
+}
+
+TEST(RefractedGeometryStack, IndicesThatAreNotPositiveAndFiniteAreAnError)
+{
+  for (const double bad : { std::nan(""), -1.333, 0.0, std::numeric_limits<double>::infinity() })
+  {
+    const auto filter = MakeStackFilter(MakeGrid(3, 10.0, -40.0));
+    AddInterface(filter, MakePlaneAt(0.0), 1.0, 1.5);
+    AddInterface(filter, MakePlaneAt(-10.0), 1.5, bad);
+    ExpectError(filter, "must be positive and finite");
+  }
+}
+
+TEST(RefractedGeometryStack, EmptySurfaceIsAnError)
+{
+  const auto filter = MakeStackFilter(MakeGrid(3, 10.0, -40.0));
+  AddInterface(filter, MakePlaneAt(0.0), 1.0, 1.5);
+  vtkNew<vtkPolyData> empty;
+  AddInterface(filter, empty, 1.5, 1.333);
+  ExpectError(filter, "Interface 1: The membrane has no usable triangle");
+  filter->RemoveInputConnection(1, 1);
+  filter->AddInputData(1, MakePlaneAt(-10.0));
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9);
+}
+
+TEST(RefractedGeometryStack, OtherNumberOfSurfacesIsAnError)
+{
+  const auto more = MakeAquarium(MakeGrid(3, 10.0, -40.0));
+  more->AddInputData(1, MakePlaneAt(-20.0));
+  ExpectError(more, "3 surfaces at the membrane port, and 2");
+  const auto fewer = MakeAquarium(MakeGrid(3, 10.0, -40.0));
+  fewer->RemoveInputConnection(1, 1);
+  ExpectError(fewer, "1 surfaces at the membrane port, and 2");
+}
+
+TEST(RefractedGeometryStack, PropertiesThatAreNotAvailableAreAnError)
+{
+  const auto all = MakeAquarium(MakeGrid(3, 10.0, -40.0));
+  all->SetImagesToAllImages();
+  ExpectError(all, "ALL_IMAGES is not available");
+  const auto flat = MakeAquarium(MakeGrid(3, 10.0, -40.0));
+  flat->SetMembraneModelToFlatFacets();
+  ExpectError(flat, "need the membrane model CURVED");
+  const auto light = MakeAquarium(MakeGrid(3, 10.0, -40.0));
+  light->VirtualNormalsOn();
+  light->SetLightDirection(0.0, 1.0, 0.0);
+  ExpectError(light, "need a light at the eye");
+}
+
+TEST(RefractedGeometryStack, EyeOnASurfaceOrNotFiniteIsAnError)
+{
+  const auto on = MakeAquarium(MakeGrid(3, 10.0, -40.0));
+  on->SetEyePosition(1.0, -10.0, 2.0);
+  ExpectError(on, "lies on the membrane");
+  const auto nowhere = MakeAquarium(MakeGrid(3, 10.0, -40.0));
+  nowhere->SetEyePosition(1.0, std::nan(""), 2.0);
+  ExpectError(nowhere, "is not finite");
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractedGeometryStack, WrongOrderWarnsAndCountsPointsWithoutImage)
+{
+  const auto filter = MakeStackFilter(MakeGrid(3, 10.0, -40.0));
+  AddInterface(filter, MakePlaneAt(-10.0), 1.0, 1.5);
+  AddInterface(filter, MakePlaneAt(0.0), 1.5, 1.333);
+  filter->SetEyePosition(0.0, -5.0, 0.0); // in front of the first one, and behind the second one
+  const auto messages = Observe(filter);
+  filter->Update();
+  EXPECT_NE(messages->Text.find("No ray from the eye passes"), std::string::npos) << messages->Text;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 9);
+}
+
+TEST(RefractedGeometryStack, PointsBesideALaterSurfaceAreCounted)
+{
+  const auto filter =
+    MakeAquarium(MakePoints({ { 0.0, -40.0, 0.0 }, { 500.0, -40.0, 0.0 }, { 0.0, -5.0, 0.0 } }));
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 2);
+  EXPECT_EQ(filter->GetNumberOfVerticesWithoutImage(), 1);
+  EXPECT_EQ(
+    filter->GetOutput()->GetFieldData()->GetArray("PointsWithoutImage")->GetComponent(0, 0), 1.0);
+}
+
+TEST(RefractedGeometryStack, EyeBetweenSurfacesUsesTheRest)
+{
+  const auto filter = MakeAquarium(MakePoints({ { 5.0, -40.0, 3.0 } }));
+  filter->SetEyePosition(5.0, -2.0, 3.0);
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfPoints(), 1);
+  EXPECT_NEAR(filter->GetOutput()->GetPoint(0)[1], -10.0 - 30.0 * 1.5 / 1.333, 1e-11);
+  EXPECT_EQ(GetValue(filter->GetOutput(), "LegLengths", 0, 0), 0.0);
+  EXPECT_NEAR(GetValue(filter->GetOutput(), "LegLengths", 0, 1), 30.0, 1e-11);
+}

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Testing_Module_Refraction_Stack_StackTestScene_h
+#define meniscus_Testing_Module_Refraction_Stack_StackTestScene_h
+
+#include "ExactStack.h"
+#include "Refraction/Stack/StackSolver.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+namespace meniscus::testing
+{
+
+inline std::shared_ptr<const StackSurface> MakeSurface(const reference::MembraneMesh& mesh)
+{
+  auto surface = std::make_shared<StackSurface>();
+  EXPECT_EQ(surface->SetMembrane(mesh.AsInput()), MembraneStatus::Ready);
+  return surface;
+}
+
+/** Sets interfaces and eye, which must be valid. */
+inline void SetStack(
+  StackSolver& solver, const std::vector<StackInterface>& list, const glm::dvec3& eye)
+{
+  ASSERT_EQ(solver.SetInterfaces(list).Fault, MediaFault::None);
+  ASSERT_EQ(solver.SetEye(eye), EyeStatus::Ready);
+}
+
+/** Image of a point without a point before it. */
+inline StackVertex SolveAlone(const StackSolver& solver, const glm::dvec3& point)
+{
+  StackSolver::Memory memory;
+  StackPath path;
+  return solver.SolvePoint(point, memory, path);
+}
+
+}
+
+#endif

@@ -1,0 +1,480 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Virtual points behind planes and spheres in sequence, against closed forms and exact paths.
+#include "RefractionTestRandom.h"
+#include "StackTestScene.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+
+using meniscus::EyeStatus;
+using meniscus::ImageState;
+using meniscus::StackInterface;
+using meniscus::StackSolver;
+using meniscus::StackVertex;
+using meniscus::reference::ExactSurface;
+using meniscus::reference::MakeCap;
+using meniscus::reference::MakeImage;
+using meniscus::reference::MakePlane;
+using meniscus::reference::MakeSphere;
+using meniscus::reference::TraceExactly;
+using meniscus::testing::MakeSurface;
+using meniscus::testing::Random;
+using meniscus::testing::SetStack;
+using meniscus::testing::SolveAlone;
+
+const double Pi = std::acos(-1.0);
+
+// Solves for the sine of the first angle with which layers of thickness d and index n have the
+// horizontal extent r: sum d tan t = r is monotone, so bisection to the last bit.
+double BisectSine(const std::vector<double>& thickness, const std::vector<double>& index, double r)
+{
+  double low = 0.0;
+  double high = 1.0;
+  for (const double n : index)
+  {
+    high = std::min(high, n / index[0]);
+  }
+  for (int i = 0; i < 200; ++i)
+  {
+    const double middle = 0.5 * (low + high);
+    double extent = 0.0;
+    for (std::size_t k = 0; k < index.size(); ++k)
+    {
+      const double sine = middle * index[0] / index[k];
+      extent += thickness[k] * sine / std::sqrt(1.0 - sine * sine);
+    }
+    (extent < r ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+// Distance of a line from a point.
+double GetDistance(const glm::dvec3& point, const glm::dvec3& origin, const glm::dvec3& direction)
+{
+  return glm::length(glm::cross(point - origin, glm::normalize(direction)));
+}
+
+}
+
+//------------------------------------------------------------------------------
+// Air, glass, water. Newton's method ends at 1e-12 of a facet of 40, the thickness is 100.
+TEST(RefractionStack, PlaneLayersAgreeWithBisection)
+{
+  const glm::dvec3 eye(0.0, 80.0, 0.0);
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakePlane(0.0, 400.0, 10)), { 1.0, 1.5 } },
+      { MakeSurface(MakePlane(-20.0, 400.0, 7)), { 1.5, 1.333 } } },
+    eye);
+  EXPECT_TRUE(solver.GetStack().HasPassage());
+  Random random(1);
+  double largest = 0.0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    const glm::dvec3 point(random(-120.0, 120.0), random(-100.0, -21.0), random(-120.0, 120.0));
+    const double r = std::hypot(point.x, point.z);
+    const double sine = BisectSine({ 80.0, 20.0, -20.0 - point.y }, { 1.0, 1.5, 1.333 }, r);
+    const double t1 = std::asin(sine);
+    const double t2 = std::asin(sine / 1.5);
+    const double t3 = std::asin(sine / 1.333);
+    const double apparent = 20.0 / std::cos(t2) / 1.5 + (-20.0 - point.y) / std::cos(t3) / 1.333;
+    const double length = 80.0 / std::cos(t1) + apparent;
+    const glm::dvec3 truth = eye +
+      length * glm::dvec3(std::sin(t1) * point.x / r, -std::cos(t1), std::sin(t1) * point.z / r);
+    const StackVertex vertex = SolveAlone(solver, point);
+    ASSERT_EQ(vertex.State, ImageState::Found);
+    EXPECT_EQ(vertex.Passed, 2);
+    largest = std::max(largest, glm::length(vertex.Position - truth));
+    EXPECT_NEAR(
+      vertex.Depth, 20.0 / std::cos(t2) + (-20.0 - point.y) / std::cos(t3), 1e-10 * 100.0);
+  }
+  EXPECT_LT(largest, 1e-10 * 100.0);
+  RecordProperty("largest_error", std::to_string(largest * 1e12) + "e-12");
+}
+
+//------------------------------------------------------------------------------
+// The ray behind a pane is parallel to the sight ray, and shifted by d sin(t1 - t2) / cos(t2).
+TEST(RefractionStack, PaneShiftsRaysAndKeepsTheirDirections)
+{
+  const glm::dvec3 eye(10.0, 60.0, -5.0);
+  constexpr double thickness = 12.0;
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakePlane(0.0, 300.0, 6)), { 1.0, 1.6 } },
+      { MakeSurface(MakePlane(-thickness, 300.0, 6)), { 1.6, 1.0 } } },
+    eye);
+  Random random(2);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const glm::dvec3 point(random(-80.0, 80.0), random(-90.0, -13.0), random(-80.0, 80.0));
+    const StackVertex vertex = SolveAlone(solver, point);
+    ASSERT_EQ(vertex.State, ImageState::Found);
+    const glm::dvec3 sight = glm::normalize(vertex.SightPoint - eye);
+    const glm::dvec3 last = glm::normalize(point - vertex.LastSightPoint);
+    EXPECT_LT(glm::length(sight - last), 1e-11);
+    const double t1 = std::acos(-sight.y);
+    const double t2 = std::asin(std::sin(t1) / 1.6);
+    EXPECT_NEAR(GetDistance(point, eye, sight), thickness * std::sin(t1 - t2) / std::cos(t2),
+      1e-10 * thickness);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Both glass surfaces are around the eye: no ray is refracted at all.
+TEST(RefractionStack, DomePortAroundTheEyeKeepsDirections)
+{
+  const glm::dvec3 eye(3.0, -2.0, 7.0);
+  for (const bool outwards : { false, true })
+  {
+    const meniscus::InterfaceMedia inner =
+      outwards ? meniscus::InterfaceMedia{ 1.5, 1.0 } : meniscus::InterfaceMedia{ 1.0, 1.5 };
+    const meniscus::InterfaceMedia outer =
+      outwards ? meniscus::InterfaceMedia{ 1.333, 1.5 } : meniscus::InterfaceMedia{ 1.5, 1.333 };
+    StackSolver solver;
+    SetStack(solver,
+      { { MakeSurface(MakeSphere(eye, 50.0, 3, outwards)), inner },
+        { MakeSurface(MakeSphere(eye, 57.0, 3, outwards)), outer } },
+      eye);
+    EXPECT_TRUE(solver.GetStack().HasPassage());
+    Random random(3);
+    double largest = 0.0;
+    for (int i = 0; i < 1000; ++i)
+    {
+      const glm::dvec3 direction = glm::normalize(random.Point(glm::dvec3(-1.0), glm::dvec3(1.0)));
+      const double depth = random(1.0, 400.0);
+      const StackVertex vertex = SolveAlone(solver, eye + (57.0 + depth) * direction);
+      ASSERT_EQ(vertex.State, ImageState::Found);
+      largest = std::max(largest, glm::length(glm::normalize(vertex.Position - eye) - direction));
+      EXPECT_NEAR(glm::length(vertex.Position - eye), 50.0 + 7.0 / 1.5 + depth / 1.333, 1e-9);
+    }
+    EXPECT_LT(largest, 1e-12);
+    RecordProperty(outwards ? "outwards" : "inwards", std::to_string(largest * 1e15) + "e-15");
+  }
+}
+
+//------------------------------------------------------------------------------
+// A point at R / n from the centre of a ball is seen at n R on the same radius, by every ray. The
+// ball is listed twice; the point is between entering and leaving it.
+TEST(RefractionStack, AplanaticPointsOfABallAreSeenExactly)
+{
+  const glm::dvec3 centre(5.0, 1.0, -2.0);
+  constexpr double radius = 30.0;
+  constexpr double n = 1.52;
+  const auto ball = MakeSurface(MakeSphere(centre, radius, 4, true));
+  Random random(4);
+  for (int i = 0; i < 40; ++i)
+  {
+    const glm::dvec3 axis = glm::normalize(random.Point(glm::dvec3(-1.0), glm::dvec3(1.0)));
+    // An eye before which the surface in front of the point lies: all rays from the point leave
+    // through the side of the axis's other end without total reflection.
+    const glm::dvec3 across = glm::normalize(glm::cross(axis, glm::dvec3(0.3, -0.5, 0.8)));
+    const glm::dvec3 eye = centre - 150.0 * axis + random(-100.0, 100.0) * across;
+    StackSolver solver;
+    SetStack(solver, { { ball, { 1.0, n } }, { ball, { 1.0, n } } }, eye);
+    const StackVertex vertex = SolveAlone(solver, centre + (radius / n) * axis);
+    ASSERT_EQ(vertex.State, ImageState::Found) << i;
+    EXPECT_EQ(vertex.Passed, 1);
+    EXPECT_LT(GetDistance(centre + n * radius * axis, eye, vertex.SightPoint - eye), 1e-9);
+  }
+}
+
+//------------------------------------------------------------------------------
+// Points on exact rays through a ball of 5,120 facets, in front of the focus, behind it, and among
+// caustics: whichever image is found, the exact path of its sight ray leads to the point.
+TEST(RefractionStack, BallLensAgreesWithExactPaths)
+{
+  const glm::dvec3 eye(4.0, 200.0, -3.0);
+  const glm::dvec3 centre(0.0, 0.0, 0.0);
+  const auto ball = MakeSurface(MakeSphere(centre, 40.0, 4, true));
+  StackSolver solver;
+  SetStack(solver, { { ball, { 1.0, 1.5 } }, { ball, { 1.0, 1.5 } } }, eye);
+  const std::vector<ExactSurface> exact{ { 1.0, 1.5, centre, 40.0 },
+    { 1.5, 1.0, centre, 40.0, glm::dvec3(0.0), true } };
+  Random random(5);
+  double largest = 0.0;
+  double largestSame = 0.0;
+  int same = 0;
+  constexpr int points = 4000;
+  for (int i = 0; i < points; ++i)
+  {
+    // Sight rays that meet the ball at up to 0.98 of its radius.
+    const double angle = random(0.0, 2.0 * Pi);
+    const double r = 39.0 * std::sqrt(random(0.0, 1.0));
+    const glm::dvec3 toward = glm::normalize(centre - eye);
+    const glm::dvec3 side = glm::normalize(glm::cross(toward, glm::dvec3(1.0, 0.0, 0.0)));
+    const glm::dvec3 target =
+      centre + r * (std::cos(angle) * side + std::sin(angle) * glm::cross(toward, side));
+    const auto path = TraceExactly(exact, eye, target - eye);
+    ASSERT_TRUE(path);
+    const auto image = MakeImage(exact, *path, random(1.0, 150.0));
+    const StackVertex vertex = SolveAlone(solver, image.Point);
+    ASSERT_EQ(vertex.State, ImageState::Found) << i;
+    const auto own = TraceExactly(exact, eye, vertex.SightPoint - eye);
+    ASSERT_TRUE(own);
+    const glm::dvec3 last = own->Points[1];
+    largest = std::max(largest, GetDistance(image.Point, last, own->Directions[2]));
+    EXPECT_GT(glm::dot(image.Point - last, own->Directions[2]), 0.0);
+    const auto ownImage = MakeImage(exact, *own, glm::length(image.Point - last));
+    EXPECT_LT(glm::length(ownImage.Virtual - vertex.Position), 1e-6);
+    if (glm::length(path->Points[0] - vertex.SightPoint) < 1e-3)
+    {
+      ++same;
+      largestSame = std::max(largestSame, glm::length(image.Virtual - vertex.Position));
+    }
+  }
+  EXPECT_LT(largest, 1e-6);
+  EXPECT_LT(largestSame, 1e-6);
+  EXPECT_GT(same, points / 3);
+  EXPECT_EQ(solver.GetNumberOfUndecidedSearches(), 0);
+  RecordProperty("largest_distance", std::to_string(largest * 1e9) + "e-9");
+  RecordProperty("largest_virtual", std::to_string(largestSame * 1e9) + "e-9");
+}
+
+//------------------------------------------------------------------------------
+// Two caps of 5,000 facets each; the second one is concave to the eye.
+TEST(RefractionStack, BiconvexLensAgreesWithExactPaths)
+{
+  const glm::dvec3 eye(2.0, 150.0, 1.0);
+  constexpr double r1 = 60.0;
+  constexpr double r2 = 80.0;
+  // Vertices at y = 8 and y = -8.
+  const glm::dvec3 c1(0.0, 8.0 - r1, 0.0);
+  const glm::dvec3 c2(0.0, r2 - 8.0, 0.0);
+  const glm::dvec3 up(0.0, 1.0, 0.0);
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakeCap(c1, r1, up, up, 40.0, 50)), { 1.0, 1.52 } },
+      { MakeSurface(MakeCap(c2, r2, -up, up, 40.0, 50)), { 1.52, 1.333 } } },
+    eye);
+  const std::vector<ExactSurface> exact{ { 1.0, 1.52, c1, r1 },
+    { 1.52, 1.333, c2, r2, glm::dvec3(0.0), true } };
+  Random random(6);
+  double largest = 0.0;
+  for (int i = 0; i < 4000; ++i)
+  {
+    const glm::dvec3 target(random(-17.0, 17.0), 8.0, random(-17.0, 17.0));
+    const auto path = TraceExactly(exact, eye, target - eye);
+    ASSERT_TRUE(path);
+    // Before the focus, where every point has one image.
+    const auto image = MakeImage(exact, *path, random(0.5, 40.0));
+    const StackVertex vertex = SolveAlone(solver, image.Point);
+    ASSERT_EQ(vertex.State, ImageState::Found) << i;
+    largest = std::max(largest, glm::length(image.Virtual - vertex.Position));
+  }
+  EXPECT_LT(largest, 1e-6);
+  EXPECT_EQ(solver.GetNumberOfUndecidedSearches(), 0);
+  RecordProperty("largest_error", std::to_string(largest * 1e9) + "e-9");
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionStack, PointsAreRefractedByTheInterfacesInFrontOfThem)
+{
+  const glm::dvec3 eye(0.0, 80.0, 0.0);
+  const auto first = MakeSurface(MakePlane(0.0, 400.0, 5));
+  StackSolver both;
+  SetStack(both,
+    { { first, { 1.0, 1.5 } }, { MakeSurface(MakePlane(-20.0, 400.0, 5)), { 1.5, 1.333 } } }, eye);
+  StackSolver one;
+  SetStack(one, { { first, { 1.0, 1.5 } } }, eye);
+  Random random(7);
+  for (int i = 0; i < 500; ++i)
+  {
+    const glm::dvec3 before(random(-50.0, 50.0), random(1.0, 70.0), random(-50.0, 50.0));
+    const StackVertex own = SolveAlone(both, before);
+    const double reach = 80.0 / (80.0 - before.y); // to where the straight ray meets the first one
+    if (std::max(std::fabs(before.x), std::fabs(before.z)) * reach > 200.0)
+    {
+      EXPECT_EQ(own.State, ImageState::NoImage);
+      continue;
+    }
+    EXPECT_EQ(own.State, ImageState::Found);
+    EXPECT_EQ(own.Position, before);
+    EXPECT_EQ(own.Passed, 0);
+    EXPECT_EQ(own.Facet, -1);
+    const glm::dvec3 between(random(-50.0, 50.0), random(-19.9, -0.1), random(-50.0, 50.0));
+    const StackVertex vertex = SolveAlone(both, between);
+    ASSERT_EQ(vertex.State, ImageState::Found);
+    EXPECT_EQ(vertex.Passed, 1);
+    EXPECT_EQ(vertex.Position, SolveAlone(one, between).Position);
+  }
+  // On an interface the two answers agree, and one is given.
+  for (const double y : { 0.0, -20.0 })
+  {
+    const glm::dvec3 on(12.0, y, -7.0);
+    const StackVertex at = SolveAlone(both, on);
+    const StackVertex behind = SolveAlone(both, on - glm::dvec3(0.0, 1e-9, 0.0));
+    ASSERT_EQ(at.State, ImageState::Found) << y;
+    ASSERT_EQ(behind.State, ImageState::Found) << y;
+    EXPECT_LT(glm::length(at.Position - behind.Position), 1e-8);
+  }
+}
+
+//------------------------------------------------------------------------------
+// What is beside a later interface is not seen, whether behind it or in front of it.
+TEST(RefractionStack, RaysThatMissALaterInterfaceShowNothing)
+{
+  const glm::dvec3 eye(0.0, 80.0, 0.0);
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakePlane(0.0, 400.0, 5)), { 1.0, 1.5 } },
+      { MakeSurface(MakePlane(-20.0, 40.0, 5)), { 1.5, 1.333 } } },
+    eye);
+  EXPECT_EQ(SolveAlone(solver, { 0.0, -40.0, 0.0 }).State, ImageState::Found);
+  EXPECT_EQ(SolveAlone(solver, { 100.0, -40.0, 0.0 }).State, ImageState::NoImage);
+  EXPECT_EQ(SolveAlone(solver, { 100.0, -10.0, 0.0 }).State, ImageState::NoImage);
+  EXPECT_EQ(SolveAlone(solver, { 5.0, -10.0, 0.0 }).State, ImageState::Found);
+  EXPECT_EQ(SolveAlone(solver, { 0.0, 90.0, 0.0 }).State, ImageState::NoImage); // behind the eye
+  EXPECT_EQ(SolveAlone(solver, { std::nan(""), -40.0, 0.0 }).State, ImageState::NotFinite);
+}
+
+//------------------------------------------------------------------------------
+// From an index of 1.5 to 1, sight rays beyond 41.8 degrees are totally reflected at the second
+// interface. What lies on them in front of it is seen.
+TEST(RefractionStack, TotalReflectionAtALaterInterfaceShowsNothing)
+{
+  const glm::dvec3 eye(0.0, 80.0, 0.0);
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakePlane(0.0, 2000.0, 20)), { 1.5, 1.6 } },
+      { MakeSurface(MakePlane(-20.0, 2000.0, 20)), { 1.6, 1.0 } } },
+    eye);
+  const std::vector<ExactSurface> exact{ { 1.5, 1.6, glm::dvec3(0.0), 0.0, { 0.0, 1.0, 0.0 } },
+    { 1.6, 1.0, { 0.0, -20.0, 0.0 }, 0.0, { 0.0, 1.0, 0.0 } } };
+  const double critical = std::asin(1.0 / 1.5);
+  const auto path =
+    TraceExactly(exact, eye, { std::sin(0.95 * critical), -std::cos(0.95 * critical), 0.0 });
+  ASSERT_TRUE(path);
+  const auto image = MakeImage(exact, *path, 30.0);
+  const StackVertex vertex = SolveAlone(solver, image.Point);
+  ASSERT_EQ(vertex.State, ImageState::Found);
+  EXPECT_LT(glm::length(vertex.Position - image.Virtual), 1e-8);
+  // Between the interfaces, on a ray that is reflected at the second one.
+  EXPECT_EQ(SolveAlone(solver, { 200.0, -15.0, 0.0 }).State, ImageState::Found);
+  EXPECT_FALSE(TraceExactly(exact, eye, { 200.0, -80.0, 0.0 }));
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionStack, EqualIndicesChangeNoBit)
+{
+  const glm::dvec3 eye(10.0, 90.0, 5.0);
+  const auto top = MakeSurface(
+    MakeCap({ 0.0, -100.0, 0.0 }, 100.0, { 0.0, 1.0, 0.0 }, { 0.0, 1.0, 0.0 }, 80.0, 20));
+  const auto other = MakeSurface(MakePlane(-5.0, 300.0, 9));
+  StackSolver plain;
+  SetStack(plain, { { top, { 1.0, 1.4 } } }, eye);
+  StackSolver padded;
+  SetStack(
+    padded, { { other, { 1.0, 1.0 } }, { top, { 1.0, 1.4 } }, { other, { 1.4, 1.4 } } }, eye);
+  StackSolver none;
+  SetStack(none, { { top, { 1.3, 1.3 } }, { other, { 1.3, 1.3 } }, { top, { 1.3, 1.3 } } }, eye);
+  EXPECT_EQ(padded.GetStack().GetLinks().size(), 1u);
+  EXPECT_EQ(none.GetStack().GetLinks().size(), 0u);
+  Random random(8);
+  for (int i = 0; i < 500; ++i)
+  {
+    const glm::dvec3 point = random.Point({ -30.0, -80.0, -30.0 }, { 30.0, -20.0, 30.0 });
+    const StackVertex a = SolveAlone(plain, point);
+    const StackVertex b = SolveAlone(padded, point);
+    ASSERT_EQ(a.State, ImageState::Found);
+    EXPECT_EQ(a.Position, b.Position);
+    EXPECT_EQ(a.SightPoint, b.SightPoint);
+    EXPECT_EQ(a.Depth, b.Depth);
+    EXPECT_EQ(SolveAlone(none, point).Position, point);
+    EXPECT_EQ(SolveAlone(none, point).State, ImageState::Found);
+  }
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionStack, ListStartsBehindAnEyeBetweenInterfaces)
+{
+  const auto first = MakeSurface(MakePlane(0.0, 300.0, 5));
+  const auto second = MakeSurface(MakePlane(-20.0, 300.0, 5));
+  const glm::dvec3 eye(0.0, -8.0, 0.0);
+  StackSolver inside;
+  SetStack(inside, { { first, { 1.0, 1.5 } }, { second, { 1.5, 1.0 } } }, eye);
+  ASSERT_EQ(inside.GetStack().GetLinks().size(), 1u);
+  EXPECT_EQ(inside.GetStack().GetLinks()[0].Index, 1u);
+  StackSolver alone;
+  SetStack(alone, { { second, { 1.5, 1.0 } } }, eye);
+  const glm::dvec3 point(3.0, -40.0, 2.0);
+  EXPECT_LT(glm::length(SolveAlone(inside, point).Position - SolveAlone(alone, point).Position),
+    1e-12 * 100.0);
+
+  // In a ball: the list begins where rays leave it.
+  const auto ball = MakeSurface(MakeSphere(glm::dvec3(0.0), 30.0, 3, true));
+  StackSolver within;
+  SetStack(within, { { ball, { 1.0, 1.5 } }, { ball, { 1.0, 1.5 } } }, { 1.0, 2.0, 3.0 });
+  ASSERT_EQ(within.GetStack().GetLinks().size(), 1u);
+  EXPECT_FALSE(within.GetStack().GetLinks()[0].Passage.FromFront);
+
+  // Behind both: nothing passes.
+  StackSolver behind;
+  SetStack(behind, { { first, { 1.0, 1.5 } }, { second, { 1.5, 1.333 } } }, { 0.0, -50.0, 0.0 });
+  EXPECT_FALSE(behind.GetStack().HasPassage());
+  EXPECT_EQ(SolveAlone(behind, point).State, ImageState::NoImage);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionStack, WrongOrderIsNoticed)
+{
+  StackSolver solver;
+  SetStack(solver,
+    { { MakeSurface(MakePlane(-20.0, 300.0, 5)), { 1.0, 1.5 } },
+      { MakeSurface(MakePlane(0.0, 300.0, 5)), { 1.5, 1.333 } } },
+    { 0.0, 80.0, 0.0 });
+  EXPECT_FALSE(solver.GetStack().HasPassage() && solver.GetStack().GetLinks().size() == 2);
+}
+
+//------------------------------------------------------------------------------
+TEST(RefractionStack, EyeOnASurfaceIsAnError)
+{
+  StackSolver solver;
+  ASSERT_EQ(solver
+              .SetInterfaces({ { MakeSurface(MakePlane(0.0, 300.0, 5)), { 1.0, 1.5 } },
+                { MakeSurface(MakePlane(-20.0, 300.0, 5)), { 1.5, 1.0 } } })
+              .Fault,
+    meniscus::MediaFault::None);
+  EXPECT_EQ(solver.SetEye({ 1.0, 0.0, 2.0 }), EyeStatus::OnTheMembrane);
+  EXPECT_EQ(solver.SetEye({ 1.0, std::nan(""), 2.0 }), EyeStatus::NotFinite);
+}
+
+//------------------------------------------------------------------------------
+// Chains begin at multiples of Chain, so ranges that do give the same bits.
+TEST(RefractionStack, RangesDoNotChangeResults)
+{
+  const auto ball = MakeSurface(MakeSphere(glm::dvec3(0.0), 40.0, 3, true));
+  StackSolver solver;
+  SetStack(solver, { { ball, { 1.0, 1.4 } }, { ball, { 1.0, 1.4 } } }, { 0.0, 150.0, 10.0 });
+  constexpr std::size_t count = 5 * StackSolver::Chain;
+  std::vector<double> points;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double t = static_cast<double>(i) / count;
+    points.insert(points.end(), { 30.0 * std::sin(7.0 * t), -60.0 - 20.0 * t, 30.0 * t - 15.0 });
+  }
+  std::vector<meniscus::VirtualVertex> whole(count);
+  std::vector<meniscus::StackDetail> details(count);
+  std::vector<double> legs(2 * count);
+  solver.Solve(points.data(), 0, count, whole.data(), details.data(), legs.data());
+  const std::vector<double> wholeLegs = legs;
+  std::vector<meniscus::VirtualVertex> parts(count);
+  for (const std::size_t k : { 3u, 0u, 4u, 1u, 2u })
+  {
+    solver.Solve(points.data(), k * StackSolver::Chain, (k + 1) * StackSolver::Chain, parts.data(),
+      details.data(), legs.data());
+  }
+  EXPECT_EQ(legs, wholeLegs);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    EXPECT_EQ(whole[i].State, ImageState::Found);
+    EXPECT_EQ(whole[i].Position, parts[i].Position);
+    EXPECT_NEAR(legs[2 * i] + legs[2 * i + 1], whole[i].Depth, 1e-12 * 200.0);
+  }
+}
