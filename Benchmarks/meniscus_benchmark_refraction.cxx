@@ -8,6 +8,7 @@
 #include "Refraction/Accuracy.h"
 #include "Refraction/Frames.h"
 #include "Refraction/Growth.h"
+#include "Refraction/PassTables.h"
 #include "Refraction/RefractionOptions.h"
 #include "Refraction/RefractionReport.h"
 #include "VolumeScene.h"
@@ -29,6 +30,12 @@ bool MeasureTables(const RefractionOptions& options)
 {
   std::string json = "{\n  \"program\": \"meniscus_benchmark_refraction\",\n"
                      "  \"compiler\": \"" __VERSION__ "\",\n  \"threads\": 1";
+  if (options.Pass)
+  {
+    std::cout << options.Threads << " threads\n\n";
+    json += ",\n  \"pass_threads\": " + std::to_string(options.Threads) + ",\n" +
+      PrintPassTables(std::cout);
+  }
   if (options.Thesis)
   {
     json += ",\n" + RunThesisTables();
@@ -66,7 +73,8 @@ int main(int argc, char* argv[])
     (options.Help ? std::cout : std::cerr) << options.Problem << '\n' << RefractionUsage;
     return options.Help ? EXIT_SUCCESS : EXIT_FAILURE;
   }
-  const bool draws = options.Frames || options.Report || !options.Plot.empty();
+  const bool draws = options.Frames || options.Report || options.Pass || !options.Plot.empty() ||
+    !options.Picture.empty();
   if (draws && !meniscus::test::HasDisplay())
   {
     std::cerr << "no display: run under xvfb-run\n";
@@ -75,8 +83,13 @@ int main(int argc, char* argv[])
   // Before the first window is opened: llvmpipe reads this variable when it starts.
   setenv("LP_NUM_THREADS", std::to_string(options.Threads).c_str(), 1);
   vtkSMPTools::Initialize(options.Threads);
-  if ((options.Thesis || options.Growth) && !MeasureTables(options))
+  if ((options.Thesis || options.Growth || options.Pass) && !MeasureTables(options))
   {
+    return EXIT_FAILURE;
+  }
+  if (!options.Picture.empty() && !WritePoolPicture(options.Picture))
+  {
+    std::cerr << "cannot write " << options.Picture << '\n';
     return EXIT_FAILURE;
   }
   if (options.Frames)

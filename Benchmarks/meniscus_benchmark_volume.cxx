@@ -6,6 +6,7 @@
  * double-precision reference. --help lists further options.
  */
 #include "Volume/VolumeComparison.h"
+#include "Volume/VolumeDevice.h"
 #include "Volume/VolumeOptions.h"
 #include "Volume/VolumeOutput.h"
 #include "Volume/VolumeProbe.h"
@@ -15,6 +16,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <cstdlib>
+#include <functional>
 #include <iostream>
 
 using namespace meniscus::benchmark;
@@ -34,15 +36,21 @@ void UseThreads(int threads)
 }
 
 //------------------------------------------------------------------------------
-// Contestants that survive a test in another process; the reasons for the others are recorded.
+// Contestants that survive a test in another process (or all of them, if they are not tested); the
+// reasons for the others are recorded.
 std::vector<Contestant> TrySurvivors(
   const std::vector<Contestant>& all, const VolumeOptions& options, std::vector<Figures>& figures)
 {
   std::vector<Contestant> survivors;
   for (const Contestant& contestant : all)
   {
-    std::cerr << "  trying " << contestant.Name << std::endl;
-    const ProbeResult probe = ProbeContestant(contestant.Name, options);
+    ProbeResult probe;
+    probe.Survives = options.ProbeSeconds == 0;
+    if (!probe.Survives)
+    {
+      std::cerr << "  trying " << contestant.Name << std::endl;
+      probe = ProbeContestant(contestant.Name, options);
+    }
     Figures entry;
     entry.Name = contestant.Name;
     entry.Survives = probe.Survives;
@@ -58,6 +66,56 @@ std::vector<Contestant> TrySurvivors(
 }
 
 //------------------------------------------------------------------------------
+// Mappers that were named by the end of their name and cannot be used here.
+void AddMissing(const std::vector<Contestant>& selected, const VolumeOptions& options,
+  std::vector<Figures>& figures)
+{
+  for (const std::string& word : options.Mappers)
+  {
+    bool found = word.empty() || word.back() != '$';
+    for (const Contestant& contestant : selected)
+    {
+      found = found || IsSelected(contestant.Name, word);
+    }
+    if (!found)
+    {
+      Figures entry;
+      entry.Name = word.substr(0, word.size() - 1);
+      entry.Survives = false;
+      entry.Fate = "not available here";
+      figures.push_back(entry);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Writes the files that the options ask for; returns false, with a message, if one fails.
+bool WriteFiles(const VolumeOptions& options, const RunDescription& description,
+  const std::vector<Figures>& all, VolumeComparison& comparison)
+{
+  const struct
+  {
+    const std::string& Name;
+    std::function<bool()> Write;
+  } files[] = { { options.Json, [&] { return WriteJson(options, description, all); } },
+    { options.Plot, [&] { return WritePlot(options, description, all); } },
+    { options.TimeRows,
+      [&] { return AppendTimeRows(options.TimeRows, options, description, all); } },
+    { options.ErrorRows,
+      [&] { return AppendErrorRows(options.ErrorRows, options, description, all); } },
+    { options.Picture, [&] { return comparison.WritePictures(options.Picture); } } };
+  for (const auto& file : files)
+  {
+    if (!file.Name.empty() && !file.Write())
+    {
+      std::cerr << "cannot write " << file.Name << '\n';
+      return false;
+    }
+  }
+  return true;
+}
+
+//------------------------------------------------------------------------------
 int CompareAll(const VolumeOptions& options)
 {
   const auto grid = MakeVolumeMesh(options);
@@ -67,8 +125,9 @@ int CompareAll(const VolumeOptions& options)
     return EXIT_FAILURE;
   }
   std::vector<Figures> all;
-  const auto contestants =
-    TrySurvivors(SelectContestants(MakeContestants(options), options.Mappers), options, all);
+  const auto selected = SelectContestants(MakeContestants(options), options.Mappers);
+  const auto contestants = TrySurvivors(selected, options, all);
+  AddMissing(selected, options, all);
   VolumeComparison comparison(options, grid);
   comparison.Enter(contestants);
   std::cerr << "  times ..." << std::endl;
@@ -88,20 +147,10 @@ int CompareAll(const VolumeOptions& options)
     }
   }
   const RunDescription description{ options.Mesh.empty() ? "generated block" : options.Mesh,
-    grid->GetNumberOfCells(), comparison.GetDevice() };
+    grid->GetNumberOfCells(), comparison.GetDevice(), comparison.GetCopyBandwidth() };
   PrintDescription(std::cout, options, description);
   PrintTable(std::cout, all);
-  if (!options.Json.empty() && !WriteJson(options, description, all))
-  {
-    std::cerr << "cannot write " << options.Json << '\n';
-    return EXIT_FAILURE;
-  }
-  if (!options.Plot.empty() && !WritePlot(options, description, all))
-  {
-    std::cerr << "cannot write " << options.Plot << '\n';
-    return EXIT_FAILURE;
-  }
-  return EXIT_SUCCESS;
+  return WriteFiles(options, description, all, comparison) ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 //------------------------------------------------------------------------------
@@ -135,6 +184,11 @@ int main(int argc, char* argv[])
   }
   UseThreads(options.Threads);
   const meniscus::test::DisplayHold hold;
+  if (options.Device)
+  {
+    PrintDevice(std::cout);
+    return EXIT_SUCCESS;
+  }
   if (!options.Probe.empty())
   {
     return MakeProbe(options);

@@ -17,14 +17,16 @@ const char* const RefractionUsage =
   "  --frames     frames of 512 x 512: thesis Tables 4.6 to 4.9 side by side, and against Embree;\n"
   "               needs a display\n"
   "  --report     each row of the table of goals; needs a display\n"
+  "  --pass       frames of the filter and of vtkRefractionPass, and the pool; needs a display\n"
   "  --row TEXT   only rows of the report whose names contain the text\n"
   "  --threads N  for frames and rows of two threads (default 2)\n"
-  "  --json FILE  write what --thesis and --growth measured\n"
+  "  --json FILE  write what --thesis, --growth and --pass measured\n"
   "  --csv FILE   write time against error\n"
   "  --plot FILE  draw time against error to a PNG file; needs a display\n"
+  "  --picture FILE  write the pool, drawn by vtkRefractionPass, to a PNG file; needs a display\n"
   "  --help       this text\n"
   "\n"
-  "Without any of the first four --thesis and --growth are run. Times are processor times where\n"
+  "Without any of the first five --thesis and --growth are run. Times are processor times where\n"
   "nothing else is said; nothing is judged.\n";
 
 //------------------------------------------------------------------------------
@@ -38,11 +40,13 @@ RefractionOptions ParseRefractionOptions(int argc, char* argv[])
       : key == "--growth"                ? &options.Growth
       : key == "--frames"                ? &options.Frames
       : key == "--report"                ? &options.Report
+      : key == "--pass"                  ? &options.Pass
       : key == "--help" || key == "-h"   ? &options.Help
                                          : nullptr;
     std::string* const text = key == "--json" ? &options.Json
       : key == "--csv"                        ? &options.Csv
       : key == "--plot"                       ? &options.Plot
+      : key == "--picture"                    ? &options.Picture
       : key == "--row"                        ? &options.Row
                                               : nullptr;
     if (flag)
@@ -63,7 +67,7 @@ RefractionOptions ParseRefractionOptions(int argc, char* argv[])
       return options;
     }
   }
-  if (!options.Thesis && !options.Growth && !options.Frames && !options.Report)
+  if (!options.Thesis && !options.Growth && !options.Frames && !options.Report && !options.Pass)
   {
     options.Thesis = true;
     options.Growth = true;

@@ -16,11 +16,13 @@ struct RefractionOptions
   bool Growth = false;
   bool Frames = false;
   bool Report = false;
+  bool Pass = false;
   bool Help = false;
   std::string Row;
   std::string Json;
   std::string Csv;
   std::string Plot;
+  std::string Picture;
   int Threads = 2;
   std::string Problem;
 };

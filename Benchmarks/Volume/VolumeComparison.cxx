@@ -3,10 +3,13 @@
 #include "VolumeComparison.h"
 
 #include "PixelRays.h"
+#include "VolumeDevice.h"
 
 #include <vtkCamera.h>
 #include <vtkDataArray.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkPNGWriter.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPointData.h>
 #include <vtkRenderWindow.h>
@@ -115,7 +118,7 @@ VolumeComparison::~VolumeComparison() = default;
 //------------------------------------------------------------------------------
 void VolumeComparison::LookFrom(VolumeScene& scene, int view) const
 {
-  const auto angles = ViewAngles(view);
+  const auto angles = ViewAnglesOf(this->Settings.Mode, view);
   LookAt(scene.GetRenderer(), this->Grid->GetBounds(), angles[0], angles[1]);
 }
 
@@ -158,7 +161,7 @@ void VolumeComparison::Enter(const std::vector<Contestant>& contestants)
   for (const Contestant& contestant : contestants)
   {
     Arena arena{ contestant, contestant.Make(),
-      std::make_unique<VolumeScene>(this->Settings.Size, this->Settings.Size) };
+      std::make_unique<VolumeScene>(this->Settings.Width, this->Settings.Height) };
     this->LookFrom(*arena.Scene, 0);
     arena.Scene->GetVolume()->SetVisibility(false);
     this->TimeFrame(arena); // opens the window
@@ -168,11 +171,60 @@ void VolumeComparison::Enter(const std::vector<Contestant>& contestants)
     figures.HasFloat = contestant.HasFloat;
     arena.Mapper->SetInputDataObject(this->Grid);
     arena.Scene->SetMapper(arena.Mapper);
-    arena.Scene->SetProperty(this->PropertyOf(contestant.Function));
+    const auto property = this->PropertyOf(contestant.Function);
+    ApplyMode(this->Settings.Mode, this->Grid, arena.Mapper, property);
+    arena.Scene->SetProperty(property);
     arena.Scene->GetVolume()->SetVisibility(true);
     figures.ColdMs = this->TimeFrame(arena).WallMs;
     this->Arenas.push_back(std::move(arena));
     this->Results.push_back(figures);
+  }
+  if (this->Settings.Bandwidth && !this->Arenas.empty())
+  {
+    this->CopyBandwidth = MeasureCopyBandwidth(this->Arenas.front().Scene->GetWindow());
+  }
+}
+
+//------------------------------------------------------------------------------
+bool VolumeComparison::WritePictures(const std::string& start)
+{
+  bool written = true;
+  for (Arena& arena : this->Arenas)
+  {
+    this->LookFrom(*arena.Scene, 0);
+    const ByteImage picture = arena.Scene->RenderBytes();
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(picture.Width, picture.Height, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+    std::copy(picture.Rgb.begin(), picture.Rgb.end(),
+      static_cast<unsigned char*>(image->GetScalarPointer()));
+    std::string name = arena.Player.Name;
+    std::replace(name.begin(), name.end(), '/', '-');
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetFileName((start + "-" + name + ".png").c_str());
+    writer->SetInputData(image);
+    writer->Write();
+    written = written && writer->GetErrorCode() == 0;
+  }
+  return written;
+}
+
+//------------------------------------------------------------------------------
+void VolumeComparison::AddCounters(std::size_t contestant, double& steps)
+{
+  auto* mapper = this->GetOurs(contestant);
+  if (!mapper)
+  {
+    return;
+  }
+  Figures& figures = this->Results[contestant];
+  steps += static_cast<double>(mapper->GetNumberOfTraversalSteps());
+  figures.LostRays += static_cast<double>(mapper->GetNumberOfLostRays());
+  figures.DeviceBytes = static_cast<double>(mapper->GetDeviceBytes());
+  figures.HostBytes = static_cast<double>(mapper->GetHostBytes());
+  if (mapper->GetActiveBackend() != vtkTetrahedraRayCastMapper::NATIVE)
+  {
+    figures.TableBytesPerStep = mapper->GetCompactTables() ? 20.0 + 16.0 : 32.0 + 16.0;
   }
 }
 
@@ -193,6 +245,7 @@ void VolumeComparison::MeasureTimes()
   {
     figures.Frames.clear();
     figures.ViewMs.clear();
+    figures.LostRays = 0.0;
   }
   for (int view = 0; view < this->Settings.Views; ++view)
   {
@@ -206,10 +259,7 @@ void VolumeComparison::MeasureTimes()
     }
     for (std::size_t i = 0; i < this->Arenas.size(); ++i)
     {
-      if (auto* mapper = this->GetOurs(i))
-      {
-        steps[i] += static_cast<double>(mapper->GetNumberOfTraversalSteps());
-      }
+      this->AddCounters(i, steps[i]);
     }
   }
   for (std::size_t i = 0; i < this->Arenas.size(); ++i)
@@ -233,7 +283,11 @@ void VolumeComparison::MeasureTimes()
     figures.SteadyMs = SpreadOf(figures.ViewMs).Median;
     figures.CpuMs = SpreadOf(cpu).Median;
     figures.StepsPerSecond = steps[i] / (1e-3 * sum);
-    figures.SetUpMs = SpreadOf(this->MeasureSetUp(i, 3).ChangedMs).Median;
+    if (this->Settings.SetUpRepetitions > 0)
+    {
+      figures.SetUpMs =
+        SpreadOf(this->MeasureSetUp(i, this->Settings.SetUpRepetitions).ChangedMs).Median;
+    }
   }
 }
 
@@ -396,6 +450,7 @@ void VolumeComparison::FindError(
   }
   figures.Bytes = bytes.GetResult();
   figures.Float = floats.GetResult();
+  figures.IsCompared = true;
 }
 
 } // namespace benchmark

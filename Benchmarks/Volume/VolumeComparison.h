@@ -52,7 +52,12 @@ struct Figures
   std::vector<double> ViewMs;    // medians of rounds
   double SteadyMs = 0.0;         // median of views
   double CpuMs = 0.0;
-  double StepsPerSecond = 0.0; // 0: unknown
+  double StepsPerSecond = 0.0;    // 0: unknown
+  double TableBytesPerStep = 0.0; // record of a cell and a vertex; 0: no tables on the device
+  double DeviceBytes = 0.0;       // tables on the graphics device
+  double HostBytes = 0.0;         // and in main memory; 0: unknown
+  double LostRays = 0.0;          // over all views, our mapper only
+  bool IsCompared = false;        // true if the errors were measured
   PictureError Bytes;
   PictureError Float;
   bool HasFloat = false;
@@ -87,6 +92,11 @@ public:
 
   const std::vector<Figures>& GetFigures() const { return this->Results; }
   std::string GetDevice() const { return this->Device; }
+  /** Bytes per second of copies on the device; 0 if not measured. */
+  double GetCopyBandwidth() const { return this->CopyBandwidth; }
+
+  /** Writes the first view of every contestant as START-NAME.png; returns false if that fails. */
+  bool WritePictures(const std::string& start);
 
   /** Frames after a change, each next to a steady frame of the same view. */
   struct Change
@@ -123,6 +133,7 @@ private:
     bool Turned = false;
   };
 
+  void AddCounters(std::size_t contestant, double& steps);
   /** A new property each time, since some measurements change it. */
   vtkSmartPointer<vtkVolumeProperty> PropertyOf(test::FunctionKind kind) const;
   void LookFrom(test::VolumeScene& scene, int view) const;
@@ -138,6 +149,7 @@ private:
   std::vector<Arena> Arenas;
   std::vector<Figures> Results;
   std::string Device;
+  double CopyBandwidth = 0.0;
 };
 
 } // namespace benchmark

@@ -152,7 +152,8 @@ Contestant MakeOurs(int backend, const std::string& name)
 //------------------------------------------------------------------------------
 std::vector<Contestant> MakeContestants(const VolumeOptions& options)
 {
-  std::vector<Contestant> all = MakePeers(options);
+  std::vector<Contestant> all =
+    options.Mode == VolumeMode::Composite ? MakePeers(options) : std::vector<Contestant>();
   vtkNew<vtkTetrahedraRayCastMapper> ours;
   for (int backend = 1; backend <= ours->GetBackendMaxValue(); ++backend)
   {
@@ -192,6 +193,18 @@ std::vector<Contestant> MakeContestants(const VolumeOptions& options)
 }
 
 //------------------------------------------------------------------------------
+bool IsSelected(const std::string& name, const std::string& word)
+{
+  if (word.empty() || word.back() != '$')
+  {
+    return name.find(word) != std::string::npos;
+  }
+  const std::string end = word.substr(0, word.size() - 1);
+  return name.size() >= end.size() &&
+    name.compare(name.size() - end.size(), std::string::npos, end) == 0;
+}
+
+//------------------------------------------------------------------------------
 std::vector<Contestant> SelectContestants(
   const std::vector<Contestant>& all, const std::vector<std::string>& words)
 {
@@ -201,7 +214,7 @@ std::vector<Contestant> SelectContestants(
     bool wanted = words.empty();
     for (const std::string& word : words)
     {
-      wanted = wanted || contestant.Name.find(word) != std::string::npos;
+      wanted = wanted || IsSelected(contestant.Name, word);
     }
     if (wanted)
     {

@@ -44,7 +44,10 @@ std::vector<Contestant> MakeContestants(const VolumeOptions& options);
 /** Our mapper with one backend and exact integration. */
 Contestant MakeOurs(int backend, const std::string& name);
 
-/** Contestants whose names contain one of the words; all of them without words. */
+/** True if a name contains the word or, if the word ends in $, ends with the rest of it. */
+bool IsSelected(const std::string& name, const std::string& word);
+
+/** Contestants whose names one of the words selects; all of them without words. */
 std::vector<Contestant> SelectContestants(
   const std::vector<Contestant>& all, const std::vector<std::string>& words);
 

@@ -55,6 +55,12 @@ std::vector<NamedMembrane> MakeMembranes(vtkUnstructuredGrid* grid)
 } // anonymous namespace
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> MakeWavesAbove(vtkUnstructuredGrid* grid)
+{
+  return MakeMembranes(grid).back().Mesh;
+}
+
+//------------------------------------------------------------------------------
 std::vector<MembraneCost> MeasureMembranes(
   const VolumeOptions& options, vtkUnstructuredGrid* grid, int backend)
 {

@@ -6,8 +6,12 @@
 
 #include "VolumeComparison.h"
 
+#include <vtkSmartPointer.h>
+
 #include <string>
 #include <vector>
+
+class vtkPolyData;
 
 namespace meniscus
 {
@@ -21,6 +25,9 @@ struct MembraneCost
   Spread Moving;  // camera moved since the last frame
   Spread Resting; // nothing has changed but the camera's time
 };
+
+/** Waves above a mesh that cover the images from elevations of 35 degrees and more. */
+vtkSmartPointer<vtkPolyData> MakeWavesAbove(vtkUnstructuredGrid* grid);
 
 /** One backend through a plane above the mesh, a plane through its middle, a dome and waves. */
 std::vector<MembraneCost> MeasureMembranes(

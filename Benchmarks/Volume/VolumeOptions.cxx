@@ -20,20 +20,32 @@ const char* const VolumeUsage =
   "meniscus_benchmark_volume [options]\n"
   "  --mesh FILE        tetrahedral .vtu file, first point array (default: a generated block)\n"
   "  --cubes N          the generated block has 6 N^3 tetrahedra less a hollow (default 32)\n"
-  "  --size N           window of N x N pixels (default 512)\n"
+  "  --hollow 0         the generated block has no hollow (default 1)\n"
+  "  --size N, WxH      window of N x N or W x H pixels (default 512)\n"
+  "  --mode NAME        composite, lit, isosurface (three of them) or membrane (waves above the\n"
+  "                     mesh; views from above); only our mapper draws the others than composite,\n"
+  "                     and without errors (default composite)\n"
   "  --views N          views timed (default 8)\n"
   "  --repetitions N    rounds per view, after a warm-up; in each, every mapper draws one frame\n"
   "                     (default 3)\n"
   "  --error-views N    views compared with the reference (default 2)\n"
   "  --function KIND    smooth, peaked, sharp, opaque or sparse (default smooth)\n"
   "  --mappers LIST     only mappers whose names contain one of the words, e.g.\n"
-  "                     projected,meniscus/native (default: all)\n"
+  "                     projected,meniscus/native; a word with $ at its end must be the name's\n"
+  "                     end (default: all)\n"
   "  --zsweep           VTK's Z sweep, too: it may take minutes a frame\n"
   "  --probe-seconds N  every mapper is tried in a process of its own first, since some crash or\n"
-  "                     do not end on some meshes; N seconds at most (default 60)\n"
+  "                     do not end on some meshes; N seconds at most (default 60; 0: not tried)\n"
+  "  --set-up N         new meshes whose first frame is timed, per mapper (default 3)\n"
+  "  --bandwidth        measure copies on the graphics device, too, to compare with the walk's\n"
+  "                     reads\n"
   "  --threads N        threads of vtkSMPTools, of VTK's ray cast mapper and of llvmpipe\n"
   "  --json FILE        write the figures to a file\n"
   "  --plot FILE.png    draw time against error, one point per mapper\n"
+  "  --picture START    write the first view of every mapper to START-MAPPER.png\n"
+  "  --rows FILE        append a row per mapper, times, to a table in Markdown\n"
+  "  --error-rows FILE  the same, errors\n"
+  "  --device           only print names and limits of the graphics device, one per line\n"
   "  --growth           ms per frame for generated blocks of 10k to 5M tetrahedra\n"
   "  --growth-limit N   up to N thousand tetrahedra (default 5000)\n"
   "  --report           the goals of the mapper, each beside what is measured\n"
@@ -54,6 +66,15 @@ bool ReadNumber(const std::string& text, int& value)
 }
 
 //------------------------------------------------------------------------------
+// N or WxH.
+bool ReadSize(const std::string& text, VolumeOptions& options)
+{
+  const std::size_t cross = text.find('x');
+  return ReadNumber(text.substr(0, cross), options.Width) &&
+    ReadNumber(cross == std::string::npos ? text : text.substr(cross + 1), options.Height);
+}
+
+//------------------------------------------------------------------------------
 std::vector<std::string> Split(const std::string& text)
 {
   std::vector<std::string> words;
@@ -70,7 +91,8 @@ bool ReadFlag(const std::string& key, VolumeOptions& options)
 {
   const std::map<std::string, bool*> flags{ { "--help", &options.Help }, { "-h", &options.Help },
     { "--zsweep", &options.ZSweep }, { "--growth", &options.Growth },
-    { "--report", &options.Report } };
+    { "--report", &options.Report }, { "--bandwidth", &options.Bandwidth },
+    { "--device", &options.Device } };
   const auto flag = flags.find(key);
   if (flag != flags.end())
   {
@@ -82,18 +104,27 @@ bool ReadFlag(const std::string& key, VolumeOptions& options)
 //------------------------------------------------------------------------------
 bool ReadValue(const std::string& key, const std::string& value, VolumeOptions& options)
 {
-  const std::map<std::string, int*> numbers{ { "--size", &options.Size },
-    { "--views", &options.Views }, { "--error-views", &options.ErrorViews },
-    { "--repetitions", &options.Repetitions }, { "--cubes", &options.Cubes },
-    { "--threads", &options.Threads }, { "--probe-seconds", &options.ProbeSeconds },
-    { "--growth-limit", &options.GrowthLimit } };
+  const std::map<std::string, int*> numbers{ { "--hollow", &options.Hollow },
+    { "--set-up", &options.SetUpRepetitions }, { "--views", &options.Views },
+    { "--error-views", &options.ErrorViews }, { "--repetitions", &options.Repetitions },
+    { "--cubes", &options.Cubes }, { "--threads", &options.Threads },
+    { "--probe-seconds", &options.ProbeSeconds }, { "--growth-limit", &options.GrowthLimit } };
   const std::map<std::string, std::string*> texts{ { "--mesh", &options.Mesh },
     { "--json", &options.Json }, { "--plot", &options.Plot }, { "--function", &options.Function },
-    { "--row", &options.Row }, { "--probe", &options.Probe } };
+    { "--row", &options.Row }, { "--probe", &options.Probe }, { "--picture", &options.Picture },
+    { "--rows", &options.TimeRows }, { "--error-rows", &options.ErrorRows } };
   const auto number = numbers.find(key);
   if (number != numbers.end())
   {
     return ReadNumber(value, *number->second);
+  }
+  if (key == "--size")
+  {
+    return ReadSize(value, options);
+  }
+  if (key == "--mode")
+  {
+    return FindVolumeMode(value, options.Mode);
   }
   if (key == "--mappers")
   {
@@ -133,11 +164,13 @@ VolumeOptions ParseVolumeOptions(int argc, char* argv[])
   {
     options.Problem = "no such function: " + options.Function;
   }
-  if (options.Size < 1 || options.Views < 1 || options.Repetitions < 1 || options.Cubes < 1)
+  if (options.Width < 1 || options.Height < 1 || options.Views < 1 || options.Repetitions < 1 ||
+    options.Cubes < 1)
   {
     options.Problem = "--size, --views, --repetitions and --cubes are at least 1";
   }
-  options.ErrorViews = std::min(options.ErrorViews, options.Views);
+  options.ErrorViews =
+    options.Mode == VolumeMode::Composite ? std::min(options.ErrorViews, options.Views) : 0;
   return options;
 }
 
@@ -160,7 +193,8 @@ bool FindFunctionKind(const std::string& name, test::FunctionKind& kind)
 test::Grid MakeVolumeMesh(const VolumeOptions& options)
 {
   const test::Grid grid = options.Mesh.empty()
-    ? test::MakeBlock(options.Cubes, test::WavyField(3.0), test::Shell(0.3, 1.3))
+    ? test::MakeBlock(options.Cubes, test::WavyField(3.0),
+        options.Hollow ? test::Shell(0.3, 1.3) : test::Region())
     : test::ReadMesh(options.Mesh);
   return grid && grid->GetPointData()->GetScalars() ? grid : nullptr;
 }

@@ -5,6 +5,7 @@
 
 #include "TestMeshes.h"
 #include "TestTransferFunctions.h"
+#include "VolumeModes.h"
 
 #include <string>
 #include <vector>
@@ -21,14 +22,23 @@ struct VolumeOptions
   std::string Json;
   std::string Plot;
   std::string Function = "smooth";
+  VolumeMode Mode = VolumeMode::Composite;
   std::vector<std::string> Mappers; // parts of names; empty: all
-  int Size = 512;
+  int Width = 512;
+  int Height = 512;
   int Views = 8;
   int Repetitions = 3;
   int ErrorViews = 2;
   int Cubes = 32; // per side of the generated block
+  int Hollow = 1; // 0: a full block
   int Threads = 0;
-  int ProbeSeconds = 60;
+  int ProbeSeconds = 60; // 0: no probes
+  int SetUpRepetitions = 3;
+  bool Bandwidth = false;
+  bool Device = false;  // names of the graphics device instead of a comparison
+  std::string Picture;  // first part of the names of pictures
+  std::string TimeRows; // file to which rows of a Markdown table are appended
+  std::string ErrorRows;
   bool ZSweep = false;
   bool Growth = false;
   int GrowthLimit = 5000; // in thousands of cells

@@ -93,6 +93,15 @@ void WriteError(std::ostream& out, const char* name, const PictureError& error)
 }
 
 //------------------------------------------------------------------------------
+void WriteIfMeasured(std::ostream& out, const char* name, double value)
+{
+  if (value > 0.0)
+  {
+    out << ", \"" << name << "\": " << value;
+  }
+}
+
+//------------------------------------------------------------------------------
 void WriteFigures(std::ostream& out, const Figures& f)
 {
   out << "  {\"name\": " << Quoted(f.Name);
@@ -101,10 +110,19 @@ void WriteFigures(std::ostream& out, const Figures& f)
     out << ", \"fate\": " << Quoted(f.Fate) << "}";
     return;
   }
-  out << ", \"cold_ms\": " << f.ColdMs << ", \"set_up_ms\": " << f.SetUpMs
-      << ", \"ms_per_frame\": " << f.SteadyMs << ", \"cpu_ms\": " << f.CpuMs
-      << ", \"steps_per_second\": " << f.StepsPerSecond
-      << ", \"bytes_per_cell\": " << f.BytesPerCell << ", \"view_ms\": [";
+  out << ", \"cold_ms\": " << f.ColdMs << ", \"ms_per_frame\": " << f.SteadyMs
+      << ", \"cpu_ms\": " << f.CpuMs;
+  WriteIfMeasured(out, "set_up_ms", f.SetUpMs);
+  WriteIfMeasured(out, "steps_per_second", f.StepsPerSecond);
+  WriteIfMeasured(out, "bytes_per_cell", f.BytesPerCell);
+  WriteIfMeasured(out, "table_bytes_per_step", f.TableBytesPerStep);
+  WriteIfMeasured(out, "device_bytes", f.DeviceBytes);
+  WriteIfMeasured(out, "host_bytes", f.HostBytes);
+  if (IsOurs(f))
+  {
+    out << ", \"lost_rays\": " << f.LostRays;
+  }
+  out << ", \"view_ms\": [";
   for (std::size_t i = 0; i < f.ViewMs.size(); ++i)
   {
     out << (i ? ", " : "") << f.ViewMs[i];
@@ -115,8 +133,11 @@ void WriteFigures(std::ostream& out, const Figures& f)
     out << (i ? ", " : "") << f.Frames[i].WallMs;
   }
   out << "]";
-  WriteError(out, "error_8_bit", f.Bytes);
-  if (f.HasFloat)
+  if (f.IsCompared)
+  {
+    WriteError(out, "error_8_bit", f.Bytes);
+  }
+  if (f.IsCompared && f.HasFloat)
   {
     WriteError(out, "error_float", f.Float);
   }
@@ -129,8 +150,8 @@ void WriteFigures(std::ostream& out, const Figures& f)
 void PrintDescription(
   std::ostream& out, const VolumeOptions& options, const RunDescription& description)
 {
-  out << description.Mesh << ": " << description.Cells << " tetrahedra, " << options.Size << " x "
-      << options.Size << ", " << options.Views << " views, " << options.Repetitions
+  out << description.Mesh << ": " << description.Cells << " tetrahedra, " << options.Width << " x "
+      << options.Height << ", " << options.Views << " views, " << options.Repetitions
       << " rounds each, " << options.Function << " function\n"
       << description.Device << "; " << vtkVersion::GetVTKSourceVersion() << "; "
       << vtkSMPTools::GetBackend() << ", " << vtkSMPTools::GetEstimatedNumberOfThreads()
@@ -175,12 +196,15 @@ bool WriteJson(
 {
   std::ofstream out(options.Json);
   out << "{\"mesh\": " << Quoted(description.Mesh) << ", \"tetrahedra\": " << description.Cells
-      << ", \"size\": " << options.Size << ", \"views\": " << options.Views
+      << ", \"size\": " << options.Width << ", \"height\": " << options.Height
+      << ", \"mode\": " << Quoted(NameOf(options.Mode)) << ", \"views\": " << options.Views
       << ", \"repetitions\": " << options.Repetitions
       << ", \"function\": " << Quoted(options.Function)
       << ", \"gl_renderer\": " << Quoted(description.Device)
       << ", \"vtk\": " << Quoted(vtkVersion::GetVTKVersion())
-      << ", \"threads\": " << vtkSMPTools::GetEstimatedNumberOfThreads() << ", \"mappers\": [";
+      << ", \"threads\": " << vtkSMPTools::GetEstimatedNumberOfThreads();
+  WriteIfMeasured(out, "copy_bytes_per_second", description.CopyBandwidth);
+  out << ", \"mappers\": [";
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     out << (i ? ",\n" : "\n");

@@ -22,6 +22,7 @@ struct RunDescription
   std::string Mesh;
   vtkIdType Cells = 0;
   std::string Device;
+  double CopyBandwidth = 0.0; // bytes per second; 0: not measured
 };
 
 /** Mesh, window, device, versions, threads. */
@@ -33,6 +34,15 @@ void PrintTable(std::ostream& out, const std::vector<Figures>& all);
 
 bool WriteJson(
   const VolumeOptions& options, const RunDescription& description, const std::vector<Figures>& all);
+
+/**
+ * Appends rows of a Markdown table, one per mapper, to a file, and its heading if there is no file.
+ * A figure that was not measured is a dash.
+ */
+bool AppendTimeRows(const std::string& file, const VolumeOptions& options,
+  const RunDescription& description, const std::vector<Figures>& all);
+bool AppendErrorRows(const std::string& file, const VolumeOptions& options,
+  const RunDescription& description, const std::vector<Figures>& all);
 
 /**
  * Plots milliseconds per frame against the RMS error of an image, both logarithmic: 8-bit and float

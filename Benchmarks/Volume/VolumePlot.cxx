@@ -26,7 +26,8 @@ bool WritePlot(
   }
   return WriteChart(options.Plot,
     description.Mesh + ", " + std::to_string(description.Cells) + " tetrahedra, " +
-      std::to_string(options.Size) + " x " + std::to_string(options.Size) + ", " + options.Function,
+      std::to_string(options.Width) + " x " + std::to_string(options.Height) + ", " +
+      options.Function,
     "ms per frame", "RMS error", points);
 }
 

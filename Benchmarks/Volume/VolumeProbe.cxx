@@ -37,9 +37,11 @@ namespace
 //------------------------------------------------------------------------------
 std::vector<std::string> ProbeArguments(const std::string& name, const VolumeOptions& options)
 {
-  std::vector<std::string> arguments{ "--probe", name, "--size", std::to_string(options.Size),
-    "--views", std::to_string(options.Views), "--function", options.Function, "--cubes",
-    std::to_string(options.Cubes), "--threads", std::to_string(options.Threads) };
+  std::vector<std::string> arguments{ "--probe", name, "--size",
+    std::to_string(options.Width) + "x" + std::to_string(options.Height), "--mode",
+    NameOf(options.Mode), "--views", std::to_string(options.Views), "--function", options.Function,
+    "--cubes", std::to_string(options.Cubes), "--hollow", std::to_string(options.Hollow),
+    "--threads", std::to_string(options.Threads) };
   if (!options.Mesh.empty())
   {
     arguments.insert(arguments.end(), { "--mesh", options.Mesh });
@@ -151,20 +153,22 @@ int RunProbe(const Contestant& contestant, const VolumeOptions& options)
   }
   // A small mesh comes first: shaders, framebuffers and threads are not part of the cost of a mesh.
   const test::Grid small = MakeCubeOfFive(RadialField());
-  VolumeScene scene(options.Size, options.Size);
+  VolumeScene scene(options.Width, options.Height);
   const MapperPointer mapper = contestant.Make();
   mapper->SetInputDataObject(small);
   scene.SetMapper(mapper);
   double range[2];
   grid->GetPointData()->GetScalars()->GetFiniteRange(range);
-  scene.SetProperty(MakeProperty(contestant.Function, range, DiagonalOf(grid->GetBounds())));
+  const auto property = MakeProperty(contestant.Function, range, DiagonalOf(grid->GetBounds()));
+  ApplyMode(options.Mode, grid, mapper, property);
+  scene.SetProperty(property);
   LookAt(scene.GetRenderer(), small->GetBounds(), 20.0, 30.0);
   scene.GetWindow()->Render();
   const double before = ResidentBytes();
   mapper->SetInputDataObject(grid);
   for (int view = 0; view < options.Views; ++view)
   {
-    const auto angles = ViewAngles(view);
+    const auto angles = ViewAnglesOf(options.Mode, view);
     LookAt(scene.GetRenderer(), grid->GetBounds(), angles[0], angles[1]);
     scene.GetWindow()->Render();
     scene.GetWindow()->WaitForCompletion();

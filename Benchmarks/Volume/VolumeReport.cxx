@@ -116,7 +116,8 @@ private:
     const NamedMesh& mesh, int size, const std::vector<Contestant>& contestants) const
   {
     VolumeOptions options = this->Options;
-    options.Size = size;
+    options.Width = size;
+    options.Height = size;
     VolumeComparison comparison(options, mesh.Mesh);
     comparison.Enter(contestants);
     comparison.MeasureTimes();

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** The graphics device that OpenGL uses here: names, limits, and the speed of its memory. */
+#ifndef meniscus_Benchmarks_Volume_VolumeDevice_h
+#define meniscus_Benchmarks_Volume_VolumeDevice_h
+
+#include <ostream>
+
+class vtkRenderWindow;
+
+namespace meniscus
+{
+namespace benchmark
+{
+
+/** Prints one "name: value" per line. */
+void PrintDevice(std::ostream& out);
+
+/**
+ * Bytes per second that the device reads and writes while it copies one buffer of 256 MiB to
+ * another: the best of five copies. 0 if the buffers cannot be had. The window must have rendered.
+ */
+double MeasureCopyBandwidth(vtkRenderWindow* window);
+
+} // namespace benchmark
+} // namespace meniscus
+
+#endif
