@@ -288,7 +288,7 @@ TEST_P(RefractionSeams, CornersAreImagesOfPlacesInTheirCells)
   EXPECT_LE(wrong, searched / 50);
 }
 
-// In scenes 11 and 31 triangles are seen nearly edge-on, over a stretch that is longer than a facet.
+// In scenes 11 and 31 triangles are seen nearly edge-on, over a stretch longer than a facet.
 INSTANTIATE_TEST_SUITE_P(Scenes, RefractionSeams, ::testing::Range(0, 41));
 
 /** Area of a triangle's pieces, mapped from the membrane, at their true places. */
