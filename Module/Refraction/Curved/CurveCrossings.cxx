@@ -206,6 +206,47 @@ RefractedPoint MeetPlane(const SubCellSide& side, const Media& media, const glm:
 }
 
 //------------------------------------------------------------------------------
+// Both the place's distance from the plane and the ray's slope against it vanish. Derivatives are
+// central differences; their error, of the order of the square of their width, slows the
+// convergence down by that factor a step and does not change the result.
+bool MeetPlaneLengthwise(const CurvedPatch& patch, const Media& media, const glm::dvec3& point,
+  const glm::dvec3& normal, glm::dvec2& b, RefractedPoint& from)
+{
+  constexpr double width = 0x1p-16;
+  const auto measure = [&patch, &media, &point, &normal](const glm::dvec2& place)
+  {
+    const RefractedPoint at = RefractAt(patch.Evaluate(place), media);
+    return glm::dvec2(glm::dot(normal, at.At.Position - point), glm::dot(normal, at.Ray));
+  };
+  glm::dvec2 place = b;
+  for (int i = 0; i < Steps; ++i)
+  {
+    const glm::dvec2 rest = measure(place);
+    const glm::dvec2 byX =
+      (measure(place + glm::dvec2(width, 0.0)) - measure(place - glm::dvec2(width, 0.0))) /
+      (2.0 * width);
+    const glm::dvec2 byY =
+      (measure(place + glm::dvec2(0.0, width)) - measure(place - glm::dvec2(0.0, width))) /
+      (2.0 * width);
+    const double inverse = -1.0 / (byX.x * byY.y - byX.y * byY.x);
+    const glm::dvec2 move(
+      inverse * (rest.x * byY.y - rest.y * byY.x), inverse * (byX.x * rest.y - byX.y * rest.x));
+    place += move;
+    if (!IsNear(place.x, b.x) || !IsNear(place.y, b.y))
+    {
+      return false;
+    }
+    if (std::max(std::fabs(move.x), std::fabs(move.y)) < LastStep)
+    {
+      b = place;
+      from = RefractAt(patch.Evaluate(place), media);
+      return from.IsValid;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
 bool MeetPatch(const CurvedPatch& patch, const ObjectLine& line, glm::dvec2& b, double& l)
 {
   glm::dvec3 normal;

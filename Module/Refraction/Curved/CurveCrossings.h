@@ -106,6 +106,14 @@ RefractedPoint MeetPlane(const SubCellSide& side, const Media& media, const glm:
   const glm::dvec3& normal, const RefractedPoint& a, const RefractedPoint& b);
 
 /**
+ * Place of a patch whose refracted ray lies in the plane through `point` with `normal`, by Newton's
+ * method from the guess in `b`. Returns false, and changes nothing, if the method does not converge
+ * near the guess.
+ */
+bool MeetPlaneLengthwise(const CurvedPatch& patch, const Media& media, const glm::dvec3& point,
+  const glm::dvec3& normal, glm::dvec2& b, RefractedPoint& from);
+
+/**
  * Intersection of the line and the patch by Newton's method from the guess in `b` and `l`. Returns
  * false, and changes nothing, if the method does not converge near the guess.
  */

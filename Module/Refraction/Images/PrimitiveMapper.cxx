@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Images/PrimitiveMapper.h"
 
-#include "Refraction/Curved/CurveCrossings.h"
+#include "Refraction/Images/PrimitiveContext.h"
 #include "Refraction/Images/UnrefractedPart.h"
 #include "Refraction/Membrane/Optics.h"
 
@@ -14,187 +14,6 @@
 
 namespace meniscus
 {
-namespace
-{
-
-// Number of linear constraints that limit a primitive. A corner has one bit for each constraint
-// that it lies on; the membrane is the first.
-constexpr int NumberOfConstraints = 4;
-
-}
-
-/**
- * Corner of a clipped polygon. The values are linear in the sub-cell, and none is negative inside
- * the primitive. For a triangle they are the distance behind the membrane and the three barycentric
- * coordinates, all times the cosine of the ray. For a line they are the distance, the distances
- * from either end along the line, and the distance from the line.
- */
-struct PrimitiveMapper::Corner
-{
-  glm::dvec2 B;
-  double Value[NumberOfConstraints];
-  unsigned Edges;
-  unsigned Constraints;
-};
-
-/** Features that a clipped corner lies on. */
-struct PrimitiveMapper::Boundary
-{
-  int Node = -1; ///< corner of the sub-cell that coincides with it, or -1
-  int Edge = -1; ///< edge of the sub-cell that it lies on, unless it is a corner of it; otherwise
-                 ///< -1
-  bool Membrane = false; ///< the primitive meets the membrane there
-  int Side = -1;         ///< side of the primitive that it lies on, by the side's constraint, or -1
-  glm::length_t End = -1; ///< corner of the primitive that coincides with it, or -1
-};
-
-/** The primitive in local coordinates; point = corner[0] + l0 axis[0] + l1 axis[1]. */
-struct PrimitiveMapper::Context
-{
-  /**
-   * Side from corner k to k + 1, by its constraint k. Its ends are in the same order for all
-   * primitives.
-   */
-  struct Side
-  {
-    ObjectLine Line;
-    bool Turned = false;
-  };
-
-  const MappedTriangle& Primitive;
-  std::int64_t SourceCell;
-  ImageMesh* Images;
-  bool IsLine;
-  std::array<glm::dvec3, 3> Corners;
-  glm::dvec3 Axis[2];
-  glm::dvec3 Normal;
-  std::array<Side, NumberOfConstraints> Sides;
-  const CurvedPatch* Patch = nullptr;
-  std::int32_t Facet = CurvedPatches::NoFacet;
-  std::vector<char>* IsOnMembrane = nullptr; ///< marks points of `Images` on the membrane; null if
-                                             ///< not needed
-
-  void SetSides()
-  {
-    for (std::size_t k = this->IsLine ? NumberOfConstraints - 1 : 1; k < NumberOfConstraints; ++k)
-    {
-      this->Sides[k].Line =
-        ObjectLine::Order(this->Corners[k % 3], this->Corners[(k + 1) % 3], this->Sides[k].Turned);
-    }
-  }
-
-  double GetSide(std::size_t k, const RefractedPoint& from) const
-  {
-    const double moment = GetMoment(this->Sides[k].Line, from);
-    return this->Sides[k].Turned ? -moment : moment;
-  }
-
-  // A barycentric coordinate times the cosine is the ray's moment about the opposite side. The
-  // plane does not appear in it, so primitives that share the side get the same number.
-  void Measure(const RefractedPoint& from, double* value) const
-  {
-    const glm::dvec3 away = from.At.Position - this->Corners[0];
-    value[0] = -glm::dot(this->Normal, away);
-    value[3] = this->GetSide(3, from);
-    if (this->IsLine)
-    {
-      value[1] = -glm::dot(this->Axis[1], glm::cross(away, from.Ray));
-      value[2] = glm::dot(this->Normal, from.Ray) - value[1];
-      return;
-    }
-    value[1] = this->GetSide(1, from);
-    value[2] = this->GetSide(2, from);
-  }
-
-  // True if the sub-cell is outside by more than its own extent, so that curvature cannot bring it
-  // back.
-  bool IsOutside(const SubCell& nodes) const
-  {
-    double value[3][NumberOfConstraints];
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      this->Measure(nodes[i].From, value[i]);
-    }
-    const double cosine[3] = { glm::dot(this->Normal, nodes[0].From.Ray),
-      glm::dot(this->Normal, nodes[1].From.Ray), glm::dot(this->Normal, nodes[2].From.Ray) };
-    const bool front = cosine[0] > 0.0 && cosine[1] > 0.0 && cosine[2] > 0.0;
-    const bool back = cosine[0] < 0.0 && cosine[1] < 0.0 && cosine[2] < 0.0;
-    for (int k = 0; k < NumberOfConstraints; ++k)
-    {
-      const bool beside = this->IsLine && k == 3;
-      const double most = std::max({ value[0][k], value[1][k], value[2][k] });
-      const double least = std::min({ value[0][k], value[1][k], value[2][k] });
-      const double spread = most - least;
-      if (((front || beside) && most < -spread) || ((back || beside) && least > spread))
-      {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  glm::dvec3 GetPoint(const glm::dvec3& weight) const
-  {
-    return weight.x * this->Corners[0] + weight.y * this->Corners[1] + weight.z * this->Corners[2];
-  }
-
-  /** Weights of a point's sources, in the order of the corners. */
-  glm::dvec3 GetWeight(const ImagePoint& point) const
-  {
-    glm::dvec3 weight(0.0);
-    for (std::size_t k = 0; k < point.GetNumberOfSources(); ++k)
-    {
-      const auto& ids = this->Primitive.Ids;
-      weight[static_cast<glm::length_t>(
-        std::find(ids.begin(), ids.end() - 1, point.Source[k]) - ids.begin())] += point.Weight[k];
-    }
-    return weight;
-  }
-
-  /** Weights of a point in the primitive's plane. */
-  glm::dvec3 GetWeight(const glm::dvec3& point) const
-  {
-    const glm::dvec3 away = point - this->Corners[0];
-    const double squared = glm::dot(this->Normal, this->Normal);
-    const double first = glm::dot(glm::cross(away, this->Axis[1]), this->Normal) / squared;
-    const double second =
-      this->IsLine ? 0.0 : glm::dot(glm::cross(this->Axis[0], away), this->Normal) / squared;
-    return { 1.0 - first - second, first, second };
-  }
-
-  Boundary FindBoundary(const Corner& clipped) const
-  {
-    Boundary on;
-    on.Membrane = (clipped.Constraints & 1u) != 0;
-    for (int k = 0; k < 3; ++k)
-    {
-      on.Edge = clipped.Edges == 1u << k ? k : on.Edge;
-      on.Node = clipped.Edges == (7u & ~(1u << k)) ? k : on.Node;
-    }
-    if (this->IsLine)
-    {
-      on.Side = (clipped.Constraints >> 3 & 1u) != 0 ? 3 : -1;
-      on.End = (clipped.Constraints & 2u) != 0 ? 0 : ((clipped.Constraints & 4u) != 0 ? 1 : -1);
-      return on;
-    }
-    // Constraint k is barycentric coordinate k - 1; it vanishes on the side from corner k to k + 1.
-    // Where two of them vanish, the remaining one is the corner of the primitive.
-    int left = 3;
-    int count = 0;
-    for (int k = 1; k < NumberOfConstraints; ++k)
-    {
-      if (clipped.Constraints >> k & 1u)
-      {
-        on.Side = k;
-        left -= k - 1;
-        ++count;
-      }
-    }
-    on.End = count == 2 ? left : -1;
-    return on;
-  }
-};
-
 //------------------------------------------------------------------------------
 PrimitiveMapper::PrimitiveMapper(
   const CurvedMembraneSolver& geometry, double tolerance, double nearest, double farthest)
@@ -350,7 +169,7 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
     whole[i].Edges = 7u & ~(1u << i);
     context.Measure(nodes[i].From, whole[i].Value);
     whole[i].Constraints = 0;
-    for (int k = 1; k < NumberOfConstraints && !context.IsLine; ++k)
+    for (int k = 1; k < PrimitiveConstraints && !context.IsLine; ++k)
     {
       whole[i].Constraints |= whole[i].Value[k] == 0.0 ? 1u << k : 0u;
     }
@@ -360,7 +179,7 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
     Corner corner;
     const double part = a.Value[k] / (a.Value[k] - b.Value[k]);
     corner.B = a.B + part * (b.B - a.B);
-    for (int m = 0; m < NumberOfConstraints; ++m)
+    for (int m = 0; m < PrimitiveConstraints; ++m)
     {
       corner.Value[m] = a.Value[m] + part * (b.Value[m] - a.Value[m]);
     }
@@ -373,7 +192,7 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
   {
     Polygon polygon = whole;
     Polygon next;
-    for (int k = 0; k < NumberOfConstraints && !polygon.empty(); ++k)
+    for (int k = 0; k < PrimitiveConstraints && !polygon.empty(); ++k)
     {
       const bool beside = context.IsLine && k == 3;
       next.clear();
@@ -409,24 +228,50 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
 
 //------------------------------------------------------------------------------
 void PrimitiveMapper::Emit(
-  const Context& context, const SubCell& nodes, const Polygon& polygon, double sign) const
+  const Context& context, const SubCell& nodes, Polygon polygon, double sign) const
 {
   // Twice the signed area in the primitive's second and third barycentric coordinates.
-  double area = 0.0;
-  const auto place = [](const Corner& corner)
+  const auto getArea = [&polygon](const auto& getPlace)
   {
-    const double sum = corner.Value[1] + corner.Value[2] + corner.Value[3];
-    return glm::dvec2(corner.Value[2] / sum, corner.Value[3] / sum);
+    double sum = 0.0;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+    {
+      const glm::dvec2 u = getPlace(i - 1) - getPlace(0);
+      const glm::dvec2 v = getPlace(i) - getPlace(0);
+      sum += u.x * v.y - u.y * v.x;
+    }
+    return sum;
   };
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-  {
-    const glm::dvec2 u = place(polygon[i - 1]) - place(polygon[0]);
-    const glm::dvec2 v = place(polygon[i]) - place(polygon[0]);
-    area += u.x * v.y - u.y * v.x;
-  }
+  double area = getArea(
+    [&polygon](std::size_t i)
+    {
+      const Corner& corner = polygon[i];
+      const double sum = corner.Value[1] + corner.Value[2] + corner.Value[3];
+      return glm::dvec2(corner.Value[2] / sum, corner.Value[3] / sum);
+    });
   if (!(std::fabs(area) > 0.0))
   {
     return;
+  }
+  std::vector<MappedPoint> points;
+  for (const Corner& corner : polygon)
+  {
+    points.push_back(this->MakePoint(context, nodes, corner));
+  }
+  if (!IsSeen(points))
+  {
+    if (!this->EndEdgeOn(context, nodes, polygon, points))
+    {
+      return;
+    }
+    // Interpolation has misjudged places and rays.
+    area = getArea(
+      [&context, &points](std::size_t i)
+      {
+        const glm::dvec3 weight = context.GetWeight(points[i].Point);
+        return glm::dvec2(weight.y, weight.z);
+      });
+    sign = context.GetSlope(points.front().Point, this->Geometry.GetMembrane().GetOrigin());
   }
   // Where `sign` is positive, the rays have a positive component along the plane's normal; they
   // always point against the facet's normal, which faces the eye. An upright image keeps the sense
@@ -436,15 +281,6 @@ void PrimitiveMapper::Emit(
   const bool facetTurned = glm::dot(facet, nodes[0].From.Ray) < 0.0;
   const bool imageTurned = (area < 0.0) != (sign < 0.0);
   const int orientation = facetTurned == imageTurned ? 1 : -1;
-  std::vector<MappedPoint> points;
-  for (const Corner& corner : polygon)
-  {
-    points.push_back(this->MakePoint(context, nodes, corner));
-  }
-  if (!IsSeen(points))
-  {
-    return;
-  }
   const auto first = static_cast<std::int64_t>(context.Images->Points.size());
   const auto count = static_cast<std::int64_t>(polygon.size());
   for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -475,6 +311,78 @@ bool PrimitiveMapper::IsSeen(const std::vector<MappedPoint>& points)
       [finding](const MappedPoint& point) { return point.Outcome == finding; }));
   };
   return count(Finding::Elsewhere) == 0 && count(Finding::EndWithoutImage) < points.size();
+}
+
+//------------------------------------------------------------------------------
+// Ends a piece at the ray that lies in the primitive's plane. There the primitive is seen edge-on:
+// all of its places on that ray have their image at one sight point, beyond which its other side is
+// seen. The four values of a corner vanish together at this point, but their interpolants do not,
+// and may lead to ends of the primitive that are seen elsewhere. Returns false, and changes
+// nothing, if the unseen corners are not ends between two sides, or if there is no such ray in the
+// sub-cell.
+bool PrimitiveMapper::EndEdgeOn(const Context& context, const SubCell& nodes, Polygon& polygon,
+  std::vector<MappedPoint>& points) const
+{
+  const std::size_t count = points.size();
+  const auto isUnseen = [&context, &polygon, &points, count](std::size_t i)
+  {
+    return points[i % count].Outcome != Finding::Found &&
+      context.FindBoundary(polygon[i % count]).End >= 0;
+  };
+  std::size_t first = 0; // the first corner after those that are not seen
+  while (first < count && !(isUnseen(first + count - 1) && !isUnseen(first)))
+  {
+    ++first;
+  }
+  std::size_t kept = 0;
+  while (kept < count && !isUnseen(first + kept))
+  {
+    ++kept;
+  }
+  Polygon seen;
+  std::vector<MappedPoint> seenPoints;
+  glm::dvec2 b(0.0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::size_t at = (first + i) % count;
+    const bool isKept = i < kept;
+    if (isKept != (points[at].Outcome == Finding::Found) || isKept == isUnseen(at))
+    {
+      return false;
+    }
+    b += isKept ? glm::dvec2(0.0) : polygon[at].B / static_cast<double>(count - kept);
+    if (isKept)
+    {
+      seen.push_back(polygon[at]);
+      seenPoints.push_back(points[at]);
+    }
+  }
+  RefractedPoint from;
+  if (kept < 2 || kept == count ||
+    !MeetPlaneLengthwise(
+      *context.Patch, this->Geometry.GetMedia(), context.Corners[0], context.Normal, b, from) ||
+    !IsInside(nodes, b))
+  {
+    return false;
+  }
+  for (const Corner& neighbour : { seen.back(), seen.front() })
+  {
+    const Boundary on = context.FindBoundary(neighbour);
+    const auto side = static_cast<std::size_t>(std::max(on.Side, 1));
+    const double l = GetParameter(context.Sides[side].Line, from);
+    if (on.Side < 0 || on.End >= 0 || !(l > 0.0 && l < 1.0))
+    {
+      return false;
+    }
+    seenPoints.push_back(this->MakeOnSide(context, nodes, side, from, b));
+    Corner corner = neighbour;
+    corner.B = b;
+    corner.Constraints = 1u << side;
+    seen.push_back(corner);
+  }
+  polygon.swap(seen);
+  points.swap(seenPoints);
+  return true;
 }
 
 //------------------------------------------------------------------------------

@@ -107,8 +107,7 @@ private:
   std::vector<WaterlinePiece> DropInFront(
     const Context& context, const ImageMesh& from, ImageMesh& images) const;
   void MapSubCell(const Context& context, const SubCell& nodes) const;
-  void Emit(
-    const Context& context, const SubCell& nodes, const Polygon& polygon, double sign) const;
+  void Emit(const Context& context, const SubCell& nodes, Polygon polygon, double sign) const;
   void EmitLine(const Context& context, const SubCell& nodes, const Polygon& polygon) const;
   MappedPoint MakePoint(const Context& context, const SubCell& nodes, const Corner& corner) const;
   MappedPoint MakeEnd(const Context& context, const SubCell& nodes, glm::length_t end,
@@ -120,6 +119,8 @@ private:
   MappedPoint MakeSideCrossing(const Context& context, const SubCell& nodes, std::size_t side,
     const glm::dvec2& guess, const glm::dvec3& weight) const;
   static bool IsSeen(const std::vector<MappedPoint>& points);
+  bool EndEdgeOn(const Context& context, const SubCell& nodes, Polygon& polygon,
+    std::vector<MappedPoint>& points) const;
   ImagePoint Finish(const Context& context, const PatchPoint& at, const glm::dvec3& point,
     const glm::dvec3& weight) const;
 

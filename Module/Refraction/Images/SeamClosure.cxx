@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -27,6 +29,25 @@ auto GetKey(const ImagePoint& point)
 bool AreSame(const ImagePoint& a, const ImagePoint& b)
 {
   return a.Vertex.Position == b.Vertex.Position;
+}
+
+// The side of the object that both points come from; returns false if there is none.
+bool FindCommonSide(const ImagePoint& a, const ImagePoint& b, Seam& seam)
+{
+  const std::size_t count = a.GetNumberOfSources();
+  const std::size_t other = b.GetNumberOfSources();
+  if (count > 2 || other > 2)
+  {
+    return false;
+  }
+  const ImagePoint& larger = count == 2 ? a : b;
+  const ImagePoint& smaller = count == 2 ? b : a;
+  const std::int64_t first = larger.Source[0];
+  const std::int64_t last = larger.GetNumberOfSources() == 2 ? larger.Source[1] : smaller.Source[0];
+  const auto isEnd = [first, last](std::int64_t id) { return id == first || id == last; };
+  seam = { std::min(first, last), std::max(first, last), 0 };
+  return first != last && isEnd(smaller.Source[0]) &&
+    (smaller.GetNumberOfSources() != 2 || isEnd(smaller.Source[1]));
 }
 
 // Parameter of a point on a seam, from 0 at the end with the lower index.
@@ -130,23 +151,11 @@ void SeamClosure::Collect(
 void SeamClosure::AddPart(
   const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b, bool isWhole)
 {
-  const std::size_t count = a.GetNumberOfSources();
-  const std::size_t other = b.GetNumberOfSources();
-  if (count > 2 || other > 2)
+  Seam seam;
+  if (!FindCommonSide(a, b, seam))
   {
     return;
   }
-  const ImagePoint& larger = count == 2 ? a : b;
-  const ImagePoint& smaller = count == 2 ? b : a;
-  const std::int64_t first = larger.Source[0];
-  const std::int64_t last = larger.GetNumberOfSources() == 2 ? larger.Source[1] : smaller.Source[0];
-  const auto isEnd = [first, last](std::int64_t id) { return id == first || id == last; };
-  if (first == last || !isEnd(smaller.Source[0]) ||
-    (smaller.GetNumberOfSources() == 2 && !isEnd(smaller.Source[1])))
-  {
-    return;
-  }
-  const Seam seam{ std::min(first, last), std::max(first, last), 0 };
   const auto high = static_cast<std::size_t>(seam.High);
   // The ends of a diagonal are corners of a mapped polygon, at all of which there are seams.
   if (high >= this->HasSeam.size() || !this->HasSeam[high] ||
@@ -175,24 +184,32 @@ void SeamClosure::Close(ImageMesh& mesh)
   const auto isBefore = [](const Part* a, const Part* b)
   { return std::tie(a->Low, a->High) < std::tie(b->Low, b->High); };
   std::stable_sort(order.begin(), order.end(), isBefore);
+  Parts open;
   for (auto begin = order.begin(); begin != order.end();)
   {
     const auto end = std::upper_bound(begin, order.end(), *begin, isBefore);
-    this->CloseSeam({ begin, end }, mesh);
+    this->CloseSeam({ begin, end }, open, mesh);
     begin = end;
   }
+  const std::vector<Part> sides = this->FindFreeSides(open, mesh);
+  for (const Part& side : sides)
+  {
+    open.push_back(&side);
+  }
+  this->CloseAcrossSeams(open, mesh);
 }
 
 //------------------------------------------------------------------------------
-// Where more than two cells share the seam, each of them is joined to the first.
-void SeamClosure::CloseSeam(Parts parts, ImageMesh& mesh) const
+// Where more than two cells share the seam, each of them is joined to the first, and parts that
+// stay open are ambiguous.
+void SeamClosure::CloseSeam(Parts parts, Parts& open, ImageMesh& mesh) const
 {
   const Seam seam{ parts.front()->Low, parts.front()->High, 0 };
   const auto known = std::lower_bound(this->Seams.begin(), this->Seams.end(), seam);
   const bool isSeam = known != this->Seams.end() && !(seam < *known);
   if (!isSeam || known->Cells == 2)
   {
-    this->CloseLoops(std::move(parts), mesh);
+    this->CloseLoops(std::move(parts), open, mesh);
     return;
   }
   std::stable_sort(
@@ -208,13 +225,14 @@ void SeamClosure::CloseSeam(Parts parts, ImageMesh& mesh) const
     const auto end = findEnd(begin);
     Parts both(parts.begin(), firstEnd);
     both.insert(both.end(), begin, end);
-    this->CloseLoops(std::move(both), mesh);
+    Parts ambiguous;
+    this->CloseLoops(std::move(both), ambiguous, mesh);
     begin = end;
   }
 }
 
 //------------------------------------------------------------------------------
-void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
+void SeamClosure::CloseLoops(Parts parts, Parts& open, ImageMesh& mesh) const
 {
   const auto getKeys = [](const Part* part)
   {
@@ -243,6 +261,7 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
     const Part& first = *left.back();
     left.pop_back();
     Loop loop = { &first.To, &first.From };
+    Parts used = { &first };
     bool hasWhole = first.IsWhole;
     while (!AreSame(*loop.back(), *loop.front()))
     {
@@ -251,8 +270,12 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
         [&last](const Part* part) { return AreSame(part->From, last) || AreSame(part->To, last); });
       if (next == left.end())
       {
-        break; // the chain ends at a border of the membrane or of a region of total reflection
+        // The chain ends at a border of the membrane or of a region of total reflection, or at
+        // another seam.
+        open.insert(open.end(), used.begin(), used.end());
+        break;
       }
+      used.push_back(*next);
       loop.push_back(AreSame((*next)->From, last) ? &(*next)->To : &(*next)->From);
       hasWhole = hasWhole || (*next)->IsWhole;
       left.erase(next);
@@ -261,6 +284,109 @@ void SeamClosure::CloseLoops(Parts parts, ImageMesh& mesh) const
     {
       loop.pop_back();
       this->Fill(loop, first, hasWhole, mesh);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::vector<SeamClosure::Part> SeamClosure::FindFreeSides(
+  const Parts& open, const ImageMesh& mesh) const
+{
+  std::set<std::pair<std::int64_t, std::int64_t>> openSeams;
+  for (const Part* part : open)
+  {
+    openSeams.insert({ part->Low, part->High });
+  }
+  std::set<std::int64_t> polygons;
+  for (const Part& part : this->All)
+  {
+    if (!part.IsWhole && openSeams.count({ part.Low, part.High }) > 0)
+    {
+      polygons.insert(part.Cell);
+    }
+  }
+  using Key = decltype(GetKey(std::declval<ImagePoint>()));
+  std::map<std::tuple<std::int64_t, Key, Key>, Part> free;
+  std::int64_t begin = 0;
+  for (std::size_t cell = 0; cell < mesh.GetNumberOfCells() && !polygons.empty(); ++cell)
+  {
+    const std::int64_t end = mesh.Ends[cell];
+    const bool isWanted = polygons.count(mesh.SourceCells[cell]) > 0;
+    for (std::int64_t i = begin; i < end && isWanted; ++i)
+    {
+      const auto at = [&mesh](std::int64_t k) -> const ImagePoint& {
+        return mesh
+          .Points[static_cast<std::size_t>(mesh.Connectivity[static_cast<std::size_t>(k)])];
+      };
+      const ImagePoint& a = at(i);
+      const ImagePoint& b = at(i + 1 < end ? i + 1 : begin);
+      Seam seam;
+      if (AreSame(a, b) || FindCommonSide(a, b, seam))
+      {
+        continue;
+      }
+      const auto [first, last] = std::minmax(GetKey(a), GetKey(b));
+      const auto [known, isNew] = free.insert({ { mesh.SourceCells[cell], first, last },
+        { -1, -1, a, b, mesh.SourceCells[cell], mesh.Orientations[cell], false } });
+      if (!isNew)
+      {
+        free.erase(known);
+      }
+    }
+    begin = end;
+  }
+  std::vector<Part> sides;
+  for (const auto& side : free)
+  {
+    sides.push_back(side.second);
+  }
+  return sides;
+}
+
+//------------------------------------------------------------------------------
+// Walks along parts that are not used yet, at each end to the first one in the order of `open`.
+void SeamClosure::CloseAcrossSeams(const Parts& open, ImageMesh& mesh) const
+{
+  using Key = decltype(GetKey(std::declval<ImagePoint>()));
+  std::vector<std::pair<Key, std::size_t>> ends;
+  for (std::size_t i = 0; i < open.size(); ++i)
+  {
+    ends.emplace_back(GetKey(open[i]->From), i);
+    ends.emplace_back(GetKey(open[i]->To), i);
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<char> isUsed(open.size(), 0);
+  for (std::size_t i = 0; i < open.size(); ++i)
+  {
+    if (isUsed[i])
+    {
+      continue;
+    }
+    isUsed[i] = 1;
+    Loop loop = { &open[i]->To, &open[i]->From };
+    while (!AreSame(*loop.back(), *loop.front()))
+    {
+      const auto key = GetKey(*loop.back());
+      auto next = std::lower_bound(ends.begin(), ends.end(), std::make_pair(key, std::size_t(0)));
+      while (next != ends.end() && next->first == key && isUsed[next->second])
+      {
+        ++next;
+      }
+      if (next == ends.end() || next->first != key)
+      {
+        break; // a border
+      }
+      isUsed[next->second] = 1;
+      const Part& part = *open[next->second];
+      loop.push_back(AreSame(part.From, *loop.back()) ? &part.To : &part.From);
+    }
+    if (loop.size() > 3 && AreSame(*loop.back(), *loop.front()))
+    {
+      loop.pop_back();
+      if (this->IsThin(loop))
+      {
+        AddCell(loop, *open[i], mesh);
+      }
     }
   }
 }
@@ -282,6 +408,17 @@ bool SeamClosure::IsThin(const Loop& loop) const
 }
 
 //------------------------------------------------------------------------------
+void SeamClosure::AddCell(const Loop& loop, const Part& first, ImageMesh& mesh)
+{
+  for (const ImagePoint* point : loop)
+  {
+    mesh.Connectivity.push_back(static_cast<std::int64_t>(mesh.Points.size()));
+    mesh.Points.push_back(*point);
+  }
+  mesh.EndCell(first.Cell, first.Orientation);
+}
+
+//------------------------------------------------------------------------------
 void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, ImageMesh& mesh) const
 {
   // A polygon that is drawn unchanged may lack an image that its neighbour has; that leaves no gap
@@ -290,12 +427,7 @@ void SeamClosure::Fill(const Loop& loop, const Part& first, bool mustBeThin, Ima
   {
     if (!mustBeThin || this->IsThin(polygon))
     {
-      for (const ImagePoint* point : polygon)
-      {
-        mesh.Connectivity.push_back(static_cast<std::int64_t>(mesh.Points.size()));
-        mesh.Points.push_back(*point);
-      }
-      mesh.EndCell(first.Cell, first.Orientation);
+      AddCell(polygon, first, mesh);
     }
   };
   if (loop.size() == 3 || this->IsThin(loop))

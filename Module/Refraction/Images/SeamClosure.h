@@ -8,6 +8,11 @@
  * out. The others form closed loops, no wider than the tolerances of the two chains, which become
  * cells. Each part of a seam then belongs to two cells with the same ends bit by bit, so no pixel
  * between them stays open.
+ *
+ * A polygon that is seen nearly edge-on may lack a stretch from one of its sides to another, where
+ * linear interpolation turns its rays to the wrong side of its plane. Its neighbours draw the sides
+ * of the stretch. These parts of several seams, and the sides that the polygon's own pieces end
+ * with, form a closed loop, too, which is filled if it is as thin.
  */
 #ifndef meniscus_Refraction_Images_SeamClosure_h
 #define meniscus_Refraction_Images_SeamClosure_h
@@ -75,10 +80,20 @@ private:
 
   void AddPart(const ImageMesh& mesh, std::size_t cell, const ImagePoint& a, const ImagePoint& b,
     bool isWhole);
-  void CloseSeam(Parts parts, ImageMesh& mesh) const;
-  void CloseLoops(Parts parts, ImageMesh& mesh) const;
+  void CloseSeam(Parts parts, Parts& open, ImageMesh& mesh) const;
+  /** Closes the loops of one seam. Adds the parts that belong to no loop to `open`. */
+  void CloseLoops(Parts parts, Parts& open, ImageMesh& mesh) const;
+  /**
+   * Sides in the interior of polygons with open seams that one piece only has; `open` are the open
+   * parts of all seams.
+   */
+  std::vector<Part> FindFreeSides(const Parts& open, const ImageMesh& mesh) const;
+  /** Fills thin loops of parts of several seams and of free sides. */
+  void CloseAcrossSeams(const Parts& open, ImageMesh& mesh) const;
   void Fill(const std::vector<const ImagePoint*>& loop, const Part& first, bool mustBeThin,
     ImageMesh& mesh) const;
+  static void AddCell(
+    const std::vector<const ImagePoint*>& loop, const Part& first, ImageMesh& mesh);
   bool IsThin(const std::vector<const ImagePoint*>& loop) const;
 
   const std::vector<Seam>& Seams;

@@ -177,6 +177,16 @@ double GetSize(const SubCell& nodes)
 }
 
 //------------------------------------------------------------------------------
+bool IsInside(const SubCell& nodes, const glm::dvec2& b)
+{
+  const auto cross = [](const glm::dvec2& a, const glm::dvec2& c) { return a.x * c.y - a.y * c.x; };
+  const double area = cross(nodes[1].B - nodes[0].B, nodes[2].B - nodes[0].B);
+  return cross(nodes[1].B - b, nodes[2].B - b) / area >= 0.0 &&
+    cross(nodes[2].B - b, nodes[0].B - b) / area >= 0.0 &&
+    cross(nodes[0].B - b, nodes[1].B - b) / area >= 0.0;
+}
+
+//------------------------------------------------------------------------------
 glm::dvec2 GuessSight(const SubCell& nodes, const glm::dvec3& point)
 {
   const auto moment = [&nodes, &point](std::size_t k)

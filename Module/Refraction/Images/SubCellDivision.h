@@ -32,6 +32,9 @@ using SubCell = std::array<SubCellNode, 3>;
 /** Length of the longest side. */
 double GetSize(const SubCell& nodes);
 
+/** True if a place of the patch is in the sub-cell or on its border. */
+bool IsInside(const SubCell& nodes, const glm::dvec2& b);
+
 /**
  * Place where the sub-cell's rays pass a point most closely, if their moments about the point are
  * linear.
