@@ -6,10 +6,15 @@
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkRefractingInterface.h>
+#include <vtkRefractingInterfaceCollection.h>
 #include <vtkTetrahedraRayCastMapper.h>
 #include <vtkTransform.h>
 #include <vtkTransformPolyDataFilter.h>
 #include <vtkUnstructuredGrid.h>
+
+#include <cstddef>
+#include <vector>
 
 namespace meniscus
 {
@@ -21,8 +26,24 @@ namespace
 struct NamedMembrane
 {
   std::string Name;
-  vtkSmartPointer<vtkPolyData> Mesh; // null: none
+  std::vector<vtkSmartPointer<vtkPolyData>> Surfaces;
+  std::vector<double> Indices; // of the first medium, and behind each surface
 };
+
+//------------------------------------------------------------------------------
+void SetMembrane(vtkTetrahedraRayCastMapper* mapper, const NamedMembrane& membrane)
+{
+  vtkNew<vtkRefractingInterfaceCollection> list;
+  for (std::size_t i = 0; i < membrane.Surfaces.size(); ++i)
+  {
+    vtkNew<vtkRefractingInterface> interface;
+    interface->SetExteriorIndexOfRefraction(membrane.Indices[i]);
+    interface->SetInteriorIndexOfRefraction(membrane.Indices[i + 1]);
+    list->AddItem(interface);
+    mapper->AddMembraneData(membrane.Surfaces[i]);
+  }
+  mapper->SetInterfaces(list);
+}
 
 //------------------------------------------------------------------------------
 // As long and wide as is visible in the images from elevations of 35 degrees and more.
@@ -44,12 +65,20 @@ std::vector<NamedMembrane> MakeMembranes(vtkUnstructuredGrid* grid)
     mover->Update();
     return vtkSmartPointer<vtkPolyData>(mover->GetOutput());
   };
-  return { { "none", nullptr },
-    { "plane above, 8 facets", placed(test::MakePlaneCase(top, half, 2)) },
-    { "plane through the middle, 8 facets", placed(test::MakePlaneCase(0.0, half, 2)) },
-    { "dome, 3,200 facets", placed(test::MakeDomeCase(top, 4.0 * diagonal, half, 40)) },
-    { "waves, 20,000 facets",
-      placed(test::MakeWavesCase(top, 0.02 * diagonal, 12.0 / diagonal, half, 100)) } };
+  const auto plane = [&](double height)
+  { return placed(test::MakePlaneCase(top + height * diagonal, half, 2)); };
+  const auto waves = placed(test::MakeWavesCase(top, 0.02 * diagonal, 12.0 / diagonal, half, 100));
+  return { { "none", {}, {} }, { "plane above, 8 facets", { plane(0.0) }, { 1.0, 1.333 } },
+    { "plane through the middle, 8 facets", { placed(test::MakePlaneCase(0.0, half, 2)) },
+      { 1.0, 1.333 } },
+    { "dome, 3,200 facets", { placed(test::MakeDomeCase(top, 4.0 * diagonal, half, 40)) },
+      { 1.0, 1.333 } },
+    { "waves, 20,000 facets", { waves }, { 1.0, 1.333 } },
+    { "pane above, 2 x 8 facets", { plane(0.05), plane(0.0) }, { 1.0, 1.5, 1.0 } },
+    { "three planes above, 3 x 8 facets", { plane(0.1), plane(0.05), plane(0.0) },
+      { 1.0, 1.5, 1.0, 1.333 } },
+    { "pane over waves, 20,016 facets", { plane(0.1), plane(0.05), waves },
+      { 1.0, 1.5, 1.0, 1.333 } } };
 }
 
 } // anonymous namespace
@@ -69,10 +98,10 @@ std::vector<MembraneCost> MeasureMembranes(
   for (const NamedMembrane& membrane : membranes)
   {
     Contestant ours = MakeOurs(backend, membrane.Name);
-    ours.Make = [make = ours.Make, mesh = membrane.Mesh]()
+    ours.Make = [make = ours.Make, &membrane]()
     {
       const MapperPointer mapper = make();
-      vtkTetrahedraRayCastMapper::SafeDownCast(mapper)->SetMembraneData(mesh);
+      SetMembrane(vtkTetrahedraRayCastMapper::SafeDownCast(mapper), membrane);
       return mapper;
     };
     contestants.push_back(ours);

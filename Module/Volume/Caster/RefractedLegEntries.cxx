@@ -109,6 +109,26 @@ bool RefractedLegEntries::MayMeetMesh(const RayLeg& line) const
 }
 
 //------------------------------------------------------------------------------
+/** True if both ends of a leg lie beyond one side of the box about the mesh. */
+bool RefractedLegEntries::IsBesideMesh(const RayLeg& line) const
+{
+  const glm::dmat3& edges = this->Box.HalfEdges;
+  const glm::dvec3 toCenter = this->Box.Center - line.Begin;
+  for (int k = 0; k < 3 && line.End < Infinity; ++k)
+  {
+    const glm::dvec3 normal = glm::cross(edges[(k + 1) % 3], edges[(k + 2) % 3]);
+    const double extent = BoxMargin * std::fabs(glm::dot(normal, edges[k]));
+    const double begin = -glm::dot(normal, toCenter);
+    const double end = begin + (line.End - line.Depth) * glm::dot(normal, line.Step);
+    if (std::min(begin, end) > extent || std::max(begin, end) < -extent)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
 /** Computes the drawn part of a leg. Returns false if there is none. */
 bool RefractedLegEntries::FindPart(
   const TileLeg& leg, std::int32_t pixel, const RayLeg& line, Part& part) const
@@ -182,7 +202,8 @@ void RefractedLegEntries::CollectPixel(const TileLeg& leg, const PacketJob& job,
   }
   const std::int32_t end = joined.GetEnd(pixel);
   joined.SetEnd(pixel, PacketResult::Outside);
-  if (!this->MayMeetMesh(line))
+  // A leg whose beginning is not known to be outside is walked from the boundary in front of it.
+  if (!this->MayMeetMesh(line) || (end == PacketResult::Outside && this->IsBesideMesh(line)))
   {
     return;
   }

@@ -102,6 +102,7 @@ private:
   struct Part;
   bool FindPart(const TileLeg& leg, std::int32_t pixel, const RayLeg& line, Part& part) const;
   bool MayMeetMesh(const RayLeg& line) const;
+  bool IsBesideMesh(const RayLeg& line) const;
   void AddLine(const RayLeg& line, const Part& part, std::int32_t pixel, std::int32_t end,
     Workspace& workspace) const;
   void CollectPixel(const TileLeg& leg, const PacketJob& job, std::int32_t pixel,

@@ -160,8 +160,10 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile)
   TileSum sum;
   const int left = tile % this->Columns * TileSize;
   const int bottom = tile / this->Columns * TileSize;
-  std::vector<std::vector<RefractedRay>> rays(
-    this->Interfaces.size(), std::vector<RefractedRay>(RefractedRayTiles::RaysOfTile));
+  for (RefractedRayTiles& rays : this->Rays)
+  {
+    rays.ChangeTile(tile).assign(RefractedRayTiles::RaysOfTile, RefractedRay());
+  }
   Block block(this->Interfaces.size());
   for (int row = 0; row < TileSize; row += BlockSize)
   {
@@ -174,14 +176,17 @@ RefractedRayStack::TileSum RefractedRayStack::TraceTile(int tile)
         this->RefractBlock(k, block, sum.Rays);
       }
       this->EndRaysBesideMesh(block);
-      this->StoreBlock(block, rays, sum.Directions);
+      this->StoreBlock(block, tile, sum.Directions);
     }
   }
-  for (std::size_t k = 0; k < rays.size(); ++k)
+  for (RefractedRayTiles& tiles : this->Rays)
   {
-    const bool any = std::any_of(
-      rays[k].begin(), rays[k].end(), [](const RefractedRay& ray) { return ray.MeetsInterface(); });
-    this->Rays[k].ChangeTile(tile) = any ? std::move(rays[k]) : std::vector<RefractedRay>();
+    std::vector<RefractedRay>& rays = tiles.ChangeTile(tile);
+    if (std::none_of(
+          rays.begin(), rays.end(), [](const RefractedRay& ray) { return ray.MeetsInterface(); }))
+    {
+      rays = std::vector<RefractedRay>();
+    }
   }
   return sum;
 }
@@ -366,22 +371,21 @@ void RefractedRayStack::EndRaysBesideMesh(Block& block) const
 }
 
 //------------------------------------------------------------------------------
-/**
- * @param rays rays of the tile, per interface.
- * @param directions sum to which the directions of the legs are added, in the frame of the view.
- */
-void RefractedRayStack::StoreBlock(
-  const Block& block, std::vector<std::vector<RefractedRay>>& rays, glm::dvec3& directions) const
+/** @param directions sum to which the steps of the legs are added, in the frame of the view. */
+void RefractedRayStack::StoreBlock(const Block& block, int tile, glm::dvec3& directions)
 {
-  for (std::size_t ray = 0; ray < static_cast<std::size_t>(block.Count); ++ray)
+  for (std::size_t k = 0; k < this->Rays.size(); ++k)
   {
-    const auto pixel = static_cast<std::size_t>(block.Pixels[ray]);
-    for (std::size_t k = 0; k < rays.size() && block.Legs[k][ray].GoesOn(); ++k)
+    std::vector<RefractedRay>& rays = this->Rays[k].ChangeTile(tile);
+    for (std::size_t ray = 0; ray < static_cast<std::size_t>(block.Count); ++ray)
     {
-      const WorldLeg& leg = block.Legs[k + 1][ray];
-      const glm::dvec3 step = this->WorldToFrame * leg.Step;
-      rays[k][pixel] = { leg.Depth, step };
-      directions += step;
+      if (block.Legs[k][ray].GoesOn())
+      {
+        const WorldLeg& leg = block.Legs[k + 1][ray];
+        const glm::dvec3 step = this->WorldToFrame * leg.Step;
+        rays[static_cast<std::size_t>(block.Pixels[ray])] = { leg.Depth, step };
+        directions += step;
+      }
     }
   }
 }

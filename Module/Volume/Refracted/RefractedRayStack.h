@@ -97,8 +97,7 @@ private:
   void MeetInterface(std::size_t number, Block& block, Counts& sums) const;
   void RefractBlock(std::size_t number, Block& block, Counts& sums) const;
   void EndRaysBesideMesh(Block& block) const;
-  void StoreBlock(
-    const Block& block, std::vector<std::vector<RefractedRay>>& rays, glm::dvec3& directions) const;
+  void StoreBlock(const Block& block, int tile, glm::dvec3& directions);
   bool MeetsMesh(const glm::dvec3& place, const glm::dvec3& step, double end) const;
 
   std::vector<StackedInterface> Interfaces;

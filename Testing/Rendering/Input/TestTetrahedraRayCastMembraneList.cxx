@@ -219,6 +219,27 @@ TEST(TetrahedraRayCastMembraneList, ListsThatCannotBeUsed)
     });
 }
 
+/** From behind, rays meet the list in another order: they end at the first interface. */
+TEST(TetrahedraRayCastMembraneList, PaneSeenFromTheOtherSide)
+{
+  for (const double behind : { 1.0, 1.333 })
+  {
+    PaneScene scene;
+    vtkTetrahedraRayCastMapper* mapper = scene.GetRayCaster();
+    SetIndices(mapper, { { 1.0, 1.5 }, { 1.5, behind } });
+    auto told = vtkSmartPointer<ErrorObserver>::New();
+    told->Observe(mapper);
+    LookAt(scene.GetRenderer(), Block, 30.0, -60.0);
+    const FloatImage picture = scene.RenderFloat();
+    EXPECT_TRUE(told->Errors.empty()) << told->GetText();
+    EXPECT_GT(mapper->GetNumberOfRaysMissingAnInterface(), Size);
+    // The mesh lies in front of the pane.
+    mapper->RemoveAllMembranes();
+    mapper->SetInterfaces(nullptr);
+    ExpectSamePicture(picture, scene.RenderFloat(), "from below");
+  }
+}
+
 TEST(TetrahedraRayCastMembraneList, ErrorsGoAwayWithTheirCause)
 {
   PaneScene scene;

@@ -13,6 +13,8 @@
 #include <vtkContourValues.h>
 #include <vtkNew.h>
 #include <vtkRefractedGeometryFilter.h>
+#include <vtkRefractingInterface.h>
+#include <vtkRefractingInterfaceCollection.h>
 #include <vtkRefractionPass.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -142,6 +144,31 @@ TEST(RefractionPassVolume, IsThePictureOfTheMapperAlone)
     const ByteImage plain = basin.RenderPlain();
     const Differences off = Compare(basin.RenderPass(), plain);
     EXPECT_LE(off.Largest, 2) << level;
+    EXPECT_EQ(basin.Mapper->GetNumberOfLostRays(), 0);
+  }
+}
+
+/** With several interfaces the parts meet at the first, which is the one that the pass draws. */
+TEST(RefractionPassVolume, PaneIsThePictureOfTheMapperAlone)
+{
+  for (const double level : { 1.3, 0.2 })
+  {
+    Basin basin(level);
+    const ByteImage once = basin.RenderPlain();
+    const auto lower = MakePlane(4.0, level - 0.4, 3);
+    basin.Mapper->AddMembraneConnection(lower->GetOutputPort());
+    vtkNew<vtkRefractingInterfaceCollection> list;
+    for (const double index : { 1.0, 1.5 })
+    {
+      vtkNew<vtkRefractingInterface> interface;
+      interface->SetExteriorIndexOfRefraction(index);
+      interface->SetInteriorIndexOfRefraction(2.5 - index);
+      list->AddItem(interface);
+    }
+    basin.Mapper->SetInterfaces(list);
+    const ByteImage plain = basin.RenderPlain();
+    EXPECT_GT(Compare(once, plain).Pixels, 100);
+    EXPECT_LE(Compare(basin.RenderPass(), plain).Largest, 2) << level;
     EXPECT_EQ(basin.Mapper->GetNumberOfLostRays(), 0);
   }
 }

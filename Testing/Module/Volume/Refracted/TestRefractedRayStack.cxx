@@ -356,7 +356,7 @@ TEST(RefractedRayStack, ConcentricDomeKeepsDirections)
 TEST(RefractedRayStack, RaysThatMissAnInterfaceAreCounted)
 {
   const StackedSheet front([](double, double) { return 0.1; }, 5);
-  // Beside the rays: a sheet that is seen through one half of the first one.
+  // A sheet that is seen through one half of the first one.
   const StackedSheet back([](double, double) { return -1.5; }, 4);
   RefractedRayField::View view =
     LookAt(glm::dvec3(1.2, 0.0, 2.0), glm::dvec3(0.0, 0.0, 0.1), 2.3, false, Size);
