@@ -201,9 +201,22 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
-   * first interface has the indices of refraction and the exact surface; more than one interface is
-   * an error when the filter runs. Null, the default, stands for a list of one with default values.
+   * Set/Get the refracting interfaces, in the order in which sight rays meet them. The list may be
+   * shared with other filters and mappers. Its first interface has the indices of refraction and
+   * the exact surface that SetExteriorIndexOfRefraction(), SetInteriorIndexOfRefraction() and
+   * SetExactMembrane() set. Interface i has the surface of connection i of port 1; another number
+   * of connections is an error when the filter runs. Null, the default, stands for a list of one
+   * with default values.
+   *
+   * With several interfaces, the medium behind each is the medium in front of the next one; a ray
+   * takes the side of a surface by its direction against the normals, so that a closed body may be
+   * listed twice, entered and left. Rays that miss a later surface, or are totally reflected at it,
+   * show nothing. Points between interfaces are refracted by those in front of them, and an eye
+   * between interfaces looks through those behind it. Interfaces with equal indices are left out.
+   * Images must be FIRST_IMAGE, MembraneModel CURVED, and the light of VirtualNormals at the eye;
+   * ViewCulling has no effect. RefractionDepth is the sum of the legs behind the first sight point.
+   * Point arrays added: `LegLengths` (a length behind each refracting interface), `LastSightPoint`
+   * (3 doubles, world) and `Transmittance` (product of 1 - Fresnel reflectance).
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();

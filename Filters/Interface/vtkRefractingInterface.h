@@ -29,7 +29,8 @@ public:
 
   /** @{ */
   /**
-   * Index of refraction on the side that the surface's normals point to, the eye's or the light's.
+   * Index of refraction on the side that the surface's normals point to, the eye's or the light's;
+   * in a list of several interfaces it may be either side.
    * Positive and finite; other values are an error of the filter or mapper when it runs. Default is
    * 1.0, that of air.
    */

@@ -22,8 +22,8 @@ constexpr int LongestChase = 4;
 constexpr int LongestWalk = 16;
 
 // Newton's method converges quadratically: the remaining error is of the order of the square of
-// the last step, below rounding.
-constexpr double LastStep = 1e-8;
+// the last step, 1e-14 of a facet.
+constexpr double LastStep = 1e-7;
 
 // Two crossings are the same if they are closer than this fraction of the patch's size. Crossings
 // at a common edge of two patches may differ by the effect of Border in both.
@@ -223,7 +223,8 @@ bool RefractionStack::Meet(
 {
   const Link& link = this->Links[index];
   CurvedPatch patch;
-  if (follows && point.Place.Facet != CurvedPatches::NoFacet &&
+  const bool isNearest = follows || link.Surface->IsCrossedOnce(ray.Direction);
+  if (isNearest && point.Place.Facet != CurvedPatches::NoFacet &&
     this->MeetNear(link, ray, point, patch, jet))
   {
     return true;
@@ -298,6 +299,10 @@ bool RefractionStack::IsFirstCrossing(const StackPath& path) const
     const glm::dvec3 origin = path.Points[i - 1].Ray.Origin - link.Shift;
     const glm::dvec3 leg = point.Ray.Origin - link.Shift - origin;
     const double length = glm::length(leg);
+    if (length > 0.0 && link.Surface->IsCrossedOnce(leg / length))
+    {
+      continue;
+    }
     const double same =
       SamePlace * link.Surface->GetPatches().GetPatch(point.Place.Facet).GetSize();
     SurfaceCrossing crossing;

@@ -156,6 +156,8 @@ void StackBeams::Bound(std::int32_t facet, Samples& samples)
   }
   for (std::size_t k = 0; k < 6; ++k)
   {
+    // The places of another ray are good guesses.
+    samples[k] = k == 0 ? path : samples[k - 1];
     this->Stack->Trace({ facet, Places[k] }, count, false, samples[k]);
   }
   for (std::size_t k = 1; k < count && leg.IsValid(); ++k)

@@ -11,6 +11,7 @@
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -80,6 +81,16 @@ public:
       });
   }
 
+  /**
+   * True if a line along the unit vector `direction` is known to cross the surface once at most:
+   * the surface is a field of heights over a convex polygon, and all its normals are on the same
+   * side of the line, so that the height of the line above the surface changes in one sense only.
+   */
+  bool IsCrossedOnce(const glm::dvec3& direction) const
+  {
+    return std::fabs(glm::dot(direction, this->Axis)) > this->LeastCosine;
+  }
+
   /** True if a point lies on the surface within rounding. */
   bool IsOnSurface(const glm::dvec3& local) const;
 
@@ -93,12 +104,15 @@ public:
   std::int64_t GetNumberOfUndecidedCrossings() const { return this->Undecided; }
 
 private:
+  void BoundTurn();
   bool MayCross(std::int32_t facet, const HeightFrame& frame, const glm::dvec2& place) const;
 
   Membrane Surface;
   CurvedPatches Patches;
   std::vector<PatchBounds> Bounds;
   BoxTree Tree;
+  glm::dvec3 Axis{ 0.0 };   ///< mean of the normals
+  double LeastCosine = 2.0; ///< for IsCrossedOnce; above 1 if no line is known to be
   mutable std::atomic<std::int64_t> Undecided{ 0 };
 };
 
