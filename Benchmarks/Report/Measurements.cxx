@@ -92,7 +92,8 @@ public:
       for (const char* function : { "smooth", "peaked", "sharp", "opaque", "sparse" })
       {
         const std::string name = "errors-" + mesh.Name + "-" + function;
-        if (this->Options.Quick && (&mesh != &this->Meshes.front() || *function == 'p'))
+        if (this->Options.Quick &&
+          (&mesh != &this->Meshes.front() || function != std::string("smooth")))
         {
           this->Report.LeaveOut(name, "--quick");
           continue;
@@ -125,7 +126,7 @@ public:
         const bool small = window == Windows[0];
         const bool plain = mode == Modes[0];
         const std::string name = std::string("frames-") + window + "-" + mode;
-        if (this->Options.Quick && !small && !plain)
+        if (this->Options.Quick && !small && (!plain || window == Windows[2]))
         {
           this->Report.LeaveOut(name, "--quick");
           continue;
