@@ -12,7 +12,8 @@ data=@DATA@
 
 case "${1:-}" in
   -h | --help)
-    echo "usage: sh $0 [DIRECTORY]: unpacks into DIRECTORY (default ./meniscus), then: DIRECTORY/run"
+    echo "usage: sh $0 [DIRECTORY]: unpacks into DIRECTORY (default ./meniscus)"
+    echo "next: DIRECTORY/run --help"
     exit 0
     ;;
 esac
