@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
 """scripts/bundle lists the files of its archive, meniscus_report reports programs whose results are
-known, and scripts/check_report.py finds the gaps of a report. Arguments: the root of the project, the build tree; skipped (125) where the system lacks a
-part of the archive."""
+known, and scripts/check_report.py finds the gaps of a report. Arguments: the root of the project,
+the build tree; skipped (125) where the system lacks a part of the archive."""
 import base64
 import copy
 import json
