@@ -15,7 +15,7 @@ const char* const ReportUsage =
   "Runs the tests with every backend and the benchmarks, each in a process of its own, and writes\n"
   "report.md, report.json and pictures. Needs an X display.\n"
   "\n"
-  "  --quick          every eighth test, one view, small windows; the rest is listed as left out\n"
+  "  --quick          every 32nd test, one view, small windows; the rest is listed as left out\n"
   "  --output FOLDER  folder of the report; must not exist or be empty (default report)\n"
   "  --programs FOLDER  test and benchmark programs (default: that of this program)\n"
   "  --data FOLDER    meshes to measure, .vtu files (default: a generated mesh alone)\n"

@@ -15,7 +15,7 @@ namespace report
 /**
  * Runs the numeric tests with each backend, and the tests of kernel, reference and filters. A test
  * whose process ends is recorded as crashed, and those after it run in a new process. With Quick,
- * every eighth test of a program runs, and the others count as not run.
+ * every 32nd test of a program runs, and the others count as not run.
  */
 void RunTests(const ReportOptions& options, ReportText& report);
 

@@ -20,9 +20,11 @@ fail()
 
 usage()
 {
-  echo "usage: run [--driver auto|nvidia|software] [--display NAME] report [--quick] [--output DIRECTORY]"
-  echo "       run [--driver ...] [--display NAME] PROGRAM [ARGUMENT]..."
-  echo "programs: $(cd "$here/bin" && echo *)"
+  cat << END
+usage: run [--driver auto|nvidia|software] [--display NAME] report [--quick] [--output DIRECTORY]
+       run [--driver ...] [--display NAME] PROGRAM [ARGUMENT]...
+programs: $(cd "$here/bin" && echo *)
+END
 }
 
 while [ $# -gt 0 ]; do

@@ -62,12 +62,15 @@ void PrintFigures(std::ostream& out, const Figures& f)
   const auto ends = std::minmax_element(f.ViewMs.begin(), f.ViewMs.end());
   const std::string spread =
     f.ViewMs.empty() ? "" : MakeNumber(*ends.first, 1) + " - " + MakeNumber(*ends.second, 1);
+  const bool hasFloat = f.IsCompared && f.HasFloat;
   PrintRow(out,
-    { f.Name, MakeNumber(f.ColdMs, 1), MakeNumber(f.SetUpMs, 1), MakeNumber(f.SteadyMs, 1), spread,
-      MakeNumber(f.CpuMs, 1), MakeNumber(1e-6 * f.StepsPerSecond, 1, f.StepsPerSecond > 0.0),
-      MakeNumber(f.BytesPerCell, 0, f.BytesPerCell > 0.0), Scientific(f.Bytes.Largest),
-      Scientific(f.Bytes.Rms), MakeNumber(100.0 * f.Bytes.OffShare, 2),
-      Scientific(f.Float.Largest, f.HasFloat), Scientific(f.Float.Rms, f.HasFloat) });
+    { f.Name, MakeNumber(f.ColdMs, 1), MakeNumber(f.SetUpMs, 1, f.SetUpMs > 0.0),
+      MakeNumber(f.SteadyMs, 1), spread, MakeNumber(f.CpuMs, 1),
+      MakeNumber(1e-6 * f.StepsPerSecond, 1, f.StepsPerSecond > 0.0),
+      MakeNumber(f.BytesPerCell, 0, f.BytesPerCell > 0.0),
+      Scientific(f.Bytes.Largest, f.IsCompared), Scientific(f.Bytes.Rms, f.IsCompared),
+      MakeNumber(100.0 * f.Bytes.OffShare, 2, f.IsCompared), Scientific(f.Float.Largest, hasFloat),
+      Scientific(f.Float.Rms, hasFloat) });
 }
 
 //------------------------------------------------------------------------------

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/bundle lists the files of its archive, and scripts/check_report.py finds the gaps of a
-report. Arguments: the root of the project, the build tree; skipped (125) where the system lacks a
-part of the archive."""
+"""scripts/bundle lists the files of its archive, meniscus_report reports programs whose results are
+known, and scripts/check_report.py finds the gaps of a report. Arguments: the root of the project,
+the build tree; skipped (125) where the system lacks a part of the archive."""
+import base64
 import copy
 import json
+import os
 import pathlib
 import struct
 import subprocess
@@ -91,6 +93,54 @@ def picture(colors):
             chunk(b"IDAT", zlib.compress(b"\0" + bytes(colors))) + chunk(b"IEND", b""))
 
 
+# Programs in place of the carried ones, which take a moment. Of the tests one fails, one is skipped
+# and one ends its process.
+STAND_IN_TESTS = """#!/usr/bin/python3
+import os, signal, sys
+if "--gtest_list_tests" in sys.argv:
+    print("Suite.\\n  Passes\\n  Fails\\n  Skips\\n  Crashes\\n  DISABLED_No\\nOther.  # typed")
+    print("  Passes/0  # GetParam() = 3")
+    sys.exit()
+chosen = [word[15:].split(":") for word in sys.argv if word.startswith("--gtest_filter=")][0]
+for name in chosen:
+    print("[ RUN      ] " + name, flush=True)
+    if "Crashes" in name:
+        os.kill(os.getpid(), signal.SIGSEGV)
+    if "Skips" in name:
+        print("file.cxx:1: Skipped\\nno data")
+    mark = "  FAILED  " if "Fails" in name else "  SKIPPED " if "Skips" in name else "       OK "
+    print("[" + mark + "] " + name + " (3 ms)", flush=True)
+print("[  FAILED  ] Suite.Fails")
+sys.exit(1)
+"""
+STAND_IN_BENCHMARK = """#!/usr/bin/python3
+import base64, json, os, sys
+words = sys.argv[1:]
+if "--device" in words:
+    print("GL_RENDERER: stand-in\\nGL_VERSION: 1\\nVTK: 9")
+    sys.exit()
+if os.environ.get("FAULT", "none") in " ".join(words):
+    sys.exit(3)
+value = {words[i]: words[i + 1] for i in range(len(words) - 1)}
+names = [name.strip("$") for name in value.get("--mappers", "").split(",")]
+figures = {"mappers": [{"name": name, "ms_per_frame": 1.0, "error_float": {"max": 1e-6}}
+                       for name in names]}
+if "--pass" in words:
+    rows = [{"mode": "m", "frames_per_second": 1.0}]
+    figures = {"well": rows, "pass": rows, "pool": {"pass_ms": 1.0}}
+    print("| the pass |")
+json.dump(figures, open(value["--json"], "w"))
+for key in ("--rows", "--error-rows"):
+    if key in value:
+        open(value[key], "a").write("| row |\\n")
+if "--picture" in value:
+    start = value["--picture"]
+    ends = [""] if "--pass" in words else ["-" + name.replace("/", "-") + ".png" for name in names]
+    for end in ends:
+        open(start + end, "wb").write(base64.b64decode("PICTURE"))
+"""
+
+
 def volume(*names):
     return {"figures": {"mappers": [
         {"name": name, "ms_per_frame": 1.0, "error_float": {"max": 1e-6}} for name in names]}}
@@ -116,6 +166,74 @@ def complete_report():
                    for mesh in ("3M", "10M") for backend in BACKENDS},
         "refraction": {"refraction": {"figures": {
             "well": rows, "pass": rows, "pool": {"pass_ms": 1.0}}}}}
+
+
+class StandIns(unittest.TestCase):
+    """meniscus_report with programs whose results are known."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.folder.name)
+        benchmark = STAND_IN_BENCHMARK.replace(
+            "PICTURE", base64.b64encode(picture(range(64))).decode())
+        for name in ("rendering_numeric_tests", "kernel_tests", "volume_reference_tests",
+                     "filter_tests", "benchmark_volume", "benchmark_refraction"):
+            program = self.root / ("meniscus_" + name)
+            program.write_text(STAND_IN_TESTS if name.endswith("tests") else benchmark)
+            program.chmod(0o755)
+        (self.root / "data").mkdir()
+        for name in ("combustor.vtu", "blunt_fin.vtu"):
+            (self.root / "data" / name).write_text("")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def report(self, fault, *arguments):
+        """Exit status, the report's JSON, the faults that its check finds."""
+        output = self.root / "out"
+        result = subprocess.run(
+            [str(BUILD / "bin/meniscus_report"), "--programs", str(self.root), "--data",
+             str(self.root / "data"), "--driver", "none", "--output", str(output), *arguments],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env={**os.environ, "FAULT": fault})
+        report = json.loads((output / "report.json").read_text())
+        faults = run(sys.executable, "-B", ROOT / "scripts/check_report.py", output)[1]
+        return result.returncode, report, faults
+
+    def test_all(self):
+        status, report, faults = self.report("none")
+        self.assertEqual(status, 2)
+        self.assertTrue(report["complete"])
+        self.assertEqual(report["failed_tests"], 12)
+        for entry in report["tests"]:
+            self.assertEqual((entry["tests"], entry["passed"], entry["not_run"]), (6, 2, 1))
+            self.assertEqual([test["name"] for test in entry["failed"]], ["Suite.Fails"])
+            self.assertEqual([test["name"] for test in entry["crashed"]], ["Suite.Crashes"])
+            self.assertEqual(entry["crashed"][0]["note"], "ended by signal 11")
+            self.assertEqual([test["note"] for test in entry["skipped"]],
+                             ["file.cxx:1: Skipped no data"])
+        # The check names the failures, and the test that is disabled; nothing else is amiss.
+        self.assertEqual({line.split(": ")[1].split(" ")[0] for line in faults.strip().split("\n")},
+                         {"Suite.Fails", "Suite.Crashes", "1"})
+        self.assertIn("errors-blunt_fin-smooth", report["errors"])
+        page = (self.root / "out/report.md").read_text()
+        self.assertLess(page.index("| the pass |"), page.index("pictures/pool.png"))
+
+    def test_quick(self):
+        status, report, faults = self.report("none", "--quick")
+        self.assertEqual((status, faults), (0, ""))
+        self.assertEqual([entry["not_run"] for entry in report["tests"]], [5] * 6)
+        left_out = [entry["name"] for entry in report["left_out"]]
+        self.assertIn("frames-3840x2160-composite", left_out)
+        self.assertIn("frames-1920x1080-composite", report["frames"])
+
+    def test_part_that_fails(self):
+        status, report, faults = self.report("--pass", "--quick")
+        self.assertEqual(status, 1)
+        self.assertFalse(report["complete"])
+        self.assertEqual([entry["name"] for entry in report["missing"]],
+                         ["refraction", "picture pool.png"])
+        self.assertEqual(report["missing"][0]["reason"], "exit status 3")
+        self.assertIn("missing: refraction: exit status 3", faults)
 
 
 class Report(unittest.TestCase):
