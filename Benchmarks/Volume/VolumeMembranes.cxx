@@ -23,6 +23,8 @@ namespace benchmark
 namespace
 {
 
+constexpr char NameOfWaves[] = "waves, 20,000 facets";
+
 struct NamedMembrane
 {
   std::string Name;
@@ -73,7 +75,7 @@ std::vector<NamedMembrane> MakeMembranes(vtkUnstructuredGrid* grid)
       { 1.0, 1.333 } },
     { "dome, 3,200 facets", { placed(test::MakeDomeCase(top, 4.0 * diagonal, half, 40)) },
       { 1.0, 1.333 } },
-    { "waves, 20,000 facets", { waves }, { 1.0, 1.333 } },
+    { NameOfWaves, { waves }, { 1.0, 1.333 } },
     { "pane above, 2 x 8 facets", { plane(0.05), plane(0.0) }, { 1.0, 1.5, 1.0 } },
     { "three planes above, 3 x 8 facets", { plane(0.1), plane(0.05), plane(0.0) },
       { 1.0, 1.5, 1.0, 1.333 } },
@@ -86,7 +88,10 @@ std::vector<NamedMembrane> MakeMembranes(vtkUnstructuredGrid* grid)
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkPolyData> MakeWavesAbove(vtkUnstructuredGrid* grid)
 {
-  return MakeMembranes(grid).back().Mesh;
+  const std::vector<NamedMembrane> membranes = MakeMembranes(grid);
+  const auto waves = std::find_if(membranes.begin(), membranes.end(),
+    [](const NamedMembrane& one) { return one.Name == NameOfWaves; });
+  return waves->Surfaces.front();
 }
 
 //------------------------------------------------------------------------------
