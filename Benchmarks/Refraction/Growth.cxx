@@ -120,6 +120,7 @@ void MeasureCurved(
   geometry.SetMembrane(mesh.AsInput());
   figures.CurvedEye = TimeMedian([&] { geometry.SetEye(Eye, Exterior, Interior); }).Cpu;
   figures.CurvedOne = MicrosecondsPerVertex(geometry, points);
+  figures.CurvedScattered = MicrosecondsPerVertex(geometry, Shuffle(points));
   figures.CurvedAll = 3e6 / static_cast<double>(points.size()) *
     TimeMedian(
       [&]
@@ -147,9 +148,9 @@ void MeasureCurved(
 
 std::vector<GrowthFigures> GrowByFacets()
 {
-  std::printf("%9s | %9s %9s %9s %9s %10s %9s | %9s %9s %9s %9s %9s %9s\n", "facets", "flat shape",
-    "eye s", "us grid", "us random", "us brute", "error", "curved s", "deform s", "eye s", "us one",
-    "us all", "error");
+  std::printf("%9s | %9s %9s %9s %9s %10s %9s | %9s %9s %9s %9s %9s %9s %9s\n", "facets",
+    "flat shape", "eye s", "us grid", "us random", "us brute", "error", "curved s", "deform s",
+    "eye s", "us one", "us random", "us all", "error");
   std::vector<GrowthFigures> all;
   for (const int cells : { 7, 23, 64, 128, 226, 400, 708 })
   {
@@ -157,11 +158,11 @@ std::vector<GrowthFigures> GrowByFacets()
     const WaveError error = MeasureWaveError(cells);
     f.FlatError = error.Flat;
     f.CurvedError = error.Curved;
-    std::printf("%9zu | %9.4f %9.4f %9.3f %9.3f %10.1f %9.2e | %9.4f %9.4f %9.4f %9.3f %9.3f %9.2e"
-                "\n",
+    std::printf("%9zu | %9.4f %9.4f %9.3f %9.3f %10.1f %9.2e | %9.4f %9.4f %9.4f %9.3f %9.3f %9.3f "
+                "%9.2e\n",
       f.Facets, f.FlatShape, f.FlatEye, f.FlatCoherent, f.FlatScattered, f.FlatBruteForce,
-      f.FlatError, f.CurvedShape, f.CurvedDeform, f.CurvedEye, f.CurvedOne, f.CurvedAll,
-      f.CurvedError);
+      f.FlatError, f.CurvedShape, f.CurvedDeform, f.CurvedEye, f.CurvedOne, f.CurvedScattered,
+      f.CurvedAll, f.CurvedError);
     std::fflush(stdout);
     all.push_back(f);
   }
@@ -203,6 +204,7 @@ std::string ToJson(const std::vector<GrowthFigures>& all)
          << ", \"mean_error\": " << f.FlatError << ", \"curved_shape_s\": " << f.CurvedShape
          << ", \"curved_deform_s\": " << f.CurvedDeform << ", \"curved_eye_s\": " << f.CurvedEye
          << ", \"curved_us_per_vertex_one_image\": " << f.CurvedOne
+         << ", \"curved_us_per_vertex_random_order\": " << f.CurvedScattered
          << ", \"curved_us_per_vertex_all_images\": " << f.CurvedAll
          << ", \"curved_mean_error\": " << f.CurvedError << " }"
          << (i + 1 < all.size() ? ",\n" : "\n");

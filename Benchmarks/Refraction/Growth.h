@@ -27,7 +27,8 @@ struct GrowthFigures
   double CurvedShape = 0.0;    ///< a new topology
   double CurvedDeform = 0.0;   ///< the same topology, other points
   double CurvedEye = 0.0;
-  double CurvedOne = 0.0; ///< microseconds per vertex, one image, grid order
+  double CurvedOne = 0.0;       ///< microseconds per vertex, one image, grid order
+  double CurvedScattered = 0.0; ///< the same, random order
   double CurvedAll = 0.0; ///< the same, all images of an object's points, as the filter computes
                           ///< them
   double CurvedSearch =

@@ -33,6 +33,11 @@ constexpr int LongestWalk = 64;
 // the previous one by no more than this fraction of it.
 constexpr double SameStep = 0.5;
 
+// Square of the ratio to the shortest failed step, beyond which a step is not followed. Points in
+// random order fail mostly, at the cost of several searches by the tree each. A step of the same
+// length as a failed one is tried, since an image may end at any step of a regular grid.
+constexpr double LongestFailed = 1.21;
+
 constexpr int FirstSteps = 10;
 constexpr double FirstReach = 1.5;
 
@@ -337,11 +342,18 @@ VirtualVertex CurvedMembraneSolver::SolvePoint(const glm::dvec3& point, Memory& 
   }
   const SightEquation equation = this->MakeEquation(local);
   SightPlace place;
-  if (!this->Follow(equation, local, memory, place) && !this->FindFirst(equation, local, place))
-  {
-    return vertex;
-  }
   const bool first = memory.Place.Facet == CurvedPatches::NoFacet;
+  const glm::dvec3 way = local - memory.Point;
+  const double step = glm::dot(way, way);
+  const bool follows = !first && step <= LongestFailed * memory.FailedStep;
+  if (!follows || !this->Follow(equation, local, memory, place))
+  {
+    memory.FailedStep = follows ? std::min(memory.FailedStep, step) : memory.FailedStep;
+    if (!this->FindFirst(equation, local, place))
+    {
+      return vertex;
+    }
+  }
   memory.PointStep = first ? glm::dvec3(0.0) : local - memory.Point;
   memory.SightStep =
     first ? glm::dvec3(0.0) : place.Root.At.Position - memory.Place.Root.At.Position;

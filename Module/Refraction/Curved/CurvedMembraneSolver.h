@@ -73,7 +73,8 @@ public:
    * Finds one image of each of `points` (x, y, z each) in [begin, end) and writes it to the same
    * places of `vertices`. If a point has several images, the result is the one that continues the
    * image of the previous point; at the start of a chain, and where this continuation ends, it is
-   * the first one that the tree yields.
+   * the first one that the tree yields. A step more than a tenth longer than one at which a
+   * continuation ended, earlier in the chain, is not continued.
    */
   void Solve(
     const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices) const;
@@ -97,6 +98,8 @@ public:
     glm::dvec3 Point{ 0.0 };
     glm::dvec3 PointStep{ 0.0 };
     glm::dvec3 SightStep{ 0.0 };
+    /** Square of the shortest step so far that could not be continued. */
+    double FailedStep = std::numeric_limits<double>::infinity();
   };
 
   /** One image of a point, as Solve finds it after the points that are recorded in `memory`. */

@@ -448,6 +448,35 @@ TEST(RefractionCurved, PointsCloseToTheMembraneHaveTheirImageInAnyOrderOfCorners
 }
 
 //------------------------------------------------------------------------------
+// Points in random order: once a step could not be continued, steps more than a tenth longer are
+// solved as at the start of a chain, bit by bit. These are most of them.
+TEST(RefractionCurved, LongStepsAreNotContinuedAfterAFailure)
+{
+  CurvedMembraneSolver geometry;
+  Set(geometry, Waves.MakeMesh(128), { 20.0, 300.0, 10.0 });
+  Random random(7);
+  CurvedMembraneSolver::Memory memory;
+  std::size_t notContinued = 0;
+  for (std::size_t i = 0; i < CurvedMembraneSolver::Chain; ++i)
+  {
+    const glm::dvec3 point = random.Point({ -60.0, -60.0, -60.0 }, { 60.0, -10.0, 60.0 });
+    const double step = glm::length(point - geometry.GetMembrane().GetOrigin() - memory.Point);
+    const bool isLong = i > 0 && step > 1.11 * std::sqrt(memory.FailedStep);
+    const VirtualVertex vertex = geometry.SolvePoint(point, memory);
+    if (isLong)
+    {
+      ++notContinued;
+      CurvedMembraneSolver::Memory fresh;
+      const VirtualVertex first = geometry.SolvePoint(point, fresh);
+      EXPECT_EQ(first.Facet, vertex.Facet);
+      EXPECT_EQ(first.Position, vertex.Position);
+      EXPECT_EQ(first.SightPoint, vertex.SightPoint);
+    }
+  }
+  EXPECT_GT(notContinued, CurvedMembraneSolver::Chain / 2);
+}
+
+//------------------------------------------------------------------------------
 TEST(RefractionCurved, TheOneImageIsOneOfAll)
 {
   CurvedMembraneSolver geometry;
