@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -295,4 +296,43 @@ TEST(RefractionStackPaths, PointsOnTracedRaysHaveImages)
     EXPECT_EQ(vertex.State, ImageState::Found) << i << " facet " << facet;
   }
   EXPECT_GT(points, 2000);
+}
+
+//------------------------------------------------------------------------------
+// Steep waves, seen at a slant: lines cross the second surface several times. The leg to it stays
+// above the exact waves, within the error of the patches, up to the nearest crossing.
+TEST(RefractionStackPaths, LegsEndAtTheNearestCrossing)
+{
+  const HeightField steep{ HeightField::Shape::Waves, 200.0, 6.0, 10.0 * Pi / 200.0, 1.0, 1.333 };
+  MembraneMesh mesh = steep.MakeMesh(80);
+  mesh.Translate({ 0.0, -20.0, 0.0 });
+  StackSolver solver;
+  const glm::dvec3 eye(0.0, 70.0, 150.0);
+  SetStack(solver,
+    { { MakeSurface(meniscus::reference::MakePlane(0.0, 400.0, 20)), { 1.0, 1.05 } },
+      { MakeSurface(mesh), { 1.05, 1.333 } } },
+    eye);
+  Random random(14);
+  int found = 0;
+  for (int i = 0; i < 250; ++i)
+  {
+    const glm::dvec3 point(random(-60.0, 60.0), random(-60.0, -30.0), random(-60.0, 60.0));
+    StackSolver::Memory memory;
+    StackPath path;
+    const StackVertex vertex = solver.SolvePoint(point, memory, path);
+    if (vertex.State != ImageState::Found || vertex.Passed != 2)
+    {
+      continue;
+    }
+    ++found;
+    double lowest = 1.0;
+    for (int k = 0; k <= 500; ++k)
+    {
+      const glm::dvec3 on =
+        vertex.SightPoint + k / 500.0 * (vertex.LastSightPoint - vertex.SightPoint);
+      lowest = std::min(lowest, on.y + 20.0 - steep.GetHeight(on.x, on.z));
+    }
+    EXPECT_GT(lowest, -0.01) << i;
+  }
+  EXPECT_GT(found, 100);
 }
