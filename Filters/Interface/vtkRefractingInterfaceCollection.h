@@ -5,8 +5,8 @@
  * @brief   the interfaces that a ray meets, in the order of the list
  *
  * vtkRefractedGeometryFilter and vtkTetrahedraRayCastMapper refract at all of them. Other filters
- * refract once: they use the first interface, and report more of them as an error. The list is never shorter than one:
- * without any, the first is one with default values.
+ * refract once: they use the first interface, and report more of them as an error. The list is
+ * never shorter than one: without any, the first is one with default values.
  *
  * @sa vtkRefractingInterface
  */
