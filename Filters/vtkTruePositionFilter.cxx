@@ -71,7 +71,20 @@ class vtkTruePositionFilter::vtkInternals
 {
 public:
   meniscus::RefractionScene Scene;
+  /** Search of sight rays, made for an eye and a membrane: see EyeUpdate. */
+  std::unique_ptr<meniscus::TruePositions> Truth;
+  vtkTypeInt64 EyeUpdate = -1;
   vtkTypeInt64 TotallyReflected = 0;
+
+  const meniscus::TruePositions& GetTruth()
+  {
+    if (this->EyeUpdate != this->Scene.GetNumberOfEyeUpdates())
+    {
+      this->Truth = std::make_unique<meniscus::TruePositions>(this->Scene.GetCurved());
+      this->EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
+    }
+    return *this->Truth;
+  }
 };
 
 vtkStandardNewMacro(vtkTruePositionFilter);
@@ -104,6 +117,12 @@ vtkTypeInt64 vtkTruePositionFilter::GetNumberOfTotallyReflectedPoints() const
 vtkTypeInt64 vtkTruePositionFilter::GetNumberOfPatchBuilds() const
 {
   return this->Internals->Scene.GetNumberOfPatchBuilds();
+}
+
+//------------------------------------------------------------------------------
+vtkTypeInt64 vtkTruePositionFilter::GetNumberOfEyeUpdates() const
+{
+  return this->Internals->Scene.GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -197,7 +216,7 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
   const glm::dvec3 eye(this->EyePosition[0], this->EyePosition[1], this->EyePosition[2]);
   const double exterior = this->GetExteriorIndexOfRefraction();
   const double interior = this->GetInteriorIndexOfRefraction();
-  const meniscus::TruePositions truth(this->Internals->Scene.GetCurved());
+  const meniscus::TruePositions& truth = this->Internals->GetTruth();
   PointArrays arrays(count);
   const auto move = [&](vtkIdType i)
   {

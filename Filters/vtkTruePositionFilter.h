@@ -50,7 +50,7 @@ public:
   /** Values of the array SeenState. */
   enum SeenStates
   {
-    UNREFRACTED = 0,       ///< in front of the membrane or beside it: the point is not moved
+    UNREFRACTED = 0,       ///< no membrane in front of the point, which is not moved
     REFRACTED = 1,         ///< behind the membrane: the point is moved
     TOTALLY_REFLECTED = 2, ///< beyond the critical angle; the point is not moved
     NOT_FINITE = 3         ///< not finite, or at the eye; the point is not moved
@@ -94,6 +94,8 @@ public:
   vtkTypeInt64 GetNumberOfTotallyReflectedPoints() const;
   /** Number of patches built since construction: once per change of the membrane's values. */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
+  /** Number of times that the search was set up: once per change of eye, indices or membrane. */
+  vtkTypeInt64 GetNumberOfEyeUpdates() const;
 
   /** Modification time, which includes that of the interfaces. */
   vtkMTimeType GetMTime() override;

@@ -197,7 +197,7 @@ public:
    * Rays may come from the interior of the first interface if the media match in that order.
    *
    * A ray that is totally reflected at an interface ends there. One that misses an interface ends
-   * at the last one that it met, and shows nothing of what lies behind. Both are counted:
+   * at the last one that it met, and shows nothing behind it. Both are counted:
    * GetNumberOfRaysMissingAnInterface(), GetNumberOfTotallyReflectedRays(). Rays that miss the
    * first interface are straight. Interfaces with equal indices are left out. Geometry in the
    * framebuffer behind the first interface is virtual geometry: a point in the medium of index n

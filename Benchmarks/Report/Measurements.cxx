@@ -117,7 +117,7 @@ public:
       "tables. "
       "Reads are those of a walk in which no read is served by a cache: steps times the bytes of a "
       "cell's record and a vertex. Their share of the bandwidth of copies on the same device is "
-      "therefore a bound of what the walk asks for, not measured traffic of the memory.");
+      "therefore an upper bound, not measured traffic of the memory.");
     const MeshChoice& mesh = this->Meshes.front();
     std::string races;
     for (const char* window : Windows)

@@ -127,9 +127,10 @@ bool StackScene::SetEye(const std::array<double, 3>& eye, SceneMessages& message
   const RefractionStack& stack = this->Solver.GetStack();
   if (stack.GetNumberOfInterfaces() > 0 && !stack.HasPassage())
   {
-    messages.Warning = "No ray from the eye passes the surfaces in the order of the list. Do they "
-                       "cross, is one of them beside the others or behind the eye, or is the list "
-                       "in another order?";
+    messages.Warning =
+      "No ray from the eye passes the surfaces in the order of the list. Do they "
+      "cross, does one of them lie behind the eye or out of the others' way, or is the list "
+      "in another order?";
   }
   return true;
 }

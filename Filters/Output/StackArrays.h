@@ -14,7 +14,7 @@ class vtkPolyData;
 namespace meniscus
 {
 
-/** Results of all points of an input with several interfaces, beside their virtual vertices. */
+/** Results for the points of an input behind several interfaces, in addition to their vertices. */
 struct StackDetails
 {
   std::vector<StackDetail> Points;

@@ -3,10 +3,9 @@
 #include "Rendering/Backends/RayCastMembrane.h"
 
 #include "Filters/Common/ThreadedLoop.h"
+#include "Refraction/Stack/MediaChain.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <utility>
 
 namespace meniscus
@@ -20,31 +19,26 @@ std::string NameOf(std::size_t number, std::size_t count)
   return count > 1 ? "Interface " + std::to_string(number) + ": " : std::string();
 }
 
-/**
- * True if a ray that starts in the given medium finds at each interface, on one of the sides, the
- * medium that it is in.
- */
-bool FitsFrom(double medium, const std::vector<MembraneInterface>& interfaces)
+/** The media of the interfaces; only of those that refract, if wanted. */
+std::vector<InterfaceMedia> MediaOf(
+  const std::vector<MembraneInterface>& interfaces, bool onlyRefracting)
 {
+  std::vector<InterfaceMedia> media;
   for (const MembraneInterface& interface : interfaces)
   {
-    if (medium != interface.Exterior && medium != interface.Interior)
+    if (!onlyRefracting || interface.Exterior != interface.Interior)
     {
-      return false;
+      media.push_back({ interface.Exterior, interface.Interior });
     }
-    medium = medium == interface.Exterior ? interface.Interior : interface.Exterior;
   }
-  return true;
+  return media;
 }
 
-/** Same for rays from the exterior of the first interface; those that do not refract are left out.
- */
-bool FitsWithoutEqual(const std::vector<MembraneInterface>& interfaces)
+/** True if rays that come to the front of the first interface can pass all of them. */
+bool PassesFromFront(const std::vector<InterfaceMedia>& media)
 {
-  std::vector<MembraneInterface> refracting;
-  std::copy_if(interfaces.begin(), interfaces.end(), std::back_inserter(refracting),
-    [](const MembraneInterface& one) { return one.Exterior != one.Interior; });
-  return refracting.empty() || FitsFrom(refracting.front().Exterior, refracting);
+  const MediaChain chain(media);
+  return media.empty() || (!chain.Ways.empty() && chain.Ways.front().front().FromFront);
 }
 
 const char* const MismatchText =
@@ -54,27 +48,25 @@ const char* const MismatchText =
 /** Error in a list that is found without reading the surfaces; empty if there is none. */
 std::string DescribeFault(const std::vector<MembraneInterface>& interfaces)
 {
-  const auto isIndex = [](double index) { return index > 0.0 && std::isfinite(index); };
-  for (std::size_t i = 0; i < interfaces.size(); ++i)
+  const auto noSurface = std::find_if(interfaces.begin(), interfaces.end(),
+    [](const MembraneInterface& interface) { return !interface.Surface; });
+  if (noSurface != interfaces.end())
   {
-    if (!interfaces[i].Surface)
-    {
-      return NameOf(i, interfaces.size()) + "The membrane is not a vtkPolyData";
-    }
-    if (!isIndex(interfaces[i].Exterior) || !isIndex(interfaces[i].Interior))
-    {
-      return NameOf(i, interfaces.size()) + "Indices of refraction must be positive and finite";
-    }
+    const auto number = static_cast<std::size_t>(noSurface - interfaces.begin());
+    return NameOf(number, interfaces.size()) + "The membrane is not a vtkPolyData";
   }
-  if (interfaces.empty() || FitsFrom(interfaces.front().Exterior, interfaces))
+  const std::vector<InterfaceMedia> media = MediaOf(interfaces, false);
+  const MediaChain chain(media);
+  if (chain.Fault == MediaFault::BadIndex)
   {
-    return std::string();
+    return NameOf(chain.FaultAt, interfaces.size()) +
+      "Indices of refraction must be positive and finite";
   }
-  // The rays show whether they come from the interior, unless the interface that does not match is
-  // not traced.
-  return FitsFrom(interfaces.front().Interior, interfaces) && !FitsWithoutEqual(interfaces)
-    ? std::string()
-    : MismatchText;
+  // The rays show whether they come from the back, unless the interface that does not match is not
+  // traced.
+  const bool fits = PassesFromFront(media) ||
+    (chain.Fault == MediaFault::None && !PassesFromFront(MediaOf(interfaces, true)));
+  return fits ? std::string() : MismatchText;
 }
 
 }
@@ -118,7 +110,7 @@ InputReport RayCastMembrane::Update(const std::vector<MembraneInterface>& interf
     report.Warning += read.Warning;
   }
   this->Used = std::move(used);
-  this->FitsFromExterior = FitsWithoutEqual(interfaces);
+  this->FitsFromExterior = PassesFromFront(MediaOf(interfaces, true));
   return report;
 }
 

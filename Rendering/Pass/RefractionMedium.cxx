@@ -49,13 +49,14 @@ std::array<double, 3> RefractionMedium::SeenFrom(double distance) const
 //------------------------------------------------------------------------------
 std::array<double, 3> RefractionMedium::BackdropOf(const double (&background)[3]) const
 {
-  const std::array<double, 3> seen =
-    this->SeenFrom(this->IsInfinite ? std::numeric_limits<double>::infinity() : 0.0);
-  std::array<double, 3> color{};
-  for (std::size_t i = 0; i < 3; ++i)
+  std::array<double, 3> color{ background[0], background[1], background[2] };
+  if (this->IsInfinite)
   {
-    color[i] =
-      this->IsInfinite ? seen[i] * background[i] + (1.0 - seen[i]) * this->Color[i] : background[i];
+    const std::array<double, 3> seen = this->SeenFrom(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      color[i] = seen[i] * background[i] + (1.0 - seen[i]) * this->Color[i];
+    }
   }
   return color;
 }

@@ -207,6 +207,11 @@ TEST(TruePositions, PatchesAreBuiltOncePerMembrane)
   filter->SetInteriorIndexOfRefraction(1.5);
   filter->Update();
   EXPECT_EQ(filter->GetNumberOfPatchBuilds(), 1);
+  EXPECT_EQ(filter->GetNumberOfEyeUpdates(), 3);
+  filter->SetInputData(MakePoints(MakeDeepPoints(5)));
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 5);
+  EXPECT_EQ(filter->GetNumberOfEyeUpdates(), 3);
 }
 
 TEST(TruePositions, BadInputIsAnError)

@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCastScene.h"
 
+#include <vtkActor.h>
+#include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPlaneSource.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkUnstructuredGrid.h>
@@ -32,6 +38,34 @@ RayCastScene::RayCastScene(
   this->RayCaster->SetBackend(BackendUnderTest());
   this->SetMapper(this->RayCaster);
   this->SetProperty(property);
+}
+
+//------------------------------------------------------------------------------
+double AddBlackSquare(vtkRenderer* renderer, double offset)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double depth = camera->GetDistance() + offset;
+  double center[3];
+  double forward[3];
+  camera->GetDirectionOfProjection(forward);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    center[axis] = camera->GetPosition()[axis] + depth * forward[axis];
+  }
+  vtkNew<vtkPlaneSource> source;
+  source->SetOrigin(-9.0, -9.0, 0.0);
+  source->SetPoint1(9.0, -9.0, 0.0);
+  source->SetPoint2(-9.0, 9.0, 0.0);
+  source->SetCenter(center);
+  source->SetNormal(forward);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetLighting(false);
+  actor->GetProperty()->SetColor(0.0, 0.0, 0.0);
+  renderer->AddActor(actor);
+  return depth;
 }
 
 //------------------------------------------------------------------------------

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+class vtkRenderer;
 class vtkUnstructuredGrid;
 class vtkVolumeProperty;
 
@@ -46,6 +47,12 @@ private:
  * otherwise automatic.
  */
 int BackendUnderTest();
+
+/**
+ * Adds a black square across the view, `offset` behind the camera's focal point. Returns its
+ * distance from the camera.
+ */
+double AddBlackSquare(vtkRenderer* renderer, double offset);
 
 /**
  * Fraction of covered pixels that may be excused as silhouettes, or a number of pixels if that is

@@ -16,7 +16,7 @@ namespace meniscus
 /** Outcome for a point that is seen. */
 enum class SeenState : unsigned char
 {
-  Unrefracted = 0,      ///< in front of the membrane or beside it: the point is where it is seen
+  Unrefracted = 0,      ///< no membrane in front of the point, which is where it is seen
   Refracted = 1,        ///< behind the membrane
   TotallyReflected = 2, ///< beyond the critical angle nothing is seen through the membrane
   NotFinite = 3         ///< the coordinates are not finite, or they are those of the eye

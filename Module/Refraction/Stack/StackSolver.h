@@ -16,10 +16,11 @@
  * The virtual vertex is on the sight ray, behind the first sight point by n0 times the sum of the
  * lengths of the legs behind it, each over the index of its medium. This is Eq. 2.4 for every leg.
  *
- * A point may lie behind all interfaces, or between two of them. It is seen through the first k if
- * the last ray reaches it before the next interface, and goes on to that interface: what is beside
- * a later interface is not seen through the stack. A point in front of all of them is its own image
- * if the straight ray through it goes on to the first one.
+ * A point may lie behind all interfaces, or between two of them. It is seen through the first k
+ * interfaces if the ray behind them reaches it before interface k + 1, and meets that interface
+ * afterwards: points whose rays would miss a later interface are not seen through the stack. A
+ * point in front of all of them is its own image if the straight ray through it goes on to the
+ * first one.
  */
 #ifndef meniscus_Refraction_Stack_StackSolver_h
 #define meniscus_Refraction_Stack_StackSolver_h

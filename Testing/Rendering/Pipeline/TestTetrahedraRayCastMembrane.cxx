@@ -4,18 +4,14 @@
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
-#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkContourValues.h>
 #include <vtkDataArray.h>
 #include <vtkLight.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
-#include <vtkPlaneSource.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkSMPTools.h>
@@ -441,28 +437,7 @@ TEST(TetrahedraRayCastMembrane, VirtualGeometryHides)
       MembraneTest test(MakePlaneCase(level, 4.0, 2), grid);
       test.LookAtBlock(30.0, 50.0);
       test.Scene.GetWindow()->Render();
-      vtkCamera* camera = test.Scene.GetRenderer()->GetActiveCamera();
-      const double depth = camera->GetDistance() + offset;
-      double center[3];
-      double forward[3];
-      camera->GetDirectionOfProjection(forward);
-      vtkNew<vtkPlaneSource> source;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        center[axis] = camera->GetPosition()[axis] + depth * forward[axis];
-      }
-      source->SetOrigin(-9.0, -9.0, 0.0);
-      source->SetPoint1(9.0, -9.0, 0.0);
-      source->SetPoint2(-9.0, 9.0, 0.0);
-      source->SetCenter(center);
-      source->SetNormal(forward);
-      vtkNew<vtkPolyDataMapper> mapper;
-      mapper->SetInputConnection(source->GetOutputPort());
-      vtkNew<vtkActor> actor;
-      actor->SetMapper(mapper);
-      actor->GetProperty()->SetLighting(false);
-      actor->GetProperty()->SetColor(0.0, 0.0, 0.0);
-      test.Scene.GetRenderer()->AddActor(actor);
+      const double depth = AddBlackSquare(test.Scene.GetRenderer(), offset);
       const auto integrator = MakeReference(grid);
       const auto function = ToReference(test.Scene.GetVolume()->GetProperty());
       ExpectTrace(

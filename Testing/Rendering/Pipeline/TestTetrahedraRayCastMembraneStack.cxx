@@ -5,15 +5,11 @@
 #include "MembraneScene.h"
 #include "OpticsTruth.h"
 
-#include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
 #include <vtkPiecewiseFunction.h>
 #include <vtkPlane.h>
-#include <vtkPlaneSource.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRefractingInterface.h>
 #include <vtkRefractingInterfaceCollection.h>
 #include <vtkRenderWindow.h>
@@ -407,28 +403,7 @@ TEST(TetrahedraRayCastMembraneStack, VirtualGeometryHidesAndPlanesClip)
     test.Scene.GetRayCaster()->AddClippingPlane(clip);
     LookAt(test.Scene.GetRenderer(), Block, 30.0, 50.0);
     test.Scene.GetWindow()->Render();
-    vtkCamera* camera = test.Scene.GetRenderer()->GetActiveCamera();
-    const double depth = camera->GetDistance() + offset;
-    double center[3];
-    double forward[3];
-    camera->GetDirectionOfProjection(forward);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      center[axis] = camera->GetPosition()[axis] + depth * forward[axis];
-    }
-    vtkNew<vtkPlaneSource> source;
-    source->SetOrigin(-9.0, -9.0, 0.0);
-    source->SetPoint1(9.0, -9.0, 0.0);
-    source->SetPoint2(-9.0, 9.0, 0.0);
-    source->SetCenter(center);
-    source->SetNormal(forward);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(source->GetOutputPort());
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetLighting(false);
-    actor->GetProperty()->SetColor(0.0, 0.0, 0.0);
-    test.Scene.GetRenderer()->AddActor(actor);
+    const double depth = AddBlackSquare(test.Scene.GetRenderer(), offset);
     const auto integrator = MakeReference(grid);
     const auto function = ToReference(test.Scene.GetVolume()->GetProperty());
     ExpectTrace(

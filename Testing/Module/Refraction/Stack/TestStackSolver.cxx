@@ -317,7 +317,7 @@ TEST(RefractionStack, PointsAreRefractedByTheInterfacesInFrontOfThem)
 }
 
 //------------------------------------------------------------------------------
-// What is beside a later interface is not seen, whether behind it or in front of it.
+// Points whose rays miss a later interface are not seen, on whichever side of it they lie.
 TEST(RefractionStack, RaysThatMissALaterInterfaceShowNothing)
 {
   const glm::dvec3 eye(0.0, 80.0, 0.0);
