@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkRefractedGeometryFilterInternals.h"
 
+#include "Common/CoherentOrder.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Object/ViewSelection.h"
@@ -181,21 +182,25 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
     block.Vertices.assign(count, meniscus::VirtualVertex());
     block.SolvedChunks.assign((count + chunkSize - 1) / chunkSize, false);
   }
+  block.UpdateOrder(meniscus::ThreadedLoop);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < block.SolvedChunks.size(); ++i)
   {
-    if (!block.SolvedChunks[i] && block.Selection.HasPoint(i * chunkSize))
+    if (!block.SolvedChunks[i] && block.IsSelected(i))
     {
       open.push_back(i);
     }
   }
+  const auto solve = [this](const double* points, std::size_t begin, std::size_t end,
+                       meniscus::VirtualVertex* vertices)
+  { this->Scene.Solve(points, begin, end, vertices); };
   const bool done = this->Run(self, 0.0, 1.0, static_cast<vtkIdType>(open.size()), 1,
-    [this, &block, &open, count](std::size_t begin, std::size_t end)
+    [&solve, &block, &open, count](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        this->Scene.Solve(block.Points.data(), open[i] * chunkSize,
-          std::min((open[i] + 1) * chunkSize, count), block.Vertices.data());
+        meniscus::SolveInOrder<chunkSize>(block.Points.data(), block.Order, open[i] * chunkSize,
+          std::min((open[i] + 1) * chunkSize, count), block.Vertices.data(), solve);
       }
     });
   if (!done)
@@ -208,7 +213,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
     block.SolvedChunks[chunk] = true;
     for (std::size_t i = chunk * chunkSize; i < std::min((chunk + 1) * chunkSize, count); ++i)
     {
-      this->Count(block.Vertices[i].State);
+      this->Count(block.Vertices[block.Order.empty() ? i : block.Order[i]].State);
     }
   }
   return true;
