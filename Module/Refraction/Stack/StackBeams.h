@@ -43,6 +43,13 @@ public:
   /** Replaces `candidates` by all patches that may show the target, the best guess first. */
   void FindCandidates(const StackTarget& target, std::vector<Candidate>& candidates) const;
 
+  /**
+   * False if interval arithmetic proves that no ray from a triangle of the patch, with the corners
+   * `corners`, meets the target.
+   */
+  bool MayShow(
+    const StackTarget& target, std::int32_t facet, const std::array<glm::dvec2, 3>& corners) const;
+
 private:
   using Samples = std::array<StackPath, 6>;
 
