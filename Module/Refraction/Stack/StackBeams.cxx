@@ -245,8 +245,8 @@ TubeBounds StackBeams::BoundLeg(const RefractionStack::Link& link, const TubeBou
 //------------------------------------------------------------------------------
 // The normals of a patch are of second degree, so those of the triangle are in the hull of the
 // control points that follow from its corners and the middles of its sides.
-bool StackBeams::MayShow(
-  const StackTarget& target, std::int32_t facet, const std::array<glm::dvec2, 3>& corners) const
+TubeBounds StackBeams::BoundTriangle(
+  std::int32_t facet, const std::array<glm::dvec2, 3>& corners, std::size_t count) const
 {
   const RefractionStack::Link& first = this->Stack->GetLinks().front();
   const CurvedPatch patch = first.Surface->GetPatch(facet, !first.Passage.FromFront);
@@ -269,17 +269,29 @@ bool StackBeams::MayShow(
     BoundRefractedRays(BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge),
       BoundDirections((normals[0] + normals[1] + normals[2]) / 3.0, normals, 6, 0.0),
       first.Passage.Before / first.Passage.Behind, places, 3, bulge);
-  tube.StartLow += first.Shift;
-  tube.StartHigh += first.Shift;
-  for (std::size_t k = 1; k < target.Count && tube.IsValid(); ++k)
+  if (tube.IsValid())
+  {
+    tube.StartLow += first.Shift;
+    tube.StartHigh += first.Shift;
+  }
+  for (std::size_t k = 1; k < count && tube.IsValid(); ++k)
   {
     tube = this->BoundLeg(this->Stack->GetLinks()[k], tube);
   }
+  return tube;
+}
+
+//------------------------------------------------------------------------------
+bool StackBeams::MayShow(const StackTarget& target, std::int32_t facet,
+  const std::array<glm::dvec2, 3>& corners) const
+{
+  const TubeBounds tube = this->BoundTriangle(facet, corners, target.Count);
   if (!tube.IsValid())
   {
     return false;
   }
-  const double slack = first.Surface->GetSlack(glm::length(target.Point));
+  const double slack =
+    this->Stack->GetLinks().front().Surface->GetSlack(glm::length(target.Point));
   const TubeRange range = TubeClip(tube).Clip(
     { target.Point - slack, target.Point + slack }, std::numeric_limits<double>::max());
   return range.From <= range.To;

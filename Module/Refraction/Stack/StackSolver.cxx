@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/StackSolver.h"
 
+#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Stack/StackSearch.h"
 
@@ -252,6 +253,25 @@ StackVertex StackSolver::MakeRefracted(const glm::dvec3& local, const StackPath&
   const double atEye = glm::dot(path.Sight, glm::cross(path.SightBy[0], path.SightBy[1]));
   vertex.Orientation = static_cast<signed char>((atPoint < 0.0) == (atEye < 0.0) ? 1 : -1);
   return vertex;
+}
+
+//------------------------------------------------------------------------------
+void StackSolver::Retrace(const glm::dvec3& sightPoint, std::int32_t facet, std::size_t count,
+  StackPath& path) const
+{
+  path = StackPath();
+  if (count == 0)
+  {
+    return;
+  }
+  const RefractionStack::Link& link = this->Stack.GetLinks().front();
+  const CurvedPatch patch = link.Surface->GetPatch(facet, !link.Passage.FromFront);
+  const glm::dvec3 eye = this->Stack.GetEye() - link.Shift;
+  const glm::dvec3 place = sightPoint - this->Stack.GetOrigin() - link.Shift;
+  glm::dvec2 b = patch.ProjectToFacet(place);
+  double l = 1.0;
+  MeetPatch(patch, { eye, place - eye }, b, l);
+  this->Stack.Trace({ facet, b }, count, false, path);
 }
 
 //------------------------------------------------------------------------------

@@ -105,6 +105,16 @@ public:
                            : this->MakeRefracted(point - this->Stack.GetOrigin(), path);
   }
 
+  const StackBeams& GetBeams() const { return this->Beams; }
+  bool IsInReach(const glm::dvec3& local) const;
+
+  /**
+   * Traces the path of a known sight point in world coordinates, in the patch of `facet`, through
+   * at most `count` interfaces.
+   */
+  void Retrace(
+    const glm::dvec3& sightPoint, std::int32_t facet, std::size_t count, StackPath& path) const;
+
   /**
    * Writes the lengths of the legs of a path to a point, as Solve does;
    * GetStack().GetNumberOfInterfaces() values.
@@ -119,7 +129,6 @@ public:
   std::int64_t GetNumberOfUndecidedSearches() const { return this->Undecided; }
 
 private:
-  bool IsInReach(const glm::dvec3& local) const;
   bool Follow(const glm::dvec3& local, const Memory& memory, StackPath& path) const;
   bool FindFirst(const StackTarget& target, StackPath& path) const;
   StackVertex MakeRefracted(const glm::dvec3& local, const StackPath& path) const;

@@ -291,7 +291,7 @@ TEST(RefractionStackImages, BallLensShowsTheZerosOfOneFunction)
     const double angle = random(0.0, 2.0 * Pi);
     const glm::dvec3 side = std::cos(angle) * across + std::sin(angle) * glm::cross(toward, across);
     const glm::dvec3 point =
-      centre + random(1.02 * radius, 5.0 * radius) * toward + random(0.5, 12.0) * side;
+      centre + random(1.02 * radius, 5.0 * radius) * toward + random(0.5, 8.0) * side;
     // Positive where the ray passes on the side of `side`; NaN where it does not pass.
     const auto measure = [&](double t)
     {
