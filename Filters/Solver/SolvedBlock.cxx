@@ -54,6 +54,7 @@ void SolvedBlock::ForgetImages()
   this->StackUpdate = -1;
   this->All = false;
   this->Images.reset();
+  this->ImagesOfStack.reset();
   this->Selection = ViewSelection();
 }
 

@@ -31,6 +31,11 @@ constexpr int DeepestCell = 24;
 // Levels to which a side is tested where it passes over many patches of a later surface.
 constexpr int DeepestTest = 6;
 
+// Two crossings of a ray with the first surface are one if they are closer, in patch sizes. Near a
+// silhouette an error e of the place changes the distance by sqrt(e); e is at most
+// PatchCrossings::Border, 1e-8.
+constexpr double SameCrossing = 1e-3;
+
 constexpr std::int32_t NotSplit = -1;
 
 // Length of a side in barycentric coordinates: the same in both patches at a common edge.
@@ -113,8 +118,7 @@ private:
     const glm::dvec3 sight = path.Points[0].Ray.Origin - eye;
     const double distance = glm::length(sight);
     SurfaceCrossing before;
-    const double slack =
-      this->Stack.GetLinks()[0].Surface->GetSlack(distance) + 1e-6 * this->Result.Surface.GetSize();
+    const double slack = SameCrossing * this->Result.Surface.GetSize();
     node.IsFirst = legs >= 0 &&
       (this->Stack.GetLinks()[0].Surface->IsCrossedOnce(path.Sight) ||
         !this->Stack.FindNext(0, eye, path.Sight, before) || before.Distance >= distance - slack);

@@ -56,7 +56,8 @@ void StackMapper::MapLine(
 //------------------------------------------------------------------------------
 void StackMapper::Map(const ObjectPrimitive& primitive, ImageMesh& images) const
 {
-  if (!(glm::dot(primitive.Normal, primitive.Normal) > 0.0) ||
+  if (this->Sheet.GetNumberOfLinks() == 0 ||
+    !(glm::dot(primitive.Normal, primitive.Normal) > 0.0) ||
     !this->Solver.IsInReach(primitive.Middle))
   {
     return; // a primitive without area covers no pixel; neither does a line along the line of sight
