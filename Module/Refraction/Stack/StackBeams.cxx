@@ -282,16 +282,15 @@ TubeBounds StackBeams::BoundTriangle(
 }
 
 //------------------------------------------------------------------------------
-bool StackBeams::MayShow(const StackTarget& target, std::int32_t facet,
-  const std::array<glm::dvec2, 3>& corners) const
+bool StackBeams::MayShow(
+  const StackTarget& target, std::int32_t facet, const std::array<glm::dvec2, 3>& corners) const
 {
   const TubeBounds tube = this->BoundTriangle(facet, corners, target.Count);
   if (!tube.IsValid())
   {
     return false;
   }
-  const double slack =
-    this->Stack->GetLinks().front().Surface->GetSlack(glm::length(target.Point));
+  const double slack = this->Stack->GetLinks().front().Surface->GetSlack(glm::length(target.Point));
   const TubeRange range = TubeClip(tube).Clip(
     { target.Point - slack, target.Point + slack }, std::numeric_limits<double>::max());
   return range.From <= range.To;

@@ -256,8 +256,8 @@ StackVertex StackSolver::MakeRefracted(const glm::dvec3& local, const StackPath&
 }
 
 //------------------------------------------------------------------------------
-void StackSolver::Retrace(const glm::dvec3& sightPoint, std::int32_t facet, std::size_t count,
-  StackPath& path) const
+void StackSolver::Retrace(
+  const glm::dvec3& sightPoint, std::int32_t facet, std::size_t count, StackPath& path) const
 {
   path = StackPath();
   if (count == 0)

@@ -97,7 +97,7 @@ struct SightSheet::Patch
   CurvedPatch Surface;
   std::vector<Node> Nodes;
   std::vector<Cell> Cells; ///< the whole patch first
-  // Of each node: one value per leg.
+  // One value per node and leg:
   std::vector<glm::dvec3> Points; ///< where the leg begins
   std::vector<glm::dvec3> Directions;
 };
