@@ -9,10 +9,12 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkPolyData.h"
 #include "vtkRefractingInterfaceCollection.h"
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 //------------------------------------------------------------------------------
@@ -28,11 +30,6 @@ const char* vtkRefractedGeometryFilter::FindUnsupported()
   if (this->MembraneModel == FLAT_FACETS)
   {
     return "Several refracting interfaces need the membrane model CURVED";
-  }
-  if (this->Images == ALL_IMAGES)
-  {
-    return "With several refracting interfaces, Images ALL_IMAGES is not available; choose "
-           "FIRST_IMAGE";
   }
   const bool isLightAtEye =
     std::all_of(this->LightDirection, this->LightDirection + 3, [](double c) { return c == 0.0; });
@@ -93,16 +90,28 @@ int vtkRefractedGeometryFilter::RequestStack(
   const meniscus::StackScene& scene = internals.Stack;
   const vtkTypeInt64 undecided = this->GetNumberOfUndecidedSearches();
   meniscus::SolvedBlock& block = internals.GetBlock(input);
-  if (!internals.SolveStack(this, block))
+  const bool all = this->Images == ALL_IMAGES;
+  if (!(all ? internals.SolveAllOfStack(this, input, block) : internals.SolveStack(this, block)))
   {
     return 1;
   }
   const meniscus::OutputOptions options = internals.GetStackOptions(this);
   meniscus::OutputOptions plain = options;
   plain.VirtualNormals = false;
-  const meniscus::VirtualPolyDataReport report = meniscus::BuildVirtualPolyData(
-    input, block.Vertices, block.Selection, scene.GetFirstMembrane(), plain, output);
-  meniscus::AddStackArrays(input, block.Vertices, block.Stack, options, output);
+  const meniscus::Membrane& first = scene.GetFirstMembrane();
+  const meniscus::VirtualPolyDataReport report = all
+    ? meniscus::BuildImagePolyData(
+        input, block.Topology, *block.ImagesOfStack, block.Cells, first, plain, output)
+    : meniscus::BuildVirtualPolyData(input, block.Vertices, block.Selection, first, plain, output);
+  if (all)
+  {
+    meniscus::AddStackImageArrays(
+      input, *block.ImagesOfStack, block.Cells, scene.GetSolver(), options, output);
+  }
+  else
+  {
+    meniscus::AddStackArrays(input, block.Vertices, block.Stack, options, output);
+  }
   this->ReportUndecided(this->GetNumberOfUndecidedSearches() - undecided);
   this->ReportPoints(internals.FailedInRun, output->GetNumberOfPoints() > 0, input);
   this->ReportCells(report, input);
@@ -114,7 +123,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveStack(
   vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block)
 {
   const vtkTypeInt64 update = this->Stack.GetNumberOfEyeUpdates();
-  if (block.StackUpdate == update)
+  if (block.StackUpdate == update && !block.ImagesOfStack)
   {
     return true;
   }
@@ -142,6 +151,52 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveStack(
     this->Count(vertex.State);
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::vtkInternals::SolveAllOfStack(
+  vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block)
+{
+  const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
+  const vtkTypeInt64 update = this->Stack.GetNumberOfEyeUpdates();
+  block.UpdateTopology();
+  if (block.StackUpdate != update || !block.ImagesOfStack)
+  {
+    const std::size_t count = block.Points.size() / 3;
+    block.ForgetImages();
+    block.CellsReady = false;
+    block.Vertices.clear();
+    block.ImagesOfStack = std::make_unique<meniscus::StackImages>(this->Stack.GetSolver());
+    meniscus::StackImages& images = *block.ImagesOfStack;
+    images.SetPoints(block.Points.data(), count);
+    if (!this->Run(self, 0.0, 0.5, static_cast<vtkIdType>(count),
+          static_cast<vtkIdType>(meniscus::StackImages::Chunk),
+          [&images](std::size_t begin, std::size_t end) { images.SolvePoints(begin, end); }))
+    {
+      return false;
+    }
+    images.FinishPoints();
+    block.StackUpdate = update;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->Count(images.GetState(i));
+    }
+  }
+  if (block.CellsReady && block.Tolerance == tolerance && block.ClosesSeams == self->CloseSeams)
+  {
+    return true;
+  }
+  block.CellsReady = false;
+  block.Tolerance = tolerance;
+  block.ClosesSeams = self->CloseSeams;
+  block.Cells = meniscus::AllImages();
+  block.ImagesOfStack->SetTolerance(tolerance);
+  block.CellsReady = meniscus::MapCells(
+    input, block.Topology, *block.ImagesOfStack, self->CloseSeams,
+    [this, self](std::size_t parts, const meniscus::RangeBody& body)
+    { return this->Run(self, 0.5, 1.0, static_cast<vtkIdType>(parts), 1, body); },
+    block.Cells);
+  return block.CellsReady;
 }
 
 //------------------------------------------------------------------------------

@@ -82,6 +82,7 @@ void SolvedBlock::ForgetImages()
   this->StackUpdate = -1;
   this->All = false;
   this->Images.reset();
+  this->ImagesOfStack.reset();
   this->Selection = ViewSelection();
 }
 

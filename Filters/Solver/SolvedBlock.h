@@ -7,6 +7,7 @@
 #include "Filters/Output/ImagePolyData.h"
 #include "Filters/Output/StackArrays.h"
 #include "Refraction/Images/ObjectImages.h"
+#include "Refraction/StackImages/StackImages.h"
 
 #include "vtkPolyData.h"
 #include "vtkWeakPointer.h"
@@ -67,9 +68,10 @@ struct SolvedBlock
   std::unique_ptr<ObjectImages> Images;
   AllImages Cells;
 
-  /** Used with several interfaces only; `Vertices` has the images. */
+  /** Used with several interfaces only; with one image per point, `Vertices` has the images. */
   vtkTypeInt64 StackUpdate = -1; ///< number of the eye update for which the points are solved
   StackDetails Stack;
+  std::unique_ptr<StackImages> ImagesOfStack; ///< null with one image per point
 };
 
 }
