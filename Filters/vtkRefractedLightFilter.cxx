@@ -178,6 +178,7 @@ void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const g
 
 vtkStandardNewMacro(vtkRefractedLightFilter);
 meniscusInterfacePropertiesMacro(vtkRefractedLightFilter);
+meniscusMembranePortMacro(vtkRefractedLightFilter, 1);
 
 //------------------------------------------------------------------------------
 vtkRefractedLightFilter::vtkRefractedLightFilter()

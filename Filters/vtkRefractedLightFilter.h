@@ -108,6 +108,17 @@ public:
   void SetMembraneData(vtkPolyData* membrane);
   /** @} */
 
+  /** @{ */
+  /**
+   * Add the surface of the next interface of the list to port 1, by connection or as data; remove
+   * all surfaces; get their number. SetInterfaces() has the indices of refraction.
+   */
+  void AddMembraneConnection(vtkAlgorithmOutput* output);
+  void AddMembraneData(vtkPolyData* membrane);
+  void RemoveAllMembranes();
+  int GetNumberOfMembranes();
+  /** @} */
+
   /**
    * Modification time, which includes that of the interfaces.
    */

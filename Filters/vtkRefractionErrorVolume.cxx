@@ -52,6 +52,7 @@ public:
 
 vtkStandardNewMacro(vtkRefractionErrorVolume);
 meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
+meniscusMembranePortMacro(vtkRefractionErrorVolume, 0);
 
 //------------------------------------------------------------------------------
 vtkRefractionErrorVolume::vtkRefractionErrorVolume()

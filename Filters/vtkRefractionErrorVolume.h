@@ -128,6 +128,17 @@ public:
   vtkImplicitFunction* GetExactMembrane();
   /** @} */
 
+  /** @{ */
+  /**
+   * Add the surface of the next interface of the list to port 0, by connection or as data; remove
+   * all surfaces; get their number. SetInterfaces() has the indices of refraction.
+   */
+  void AddMembraneConnection(vtkAlgorithmOutput* output);
+  void AddMembraneData(vtkPolyData* membrane);
+  void RemoveAllMembranes();
+  int GetNumberOfMembranes();
+  /** @} */
+
   /**
    * Set the finer membrane, port 1, by connection. Not used if there is an implicit function.
    */

@@ -89,6 +89,7 @@ public:
 
 vtkStandardNewMacro(vtkTruePositionFilter);
 meniscusInterfacePropertiesMacro(vtkTruePositionFilter);
+meniscusMembranePortMacro(vtkTruePositionFilter, 1);
 
 //------------------------------------------------------------------------------
 vtkTruePositionFilter::vtkTruePositionFilter()

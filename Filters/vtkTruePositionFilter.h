@@ -90,6 +90,17 @@ public:
   void SetMembraneData(vtkPolyData* membrane);
   /** @} */
 
+  /** @{ */
+  /**
+   * Add the surface of the next interface of the list to port 1, by connection or as data; remove
+   * all surfaces; get their number. SetInterfaces() has the indices of refraction.
+   */
+  void AddMembraneConnection(vtkAlgorithmOutput* output);
+  void AddMembraneData(vtkPolyData* membrane);
+  void RemoveAllMembranes();
+  int GetNumberOfMembranes();
+  /** @} */
+
   /** Number of points of the last run that have no true position: TOTALLY_REFLECTED. */
   vtkTypeInt64 GetNumberOfTotallyReflectedPoints() const;
   /** Number of patches built since construction: once per change of the membrane's values. */
