@@ -46,8 +46,8 @@ bool vtkRefractedGeometryFilter::UpdateStack(vtkInformationVector* membranes)
   this->GetEye(eye);
   meniscus::SceneMessages messages;
   messages.Error = this->FindUnsupported();
-  const bool isReady = meniscus::UpdateStack(this->Internals->Stack, membranes, 1, this->Interfaces,
-    { eye[0], eye[1], eye[2] }, messages);
+  const bool isReady = meniscus::UpdateStack(
+    this->Internals->Stack, membranes, 1, this->Interfaces, { eye[0], eye[1], eye[2] }, messages);
   meniscus::Report(this, messages);
   return isReady;
 }

@@ -26,8 +26,8 @@ using Links = std::vector<meniscus::RefractionStack::Link>;
 class ExactSurfaces : public meniscus::StackSurfaces
 {
 public:
-  ExactSurfaces(vtkRefractingInterfaceCollection* interfaces, const meniscus::RefractionStack& stack,
-    const meniscus::RefractionStack& finer)
+  ExactSurfaces(vtkRefractingInterfaceCollection* interfaces,
+    const meniscus::RefractionStack& stack, const meniscus::RefractionStack& finer)
     : Finer(finer)
   {
     for (const meniscus::RefractionStack::Link& link : stack.GetLinks())

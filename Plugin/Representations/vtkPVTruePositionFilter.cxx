@@ -4,6 +4,7 @@
 
 #include "MembraneGathering.h"
 
+#include "vtkDataObject.h"
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

@@ -130,8 +130,7 @@ ErrorSample StackErrorSampler::Compare(
   {
     const InterfacePassage& passage = stack.GetLinks()[k].Passage;
     PatchPoint at;
-    if (!this->Exact.Meet(
-          k, origin, direction, path.Points[k].Ray.Origin + stack.GetOrigin(), at))
+    if (!this->Exact.Meet(k, origin, direction, path.Points[k].Ray.Origin + stack.GetOrigin(), at))
     {
       return notMet;
     }
