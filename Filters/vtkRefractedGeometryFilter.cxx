@@ -5,6 +5,7 @@
 #include "Common/CoherentOrder.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceProperties.h"
+#include "Filters/Membrane/StackInput.h"
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/VirtualPolyData.h"
 
@@ -304,6 +305,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
 
 vtkStandardNewMacro(vtkRefractedGeometryFilter);
 meniscusInterfacePropertiesMacro(vtkRefractedGeometryFilter);
+meniscusMembranePortMacro(vtkRefractedGeometryFilter, 1);
 
 //------------------------------------------------------------------------------
 vtkRefractedGeometryFilter::vtkRefractedGeometryFilter()
@@ -459,16 +461,7 @@ int vtkRefractedGeometryFilter::RequestUpdateExtent(
     geometry->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
     geometry->Set(Pipeline::EXACT_EXTENT(), 1);
   }
-  for (int i = 0; i < inputs[1]->GetNumberOfInformationObjects(); ++i)
-  {
-    vtkInformation* membrane = inputs[1]->GetInformationObject(i);
-    membrane->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    membrane->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    membrane->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    // The executive has copied the extent of the geometry, which exists if that comes from an
-    // image.
-    membrane->Remove(Pipeline::UPDATE_EXTENT());
-  }
+  meniscus::RequestWhole(inputs[1]);
   return 1;
 }
 
@@ -484,7 +477,7 @@ int vtkRefractedGeometryFilter::RequestData(
     vtkErrorMacro("Geometry or membrane is missing or is not a vtkPolyData; the output is empty.");
     return 0;
   }
-  if (this->HasStack(inputs[1]))
+  if (meniscus::HasStack(this->Interfaces, inputs[1]))
   {
     return this->RequestStack(input, inputs[1], output);
   }

@@ -3,7 +3,7 @@
 // Several interfaces: what RequestData does for one.
 #include "Filters/vtkRefractedGeometryFilterInternals.h"
 
-#include "Filters/Interface/StackValidation.h"
+#include "Filters/Membrane/StackInput.h"
 #include "Filters/Output/VirtualPolyData.h"
 
 #include "vtkDataObject.h"
@@ -18,18 +18,13 @@
 #include <vector>
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::HasStack(vtkInformationVector* membranes)
+// Text of the error for properties that several interfaces do not support; empty if none.
+std::string vtkRefractedGeometryFilter::FindUnsupported()
 {
-  return this->Interfaces->GetNumberOfItems() > 1 || membranes->GetNumberOfInformationObjects() > 1;
-}
-
-//------------------------------------------------------------------------------
-// Text of the error for properties that several interfaces do not support; null if there are none.
-const char* vtkRefractedGeometryFilter::FindUnsupported()
-{
-  if (this->MembraneModel == FLAT_FACETS)
+  const std::string model = meniscus::FindModelFault(this->MembraneModel == CURVED);
+  if (!model.empty())
   {
-    return "Several refracting interfaces need the membrane model CURVED";
+    return model;
   }
   const bool isLightAtEye =
     std::all_of(this->LightDirection, this->LightDirection + 3, [](double c) { return c == 0.0; });
@@ -38,42 +33,19 @@ const char* vtkRefractedGeometryFilter::FindUnsupported()
     return "With several refracting interfaces, VirtualNormals need a light at the eye, "
            "LightDirection (0, 0, 0)";
   }
-  return nullptr;
+  return std::string();
 }
 
 //------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::UpdateStack(vtkInformationVector* membranes)
 {
-  meniscus::SceneMessages messages;
-  messages.Error =
-    meniscus::FindStackFault(this->Interfaces, membranes->GetNumberOfInformationObjects());
-  if (const char* unsupported = this->FindUnsupported(); unsupported && messages.Error.empty())
-  {
-    messages.Error = unsupported;
-  }
-  std::vector<vtkPolyData*> surfaces;
-  for (int i = 0; i < membranes->GetNumberOfInformationObjects() && messages.Error.empty(); ++i)
-  {
-    surfaces.push_back(vtkPolyData::GetData(membranes, i));
-    if (!surfaces.back())
-    {
-      messages.Error = "A surface at the membrane port is missing or is not a vtkPolyData";
-    }
-  }
   double eye[3];
   this->GetEye(eye);
-  meniscus::StackScene& scene = this->Internals->Stack;
-  const bool isReady = messages.Error.empty() &&
-    scene.SetInterfaces(surfaces, this->Interfaces, messages) &&
-    scene.SetEye({ eye[0], eye[1], eye[2] }, messages);
-  if (!messages.Error.empty())
-  {
-    vtkErrorMacro(<< messages.Error << "; the output is empty.");
-  }
-  if (!messages.Warning.empty())
-  {
-    vtkWarningMacro(<< messages.Warning);
-  }
+  meniscus::SceneMessages messages;
+  messages.Error = this->FindUnsupported();
+  const bool isReady = meniscus::UpdateStack(
+    this->Internals->Stack, membranes, 1, this->Interfaces, { eye[0], eye[1], eye[2] }, messages);
+  meniscus::Report(this, messages);
   return isReady;
 }
 

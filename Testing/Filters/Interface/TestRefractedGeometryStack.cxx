@@ -425,7 +425,7 @@ TEST(RefractedGeometryStack, IndicesThatAreNotPositiveAndFiniteAreAnError)
     const auto filter = MakeStackFilter(MakeGrid(3, 10.0, -40.0));
     AddInterface(filter, MakePlaneAt(0.0), 1.0, 1.5);
     AddInterface(filter, MakePlaneAt(-10.0), 1.5, bad);
-    ExpectError(filter, "must be positive and finite");
+    ExpectError(filter, "Interface 1: Indices of refraction must be positive and finite");
   }
 }
 
@@ -446,10 +446,10 @@ TEST(RefractedGeometryStack, OtherNumberOfSurfacesIsAnError)
 {
   const auto more = MakeAquarium(MakeGrid(3, 10.0, -40.0));
   more->AddInputData(1, MakePlaneAt(-20.0));
-  ExpectError(more, "3 surfaces at the membrane port, and 2");
+  ExpectError(more, "The list has 2 refracting interfaces, and port 1 has 3 surfaces");
   const auto fewer = MakeAquarium(MakeGrid(3, 10.0, -40.0));
   fewer->RemoveInputConnection(1, 1);
-  ExpectError(fewer, "1 surfaces at the membrane port, and 2");
+  ExpectError(fewer, "The list has 2 refracting interfaces, and port 1 has 1 surfaces");
 }
 
 TEST(RefractedGeometryStack, PropertiesThatAreNotAvailableAreAnError)
