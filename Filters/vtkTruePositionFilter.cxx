@@ -73,9 +73,9 @@ struct PointArrays
 class vtkTruePositionFilter::vtkInternals
 {
 public:
-  meniscus::RefractionScene Scene; ///< of one interface
-  meniscus::StackScene Stack;      ///< of several ones
-  // Of the last run:
+  meniscus::RefractionScene Scene; ///< one interface
+  meniscus::StackScene Stack;      ///< several interfaces
+  // State after the last run:
   bool HasStack = false;
   double Exterior = 1.0;
   double Interior = 1.0;
