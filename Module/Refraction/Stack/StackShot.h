@@ -54,6 +54,14 @@ bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace p
   StackPath& path);
 
 /**
+ * As Shoot, from a place and a path that are close to the target's. The crossings with later
+ * surfaces converge together with the place, one step at a time, so that each patch is evaluated
+ * once per step.
+ */
+bool ShootNear(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
+  StackPath& path);
+
+/**
  * True if a path that Shoot found is physical: each leg goes on to its nearest crossing, and the
  * last one reaches the target, before the next interface, if there is one, which it meets.
  */

@@ -139,7 +139,7 @@ bool StackSolver::Follow(const glm::dvec3& local, const Memory& memory, StackPat
     point.Place.B += move.x * point.PlaceBy[0] + move.y * point.PlaceBy[1];
   }
   return Advance(this->Stack, move, place) &&
-    Shoot(this->Stack, target, place, FollowSteps, path) && IsImage(this->Stack, target, path);
+    ShootNear(this->Stack, target, place, FollowSteps, path) && IsImage(this->Stack, target, path);
 }
 
 //------------------------------------------------------------------------------
