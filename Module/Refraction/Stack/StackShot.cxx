@@ -25,9 +25,6 @@ constexpr double LastStep = 1e-6;
 // Next to a critical angle the factor is large. Error up to which this is small enough.
 constexpr double LargestError = 1e-10;
 
-// A place may leave its patch by this part of the facet before the next patch takes over.
-constexpr double FollowReach = 0.3;
-
 // Facets to cross at one step. A longer step has no meaning: the rays between are not like these.
 constexpr int LongestWalk = 64;
 
@@ -148,7 +145,8 @@ bool Iterate(const RefractionStack& stack, const StackTarget& target, StackPlace
       continue;
     }
     Predict(path, move);
-    if (!Advance(stack, move, place))
+    // The next step is shorter, so that a place that is farther outside does not come back.
+    if (!Advance(stack, move, place, std::min(FollowReach, size)))
     {
       return false;
     }
@@ -192,7 +190,7 @@ double GetFootprint(const StackPath& path, std::size_t count)
 }
 
 //------------------------------------------------------------------------------
-bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& place)
+bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& place, double reach)
 {
   place.B += move;
   // Written so that a NaN fails.
@@ -200,7 +198,7 @@ bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& p
   {
     return false;
   }
-  if (FindOutside(place.B).Least >= -FollowReach)
+  if (FindOutside(place.B).Least >= -reach)
   {
     return true;
   }
