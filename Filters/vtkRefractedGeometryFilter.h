@@ -214,8 +214,9 @@ public:
    * listed twice, entered and left. Rays that miss a later surface, or are totally reflected at it,
    * show nothing. Points between interfaces are refracted by those in front of them, and an eye
    * between interfaces looks through those behind it. Interfaces with equal indices are left out.
-   * Images must be FIRST_IMAGE, MembraneModel CURVED, and the light of VirtualNormals at the eye;
-   * ViewCulling has no effect. RefractionDepth is the sum of the legs behind the first sight point.
+   * MembraneModel must be CURVED, and the light of VirtualNormals at the eye; ViewCulling has no
+   * effect. With ALL_IMAGES, the part of a cell in front of all interfaces is limited to what is
+   * seen through the first one. RefractionDepth is the sum of the legs behind the first sight point.
    * Point arrays added: `LegLengths` (a length behind each refracting interface), `LastSightPoint`
    * (3 doubles, world) and `Transmittance` (product of 1 - Fresnel reflectance).
    */

@@ -25,6 +25,10 @@ constexpr int LongestWalk = 16;
 // the last step, 1e-14 of a facet.
 constexpr double LastStep = 1e-7;
 
+// Facets that a single step to a surface may be long: beyond, the place of the last trace says
+// nothing about the crossing.
+constexpr double LongestStep = 4.0;
+
 // Two crossings are the same if they are closer than this fraction of the patch's size. Crossings
 // at a common edge of two patches may differ by the effect of Border in both.
 constexpr double SamePlace = 4.0 * Border;
@@ -243,13 +247,73 @@ bool RefractionStack::Meet(
 }
 
 //------------------------------------------------------------------------------
+// One step of Newton's method to the ray's crossing with the surface, across patches.
+bool RefractionStack::StepTo(
+  const Link& link, const RayJet& ray, PathPoint& point, PatchJet& jet, double& off) const
+{
+  StackPlace& place = point.Place;
+  const CurvedPatches& patches = link.Surface->GetPatches();
+  const glm::dvec3 origin = ray.Origin - link.Shift;
+  for (int i = 0; i < LongestChase; ++i)
+  {
+    const CurvedPatch patch = link.Surface->GetPatch(place.Facet, !link.Passage.FromFront);
+    patch.Evaluate(place.B, jet);
+    // Cramer's rule for by0 x + by1 y - direction l = rest.
+    const glm::dvec3 rest = origin - jet.Position;
+    const glm::dvec3 across = glm::cross(jet.PositionBy[1], ray.Direction);
+    const double inverse = 1.0 / glm::dot(jet.PositionBy[0], across);
+    const glm::dvec2 move(inverse * glm::dot(rest, across),
+      inverse * glm::dot(jet.PositionBy[0], glm::cross(rest, ray.Direction)));
+    const double size = std::max(std::fabs(move.x), std::fabs(move.y));
+    // Written so that a NaN fails.
+    if (!(size <= LongestStep))
+    {
+      return false;
+    }
+    place.B += move;
+    if (FindOutside(place.B).Least >= -Border)
+    {
+      jet.Position += move.x * jet.PositionBy[0] + move.y * jet.PositionBy[1];
+      jet.Normal = jet.Normal + move.x * jet.NormalBy[0] + move.y * jet.NormalBy[1];
+      off = std::max(off, size);
+      return glm::dot(jet.Position - origin, ray.Direction) > 0.0 &&
+        glm::dot(ray.Direction, jet.Normal) < 0.0;
+    }
+    const glm::dvec3 target = patch.GetFlatPoint(place.B);
+    const std::int32_t next = patches.Walk(place.Facet, target, ray.Direction, LongestWalk);
+    if (next == place.Facet)
+    {
+      return false;
+    }
+    place.Facet = next;
+    place.B = patches.GetPatch(next).ProjectToFacet(target);
+  }
+  return false;
+}
+
+//------------------------------------------------------------------------------
+PathEnd RefractionStack::TraceStep(
+  const StackPlace& first, std::size_t count, StackPath& path, double& off) const
+{
+  const Link& link = this->Links.front();
+  PatchJet jet;
+  link.Surface->GetPatch(first.Facet, !link.Passage.FromFront).Evaluate(first.B, jet);
+  off = 0.0;
+  return this->TraceOn(first, jet, count, path,
+    [this, &off](std::size_t index, const RayJet& ray, PathPoint& point, PatchJet& at)
+    { return this->StepTo(this->Links[index], ray, point, at, off); });
+}
+
+//------------------------------------------------------------------------------
 PathEnd RefractionStack::Trace(
   const StackPlace& first, std::size_t count, bool follows, StackPath& path) const
 {
   const Link& link = this->Links.front();
   PatchJet jet;
   link.Surface->GetPatch(first.Facet, !link.Passage.FromFront).Evaluate(first.B, jet);
-  return this->TraceOn(first, jet, count, follows, path);
+  return this->TraceOn(first, jet, count, path,
+    [this, follows](std::size_t index, const RayJet& ray, PathPoint& point, PatchJet& at)
+    { return this->Meet(index, ray, follows, point, at); });
 }
 
 //------------------------------------------------------------------------------
@@ -266,12 +330,15 @@ PathEnd RefractionStack::TraceFrom(
   }
   // Places of an earlier path would be first guesses, on which the last bits depend.
   path.Points.assign(this->Links.size(), PathPoint());
-  return this->TraceOn(first, jet, count, false, path);
+  return this->TraceOn(first, jet, count, path,
+    [this](std::size_t index, const RayJet& ray, PathPoint& point, PatchJet& next)
+    { return this->Meet(index, ray, false, point, next); });
 }
 
 //------------------------------------------------------------------------------
-PathEnd RefractionStack::TraceOn(
-  const StackPlace& first, PatchJet& jet, std::size_t count, bool follows, StackPath& path) const
+template <typename Meeting>
+PathEnd RefractionStack::TraceOn(const StackPlace& first, PatchJet& jet, std::size_t count,
+  StackPath& path, const Meeting& meet) const
 {
   path.Points.resize(this->Links.size());
   path.Count = 0;
@@ -294,7 +361,7 @@ PathEnd RefractionStack::TraceOn(
         normalBy[k] = jet.NormalBy[k];
       }
     }
-    else if (this->Meet(i, ray, follows, point, jet))
+    else if (meet(i, ray, point, jet))
     {
       jet.Position += link.Shift;
       Transfer(ray, jet, point.PlaceBy, normalBy);

@@ -112,6 +112,13 @@ public:
   PathEnd Trace(const StackPlace& first, std::size_t count, bool follows, StackPath& path) const;
 
   /**
+   * As Trace with `follows`, but the ray takes one step of Newton's method only, from the place of
+   * the path's last trace, to each next surface. `off` is set to the largest of these steps, in
+   * facets; the error of the path is of the order of its square.
+   */
+  PathEnd TraceStep(const StackPlace& first, std::size_t count, StackPath& path, double& off) const;
+
+  /**
    * Traces without derivatives from a point of the first surface with its normal, in the direction
    * of a ray that meets its front. `first` is recorded as its place. The result depends on the
    * point alone.
@@ -130,8 +137,13 @@ public:
     SurfaceCrossing& crossing) const;
 
 private:
-  PathEnd TraceOn(
-    const StackPlace& first, PatchJet& jet, std::size_t count, bool follows, StackPath& path) const;
+  /** Evaluates the path behind the first surface; `meet(link, ray, point, jet)` finds the others.
+   */
+  template <typename Meeting>
+  PathEnd TraceOn(const StackPlace& first, PatchJet& jet, std::size_t count, StackPath& path,
+    const Meeting& meet) const;
+  bool StepTo(
+    const Link& link, const RayJet& ray, PathPoint& point, PatchJet& jet, double& off) const;
   bool IsPassed() const;
   bool IsPassedAt(const StackPlace& aim) const;
   bool MeetNear(

@@ -25,9 +25,6 @@ constexpr double LastStep = 1e-6;
 // Next to a critical angle the factor is large. Error up to which this is small enough.
 constexpr double LargestError = 1e-10;
 
-// A place may leave its patch by this part of the facet before the next patch takes over.
-constexpr double FollowReach = 0.3;
-
 // Facets to cross at one step. A longer step has no meaning: the rays between are not like these.
 constexpr int LongestWalk = 64;
 
@@ -88,6 +85,75 @@ bool IsLast(const RefractionStack& stack, const StackPath& path, const glm::dvec
     glm::length(shift) <= LastStep * glm::length(first.Origin - stack.GetEye());
 }
 
+// Newton's method; `trace(place, off)` sets the path, with an error of the order of the square of
+// `off`.
+template <typename Tracing>
+bool Iterate(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
+  StackPath& path, const Tracing& trace)
+{
+  StackPlace known = place;
+  glm::dvec2 move(0.0);
+  int halvings = 0;
+  bool isTraced = false;
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < steps; ++i)
+  {
+    double off = 0.0;
+    if (trace(place, off) != PathEnd::Passed)
+    {
+      // Back towards the last place whose ray passes.
+      if (!isTraced || ++halvings > Halvings)
+      {
+        return false;
+      }
+      move *= 0.5;
+      place = known;
+      if (!Advance(stack, move, place))
+      {
+        return false;
+      }
+      continue;
+    }
+    isTraced = true;
+    known = place;
+    const glm::dvec3 nearest = GetNearest(path.GetLast(), target.Point);
+    move = GetMove(path.GetLast(), nearest, target.Point - nearest);
+    const double size = std::max(GetLargestMove(path, move), off);
+    if (!(size <= std::numeric_limits<double>::max()))
+    {
+      return false;
+    }
+    const bool isLast = IsLast(stack, path, move, size, before);
+    before = size;
+    if (isLast && FindOutside(place.B + move).Least >= -Border)
+    {
+      Correct(path, move);
+      return true;
+    }
+    if (isLast)
+    {
+      // Just outside of the patch: its neighbour takes over.
+      const CurvedPatches& patches = stack.GetLinks()[0].Surface->GetPatches();
+      const int corner = FindOutside(place.B + move).Corner;
+      const glm::dvec3 flat = patches.GetPatch(place.Facet).GetFlatPoint(place.B + move);
+      const std::int32_t next = patches.GetNeighbour(place.Facet, corner);
+      if (next == CurvedPatches::NoFacet)
+      {
+        return false;
+      }
+      place = { next, patches.GetPatch(next).ProjectToFacet(flat) };
+      continue;
+    }
+    Predict(path, move);
+    // The next step is shorter, so that a place that is farther outside does not come back.
+    if (!Advance(stack, move, place, std::min(FollowReach, size)))
+    {
+      return false;
+    }
+  }
+  return false;
+}
+
 }
 
 //------------------------------------------------------------------------------
@@ -124,7 +190,7 @@ double GetFootprint(const StackPath& path, std::size_t count)
 }
 
 //------------------------------------------------------------------------------
-bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& place)
+bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& place, double reach)
 {
   place.B += move;
   // Written so that a NaN fails.
@@ -132,7 +198,7 @@ bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& p
   {
     return false;
   }
-  if (FindOutside(place.B).Least >= -FollowReach)
+  if (FindOutside(place.B).Least >= -reach)
   {
     return true;
   }
@@ -149,65 +215,18 @@ bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& p
 bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
   StackPath& path)
 {
-  StackPlace known = place;
-  glm::dvec2 move(0.0);
-  int halvings = 0;
-  bool isTraced = false;
-  double before = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < steps; ++i)
-  {
-    if (stack.Trace(place, target.Count, true, path) != PathEnd::Passed)
-    {
-      // Back towards the last place whose ray passes.
-      if (!isTraced || ++halvings > Halvings)
-      {
-        return false;
-      }
-      move *= 0.5;
-      place = known;
-      if (!Advance(stack, move, place))
-      {
-        return false;
-      }
-      continue;
-    }
-    isTraced = true;
-    known = place;
-    const glm::dvec3 nearest = GetNearest(path.GetLast(), target.Point);
-    move = GetMove(path.GetLast(), nearest, target.Point - nearest);
-    const double size = GetLargestMove(path, move);
-    if (!(size <= std::numeric_limits<double>::max()))
-    {
-      return false;
-    }
-    const bool isLast = IsLast(stack, path, move, size, before);
-    before = size;
-    if (isLast && FindOutside(place.B + move).Least >= -Border)
-    {
-      Correct(path, move);
-      return true;
-    }
-    if (isLast)
-    {
-      // Just outside of the patch: its neighbour takes over.
-      const CurvedPatches& patches = stack.GetLinks()[0].Surface->GetPatches();
-      const int corner = FindOutside(place.B + move).Corner;
-      const glm::dvec3 flat = patches.GetPatch(place.Facet).GetFlatPoint(place.B + move);
-      const std::int32_t next = patches.GetNeighbour(place.Facet, corner);
-      if (next == CurvedPatches::NoFacet)
-      {
-        return false;
-      }
-      place = { next, patches.GetPatch(next).ProjectToFacet(flat) };
-      continue;
-    }
-    Predict(path, move);
-    if (!Advance(stack, move, place))
-    {
-      return false;
-    }
-  }
-  return false;
+  return Iterate(stack, target, place, steps, path,
+    [&stack, &target, &path](const StackPlace& at, double&)
+    { return stack.Trace(at, target.Count, true, path); });
+}
+
+//------------------------------------------------------------------------------
+bool ShootNear(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
+  StackPath& path)
+{
+  return Iterate(stack, target, place, steps, path,
+    [&stack, &target, &path](const StackPlace& at, double& off)
+    { return stack.TraceStep(at, target.Count, path, off); });
 }
 
 //------------------------------------------------------------------------------

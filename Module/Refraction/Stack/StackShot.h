@@ -41,9 +41,11 @@ constexpr double LargestFootprint = 4.0;
 
 /**
  * Moves a place in the first surface, across edges to other patches. Returns false if it leaves the
- * surface.
+ * surface. The next patch takes over where the place leaves its facet by more than `reach`.
  */
-bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& place);
+constexpr double FollowReach = 0.3;
+bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& place,
+  double reach = FollowReach);
 
 /**
  * Newton's method from `place` with at most `steps` steps. Crossings with later surfaces are
@@ -51,6 +53,14 @@ bool Advance(const RefractionStack& stack, const glm::dvec2& move, StackPlace& p
  * ends at the target. It need not be an image: see IsImage.
  */
 bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
+  StackPath& path);
+
+/**
+ * As Shoot, from a place and a path that are close to the target's. The crossings with later
+ * surfaces converge together with the place, one step at a time, so that each patch is evaluated
+ * once per step.
+ */
+bool ShootNear(const RefractionStack& stack, const StackTarget& target, StackPlace place, int steps,
   StackPath& path);
 
 /**

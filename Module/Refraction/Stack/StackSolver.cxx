@@ -19,6 +19,14 @@ namespace
 // Newton steps from the prediction by the previous path. More are a sign of another branch.
 constexpr int FollowSteps = 10;
 
+// Distance outside of a facet from which a predicted place belongs to the next one. Most errors of
+// predictions are smaller; another value changes the number of steps only.
+constexpr double PredictedBorder = 0.01;
+
+// As in CurvedMembraneSolver: change of the step between points, relative to the step, up to which
+// the steps are equal.
+constexpr double SameStep = 0.5;
+
 // Patches whose middle ray passes the point most closely: they are tried first, from the place that
 // the ray's derivatives predict, if that is within some patches.
 constexpr std::size_t QuickTries = 3;
@@ -109,6 +117,10 @@ StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory, Sta
     return this->PassThrough(point);
   }
   bool isFound = this->Follow(local, memory, path);
+  if (!isFound)
+  {
+    memory.Changes.clear();
+  }
   for (std::size_t count = this->Stack.GetLinks().size(); count > 0 && !isFound; --count)
   {
     isFound = this->FindFirst({ local, count }, path);
@@ -123,7 +135,9 @@ StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory, Sta
 }
 
 //------------------------------------------------------------------------------
-bool StackSolver::Follow(const glm::dvec3& local, const Memory& memory, StackPath& path) const
+// Places are predicted by their derivatives at the last point. Where the steps are equal and stay
+// in one patch, half of the change of the derivatives since the step before gives the second order.
+bool StackSolver::Follow(const glm::dvec3& local, Memory& memory, StackPath& path) const
 {
   if (memory.Path.Count == 0)
   {
@@ -131,15 +145,28 @@ bool StackSolver::Follow(const glm::dvec3& local, const Memory& memory, StackPat
   }
   path = memory.Path;
   const StackTarget target{ local, path.Count };
-  const glm::dvec2 move = GetMove(path.GetLast(), memory.Point, local - memory.Point);
-  StackPlace place = path.Points[0].Place;
-  for (std::size_t i = 1; i < path.Count; ++i)
+  const glm::dvec3 step = local - memory.Point;
+  const glm::dvec2 move = GetMove(path.GetLast(), memory.Point, step);
+  const glm::dvec3 turn = step - memory.Step;
+  const bool isSame = glm::dot(turn, turn) < SameStep * SameStep * glm::dot(step, step) &&
+    memory.Changes.size() == path.Count;
+  memory.Changes.resize(path.Count);
+  memory.Step = step;
+  glm::dvec2 first(0.0);
+  for (std::size_t i = 0; i < path.Count; ++i)
   {
     PathPoint& point = path.Points[i];
-    point.Place.B += move.x * point.PlaceBy[0] + move.y * point.PlaceBy[1];
+    StackPlace& before = memory.Changes[i];
+    const glm::dvec2 change = move.x * point.PlaceBy[0] + move.y * point.PlaceBy[1];
+    const bool isSmooth = isSame && before.Facet == point.Place.Facet;
+    const glm::dvec2 predicted = isSmooth ? change + 0.5 * (change - before.B) : change;
+    before = { point.Place.Facet, change };
+    first = i == 0 ? predicted : first;
+    point.Place.B += i == 0 ? glm::dvec2(0.0) : predicted;
   }
-  return Advance(this->Stack, move, place) &&
-    Shoot(this->Stack, target, place, FollowSteps, path) && IsImage(this->Stack, target, path);
+  StackPlace place = path.Points[0].Place;
+  return Advance(this->Stack, first, place, PredictedBorder) &&
+    ShootNear(this->Stack, target, place, FollowSteps, path) && IsImage(this->Stack, target, path);
 }
 
 //------------------------------------------------------------------------------

@@ -77,11 +77,14 @@ public:
   void Solve(const double* points, std::size_t begin, std::size_t end, VirtualVertex* vertices,
     StackDetail* details, double* legs) const;
 
-  /** State of a chain of points: the path of the last answer. */
+  /** State of a chain of points: the path of the last answer, and the step that led to it. */
   struct Memory
   {
     StackPath Path; ///< without points if there is none
     glm::dvec3 Point{ 0.0 };
+    glm::dvec3 Step{ 0.0 }; ///< of the points; 0 after a search
+    /** Changes of the places at this step, to first order, each in the patch before it. */
+    std::vector<StackPlace> Changes;
   };
 
   /**
@@ -129,7 +132,7 @@ public:
   std::int64_t GetNumberOfUndecidedSearches() const { return this->Undecided; }
 
 private:
-  bool Follow(const glm::dvec3& local, const Memory& memory, StackPath& path) const;
+  bool Follow(const glm::dvec3& local, Memory& memory, StackPath& path) const;
   bool FindFirst(const StackTarget& target, StackPath& path) const;
   StackVertex MakeRefracted(const glm::dvec3& local, const StackPath& path) const;
   StackVertex PassThrough(const glm::dvec3& point) const;

@@ -72,9 +72,9 @@ struct Object
   void AddQuad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v)
   {
     const auto first = static_cast<std::int64_t>(this->Points.size());
-    for (const glm::dvec3& point : { corner, corner + u, corner + u + v, corner + v })
+    for (const glm::dvec3& p : { corner, corner + u, corner + u + v, corner + v })
     {
-      this->Points.push_back(point);
+      this->Points.push_back(p);
     }
     for (const std::int64_t i : { 0, 1, 2, 0, 2, 3 })
     {
