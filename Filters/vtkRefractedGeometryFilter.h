@@ -217,11 +217,18 @@ public:
    * Images must be FIRST_IMAGE, MembraneModel CURVED, and the light of VirtualNormals at the eye;
    * ViewCulling has no effect. RefractionDepth is the sum of the legs behind the first sight point.
    * Point arrays added: `LegLengths` (a length behind each refracting interface), `LastSightPoint`
-   * (3 doubles, world) and `Transmittance` (product of 1 - Fresnel reflectance).
+   * (3 doubles, world), `Transmittance` (product of 1 - Fresnel reflectance) and `InnerReflectance`
+   * (1 minus that product without the first interface).
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
   /** @} */
+
+  /**
+   * Index of refraction behind the first interface that sight rays meet, relative to that in front
+   * of it. With several interfaces, as of the last update: the eye chooses the first one.
+   */
+  double GetRelativeIndexOfRefraction();
 
   /** @{ */
   /**

@@ -4,6 +4,8 @@
 
 #include "Refraction/Membrane/VirtualNormal.h"
 
+#include "Refraction/Membrane/Optics.h"
+
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
@@ -58,6 +60,7 @@ void AddStackArrays(vtkPolyData* input, const std::vector<VirtualVertex>& vertic
   const std::vector<vtkIdType> sources(
     ids->GetPointer(0), ids->GetPointer(0) + ids->GetNumberOfTuples());
   const auto transmittance = MakeArray<vtkDoubleArray>("Transmittance", 1, sources.size());
+  const auto inner = MakeArray<vtkDoubleArray>("InnerReflectance", 1, sources.size());
   const auto last = MakeArray<vtkDoubleArray>("LastSightPoint", 3, sources.size());
   const auto legs =
     MakeArray<vtkDoubleArray>("LegLengths", static_cast<int>(details.Interfaces), sources.size());
@@ -67,6 +70,11 @@ void AddStackArrays(vtkPolyData* input, const std::vector<VirtualVertex>& vertic
     const auto source = static_cast<std::size_t>(sources[k]);
     const StackDetail& detail = details.Points[source];
     transmittance->SetValue(i, detail.Transmittance);
+    const double first = 1.0 -
+      (detail.Passed > 0
+          ? FresnelReflectance(vertices[source].Cosine, options.Exterior, options.Interior)
+          : 0.0);
+    inner->SetValue(i, 1.0 - detail.Transmittance / first);
     last->SetTypedTuple(i, &detail.LastSightPoint.x);
     if (details.Interfaces > 0)
     {
@@ -74,6 +82,7 @@ void AddStackArrays(vtkPolyData* input, const std::vector<VirtualVertex>& vertic
     }
   }
   data->AddArray(transmittance);
+  data->AddArray(inner);
   data->AddArray(last);
   if (details.Interfaces > 0)
   {
