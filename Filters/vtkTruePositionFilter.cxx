@@ -75,7 +75,7 @@ class vtkTruePositionFilter::vtkInternals
 public:
   meniscus::RefractionScene Scene; ///< of one interface
   meniscus::StackScene Stack;      ///< of several ones
-  // Of the last run:
+  // State and indices in the last run.
   bool HasStack = false;
   double Exterior = 1.0;
   double Interior = 1.0;

@@ -18,7 +18,7 @@
 #ifndef vtkPVRefractedGeometryFilter_h
 #define vtkPVRefractedGeometryFilter_h
 
-#include "InterfaceTable.h" // For the table of interfaces
+#include "InterfaceTable.h"                   // For the table of interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkNew.h"                           // For the view
 #include "vtkRefractedGeometryFilter.h"

@@ -12,7 +12,7 @@
 #ifndef vtkPVRefractedLightFilter_h
 #define vtkPVRefractedLightFilter_h
 
-#include "InterfaceTable.h" // For the table of interfaces
+#include "InterfaceTable.h"                   // For the table of interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkRefractedLightFilter.h"
 

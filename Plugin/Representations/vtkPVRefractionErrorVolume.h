@@ -12,7 +12,7 @@
 #ifndef vtkPVRefractionErrorVolume_h
 #define vtkPVRefractionErrorVolume_h
 
-#include "InterfaceTable.h" // For the table of interfaces
+#include "InterfaceTable.h"                   // For the table of interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkRefractionErrorVolume.h"
 
