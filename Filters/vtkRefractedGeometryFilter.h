@@ -218,11 +218,18 @@ public:
    * effect. With ALL_IMAGES, the part of a cell in front of all interfaces is limited to what is
    * seen through the first one. RefractionDepth is the sum of the legs behind the first sight point.
    * Point arrays added: `LegLengths` (a length behind each refracting interface), `LastSightPoint`
-   * (3 doubles, world) and `Transmittance` (product of 1 - Fresnel reflectance).
+   * (3 doubles, world), `Transmittance` (product of 1 - Fresnel reflectance) and `InnerReflectance`
+   * (1 minus that product without the first interface).
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
   /** @} */
+
+  /**
+   * Index of refraction behind the first interface that sight rays meet, relative to that in front
+   * of it. With several interfaces, as of the last update: the eye chooses the first one.
+   */
+  double GetRelativeIndexOfRefraction();
 
   /** @{ */
   /**

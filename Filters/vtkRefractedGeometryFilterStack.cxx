@@ -185,3 +185,14 @@ meniscus::OutputOptions vtkRefractedGeometryFilter::vtkInternals::GetStackOption
   }
   return options;
 }
+
+//------------------------------------------------------------------------------
+double vtkRefractedGeometryFilter::GetRelativeIndexOfRefraction()
+{
+  const auto& links = this->Internals->Stack.GetSolver().GetStack().GetLinks();
+  if (this->Interfaces->GetNumberOfItems() > 1 && !links.empty())
+  {
+    return links.front().Passage.Behind / links.front().Passage.Before;
+  }
+  return this->GetInteriorIndexOfRefraction() / this->GetExteriorIndexOfRefraction();
+}

@@ -75,7 +75,7 @@ class vtkTruePositionFilter::vtkInternals
 public:
   meniscus::RefractionScene Scene; ///< one interface
   meniscus::StackScene Stack;      ///< several interfaces
-  // State after the last run:
+  // State and indices in the last run.
   bool HasStack = false;
   double Exterior = 1.0;
   double Interior = 1.0;

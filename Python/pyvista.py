@@ -5,7 +5,9 @@ import pyvista
 from vtkmodules.vtkCommonDataModel import vtkPiecewiseFunction
 from vtkmodules.vtkRenderingCore import vtkColorTransferFunction, vtkVolume
 
-from .vtkMeniscus import vtkRefractedGeometryFilter, vtkTetrahedraRayCastMapper
+from .vtkMeniscus import (
+    vtkRefractedGeometryFilter, vtkRefractingInterface, vtkRefractingInterfaceCollection,
+    vtkTetrahedraRayCastMapper)
 
 
 def _set(target, properties):
@@ -91,20 +93,49 @@ def add_volume(plotter, mesh, scalars=None, *, cmap=None, opacity="linear", clim
     return volume
 
 
+def _surface_of(data):
+    """The surface of a dataset."""
+    data = pyvista.wrap(data)
+    return data if isinstance(data, pyvista.PolyData) else data.extract_surface()
+
+
+def _make_interfaces(indices, before):
+    """List of interfaces of indices behind each, or of pairs, as for refracted()."""
+    interfaces = vtkRefractingInterfaceCollection()
+    for index in indices:
+        exterior, interior = index if isinstance(index, (tuple, list)) else (before, index)
+        interface = vtkRefractingInterface()
+        interface.SetExteriorIndexOfRefraction(exterior)
+        interface.SetInteriorIndexOfRefraction(interior)
+        interfaces.AddItem(interface)
+        before = exterior if interior == before else interior
+    return interfaces
+
+
 def refracted(mesh, membrane, eye, index=1.333, **properties):
     """Returns the virtual geometry of a mesh, which looks like the mesh seen through the membrane.
 
-    mesh, membrane: PyVista datasets; their surfaces are used.
+    mesh: a PyVista dataset; its surface is used.
+    membrane: a PyVista dataset, or a list of them in the order in which the sight rays meet them.
     eye: a position, or an object with the attribute position, such as plotter.camera.
-    index: index of refraction behind the membrane.
-    properties: properties of vtkRefractedGeometryFilter, such as ExteriorIndexOfRefraction=1.5.
+    index: index of refraction behind the membrane. Of a list, one for each surface, whose normals
+        then point to the eye's side; or a pair of the indices on the side of its normals and on the
+        other side, as for a closed body, which is listed twice.
+    properties: properties of vtkRefractedGeometryFilter, such as ExteriorIndexOfRefraction=1.5. A
+        list of membranes has one image of each point (Images=0).
     """
     refraction = vtkRefractedGeometryFilter()
-    for port, surface in enumerate((pyvista.wrap(mesh), pyvista.wrap(membrane))):
-        is_surface = isinstance(surface, pyvista.PolyData)
-        refraction.SetInputData(port, surface if is_surface else surface.extract_surface())
+    refraction.SetInputData(0, _surface_of(mesh))
     refraction.SetEyePosition(*getattr(eye, "position", eye))
-    refraction.SetInteriorIndexOfRefraction(index)
+    if isinstance(membrane, (tuple, list)):
+        before = properties.pop("ExteriorIndexOfRefraction", 1.0)
+        refraction.SetInterfaces(_make_interfaces(index, before))
+        for surface in membrane:
+            refraction.AddMembraneData(_surface_of(surface))
+        refraction.SetImagesToFirstImage()
+    else:
+        refraction.SetMembraneData(_surface_of(membrane))
+        refraction.SetInteriorIndexOfRefraction(index)
     _set(refraction, properties)
     refraction.Update()
     return pyvista.wrap(refraction.GetOutput())

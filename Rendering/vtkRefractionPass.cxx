@@ -143,9 +143,9 @@ double vtkRefractionPass::vtkInternals::Refraction::GetRelativeIndex() const
   vtkRefractingInterfaceCollection* interfaces = nullptr;
   if (this->Filter)
   {
-    interfaces = this->Filter->GetInterfaces();
+    return this->Filter->GetRelativeIndexOfRefraction();
   }
-  else if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume()))
+  if (vtkTetrahedraRayCastMapper* mapper = RayCasterOf(this->GetVolume()))
   {
     interfaces = mapper->GetInterfaces();
   }
@@ -242,6 +242,9 @@ void vtkRefractionPass::AddRefraction(
   {
     mapper->MapDataArrayToVertexAttribute(
       "refractionDepth", "RefractionDepth", vtkDataObject::FIELD_ASSOCIATION_POINTS);
+    // Without this array, behind one interface, OpenGL reads 0.
+    mapper->MapDataArrayToVertexAttribute(
+      "innerReflectance", "InnerReflectance", vtkDataObject::FIELD_ASSOCIATION_POINTS);
   }
   this->Internals->Refractions.push_back({ membrane, object, filter });
   this->Modified();
@@ -321,17 +324,23 @@ bool vtkRefractionPass::PreReplaceShaderValues(std::string& vertexShader,
     return true;
   }
   const std::string declarations = "//VTK::Normal::Dec";
-  Append(
-    vertexShader, declarations, "in float refractionDepth;\nout float refractionDepthVSOutput;");
-  Append(vertexShader, "//VTK::Normal::Impl", "  refractionDepthVSOutput = refractionDepth;");
-  Append(geometryShader, declarations,
-    "in float refractionDepthVSOutput[];\nout float refractionDepthGSOutput;");
-  Append(
-    geometryShader, "//VTK::Normal::Impl", "refractionDepthGSOutput = refractionDepthVSOutput[i];");
+  const std::string code = "//VTK::Normal::Impl";
+  std::string inFragment;
+  for (const std::string name : { "refractionDepth", "innerReflectance" })
+  {
+    const std::string fromVertex = name + "VSOutput";
+    const std::string fromGeometry = name + "GSOutput";
+    Append(vertexShader, declarations, "in float " + name + ";\nout float " + fromVertex + ";");
+    Append(vertexShader, code, "  " + fromVertex + " = " + name + ";");
+    Append(geometryShader, declarations,
+      "in float " + fromVertex + "[];\nout float " + fromGeometry + ";");
+    Append(geometryShader, code, fromGeometry + " = " + fromVertex + "[i];");
+    inFragment += "in float " + fromVertex + ";\n";
+  }
   Append(fragmentShader, declarations,
-    "in float refractionDepthVSOutput;\n" + meniscus::RefractionMedium::DeclareInShader());
+    inFragment + "uniform float innerReflects;\n" + meniscus::RefractionMedium::DeclareInShader());
   Append(fragmentShader, light,
-    "  gl_FragData[0].rgb =\n"
+    "  gl_FragData[0].rgb = (1.0 - innerReflects * innerReflectanceVSOutput) *\n"
     "    inMedium(gl_FragData[0].rgb, max(refractionDepthVSOutput, 0.0));");
   return true;
 }
@@ -341,6 +350,10 @@ bool vtkRefractionPass::SetShaderParameters(
   vtkShaderProgram* program, vtkAbstractMapper*, vtkProp*, vtkOpenGLVertexArrayObject*)
 {
   this->Internals->Medium.SetUniforms(program);
+  if (program->IsUniformUsed("innerReflects"))
+  {
+    program->SetUniformf("innerReflects", this->ReflectanceModel == NONE ? 0.0f : 1.0f);
+  }
   return true;
 }
 

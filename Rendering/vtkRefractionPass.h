@@ -35,6 +35,11 @@
  * approximation. R is the colour of a cube map in the direction of the reflected ray, or the
  * background.
  *
+ * Behind several interfaces (vtkRefractedGeometryFilter::SetInterfaces()), T also contains
+ * Fresnel's transmittance of the interfaces behind the first one, from the array InnerReflectance,
+ * with either model of the reflectance. F and R are those of the first interface. The membrane's
+ * actor shows the surface of the first one.
+ *
  * Deviation from the thesis: T is drawn to a separate image, which is then composited at the
  * membrane's pixels, instead of using the stencil buffer of the window. The result is therefore the
  * same for windows without stencil and with multisampling, membranes do not interfere with each
@@ -44,6 +49,7 @@
  * added by AddVolume(). Their attenuation is that of their own transfer functions.
  *
  * @note The membrane and the image behind it have one sample per pixel.
+ * @note The background, and volumes, are dimmed by the first of several interfaces only.
  * @note A membrane behind another one is not visible through it.
  *
  * @sa vtkRefractedGeometryFilter

@@ -78,14 +78,6 @@ inline vtkSmartPointer<vtkRefractingInterfaceCollection> MakeInterfaces()
   return interfaces;
 }
 
-/** Text of the error for a list that cannot be used: rays are refracted once. Null if it can. */
-inline const char* FindFault(vtkRefractingInterfaceCollection* interfaces)
-{
-  return interfaces->GetNumberOfItems() > 1
-    ? "Rays are refracted at one interface only, and the list has more"
-    : nullptr;
-}
-
 }
 
 #endif

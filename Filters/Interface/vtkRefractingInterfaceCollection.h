@@ -4,8 +4,7 @@
  * @class   vtkRefractingInterfaceCollection
  * @brief   the interfaces that a ray meets, in the order of the list
  *
- * vtkRefractedGeometryFilter and vtkTetrahedraRayCastMapper refract at all of them. Other filters
- * refract once: they use the first interface, and report more of them as an error. The list is
+ * Filters and mapper refract at all of them, and each has a port for as many surfaces. The list is
  * never shorter than one: without any, the first is one with default values.
  *
  * @sa vtkRefractingInterface

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Output/StackArrays.h"
 
+#include "Refraction/Membrane/Optics.h"
 #include "Refraction/Membrane/VirtualNormal.h"
 
 #include "vtkDoubleArray.h"
@@ -51,12 +52,23 @@ void AddVirtualNormals(
   output->GetPointData()->SetActiveNormals(normals->GetName());
 }
 
+// Share of the light that the interfaces behind the first one reflect.
+double ComputeInnerReflectance(const StackPoint& point, const OutputOptions& options)
+{
+  const double first = point.Detail.Passed > 0
+    ? FresnelReflectance(point.Vertex->Cosine, options.Exterior, options.Interior)
+    : 0.0;
+  // Nothing passes the first one at grazing incidence.
+  return first < 1.0 ? 1.0 - point.Detail.Transmittance / (1.0 - first) : 0.0;
+}
+
 // `legs` has `interfaces` lengths per point.
 void AddArrays(const std::vector<StackPoint>& points, const std::vector<double>& legs,
   std::size_t interfaces, const OutputOptions& options, vtkPolyData* output)
 {
   vtkPointData* data = output->GetPointData();
   const auto transmittance = MakeArray<vtkDoubleArray>("Transmittance", 1, points.size());
+  const auto inner = MakeArray<vtkDoubleArray>("InnerReflectance", 1, points.size());
   const auto last = MakeArray<vtkDoubleArray>("LastSightPoint", 3, points.size());
   const auto lengths =
     MakeArray<vtkDoubleArray>("LegLengths", static_cast<int>(interfaces), points.size());
@@ -64,6 +76,7 @@ void AddArrays(const std::vector<StackPoint>& points, const std::vector<double>&
   {
     const auto i = static_cast<vtkIdType>(k);
     transmittance->SetValue(i, points[k].Detail.Transmittance);
+    inner->SetValue(i, ComputeInnerReflectance(points[k], options));
     last->SetTypedTuple(i, &points[k].Detail.LastSightPoint.x);
     if (interfaces > 0)
     {
@@ -71,6 +84,7 @@ void AddArrays(const std::vector<StackPoint>& points, const std::vector<double>&
     }
   }
   data->AddArray(transmittance);
+  data->AddArray(inner);
   data->AddArray(last);
   if (interfaces > 0)
   {

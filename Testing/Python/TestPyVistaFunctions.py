@@ -9,7 +9,8 @@ import types
 import unittest
 
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkLookupTable
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkPlaneSource, vtkSphereSource
 
 ENTRIES = 4
 
@@ -71,8 +72,9 @@ class Plotter:
 
 sys.modules["pyvista"] = types.SimpleNamespace(
     LookupTable=LookupTable, DataSetMapper=types.SimpleNamespace, wrap=lambda mesh: mesh,
+    PolyData=vtkPolyData,
     FieldAssociation=types.SimpleNamespace(POINT="point"))
-from meniscus.pyvista import add_volume  # noqa: E402
+from meniscus.pyvista import add_volume, refracted  # noqa: E402
 
 
 class TestPyVistaFunctions(unittest.TestCase):
@@ -101,6 +103,50 @@ class TestPyVistaFunctions(unittest.TestCase):
         self.assertEqual(self.nodes(None), (2.0, 5.0))
         self.assertEqual(self.nodes((-3.0, 6.0)), (-3.0, 6.0))
         self.assertEqual(self.nodes(4), (-4.0, 4.0))
+
+
+def plane(height):
+    source = vtkPlaneSource()
+    source.SetOrigin(-5, -5, height)
+    source.SetPoint1(5, -5, height)
+    source.SetPoint2(-5, 5, height)
+    source.Update()
+    return source.GetOutput()
+
+
+def ball(radius, height):
+    source = vtkSphereSource()
+    source.SetRadius(radius)
+    source.SetCenter(0, 0, height)
+    source.SetThetaResolution(32)
+    source.SetPhiResolution(32)
+    source.Update()
+    return source.GetOutput()
+
+
+class TestRefracted(unittest.TestCase):
+    """A tiny ball right below the eye appears at the sum of the layers over their indices."""
+
+    def depth(self, membrane, index, **properties):
+        seen = refracted(ball(1e-4, -1), membrane, (0, 0, 2), index, **properties)
+        self.assertGreater(seen.GetNumberOfPoints(), 0)
+        return -seen.GetCenter()[2]
+
+    def test_one_membrane(self):
+        self.assertAlmostEqual(self.depth(plane(0), 1.25, Images=0), 1 / 1.25, 5)
+
+    def test_several_membranes(self):
+        pane = [plane(0), plane(-0.25)]
+        expected = 0.25 / 1.5 + 0.75 / 1.333
+        self.assertAlmostEqual(self.depth(pane, [1.5, 1.333]), expected, 5)
+        self.assertAlmostEqual(self.depth(pane, [(1.0, 1.5), (1.5, 1.333)]), expected, 5)
+        self.assertAlmostEqual(
+            self.depth(pane, [1.5, 1.333], ExteriorIndexOfRefraction=1.2), 1.2 * expected, 5)
+
+    def test_too_few_indices(self):
+        self.assertEqual(
+            refracted(ball(0.1, -1), [plane(0), plane(-0.25)], (0, 0, 2), [1.5]).
+            GetNumberOfPoints(), 0)
 
 
 if __name__ == "__main__":

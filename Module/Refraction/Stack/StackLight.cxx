@@ -294,6 +294,7 @@ StackLight::ImagePoint StackLight::Locate(
 //------------------------------------------------------------------------------
 void StackLight::Deposit(const Corners& corners, std::size_t leg, std::vector<Share>& shares) const
 {
+  const bool isLast = leg + 1 == this->Stack.GetLinks().size();
   BeamRays rays;
   glm::dvec3 sum(0.0);
   TubeBounds tube;
@@ -303,8 +304,18 @@ void StackLight::Deposit(const Corners& corners, std::size_t leg, std::vector<Sh
     rays[i] = &corners[i].Legs[leg];
     sum += rays[i]->Direction;
     tube.Add(rays[i]->Origin, rays[i]->Direction);
-    most = std::max(most, rays[i]->Length);
+    // The distance of a ray's origin from a point is convex, so no ray between the three has more.
+    const glm::dvec3& from = rays[i]->Origin;
+    const double farthest =
+      glm::length(glm::max(glm::abs(this->Bounds.Low - from), glm::abs(this->Bounds.High - from)));
+    most = std::max(most, isLast ? farthest : rays[i]->Length);
   }
+  // Cells at the border of the tube, or at the end of the rays, are met within rounding.
+  const double slack =
+    this->Stack.GetLinks().front().Surface->GetSlack(glm::length(rays[0]->Origin) + most);
+  tube.StartLow -= slack;
+  tube.StartHigh += slack;
+  most += slack;
   const glm::dvec3 along = glm::normalize(sum);
   const glm::dvec3 places[3] = { corners[0].Legs[0].Origin, corners[1].Legs[0].Origin,
     corners[2].Legs[0].Origin };
@@ -314,7 +325,6 @@ void StackLight::Deposit(const Corners& corners, std::size_t leg, std::vector<Sh
     0.5 * std::fabs(glm::dot(glm::cross(places[1] - places[0], places[2] - places[0]), sight));
   const double light =
     area * (rays[0]->Transmittance + rays[1]->Transmittance + rays[2]->Transmittance) / 3.0;
-  const bool isLast = leg + 1 == this->Stack.GetLinks().size();
   this->Tree.Visit(tube, most,
     [&](std::int32_t item, const TubeRange&)
     {

@@ -117,6 +117,7 @@ TEST(RefractedGeometryStack, PointBelowTheEyeAppearsAtTheSumOfItsLayers)
   const double second = std::pow((1.5 - 1.333) / (1.5 + 1.333), 2.0);
   EXPECT_NEAR(GetValue(output, "Reflectance", 0), first, 1e-14);
   EXPECT_NEAR(GetValue(output, "Transmittance", 0), (1.0 - first) * (1.0 - second), 1e-14);
+  EXPECT_NEAR(GetValue(output, "InnerReflectance", 0), second, 1e-14);
 }
 
 //------------------------------------------------------------------------------

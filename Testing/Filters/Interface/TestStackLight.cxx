@@ -139,6 +139,23 @@ TEST(StackLight, PaneUnderTheSun)
   }
 }
 
+/** A floor at the very end of vertical rays, where its bounds end: no cell is dark. */
+TEST(StackLight, NoCellIsLeftOut)
+{
+  for (int i = 0; i < 20; ++i)
+  {
+    const double y = -10.0 - 90.0 * std::pow(0.7, i); // of any rounding
+    const auto filter = MakePaneLight(MakeGrid(11, 20.0, y), Up);
+    filter->Update();
+    for (vtkIdType cell = 0; cell < 100; ++cell)
+    {
+      EXPECT_NEAR(CellOf(filter, cell),
+        MakeTransmittance(1.0, 1.0, Glass) * MakeTransmittance(1.0, Glass, Water), Parallel)
+        << y;
+    }
+  }
+}
+
 TEST(StackLight, GeometryInThePaneHasTheLightOfTheFirstSurface)
 {
   const auto filter = MakePaneLight(MakeGrid(9, 60.0, -5.0), Up);
