@@ -120,8 +120,9 @@ inline auto BinMeasureModel<Simd, OfCells>::Take(
   }
   const Mask valid = segments & isFinite(from.Of[0], to.Of[0]) & isFinite(from.Of[1], to.Of[1]);
   const auto take = [valid](Float& kept, Float value) { kept = Simd::Select(valid, value, kept); };
-  take(this->Attenuation, from.Of[0]);
-  take(this->AttenuationTo, to.Of[0]);
+  // Interpolation may round below zero.
+  take(this->Attenuation, Simd::Max(from.Of[0], Simd::Splat(0.0f)));
+  take(this->AttenuationTo, Simd::Max(to.Of[0], Simd::Splat(0.0f)));
   take(this->Emission, from.Of[1]);
   take(this->EmissionTo, to.Of[1]);
   take(this->Remaining, length);
@@ -147,8 +148,8 @@ auto BinMeasureModel<Simd, OfCells>::Advance(Mask lanes) -> Mask
   const Float depthBound =
     Simd::Max(this->Attenuation, this->AttenuationTo) * Simd::Max(this->Remaining, Simd::Splat(0.0f));
   const Mask dark = this->Transmittance.Get() < Simd::Splat(1.0e-30f);
-  // Min() replaces 0.5 / 0 and NaN by 1.
-  const Float share = Simd::Select(dark, one, Simd::Min(half / depthBound, one));
+  const Float share = Simd::Select(
+    dark, one, Simd::Select(depthBound > half, half / depthBound, one));
   const Float attenuationTo =
     Simd::Fma(share, this->AttenuationTo - this->Attenuation, this->Attenuation);
   const Float emissionTo = Simd::Fma(share, this->EmissionTo - this->Emission, this->Emission);
