@@ -56,7 +56,8 @@ std::vector<double> BoundsOf(const meniscus::InputBlocks& blocks)
   return bounds;
 }
 
-/** Origin, spacing and direction of an image whose points are the centres of a rectangle's parts. */
+/** Origin, spacing and direction of an image whose points are the centres of a rectangle's parts.
+ */
 struct ImagePlace
 {
   double Origin[3] = { 0.0, 0.0, 0.0 };
@@ -246,8 +247,7 @@ bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
   want(Array::EnergyBins, this->ComputeEnergyBins);
   choice.HasBinArrays = this->AttenuationArrayName != nullptr;
   choice.NumberOfBins = this->GetNumberOfEnergyBins();
-  request.BinsAlone =
-    choice.NeedsBinArrays() && !choice.NeedsScalars() && !choice.NeedsProperty();
+  request.BinsAlone = choice.NeedsBinArrays() && !choice.NeedsScalars() && !choice.NeedsProperty();
   if (this->ImageSize[0] < 1 || this->ImageSize[1] < 1)
   {
     return this->TellError("ImageSize must be at least 1 by 1, not " +
@@ -270,8 +270,7 @@ bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
       return vtkMath::IsFinite(bin.Attenuation) && vtkMath::IsFinite(bin.Emission) &&
         vtkMath::IsFinite(bin.Intensity);
     });
-  return this->TellError(
-    finite ? std::string() : "A number of an energy bin is not finite");
+  return this->TellError(finite ? std::string() : "A number of an energy bin is not finite");
 }
 
 //------------------------------------------------------------------------------
@@ -288,8 +287,7 @@ bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& reque
     if (!report.Error.empty())
     {
       selection.ScalarMode = VTK_SCALAR_MODE_USE_CELL_FIELD_DATA;
-      const meniscus::InputReport ofCells =
-        meniscus::CollectInputBlocks(input, selection, blocks);
+      const meniscus::InputReport ofCells = meniscus::CollectInputBlocks(input, selection, blocks);
       // If there is no such array of cells, the error about that of points says more.
       report = ofCells.Error.empty() ? ofCells : report;
     }
@@ -313,9 +311,8 @@ bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& reque
     const bool ofPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
     const bool ofCells = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
     meniscus::ScalarSelection selection;
-    selection.Component = this->ArrayComponent == -1
-      ? meniscus::ScalarSelection::Magnitude
-      : this->ArrayComponent;
+    selection.Component =
+      this->ArrayComponent == -1 ? meniscus::ScalarSelection::Magnitude : this->ArrayComponent;
     meniscus::InputReport report;
     if (wanted->Has(vtkDataObject::FIELD_NAME()))
     {
@@ -440,10 +437,9 @@ bool vtkTetrahedraRayIntegral::ComputeView(Request& request)
   const meniscus::TetrahedralMesh& mesh = this->Internals->Input.GetMesh();
   if (this->FrameMode == CAMERA)
   {
-    return this->Camera
-      ? this->TellError(
-          meniscus::ComputeCameraView(this->Camera, this->ImageSize, mesh, request.View))
-      : this->TellError("There is no camera");
+    return this->Camera ? this->TellError(meniscus::ComputeCameraView(
+                            this->Camera, this->ImageSize, mesh, request.View))
+                        : this->TellError("There is no camera");
   }
   request.Rectangle = { VectorOf(this->FrameOrigin), VectorOf(this->FrameAxis1),
     VectorOf(this->FrameAxis2) };
@@ -467,8 +463,8 @@ bool vtkTetrahedraRayIntegral::ComputeView(Request& request)
       corners.emplace_back(b[c & 1], b[2 + (c >> 1 & 1)], b[4 + (c >> 2 & 1)]);
     }
   }
-  return this->TellError(meniscus::ComputeParallelView(
-    request.Rectangle, this->ImageSize, mesh, corners, request.View));
+  return this->TellError(
+    meniscus::ComputeParallelView(request.Rectangle, this->ImageSize, mesh, corners, request.View));
 }
 
 //------------------------------------------------------------------------------

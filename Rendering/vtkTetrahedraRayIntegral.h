@@ -10,9 +10,9 @@
  * and there is no sampling distance.
  *
  * Input port 0 is the mesh: any vtkDataSet or vtkCompositeDataSet that vtkTetrahedraRayCastMapper
- * takes, with the same division of cells. SetInputArrayToProcess(0, 0, 0, association, name) chooses
- * the scalar, as point or cell data; the default are the active scalars of the points, or else of
- * the cells. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
+ * takes, with the same division of cells. SetInputArrayToProcess(0, 0, 0, association, name)
+ * chooses the scalar, as point or cell data; the default are the active scalars of the points, or
+ * else of the cells. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
  *
  * The output is an image of ImageSize pixels, one point per pixel. Its point arrays, all of 32-bit
  * floats with one tuple per pixel, are switched on separately:
@@ -24,17 +24,16 @@
  * | `OpticalDepth` | ComputeOpticalDepth | 1 | integral of the attenuation coefficient | 0 |
  * | `FirstDepth`, `LastDepth` | ComputeFirstDepth, ComputeLastDepth | 1 | distance along the ray at
  *   which its first cell begins, and its last one ends | NaN |
- * | `Minimum`, `MinimumDepth` | ComputeMinimum | 1 | smallest scalar, and the first distance at which
- *   it is reached | NaN |
- * | `Maximum`, `MaximumDepth` | ComputeMaximum | 1 | the same of the largest scalar | NaN |
- * | `RGBA` | ComputeRGBA | 4 | premultiplied colour and opacity | 0 |
- * | `EnergyBins` | ComputeEnergyBins | one per bin | transmitted intensity | the bin's intensity |
+ * | `Minimum`, `MinimumDepth` | ComputeMinimum | 1 | smallest scalar, and the first distance at
+ * which it is reached | NaN | | `Maximum`, `MaximumDepth` | ComputeMaximum | 1 | the same of the
+ * largest scalar | NaN | | `RGBA` | ComputeRGBA | 4 | premultiplied colour and opacity | 0 | |
+ * `EnergyBins` | ComputeEnergyBins | one per bin | transmitted intensity | the bin's intensity |
  *
  * Lengths are in world coordinates, the coordinates of the input. Distances count along the ray,
  * also where it is refracted: from the camera's position (with parallel projection, from the plane
- * through it), or from the rectangle, in front of which they are negative. Rays of a camera begin at
- * its position; parallel rays extend beyond the rectangle on both sides. The camera's clipping range
- * does not count.
+ * through it), or from the rectangle, in front of which they are negative. Rays of a camera begin
+ * at its position; parallel rays extend beyond the rectangle on both sides. The camera's clipping
+ * range does not count.
  *
  * A cell with a scalar that is not finite does not count, as in the mapper
  * (GetNumberOfTransparentCells()). If only arrays of energy bins are wanted, attenuation takes the
@@ -54,8 +53,8 @@
  *
  * Tables of the mesh, of the scalar and of the surfaces are kept until their values change: another
  * frame costs the cast only (GetNumberOfMeshBuilds()). Rays are cast in parallel by vtkSMPTools;
- * results do not depend on the number of threads. Progress is reported; after an abort the output is
- * empty.
+ * results do not depend on the number of threads. Progress is reported; after an abort the output
+ * is empty.
  *
  * @sa vtkTetrahedraRayCastMapper
  */
@@ -75,7 +74,6 @@ class vtkVolumeProperty;
 
 namespace meniscus
 {
-struct InputBlocks;
 struct InputReport;
 }
 
@@ -151,8 +149,8 @@ public:
    * Set/Get the number of pixels, at least 1 by 1. Default is 256 by 256.
    *
    * The output has this extent. In the modes FITTED and PARALLEL its origin, spacing and direction
-   * put its points to the centres of the rectangle's parts; the product of the first two spacings is
-   * a pixel's area. In the mode CAMERA origin and spacing are those of pixels, 0 and 1.
+   * put its points to the centres of the rectangle's parts; the product of the first two spacings
+   * is a pixel's area. In the mode CAMERA origin and spacing are those of pixels, 0 and 1.
    */
   vtkSetVector2Macro(ImageSize, int);
   vtkGetVector2Macro(ImageSize, int);
@@ -256,8 +254,9 @@ public:
   /** @{ */
   /**
    * Set/Get the name of a point or cell array of the input with one component per bin: attenuation
-   * coefficients per length, not negative. Point data is used if there are both. A value that is not
-   * finite lets the cell pass without effect on its bin. Default is none: BinAttenuation counts.
+   * coefficients per length, not negative. Point data is used if there are both. A value that is
+   * not finite lets the cell pass without effect on its bin. Default is none: BinAttenuation
+   * counts.
    */
   vtkSetStringMacro(AttenuationArrayName);
   vtkGetStringMacro(AttenuationArrayName);
@@ -310,8 +309,8 @@ public:
   /**
    * Counters since construction: builds of the mesh, updates of the scalars, determinations of the
    * cells that count, reductions of the volume property, readings of arrays of energy bins, builds
-   * of the shape of a surface, and casts of an image's rays (one for all measurements of the scalar,
-   * one for RGBA, one for three energy bins with arrays or for one that emits).
+   * of the shape of a surface, and casts of an image's rays (one for all measurements of the
+   * scalar, one for RGBA, one for three energy bins with arrays or for one that emits).
    */
   vtkTypeInt64 GetNumberOfMeshBuilds();
   vtkTypeInt64 GetNumberOfScalarUpdates();

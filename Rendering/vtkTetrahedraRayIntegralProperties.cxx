@@ -111,8 +111,7 @@ int vtkTetrahedraRayIntegral::GetNumberOfEnergyBins()
 //------------------------------------------------------------------------------
 void vtkTetrahedraRayIntegral::SetBinAttenuation(int bin, double attenuation)
 {
-  if (SetOfBin(
-        this->Internals->EnergyBins, bin, &meniscus::EnergyBin::Attenuation, attenuation))
+  if (SetOfBin(this->Internals->EnergyBins, bin, &meniscus::EnergyBin::Attenuation, attenuation))
   {
     this->Modified();
   }
@@ -241,8 +240,7 @@ vtkMTimeType vtkTetrahedraRayIntegral::GetMTime()
 void vtkTetrahedraRayIntegral::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto vector = [&os, indent](const char* name, const double (&values)[3])
-  {
+  const auto vector = [&os, indent](const char* name, const double(&values)[3]) {
     os << indent << name << ": (" << values[0] << ", " << values[1] << ", " << values[2] << ")\n";
   };
   const char* const modes[] = { "FITTED", "PARALLEL", "CAMERA" };

@@ -131,8 +131,7 @@ void IntegralArrays::SetBins(std::int64_t pixel, const MeasuredBin& measured,
     const int bin = table.FirstBin + i;
     const double depth = measured.Integrals[static_cast<std::size_t>(i)];
     const double source = this->Bins[static_cast<std::size_t>(bin)].Intensity;
-    bins[bin] =
-      static_cast<float>(source * std::exp(-depth) + (isEmitting ? measured.Light : 0.0));
+    bins[bin] = static_cast<float>(source * std::exp(-depth) + (isEmitting ? measured.Light : 0.0));
   }
 }
 

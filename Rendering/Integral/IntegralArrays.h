@@ -57,10 +57,7 @@ struct IntegralChoice
   {
     return this->Has(IntegralArray::RGBA) || this->Has(IntegralArray::OpticalDepth);
   }
-  bool NeedsBinArrays() const
-  {
-    return this->HasBinArrays && this->Has(IntegralArray::EnergyBins);
-  }
+  bool NeedsBinArrays() const { return this->HasBinArrays && this->Has(IntegralArray::EnergyBins); }
   /** Numbers per pixel of all arrays. */
   std::int64_t GetNumbersPerPixel() const;
 };

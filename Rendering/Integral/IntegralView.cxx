@@ -106,10 +106,10 @@ std::string FitRectangle(const double bounds[6], const glm::dvec3& direction, co
   }
   const glm::dvec3 axes[3] = { across / area, glm::normalize(glm::cross(across, direction)),
     glm::normalize(direction) };
-  const glm::dvec3 middle = 0.5 *
-    glm::dvec3(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
-  const glm::dvec3 half = 0.5 *
-    glm::dvec3(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]);
+  const glm::dvec3 middle =
+    0.5 * glm::dvec3(bounds[0] + bounds[1], bounds[2] + bounds[3], bounds[4] + bounds[5]);
+  const glm::dvec3 half =
+    0.5 * glm::dvec3(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]);
   double reach[3];
   for (int k = 0; k < 3; ++k)
   {
@@ -118,8 +118,7 @@ std::string FitRectangle(const double bounds[6], const glm::dvec3& direction, co
   const double pixel = std::max(2.0 * reach[0] / size[0], 2.0 * reach[1] / size[1]);
   rectangle.Axis1 = pixel * size[0] * axes[0];
   rectangle.Axis2 = pixel * size[1] * axes[1];
-  rectangle.Origin =
-    middle - reach[2] * axes[2] - 0.5 * (rectangle.Axis1 + rectangle.Axis2);
+  rectangle.Origin = middle - reach[2] * axes[2] - 0.5 * (rectangle.Axis1 + rectangle.Axis2);
   return std::string();
 }
 

@@ -237,8 +237,7 @@ RayStatistics TileCaster::Cast(
   this->CastLegs(tile, opaqueDepth, work);
   if (work.Job.KeepsValues)
   {
-    workspace.Joined.Finish(
-      work.Job, this->GetBox(tile), this->Legs.GetWidth(), image, work.Sums);
+    workspace.Joined.Finish(work.Job, this->GetBox(tile), this->Legs.GetWidth(), image, work.Sums);
   }
   return work.Sums;
 }

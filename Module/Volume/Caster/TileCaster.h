@@ -46,7 +46,8 @@ public:
      */
     const float* CellScalars = nullptr;
     BlendMode Blending = BlendMode::Composite;
-    /** Quantities that Measure() measures; the other members that it reads are those of a picture. */
+    /** Quantities that Measure() measures; the other members that it reads are those of a picture.
+     */
     RayMeasuring Measuring = RayMeasuring::None;
     /** True if bins have an attenuation and an emission, instead of three values. */
     bool Emitting = false;
@@ -124,8 +125,8 @@ public:
    */
   RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
   /**
-   * Measures the rays of a tile, to the end; Workspace::Measured has the results, for scalars or for
-   * bins. A ray that meets nothing has zeros.
+   * Measures the rays of a tile, to the end; Workspace::Measured has the results, for scalars or
+   * for bins. A ray that meets nothing has zeros.
    */
   RayStatistics Measure(int tile, Workspace& workspace) const;
 

@@ -94,7 +94,8 @@ SolidMesh MakeBall(const Field& field)
   }
   std::vector<vtkIdType> cells;
   SolidMesh ball{ "ball", nullptr, ConvexSolid() };
-  const auto at = [&points](vtkIdType i) { return ToVector(&points[static_cast<std::size_t>(3 * i)]); };
+  const auto at = [&points](vtkIdType i)
+  { return ToVector(&points[static_cast<std::size_t>(3 * i)]); };
   const auto add = [&](vtkIdType a, vtkIdType b, vtkIdType c)
   {
     cells.insert(cells.end(), { 0, a, b, c });

@@ -37,10 +37,10 @@ constexpr double Tolerance = 1.0e-6;
 constexpr double Grazing = 1.0e-6;
 
 /**
- * Bound of the error of a length in these meshes: corners of a cell are up to 2 * sqrt(3) apart, and
- * each end of a segment is the mean of three corners in single precision, with an error of 2^-24 of
- * their distances each for the corner, its weight and the product. Where a bin absorbs strongly, the
- * error of its optical depth is the attenuation coefficient times this bound.
+ * Bound of the error of a length in these meshes: corners of a cell are up to 2 * sqrt(3) apart,
+ * and each end of a segment is the mean of three corners in single precision, with an error of
+ * 2^-24 of their distances each for the corner, its weight and the product. Where a bin absorbs
+ * strongly, the error of its optical depth is the attenuation coefficient times this bound.
  */
 constexpr double LengthError = 2.0 * 3.4642 / 16777216.0;
 
@@ -113,9 +113,11 @@ void ExpectScalars(const Measured& measured)
     [](const Point& a, const Point& b, Stretch) { return std::min(Linear(a), Linear(b)); });
   worst("Maximum", NaN,
     [](const Point& a, const Point& b, Stretch) { return std::max(Linear(a), Linear(b)); });
-  worst("MinimumDepth", NaN, [](const Point& a, const Point& b, Stretch in)
+  worst("MinimumDepth", NaN,
+    [](const Point& a, const Point& b, Stretch in)
     { return Linear(a) <= Linear(b) ? in.Begin : in.End; });
-  worst("MaximumDepth", NaN, [](const Point& a, const Point& b, Stretch in)
+  worst("MaximumDepth", NaN,
+    [](const Point& a, const Point& b, Stretch in)
     { return Linear(a) >= Linear(b) ? in.Begin : in.End; });
   EXPECT_EQ(rays->GetNumberOfLostRays(), 0);
 }
@@ -281,7 +283,7 @@ void ExpectBins(const SolidMesh& solid, const std::vector<Field>& attenuations,
       const glm::dvec3 p = ray.Origin + place * ray.Direction;
       return field(p.x, p.y, p.z);
     };
-    const auto ends = [&](const Field& field, double (&values2)[2])
+    const auto ends = [&](const Field& field, double(&values2)[2])
     {
       values2[0] = at(field, in.Begin);
       values2[1] = at(field, in.End);
@@ -296,8 +298,7 @@ void ExpectBins(const SolidMesh& solid, const std::vector<Field>& attenuations,
     const double source = static_cast<int>(bin) == bins - 1 ? intensity : 1.0;
     const double expected = Transmit(in.GetLength(), mu, light, source);
     const double lengthError = LengthError * std::max(mu[0], mu[1]) * std::max(source, 1.0);
-    ASSERT_NEAR(values[i], expected,
-      std::max(lengthError, Tolerance * std::max(1.0, expected)))
+    ASSERT_NEAR(values[i], expected, std::max(lengthError, Tolerance * std::max(1.0, expected)))
       << solid.Name << " bin " << bin << " pixel " << pixel;
   }
 }
@@ -307,9 +308,9 @@ void ExpectBins(const SolidMesh& solid, const std::vector<Field>& attenuations,
 //------------------------------------------------------------------------------
 TEST(RayIntegralClosedForm, EnergyBinsOfPointArrays)
 {
-  const std::vector<Field> attenuations{ LinearAt, [](double x, double y, double)
-    { return 1.5 + x - 0.3 * y; }, ConstantField(0.0), LinearField(0.0, 0.0, 0.0),
-    [](double, double, double z) { return 6.0 + 5.0 * z; } };
+  const std::vector<Field> attenuations{ LinearAt,
+    [](double x, double y, double) { return 1.5 + x - 0.3 * y; }, ConstantField(0.0),
+    LinearField(0.0, 0.0, 0.0), [](double, double, double z) { return 6.0 + 5.0 * z; } };
   const std::vector<Field> emissions{ ConstantField(0.3),
     [](double x, double, double) { return 1.0 + 0.5 * x; }, LinearAt, ConstantField(0.0),
     [](double, double y, double) { return 2.0 - y; } };

@@ -5,7 +5,7 @@
 #include "IntegralScene.h"
 #include "MembraneScene.h"
 
-#include <vtkCellType.h>
+#include <vtkCell.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
@@ -29,7 +29,7 @@ namespace
 {
 
 constexpr double Tolerance = 1.0e-6;
-/** Of sums over the pixels of an image of 1024 x 1024. */
+/** Bound of the relative error of sums over the pixels of an image of 1024 x 1024. */
 constexpr double VolumeTolerance = 1.0e-5;
 
 double SumTimesArea(vtkTetrahedraRayIntegral* filter, const char* name)
@@ -83,26 +83,110 @@ TEST(RayIntegralRelations, SumOfPixelsIsTheVolumeIntegral)
 }
 
 //------------------------------------------------------------------------------
-// Meshes of the data folder that have no overlapping cells.
+// Meshes of the data folder whose cells do not overlap, up to two of the combustor.
 TEST(RayIntegralRelations, SumOfPixelsOfDataMeshes)
 {
-  int found = 0;
-  for (const char* name : { "blunt_fin", "combustor", "crushed_can" })
+  for (const char* name : { "blunt_fin", "combustor" })
   {
     Grid grid = ReadDataMesh(name);
-    if (!grid || !grid->IsHomogeneous() || grid->GetCellType(0) != VTK_TETRA)
+    if (!grid)
     {
-      continue;
+      GTEST_SKIP() << "no data meshes";
     }
-    ++found;
     SCOPED_TRACE(name);
     std::cout << name << ": ";
     ExpectVolume(grid, VolumeTolerance);
   }
-  if (found == 0)
+}
+
+namespace
+{
+
+/** A tetrahedron as a convex solid, whatever its orientation. */
+ConvexSolid MakeSolid(vtkUnstructuredGrid* grid, vtkIdType cell)
+{
+  vtkIdList* ids = grid->GetCell(cell)->GetPointIds();
+  glm::dvec3 corners[4];
+  for (int k = 0; k < 4; ++k)
+  {
+    double p[3];
+    grid->GetPoint(ids->GetId(k), p);
+    corners[k] = { p[0], p[1], p[2] };
+  }
+  ConvexSolid solid;
+  for (int k = 0; k < 4; ++k)
+  {
+    const glm::dvec3& a = corners[(k + 1) % 4];
+    glm::dvec3 normal = glm::cross(corners[(k + 2) % 4] - a, corners[(k + 3) % 4] - a);
+    normal = glm::dot(normal, corners[k] - a) > 0.0 ? -normal : normal;
+    solid.Planes.push_back({ normal, glm::dot(normal, a) });
+  }
+  return solid;
+}
+
+/** Length of a ray's parts in all cells; infinite if parts overlap. */
+double LengthInCells(const std::vector<ConvexSolid>& cells, const WorldRay& ray)
+{
+  std::vector<std::pair<double, double>> parts;
+  for (const ConvexSolid& cell : cells)
+  {
+    const Stretch in = cell.Clip(ray);
+    if (in.GetLength() > 0.0)
+    {
+      parts.emplace_back(in.Begin, in.End);
+    }
+  }
+  std::sort(parts.begin(), parts.end());
+  double length = 0.0;
+  double overlap = 0.0;
+  double reached = -1.0e30;
+  for (const auto& part : parts)
+  {
+    length += part.second - part.first;
+    overlap += std::max(0.0, std::min(reached, part.second) - part.first);
+    reached = std::max(reached, part.second);
+  }
+  return overlap > 1.0e-9 * length ? HUGE_VAL : length;
+}
+
+}
+
+//------------------------------------------------------------------------------
+// Cells of the can are inverted and overlap where it is crushed; the other rays are compared.
+TEST(RayIntegralRelations, PathLengthInAFoldedMesh)
+{
+  Grid grid = ReadDataMesh("crushed_can");
+  if (!grid)
   {
     GTEST_SKIP() << "no data meshes";
   }
+  std::vector<ConvexSolid> cells;
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+  {
+    cells.push_back(MakeSolid(grid, i));
+  }
+  constexpr int size = 20;
+  const double* box = grid->GetBounds();
+  const glm::dvec3 middle(
+    0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]), 0.5 * (box[4] + box[5]));
+  Filter rays = MakeFilter(grid, size, size);
+  const double diagonal = DiagonalOf(box);
+  SetRectangle(rays, { 0.31, -0.47, -0.83 }, 0.4 * diagonal);
+  const glm::dvec3 origin =
+    glm::dvec3(rays->GetFrameOrigin()[0], rays->GetFrameOrigin()[1], rays->GetFrameOrigin()[2]) +
+    middle;
+  rays->SetFrameOrigin(origin.x, origin.y, origin.z);
+  rays->ComputePathLengthOn();
+  int met = 0;
+  EXPECT_LT(WorstError(rays, "PathLength",
+              [&](const WorldRay& ray)
+              {
+                const double length = LengthInCells(cells, ray);
+                met += length > 0.0 && length < HUGE_VAL;
+                return length;
+              }),
+    Tolerance);
+  EXPECT_GT(met, size * size / 10);
 }
 
 //------------------------------------------------------------------------------
@@ -132,8 +216,7 @@ TEST(RayIntegralRelations, OppositeViews)
   }
   const std::pair<const char*, const char*> same[] = { { "Integral", "Integral" },
     { "PathLength", "PathLength" }, { "Minimum", "Minimum" }, { "Maximum", "Maximum" } };
-  const auto mirrored = [](std::size_t i)
-  { return i / size * size + (size - 1 - i % size); };
+  const auto mirrored = [](std::size_t i) { return i / size * size + (size - 1 - i % size); };
   for (const auto& names : same)
   {
     const std::vector<double> a = ValuesOf(there, names.first);
@@ -189,7 +272,7 @@ ConvexSolid MakeBlockSolid()
   return box;
 }
 
-/** What a ray measures up to and behind planes y = level, in closed form. */
+/** Measurements of a ray up to and behind planes y = level, in closed form. */
 struct PathTruth
 {
   double Length = 0.0;
@@ -211,9 +294,8 @@ PathTruth TracePlanes(WorldRay ray, const std::vector<PlaneInterface>& planes)
   double travelled = 0.0;
   for (std::size_t leg = 0; leg <= planes.size(); ++leg)
   {
-    const double end = leg < planes.size()
-      ? (planes[leg].Level - ray.Origin.y) / ray.Direction.y
-      : 1.0e30;
+    const double end =
+      leg < planes.size() ? (planes[leg].Level - ray.Origin.y) / ray.Direction.y : 1.0e30;
     Stretch in = block.Clip(ray, leg == 0 ? -1.0e30 : 0.0);
     in.End = std::min(in.End, end);
     if (in.GetLength() > 0.0)
@@ -248,14 +330,13 @@ void ExpectPlanes(vtkTetrahedraRayIntegral* rays, const std::vector<PlaneInterfa
   EXPECT_LT(WorstError(rays, "Integral",
               [&](const WorldRay& ray) { return TracePlanes(ray, planes).Integral; }),
     Tolerance);
-  EXPECT_LT(WorstError(rays, "LastDepth",
-              [&](const WorldRay& ray)
-              {
-                const PathTruth truth = TracePlanes(ray, planes);
-                return truth.Length > 1.0e-5  ? truth.Last
-                  : truth.Length > 0.0        ? HUGE_VAL
-                                              : std::nan("");
-              }),
+  EXPECT_LT(
+    WorstError(rays, "LastDepth",
+      [&](const WorldRay& ray)
+      {
+        const PathTruth truth = TracePlanes(ray, planes);
+        return truth.Length > 1.0e-5 ? truth.Last : truth.Length > 0.0 ? HUGE_VAL : std::nan("");
+      }),
     Tolerance);
   EXPECT_EQ(rays->GetNumberOfLostRays(), 0);
 }
@@ -324,8 +405,7 @@ TEST(RayIntegralRelations, EmissionThroughAPlane)
   EXPECT_LT(WorstError(rays, "EnergyBins",
               [](const WorldRay& ray)
               {
-                const double depth =
-                  0.7 * TracePlanes(ray, { { 0.25, 1.0 / 1.333 } }).Length;
+                const double depth = 0.7 * TracePlanes(ray, { { 0.25, 1.0 / 1.333 } }).Length;
                 return std::exp(-depth) - 0.4 / 0.7 * std::expm1(-depth);
               }),
     Tolerance);

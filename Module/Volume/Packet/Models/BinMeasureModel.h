@@ -11,10 +11,10 @@ namespace meniscus
 {
 
 /**
- * Integrals along rays of values per vertex, linear in each cell, or per cell (NumberOfMeasuredBins).
- * With PacketJob::Emitting, the first value is an attenuation coefficient, nowhere negative, and the
- * second one an emission per length; a cell contributes if both are finite. The same interface as
- * CompositeModel.
+ * Integrals along rays of values per vertex, linear in each cell, or per cell
+ * (NumberOfMeasuredBins). With PacketJob::Emitting, the first value is an attenuation coefficient,
+ * nowhere negative, and the second one an emission per length; a cell contributes if both are
+ * finite. The same interface as CompositeModel.
  */
 template <class Simd, bool OfCells>
 class BinMeasureModel
@@ -145,11 +145,11 @@ auto BinMeasureModel<Simd, OfCells>::Advance(Mask lanes) -> Mask
   const Float one = Simd::Splat(1.0f);
   const Float half = Simd::Splat(0.5f);
   // Where nothing shines through, the rest of the segment is taken at once.
-  const Float depthBound =
-    Simd::Max(this->Attenuation, this->AttenuationTo) * Simd::Max(this->Remaining, Simd::Splat(0.0f));
+  const Float depthBound = Simd::Max(this->Attenuation, this->AttenuationTo) *
+    Simd::Max(this->Remaining, Simd::Splat(0.0f));
   const Mask dark = this->Transmittance.Get() < Simd::Splat(1.0e-30f);
-  const Float share = Simd::Select(
-    dark, one, Simd::Select(depthBound > half, half / depthBound, one));
+  const Float share =
+    Simd::Select(dark, one, Simd::Select(depthBound > half, half / depthBound, one));
   const Float attenuationTo =
     Simd::Fma(share, this->AttenuationTo - this->Attenuation, this->Attenuation);
   const Float emissionTo = Simd::Fma(share, this->EmissionTo - this->Emission, this->Emission);
@@ -163,7 +163,8 @@ auto BinMeasureModel<Simd, OfCells>::Advance(Mask lanes) -> Mask
     const Float light = Simd::Fma(x, emissionTo - this->Emission, this->Emission);
     return light * (one - Absorbed<Simd>(Simd::Min(depth, one)));
   };
-  const Float mean = Simd::Splat(5.0f / 18.0f) * (lightFrom(0.112701665f) + lightFrom(0.887298335f)) +
+  const Float mean =
+    Simd::Splat(5.0f / 18.0f) * (lightFrom(0.112701665f) + lightFrom(0.887298335f)) +
     Simd::Splat(4.0f / 9.0f) * lightFrom(0.5f);
   const Float transmittance = Simd::Select(dark, Simd::Splat(0.0f), this->Transmittance.Get());
   this->Light.Add(lanes, transmittance * mean * length);
@@ -171,8 +172,7 @@ auto BinMeasureModel<Simd, OfCells>::Advance(Mask lanes) -> Mask
   this->Sums[0].Add(lanes, depth);
   this->Transmittance.Add(
     lanes, Simd::Splat(0.0f) - transmittance * Absorbed<Simd>(Simd::Min(depth, one)));
-  const auto move = [lanes](Float& kept, Float value)
-  { kept = Simd::Select(lanes, value, kept); };
+  const auto move = [lanes](Float& kept, Float value) { kept = Simd::Select(lanes, value, kept); };
   move(this->Attenuation, attenuationTo);
   move(this->Emission, emissionTo);
   move(this->Remaining, this->Remaining - length);
