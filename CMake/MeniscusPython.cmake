@@ -29,7 +29,10 @@ endif ()
 set(_meniscus_package "${MENISCUS_BUILD_PYTHONPATH}/meniscus")
 configure_file("${PROJECT_SOURCE_DIR}/Python/__init__.py.in"
   "${_meniscus_package}/__init__.py" @ONLY)
-configure_file("${PROJECT_SOURCE_DIR}/Python/pyvista.py" "${_meniscus_package}/pyvista.py" COPYONLY)
+foreach (_meniscus_helpers IN ITEMS integrals pyvista)
+  configure_file("${PROJECT_SOURCE_DIR}/Python/${_meniscus_helpers}.py"
+    "${_meniscus_package}/${_meniscus_helpers}.py" COPYONLY)
+endforeach ()
 
 # Types for editors and type checkers, from the signatures that the wrappers put into doc strings.
 set(_meniscus_stubs "${_meniscus_package}/vtkMeniscus.pyi")
@@ -45,6 +48,7 @@ add_custom_target(meniscus_stubs ALL DEPENDS "${_meniscus_stubs}")
 install(
   FILES
     "${_meniscus_package}/__init__.py"
+    "${_meniscus_package}/integrals.py"
     "${_meniscus_package}/py.typed"
     "${_meniscus_package}/pyvista.py"
     "${_meniscus_stubs}"

@@ -27,8 +27,6 @@ void JoinedRays::Join(const LegBatch::Origin& origin, BlendMode mode, const Pack
   std::copy_n(joined.data(), 4, values);
   JoinValues(mode, result.Color, values);
   std::copy_n(values, 4, joined.data());
-  // A line that was cut off gives no information about the sight point.
-  this->SetEnd(origin.Pixel, origin.ReachesInterface ? result.End : PacketResult::Somewhere);
 }
 
 //------------------------------------------------------------------------------

@@ -49,8 +49,17 @@ public:
   {
     this->Steps[static_cast<std::size_t>(pixel)] += steps;
   }
-  /** Joins the values of a leg to those of the legs in front of it, and sets the end. */
+  std::int32_t GetSteps(std::int32_t pixel) const
+  {
+    return this->Steps[static_cast<std::size_t>(pixel)];
+  }
+  /** Joins the values of a leg to those of the legs in front of it. */
   void Join(const LegBatch::Origin& origin, BlendMode mode, const PacketResult& result);
+  /** Sets the end to that of a leg. A line that was cut off tells nothing about the sight point. */
+  void EndAt(const LegBatch::Origin& origin, const PacketResult& result)
+  {
+    this->SetEnd(origin.Pixel, origin.ReachesInterface ? result.End : PacketResult::Somewhere);
+  }
 
   /**
    * Converts the values of the rays that entered the mesh to premultiplied RGBA, and counts rays

@@ -58,6 +58,12 @@ public:
     const RayLegs& legs, const FrameOptics& optics, InstructionSet set);
 
   const LegFrame& GetFrame(int frame) const { return this->Cast[static_cast<std::size_t>(frame)]; }
+  /** As SightLegEntries; the depth of the leg's sight point. */
+  double GetBeginDepth(int frame, const RayLeg& leg, double) const
+  {
+    const RefractionFrame& turned = this->Scene.Frames->Get(frame);
+    return (turned.FromView * leg.Begin).z * FixedPointRays::GridPerDepth - turned.Rays.GetPivot();
+  }
 
   /** Buffers of one thread. */
   struct Workspace

@@ -33,6 +33,14 @@ public:
 
   const BoundaryRaster& GetRaster() const { return this->Raster; }
   const LegFrame& GetFrame(int) const { return this->Frame; }
+  /**
+   * Depth from which distances along a leg count, in grid units from the pivot of the leg's frame:
+   * of leg 0, the given depth.
+   */
+  double GetBeginDepth(int, const RayLeg&, double depth) const
+  {
+    return depth * FixedPointRays::GridPerDepth - this->Rays.GetPivot();
+  }
 
   /** Buffers of one thread. */
   struct Workspace

@@ -9,6 +9,24 @@
 
 namespace meniscus
 {
+namespace
+{
+
+bool IsOfBins(RayMeasuring measuring)
+{
+  return measuring == RayMeasuring::VertexBins || measuring == RayMeasuring::CellBins;
+}
+
+}
+
+struct TileCaster::TileWork
+{
+  PacketJob Job;
+  Workspace& Buffers;
+  /** Image of a picture; null for measurements. */
+  float* Image;
+  RayStatistics Sums;
+};
 
 //------------------------------------------------------------------------------
 TileCaster::TileCaster(const Scene& scene, const RangeLoop& loop)
@@ -48,6 +66,7 @@ void TileCaster::SetOptics(PacketJob& job) const
   const auto sizeOf = [](const auto& table) { return static_cast<std::int32_t>(table.size()); };
   const TetrahedralMesh& mesh = *this->Input.Mesh;
   job.Blending = this->Input.Blending;
+  job.Emitting = this->Input.Emitting;
   job.Cells = mesh.GetCells().front().Vertices.data();
   job.NumberOfCells = mesh.GetNumberOfCells();
   job.CellScalars = this->Input.CellScalars;
@@ -72,14 +91,18 @@ void TileCaster::SetOptics(PacketJob& job) const
 }
 
 //------------------------------------------------------------------------------
-void TileCaster::CastBatch(
-  const LegBatch& batch, PacketJob& job, std::vector<PacketResult>& results) const
+void TileCaster::CastBatch(const LegBatch& batch, PacketJob& job, Workspace& workspace) const
 {
-  results.resize(batch.Rays.size());
+  workspace.Results.resize(batch.Rays.size());
   job.Rays = batch.Rays.data();
   job.NumberOfRays = static_cast<std::int32_t>(batch.Rays.size());
   job.Entries = batch.Entries;
-  job.Results = results.data();
+  job.Results = workspace.Results.data();
+  if (job.Measuring != RayMeasuring::None)
+  {
+    workspace.Values.resize(NumberOfMeasuredScalars * batch.Rays.size());
+    job.Values = workspace.Values.data();
+  }
   CastPackets(job, this->Input.Set);
 }
 
@@ -106,21 +129,47 @@ void TileCaster::Show(const LegBatch& batch, const TileLeg& leg,
 }
 
 //------------------------------------------------------------------------------
+/** Joins the measurement of a ray of a batch to those of the legs in front of it. */
+template <class Entries>
+void TileCaster::JoinMeasured(const Entries& entries, int frame, const TileLeg& leg,
+  const LegBatch& batch, std::size_t ray, Workspace& workspace) const
+{
+  const std::int32_t pixel = batch.Origins[ray].Pixel;
+  const auto at = static_cast<std::size_t>(pixel);
+  if (IsOfBins(this->Input.Measuring))
+  {
+    workspace.Measured.Bins[at].Join(ReadBins(workspace.Results[ray].Color));
+    return;
+  }
+  const double from = this->Input.MeasuredFrom;
+  RayLeg line;
+  this->Legs.Find(leg.Tile, pixel, leg.Number, line);
+  LegDistance distance;
+  distance.AtBegin = this->Legs.GetLengthBefore(leg.Tile, pixel, leg.Number, from);
+  distance.BeginDepth = entries.GetBeginDepth(frame, line, from);
+  distance.PerDepth = batch.Rays[ray].LengthPerDepth;
+  workspace.Measured.Scalars[at].Join(
+    ReadScalars(workspace.Values.data() + NumberOfMeasuredScalars * ray, distance));
+}
+
+//------------------------------------------------------------------------------
 /** Casts one leg, frame by frame, and joins the results, or shows them if there is no other leg. */
 template <class Entries>
 void TileCaster::CastLeg(const Entries& entries, typename Entries::Workspace& found,
-  const TileLeg& leg, PacketJob& job, Workspace& workspace, float* image, RayStatistics& sums) const
+  const TileLeg& leg, TileWork& work) const
 {
+  PacketJob& job = work.Job;
+  Workspace& workspace = work.Buffers;
   entries.Collect(leg, job, workspace.Joined, found);
   for (int frame = 0; frame < Entries::NumberOfFrames; ++frame)
   {
     entries.GetFrame(frame).Describe(job);
     while (const LegBatch* batch = entries.NextBatch(frame, found))
     {
-      this->CastBatch(*batch, job, workspace.Results);
+      this->CastBatch(*batch, job, workspace);
       if (!job.KeepsValues)
       {
-        this->Show(*batch, leg, workspace.Results, image, sums);
+        this->Show(*batch, leg, workspace.Results, work.Image, work.Sums);
         continue;
       }
       for (std::size_t i = 0; i < workspace.Results.size(); ++i)
@@ -128,12 +177,43 @@ void TileCaster::CastLeg(const Entries& entries, typename Entries::Workspace& fo
         const PacketResult& result = workspace.Results[i];
         const bool again = result.Lost != 0 && entries.TakeBack(frame, i, found);
         workspace.Joined.AddSteps(batch->Origins[i].Pixel, result.Steps);
-        if (!again)
+        if (again)
+        {
+          continue;
+        }
+        if (job.Measuring != RayMeasuring::None)
+        {
+          this->JoinMeasured(entries, frame, leg, *batch, i, workspace);
+        }
+        else
         {
           workspace.Joined.Join(batch->Origins[i], job.Blending, result);
-          sums.Lost += result.Lost;
         }
+        workspace.Joined.EndAt(batch->Origins[i], result);
+        work.Sums.Lost += result.Lost;
       }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void TileCaster::CastLegs(int tile, const float* opaqueDepth, TileWork& work) const
+{
+  const LegRange& drawn = this->Input.Refracted.Drawn;
+  TileLeg leg{ tile, 0, this->Sight.GetRaster().BoxOfTile(tile), opaqueDepth };
+  for (; leg.Number < std::min(this->Legs.GetNumberOfLegs(tile), drawn.End); ++leg.Number)
+  {
+    if (leg.Number < drawn.First)
+    {
+      work.Buffers.Joined.SkipLeg();
+    }
+    else if (leg.Number == 0)
+    {
+      this->CastLeg(this->Sight, work.Buffers.Sight, leg, work);
+    }
+    else
+    {
+      this->CastLeg(*this->Refracted, work.Buffers.Refracted, leg, work);
     }
   }
 }
@@ -142,41 +222,51 @@ void TileCaster::CastLeg(const Entries& entries, typename Entries::Workspace& fo
 RayStatistics TileCaster::Cast(
   int tile, const float* opaqueDepth, float* image, Workspace& workspace) const
 {
-  const LegRange& drawn = this->Input.Refracted.Drawn;
   const int legs = this->Legs.GetNumberOfLegs(tile);
-  RayStatistics sums;
-  if (legs <= drawn.First)
+  TileWork work{ PacketJob{}, workspace, image, RayStatistics() };
+  if (legs <= this->Input.Refracted.Drawn.First)
   {
-    return sums;
+    return work.Sums;
   }
-  PacketJob job{};
-  this->SetOptics(job);
-  job.KeepsValues = legs > 1;
-  if (job.KeepsValues)
+  this->SetOptics(work.Job);
+  work.Job.KeepsValues = legs > 1;
+  if (work.Job.KeepsValues)
   {
-    workspace.Joined.Clear(job.Blending);
+    workspace.Joined.Clear(work.Job.Blending);
   }
-  TileLeg leg{ tile, 0, this->Sight.GetRaster().BoxOfTile(tile), opaqueDepth };
-  for (; leg.Number < std::min(legs, drawn.End); ++leg.Number)
+  this->CastLegs(tile, opaqueDepth, work);
+  if (work.Job.KeepsValues)
   {
-    if (leg.Number < drawn.First)
-    {
-      workspace.Joined.SkipLeg();
-    }
-    else if (leg.Number == 0)
-    {
-      this->CastLeg(this->Sight, workspace.Sight, leg, job, workspace, image, sums);
-    }
-    else
-    {
-      this->CastLeg(*this->Refracted, workspace.Refracted, leg, job, workspace, image, sums);
-    }
+    workspace.Joined.Finish(work.Job, this->GetBox(tile), this->Legs.GetWidth(), image, work.Sums);
   }
-  if (job.KeepsValues)
+  return work.Sums;
+}
+
+//------------------------------------------------------------------------------
+RayStatistics TileCaster::Measure(int tile, Workspace& workspace) const
+{
+  TileWork work{ PacketJob{}, workspace, nullptr, RayStatistics() };
+  this->SetOptics(work.Job);
+  work.Job.Measuring = this->Input.Measuring;
+  work.Job.KeepsValues = true;
+  // Nothing hides what is behind it.
+  workspace.Joined.Clear(BlendMode::AverageIntensity);
+  if (IsOfBins(this->Input.Measuring))
   {
-    workspace.Joined.Finish(job, leg.Box, this->Legs.GetWidth(), image, sums);
+    workspace.Measured.Bins.fill(MeasuredBin());
   }
-  return sums;
+  else
+  {
+    workspace.Measured.Scalars.fill(MeasuredScalar());
+  }
+  this->CastLegs(tile, nullptr, work);
+  for (std::int32_t pixel = 0; pixel < RefractedRayTiles::RaysOfTile; ++pixel)
+  {
+    const std::int32_t steps = workspace.Joined.GetSteps(pixel);
+    work.Sums.Steps += steps;
+    work.Sums.Rays += steps > 0;
+  }
+  return work.Sums;
 }
 
 }

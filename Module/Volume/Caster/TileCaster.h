@@ -8,6 +8,7 @@
 #include "Volume/Caster/JoinedRays.h"
 #include "Volume/Caster/LegBatch.h"
 #include "Volume/Caster/LegFrame.h"
+#include "Volume/Caster/MeasuredRays.h"
 #include "Volume/Caster/PacketTables.h"
 #include "Volume/Caster/RefractedLegEntries.h"
 #include "Volume/Caster/SightLegEntries.h"
@@ -45,9 +46,16 @@ public:
      */
     const float* CellScalars = nullptr;
     BlendMode Blending = BlendMode::Composite;
+    /** Quantities that Measure() measures; the other members that it reads are those of a picture.
+     */
+    RayMeasuring Measuring = RayMeasuring::None;
+    /** True if bins have an attenuation and an emission, instead of three values. */
+    bool Emitting = false;
+    /** Depth in the frame of the rays from which distances along a ray count. */
+    double MeasuredFrom = 0.0;
     /**
      * Mixture of the components of vertices in composite blending, and the components besides the
-     * scalar.
+     * scalar. For RayMeasuring::VertexBins, Components has the values of the bins.
      */
     ComponentMixture Mixture = ComponentMixture::None;
     const glm::vec3* Components = nullptr;
@@ -64,7 +72,7 @@ public:
     const glm::vec3* VertexGradients = nullptr;
     /**
      * Gradient per cell, in the same coordinates; required for lighting and gradient opacity
-     * without VertexGradients.
+     * without VertexGradients. For RayMeasuring::CellBins, the values of the bins.
      */
     const glm::vec3* CellGradients = nullptr;
     glm::dmat3 GradientToFrame{ 1.0 };
@@ -105,6 +113,9 @@ public:
     RefractedLegEntries::Workspace Refracted;
     std::vector<PacketResult> Results;
     JoinedRays Joined;
+    /** Values of a batch that is measured, and the measurements of the tile. */
+    std::vector<float> Values;
+    MeasuredRays Measured;
   };
 
   /**
@@ -113,14 +124,25 @@ public:
    * @param image premultiplied RGBA per pixel; pixels whose rays miss the mesh are not written.
    */
   RayStatistics Cast(int tile, const float* opaqueDepth, float* image, Workspace& workspace) const;
+  /**
+   * Measures the rays of a tile, to the end; Workspace::Measured has the results, for scalars or
+   * for bins. A ray that meets nothing has zeros.
+   */
+  RayStatistics Measure(int tile, Workspace& workspace) const;
 
 private:
   FrameOptics SightOptics() const;
   void SetOptics(PacketJob& job) const;
+  /** A tile that is being cast. */
+  struct TileWork;
+  void CastLegs(int tile, const float* opaqueDepth, TileWork& work) const;
   template <class Entries>
   void CastLeg(const Entries& entries, typename Entries::Workspace& found, const TileLeg& leg,
-    PacketJob& job, Workspace& workspace, float* image, RayStatistics& sums) const;
-  void CastBatch(const LegBatch& batch, PacketJob& job, std::vector<PacketResult>& results) const;
+    TileWork& work) const;
+  void CastBatch(const LegBatch& batch, PacketJob& job, Workspace& workspace) const;
+  template <class Entries>
+  void JoinMeasured(const Entries& entries, int frame, const TileLeg& leg, const LegBatch& batch,
+    std::size_t ray, Workspace& workspace) const;
   void Show(const LegBatch& batch, const TileLeg& leg, const std::vector<PacketResult>& results,
     float* image, RayStatistics& sums) const;
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Volume/Refracted/RayLegs.h"
 
+#include <glm/geometric.hpp>
+
 namespace meniscus
 {
 namespace
@@ -66,6 +68,20 @@ bool RayLegs::Find(int tile, int pixel, int number, RayLeg& leg) const
     number + 1 < this->GetNumberOfLegs() ? this->GetTile(number + 1, tile) : nullptr;
   leg.End = next ? next[pixel].Depth : std::numeric_limits<double>::infinity();
   return true;
+}
+
+//------------------------------------------------------------------------------
+double RayLegs::GetLengthBefore(int tile, int pixel, int number, double depth) const
+{
+  double length = 0.0;
+  for (int k = 0; k < number; ++k)
+  {
+    RayLeg leg;
+    this->Find(tile, pixel, k, leg);
+    const double begin = k == 0 ? depth : leg.Depth;
+    length += (leg.End - begin) * glm::length(this->Sight.ViewToWorld * leg.Step);
+  }
+  return length;
 }
 
 }

@@ -96,6 +96,12 @@ public:
    * @param pixel number of the pixel in the tile, in rows of RefractedRayTiles::TileSize.
    */
   bool Find(int tile, int pixel, int number, RayLeg& leg) const;
+  /**
+   * World length of a pixel's ray from a depth on leg 0 to the beginning of leg number `number`; 0
+   * for leg 0.
+   * @pre Find() returns true.
+   */
+  double GetLengthBefore(int tile, int pixel, int number, double depth) const;
 
 private:
   RayFrame Sight;

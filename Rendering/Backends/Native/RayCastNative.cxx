@@ -5,7 +5,6 @@
 #include "Filters/Common/ThreadedLoop.h"
 #include "Rendering/Backends/RayCastFrame.h"
 #include "Rendering/Backends/RayCastTables.h"
-#include "Volume/Rays/PlacedVertices.h"
 
 #include "vtkSMPThreadLocal.h"
 #include "vtkSMPTools.h"
@@ -55,51 +54,10 @@ void ClearRows(const BoundaryRaster::PixelBox& box, int width, std::vector<float
 }
 
 //------------------------------------------------------------------------------
-RayCastNative::RayCastNative()
-  : Set(BestInstructionSet())
-{
-}
-
-//------------------------------------------------------------------------------
-void RayCastNative::UpdateProperty(const VolumePropertyTables& property)
-{
-  this->Tables.Intervals = PackIntervals(property.GetIntervals());
-  this->Tables.GradientIntervals = PackIntervals(property.GetGradientIntervals());
-  this->Tables.OtherIntervals.clear();
-  for (const std::vector<TransferFunctionInterval>& intervals : property.GetOtherIntervals())
-  {
-    this->Tables.OtherIntervals.push_back(PackIntervals(intervals));
-  }
-  this->Tables.Surfaces.clear();
-  for (const Isosurface& surface : property.GetIsosurfaces())
-  {
-    const glm::vec3& color = surface.Color;
-    this->Tables.Surfaces.push_back(
-      { surface.Scalar, surface.Opacity, { color.r, color.g, color.b } });
-  }
-}
-
-//------------------------------------------------------------------------------
-std::int64_t RayCastNative::GetPropertyBytes() const
-{
-  std::int64_t bytes = BytesOf(this->Tables.Intervals) + BytesOf(this->Tables.Surfaces) +
-    BytesOf(this->Tables.GradientIntervals);
-  for (const std::vector<PacketInterval>& intervals : this->Tables.OtherIntervals)
-  {
-    bytes += BytesOf(intervals);
-  }
-  return bytes;
-}
-
-//------------------------------------------------------------------------------
 std::string RayCastNative::Update(const RayCastRequest& request)
 {
   const RayCastTables& tables = request.Tables;
-  if (this->PropertyVersion != tables.Property.GetVersion())
-  {
-    this->UpdateProperty(tables.Property);
-    this->PropertyVersion = tables.Property.GetVersion();
-  }
+  this->Scene.UpdateProperty(tables.Property);
   for (const RayCastTableState& wanted : tables.ListWanted(request.Frame))
   {
     this->Counter.Count(wanted, this->SizeOf(wanted.Table, tables));
@@ -131,7 +89,7 @@ std::int64_t RayCastNative::SizeOf(RayCastTable table, const RayCastTables& tabl
     case RayCastTable::Components:
       return TableCounter::SizeOf(tables.Components.GetValues());
     case RayCastTable::Functions:
-      return this->GetPropertyBytes();
+      return this->Scene.GetPropertyBytes();
     case RayCastTable::PreIntegration:
       return TableCounter::SizeOf(tables.PreIntegration.GetTable().GetValues());
     case RayCastTable::RefractedRays:
@@ -142,54 +100,10 @@ std::int64_t RayCastNative::SizeOf(RayCastTable table, const RayCastTables& tabl
 }
 
 //------------------------------------------------------------------------------
-TileCaster::Scene RayCastNative::MakeScene(const RayCastRequest& request)
-{
-  RayCastTables& tables = request.Tables;
-  const RayCastFrame& frame = request.Frame;
-  const RayCastOptics& optics = frame.Optics;
-  TileCaster::Scene scene;
-  scene.Mesh = &tables.Input.GetMesh();
-  scene.Boundary = &scene.Mesh->GetBoundary();
-  scene.Tables = &this->Tables;
-  scene.Set = this->Set;
-  scene.CellScalars = optics.CellScalars ? tables.Input.GetCellScalars().data() : nullptr;
-  scene.Lighting = optics.Shading ? &optics.Lighting : nullptr;
-  scene.VertexGradients =
-    optics.VertexGradients ? tables.VertexGradients.GetValues().data() : nullptr;
-  scene.CellGradients =
-    optics.UsesCellGradients() ? tables.CellGradients.GetValues().data() : nullptr;
-  scene.GradientToFrame = optics.GradientToFrame;
-  scene.GradientOpacity = optics.GradientOpacity;
-  scene.GradientMagnitude = optics.GradientMagnitude;
-  scene.Blending = optics.Blending;
-  scene.Mixture = optics.Components;
-  scene.Components = optics.HasComponents() ? tables.Components.GetValues().data() : nullptr;
-  scene.DataRange = optics.DataRange;
-  scene.PreIntegration = optics.PreIntegrated ? &tables.PreIntegration.GetTable() : nullptr;
-  scene.ClippingPlanes = optics.ClippingPlanes;
-  scene.TerminationTransmittance = static_cast<float>(frame.TerminationTransmittance());
-  if (frame.Refracting.Met)
-  {
-    scene.Refracted = tables.Membrane.See(tables.Input);
-  }
-  scene.Refracted.Drawn = LegsOf(frame.Refracting.Part);
-  return scene;
-}
-
-//------------------------------------------------------------------------------
 std::string RayCastNative::Cast(const RayCastRequest& request, RayCastTarget& target)
 {
-  TileCaster::Scene scene = this->MakeScene(request);
-  scene.Rays = FixedPointRays(request.Frame.Rays, target.GetWidth(), target.GetHeight());
-  const VolumeInput& input = request.Tables.Input;
-  const TableVersions versions{ input.GetMeshVersion(), input.GetScalarVersion() };
-  if (versions != this->PlacedVersions || !scene.Rays.PlacesAs(this->PlacedBy))
-  {
-    PlaceVertices(
-      input.GetMesh(), input.GetScalars(), scene.Rays, ThreadedLoop, this->Tables.Vertices);
-    this->PlacedBy = scene.Rays;
-    this->PlacedVersions = versions;
-  }
+  const TileCaster::Scene scene =
+    this->Scene.Make(request.Tables, request.Frame, target.GetWidth(), target.GetHeight());
   this->CastTiles(scene, target.ReadDepths(), target.GetDepthsOfImage());
   return target.WriteImage(this->Image, this->Filled);
 }
@@ -269,7 +183,7 @@ RayCastCounters RayCastNative::GetCounters()
   RayCastCounters counters;
   counters.UploadedBytes = this->Counter.GetBytes();
   counters.HostBytes =
-    BytesOf(this->Tables.Vertices) + BytesOf(this->Image) + this->GetPropertyBytes();
+    this->Scene.GetVertexBytes() + BytesOf(this->Image) + this->Scene.GetPropertyBytes();
   counters.CastPixels = this->CastPixels;
   return counters;
 }

@@ -3,11 +3,9 @@
 #ifndef meniscus_Rendering_Backends_Native_RayCastNative_h
 #define meniscus_Rendering_Backends_Native_RayCastNative_h
 
-#include "Common/TableVersion.h"
+#include "Rendering/Backends/Native/NativeScene.h"
 #include "Rendering/Backends/RayCastBackend.h"
 #include "Rendering/Backends/TableCounter.h"
-#include "Simd/InstructionSets.h"
-#include "Volume/Caster/PacketTables.h"
 #include "Volume/Caster/TileCaster.h"
 #include "Volume/Rays/RayStatistics.h"
 
@@ -18,8 +16,6 @@
 namespace meniscus
 {
 
-class VolumePropertyTables;
-
 /**
  * Ray caster on the CPU: SIMD packets of the widest instruction set there is, tiles in parallel by
  * vtkSMPTools. The image does not depend on the number of threads. Draws every frame; reads the
@@ -28,8 +24,6 @@ class VolumePropertyTables;
 class RayCastNative : public RayCastBackend
 {
 public:
-  RayCastNative();
-
   std::string CanDraw(const RayCastRequest&) override { return std::string(); }
   bool IsRepeatable() const override { return true; }
   std::string Update(const RayCastRequest& request) override;
@@ -38,11 +32,7 @@ public:
   RayCastCounters GetCounters() override;
 
 private:
-  void UpdateProperty(const VolumePropertyTables& property);
   std::int64_t SizeOf(RayCastTable table, const RayCastTables& tables) const;
-  /** Bytes of the tables of the transfer function. */
-  std::int64_t GetPropertyBytes() const;
-  TileCaster::Scene MakeScene(const RayCastRequest& request);
   /**
    * Casts the image, or the tiles of it in which a depth has changed.
    * @param depths  window depths in [0, 1], one per pixel, rows from below.
@@ -52,10 +42,7 @@ private:
   void CastTiles(const TileCaster::Scene& scene, const std::vector<float>& depths,
     const std::vector<float>* before);
 
-  PacketTables Tables;
-  FixedPointRays PlacedBy;
-  TableVersions PlacedVersions;
-  TableVersion PropertyVersion;
+  NativeScene Scene;
   TableCounter Counter;
   /** Image of the last frame, and the statistics of its tiles. */
   std::vector<float> Image;
@@ -64,7 +51,6 @@ private:
   RayCastImageBox Filled{ 0, 0, 0, 0 };
   std::vector<RayStatistics> OfTile;
   std::int64_t CastPixels = 0;
-  InstructionSet Set;
 };
 
 /** Makes the backend of one mapper. */

@@ -11,6 +11,7 @@
 #include "Volume/Optics/ComponentMixture.h"
 #include "Volume/Packet/Data/PacketOptics.h"
 #include "Volume/Packet/Data/PacketRays.h"
+#include "Volume/Packet/Data/RayMeasuring.h"
 
 #include <cstdint>
 
@@ -24,6 +25,10 @@ struct SurfaceLighting;
 struct PacketJob
 {
   BlendMode Blending;
+  /** Measurement that replaces the blend mode, with KeepsValues; see RayMeasuring.h. */
+  RayMeasuring Measuring;
+  /** True if bins emit light. */
+  bool Emitting;
   const PacketVertex* Vertices;
   /** Per cell, 4 ascending vertices, then 4 links (TetrahedralMesh::Cell). */
   const std::int32_t* Cells;
@@ -38,7 +43,7 @@ struct PacketJob
   ComponentMixture Mixture;
   /**
    * Three numbers per vertex, for mixtures of components: normalised scalars besides the main one,
-   * or a colour.
+   * or a colour. For RayMeasuring::VertexBins, the values of the bins.
    */
   const float* Components;
   /** Intervals of the functions of these scalars, if they have functions. */
@@ -57,7 +62,10 @@ struct PacketJob
    * Three numbers per vertex, in normalised model coordinates; null if gradients of cells are used.
    */
   const float* VertexGradients;
-  /** Three numbers per cell, where gradients of cells are needed. */
+  /**
+   * Three numbers per cell, where gradients of cells are needed. For RayMeasuring::CellBins, the
+   * values of the bins.
+   */
   const float* CellGradients;
   const glm::dmat3* GradientToFrame;
   /** Grid unit of x and y, in units of the frame. */
@@ -76,6 +84,11 @@ struct PacketJob
   bool KeepsValues;
   /** One result per ray. */
   PacketResult* Results;
+  /**
+   * Values of models with more of them than a result has, NumberOfMeasuredScalars per ray; null for
+   * other models.
+   */
+  float* Values;
 };
 
 }

@@ -4,10 +4,12 @@
 #define meniscus_Volume_Packet_Kernels_PacketCast_h
 
 #include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/BinMeasureModel.h"
 #include "Volume/Packet/Models/BlendModeModels.h"
 #include "Volume/Packet/Models/MultiComponentModel.h"
 #include "Volume/Packet/Models/PacketGradientShading.h"
 #include "Volume/Packet/Models/PreIntegratedModel.h"
+#include "Volume/Packet/Models/ScalarMeasureModel.h"
 #include "Volume/Packet/Walk/PacketWalk.h"
 
 namespace meniscus
@@ -97,9 +99,34 @@ void CastBlendMode(const PacketJob& job)
   }
 }
 
+/** Measures rays instead of drawing them. */
+template <class Simd>
+void MeasurePackets(const PacketJob& job)
+{
+  switch (job.Measuring)
+  {
+    case RayMeasuring::ScalarsAndOpticalDepth:
+      PacketWalk<Simd, ScalarMeasureModel<Simd, true>>(job).Run();
+      break;
+    case RayMeasuring::VertexBins:
+      PacketWalk<Simd, BinMeasureModel<Simd, false>>(job).Run();
+      break;
+    case RayMeasuring::CellBins:
+      PacketWalk<Simd, BinMeasureModel<Simd, true>>(job).Run();
+      break;
+    default:
+      PacketWalk<Simd, ScalarMeasureModel<Simd, false>>(job).Run();
+  }
+}
+
 template <class Simd>
 void CastPacketsWith(const PacketJob& job)
 {
+  if (job.Measuring != RayMeasuring::None)
+  {
+    MeasurePackets<Simd>(job);
+    return;
+  }
   if (job.SegmentTable)
   {
     PacketWalk<Simd, PreIntegratedModel<Simd>>(job).Run();

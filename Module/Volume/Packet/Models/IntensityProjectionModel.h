@@ -5,6 +5,7 @@
 #define meniscus_Volume_Packet_Models_IntensityProjectionModel_h
 
 #include "Volume/Packet/Data/PacketJob.h"
+#include "Volume/Packet/Models/CompensatedSum.h"
 #include "Volume/Packet/Models/PacketIntervals.h"
 
 #include <cstdint>
@@ -27,8 +28,6 @@ public:
   explicit IntensityProjectionModel(const PacketJob& job)
     : Blending(job.Blending)
     , Intervals(job.Intervals, job.NumberOfIntervals)
-    , Collected(Simd::Splat(0.0f))
-    , Rest(Simd::Splat(0.0f))
     , Seen(Simd::Splat(0.0f))
     , From(Simd::Splat(0.0f))
     , To(Simd::Splat(0.0f))
@@ -44,8 +43,7 @@ public:
     const Float neutral = Simd::Splat(this->Blending == BlendMode::MaximumIntensity
         ? -1.0e+30f
         : (this->Blending == BlendMode::MinimumIntensity ? 1.0e+30f : 0.0f));
-    this->Collected = Simd::Select(lanes, neutral, this->Collected);
-    this->Rest = Simd::Select(lanes, zero, this->Rest);
+    this->Collected.Reset(lanes, neutral);
     this->Seen = Simd::Select(lanes, zero, this->Seen);
   }
 
@@ -71,7 +69,7 @@ public:
   /** Value of each lane, and the length over which it was collected. */
   void Store(float (&values)[NumberOfValues][Simd::Width]) const
   {
-    Simd::Store(values[0], this->Collected);
+    Simd::Store(values[0], this->Collected.Get());
     Simd::Store(values[1], this->Seen);
   }
   static void Finish(
@@ -79,13 +77,10 @@ public:
 
 private:
   Mask Begin(Mask lanes, Float from, Float to, Float length);
-  void Collect(Mask lanes, Float term);
 
   BlendMode Blending;
   PacketIntervals<Simd> Intervals;
-  Float Collected;
-  /** Rounding error of the sum: long rays add thousands of small terms. */
-  Float Rest;
+  CompensatedSum<Simd> Collected;
   /** Length of the ray's segments so far. */
   Float Seen;
   Float From;
@@ -97,17 +92,6 @@ private:
 };
 
 //------------------------------------------------------------------------------
-/** Compensated summation (W. Kahan). */
-template <class Simd>
-inline void IntensityProjectionModel<Simd>::Collect(Mask lanes, Float term)
-{
-  const Float corrected = term - this->Rest;
-  const Float sum = this->Collected + corrected;
-  this->Rest = Simd::Select(lanes, (sum - this->Collected) - corrected, this->Rest);
-  this->Collected = Simd::Select(lanes, sum, this->Collected);
-}
-
-//------------------------------------------------------------------------------
 template <class Simd>
 auto IntensityProjectionModel<Simd>::Begin(Mask lanes, Float from, Float to, Float length) -> Mask
 {
@@ -116,15 +100,13 @@ auto IntensityProjectionModel<Simd>::Begin(Mask lanes, Float from, Float to, Flo
   switch (this->Blending)
   {
     case BlendMode::MaximumIntensity:
-      this->Collected =
-        Simd::Select(valid, Simd::Max(this->Collected, Simd::Max(from, to)), this->Collected);
+      this->Collected.Set(valid, Simd::Max(this->Collected.Get(), Simd::Max(from, to)));
       break;
     case BlendMode::MinimumIntensity:
-      this->Collected =
-        Simd::Select(valid, Simd::Min(this->Collected, Simd::Min(from, to)), this->Collected);
+      this->Collected.Set(valid, Simd::Min(this->Collected.Get(), Simd::Min(from, to)));
       break;
     case BlendMode::AverageIntensity:
-      this->Collect(valid, Simd::Splat(0.5f) * (from + to) * length);
+      this->Collected.Add(valid, Simd::Splat(0.5f) * (from + to) * length);
       break;
     default:
       this->From = Simd::Select(valid, from, this->From);
@@ -147,18 +129,10 @@ auto IntensityProjectionModel<Simd>::Advance(Mask lanes) -> Mask
   }
   const Float zero = Simd::Splat(0.0f);
   const Float half = Simd::Splat(0.5f);
+  const auto part = this->Intervals.FindPart(lanes, this->From, this->To);
   const auto& fields = this->Intervals.GetFields();
-  const Mask outside = lanes & ((this->From < fields.Lower) | (this->From > fields.Upper));
-  if (Simd::Bits(outside) != 0)
-  {
-    this->Intervals.Find(outside, this->From);
-  }
-  const Mask upward = lanes & (this->To > fields.Upper);
-  const Mask downward = lanes & (this->To < fields.Lower);
-  const Float to = Simd::Min(Simd::Max(this->To, fields.Lower), fields.Upper);
-  // 0 / 0, which Min() replaces by 1, if the scalar does not change.
-  const Float share = (to - this->From) / (this->To - this->From);
-  const Float length = Simd::Max(Simd::Min(share, Simd::Splat(1.0f)), zero) * this->Remaining;
+  const Float to = part.To;
+  const Float length = part.Share * this->Remaining;
   const auto valueAt = [&](Float scalar)
   {
     const Float attenuation =
@@ -168,11 +142,11 @@ auto IntensityProjectionModel<Simd>::Advance(Mask lanes) -> Mask
   };
   const Float sum =
     valueAt(this->From) + valueAt(to) + Simd::Splat(4.0f) * valueAt(half * (this->From + to));
-  this->Collect(lanes, length * Simd::Splat(1.0f / 6.0f) * sum);
+  this->Collected.Add(lanes, length * Simd::Splat(1.0f / 6.0f) * sum);
   this->Remaining = Simd::Select(lanes, this->Remaining - length, this->Remaining);
   this->From = Simd::Select(lanes, to, this->From);
-  this->Intervals.Move(upward, downward);
-  return upward | downward;
+  this->Intervals.Move(part.Upward, part.Downward);
+  return part.Upward | part.Downward;
 }
 
 //------------------------------------------------------------------------------

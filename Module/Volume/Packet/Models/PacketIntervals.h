@@ -62,6 +62,20 @@ public:
   /** Moves lanes to the interval that holds a scalar. */
   void Find(Mask lanes, Float scalar);
 
+  /** Part of a segment that lies in one interval. */
+  struct Part
+  {
+    /** Scalar at its end. */
+    Float To;
+    /** Fraction of the segment. */
+    Float Share;
+    /** Lanes whose segment goes on above or below the interval. */
+    Mask Upward;
+    Mask Downward;
+  };
+  /** Moves lanes to the intervals of `from`, and finds the parts of segments in them. */
+  Part FindPart(Mask lanes, Float from, Float to);
+
   /** Moves lanes by one interval; few segments leave their interval. */
   void Move(Mask upward, Mask downward)
   {
@@ -141,6 +155,25 @@ void PacketIntervals<Simd>::Find(Mask lanes, Float scalar)
   }
   this->At = Simd::Load(at);
   this->Fetch();
+}
+
+//------------------------------------------------------------------------------
+template <class Simd>
+inline auto PacketIntervals<Simd>::FindPart(Mask lanes, Float from, Float to) -> Part
+{
+  const Mask outside = lanes & ((from < this->Now.Lower) | (from > this->Now.Upper));
+  if (Simd::Bits(outside) != 0)
+  {
+    this->Find(outside, from);
+  }
+  Part part;
+  part.Upward = lanes & (to > this->Now.Upper);
+  part.Downward = lanes & (to < this->Now.Lower);
+  part.To = Simd::Min(Simd::Max(to, this->Now.Lower), this->Now.Upper);
+  // 0 / 0, which Min() replaces by 1, if the scalar does not change.
+  const Float share = (part.To - from) / (to - from);
+  part.Share = Simd::Max(Simd::Min(share, Simd::Splat(1.0f)), Simd::Splat(0.0f));
+  return part;
 }
 
 //------------------------------------------------------------------------------

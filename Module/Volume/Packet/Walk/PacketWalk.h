@@ -570,7 +570,15 @@ void PacketWalk<Simd, Model>::Finish(int lane)
   {
     values[k] = this->Values[k][lane];
   }
-  if (this->Job.KeepsValues)
+  if constexpr (Model::NumberOfValues > 4)
+  {
+    float* to = this->Job.Values + std::int64_t{ Model::NumberOfValues } * this->Ray[lane];
+    for (int k = 0; k < Model::NumberOfValues; ++k)
+    {
+      to[k] = values[k];
+    }
+  }
+  else if (this->Job.KeepsValues)
   {
     for (int k = 0; k < Model::NumberOfValues; ++k)
     {

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Volume_Caster_MeasuredRays_h
+#define meniscus_Volume_Caster_MeasuredRays_h
+
+#include "Volume/Packet/Data/RayMeasuring.h"
+#include "Volume/Refracted/RefractedRayTiles.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace meniscus
+{
+
+/** Measurement of the scalar along a ray; distances along the ray are in world units. */
+struct MeasuredScalar
+{
+  /** Length of the ray in cells with a scalar; 0 if it meets none. */
+  double Length = 0.0;
+  /** Integral of the normalised scalar. */
+  double Integral = 0.0;
+  double OpticalDepth = 0.0;
+  /** Distances of the first and of the last such point; not set if the length is 0. */
+  double First = 0.0;
+  double Last = 0.0;
+  /** Extremes of the normalised scalar and the first distances at which they are reached. */
+  double Lowest = 0.0;
+  double LowestAt = 0.0;
+  double Highest = 0.0;
+  double HighestAt = 0.0;
+
+  /** Adds a part of the ray that lies behind this one. */
+  void Join(const MeasuredScalar& behind);
+};
+
+/** Measurement of bins along a ray: integrals, or optical depth and light (MeasuredBins). */
+struct MeasuredBin
+{
+  std::array<double, 3> Integrals{};
+  double Light = 0.0;
+
+  /** Adds a part of the ray that lies behind this one. */
+  void Join(const MeasuredBin& behind);
+};
+
+/** Distance along a ray as a function of the depth on one of its legs. */
+struct LegDistance
+{
+  /** Distance at which the leg begins, and the depth there. */
+  double AtBegin = 0.0;
+  double BeginDepth = 0.0;
+  double PerDepth = 1.0;
+
+  double operator()(double depth) const
+  {
+    return this->AtBegin + (depth - this->BeginDepth) * this->PerDepth;
+  }
+};
+
+/** Reads NumberOfMeasuredScalars values of a leg. */
+MeasuredScalar ReadScalars(const float* values, const LegDistance& distance);
+/** Reads NumberOfMeasuredBins values of a leg. */
+MeasuredBin ReadBins(const float* values);
+
+/** Measurements of a tile's rays. Pixels are numbered in rows of RefractedRayTiles::TileSize. */
+struct MeasuredRays
+{
+  std::array<MeasuredScalar, RefractedRayTiles::RaysOfTile> Scalars;
+  std::array<MeasuredBin, RefractedRayTiles::RaysOfTile> Bins;
+};
+
+}
+
+#endif

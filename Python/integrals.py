@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Integrals along rays through a mesh, as arrays."""
+from vtkmodules.util.misc import calldata_type
+from vtkmodules.util.vtkConstants import VTK_STRING
+from vtkmodules.vtkCommonDataModel import vtkDataObject
+
+from .vtkMeniscus import vtkTetrahedraRayIntegral
+
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
+# Arrays that a switch of another name makes.
+_SWITCHES = {"MinimumDepth": "Minimum", "MaximumDepth": "Maximum"}
+_ARRAYS = ("Integral", "PathLength", "OpticalDepth", "FirstDepth", "LastDepth", "Minimum",
+           "MinimumDepth", "Maximum", "MaximumDepth", "RGBA", "EnergyBins")
+
+
+def _as_rows(array, width, height):
+    """Values of a VTK array as (height, width) or (height, width, components), without a copy."""
+    shape = [height, width]
+    if array.GetNumberOfComponents() > 1:
+        shape.append(array.GetNumberOfComponents())
+    view = memoryview(array).cast("B").cast("f", shape)
+    return view if numpy is None else numpy.asarray(view)
+
+
+def _set_bins(rays, bins):
+    """Sets each bin to a coefficient, or to (attenuation, emission, intensity)."""
+    rays.SetNumberOfEnergyBins(len(bins))
+    for number, values in enumerate(bins):
+        values = values if isinstance(values, (tuple, list)) else (values,)
+        setters = (rays.SetBinAttenuation, rays.SetBinEmission, rays.SetBinIntensity)
+        for setter, value in zip(setters, values):
+            setter(number, value)
+
+
+def _update(rays):
+    """Updates a filter; an error that it reports is a ValueError."""
+    errors = []
+
+    @calldata_type(VTK_STRING)
+    def note(_caller, _event, message):
+        errors.append(message)
+
+    ignored = rays.GetExecutive().AddObserver("ErrorEvent", lambda *_: None)
+    observer = rays.AddObserver("ErrorEvent", note)
+    try:
+        rays.Update()
+    finally:
+        rays.RemoveObserver(observer)
+        rays.GetExecutive().RemoveObserver(ignored)
+    if errors:
+        lines = [line.strip() for line in errors[0].splitlines() if line.strip()]
+        raise ValueError(lines[-1].split("): ", 1)[-1])
+
+
+def ray_integral(mesh, arrays="Integral", *, scalars=None, size=(256, 256), camera=None, bins=None,
+                 **properties):
+    """Casts one ray per pixel through a mesh and returns what it measures.
+
+    mesh: a VTK or PyVista dataset, or a filter whose output is one.
+    arrays: the name of an array of vtkTetrahedraRayIntegral, or several of them: Integral,
+        PathLength, OpticalDepth, FirstDepth, LastDepth, Minimum, MinimumDepth, Maximum,
+        MaximumDepth, RGBA, EnergyBins.
+    scalars: name of a point or cell array; default: the active scalars.
+    size: width and height of the image in pixels.
+    camera: a vtkCamera; default: parallel rays along Direction, around the bounding box.
+    bins: attenuation coefficients of energy bins, or tuples (attenuation, emission, intensity).
+    properties: properties of vtkTetrahedraRayIntegral, such as Direction=(0, -1, 0).
+
+    Returns 32-bit floats of the shape (height, width), for RGBA and several bins (height, width,
+    components), with rows from below: a numpy array or, without numpy, a memoryview. For several
+    arrays, returns a dictionary of these by name. Input that cannot be used is a ValueError.
+    """
+    names = [arrays] if isinstance(arrays, str) else list(arrays)
+    for name in names:
+        if name not in _ARRAYS:
+            raise ValueError("There is no array '%s'; the arrays are %s" % (
+                name, ", ".join(_ARRAYS)))
+    rays = vtkTetrahedraRayIntegral()
+    if hasattr(mesh, "GetOutputPort"):
+        rays.SetInputConnection(mesh.GetOutputPort())
+    else:
+        rays.SetInputData(mesh)
+    rays.ComputeIntegralOff()
+    for name in names:
+        getattr(rays, "SetCompute" + _SWITCHES.get(name, name))(True)
+    if scalars is not None:
+        rays.SetInputArrayToProcess(
+            0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS_THEN_CELLS, scalars)
+    rays.SetImageSize(*size)
+    if camera is not None:
+        rays.SetCamera(camera)
+    if bins is not None:
+        _set_bins(rays, bins)
+    for name, value in properties.items():
+        getattr(rays, "Set" + name)(value)
+    _update(rays)
+    points = rays.GetOutput().GetPointData()
+    found = {name: _as_rows(points.GetArray(name), *size) for name in names}
+    return found[arrays] if isinstance(arrays, str) else found

@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Integral/IntegralArrays.h"
+
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr const char* Names[NumberOfIntegralArrays] = { "Integral", "PathLength", "OpticalDepth",
+  "FirstDepth", "LastDepth", "Minimum", "MinimumDepth", "Maximum", "MaximumDepth", "RGBA",
+  "EnergyBins" };
+
+/** True for arrays with a number that only rays through the mesh have. */
+bool IsUndefinedOutside(IntegralArray array)
+{
+  return array >= IntegralArray::FirstDepth && array <= IntegralArray::MaximumDepth;
+}
+
+int ComponentsOf(IntegralArray array, int bins)
+{
+  return array == IntegralArray::EnergyBins ? bins : array == IntegralArray::RGBA ? 4 : 1;
+}
+
+}
+
+//------------------------------------------------------------------------------
+bool IntegralChoice::NeedsScalars() const
+{
+  bool needs = this->Has(IntegralArray::EnergyBins) && !this->HasBinArrays;
+  for (int array = 0; array <= static_cast<int>(IntegralArray::MaximumDepth); ++array)
+  {
+    needs = needs || this->Has(static_cast<IntegralArray>(array));
+  }
+  return needs;
+}
+
+//------------------------------------------------------------------------------
+bool IntegralChoice::NeedsScalarValues() const
+{
+  return this->Has(IntegralArray::Integral) || this->Has(IntegralArray::Minimum) ||
+    this->Has(IntegralArray::Maximum) ||
+    (this->Has(IntegralArray::EnergyBins) && !this->HasBinArrays);
+}
+
+//------------------------------------------------------------------------------
+std::int64_t IntegralChoice::GetNumbersPerPixel() const
+{
+  std::int64_t numbers = 0;
+  for (std::size_t i = 0; i < NumberOfIntegralArrays; ++i)
+  {
+    numbers +=
+      this->Wanted[i] ? ComponentsOf(static_cast<IntegralArray>(i), this->NumberOfBins) : 0;
+  }
+  return numbers;
+}
+
+//------------------------------------------------------------------------------
+IntegralArrays::IntegralArrays(
+  const IntegralChoice& choice, const std::vector<EnergyBin>& bins, std::int64_t pixels)
+  : Bins(bins)
+  , HasBinArrays(choice.HasBinArrays)
+{
+  for (std::size_t i = 0; i < NumberOfIntegralArrays; ++i)
+  {
+    if (!choice.Wanted[i])
+    {
+      continue;
+    }
+    const auto array = static_cast<IntegralArray>(i);
+    vtkFloatArray* made = this->Arrays[i];
+    made->SetName(Names[i]);
+    made->SetNumberOfComponents(ComponentsOf(array, choice.NumberOfBins));
+    made->SetNumberOfTuples(pixels);
+    made->Fill(IsUndefinedOutside(array) ? std::numeric_limits<double>::quiet_NaN() : 0.0);
+    for (int bin = 0; array == IntegralArray::EnergyBins && bin < choice.NumberOfBins; ++bin)
+    {
+      made->FillTypedComponent(
+        bin, static_cast<float>(this->Bins[static_cast<std::size_t>(bin)].Intensity));
+    }
+    this->Values[i] = made->GetPointer(0);
+  }
+}
+
+//------------------------------------------------------------------------------
+void IntegralArrays::SetScalar(
+  std::int64_t pixel, const MeasuredScalar& measured, const ScalarNormalization& normalization)
+{
+  if (!(measured.Length > 0.0))
+  {
+    return;
+  }
+  const double unit = 1.0 / normalization.Scale;
+  const double integral = normalization.Offset * measured.Length + unit * measured.Integral;
+  this->Set(IntegralArray::Integral, pixel, integral);
+  this->Set(IntegralArray::PathLength, pixel, measured.Length);
+  this->Set(IntegralArray::OpticalDepth, pixel, measured.OpticalDepth);
+  this->Set(IntegralArray::FirstDepth, pixel, measured.First);
+  this->Set(IntegralArray::LastDepth, pixel, measured.Last);
+  this->Set(IntegralArray::Minimum, pixel, normalization.Offset + unit * measured.Lowest);
+  this->Set(IntegralArray::MinimumDepth, pixel, measured.LowestAt);
+  this->Set(IntegralArray::Maximum, pixel, normalization.Offset + unit * measured.Highest);
+  this->Set(IntegralArray::MaximumDepth, pixel, measured.HighestAt);
+  float* bins = this->Values[static_cast<std::size_t>(IntegralArray::EnergyBins)];
+  if (bins && !this->HasBinArrays)
+  {
+    const auto count = static_cast<std::int64_t>(this->Bins.size());
+    for (std::int64_t bin = 0; bin < count; ++bin)
+    {
+      bins[count * pixel + bin] = static_cast<float>(
+        TransmittedIntensity(this->Bins[static_cast<std::size_t>(bin)], integral));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void IntegralArrays::SetBins(std::int64_t pixel, const MeasuredBin& measured,
+  const EnergyBinTables::Table& table, bool isEmitting)
+{
+  const auto count = static_cast<std::int64_t>(this->Bins.size());
+  float* bins = this->Values[static_cast<std::size_t>(IntegralArray::EnergyBins)] + count * pixel;
+  for (int i = 0; i < table.NumberOfBins; ++i)
+  {
+    const int bin = table.FirstBin + i;
+    const double depth = measured.Integrals[static_cast<std::size_t>(i)];
+    const double source = this->Bins[static_cast<std::size_t>(bin)].Intensity;
+    bins[bin] = static_cast<float>(source * std::exp(-depth) + (isEmitting ? measured.Light : 0.0));
+  }
+}
+
+//------------------------------------------------------------------------------
+void IntegralArrays::AddTo(vtkImageData* image)
+{
+  bool isFirst = true;
+  for (std::size_t i = 0; i < NumberOfIntegralArrays; ++i)
+  {
+    if (!this->Values[i])
+    {
+      continue;
+    }
+    image->GetPointData()->AddArray(this->Arrays[i]);
+    if (isFirst)
+    {
+      image->GetPointData()->SetActiveScalars(Names[i]);
+      isFirst = false;
+    }
+  }
+}
+
+}

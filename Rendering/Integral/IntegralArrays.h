@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_Integral_IntegralArrays_h
+#define meniscus_Rendering_Integral_IntegralArrays_h
+
+#include "Rendering/Integral/EnergyBins.h"
+#include "Volume/Caster/MeasuredRays.h"
+#include "Volume/Optics/ScalarNormalization.h"
+
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+class vtkImageData;
+
+namespace meniscus
+{
+
+/** Arrays of an image of integrals. */
+enum class IntegralArray
+{
+  Integral,
+  PathLength,
+  OpticalDepth,
+  FirstDepth,
+  LastDepth,
+  Minimum,
+  MinimumDepth,
+  Maximum,
+  MaximumDepth,
+  RGBA,
+  EnergyBins,
+  NumberOfArrays
+};
+constexpr std::size_t NumberOfIntegralArrays =
+  static_cast<std::size_t>(IntegralArray::NumberOfArrays);
+
+/** Arrays that are wanted. */
+struct IntegralChoice
+{
+  std::array<bool, NumberOfIntegralArrays> Wanted{};
+  /** Number of energy bins, at least 1 if their array is wanted. */
+  int NumberOfBins = 0;
+  /** True if the bins' attenuations are arrays, otherwise they are multiples of the scalar. */
+  bool HasBinArrays = false;
+
+  bool Has(IntegralArray array) const { return this->Wanted[static_cast<std::size_t>(array)]; }
+  /** True if the scalar is to be measured, and if its values and not only its presence count. */
+  bool NeedsScalars() const;
+  bool NeedsScalarValues() const;
+  /** True if an array needs a volume property. */
+  bool NeedsProperty() const
+  {
+    return this->Has(IntegralArray::RGBA) || this->Has(IntegralArray::OpticalDepth);
+  }
+  bool NeedsBinArrays() const { return this->HasBinArrays && this->Has(IntegralArray::EnergyBins); }
+  /** Numbers per pixel of all arrays. */
+  std::int64_t GetNumbersPerPixel() const;
+};
+
+/** The arrays of an image in memory, filled pixel by pixel. */
+class IntegralArrays
+{
+public:
+  /** Makes the arrays that are wanted, with the values of rays that meet nothing. */
+  IntegralArrays(
+    const IntegralChoice& choice, const std::vector<EnergyBin>& bins, std::int64_t pixels);
+
+  /** Sets the values that are measured of the scalar. */
+  void SetScalar(
+    std::int64_t pixel, const MeasuredScalar& measured, const ScalarNormalization& normalization);
+  /** Sets the bins of a table. */
+  void SetBins(std::int64_t pixel, const MeasuredBin& measured, const EnergyBinTables::Table& table,
+    bool isEmitting);
+  /** Premultiplied RGBA of all pixels; null if it is not wanted. */
+  float* GetImage() { return this->Values[static_cast<std::size_t>(IntegralArray::RGBA)]; }
+
+  /** Adds the arrays to the points of an image; the first one becomes the active scalars. */
+  void AddTo(vtkImageData* image);
+
+private:
+  void Set(IntegralArray array, std::int64_t pixel, double value)
+  {
+    if (float* values = this->Values[static_cast<std::size_t>(array)])
+    {
+      values[pixel] = static_cast<float>(value);
+    }
+  }
+
+  std::array<vtkNew<vtkFloatArray>, NumberOfIntegralArrays> Arrays;
+  /** Values of the arrays, null for those that are not wanted. */
+  std::array<float*, NumberOfIntegralArrays> Values{};
+  std::vector<EnergyBin> Bins;
+  bool HasBinArrays;
+};
+
+}
+
+#endif

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/Integral/IntegralCaster.h"
+
+#include "Filters/Common/ThreadedLoop.h"
+#include "Rendering/Backends/RayCastFrame.h"
+
+#include "vtkSMPThreadLocal.h"
+#include "vtkSMPTools.h"
+#include "vtkType.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace meniscus
+{
+namespace
+{
+
+/**
+ * Tiles between two reports of progress, for each thread: at most about 1 ms of work each, and
+ * enough of them that the threads rarely wait for each other at the end.
+ */
+constexpr int TilesPerThread = 16;
+
+RayCastFrame FrameOf(const RayCastTables& tables, const IntegralView& view)
+{
+  RayCastFrame frame;
+  frame.Rays = view.Rays;
+  frame.Optics.CellScalars = tables.Input.GetFieldAssociation() == FieldAssociation::Cells;
+  frame.Optics.DataRange = tables.Input.GetNormalizedRange();
+  return frame;
+}
+
+/** Calls body(pixel in the image, pixel in the tile) for all pixels of a tile. */
+template <class Body>
+void ForEachPixel(const TileCaster& caster, int tile, Body&& body)
+{
+  const BoundaryRaster::PixelBox box = caster.GetBox(tile);
+  for (int row = box.Bottom; row < box.Top; ++row)
+  {
+    for (int column = box.Left; column < box.Right; ++column)
+    {
+      const int inTile = (row - box.Bottom) * RefractedRayTiles::TileSize + column - box.Left;
+      body(std::int64_t{ row } * caster.GetWidth() + column, static_cast<std::size_t>(inTile));
+    }
+  }
+}
+
+}
+
+//------------------------------------------------------------------------------
+/** Processes the tiles of a scene on all threads. Returns false after an abort. */
+bool IntegralCaster::Cast(
+  const TileCaster::Scene& scene, const TileBody& body, const Progress& progress)
+{
+  const TileCaster caster(scene, ThreadedLoop);
+  const int tiles = caster.GetNumberOfTiles();
+  std::vector<RayStatistics> ofTile(static_cast<std::size_t>(tiles));
+  vtkSMPThreadLocal<TileCaster::Workspace> workspaces;
+  const int step = TilesPerThread * std::max(1, vtkSMPTools::GetEstimatedNumberOfThreads());
+  for (int first = 0; first < tiles && !this->Aborted; first += step)
+  {
+    const int last = std::min(tiles, first + step);
+    vtkSMPTools::For(first, last, 1,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        TileCaster::Workspace& workspace = workspaces.Local();
+        for (auto tile = static_cast<int>(begin); tile < end; ++tile)
+        {
+          ofTile[static_cast<std::size_t>(tile)] = body(caster, tile, workspace);
+        }
+      });
+    const double done = static_cast<double>(last) / tiles;
+    this->Aborted = !progress((this->DoneCasts + done) / this->PlannedCasts);
+  }
+  RayStatistics sums;
+  for (const RayStatistics& tile : ofTile)
+  {
+    sums.Rays += tile.Rays;
+    sums.Steps += tile.Steps;
+    sums.Lost += tile.Lost;
+  }
+  this->Statistics.Rays = sums.Rays;
+  this->Statistics.Steps += sums.Steps;
+  this->Statistics.Lost += sums.Lost;
+  ++this->Casts;
+  ++this->DoneCasts;
+  return !this->Aborted;
+}
+
+//------------------------------------------------------------------------------
+bool IntegralCaster::MeasureScalars(TileCaster::Scene scene, const IntegralChoice& choice,
+  IntegralArrays& arrays, const Progress& progress)
+{
+  scene.Measuring = choice.Has(IntegralArray::OpticalDepth) ? RayMeasuring::ScalarsAndOpticalDepth
+                                                            : RayMeasuring::Scalars;
+  const ScalarNormalization& normalization = this->Input.GetNormalization();
+  return this->Cast(
+    scene,
+    [&](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)
+    {
+      const RayStatistics sums = caster.Measure(tile, workspace);
+      ForEachPixel(caster, tile,
+        [&](std::int64_t pixel, std::size_t inTile)
+        { arrays.SetScalar(pixel, workspace.Measured.Scalars[inTile], normalization); });
+      return sums;
+    },
+    progress);
+}
+
+//------------------------------------------------------------------------------
+bool IntegralCaster::MeasureBins(TileCaster::Scene scene, const EnergyBinTables::Table& table,
+  IntegralArrays& arrays, const Progress& progress)
+{
+  const bool ofCells = this->Bins.GetFieldAssociation() == FieldAssociation::Cells;
+  scene.Measuring = ofCells ? RayMeasuring::CellBins : RayMeasuring::VertexBins;
+  scene.Emitting = this->Bins.IsEmitting();
+  scene.CellScalars = nullptr;
+  (ofCells ? scene.CellGradients : scene.Components) = table.Values.data();
+  return this->Cast(
+    scene,
+    [&](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)
+    {
+      const RayStatistics sums = caster.Measure(tile, workspace);
+      ForEachPixel(caster, tile,
+        [&](std::int64_t pixel, std::size_t inTile)
+        { arrays.SetBins(pixel, workspace.Measured.Bins[inTile], table, scene.Emitting); });
+      return sums;
+    },
+    progress);
+}
+
+//------------------------------------------------------------------------------
+std::string IntegralCaster::Measure(const IntegralChoice& choice, const IntegralView& view,
+  const int size[2], IntegralArrays& arrays, const Progress& progress)
+{
+  this->Statistics = RayStatistics();
+  this->Aborted = false;
+  RayCastFrame frame = FrameOf(*this, view);
+  if (this->Membrane.GetNumberOfInterfaces() > 0)
+  {
+    RefractedRayField::View sight;
+    sight.Frame = view.Rays;
+    sight.Width = size[0];
+    sight.Height = size[1];
+    sight.Center = view.Center;
+    sight.EyeDepth = view.BeginDepth;
+    frame.Refracting.Met = this->Membrane.Trace(sight, this->Input);
+    const std::string mismatch = this->Membrane.DescribeMismatch();
+    if (!mismatch.empty())
+    {
+      return mismatch;
+    }
+  }
+  this->Scenes.UpdateProperty(this->Property);
+  TileCaster::Scene scene = this->Scenes.Make(*this, frame, size[0], size[1]);
+  scene.MeasuredFrom = view.MeasuredFrom;
+  this->DoneCasts = 0;
+  this->PlannedCasts = static_cast<int>(choice.NeedsScalars()) +
+    static_cast<int>(choice.Has(IntegralArray::RGBA)) +
+    (choice.NeedsBinArrays() ? static_cast<int>(this->Bins.GetTables().size()) : 0);
+  if (choice.NeedsScalars() && !this->MeasureScalars(scene, choice, arrays, progress))
+  {
+    return std::string();
+  }
+  for (std::size_t i = 0; choice.NeedsBinArrays() && i < this->Bins.GetTables().size(); ++i)
+  {
+    if (!this->MeasureBins(scene, this->Bins.GetTables()[i], arrays, progress))
+    {
+      return std::string();
+    }
+  }
+  if (choice.Has(IntegralArray::RGBA))
+  {
+    float* image = arrays.GetImage();
+    this->Cast(
+      scene,
+      [image](const TileCaster& caster, int tile, TileCaster::Workspace& workspace)
+      { return caster.Cast(tile, nullptr, image, workspace); },
+      progress);
+  }
+  return std::string();
+}
+
+}

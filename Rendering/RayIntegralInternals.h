@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Rendering_RayIntegralInternals_h
+#define meniscus_Rendering_RayIntegralInternals_h
+
+#include "Rendering/Integral/EnergyBins.h"
+#include "Rendering/Integral/IntegralCaster.h"
+#include "vtkTetrahedraRayIntegral.h"
+
+#include "vtkNew.h"
+#include "vtkVolumeProperty.h"
+
+#include <vector>
+
+class vtkTetrahedraRayIntegral::vtkInternals : public meniscus::IntegralCaster
+{
+public:
+  std::vector<meniscus::EnergyBin> EnergyBins;
+  /** Stand in for those of the volume property where nothing depends on it. */
+  vtkNew<vtkVolumeProperty> NoProperty;
+  meniscus::FunctionFeatures NoFeatures;
+};
+
+#endif

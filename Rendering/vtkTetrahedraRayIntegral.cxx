@@ -1,0 +1,521 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Rendering/RayIntegralInternals.h"
+
+#include "Filters/Interface/InterfaceProperties.h"
+
+#include "vtkAbstractMapper.h"
+#include "vtkCamera.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMath.h"
+#include "vtkMatrix3x3.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkVolumeProperty.h"
+#include <vtksys/SystemInformation.hxx>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+/** Share of the progress that the mesh takes, if it is built. */
+constexpr double ShareOfMesh = 0.5;
+
+glm::dvec3 VectorOf(const double (&values)[3])
+{
+  return glm::dvec3(values[0], values[1], values[2]);
+}
+
+/** Bounds of all data sets. */
+std::vector<double> BoundsOf(const meniscus::InputBlocks& blocks)
+{
+  std::vector<double> bounds{ 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+  for (const meniscus::InputPart& part : blocks.Parts)
+  {
+    double box[6];
+    part.Grid->GetBounds(box);
+    const bool isFirst = bounds[0] > bounds[1];
+    for (int i = 0; i < 6; i += 2)
+    {
+      bounds[i] = isFirst ? box[i] : std::min(bounds[i], box[i]);
+      bounds[i + 1] = isFirst ? box[i + 1] : std::max(bounds[i + 1], box[i + 1]);
+    }
+  }
+  return bounds;
+}
+
+/** Origin, spacing and direction of an image whose points are the centres of a rectangle's parts.
+ */
+struct ImagePlace
+{
+  double Origin[3] = { 0.0, 0.0, 0.0 };
+  double Spacing[3] = { 1.0, 1.0, 1.0 };
+  double Direction[9] = { 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 };
+};
+
+ImagePlace PlaceOf(const meniscus::ParallelRectangle& rectangle, const int size[2])
+{
+  const glm::dvec3 steps[2] = { rectangle.Axis1 / static_cast<double>(size[0]),
+    rectangle.Axis2 / static_cast<double>(size[1]) };
+  const glm::dvec3 columns[3] = { glm::normalize(steps[0]), glm::normalize(steps[1]),
+    -rectangle.GetDirection() };
+  ImagePlace place;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place.Origin[axis] = rectangle.Origin[axis] + 0.5 * (steps[0][axis] + steps[1][axis]);
+    place.Spacing[axis] = axis < 2 ? glm::length(steps[axis]) : 1.0;
+    for (int column = 0; column < 3; ++column)
+    {
+      place.Direction[3 * axis + column] = columns[column][axis];
+    }
+  }
+  return place;
+}
+
+/** Error for an image that exceeds the computer's memory; empty if it fits. */
+std::string DescribeExcess(const meniscus::IntegralChoice& choice, const int size[2])
+{
+  const double bytes = static_cast<double>(sizeof(float)) * size[0] * size[1] *
+    static_cast<double>(choice.GetNumbersPerPixel());
+  vtksys::SystemInformation system;
+  const double memory = 1024.0 * static_cast<double>(system.GetHostMemoryTotal());
+  if (bytes <= memory)
+  {
+    return std::string();
+  }
+  std::ostringstream text;
+  text << "An image of " << size[0] << " by " << size[1] << " pixels with "
+       << choice.GetNumbersPerPixel() << " numbers each needs " << bytes / 1.0e9
+       << " GB; the computer's memory has " << memory / 1.0e9 << " GB";
+  return text.str();
+}
+
+}
+
+/** One execution of the filter. */
+struct vtkTetrahedraRayIntegral::Request
+{
+  meniscus::IntegralChoice Choice;
+  meniscus::InputBlocks Scalars;
+  meniscus::InputBlocks Attenuation;
+  meniscus::InputBlocks Emission;
+  /** True if the attenuation is used as the scalar. */
+  bool BinsAlone = false;
+  meniscus::ParallelRectangle Rectangle;
+  meniscus::IntegralView View;
+};
+
+vtkStandardNewMacro(vtkTetrahedraRayIntegral);
+meniscusInterfacePropertiesMacro(vtkTetrahedraRayIntegral);
+
+//------------------------------------------------------------------------------
+vtkTetrahedraRayIntegral::vtkTetrahedraRayIntegral()
+  : Internals(new vtkInternals)
+{
+  this->Interfaces = meniscus::MakeInterfaces();
+  this->SetNumberOfInputPorts(2);
+  this->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
+}
+
+//------------------------------------------------------------------------------
+vtkTetrahedraRayIntegral::~vtkTetrahedraRayIntegral()
+{
+  this->SetAttenuationArrayName(nullptr);
+  this->SetEmissionArrayName(nullptr);
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayIntegral::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+    return 1;
+  }
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  // The executive looks at the first type only; otherwise it would iterate over the blocks.
+  for (const char* type : { "vtkCompositeDataSet", "vtkDataSet" })
+  {
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), type);
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayIntegral::RequestInformation(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** vtkNotUsed(inputs), vtkInformationVector* outputs)
+{
+  // Errors in the size are reported in RequestData, when there is an output to empty.
+  const int extent[6] = { 0, std::max(this->ImageSize[0], 1) - 1, 0,
+    std::max(this->ImageSize[1], 1) - 1, 0, 0 };
+  vtkInformation* info = outputs->GetInformationObject(0);
+  info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+  const meniscus::ParallelRectangle rectangle{ VectorOf(this->FrameOrigin),
+    VectorOf(this->FrameAxis1), VectorOf(this->FrameAxis2) };
+  ImagePlace place;
+  // The rectangle of FITTED is known when the input is.
+  if (this->FrameMode == PARALLEL && this->ImageSize[0] > 0 && this->ImageSize[1] > 0 &&
+    meniscus::DescribeFault(rectangle).empty())
+  {
+    place = PlaceOf(rectangle, this->ImageSize);
+  }
+  info->Set(vtkDataObject::ORIGIN(), place.Origin, 3);
+  info->Set(vtkDataObject::SPACING(), place.Spacing, 3);
+  info->Set(vtkDataObject::DIRECTION(), place.Direction, 9);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, -1);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Every part of the image needs the whole mesh and whole surfaces.
+int vtkTetrahedraRayIntegral::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
+  vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  for (int port = 0; port < 2; ++port)
+  {
+    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = inputs[port]->GetInformationObject(i);
+      info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      // The executive has copied the extent of the output.
+      info->Remove(Pipeline::UPDATE_EXTENT());
+      if (info->Has(Pipeline::WHOLE_EXTENT()))
+      {
+        info->Set(Pipeline::UPDATE_EXTENT(), info->Get(Pipeline::WHOLE_EXTENT()), 6);
+      }
+    }
+  }
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayIntegral::Tell(const meniscus::InputReport& report)
+{
+  if (!report.Warning.empty())
+  {
+    vtkWarningMacro(<< report.Warning);
+  }
+  return this->TellError(report.Error);
+}
+
+//------------------------------------------------------------------------------
+/** Reports an error, if there is one. Returns true if there is none. */
+bool vtkTetrahedraRayIntegral::TellError(const std::string& error)
+{
+  if (!error.empty())
+  {
+    vtkErrorMacro(<< error << "; the output is empty.");
+  }
+  return error.empty();
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayIntegral::ChooseArrays(Request& request)
+{
+  using Array = meniscus::IntegralArray;
+  meniscus::IntegralChoice& choice = request.Choice;
+  const auto want = [&choice](Array array, vtkTypeBool wanted)
+  { choice.Wanted[static_cast<std::size_t>(array)] = wanted != 0; };
+  want(Array::Integral, this->ComputeIntegral);
+  want(Array::PathLength, this->ComputePathLength);
+  want(Array::OpticalDepth, this->ComputeOpticalDepth);
+  want(Array::FirstDepth, this->ComputeFirstDepth);
+  want(Array::LastDepth, this->ComputeLastDepth);
+  want(Array::Minimum, this->ComputeMinimum);
+  want(Array::MinimumDepth, this->ComputeMinimum);
+  want(Array::Maximum, this->ComputeMaximum);
+  want(Array::MaximumDepth, this->ComputeMaximum);
+  want(Array::RGBA, this->ComputeRGBA);
+  want(Array::EnergyBins, this->ComputeEnergyBins);
+  choice.HasBinArrays = this->AttenuationArrayName != nullptr;
+  choice.NumberOfBins = this->GetNumberOfEnergyBins();
+  request.BinsAlone = choice.NeedsBinArrays() && !choice.NeedsScalars() && !choice.NeedsProperty();
+  if (this->ImageSize[0] < 1 || this->ImageSize[1] < 1)
+  {
+    return this->TellError("ImageSize must be at least 1 by 1, not " +
+      std::to_string(this->ImageSize[0]) + " by " + std::to_string(this->ImageSize[1]));
+  }
+  if (choice.GetNumbersPerPixel() == 0 && !choice.NeedsBinArrays())
+  {
+    return this->TellError(this->ComputeEnergyBins
+        ? "There are no energy bins; set their number, or an attenuation array"
+        : "No array is switched on");
+  }
+  if (choice.NeedsProperty() && !this->VolumeProperty)
+  {
+    return this->TellError("RGBA and OpticalDepth need a volume property");
+  }
+  const std::vector<meniscus::EnergyBin>& bins = this->Internals->EnergyBins;
+  const bool finite = std::all_of(bins.begin(), bins.end(),
+    [](const meniscus::EnergyBin& bin)
+    {
+      return vtkMath::IsFinite(bin.Attenuation) && vtkMath::IsFinite(bin.Emission) &&
+        vtkMath::IsFinite(bin.Intensity);
+    });
+  return this->TellError(finite ? std::string() : "A number of an energy bin is not finite");
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayIntegral::CollectInput(vtkDataObject* input, Request& request)
+{
+  const auto collect = [input](const char* name, int component, meniscus::InputBlocks& blocks)
+  {
+    meniscus::ScalarSelection selection;
+    selection.ScalarMode = VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
+    selection.AccessMode = VTK_GET_ARRAY_BY_NAME;
+    selection.ArrayName = name;
+    selection.Component = component;
+    meniscus::InputReport report = meniscus::CollectInputBlocks(input, selection, blocks);
+    if (!report.Error.empty())
+    {
+      selection.ScalarMode = VTK_SCALAR_MODE_USE_CELL_FIELD_DATA;
+      const meniscus::InputReport ofCells = meniscus::CollectInputBlocks(input, selection, blocks);
+      // If there is no such array of cells, the error about that of points says more.
+      report = ofCells.Error.empty() ? ofCells : report;
+    }
+    return report;
+  };
+  if (request.Choice.NeedsBinArrays() &&
+    (!this->Tell(collect(this->AttenuationArrayName, 0, request.Attenuation)) ||
+      (this->EmissionArrayName &&
+        !this->Tell(collect(this->EmissionArrayName, 0, request.Emission)))))
+  {
+    return false;
+  }
+  if (request.BinsAlone)
+  {
+    request.Scalars = request.Attenuation;
+  }
+  else
+  {
+    vtkInformation* wanted = this->GetInputArrayInformation(0);
+    const int association = wanted->Get(vtkDataObject::FIELD_ASSOCIATION());
+    const bool ofPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+    const bool ofCells = association == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+    meniscus::ScalarSelection selection;
+    selection.Component =
+      this->ArrayComponent == -1 ? meniscus::ScalarSelection::Magnitude : this->ArrayComponent;
+    meniscus::InputReport report;
+    if (wanted->Has(vtkDataObject::FIELD_NAME()))
+    {
+      selection.ArrayName = wanted->Get(vtkDataObject::FIELD_NAME());
+      selection.AccessMode = VTK_GET_ARRAY_BY_NAME;
+      selection.ScalarMode =
+        ofCells ? VTK_SCALAR_MODE_USE_CELL_FIELD_DATA : VTK_SCALAR_MODE_USE_POINT_FIELD_DATA;
+      report = ofPoints || ofCells
+        ? meniscus::CollectInputBlocks(input, selection, request.Scalars)
+        : collect(selection.ArrayName, selection.Component, request.Scalars);
+    }
+    else
+    {
+      selection.ScalarMode = ofPoints ? VTK_SCALAR_MODE_USE_POINT_DATA
+        : ofCells                     ? VTK_SCALAR_MODE_USE_CELL_DATA
+                                      : VTK_SCALAR_MODE_DEFAULT;
+      report = meniscus::CollectInputBlocks(input, selection, request.Scalars);
+    }
+    if (!this->Tell(report))
+    {
+      return false;
+    }
+  }
+  if (request.Scalars.Parts.empty())
+  {
+    return this->TellError("The input has no cells");
+  }
+  const meniscus::InputBlocks& bins = request.Attenuation;
+  meniscus::IntegralChoice& choice = request.Choice;
+  if (!choice.NeedsBinArrays())
+  {
+    return true;
+  }
+  const bool sameGrids = std::equal(bins.Parts.begin(), bins.Parts.end(),
+    request.Scalars.Parts.begin(), request.Scalars.Parts.end(),
+    [](const meniscus::InputPart& a, const meniscus::InputPart& b) { return a.Grid == b.Grid; });
+  if (!sameGrids)
+  {
+    return this->TellError("The attenuation array and the scalar are not in the same data sets");
+  }
+  const int components = bins.Parts.front().Scalars->GetNumberOfComponents();
+  if (choice.NumberOfBins != 0 && choice.NumberOfBins != components)
+  {
+    return this->TellError("The attenuation array has " + std::to_string(components) +
+      " components for " + std::to_string(choice.NumberOfBins) + " energy bins");
+  }
+  choice.NumberOfBins = components;
+  return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayIntegral::UpdateTables(Request& request)
+{
+  vtkInternals& internals = *this->Internals;
+  meniscus::VolumeInput& input = internals.Input;
+  const bool binsOfCells = request.Choice.NeedsBinArrays() &&
+    request.Attenuation.Place == meniscus::FieldAssociation::Cells;
+  meniscus::InputBlocks meshOf = request.Scalars;
+  meshOf.Place = binsOfCells ? meniscus::FieldAssociation::Cells : meshOf.Place;
+  const auto goOn = [this](double fraction)
+  {
+    this->UpdateProgress(ShareOfMesh * fraction);
+    return !this->GetAbortExecute();
+  };
+  if (!this->Tell(input.UpdateMesh(meshOf, goOn)) || this->GetAbortExecute())
+  {
+    return false;
+  }
+  if (input.GetMesh().GetNumberOfCells() == 0)
+  {
+    return this->TellError("The input has no cells that can be used");
+  }
+  const bool usesProperty = request.Choice.NeedsProperty();
+  internals.Property.Reduce(usesProperty ? this->VolumeProperty.Get() : internals.NoProperty.Get(),
+    meniscus::BlendMode::Composite, this->OpacityModel == OPACITY_PER_UNIT_DISTANCE,
+    meniscus::ComponentMixture::None, 1);
+  const int component = request.BinsAlone ? 0
+    : this->ArrayComponent == -1          ? meniscus::ScalarSelection::Magnitude
+                                          : this->ArrayComponent;
+  if (!this->Tell(input.UpdateScalars(request.Scalars, component,
+        usesProperty ? internals.Property.GetFeatures() : internals.NoFeatures)))
+  {
+    return false;
+  }
+  if (input.GetNormalization().Farthest > 1.0 && request.Choice.NeedsScalarValues())
+  {
+    return this->TellError("The scalars reach too far beyond the changes of the volume property "
+                           "for integrals in the same image; switch off RGBA and OpticalDepth, or "
+                           "the other arrays");
+  }
+  internals.Property.Normalize(input.GetNormalization(), internals.Components);
+  input.UpdateActiveCells(
+    meniscus::VisibleScalars::All(), meniscus::TetrahedralMesh::CellJumps::Hidden);
+  return !request.Choice.NeedsBinArrays() ||
+    this->TellError(internals.Bins.Update(input, request.Attenuation, request.Emission));
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayIntegral::UpdateMembranes()
+{
+  const int membranes = this->GetNumberOfMembranes();
+  const int items = this->Interfaces->GetNumberOfItems();
+  if (membranes != items && (membranes > 0 || items > 1))
+  {
+    return this->TellError("The list has " + std::to_string(items) +
+      " refracting interfaces, and port 1 has " + std::to_string(membranes) +
+      " surfaces; one for each is needed");
+  }
+  std::vector<meniscus::MembraneInterface> interfaces;
+  for (int i = 0; i < membranes; ++i)
+  {
+    vtkRefractingInterface* item = this->Interfaces->GetInterface(i);
+    interfaces.push_back({ vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i)),
+      item->GetExteriorIndexOfRefraction(), item->GetInteriorIndexOfRefraction() });
+  }
+  return this->Tell(this->Internals->Membrane.Update(interfaces, false));
+}
+
+//------------------------------------------------------------------------------
+bool vtkTetrahedraRayIntegral::ComputeView(Request& request)
+{
+  const meniscus::TetrahedralMesh& mesh = this->Internals->Input.GetMesh();
+  if (this->FrameMode == CAMERA)
+  {
+    return this->Camera ? this->TellError(meniscus::ComputeCameraView(
+                            this->Camera, this->ImageSize, mesh, request.View))
+                        : this->TellError("There is no camera");
+  }
+  request.Rectangle = { VectorOf(this->FrameOrigin), VectorOf(this->FrameAxis1),
+    VectorOf(this->FrameAxis2) };
+  if (this->FrameMode == FITTED &&
+    !this->TellError(meniscus::FitRectangle(BoundsOf(request.Scalars).data(),
+      VectorOf(this->Direction), VectorOf(this->ViewUp), this->ImageSize, request.Rectangle)))
+  {
+    return false;
+  }
+  if (!this->TellError(meniscus::DescribeFault(request.Rectangle)))
+  {
+    return false;
+  }
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < this->GetNumberOfMembranes(); ++i)
+  {
+    double b[6];
+    vtkPolyData::SafeDownCast(this->GetInputDataObject(1, i))->GetBounds(b);
+    for (int c = 0; c < 8; ++c)
+    {
+      corners.emplace_back(b[c & 1], b[2 + (c >> 1 & 1)], b[4 + (c >> 2 & 1)]);
+    }
+  }
+  return this->TellError(
+    meniscus::ComputeParallelView(request.Rectangle, this->ImageSize, mesh, corners, request.View));
+}
+
+//------------------------------------------------------------------------------
+/** Returns false after an error or an abort. */
+bool vtkTetrahedraRayIntegral::Measure(Request& request, vtkImageData* output)
+{
+  vtkInternals& internals = *this->Internals;
+  std::vector<meniscus::EnergyBin> bins = internals.EnergyBins;
+  bins.resize(static_cast<std::size_t>(request.Choice.NumberOfBins));
+  const std::int64_t pixels = std::int64_t{ this->ImageSize[0] } * this->ImageSize[1];
+  meniscus::IntegralArrays arrays(request.Choice, bins, pixels);
+  const auto goOn = [this](double fraction)
+  {
+    this->UpdateProgress(ShareOfMesh + (1.0 - ShareOfMesh) * fraction);
+    return !this->GetAbortExecute();
+  };
+  internals.ClearStatistics();
+  // Without a cell that counts, or without extent, no ray meets anything.
+  const meniscus::TetrahedralMesh& mesh = internals.Input.GetMesh();
+  if (mesh.GetNumberOfActiveCells() > 0 && mesh.GetRadius() > 0.0 &&
+    (!this->ComputeView(request) ||
+      !this->TellError(
+        internals.Measure(request.Choice, request.View, this->ImageSize, arrays, goOn)) ||
+      internals.WasAborted()))
+  {
+    return false;
+  }
+  output->SetExtent(0, this->ImageSize[0] - 1, 0, this->ImageSize[1] - 1, 0, 0);
+  const ImagePlace place =
+    this->FrameMode == CAMERA ? ImagePlace() : PlaceOf(request.Rectangle, this->ImageSize);
+  output->SetOrigin(place.Origin);
+  output->SetSpacing(place.Spacing);
+  output->SetDirectionMatrix(place.Direction);
+  arrays.AddTo(output);
+  return true;
+}
+
+//------------------------------------------------------------------------------
+int vtkTetrahedraRayIntegral::RequestData(
+  vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  output->Initialize();
+  Request request;
+  const bool measured = this->ChooseArrays(request) &&
+    this->CollectInput(vtkDataObject::GetData(inputs[0]), request) &&
+    this->TellError(DescribeExcess(request.Choice, this->ImageSize)) && this->UpdateMembranes() &&
+    this->UpdateTables(request) && this->Measure(request, output);
+  if (!measured)
+  {
+    output->Initialize();
+  }
+  return measured || this->GetAbortExecute() ? 1 : 0;
+}

@@ -1,0 +1,394 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTetrahedraRayIntegral
+ * @brief   integrals along rays through a mesh, as an image of numbers
+ *
+ * Casts one ray per pixel through a mesh and writes what it measures as float arrays of a
+ * vtkImageData. It needs neither a window nor OpenGL. The rays are those of the native backend of
+ * vtkTetrahedraRayCastMapper: the scalar is linear in each tetrahedron (constant for cell data),
+ * and there is no sampling distance.
+ *
+ * Input port 0 is the mesh: any vtkDataSet or vtkCompositeDataSet that vtkTetrahedraRayCastMapper
+ * takes, with the same division of cells. SetInputArrayToProcess(0, 0, 0, association, name)
+ * chooses the scalar, as point or cell data; the default are the active scalars of the points, or
+ * else of the cells. Input port 1 takes surfaces that refract the rays, as the mapper's membranes.
+ *
+ * The output is an image of ImageSize pixels, one point per pixel. Its point arrays, all of 32-bit
+ * floats with one tuple per pixel, are switched on separately:
+ *
+ * | array | switch | components | value | rays that miss the mesh |
+ * |---|---|---|---|---|
+ * | `Integral` | ComputeIntegral | 1 | integral of the scalar: scalar times length | 0 |
+ * | `PathLength` | ComputePathLength | 1 | length in cells | 0 |
+ * | `OpticalDepth` | ComputeOpticalDepth | 1 | integral of the attenuation coefficient | 0 |
+ * | `FirstDepth`, `LastDepth` | ComputeFirstDepth, ComputeLastDepth | 1 | distance along the ray at
+ *   which its first cell begins, and its last one ends | NaN |
+ * | `Minimum`, `MinimumDepth` | ComputeMinimum | 1 | smallest scalar, and the first distance at
+ * which it is reached | NaN | | `Maximum`, `MaximumDepth` | ComputeMaximum | 1 | the same of the
+ * largest scalar | NaN | | `RGBA` | ComputeRGBA | 4 | premultiplied colour and opacity | 0 | |
+ * `EnergyBins` | ComputeEnergyBins | one per bin | transmitted intensity | the bin's intensity |
+ *
+ * Lengths are in world coordinates, the coordinates of the input. Distances count along the ray,
+ * also where it is refracted: from the camera's position (with parallel projection, from the plane
+ * through it), or from the rectangle, in front of which they are negative. Rays of a camera begin
+ * at its position; parallel rays extend beyond the rectangle on both sides. The camera's clipping
+ * range does not count.
+ *
+ * A cell with a scalar that is not finite does not count, as in the mapper
+ * (GetNumberOfTransparentCells()). If only arrays of energy bins are wanted, attenuation takes the
+ * place of the scalar.
+ *
+ * **Energy bins.** A bin has the intensity I0 behind the mesh. The image has I0 exp(-integral of
+ * mu) plus the emission e of the mesh, attenuated on its way to the viewer. mu and e are
+ * BinAttenuation and BinEmission times the scalar, or the components of AttenuationArrayName and
+ * EmissionArrayName.
+ *
+ * **Errors.** Without a usable input, array, frame, property or interface an error is reported and
+ * the output is empty: no cells; a missing array, one of the wrong length or without the chosen
+ * component; an image size below 1 or an image that exceeds the computer's memory (found before
+ * anything is allocated); a rectangle without area, with axes that are not perpendicular or with
+ * numbers that are not finite; a camera with a singular matrix; a negative attenuation; no array
+ * switched on.
+ *
+ * Tables of the mesh, of the scalar and of the surfaces are kept until their values change: another
+ * frame costs the cast only (GetNumberOfMeshBuilds()). Rays are cast in parallel by vtkSMPTools;
+ * results do not depend on the number of threads. Progress is reported; after an abort the output
+ * is empty.
+ *
+ * @sa vtkTetrahedraRayCastMapper
+ */
+#ifndef vtkTetrahedraRayIntegral_h
+#define vtkTetrahedraRayIntegral_h
+
+#include "vtkImageAlgorithm.h"
+#include "vtkMeniscusModule.h" // For export macro
+#include "vtkSmartPointer.h"   // For members
+
+#include <memory> // For std::unique_ptr
+
+class vtkCamera;
+class vtkPolyData;
+class vtkRefractingInterfaceCollection;
+class vtkVolumeProperty;
+
+namespace meniscus
+{
+struct InputReport;
+}
+
+class VTKMENISCUS_EXPORT vtkTetrahedraRayIntegral : public vtkImageAlgorithm
+{
+public:
+  static vtkTetrahedraRayIntegral* New();
+  vtkTypeMacro(vtkTetrahedraRayIntegral, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** @{ */
+  /** Set the mesh, port 0, without a pipeline connection. */
+  void SetInputData(vtkDataObject* input) { this->SetInputDataInternal(0, input); }
+  /** @} */
+
+  /** Rays of the image. */
+  enum FrameModes
+  {
+    /** Parallel rays along Direction, through a rectangle around the input's bounding box. */
+    FITTED = 0,
+    /** Parallel rays through the rectangle of FrameOrigin, FrameAxis1 and FrameAxis2. */
+    PARALLEL = 1,
+    /** Rays of Camera, perspective or parallel. */
+    CAMERA = 2
+  };
+
+  /** @{ */
+  /** Set/Get the rays of the image. Default is FITTED. */
+  vtkSetClampMacro(FrameMode, int, FITTED, CAMERA);
+  vtkGetMacro(FrameMode, int);
+  void SetFrameModeToFitted() { this->SetFrameMode(FITTED); }
+  void SetFrameModeToParallel() { this->SetFrameMode(PARALLEL); }
+  void SetFrameModeToCamera() { this->SetFrameMode(CAMERA); }
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the camera of the mode CAMERA. Setting one selects that mode. The image spans the
+   * camera's view with the aspect ratio of ImageSize. Default is none.
+   */
+  void SetCamera(vtkCamera* camera);
+  vtkCamera* GetCamera();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the direction of the rays of the mode FITTED and the direction that is drawn upwards;
+   * any lengths, not parallel to each other. Defaults are (0, 0, -1) and (0, 1, 0).
+   */
+  vtkSetVector3Macro(Direction, double);
+  vtkGetVector3Macro(Direction, double);
+  vtkSetVector3Macro(ViewUp, double);
+  vtkGetVector3Macro(ViewUp, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the rectangle of the mode PARALLEL in world coordinates: its lower left corner, its
+   * lower edge and its left edge, perpendicular to each other. The rays go along FrameAxis2 x
+   * FrameAxis1, so that an image with its first axis to the right is seen from its front, through
+   * the centres of ImageSize equal parts. Defaults are (0, 0, 0), (1, 0, 0) and (0, 1, 0).
+   */
+  vtkSetVector3Macro(FrameOrigin, double);
+  vtkGetVector3Macro(FrameOrigin, double);
+  vtkSetVector3Macro(FrameAxis1, double);
+  vtkGetVector3Macro(FrameAxis1, double);
+  vtkSetVector3Macro(FrameAxis2, double);
+  vtkGetVector3Macro(FrameAxis2, double);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the number of pixels, at least 1 by 1. Default is 256 by 256.
+   *
+   * The output has this extent. In the modes FITTED and PARALLEL its origin, spacing and direction
+   * put its points to the centres of the rectangle's parts; the product of the first two spacings
+   * is a pixel's area. In the mode CAMERA origin and spacing are those of pixels, 0 and 1.
+   */
+  vtkSetVector2Macro(ImageSize, int);
+  vtkGetVector2Macro(ImageSize, int);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the component of the scalar, from 0, or -1 for the length of its tuples. Arrays of one
+   * component ignore it. Default is 0.
+   */
+  vtkSetClampMacro(ArrayComponent, int, -1, VTK_INT_MAX);
+  vtkGetMacro(ArrayComponent, int);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Switch arrays of the output on or off. By default the integral is on and all others are off.
+   */
+  vtkSetMacro(ComputeIntegral, vtkTypeBool);
+  vtkGetMacro(ComputeIntegral, vtkTypeBool);
+  vtkBooleanMacro(ComputeIntegral, vtkTypeBool);
+  vtkSetMacro(ComputePathLength, vtkTypeBool);
+  vtkGetMacro(ComputePathLength, vtkTypeBool);
+  vtkBooleanMacro(ComputePathLength, vtkTypeBool);
+  vtkSetMacro(ComputeOpticalDepth, vtkTypeBool);
+  vtkGetMacro(ComputeOpticalDepth, vtkTypeBool);
+  vtkBooleanMacro(ComputeOpticalDepth, vtkTypeBool);
+  vtkSetMacro(ComputeFirstDepth, vtkTypeBool);
+  vtkGetMacro(ComputeFirstDepth, vtkTypeBool);
+  vtkBooleanMacro(ComputeFirstDepth, vtkTypeBool);
+  vtkSetMacro(ComputeLastDepth, vtkTypeBool);
+  vtkGetMacro(ComputeLastDepth, vtkTypeBool);
+  vtkBooleanMacro(ComputeLastDepth, vtkTypeBool);
+  vtkSetMacro(ComputeMinimum, vtkTypeBool);
+  vtkGetMacro(ComputeMinimum, vtkTypeBool);
+  vtkBooleanMacro(ComputeMinimum, vtkTypeBool);
+  vtkSetMacro(ComputeMaximum, vtkTypeBool);
+  vtkGetMacro(ComputeMaximum, vtkTypeBool);
+  vtkBooleanMacro(ComputeMaximum, vtkTypeBool);
+  vtkSetMacro(ComputeRGBA, vtkTypeBool);
+  vtkGetMacro(ComputeRGBA, vtkTypeBool);
+  vtkBooleanMacro(ComputeRGBA, vtkTypeBool);
+  vtkSetMacro(ComputeEnergyBins, vtkTypeBool);
+  vtkGetMacro(ComputeEnergyBins, vtkTypeBool);
+  vtkBooleanMacro(ComputeEnergyBins, vtkTypeBool);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the property of RGBA and OpticalDepth, which need one. RGBA is the mapper's composite
+   * blending without light: Shade and gradient opacity have no effect, and the functions of
+   * component 0 are used. Default is none.
+   */
+  void SetVolumeProperty(vtkVolumeProperty* property);
+  vtkVolumeProperty* GetVolumeProperty();
+  /** @} */
+
+  /** Meanings of opacity, as in vtkTetrahedraRayCastMapper. */
+  enum OpacityModels
+  {
+    ATTENUATION_COEFFICIENT = 0,
+    OPACITY_PER_UNIT_DISTANCE = 1
+  };
+
+  /** @{ */
+  /** Set/Get the meaning of the property's opacity. Default is ATTENUATION_COEFFICIENT. */
+  vtkSetClampMacro(OpacityModel, int, ATTENUATION_COEFFICIENT, OPACITY_PER_UNIT_DISTANCE);
+  vtkGetMacro(OpacityModel, int);
+  void SetOpacityModelToAttenuationCoefficient() { this->SetOpacityModel(ATTENUATION_COEFFICIENT); }
+  void SetOpacityModelToOpacityPerUnitDistance()
+  {
+    this->SetOpacityModel(OPACITY_PER_UNIT_DISTANCE);
+  }
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the number of energy bins. New bins have the defaults below. With arrays of attenuation
+   * it is 0 or their number of components; anything else is an error when the filter runs. Default
+   * is 0.
+   */
+  void SetNumberOfEnergyBins(int bins);
+  int GetNumberOfEnergyBins();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get numbers of a bin, counted from 0; a bin beyond the last one is added. BinAttenuation is
+   * the attenuation coefficient and BinEmission the emission, both per unit of the scalar and of
+   * length, any finite number; without effect if AttenuationArrayName is set. BinIntensity is the
+   * intensity behind the mesh. Defaults are 1, 0 and 1. The getters return 0 for other bins.
+   */
+  void SetBinAttenuation(int bin, double attenuation);
+  double GetBinAttenuation(int bin);
+  void SetBinEmission(int bin, double emission);
+  double GetBinEmission(int bin);
+  void SetBinIntensity(int bin, double intensity);
+  double GetBinIntensity(int bin);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the name of a point or cell array of the input with one component per bin: attenuation
+   * coefficients per length, not negative. Point data is used if there are both. A value that is
+   * not finite lets the cell pass without effect on its bin. Default is none: BinAttenuation
+   * counts.
+   */
+  vtkSetStringMacro(AttenuationArrayName);
+  vtkGetStringMacro(AttenuationArrayName);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the name of an array with the emission per length, one component per bin, with the
+   * association of the attenuation array, without which it has no effect. Default is none.
+   */
+  vtkSetStringMacro(EmissionArrayName);
+  vtkGetStringMacro(EmissionArrayName);
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set the refracting surfaces, port 1, in the order in which rays meet them, as in
+   * vtkTetrahedraRayCastMapper. Set replaces all of them by one, Add appends one.
+   */
+  void SetMembraneConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
+  void SetMembraneData(vtkPolyData* membrane);
+  void AddMembraneConnection(vtkAlgorithmOutput* output) { this->AddInputConnection(1, output); }
+  void AddMembraneData(vtkPolyData* membrane);
+  void RemoveAllMembranes() { this->SetInputConnection(1, nullptr); }
+  int GetNumberOfMembranes() { return this->GetNumberOfInputConnections(1); }
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the indices of refraction of the first surface on the side of its normals and on the
+   * other side. Must be positive and finite; anything else is an error when the filter runs.
+   * Defaults are 1.0 and 1.333.
+   */
+  virtual void SetExteriorIndexOfRefraction(double index);
+  virtual double GetExteriorIndexOfRefraction();
+  virtual void SetInteriorIndexOfRefraction(double index);
+  virtual double GetInteriorIndexOfRefraction();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Set/Get the refracting interfaces, one per surface. The list may be shared with other classes.
+   * Null, the default, stands for a list of one with default values.
+   */
+  void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
+  vtkRefractingInterfaceCollection* GetInterfaces();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Counters since construction: builds of the mesh, updates of the scalars, determinations of the
+   * cells that count, reductions of the volume property, readings of arrays of energy bins, builds
+   * of the shape of a surface, and casts of an image's rays (one for all measurements of the
+   * scalar, one for RGBA, one for three energy bins with arrays or for one that emits).
+   */
+  vtkTypeInt64 GetNumberOfMeshBuilds();
+  vtkTypeInt64 GetNumberOfScalarUpdates();
+  vtkTypeInt64 GetNumberOfActiveSetBuilds();
+  vtkTypeInt64 GetNumberOfTransferFunctionBuilds();
+  vtkTypeInt64 GetNumberOfBinUpdates();
+  vtkTypeInt64 GetNumberOfMembraneBuilds();
+  vtkTypeInt64 GetNumberOfCasts();
+  /** @} */
+
+  /** @{ */
+  /**
+   * Numbers of the last image or mesh: rays that met the mesh, crossed cells, rays whose walk did
+   * not end on the boundary (which cannot happen with IEEE arithmetic), tetrahedra without a finite
+   * scalar, and cells that were left out as in vtkTetrahedraRayCastMapper.
+   */
+  vtkTypeInt64 GetNumberOfRays();
+  vtkTypeInt64 GetNumberOfTraversalSteps();
+  vtkTypeInt64 GetNumberOfLostRays();
+  vtkTypeInt64 GetNumberOfTransparentCells();
+  vtkTypeInt64 GetNumberOfRejectedCells();
+  /** @} */
+
+  /** Includes the times of camera, property and interfaces. */
+  vtkMTimeType GetMTime() override;
+
+protected:
+  vtkTetrahedraRayIntegral();
+  ~vtkTetrahedraRayIntegral() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkTetrahedraRayIntegral(const vtkTetrahedraRayIntegral&) = delete;
+  void operator=(const vtkTetrahedraRayIntegral&) = delete;
+
+  class vtkInternals;
+  struct Request;
+
+  bool Tell(const meniscus::InputReport& report);
+  bool TellError(const std::string& error);
+  bool CollectInput(vtkDataObject* input, Request& request);
+  bool ChooseArrays(Request& request);
+  bool UpdateTables(Request& request);
+  bool UpdateMembranes();
+  bool ComputeView(Request& request);
+  bool Measure(Request& request, vtkImageData* output);
+
+  int FrameMode = FITTED;
+  double Direction[3] = { 0.0, 0.0, -1.0 };
+  double ViewUp[3] = { 0.0, 1.0, 0.0 };
+  double FrameOrigin[3] = { 0.0, 0.0, 0.0 };
+  double FrameAxis1[3] = { 1.0, 0.0, 0.0 };
+  double FrameAxis2[3] = { 0.0, 1.0, 0.0 };
+  int ImageSize[2] = { 256, 256 };
+  int ArrayComponent = 0;
+  vtkTypeBool ComputeIntegral = 1;
+  vtkTypeBool ComputePathLength = 0;
+  vtkTypeBool ComputeOpticalDepth = 0;
+  vtkTypeBool ComputeFirstDepth = 0;
+  vtkTypeBool ComputeLastDepth = 0;
+  vtkTypeBool ComputeMinimum = 0;
+  vtkTypeBool ComputeMaximum = 0;
+  vtkTypeBool ComputeRGBA = 0;
+  vtkTypeBool ComputeEnergyBins = 0;
+  int OpacityModel = ATTENUATION_COEFFICIENT;
+  char* AttenuationArrayName = nullptr;
+  char* EmissionArrayName = nullptr;
+  vtkSmartPointer<vtkCamera> Camera;
+  vtkSmartPointer<vtkVolumeProperty> VolumeProperty;
+  vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
+  std::unique_ptr<vtkInternals> Internals;
+};
+
+#endif

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Input that cannot be used: an error that says why, and an empty output.
+#include "IntegralScene.h"
+#include "MembraneScene.h"
+
+#include <vtkCamera.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkPiecewiseFunction.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkVolumeProperty.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace meniscus::test;
+
+namespace
+{
+
+const double NaN = std::numeric_limits<double>::quiet_NaN();
+
+Grid MakeMesh()
+{
+  return MakeBlock(2, LinearField(0.2, 0.3, 0.5));
+}
+
+Filter MakeGood()
+{
+  Filter rays = MakeFilter(MakeMesh(), 16, 16);
+  rays->ComputeIntegralOn();
+  return rays;
+}
+
+void AddArray(
+  vtkDataSetAttributes* to, const char* name, vtkIdType tuples, int components, double value)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  array->Fill(value);
+  to->AddArray(array);
+}
+
+/** Expects one error of the filter with a text in it, and nothing in the output. */
+void ExpectError(vtkTetrahedraRayIntegral* rays, const std::string& text)
+{
+  vtkNew<ErrorObserver> observer;
+  vtkNew<ErrorObserver> executive; // "Algorithm returned failure"
+  observer->Observe(rays);
+  executive->Observe(rays->GetExecutive());
+  rays->Update();
+  rays->RemoveObserver(observer);
+  ASSERT_EQ(observer->Errors.size(), 1u) << text << ": " << observer->GetText();
+  EXPECT_NE(observer->Errors[0].find(text), std::string::npos) << observer->GetText();
+  EXPECT_EQ(rays->GetOutput()->GetNumberOfPoints(), 0) << text;
+  EXPECT_EQ(rays->GetOutput()->GetPointData()->GetNumberOfArrays(), 0) << text;
+}
+
+}
+
+//------------------------------------------------------------------------------
+TEST(RayIntegralBadInput, Mesh)
+{
+  Filter rays = MakeGood();
+  vtkNew<vtkUnstructuredGrid> empty;
+  rays->SetInputData(empty);
+  ExpectError(rays, "no cells");
+  Grid flat = MakeGrid({ 0, 0, 0, 1, 0, 0, 0, 1, 0 }, { 0, 1, 2, 2 }, ConstantField(1.0));
+  rays->SetInputData(flat);
+  ExpectError(rays, "no cells that can be used");
+  // The filter goes on with a good mesh.
+  rays->SetInputData(MakeMesh());
+  EXPECT_EQ(ValuesOf(rays, "Integral").size(), 256u);
+}
+
+//------------------------------------------------------------------------------
+TEST(RayIntegralBadInput, Arrays)
+{
+  Filter rays = MakeGood();
+  rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "missing");
+  ExpectError(rays, "no scalar array named 'missing'");
+  Grid grid = MakeMesh();
+  grid->GetPointData()->SetScalars(nullptr);
+  grid->GetPointData()->Initialize();
+  rays = MakeGood();
+  rays->SetInputData(grid);
+  ExpectError(rays, "no scalar array");
+  AddArray(grid->GetPointData(), "short", grid->GetNumberOfPoints() - 1, 1, 1.0);
+  rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "short");
+  ExpectError(rays, "values for");
+  AddArray(grid->GetCellData(), "few", 3, 1, 1.0);
+  rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "few");
+  ExpectError(rays, "has 3 values for 48 cells");
+  AddArray(grid->GetPointData(), "pair", grid->GetNumberOfPoints(), 2, 1.0);
+  rays->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "pair");
+  rays->SetArrayComponent(2);
+  ExpectError(rays, "none of number 2");
+}
+
+//------------------------------------------------------------------------------
+TEST(RayIntegralBadInput, Rectangle)
+{
+  Filter rays = MakeGood();
+  rays->SetFrameModeToParallel();
+  rays->SetFrameAxis2(2.0, 0.0, 0.0);
+  ExpectError(rays, "no area");
+  rays->SetFrameAxis2(0.0, 0.0, 0.0);
+  ExpectError(rays, "no area");
+  rays->SetFrameAxis2(0.0, NaN, 0.0);
+  ExpectError(rays, "not finite");
+  rays->SetFrameAxis2(0.0, 1.0, 0.0);
+  rays->SetFrameOrigin(0.0, 0.0, NaN);
+  ExpectError(rays, "not finite");
+  rays->SetFrameOrigin(0.0, 0.0, 0.0);
+  rays->SetFrameAxis2(0.1, 1.0, 0.0);
+  ExpectError(rays, "not perpendicular");
+  rays->SetFrameAxis1(1.0e200, 0.0, 0.0);
+  rays->SetFrameAxis2(0.0, 1.0e200, 0.0);
+  ExpectError(rays, "area");
+  rays->SetFrameModeToFitted();
+  rays->SetViewUp(0.0, 0.0, 3.0);
+  ExpectError(rays, "parallel, zero or not finite");
+  rays->SetViewUp(0.0, 1.0, 0.0);
+  rays->SetDirection(0.0, 0.0, 0.0);
+  ExpectError(rays, "parallel, zero or not finite");
+  rays->SetDirection(NaN, 0.0, 1.0);
+  ExpectError(rays, "parallel, zero or not finite");
+}
+
+//------------------------------------------------------------------------------
+TEST(RayIntegralBadInput, Camera)
+{
+  Filter rays = MakeGood();
+  rays->SetFrameModeToCamera();
+  ExpectError(rays, "no camera");
+  vtkNew<vtkCamera> camera;
+  camera->SetPosition(0.0, NaN, 4.0);
+  rays->SetCamera(camera);
+  ExpectError(rays, "singular or not finite");
+}
+
+//------------------------------------------------------------------------------
+// The size is checked before anything is allocated: the image has 4 EB.
+TEST(RayIntegralBadInput, Size)
+{
+  Filter rays = MakeGood();
+  rays->SetImageSize(0, 16);
+  ExpectError(rays, "at least 1 by 1");
+  rays->SetImageSize(16, -3);
+  ExpectError(rays, "at least 1 by 1");
+  rays->SetImageSize(1 << 30, 1 << 30);
+  ExpectError(rays, "memory");
+}
+
+//------------------------------------------------------------------------------
+TEST(RayIntegralBadInput, Choice)
+{
+  Filter rays = MakeGood();
+  rays->ComputeIntegralOff();
+  ExpectError(rays, "No array is switched on");
+  rays->ComputeRGBAOn();
+  ExpectError(rays, "need a volume property");
+  rays->ComputeRGBAOff();
+  rays->ComputeEnergyBinsOn();
+  ExpectError(rays, "no energy bins");
+  rays->SetBinEmission(0, NaN);
+  ExpectError(rays, "not finite");
+  rays->SetBinEmission(-1, 1.0);
+  EXPECT_EQ(rays->GetNumberOfEnergyBins(), 1);
+  EXPECT_EQ(rays->GetBinEmission(7), 0.0);
+}
+
+//------------------------------------------------------------------------------
+TEST(RayIntegralBadInput, EnergyBins)
+{
+  Grid grid = MakeMesh();
+  const vtkIdType points = grid->GetNumberOfPoints();
+  AddArray(grid->GetPointData(), "mu", points, 3, 0.5);
+  AddArray(grid->GetPointData(), "light", points, 2, 0.5);
+  AddArray(grid->GetCellData(), "cells", grid->GetNumberOfCells(), 3, 0.5);
+  AddArray(grid->GetPointData(), "negative", points, 1, -0.5);
+  AddArray(grid->GetPointData(), "short", points - 2, 1, 0.5);
+  Filter rays = MakeGood();
+  rays->SetInputData(grid);
+  rays->ComputeIntegralOff();
+  rays->ComputeEnergyBinsOn();
+  rays->SetAttenuationArrayName("missing");
+  ExpectError(rays, "no scalar array named 'missing'");
+  rays->SetAttenuationArrayName("short");
+  ExpectError(rays, "values for");
+  rays->SetAttenuationArrayName("negative");
+  ExpectError(rays, "negative");
+  rays->SetAttenuationArrayName("mu");
+  rays->SetEmissionArrayName("missing");
+  ExpectError(rays, "no scalar array named 'missing'");
+  rays->SetEmissionArrayName("light");
+  ExpectError(rays, "as many components");
+  rays->SetEmissionArrayName("cells");
+  ExpectError(rays, "both of points or both of cells");
+  rays->SetEmissionArrayName(nullptr);
+  rays->SetNumberOfEnergyBins(2);
+  ExpectError(rays, "has 3 components for 2 energy bins");
+  rays->SetNumberOfEnergyBins(3);
+  EXPECT_EQ(ValuesOf(rays, "EnergyBins").size(), 3u * 256u);
+}
+
+//------------------------------------------------------------------------------
+TEST(RayIntegralBadInput, Interfaces)
+{
+  Filter rays = MakeGood();
+  rays->SetMembraneData(MakePlaneCase(0.0, 3.0, 2).Mesh);
+  rays->SetInteriorIndexOfRefraction(-1.0);
+  ExpectError(rays, "positive and finite");
+  rays->SetInteriorIndexOfRefraction(1.333);
+  rays->AddMembraneData(MakePlaneCase(-1.0, 3.0, 2).Mesh);
+  ExpectError(rays, "one for each is needed");
+  vtkNew<vtkPolyData> nothing;
+  rays->SetMembraneData(nothing);
+  vtkNew<ErrorObserver> observer;
+  observer->Observe(rays);
+  vtkNew<ErrorObserver> executive;
+  executive->Observe(rays->GetExecutive());
+  rays->Update();
+  EXPECT_EQ(observer->Errors.size(), 1u);
+  EXPECT_EQ(rays->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+//------------------------------------------------------------------------------
+// A fill value that is 1e30 times as far away as the function's changes are wide.
+TEST(RayIntegralBadInput, ScalarsBeyondThePropertysReach)
+{
+  Grid grid = MakeMesh();
+  grid->GetPointData()->GetScalars()->SetTuple1(0, 1.0e30);
+  vtkNew<vtkVolumeProperty> property;
+  property->GetScalarOpacity()->AddPoint(0.1, 0.0);
+  property->GetScalarOpacity()->AddPoint(0.2, 1.0);
+  Filter rays = MakeGood();
+  rays->SetInputData(grid);
+  rays->SetVolumeProperty(property);
+  rays->ComputeOpticalDepthOn();
+  ExpectError(rays, "reach too far");
+  rays->ComputeIntegralOff();
+  EXPECT_EQ(ValuesOf(rays, "OpticalDepth").size(), 256u);
+}
