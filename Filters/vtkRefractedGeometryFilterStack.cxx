@@ -25,6 +25,10 @@ bool vtkRefractedGeometryFilter::HasStack(vtkInformationVector* membranes)
 // Text of the error for properties that several interfaces do not support; null if there are none.
 const char* vtkRefractedGeometryFilter::FindUnsupported()
 {
+  if (this->Mode == REFLECTION)
+  {
+    return "Mode REFLECTION mirrors at one interface, and the list has more";
+  }
   if (this->MembraneModel == FLAT_FACETS)
   {
     return "Several refracting interfaces need the membrane model CURVED";

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Curved/CurveCrossings.h"
 
-#include "Refraction/Membrane/Optics.h"
-
 #include <glm/common.hpp>
 
 #include <algorithm>
@@ -109,8 +107,8 @@ ObjectLine ObjectLine::Order(const glm::dvec3& a, const glm::dvec3& b, bool& tur
 //------------------------------------------------------------------------------
 RefractedPoint RefractAt(const PatchPoint& at, const Media& media)
 {
-  const RefractionRay ray = ComputeRefractionRay(glm::normalize(at.Position - media.Eye),
-    glm::normalize(at.Normal), media.Exterior / media.Interior);
+  const RefractionRay ray =
+    media.GetRay(glm::normalize(at.Position - media.Eye), glm::normalize(at.Normal));
   return { at, ray.Direction,
     ray.Kind == RayKind::Refracted && glm::length(at.Normal) > CurvedPatch::ShortestNormal };
 }
