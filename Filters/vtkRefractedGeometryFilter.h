@@ -159,9 +159,9 @@ public:
    * geometry directly. The indices of refraction give the array Reflectance only.
    *
    * One interface can mirror, with MembraneModel CURVED; other settings are an error when the
-   * filter runs. A ray that meets the mirror again, in front of the sight point or behind it, is not
-   * blocked: the mirror does not occlude itself, and there are no second reflections. Cell normals
-   * are passed unchanged.
+   * filter runs. A ray that meets the mirror again, in front of the sight point or behind it, is
+   * not blocked: the mirror does not occlude itself, and there are no second reflections. Cell
+   * normals are passed unchanged.
    */
   vtkSetClampMacro(Mode, int, REFRACTION, REFLECTION);
   vtkGetMacro(Mode, int);

@@ -278,10 +278,9 @@ EyeStatus CurvedMembraneSolver::SetEye(
       {
         touched = true;
       }
-      return this->Optics.Reflects
-        ? BoundReflectedRays(patch, this->Optics.Eye)
-        : BoundRefractedRays(
-            patch, this->Optics.Eye, this->Optics.Exterior / this->Optics.Interior);
+      return this->Optics.Reflects ? BoundReflectedRays(patch, this->Optics.Eye)
+                                   : BoundRefractedRays(patch, this->Optics.Eye,
+                                       this->Optics.Exterior / this->Optics.Interior);
     },
     loop);
   return touched ? EyeStatus::OnTheMembrane : EyeStatus::Ready;
@@ -352,8 +351,7 @@ bool CurvedMembraneSolver::MayShow(
   const double padding = std::max({ half.x, half.y, half.z });
   const glm::dvec3 top(std::copysign(half.x, this->Axis.x), std::copysign(half.y, this->Axis.y),
     std::copysign(half.z, this->Axis.z));
-  return !this->IsInReach(middle) ||
-    (!this->Optics.Reflects && !this->IsBehindAll(middle + top)) ||
+  return !this->IsInReach(middle) || (!this->Optics.Reflects && !this->IsBehindAll(middle + top)) ||
     this->Tree.HasAny(middle, padding, chosen);
 }
 

@@ -176,8 +176,8 @@ public:
 
   /**
    * True if a patch that `chosen` marks may show a point of the box from `low` to `high`, in world
-   * coordinates, or if points of the box may be shown unrefracted: unless the box is entirely behind
-   * the membrane, or the membrane reflects.
+   * coordinates, or if points of the box may be shown unrefracted: unless the box is entirely
+   * behind the membrane, or the membrane reflects.
    */
   bool MayShow(
     const glm::dvec3& low, const glm::dvec3& high, const std::vector<bool>& chosen) const;

@@ -84,8 +84,8 @@ public:
   SightRoot Solve(const CurvedPatch& patch, glm::dvec2 b, int steps, double reach) const;
 
   /**
-   * True if a root is an image: the eye is in front of the surface, the point behind it, or in front
-   * for a reflection.
+   * True if a root is an image: the eye is in front of the surface, the point behind it, or in
+   * front for a reflection.
    */
   bool IsImage(const PatchPoint& at) const;
 

@@ -337,8 +337,8 @@ CellReport ObjectImages::MapLines(const ObjectCells& cells, const std::int64_t* 
         continue;
       }
       isDivided = false;
-      mapping.MapLine(
-        this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), cell, this->MayCrossMembrane(side), pieces);
+      mapping.MapLine(this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), cell,
+        this->MayCrossMembrane(side), pieces);
     }
     report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }

@@ -70,8 +70,8 @@ public:
   void SetTolerance(double tolerance) { this->Tolerance = tolerance; }
 
   /**
-   * Sets the object's points (x, y, z each; borrowed). `mayCross` must be true if any of them may be
-   * on the other side of the membrane than its rays. Computes no image.
+   * Sets the object's points (x, y, z each; borrowed). `mayCross` must be true if any of them may
+   * be on the other side of the membrane than its rays. Computes no image.
    */
   void SetPoints(const double* points, std::size_t count, bool mayCross);
 

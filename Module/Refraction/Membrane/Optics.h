@@ -66,8 +66,8 @@ inline RefractionRay ComputeRefractionRay(
 }
 
 /**
- * Reflected ray of the sight ray `sight` at a surface of normal `normal`, D - 2 N (D.N): Snell's law
- * with n2 = -n1. A surface that faces away reflects nothing; its ray is the same expression.
+ * Reflected ray of the sight ray `sight` at a surface of normal `normal`, D - 2 N (D.N): Snell's
+ * law with n2 = -n1. A surface that faces away reflects nothing; its ray is the same expression.
  */
 inline RefractionRay ComputeReflectionRay(const glm::dvec3& sight, const glm::dvec3& normal)
 {

@@ -112,8 +112,8 @@ inline glm::dvec3 ComputeVirtualNormal(const glm::dvec3& normal, const glm::dvec
 }
 
 /**
- * Normal of the mirror image of a point with the unit normal `normal`: mirrored at the tangent plane
- * of the sight point. The light is mirrored with it.
+ * Normal of the mirror image of a point with the unit normal `normal`: mirrored at the tangent
+ * plane of the sight point. The light is mirrored with it.
  */
 inline glm::dvec3 ComputeMirroredNormal(const glm::dvec3& normal, const glm::dvec3& point,
   const glm::dvec3& sightPoint, const glm::dvec3& eye)
