@@ -167,7 +167,8 @@ std::vector<glm::dvec3> HeightField::FindSightPoints(
       const bool known = std::any_of(found.begin(), found.end(),
         [&s, step](const glm::dvec3& other) { return glm::length(other - s) < 1e-6 * step; });
       const double height = glm::dot(point - s, normal);
-      if (!known && glm::dot(s - eye, normal) < 0.0 && (this->Mirrors ? height > 0.0 : height < 0.0))
+      if (!known && glm::dot(s - eye, normal) < 0.0 &&
+        (this->Mirrors ? height > 0.0 : height < 0.0))
       {
         found.push_back(s);
       }

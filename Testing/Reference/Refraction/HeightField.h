@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * Refraction or reflection at an analytic height field y = f(x, z) over a square, the eye above it.
- * Sight points are the stationary points of the optical path n1 |S - E| + n2 |P - S| (Fermat), found
- * by a dense search in double precision, independently of the kernel's patches, trees and equations.
+ * Sight points are the stationary points of the optical path n1 |S - E| + n2 |P - S| (Fermat),
+ * found by a dense search in double precision, independently of the kernel's patches, trees and
+ * equations.
  */
 #ifndef meniscus_Testing_Reference_Refraction_HeightField_h
 #define meniscus_Testing_Reference_Refraction_HeightField_h

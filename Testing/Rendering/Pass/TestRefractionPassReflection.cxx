@@ -5,7 +5,7 @@
 
 #include <vtkCommand.h>
 #include <vtkNew.h>
-#include <vtkProperty.h>
+#include <vtkUnstructuredGrid.h>
 
 using namespace meniscus::test;
 using namespace meniscus::test::flatpool;
