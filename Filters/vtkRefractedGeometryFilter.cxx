@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkRefractedGeometryFilterInternals.h"
 
+#include "Common/CoherentOrder.h"
 #include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceProperties.h"
+#include "Filters/Membrane/StackInput.h"
 #include "Filters/Object/ViewSelection.h"
 #include "Filters/Output/VirtualPolyData.h"
 
@@ -182,21 +184,25 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
     block.Vertices.assign(count, meniscus::VirtualVertex());
     block.SolvedChunks.assign((count + chunkSize - 1) / chunkSize, false);
   }
+  block.UpdateOrder(meniscus::ThreadedLoop);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < block.SolvedChunks.size(); ++i)
   {
-    if (!block.SolvedChunks[i] && block.Selection.HasPoint(i * chunkSize))
+    if (!block.SolvedChunks[i] && block.IsSelected(i))
     {
       open.push_back(i);
     }
   }
+  const auto solve = [this](const double* points, std::size_t begin, std::size_t end,
+                       meniscus::VirtualVertex* vertices)
+  { this->Scene.Solve(points, begin, end, vertices); };
   const bool done = this->Run(self, 0.0, 1.0, static_cast<vtkIdType>(open.size()), 1,
-    [this, &block, &open, count](std::size_t begin, std::size_t end)
+    [&solve, &block, &open, count](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        this->Scene.Solve(block.Points.data(), open[i] * chunkSize,
-          std::min((open[i] + 1) * chunkSize, count), block.Vertices.data());
+        meniscus::SolveInOrder<chunkSize>(block.Points.data(), block.Order, open[i] * chunkSize,
+          std::min((open[i] + 1) * chunkSize, count), block.Vertices.data(), solve);
       }
     });
   if (!done)
@@ -209,7 +215,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::Solve(
     block.SolvedChunks[chunk] = true;
     for (std::size_t i = chunk * chunkSize; i < std::min((chunk + 1) * chunkSize, count); ++i)
     {
-      this->Count(block.Vertices[i].State);
+      this->Count(block.Vertices[block.Order.empty() ? i : block.Order[i]].State);
     }
   }
   return true;
@@ -300,6 +306,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveAllPoints(
 
 vtkStandardNewMacro(vtkRefractedGeometryFilter);
 meniscusInterfacePropertiesMacro(vtkRefractedGeometryFilter);
+meniscusMembranePortMacro(vtkRefractedGeometryFilter, 1);
 
 //------------------------------------------------------------------------------
 vtkRefractedGeometryFilter::vtkRefractedGeometryFilter()
@@ -455,16 +462,7 @@ int vtkRefractedGeometryFilter::RequestUpdateExtent(
     geometry->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
     geometry->Set(Pipeline::EXACT_EXTENT(), 1);
   }
-  for (int i = 0; i < inputs[1]->GetNumberOfInformationObjects(); ++i)
-  {
-    vtkInformation* membrane = inputs[1]->GetInformationObject(i);
-    membrane->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    membrane->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    membrane->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-    // The executive has copied the extent of the geometry, which exists if that comes from an
-    // image.
-    membrane->Remove(Pipeline::UPDATE_EXTENT());
-  }
+  meniscus::RequestWhole(inputs[1]);
   return 1;
 }
 
@@ -480,7 +478,7 @@ int vtkRefractedGeometryFilter::RequestData(
     vtkErrorMacro("Geometry or membrane is missing or is not a vtkPolyData; the output is empty.");
     return 0;
   }
-  if (this->HasStack(inputs[1]))
+  if (meniscus::HasStack(this->Interfaces, inputs[1]))
   {
     return this->RequestStack(input, inputs[1], output);
   }

@@ -99,6 +99,7 @@
 #include "vtkSmartPointer.h" // For the camera
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 
 class vtkRefractingInterfaceCollection;
 class vtkCamera;
@@ -375,6 +376,17 @@ public:
 
   /** @{ */
   /**
+   * Add the surface of the next interface of the list to port 1, by connection or as data; remove
+   * all surfaces; get their number. SetInterfaces() has the indices of refraction.
+   */
+  void AddMembraneConnection(vtkAlgorithmOutput* output);
+  void AddMembraneData(vtkPolyData* membrane);
+  void RemoveAllMembranes();
+  int GetNumberOfMembranes();
+  /** @} */
+
+  /** @{ */
+  /**
    * Counters since construction: number of times that the membrane's shape was read, number of
    * times that refracted rays were computed for it, number of points solved, number of these that
    * had no answer because a coordinate was not finite or out of range, number of those that had no
@@ -445,8 +457,7 @@ private:
   bool UpdateEye();
   void GetEye(double position[3]);
   void ReportCells(const meniscus::VirtualPolyDataReport& report, vtkPolyData* input);
-  bool HasStack(vtkInformationVector* membranes);
-  const char* FindUnsupported();
+  std::string FindUnsupported();
   bool UpdateStack(vtkInformationVector* membranes);
   int RequestStack(vtkPolyData* input, vtkInformationVector* membranes, vtkPolyData* output);
 

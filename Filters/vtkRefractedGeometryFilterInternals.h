@@ -28,6 +28,8 @@ public:
   void Count(meniscus::ImageState state);
   meniscus::OutputOptions GetOptions(vtkRefractedGeometryFilter* self) const;
   bool SolveStack(vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block);
+  bool SolveAllOfStack(
+    vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block);
   meniscus::OutputOptions GetStackOptions(vtkRefractedGeometryFilter* self) const;
 
   meniscus::RefractionScene Scene; ///< of one interface

@@ -3,40 +3,32 @@
 // Several interfaces: what RequestData does for one.
 #include "Filters/vtkRefractedGeometryFilterInternals.h"
 
-#include "Filters/Interface/StackValidation.h"
+#include "Filters/Membrane/StackInput.h"
 #include "Filters/Output/VirtualPolyData.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMath.h"
 #include "vtkPolyData.h"
 #include "vtkRefractingInterfaceCollection.h"
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 //------------------------------------------------------------------------------
-bool vtkRefractedGeometryFilter::HasStack(vtkInformationVector* membranes)
-{
-  return this->Interfaces->GetNumberOfItems() > 1 || membranes->GetNumberOfInformationObjects() > 1;
-}
-
-//------------------------------------------------------------------------------
-// Text of the error for properties that several interfaces do not support; null if there are none.
-const char* vtkRefractedGeometryFilter::FindUnsupported()
+// Text of the error for properties that several interfaces do not support; empty if none.
+std::string vtkRefractedGeometryFilter::FindUnsupported()
 {
   if (this->Mode == REFLECTION)
   {
     return "Mode REFLECTION mirrors at one interface, and the list has more";
   }
-  if (this->MembraneModel == FLAT_FACETS)
+  const std::string model = meniscus::FindModelFault(this->MembraneModel == CURVED);
+  if (!model.empty())
   {
-    return "Several refracting interfaces need the membrane model CURVED";
-  }
-  if (this->Images == ALL_IMAGES)
-  {
-    return "With several refracting interfaces, Images ALL_IMAGES is not available; choose "
-           "FIRST_IMAGE";
+    return model;
   }
   const bool isLightAtEye =
     std::all_of(this->LightDirection, this->LightDirection + 3, [](double c) { return c == 0.0; });
@@ -45,42 +37,19 @@ const char* vtkRefractedGeometryFilter::FindUnsupported()
     return "With several refracting interfaces, VirtualNormals need a light at the eye, "
            "LightDirection (0, 0, 0)";
   }
-  return nullptr;
+  return std::string();
 }
 
 //------------------------------------------------------------------------------
 bool vtkRefractedGeometryFilter::UpdateStack(vtkInformationVector* membranes)
 {
-  meniscus::SceneMessages messages;
-  messages.Error =
-    meniscus::FindStackFault(this->Interfaces, membranes->GetNumberOfInformationObjects());
-  if (const char* unsupported = this->FindUnsupported(); unsupported && messages.Error.empty())
-  {
-    messages.Error = unsupported;
-  }
-  std::vector<vtkPolyData*> surfaces;
-  for (int i = 0; i < membranes->GetNumberOfInformationObjects() && messages.Error.empty(); ++i)
-  {
-    surfaces.push_back(vtkPolyData::GetData(membranes, i));
-    if (!surfaces.back())
-    {
-      messages.Error = "A surface at the membrane port is missing or is not a vtkPolyData";
-    }
-  }
   double eye[3];
   this->GetEye(eye);
-  meniscus::StackScene& scene = this->Internals->Stack;
-  const bool isReady = messages.Error.empty() &&
-    scene.SetInterfaces(surfaces, this->Interfaces, messages) &&
-    scene.SetEye({ eye[0], eye[1], eye[2] }, messages);
-  if (!messages.Error.empty())
-  {
-    vtkErrorMacro(<< messages.Error << "; the output is empty.");
-  }
-  if (!messages.Warning.empty())
-  {
-    vtkWarningMacro(<< messages.Warning);
-  }
+  meniscus::SceneMessages messages;
+  messages.Error = this->FindUnsupported();
+  const bool isReady = meniscus::UpdateStack(
+    this->Internals->Stack, membranes, 1, this->Interfaces, { eye[0], eye[1], eye[2] }, messages);
+  meniscus::Report(this, messages);
   return isReady;
 }
 
@@ -97,16 +66,28 @@ int vtkRefractedGeometryFilter::RequestStack(
   const meniscus::StackScene& scene = internals.Stack;
   const vtkTypeInt64 undecided = this->GetNumberOfUndecidedSearches();
   meniscus::SolvedBlock& block = internals.GetBlock(input);
-  if (!internals.SolveStack(this, block))
+  const bool all = this->Images == ALL_IMAGES;
+  if (!(all ? internals.SolveAllOfStack(this, input, block) : internals.SolveStack(this, block)))
   {
     return 1;
   }
   const meniscus::OutputOptions options = internals.GetStackOptions(this);
   meniscus::OutputOptions plain = options;
   plain.VirtualNormals = false;
-  const meniscus::VirtualPolyDataReport report = meniscus::BuildVirtualPolyData(
-    input, block.Vertices, block.Selection, scene.GetFirstMembrane(), plain, output);
-  meniscus::AddStackArrays(input, block.Vertices, block.Stack, options, output);
+  const meniscus::Membrane& first = scene.GetFirstMembrane();
+  const meniscus::VirtualPolyDataReport report = all
+    ? meniscus::BuildImagePolyData(
+        input, block.Topology, *block.ImagesOfStack, block.Cells, first, plain, output)
+    : meniscus::BuildVirtualPolyData(input, block.Vertices, block.Selection, first, plain, output);
+  if (all)
+  {
+    meniscus::AddStackImageArrays(
+      input, *block.ImagesOfStack, block.Cells, scene.GetSolver(), options, output);
+  }
+  else
+  {
+    meniscus::AddStackArrays(input, block.Vertices, block.Stack, options, output);
+  }
   this->ReportUndecided(this->GetNumberOfUndecidedSearches() - undecided);
   this->ReportPoints(internals.FailedInRun, output->GetNumberOfPoints() > 0, input);
   this->ReportCells(report, input);
@@ -118,7 +99,7 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveStack(
   vtkRefractedGeometryFilter* self, meniscus::SolvedBlock& block)
 {
   const vtkTypeInt64 update = this->Stack.GetNumberOfEyeUpdates();
-  if (block.StackUpdate == update)
+  if (block.StackUpdate == update && !block.ImagesOfStack)
   {
     return true;
   }
@@ -146,6 +127,52 @@ bool vtkRefractedGeometryFilter::vtkInternals::SolveStack(
     this->Count(vertex.State);
   }
   return true;
+}
+
+//------------------------------------------------------------------------------
+bool vtkRefractedGeometryFilter::vtkInternals::SolveAllOfStack(
+  vtkRefractedGeometryFilter* self, vtkPolyData* input, meniscus::SolvedBlock& block)
+{
+  const double tolerance = vtkMath::RadiansFromDegrees(self->AngularTolerance);
+  const vtkTypeInt64 update = this->Stack.GetNumberOfEyeUpdates();
+  block.UpdateTopology();
+  if (block.StackUpdate != update || !block.ImagesOfStack)
+  {
+    const std::size_t count = block.Points.size() / 3;
+    block.ForgetImages();
+    block.CellsReady = false;
+    block.Vertices.clear();
+    block.ImagesOfStack = std::make_unique<meniscus::StackImages>(this->Stack.GetSolver());
+    meniscus::StackImages& images = *block.ImagesOfStack;
+    images.SetPoints(block.Points.data(), count);
+    if (!this->Run(self, 0.0, 0.5, static_cast<vtkIdType>(count),
+          static_cast<vtkIdType>(meniscus::StackImages::Chunk),
+          [&images](std::size_t begin, std::size_t end) { images.SolvePoints(begin, end); }))
+    {
+      return false;
+    }
+    images.FinishPoints();
+    block.StackUpdate = update;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->Count(images.GetState(i));
+    }
+  }
+  if (block.CellsReady && block.Tolerance == tolerance && block.ClosesSeams == self->CloseSeams)
+  {
+    return true;
+  }
+  block.CellsReady = false;
+  block.Tolerance = tolerance;
+  block.ClosesSeams = self->CloseSeams;
+  block.Cells = meniscus::AllImages();
+  block.ImagesOfStack->SetTolerance(tolerance);
+  block.CellsReady = meniscus::MapCells(
+    input, block.Topology, *block.ImagesOfStack, self->CloseSeams,
+    [this, self](std::size_t parts, const meniscus::RangeBody& body)
+    { return this->Run(self, 0.5, 1.0, static_cast<vtkIdType>(parts), 1, body); },
+    block.Cells);
+  return block.CellsReady;
 }
 
 //------------------------------------------------------------------------------

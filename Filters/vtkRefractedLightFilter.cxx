@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefractedLightFilter.h"
 
+#include "Filters/Common/ThreadedLoop.h"
 #include "Filters/Interface/InterfaceProperties.h"
+#include "Filters/Membrane/StackInput.h"
+#include "Refraction/Stack/StackLight.h"
 
 #include "vtkRefractedGeometryFilter.h"
 
@@ -121,6 +124,40 @@ std::vector<double> GatherFlux(vtkPolyData* images, const glm::dvec3& light, vtk
 }
 
 //------------------------------------------------------------------------------
+/**
+ * Triangles of the polygons and strips, as AreaOf divides them; without cells that refer to points
+ * that do not exist or are not finite.
+ */
+meniscus::LitTriangles CollectTriangles(vtkPolyData* data)
+{
+  meniscus::LitTriangles lit;
+  lit.Points.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < lit.Points.size(); ++i)
+  {
+    data->GetPoint(static_cast<vtkIdType>(i), &lit.Points[i].x);
+  }
+  const auto isPoint = [&lit](vtkIdType id)
+  {
+    const auto i = static_cast<std::size_t>(id);
+    return id >= 0 && i < lit.Points.size() &&
+      std::isfinite(lit.Points[i].x + lit.Points[i].y + lit.Points[i].z);
+  };
+  ForSurfaces(data,
+    [&](vtkIdType cell, vtkIdType size, const vtkIdType* points, bool isStrip)
+    {
+      for (vtkIdType i = 2; i < size && std::all_of(points, points + size, isPoint); ++i)
+      {
+        const vtkIdType first = points[isStrip ? i - 2 : 0];
+        const bool isTurned = isStrip && i % 2 == 1;
+        lit.Triangles.push_back(
+          { first, points[isTurned ? i : i - 1], points[isTurned ? i - 1 : i] });
+        lit.Cells.push_back(cell);
+      }
+    });
+  return lit;
+}
+
+//------------------------------------------------------------------------------
 vtkSmartPointer<vtkFloatArray> MakeArray(vtkIdType tuples)
 {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
@@ -176,11 +213,20 @@ void AddIrradiance(vtkPolyData* output, const std::vector<double>& flux, const g
 
 } // anonymous namespace
 
+//------------------------------------------------------------------------------
+class vtkRefractedLightFilter::vtkInternals
+{
+public:
+  meniscus::StackScene Stack; ///< several interfaces
+};
+
 vtkStandardNewMacro(vtkRefractedLightFilter);
 meniscusInterfacePropertiesMacro(vtkRefractedLightFilter);
+meniscusMembranePortMacro(vtkRefractedLightFilter, 1);
 
 //------------------------------------------------------------------------------
 vtkRefractedLightFilter::vtkRefractedLightFilter()
+  : Internals(std::make_unique<vtkInternals>())
 {
   this->Interfaces = meniscus::MakeInterfaces();
   this->SetNumberOfInputPorts(2);
@@ -240,37 +286,38 @@ vtkRefractedGeometryFilter* vtkRefractedLightFilter::GetView()
 }
 
 //------------------------------------------------------------------------------
-int vtkRefractedLightFilter::FillInputPortInformation(int vtkNotUsed(port), vtkInformation* info)
+int vtkRefractedLightFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
   return 1;
 }
 
 //------------------------------------------------------------------------------
-// Every piece of the geometry needs the whole membrane.
+// Every piece of the geometry needs the whole membranes.
 int vtkRefractedLightFilter::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   const int result = this->Superclass::RequestUpdateExtent(request, inputs, outputs);
-  if (vtkInformation* info = inputs[1]->GetInformationObject(0))
-  {
-    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  }
+  meniscus::RequestWhole(inputs[1]);
   return result;
 }
 
 //------------------------------------------------------------------------------
 /** Returns false after an error. */
-bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkPolyData* membrane)
+bool vtkRefractedLightFilter::PlaceLight(vtkPolyData* input, vtkInformationVector* membranes)
 {
   glm::dvec3 light(this->LightPosition[0], this->LightPosition[1], this->LightPosition[2]);
   if (!this->Positional)
   {
     vtkBoundingBox box(input->GetBounds());
-    box.AddBounds(membrane->GetBounds());
+    for (int i = 0; i < membranes->GetNumberOfInformationObjects(); ++i)
+    {
+      box.AddBounds(vtkPolyData::GetData(membranes, i)->GetBounds());
+    }
     box.AddBox(this->OtherGeometry);
     double center[3];
     box.GetCenter(center);
@@ -299,7 +346,10 @@ bool vtkRefractedLightFilter::Look(vtkPolyData* input, vtkPolyData* membrane)
   this->Surfaces->Modified();
   this->View->SetInputData(this->Surfaces);
   this->View->SetMembraneData(membrane);
-  this->View->SetInterfaces(this->Interfaces);
+  vtkNew<vtkRefractingInterfaceCollection> first;
+  first->AddItem(this->Interfaces->GetFirstInterface());
+  this->View->SetInterfaces(
+    this->Interfaces->GetNumberOfItems() > 1 ? first.Get() : this->Interfaces.Get());
   this->View->SetAbortExecute(0);
   this->View->Update();
   return this->GetAbortExecute() == 0;
@@ -323,10 +373,35 @@ int vtkRefractedLightFilter::RequestData(
     AddIrradiance(output, {}, nullptr);
     return 1;
   }
-  if (!this->PlaceLight(input, membrane))
+  meniscus::SceneMessages messages;
+  meniscus::ListSurfaces(inputs[1], messages);
+  if (!messages.Error.empty())
+  {
+    meniscus::Report(this, messages);
+    return 0;
+  }
+  if (!this->PlaceLight(input, inputs[1]))
   {
     return 0;
   }
+  const bool hasStack = meniscus::HasStack(this->Interfaces, inputs[1]);
+  if (hasStack && !this->UpdateStack(inputs[1]))
+  {
+    output->Initialize();
+    return 0;
+  }
+  const meniscus::RefractionStack& stack = this->Internals->Stack.GetSolver().GetStack();
+  if (hasStack && !stack.GetLinks().empty())
+  {
+    const meniscus::LitTriangles lit = CollectTriangles(input);
+    meniscus::StackLight gathering(stack, lit);
+    gathering.SetOneSided(this->OneSided);
+    AddIrradiance(output,
+      gathering.Gather(static_cast<std::size_t>(input->GetNumberOfCells()), meniscus::ThreadedLoop),
+      nullptr);
+    return 1;
+  }
+  // Without a refracting interface, the first surface bounds the light.
   if (!this->Look(input, membrane))
   {
     return 1;
@@ -337,6 +412,19 @@ int vtkRefractedLightFilter::RequestData(
     GatherFlux(this->View->GetOutput(), light, input->GetNumberOfCells());
   AddIrradiance(output, flux, this->OneSided ? &light : nullptr);
   return 1;
+}
+
+//------------------------------------------------------------------------------
+/** Sets several interfaces, with the light in place of the eye. Returns false after an error. */
+bool vtkRefractedLightFilter::UpdateStack(vtkInformationVector* membranes)
+{
+  double light[3];
+  this->View->GetEyePosition(light);
+  meniscus::SceneMessages messages;
+  const bool isReady = meniscus::UpdateStack(this->Internals->Stack, membranes, 1, this->Interfaces,
+    { light[0], light[1], light[2] }, messages);
+  meniscus::Report(this, messages);
+  return isReady;
 }
 
 //------------------------------------------------------------------------------

@@ -26,6 +26,8 @@
  * therefore the light that the membrane transmits, whatever the size of the cells. A point has the
  * mean of its cells, weighted by area.
  *
+ * Port 1 is repeatable; see SetInterfaces() for several surfaces.
+ *
  * Lines and vertices get 0, and so do cells that the light does not reach through the membrane.
  *
  * @note Objects cast no shadows, except on themselves if OneSided is on.
@@ -42,6 +44,8 @@
 #include "vtkNew.h"            // For the filter inside
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h" // for vtkSmartPointer
+
+#include <memory> // For std::unique_ptr
 
 class vtkRefractingInterfaceCollection;
 class vtkRefractedGeometryFilter;
@@ -93,10 +97,16 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
-   * first interface has the indices of refraction and, optionally, the exact surface; more than one
-   * interface is an error when the filter runs. Null, the default, stands for a list of one with
+   * Set/Get the refracting interfaces, in the order in which the light's rays meet them. The list
+   * may be shared with other filters and mappers. Interface i has the surface of connection i of
+   * port 1, the indices of refraction and, optionally, the exact surface; another number of
+   * connections is an error when the filter runs. Null, the default, stands for a list of one with
    * default values.
+   *
+   * With several interfaces, media and sides are those of
+   * vtkRefractedGeometryFilter::SetInterfaces(). The light of a cell is that of the beams of rays
+   * that reach it, times the transmittance of all interfaces in front of it. Rays that miss a later
+   * surface end there.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
@@ -108,14 +118,25 @@ public:
   void SetMembraneData(vtkPolyData* membrane);
   /** @} */
 
+  /** @{ */
+  /**
+   * Add the surface of the next interface of the list to port 1, by connection or as data; remove
+   * all surfaces; get their number. SetInterfaces() has the indices of refraction.
+   */
+  void AddMembraneConnection(vtkAlgorithmOutput* output);
+  void AddMembraneData(vtkPolyData* membrane);
+  void RemoveAllMembranes();
+  int GetNumberOfMembranes();
+  /** @} */
+
   /**
    * Modification time, which includes that of the interfaces.
    */
   vtkMTimeType GetMTime() override;
 
   /**
-   * The filter that computes images with the light in place of the eye; its counters show the work
-   * done.
+   * The filter that computes images with the light in place of the eye, behind one interface; its
+   * counters show the work done.
    */
   vtkRefractedGeometryFilter* GetView();
 
@@ -139,8 +160,9 @@ private:
   vtkRefractedLightFilter(const vtkRefractedLightFilter&) = delete;
   void operator=(const vtkRefractedLightFilter&) = delete;
 
-  bool PlaceLight(vtkPolyData* input, vtkPolyData* membrane);
+  bool PlaceLight(vtkPolyData* input, vtkInformationVector* membranes);
   bool Look(vtkPolyData* input, vtkPolyData* membrane);
+  bool UpdateStack(vtkInformationVector* membranes);
 
   double LightPosition[3] = { 0.0, 0.0, 1.0 };
   bool Positional = false;
@@ -148,6 +170,9 @@ private:
   vtkSmartPointer<vtkRefractingInterfaceCollection> Interfaces;
   vtkNew<vtkRefractedGeometryFilter> View;
   vtkNew<vtkPolyData> Surfaces;
+
+  class vtkInternals;
+  std::unique_ptr<vtkInternals> Internals;
 };
 
 #endif

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkRefractionErrorVolume.h"
+#include "Filters/vtkRefractionErrorVolumeInternals.h"
 
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/ImplicitSurface.h"
-#include "Filters/Membrane/RefractionScene.h"
-#include "Refraction/Curved/ErrorSamples.h"
+#include "Filters/Membrane/StackInput.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -34,24 +33,14 @@ namespace
 // not for fewer samples than keep all threads of a large machine busy.
 constexpr vtkIdType Grain = 128;
 constexpr vtkIdType ProgressSteps = 100;
-constexpr vtkIdType SmallestStep = 64 * Grain;
+constexpr vtkIdType SmallestStep = 64; // times Grain
+static_assert(Grain % meniscus::StackSolver::Chain == 0, "Ranges are made of whole chains");
 
 }
 
-//------------------------------------------------------------------------------
-class vtkRefractionErrorVolume::vtkInternals
-{
-public:
-  meniscus::RefractionScene Scene;
-  /** The finer mesh, or the same mesh if the scene has flat facets. */
-  meniscus::RefractionScene Reference;
-  std::vector<meniscus::ErrorSample> Samples;
-  meniscus::ErrorSummary Summary;
-  bool WarnedOfNoReference = false;
-};
-
 vtkStandardNewMacro(vtkRefractionErrorVolume);
 meniscusInterfacePropertiesMacro(vtkRefractionErrorVolume);
+meniscusMembranePortMacro(vtkRefractionErrorVolume, 0);
 
 //------------------------------------------------------------------------------
 vtkRefractionErrorVolume::vtkRefractionErrorVolume()
@@ -83,6 +72,18 @@ void vtkRefractionErrorVolume::SetReferenceData(vtkPolyData* membrane)
 }
 
 //------------------------------------------------------------------------------
+void vtkRefractionErrorVolume::AddReferenceData(vtkPolyData* membrane)
+{
+  this->AddInputDataInternal(1, membrane);
+}
+
+//------------------------------------------------------------------------------
+void vtkRefractionErrorVolume::RemoveAllReferences()
+{
+  this->SetInputConnection(1, nullptr);
+}
+
+//------------------------------------------------------------------------------
 double vtkRefractionErrorVolume::GetMeanError() const
 {
   return this->Internals->Summary.Mean;
@@ -109,13 +110,15 @@ vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfMeasuredSamples() const
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfPatchBuilds() const
 {
-  return this->Internals->Scene.GetNumberOfPatchBuilds();
+  const vtkInternals& internals = *this->Internals;
+  return internals.Scene.GetNumberOfPatchBuilds() + internals.Stack.GetNumberOfPatchBuilds();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkRefractionErrorVolume::GetNumberOfEyeUpdates() const
 {
-  return this->Internals->Scene.GetNumberOfEyeUpdates();
+  const vtkInternals& internals = *this->Internals;
+  return internals.Scene.GetNumberOfEyeUpdates() + internals.Stack.GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -128,6 +131,7 @@ vtkMTimeType vtkRefractionErrorVolume::GetMTime()
 int vtkRefractionErrorVolume::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
   if (port == 1)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
@@ -185,23 +189,12 @@ int vtkRefractionErrorVolume::RequestInformation(vtkInformation* vtkNotUsed(requ
 }
 
 //------------------------------------------------------------------------------
-// Every part of the volume needs both membranes whole.
+// Every part of the volume needs all membranes whole.
 int vtkRefractionErrorVolume::RequestUpdateExtent(vtkInformation* vtkNotUsed(request),
   vtkInformationVector** inputs, vtkInformationVector* vtkNotUsed(outputs))
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int port = 0; port < 2; ++port)
-  {
-    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
-    {
-      info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-      info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-      // The executive has copied the extent of the output, which a membrane does not have unless it
-      // comes from an image.
-      info->Remove(Pipeline::UPDATE_EXTENT());
-    }
-  }
+  meniscus::RequestWhole(inputs[0]);
+  meniscus::RequestWhole(inputs[1]);
   return 1;
 }
 
@@ -217,7 +210,10 @@ int vtkRefractionErrorVolume::RequestData(
     vtkErrorMacro("The membrane is missing or is not a vtkPolyData; the output is empty.");
     return 0;
   }
-  if (!this->HasValidBox() || !this->UpdateScenes(membrane, vtkPolyData::GetData(inputs[1])))
+  const bool hasStack = meniscus::HasStack(this->Interfaces, inputs[0]);
+  if (!this->HasValidBox() ||
+    !(hasStack ? this->UpdateStacks(inputs[0], inputs[1])
+               : this->UpdateScenes(membrane, vtkPolyData::GetData(inputs[1]))))
   {
     return 0;
   }
@@ -225,7 +221,9 @@ int vtkRefractionErrorVolume::RequestData(
   output->SetExtent(info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   output->SetOrigin(info->Get(vtkDataObject::ORIGIN()));
   output->SetSpacing(info->Get(vtkDataObject::SPACING()));
-  if (this->MeasureSamples(output))
+  this->Internals->Samples.assign(
+    static_cast<std::size_t>(output->GetNumberOfPoints()), meniscus::ErrorSample());
+  if (hasStack ? this->MeasureStack(output) : this->MeasureSamples(output))
   {
     this->FillOutput(output);
   }
@@ -240,11 +238,6 @@ int vtkRefractionErrorVolume::RequestData(
 //------------------------------------------------------------------------------
 bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference)
 {
-  if (const char* fault = meniscus::FindFault(this->Interfaces))
-  {
-    vtkErrorMacro(<< fault << "; the output is empty.");
-    return false;
-  }
   vtkInternals& internals = *this->Internals;
   const bool curved = this->MembraneModel == CURVED;
   const meniscus::RefractionScene::Eye eye = { this->EyePosition[0], this->EyePosition[1],
@@ -259,14 +252,7 @@ bool vtkRefractionErrorVolume::UpdateScenes(vtkPolyData* membrane, vtkPolyData* 
     ready = internals.Reference.SetMembrane(reference ? reference : membrane, true, messages) &&
       internals.Reference.SetEye(eye, messages);
   }
-  if (!messages.Error.empty())
-  {
-    vtkErrorMacro(<< messages.Error << "; the output is empty.");
-  }
-  if (!messages.Warning.empty())
-  {
-    vtkWarningMacro(<< messages.Warning);
-  }
+  meniscus::Report(this, messages);
   if (curved && !needsReference && !this->GetExactMembrane() && !internals.WarnedOfNoReference)
   {
     internals.WarnedOfNoReference = true;
@@ -297,25 +283,35 @@ bool vtkRefractionErrorVolume::MeasureSamples(vtkImageData* output)
   const meniscus::ErrorSampler sampler(
     *exact, eye, this->GetExteriorIndexOfRefraction(), this->GetInteriorIndexOfRefraction());
   const meniscus::RefractionScene& scene = internals.Scene;
-  const vtkIdType count = output->GetNumberOfPoints();
-  internals.Samples.assign(static_cast<std::size_t>(count), meniscus::ErrorSample());
-  const vtkIdType step = std::max(count / ProgressSteps, SmallestStep);
-  for (vtkIdType first = 0; first < count; first += step)
-  {
-    const vtkIdType last = std::min(first + step, count);
-    vtkSMPTools::For(first, last, Grain,
-      [&internals, &sampler, &scene, output](vtkIdType begin, vtkIdType end)
+  return this->RunOverSamples(output->GetNumberOfPoints(),
+    [&internals, &sampler, &scene, output](vtkIdType begin, vtkIdType end)
+    {
+      for (vtkIdType i = begin; i < end; ++i)
       {
-        for (vtkIdType i = begin; i < end; ++i)
-        {
-          glm::dvec3 point;
-          output->GetPoint(i, &point.x);
-          internals.Samples[static_cast<std::size_t>(i)] = scene.IsCurved()
-            ? sampler.Measure(scene.GetCurved(), point)
-            : sampler.Measure(scene.GetFlat(), point);
-        }
-      });
-    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(count));
+        glm::dvec3 point;
+        output->GetPoint(i, &point.x);
+        internals.Samples[static_cast<std::size_t>(i)] = scene.IsCurved()
+          ? sampler.Measure(scene.GetCurved(), point)
+          : sampler.Measure(scene.GetFlat(), point);
+      }
+    });
+}
+
+//------------------------------------------------------------------------------
+// Calls the body for ranges that begin at multiples of the chains of StackSolver. Returns false
+// after an abort.
+bool vtkRefractionErrorVolume::RunOverSamples(
+  vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body)
+{
+  const vtkIdType chains = (count + Grain - 1) / Grain;
+  const vtkIdType step = std::max(chains / ProgressSteps, SmallestStep);
+  for (vtkIdType first = 0; first < chains; first += step)
+  {
+    const vtkIdType last = std::min(first + step, chains);
+    vtkSMPTools::For(first, last, 1,
+      [&body, count](vtkIdType begin, vtkIdType end)
+      { body(begin * Grain, std::min(end * Grain, count)); });
+    this->UpdateProgress(static_cast<double>(last) / static_cast<double>(chains));
     if (this->GetAbortExecute())
     {
       return false;

@@ -13,7 +13,8 @@
  * then traced through the exact surface, Eq. 2.2, and Eq. 2.4 is inverted on the refracted ray. The
  * error is the distance between the resulting point and the sample, in world units.
  *
- * Input port 0 is the membrane, as for vtkRefractedGeometryFilter. The exact surface is
+ * Input port 0 is the membrane, as for vtkRefractedGeometryFilter; it is repeatable (see
+ * SetInterfaces() for several surfaces), and so is port 1. The exact surface is
  * - an implicit function that the membrane's points lie on (SetExactMembrane), with its gradient;
  * - otherwise the membrane on the optional input port 1, a finer mesh of the same surface, as
  *   curved patches;
@@ -51,7 +52,8 @@
 #include "vtkMeniscusModule.h" // For export macro
 #include "vtkSmartPointer.h"   // For the implicit function
 
-#include <memory> // For std::unique_ptr
+#include <functional> // For std::function
+#include <memory>     // For std::unique_ptr
 
 class vtkRefractingInterfaceCollection;
 class vtkImageData;
@@ -103,9 +105,14 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
-   * first interface has the indices of refraction and the exact surface; more than one interface is
-   * an error when the filter runs. Null, the default, stands for a list of one with default values.
+   * Set/Get the refracting interfaces, in the order in which sight rays meet them. The list may be
+   * shared with other filters and mappers. Interface i has the surface of connection i of port 0,
+   * the indices of refraction and the exact surface; another number of connections is an error when
+   * the filter runs. Null, the default, stands for a list of one with default values.
+   *
+   * With several interfaces, as for vtkRefractedGeometryFilter::SetInterfaces(), MembraneModel must
+   * be CURVED, and one image of each sample is measured: SEVERAL_IMAGES is not reported. Port 1 has
+   * a finer mesh for each interface, or none.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
@@ -128,6 +135,17 @@ public:
   vtkImplicitFunction* GetExactMembrane();
   /** @} */
 
+  /** @{ */
+  /**
+   * Add the surface of the next interface of the list to port 0, by connection or as data; remove
+   * all surfaces; get their number. SetInterfaces() has the indices of refraction.
+   */
+  void AddMembraneConnection(vtkAlgorithmOutput* output);
+  void AddMembraneData(vtkPolyData* membrane);
+  void RemoveAllMembranes();
+  int GetNumberOfMembranes();
+  /** @} */
+
   /**
    * Set the finer membrane, port 1, by connection. Not used if there is an implicit function.
    */
@@ -136,6 +154,14 @@ public:
    * Set the finer membrane, port 1, without a pipeline connection.
    */
   void SetReferenceData(vtkPolyData* membrane);
+  /** @{ */
+  /**
+   * Add the finer membrane of the next interface, by connection or as data; remove all of them.
+   */
+  void AddReferenceConnection(vtkAlgorithmOutput* output) { this->AddInputConnection(1, output); }
+  void AddReferenceData(vtkPolyData* membrane);
+  void RemoveAllReferences();
+  /** @} */
 
   /** @{ */
   /**
@@ -205,7 +231,11 @@ private:
 
   bool HasValidBox();
   bool UpdateScenes(vtkPolyData* membrane, vtkPolyData* reference);
+  bool UpdateStacks(vtkInformationVector* membranes, vtkInformationVector* references);
   bool MeasureSamples(vtkImageData* output);
+  bool MeasureStack(vtkImageData* output);
+  bool RunOverSamples(
+    vtkIdType count, const std::function<void(vtkIdType begin, vtkIdType end)>& body);
   void FillOutput(vtkImageData* output);
 
   double EyePosition[3] = { 0.0, 0.0, 1.0 };

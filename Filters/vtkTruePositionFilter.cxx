@@ -4,7 +4,9 @@
 
 #include "Filters/Interface/InterfaceProperties.h"
 #include "Filters/Membrane/RefractionScene.h"
+#include "Filters/Membrane/StackInput.h"
 #include "Refraction/Curved/TruePositions.h"
+#include "Refraction/Stack/StackInverse.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
@@ -36,7 +38,8 @@ static_assert(
     vtkTruePositionFilter::REFRACTED == static_cast<int>(meniscus::SeenState::Refracted) &&
     vtkTruePositionFilter::TOTALLY_REFLECTED ==
       static_cast<int>(meniscus::SeenState::TotallyReflected) &&
-    vtkTruePositionFilter::NOT_FINITE == static_cast<int>(meniscus::SeenState::NotFinite),
+    vtkTruePositionFilter::NOT_FINITE == static_cast<int>(meniscus::SeenState::NotFinite) &&
+    vtkTruePositionFilter::MISSED == static_cast<int>(meniscus::SeenState::Missed),
   "the same states");
 
 /** Arrays of the output. */
@@ -70,25 +73,31 @@ struct PointArrays
 class vtkTruePositionFilter::vtkInternals
 {
 public:
-  meniscus::RefractionScene Scene;
+  meniscus::RefractionScene Scene; ///< of one interface
+  meniscus::StackScene Stack;      ///< of several ones
+  // Of the last run:
+  bool HasStack = false;
+  double Exterior = 1.0;
+  double Interior = 1.0;
   /** Search of sight rays, made for an eye and a membrane: see EyeUpdate. */
   std::unique_ptr<meniscus::TruePositions> Truth;
   vtkTypeInt64 EyeUpdate = -1;
   vtkTypeInt64 TotallyReflected = 0;
+  vtkTypeInt64 Missed = 0;
 
-  const meniscus::TruePositions& GetTruth()
+  void UpdateTruth()
   {
     if (this->EyeUpdate != this->Scene.GetNumberOfEyeUpdates())
     {
       this->Truth = std::make_unique<meniscus::TruePositions>(this->Scene.GetCurved());
       this->EyeUpdate = this->Scene.GetNumberOfEyeUpdates();
     }
-    return *this->Truth;
   }
 };
 
 vtkStandardNewMacro(vtkTruePositionFilter);
 meniscusInterfacePropertiesMacro(vtkTruePositionFilter);
+meniscusMembranePortMacro(vtkTruePositionFilter, 1);
 
 //------------------------------------------------------------------------------
 vtkTruePositionFilter::vtkTruePositionFilter()
@@ -114,15 +123,23 @@ vtkTypeInt64 vtkTruePositionFilter::GetNumberOfTotallyReflectedPoints() const
 }
 
 //------------------------------------------------------------------------------
+vtkTypeInt64 vtkTruePositionFilter::GetNumberOfMissedPoints() const
+{
+  return this->Internals->Missed;
+}
+
+//------------------------------------------------------------------------------
 vtkTypeInt64 vtkTruePositionFilter::GetNumberOfPatchBuilds() const
 {
-  return this->Internals->Scene.GetNumberOfPatchBuilds();
+  const vtkInternals& internals = *this->Internals;
+  return internals.Scene.GetNumberOfPatchBuilds() + internals.Stack.GetNumberOfPatchBuilds();
 }
 
 //------------------------------------------------------------------------------
 vtkTypeInt64 vtkTruePositionFilter::GetNumberOfEyeUpdates() const
 {
-  return this->Internals->Scene.GetNumberOfEyeUpdates();
+  const vtkInternals& internals = *this->Internals;
+  return internals.Scene.GetNumberOfEyeUpdates() + internals.Stack.GetNumberOfEyeUpdates();
 }
 
 //------------------------------------------------------------------------------
@@ -135,22 +152,20 @@ vtkMTimeType vtkTruePositionFilter::GetMTime()
 int vtkTruePositionFilter::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkPointSet");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_REPEATABLE(), 1);
+  }
   return 1;
 }
 
 //------------------------------------------------------------------------------
-// Every piece of the points needs the whole membrane.
+// Every piece of the points needs the whole membranes.
 int vtkTruePositionFilter::ComputeInputUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   const int result = this->Superclass::ComputeInputUpdateExtent(request, inputs, outputs);
-  if (vtkInformation* info = inputs[1]->GetInformationObject(0))
-  {
-    info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
-    info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
-    info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  }
+  meniscus::RequestWhole(inputs[1]);
   return result;
 }
 
@@ -159,6 +174,7 @@ int vtkTruePositionFilter::RequestData(
   vtkInformation* vtkNotUsed(request), vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   this->Internals->TotallyReflected = 0;
+  this->Internals->Missed = 0;
   vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
   vtkPolyData* membrane = vtkPolyData::GetData(inputs[1]);
   vtkPointSet* output = vtkPointSet::GetData(outputs);
@@ -168,7 +184,7 @@ int vtkTruePositionFilter::RequestData(
                   "empty.");
     return 0;
   }
-  if (!this->UpdateScene(membrane))
+  if (!this->UpdateScene(inputs[1]))
   {
     return 0;
   }
@@ -181,31 +197,58 @@ int vtkTruePositionFilter::RequestData(
 }
 
 //------------------------------------------------------------------------------
-/** Sets membrane and eye. Returns false after an error. */
-bool vtkTruePositionFilter::UpdateScene(vtkPolyData* membrane)
+/** Sets membranes and eye. Returns false after an error. */
+bool vtkTruePositionFilter::UpdateScene(vtkInformationVector* membranes)
 {
-  if (const char* fault = meniscus::FindFault(this->Interfaces))
-  {
-    vtkErrorMacro(<< fault << "; the output is empty.");
-    return false;
-  }
-  meniscus::RefractionScene& scene = this->Internals->Scene;
-  const meniscus::RefractionScene::Eye eye = { this->EyePosition[0], this->EyePosition[1],
-    this->EyePosition[2], this->GetExteriorIndexOfRefraction(),
-    this->GetInteriorIndexOfRefraction() };
+  vtkInternals& internals = *this->Internals;
   meniscus::SceneMessages messages;
-  const bool ready = scene.SetMembrane(membrane, true, messages,
-                       this->Interfaces->GetFirstInterface()->GetExactSurface()) &&
-    scene.SetEye(eye, messages);
-  if (!messages.Error.empty())
+  internals.HasStack = meniscus::HasStack(this->Interfaces, membranes);
+  internals.Exterior = this->GetExteriorIndexOfRefraction();
+  internals.Interior = this->GetInteriorIndexOfRefraction();
+  bool ready = false;
+  if (internals.HasStack)
   {
-    vtkErrorMacro(<< messages.Error << "; the output is empty.");
+    ready = meniscus::UpdateStack(internals.Stack, membranes, 1, this->Interfaces,
+      { this->EyePosition[0], this->EyePosition[1], this->EyePosition[2] }, messages);
   }
-  if (!messages.Warning.empty())
+  else
   {
-    vtkWarningMacro(<< messages.Warning);
+    const meniscus::RefractionScene::Eye eye = { this->EyePosition[0], this->EyePosition[1],
+      this->EyePosition[2], internals.Exterior, internals.Interior };
+    ready = internals.Scene.SetMembrane(vtkPolyData::GetData(membranes), true, messages,
+              this->Interfaces->GetFirstInterface()->GetExactSurface()) &&
+      internals.Scene.SetEye(eye, messages);
   }
+  if (ready && !internals.HasStack)
+  {
+    internals.UpdateTruth();
+  }
+  meniscus::Report(this, messages);
   return ready;
+}
+
+//------------------------------------------------------------------------------
+meniscus::StackTruePosition vtkTruePositionFilter::FindOne(const double at[3]) const
+{
+  const glm::dvec3 seen(at[0], at[1], at[2]);
+  const glm::dvec3 eye(this->EyePosition[0], this->EyePosition[1], this->EyePosition[2]);
+  const double exterior = this->Internals->Exterior;
+  const double interior = this->Internals->Interior;
+  meniscus::TruePosition found = this->Internals->Truth->Find(seen);
+  const bool refracted = found.State == meniscus::SeenState::Refracted;
+  const double path = refracted ? exterior * glm::length(found.SightPoint - eye) +
+      interior * glm::length(found.Position - found.SightPoint)
+                                : exterior * glm::length(seen - eye);
+  // Equal indices change no bit.
+  found.Position = exterior == interior ? seen : found.Position;
+  return { found, path };
+}
+
+//------------------------------------------------------------------------------
+meniscus::StackTruePosition vtkTruePositionFilter::FindThroughStack(const double at[3]) const
+{
+  return meniscus::FindTruePosition(this->Internals->Stack.GetSolver().GetStack(),
+    this->Internals->Exterior, { at[0], at[1], at[2] });
 }
 
 //------------------------------------------------------------------------------
@@ -213,26 +256,17 @@ bool vtkTruePositionFilter::UpdateScene(vtkPolyData* membrane)
 bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
 {
   const vtkIdType count = input->GetNumberOfPoints();
-  const glm::dvec3 eye(this->EyePosition[0], this->EyePosition[1], this->EyePosition[2]);
-  const double exterior = this->GetExteriorIndexOfRefraction();
-  const double interior = this->GetInteriorIndexOfRefraction();
-  const meniscus::TruePositions& truth = this->Internals->GetTruth();
   PointArrays arrays(count);
   const auto move = [&](vtkIdType i)
   {
-    glm::dvec3 seen;
-    input->GetPoint(i, &seen.x);
-    meniscus::TruePosition found = truth.Find(seen);
-    const bool refracted = found.State == meniscus::SeenState::Refracted;
-    const double path = refracted ? exterior * glm::length(found.SightPoint - eye) +
-        interior * glm::length(found.Position - found.SightPoint)
-                                  : exterior * glm::length(seen - eye);
-    // Equal indices change no bit.
-    found.Position = exterior == interior ? seen : found.Position;
+    double seen[3];
+    input->GetPoint(i, seen);
+    const meniscus::StackTruePosition found =
+      this->Internals->HasStack ? this->FindThroughStack(seen) : this->FindOne(seen);
     arrays.Positions->SetTypedTuple(i, &found.Position.x);
     arrays.SightPoints->SetTypedTuple(i, &found.SightPoint.x);
     arrays.States->SetValue(i, static_cast<unsigned char>(found.State));
-    arrays.Paths->SetValue(i, path);
+    arrays.Paths->SetValue(i, found.OpticalPath);
   };
   const vtkIdType step = std::max(count / ProgressSteps, SmallestStep);
   for (vtkIdType first = 0; first < count; first += step)
@@ -253,8 +287,10 @@ bool vtkTruePositionFilter::MovePoints(vtkPointSet* input, vtkPointSet* output)
     }
   }
   const unsigned char* states = arrays.States->GetPointer(0);
-  this->Internals->TotallyReflected =
-    std::count(states, states + count, static_cast<unsigned char>(TOTALLY_REFLECTED));
+  const auto countState = [states, count](SeenStates state)
+  { return std::count(states, states + count, static_cast<unsigned char>(state)); };
+  this->Internals->TotallyReflected = countState(TOTALLY_REFLECTED);
+  this->Internals->Missed = countState(MISSED);
   vtkNew<vtkPoints> points;
   points->SetData(arrays.Positions);
   output->SetPoints(points);
@@ -274,4 +310,5 @@ void vtkTruePositionFilter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "InteriorIndexOfRefraction: " << this->GetInteriorIndexOfRefraction() << "\n";
   os << indent << "NumberOfTotallyReflectedPoints: " << this->GetNumberOfTotallyReflectedPoints()
      << "\n";
+  os << indent << "NumberOfMissedPoints: " << this->GetNumberOfMissedPoints() << "\n";
 }

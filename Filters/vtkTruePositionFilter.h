@@ -7,7 +7,7 @@
  * The inverse of vtkRefractedGeometryFilter, for measurements that are made through water or glass:
  * points from photographs, laser scans or depth images lie where they are seen, and the filter
  * moves them to where they are. Port 0 is any vtkPointSet, port 1 the membrane, whose normals point
- * to the eye's side.
+ * to the eye's side. Port 1 is repeatable; see SetInterfaces() for several surfaces.
  *
  * The sight ray from the eye to a point is refracted by Snell's law where it first meets the front
  * of the membrane, a curved surface through the vertices with their normals (CURVED of
@@ -40,6 +40,11 @@ class vtkPointSet;
 class vtkPolyData;
 class vtkRefractingInterfaceCollection;
 
+namespace meniscus
+{
+struct StackTruePosition;
+}
+
 class VTKMENISCUS_EXPORT vtkTruePositionFilter : public vtkPointSetAlgorithm
 {
 public:
@@ -53,7 +58,8 @@ public:
     UNREFRACTED = 0,       ///< no membrane in front of the point, which is not moved
     REFRACTED = 1,         ///< behind the membrane: the point is moved
     TOTALLY_REFLECTED = 2, ///< beyond the critical angle; the point is not moved
-    NOT_FINITE = 3         ///< not finite, or at the eye; the point is not moved
+    NOT_FINITE = 3,        ///< not finite, or at the eye; the point is not moved
+    MISSED = 4             ///< the ray misses one of several surfaces; the point is not moved
   };
 
   /** @{ */
@@ -75,10 +81,14 @@ public:
 
   /** @{ */
   /**
-   * Set/Get the refracting interfaces. The list may be shared with other filters and mappers. Its
-   * first interface has the indices of refraction and, optionally, the exact surface onto which the
-   * membrane's points are moved; more than one interface is an error when the filter runs. Null,
-   * the default, stands for a list of one with default values.
+   * Set/Get the refracting interfaces, in the order in which sight rays meet them. The list may be
+   * shared with other filters and mappers. Interface i has the surface of connection i of port 1,
+   * the indices of refraction and, optionally, the exact surface onto which its points are moved;
+   * another number of connections is an error when the filter runs. Null, the default, stands for a
+   * list of one with default values.
+   *
+   * With several interfaces, the media, the sides and the depth of a seen point are those of
+   * vtkRefractedGeometryFilter::SetInterfaces(). A ray must meet the interface behind a point, too.
    */
   void SetInterfaces(vtkRefractingInterfaceCollection* interfaces);
   vtkRefractingInterfaceCollection* GetInterfaces();
@@ -90,8 +100,21 @@ public:
   void SetMembraneData(vtkPolyData* membrane);
   /** @} */
 
+  /** @{ */
+  /**
+   * Add the surface of the next interface of the list to port 1, by connection or as data; remove
+   * all surfaces; get their number. SetInterfaces() has the indices of refraction.
+   */
+  void AddMembraneConnection(vtkAlgorithmOutput* output);
+  void AddMembraneData(vtkPolyData* membrane);
+  void RemoveAllMembranes();
+  int GetNumberOfMembranes();
+  /** @} */
+
   /** Number of points of the last run that have no true position: TOTALLY_REFLECTED. */
   vtkTypeInt64 GetNumberOfTotallyReflectedPoints() const;
+  /** Number of points of the last run whose rays miss one of several surfaces: MISSED. */
+  vtkTypeInt64 GetNumberOfMissedPoints() const;
   /** Number of patches built since construction: once per change of the membrane's values. */
   vtkTypeInt64 GetNumberOfPatchBuilds() const;
   /** Number of times that the search was set up: once per change of eye, indices or membrane. */
@@ -114,7 +137,9 @@ private:
   vtkTruePositionFilter(const vtkTruePositionFilter&) = delete;
   void operator=(const vtkTruePositionFilter&) = delete;
 
-  bool UpdateScene(vtkPolyData* membrane);
+  bool UpdateScene(vtkInformationVector* membranes);
+  meniscus::StackTruePosition FindOne(const double seen[3]) const;
+  meniscus::StackTruePosition FindThroughStack(const double seen[3]) const;
   bool MovePoints(vtkPointSet* input, vtkPointSet* output);
 
   double EyePosition[3] = { 0.0, 0.0, 1.0 };

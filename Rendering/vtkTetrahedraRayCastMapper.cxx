@@ -3,6 +3,7 @@
 #include "vtkTetrahedraRayCastMapper.h"
 
 #include "Filters/Interface/InterfaceProperties.h"
+#include "Filters/Interface/StackValidation.h"
 #include "Rendering/Backends/OpenGL/RayCastShader.h"
 #include "Rendering/Input/ComponentChoice.h"
 #include "Rendering/RayCastMapperInternals.h"
@@ -322,8 +323,7 @@ bool vtkTetrahedraRayCastMapper::UpdateMembrane()
   const int items = this->Interfaces->GetNumberOfItems();
   if (membranes != items && (membranes > 0 || items > 1))
   {
-    vtkErrorMacro("The list has " << items << " refracting interfaces, and port 1 has " << membranes
-                                  << " surfaces; one for each is needed; nothing is rendered.");
+    vtkErrorMacro(<< meniscus::DescribeCounts(items, membranes, 1) << "; nothing is rendered.");
     return false;
   }
   std::vector<meniscus::MembraneInterface> interfaces;

@@ -56,12 +56,12 @@
  * alpha over the unit distance.
  *
  * Method:
- * 1. Once per mesh, vertices and cells are ordered along a Morton curve and cells are linked across
- *    faces. The tables take 32 bytes of GPU memory per cell, 16 per vertex and 80 per boundary
- *    face.
+ * 1. Once per mesh, vertices and cells are ordered along a Hilbert curve, and cells are linked
+ *    across faces. The tables take 32 bytes of GPU memory per cell, 16 per vertex and 80 per
+ *    boundary face.
  * 2. The entries of a ray are found in a bounding volume hierarchy over the boundary faces.
  * 3. In the projection along the ray the exit of a cell follows from the signs of its edges, which
- *    are exact (vertices are rounded to a grid of 2^-22 of the mesh's radius about the ray). A ray
+ *    are exact (vertices are rounded to a grid of 2^-29 of the mesh's radius). A ray
  *    through an edge or a vertex is treated as displaced by (e, e^2) for an arbitrarily small e. A
  *    walk that begins on the boundary therefore ends on the boundary: no ray is lost, and none runs
  *    for ever.

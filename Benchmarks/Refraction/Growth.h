@@ -22,13 +22,14 @@ struct GrowthFigures
   double FlatShape = 0.0;
   double FlatEye = 0.0;
   double FlatCoherent = 0.0;   ///< microseconds per vertex, grid order
-  double FlatScattered = 0.0;  ///< the same, random order
+  double FlatScattered = 0.0;  ///< the same, random order, solved along a curve
   double FlatBruteForce = 0.0; ///< the same, testing every facet
   double CurvedShape = 0.0;    ///< a new topology
   double CurvedDeform = 0.0;   ///< the same topology, other points
   double CurvedEye = 0.0;
   double CurvedOne = 0.0;       ///< microseconds per vertex, one image, grid order
-  double CurvedScattered = 0.0; ///< the same, random order
+  double CurvedScattered = 0.0; ///< the same, random order, solved along a curve
+  double PointOrder = 0.0;      ///< microseconds per vertex to find the order along the curve
   double CurvedAll = 0.0; ///< the same, all images of an object's points, as the filter computes
                           ///< them
   double CurvedSearch =

@@ -42,6 +42,28 @@
     return this->Interfaces->GetFirstInterface()->GetInteriorIndexOfRefraction();                  \
   }
 
+/**
+ * Defines the methods of a filter for the surfaces at one of its ports, which may be repeated:
+ * AddMembraneConnection, AddMembraneData, RemoveAllMembranes and GetNumberOfMembranes.
+ */
+#define meniscusMembranePortMacro(className, port)                                                 \
+  void className::AddMembraneConnection(vtkAlgorithmOutput* output)                                \
+  {                                                                                                \
+    this->AddInputConnection(port, output);                                                        \
+  }                                                                                                \
+  void className::AddMembraneData(vtkPolyData* membrane)                                           \
+  {                                                                                                \
+    this->AddInputDataInternal(port, membrane);                                                    \
+  }                                                                                                \
+  void className::RemoveAllMembranes()                                                             \
+  {                                                                                                \
+    this->SetInputConnection(port, nullptr);                                                       \
+  }                                                                                                \
+  int className::GetNumberOfMembranes()                                                            \
+  {                                                                                                \
+    return this->GetNumberOfInputConnections(port);                                                \
+  }
+
 namespace meniscus
 {
 

@@ -2,27 +2,66 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Interface/StackValidation.h"
 
-#include "Refraction/Stack/MediaChain.h"
-
 #include "vtkRefractingInterface.h"
 #include "vtkRefractingInterfaceCollection.h"
 
 #include <sstream>
-#include <vector>
 
 namespace meniscus
 {
 
 //------------------------------------------------------------------------------
-std::string FindStackFault(vtkRefractingInterfaceCollection* interfaces, int surfaces)
+std::string NameInterface(std::size_t number, std::size_t count)
+{
+  return count > 1 ? "Interface " + std::to_string(number) + ": " : std::string();
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeCounts(int interfaces, int surfaces, int port)
 {
   std::ostringstream text;
+  text << "The list has " << interfaces << " refracting interfaces, and port " << port << " has "
+       << surfaces << " surfaces; one for each is needed";
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeBadIndices(double exterior, double interior)
+{
+  std::ostringstream text;
+  text << "Indices of refraction must be positive and finite, not " << exterior << " and "
+       << interior;
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+std::string DescribeMediaFault(const std::vector<InterfaceMedia>& media)
+{
+  const MediaChain chain(media);
+  if (chain.Fault == MediaFault::None)
+  {
+    return std::string();
+  }
+  const InterfaceMedia& fault = media[chain.FaultAt];
+  if (chain.Fault == MediaFault::BadIndex)
+  {
+    return NameInterface(chain.FaultAt, media.size()) +
+      DescribeBadIndices(fault.Exterior, fault.Interior);
+  }
+  std::ostringstream text;
+  text << MismatchText << "interface " << chain.FaultAt << " has " << fault.Exterior << " and "
+       << fault.Interior << ", and neither is that of the medium behind interface "
+       << chain.FaultAt - 1;
+  return text.str();
+}
+
+//------------------------------------------------------------------------------
+std::string FindStackFault(vtkRefractingInterfaceCollection* interfaces, int surfaces, int port)
+{
   const int count = interfaces->GetNumberOfItems();
   if (count != surfaces)
   {
-    text << "There are " << surfaces << " surfaces at the membrane port, and " << count
-         << " refracting interfaces in the list; each interface needs its surface";
-    return text.str();
+    return DescribeCounts(count, surfaces, port);
   }
   std::vector<InterfaceMedia> media;
   for (int i = 0; i < count; ++i)
@@ -31,24 +70,7 @@ std::string FindStackFault(vtkRefractingInterfaceCollection* interfaces, int sur
     media.push_back(
       { interface->GetExteriorIndexOfRefraction(), interface->GetInteriorIndexOfRefraction() });
   }
-  const MediaChain chain(media);
-  const InterfaceMedia& fault =
-    chain.Fault == MediaFault::None ? InterfaceMedia{ 1.0, 1.0 } : media[chain.FaultAt];
-  switch (chain.Fault)
-  {
-    case MediaFault::None:
-      break;
-    case MediaFault::BadIndex:
-      text << "Indices of refraction must be positive and finite, not " << fault.Exterior << " and "
-           << fault.Interior << " at interface " << chain.FaultAt;
-      break;
-    case MediaFault::NoMatch:
-      text << "Interface " << chain.FaultAt << " has the indices of refraction " << fault.Exterior
-           << " and " << fault.Interior << ", and neither is that of the medium behind interface "
-           << chain.FaultAt - 1;
-      break;
-  }
-  return text.str();
+  return DescribeMediaFault(media);
 }
 
 }

@@ -1,22 +1,42 @@
 // SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
 // SPDX-License-Identifier: BSD-3-Clause
+/** Errors in lists of refracting interfaces. Filters and mapper report the same texts. */
 #ifndef meniscus_Filters_Interface_StackValidation_h
 #define meniscus_Filters_Interface_StackValidation_h
 
+#include "Refraction/Stack/MediaChain.h"
+
+#include <cstddef>
 #include <string>
+#include <vector>
 
 class vtkRefractingInterfaceCollection;
 
 namespace meniscus
 {
 
+/** Beginning of a message about an interface; empty if there is one only. */
+std::string NameInterface(std::size_t number, std::size_t count);
+
+/** Text of the error for another number of surfaces at a port than of interfaces. */
+std::string DescribeCounts(int interfaces, int surfaces, int port);
+
+/** Text of the error for indices of refraction of which one is not positive and finite. */
+std::string DescribeBadIndices(double exterior, double interior);
+
+/** Beginning of the text of the error for media that do not match. */
+constexpr char MismatchText[] =
+  "The indices of refraction do not match along the list of interfaces: ";
+
+/** Text of the error for media that rays cannot pass in the order of the list; empty if none. */
+std::string DescribeMediaFault(const std::vector<InterfaceMedia>& media);
+
 /**
  * Text of the error for a list that rays cannot pass, one interface after the other: its length is
- * not the number of surfaces, an index is not positive and finite, or the medium behind an
- * interface is not a medium of the next one. Empty if rays can. See FindFault for classes that
- * refract once.
+ * not the number of surfaces at the port, an index is not positive and finite, or the medium behind
+ * an interface is not a medium of the next one. Empty if rays can.
  */
-std::string FindStackFault(vtkRefractingInterfaceCollection* interfaces, int surfaces);
+std::string FindStackFault(vtkRefractingInterfaceCollection* interfaces, int surfaces, int port);
 
 }
 

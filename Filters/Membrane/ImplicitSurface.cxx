@@ -43,15 +43,22 @@ glm::dvec3 ImplicitSurface::GetGradient(const glm::dvec3& at) const
 bool ImplicitSurface::Meet(
   const glm::dvec3&, const VirtualVertex& vertex, const glm::dvec3& direction, PatchPoint& at) const
 {
+  return this->MeetNear(this->Eye, direction, vertex.SightPoint, at);
+}
+
+//------------------------------------------------------------------------------
+bool ImplicitSurface::MeetNear(const glm::dvec3& origin, const glm::dvec3& direction,
+  const glm::dvec3& near, PatchPoint& at) const
+{
   // Newton's method converges quadratically: the remaining error is the square of the last step,
   // relative to the scene.
   constexpr double lastStep = 1e-8;
   constexpr int steps = 50;
-  double distance = glm::dot(vertex.SightPoint - this->Eye, direction);
-  const double size = std::max(glm::length(this->Eye), std::fabs(distance));
+  double distance = glm::dot(near - origin, direction);
+  const double size = std::max(glm::length(origin), std::fabs(distance));
   for (int i = 0; i < steps; ++i)
   {
-    at.Position = this->Eye + distance * direction;
+    at.Position = origin + distance * direction;
     const double value = this->Function->FunctionValue(&at.Position.x);
     at.Normal = this->Sign * this->GetGradient(at.Position);
     const double step = value * this->Sign / glm::dot(at.Normal, direction);
@@ -62,7 +69,7 @@ bool ImplicitSurface::Meet(
     distance -= step;
     if (std::fabs(step) <= lastStep * size)
     {
-      at.Position = this->Eye + distance * direction;
+      at.Position = origin + distance * direction;
       at.Normal = glm::normalize(this->Sign * this->GetGradient(at.Position));
       return distance > 0.0 && glm::dot(at.Normal, direction) < 0.0;
     }

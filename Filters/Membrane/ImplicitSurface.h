@@ -23,6 +23,13 @@ public:
   bool Meet(const glm::dvec3& point, const VirtualVertex& vertex, const glm::dvec3& direction,
     PatchPoint& at) const override;
 
+  /** As Meet, for a ray from `origin` that meets the surface near `near`. */
+  bool MeetNear(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& near,
+    PatchPoint& at) const;
+
+  /** Makes the other side of the surface the one that rays come from. */
+  void Turn() { this->Sign = -this->Sign; }
+
 private:
   glm::dvec3 GetGradient(const glm::dvec3& at) const;
 

@@ -103,15 +103,6 @@ bool ReportMembrane(MembraneStatus status, const MembraneReport& report,
 }
 
 //------------------------------------------------------------------------------
-std::string DescribeBadIndices(double exterior, double interior)
-{
-  std::ostringstream text;
-  text << "Indices of refraction must be positive and finite, not " << exterior << " and "
-       << interior;
-  return text.str();
-}
-
-//------------------------------------------------------------------------------
 std::string DescribeBadEye(EyeStatus status, const glm::dvec3& eye)
 {
   std::ostringstream text;

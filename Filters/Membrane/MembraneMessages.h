@@ -37,11 +37,8 @@ vtkMTimeType GetMembraneTime(vtkPolyData* membrane);
 bool ReportMembrane(MembraneStatus status, const MembraneReport& report,
   const MembraneArrays& arrays, std::size_t lost, SceneMessages& messages);
 
-/** @{ */
-/** Texts of the errors for indices of refraction, and for an eye that is not `Ready`. */
-std::string DescribeBadIndices(double exterior, double interior);
+/** Text of the error for an eye that is not `Ready`. */
 std::string DescribeBadEye(EyeStatus status, const glm::dvec3& eye);
-/** @} */
 
 }
 

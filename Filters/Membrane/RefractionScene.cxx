@@ -3,6 +3,7 @@
 #include "Filters/Membrane/RefractionScene.h"
 
 #include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Interface/StackValidation.h"
 #include "Refraction/Tubes/RefractedRayBounds.h"
 
 #include "vtkImplicitFunction.h"

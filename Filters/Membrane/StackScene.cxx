@@ -28,7 +28,9 @@ bool StackScene::SetInterfaces(const std::vector<vtkPolyData*>& surfaces,
     vtkRefractingInterface* interface = interfaces->GetInterface(static_cast<int>(i));
     media.push_back(
       { interface->GetExteriorIndexOfRefraction(), interface->GetInteriorIndexOfRefraction() });
-    if (!this->UpdateEntry(i, surfaces[i], interface->GetExactSurface(), isNew, messages))
+    vtkImplicitFunction* function =
+      this->UsedFitting == Fitting::Exact ? interface->GetExactSurface() : nullptr;
+    if (!this->UpdateEntry(i, surfaces[i], function, isNew, messages))
     {
       return false;
     }

@@ -27,6 +27,18 @@ namespace meniscus
 class StackScene
 {
 public:
+  /** Use of an interface's exact surface: the points are moved onto it, or left where they are. */
+  enum class Fitting
+  {
+    Exact,
+    AsGiven
+  };
+
+  explicit StackScene(Fitting fitting = Fitting::Exact)
+    : UsedFitting(fitting)
+  {
+  }
+
   /**
    * Sets the surfaces and their interfaces, which FindStackFault accepts. Returns false, with an
    * error, if a surface cannot be used.
@@ -62,6 +74,7 @@ private:
   bool UpdateEntry(std::size_t index, vtkPolyData* source, vtkImplicitFunction* function,
     bool& isNew, SceneMessages& messages);
 
+  Fitting UsedFitting;
   std::vector<Entry> Entries;
   std::vector<InterfaceMedia> Media;
   StackSolver Solver;

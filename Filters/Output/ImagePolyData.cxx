@@ -107,7 +107,7 @@ bool MapParts(std::size_t count, const ProgressLoop& loop, const MapRange& map, 
 class Builder
 {
 public:
-  Builder(vtkPolyData* input, const ObjectTopology& topology, const ObjectImages& images,
+  Builder(vtkPolyData* input, const ObjectTopology& topology, const CellImages& images,
     const AllImages& cells, const Membrane& membrane, vtkPolyData* output)
     : Input(input)
     , Topology(topology)
@@ -301,7 +301,7 @@ private:
 
   vtkPolyData* Input;
   const ObjectTopology& Topology;
-  const ObjectImages& Images;
+  const CellImages& Images;
   const AllImages& Cells;
   const Membrane& Surface;
   vtkPolyData* Output;
@@ -319,7 +319,7 @@ private:
 }
 
 //------------------------------------------------------------------------------
-bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectImages& images,
+bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const CellImages& images,
   bool closesSeams, const ProgressLoop& loop, AllImages& result)
 {
   const auto split =
@@ -353,7 +353,7 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
 
 //------------------------------------------------------------------------------
 VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopology& topology,
-  const ObjectImages& images, const AllImages& cells, const Membrane& membrane,
+  const CellImages& images, const AllImages& cells, const Membrane& membrane,
   const OutputOptions& options, vtkPolyData* output)
 {
   return Builder(input, topology, images, cells, membrane, output).Run(options);

@@ -5,7 +5,7 @@
 
 #include "Filters/Object/ObjectTopology.h"
 #include "Filters/Output/VirtualPolyData.h"
-#include "Refraction/Images/ObjectImages.h"
+#include "Refraction/Images/CellImages.h"
 
 #include "vtkType.h"
 
@@ -39,7 +39,7 @@ using ProgressLoop = std::function<bool(std::size_t count, const RangeBody& body
  * `closesSeams`, gaps between the images of neighbours are filled with cells. Returns false if
  * `loop` was aborted.
  */
-bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectImages& images,
+bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const CellImages& images,
   bool closesSeams, const ProgressLoop& loop, AllImages& result);
 
 /**
@@ -47,7 +47,7 @@ bool MapCells(vtkPolyData* input, const ObjectTopology& topology, const ObjectIm
  * input are interpolated at new points.
  */
 VirtualPolyDataReport BuildImagePolyData(vtkPolyData* input, const ObjectTopology& topology,
-  const ObjectImages& images, const AllImages& cells, const Membrane& membrane,
+  const CellImages& images, const AllImages& cells, const Membrane& membrane,
   const OutputOptions& options, vtkPolyData* output);
 
 }

@@ -16,35 +16,83 @@ namespace meniscus
 namespace
 {
 
+// A point of the output.
+struct StackPoint
+{
+  glm::dvec3 Point; ///< where it is in the object
+  const VirtualVertex* Vertex;
+  StackDetail Detail;
+};
+
 // Normals that are lit by a light at the eye as the true ones are.
-void AddVirtualNormals(vtkPolyData* input, const std::vector<vtkIdType>& sources,
-  const std::vector<VirtualVertex>& vertices, const StackDetails& details, const glm::dvec3& eye,
-  vtkPolyData* output)
+void AddVirtualNormals(
+  const std::vector<StackPoint>& points, const glm::dvec3& eye, vtkPolyData* output)
 {
   vtkDataArray* trueNormals = output->GetPointData()->GetNormals();
   if (!trueNormals)
   {
     return;
   }
-  const auto normals = MakeArray<vtkDoubleArray>("VirtualNormals", 3, sources.size());
-  for (std::size_t k = 0; k < sources.size(); ++k)
+  const auto normals = MakeArray<vtkDoubleArray>("VirtualNormals", 3, points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
   {
-    const auto source = static_cast<std::size_t>(sources[k]);
     glm::dvec3 normal(0.0);
-    glm::dvec3 point(0.0);
     trueNormals->GetTuple(static_cast<vtkIdType>(k), &normal.x);
-    input->GetPoint(sources[k], &point.x);
     const double length = glm::length(normal);
-    const glm::dvec3 inside = details.Points[source].LastSightPoint - point;
+    const glm::dvec3 inside = points[k].Detail.LastSightPoint - points[k].Point;
     if (length > 0.0 && std::isfinite(length) && glm::length(inside) > 0.0)
     {
-      normal = TurnAlong(
-        normal / length, glm::normalize(inside), glm::normalize(eye - vertices[source].SightPoint));
+      normal = TurnAlong(normal / length, glm::normalize(inside),
+        glm::normalize(eye - points[k].Vertex->SightPoint));
     }
     normals->SetTypedTuple(static_cast<vtkIdType>(k), &normal.x);
   }
   output->GetPointData()->AddArray(normals);
   output->GetPointData()->SetActiveNormals(normals->GetName());
+}
+
+// `legs` has `interfaces` lengths per point.
+void AddArrays(const std::vector<StackPoint>& points, const std::vector<double>& legs,
+  std::size_t interfaces, const OutputOptions& options, vtkPolyData* output)
+{
+  vtkPointData* data = output->GetPointData();
+  const auto transmittance = MakeArray<vtkDoubleArray>("Transmittance", 1, points.size());
+  const auto last = MakeArray<vtkDoubleArray>("LastSightPoint", 3, points.size());
+  const auto lengths =
+    MakeArray<vtkDoubleArray>("LegLengths", static_cast<int>(interfaces), points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    const auto i = static_cast<vtkIdType>(k);
+    transmittance->SetValue(i, points[k].Detail.Transmittance);
+    last->SetTypedTuple(i, &points[k].Detail.LastSightPoint.x);
+    if (interfaces > 0)
+    {
+      lengths->SetTypedTuple(i, legs.data() + interfaces * k);
+    }
+  }
+  data->AddArray(transmittance);
+  data->AddArray(last);
+  if (interfaces > 0)
+  {
+    data->AddArray(lengths);
+  }
+  if (options.VirtualNormals)
+  {
+    AddVirtualNormals(points, options.Eye, output);
+  }
+}
+
+// The point of the object that an image shows.
+glm::dvec3 FindPoint(vtkPolyData* input, const ImagePoint& image)
+{
+  glm::dvec3 sum(0.0);
+  for (std::size_t k = 0; k < image.GetNumberOfSources(); ++k)
+  {
+    glm::dvec3 corner;
+    input->GetPoint(image.Source[k], &corner.x);
+    sum += image.Weight[k] * corner;
+  }
+  return sum;
 }
 
 }
@@ -53,36 +101,46 @@ void AddVirtualNormals(vtkPolyData* input, const std::vector<vtkIdType>& sources
 void AddStackArrays(vtkPolyData* input, const std::vector<VirtualVertex>& vertices,
   const StackDetails& details, const OutputOptions& options, vtkPolyData* output)
 {
-  vtkPointData* data = output->GetPointData();
-  auto* ids = vtkIdTypeArray::SafeDownCast(data->GetArray("SourcePointId"));
-  const std::vector<vtkIdType> sources(
-    ids->GetPointer(0), ids->GetPointer(0) + ids->GetNumberOfTuples());
-  const auto transmittance = MakeArray<vtkDoubleArray>("Transmittance", 1, sources.size());
-  const auto last = MakeArray<vtkDoubleArray>("LastSightPoint", 3, sources.size());
-  const auto legs =
-    MakeArray<vtkDoubleArray>("LegLengths", static_cast<int>(details.Interfaces), sources.size());
-  for (std::size_t k = 0; k < sources.size(); ++k)
+  auto* ids = vtkIdTypeArray::SafeDownCast(output->GetPointData()->GetArray("SourcePointId"));
+  std::vector<StackPoint> points;
+  std::vector<double> legs;
+  for (vtkIdType k = 0; k < ids->GetNumberOfTuples(); ++k)
   {
-    const auto i = static_cast<vtkIdType>(k);
-    const auto source = static_cast<std::size_t>(sources[k]);
-    const StackDetail& detail = details.Points[source];
-    transmittance->SetValue(i, detail.Transmittance);
-    last->SetTypedTuple(i, &detail.LastSightPoint.x);
-    if (details.Interfaces > 0)
+    const auto source = static_cast<std::size_t>(ids->GetValue(k));
+    StackPoint point{ {}, &vertices[source], details.Points[source] };
+    input->GetPoint(ids->GetValue(k), &point.Point.x);
+    points.push_back(point);
+    const double* own = details.Legs.data() + details.Interfaces * source;
+    legs.insert(legs.end(), own, own + details.Interfaces);
+  }
+  AddArrays(points, legs, details.Interfaces, options, output);
+}
+
+//------------------------------------------------------------------------------
+void AddStackImageArrays(vtkPolyData* input, const CellImages& images, const AllImages& cells,
+  const StackSolver& solver, const OutputOptions& options, vtkPolyData* output)
+{
+  const std::size_t interfaces = solver.GetStack().GetNumberOfInterfaces();
+  std::vector<StackPoint> points;
+  std::vector<double> legs;
+  StackPath path;
+  for (const std::vector<ImagePoint>* list :
+    { &images.GetPointImages(), &cells.Lines.Points, &cells.Polygons.Points })
+  {
+    for (const ImagePoint& image : *list)
     {
-      legs->SetTypedTuple(i, details.Legs.data() + details.Interfaces * source);
+      // A ray at a critical angle may be lost by rounding. Its transmittance is 0.
+      const glm::dvec3 point = FindPoint(input, image);
+      const auto passed = static_cast<std::size_t>(image.Passed);
+      solver.Retrace(image.Vertex.SightPoint, image.Vertex.Facet, passed, path);
+      StackPoint own{ point, &image.Vertex, solver.MakeVertex(point, path) };
+      own.Detail.Transmittance = path.Count == passed ? own.Detail.Transmittance : 0.0;
+      points.push_back(own);
+      legs.resize(legs.size() + interfaces);
+      solver.MeasureLegs(point, path, legs.data() + legs.size() - interfaces);
     }
   }
-  data->AddArray(transmittance);
-  data->AddArray(last);
-  if (details.Interfaces > 0)
-  {
-    data->AddArray(legs);
-  }
-  if (options.VirtualNormals)
-  {
-    AddVirtualNormals(input, sources, vertices, details, options.Eye, output);
-  }
+  AddArrays(points, legs, interfaces, options, output);
 }
 
 }

@@ -3,6 +3,7 @@
 #ifndef meniscus_Filters_Output_StackArrays_h
 #define meniscus_Filters_Output_StackArrays_h
 
+#include "Filters/Output/ImagePolyData.h"
 #include "Filters/Output/OutputArrays.h"
 #include "Refraction/Stack/StackSolver.h"
 
@@ -29,6 +30,13 @@ struct StackDetails
  */
 void AddStackArrays(vtkPolyData* input, const std::vector<VirtualVertex>& vertices,
   const StackDetails& details, const OutputOptions& options, vtkPolyData* output);
+
+/**
+ * The same for an output of all images that BuildImagePolyData has made from `images` and `cells`.
+ * The paths of its points are traced again.
+ */
+void AddStackImageArrays(vtkPolyData* input, const CellImages& images, const AllImages& cells,
+  const StackSolver& solver, const OutputOptions& options, vtkPolyData* output);
 
 }
 

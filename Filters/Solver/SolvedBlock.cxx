@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Solver/SolvedBlock.h"
 
+#include "Common/CoherentOrder.h"
+
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -43,8 +46,33 @@ void SolvedBlock::UpdatePoints()
     this->Points = std::move(values);
     this->EyeUpdate = -1;
     this->StackUpdate = -1;
+    this->OrderReady = false;
   }
   this->SourceTime = this->Source->GetMTime();
+}
+
+//------------------------------------------------------------------------------
+void SolvedBlock::UpdateOrder(const RangeLoop& loop)
+{
+  if (!this->OrderReady)
+  {
+    this->Order = FindCoherentOrder(this->Points.data(), this->Points.size() / 3, loop);
+    this->OrderReady = true;
+  }
+}
+
+//------------------------------------------------------------------------------
+bool SolvedBlock::IsSelected(std::size_t chunk) const
+{
+  const std::size_t first = chunk * ObjectImages::Chunk;
+  if (this->Order.empty() || !this->Selection.IsActive)
+  {
+    return this->Selection.HasPoint(first);
+  }
+  const std::size_t last = std::min(first + ObjectImages::Chunk, this->Order.size());
+  return std::any_of(this->Order.begin() + static_cast<std::ptrdiff_t>(first),
+    this->Order.begin() + static_cast<std::ptrdiff_t>(last),
+    [this](std::size_t point) { return this->Selection.HasPoint(point); });
 }
 
 //------------------------------------------------------------------------------
@@ -54,6 +82,7 @@ void SolvedBlock::ForgetImages()
   this->StackUpdate = -1;
   this->All = false;
   this->Images.reset();
+  this->ImagesOfStack.reset();
   this->Selection = ViewSelection();
 }
 

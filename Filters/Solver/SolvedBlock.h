@@ -7,10 +7,15 @@
 #include "Filters/Output/ImagePolyData.h"
 #include "Filters/Output/StackArrays.h"
 #include "Refraction/Images/ObjectImages.h"
+#include "Refraction/StackImages/StackImages.h"
 
 #include "vtkPolyData.h"
 #include "vtkWeakPointer.h"
 
+#include "Common/RangeLoop.h"
+
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -27,6 +32,11 @@ struct SolvedBlock
   /** Reads the cells again if the source has been modified. */
   void UpdateTopology();
 
+  /** Determines `Order`, if the points are new. */
+  void UpdateOrder(const RangeLoop& loop);
+  /** True if a chunk of ObjectImages::Chunk points in the order of solving has selected points. */
+  bool IsSelected(std::size_t chunk) const;
+
   /** Discards images of all kinds. */
   void ForgetImages();
 
@@ -36,7 +46,11 @@ struct SolvedBlock
   vtkTypeInt64 EyeUpdate = -1; ///< number of the eye update for which the points are solved
   bool All = false;            ///< true: all images; false: the first image only
   std::vector<VirtualVertex> Vertices;
-  std::vector<bool> SolvedChunks; ///< chunks of `Vertices`
+  std::vector<bool> SolvedChunks; ///< chunks of points in the order of solving
+
+  /** FindCoherentOrder() of the points, determined when the first images are solved. */
+  std::vector<std::uint32_t> Order;
+  bool OrderReady = false;
 
   /** Cells and points in view, and the view for which they were determined. */
   ViewSelection Selection;
@@ -54,9 +68,10 @@ struct SolvedBlock
   std::unique_ptr<ObjectImages> Images;
   AllImages Cells;
 
-  /** Used with several interfaces only; `Vertices` has the images. */
+  /** Used with several interfaces only; with one image per point, `Vertices` has the images. */
   vtkTypeInt64 StackUpdate = -1; ///< number of the eye update for which the points are solved
   StackDetails Stack;
+  std::unique_ptr<StackImages> ImagesOfStack; ///< null with one image per point
 };
 
 }

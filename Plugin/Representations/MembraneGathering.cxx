@@ -113,6 +113,22 @@ vtkSmartPointer<vtkPolyData> GatherMembrane(vtkDataObject* local)
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkInformationVector> GatherMembranes(vtkInformationVector* port)
+{
+  auto gathered = vtkSmartPointer<vtkInformationVector>::New();
+  for (int i = 0; i < port->GetNumberOfInformationObjects(); ++i)
+  {
+    const vtkSmartPointer<vtkPolyData> membrane = GatherMembrane(vtkDataObject::GetData(port, i));
+    if (!membrane)
+    {
+      return nullptr;
+    }
+    gathered->Append(WrapData(membrane)->GetInformationObject(0));
+  }
+  return gathered;
+}
+
+//------------------------------------------------------------------------------
 bool IsPlaneAcrossAxis(vtkPolyData* surface)
 {
   double bounds[6];
@@ -165,26 +181,27 @@ int MakeOutputLikeInput(vtkInformationVector* inputs, vtkInformationVector* outp
 }
 
 //------------------------------------------------------------------------------
-void AskForPiece(vtkInformationVector* membrane, vtkInformationVector* outputs)
+void AskForPiece(vtkInformationVector* membranes, vtkInformationVector* outputs)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  if (vtkInformation* info = membrane->GetInformationObject(0))
+  vtkInformation* output = outputs->GetInformationObject(0);
+  for (int i = 0; i < membranes->GetNumberOfInformationObjects(); ++i)
   {
-    vtkInformation* output = outputs->GetInformationObject(0);
+    vtkInformation* info = membranes->GetInformationObject(i);
     info->CopyEntry(output, Pipeline::UPDATE_PIECE_NUMBER());
     info->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_PIECES());
   }
 }
 
 //------------------------------------------------------------------------------
-bool RunBlocks(vtkInformationVector** inputs, vtkInformationVector* outputs, vtkPolyData* membrane,
+bool RunBlocks(const char* type, vtkInformationVector** inputs, vtkInformationVector* outputs,
+  vtkInformationVector* membranes,
   const std::function<int(vtkInformationVector**, vtkInformationVector*)>& run)
 {
-  const auto second = WrapData(membrane);
   const auto runBlock = [&](vtkDataObject* geometry, vtkDataObject* output)
   {
     const auto first = WrapData(geometry);
-    vtkInformationVector* ports[] = { first, second };
+    vtkInformationVector* ports[] = { first, membranes };
     return run(ports, WrapData(output)) != 0;
   };
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
@@ -200,9 +217,10 @@ bool RunBlocks(vtkInformationVector** inputs, vtkInformationVector* outputs, vtk
   bool succeeded = true;
   for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
   {
-    if (auto* geometry = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
+    vtkDataObject* geometry = block->GetCurrentDataObject();
+    if (geometry && geometry->IsA(type))
     {
-      vtkNew<vtkPolyData> made;
+      const auto made = vtkSmartPointer<vtkDataObject>::Take(geometry->NewInstance());
       succeeded = runBlock(geometry, made) && succeeded;
       compositeOutput->SetDataSet(block, made);
     }

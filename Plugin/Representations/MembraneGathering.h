@@ -25,6 +25,12 @@ namespace meniscus
 vtkSmartPointer<vtkPolyData> GatherMembrane(vtkDataObject* local);
 
 /**
+ * All membranes of a port, gathered one after the other, as an input that holds only data. Returns
+ * null if the ranks could not exchange data.
+ */
+vtkSmartPointer<vtkInformationVector> GatherMembranes(vtkInformationVector* port);
+
+/**
  * True if the surface is a plane across a coordinate axis: all its points have the same coordinate,
  * and its point normals, if any, have no other component, up to the rounding of single precision.
  * Refraction at such a plane reverses no component of a ray, so refracted rays meet boxes along the
@@ -39,16 +45,18 @@ void AcceptComposite(vtkInformation* port);
 int MakeOutputLikeInput(vtkInformationVector* inputs, vtkInformationVector* outputs);
 
 /**
- * Requests this rank's piece of the membrane: filters that distribute data cannot deliver the
+ * Requests this rank's piece of the membranes: filters that distribute data cannot deliver the
  * whole.
  */
-void AskForPiece(vtkInformationVector* membrane, vtkInformationVector* outputs);
+void AskForPiece(vtkInformationVector* membranes, vtkInformationVector* outputs);
 
 /**
- * Calls `run` with the first input and the output, or with each vtkPolyData block of them (other
- * blocks stay empty), and with the membrane as the second input. Returns false if any call does.
+ * Calls `run` with the first input and the output, or with each block of them of class `type`
+ * (other blocks stay empty), and with the membranes as the second input. Returns false if any call
+ * does.
  */
-bool RunBlocks(vtkInformationVector** inputs, vtkInformationVector* outputs, vtkPolyData* membrane,
+bool RunBlocks(const char* type, vtkInformationVector** inputs, vtkInformationVector* outputs,
+  vtkInformationVector* membranes,
   const std::function<int(vtkInformationVector** inputs, vtkInformationVector* outputs)>& run);
 
 /** An input or output that holds only the data object. */

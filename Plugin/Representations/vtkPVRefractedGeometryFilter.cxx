@@ -9,15 +9,16 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
 
 vtkStandardNewMacro(vtkPVRefractedGeometryFilter);
+meniscusInterfaceTableMacro(vtkPVRefractedGeometryFilter);
 
 //------------------------------------------------------------------------------
 vtkPVRefractedGeometryFilter::vtkPVRefractedGeometryFilter()
 {
   this->View->SetPosition(this->GetEyePosition());
   this->Superclass::SetViewCulling(false);
+  this->SetInterfaces(this->Table.GetInterfaces());
 }
 
 //------------------------------------------------------------------------------
@@ -35,6 +36,12 @@ void vtkPVRefractedGeometryFilter::SetViewCulling(bool culling)
 {
   this->Superclass::SetViewCulling(culling);
   this->SetCamera(culling ? this->View.Get() : nullptr);
+}
+
+//------------------------------------------------------------------------------
+void vtkPVRefractedGeometryFilter::SetExactMembrane(vtkImplicitFunction* function)
+{
+  this->Table.SetExactSurface(function);
 }
 
 //------------------------------------------------------------------------------
@@ -95,14 +102,19 @@ int vtkPVRefractedGeometryFilter::RequestUpdateExtent(
 int vtkPVRefractedGeometryFilter::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const vtkSmartPointer<vtkPolyData> membrane =
-    meniscus::GatherMembrane(vtkDataObject::GetData(inputs[1]));
-  if (!membrane)
+  const vtkSmartPointer<vtkInformationVector> membranes = meniscus::GatherMembranes(inputs[1]);
+  if (!membranes)
   {
     vtkErrorMacro("The ranks could not exchange their parts of the membrane; the output is empty.");
     return 0;
   }
-  return meniscus::RunBlocks(inputs, outputs, membrane,
+  const std::string fault = this->Table.FindFault(membranes->GetNumberOfInformationObjects());
+  if (!fault.empty())
+  {
+    vtkErrorMacro(<< fault << "; the output is empty.");
+    return 0;
+  }
+  return meniscus::RunBlocks("vtkPolyData", inputs, outputs, this->Table.Arrange(membranes),
     [this, request](vtkInformationVector** ports, vtkInformationVector* output)
     { return this->Superclass::RequestData(request, ports, output); });
 }

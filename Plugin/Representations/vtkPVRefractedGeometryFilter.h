@@ -18,6 +18,7 @@
 #ifndef vtkPVRefractedGeometryFilter_h
 #define vtkPVRefractedGeometryFilter_h
 
+#include "InterfaceTable.h" // For the table of interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkNew.h"                           // For the view
 #include "vtkRefractedGeometryFilter.h"
@@ -29,6 +30,17 @@ public:
   static vtkPVRefractedGeometryFilter* New();
   vtkTypeMacro(vtkPVRefractedGeometryFilter, vtkRefractedGeometryFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** @{ */
+  /**
+   * Set the rows of the table of interfaces and their number, and the two indices that are used
+   * without rows. See InterfaceTable.
+   */
+  meniscusInterfaceTableDeclarations();
+  /** @} */
+
+  /** Sets the exact form of the first surface, in all rows that name it. */
+  void SetExactMembrane(vtkImplicitFunction* function);
 
   using vtkRefractedGeometryFilter::SetEyePosition;
   void SetEyePosition(double x, double y, double z) override;
@@ -62,6 +74,7 @@ private:
   vtkPVRefractedGeometryFilter(const vtkPVRefractedGeometryFilter&) = delete;
   void operator=(const vtkPVRefractedGeometryFilter&) = delete;
 
+  meniscus::InterfaceTable Table;
   vtkNew<vtkCamera> View;
 };
 

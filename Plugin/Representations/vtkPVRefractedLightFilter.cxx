@@ -14,6 +14,7 @@
 #include "vtkPolyData.h"
 
 vtkStandardNewMacro(vtkPVRefractedLightFilter);
+meniscusInterfaceTableMacro(vtkPVRefractedLightFilter);
 
 namespace
 {
@@ -51,7 +52,10 @@ vtkBoundingBox BoundsOfAll(vtkDataObject* local)
 }
 
 //------------------------------------------------------------------------------
-vtkPVRefractedLightFilter::vtkPVRefractedLightFilter() = default;
+vtkPVRefractedLightFilter::vtkPVRefractedLightFilter()
+{
+  this->SetInterfaces(this->Table.GetInterfaces());
+}
 
 //------------------------------------------------------------------------------
 vtkPVRefractedLightFilter::~vtkPVRefractedLightFilter() = default;
@@ -95,15 +99,20 @@ int vtkPVRefractedLightFilter::RequestUpdateExtent(
 int vtkPVRefractedLightFilter::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const vtkSmartPointer<vtkPolyData> membrane =
-    meniscus::GatherMembrane(vtkDataObject::GetData(inputs[1]));
-  if (!membrane)
+  const vtkSmartPointer<vtkInformationVector> membranes = meniscus::GatherMembranes(inputs[1]);
+  if (!membranes)
   {
     vtkErrorMacro("The ranks could not exchange their parts of the membrane; the output is empty.");
     return 0;
   }
+  const std::string fault = this->Table.FindFault(membranes->GetNumberOfInformationObjects());
+  if (!fault.empty())
+  {
+    vtkErrorMacro(<< fault << "; the output is empty.");
+    return 0;
+  }
   this->OtherGeometry = BoundsOfAll(vtkDataObject::GetData(inputs[0]));
-  return meniscus::RunBlocks(inputs, outputs, membrane,
+  return meniscus::RunBlocks("vtkPolyData", inputs, outputs, this->Table.Arrange(membranes),
     [this, request](vtkInformationVector** ports, vtkInformationVector* output)
     { return this->Superclass::RequestData(request, ports, output); });
 }

@@ -12,6 +12,7 @@
 #ifndef vtkPVRefractedLightFilter_h
 #define vtkPVRefractedLightFilter_h
 
+#include "InterfaceTable.h" // For the table of interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkRefractedLightFilter.h"
 
@@ -21,6 +22,14 @@ public:
   static vtkPVRefractedLightFilter* New();
   vtkTypeMacro(vtkPVRefractedLightFilter, vtkRefractedLightFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** @{ */
+  /**
+   * Set the rows of the table of interfaces and their number, and the two indices that are used
+   * without rows. See InterfaceTable.
+   */
+  meniscusInterfaceTableDeclarations();
+  /** @} */
 
   int ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -39,6 +48,8 @@ protected:
 private:
   vtkPVRefractedLightFilter(const vtkPVRefractedLightFilter&) = delete;
   void operator=(const vtkPVRefractedLightFilter&) = delete;
+
+  meniscus::InterfaceTable Table;
 };
 
 #endif

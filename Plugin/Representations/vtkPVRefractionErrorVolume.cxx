@@ -22,6 +22,7 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkPVRefractionErrorVolume);
+meniscusInterfaceTableMacro(vtkPVRefractionErrorVolume);
 
 namespace
 {
@@ -72,10 +73,19 @@ std::vector<double> CollectOwnErrors(vtkImageData* output, const std::vector<Ext
 }
 
 //------------------------------------------------------------------------------
-vtkPVRefractionErrorVolume::vtkPVRefractionErrorVolume() = default;
+vtkPVRefractionErrorVolume::vtkPVRefractionErrorVolume()
+{
+  this->SetInterfaces(this->Table.GetInterfaces());
+}
 
 //------------------------------------------------------------------------------
 vtkPVRefractionErrorVolume::~vtkPVRefractionErrorVolume() = default;
+
+//------------------------------------------------------------------------------
+void vtkPVRefractionErrorVolume::SetExactMembrane(vtkImplicitFunction* function)
+{
+  this->Table.SetExactSurface(function);
+}
 
 //------------------------------------------------------------------------------
 int vtkPVRefractionErrorVolume::FillInputPortInformation(int port, vtkInformation* info)
@@ -94,8 +104,9 @@ int vtkPVRefractionErrorVolume::RequestUpdateExtent(
   vtkInformation* output = outputs->GetInformationObject(0);
   for (int port = 0; port < 2; ++port)
   {
-    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
+    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
     {
+      vtkInformation* info = inputs[port]->GetInformationObject(i);
       info->CopyEntry(output, Pipeline::UPDATE_PIECE_NUMBER());
       info->CopyEntry(output, Pipeline::UPDATE_NUMBER_OF_PIECES());
       info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
@@ -112,20 +123,21 @@ int vtkPVRefractionErrorVolume::RequestData(
   vtkSmartPointer<vtkInformationVector> gathered[2];
   for (int port = 0; port < 2; ++port)
   {
-    if (!inputs[port]->GetInformationObject(0))
-    {
-      gathered[port] = inputs[port];
-      continue;
-    }
-    const vtkSmartPointer<vtkPolyData> membrane =
-      meniscus::GatherMembrane(vtkDataObject::GetData(inputs[port]));
-    if (!membrane)
+    gathered[port] = meniscus::GatherMembranes(inputs[port]);
+    if (!gathered[port])
     {
       vtkErrorMacro(
         "The ranks could not exchange their parts of the membrane; the output is empty.");
       return 0;
     }
-    gathered[port] = meniscus::WrapData(membrane);
+    const int surfaces = gathered[port]->GetNumberOfInformationObjects();
+    const std::string fault = surfaces > 0 ? this->Table.FindFault(surfaces) : std::string();
+    if (!fault.empty())
+    {
+      vtkErrorMacro(<< fault << "; the output is empty.");
+      return 0;
+    }
+    gathered[port] = surfaces > 0 ? this->Table.Arrange(gathered[port]) : gathered[port];
   }
   vtkInformationVector* ports[] = { gathered[0], gathered[1] };
   const int measured = this->Superclass::RequestData(request, ports, outputs);

@@ -12,6 +12,7 @@
 #ifndef vtkPVRefractionErrorVolume_h
 #define vtkPVRefractionErrorVolume_h
 
+#include "InterfaceTable.h" // For the table of interfaces
 #include "vtkMeniscusRepresentationsModule.h" // For export macro
 #include "vtkRefractionErrorVolume.h"
 
@@ -21,6 +22,17 @@ public:
   static vtkPVRefractionErrorVolume* New();
   vtkTypeMacro(vtkPVRefractionErrorVolume, vtkRefractionErrorVolume);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** @{ */
+  /**
+   * Set the rows of the table of interfaces and their number, and the two indices that are used
+   * without rows. See InterfaceTable.
+   */
+  meniscusInterfaceTableDeclarations();
+  /** @} */
+
+  /** Sets the exact form of the first surface, in all rows that name it. */
+  void SetExactMembrane(vtkImplicitFunction* function);
 
 protected:
   vtkPVRefractionErrorVolume();
@@ -37,6 +49,8 @@ private:
 
   vtkPVRefractionErrorVolume(const vtkPVRefractionErrorVolume&) = delete;
   void operator=(const vtkPVRefractionErrorVolume&) = delete;
+
+  meniscus::InterfaceTable Table;
 };
 
 #endif

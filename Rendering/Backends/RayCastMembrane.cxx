@@ -3,6 +3,7 @@
 #include "Rendering/Backends/RayCastMembrane.h"
 
 #include "Filters/Common/ThreadedLoop.h"
+#include "Filters/Interface/StackValidation.h"
 #include "Refraction/Stack/MediaChain.h"
 
 #include <algorithm>
@@ -12,12 +13,6 @@ namespace meniscus
 {
 namespace
 {
-
-/** Name of an interface in a message; without a number if there is one only. */
-std::string NameOf(std::size_t number, std::size_t count)
-{
-  return count > 1 ? "Interface " + std::to_string(number) + ": " : std::string();
-}
 
 /** The media of the interfaces; only of those that refract, if wanted. */
 std::vector<InterfaceMedia> MediaOf(
@@ -41,9 +36,12 @@ bool PassesFromFront(const std::vector<InterfaceMedia>& media)
   return media.empty() || (!chain.Ways.empty() && chain.Ways.front().front().FromFront);
 }
 
-const char* const MismatchText =
-  "The indices of refraction do not match along the list of interfaces: the medium behind each "
-  "interface must be that of a side of the next one";
+/** Text of the error for media that rays cannot pass from the front of the first interface. */
+std::string DescribeWrongSide()
+{
+  return std::string(MismatchText) +
+    "the medium behind each interface must be that of a side of the next one";
+}
 
 /** Error in a list that is found without reading the surfaces; empty if there is none. */
 std::string DescribeFault(const std::vector<MembraneInterface>& interfaces)
@@ -53,20 +51,14 @@ std::string DescribeFault(const std::vector<MembraneInterface>& interfaces)
   if (noSurface != interfaces.end())
   {
     const auto number = static_cast<std::size_t>(noSurface - interfaces.begin());
-    return NameOf(number, interfaces.size()) + "The membrane is not a vtkPolyData";
+    return NameInterface(number, interfaces.size()) + "The membrane is not a vtkPolyData";
   }
   const std::vector<InterfaceMedia> media = MediaOf(interfaces, false);
-  const MediaChain chain(media);
-  if (chain.Fault == MediaFault::BadIndex)
-  {
-    return NameOf(chain.FaultAt, interfaces.size()) +
-      "Indices of refraction must be positive and finite";
-  }
+  const std::string fault = DescribeMediaFault(media);
   // The rays show whether they come from the back, unless the interface that does not match is not
   // traced.
-  const bool fits = PassesFromFront(media) ||
-    (chain.Fault == MediaFault::None && !PassesFromFront(MediaOf(interfaces, true)));
-  return fits ? std::string() : MismatchText;
+  const bool fits = PassesFromFront(media) || !PassesFromFront(MediaOf(interfaces, true));
+  return fault.empty() && !fits ? DescribeWrongSide() : fault;
 }
 
 }
@@ -102,7 +94,7 @@ InputReport RayCastMembrane::Update(const std::vector<MembraneInterface>& interf
   {
     const std::size_t number = interface.Shape;
     InputReport read =
-      this->ReadShape(interfaces[number].Surface, number, NameOf(number, interfaces.size()));
+      this->ReadShape(interfaces[number].Surface, number, NameInterface(number, interfaces.size()));
     if (!read.Error.empty())
     {
       return read;
@@ -183,7 +175,8 @@ bool RayCastMembrane::Trace(RefractedRayField::View view, VolumeInput& input)
 //------------------------------------------------------------------------------
 std::string RayCastMembrane::DescribeMismatch() const
 {
-  return !this->FitsFromExterior && this->GetCounts().Mismatched > 0 ? MismatchText : std::string();
+  return !this->FitsFromExterior && this->GetCounts().Mismatched > 0 ? DescribeWrongSide()
+                                                                     : std::string();
 }
 
 //------------------------------------------------------------------------------

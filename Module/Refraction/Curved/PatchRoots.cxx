@@ -55,10 +55,6 @@ constexpr double NearestCone = 0.29 + 0.25;
 // equilateral triangle with the apex on it, less in others.
 constexpr double ConeDeviation = 0.22;
 
-// Pairs of determinants that differ more than this are too close to a caustic to prove the map
-// injective.
-constexpr double SmallestDeterminant = 0.05;
-
 // True if the corners alone keep the map away from zero, provided that its part of second degree is
 // within LargestDeflection: control points of edges are then within twice that distance of the
 // midpoints of the edges.
@@ -69,29 +65,6 @@ bool IsFarFromZero(const TriangleMap& f)
   TriangleMap corners = f;
   std::copy(f.begin(), f.begin() + 3, corners.begin() + 3);
   return IsSeparated(corners, (2.0 * LargestDeflection + HigherDegree) * size);
-}
-
-// Each control point has an error of up to `margin`, so each column of a determinant has twice
-// that.
-bool IsInjective(const TriangleMap& c, double margin)
-{
-  const glm::dvec2 first[3] = { c[5] - c[0], c[1] - c[5], c[3] - c[4] };
-  const glm::dvec2 second[3] = { c[4] - c[0], c[3] - c[5], c[2] - c[4] };
-  double low = std::numeric_limits<double>::max();
-  double high = std::numeric_limits<double>::lowest();
-  double longest = 0.0;
-  for (const glm::dvec2& u : first)
-  {
-    for (const glm::dvec2& v : second)
-    {
-      const double determinant = Cross(u, v);
-      low = std::min(low, determinant);
-      high = std::max(high, determinant);
-      longest = std::max(longest, glm::length(u) + glm::length(v));
-    }
-  }
-  const double slack = 2.0 * margin * longest;
-  return low - slack > SmallestDeterminant * high || -high - slack > SmallestDeterminant * -low;
 }
 
 }

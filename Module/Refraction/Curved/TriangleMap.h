@@ -50,6 +50,34 @@ inline bool IsSeparated(const TriangleMap& control, double margin)
   return false;
 }
 
+/**
+ * True if the map with these control points, each a disc of radius `margin`, is injective: the
+ * determinants of all pairs of control vectors of its derivatives have one sign. Each column of a
+ * determinant has an error of twice the margin.
+ */
+inline bool IsInjective(const TriangleMap& c, double margin)
+{
+  // Pairs of determinants that differ more than this are too close to a caustic.
+  constexpr double smallest = 0.05;
+  const glm::dvec2 first[3] = { c[5] - c[0], c[1] - c[5], c[3] - c[4] };
+  const glm::dvec2 second[3] = { c[4] - c[0], c[3] - c[5], c[2] - c[4] };
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+  double longest = 0.0;
+  for (const glm::dvec2& u : first)
+  {
+    for (const glm::dvec2& v : second)
+    {
+      const double determinant = Cross(u, v);
+      low = std::min(low, determinant);
+      high = std::max(high, determinant);
+      longest = std::max(longest, glm::length(u) + glm::length(v));
+    }
+  }
+  const double slack = 2.0 * margin * longest;
+  return low - slack > smallest * high || -high - slack > smallest * -low;
+}
+
 }
 
 #endif

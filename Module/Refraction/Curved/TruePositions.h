@@ -19,7 +19,8 @@ enum class SeenState : unsigned char
   Unrefracted = 0,      ///< no membrane in front of the point, which is where it is seen
   Refracted = 1,        ///< behind the membrane
   TotallyReflected = 2, ///< beyond the critical angle nothing is seen through the membrane
-  NotFinite = 3         ///< the coordinates are not finite, or they are those of the eye
+  NotFinite = 3,        ///< the coordinates are not finite, or they are those of the eye
+  Missed = 4            ///< with several surfaces: the ray misses one of them on the way
 };
 
 struct TruePosition

@@ -23,6 +23,7 @@ struct ImagePoint
   VirtualVertex Vertex;
   std::array<std::int64_t, 3> Source{ -1, -1, -1 };
   std::array<double, 3> Weight{ 1.0, 0.0, 0.0 };
+  std::int32_t Passed = 0; ///< interfaces in front of it; set with several interfaces only
 
   /** Index of the object's point that this is an image of; -1 for a point made in between. */
   std::int64_t GetSource() const { return this->Weight[0] == 1.0 ? this->Source[0] : -1; }

@@ -20,27 +20,6 @@ constexpr std::size_t FacetsPerPoint = 3;
 constexpr std::size_t Run = 8;
 static_assert(ObjectImages::Chunk % Run == 0, "runs make chunks");
 
-// Calls `visit(side)` for every side of every polygon for which `isWanted(cell)` returns true.
-template <typename IsWanted, typename Visit>
-void VisitPolygonSides(
-  const ObjectCells& cells, std::size_t count, const IsWanted& isWanted, const Visit& visit)
-{
-  for (std::size_t cell = 0; cell < count; ++cell)
-  {
-    if (!isWanted(cell))
-    {
-      continue;
-    }
-    const std::int64_t* ids = cells.Connectivity + cells.Offsets[cell];
-    const std::int64_t size = cells.Offsets[cell + 1] - cells.Offsets[cell];
-    for (std::int64_t k = 0; k < size; ++k)
-    {
-      const auto [low, high] = std::minmax(ids[k], ids[(k + 1) % size]);
-      visit(Seam{ low, high, 0 });
-    }
-  }
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -386,35 +365,6 @@ CellReport ObjectImages::MapPolygons(const ObjectCells& cells, const std::int64_
     report.Count(isDivided, pieces.GetNumberOfCells() > before);
   }
   return report;
-}
-
-//------------------------------------------------------------------------------
-// Sides of mapped polygons, and the number of polygons that share each.
-std::vector<Seam> ObjectImages::FindSeams(
-  const ObjectCells& cells, std::size_t count, const unsigned char* isMapped)
-{
-  std::vector<Seam> seams;
-  VisitPolygonSides(
-    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] != 0; },
-    [&seams](const Seam& side) { seams.push_back(side); });
-  std::sort(seams.begin(), seams.end());
-  seams.erase(std::unique(seams.begin(), seams.end(),
-                [](const Seam& a, const Seam& b) { return a.Low == b.Low && a.High == b.High; }),
-    seams.end());
-  if (!seams.empty())
-  {
-    VisitPolygonSides(
-      cells, count, [](std::size_t) { return true; },
-      [&seams](const Seam& side)
-      {
-        const auto at = std::lower_bound(seams.begin(), seams.end(), side);
-        if (at != seams.end() && !(side < *at))
-        {
-          ++at->Cells;
-        }
-      });
-  }
-  return seams;
 }
 
 //------------------------------------------------------------------------------

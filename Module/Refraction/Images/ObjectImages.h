@@ -12,6 +12,7 @@
 #include "Common/RangeLoop.h"
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Curved/InjectivityGrid.h"
+#include "Refraction/Images/CellImages.h"
 #include "Refraction/Images/EdgeSubdivision.h"
 #include "Refraction/Images/ImageMesh.h"
 #include "Refraction/Images/PrimitiveMapper.h"
@@ -20,46 +21,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace meniscus
 {
 
-/**
- * Cells of one kind, borrowed. Cell i has the points connectivity[offsets[i]] to
- * connectivity[offsets[i + 1] - 1]; all of them must exist.
- */
-struct ObjectCells
-{
-  const std::int64_t* Offsets = nullptr;
-  const std::int64_t* Connectivity = nullptr;
-};
-
-/** Number of cells by their treatment. */
-struct CellReport
-{
-  std::size_t Whole = 0;   ///< passed through with their points
-  std::size_t Divided = 0; ///< have one image, which is curved: divided into several cells
-  std::size_t Mapped = 0;  ///< mapped from the membrane, to any number of pieces
-  std::size_t Without = 0; ///< have no image
-
-  void Count(bool isDivided, bool hasPieces)
-  {
-    ++(isDivided ? this->Divided : (hasPieces ? this->Mapped : this->Without));
-  }
-};
-
-class ObjectImages
+class ObjectImages : public CellImages
 {
 public:
-  /**
-   * Splits the polygon with these points into triangles; writes three indices into the polygon for
-   * each.
-   */
-  using Triangulate = std::function<void(
-    const std::int64_t* ids, std::size_t count, std::vector<std::int64_t>& triangles)>;
-
   /** The eye and the membrane of `geometry` must not change afterwards. */
   explicit ObjectImages(const CurvedMembraneSolver& geometry)
     : Geometry(geometry)
@@ -89,7 +58,7 @@ public:
   static constexpr std::size_t Chunk = 128;
   void SetWanted(const std::vector<bool>& chunks) { this->Wanted = chunks; }
   const std::vector<bool>& GetWanted() const { return this->Wanted; }
-  bool IsWanted(std::size_t point) const
+  bool IsWanted(std::size_t point) const override
   {
     return this->Wanted.empty() || this->Wanted[point / Chunk];
   }
@@ -103,34 +72,21 @@ public:
   /** Collects the results of SolvePoints. Cells of wanted points can be mapped afterwards. */
   void FinishPoints();
 
-  const std::vector<ImagePoint>& GetPointImages() const { return this->Images; }
-  std::size_t GetNumberOfImages(std::size_t point) const
+  const std::vector<ImagePoint>& GetPointImages() const override { return this->Images; }
+  std::size_t GetNumberOfImages(std::size_t point) const override
   {
     return this->First[point + 1] - this->First[point];
   }
   /** State of a point; NotAsked if it has never been wanted. */
   ImageState GetState(std::size_t point) const { return this->States[point]; }
 
-  /**
-   * Adds the images of the cells [begin, end), whose ids are in `names`. Cells that keep their
-   * points go to `whole`, which has no points of its own but refers to those of GetPointImages();
-   * others go to `pieces`. `isMapped[i]` becomes 1 if polygon i has been mapped from the membrane,
-   * otherwise 0.
-   */
   CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
-    std::size_t end, ImageMesh& pieces, ImageMesh& whole) const;
+    std::size_t end, ImageMesh& pieces, ImageMesh& whole) const override;
   CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
     std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole,
-    unsigned char* isMapped) const;
-
-  /**
-   * Call this after all polygons have been mapped to `pieces` and `whole`. Moves the ends of
-   * polygons that have been mapped from the membrane (`isMapped`) onto the common sides as their
-   * neighbours draw them: as straight pieces, which may be off by the tolerance. With
-   * `closesSeams`, also closes the seams between them.
-   */
+    unsigned char* isMapped) const override;
   void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
-    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const;
+    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const override;
 
 private:
   enum class Side
@@ -154,8 +110,6 @@ private:
   bool IsSimple(
     const std::int64_t* ids, std::size_t count, bool isClosed, EdgeSubdivision& division) const;
   ImagedPoint GetImagedPoint(std::int64_t id) const;
-  static std::vector<Seam> FindSeams(
-    const ObjectCells& cells, std::size_t count, const unsigned char* isMapped);
   void MoveOntoNeighbours(const ObjectCells& cells, std::size_t count,
     const unsigned char* isMapped, const std::vector<Seam>& seams, ImageMesh& pieces) const;
   MappedTriangle MakeTriangle(const std::array<std::int64_t, 3>& ids) const;

@@ -27,57 +27,34 @@ PrimitiveMapper::PrimitiveMapper(
 void PrimitiveMapper::MapTriangle(
   const MappedTriangle& triangle, std::int64_t sourceCell, bool mayCross, ImageMesh& images) const
 {
-  Context context{ triangle, sourceCell, nullptr, false, {}, {}, {}, {} };
-  glm::dvec3 low(std::numeric_limits<double>::max());
-  glm::dvec3 high(std::numeric_limits<double>::lowest());
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    context.Corners[i] = triangle.Corners[i] - this->Geometry.GetMembrane().GetOrigin();
-    low = glm::min(low, context.Corners[i]);
-    high = glm::max(high, context.Corners[i]);
-  }
-  context.Axis[0] = context.Corners[1] - context.Corners[0];
-  context.Axis[1] = context.Corners[2] - context.Corners[0];
-  context.Normal = glm::cross(context.Axis[0], context.Axis[1]);
-  context.SetSides();
-  const glm::dvec3 half = 0.5 * (high - low);
-  this->MapSides(
-    context, 0.5 * (low + high), std::max({ half.x, half.y, half.z }), mayCross, images);
+  Context context{ ObjectPrimitive::MakeTriangle(
+    triangle, sourceCell, this->Geometry.GetMembrane().GetOrigin()) };
+  this->MapSides(context, mayCross, images);
 }
 
 //------------------------------------------------------------------------------
-// Maps a line in the plane that holds the line and is perpendicular to the view.
 void PrimitiveMapper::MapLine(
   const MappedTriangle& line, std::int64_t sourceCell, bool mayCross, ImageMesh& images) const
 {
-  Context context{ line, sourceCell, nullptr, true, {}, {}, {}, {} };
-  const glm::dvec3& origin = this->Geometry.GetMembrane().GetOrigin();
-  context.Corners = { line.Corners[0] - origin, line.Corners[1] - origin,
-    line.Corners[0] - origin };
-  context.Axis[0] = context.Corners[1] - context.Corners[0];
-  const glm::dvec3 middle = 0.5 * (context.Corners[0] + context.Corners[1]);
-  context.Axis[1] = glm::cross(context.Axis[0], middle - this->Geometry.GetMedia().Eye);
-  context.Normal = glm::cross(context.Axis[0], context.Axis[1]);
-  context.SetSides();
-  const glm::dvec3 half = 0.5 * glm::abs(context.Axis[0]);
-  this->MapSides(context, middle, std::max({ half.x, half.y, half.z }), mayCross, images);
+  Context context{ ObjectPrimitive::MakeLine(
+    line, sourceCell, this->Geometry.GetMembrane().GetOrigin(), this->Geometry.GetMedia().Eye) };
+  this->MapSides(context, mayCross, images);
 }
 
 //------------------------------------------------------------------------------
-void PrimitiveMapper::MapSides(Context& context, const glm::dvec3& middle, double padding,
-  bool mayCross, ImageMesh& images) const
+void PrimitiveMapper::MapSides(Context& context, bool mayCross, ImageMesh& images) const
 {
   if (!mayCross)
   {
     context.Images = &images;
-    this->Map(context, middle, padding);
+    this->Map(context);
     return;
   }
   ImageMesh behind;
   std::vector<char> isOnMembrane;
   context.Images = &behind;
   context.IsOnMembrane = &isOnMembrane;
-  this->Map(context, middle, padding);
+  this->Map(context);
   const std::vector<WaterlinePiece> waterline = this->DropBeyond(context, behind, images);
   if (this->Geometry.GetMedia().Reflects)
   {
@@ -139,15 +116,16 @@ std::vector<WaterlinePiece> PrimitiveMapper::DropBeyond(
 }
 
 //------------------------------------------------------------------------------
-void PrimitiveMapper::Map(const Context& context, const glm::dvec3& middle, double padding) const
+void PrimitiveMapper::Map(const Context& context) const
 {
-  if (!(glm::dot(context.Normal, context.Normal) > 0.0) || !this->Geometry.IsInReach(middle))
+  if (!(glm::dot(context.Normal, context.Normal) > 0.0) ||
+    !this->Geometry.IsInReach(context.Middle))
   {
     return; // a primitive without area covers no pixel; neither does a line along the line of sight
   }
   std::vector<std::int32_t> facets;
   this->Geometry.VisitFacets(
-    middle, padding, [&facets](std::int32_t facet) { facets.push_back(facet); });
+    context.Middle, context.Padding, [&facets](std::int32_t facet) { facets.push_back(facet); });
   std::sort(facets.begin(), facets.end());
   for (const std::int32_t facet : facets)
   {
@@ -162,9 +140,6 @@ void PrimitiveMapper::Map(const Context& context, const glm::dvec3& middle, doub
 }
 
 //------------------------------------------------------------------------------
-// Clipping by Sutherland and Hodgman in homogeneous coordinates: rays that point away from the
-// plane count as the other side of it, and a sub-cell with rays of both kinds is clipped on both
-// sides.
 void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) const
 {
   Polygon whole(3);
@@ -173,53 +148,16 @@ void PrimitiveMapper::MapSubCell(const Context& context, const SubCell& nodes) c
     whole[i].B = nodes[i].B;
     whole[i].Edges = 7u & ~(1u << i);
     context.Measure(nodes[i].From, whole[i].Value);
-    whole[i].Constraints = 0;
+    whole[i].Limits = 0;
     for (int k = 1; k < PrimitiveConstraints && !context.IsLine; ++k)
     {
-      whole[i].Constraints |= whole[i].Value[k] == 0.0 ? 1u << k : 0u;
+      whole[i].Limits |= whole[i].Value[k] == 0.0 ? 1u << k : 0u;
     }
   }
-  const auto cross = [](const Corner& a, const Corner& b, int k)
-  {
-    Corner corner;
-    const double part = a.Value[k] / (a.Value[k] - b.Value[k]);
-    corner.B = a.B + part * (b.B - a.B);
-    for (int m = 0; m < PrimitiveConstraints; ++m)
-    {
-      corner.Value[m] = a.Value[m] + part * (b.Value[m] - a.Value[m]);
-    }
-    corner.Value[k] = 0.0;
-    corner.Edges = a.Edges & b.Edges;
-    corner.Constraints = (a.Constraints & b.Constraints) | 1u << k;
-    return corner;
-  };
+  Polygon polygon;
   for (const double sign : { 1.0, -1.0 })
   {
-    Polygon polygon = whole;
-    Polygon next;
-    for (int k = 0; k < PrimitiveConstraints && !polygon.empty(); ++k)
-    {
-      const bool beside = context.IsLine && k == 3;
-      next.clear();
-      for (std::size_t i = 0; i < polygon.size(); ++i)
-      {
-        const Corner& a = polygon[i];
-        const Corner& b = polygon[(i + 1) % polygon.size()];
-        const bool inA = sign * a.Value[k] >= 0.0;
-        const bool inB = sign * b.Value[k] >= 0.0;
-        if (inA && !beside)
-        {
-          next.push_back(a);
-        }
-        if (inA != inB)
-        {
-          // The intersection is computed from the inside to the outside, whatever the winding of
-          // the polygon.
-          next.push_back(inA ? cross(a, b, k) : cross(b, a, k));
-        }
-      }
-      polygon.swap(next);
-    }
+    context.Clip(whole, sign, polygon);
     if (context.IsLine && polygon.size() == 2)
     {
       this->EmitLine(context, nodes, polygon);
@@ -294,7 +232,7 @@ void PrimitiveMapper::Emit(
     context.Images->Points.push_back(points[i].Point);
     if (context.IsOnMembrane)
     {
-      context.IsOnMembrane->push_back((polygon[i].Constraints & 1u) != 0);
+      context.IsOnMembrane->push_back((polygon[i].Limits & 1u) != 0);
     }
   }
   for (std::int64_t i = 0; i < count; ++i)
@@ -372,7 +310,7 @@ bool PrimitiveMapper::EndEdgeOn(const Context& context, const SubCell& nodes, Po
   }
   for (const Corner& neighbour : { seen.back(), seen.front() })
   {
-    const Boundary on = context.FindBoundary(neighbour);
+    const ClippedBoundary on = context.FindBoundary(neighbour);
     const auto side = static_cast<std::size_t>(std::max(on.Side, 1));
     const double l = GetParameter(context.Sides[side].Line, from);
     if (on.Side < 0 || on.End >= 0 || !(l > 0.0 && l < 1.0))
@@ -382,7 +320,7 @@ bool PrimitiveMapper::EndEdgeOn(const Context& context, const SubCell& nodes, Po
     seenPoints.push_back(this->MakeOnSide(context, nodes, side, from, b));
     Corner corner = neighbour;
     corner.B = b;
-    corner.Constraints = 1u << side;
+    corner.Limits = 1u << side;
     seen.push_back(corner);
   }
   polygon.swap(seen);
@@ -403,7 +341,7 @@ void PrimitiveMapper::EmitLine(
     context.Images->Points.push_back(this->MakePoint(context, nodes, corner).Point);
     if (context.IsOnMembrane)
     {
-      context.IsOnMembrane->push_back((corner.Constraints & 1u) != 0);
+      context.IsOnMembrane->push_back((corner.Limits & 1u) != 0);
     }
   }
   context.Images->EndCell(context.SourceCell, 1);
@@ -415,7 +353,7 @@ void PrimitiveMapper::EmitLine(
 PrimitiveMapper::MappedPoint PrimitiveMapper::MakePoint(
   const Context& context, const SubCell& nodes, const Corner& corner) const
 {
-  const Boundary on = context.FindBoundary(corner);
+  const ClippedBoundary on = context.FindBoundary(corner);
   if (on.Membrane)
   {
     return this->MakeCrossing(context, nodes, corner, on);
@@ -535,8 +473,8 @@ PrimitiveMapper::MappedPoint PrimitiveMapper::MakeEnd(const Context& context, co
 // Point where the primitive meets the membrane: a side of the sub-cell meets the primitive's plane,
 // or a side of the primitive meets the patch. If the first point lies beyond a side of the
 // primitive, it is replaced by the second.
-PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(
-  const Context& context, const SubCell& nodes, const Corner& corner, const Boundary& on) const
+PrimitiveMapper::MappedPoint PrimitiveMapper::MakeCrossing(const Context& context,
+  const SubCell& nodes, const Corner& corner, const ClippedBoundary& on) const
 {
   glm::dvec3 weight = context.IsLine
     ? glm::dvec3(corner.Value[2], corner.Value[1], 0.0)

@@ -22,6 +22,7 @@
 
 #include "Refraction/Curved/CurvedMembraneSolver.h"
 #include "Refraction/Images/ImageMesh.h"
+#include "Refraction/Images/ObjectPrimitive.h"
 #include "Refraction/Images/SubCellDivision.h"
 
 #include <array>
@@ -30,21 +31,6 @@
 
 namespace meniscus
 {
-
-/** Known images of a point of the object, borrowed. */
-struct KnownImages
-{
-  const ImagePoint* First = nullptr;
-  std::size_t Count = 0;
-};
-
-/** Corners of a primitive in world coordinates, their indices in the object and their images. */
-struct MappedTriangle
-{
-  std::array<std::int64_t, 3> Ids;
-  std::array<glm::dvec3, 3> Corners;
-  std::array<KnownImages, 3> Images{};
-};
 
 /** A point of a triangle in barycentric and in world coordinates. */
 struct TrianglePoint
@@ -87,7 +73,6 @@ public:
 private:
   struct Corner;
   struct Context;
-  struct Boundary;
   using Polygon = std::vector<Corner>;
   enum class Finding
   {
@@ -101,9 +86,8 @@ private:
     Finding Outcome;
   };
 
-  void MapSides(Context& context, const glm::dvec3& middle, double padding, bool mayCross,
-    ImageMesh& images) const;
-  void Map(const Context& context, const glm::dvec3& middle, double padding) const;
+  void MapSides(Context& context, bool mayCross, ImageMesh& images) const;
+  void Map(const Context& context) const;
   std::vector<WaterlinePiece> DropBeyond(
     const Context& context, const ImageMesh& from, ImageMesh& images) const;
   void MapSubCell(const Context& context, const SubCell& nodes) const;
@@ -114,8 +98,8 @@ private:
     const glm::dvec2& interpolated, bool isOnMembrane = false) const;
   MappedPoint MakeOnSide(const Context& context, const SubCell& nodes, std::size_t side,
     const RefractedPoint& from, const glm::dvec2& interpolated) const;
-  MappedPoint MakeCrossing(
-    const Context& context, const SubCell& nodes, const Corner& corner, const Boundary& on) const;
+  MappedPoint MakeCrossing(const Context& context, const SubCell& nodes, const Corner& corner,
+    const ClippedBoundary& on) const;
   MappedPoint MakeSideCrossing(const Context& context, const SubCell& nodes, std::size_t side,
     const glm::dvec2& guess, const glm::dvec3& weight) const;
   static bool IsSeen(const std::vector<MappedPoint>& points);

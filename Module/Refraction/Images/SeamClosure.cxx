@@ -112,6 +112,34 @@ std::pair<Loop, Loop> FindWays(const Loop& loop, std::int64_t high)
 }
 
 //------------------------------------------------------------------------------
+std::vector<Seam> FindSeams(
+  const ObjectCells& cells, std::size_t count, const unsigned char* isMapped)
+{
+  std::vector<Seam> seams;
+  VisitPolygonSides(
+    cells, count, [isMapped](std::size_t cell) { return isMapped[cell] != 0; },
+    [&seams](const Seam& side) { seams.push_back(side); });
+  std::sort(seams.begin(), seams.end());
+  seams.erase(std::unique(seams.begin(), seams.end(),
+                [](const Seam& a, const Seam& b) { return a.Low == b.Low && a.High == b.High; }),
+    seams.end());
+  if (!seams.empty())
+  {
+    VisitPolygonSides(
+      cells, count, [](std::size_t) { return true; },
+      [&seams](const Seam& side)
+      {
+        const auto at = std::lower_bound(seams.begin(), seams.end(), side);
+        if (at != seams.end() && !(side < *at))
+        {
+          ++at->Cells;
+        }
+      });
+  }
+  return seams;
+}
+
+//------------------------------------------------------------------------------
 SeamClosure::SeamClosure(
   const std::vector<Seam>& seams, bool hasDiagonals, const glm::dvec3& eye, double tolerance)
   : Seams(seams)

@@ -17,10 +17,11 @@
 #ifndef meniscus_Refraction_Images_SeamClosure_h
 #define meniscus_Refraction_Images_SeamClosure_h
 
-#include "Refraction/Images/ImageMesh.h"
+#include "Refraction/Images/CellImages.h"
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -40,6 +41,31 @@ struct Seam
     return this->Low != other.Low ? this->Low < other.Low : this->High < other.High;
   }
 };
+
+/** Calls `visit(side)` for every side of every polygon for which `isWanted(cell)` returns true. */
+template <typename IsWanted, typename Visit>
+void VisitPolygonSides(
+  const ObjectCells& cells, std::size_t count, const IsWanted& isWanted, const Visit& visit)
+{
+  for (std::size_t cell = 0; cell < count; ++cell)
+  {
+    if (!isWanted(cell))
+    {
+      continue;
+    }
+    const std::int64_t* ids = cells.Connectivity + cells.Offsets[cell];
+    const std::int64_t size = cells.Offsets[cell + 1] - cells.Offsets[cell];
+    for (std::int64_t k = 0; k < size; ++k)
+    {
+      const auto [low, high] = std::minmax(ids[k], ids[(k + 1) % size]);
+      visit(Seam{ low, high, 0 });
+    }
+  }
+}
+
+/** Sides of mapped polygons in sequence, with the number of polygons that share each. */
+std::vector<Seam> FindSeams(
+  const ObjectCells& cells, std::size_t count, const unsigned char* isMapped);
 
 class SeamClosure
 {

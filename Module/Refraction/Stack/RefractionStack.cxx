@@ -246,9 +246,35 @@ bool RefractionStack::Meet(
 PathEnd RefractionStack::Trace(
   const StackPlace& first, std::size_t count, bool follows, StackPath& path) const
 {
+  const Link& link = this->Links.front();
+  PatchJet jet;
+  link.Surface->GetPatch(first.Facet, !link.Passage.FromFront).Evaluate(first.B, jet);
+  return this->TraceOn(first, jet, count, follows, path);
+}
+
+//------------------------------------------------------------------------------
+PathEnd RefractionStack::TraceFrom(
+  const StackPlace& first, const PatchPoint& at, std::size_t count, StackPath& path) const
+{
+  PatchJet jet;
+  jet.Position = at.Position;
+  jet.Normal = at.Normal;
+  for (int k = 0; k < 2; ++k)
+  {
+    jet.PositionBy[k] = glm::dvec3(0.0);
+    jet.NormalBy[k] = glm::dvec3(0.0);
+  }
+  // Places of an earlier path would be first guesses, on which the last bits depend.
+  path.Points.assign(this->Links.size(), PathPoint());
+  return this->TraceOn(first, jet, count, false, path);
+}
+
+//------------------------------------------------------------------------------
+PathEnd RefractionStack::TraceOn(
+  const StackPlace& first, PatchJet& jet, std::size_t count, bool follows, StackPath& path) const
+{
   path.Points.resize(this->Links.size());
   path.Count = 0;
-  PatchJet jet;
   RayJet ray;
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -257,7 +283,6 @@ PathEnd RefractionStack::Trace(
     glm::dvec3 normalBy[2];
     if (i == 0)
     {
-      link.Surface->GetPatch(first.Facet, !link.Passage.FromFront).Evaluate(first.B, jet);
       jet.Position += link.Shift;
       ray = MakeSightRay(this->Eye, jet);
       path.Sight = ray.Direction;
@@ -281,6 +306,7 @@ PathEnd RefractionStack::Trace(
     const double ratio = link.Passage.Before / link.Passage.Behind;
     if (Refract(ray, jet.Normal, normalBy, ratio, point.Cosine) != RayKind::Refracted)
     {
+      point.Ray = ray;
       return PathEnd::Reflected;
     }
     point.Ray = ray;

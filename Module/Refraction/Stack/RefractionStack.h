@@ -53,7 +53,8 @@ enum class PathEnd
 {
   Passed,
   Missed,   ///< the next surface is not on the way
-  Reflected ///< totally reflected, or the surface faces the other way
+  Reflected ///< totally reflected, or the surface faces the other way; the ray that arrives there
+            ///< is at the end of the path
 };
 
 /** A sight ray through the first interfaces of a stack. Positions are relative to its origin. */
@@ -110,6 +111,14 @@ public:
    */
   PathEnd Trace(const StackPlace& first, std::size_t count, bool follows, StackPath& path) const;
 
+  /**
+   * Traces without derivatives from a point of the first surface with its normal, in the direction
+   * of a ray that meets its front. `first` is recorded as its place. The result depends on the
+   * point alone.
+   */
+  PathEnd TraceFrom(
+    const StackPlace& first, const PatchPoint& at, std::size_t count, StackPath& path) const;
+
   /** True if no leg of the path crosses the next surface before the point where it is refracted. */
   bool IsFirstCrossing(const StackPath& path) const;
 
@@ -121,6 +130,8 @@ public:
     SurfaceCrossing& crossing) const;
 
 private:
+  PathEnd TraceOn(
+    const StackPlace& first, PatchJet& jet, std::size_t count, bool follows, StackPath& path) const;
   bool IsPassed() const;
   bool IsPassedAt(const StackPlace& aim) const;
   bool MeetNear(

@@ -243,6 +243,60 @@ TubeBounds StackBeams::BoundLeg(const RefractionStack::Link& link, const TubeBou
 }
 
 //------------------------------------------------------------------------------
+// The normals of a patch are of second degree, so those of the triangle are in the hull of the
+// control points that follow from its corners and the middles of its sides.
+TubeBounds StackBeams::BoundTriangle(
+  std::int32_t facet, const std::array<glm::dvec2, 3>& corners, std::size_t count) const
+{
+  const RefractionStack::Link& first = this->Stack->GetLinks().front();
+  const CurvedPatch patch = first.Surface->GetPatch(facet, !first.Passage.FromFront);
+  const glm::dvec3 eye = this->Stack->GetEye() - first.Shift;
+  glm::dvec3 normals[6];
+  glm::dvec3 places[3];
+  glm::dvec3 sights[3];
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const glm::dvec2& a = corners[(k + 1) % 3];
+    const glm::dvec2& b = corners[(k + 2) % 3];
+    normals[k] = patch.GetNormal(corners[k]);
+    normals[k + 3] =
+      2.0 * patch.GetNormal(0.5 * (a + b)) - 0.5 * (patch.GetNormal(a) + patch.GetNormal(b));
+    places[k] = patch.GetFlatPoint(corners[k]);
+    sights[k] = places[k] - eye;
+  }
+  const double bulge = first.Surface->GetBounds(facet).Bulge;
+  TubeBounds tube =
+    BoundRefractedRays(BoundDirections((sights[0] + sights[1] + sights[2]) / 3.0, sights, 3, bulge),
+      BoundDirections((normals[0] + normals[1] + normals[2]) / 3.0, normals, 6, 0.0),
+      first.Passage.Before / first.Passage.Behind, places, 3, bulge);
+  if (tube.IsValid())
+  {
+    tube.StartLow += first.Shift;
+    tube.StartHigh += first.Shift;
+  }
+  for (std::size_t k = 1; k < count && tube.IsValid(); ++k)
+  {
+    tube = this->BoundLeg(this->Stack->GetLinks()[k], tube);
+  }
+  return tube;
+}
+
+//------------------------------------------------------------------------------
+bool StackBeams::MayShow(
+  const StackTarget& target, std::int32_t facet, const std::array<glm::dvec2, 3>& corners) const
+{
+  const TubeBounds tube = this->BoundTriangle(facet, corners, target.Count);
+  if (!tube.IsValid())
+  {
+    return false;
+  }
+  const double slack = this->Stack->GetLinks().front().Surface->GetSlack(glm::length(target.Point));
+  const TubeRange range = TubeClip(tube).Clip(
+    { target.Point - slack, target.Point + slack }, std::numeric_limits<double>::max());
+  return range.From <= range.To;
+}
+
+//------------------------------------------------------------------------------
 void StackBeams::FindCandidates(const StackTarget& target, std::vector<Candidate>& candidates) const
 {
   candidates.clear();

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace meniscus
@@ -43,11 +44,43 @@ public:
   /** Replaces `candidates` by all patches that may show the target, the best guess first. */
   void FindCandidates(const StackTarget& target, std::vector<Candidate>& candidates) const;
 
+  /**
+   * False if interval arithmetic proves that no ray from a triangle of the patch, with the corners
+   * `corners`, meets the target.
+   */
+  bool MayShow(
+    const StackTarget& target, std::int32_t facet, const std::array<glm::dvec2, 3>& corners) const;
+
+  /** False if interval arithmetic proves that no ray from it passes `count` interfaces. */
+  bool MayPass(
+    std::int32_t facet, const std::array<glm::dvec2, 3>& corners, std::size_t count) const
+  {
+    return this->BoundTriangle(facet, corners, count).IsValid();
+  }
+
+  /**
+   * Calls `visit(facet)` for every patch that may show a point of the cube with centre `middle` and
+   * half side `padding` behind `count` interfaces, at least one.
+   */
+  template <typename Visitor>
+  void VisitFacets(
+    std::size_t count, const glm::dvec3& middle, double padding, Visitor&& visit) const
+  {
+    this->Trees[count - 1].Visit(middle, padding,
+      [&visit](std::int32_t facet)
+      {
+        visit(facet);
+        return std::numeric_limits<std::int32_t>::max();
+      });
+  }
+
 private:
   using Samples = std::array<StackPath, 6>;
 
   void BuildTrees();
   TubeBounds BoundLeg(const RefractionStack::Link& link, const TubeBounds& before) const;
+  TubeBounds BoundTriangle(
+    std::int32_t facet, const std::array<glm::dvec2, 3>& corners, std::size_t count) const;
   TubeBounds BoundFirstLeg(std::int32_t facet) const;
   bool BoundBySamples(const Samples& samples, std::size_t leg, TubeBounds& bounds) const;
   void Bound(std::int32_t facet, Samples& samples);

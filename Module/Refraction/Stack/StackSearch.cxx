@@ -19,6 +19,15 @@ constexpr int ShotSteps = 16;
 constexpr int DeepestLevel = 6;
 constexpr int MostDivisions = 2000;
 
+// In a search for all images, parts whose rays all pass are divided down to 2^-14, as in
+// PatchRoots: a smaller undecided one holds a double root, on a caustic.
+constexpr int DeepestOfAll = 14;
+
+// As in PatchRoots: distance, in units of the part, beyond which a root is no evidence about it,
+// and distance of two roots, in units of the facet, below which they are one.
+constexpr double FarthestEvidence = 0.5;
+constexpr double SameRoot = 1e-5;
+
 // A part whose rays all fail is divided down to this level.
 constexpr int DeepestBlind = 2;
 
@@ -44,6 +53,20 @@ double GetLargest(const glm::dvec2& v)
 
 //------------------------------------------------------------------------------
 bool StackSearch::Find(std::int32_t facet, StackPath& path)
+{
+  this->Images = nullptr;
+  return this->Search(facet, path);
+}
+
+//------------------------------------------------------------------------------
+void StackSearch::FindAll(std::int32_t facet, StackPath& path, std::vector<StackPath>& images)
+{
+  this->Images = &images;
+  this->Search(facet, path);
+}
+
+//------------------------------------------------------------------------------
+bool StackSearch::Search(std::int32_t facet, StackPath& path)
 {
   this->Facet = facet;
   this->HasFrame = false;
@@ -89,16 +112,68 @@ StackSearch::Sample StackSearch::Evaluate(const glm::dvec2& b, StackPath& path)
 }
 
 //------------------------------------------------------------------------------
-bool StackSearch::TakeShot(const glm::dvec2& b, StackPath& path, Shot& shot)
+int StackSearch::GetDeepest() const
+{
+  return this->Images ? DeepestOfAll : DeepestLevel;
+}
+
+//------------------------------------------------------------------------------
+// Returns true if the search is over.
+bool StackSearch::TakeShot(const Part& part, const glm::dvec2& b, StackPath& path, Shot& shot)
 {
   // The nearest crossings first: Shoot follows them.
   const StackPlace place{ this->Facet, b };
   const bool converged =
     this->Stack.Trace(place, this->Target.Count, false, path) == PathEnd::Passed &&
     Shoot(this->Stack, this->Target, place, ShotSteps, path);
-  const bool isHere = converged && path.Points[0].Place.Facet == this->Facet;
-  shot = isHere ? Shot::Here : (converged ? Shot::Elsewhere : Shot::Failed);
-  return converged && IsImage(this->Stack, this->Target, path);
+  shot = converged ? this->Judge(part, path) : Shot::Failed;
+  if (!converged || !IsImage(this->Stack, this->Target, path))
+  {
+    return false;
+  }
+  if (this->Images)
+  {
+    this->Add(path);
+  }
+  return !this->Images;
+}
+
+//------------------------------------------------------------------------------
+// Where Newton's method has ended. One image is found in any part of the patch; among all images,
+// each belongs to its part.
+StackSearch::Shot StackSearch::Judge(const Part& part, const StackPath& path) const
+{
+  const StackPlace& root = path.Points[0].Place;
+  if (!this->Images)
+  {
+    return root.Facet == this->Facet ? Shot::Here : Shot::Elsewhere;
+  }
+  const CurvedPatches& patches = this->Stack.GetLinks()[0].Surface->GetPatches();
+  const glm::dvec2 b = root.Facet == this->Facet
+    ? root.B
+    : patches.GetPatch(this->Facet)
+        .ProjectToFacet(patches.GetPatch(root.Facet).GetFlatPoint(root.B));
+  const glm::dvec2 u = part[1].B - part[0].B;
+  const glm::dvec2 v = part[2].B - part[0].B;
+  const glm::dvec2 inside =
+    glm::dvec2(Cross(b - part[0].B, v), Cross(u, b - part[0].B)) / Cross(u, v);
+  return FindOutside(inside).Least >= -FarthestEvidence ? Shot::Here : Shot::Elsewhere;
+}
+
+//------------------------------------------------------------------------------
+// Two parts, or patches, find a root on their common border.
+void StackSearch::Add(const StackPath& path)
+{
+  const PathPoint& first = path.Points[0];
+  const double same =
+    SameRoot * this->Stack.GetLinks()[0].Surface->GetPatches().GetPatch(this->Facet).GetSize();
+  const bool isKnown = std::any_of(this->Images->begin(), this->Images->end(),
+    [&first, same](const StackPath& other)
+    { return glm::length(other.Points[0].Ray.Origin - first.Ray.Origin) < same; });
+  if (!isKnown)
+  {
+    this->Images->push_back(path);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -140,7 +215,8 @@ bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
                  [](const Sample& a, const Sample& b) { return a.Footprint < b.Footprint; })
                  ->Footprint,
       -depth);
-  if (footprint > LargestFootprint && depth < DeepestLevel && this->Divisions < MostDivisions)
+  const bool isDeepest = depth == this->GetDeepest() || this->Divisions >= MostDivisions;
+  if (footprint > LargestFootprint && !isDeepest)
   {
     return this->Divide(part, depth, path);
   }
@@ -152,15 +228,15 @@ bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
   {
     return false;
   }
-  const bool isDeepest = depth == DeepestLevel || this->Divisions >= MostDivisions;
-  if (isGuess && !isDeepest)
+  const bool isCertain = !isGuess && (!this->Images || IsInjective(control, margin));
+  if (!isCertain && !isDeepest)
   {
     return this->Divide(part, depth, path);
   }
   const Sample& nearest = *std::min_element(part.begin(), part.end(),
     [](const Sample& a, const Sample& b) { return glm::dot(a.X, a.X) < glm::dot(b.X, b.X); });
   Shot shot;
-  if (this->TakeShot(nearest.B, path, shot))
+  if (this->TakeShot(part, nearest.B, path, shot))
   {
     return true;
   }
@@ -170,24 +246,34 @@ bool StackSearch::SearchWhole(const Part& part, int depth, StackPath& path)
   {
     return this->Divide(part, depth, path);
   }
-  this->Complete = this->Complete && shot != Shot::Failed;
+  // In the smallest parts two images are one; larger ones that are left may have any number.
+  this->Complete = this->Complete && shot != Shot::Failed &&
+    (!this->Images || isCertain || depth == this->GetDeepest());
   return false;
 }
 
 //------------------------------------------------------------------------------
 bool StackSearch::SearchBroken(const Part& part, int depth, StackPath& path)
 {
+  // Whole patches have been tested by the tree.
+  if (depth > 0 &&
+    !this->Beams.MayShow(this->Target, this->Facet, { part[0].B, part[1].B, part[2].B }))
+  {
+    return false;
+  }
   if (depth < DeepestLevel && this->Divisions < MostDivisions)
   {
     return this->Divide(part, depth, path);
   }
+  // Larger parts that are left may have any number of images.
+  this->Complete = this->Complete && (!this->Images || depth == DeepestLevel);
   const double size = std::ldexp(1.0, -depth);
   for (const Sample& sample : part)
   {
     if (sample.IsValid && GetLargest(sample.Move) < FarthestRoot * size)
     {
       Shot shot;
-      if (this->TakeShot(sample.B, path, shot))
+      if (this->TakeShot(part, sample.B, path, shot))
       {
         return true;
       }

@@ -5,34 +5,46 @@
 
 #include "Refraction/Curved/TriangleMap.h"
 #include "Refraction/Membrane/HeightField.h"
+#include "Refraction/Stack/StackBeams.h"
 #include "Refraction/Stack/StackShot.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace meniscus
 {
 
 /**
- * Search of one patch of the first surface for a path to a target.
+ * Search of one patch of the first surface for a path to a target, or for all of them.
  *
  * The rays from a part of the patch meet a plane through the target; where the target's place is
  * away from the image of the part, no ray of the part meets the target. The image is interpolated
  * by second degree from six rays, with a margin as in PatchRoots. Parts that cannot be excluded are
- * shot from, or divided; so are parts of which some rays do not pass the stack.
+ * shot from, or divided; so are parts of which some rays do not pass the stack, unless interval
+ * arithmetic excludes them. All paths are found
+ * if the parts that cannot be excluded are divided until the image of each is injective, which its
+ * control points prove with the same margin; such a part has one path at most.
  */
 class StackSearch
 {
 public:
-  StackSearch(const RefractionStack& stack, const StackTarget& target)
+  StackSearch(const RefractionStack& stack, const StackBeams& beams, const StackTarget& target)
     : Stack(stack)
+    , Beams(beams)
     , Target(target)
   {
   }
 
   /** Returns true if `path` is an image. */
   bool Find(std::int32_t facet, StackPath& path);
+
+  /**
+   * Adds the paths of all images in the patch to `images`, unless they are there already. `path` is
+   * used as memory.
+   */
+  void FindAll(std::int32_t facet, StackPath& path, std::vector<StackPath>& images);
 
   /** False if some part of a patch could be neither excluded nor settled by Newton's method. */
   bool IsComplete() const { return this->Complete; }
@@ -48,22 +60,28 @@ private:
   };
   enum class Shot
   {
-    Here,      ///< converged in the patch
-    Elsewhere, ///< converged in another patch
+    Here,      ///< converged in the patch; in a search for all images, in the part or next to it
+    Elsewhere, ///< converged in another place
     Failed
   };
   /** Corners, then the middles of the opposite edges. */
   using Part = std::array<Sample, 6>;
 
+  bool Search(std::int32_t facet, StackPath& path);
   Sample Evaluate(const glm::dvec2& b, StackPath& path);
   bool SearchPart(const Part& part, int depth, StackPath& path);
   bool Divide(const Part& part, int depth, StackPath& path);
   bool SearchWhole(const Part& part, int depth, StackPath& path);
   bool SearchBroken(const Part& part, int depth, StackPath& path);
-  bool TakeShot(const glm::dvec2& b, StackPath& path, Shot& shot);
+  bool TakeShot(const Part& part, const glm::dvec2& b, StackPath& path, Shot& shot);
+  Shot Judge(const Part& part, const StackPath& path) const;
+  void Add(const StackPath& path);
+  int GetDeepest() const;
 
   const RefractionStack& Stack;
+  const StackBeams& Beams;
   const StackTarget& Target;
+  std::vector<StackPath>* Images = nullptr; ///< null in a search for one image
   std::int32_t Facet = CurvedPatches::NoFacet;
   HeightFrame Frame; ///< its axis is normal to the plane
   bool HasFrame = false;

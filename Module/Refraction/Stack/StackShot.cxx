@@ -21,6 +21,10 @@ constexpr double Border = PatchCrossings::Border;
 // place of the facet's size.
 constexpr double LastStep = 1e-6;
 
+// Newton's method converges quadratically: a step s behind a step r leaves about (s / r^2) s^2.
+// Next to a critical angle the factor is large. Error up to which this is small enough.
+constexpr double LargestError = 1e-10;
+
 // A place may leave its patch by this part of the facet before the next patch takes over.
 constexpr double FollowReach = 0.3;
 
@@ -74,12 +78,13 @@ void Predict(StackPath& path, const glm::dvec2& move)
   }
 }
 
-bool IsLast(
-  const RefractionStack& stack, const StackPath& path, const glm::dvec2& move, double size)
+bool IsLast(const RefractionStack& stack, const StackPath& path, const glm::dvec2& move,
+  double size, double before)
 {
   const RayJet& first = path.Points[0].Ray;
   const glm::dvec3 shift = move.x * first.OriginBy[0] + move.y * first.OriginBy[1];
-  return size < LastStep &&
+  const double part = size / before;
+  return size < LastStep && part * part * size <= LargestError &&
     glm::length(shift) <= LastStep * glm::length(first.Origin - stack.GetEye());
 }
 
@@ -148,6 +153,7 @@ bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace p
   glm::dvec2 move(0.0);
   int halvings = 0;
   bool isTraced = false;
+  double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < steps; ++i)
   {
     if (stack.Trace(place, target.Count, true, path) != PathEnd::Passed)
@@ -174,12 +180,14 @@ bool Shoot(const RefractionStack& stack, const StackTarget& target, StackPlace p
     {
       return false;
     }
-    if (IsLast(stack, path, move, size) && FindOutside(place.B + move).Least >= -Border)
+    const bool isLast = IsLast(stack, path, move, size, before);
+    before = size;
+    if (isLast && FindOutside(place.B + move).Least >= -Border)
     {
       Correct(path, move);
       return true;
     }
-    if (IsLast(stack, path, move, size))
+    if (isLast)
     {
       // Just outside of the patch: its neighbour takes over.
       const CurvedPatches& patches = stack.GetLinks()[0].Surface->GetPatches();

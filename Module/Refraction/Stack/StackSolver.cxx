@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Refraction/Stack/StackSolver.h"
 
+#include "Refraction/Curved/CurveCrossings.h"
 #include "Refraction/Membrane/Optics.h"
 #include "Refraction/Stack/StackSearch.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace meniscus
 {
@@ -71,17 +73,23 @@ void StackSolver::Solve(const double* points, std::size_t begin, std::size_t end
     const StackVertex vertex = this->SolvePoint(point, memory, path);
     vertices[i] = vertex;
     details[i] = vertex;
-    double* own = legs + components * i;
-    std::fill(own, own + components, 0.0);
-    const auto passed = static_cast<std::size_t>(vertex.Passed);
-    // Interfaces behind the eye come first in the list.
-    double* leg = own + (components - this->Stack.GetLinks().size());
-    for (std::size_t k = 0; k < passed; ++k)
-    {
-      const glm::dvec3 next =
-        k + 1 < passed ? path.Points[k + 1].Ray.Origin : point - this->Stack.GetOrigin();
-      leg[k] = glm::length(next - path.Points[k].Ray.Origin);
-    }
+    path.Count = static_cast<std::size_t>(vertex.Passed);
+    this->MeasureLegs(point, path, legs + components * i);
+  }
+}
+
+//------------------------------------------------------------------------------
+void StackSolver::MeasureLegs(const glm::dvec3& point, const StackPath& path, double* legs) const
+{
+  const std::size_t components = this->Stack.GetNumberOfInterfaces();
+  std::fill(legs, legs + components, 0.0);
+  // Interfaces behind the eye come first in the list.
+  double* leg = legs + (components - this->Stack.GetLinks().size());
+  for (std::size_t k = 0; k < path.Count; ++k)
+  {
+    const glm::dvec3 next =
+      k + 1 < path.Count ? path.Points[k + 1].Ray.Origin : point - this->Stack.GetOrigin();
+    leg[k] = glm::length(next - path.Points[k].Ray.Origin);
   }
 }
 
@@ -111,7 +119,7 @@ StackVertex StackSolver::SolvePoint(const glm::dvec3& point, Memory& memory, Sta
   }
   memory.Path = path;
   memory.Point = local;
-  return this->MakeVertex(local, path);
+  return this->MakeRefracted(local, path);
 }
 
 //------------------------------------------------------------------------------
@@ -150,7 +158,7 @@ bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
       return true;
     }
   }
-  StackSearch search(this->Stack, target);
+  StackSearch search(this->Stack, this->Beams, target);
   for (const StackBeams::Candidate& candidate : candidates)
   {
     if (search.Find(candidate.Facet, path))
@@ -163,7 +171,53 @@ bool StackSolver::FindFirst(const StackTarget& target, StackPath& path) const
 }
 
 //------------------------------------------------------------------------------
-StackVertex StackSolver::MakeVertex(const glm::dvec3& local, const StackPath& path) const
+ImageState StackSolver::FindImages(const glm::dvec3& point, std::vector<StackPath>& images) const
+{
+  images.clear();
+  const glm::dvec3 local = point - this->Stack.GetOrigin();
+  if (!this->IsInReach(local))
+  {
+    return ImageState::NotFinite;
+  }
+  thread_local std::vector<StackBeams::Candidate> candidates; // kept so that its memory is reused
+  StackPath path;
+  bool isComplete = true;
+  for (std::size_t count = this->Stack.GetLinks().size(); count > 0; --count)
+  {
+    const StackTarget target{ local, count };
+    this->Beams.FindCandidates(target, candidates);
+    StackSearch search(this->Stack, this->Beams, target);
+    for (const StackBeams::Candidate& candidate : candidates)
+    {
+      search.FindAll(candidate.Facet, path, images);
+    }
+    isComplete = isComplete && search.IsComplete();
+  }
+  this->Undecided += isComplete ? 0 : 1;
+  std::sort(images.begin(), images.end(),
+    [](const StackPath& a, const StackPath& b)
+    {
+      const StackPlace& first = a.Points[0].Place;
+      const StackPlace& second = b.Points[0].Place;
+      return std::tie(b.Count, first.Facet, first.B.x, first.B.y) <
+        std::tie(a.Count, second.Facet, second.B.x, second.B.y);
+    });
+  // A point on the first surface has been found behind it.
+  const bool isOnFirst = std::any_of(images.begin(), images.end(),
+    [this, &local](const StackPath& image)
+    {
+      return glm::length(local - image.Points[0].Ray.Origin) <=
+        this->Stack.GetLinks()[0].Surface->GetSlack(glm::length(local));
+    });
+  if (this->Stack.GetLinks().empty() || (!isOnFirst && IsBeforeAll(this->Stack, local)))
+  {
+    images.emplace_back();
+  }
+  return images.empty() ? ImageState::NoImage : ImageState::Found;
+}
+
+//------------------------------------------------------------------------------
+StackVertex StackSolver::MakeRefracted(const glm::dvec3& local, const StackPath& path) const
 {
   const std::vector<RefractionStack::Link>& links = this->Stack.GetLinks();
   const glm::dvec3& origin = this->Stack.GetOrigin();
@@ -199,6 +253,25 @@ StackVertex StackSolver::MakeVertex(const glm::dvec3& local, const StackPath& pa
   const double atEye = glm::dot(path.Sight, glm::cross(path.SightBy[0], path.SightBy[1]));
   vertex.Orientation = static_cast<signed char>((atPoint < 0.0) == (atEye < 0.0) ? 1 : -1);
   return vertex;
+}
+
+//------------------------------------------------------------------------------
+void StackSolver::Retrace(
+  const glm::dvec3& sightPoint, std::int32_t facet, std::size_t count, StackPath& path) const
+{
+  path = StackPath();
+  if (count == 0)
+  {
+    return;
+  }
+  const RefractionStack::Link& link = this->Stack.GetLinks().front();
+  const CurvedPatch patch = link.Surface->GetPatch(facet, !link.Passage.FromFront);
+  const glm::dvec3 eye = this->Stack.GetEye() - link.Shift;
+  const glm::dvec3 place = sightPoint - this->Stack.GetOrigin() - link.Shift;
+  glm::dvec2 b = patch.ProjectToFacet(place);
+  double l = 1.0;
+  MeetPatch(patch, { eye, place - eye }, b, l);
+  this->Stack.Trace({ facet, b }, count, false, path);
 }
 
 //------------------------------------------------------------------------------

@@ -91,16 +91,47 @@ public:
   StackVertex SolvePoint(const glm::dvec3& point, Memory& memory, StackPath& path) const;
 
   /**
-   * Number of searches since construction that found no image, although some part of a patch could
-   * be neither excluded nor traced far enough: at caustics, critical angles and borders.
+   * Replaces `images` by the paths of all images of a point, at most one of which is the straight
+   * one, without interfaces. Those that pass more interfaces come first, then they are in the order
+   * of their facets. An image is a path along the list with the point on one of its legs. Returns
+   * `Found` if there are any.
+   */
+  ImageState FindImages(const glm::dvec3& point, std::vector<StackPath>& images) const;
+
+  /** The vertex of a point in world coordinates that a path leads to. */
+  StackVertex MakeVertex(const glm::dvec3& point, const StackPath& path) const
+  {
+    return path.Count == 0 ? this->PassThrough(point)
+                           : this->MakeRefracted(point - this->Stack.GetOrigin(), path);
+  }
+
+  const StackBeams& GetBeams() const { return this->Beams; }
+  bool IsInReach(const glm::dvec3& local) const;
+
+  /**
+   * Traces the path of a known sight point in world coordinates, in the patch of `facet`, through
+   * at most `count` interfaces.
+   */
+  void Retrace(
+    const glm::dvec3& sightPoint, std::int32_t facet, std::size_t count, StackPath& path) const;
+
+  /**
+   * Writes the lengths of the legs of a path to a point, as Solve does;
+   * GetStack().GetNumberOfInterfaces() values.
+   */
+  void MeasureLegs(const glm::dvec3& point, const StackPath& path, double* legs) const;
+
+  /**
+   * Number of searches since construction that found no image, or not all of them, although some
+   * part of a patch could be neither excluded nor traced far enough: at caustics, critical angles
+   * and borders.
    */
   std::int64_t GetNumberOfUndecidedSearches() const { return this->Undecided; }
 
 private:
-  bool IsInReach(const glm::dvec3& local) const;
   bool Follow(const glm::dvec3& local, const Memory& memory, StackPath& path) const;
   bool FindFirst(const StackTarget& target, StackPath& path) const;
-  StackVertex MakeVertex(const glm::dvec3& local, const StackPath& path) const;
+  StackVertex MakeRefracted(const glm::dvec3& local, const StackPath& path) const;
   StackVertex PassThrough(const glm::dvec3& point) const;
 
   RefractionStack Stack;

@@ -3,7 +3,8 @@
 #include "Volume/Mesh/TetrahedralMesh.h"
 
 #include "Common/BlockLoop.h"
-#include "Common/MortonOrder.h"
+#include "Common/CodeOrder.h"
+#include "Common/HilbertCurve.h"
 #include "Volume/Mesh/DuplicateCells.h"
 
 #include <glm/common.hpp>
@@ -89,9 +90,9 @@ private:
   template <typename Id>
   void ReadBlock(const Id* cells, std::size_t first, std::size_t last, RejectedCells& rejected,
     std::size_t& accepted);
-  std::vector<MortonKey> KeysOfUsedPoints();
-  void TakeCodesOfCells(const MortonCurve& curve, std::vector<MortonKey>& keys);
-  void RemoveDuplicates(std::vector<MortonKey>& keys);
+  std::vector<CodeKey> KeysOfUsedPoints();
+  void TakeCodesOfCells(const HilbertCurve& curve, std::vector<CodeKey>& keys);
+  void RemoveDuplicates(std::vector<CodeKey>& keys);
 
   TetrahedralMesh& Mesh;
   const TetrahedraView& Input;
@@ -269,7 +270,7 @@ void TetrahedralMesh::Builder::ReadBlock(const Id* cells, std::size_t first, std
 }
 
 //------------------------------------------------------------------------------
-std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
+std::vector<CodeKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
 {
   struct Part
   {
@@ -303,8 +304,8 @@ std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
   }
   this->Mesh.Center = 0.5 * all.Lower + 0.5 * all.Upper;
 
-  std::vector<MortonKey> keys(CountsToStarts(starts));
-  const MortonCurve curve(all.Lower, all.Upper);
+  std::vector<CodeKey> keys(CountsToStarts(starts));
+  const HilbertCurve curve(all.Lower, all.Upper);
   std::vector<double> radii(parts.size(), 0.0);
   ForEachBlock(numberOfPoints, this->Loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
@@ -316,7 +317,7 @@ std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
         {
           const glm::dvec3 point = this->Input.Points[p];
           radii[block] = std::max(radii[block], glm::length(point - this->Mesh.Center));
-          keys[next++] = MakeMortonKey(curve.Code(point), p);
+          keys[next++] = MakeCodeKey(curve.Code(point), p);
         }
       }
     });
@@ -334,7 +335,7 @@ std::vector<MortonKey> TetrahedralMesh::Builder::KeysOfUsedPoints()
  * cells share no points, the points of a cell are then adjacent in memory.
  */
 void TetrahedralMesh::Builder::TakeCodesOfCells(
-  const MortonCurve& curve, std::vector<MortonKey>& keys)
+  const HilbertCurve& curve, std::vector<CodeKey>& keys)
 {
   const std::unique_ptr<std::atomic<std::uint32_t>[]> codes(
     new std::atomic<std::uint32_t>[this->Input.NumberOfPoints]);
@@ -368,17 +369,17 @@ void TetrahedralMesh::Builder::TakeCodesOfCells(
         }
       }
     });
-  for (MortonKey& key : keys)
+  for (CodeKey& key : keys)
   {
     const std::size_t point = IndexOf(key);
-    key = MakeMortonKey(codes[point].load(std::memory_order_relaxed), point);
+    key = MakeCodeKey(codes[point].load(std::memory_order_relaxed), point);
   }
 }
 
 //------------------------------------------------------------------------------
 void TetrahedralMesh::Builder::NumberVertices()
 {
-  std::vector<MortonKey> keys = this->KeysOfUsedPoints();
+  std::vector<CodeKey> keys = this->KeysOfUsedPoints();
   SortByCode(keys, this->Loop);
   this->VertexOfPoint.resize(this->Input.NumberOfPoints);
   ResizeTable(this->Mesh.SourcePoints, keys.size());
@@ -400,7 +401,7 @@ void TetrahedralMesh::Builder::NumberVertices()
 
 //------------------------------------------------------------------------------
 /** Removes the keys of cells that have the same four vertices as an earlier cell of the input. */
-void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<MortonKey>& keys)
+void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<CodeKey>& keys)
 {
   std::vector<std::int32_t> lowest;
   if (this->Input.MatchPositions)
@@ -429,7 +430,7 @@ void TetrahedralMesh::Builder::RemoveDuplicates(std::vector<MortonKey>& keys)
 //------------------------------------------------------------------------------
 void TetrahedralMesh::Builder::NumberCells()
 {
-  std::vector<MortonKey> keys(this->NumberOfCells);
+  std::vector<CodeKey> keys(this->NumberOfCells);
   ForEachBlock(this->Input.NumberOfCells, this->Loop,
     [&](std::size_t block, std::size_t first, std::size_t last)
     {
@@ -453,7 +454,7 @@ void TetrahedralMesh::Builder::NumberCells()
           }
         }
         SortFour(corners);
-        keys[next++] = MakeMortonKey(MortonCode(sum, 33), c);
+        keys[next++] = MakeCodeKey(HilbertCode(sum, 33), c);
       }
     });
   SortByCode(keys, this->Loop);

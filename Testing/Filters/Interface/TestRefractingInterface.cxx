@@ -94,7 +94,9 @@ TEST(RefractingInterface, MoreThanItsSurfacesIsAnErrorAndTheOutputIsEmpty)
   const auto messages = Observe(filter);
   filter->Update();
   EXPECT_EQ(messages->Errors, 1) << messages->Text;
-  EXPECT_NE(messages->Text.find("1 surfaces at the membrane port, and 2"), std::string::npos);
+  EXPECT_NE(
+    messages->Text.find("2 refracting interfaces, and port 1 has 1 surfaces"), std::string::npos)
+    << messages->Text;
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   filter->GetInterfaces()->RemoveItem(second);
   filter->Update();

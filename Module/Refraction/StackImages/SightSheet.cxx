@@ -1,0 +1,447 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/StackImages/SightSheet.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace meniscus
+{
+namespace
+{
+
+// As in SubCellDivision: lengths of sides, in facets, below which they are not divided further,
+// and bisections of a limit, so that places of nodes have at most 24 binary digits.
+constexpr double ShortestSide = 1.0 / 32.0;
+constexpr double ShortestChord = 1.0 / 256.0;
+constexpr int LimitSteps = 16;
+
+// Cells of which some rays do not pass are divided down to this level where interval arithmetic
+// allows for other rays between them.
+constexpr int DeepestBlind = 5;
+
+// Divisions of a cell, each at a side that has at most half of its length before, or at a limit.
+constexpr int DeepestCell = 24;
+
+// Levels to which a side is tested where it passes over many patches of a later surface.
+constexpr int DeepestTest = 6;
+
+// Two crossings of a ray with the first surface are one if they are closer, in patch sizes. Near a
+// silhouette an error e of the place changes the distance by sqrt(e); e is at most
+// PatchCrossings::Border, 1e-8.
+constexpr double SameCrossing = 1e-3;
+
+constexpr std::int32_t NotSplit = -1;
+
+// Length of a side in barycentric coordinates: the same in both patches at a common edge.
+double GetLength(const glm::dvec2& a, const glm::dvec2& b)
+{
+  const glm::dvec2 side = b - a;
+  return std::max({ std::fabs(side.x), std::fabs(side.y), std::fabs(side.x + side.y) });
+}
+
+}
+
+//------------------------------------------------------------------------------
+// Divides one patch.
+class SightSheet::Builder
+{
+public:
+  Builder(const SightSheet& sheet, std::int32_t facet, Patch& patch)
+    : Sheet(sheet)
+    , Stack(sheet.Solver.GetStack())
+    , Facet(facet)
+    , Result(patch)
+    , Links(static_cast<int>(sheet.Links))
+  {
+    const RefractionStack::Link& link = this->Stack.GetLinks().front();
+    patch.Surface = link.Surface->GetPatch(facet, !link.Passage.FromFront);
+  }
+
+  void Run()
+  {
+    Cell whole;
+    whole.Nodes = { this->Add({ 0.0, 0.0 }), this->Add({ 1.0, 0.0 }), this->Add({ 0.0, 1.0 }) };
+    this->Result.Cells.push_back(whole);
+    this->Divide(0, 0);
+  }
+
+private:
+  const Node& Get(std::int32_t node) const
+  {
+    return this->Result.Nodes[static_cast<std::size_t>(node)];
+  }
+
+  std::size_t GetRay(std::int32_t node, std::size_t leg) const
+  {
+    return static_cast<std::size_t>(node) * (this->Sheet.Links + 1) + leg;
+  }
+
+  const glm::dvec3& GetPoint(std::int32_t node, int leg) const
+  {
+    return this->Result.Points[this->GetRay(node, static_cast<std::size_t>(leg))];
+  }
+
+  // Traces a ray from a place, with no memory of other ones.
+  int Trace(const glm::dvec2& b, StackPath& path) const
+  {
+    path.Points.assign(this->Sheet.Links, PathPoint());
+    const PathEnd end = this->Stack.Trace({ this->Facet, b }, this->Sheet.Links, false, path);
+    const auto passed = static_cast<int>(path.Count);
+    if (end == PathEnd::Missed)
+    {
+      return passed - 1;
+    }
+    const bool isFacing =
+      passed > 0 || glm::dot(path.Sight, this->Result.Surface.GetNormal(b)) < 0.0;
+    return isFacing ? passed : -1;
+  }
+
+  std::int32_t Add(const glm::dvec2& b)
+  {
+    StackPath path;
+    const int legs = this->Trace(b, path);
+    return this->Add(b, path, legs);
+  }
+
+  std::int32_t Add(const glm::dvec2& b, const StackPath& path, int legs)
+  {
+    Node node;
+    node.B = b;
+    node.Legs = legs;
+    const glm::dvec3& eye = this->Stack.GetEye();
+    const glm::dvec3 sight = path.Points[0].Ray.Origin - eye;
+    const double distance = glm::length(sight);
+    SurfaceCrossing before;
+    const double slack = SameCrossing * this->Result.Surface.GetSize();
+    node.IsFirst = legs >= 0 &&
+      (this->Stack.GetLinks()[0].Surface->IsCrossedOnce(path.Sight) ||
+        !this->Stack.FindNext(0, eye, path.Sight, before) || before.Distance >= distance - slack);
+    this->Result.Nodes.push_back(node);
+    this->Result.Points.push_back(eye);
+    this->Result.Directions.push_back(path.Sight);
+    for (std::size_t k = 0; k < this->Sheet.Links; ++k)
+    {
+      this->Result.Points.push_back(path.Points[k].Ray.Origin);
+      this->Result.Directions.push_back(path.Points[k].Ray.Direction);
+    }
+    return static_cast<std::int32_t>(this->Result.Nodes.size() - 1);
+  }
+
+  // Last leg that is seen at `node` on the side towards `other`.
+  int GetLegs(std::int32_t node, std::int32_t other) const
+  {
+    const Node& own = this->Get(node);
+    return own.IsAtLimit && this->Get(other).Legs < own.Legs ? own.Beyond : own.Legs;
+  }
+
+  std::int32_t Split(std::int32_t a, std::int32_t b)
+  {
+    const auto low = static_cast<std::uint64_t>(std::min(a, b));
+    const std::uint64_t key = low << 32 | static_cast<std::uint64_t>(std::max(a, b));
+    const auto known = this->Sides.find(key);
+    if (known != this->Sides.end())
+    {
+      return known->second;
+    }
+    const std::int32_t split = this->FindSplit(a, b);
+    this->Sides[key] = split;
+    return split;
+  }
+
+  // The node that divides a side, or NotSplit.
+  std::int32_t FindSplit(std::int32_t a, std::int32_t b)
+  {
+    const int legsA = this->GetLegs(a, b);
+    const int legsB = this->GetLegs(b, a);
+    if (legsA != legsB)
+    {
+      return legsA > legsB ? this->FindLimit(a, b, legsA) : this->FindLimit(b, a, legsB);
+    }
+    const Node first = this->Get(a);
+    const Node second = this->Get(b);
+    const bool isChord = first.IsAtLimit && second.IsAtLimit && first.Beyond == second.Beyond;
+    const double length = GetLength(first.B, second.B);
+    if (legsA < 0 || !(length > (isChord ? ShortestChord : ShortestSide)))
+    {
+      return NotSplit;
+    }
+    const glm::dvec2 middle = 0.5 * (first.B + second.B);
+    StackPath path;
+    const int legs = this->Trace(middle, path);
+    const bool isSplit = isChord ? this->IsOffLimit(a, b)
+                                 : legs != legsA || this->IsBent(a, b, 0.0, 1.0, path, legs, 0);
+    return isSplit ? this->Add(middle, path, legs) : NotSplit;
+  }
+
+  // Last place, from `seen` towards `other`, where leg `legs` is seen. It may be just beyond
+  // `seen`.
+  std::int32_t FindLimit(std::int32_t seen, std::int32_t other, int legs)
+  {
+    glm::dvec2 last = this->Get(seen).B;
+    glm::dvec2 beyond = this->Get(other).B;
+    int legsBeyond = this->GetLegs(other, seen);
+    StackPath path;
+    StackPath atLast;
+    int legsAtLast = -1;
+    for (int i = 0; i < LimitSteps; ++i)
+    {
+      const glm::dvec2 middle = 0.5 * (last + beyond);
+      const int found = this->Trace(middle, path);
+      if (found >= legs)
+      {
+        last = middle;
+        legsAtLast = found;
+        atLast = path;
+      }
+      else
+      {
+        beyond = middle;
+        legsBeyond = found;
+      }
+    }
+    if (legsAtLast < 0)
+    {
+      return NotSplit; // no ray of this leg between the two nodes
+    }
+    const std::int32_t limit = this->Add(last, atLast, legs);
+    Node& node = this->Result.Nodes[static_cast<std::size_t>(limit)];
+    node.IsAtLimit = true;
+    node.Beyond = legsBeyond;
+    return limit;
+  }
+
+  // True if the middle of a chord between two places at a limit is away from the limit by more than
+  // the tolerance, on both sides of it.
+  bool IsOffLimit(std::int32_t a, std::int32_t b) const
+  {
+    const Node& first = this->Get(a);
+    const Node& second = this->Get(b);
+    const glm::dvec2 along = second.B - first.B;
+    const glm::dvec2 middle = 0.5 * (first.B + second.B);
+    const double atEye = glm::length(this->GetPoint(a, 1) - this->GetPoint(b, 1)) /
+      glm::length(this->GetPoint(a, 1) - this->Stack.GetEye());
+    const glm::dvec2 shift =
+      std::min(this->Sheet.Tolerance / atEye, 0.5) * glm::dvec2(-along.y, along.x);
+    StackPath path;
+    const auto isSeen = [this, &first, &path](const glm::dvec2& place)
+    {
+      const glm::dvec2 inside = glm::clamp(place, 0.0, 1.0);
+      return this->Trace(inside / std::max(1.0, inside.x + inside.y), path) >= first.Legs;
+    };
+    return isSeen(middle + shift) == isSeen(middle - shift);
+  }
+
+  // True if linear interpolation between the ends of a side has an error above the tolerance at
+  // the place of `path`, in the middle of the part from `low` to `high`; and in the middles of its
+  // halves, as long as they pass over several patches of a later surface.
+  bool IsBent(std::int32_t a, std::int32_t b, double low, double high, const StackPath& path,
+    int legs, int depth) const
+  {
+    const double at = 0.5 * (low + high);
+    const double angle = glm::length(this->GetPoint(a, 1) - this->GetPoint(b, 1)) /
+      glm::length(path.Points[0].Ray.Origin - this->Stack.GetEye());
+    const auto isFar = [this, at, angle](
+                         const glm::dvec3& first, const glm::dvec3& second, const glm::dvec3& found)
+    {
+      const double error = glm::length(found - ((1.0 - at) * first + at * second));
+      const double width = glm::length(first - second);
+      return angle * std::min(error, width) > this->Sheet.Tolerance * width;
+    };
+    const int surfaces = std::min(legs + 1, this->Links);
+    bool passesOverPatches = false;
+    for (int k = 1; k <= surfaces; ++k)
+    {
+      const PathPoint& point = path.Points[static_cast<std::size_t>(k - 1)];
+      if (isFar(this->GetPoint(a, k), this->GetPoint(b, k), point.Ray.Origin))
+      {
+        return true;
+      }
+      passesOverPatches = passesOverPatches ||
+        (point.Place.Facet != CurvedPatches::NoFacet &&
+          (high - low) * glm::length(this->GetPoint(a, k) - this->GetPoint(b, k)) >
+            LargestFootprint *
+              this->Stack.GetLinks()[static_cast<std::size_t>(k - 1)]
+                .Surface->GetPatches()
+                .GetPatch(point.Place.Facet)
+                .GetSize());
+    }
+    if (legs == this->Links)
+    {
+      const auto last = static_cast<std::size_t>(legs);
+      const auto hit = [this, last](std::int32_t node)
+      {
+        return this->Result.Points[this->GetRay(node, last)] +
+          this->Sheet.Farthest * this->Result.Directions[this->GetRay(node, last)];
+      };
+      const RayJet& ray = path.Points[last - 1].Ray;
+      if (isFar(hit(a), hit(b), ray.Origin + this->Sheet.Farthest * ray.Direction))
+      {
+        return true;
+      }
+    }
+    if (!passesOverPatches || depth == DeepestTest)
+    {
+      return false;
+    }
+    StackPath half;
+    const auto isHalfBent = [&](double from, double to)
+    {
+      const double l = 0.5 * (from + to);
+      const int found = this->Trace((1.0 - l) * this->Get(a).B + l * this->Get(b).B, half);
+      return found != legs || this->IsBent(a, b, from, to, half, legs, depth + 1);
+    };
+    return isHalfBent(low, at) || isHalfBent(at, high);
+  }
+
+  // True if a ray between the corners may pass more interfaces than those of a corner.
+  bool MayPassMore(const Cell& cell, int depth) const
+  {
+    const int least = std::min({ this->Get(cell.Nodes[0]).Legs, this->Get(cell.Nodes[1]).Legs,
+      this->Get(cell.Nodes[2]).Legs });
+    return depth < DeepestBlind && least < this->Links &&
+      this->Sheet.Solver.GetBeams().MayPass(this->Facet,
+        { this->Get(cell.Nodes[0]).B, this->Get(cell.Nodes[1]).B, this->Get(cell.Nodes[2]).B },
+        static_cast<std::size_t>(std::max(least, 0) + 1));
+  }
+
+  void Divide(std::size_t index, int depth)
+  {
+    const Cell cell = this->Result.Cells[index];
+    std::array<std::int32_t, 3> middle{ NotSplit, NotSplit, NotSplit }; // opposite the corners
+    int count = 0;
+    for (std::size_t k = 0; k < 3 && depth < DeepestCell; ++k)
+    {
+      middle[k] = this->Split(cell.Nodes[(k + 1) % 3], cell.Nodes[(k + 2) % 3]);
+      count += middle[k] != NotSplit;
+    }
+    if (count == 0 && this->MayPassMore(cell, depth))
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        middle[k] = this->Add(
+          0.5 * (this->Get(cell.Nodes[(k + 1) % 3]).B + this->Get(cell.Nodes[(k + 2) % 3]).B));
+      }
+      count = 3;
+    }
+    if (count > 0)
+    {
+      this->AddChildren(index, cell.Nodes, middle, count, depth);
+    }
+  }
+
+  // As SubCellDivision::Divide.
+  void AddChildren(std::size_t index, const std::array<std::int32_t, 3>& nodes,
+    const std::array<std::int32_t, 3>& middle, int count, int depth)
+  {
+    std::vector<std::array<std::int32_t, 3>> children;
+    std::size_t k = 0;
+    while (count < 3 && (middle[k] != NotSplit) != (count == 1))
+    {
+      ++k;
+    }
+    const std::size_t i = (k + 1) % 3;
+    const std::size_t j = (k + 2) % 3;
+    if (count == 1)
+    {
+      children = { { nodes[k], nodes[i], middle[k] }, { nodes[k], middle[k], nodes[j] } };
+    }
+    else if (count == 2)
+    {
+      children = { { nodes[k], middle[j], middle[i] }, { middle[j], nodes[i], nodes[j] },
+        { middle[j], nodes[j], middle[i] } };
+    }
+    else
+    {
+      children = { { nodes[0], middle[2], middle[1] }, { nodes[1], middle[0], middle[2] },
+        { nodes[2], middle[1], middle[0] }, middle };
+    }
+    const std::size_t first = this->Result.Cells.size();
+    this->Result.Cells[index].FirstChild = static_cast<std::int32_t>(first);
+    this->Result.Cells[index].Children = static_cast<std::int32_t>(children.size());
+    for (const std::array<std::int32_t, 3>& child : children)
+    {
+      Cell part;
+      part.Nodes = child;
+      this->Result.Cells.push_back(part);
+    }
+    for (std::size_t c = 0; c < children.size(); ++c)
+    {
+      this->Divide(first + c, depth + 1);
+    }
+  }
+
+  const SightSheet& Sheet;
+  const RefractionStack& Stack;
+  std::int32_t Facet;
+  Patch& Result;
+  int Links;
+  std::unordered_map<std::uint64_t, std::int32_t> Sides;
+};
+
+//------------------------------------------------------------------------------
+SightSheet::SightSheet(const StackSolver& solver, double tolerance, double farthest)
+  : Solver(solver)
+  , Tolerance(tolerance)
+  , Farthest(farthest)
+  , Links(solver.GetStack().GetLinks().size())
+{
+  const std::size_t facets = this->Links == 0
+    ? 0
+    : solver.GetStack().GetLinks()[0].Surface->GetMembrane().GetFacets().size();
+  this->Patches.resize(facets);
+  this->Once = std::make_unique<std::once_flag[]>(facets);
+}
+
+//------------------------------------------------------------------------------
+SightSheet::~SightSheet() = default;
+
+//------------------------------------------------------------------------------
+const SightSheet::Patch& SightSheet::GetPatch(std::int32_t facet) const
+{
+  const auto i = static_cast<std::size_t>(facet);
+  std::call_once(this->Once[i],
+    [this, facet, i]
+    {
+      this->Patches[i] = std::make_unique<Patch>();
+      Builder(*this, facet, *this->Patches[i]).Run();
+    });
+  return *this->Patches[i];
+}
+
+//------------------------------------------------------------------------------
+const CurvedPatch& SightSheet::GetSurface(const Patch& patch)
+{
+  return patch.Surface;
+}
+
+//------------------------------------------------------------------------------
+// Returns false if the leg is not seen at all corners.
+bool SightSheet::GetLeg(
+  const Patch& patch, const Cell& cell, std::size_t leg, LegCell& result) const
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto index = static_cast<std::size_t>(cell.Nodes[k]);
+    const Node& node = patch.Nodes[index];
+    if (node.Legs < static_cast<int>(leg) || (leg == 0 && !node.IsFirst))
+    {
+      return false;
+    }
+    const std::size_t ray = index * (this->Links + 1) + leg;
+    result.Nodes[k] = { node.B,
+      { { patch.Points[ray], glm::dvec3(0.0) }, patch.Directions[ray], true } };
+    if (leg < this->Links)
+    {
+      result.Ends[k] = patch.Points[ray + 1];
+    }
+  }
+  return true;
+}
+
+}

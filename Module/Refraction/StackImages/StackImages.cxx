@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/StackImages/StackImages.h"
+
+#include "Refraction/Images/SeamClosure.h"
+#include "Refraction/StackImages/StackMapper.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace meniscus
+{
+
+//------------------------------------------------------------------------------
+void StackImages::SetPoints(const double* points, std::size_t count)
+{
+  this->Points = points;
+  this->Sheet.reset();
+  this->Chunks.assign((count + Chunk - 1) / Chunk, {});
+  this->Counts.assign(count, 0);
+  this->States.assign(count, ImageState::NotAsked);
+  this->Images.clear();
+}
+
+//------------------------------------------------------------------------------
+glm::dvec3 StackImages::GetPoint(std::int64_t id) const
+{
+  const double* p = this->Points + 3 * id;
+  return { p[0], p[1], p[2] };
+}
+
+//------------------------------------------------------------------------------
+void StackImages::SolvePoints(std::size_t begin, std::size_t end)
+{
+  std::vector<StackPath> paths;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const glm::dvec3 point = this->GetPoint(static_cast<std::int64_t>(i));
+    this->States[i] = this->Solver.FindImages(point, paths);
+    this->Counts[i] = static_cast<std::uint32_t>(paths.size());
+    for (const StackPath& path : paths)
+    {
+      ImagePoint image;
+      image.Vertex = this->Solver.MakeVertex(point, path);
+      image.Source[0] = static_cast<std::int64_t>(i);
+      image.Passed = static_cast<std::int32_t>(path.Count);
+      this->Chunks[i / Chunk].push_back(image);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void StackImages::FinishPoints()
+{
+  this->Images.clear();
+  for (const std::vector<ImagePoint>& chunk : this->Chunks)
+  {
+    this->Images.insert(this->Images.end(), chunk.begin(), chunk.end());
+  }
+  this->Chunks.clear();
+  this->First.assign(this->States.size() + 1, 0);
+  this->Farthest = 0.0;
+  const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    this->First[i + 1] = this->First[i] + this->Counts[i];
+    if (this->States[i] != ImageState::NotFinite)
+    {
+      const glm::dvec3 away = this->GetPoint(static_cast<std::int64_t>(i)) - eye;
+      this->Farthest = std::max(this->Farthest, glm::length(away));
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void StackImages::SetTolerance(double tolerance)
+{
+  if (!this->Sheet || tolerance != this->Tolerance)
+  {
+    this->Tolerance = tolerance;
+    this->Sheet = std::make_unique<SightSheet>(this->Solver, tolerance, this->Farthest);
+  }
+}
+
+//------------------------------------------------------------------------------
+bool StackImages::AreInFront(const std::int64_t* ids, std::size_t count) const
+{
+  return std::all_of(ids, ids + count,
+    [this](std::int64_t id)
+    {
+      const auto point = static_cast<std::size_t>(id);
+      return this->GetNumberOfImages(point) == 1 && this->Images[this->First[point]].Passed == 0;
+    });
+}
+
+//------------------------------------------------------------------------------
+void StackImages::AddWhole(
+  const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    whole.Connectivity.push_back(
+      static_cast<std::int64_t>(this->First[static_cast<std::size_t>(ids[i])]));
+  }
+  whole.EndCell(cell, 1);
+}
+
+//------------------------------------------------------------------------------
+MappedTriangle StackImages::MakeTriangle(const std::array<std::int64_t, 3>& ids) const
+{
+  MappedTriangle triangle;
+  triangle.Ids = ids;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto point = static_cast<std::size_t>(ids[k]);
+    triangle.Corners[k] = this->GetPoint(ids[k]);
+    triangle.Images[k] = { this->Images.data() + this->First[point],
+      this->GetNumberOfImages(point) };
+  }
+  return triangle;
+}
+
+//------------------------------------------------------------------------------
+CellReport StackImages::MapLines(const ObjectCells& cells, const std::int64_t* names,
+  std::size_t begin, std::size_t end, ImageMesh& pieces, ImageMesh& whole) const
+{
+  const StackMapper mapper(this->Solver, *this->Sheet);
+  CellReport report;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
+    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    if (this->AreInFront(ids, count))
+    {
+      this->AddWhole(ids, count, names[i], whole);
+      ++report.Whole;
+      continue;
+    }
+    const std::size_t before = pieces.GetNumberOfCells();
+    for (std::size_t k = 0; k + 1 < count; ++k)
+    {
+      mapper.MapLine(this->MakeTriangle({ ids[k], ids[k + 1], ids[k] }), names[i], pieces);
+    }
+    report.Count(false, pieces.GetNumberOfCells() > before);
+  }
+  return report;
+}
+
+//------------------------------------------------------------------------------
+CellReport StackImages::MapPolygons(const ObjectCells& cells, const std::int64_t* names,
+  std::size_t begin, std::size_t end, const Triangulate& triangulate, ImageMesh& pieces,
+  ImageMesh& whole, unsigned char* isMapped) const
+{
+  const StackMapper mapper(this->Solver, *this->Sheet);
+  CellReport report;
+  std::vector<std::int64_t> triangles;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    const std::int64_t* ids = cells.Connectivity + cells.Offsets[i];
+    const auto count = static_cast<std::size_t>(cells.Offsets[i + 1] - cells.Offsets[i]);
+    isMapped[i] = this->AreInFront(ids, count) ? 0 : 1;
+    if (!isMapped[i])
+    {
+      this->AddWhole(ids, count, names[i], whole);
+      ++report.Whole;
+      continue;
+    }
+    triangles = { 0, 1, 2 };
+    if (count != 3)
+    {
+      triangulate(ids, count, triangles);
+    }
+    const std::size_t before = pieces.GetNumberOfCells();
+    for (std::size_t k = 0; k + 2 < triangles.size(); k += 3)
+    {
+      mapper.MapTriangle(
+        this->MakeTriangle({ ids[triangles[k]], ids[triangles[k + 1]], ids[triangles[k + 2]] }),
+        names[i], pieces);
+    }
+    report.Count(false, pieces.GetNumberOfCells() > before);
+  }
+  return report;
+}
+
+//------------------------------------------------------------------------------
+void StackImages::MeetNeighbours(const ObjectCells& cells, std::size_t count,
+  const unsigned char* isMapped, bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const
+{
+  const std::vector<Seam> seams = FindSeams(cells, count, isMapped);
+  if (seams.empty() || !closesSeams)
+  {
+    return;
+  }
+  bool hasDiagonals = false;
+  for (std::size_t i = 0; i < count && !hasDiagonals; ++i)
+  {
+    hasDiagonals = isMapped[i] && cells.Offsets[i + 1] - cells.Offsets[i] > 3;
+  }
+  const glm::dvec3 eye = this->Solver.GetStack().GetEye() + this->Solver.GetStack().GetOrigin();
+  SeamClosure closure(seams, hasDiagonals, eye, this->Tolerance);
+  closure.Collect(pieces, pieces.Points, false);
+  closure.Collect(whole, this->Images, true);
+  closure.Close(pieces);
+}
+
+}

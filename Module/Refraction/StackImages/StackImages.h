@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef meniscus_Refraction_StackImages_StackImages_h
+#define meniscus_Refraction_StackImages_StackImages_h
+
+#include "Refraction/Images/CellImages.h"
+#include "Refraction/Images/ObjectPrimitive.h"
+#include "Refraction/StackImages/SightSheet.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace meniscus
+{
+
+/**
+ * Images of an object through several interfaces: of its points, lines and polygons. A cell whose
+ * points are all seen in front of the interfaces, and nowhere else, keeps its points. All others
+ * are mapped from the first surface.
+ */
+class StackImages : public CellImages
+{
+public:
+  /** The eye and the interfaces of `solver` must not change afterwards. */
+  explicit StackImages(const StackSolver& solver)
+    : Solver(solver)
+  {
+  }
+
+  /** Number of points that are solved together. */
+  static constexpr std::size_t Chunk = 128;
+
+  /** Sets the object's points (x, y, z each; borrowed). Computes no image. */
+  void SetPoints(const double* points, std::size_t count);
+
+  /** Solves the points in [begin, end), which must consist of whole chunks. */
+  void SolvePoints(std::size_t begin, std::size_t end);
+
+  /** Collects the results of SolvePoints. */
+  void FinishPoints();
+
+  /** Sets the tolerance of the cells, an angle in radians at the eye, before they are mapped. */
+  void SetTolerance(double tolerance);
+
+  ImageState GetState(std::size_t point) const { return this->States[point]; }
+
+  bool IsWanted(std::size_t) const override { return true; }
+  const std::vector<ImagePoint>& GetPointImages() const override { return this->Images; }
+  std::size_t GetNumberOfImages(std::size_t point) const override
+  {
+    return this->First[point + 1] - this->First[point];
+  }
+  CellReport MapLines(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
+    std::size_t end, ImageMesh& pieces, ImageMesh& whole) const override;
+  CellReport MapPolygons(const ObjectCells& cells, const std::int64_t* names, std::size_t begin,
+    std::size_t end, const Triangulate& triangulate, ImageMesh& pieces, ImageMesh& whole,
+    unsigned char* isMapped) const override;
+  void MeetNeighbours(const ObjectCells& cells, std::size_t count, const unsigned char* isMapped,
+    bool closesSeams, const ImageMesh& whole, ImageMesh& pieces) const override;
+
+private:
+  glm::dvec3 GetPoint(std::int64_t id) const;
+  bool AreInFront(const std::int64_t* ids, std::size_t count) const;
+  void AddWhole(
+    const std::int64_t* ids, std::size_t count, std::int64_t cell, ImageMesh& whole) const;
+  MappedTriangle MakeTriangle(const std::array<std::int64_t, 3>& ids) const;
+
+  const StackSolver& Solver;
+  std::unique_ptr<SightSheet> Sheet;
+  double Tolerance = 0.0;
+  double Farthest = 0.0; ///< largest distance of a point from the eye
+  const double* Points = nullptr;
+  std::vector<std::vector<ImagePoint>> Chunks;
+  std::vector<std::uint32_t> Counts;
+  std::vector<ImageState> States;
+  std::vector<std::size_t> First;
+  std::vector<ImagePoint> Images;
+};
+
+}
+
+#endif

@@ -1,0 +1,568 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Refraction/StackImages/StackMapper.h"
+
+#include "Refraction/Curved/BracketedZero.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace meniscus
+{
+namespace
+{
+
+constexpr double Epsilon = std::numeric_limits<double>::epsilon();
+
+constexpr int ShotSteps = 16;
+
+// Places in a patch from which Newton's method starts again, so that its result does not depend on
+// the first guess.
+constexpr double Grid = 1024.0;
+
+glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double s)
+{
+  return (1.0 - s) * a + s * b;
+}
+
+double GetLongest(const std::array<glm::dvec3, 3>& corners)
+{
+  return std::max({ glm::length(corners[0] - corners[1]), glm::length(corners[1] - corners[2]),
+    glm::length(corners[2] - corners[0]) });
+}
+
+}
+
+//------------------------------------------------------------------------------
+void StackMapper::MapTriangle(
+  const MappedTriangle& triangle, std::int64_t sourceCell, ImageMesh& images) const
+{
+  this->Map(ObjectPrimitive::MakeTriangle(triangle, sourceCell, this->Stack.GetOrigin()), images);
+}
+
+//------------------------------------------------------------------------------
+void StackMapper::MapLine(
+  const MappedTriangle& line, std::int64_t sourceCell, ImageMesh& images) const
+{
+  this->Map(
+    ObjectPrimitive::MakeLine(line, sourceCell, this->Stack.GetOrigin(), this->Stack.GetEye()),
+    images);
+}
+
+//------------------------------------------------------------------------------
+void StackMapper::Map(const ObjectPrimitive& primitive, ImageMesh& images) const
+{
+  if (this->Sheet.GetNumberOfLinks() == 0 ||
+    !(glm::dot(primitive.Normal, primitive.Normal) > 0.0) ||
+    !this->Solver.IsInReach(primitive.Middle))
+  {
+    return; // a primitive without area covers no pixel; neither does a line along the line of sight
+  }
+  std::vector<std::int32_t> facets;
+  for (std::size_t leg = 0; leg <= this->Sheet.GetNumberOfLinks(); ++leg)
+  {
+    this->CollectFacets(primitive, leg, facets);
+    for (const std::int32_t facet : facets)
+    {
+      const SightSheet::Patch& patch = this->Sheet.GetPatch(facet);
+      this->Sheet.Visit(
+        patch, leg, [&primitive](const SubCell& nodes) { return primitive.IsOutside(nodes); },
+        [&](const LegCell& cell) {
+          this->MapCell({ primitive, leg, facet, SightSheet::GetSurface(patch), cell }, images);
+        });
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// Facets of the first surface whose rays may show the primitive on a leg, in their order.
+void StackMapper::CollectFacets(
+  const ObjectPrimitive& primitive, std::size_t leg, std::vector<std::int32_t>& facets) const
+{
+  facets.clear();
+  if (leg > 0)
+  {
+    this->Solver.GetBeams().VisitFacets(leg, primitive.Middle, primitive.Padding,
+      [&facets](std::int32_t facet) { facets.push_back(facet); });
+  }
+  else
+  {
+    // Straight rays to the primitive, at the parameter 1, that meet the surface behind it.
+    const RefractionStack::Link& first = this->Stack.GetLinks().front();
+    const glm::dvec3 eye = this->Stack.GetEye() - first.Shift;
+    const glm::dvec3 toward = primitive.Middle - this->Stack.GetEye();
+    const TubeBounds tube{ eye, eye, toward - primitive.Padding, toward + primitive.Padding };
+    first.Surface->VisitFacets(tube,
+      [&facets](std::int32_t facet, const TubeRange& range)
+      {
+        if (range.To >= 1.0 - 64.0 * Epsilon)
+        {
+          facets.push_back(facet);
+        }
+      });
+  }
+  std::sort(facets.begin(), facets.end());
+}
+
+//------------------------------------------------------------------------------
+void StackMapper::MapCell(const Context& context, ImageMesh& images) const
+{
+  const ObjectPrimitive& primitive = context.Primitive;
+  Polygon whole(3);
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const RefractedPoint& from = context.Cell.Nodes[i].From;
+    whole[i].B = context.Cell.Nodes[i].B;
+    whole[i].Edges = 7u & ~(1u << i);
+    primitive.Measure(from, whole[i].Value);
+    // The last leg has no end; the cosine has the sign of a place on the ray.
+    whole[i].Value[PrimitiveConstraints] = context.Leg < this->Sheet.GetNumberOfLinks()
+      ? glm::dot(primitive.Normal, context.Cell.Ends[i] - primitive.Corners[0])
+      : glm::dot(primitive.Normal, from.Ray);
+    whole[i].Limits = 0;
+    for (int k = 1; k < PrimitiveConstraints && !primitive.IsLine; ++k)
+    {
+      whole[i].Limits |= whole[i].Value[k] == 0.0 ? 1u << k : 0u;
+    }
+  }
+  Polygon polygon;
+  for (const double sign : { 1.0, -1.0 })
+  {
+    primitive.Clip(whole, sign, polygon);
+    if (primitive.IsLine && polygon.size() == 2)
+    {
+      this->EmitLine(context, polygon, images);
+    }
+    else if (!primitive.IsLine && polygon.size() > 2)
+    {
+      this->Emit(context, polygon, sign, images);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void StackMapper::Emit(
+  const Context& context, const Polygon& polygon, double sign, ImageMesh& images) const
+{
+  // Twice the signed area in the primitive's second and third barycentric coordinates.
+  const auto place = [](const Corner& corner)
+  {
+    return glm::dvec2(corner.Value[2], corner.Value[3]) /
+      (corner.Value[1] + corner.Value[2] + corner.Value[3]);
+  };
+  double area = 0.0;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+  {
+    const glm::dvec2 u = place(polygon[i - 1]) - place(polygon[0]);
+    const glm::dvec2 v = place(polygon[i]) - place(polygon[0]);
+    area += u.x * v.y - u.y * v.x;
+  }
+  if (!(std::fabs(area) > 0.0))
+  {
+    return;
+  }
+  std::vector<MappedPoint> points;
+  std::size_t unseenEnds = 0;
+  for (const Corner& corner : polygon)
+  {
+    points.push_back(this->MakePoint(context, corner));
+    if (points.back().Outcome == Finding::Elsewhere)
+    {
+      return; // as PrimitiveMapper::IsSeen
+    }
+    unseenEnds += points.back().Outcome == Finding::EndWithoutImage;
+  }
+  if (unseenEnds == points.size())
+  {
+    return;
+  }
+  // The sense of rotation of the cell from the eye, and that of the primitive along the last rays.
+  const SubCell& nodes = context.Cell.Nodes;
+  const glm::dvec3 corner = context.Patch.GetFlatPoint(nodes[0].B);
+  const glm::dvec3 facet = glm::cross(context.Patch.GetFlatPoint(nodes[1].B) - corner,
+    context.Patch.GetFlatPoint(nodes[2].B) - corner);
+  const glm::dvec3 eye = this->Stack.GetEye() - this->Stack.GetLinks().front().Shift;
+  const bool facetTurned = glm::dot(facet, corner - eye) < 0.0;
+  const bool imageTurned = (area < 0.0) != (sign < 0.0);
+  const int orientation = facetTurned == imageTurned ? 1 : -1;
+  const auto first = static_cast<std::int64_t>(images.Points.size());
+  const auto count = static_cast<std::int64_t>(points.size());
+  for (MappedPoint& point : points)
+  {
+    point.Point.Vertex.Orientation = static_cast<signed char>(orientation);
+    images.Points.push_back(point.Point);
+  }
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    images.Connectivity.push_back(first + (area > 0.0 ? i : count - 1 - i));
+  }
+  images.EndCell(context.Primitive.SourceCell, orientation);
+}
+
+//------------------------------------------------------------------------------
+void StackMapper::EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const
+{
+  const auto along = [](const Corner& c) { return c.Value[1] / (c.Value[1] + c.Value[2]); };
+  const bool turned = along(polygon[0]) > along(polygon[1]);
+  const MappedPoint ends[2] = { this->MakePoint(context, polygon[turned ? 1 : 0]),
+    this->MakePoint(context, polygon[turned ? 0 : 1]) };
+  if (ends[0].Outcome == Finding::Elsewhere || ends[1].Outcome == Finding::Elsewhere)
+  {
+    return;
+  }
+  for (const MappedPoint& end : ends)
+  {
+    images.Connectivity.push_back(static_cast<std::int64_t>(images.Points.size()));
+    images.Points.push_back(end.Point);
+  }
+  images.EndCell(context.Primitive.SourceCell, 1);
+}
+
+//------------------------------------------------------------------------------
+// As PrimitiveMapper::MakePoint: the features that the corner lies on decide which equation is
+// solved.
+StackMapper::MappedPoint StackMapper::MakePoint(const Context& context, const Corner& corner) const
+{
+  const ObjectPrimitive& primitive = context.Primitive;
+  const ClippedBoundary on = primitive.FindBoundary(corner);
+  if (on.Membrane || on.LegEnd)
+  {
+    return this->MakeOnSurface(context, on, corner);
+  }
+  if (on.End >= 0)
+  {
+    return this->MakeEnd(context, on.End, corner.B);
+  }
+  StackPath path;
+  if (on.Node >= 0)
+  {
+    const SubCellNode& node = context.Cell.Nodes[static_cast<std::size_t>(on.Node)];
+    const bool isTraced = this->TracePlace(context, node.B, context.Leg, path);
+    if (on.Side >= 0)
+    {
+      return this->MakeOnSide(
+        context, static_cast<std::size_t>(on.Side), node.B, node.From, isTraced ? &path : nullptr);
+    }
+    // All coordinates have the same sign here.
+    const glm::dvec3 value(corner.Value[1], corner.Value[2], corner.Value[3]);
+    const glm::dvec3 weight = glm::max(value / (value.x + value.y + value.z), glm::dvec3(0.0));
+    return { this->Finish(context, isTraced ? &path : nullptr, primitive.GetPoint(weight), weight),
+      Finding::Found };
+  }
+  const auto side = static_cast<std::size_t>(on.Side);
+  const ObjectLine& line = primitive.Sides[side].Line;
+  const SubCellNode& a = context.Cell.Nodes[static_cast<std::size_t>((on.Edge + 1) % 3)];
+  const SubCellNode& b = context.Cell.Nodes[static_cast<std::size_t>((on.Edge + 2) % 3)];
+  const SubCellSide along(context.Patch, a.B, b.B);
+  const SubCellNode& start = along.IsTurned() ? b : a;
+  const SubCellNode& end = along.IsTurned() ? a : b;
+  const double length = glm::length(line.Direction);
+  RefractedPoint from;
+  bool isTraced = false;
+  // Where a ray of the side does not pass, interpolation takes its place.
+  const auto trace = [&](double s)
+  {
+    isTraced = this->TraceSide(context, along, s, context.Leg, path);
+    const RayJet* ray = isTraced && context.Leg > 0 ? &path.Points[context.Leg - 1].Ray : nullptr;
+    const glm::dvec3 mixed = Mix(start.From.Ray, end.From.Ray, s);
+    from.At.Position = ray ? ray->Origin : Mix(start.From.At.Position, end.From.At.Position, s);
+    from.Ray = ray ? ray->Direction : (isTraced ? path.Sight : glm::normalize(mixed));
+  };
+  const double zero = FindZero(GetMoment(line, start.From), GetMoment(line, end.From),
+    [&](double s, double& value)
+    {
+      trace(s);
+      value = GetMoment(line, from);
+      // The moment is a sum of products of three lengths, each rounded a few times.
+      return std::fabs(value) <=
+        4.0 * Epsilon * length * glm::length(from.At.Position - line.Origin);
+    });
+  if (zero == 0.0 || zero == 1.0)
+  {
+    const SubCellNode& node = zero == 0.0 ? start : end;
+    isTraced = this->TracePlace(context, node.B, context.Leg, path);
+    from = node.From;
+  }
+  else
+  {
+    trace(zero);
+  }
+  return this->MakeOnSide(context, side, corner.B, from, isTraced ? &path : nullptr);
+}
+
+//------------------------------------------------------------------------------
+// Image of the point in which a ray meets a side of the primitive. Beyond the end of the side, the
+// result is the image of that end.
+StackMapper::MappedPoint StackMapper::MakeOnSide(const Context& context, std::size_t side,
+  const glm::dvec2& b, const RefractedPoint& from, const StackPath* path) const
+{
+  const ObjectPrimitive::Side& on = context.Primitive.Sides[side];
+  const double l = GetParameter(on.Line, from);
+  const auto first = static_cast<glm::length_t>((side + (on.Turned ? 1 : 0)) % 3);
+  const auto last = static_cast<glm::length_t>((side + (on.Turned ? 0 : 1)) % 3);
+  if (!(l > 0.0 && l < 1.0))
+  {
+    return this->MakeEnd(context, l < 0.5 ? first : last, b);
+  }
+  glm::dvec3 weight(0.0);
+  weight[first] = 1.0 - l;
+  weight[last] = l;
+  return { this->Finish(context, path, on.Line.GetPoint(l), weight), Finding::Found };
+}
+
+//------------------------------------------------------------------------------
+// As PrimitiveMapper::MakeEnd. An end next to an interface may have been found on the other side of
+// it.
+StackMapper::MappedPoint StackMapper::MakeEnd(
+  const Context& context, glm::length_t end, const glm::dvec2& b) const
+{
+  const auto index = static_cast<std::size_t>(end);
+  const glm::dvec3& local = context.Primitive.Corners[index];
+  const glm::dvec3 shift = this->Stack.GetLinks().front().Shift;
+  const glm::dvec3 middle = context.Patch.Evaluate(b).Position + shift + this->Stack.GetOrigin();
+  const double size = this->GetSize(context);
+  const KnownImages& known = context.Primitive.Primitive.Images[index];
+  const auto leg = static_cast<std::int32_t>(context.Leg);
+  const ImagePoint* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ImagePoint* image = known.First; image != known.First + known.Count; ++image)
+  {
+    // A point in front of all interfaces is its own sight point.
+    const bool isStraight = image->Passed == 0;
+    const double distance = isStraight
+      ? (leg == 0 ? 0.0 : glm::length(image->Vertex.Position - middle))
+      : glm::length(image->Vertex.SightPoint - middle);
+    if (std::abs(image->Passed - leg) <= 1 && distance < least)
+    {
+      nearest = image;
+      least = distance;
+    }
+  }
+  glm::dvec3 weight(0.0);
+  weight[end] = 1.0;
+  if (nearest && least <= size)
+  {
+    ImagePoint point = *nearest;
+    point.SetSource(context.Primitive.Primitive.Ids, weight);
+    return { point, Finding::Found };
+  }
+  const Finding without = nearest ? Finding::Elsewhere : Finding::EndWithoutImage;
+  StackPath path;
+  const glm::dvec2 guess = GuessSight(context.Cell.Nodes, local);
+  const bool isTraced = this->TracePlace(context, guess, context.Leg, path);
+  if (context.Leg == 0 || !isTraced)
+  {
+    return { this->Finish(context, nullptr, local, weight), without };
+  }
+  StackPath shot = path;
+  const bool isFound =
+    Shoot(this->Stack, { local, context.Leg }, { context.Facet, guess }, ShotSteps, shot) &&
+    glm::length(shot.Points[0].Ray.Origin - path.Points[0].Ray.Origin) <= size;
+  return { this->Finish(context, isFound ? &shot : &path, local, weight),
+    isFound ? Finding::Found : without };
+}
+
+//------------------------------------------------------------------------------
+// Point where the primitive meets the surface at the beginning or the end of the leg: that of a
+// side of the cell, or of a side of the primitive. Legs on both sides of the surface get the same
+// point, which is seen on the leg in front of it.
+StackMapper::MappedPoint StackMapper::MakeOnSurface(
+  const Context& context, const ClippedBoundary& on, const Corner& corner) const
+{
+  const ObjectPrimitive& primitive = context.Primitive;
+  glm::dvec3 weight = primitive.IsLine
+    ? glm::dvec3(corner.Value[2], corner.Value[1], 0.0)
+    : glm::dvec3(corner.Value[1], corner.Value[2], corner.Value[3]);
+  weight /= weight.x + weight.y + weight.z;
+  if (on.Membrane && context.Leg == 0)
+  {
+    return { this->Finish(context, nullptr, primitive.GetPoint(weight), weight),
+      Finding::Elsewhere }; // at the eye
+  }
+  const std::size_t surface = context.Leg + (on.Membrane ? 0 : 1);
+  int side = on.Side;
+  if (on.Edge >= 0 && side < 0)
+  {
+    const auto i = static_cast<std::size_t>((on.Edge + 1) % 3);
+    const auto j = static_cast<std::size_t>((on.Edge + 2) % 3);
+    const LegCell& cell = context.Cell;
+    const SubCellSide along(context.Patch, cell.Nodes[i].B, cell.Nodes[j].B);
+    const std::size_t start = along.IsTurned() ? j : i;
+    const std::size_t end = along.IsTurned() ? i : j;
+    const auto get = [&cell, &on](std::size_t k)
+    { return on.Membrane ? cell.Nodes[k].From.At.Position : cell.Ends[k]; };
+    StackPath path;
+    glm::dvec3 place(0.0);
+    bool isTraced = false;
+    const auto trace = [&](double s)
+    {
+      isTraced = this->TraceSide(context, along, s, surface, path);
+      place = isTraced ? path.Points[surface - 1].Ray.Origin : Mix(get(start), get(end), s);
+    };
+    const glm::dvec3& origin = primitive.Corners[0];
+    const double length = glm::length(primitive.Normal);
+    const double zero = FindZero(glm::dot(primitive.Normal, get(start) - origin),
+      glm::dot(primitive.Normal, get(end) - origin),
+      [&](double s, double& value)
+      {
+        trace(s);
+        value = glm::dot(primitive.Normal, place - origin);
+        return std::fabs(value) <= 4.0 * Epsilon * length * glm::length(place - origin);
+      });
+    trace(zero);
+    weight = primitive.GetWeight(place);
+    const glm::length_t least =
+      weight.x < weight.y ? (weight.x < weight.z ? 0 : 2) : (weight.y < weight.z ? 1 : 2);
+    if (weight[least] >= 0.0 && isTraced)
+    {
+      Context inFront{ primitive, surface - 1, context.Facet, context.Patch, cell };
+      return { this->Finish(inFront, &path, place, weight), Finding::Found };
+    }
+    side = static_cast<int>(least) + 1;
+  }
+  return side < 0
+    ? MappedPoint{ {}, Finding::Elsewhere }
+    : this->MakeSideCrossing(context, static_cast<std::size_t>(side), surface, corner.B, weight);
+}
+
+//------------------------------------------------------------------------------
+StackMapper::MappedPoint StackMapper::MakeSideCrossing(const Context& context, std::size_t side,
+  std::size_t surface, const glm::dvec2& b, glm::dvec3 weight) const
+{
+  const ObjectPrimitive& primitive = context.Primitive;
+  const ObjectPrimitive::Side& on = primitive.Sides[side];
+  const RefractionStack::Link& link = this->Stack.GetLinks()[surface - 1];
+  const auto first = static_cast<glm::length_t>((side + (on.Turned ? 1 : 0)) % 3);
+  const auto last = static_cast<glm::length_t>((side + (on.Turned ? 0 : 1)) % 3);
+  const ObjectLine line{ on.Line.Origin - link.Shift, on.Line.Direction };
+  const double length = glm::length(line.Direction);
+  const glm::dvec3 guess =
+    line.GetPoint(std::clamp(weight[last] / (weight[first] + weight[last]), 0.0, 1.0));
+  // The nearest crossing on either side of the guess.
+  SurfaceCrossing nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double sign : { 1.0, -1.0 })
+  {
+    SurfaceCrossing crossing;
+    if (link.Surface->FindCrossing(guess, sign / length * line.Direction, 0,
+          -link.Surface->GetSlack(glm::length(guess)), std::numeric_limits<double>::max(),
+          crossing) &&
+      crossing.Distance < least)
+    {
+      least = crossing.Distance;
+      nearest = crossing;
+    }
+  }
+  const std::array<glm::dvec3, 3> corners = surface == context.Leg
+    ? std::array<glm::dvec3, 3>{ context.Cell.Nodes[0].From.At.Position,
+        context.Cell.Nodes[1].From.At.Position, context.Cell.Nodes[2].From.At.Position }
+    : context.Cell.Ends;
+  glm::dvec2 at = nearest.B;
+  double l = 0.0;
+  if (nearest.Facet == CurvedPatches::NoFacet || least > GetLongest(corners))
+  {
+    return { {}, Finding::Elsewhere };
+  }
+  const CurvedPatch patch = link.Surface->GetPatches().GetPatch(nearest.Facet);
+  l = glm::dot(patch.Evaluate(at).Position - line.Origin, line.Direction) / (length * length);
+  MeetPatchAgain(patch, line, at, l);
+  if (!(l > 0.0 && l < 1.0))
+  {
+    return this->MakeEnd(context, l < 0.5 ? first : last, b);
+  }
+  glm::dvec3 place(0.0);
+  place[first] = 1.0 - l;
+  place[last] = l;
+  const glm::dvec3 local = on.Line.GetPoint(l);
+  Context inFront{ primitive, surface - 1, context.Facet, context.Patch, context.Cell };
+  if (surface == 1)
+  {
+    return { this->Finish(inFront, nullptr, local, place), Finding::Found };
+  }
+  StackPath path;
+  const StackTarget target{ local, surface - 1 };
+  const bool isFound = this->TracePlace(inFront, b, surface - 1, path) &&
+    Shoot(this->Stack, target, { context.Facet, b }, ShotSteps, path) &&
+    this->ShootAgain(target, path);
+  return { this->Finish(inFront, isFound ? &path : nullptr, local, place),
+    isFound ? Finding::Found : Finding::Elsewhere };
+}
+
+//------------------------------------------------------------------------------
+bool StackMapper::ShootAgain(const StackTarget& target, StackPath& path) const
+{
+  StackPlace place = path.Points[0].Place;
+  place.B = glm::round(Grid * place.B) / Grid;
+  return this->Stack.Trace(place, target.Count, true, path) == PathEnd::Passed &&
+    Shoot(this->Stack, target, place, ShotSteps, path);
+}
+
+//------------------------------------------------------------------------------
+// Path from a place on a side of the cell to the surface `count`, which it passes or is reflected
+// at; with 0 to the first surface.
+bool StackMapper::TraceSide(const Context& context, const SubCellSide& side, double s,
+  std::size_t count, StackPath& path) const
+{
+  const std::size_t reach = std::max<std::size_t>(count, 1);
+  const PathEnd end =
+    this->Stack.TraceFrom({ context.Facet, glm::dvec2(1.0 / 3.0) }, side.Evaluate(s), reach, path);
+  return path.Count == reach || (end == PathEnd::Reflected && path.Count + 1 == reach);
+}
+
+//------------------------------------------------------------------------------
+bool StackMapper::TracePlace(
+  const Context& context, const glm::dvec2& b, std::size_t count, StackPath& path) const
+{
+  path = StackPath();
+  return count == 0 ||
+    this->Stack.Trace({ context.Facet, b }, count, false, path) == PathEnd::Passed;
+}
+
+//------------------------------------------------------------------------------
+// The image of a point on the context's leg. Without a path the cell's first corner gives one: the
+// error is within that of the cell.
+ImagePoint StackMapper::Finish(const Context& context, const StackPath* path,
+  const glm::dvec3& local, const glm::dvec3& weight) const
+{
+  const glm::dvec3 world = local + this->Stack.GetOrigin();
+  ImagePoint point;
+  StackPath own;
+  if (context.Leg > 0)
+  {
+    if (path && path->Count >= context.Leg)
+    {
+      own = *path;
+    }
+    else
+    {
+      this->TracePlace(context, context.Cell.Nodes[0].B, context.Leg, own);
+    }
+    own.Count = context.Leg;
+    point.Vertex = this->Solver.MakeVertex(world, own);
+    point.Passed = static_cast<std::int32_t>(context.Leg);
+  }
+  else
+  {
+    point.Vertex = this->Solver.MakeVertex(world, own);
+  }
+  point.SetSource(context.Primitive.Primitive.Ids, weight);
+  return point;
+}
+
+//------------------------------------------------------------------------------
+// Length of the cell's longest side on the first surface.
+double StackMapper::GetSize(const Context& context) const
+{
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    corners[k] = context.Patch.Evaluate(context.Cell.Nodes[k].B).Position;
+  }
+  return GetLongest(corners);
+}
+
+}

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * All images of a triangle or a line through several interfaces: PrimitiveMapper for a stack.
+ *
+ * The cells of a SightSheet are intersected with the primitive's plane, leg by leg, and the result
+ * is clipped by the primitive and by the two surfaces at the ends of the leg. The part in front of
+ * all interfaces is that of leg 0, which passes unchanged. Corners are computed from the two
+ * features that meet there alone, so that pieces meet bit by bit, on both sides of an interface as
+ * well.
+ */
+#ifndef meniscus_Refraction_StackImages_StackMapper_h
+#define meniscus_Refraction_StackImages_StackMapper_h
+
+#include "Refraction/Images/ObjectPrimitive.h"
+#include "Refraction/StackImages/SightSheet.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace meniscus
+{
+
+class StackMapper
+{
+public:
+  StackMapper(const StackSolver& solver, const SightSheet& sheet)
+    : Solver(solver)
+    , Stack(solver.GetStack())
+    , Sheet(sheet)
+  {
+  }
+
+  /** Adds the images of a triangle as convex polygons with the winding of the triangle. */
+  void MapTriangle(
+    const MappedTriangle& triangle, std::int64_t sourceCell, ImageMesh& images) const;
+
+  /** Adds the images of a line between the first two corners as lines of two points. */
+  void MapLine(const MappedTriangle& line, std::int64_t sourceCell, ImageMesh& images) const;
+
+private:
+  using Corner = ClippedCorner<PrimitiveConstraints + 1>;
+  using Polygon = std::vector<Corner>;
+  enum class Finding
+  {
+    Found,
+    EndWithoutImage, ///< an end of the primitive without an image in or next to the cell
+    Elsewhere ///< a side that does not meet the surface there, or an end that is seen elsewhere
+  };
+  struct MappedPoint
+  {
+    ImagePoint Point;
+    Finding Outcome;
+  };
+  /** The primitive, and the leg and the cell that it is mapped from. */
+  struct Context
+  {
+    const ObjectPrimitive& Primitive;
+    std::size_t Leg;
+    std::int32_t Facet;
+    const CurvedPatch& Patch; ///< in its own coordinates
+    const LegCell& Cell;
+  };
+
+  void Map(const ObjectPrimitive& primitive, ImageMesh& images) const;
+  void CollectFacets(
+    const ObjectPrimitive& primitive, std::size_t leg, std::vector<std::int32_t>& facets) const;
+  void MapCell(const Context& context, ImageMesh& images) const;
+  void Emit(const Context& context, const Polygon& polygon, double sign, ImageMesh& images) const;
+  void EmitLine(const Context& context, const Polygon& polygon, ImageMesh& images) const;
+  MappedPoint MakePoint(const Context& context, const Corner& corner) const;
+  MappedPoint MakeOnSide(const Context& context, std::size_t side, const glm::dvec2& b,
+    const RefractedPoint& from, const StackPath* path) const;
+  MappedPoint MakeEnd(const Context& context, glm::length_t end, const glm::dvec2& b) const;
+  MappedPoint MakeOnSurface(
+    const Context& context, const ClippedBoundary& on, const Corner& corner) const;
+  MappedPoint MakeSideCrossing(const Context& context, std::size_t side, std::size_t surface,
+    const glm::dvec2& b, glm::dvec3 weight) const;
+  bool TraceSide(const Context& context, const SubCellSide& side, double s, std::size_t count,
+    StackPath& path) const;
+  bool TracePlace(
+    const Context& context, const glm::dvec2& b, std::size_t count, StackPath& path) const;
+  ImagePoint Finish(const Context& context, const StackPath* path, const glm::dvec3& local,
+    const glm::dvec3& weight) const;
+  bool ShootAgain(const StackTarget& target, StackPath& path) const;
+  double GetSize(const Context& context) const;
+
+  const StackSolver& Solver;
+  const RefractionStack& Stack;
+  const SightSheet& Sheet;
+};
+
+}
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: Copyright (c) the Meniscus authors
+// SPDX-License-Identifier: BSD-3-Clause
+/** Lists of interfaces for every filter that has one. */
+#ifndef meniscus_Testing_Filters_Interface_StackFilterHelpers_h
+#define meniscus_Testing_Filters_Interface_StackFilterHelpers_h
+
+#include "RefractedGeometryTestHelpers.h"
+
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkRefractingInterface.h"
+#include "vtkRefractingInterfaceCollection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace meniscus::testing
+{
+
+/** Moves a surface along y. */
+inline vtkSmartPointer<vtkPolyData> MoveBy(vtkSmartPointer<vtkPolyData> surface, double y)
+{
+  vtkNew<vtkPoints> points;
+  points->DeepCopy(surface->GetPoints());
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    points->GetPoint(i, p);
+    points->SetPoint(i, p[0], p[1] + y, p[2]);
+  }
+  surface->SetPoints(points);
+  return surface;
+}
+
+/** The flat membrane of side 200, moved to height y. */
+inline vtkSmartPointer<vtkPolyData> MakePlaneAt(double y)
+{
+  return MoveBy(MakeFlatMembrane(), y);
+}
+
+/** Adds an interface and its surface. */
+template <typename Filter>
+void AddInterface(Filter* filter, vtkPolyData* surface, double exterior, double interior)
+{
+  vtkNew<vtkRefractingInterface> interface;
+  interface->SetExteriorIndexOfRefraction(exterior);
+  interface->SetInteriorIndexOfRefraction(interior);
+  filter->GetInterfaces()->AddItem(interface);
+  filter->AddMembraneData(surface);
+}
+
+/**
+ * Lists that are an error of every filter. `make` makes a filter without interfaces, and `measure`
+ * is 0 for its output if that is empty.
+ */
+template <typename Make, typename Measure>
+void ExpectBadLists(const Make& make, const Measure& measure)
+{
+  const auto expectError = [&measure](auto filter, const std::string& text)
+  {
+    const auto messages = Observe(filter);
+    filter->Update();
+    EXPECT_NE(messages->Text.find(text), std::string::npos) << messages->Text;
+    EXPECT_NE(messages->Text.find("the output is empty"), std::string::npos) << messages->Text;
+    EXPECT_EQ(measure(filter.Get()), 0) << text;
+  };
+  const auto makePane = [&make](double before, double glass, double again, double behind)
+  {
+    auto filter = make();
+    AddInterface(filter.Get(), MakePlaneAt(0.0), before, glass);
+    AddInterface(filter.Get(), MakePlaneAt(-10.0), again, behind);
+    return filter;
+  };
+  {
+    // A list that can be used gives an output, so that the cases below fail for their own reasons.
+    const auto filter = makePane(1.0, 1.5, 1.5, 1.333);
+    filter->Update();
+    EXPECT_GT(measure(filter.Get()), 0);
+  }
+  auto filter = makePane(1.0, 1.5, 1.5, 1.333);
+  filter->AddMembraneData(MakePlaneAt(-20.0));
+  expectError(filter, "The list has 2 refracting interfaces, and port");
+  filter = makePane(1.0, 1.5, 1.5, 1.333);
+  filter->GetInterfaces()->RemoveItem(1);
+  expectError(filter, "has 2 surfaces; one for each is needed");
+  expectError(makePane(1.0, 1.5, 1.4, 1.333), "do not match along the list");
+  for (const double bad : { std::nan(""), -1.333, 0.0, std::numeric_limits<double>::infinity() })
+  {
+    expectError(
+      makePane(1.0, 1.5, 1.5, bad), "Interface 1: Indices of refraction must be positive");
+    expectError(
+      makePane(bad, 1.5, 1.5, 1.0), "Interface 0: Indices of refraction must be positive");
+  }
+  filter = make();
+  AddInterface(filter.Get(), MakePlaneAt(0.0), 1.0, 1.5);
+  AddInterface(filter.Get(), vtkNew<vtkPolyData>(), 1.5, 1.333);
+  expectError(filter, "Interface 1: The membrane has no usable triangle");
+}
+
+}
+
+#endif
